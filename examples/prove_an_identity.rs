@@ -10,7 +10,7 @@
 
 use liouville::graph::{Expr, Fault, record};
 use liouville::number::rational::Rational;
-use liouville::proof::{Extent, Group, Outcome, Prover};
+use liouville::proof::{Extent, Group, GroupOutcome, Prover};
 use num_dual::DualNum;
 
 /// Proves that a function of four variables, all between 1 and 2, is zero.
@@ -21,14 +21,16 @@ fn prove(statement: &str, build: impl FnOnce(&[Expr]) -> Expr) -> Result<(), Fau
     println!("{statement}");
     for outcome in prover.prove(&graph, &[Group::of(vec![difference])])? {
         match outcome {
-            Outcome::Zero(found) => println!(
+            GroupOutcome::Zero(found) => println!(
                 "  proved: 0 at {} points of {} prime fields, degree ≤ {}, error < 2^{:.0}",
                 found.points, found.primes, found.degree, found.error_log2
             ),
-            Outcome::NonZero(_) => println!("  false: a value in a prime field is not 0"),
-            Outcome::Silent(reason) => println!("  not known: {reason}"),
-            Outcome::Partial => println!("  the difference has no value on a part of the inputs"),
-            Outcome::Void => println!("  the difference has no value at all"),
+            GroupOutcome::NonZero(_) => println!("  false: a value in a prime field is not 0"),
+            GroupOutcome::Silent(reason) => println!("  not known: {reason}"),
+            GroupOutcome::Partial => {
+                println!("  the difference has no value on a part of the inputs")
+            }
+            GroupOutcome::Void => println!("  the difference has no value at all"),
         }
     }
     Ok(())

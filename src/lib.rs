@@ -104,6 +104,7 @@ pub mod claim;
 pub mod formula;
 pub mod level;
 pub mod mechanics;
+pub mod part;
 pub mod program;
 pub mod sweep;
 pub mod verdict;

@@ -4,8 +4,8 @@
 use crate::case::Case;
 use crate::formula::{Formula, Type};
 use crate::graph::{Expr, Fault, Graph, record};
-use crate::mechanics::calculus::Jet;
-use crate::mechanics::{Meaning, Origin, Phase, components};
+use crate::mechanics::calculus::DualPoint;
+use crate::mechanics::{Meaning, ParameterOrigin, Phase, components};
 
 /// A case recorded as one graph, with names for its inputs and functions for its outputs.
 pub struct Program {
@@ -14,9 +14,9 @@ pub struct Program {
     /// Inputs in the order of the graph: free parameters, state, values of antiderivatives.
     pub inputs: Vec<Input>,
     /// Functions of the inputs.
-    pub functions: Vec<Function>,
+    pub functions: Vec<NamedFunction>,
     /// Named intermediate values of the functions, component by component.
-    pub named: Vec<Named>,
+    pub named: Vec<NamedComponent>,
 }
 
 /// A named group of inputs.
@@ -27,12 +27,12 @@ pub struct Input {
     /// Type of the value, which gives the number of components and their order.
     pub kind: Type,
     /// Role of the input.
-    pub role: Role,
+    pub role: InputRole,
 }
 
 /// The role of an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Role {
+pub enum InputRole {
     /// A free parameter.
     Parameter,
     /// A variable of the state.
@@ -43,7 +43,7 @@ pub enum Role {
 
 /// The subject of a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
+pub enum FunctionSubject {
     /// Time derivatives of the state's components; of a map, their images.
     Field,
     /// Differences of the sides of the level equations.
@@ -55,15 +55,15 @@ pub enum Part {
 }
 
 /// A function with several values.
-pub struct Function {
+pub struct NamedFunction {
     /// Subject of the function.
-    pub part: Part,
+    pub part: FunctionSubject,
     /// Values, in order.
     pub outputs: Vec<Expr>,
 }
 
 /// A named value of the case.
-pub struct Named {
+pub struct NamedComponent {
     /// Canonical name.
     pub name: String,
     /// Type of the value.
@@ -81,22 +81,23 @@ impl Program {
         let kept: Vec<usize> = (0..case.claims.len()).filter(|index| keep(*index)).collect();
         let (graph, (functions, named)) = record(free + model.dimension(), |inputs| {
             let (parameters, state) = inputs.split_at(free);
-            let jet = Jet::new(Phase::new(model, parameters, state));
+            let jet = DualPoint::new(Phase::new(model, parameters, state));
             let phase = &jet.phase;
             let level = model.level.iter().map(|e| phase.level_function(&e.function)).collect();
             let mut functions = vec![
-                Function { part: Part::Field, outputs: phase.field().to_vec() },
-                Function { part: Part::Level, outputs: level },
+                NamedFunction { part: FunctionSubject::Field, outputs: phase.field().to_vec() },
+                NamedFunction { part: FunctionSubject::Level, outputs: level },
             ];
             for index in kept.iter().copied() {
                 let claim = &case.claims[index];
                 let value = claim.kind.formula().map(|f| phase.evaluate(f).components());
                 let residual = claim.kind.residual(&jet, &claim.place.kept);
                 let own = [
-                    (Part::Value(index), value.unwrap_or_default()),
-                    (Part::Residual(index), residual),
+                    (FunctionSubject::Value(index), value.unwrap_or_default()),
+                    (FunctionSubject::Residual(index), residual),
                 ];
-                functions.extend(own.into_iter().map(|(part, outputs)| Function { part, outputs }));
+                functions
+                    .extend(own.into_iter().map(|(part, outputs)| NamedFunction { part, outputs }));
             }
             functions.retain(|function| !function.outputs.is_empty());
             let formulas = kept.iter().flat_map(|index| case.claims[*index].kind.formulas());
@@ -104,20 +105,23 @@ impl Program {
         })?;
         let mut inputs: Vec<Input> = Vec::new();
         let of_role =
-            |role: Role| move |name: &str, kind| Input { name: name.to_string(), kind, role };
-        let parameter = of_role(Role::Parameter);
+            |role: InputRole| move |name: &str, kind| Input { name: name.to_string(), kind, role };
+        let parameter = of_role(InputRole::Parameter);
         inputs.extend(model.free_parameters().map(|own| parameter(&own.name, own.kind)));
-        let state = of_role(Role::State);
+        let state = of_role(InputRole::State);
         inputs.extend(model.state.iter().map(|own| state(&own.name, own.kind)));
         let count = free + model.dimension();
         inputs.extend((count..graph.inputs()).map(|index| {
-            of_role(Role::Antiderivative)(&format!("integral_{}", index - count + 1), Type::Scalar)
+            of_role(InputRole::Antiderivative)(
+                &format!("integral_{}", index - count + 1),
+                Type::Scalar,
+            )
         }));
         Ok(Self { graph, inputs, functions, named })
     }
 
     /// Names of all input components in the order of the graph, with their roles.
-    pub fn components(&self) -> Vec<(String, Role)> {
+    pub fn components(&self) -> Vec<(String, InputRole)> {
         let of = |input: &Input| {
             let (kind, role) = (input.kind, input.role);
             let name = input.name.clone();
@@ -132,11 +136,14 @@ impl Program {
 fn named<'f>(
     phase: &Phase<'_, Expr>,
     formulas: impl IntoIterator<Item = &'f Formula>,
-) -> Vec<Named> {
+) -> Vec<NamedComponent> {
     let model = phase.model();
     let mut symbols: Vec<_> = formulas.into_iter().flat_map(Formula::symbols).collect();
     let is_formula = |index: usize| {
-        matches!(model.parameters.get(index).map(|own| &own.origin), Some(Origin::Formula(_)))
+        matches!(
+            model.parameters.get(index).map(|own| &own.origin),
+            Some(ParameterOrigin::Formula(_))
+        )
     };
     let of_parameters = model.vocabulary.iter().filter(|(_, entry)| match entry.meaning {
         Meaning::Parameter(index) => is_formula(index),
@@ -156,7 +163,7 @@ fn named<'f>(
         .map(|symbol| {
             let entry = model.vocabulary.entry(symbol);
             let values = phase.value(symbol).components();
-            Named { name: entry.name.clone(), kind: entry.kind, values }
+            NamedComponent { name: entry.name.clone(), kind: entry.kind, values }
         })
         .collect()
 }
@@ -179,8 +186,12 @@ mod tests {
         let program = Program::of(&case, |_| true).expect("records");
         let names: Vec<String> = program.components().into_iter().map(|(name, _)| name).collect();
         assert_eq!(names, ["k", "x", "ω1", "ω2", "ω3"], "in the order of the graph");
-        let parts: Vec<Part> = program.functions.iter().map(|own| own.part).collect();
-        assert_eq!(parts, [Part::Field, Part::Value(0), Part::Residual(0)], "no empty level");
+        let parts: Vec<FunctionSubject> = program.functions.iter().map(|own| own.part).collect();
+        assert_eq!(
+            parts,
+            [FunctionSubject::Field, FunctionSubject::Value(0), FunctionSubject::Residual(0)],
+            "no empty level"
+        );
         let tape = Tape::new(&program.graph, &program.functions[0].outputs);
         let mut evaluator = Evaluator::new(&tape, Float::<1>);
         evaluator.run(&[[2.0], [3.0], [1.0], [0.0], [-1.0]]);

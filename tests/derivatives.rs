@@ -11,7 +11,7 @@ use liouville::case::Case;
 use liouville::formula::{Scope, Value};
 use liouville::graph::{Evaluator, Expr, Tape, record};
 use liouville::mechanics::Phase;
-use liouville::mechanics::calculus::Jet;
+use liouville::mechanics::calculus::DualPoint;
 use liouville::number::Domain;
 use liouville::number::ball::Ball;
 use liouville::number::rational::Rational;
@@ -112,7 +112,7 @@ fn the_graph_records_what_num_dual_computes() {
         let [integral, density] = [0, 1].map(|i| case.claims[i].kind.formula().expect("a formula"));
         for (index, state) in states(&case).iter().enumerate() {
             let found = report(&case, state);
-            let jet = Jet::new(Phase::new(&case.model, &[], &floats(state)));
+            let jet = DualPoint::new(Phase::new(&case.model, &[], &floats(state)));
             let phase = &jet.phase;
             let near = |direct: f64, recorded, name: &str| {
                 assert_near(direct, recorded, &format!("{} at {index}, {name}", case.title));
@@ -178,7 +178,7 @@ fn covector<T: Scalar>(case: &Case, gamma: Vector3<T>) -> Vector3<T> {
     let chi_hat = Vector3::from_fn(|j, _| {
         let mut unit = Vector3::repeat(T::zero());
         unit[j] = T::one();
-        let jet = Jet::new(at(gamma.cross(&unit)));
+        let jet = DualPoint::new(at(gamma.cross(&unit)));
         jet.level_cofactor(&vec![true; case.model.level.len()]) - jet.divergence()
     });
     let Some((symbol, _)) = case.model.vocabulary.lookup("Γ") else { return chi_hat };
@@ -245,7 +245,7 @@ fn the_criterion_of_a_flat_base_is_the_rotation_of_the_divergence() {
     let xi = |i: usize, r: [Dual<f64>; 2]| {
         let k = Dual::from_re(0.75);
         let omega = [[Dual::from_re(0.0), -k], [k, Dual::from_re(0.0)]][i];
-        Jet::new(Phase::new(&case.model, &[], &[omega, r].concat())).divergence()
+        DualPoint::new(Phase::new(&case.model, &[], &[omega, r].concat())).divergence()
     };
     let (still, along) = (|x: f64| Dual::new(x, 0.0), |x: f64| Dual::new(x, 1.0));
     let found = report(&case, &state).criterion.flatten();

@@ -10,16 +10,16 @@ mod suite;
 mod tested;
 
 use common::{dyadic, exact, rational};
+use liouville::number::arb::{Approximation, ArbBall};
 use liouville::number::ball::Ball;
+use liouville::number::double_double_ball::{DoubleDoubleBall, DoubleDoubleBalls};
 use liouville::number::exact::Exact;
 use liouville::number::float::Float;
 use liouville::number::mixed::Mixed;
-use liouville::number::precise::{Approximation, Precise};
 use liouville::number::prime::{Modulus, Prime};
 use liouville::number::quadratic::Quadratic;
 use liouville::number::rational::Rational;
-use liouville::number::twofold::{TwofoldBall, Twofolds};
-use liouville::number::{Domain, Function, Operation};
+use liouville::number::{BinaryOperation, Domain, UnaryFunction};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
@@ -38,13 +38,13 @@ fn balls_pass() {
 
 #[test]
 fn double_double_balls_pass() {
-    Suite { domain: TwofoldBall::<4>, name: "double-double" }.run();
+    Suite { domain: DoubleDoubleBall::<4>, name: "double-double" }.run();
 }
 
 #[test]
 fn many_bits_pass() {
     for bits in [16, 64, 200, 1000] {
-        Suite { domain: Precise::new(bits), name: "many bits" }.run();
+        Suite { domain: ArbBall::new(bits), name: "many bits" }.run();
     }
 }
 
@@ -106,28 +106,29 @@ fn pairs(count: usize) -> impl Iterator<Item = (Rational, Rational)> {
 #[test]
 fn double_double_keeps_its_stated_bounds() {
     const LANES: usize = 64;
-    let domain = TwofoldBall::<LANES>;
+    let domain = DoubleDoubleBall::<LANES>;
     let u2 = unit(-106);
     let (mut add, mut mul, mut recip, mut root) = (0f64, 0f64, 0f64, 0f64);
     let all: Vec<(Rational, Rational)> = pairs(25_600).collect();
     for block in all.chunks(LANES) {
         let (a, b): (Vec<Rational>, Vec<Rational>) = block.iter().cloned().unzip();
         let (x, y) = (domain.values(&a), domain.values(&b));
-        let exact_mid =
-            |block: &Twofolds<LANES>, lane: usize| dyadic(block.hi[lane]) + dyadic(block.lo[lane]);
-        let run = |f: &dyn Fn(&mut Twofolds<LANES>)| {
+        let exact_mid = |block: &DoubleDoubleBalls<LANES>, lane: usize| {
+            dyadic(block.hi[lane]) + dyadic(block.lo[lane])
+        };
+        let run = |f: &dyn Fn(&mut DoubleDoubleBalls<LANES>)| {
             let mut out = x.clone();
             f(&mut out);
             out
         };
-        let sum = run(&|out| domain.binary(Operation::Add, &x, &y, out));
-        let product = run(&|out| domain.binary(Operation::Mul, &x, &y, out));
-        let inverse = run(&|out| domain.unary(Function::Recip, &x, out));
-        let size = run(&|out| domain.unary(Function::Abs, &x, out));
-        let square_root = run(&|out| domain.unary(Function::Sqrt, &size, out));
+        let sum = run(&|out| domain.binary(BinaryOperation::Add, &x, &y, out));
+        let product = run(&|out| domain.binary(BinaryOperation::Mul, &x, &y, out));
+        let inverse = run(&|out| domain.unary(UnaryFunction::Recip, &x, out));
+        let size = run(&|out| domain.unary(UnaryFunction::Abs, &x, out));
+        let square_root = run(&|out| domain.unary(UnaryFunction::Sqrt, &size, out));
         for lane in 0..block.len() {
             let (a, b) = (exact_mid(&x, lane), exact_mid(&y, lane));
-            let grade = |worst: &mut f64, block: &Twofolds<LANES>, value: BigRational| {
+            let grade = |worst: &mut f64, block: &DoubleDoubleBalls<LANES>, value: BigRational| {
                 let error = (exact_mid(block, lane) - &value).abs();
                 if !value.is_zero() {
                     let units = &error / (value.abs() * &u2);
@@ -153,19 +154,19 @@ fn double_double_keeps_its_stated_bounds() {
 fn double_double_agrees_with_a_kept_library() {
     use qd::Quad;
     for (a, b) in pairs(20_000) {
-        let domain = TwofoldBall::<1>;
+        let domain = DoubleDoubleBall::<1>;
         let (x, y) = (domain.constant(&a), domain.constant(&b));
         let (p, q) = (Quad(x.hi[0], x.lo[0]), Quad(y.hi[0], y.lo[0]));
         let mut out = x.clone();
-        let near = |theirs: Quad, ours: &Twofolds<1>, scale: f64| {
+        let near = |theirs: Quad, ours: &DoubleDoubleBalls<1>, scale: f64| {
             let apart = ((theirs.0 - ours.hi[0]) + (theirs.1 - ours.lo[0])).abs();
             assert!(apart <= 64.0 * 2f64.powi(-106) * scale, "{a} and {b}: off by {apart:e}");
         };
-        domain.binary(Operation::Add, &x, &y, &mut out);
+        domain.binary(BinaryOperation::Add, &x, &y, &mut out);
         near(p + q, &out, x.hi[0].abs() + y.hi[0].abs());
-        domain.binary(Operation::Mul, &x, &y, &mut out);
+        domain.binary(BinaryOperation::Mul, &x, &y, &mut out);
         near(p * q, &out, out.hi[0].abs());
-        domain.unary(Function::Recip, &y, &mut out);
+        domain.unary(UnaryFunction::Recip, &y, &mut out);
         near(Quad(1.0, 0.0) / q, &out, out.hi[0].abs());
     }
 }
@@ -177,24 +178,24 @@ fn decimal(x: &Option<Approximation>, digits: usize) -> String {
 
 #[test]
 fn known_constants_come_out() {
-    let suite = Suite { domain: Precise::new(240), name: "240 bits" };
+    let suite = Suite { domain: ArbBall::new(240), name: "240 bits" };
     let one = suite.of(&BigRational::one());
     let four = suite.of(&exact("4"));
-    let pi = suite.binary(Operation::Mul, &four, &suite.unary(Function::Atan, &one));
+    let pi = suite.binary(BinaryOperation::Mul, &four, &suite.unary(UnaryFunction::Atan, &one));
     assert_eq!(decimal(&pi, 60), "3.14159265358979323846264338327950288419716939937510582097494");
-    let e = suite.unary(Function::Exp, &one);
+    let e = suite.unary(UnaryFunction::Exp, &one);
     assert_eq!(decimal(&e, 60), "2.71828182845904523536028747135266249775724709369995957496697");
     let two = suite.of(&exact("2"));
-    let ln2 = suite.unary(Function::Ln, &two);
+    let ln2 = suite.unary(UnaryFunction::Ln, &two);
     assert_eq!(decimal(&ln2, 60), "0.693147180559945309417232121458176568075500134360255254120680");
-    let root = suite.unary(Function::Sqrt, &two);
+    let root = suite.unary(UnaryFunction::Sqrt, &two);
     assert_eq!(decimal(&root, 60), "1.41421356237309504880168872420969807856967187537694807317668");
 }
 
 #[test]
 fn elementary_functions_invert_each_other_at_any_precision() {
     for bits in [40, 100, 256, 1500] {
-        let suite = Suite { domain: Precise::new(bits), name: "elementary" };
+        let suite = Suite { domain: ArbBall::new(bits), name: "elementary" };
         for text in ["0.3", "-2.75", "1e-9", "13.4", "-0.0001", "0.99", "700", "1", "3/2", "0.74"] {
             let x = suite.of(&exact(text));
             let same = |a: &Option<Approximation>, b: &Option<Approximation>, what: &str| {
@@ -203,21 +204,21 @@ fn elementary_functions_invert_each_other_at_any_precision() {
                 let loss = unit(-(bits as i32) + 24) * (mid.abs() + BigRational::one());
                 assert!(rad <= loss, "{what} at {text} with {bits} bits is too wide");
             };
-            let exp = suite.unary(Function::Exp, &x);
-            same(&suite.unary(Function::Ln, &exp), &x, "ln exp x = x");
-            let (s, c) = (suite.unary(Function::Sin, &x), suite.unary(Function::Cos, &x));
-            let square = |x| suite.binary(Operation::Mul, x, x);
-            let length = suite.binary(Operation::Add, &square(&s), &square(&c));
+            let exp = suite.unary(UnaryFunction::Exp, &x);
+            same(&suite.unary(UnaryFunction::Ln, &exp), &x, "ln exp x = x");
+            let (s, c) = (suite.unary(UnaryFunction::Sin, &x), suite.unary(UnaryFunction::Cos, &x));
+            let square = |x| suite.binary(BinaryOperation::Mul, x, x);
+            let length = suite.binary(BinaryOperation::Add, &square(&s), &square(&c));
             same(&length, &suite.of(&BigRational::one()), "sin² + cos² = 1");
-            let twice = suite.binary(Operation::Add, &x, &x);
-            let product = suite.binary(Operation::Mul, &s, &c);
-            let doubled = suite.binary(Operation::Add, &product, &product);
-            same(&suite.unary(Function::Sin, &twice), &doubled, "sin 2x = 2 sin x cos x");
-            let angle = suite.unary(Function::Atan, &x);
+            let twice = suite.binary(BinaryOperation::Add, &x, &x);
+            let product = suite.binary(BinaryOperation::Mul, &s, &c);
+            let doubled = suite.binary(BinaryOperation::Add, &product, &product);
+            same(&suite.unary(UnaryFunction::Sin, &twice), &doubled, "sin 2x = 2 sin x cos x");
+            let angle = suite.unary(UnaryFunction::Atan, &x);
             let slope = suite.binary(
-                Operation::Mul,
-                &suite.unary(Function::Sin, &angle),
-                &suite.unary(Function::Recip, &suite.unary(Function::Cos, &angle)),
+                BinaryOperation::Mul,
+                &suite.unary(UnaryFunction::Sin, &angle),
+                &suite.unary(UnaryFunction::Recip, &suite.unary(UnaryFunction::Cos, &angle)),
             );
             same(&slope, &x, "tan atan x = x");
             let cube = suite.power(&exp, (1, 3));
@@ -228,9 +229,15 @@ fn elementary_functions_invert_each_other_at_any_precision() {
 
 #[test]
 fn balls_grant_elementary_functions_enough() {
-    let (ball, twofold, precise) = (Ball::<1>, TwofoldBall::<1>, Precise::new(160));
-    let functions =
-        [Function::Exp, Function::Ln, Function::Sin, Function::Cos, Function::Atan, Function::Sqrt];
+    let (ball, double_double_ball, precise) = (Ball::<1>, DoubleDoubleBall::<1>, ArbBall::new(160));
+    let functions = [
+        UnaryFunction::Exp,
+        UnaryFunction::Ln,
+        UnaryFunction::Sin,
+        UnaryFunction::Cos,
+        UnaryFunction::Atan,
+        UnaryFunction::Sqrt,
+    ];
     let mut state = 88_172_645_463_325_252u64;
     let mut next = || {
         state ^= state << 13;
@@ -244,7 +251,7 @@ fn balls_grant_elementary_functions_enough() {
         let x = (next() - 0.5) * size;
         for function in functions {
             let x = match function {
-                Function::Ln | Function::Sqrt => x.abs() + f64::MIN_POSITIVE,
+                UnaryFunction::Ln | UnaryFunction::Sqrt => x.abs() + f64::MIN_POSITIVE,
                 _ => x,
             };
             let value = Rational::from_f64(x).expect("finite");
@@ -257,8 +264,8 @@ fn balls_grant_elementary_functions_enough() {
             assert!(error <= b.rad[0], "{function:?} {x:e} is off by {error:e}");
             worst = worst.max(error / (b.mid[0].abs().max(f64::MIN_POSITIVE) * f64::EPSILON));
             if index % 10 == 0 {
-                let mut t = twofold.constant(&value);
-                twofold.unary(function, &t.clone(), &mut t);
+                let mut t = double_double_ball.constant(&value);
+                double_double_ball.unary(function, &t.clone(), &mut t);
                 let (mid, rad) = interval(&truth);
                 let apart = (midpoint_of(&t) - mid).abs();
                 assert!(apart <= dyadic(t.rad[0]) + rad, "{function:?} {x:e} in double-double");
@@ -269,6 +276,6 @@ fn balls_grant_elementary_functions_enough() {
     println!("largest error of an elementary function: {worst:.3} ulp");
 }
 
-fn midpoint_of(block: &Twofolds<1>) -> BigRational {
+fn midpoint_of(block: &DoubleDoubleBalls<1>) -> BigRational {
     dyadic(block.hi[0]) + dyadic(block.lo[0])
 }

@@ -6,7 +6,7 @@ mod levels;
 
 use liouville::case::Case;
 use liouville::verdict::{
-    CaseReport, ClaimReport, Independence, JudgeError, Options, Sign, Verdict, evaluate,
+    CaseReport, ClaimReport, DensitySign, Independence, JudgeError, Options, Verdict, evaluate,
     evaluate_digits, judge, read_state,
 };
 
@@ -88,7 +88,11 @@ fn the_sign_of_a_density_is_looked_for_at_all_states() {
     let case = Case::parse(text, &[]).expect("a case");
     let many = Options { states: 6400, ..Options::default() };
     let report = judge(&case, &many).expect("it can be judged");
-    assert_eq!(report.claims[0].evidence.sign, Some(Sign::Changes), "negative in the corners");
+    assert_eq!(
+        report.claims[0].evidence.sign,
+        Some(DensitySign::Changes),
+        "negative in the corners"
+    );
 }
 
 #[test]
@@ -256,6 +260,35 @@ fn a_small_part_of_an_integral_is_no_rounding() {
     let found: Vec<_> = claims(text).iter().map(|claim| claim.evidence.independence).collect();
     let expected = [Independence::Independent, Independence::Independent, Independence::General];
     assert_eq!(found, expected.map(Some));
+}
+
+#[test]
+fn an_integral_is_new_where_it_has_a_value() {
+    let found = |values: &str, function: &str| {
+        let text = format!(
+            "title = 'x'\n[parameters]\na = 'one of {values}'\n[state]\nx = '-2..-1'\n[field]\n\"x'\" = '0'\n\
+             [[claim]]\nintegral = '{function}'\n"
+        );
+        claims(&text)[0].evidence.independence
+    };
+    // For a = 2 it is √(2x + 2), which has no value; for a = -3/2 it is √(3/2).
+    assert_eq!(found("2, -3/2", "√(x + |x + a|)"), None);
+    assert_eq!(found("2, -3/2", "√(|x + a| - x)"), Some(Independence::Independent));
+    assert_eq!(found("1, 3", "x*|a| - a*x"), Some(Independence::Constant));
+}
+
+#[test]
+fn an_identity_that_fails_for_one_value_of_a_list_is_not_confirmed() {
+    let text = |seed: u64| {
+        let text = "title = 'x'\n[parameters]\na = 'one of -3/2, 0, 1/4'\n[state]\nx = '1..2'\ny = '1..2'\n\
+                    [field]\n\"x'\" = 'y'\n\"y'\" = '0'\n[[claim]]\nrate = 'x'\n\
+                    equals = 'y + √(y*√(a + |a|)) - √(y*√((a + |a|)*(1 + 1e-30)))'\nexpect = 'open'\n";
+        let case = Case::parse(text, &[]).expect("a case");
+        let options = Options { seed, ..Options::default() };
+        judge(&case, &options).expect("it can be judged").claims[0].verdict
+    };
+    // A third of the states shows it.
+    assert!((1..40).chain([599_693]).all(|seed| text(seed) == Verdict::Refuted));
 }
 
 #[test]

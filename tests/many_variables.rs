@@ -7,7 +7,7 @@ use common::case;
 use liouville::case::Case;
 use liouville::graph::{Evaluator, Expr, Tape, record};
 use liouville::mechanics::Phase;
-use liouville::mechanics::calculus::Jet;
+use liouville::mechanics::calculus::DualPoint;
 use liouville::number::float::Float;
 use liouville::scalar::Scalar;
 use liouville::verdict::{Options, Verdict, judge};
@@ -111,7 +111,7 @@ density = "x[1]^x[2]/product(i, 1..n, x[i])"
 
 /// All derivatives that claims are made of.
 fn derivatives<T: Scalar>(case: &Case, state: &[T]) -> Vec<T> {
-    let jet = Jet::new(Phase::new(&case.model, &[], state));
+    let jet = DualPoint::new(Phase::new(&case.model, &[], state));
     let formula = |k: usize| case.claims[k].kind.formula().expect("a formula");
     let all = vec![true; case.model.level.len()];
     let mut values = jet.phase.field().to_vec();

@@ -2,7 +2,7 @@
 //! reproduces, in agreement with the verdicts.
 
 use liouville::case::Case;
-use liouville::engine::Means;
+use liouville::engine::Backend;
 use liouville::sweep::{Extremes, Sweep, SweepError};
 use liouville::verdict::{Options, Trust, Verdict, judge};
 
@@ -16,7 +16,7 @@ fn case() -> Case {
     Case::parse(BALL, &[]).expect("a case")
 }
 
-fn sweep(case: &Case, claim: usize, means: Means) -> Sweep<'_> {
+fn sweep(case: &Case, claim: usize, means: Backend) -> Sweep<'_> {
     Sweep::by(case, &case.claims[claim], 1, means).expect("a sweep")
 }
 
@@ -25,7 +25,7 @@ fn threads_and_engines_change_nothing() {
     let case = case();
     let states = 5..200_005;
     let found: Vec<Extremes> =
-        [(1, Means::Quickest), (2, Means::Quickest), (3, Means::Interpreter)]
+        [(1, Backend::Quickest), (2, Backend::Quickest), (3, Backend::Interpreter)]
             .into_iter()
             .map(|(threads, means)| {
                 let pool =
@@ -41,10 +41,10 @@ fn threads_and_engines_change_nothing() {
 #[test]
 fn a_slip_shows_and_ends_the_sweep() {
     let case = case();
-    let right = sweep(&case, 0, Means::Quickest).run(0..100_000, f64::INFINITY);
+    let right = sweep(&case, 0, Backend::Quickest).run(0..100_000, f64::INFINITY);
     let peak = right.peak.expect("defined");
     assert!(peak.ratio < 1e-13, "rounding, at state {}: {}", peak.index, peak.ratio);
-    let wrong = sweep(&case, 1, Means::Quickest);
+    let wrong = sweep(&case, 1, Backend::Quickest);
     let found = wrong.run(0..u64::MAX, 1e-6);
     assert_eq!(found.states, 1 << 20, "one look is enough");
     let peak = found.peak.expect("defined");

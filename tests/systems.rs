@@ -151,7 +151,7 @@ fn built_in_systems_agree_with_the_reference() {
 
 #[test]
 fn parts_that_a_case_does_not_have_are_not_recorded() {
-    use liouville::mechanics::Part;
+    use liouville::mechanics::EquationPart;
     use liouville::verdict::{EquationsSize, equations_size};
     let size = |system: &str, parameters: &str, body: &str| -> EquationsSize {
         let text = format!(
@@ -159,7 +159,7 @@ fn parts_that_a_case_does_not_have_are_not_recorded() {
         );
         equations_size(&case(&text)).expect("it records")
     };
-    let share = |size: &EquationsSize, part: Part| {
+    let share = |size: &EquationsSize, part: EquationPart| {
         let found = size.parts.iter().find(|(own, _)| *own == part).expect("a possible part");
         found.1
     };
@@ -172,10 +172,13 @@ fn parts_that_a_case_does_not_have_are_not_recorded() {
         assert!(bare.parts.iter().all(|(_, share)| share.is_none()), "{bare:?}");
         let moment = "moment = '[γ2, γ3, 0]'";
         for (part, with) in [
-            (Part::Rotor, size(plane, parameters, &format!("{ball}gyrostat = 'S'"))),
-            (Part::Potential, size(plane, parameters, &format!("{ball}potential = 'a_g*γ1*γ2'"))),
-            (Part::Moment, size(plane, parameters, &format!("{ball}{moment}"))),
-            (Part::Curvature, size(sphere, parameters, ball)),
+            (EquationPart::Rotor, size(plane, parameters, &format!("{ball}gyrostat = 'S'"))),
+            (
+                EquationPart::Potential,
+                size(plane, parameters, &format!("{ball}potential = 'a_g*γ1*γ2'")),
+            ),
+            (EquationPart::Moment, size(plane, parameters, &format!("{ball}{moment}"))),
+            (EquationPart::Curvature, size(sphere, parameters, ball)),
         ] {
             let own = share(&with, part).expect("the part is there");
             assert!(own > 0, "{part:?}");
@@ -187,14 +190,14 @@ fn parts_that_a_case_does_not_have_are_not_recorded() {
         }
         let zero = size(plane, parameters, &format!("{ball}gyrostat = '0*S'\npotential = '0'"));
         assert_eq!(zero.operations, bare.operations, "parts that are 0 cost nothing");
-        assert_eq!(share(&zero, Part::Rotor), Some(0));
+        assert_eq!(share(&zero, EquationPart::Rotor), Some(0));
     }
     let parameters = "R = '0.2..0.3'\nmu = '1..2'\nturn = '1..2'";
     let surface = "surface = 'arbitrary'\n";
     let bare = size("ball-on-surface", parameters, surface);
     let forces = format!("{surface}potential = 'arbitrary'\nrotation = 'turn'");
     let loaded = size("ball-on-surface", parameters, &forces);
-    let shares = [Part::Potential, Part::Rotation].map(|part| share(&loaded, part));
+    let shares = [EquationPart::Potential, EquationPart::Rotation].map(|part| share(&loaded, part));
     assert!(shares.iter().all(|share| share.is_some_and(|n| n > 0)), "{loaded:?}");
     assert!(loaded.operations > bare.operations);
 }

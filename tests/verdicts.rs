@@ -6,7 +6,7 @@ mod steady;
 
 use liouville::case::Case;
 use liouville::verdict::{
-    ClaimReport, Independence, JudgeError, Options, Sign, Trust, Verdict, judge,
+    ClaimReport, DensitySign, Independence, JudgeError, Options, Trust, Verdict, judge,
 };
 
 fn claims(text: &str) -> Vec<ClaimReport> {
@@ -78,7 +78,8 @@ fn a_density_that_changes_sign_is_no_positive_measure() {
     ));
     assert!(found.iter().all(|claim| claim.verdict != Verdict::Refuted), "all are invariant");
     let signs: Vec<_> = found.iter().map(|claim| claim.evidence.sign).collect();
-    let expected = [Sign::Positive, Sign::Positive, Sign::Changes, Sign::Negative];
+    let expected =
+        [DensitySign::Positive, DensitySign::Positive, DensitySign::Changes, DensitySign::Negative];
     assert_eq!(signs, expected.map(Some));
 }
 

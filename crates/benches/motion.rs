@@ -8,9 +8,9 @@ use std::hint::black_box;
 use criterion::{Criterion, criterion_group, criterion_main};
 use differential_equations::prelude::*;
 use liouville::case::Case;
-use liouville::number::pair::Pair;
+use liouville::number::double_double::DoubleDouble;
 use liouville::verdict::read_state;
-use liouville_flow::{Orbit, Precision, Role, Start, orbit};
+use liouville_flow::{Orbit, Precision, QuantityRole, Start, orbit};
 use nalgebra::{Matrix3, Vector3};
 
 const BALL: &str = r#"
@@ -69,7 +69,7 @@ fn by_hand(begin: [f64; 6], tolerance: f64) -> [f64; 6] {
 }
 
 fn follow(case: &Case, start: &Start, time: f64, precision: Precision) -> Orbit {
-    orbit(case, start.clone(), Pair::from_f64(time), precision).expect("no singularity")
+    orbit(case, start.clone(), DoubleDouble::from_f64(time), precision).expect("no singularity")
 }
 
 fn motion(criterion: &mut Criterion) {
@@ -80,7 +80,7 @@ fn motion(criterion: &mut Criterion) {
     let begin: [f64; 6] = begin.try_into().expect("six components");
 
     let found = follow(&case, &start, TIME, Precision::Float);
-    for followed in found.followed.iter().filter(|followed| followed.role != Role::Decoy) {
+    for followed in found.followed.iter().filter(|followed| followed.role != QuantityRole::Decoy) {
         println!("Taylor, f64: {} drifts by {:.1e}", followed.name, followed.drift);
     }
     for tolerance in [1e-12, 1e-15] {

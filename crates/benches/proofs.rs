@@ -4,11 +4,11 @@ use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use liouville::case::Case;
-use liouville::claim::Place;
+use liouville::claim::LevelSubset;
 use liouville::graph::{Expr, Graph, record};
 use liouville::mechanics::Phase;
-use liouville::mechanics::calculus::Jet;
-use liouville::proof::{Group, Outcome, Prover};
+use liouville::mechanics::calculus::DualPoint;
+use liouville::proof::{Group, GroupOutcome, Prover};
 use liouville::verdict::Sampler;
 
 const CLAIM: &str = "[body]\nshape = 'ball'\n[[claim]]\nname = 'F2'\n\
@@ -23,14 +23,14 @@ fn residual(case: &Case) -> (Graph, Vec<Expr>) {
     let free = case.model.free_components();
     record(free + case.model.dimension(), |inputs| {
         let (parameters, state) = inputs.split_at(free);
-        let jet = Jet::new(Phase::new(&case.model, parameters, state));
-        case.claims[0].kind.residual(&jet, &Place::level(&case.model).kept)
+        let jet = DualPoint::new(Phase::new(&case.model, parameters, state));
+        case.claims[0].kind.residual(&jet, &LevelSubset::level(&case.model).kept)
     })
     .expect("records")
 }
 
 /// Substitutes the chart and tests the identity.
-fn prove(sampler: &Sampler, graph: &Graph, residual: &[Expr]) -> Outcome {
+fn prove(sampler: &Sampler, graph: &Graph, residual: &[Expr]) -> GroupOutcome {
     let fixed = vec![None; sampler.recipes().len()];
     let composed = sampler.compose_groups(graph, &[Group::of(residual.to_vec())], &fixed);
     let (graph, groups) = composed.expect("composes");
@@ -44,12 +44,12 @@ fn proofs(criterion: &mut Criterion) {
     let symbolic = "m = '0.5..2'\nR = '1..3'\nc = 'vector(-0.5..0.5)'\nI = 'inertia(0.5..5)'\n";
     for (name, parameters) in [("fixed parameters", fixed), ("symbolic parameters", symbolic)] {
         let case = case(parameters);
-        let level = Place::level(&case.model);
+        let level = LevelSubset::level(&case.model);
         let sampler = Sampler::new(&case, &level, 1).expect("samples");
         let (graph, values) = residual(&case);
         let outcome = prove(&sampler, &graph, &values);
         println!("{name}: {outcome:?}");
-        assert!(matches!(outcome, Outcome::Zero(_)), "F2 is an integral");
+        assert!(matches!(outcome, GroupOutcome::Zero(_)), "F2 is an integral");
         let mut group = criterion.benchmark_group(name);
         group.bench_function("prove", |bench| {
             bench.iter(|| prove(black_box(&sampler), &graph, &values));

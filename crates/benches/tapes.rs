@@ -3,12 +3,14 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use liouville::verdict::{Options, judge};
-use liouville_lab::bench::{Options as Amount, Subject, measure_item, record_residual, work_items};
+use liouville_lab::bench::{
+    BenchClaim, BenchOptions as Amount, measure_item, record_residual, work_items,
+};
 
 fn tapes(criterion: &mut Criterion) {
     for item in work_items().expect("the work items are cases") {
         let claim = &item.case.claims[0];
-        let subject = Subject::new(&item, claim, 1, 1).expect("it records, and has states");
+        let subject = BenchClaim::new(&item, claim, 1, 1).expect("it records, and has states");
         let mut group = criterion.benchmark_group(&item.name);
         println!("{}: {} operations a state", item.name, subject.residual().operations());
         let measured = measure_item(&item, &Amount::default()).expect("it is measured");

@@ -19,8 +19,19 @@ from .errors import (
 from .found import Found, Search
 from .function import Field, Function
 from .motion import CLASSES, Chart, Exponents, Orbit, Section, Spectra
-from .reading import catalogue, check, parse, read, search
+from .reading import (
+    catalogue,
+    chart,
+    check,
+    exponents,
+    parse,
+    read,
+    search,
+    section,
+    sweep,
+)
 from .report import Claim, Report
+from .residuals import Sweep
 from .symbolic import from_lagrangian, from_sympy, to_sympy
 
 __all__ = [
@@ -44,13 +55,18 @@ __all__ = [
     "SearchError",
     "Section",
     "Spectra",
+    "Sweep",
     "__version__",
     "catalogue",
+    "chart",
     "check",
+    "exponents",
     "from_lagrangian",
     "from_sympy",
     "parse",
     "read",
     "search",
+    "section",
+    "sweep",
     "to_sympy",
 ]

@@ -89,3 +89,43 @@ def listed(text: str | Iterable[str] | None) -> str | None:
 def is_text(source: str | Path) -> bool:
     """Whether a source is the text of a case and not a path."""
     return isinstance(source, str) and "\n" in source
+
+
+def named(start: list[str] | None) -> str:
+    """Name of a start for reports."""
+    return "drawn" if start is None else "(" + ", ".join(start) + ")"
+
+
+def number(text: str) -> float:
+    """A number by its text."""
+    return float(Fraction(text))
+
+
+def thousandth(time: str) -> Fraction:
+    """A thousandth of a time, by its text."""
+    return abs(Fraction(time)) / 1000 or Fraction(1, 1000)
+
+
+def points(given: list[Any]) -> list[str | list[str]]:
+    """Points of a section: starts, none of them drawn."""
+    if None in given:
+        raise ValueError("a start on the section is a pair (l, L/G)")
+    return given
+
+
+def axis(value: str | tuple[str, Any, Any]) -> str:
+    """An axis of a chart: its text, or a name with two ends."""
+    if isinstance(value, str):
+        return value
+    name, low, high = value
+    return f"{name}={exact(low)}..{exact(high)}"
+
+
+def nested(shape: list[int], values: list[str]) -> Any:
+    """Values in lists of a shape of up to two dimensions."""
+    if not shape:
+        return values[0]
+    if len(shape) == 1:
+        return values
+    columns = shape[1]
+    return [values[k : k + columns] for k in range(0, len(values), columns)]

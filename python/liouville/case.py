@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
@@ -14,7 +15,9 @@ from . import _values
 from .found import Search
 from .function import Field, Function
 from .motion import Chart, Exponents, Orbit, Section, Spectra
+from .parts import Share
 from .report import Report
+from .residuals import Sweep
 
 Start = str | Mapping[str, Any] | Sequence[Any] | np.ndarray | None
 """A state by names or in order, a point (l, L/G) of a section, or `None` for one that is drawn."""
@@ -178,17 +181,8 @@ class Case:
 
     def parameter_values(self, *, seed: int = 1, index: int = 0) -> dict[str, Any]:
         """Exact values that the parameters without a value have in motions, as settings."""
-
-        def nested(shape: list[int], values: list[str]):
-            if not shape:
-                return values[0]
-            if len(shape) == 1:
-                return values
-            columns = shape[1]
-            return [values[k : k + columns] for k in range(0, len(values), columns)]
-
         found = native.parameter_values(self._native, seed, index)
-        return {name: nested(shape, values) for name, shape, values in found}
+        return {name: _values.nested(shape, values) for name, shape, values in found}
 
     def orbit(self, start: Start = None, *, time: Any = 100, **options: Any) -> Orbit:
         """Follows the motion from a start for a time, backwards if it is negative.
@@ -218,13 +212,13 @@ class Case:
         the state. A motion that ends early has its samples up to there, and a `problem`.
         """
         time_text = _values.exact(time)
-        every = every if every is not None else _thousandth(time_text)
+        every = every if every is not None else _values.thousandth(time_text)
         every_text = _values.exact(every)
-        step = _number(every_text)
+        step = _values.number(every_text)
         if not step > 0:
             raise ValueError("every is the time between samples, above 0")
         width = len(self.state) + 1
-        if abs(_number(time_text)) / step * width * len(starts) > MOST_NUMBERS:
+        if abs(_values.number(time_text)) / step * width * len(starts) > MOST_NUMBERS:
             raise ValueError("too many samples: give a longer `every` or a shorter `time`")
         if precision not in ("double", "double-double"):
             raise ValueError('precision is "double" or "double-double"')
@@ -253,24 +247,36 @@ class Case:
         energy: Any = None,
         seed: int = 1,
         threads: int | None = None,
+        client: Any = None,
+        parts: int | None = None,
+        out: str | Path | None = None,
     ) -> Section:
         """Poincaré section: by a surface such as `"x = 0"`, or g = g₀ of a rolling body.
 
         Returns an array with the named fields `start` (number of the motion), `direction` (1 or
         −1), `t`, and the axes. Motions that end early are warned of; see `Section.problems`.
+        `client`, `parts` and `out` are those of `chart`.
         """
         given = [] if starts is None else _values.starts(starts)
         energy = None if energy is None else _values.exact(energy)
         course = (direction, backwards)
+        if surface is None and axes is not None:
+            raise TypeError("axes are those of a surface: give one")
+        if surface is not None and g0 is not None:
+            raise TypeError("g0 is the section of a rolling body: leave out the surface")
+        if share := Share(client, parts, out, threads):
+            if surface is not None and given and orbits:
+                raise ValueError("give starts or orbits of a section in parts, not both")
+            numbers = {"orbits": orbits, "crossings": crossings, "skip": skip}
+            way = {"direction": direction, "backwards": backwards, "seed": seed}
+            where = {"section": surface, "axes": _values.listed(axes), "g0": g0, "energy": energy}
+            job, written = share.section(self, given, where | numbers | way)
+            return Section.of(*job.section(written))
         if surface is None:
-            if axes is not None:
-                raise TypeError("axes are those of a surface: give one")
-            place = (None if g0 is None else str(g0), energy, _points(given))
+            place = (None if g0 is None else str(g0), energy, _values.points(given))
             chosen = (orbits, crossings, skip)
             found = native.section(self._native, place, chosen, course, seed, threads)
         else:
-            if g0 is not None:
-                raise TypeError("g0 is the section of a rolling body: leave out the surface")
             drawn = orbits if orbits is not None else (0 if given else 12)
             counts = (500 if crossings is None else crossings, skip or 0)
             texts = (surface, _values.listed(axes))
@@ -290,32 +296,39 @@ class Case:
         energy: Any = None,
         seed: int = 1,
         threads: int | None = None,
+        client: Any = None,
+        parts: int | None = None,
+        out: str | Path | None = None,
     ) -> Chart:
         """Classifies the motions of a plane, such as `x="c1=0..2"` or `x=("c1", 0, 2)`.
 
         `start` is a point (l, L/G) of the section, or a whole state by names.
+
+        With a `distributed.Client` the workers of a Dask cluster compute it in many `parts`, and
+        the result is the same bit for bit. Parts are kept as files in the folder `out`, and not
+        computed again; what a worker that dies has not finished is computed by another.
         """
         if not 0 < abs(time) < math.inf:
             raise ValueError("time is a number that is not 0")
         if min(size) < 1 or max(size) > 4000:
             raise ValueError("size is a pair of numbers from 1 to 4000")
-
-        def axis(value: str | tuple[str, Any, Any]) -> str:
-            if isinstance(value, str):
-                return value
-            name, low, high = value
-            return f"{name}={_values.exact(low)}..{_values.exact(high)}"
-
+        x, y = _values.axis(x), _values.axis(y)
         given = _values.start(start)
         state = given if isinstance(given, str) else None
-        points = _points([] if given is None or state is not None else [given])
+        points = _values.points([] if given is None or state is not None else [given])
         place = (
             None if g0 is None else str(g0),
             None if energy is None else _values.exact(energy),
             points,
         )
+        if share := Share(client, parts, out, threads):
+            plane = {"x": x, "y": y, "size": f"{size[0]}x{size[1]}", "time": float(time)}
+            begin = {"start": ",".join(points[0]) if points else None, "state": state}
+            where = {"g0": place[0], "energy": place[1], "seed": seed}
+            job, texts = share.run(self, ("motion", "chart"), plane | begin | where)
+            return Chart.of(*job.chart(texts))
         found = native.chart(
-            self._native, (axis(x), axis(y)), list(size), float(time), place, state, seed, threads
+            self._native, (x, y), list(size), float(time), place, state, seed, threads
         )
         return Chart.of(*found)
 
@@ -329,12 +342,24 @@ class Case:
         seed: int = 1,
         index: int = 0,
         threads: int | None = None,
+        client: Any = None,
+        parts: int | None = None,
+        out: str | Path | None = None,
     ) -> Exponents | Spectra:
-        """Largest Lyapunov exponents, mean divergence and class of motions, or whole spectra."""
+        """Largest Lyapunov exponents, mean divergence and class of motions, or whole spectra.
+
+        `client`, `parts` and `out` are those of `chart`.
+        """
         if not 0 < abs(time) < math.inf:
             raise ValueError("time is a number that is not 0")
         given = _values.starts(starts)
-        names = [one if isinstance(one, str) else _named(one) for one in given]
+        names = [one if isinstance(one, str) else _values.named(one) for one in given]
+        if share := Share(client, parts, out, threads):
+            if index:
+                raise ValueError("exponents in parts have the parameters of index 0")
+            wanted = {"time": float(time), "spectrum": spectrum, "one_way": not both_ways}
+            found = share.exponents(self, given, names, wanted | {"seed": seed})
+            return Spectra(found) if spectrum else Exponents(found)
         found = json.loads(
             native.exponents(
                 self._native,
@@ -348,30 +373,25 @@ class Case:
         )
         return Spectra(found) if spectrum else Exponents(found)
 
+    def sweep(
+        self,
+        *claims: str,
+        states: int = 1_000_000,
+        seed: int = 1,
+        threads: int | None = None,
+        client: Any = None,
+        parts: int | None = None,
+        out: str | Path | None = None,
+    ) -> Sweep:
+        """Largest residual of claims, by default of all, over very many states in floating point.
+
+        `client`, `parts` and `out` are those of `chart`.
+        """
+        share = Share(client, parts, out, threads)
+        return Sweep(share.sweep(self, claims, {"states": int(states), "seed": seed, "json": True}))
+
     def to_sympy(self, formula: str | None = None, symbols: dict[str, Any] | None = None):
         """A formula, or a claim by its name, as an expression of SymPy; the field without one."""
         from .symbolic import to_sympy
 
         return to_sympy(self, formula, symbols)
-
-
-def _points(starts: list[Any]) -> list[str | list[str]]:
-    if None in starts:
-        raise ValueError("a start on the section is a pair (l, L/G)")
-    return starts
-
-
-def _named(start: list[str] | None) -> str:
-    return "drawn" if start is None else "(" + ", ".join(start) + ")"
-
-
-def _number(text: str) -> float:
-    from fractions import Fraction
-
-    return float(Fraction(text))
-
-
-def _thousandth(time: str):
-    from fractions import Fraction
-
-    return abs(Fraction(time)) / 1000 or Fraction(1, 1000)

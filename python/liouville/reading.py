@@ -10,7 +10,9 @@ from . import _liouville as native
 from . import _values
 from .case import Case
 from .found import Search
+from .motion import Chart, Exponents, Section, Spectra
 from .report import Report
+from .residuals import Sweep
 
 
 def restored(text: str, name: str, settings: dict[str, str], symbols) -> Case:
@@ -50,6 +52,26 @@ def check(case: Case | str | Path, **options: Any) -> Report:
 def search(case: Case | str | Path, **options: Any) -> Search:
     """Searches a case for invariants; see `Case.search`."""
     return _case(case).search(**options)
+
+
+def chart(case: Case | str | Path, *axes: Any, **options: Any) -> Chart:
+    """Classifies the motions of a plane; see `Case.chart`."""
+    return _case(case).chart(*axes, **options)
+
+
+def section(case: Case | str | Path, surface: str | None = None, **options: Any) -> Section:
+    """Poincaré section of a case; see `Case.section`."""
+    return _case(case).section(surface, **options)
+
+
+def exponents(case: Case | str | Path, starts: Any = None, **options: Any) -> Exponents | Spectra:
+    """Lyapunov exponents of motions; see `Case.exponents`."""
+    return _case(case).exponents(starts, **options)
+
+
+def sweep(case: Case | str | Path, *claims: str, **options: Any) -> Sweep:
+    """Largest residual of claims at very many states; see `Case.sweep`."""
+    return _case(case).sweep(*claims, **options)
 
 
 def _case(case: Case | str | Path) -> Case:

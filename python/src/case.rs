@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use liouville::case::{CaseError, Setting};
 use liouville::formula::canonical_name;
-use liouville::mechanics::Origin;
-use liouville_cli::report::Digest;
+use liouville::mechanics::ParameterOrigin;
+use liouville_cli::report::CaseDigest;
 use liouville_cli::source;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -73,7 +73,7 @@ impl Case {
 
     #[getter]
     fn digest(&self) -> String {
-        Digest::of(&self.text).to_string()
+        CaseDigest::of(&self.text).to_string()
     }
 
     /// Warnings and remarks of the reader.
@@ -92,10 +92,10 @@ impl Case {
     /// Names of the parameters, each with its origin: `fixed`, `drawn` or `computed`.
     #[getter]
     fn parameters(&self) -> Vec<(String, &'static str)> {
-        let origin = |origin: &Origin| match origin {
-            Origin::Fixed(_) => "fixed",
-            Origin::Free(_) => "drawn",
-            Origin::Formula(_) => "computed",
+        let origin = |origin: &ParameterOrigin| match origin {
+            ParameterOrigin::Fixed(_) => "fixed",
+            ParameterOrigin::Free(_) => "drawn",
+            ParameterOrigin::Formula(_) => "computed",
         };
         let parameters = self.inner.model.parameters.iter();
         parameters.map(|own| (own.name.clone(), origin(&own.origin))).collect()

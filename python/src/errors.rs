@@ -5,7 +5,7 @@ use std::ops::Range;
 use liouville::case::CaseError;
 use liouville::formula::FormulaError;
 use liouville::verdict::JudgeError;
-use liouville_cli::report::{Failure, diagnostic};
+use liouville_cli::report::{FileFailure, diagnostic};
 use liouville_flow::{AxisMistake, ChoiceError, FlowError, FormulaMistake};
 use liouville_search::SearchError;
 use pyo3::exceptions::PyRuntimeError;
@@ -28,7 +28,7 @@ fn exception<'py>(
 }
 
 /// Exception about mistakes in a text, each at its place.
-fn of_failures(py: Python<'_>, class: &str, failures: Vec<Failure>) -> PyErr {
+fn of_failures(py: Python<'_>, class: &str, failures: Vec<FileFailure>) -> PyErr {
     let mistakes: Vec<_> = failures
         .into_iter()
         .map(|one| (one.message, one.help, one.line, one.column, one.rendered))

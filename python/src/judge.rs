@@ -5,10 +5,10 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use liouville::verdict::{self, CaseReport, JudgeError, Options, Trust};
-use liouville_cli::report::survey::{self as written, Style};
-use liouville_cli::report::{Digest, Heading, Outcome, RunReport, json};
+use liouville_cli::report::survey::{self as written, PageStyle};
+use liouville_cli::report::{CaseDigest, FileOutcome, Heading, RunReport, json};
 use liouville_flow::observe::observe_each;
-use liouville_search::{Ansatz, Effort, Halt, Hamiltonians, Wanted, survey};
+use liouville_search::{Ansatz, ConditionTarget, Effort, Halt, Hamiltonians, survey};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -41,11 +41,11 @@ pub fn check(
         system: case.inner.system.clone(),
         column: case.inner.column.clone(),
         notes: case.inner.notes.clone(),
-        digest: Some(Digest::of(&case.text)),
+        digest: Some(CaseDigest::of(&case.text)),
         ..Heading::default()
     };
     let path = case.name.clone();
-    let outcome = Outcome { path, heading, result: Ok(report), unreached: Vec::new() };
+    let outcome = FileOutcome { path, heading, result: Ok(report), unreached: Vec::new() };
     let run = RunReport { seed, outcomes: vec![outcome], elapsed: started.elapsed() };
     json::render(&run).map_err(|error| errors::of_output(&error))
 }
@@ -76,8 +76,8 @@ pub fn search(
         blind,
         terms: terms.into_iter().map(|text| text.as_str().into()).collect(),
         conditions: conditions.map(|name| match name.as_str() {
-            "" => Wanted::Existence,
-            _ => Wanted::Claim(name),
+            "" => ConditionTarget::Existence,
+            _ => ConditionTarget::Claim(name),
         }),
         seconds,
         ansatz: Ansatz {
@@ -104,7 +104,7 @@ pub fn search(
     let report = found?.map_err(|error| errors::of_search(py, &error))?;
     let title = &case.inner.title;
     liouville_cli::report::search::json(title, &report)
-        .and_then(|json| Digest::of(&case.text).sign(&json))
+        .and_then(|json| CaseDigest::of(&case.text).sign(&json))
         .map_err(|error| errors::of_output(&error))
 }
 
@@ -119,7 +119,7 @@ pub fn report(
 ) -> PyResult<String> {
     let work = Work::on(threads);
     let (inner, count) = (Arc::clone(&case.inner), work.threads());
-    let digest = Digest::of(&case.text);
+    let digest = CaseDigest::of(&case.text);
     let written = work.shared(py, move || {
         let options = Options { seed, ..Options::default() };
         let found = survey::survey(&inner, &options, &mut |_| ())?;
@@ -133,7 +133,7 @@ pub fn report(
             "latex" => Ok(written::latex(&found, &origin)),
             "json" => written::json(&found).and_then(|json| digest.sign(&json)),
             _ => {
-                let style = Style { verbose: false, colour: false, width: WIDTH };
+                let style = PageStyle { verbose: false, colour: false, width: WIDTH };
                 Ok(written::text(&found, &origin, style))
             }
         })

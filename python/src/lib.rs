@@ -7,6 +7,7 @@ mod errors;
 mod function;
 mod judge;
 mod motion;
+mod parts;
 mod program;
 mod start;
 mod work;
@@ -30,6 +31,8 @@ mod _liouville {
     use super::judge::{check, report, search};
     #[pymodule_export]
     use super::motion::{chart, exponents, orbits, section, surface};
+    #[pymodule_export]
+    use super::parts::{Job, is_whole, save};
     #[pymodule_export]
     use super::program::program;
     #[pymodule_export]

@@ -6,8 +6,9 @@ use liouville::case::{Case as Inner, Direction};
 use liouville::number::rational::Rational;
 use liouville_cli::report::{exponents as written, orbit};
 use liouville_flow::{
-    Axis, Begin, Character, Columns, FlowError, Launches, Launchpad, Lexicon, PlaneRequest,
-    Precision, Sampling, SectionChoice, Start, Surface, SurfaceRequest, Variational,
+    Begin, Character, ChartAxis, Columns, CrossingSurface, Exponents, FlowError, Launches,
+    Launchpad, Lexicon, PlaneRequest, Precision, Sampling, SectionChoice, SectionOrbit, Start,
+    SurfaceOrbit, SurfaceRequest, Variational,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -151,18 +152,26 @@ pub fn section<'py>(
     let count = work.threads();
     let found = work.alone(py, move || liouville_flow::section(&inner, &request, count, &|| ()))?;
     let found = found.map_err(|error| errors::of_flow(py, &error))?;
-    let rows = found.iter().enumerate().flat_map(|(index, orbit)| {
+    Ok(of_section(py, &found))
+}
+
+/// Crossings of a section as data, with the problems of its motions.
+pub type Crossings<'py> = (Data<'py>, Vec<Problem>);
+
+/// Crossings of the section g = g₀ as data.
+pub fn of_section<'py>(py: Python<'py>, orbits: &[SectionOrbit]) -> Crossings<'py> {
+    let rows = orbits.iter().enumerate().flat_map(|(index, orbit)| {
         orbit.crossings.iter().flat_map(move |met| {
             let direction = if met.rising { 1.0 } else { -1.0 };
             [index as f64, direction, met.time, met.at[0], met.at[1]]
         })
     });
     let names = ["start", "direction", "t", "l", "L/G"].map(str::to_string).to_vec();
-    let problems = found
+    let problems = orbits
         .iter()
         .enumerate()
         .filter_map(|(index, orbit)| orbit.problem.as_ref().map(|error| problem(index, error)));
-    Ok(((names, bytes(py, rows)), problems.collect()))
+    ((names, bytes(py, rows)), problems.collect())
 }
 
 /// Crossings of a surface by the motions of any system.
@@ -184,7 +193,7 @@ pub fn surface<'py>(
     let (crossings, skip) = counts;
     let inner = Arc::clone(&case.inner);
     moving(py, &inner)?;
-    let read = Surface::read(Lexicon::new(&inner), &surface);
+    let read = CrossingSurface::read(Lexicon::new(&inner), &surface);
     let surface = read.map_err(|mistake| errors::of_mistake(py, "surface", &surface, &mistake))?;
     let axes = axes.unwrap_or_else(|| surface.default_axes());
     let axes = columns(py, &inner, Some(&axes))?;
@@ -207,8 +216,7 @@ pub fn surface<'py>(
         };
         starts.push(launches.start(&begin));
     }
-    let first = ["start", "direction", "t"].map(str::to_string).into_iter();
-    let names = first.chain(axes.titles().iter().cloned()).collect();
+    let titles = axes.titles().to_vec();
     let work = Work::on(threads);
     let count = work.threads();
     let found = work.alone(py, move || {
@@ -223,21 +231,32 @@ pub fn surface<'py>(
         liouville_flow::surface_section(&inner, &request, &starts, count, &|| ())
     })?;
     let found = found.map_err(|error| errors::of_flow(py, &error))?;
-    let rows = found.iter().enumerate().flat_map(|(index, orbit)| {
+    Ok(of_surface(py, titles, &found))
+}
+
+/// Crossings of a surface as data, with these titles of the axes.
+pub fn of_surface<'py>(
+    py: Python<'py>,
+    titles: Vec<String>,
+    orbits: &[SurfaceOrbit],
+) -> Crossings<'py> {
+    let rows = orbits.iter().enumerate().flat_map(|(index, orbit)| {
         orbit.crossings.iter().flat_map(move |met| {
             let direction = if met.rising { 1.0 } else { -1.0 };
             [index as f64, direction, met.time].into_iter().chain(met.at.iter().copied())
         })
     });
-    let problems = found
+    let problems = orbits
         .iter()
         .enumerate()
         .filter_map(|(index, orbit)| orbit.problem.as_ref().map(|error| problem(index, error)));
-    Ok(((names, bytes(py, rows)), problems.collect()))
+    let first = ["start", "direction", "t"].map(str::to_string).into_iter();
+    ((first.chain(titles).collect(), bytes(py, rows)), problems.collect())
 }
 
 /// Names and values of the axes of a chart, and its cells: class, exponent, error, divergence.
-type Chart<'py> = ([(String, Bound<'py, PyByteArray>); 2], Bound<'py, PyByteArray>, Vec<Problem>);
+pub type Chart<'py> =
+    ([(String, Bound<'py, PyByteArray>); 2], Bound<'py, PyByteArray>, Vec<Problem>);
 
 /// Classifies the motions of a plane.
 #[pyfunction]
@@ -257,7 +276,7 @@ pub fn chart<'py>(
     let inner = Arc::clone(&case.inner);
     moving(py, &inner)?;
     let axis = |argument: &str, text: &str, count: usize| {
-        Axis::read(&inner, text, count)
+        ChartAxis::read(&inner, text, count)
             .map_err(|mistake| errors::of_axis(py, argument, text, &mistake))
     };
     let ((x_name, x), (y_name, y)) = (axis("x", x, size[0])?, axis("y", y, size[1])?);
@@ -269,16 +288,25 @@ pub fn chart<'py>(
     let axes = [x, y];
     let launch = choice(place, seed)?.launch(&inner, &axes, state);
     let launch = launch.map_err(|error| errors::of_choice(py, &error))?;
-    let values = axes.each_ref().map(|axis| {
-        let at = |index: usize| axis.value(index).to_f64().0;
-        bytes(py, (0..axis.count).map(at))
-    });
-    let [x, y] = values;
-    let request = PlaneRequest { axes, launch, time, seed };
+    let request = PlaneRequest { axes: axes.clone(), launch, time, seed };
     let work = Work::on(threads);
     let count = work.threads();
     let cells = work.alone(py, move || liouville_flow::plane(&inner, &request, count, &|| ()))?;
     let cells = cells.map_err(|error| errors::of_flow(py, &error))?;
+    Ok(of_chart(py, [x_name, y_name], &axes, &cells))
+}
+
+/// Cells of a chart as data.
+pub fn of_chart<'py>(
+    py: Python<'py>,
+    [x_name, y_name]: [String; 2],
+    axes: &[ChartAxis; 2],
+    cells: &[Result<Exponents, FlowError>],
+) -> Chart<'py> {
+    let [x, y] = axes.each_ref().map(|axis| {
+        let at = |index: usize| axis.value(index).to_f64().0;
+        bytes(py, (0..axis.count).map(at))
+    });
     let numbers = cells.iter().flat_map(|cell| match cell {
         Ok(found) => {
             let class = Character::ALL.iter().position(|own| *own == found.character);
@@ -291,7 +319,7 @@ pub fn chart<'py>(
     let numbers = bytes(py, numbers);
     let problems = cells.iter().enumerate();
     let problems = problems.filter_map(|(index, cell)| Some(problem(index, cell.as_ref().err()?)));
-    Ok(([(x_name, x), (y_name, y)], numbers, problems.collect()))
+    ([(x_name, x), (y_name, y)], numbers, problems.collect())
 }
 
 /// Lyapunov exponents of motions with the same parameters; returns what `exponents --json` prints.

@@ -3,7 +3,7 @@
 use liouville::formula::Formula;
 use liouville::graph::{Step, record};
 use liouville::mechanics::{Phase, components};
-use liouville::number::{Function, Operation};
+use liouville::number::{BinaryOperation, UnaryFunction};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 
@@ -73,25 +73,25 @@ fn written(step: Step<'_>) -> Value {
     }
 }
 
-fn named(function: Function) -> &'static str {
+fn named(function: UnaryFunction) -> &'static str {
     match function {
-        Function::Neg => "neg",
-        Function::Recip => "recip",
-        Function::Sqrt => "sqrt",
-        Function::Abs => "abs",
-        Function::Exp => "exp",
-        Function::Ln => "log",
-        Function::Sin => "sin",
-        Function::Cos => "cos",
-        Function::Atan => "atan",
+        UnaryFunction::Neg => "neg",
+        UnaryFunction::Recip => "recip",
+        UnaryFunction::Sqrt => "sqrt",
+        UnaryFunction::Abs => "abs",
+        UnaryFunction::Exp => "exp",
+        UnaryFunction::Ln => "log",
+        UnaryFunction::Sin => "sin",
+        UnaryFunction::Cos => "cos",
+        UnaryFunction::Atan => "atan",
     }
 }
 
-fn joined(operation: Operation) -> &'static str {
+fn joined(operation: BinaryOperation) -> &'static str {
     match operation {
-        Operation::Add => "add",
-        Operation::Sub => "sub",
-        Operation::Mul => "mul",
-        Operation::Pow => "pow",
+        BinaryOperation::Add => "add",
+        BinaryOperation::Sub => "sub",
+        BinaryOperation::Mul => "mul",
+        BinaryOperation::Pow => "pow",
     }
 }

@@ -2,12 +2,12 @@
 
 use super::error::{Mistake, Problem};
 use super::formulas::formula;
-use super::order::{Item, ItemKind, Stage};
+use super::order::{ItemKind, Stage, WaitingName};
 use super::parameters::named;
-use super::section::Text;
+use super::section::SpannedStr;
 use super::systems::Reading;
 use crate::formula::{Formula, Type};
-use crate::mechanics::{Meaning, Reach};
+use crate::mechanics::{Dependence, Meaning};
 
 impl Reading<'_, '_> {
     /// Lists the names of `[let]`, without reading their formulas.
@@ -20,7 +20,11 @@ impl Reading<'_, '_> {
                 _ if known => self.taken(&name, key.span()),
                 None => self.mistakes().fail(&name),
                 Some(text) => {
-                    self.items.push(Item::new(name, key.span(), ItemKind::Abbreviation(text)));
+                    self.items.push(WaitingName::new(
+                        name,
+                        key.span(),
+                        ItemKind::Abbreviation(text),
+                    ));
                 }
             }
         }
@@ -35,7 +39,7 @@ impl Reading<'_, '_> {
     pub(super) fn abbreviate(
         &mut self,
         item: usize,
-        text: &Text,
+        text: &SpannedStr,
         stage: Stage,
     ) -> Result<(), Mistake> {
         let name = self.items[item].name.clone();
@@ -48,12 +52,14 @@ impl Reading<'_, '_> {
                 return Err(Mistake::at(place, problem));
             }
         };
-        let reach = if stage == Stage::Parameters { Reach::Parameters } else { Reach::Phase };
+        let reach =
+            if stage == Stage::Parameters { Dependence::Parameters } else { Dependence::Phase };
         let read = formula(text, &self.vocabulary, &name, None, reach)?;
-        let reach = self.vocabulary.reach(&read).map_or(Reach::Parameters, |entry| entry.reach);
+        let reach =
+            self.vocabulary.reach(&read).map_or(Dependence::Parameters, |entry| entry.reach);
         let kind = read.value_type();
         self.vocabulary.define(&name, self.abbreviations.len(), &read, reach);
-        if (kind, reach) == (Type::Scalar, Reach::Parameters)
+        if (kind, reach) == (Type::Scalar, Dependence::Parameters)
             && let Ok(whole) = Formula::whole_number(read.text(), &self.vocabulary)
         {
             self.vocabulary.set_whole(&name, whole);

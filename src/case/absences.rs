@@ -1,9 +1,9 @@
 //! Claims of absence in a case file.
 
-use super::claims::{Context, cell, expect, name, statements};
+use super::claims::{ClaimContext, cell, expect, name, statements};
 use super::entries::Entries;
 use super::error::Mistake;
-use super::section::Section;
+use super::section::CaseTable;
 use super::{AbsenceClaim, claims};
 use crate::claim::STATEMENTS;
 use crate::claim::absence::{ABSENCES, Absence};
@@ -13,14 +13,14 @@ use crate::claim::motion::MOTIONS;
 const COMMON: [&str; 5] = ["name", "source", "expect", "cell", "note"];
 
 /// Whether this is a claim of absence.
-pub fn is_about_absence(section: &Section<'_>) -> bool {
+pub fn is_about_absence(section: &CaseTable<'_>) -> bool {
     ABSENCES.iter().any(|key| section.value(key).is_some())
 }
 
 /// Reads one claim of absence; `taken` holds the names of those before it.
 pub fn read(
-    section: &Section<'_>,
-    context: &Context<'_>,
+    section: &CaseTable<'_>,
+    context: &ClaimContext<'_>,
     taken: &[String],
 ) -> Result<AbsenceClaim, Mistake> {
     let all = [ABSENCES, STATEMENTS, MOTIONS].concat();

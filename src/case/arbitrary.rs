@@ -15,9 +15,9 @@
 
 use super::error::Mistake;
 use super::parameters::{Setting, coefficients};
-use super::section::Section;
+use super::section::CaseTable;
 use crate::claim::{Jets, STATEMENTS, jets};
-use crate::mechanics::{Parameter, Polynomial, Potential, Range, Shape, Surface};
+use crate::mechanics::{Parameter, Potential, Range, Shape, Surface, SurfacePolynomial};
 
 /// Source of the arbitrary functions of a case.
 #[derive(Clone, Copy)]
@@ -29,7 +29,7 @@ pub struct Arbitrary<'a> {
 
 impl<'a> Arbitrary<'a> {
     /// Determines the jets that the claims of the file need.
-    pub fn of(root: &Section<'_>, settings: &'a [Setting]) -> Self {
+    pub fn of(root: &CaseTable<'_>, settings: &'a [Setting]) -> Self {
         let claims = root.tables("claim");
         let is_made = |key: &&&'static str| claims.iter().any(|claim| claim.value(key).is_some());
         let needed = STATEMENTS.iter().filter(is_made).map(|key| jets(key)).max();
@@ -39,7 +39,7 @@ impl<'a> Arbitrary<'a> {
     /// An arbitrary smooth surface.
     pub fn support(&self, parameters: &mut Vec<Parameter>) -> Result<Shape, Mistake> {
         let degree = self.degree([3, 4, 6]);
-        let polynomial = Polynomial::on_sphere(degree, parameters.len());
+        let polynomial = SurfacePolynomial::on_sphere(degree, parameters.len());
         self.declare("h", &polynomial, parameters)?;
         Ok(Shape::Arbitrary(polynomial))
     }
@@ -47,7 +47,7 @@ impl<'a> Arbitrary<'a> {
     /// An arbitrary surface of revolution.
     pub fn profile(&self, parameters: &mut Vec<Parameter>) -> Result<Shape, Mistake> {
         let degree = self.degree([3, 4, 6]);
-        let polynomial = Polynomial::on_interval(degree, parameters.len());
+        let polynomial = SurfacePolynomial::on_interval(degree, parameters.len());
         self.declare("p", &polynomial, parameters)?;
         Ok(Shape::ArbitraryProfile(polynomial))
     }
@@ -55,7 +55,7 @@ impl<'a> Arbitrary<'a> {
     /// Arbitrary level surfaces F(r) = const.
     pub fn level(&self, parameters: &mut Vec<Parameter>) -> Result<Surface, Mistake> {
         let degree = self.degree([3, 4, 6]);
-        let polynomial = Polynomial::in_space(degree, parameters.len());
+        let polynomial = SurfacePolynomial::in_space(degree, parameters.len());
         self.declare("F", &polynomial, parameters)?;
         Ok(Surface::Arbitrary(polynomial))
     }
@@ -68,8 +68,8 @@ impl<'a> Arbitrary<'a> {
     ) -> Result<Potential, Mistake> {
         let degree = self.degree([2, 3, 4]);
         let polynomial = match axial {
-            true => Polynomial::on_interval(degree, parameters.len()),
-            false => Polynomial::in_space(degree, parameters.len()),
+            true => SurfacePolynomial::on_interval(degree, parameters.len()),
+            false => SurfacePolynomial::in_space(degree, parameters.len()),
         };
         self.declare("U", &polynomial, parameters)?;
         Ok(Potential::Arbitrary(polynomial))
@@ -88,7 +88,7 @@ impl<'a> Arbitrary<'a> {
     fn declare(
         &self,
         prefix: &str,
-        polynomial: &Polynomial,
+        polynomial: &SurfacePolynomial,
         parameters: &mut Vec<Parameter>,
     ) -> Result<(), Mistake> {
         let size = if self.jets == Jets::TwoPoints { 10 } else { 5 };

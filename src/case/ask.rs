@@ -2,14 +2,14 @@
 
 use toml::de::DeTable;
 
-use super::claims::{self, Context};
+use super::claims::{self, ClaimContext};
 use super::error::{CaseError, Mistake, Problem};
 use super::formulas::formula;
 use super::mistakes::Mistakes;
 use super::parameters::named;
-use super::section::Section;
+use super::section::CaseTable;
 use super::{Case, PlacedClaim, toml_errors, variables};
-use crate::mechanics::{Model, Reach};
+use crate::mechanics::{Dependence, Model};
 
 /// Tables of a question.
 const KEYS: [&str; 4] = ["let", "variables", "poisson", "claim"];
@@ -49,7 +49,7 @@ impl Case {
         }
         let mistakes = Mistakes::default();
         let asked = {
-            let root = Section::new("the question", document.get_ref(), 0..0, text, &mistakes);
+            let root = CaseTable::new("the question", document.get_ref(), 0..0, text, &mistakes);
             self.asked(&root)
         };
         match mistakes.is_empty() {
@@ -58,7 +58,7 @@ impl Case {
         }
     }
 
-    fn asked(&self, root: &Section<'_>) -> Case {
+    fn asked(&self, root: &CaseTable<'_>) -> Case {
         root.allow(&KEYS);
         let mut asked = self.clone();
         asked.motions.clear();
@@ -72,7 +72,7 @@ impl Case {
         }
         let is_whole = root.mistakes().is_empty();
         let plan = asked.section.as_ref();
-        let context = Context { model: &asked.model, is_whole, plan, source: "" };
+        let context = ClaimContext { model: &asked.model, is_whole, plan, source: "" };
         let (mut stated, mut names) = (Vec::new(), Vec::new());
         for section in root.tables("claim") {
             let claim = claims::read(&section, &context, &names);
@@ -91,7 +91,7 @@ impl Case {
 
     /// Checks that the arbitrary functions, whose degree fits the claims of the file, fit this
     /// claim.
-    fn check_degrees(&self, claim: &PlacedClaim, section: &Section<'_>) -> Result<(), Mistake> {
+    fn check_degrees(&self, claim: &PlacedClaim, section: &CaseTable<'_>) -> Result<(), Mistake> {
         self.check_degree(claim.kind.name()).map_err(|(message, remedy)| {
             let (message, remedy) = (message.to_string(), remedy.to_string());
             section.complaint(Problem::Other { message, remedy })
@@ -100,18 +100,19 @@ impl Case {
 }
 
 /// Adds abbreviations, each of which may use those before it.
-fn abbreviate(section: &Section<'_>, model: &mut Model) {
+fn abbreviate(section: &CaseTable<'_>, model: &mut Model) {
     for (key, value) in section.entries() {
         let read = named(key).and_then(|name| {
             let text = section.as_text(key.get_ref(), value)?;
-            let read = formula(&text, &model.vocabulary, &name, None, Reach::Phase)?;
+            let read = formula(&text, &model.vocabulary, &name, None, Dependence::Phase)?;
             Ok((name, read))
         });
         let Some((name, read)) = section.keep(read) else {
             section.mistakes().fail(key.get_ref());
             continue;
         };
-        let reach = model.vocabulary.reach(&read).map_or(Reach::Parameters, |entry| entry.reach);
+        let reach =
+            model.vocabulary.reach(&read).map_or(Dependence::Parameters, |entry| entry.reach);
         model.vocabulary.define(&name, model.abbreviations.len(), &read, reach);
         model.abbreviations.push(read);
     }

@@ -4,15 +4,15 @@ use super::arbitrary::Arbitrary;
 use super::body::{formula_or, potential};
 use super::error::{Mistake, Problem};
 use super::formulas::formula;
-use super::section::{Section, Text};
+use super::section::{CaseTable, SpannedStr};
 use crate::formula::Type;
 use crate::mechanics::{
-    BallOnSurface, Meaning, NORMAL, Parameter, Reach, Shape, Surface, System, Vocabulary,
+    BallOnSurface, Dependence, Meaning, NORMAL, Parameter, Shape, Surface, System, Vocabulary,
 };
 
 /// Reads the table; the names of the system are declared. `None` where there is a mistake.
 pub fn read(
-    section: &Section<'_>,
+    section: &CaseTable<'_>,
     arbitrary: &Arbitrary<'_>,
     vocabulary: &mut Vocabulary,
     parameters: &mut Vec<Parameter>,
@@ -20,13 +20,14 @@ pub fn read(
     let scalar = Type::Scalar;
     let surface = section.keep(surface(section, arbitrary, vocabulary, parameters));
     // The potential is a function of the centre, which takes γ's place where Σ is given by h.
-    let centre = vocabulary.hide("r", Meaning::State(NORMAL), Type::VECTOR, Reach::Configuration);
+    let centre =
+        vocabulary.hide("r", Meaning::State(NORMAL), Type::VECTOR, Dependence::Configuration);
     let vocabulary = &*vocabulary;
     let mut of_centre = vocabulary.only_parameters();
     of_centre.bind("r", centre);
     let potential = section.keep(potential(section, arbitrary, &of_centre, "r3", parameters));
     let rotation = section.keep(section.text("rotation").and_then(|text| {
-        let read = |text| formula(&text, vocabulary, "Ω", Some(scalar), Reach::Parameters);
+        let read = |text| formula(&text, vocabulary, "Ω", Some(scalar), Dependence::Parameters);
         text.map(read).transpose()
     }));
     let rotating_frame = section.keep(is_rotating(section));
@@ -45,7 +46,7 @@ pub fn read(
     })))
 }
 
-fn is_rotating(section: &Section<'_>) -> Result<bool, Mistake> {
+fn is_rotating(section: &CaseTable<'_>) -> Result<bool, Mistake> {
     let turns = section.value("rotation").is_some();
     match section.text("frame")? {
         None => Ok(false),
@@ -60,15 +61,15 @@ fn is_rotating(section: &Section<'_>) -> Result<bool, Mistake> {
 }
 
 fn surface(
-    section: &Section<'_>,
+    section: &CaseTable<'_>,
     arbitrary: &Arbitrary<'_>,
     vocabulary: &Vocabulary,
     parameters: &mut Vec<Parameter>,
 ) -> Result<Surface, Mistake> {
     let read = |text, what: &str| {
-        formula(text, vocabulary, what, Some(Type::Scalar), Reach::Configuration)
+        formula(text, vocabulary, what, Some(Type::Scalar), Dependence::Configuration)
     };
-    let is_any = |text: &Text| text.value == "arbitrary";
+    let is_any = |text: &SpannedStr| text.value == "arbitrary";
     match (section.text("surface")?, section.text("support")?, section.text("profile")?) {
         (Some(text), None, None) if is_any(&text) => arbitrary.level(parameters),
         (Some(text), None, None) => Ok(Surface::Level(read(&text, "the surface")?)),

@@ -3,19 +3,19 @@
 use super::arbitrary::Arbitrary;
 use super::error::{Mistake, Problem};
 use super::formulas::formula;
-use super::kinds::Rolling;
+use super::kinds::RollingKind;
 use super::mistakes::Mistakes;
 use super::parameters::has;
-use super::section::{Section, Text};
+use super::section::{CaseTable, SpannedStr};
 use crate::formula::{Formula, Type};
 use crate::mechanics::{
-    Features, FlatBase, Parameter, Potential, Reach, RigidBody, Rubber, Shape, Spinning, System,
-    Vocabulary,
+    Dependence, Features, FlatBase, Parameter, Potential, RigidBody, Rubber, Shape, Spinning,
+    System, Vocabulary,
 };
 
 /// Reads the formula of a key, or the default text where the key is missing.
 pub(super) fn formula_or(
-    section: &Section<'_>,
+    section: &CaseTable<'_>,
     key: &'static str,
     default: &str,
     vocabulary: &Vocabulary,
@@ -23,11 +23,11 @@ pub(super) fn formula_or(
 ) -> Result<Formula, Mistake> {
     let text = match section.text(key)? {
         Some(text) => text,
-        None if has(vocabulary, default, kind) => Text::made(default.to_string(), 0..0),
+        None if has(vocabulary, default, kind) => SpannedStr::made(default.to_string(), 0..0),
         None if section.mistakes().has_failed(default) => {
             // the mistake is reported at its declaration
-            let text = Text::made(default.to_string(), section.span.clone());
-            return formula(&text, vocabulary, key, Some(kind), Reach::Parameters);
+            let text = SpannedStr::made(default.to_string(), section.span.clone());
+            return formula(&text, vocabulary, key, Some(kind), Dependence::Parameters);
         }
         None => {
             let remedy = match vocabulary.find(default).map(|entry| entry.kind) {
@@ -40,21 +40,21 @@ pub(super) fn formula_or(
             return Err(section.missing(key, &remedy));
         }
     };
-    formula(&text, vocabulary, &format!("`{key}`"), Some(kind), Reach::Parameters)
+    formula(&text, vocabulary, &format!("`{key}`"), Some(kind), Dependence::Parameters)
 }
 
 fn optional(
-    section: &Section<'_>,
+    section: &CaseTable<'_>,
     key: &'static str,
     vocabulary: &Vocabulary,
     kind: Type,
 ) -> Result<Option<Formula>, Mistake> {
     let Some(text) = section.text(key)? else { return Ok(None) };
-    formula(&text, vocabulary, &format!("`{key}`"), Some(kind), Reach::Parameters).map(Some)
+    formula(&text, vocabulary, &format!("`{key}`"), Some(kind), Dependence::Parameters).map(Some)
 }
 
 /// Names that a rolling body will have, judged by the keys alone.
-pub fn features(section: &Section<'_>, curved: bool, vocabulary: &Vocabulary) -> Features {
+pub fn features(section: &CaseTable<'_>, curved: bool, vocabulary: &Vocabulary) -> Features {
     Features {
         radius: has(vocabulary, "R", Type::Scalar),
         displacement: has(vocabulary, "c", Type::VECTOR),
@@ -66,8 +66,8 @@ pub fn features(section: &Section<'_>, curved: bool, vocabulary: &Vocabulary) ->
 
 /// Reads a body rolling on a plane or a sphere; `None` where there is a mistake.
 pub(super) fn rolling(
-    section: &Section<'_>,
-    way: Rolling,
+    section: &CaseTable<'_>,
+    way: RollingKind,
     arbitrary: &Arbitrary<'_>,
     vocabulary: &Vocabulary,
     parameters: &mut Vec<Parameter>,
@@ -83,7 +83,7 @@ pub(super) fn rolling(
     let potential = section.keep(potential(section, arbitrary, vocabulary, "γ3", parameters));
     let moment = section.keep(section.text("moment").and_then(|text| {
         let kind = Some(Type::VECTOR);
-        let read = |text| formula(&text, vocabulary, "`moment`", kind, Reach::Phase);
+        let read = |text| formula(&text, vocabulary, "`moment`", kind, Dependence::Phase);
         text.map(read).transpose()
     }));
     let body = RigidBody {
@@ -105,7 +105,7 @@ pub(super) fn rolling(
 }
 
 /// Reads a body with a flat part on a sphere; `None` where there is a mistake.
-pub fn flat_base(section: &Section<'_>, vocabulary: &Vocabulary) -> Option<System> {
+pub fn flat_base(section: &CaseTable<'_>, vocabulary: &Vocabulary) -> Option<System> {
     let constant =
         |key, default, kind| section.keep(formula_or(section, key, default, vocabulary, kind));
     let mass = constant("mass", "m", Type::Scalar);
@@ -123,7 +123,7 @@ pub fn flat_base(section: &Section<'_>, vocabulary: &Vocabulary) -> Option<Syste
 }
 
 fn shape(
-    section: &Section<'_>,
+    section: &CaseTable<'_>,
     arbitrary: &Arbitrary<'_>,
     vocabulary: &Vocabulary,
     parameters: &mut Vec<Parameter>,
@@ -144,8 +144,8 @@ fn shape(
              profile = \"…\", contact = \"…\"",
         ));
     }
-    let read = |text: &Text, what: &str, kind| {
-        formula(text, vocabulary, what, Some(kind), Reach::Configuration)
+    let read = |text: &SpannedStr, what: &str, kind| {
+        formula(text, vocabulary, what, Some(kind), Dependence::Configuration)
     };
     if let Some(text) = named {
         let support = named_shape(&text, vocabulary, section.mistakes())?;
@@ -160,7 +160,7 @@ fn shape(
         }
         return Ok(Shape::Profile(read(&text, "the profile", Type::Scalar)?));
     }
-    let text = support.unwrap_or_else(|| Text::made(String::new(), section.span.clone()));
+    let text = support.unwrap_or_else(|| SpannedStr::made(String::new(), section.span.clone()));
     if text.value == "arbitrary" {
         return arbitrary.support(parameters);
     }
@@ -169,7 +169,11 @@ fn shape(
 }
 
 /// Support function of a named shape.
-fn named_shape(text: &Text, vocabulary: &Vocabulary, mistakes: &Mistakes) -> Result<Text, Mistake> {
+fn named_shape(
+    text: &SpannedStr,
+    vocabulary: &Vocabulary,
+    mistakes: &Mistakes,
+) -> Result<SpannedStr, Mistake> {
     let (needs, kind, support) = match text.value.as_str() {
         "ball" => ("R", Type::Scalar, "R*|γ|"),
         "ellipsoid" => ("B", Type::MATRIX, "√(γ,B*γ)"),
@@ -211,13 +215,13 @@ fn named_shape(text: &Text, vocabulary: &Vocabulary, mistakes: &Mistakes) -> Res
         return Err(Mistake::at(text.span.clone(), Problem::Other { message, remedy }));
     }
     let displaced = if has(vocabulary, "c", Type::VECTOR) { " + (c,γ)" } else { "" };
-    Ok(Text::made(format!("{support}{displaced}"), text.span.clone()))
+    Ok(SpannedStr::made(format!("{support}{displaced}"), text.span.clone()))
 }
 
 /// Reads the potential U, given by a formula or arbitrary; `height` is the variable of an arbitrary
 /// function of one.
 pub(super) fn potential(
-    section: &Section<'_>,
+    section: &CaseTable<'_>,
     arbitrary: &Arbitrary<'_>,
     vocabulary: &Vocabulary,
     height: &str,
@@ -231,7 +235,8 @@ pub(super) fn potential(
         (_, Some(name)) if name.replace(['[', ']'], "") == height => true,
         _ => {
             let what = "the potential";
-            let read = formula(&text, vocabulary, what, Some(Type::Scalar), Reach::Configuration)?;
+            let read =
+                formula(&text, vocabulary, what, Some(Type::Scalar), Dependence::Configuration)?;
             return Ok(Some(Potential::Formula(read)));
         }
     };

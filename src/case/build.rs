@@ -4,13 +4,13 @@ use std::collections::BTreeSet;
 
 use toml::de::DeTable;
 
-use super::claims::{self, Context};
+use super::claims::{self, ClaimContext};
 use super::error::{CaseError, Mistake, Problem};
 use super::mistakes::Mistakes;
 use super::parameters::{self, Setting};
-use super::section::Section;
+use super::section::CaseTable;
 use super::state::TIME;
-use super::systems::{Parts, Reading};
+use super::systems::{ModelParts, Reading};
 use super::{
     AbsenceClaim, Case, Column, MotionClaim, PlacedClaim, TABLE_ROWS, absences, charts,
     homogeneous, lists, map, one_sided, poincare, remarks, shadows, toml_errors, variables,
@@ -94,7 +94,7 @@ impl Attempt {
         let mistakes = Mistakes::default();
         let mut lists = Vec::new();
         let case = {
-            let root = Section::new("the file", table, 0..0, text, &mistakes);
+            let root = CaseTable::new("the file", table, 0..0, text, &mistakes);
             read(&root, settings, assumed, &mut lists)
         };
         Self { case, mistakes: mistakes.into_list(), lists }
@@ -108,7 +108,7 @@ impl Attempt {
 
 /// Reads a file; where there are mistakes, the result is invalid.
 fn read(
-    root: &Section<'_>,
+    root: &CaseTable<'_>,
     settings: &[Setting],
     assumed: &Assumed,
     lists: &mut Vec<String>,
@@ -155,13 +155,13 @@ fn read(
     read_chart(root, &mut parts);
     let section = poincare::read(root);
     let plan_is_whole = section.is_some() || root.value("section").is_none();
-    let context = Context {
+    let context = ClaimContext {
         model: &parts.model,
         is_whole: is_whole && plan_is_whole,
         plan: section.as_ref(),
         source: &source,
     };
-    let Stated { claims, motions, absences } = read_claims(root, &context);
+    let ReadClaims { claims, motions, absences } = read_claims(root, &context);
     let check = root.keep(root.boolean("check-weights")).flatten().unwrap_or(true);
     let dimensions = root.table("dimensions");
     let column = root.keep(column(root)).flatten();
@@ -175,7 +175,7 @@ fn read(
     let hidden = parts.hidden.iter().map(|name| shadows::warning(name));
     let alike = parts.alike.iter().cloned();
     let warnings = hidden.chain(alike).chain(warnings).chain(of_chart(&parts)).collect();
-    let Parts { model, chart, free_draws, .. } = parts;
+    let ModelParts { model, chart, free_draws, .. } = parts;
     let is_without_claims = claims.is_empty() && motions.is_empty() && absences.is_empty();
     let remarks = remarks::remarks(root, &system, &model, &claims, is_without_claims);
     Some(Case {
@@ -198,7 +198,7 @@ fn read(
 }
 
 /// Rejects a table of rates in a map, and a table of images in a field.
-fn one_of_field_and_map(root: &Section<'_>, system: &str) {
+fn one_of_field_and_map(root: &CaseTable<'_>, system: &str) {
     let (unread, message, remedy) = match system {
         "map" => (
             "field",
@@ -215,14 +215,14 @@ fn one_of_field_and_map(root: &Section<'_>, system: &str) {
 
 /// Claims that can be read, by the way in which they are judged.
 #[derive(Default)]
-struct Stated {
+struct ReadClaims {
     claims: Vec<PlacedClaim>,
     motions: Vec<MotionClaim>,
     absences: Vec<AbsenceClaim>,
 }
 
-fn read_claims(root: &Section<'_>, context: &Context<'_>) -> Stated {
-    let (mut stated, mut names) = (Stated::default(), Vec::new());
+fn read_claims(root: &CaseTable<'_>, context: &ClaimContext<'_>) -> ReadClaims {
+    let (mut stated, mut names) = (ReadClaims::default(), Vec::new());
     for section in root.tables("claim") {
         if claims::is_misspelt(&section) {
             continue;
@@ -245,7 +245,7 @@ fn read_claims(root: &Section<'_>, context: &Context<'_>) -> Stated {
 }
 
 /// Rejects a level equation with an ∫: its open constant does not fix a level set.
-fn no_open_level(root: &Section<'_>, model: &Model) -> Result<(), Mistake> {
+fn no_open_level(root: &CaseTable<'_>, model: &Model) -> Result<(), Mistake> {
     for equation in &model.level {
         let LevelFunction::Formula(function) = &equation.function else { continue };
         if model.has_antiderivative(function) {
@@ -280,7 +280,7 @@ pub fn extend_support(model: &mut Model) {
 }
 
 /// Reads the chart of a user-defined level set: given, solved for, or none.
-fn read_chart(root: &Section<'_>, parts: &mut Parts) {
+fn read_chart(root: &CaseTable<'_>, parts: &mut ModelParts) {
     let is_lagrangian = matches!(parts.model.system, System::Lagrangian(_));
     let Some(section) = root.table("level") else {
         if is_lagrangian && !parts.model.level.is_empty() {
@@ -313,7 +313,7 @@ fn read_chart(root: &Section<'_>, parts: &mut Parts) {
 }
 
 /// Warnings for a chart that may not cover the whole level set.
-fn of_chart(parts: &Parts) -> Vec<String> {
+fn of_chart(parts: &ModelParts) -> Vec<String> {
     match &parts.chart {
         Chart::Given(_) => {
             vec!["verdicts on the level speak of the image of [level.chart]".to_string()]
@@ -322,7 +322,7 @@ fn of_chart(parts: &Parts) -> Vec<String> {
     }
 }
 
-fn column(root: &Section<'_>) -> Result<Option<Column>, Mistake> {
+fn column(root: &CaseTable<'_>) -> Result<Option<Column>, Mistake> {
     let Some(section) = root.section("table")? else { return Ok(None) };
     let remedy = "write table = { number = 1, column = 2 }";
     let table = section.integer("number")?.ok_or_else(|| section.missing("number", remedy))?;

@@ -2,17 +2,17 @@
 
 use super::error::{Mistake, Problem};
 use super::formulas::formula;
-use super::section::Section;
+use super::section::CaseTable;
 use super::state::{self, State, TIME};
 use crate::formula::{Formula, Type, canonical_name};
-use crate::mechanics::{Chart, Draw, GivenChart, Meaning, Model, Reach, Variable, Vocabulary};
+use crate::mechanics::{Chart, Dependence, Draw, GivenChart, Meaning, Model, Variable, Vocabulary};
 
 /// Reads the table: inputs with ranges, and a formula for each state variable; `None` where there
 /// is a mistake.
 ///
 /// The formulas may use the parameters, abbreviations made of them, and the inputs. `draws` are
 /// those of the state's components.
-pub fn chart(section: &Section<'_>, model: &Model, draws: &[Draw]) -> Option<Chart> {
+pub fn chart(section: &CaseTable<'_>, model: &Model, draws: &[Draw]) -> Option<Chart> {
     let Some(table) = section.keep(section.section("inputs"))? else {
         let remedy = "a chart needs inputs = { u = \"-2..2\", … }";
         section.mistakes().add(section.missing("inputs", remedy));
@@ -24,9 +24,9 @@ pub fn chart(section: &Section<'_>, model: &Model, draws: &[Draw]) -> Option<Cha
     let mut names: Vocabulary = model.vocabulary.only(|entry| {
         let is_input =
             matches!(entry.meaning, Meaning::Abbreviation(_)) && own.contains(&entry.name);
-        entry.reach == Reach::Parameters && !is_input
+        entry.reach == Dependence::Parameters && !is_input
     });
-    let mut inputs = state::state(&table, &mut names, Reach::Phase);
+    let mut inputs = state::state(&table, &mut names, Dependence::Phase);
     add_time(section, model, &mut names, &mut inputs, draws);
     let mut formulas: Vec<Option<Formula>> = vec![None; model.state.len()];
     let mut broken = false;
@@ -48,12 +48,13 @@ pub fn chart(section: &Section<'_>, model: &Model, draws: &[Draw]) -> Option<Cha
         };
         let kind = model.state[index].kind;
         let text = section.as_text(key.get_ref(), value);
-        let read = text.and_then(|text| formula(&text, &names, &name, Some(kind), Reach::Phase));
+        let read =
+            text.and_then(|text| formula(&text, &names, &name, Some(kind), Dependence::Phase));
         match section.keep(read) {
             Some(read) => {
                 // Later formulas may use this variable.
                 let meaning = Meaning::Abbreviation(abbreviations.len());
-                names.add(&name, meaning, kind, Reach::Phase);
+                names.add(&name, meaning, kind, Dependence::Phase);
                 abbreviations.push(read.clone());
                 formulas[index] = Some(read);
             }
@@ -96,7 +97,7 @@ pub fn chart(section: &Section<'_>, model: &Model, draws: &[Draw]) -> Option<Cha
 
 /// Adds time as an input where the chart gives no formula for it.
 fn add_time(
-    section: &Section<'_>,
+    section: &CaseTable<'_>,
     model: &Model,
     names: &mut Vocabulary,
     inputs: &mut State,
@@ -108,6 +109,6 @@ fn add_time(
     if own.kind == Type::Scalar && !is_given {
         let first = model.state[..index].iter().map(Variable::len).sum();
         let draws = draws.get(first..=first).unwrap_or_default().to_vec();
-        inputs.add(TIME, own.kind, draws, names, Reach::Phase);
+        inputs.add(TIME, own.kind, draws, names, Dependence::Phase);
     }
 }

@@ -2,11 +2,11 @@
 
 use super::entries::{Entries, other, place_of};
 use super::error::{Mistake, Problem};
-use super::section::Section;
+use super::section::CaseTable;
 use super::{Expect, MotionClaim, PlacedClaim, SectionPlan, TABLE_ROWS};
 use crate::claim::absence::ABSENCES;
-use crate::claim::motion::{Beginning, MOTIONS, Motion};
-use crate::claim::{Kind, Place, Reader, STATEMENTS};
+use crate::claim::motion::{Beginning, MOTIONS, MotionKind};
+use crate::claim::{ClaimKind, LevelSubset, Reader, STATEMENTS};
 use crate::mechanics::Model;
 
 /// Keys common to all claims.
@@ -17,20 +17,22 @@ const COMMON_OF_MOTIONS: [&str; 4] = ["name", "source", "expect", "note"];
 
 /// Keys of a claim: each statement, with the keys that may stand beside it.
 pub fn claim_keys() -> Vec<(&'static str, Vec<&'static str>)> {
-    let stated = STATEMENTS.iter().map(|key| (*key, [&COMMON, Kind::companions(key)].concat()));
+    let stated =
+        STATEMENTS.iter().map(|key| (*key, [&COMMON, ClaimKind::companions(key)].concat()));
     let motions = MOTIONS.iter();
-    let motions = motions.map(|key| (*key, [&COMMON_OF_MOTIONS, Motion::companions(key)].concat()));
+    let motions =
+        motions.map(|key| (*key, [&COMMON_OF_MOTIONS, MotionKind::companions(key)].concat()));
     let absences = ABSENCES.iter().map(|key| (*key, COMMON.to_vec()));
     stated.chain(motions).chain(absences).collect()
 }
 
 /// Whether this is a claim about motion.
-pub fn is_about_motion(section: &Section<'_>) -> bool {
+pub fn is_about_motion(section: &CaseTable<'_>) -> bool {
     MOTIONS.iter().any(|key| section.value(key).is_some())
 }
 
 /// Whether the claim has no statement because its key is misspelt, which is then reported.
-pub fn is_misspelt(section: &Section<'_>) -> bool {
+pub fn is_misspelt(section: &CaseTable<'_>) -> bool {
     let states = |key: &&str| section.has(key);
     if STATEMENTS.iter().chain(MOTIONS).chain(ABSENCES).any(states) {
         return false;
@@ -39,7 +41,7 @@ pub fn is_misspelt(section: &Section<'_>) -> bool {
 }
 
 /// Context in which claims are read.
-pub struct Context<'c> {
+pub struct ClaimContext<'c> {
     /// Model of the case.
     pub model: &'c Model,
     /// Whether the case was read without mistakes.
@@ -52,8 +54,8 @@ pub struct Context<'c> {
 
 /// Reads one claim; `taken` holds the names of those before it.
 pub fn read(
-    section: &Section<'_>,
-    context: &Context<'_>,
+    section: &CaseTable<'_>,
+    context: &ClaimContext<'_>,
     taken: &[String],
 ) -> Result<PlacedClaim, Mistake> {
     let model = context.model;
@@ -87,7 +89,7 @@ pub fn read(
 }
 
 /// The mistake of changing a number on which sizes and indices depend.
-fn rigid_parameter(section: &Section<'_>, key: &'static str, name: &str) -> Mistake {
+fn rigid_parameter(section: &CaseTable<'_>, key: &'static str, name: &str) -> Mistake {
     let span = place_of(section, key);
     let message =
         format!("`{name}` is used in a size, an index or a power of a matrix, and cannot change");
@@ -97,23 +99,24 @@ fn rigid_parameter(section: &Section<'_>, key: &'static str, name: &str) -> Mist
 
 /// Reads one claim about motion.
 pub fn read_motion(
-    section: &Section<'_>,
-    context: &Context<'_>,
+    section: &CaseTable<'_>,
+    context: &ClaimContext<'_>,
     taken: &[String],
 ) -> Result<MotionClaim, Mistake> {
     let model = context.model;
     // A companion of a claim about motion, such as density = "none", may be a statement elsewhere.
     let motion = MOTIONS.iter().find(|key| section.value(key).is_some()).copied();
-    let accompanies = |key: &&&str| Motion::companions(motion.unwrap_or_default()).contains(*key);
+    let accompanies =
+        |key: &&&str| MotionKind::companions(motion.unwrap_or_default()).contains(*key);
     let mut stated = MOTIONS
         .iter()
         .chain(STATEMENTS)
         .filter(|key| section.value(key).is_some())
         .filter(|key| !accompanies(key));
     let (key, second) = (stated.next().copied().unwrap_or_default(), stated.next());
-    section.allow(&[MOTIONS, STATEMENTS, &COMMON_OF_MOTIONS, Motion::companions(key)].concat());
+    section.allow(&[MOTIONS, STATEMENTS, &COMMON_OF_MOTIONS, MotionKind::companions(key)].concat());
     let entries = Entries { section, model };
-    let kind = match (Motion::read(key, &entries), second) {
+    let kind = match (MotionKind::read(key, &entries), second) {
         (Some(kind), None) => kind?,
         _ => return Err(statements(section, 2)),
     };
@@ -140,7 +143,7 @@ pub fn read_motion(
 }
 
 /// The mistake of a claim with no statement, or several.
-pub fn statements(section: &Section<'_>, given: usize) -> Mistake {
+pub fn statements(section: &CaseTable<'_>, given: usize) -> Mistake {
     let message = match given {
         0 => "this claim states nothing".to_string(),
         _ => format!("this claim makes {given} statements"),
@@ -152,10 +155,10 @@ pub fn statements(section: &Section<'_>, given: usize) -> Mistake {
     Mistake::at(section.span.clone(), Problem::Other { message, remedy })
 }
 
-fn kind(section: &Section<'_>, context: &Context<'_>) -> Result<Kind, Mistake> {
+fn kind(section: &CaseTable<'_>, context: &ClaimContext<'_>) -> Result<ClaimKind, Mistake> {
     let given: Vec<&str> =
         STATEMENTS.iter().copied().filter(|key| section.value(key).is_some()).collect();
-    let companions = given.first().map_or(&[][..], |key| Kind::companions(key));
+    let companions = given.first().map_or(&[][..], |key| ClaimKind::companions(key));
     section.allow(&[STATEMENTS, MOTIONS, &COMMON, companions].concat());
     let entries = Entries { section, model: context.model };
     match given.as_slice() {
@@ -171,18 +174,18 @@ fn kind(section: &Section<'_>, context: &Context<'_>) -> Result<Kind, Mistake> {
                           or position-density = \"exists\"";
             Err(entries.complaint("density", message, remedy))
         }
-        [key] => Kind::read(key, &entries).unwrap_or_else(|| Err(statements(section, 0))),
+        [key] => ClaimKind::read(key, &entries).unwrap_or_else(|| Err(statements(section, 0))),
         _ => Err(statements(section, given.len())),
     }
 }
 
 /// Source of the claim: that of the case unless it names its own.
-pub fn source(section: &Section<'_>, context: &Context<'_>) -> Result<String, Mistake> {
+pub fn source(section: &CaseTable<'_>, context: &ClaimContext<'_>) -> Result<String, Mistake> {
     Ok(section.text("source")?.map_or(context.source.to_string(), |text| text.value))
 }
 
 /// Name of a claim: the one given, or `base`, numbered where it is taken.
-pub fn name(section: &Section<'_>, base: String, taken: &[String]) -> Result<String, Mistake> {
+pub fn name(section: &CaseTable<'_>, base: String, taken: &[String]) -> Result<String, Mistake> {
     if let Some(text) = section.text("name")? {
         if taken.contains(&text.value) {
             let message = format!("two claims are called `{}`", text.value);
@@ -195,19 +198,22 @@ pub fn name(section: &Section<'_>, base: String, taken: &[String]) -> Result<Str
     Ok(std::iter::once(base.clone()).chain(numbered).find(free).unwrap_or(base))
 }
 
-fn place(section: &Section<'_>, context: &Context<'_>) -> Result<(Place, bool), Mistake> {
+fn place(
+    section: &CaseTable<'_>,
+    context: &ClaimContext<'_>,
+) -> Result<(LevelSubset, bool), Mistake> {
     let model = context.model;
-    let Some(text) = section.text("where")? else { return Ok((Place::level(model), false)) };
+    let Some(text) = section.text("where")? else { return Ok((LevelSubset::level(model), false)) };
     let equation = match text.value.trim() {
-        "level" => return Ok((Place::level(model), false)),
-        "level only" => return Ok((Place::level(model), true)),
-        "everywhere" => return Ok((Place::everywhere(model), false)),
+        "level" => return Ok((LevelSubset::level(model), false)),
+        "level only" => return Ok((LevelSubset::level(model), true)),
+        "everywhere" => return Ok((LevelSubset::everywhere(model), false)),
         equation => equation,
     };
-    match Place::equation(model, equation) {
+    match LevelSubset::equation(model, equation) {
         Some(place) => Ok((place, false)),
         // the level may have the equation, with a mistake in it
-        None if !context.is_whole => Ok((Place::level(model), false)),
+        None if !context.is_whole => Ok((LevelSubset::level(model), false)),
         None => {
             let equations: Vec<String> =
                 model.level.iter().map(|equation| format!("\"{}\"", equation.text)).collect();
@@ -225,7 +231,7 @@ fn place(section: &Section<'_>, context: &Context<'_>) -> Result<(Place, bool), 
 }
 
 /// The row of the paper's table that the claim fills.
-pub fn cell(section: &Section<'_>) -> Result<Option<String>, Mistake> {
+pub fn cell(section: &CaseTable<'_>) -> Result<Option<String>, Mistake> {
     match section.text("cell")? {
         Some(text) if !TABLE_ROWS.contains(&text.value.as_str()) => {
             let remedy = format!("the rows are {}", TABLE_ROWS.join(", "));
@@ -240,7 +246,7 @@ pub fn cell(section: &Section<'_>) -> Result<Option<String>, Mistake> {
 }
 
 /// Expectation that the file states for the claim.
-pub fn expect(section: &Section<'_>) -> Result<Expect, Mistake> {
+pub fn expect(section: &CaseTable<'_>) -> Result<Expect, Mistake> {
     let Some(text) = section.text("expect")? else { return Ok(Expect::Holds) };
     match text.value.as_str() {
         "holds" => Ok(Expect::Holds),

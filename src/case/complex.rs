@@ -2,16 +2,16 @@
 
 use super::error::{Mistake, Problem};
 use super::formulas::formula;
-use super::section::Text;
-use crate::claim::Complex;
+use super::section::SpannedStr;
+use crate::claim::ComplexFormula;
 use crate::formula::{Formula, Type};
-use crate::mechanics::{Reach, Vocabulary};
+use crate::mechanics::{Dependence, Vocabulary};
 
 /// Signs between real and imaginary part.
 const SIGNS: [&str; 2] = ["±", "+/-"];
 
 /// Reads `a`, or `a ± b*i`, where a may be left out.
-pub fn read(text: &Text, names: &Vocabulary) -> Result<Complex, Mistake> {
+pub fn read(text: &SpannedStr, names: &Vocabulary) -> Result<ComplexFormula, Mistake> {
     let written = text.value.as_str();
     let sign = SIGNS.iter().find_map(|sign| Some((written.find(sign)?, sign.len())));
     let Some((place, length)) = sign else { return Ok((scalar(text, names)?, None)) };
@@ -26,7 +26,7 @@ pub fn read(text: &Text, names: &Vocabulary) -> Result<Complex, Mistake> {
     };
     let part = |written: &str, range| {
         let written = if written.is_empty() { "0" } else { written };
-        scalar(&Text::made(written.to_string(), text.locate(range)), names)
+        scalar(&SpannedStr::made(written.to_string(), text.locate(range)), names)
     };
     Ok((part(real, 0..place)?, Some(part(factor, behind..text.value.len())?)))
 }
@@ -47,6 +47,6 @@ fn factor_of_i(text: &str) -> Option<&str> {
     }
 }
 
-fn scalar(text: &Text, names: &Vocabulary) -> Result<Formula, Mistake> {
-    formula(text, names, "an entry", Some(Type::Scalar), Reach::Phase)
+fn scalar(text: &SpannedStr, names: &Vocabulary) -> Result<Formula, Mistake> {
+    formula(text, names, "an entry", Some(Type::Scalar), Dependence::Phase)
 }

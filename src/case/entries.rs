@@ -8,15 +8,15 @@ use super::complex;
 use super::error::{Mistake, Problem};
 use super::field::sides;
 use super::formulas::formula;
-use super::section::{Section, Text};
-use crate::claim::{Complex, Reader};
+use super::section::{CaseTable, SpannedStr};
+use crate::claim::{ComplexFormula, Reader};
 use crate::formula::{Formula, Type, canonical_name, excerpt};
-use crate::mechanics::{Model, Reach, Vocabulary};
+use crate::mechanics::{Dependence, Model, Vocabulary};
 
 /// Entries of a claim in a case file.
 pub struct Entries<'e, 's> {
     /// Its table.
-    pub section: &'e Section<'s>,
+    pub section: &'e CaseTable<'s>,
     /// The case that it is about.
     pub model: &'e Model,
 }
@@ -47,7 +47,7 @@ impl Reader for Entries<'_, '_> {
         scope: &Vocabulary,
     ) -> Result<Option<Formula>, Mistake> {
         let Some(text) = self.section.text(key)? else { return Ok(None) };
-        formula(&text, scope, &format!("`{key}`"), kind, Reach::Phase).map(Some)
+        formula(&text, scope, &format!("`{key}`"), kind, Dependence::Phase).map(Some)
     }
 
     fn list_in(
@@ -59,16 +59,16 @@ impl Reader for Entries<'_, '_> {
             return Ok(None);
         }
         let texts = self.section.texts(key)?;
-        let read = |text: &Text| formula(text, scope, "an entry", None, Reach::Phase);
+        let read = |text: &SpannedStr| formula(text, scope, "an entry", None, Dependence::Phase);
         texts.iter().map(read).collect::<Result<_, _>>().map(Some)
     }
 
-    fn complex_list(&self, key: &'static str) -> Result<Option<Vec<Complex>>, Mistake> {
+    fn complex_list(&self, key: &'static str) -> Result<Option<Vec<ComplexFormula>>, Mistake> {
         if self.section.value(key).is_none() {
             return Ok(None);
         }
         let texts = self.section.texts(key)?;
-        let read = |text: &Text| complex::read(text, &self.model.vocabulary);
+        let read = |text: &SpannedStr| complex::read(text, &self.model.vocabulary);
         texts.iter().map(read).collect::<Result<_, _>>().map(Some)
     }
 
@@ -165,25 +165,25 @@ impl Reader for Entries<'_, '_> {
 
 /// Entries of a table of formulas: name and formula.
 fn formulas_of(
-    section: &Section<'_>,
+    section: &CaseTable<'_>,
     scope: &Vocabulary,
 ) -> Result<Vec<(String, Formula)>, Mistake> {
     let mut entries = Vec::new();
     for (key, value) in section.entries() {
         let name = canonical_name(key.get_ref()).unwrap_or_else(|| key.get_ref().to_string());
         let text = section.as_text(key.get_ref(), value)?;
-        let read = formula(&text, scope, &format!("`{name}`"), None, Reach::Phase)?;
+        let read = formula(&text, scope, &format!("`{name}`"), None, Dependence::Phase)?;
         entries.push((name, read));
     }
     Ok(entries)
 }
 
 /// Place of a key's value, or of its table.
-pub fn place_of(section: &Section<'_>, key: &'static str) -> Range<usize> {
+pub fn place_of(section: &CaseTable<'_>, key: &'static str) -> Range<usize> {
     section.value(key).map_or(section.span.clone(), |value| value.span())
 }
 
 /// The mistake in a text, with its remedy.
-pub fn other(text: &Text, message: String, remedy: &str) -> Mistake {
+pub fn other(text: &SpannedStr, message: String, remedy: &str) -> Mistake {
     Mistake::at(text.span.clone(), Problem::Other { message, remedy: remedy.to_string() })
 }

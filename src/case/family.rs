@@ -4,20 +4,20 @@ use std::ops::Range;
 
 use super::error::{Mistake, Problem};
 use super::formulas::inside;
-use super::section::Text;
+use super::section::SpannedStr;
 use crate::formula::{Formula, Type, canonical_name};
-use crate::mechanics::{Reach, Variable, Vocabulary};
+use crate::mechanics::{Dependence, Variable, Vocabulary};
 
 /// Key of `[field]`: the variable and the components whose rates it gives.
 pub struct Key {
     /// Name of the variable, without its prime.
     pub name: String,
-    indices: Vec<Index>,
+    indices: Vec<KeyIndex>,
 }
 
 /// Index of a key.
 #[derive(Clone)]
-enum Index {
+enum KeyIndex {
     /// A single component, counted from 0.
     One(usize),
     /// A range of components, under a name.
@@ -25,17 +25,17 @@ enum Index {
 }
 
 /// Rate of some components.
-struct Piece {
+struct ComponentRate {
     key: Range<usize>,
-    text: Text,
-    indices: Vec<Index>,
+    text: SpannedStr,
+    indices: Vec<KeyIndex>,
 }
 
 /// Rates of one variable, as they are given.
 #[derive(Default)]
 pub struct Rates {
-    whole: Option<(Range<usize>, Text)>,
-    pieces: Vec<Piece>,
+    whole: Option<(Range<usize>, SpannedStr)>,
+    pieces: Vec<ComponentRate>,
 }
 
 /// Reason why a key cannot be read.
@@ -99,16 +99,16 @@ impl Key {
                 })
             };
             match (Formula::whole_number(text, names), canonical_name(text)) {
-                (Ok(number), _) => Ok(Index::One(bound(number, number)?.start)),
+                (Ok(number), _) => Ok(KeyIndex::One(bound(number, number)?.start)),
                 (Err(_), Some(index)) => {
                     let own = ranges.iter().find(|(known, _, _)| *known == index);
                     let range = own.map_or(Ok(0..size), |(_, low, high)| bound(*low, *high))?;
-                    Ok(Index::Each(index, range))
+                    Ok(KeyIndex::Each(index, range))
                 }
                 _ => Err(wrong(format!("`{text}` is not an index"), FORM)),
             }
         });
-        let indices = indices.collect::<Result<Vec<Index>, Unreadable>>()?;
+        let indices = indices.collect::<Result<Vec<KeyIndex>, Unreadable>>()?;
         Ok((index, Self { name: name.to_string(), indices }))
     }
 }
@@ -136,13 +136,13 @@ fn ranges_of(text: &str, names: &Vocabulary) -> Result<Vec<(String, i64, i64)>, 
 
 impl Rates {
     /// Adds the rate given by one key; `false` if it was given before.
-    pub fn add(&mut self, key: Key, place: Range<usize>, text: Text) -> bool {
+    pub fn add(&mut self, key: Key, place: Range<usize>, text: SpannedStr) -> bool {
         if key.indices.is_empty() {
             let is_new = self.whole.is_none() && self.pieces.is_empty();
             self.whole.get_or_insert((place, text));
             return is_new;
         }
-        self.pieces.push(Piece { key: place, text, indices: key.indices });
+        self.pieces.push(ComponentRate { key: place, text, indices: key.indices });
         self.whole.is_none()
     }
 
@@ -156,7 +156,7 @@ impl Rates {
         &self,
         variable: &Variable,
         names: &Vocabulary,
-        reach: Reach,
+        reach: Dependence,
     ) -> Result<Vec<Formula>, Mistake> {
         let what = format!("the rate of {}", variable.name);
         if let Some((_, text)) = &self.whole {
@@ -179,7 +179,7 @@ impl Rates {
         variable: &Variable,
         names: &Vocabulary,
         what: &str,
-        reach: Reach,
+        reach: Dependence,
     ) -> Result<Vec<Formula>, Mistake> {
         let count = self.pieces.first().map_or(1, |piece| piece.indices.len());
         if let Some(other) = self.pieces.iter().find(|piece| piece.indices.len() != count) {
@@ -210,8 +210,8 @@ impl Rates {
     }
 
     /// Piece that gives the rate of a component: the piece for it alone, or else its family.
-    fn piece_of(&self, variable: &Variable, place: &[usize]) -> Result<&Piece, Mistake> {
-        let mut best: Option<&Piece> = None;
+    fn piece_of(&self, variable: &Variable, place: &[usize]) -> Result<&ComponentRate, Mistake> {
+        let mut best: Option<&ComponentRate> = None;
         for piece in self.pieces.iter().filter(|piece| piece.holds(place)) {
             match best {
                 Some(known) if known.free() == piece.free() => {
@@ -261,23 +261,25 @@ fn component(variable: &Variable, place: &[usize]) -> String {
     format!("{}[{}]", variable.name, indices.join(","))
 }
 
-impl Piece {
+impl ComponentRate {
     /// Number of indices that have a name.
     fn free(&self) -> usize {
-        self.indices.iter().filter(|index| matches!(index, Index::Each(..))).count()
+        self.indices.iter().filter(|index| matches!(index, KeyIndex::Each(..))).count()
     }
 
     fn holds(&self, place: &[usize]) -> bool {
         self.indices.iter().zip(place).all(|(index, at)| match index {
-            Index::One(only) => only == at,
-            Index::Each(_, range) => range.contains(at),
+            KeyIndex::One(only) => only == at,
+            KeyIndex::Each(_, range) => range.contains(at),
         })
     }
 
     /// Text around the formula of a family that covers a whole variable, to make one formula of it.
     fn whole_of(&self, kind: Type) -> Option<(String, &'static str)> {
-        let covers = |index: &Index, size: usize| match index {
-            Index::Each(name, range) if *range == (0..size) => Some(format!("{name}, 1..{size}, ")),
+        let covers = |index: &KeyIndex, size: usize| match index {
+            KeyIndex::Each(name, range) if *range == (0..size) => {
+                Some(format!("{name}, 1..{size}, "))
+            }
             _ => None,
         };
         let (form, sizes) = match kind {
@@ -295,8 +297,8 @@ impl Piece {
         let pairs = self.indices.iter().zip(place);
         let heads: Vec<String> = pairs
             .filter_map(|(index, at)| match index {
-                Index::One(_) => None,
-                Index::Each(name, _) => Some(format!("sum({name}, {0}..{0}, ", at + 1)),
+                KeyIndex::One(_) => None,
+                KeyIndex::Each(name, _) => Some(format!("sum({name}, {0}..{0}, ", at + 1)),
             })
             .collect();
         (heads.concat(), ")".repeat(heads.len()))

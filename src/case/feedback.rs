@@ -1,15 +1,15 @@
 //! Check against circular definitions of a body.
 
 use super::error::{Mistake, Problem};
-use super::section::Section;
+use super::section::CaseTable;
 use super::systems::Reading;
-use crate::mechanics::{Entry, Meaning, Quantity, Shape, Surface, System};
+use crate::mechanics::{Meaning, Quantity, Shape, Surface, System, VocabularyEntry};
 
 /// Checks that the definition of a body does not depend on quantities it determines: the potential
 /// on U, the surface on h, a moment of forces on the acceleration.
 pub fn none(
     reading: &Reading<'_, '_>,
-    section: &Section<'_>,
+    section: &CaseTable<'_>,
     system: &System,
 ) -> Result<(), Mistake> {
     use Quantity::{AngularAcceleration, Multiplier, Potential as OwnPotential, Support};
@@ -42,7 +42,7 @@ pub fn none(
     ];
     for (formula, determined, remedy) in given {
         let Some((key, formula)) = formula else { continue };
-        let is_determined = |entry: &&Entry| match entry.meaning {
+        let is_determined = |entry: &&VocabularyEntry| match entry.meaning {
             Meaning::Quantity(quantity) => determined.contains(&quantity),
             _ => false,
         };

@@ -3,17 +3,19 @@
 use super::error::{Mistake, Problem};
 use super::family::{Key, Rates, Unreadable};
 use super::formulas::formula;
-use super::section::{Section, Text};
+use super::section::{CaseTable, SpannedStr};
 use super::state::TIME;
 use crate::formula::{Formula, Type, excerpt};
-use crate::mechanics::{LevelEquation, LevelFunction, Reach, RootEquation, Variable, Vocabulary};
+use crate::mechanics::{
+    Dependence, LevelEquation, LevelFunction, RootEquation, Variable, Vocabulary,
+};
 
 /// Reads the formulas of each variable whose rate is given, under its name with or without a prime.
 pub fn given_rates(
-    section: &Section<'_>,
+    section: &CaseTable<'_>,
     variables: &[Variable],
     vocabulary: &Vocabulary,
-    reach: Reach,
+    reach: Dependence,
 ) -> Vec<GivenRate> {
     let mut rates: Vec<Rates> = variables.iter().map(|_| Rates::default()).collect();
     let mut broken = vec![false; variables.len()];
@@ -79,7 +81,7 @@ fn unknown_rate(key: &str, unreadable: Unreadable, variables: &[Variable]) -> Pr
 
 /// Reads the rates of all variables; `None` if one is missing, or wrong.
 pub fn rates(
-    section: &Section<'_>,
+    section: &CaseTable<'_>,
     variables: &[Variable],
     vocabulary: &Vocabulary,
 ) -> Option<Vec<Formula>> {
@@ -88,7 +90,7 @@ pub fn rates(
 
 /// Reads the images of all variables under a map; nothing if one is missing, or wrong.
 pub fn images(
-    section: &Section<'_>,
+    section: &CaseTable<'_>,
     variables: &[Variable],
     vocabulary: &Vocabulary,
 ) -> Option<Vec<Formula>> {
@@ -96,12 +98,12 @@ pub fn images(
 }
 
 fn all_of(
-    section: &Section<'_>,
+    section: &CaseTable<'_>,
     variables: &[Variable],
     vocabulary: &Vocabulary,
     are_rates: bool,
 ) -> Option<Vec<Formula>> {
-    let given = given_rates(section, variables, vocabulary, Reach::Phase);
+    let given = given_rates(section, variables, vocabulary, Dependence::Phase);
     let mut all = Some(Vec::new());
     for (variable, rate) in variables.iter().zip(given) {
         let formulas = match rate {
@@ -142,8 +144,8 @@ fn one(vocabulary: &Vocabulary) -> Result<Formula, Mistake> {
 }
 
 /// Reads `equations = ["(γ,γ) = 1", …]`; `None` if one is wrong.
-pub fn equations(section: &Section<'_>, vocabulary: &Vocabulary) -> Option<Vec<LevelEquation>> {
-    let read = equations_in(section, "equations", vocabulary, Reach::Phase)?.into_iter();
+pub fn equations(section: &CaseTable<'_>, vocabulary: &Vocabulary) -> Option<Vec<LevelEquation>> {
+    let read = equations_in(section, "equations", vocabulary, Dependence::Phase)?.into_iter();
     let equation = |(text, function): (String, Formula)| {
         let sides = both_sides(&text, vocabulary);
         level_equation(text, function, sides)
@@ -178,10 +180,10 @@ pub fn level_equation(
 /// Reads a list of equations as texts and differences of both sides, which may depend on no more
 /// than `reach`; `None` if one is wrong.
 pub fn equations_in(
-    section: &Section<'_>,
+    section: &CaseTable<'_>,
     key: &'static str,
     vocabulary: &Vocabulary,
-    reach: Reach,
+    reach: Dependence,
 ) -> Option<Vec<(String, Formula)>> {
     let texts = section.keep(section.texts(key))?;
     let read: Vec<Option<(String, Formula)>> =
@@ -205,10 +207,10 @@ pub fn sides(text: &str) -> Option<(&str, &str, usize)> {
 }
 
 fn equation(
-    text: &Text,
+    text: &SpannedStr,
     key: &str,
     vocabulary: &Vocabulary,
-    reach: Reach,
+    reach: Dependence,
 ) -> Result<(String, Formula), Mistake> {
     let Some((left, right, second)) = sides(&text.value) else {
         let message = format!("each of `{key}` has two sides");
@@ -229,7 +231,7 @@ fn equation(
         "0" => left.trim().to_string(),
         _ => format!("({left}) − ({right})"),
     };
-    let difference = Text::made(difference, text.span.clone());
+    let difference = SpannedStr::made(difference, text.span.clone());
     let scalar = Some(Type::Scalar);
     let function = formula(&difference, vocabulary, "each side", scalar, reach)?;
     Ok((text.value.trim().to_string(), function))

@@ -1,29 +1,29 @@
 //! Formulas of a file: parsed with the known names, checked for type and dependence.
 
 use super::error::{Mistake, Problem};
-use super::section::Text;
+use super::section::SpannedStr;
 use crate::formula::{Formula, Scope, Type};
-use crate::mechanics::{Meaning, Reach, Vocabulary};
+use crate::mechanics::{Dependence, Meaning, Vocabulary};
 
 /// Reads a formula, and checks its type and the names it depends on.
 pub fn formula(
-    text: &Text,
+    text: &SpannedStr,
     vocabulary: &Vocabulary,
     what: &str,
     expected: Option<Type>,
-    reach: Reach,
+    reach: Dependence,
 ) -> Result<Formula, Mistake> {
     inside(text, ("", ""), vocabulary, what, expected, reach)
 }
 
 /// Reads a formula whose beginning and end are supplied, and whose middle stands in the file.
 pub fn inside(
-    text: &Text,
+    text: &SpannedStr,
     (before, after): (&str, &str),
     vocabulary: &Vocabulary,
     what: &str,
     expected: Option<Type>,
-    reach: Reach,
+    reach: Dependence,
 ) -> Result<Formula, Mistake> {
     let whole = || text.locate(0..text.value.len());
     if !before.is_empty() && !is_balanced(&text.value) {
@@ -49,7 +49,7 @@ pub fn inside(
     match vocabulary.reach(&formula) {
         Some(entry) if entry.reach > reach => {
             let allowed = match reach {
-                Reach::Parameters => "parameters".to_string(),
+                Dependence::Parameters => "parameters".to_string(),
                 _ => format!("{} and parameters", position(vocabulary)),
             };
             let (what, name) = (what.to_string(), entry.name.clone());
@@ -78,7 +78,7 @@ fn position(vocabulary: &Vocabulary) -> &str {
     let mut names = vocabulary.iter().filter(|(symbol, entry)| {
         let is_state = matches!(entry.meaning, Meaning::State(_));
         let is_found = vocabulary.lookup(&entry.name).is_some_and(|(found, _)| found == *symbol);
-        is_state && is_found && entry.reach == Reach::Configuration
+        is_state && is_found && entry.reach == Dependence::Configuration
     });
     match (names.next(), names.next()) {
         (Some((_, only)), None) => &only.name,

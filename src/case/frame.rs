@@ -7,15 +7,15 @@
 
 use super::error::{Mistake, Problem};
 use super::parameters::NO_NAME;
-use super::section::{Section, Text};
+use super::section::{CaseTable, SpannedStr};
 use super::systems::Reading;
 use crate::formula::{Formula, Type, canonical_name, is_function};
-use crate::mechanics::{Draw, Line, Meaning, Quantity, Range, Reach};
+use crate::mechanics::{Dependence, Draw, Meaning, NumberLine, Quantity, Range};
 
 impl Reading<'_, '_> {
     /// Adds the orientation and the place of the contact to the state, where the body asks for
     /// them; returns their number.
-    pub(super) fn fixed_frame(&mut self, section: &Section<'_>) -> usize {
+    pub(super) fn fixed_frame(&mut self, section: &CaseTable<'_>) -> usize {
         let given = |key| section.keep(section.text(key)).flatten();
         let (frame, track) = (given("frame"), given("track"));
         if let (None, Some(track)) = (&frame, &track)
@@ -54,7 +54,7 @@ impl Reading<'_, '_> {
 
     /// Adds a variable under the name that the file gives it; returns the name, or `None` after
     /// noting the mistake.
-    fn further(&mut self, text: &Text, kind: Type) -> Option<String> {
+    fn further(&mut self, text: &SpannedStr, kind: Type) -> Option<String> {
         let refused = |reason: &str| {
             let (name, reason) = (text.value.clone(), reason.to_string());
             Mistake::at(text.span.clone(), Problem::BadName { name, reason })
@@ -70,9 +70,9 @@ impl Reading<'_, '_> {
             return None;
         }
         let size = if kind == Type::MATRIX { 1 } else { 2 };
-        let draw = Draw::Of(Line::All, Range::between((-size, 1), (size, 1)));
+        let draw = Draw::Of(NumberLine::All, Range::between((-size, 1), (size, 1)));
         let draws = vec![draw; kind.size()];
-        self.state.add(&name, kind, draws, &mut self.vocabulary, Reach::Phase);
+        self.state.add(&name, kind, draws, &mut self.vocabulary, Dependence::Phase);
         Some(name)
     }
 }

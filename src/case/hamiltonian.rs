@@ -6,19 +6,21 @@ use toml::de::DeValue;
 use super::error::{Mistake, Problem};
 use super::formulas::formula;
 use super::order::Stage;
-use super::section::Section;
+use super::section::CaseTable;
 use super::state::TIME;
 use super::systems::Reading;
-use super::variables::{Blocks, Names, blocks};
+use super::variables::{Blocks, BracketNames, blocks};
 use crate::formula::{Type, canonical_name};
-use crate::mechanics::{Block, Chart, Hamiltonian, Reach, System, Variable, of_hamiltonian};
+use crate::mechanics::{
+    BracketBlock, Chart, Dependence, HamiltonianSystem, System, Variable, of_hamiltonian,
+};
 
 const PAIRS: &str = "write pairs = [[\"q\",\"p\"]], two state variables of one kind in each";
 
 /// Reads a system given by `[hamiltonian]`; `None` where there is a mistake.
 pub fn system(reading: &mut Reading<'_, '_>) -> Option<(System, Chart)> {
     reading.own_state(
-        Reach::Configuration,
+        Dependence::Configuration,
         "add a table [state] with q = \"-2..2\", p = \"-2..2\" for each pair",
     );
     if let Some(rates) = reading.root.table("field") {
@@ -39,14 +41,20 @@ pub fn system(reading: &mut Reading<'_, '_>) -> Option<(System, Chart)> {
 }
 
 /// Reads the table.
-fn read(reading: &Reading<'_, '_>, section: &Section<'_>) -> Option<System> {
+fn read(reading: &Reading<'_, '_>, section: &CaseTable<'_>) -> Option<System> {
     let (vocabulary, state) = (&reading.vocabulary, &reading.state.variables);
     let function =
         section.required("function", "add function = \"p²/2 + q²/2\"").and_then(|text| {
-            formula(&text, vocabulary, "the Hamiltonian", Some(Type::Scalar), Reach::Configuration)
+            formula(
+                &text,
+                vocabulary,
+                "the Hamiltonian",
+                Some(Type::Scalar),
+                Dependence::Configuration,
+            )
         });
     let function = section.keep(function);
-    let names = Names { state, vocabulary, reach: Reach::Configuration };
+    let names = BracketNames { state, vocabulary, reach: Dependence::Configuration };
     let bracket = section.keep(section.section("bracket"));
     let blocks = match bracket.as_ref().map(Option::as_ref) {
         Some(Some(bracket)) => blocks(bracket, &names),
@@ -61,11 +69,11 @@ fn read(reading: &Reading<'_, '_>, section: &Section<'_>) -> Option<System> {
     section.finish();
     let (function, blocks) = (function?, blocks?);
     let clock = state.iter().enumerate().position(|(index, v)| is_clock(v, index, &blocks));
-    Some(System::Hamiltonian(Box::new(Hamiltonian { function, blocks, clock })))
+    Some(System::Hamiltonian(Box::new(HamiltonianSystem { function, blocks, clock })))
 }
 
 /// Enters the canonical pairs.
-fn pairs(section: &Section<'_>, state: &[Variable], blocks: &mut Blocks) -> Result<(), Mistake> {
+fn pairs(section: &CaseTable<'_>, state: &[Variable], blocks: &mut Blocks) -> Result<(), Mistake> {
     let Some(value) = section.value("pairs") else { return Ok(()) };
     let wrong = |item: &Spanned<DeValue<'_>>, message: String| {
         Mistake::at(item.span(), Problem::Other { message, remedy: PAIRS.to_string() })
@@ -98,15 +106,15 @@ fn pairs(section: &Section<'_>, state: &[Variable], blocks: &mut Blocks) -> Resu
             let names = format!("`{}` and `{}`", state[q].name, state[p].name);
             return Err(wrong(item, format!("the bracket of {names} is given already")));
         }
-        blocks[q][p] = Some(Block::Unit);
-        blocks[p][q] = Some(Block::OppositeUnit);
+        blocks[q][p] = Some(BracketBlock::Unit);
+        blocks[p][q] = Some(BracketBlock::OppositeUnit);
     }
     Ok(())
 }
 
 /// Rejects a variable without any bracket: it would be constant, so it is a parameter, or was
 /// forgotten.
-fn all_move(section: &Section<'_>, state: &[Variable], blocks: &Blocks) -> Result<(), Mistake> {
+fn all_move(section: &CaseTable<'_>, state: &[Variable], blocks: &Blocks) -> Result<(), Mistake> {
     let stands = |(index, variable): &(usize, &Variable)| {
         blocks[*index].iter().all(Option::is_none) && !is_clock(variable, *index, blocks)
     };

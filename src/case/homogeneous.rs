@@ -3,11 +3,11 @@
 use num_traits::One;
 
 use crate::graph::{Evaluator, Expr, Tape, record};
-use crate::mechanics::calculus::{Jet, dot};
-use crate::mechanics::{Chart, Draws, Model, NORMAL, Phase, Shape};
+use crate::mechanics::calculus::{DualPoint, dot};
+use crate::mechanics::{Chart, DrawSource, Model, NORMAL, Phase, Shape};
 use crate::number::Domain;
 use crate::number::ball::Ball;
-use crate::proof::{Group, Outcome, Prover};
+use crate::proof::{Group, GroupOutcome, Prover};
 
 /// Number of states at which Euler's relation is tested.
 const STATES: u64 = 4;
@@ -26,7 +26,7 @@ pub fn extension(model: &Model, shape: &Shape) -> Option<Shape> {
         let defect = |kept: [bool; 2]| {
             let mut point = Chart::Rolling.point(model, &kept, &free, state);
             point.resize(model.dimension(), Expr::one());
-            let jet = Jet::new(Phase::new(model, &free, &point));
+            let jet = DualPoint::new(Phase::new(model, &free, &point));
             let slope = jet.gradient(|at| at.scalar(formula));
             let gamma = 3 * NORMAL..3 * NORMAL + 3;
             dot(&slope[gamma.clone()], &point[gamma]) - jet.phase.scalar(formula)
@@ -36,7 +36,7 @@ pub fn extension(model: &Model, shape: &Shape) -> Option<Shape> {
     .ok()?;
     let tape = Tape::new(&graph, &defects);
     let mut evaluator = Evaluator::new(&tape, Ball::<1>);
-    let numbers = Draws::new(&draws);
+    let numbers = DrawSource::new(&draws);
     let homogeneous = (0..STATES).all(|index| {
         let values = numbers.state(0, index);
         let inputs: Vec<_> = values.into_iter().map(|value| Ball::<1>.values(&[value])).collect();
@@ -48,7 +48,7 @@ pub fn extension(model: &Model, shape: &Shape) -> Option<Shape> {
     let homogeneous = homogeneous
         && !matches!(
             prover.prove(&graph, &[Group::of(defects.to_vec())]).as_deref(),
-            Ok([Outcome::NonZero(_)])
+            Ok([GroupOutcome::NonZero(_)])
         );
     (!homogeneous).then(|| Shape::SupportOnSphere(formula.clone()))
 }

@@ -3,34 +3,34 @@
 use toml::de::DeTable;
 
 use super::order::Stage;
-use super::section::Text;
+use super::section::SpannedStr;
 use super::systems::Reading;
 use super::{ball, body, feedback, field, hamiltonian, lagrangian, map};
 use crate::formula::Type;
 use crate::mechanics::{
-    BallSurface, Chart, Draw, LevelEquation, LevelFunction, Line, Meaning, Quantity, Range, Reach,
-    System, of_ball, of_flat_base, of_lagrangian, of_rubber, of_spinning,
+    BallSurface, Chart, Dependence, Draw, LevelEquation, LevelFunction, Meaning, NumberLine,
+    Quantity, Range, System, of_ball, of_flat_base, of_lagrangian, of_rubber, of_spinning,
 };
 
 /// Equations of motion and the chart of their level; `None` where there is a mistake.
 type Read = Option<(System, Chart)>;
 
 /// Reads the tables of a system after the parameters; the text is its name.
-type Reader = for<'a, 'r, 's> fn(&'a mut Reading<'r, 's>, &Text) -> Read;
+type Reader = for<'a, 'r, 's> fn(&'a mut Reading<'r, 's>, &SpannedStr) -> Read;
 
 /// The systems by name, in the order of messages.
 pub(super) const SYSTEMS: [(&str, Reader); 10] = [
     ("rubber-plane", |reading, name| {
-        reading.rolling(name, Rolling { spins: false, curved: false })
+        reading.rolling(name, RollingKind { spins: false, curved: false })
     }),
     ("rubber-sphere", |reading, name| {
-        reading.rolling(name, Rolling { spins: false, curved: true })
+        reading.rolling(name, RollingKind { spins: false, curved: true })
     }),
     ("rolling-plane", |reading, name| {
-        reading.rolling(name, Rolling { spins: true, curved: false })
+        reading.rolling(name, RollingKind { spins: true, curved: false })
     }),
     ("rolling-sphere", |reading, name| {
-        reading.rolling(name, Rolling { spins: true, curved: true })
+        reading.rolling(name, RollingKind { spins: true, curved: true })
     }),
     ("flat-base", |reading, name| reading.flat_base(name)),
     ("ball-on-surface", |reading, name| reading.ball(name)),
@@ -42,7 +42,7 @@ pub(super) const SYSTEMS: [(&str, Reader); 10] = [
 
 /// The way in which a body of any shape rolls.
 #[derive(Clone, Copy)]
-pub(super) struct Rolling {
+pub(super) struct RollingKind {
     /// Whether it may spin about the normal.
     pub spins: bool,
     /// Whether it rolls on a sphere, with a curvature.
@@ -72,7 +72,7 @@ fn equation(text: &str, function: LevelFunction) -> LevelEquation {
 
 impl Reading<'_, '_> {
     /// Reads a body of any shape that rolls.
-    fn rolling(&mut self, name: &Text, way: Rolling) -> Read {
+    fn rolling(&mut self, name: &SpannedStr, way: RollingKind) -> Read {
         let nothing = DeTable::new();
         let section = self.root.table("body").unwrap_or(self.root.empty("[body]", &nothing));
         let features = body::features(&section, way.curved, &self.vocabulary);
@@ -96,10 +96,10 @@ impl Reading<'_, '_> {
         Some((system, chart))
     }
 
-    fn flat_base(&mut self, name: &Text) -> Read {
+    fn flat_base(&mut self, name: &SpannedStr) -> Read {
         let nothing = DeTable::new();
         let section = self.root.table("body").unwrap_or(self.root.empty("[body]", &nothing));
-        let near = Draw::Of(Line::All, Range::between((-3, 2), (3, 2)));
+        let near = Draw::Of(NumberLine::All, Range::between((-3, 2), (3, 2)));
         let own = ["ω1", "ω2", "r1", "r2"].map(|name| (name, Type::Scalar));
         let draws = [near.clone(), near.clone(), near.clone(), near];
         self.declare(&own, &draws, of_flat_base(), name);
@@ -111,13 +111,13 @@ impl Reading<'_, '_> {
         Some((system?, Chart::Free))
     }
 
-    fn ball(&mut self, name: &Text) -> Read {
+    fn ball(&mut self, name: &SpannedStr) -> Read {
         let nothing = DeTable::new();
         let section = self.root.table("body").unwrap_or(self.root.empty("[body]", &nothing));
         let by_support = section.value("surface").is_none();
         let second = if by_support { "γ" } else { "r" };
         let own = [("M", Type::VECTOR), (second, Type::VECTOR)];
-        let near = Draw::Of(Line::All, Range::between((-2, 1), (2, 1)));
+        let near = Draw::Of(NumberLine::All, Range::between((-2, 1), (2, 1)));
         let draws = if by_support { Vec::new() } else { vec![near; 6] };
         let surface = match (by_support, section.value("profile").is_some()) {
             (false, _) => BallSurface::Level,
@@ -130,7 +130,7 @@ impl Reading<'_, '_> {
                 ("U", Quantity::Potential, Type::Scalar),
                 ("∂U", Quantity::PotentialGradient, Type::VECTOR),
             ] {
-                self.vocabulary.add(name, Meaning::Quantity(quantity), kind, Reach::Phase);
+                self.vocabulary.add(name, Meaning::Quantity(quantity), kind, Dependence::Phase);
             }
         }
         self.further_state();
@@ -150,7 +150,7 @@ impl Reading<'_, '_> {
 
     fn lagrangian(&mut self, vakonomic: bool) -> Read {
         self.own_state(
-            Reach::Configuration,
+            Dependence::Configuration,
             "add a table [state] with q = \"-2..2\", \"q'\" = \"-2..2\" for each variable",
         );
         let section = self.root.table("lagrangian");
@@ -178,7 +178,10 @@ impl Reading<'_, '_> {
         if self.root.value("hamiltonian").is_some() {
             return hamiltonian::system(self);
         }
-        self.own_state(Reach::Phase, "add a table [state] with x = \"-2..2\" for each variable");
+        self.own_state(
+            Dependence::Phase,
+            "add a table [state] with x = \"-2..2\" for each variable",
+        );
         let section = self.root.table("field");
         if section.is_none() && self.root.value("field").is_none() {
             let remedy = "add a table [field] with \"x'\" = \"…\" for each variable";

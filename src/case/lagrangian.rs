@@ -3,13 +3,15 @@
 use super::error::{Mistake, Problem};
 use super::field::{self, GivenRate};
 use super::formulas::{formula, inside};
-use super::section::{Section, Text};
+use super::section::{CaseTable, SpannedStr};
 use super::state::TIME;
 use super::systems::Reading;
 use crate::formula::{Formula, Type, canonical_name};
-use crate::mechanics::{Algebra, Lagrangian, Reach, Role, System, Variable, Vocabulary};
+use crate::mechanics::{
+    Algebra, Dependence, Lagrangian, System, Variable, VariableRole, Vocabulary,
+};
 
-fn other(text: &Text, message: String, remedy: &str) -> Mistake {
+fn other(text: &SpannedStr, message: String, remedy: &str) -> Mistake {
     Mistake::at(text.span.clone(), Problem::Other { message, remedy: remedy.to_string() })
 }
 
@@ -17,19 +19,20 @@ fn other(text: &Text, message: String, remedy: &str) -> Mistake {
 /// `None` where there is a mistake.
 pub fn read(
     reading: &mut Reading<'_, '_>,
-    section: &Section<'_>,
+    section: &CaseTable<'_>,
     vakonomic: bool,
 ) -> Option<System> {
     let vocabulary = &reading.vocabulary;
-    let scalar = |text: &Text, what: &str| {
-        formula(text, vocabulary, what, Some(Type::Scalar), Reach::Configuration)
+    let scalar = |text: &SpannedStr, what: &str| {
+        formula(text, vocabulary, what, Some(Type::Scalar), Dependence::Configuration)
     };
     let kinetic = section.required("kinetic", "add kinetic = \"m*x'²/2\"");
     let kinetic = section.keep(kinetic.and_then(|text| scalar(&text, "the kinetic energy")));
     let potential = section.text("potential");
-    let read = |text: Option<Text>| text.map(|text| scalar(&text, "the potential")).transpose();
+    let read =
+        |text: Option<SpannedStr>| text.map(|text| scalar(&text, "the potential")).transpose();
     let potential = section.keep(potential.and_then(read));
-    let level = field::equations_in(section, "constraints", vocabulary, Reach::Configuration);
+    let level = field::equations_in(section, "constraints", vocabulary, Dependence::Configuration);
     let variables = &reading.state.variables;
     let names = |key| section.keep(named(section, key, variables));
     let (quasi, multipliers) = (names("quasi-velocities"), names("multipliers"));
@@ -61,7 +64,7 @@ pub fn read(
 
 /// Checks that a vakonomic system has a multiplier for each constraint, and others have none.
 fn counted(
-    section: &Section<'_>,
+    section: &CaseTable<'_>,
     multipliers: &[usize],
     constraints: usize,
     vakonomic: bool,
@@ -80,12 +83,12 @@ fn counted(
 
 /// Role of each state variable; `None` where one is not known.
 fn roles(
-    section: &Section<'_>,
+    section: &CaseTable<'_>,
     variables: &[Variable],
     quasi: &[usize],
     multipliers: &[usize],
     carried: Vec<GivenRate>,
-) -> Option<Vec<Role>> {
+) -> Option<Vec<VariableRole>> {
     let mut roles = Some(Vec::new());
     for ((index, variable), rate) in variables.iter().enumerate().zip(carried) {
         let velocity = variables.iter().position(|v| v.name == format!("{}'", variable.name));
@@ -93,14 +96,14 @@ fn roles(
         let is_velocity =
             quasi.contains(&index) || variables.iter().any(|v| Some(v.name.as_str()) == of);
         let role = match (rate, velocity) {
-            _ if multipliers.contains(&index) => Some(Role::Multiplier),
-            _ if is_velocity => Some(Role::Velocity),
-            (GivenRate::Given(rate), _) => Some(Role::Carried(rate)),
+            _ if multipliers.contains(&index) => Some(VariableRole::Multiplier),
+            _ if is_velocity => Some(VariableRole::Velocity),
+            (GivenRate::Given(rate), _) => Some(VariableRole::Carried(rate)),
             (GivenRate::Broken, _) => None,
             (GivenRate::Missing, Some(velocity)) if variables[velocity].kind == variable.kind => {
-                Some(Role::Coordinate(velocity))
+                Some(VariableRole::Coordinate(velocity))
             }
-            _ if variable.name == TIME && variable.kind == Type::Scalar => Some(Role::Time),
+            _ if variable.name == TIME && variable.kind == Type::Scalar => Some(VariableRole::Time),
             _ => {
                 let name = &variable.name;
                 if !section.mistakes().has_failed(&format!("{name}'")) {
@@ -125,7 +128,7 @@ fn roles(
 
 /// State variables named in a list.
 fn named(
-    section: &Section<'_>,
+    section: &CaseTable<'_>,
     key: &'static str,
     variables: &[Variable],
 ) -> Result<Vec<usize>, Mistake> {
@@ -148,17 +151,17 @@ fn carried(reading: &Reading<'_, '_>) -> Vec<GivenRate> {
     match reading.root.table("field") {
         Some(section) => {
             let names = &reading.vocabulary;
-            field::given_rates(&section, variables, names, Reach::Configuration)
+            field::given_rates(&section, variables, names, Dependence::Configuration)
         }
         None => variables.iter().map(|_| GivenRate::Missing).collect(),
     }
 }
 
 fn algebra(
-    section: &Section<'_>,
+    section: &CaseTable<'_>,
     variables: &[Variable],
     quasi: &[usize],
-    roles: &[Role],
+    roles: &[VariableRole],
 ) -> Result<Algebra, Mistake> {
     let start = |index: usize| variables[..index].iter().map(Variable::len).sum::<usize>();
     if let Some(text) = section.text("algebra")? {
@@ -181,12 +184,13 @@ fn algebra(
     if quasi.is_empty() {
         return Ok(Algebra::Commuting);
     }
-    let count = |keep: &dyn Fn(&Role) -> bool| -> usize {
+    let count = |keep: &dyn Fn(&VariableRole) -> bool| -> usize {
         let kept = roles.iter().zip(variables).filter(|(role, _)| keep(role));
         kept.map(|(_, variable)| variable.len()).sum()
     };
-    let velocities = count(&|role| matches!(role, Role::Velocity));
-    let coordinates = count(&|role| matches!(role, Role::Coordinate(_) | Role::Carried(_)));
+    let velocities = count(&|role| matches!(role, VariableRole::Velocity));
+    let coordinates =
+        count(&|role| matches!(role, VariableRole::Coordinate(_) | VariableRole::Carried(_)));
     if velocities == coordinates {
         return Ok(Algebra::Frame);
     }
@@ -205,10 +209,10 @@ fn algebra(
 /// Reads forces by the components of the velocities that they act on; `None` where there is a
 /// mistake.
 fn forces(
-    section: &Section<'_>,
+    section: &CaseTable<'_>,
     vocabulary: &Vocabulary,
     variables: &[Variable],
-    roles: &[Role],
+    roles: &[VariableRole],
 ) -> Option<Vec<(usize, Formula)>> {
     let mut forces = Some(Vec::new());
     if let Some(table) = section.keep(section.section("forces"))? {
@@ -227,17 +231,17 @@ fn forces(
 
 /// Reads a force, component by component.
 fn force(
-    text: &Text,
+    text: &SpannedStr,
     key: &str,
     vocabulary: &Vocabulary,
     variables: &[Variable],
-    roles: &[Role],
+    roles: &[VariableRole],
 ) -> Result<Vec<(usize, Formula)>, Mistake> {
     let name = canonical_name(key).unwrap_or_default();
     let index = variables.iter().position(|variable| variable.name == name);
     let velocity = index.and_then(|index| match roles[index] {
-        Role::Coordinate(velocity) => Some(velocity),
-        Role::Velocity => Some(index),
+        VariableRole::Coordinate(velocity) => Some(velocity),
+        VariableRole::Velocity => Some(index),
         _ => None,
     });
     let Some(velocity) = velocity else {
@@ -246,14 +250,14 @@ fn force(
     };
     let first: usize = variables[..velocity].iter().map(Variable::len).sum();
     let kind = variables[velocity].kind;
-    let whole = formula(text, vocabulary, "a force", Some(kind), Reach::Configuration)?;
+    let whole = formula(text, vocabulary, "a force", Some(kind), Dependence::Configuration)?;
     if kind == Type::Scalar {
         return Ok(vec![(first, whole)]);
     }
     let component = |(place, index): (usize, &String)| {
         let ends = ("(", format!("){index}"));
         let ends = (ends.0, ends.1.as_str());
-        let reach = Reach::Configuration;
+        let reach = Dependence::Configuration;
         Ok((first + place, inside(text, ends, vocabulary, "a force", Some(Type::Scalar), reach)?))
     };
     kind.indices().iter().enumerate().map(component).collect()

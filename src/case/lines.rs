@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 /// Line of fixed points of a reversor of the section map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Line {
+pub enum FixedLine {
     /// The line L = 0.
     Equator,
     /// The lines l = 0 and l = π.
@@ -14,21 +14,21 @@ pub enum Line {
     QuarterMeridian,
 }
 
-impl std::str::FromStr for Line {
+impl std::str::FromStr for FixedLine {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
         let plain: String = text.split_whitespace().collect();
         match plain.replace("pi", "π").as_str() {
-            "L=0" => Ok(Line::Equator),
-            "l=0" => Ok(Line::Meridian),
-            "l=π/2" => Ok(Line::QuarterMeridian),
+            "L=0" => Ok(FixedLine::Equator),
+            "l=0" => Ok(FixedLine::Meridian),
+            "l=π/2" => Ok(FixedLine::QuarterMeridian),
             _ => Err(format!("`{text}` is not a line; write L=0, l=0 or l=π/2")),
         }
     }
 }
 
-impl Line {
+impl FixedLine {
     /// Returns `count` points of the line.
     pub fn points(self, count: usize) -> Vec<[f64; 2]> {
         let along = |k: usize, count: usize| (k as f64 + 0.5) / count.max(1) as f64;
@@ -42,9 +42,9 @@ impl Line {
             (0..count).map(at).collect()
         };
         match self {
-            Line::Equator => (0..count).map(|k| [2.0 * PI * along(k, count), 0.0]).collect(),
-            Line::Meridian => meridians(0.0),
-            Line::QuarterMeridian => meridians(PI / 2.0),
+            FixedLine::Equator => (0..count).map(|k| [2.0 * PI * along(k, count), 0.0]).collect(),
+            FixedLine::Meridian => meridians(0.0),
+            FixedLine::QuarterMeridian => meridians(PI / 2.0),
         }
     }
 }

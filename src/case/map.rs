@@ -3,13 +3,14 @@
 use super::error::Problem;
 use super::field;
 use super::order::Stage;
-use super::section::Section;
+use super::section::CaseTable;
 use super::systems::Reading;
-use crate::mechanics::{Chart, Model, Reach, System};
+use crate::mechanics::{Chart, Dependence, Model, System};
 
 /// Reads a map of the user's own; nothing if it is wrong.
 pub(super) fn system(reading: &mut Reading<'_, '_>) -> Option<(System, Chart)> {
-    reading.own_state(Reach::Phase, "add a table [state] with x = \"-2..2\" for each variable");
+    reading
+        .own_state(Dependence::Phase, "add a table [state] with x = \"-2..2\" for each variable");
     let root = reading.root;
     let section = root.table("map");
     if section.is_none() && root.value("map").is_none() {
@@ -25,7 +26,7 @@ pub(super) fn system(reading: &mut Reading<'_, '_>) -> Option<(System, Chart)> {
 }
 
 /// Notes an ∫ in the images of a map: values there matter, and its constant is open.
-pub(super) fn no_open_constant(root: &Section<'_>, model: &Model) {
+pub(super) fn no_open_constant(root: &CaseTable<'_>, model: &Model) {
     let System::Map(images) = &model.system else { return };
     let is_open = images.iter().any(|image| model.has_antiderivative(image));
     if let (true, Some(section)) = (is_open, root.table("map")) {

@@ -51,8 +51,8 @@ use std::io::{self, Read};
 use std::path::Path;
 
 use crate::claim::absence::Absence;
-use crate::claim::motion::Motion;
-use crate::claim::{Kind, Place};
+use crate::claim::motion::MotionKind;
+use crate::claim::{ClaimKind, LevelSubset};
 use crate::mechanics::{Chart, Draw, Model};
 
 pub use crate::claim::Expect;
@@ -62,7 +62,7 @@ pub use claims::claim_keys;
 pub use error::{CaseError, Mistake, Problem};
 pub use kinds::SYSTEM_NAMES;
 pub use labels::{is_labelled, labels, matches};
-pub use lines::Line;
+pub use lines::FixedLine;
 pub use one_sided::OneSided;
 pub use parameters::Setting;
 pub use poincare::{Angle, Direction, SectionPlan};
@@ -160,11 +160,11 @@ pub struct PlacedClaim {
     /// Name, unique in the case.
     pub name: String,
     /// Statement of the claim.
-    pub kind: Kind,
+    pub kind: ClaimKind,
     /// Equation number, table or section in the publication.
     pub source: String,
     /// Place where it is claimed.
-    pub place: Place,
+    pub place: LevelSubset,
     /// Whether it is claimed to fail outside of the place.
     pub only_there: bool,
     /// Expectation of the file.
@@ -181,7 +181,7 @@ pub struct MotionClaim {
     /// Name, unique in the case.
     pub name: String,
     /// Statement of the claim.
-    pub kind: Motion,
+    pub kind: MotionKind,
     /// Equation number, figure or section in the publication.
     pub source: String,
     /// Expectation of the file.

@@ -3,9 +3,9 @@
 use super::error::Problem;
 use super::field;
 use super::formulas::formula;
-use super::section::Section;
+use super::section::CaseTable;
 use crate::formula::{Formula, Type};
-use crate::mechanics::{Model, Reach, System};
+use crate::mechanics::{Dependence, Model, System};
 
 /// A one-sided constraint.
 #[derive(Clone, Debug)]
@@ -19,7 +19,7 @@ pub struct OneSided {
 }
 
 /// Reads `[one-sided]`; `None` where it is absent, or has a mistake.
-pub(super) fn read(root: &Section<'_>, model: &Model) -> Option<OneSided> {
+pub(super) fn read(root: &CaseTable<'_>, model: &Model) -> Option<OneSided> {
     let section = root.table("one-sided")?;
     if !matches!(model.system, System::Field(_)) {
         root.mistakes().add(section.complaint(Problem::Other {
@@ -31,7 +31,7 @@ pub(super) fn read(root: &Section<'_>, model: &Model) -> Option<OneSided> {
     let names = &model.vocabulary;
     let scalar = |key: &'static str, remedy: &str| {
         let text = section.required(key, remedy)?;
-        formula(&text, names, &format!("`{key}`"), Some(Type::Scalar), Reach::Phase)
+        formula(&text, names, &format!("`{key}`"), Some(Type::Scalar), Dependence::Phase)
     };
     let remedy = "add function = \"(ω,e)\", which must not be negative";
     let function = section.keep(scalar("function", remedy));

@@ -8,19 +8,19 @@ use toml::de::DeValue;
 
 use super::error::{Mistake, Problem};
 use super::mistakes::bases;
-use super::section::Text;
+use super::section::SpannedStr;
 use super::systems::Reading;
 use crate::formula::canonical_name;
 
 /// Name of `[parameters]` or `[let]` that waits for the names it uses.
-pub struct Item<'s> {
+pub struct WaitingName<'s> {
     /// Canonical name.
     pub name: String,
     /// Place of the name in the file.
     pub key: Range<usize>,
     /// Definition of the name.
     pub kind: ItemKind<'s>,
-    state: State,
+    state: WaitingState,
 }
 
 /// Definition of a name.
@@ -29,7 +29,7 @@ pub enum ItemKind<'s> {
     /// A parameter, by its number, with its value.
     Parameter(usize, &'s Spanned<DeValue<'s>>),
     /// An abbreviation, with its formula.
-    Abbreviation(Text),
+    Abbreviation(SpannedStr),
 }
 
 /// Stage of reading a file.
@@ -44,7 +44,7 @@ pub enum Stage {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum State {
+enum WaitingState {
     Pending,
     /// Being read; waits for the items above it on the stack.
     Open,
@@ -54,10 +54,10 @@ enum State {
     Later,
 }
 
-impl<'s> Item<'s> {
+impl<'s> WaitingName<'s> {
     /// A name that has not been read yet.
     pub fn new(name: String, key: Range<usize>, kind: ItemKind<'s>) -> Self {
-        Self { name, key, kind, state: State::Pending }
+        Self { name, key, kind, state: WaitingState::Pending }
     }
 }
 
@@ -65,18 +65,19 @@ impl Reading<'_, '_> {
     /// Reads all names that can be read at this stage.
     pub(super) fn settle(&mut self, stage: Stage) {
         for item in &mut self.items {
-            if item.state == State::Later {
-                item.state = State::Pending;
+            if item.state == WaitingState::Later {
+                item.state = WaitingState::Pending;
             }
         }
         for start in 0..self.items.len() {
             let is_parameter = matches!(self.items[start].kind, ItemKind::Parameter(..));
             let begins = is_parameter == (stage == Stage::Parameters);
-            if begins && self.items[start].state == State::Pending {
+            if begins && self.items[start].state == WaitingState::Pending {
                 self.settle_from(start, stage);
             }
         }
-        let waits = |item: &&Item<'_>| stage == Stage::State && item.state == State::Later;
+        let waits =
+            |item: &&WaitingName<'_>| stage == Stage::State && item.state == WaitingState::Later;
         let names = self.items.iter().filter(waits).map(|item| item.name.clone());
         self.mistakes().wait_for(names.collect());
     }
@@ -85,27 +86,27 @@ impl Reading<'_, '_> {
     fn settle_from(&mut self, start: usize, stage: Stage) {
         let mut stack = vec![start];
         while let Some(&top) = stack.last() {
-            self.items[top].state = State::Open;
+            self.items[top].state = WaitingState::Open;
             let end = match self.read_item(top, stage) {
-                Ok(()) => State::Done,
+                Ok(()) => WaitingState::Done,
                 Err(mistake) => match self.item_of(&mistake) {
-                    Some(other) if self.items[other].state == State::Pending => {
+                    Some(other) if self.items[other].state == WaitingState::Pending => {
                         stack.push(other);
                         continue;
                     }
-                    Some(other) if self.items[other].state == State::Open => {
+                    Some(other) if self.items[other].state == WaitingState::Open => {
                         self.cycle(&stack, other);
                         for item in &stack {
                             self.give_up(*item);
                         }
                         return;
                     }
-                    Some(other) if self.items[other].state == State::Later => {
+                    Some(other) if self.items[other].state == WaitingState::Later => {
                         self.later(top, other, stage)
                     }
-                    Some(other) if self.items[other].state == State::Failed => {
+                    Some(other) if self.items[other].state == WaitingState::Failed => {
                         self.give_up(top);
-                        State::Failed
+                        WaitingState::Failed
                     }
                     _ => self.trouble(top, mistake, stage),
                 },
@@ -130,15 +131,15 @@ impl Reading<'_, '_> {
     }
 
     fn give_up(&mut self, item: usize) {
-        self.items[item].state = State::Failed;
+        self.items[item].state = WaitingState::Failed;
         self.mistakes().fail(&self.items[item].name);
     }
 
     /// Handles a name that uses another which cannot be read at this stage.
-    fn later(&mut self, item: usize, other: usize, stage: Stage) -> State {
+    fn later(&mut self, item: usize, other: usize, stage: Stage) -> WaitingState {
         if stage != Stage::Parameters || matches!(self.items[item].kind, ItemKind::Abbreviation(_))
         {
-            return State::Later;
+            return WaitingState::Later;
         }
         let (name, used) = (&self.items[item].name, &self.items[other].name);
         let message =
@@ -147,11 +148,11 @@ impl Reading<'_, '_> {
         let span = self.items[item].key.clone();
         self.mistakes().add(Mistake::at(span, Problem::Other { message, remedy }));
         self.give_up(item);
-        State::Failed
+        WaitingState::Failed
     }
 
     /// Handles a name that cannot be read for another reason.
-    fn trouble(&mut self, item: usize, mistake: Mistake, stage: Stage) -> State {
+    fn trouble(&mut self, item: usize, mistake: Mistake, stage: Stage) -> WaitingState {
         let is_abbreviation = matches!(self.items[item].kind, ItemKind::Abbreviation(_));
         let is_rate = |name: &str| {
             let name = canonical_name(name).unwrap_or_default();
@@ -168,11 +169,11 @@ impl Reading<'_, '_> {
             Stage::Rates => false,
         };
         if waits {
-            return State::Later;
+            return WaitingState::Later;
         }
         self.mistakes().add(mistake);
         self.give_up(item);
-        State::Failed
+        WaitingState::Failed
     }
 
     /// Reports that a name is defined in terms of itself.

@@ -4,13 +4,16 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::error::{Mistake, Problem};
-use super::order::{Item, ItemKind, Stage};
-use super::section::{Section, Text};
-use super::shapes::{self, Given, Refusal};
+use super::order::{ItemKind, Stage, WaitingName};
+use super::section::{CaseTable, SpannedStr};
+use super::shapes::{self, GivenValue, Refusal};
 use super::systems::Reading;
 use crate::formula::{Formula, FormulaError, Scope, Type, canonical_name, excerpt};
 use crate::graph;
-use crate::mechanics::{Draw, Line, Meaning, Origin, Parameter, Range, Reach, Recipe, Vocabulary};
+use crate::mechanics::{
+    Dependence, Draw, Meaning, NumberLine, Parameter, ParameterOrigin, Range, SamplerSpec,
+    Vocabulary,
+};
 use crate::number::rational::{Rational, RationalError};
 
 /// A value given on the command line in place of the file's.
@@ -38,9 +41,9 @@ impl<'r, 's> Reading<'r, 's> {
                 continue;
             }
             let index = self.parameters.len();
-            let origin = Origin::Fixed(vec![Rational::from(0)]);
+            let origin = ParameterOrigin::Fixed(vec![Rational::from(0)]);
             self.parameters.push(Parameter { name: name.clone(), kind: Type::Scalar, origin });
-            self.items.push(Item::new(name, key.span(), ItemKind::Parameter(index, value)));
+            self.items.push(WaitingName::new(name, key.span(), ItemKind::Parameter(index, value)));
         }
         self.list_abbreviations();
         self.settle(Stage::Parameters);
@@ -72,21 +75,21 @@ impl<'r, 's> Reading<'r, 's> {
             Some(setting) => (self.set(setting, &written), None),
         };
         let text = text.unwrap_or_else(|| match &given {
-            Given::Formula(formula) => Text::made(formula.clone(), value.span()),
-            _ => Text::made(String::new(), value.span()),
+            GivenValue::Formula(formula) => SpannedStr::made(formula.clone(), value.span()),
+            _ => SpannedStr::made(String::new(), value.span()),
         });
         let (kind, origin) = match given {
-            Given::Fixed(kind, values) => (kind, Origin::Fixed(values)),
-            Given::Drawn(recipe) => {
+            GivenValue::Fixed(kind, values) => (kind, ParameterOrigin::Fixed(values)),
+            GivenValue::Drawn(recipe) => {
                 self.sizes.push(text.value.clone());
-                (recipe.kind(), Origin::Free(recipe))
+                (recipe.kind(), ParameterOrigin::Free(recipe))
             }
-            Given::List(values) => {
+            GivenValue::List(values) => {
                 self.lists.push(name.clone());
                 let (kind, values) = shapes::list(values, self.assumed.is_diagonal(&name));
-                (kind, Origin::Fixed(values))
+                (kind, ParameterOrigin::Fixed(values))
             }
-            Given::Formula(_) => {
+            GivenValue::Formula(_) => {
                 let formula = Formula::parse(&text.value, &self.vocabulary);
                 let formula = formula.map_err(|error| match setting {
                     Some(setting) => refused(setting, &error),
@@ -102,13 +105,15 @@ impl<'r, 's> Reading<'r, 's> {
             return Err(set_to(setting, &problem, "give a value of the same kind"));
         }
         let whole = match (&origin, kind) {
-            (Origin::Fixed(values), Type::Scalar) => values.first().and_then(Rational::to_integer),
-            (Origin::Formula(formula), Type::Scalar) => {
+            (ParameterOrigin::Fixed(values), Type::Scalar) => {
+                values.first().and_then(Rational::to_integer)
+            }
+            (ParameterOrigin::Formula(formula), Type::Scalar) => {
                 Formula::whole_number(formula.text(), &self.vocabulary).ok()
             }
             _ => None,
         };
-        self.vocabulary.add(&name, Meaning::Parameter(index), kind, Reach::Parameters);
+        self.vocabulary.add(&name, Meaning::Parameter(index), kind, Dependence::Parameters);
         if let Some(whole) = whole {
             self.vocabulary.set_whole(&name, whole);
         }
@@ -117,39 +122,39 @@ impl<'r, 's> Reading<'r, 's> {
     }
 
     /// Converts a setting to a value: a list keeps the type of the file's value.
-    fn set(&mut self, setting: &Setting, written: &Given) -> Given {
+    fn set(&mut self, setting: &Setting, written: &GivenValue) -> GivenValue {
         let text = setting.value.trim();
         let list = text.strip_prefix('[').and_then(|rest| rest.strip_suffix(']'));
         let Some(list) = list.filter(|list| !list.contains('[')) else {
-            return Given::Formula(text.to_string());
+            return GivenValue::Formula(text.to_string());
         };
         let is_matrix = match written {
-            Given::Fixed(kind, _) => matches!(kind, Type::Matrix(..)),
-            Given::Drawn(recipe) => matches!(recipe.kind(), Type::Matrix(..)),
-            Given::List(_) | Given::Formula(_) => {
+            GivenValue::Fixed(kind, _) => matches!(kind, Type::Matrix(..)),
+            GivenValue::Drawn(recipe) => matches!(recipe.kind(), Type::Matrix(..)),
+            GivenValue::List(_) | GivenValue::Formula(_) => {
                 self.lists.push(setting.name.clone());
                 self.assumed.is_diagonal(&setting.name)
             }
         };
         let text = if is_matrix { format!("diag({list})") } else { text.to_string() };
-        Given::Formula(text)
+        GivenValue::Formula(text)
     }
 
     /// Type of the value in the file, where that is known without reading formulas.
     fn kind_of_written(&self, value: &Spanned<DeValue<'_>>) -> Option<Type> {
         match shapes::given(value, &self.vocabulary).ok()? {
-            Given::Fixed(kind, _) => Some(kind),
-            Given::Drawn(recipe) => Some(recipe.kind()),
-            Given::List(_) | Given::Formula(_) => None,
+            GivenValue::Fixed(kind, _) => Some(kind),
+            GivenValue::Drawn(recipe) => Some(recipe.kind()),
+            GivenValue::List(_) | GivenValue::Formula(_) => None,
         }
     }
 }
 
 /// Numbers of a formula without names, or the formula.
-pub fn origin_of(formula: Formula) -> Origin {
+pub fn origin_of(formula: Formula) -> ParameterOrigin {
     match constant(&formula) {
-        Some(values) => Origin::Fixed(values),
-        None => Origin::Formula(formula),
+        Some(values) => ParameterOrigin::Fixed(values),
+        None => ParameterOrigin::Formula(formula),
     }
 }
 
@@ -174,7 +179,7 @@ pub fn named(key: &Spanned<std::borrow::Cow<'_, str>>) -> Result<String, Mistake
 }
 
 /// Reports settings of parameters that do not exist.
-pub fn unknown_settings(root: &Section<'_>, settings: &[Setting], parameters: &[Parameter]) {
+pub fn unknown_settings(root: &CaseTable<'_>, settings: &[Setting], parameters: &[Parameter]) {
     let known = |name: &str| parameters.iter().any(|parameter| parameter.name == name);
     for setting in settings.iter().filter(|setting| !known(&setting.name)) {
         let names: Vec<&str> = parameters.iter().map(|p| p.name.as_str()).collect();
@@ -209,9 +214,11 @@ pub fn coefficients(
     for [i, j, k] in exponents {
         let name = format!("{prefix}[{i},{j},{k}]");
         let origin = match settings.iter().find(|setting| setting.name == name) {
-            None => Origin::Free(Recipe::Scalar(Draw::Of(Line::All, range.clone()))),
+            None => {
+                ParameterOrigin::Free(SamplerSpec::Scalar(Draw::Of(NumberLine::All, range.clone())))
+            }
             Some(setting) => match setting.value.trim().parse() {
-                Ok(value) => Origin::Fixed(vec![value]),
+                Ok(value) => ParameterOrigin::Fixed(vec![value]),
                 Err(error) => {
                     let error: RationalError = error;
                     return Err(set_to(setting, &error.to_string(), "give a number"));

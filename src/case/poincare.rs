@@ -3,15 +3,15 @@
 use toml::de::DeValue;
 
 use super::error::{Mistake, Problem};
-use super::lines::Line;
-use super::section::{Section, Text, numbers};
+use super::lines::FixedLine;
+use super::section::{CaseTable, SpannedStr, numbers};
 use crate::number::rational::Rational;
 
 /// Default number of images of a line, as in the paper's figures.
 const DEFAULT_IMAGES: usize = 10;
 
 /// Limit on orbits, crossings and images: more than a picture can show.
-const MOST: u32 = 1_000_000;
+const MOST_POINTS: u32 = 1_000_000;
 
 /// An angle.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,7 +56,7 @@ pub struct SectionPlan {
     /// Whether to follow the motion backwards in time.
     pub backwards: bool,
     /// Lines whose images under the section map are drawn.
-    pub lines: Vec<Line>,
+    pub lines: Vec<FixedLine>,
     /// Number of images of each line, forwards and backwards.
     pub images: usize,
 }
@@ -103,7 +103,7 @@ impl std::str::FromStr for Direction {
 }
 
 /// Reads `[section]`; `None` where it is absent, or has a mistake.
-pub(super) fn read(root: &Section<'_>) -> Option<SectionPlan> {
+pub(super) fn read(root: &CaseTable<'_>) -> Option<SectionPlan> {
     let section = root.table("section")?;
     let plan = section.keep(plan(&section));
     if plan.is_some() {
@@ -112,8 +112,8 @@ pub(super) fn read(root: &Section<'_>) -> Option<SectionPlan> {
     plan
 }
 
-fn plan(section: &Section<'_>) -> Result<SectionPlan, Mistake> {
-    let wrong = |text: &Text, message: String| {
+fn plan(section: &CaseTable<'_>) -> Result<SectionPlan, Mistake> {
+    let wrong = |text: &SpannedStr, message: String| {
         let remedy = "docs/writing-a-case.md shows a [section]".to_string();
         Mistake::at(text.span.clone(), Problem::Other { message, remedy })
     };
@@ -130,9 +130,9 @@ fn plan(section: &Section<'_>) -> Result<SectionPlan, Mistake> {
             .parse()
             .map_err(|_| wrong(&energy, format!("`{}` is not a number", energy.value)))?,
         direction,
-        orbits: section.count("orbits", MOST)?,
-        crossings: section.count("crossings", MOST)?,
-        skip: section.count("skip", MOST)?.unwrap_or(0),
+        orbits: section.count("orbits", MOST_POINTS)?,
+        crossings: section.count("crossings", MOST_POINTS)?,
+        skip: section.count("skip", MOST_POINTS)?.unwrap_or(0),
         starts: starts(section)?,
         colour: section.text("colour")?.map(|text| text.value),
         backwards: section.boolean("backwards")?.unwrap_or(false),
@@ -141,13 +141,13 @@ fn plan(section: &Section<'_>) -> Result<SectionPlan, Mistake> {
             .iter()
             .map(|text| text.value.parse().map_err(|message| wrong(text, message)))
             .collect::<Result<_, _>>()?,
-        images: section.count("images", MOST)?.unwrap_or(DEFAULT_IMAGES),
+        images: section.count("images", MOST_POINTS)?.unwrap_or(DEFAULT_IMAGES),
     };
     Ok(plan)
 }
 
 /// Reads `starts = [[l, z], …]`.
-fn starts(section: &Section<'_>) -> Result<Vec<[f64; 2]>, Mistake> {
+fn starts(section: &CaseTable<'_>) -> Result<Vec<[f64; 2]>, Mistake> {
     let Some(value) = section.value("starts") else { return Ok(Vec::new()) };
     let wrong = |span| section.wrong_type("starts", "a list of points [l, L/G]", span);
     let DeValue::Array(points) = value.get_ref() else { return Err(wrong(value.span())) };

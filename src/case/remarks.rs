@@ -6,10 +6,10 @@ use toml::de::DeValue;
 
 use super::PlacedClaim;
 use super::mistakes::bases;
-use super::section::Section;
-use crate::claim::Kind;
+use super::section::CaseTable;
+use crate::claim::ClaimKind;
 use crate::formula::{Type, canonical_name, names_in};
-use crate::mechanics::{Model, Origin, System};
+use crate::mechanics::{Model, ParameterOrigin, System};
 use crate::number::rational::Rational;
 
 /// Keys whose texts are words, and no formulas.
@@ -27,7 +27,7 @@ fn implied(system: &System) -> &'static [&'static str] {
 
 /// Remarks on a file that has no mistakes.
 pub fn remarks(
-    root: &Section<'_>,
+    root: &CaseTable<'_>,
     system: &str,
     model: &Model,
     claims: &[PlacedClaim],
@@ -47,7 +47,7 @@ pub fn remarks(
 }
 
 /// Tables that the system does not read.
-fn unread(root: &Section<'_>, system: &str, model: &Model) -> Vec<String> {
+fn unread(root: &CaseTable<'_>, system: &str, model: &Model) -> Vec<String> {
     let mut all: Vec<String> = root
         .unread()
         .iter()
@@ -68,7 +68,7 @@ fn unread(root: &Section<'_>, system: &str, model: &Model) -> Vec<String> {
 }
 
 /// Parameters that stand in no formula.
-fn without_use(root: &Section<'_>, model: &Model) -> Vec<String> {
+fn without_use(root: &CaseTable<'_>, model: &Model) -> Vec<String> {
     let mut used = FxHashSet::default();
     for (key, value) in root.entries() {
         let table = key.get_ref().as_ref();
@@ -128,7 +128,9 @@ fn of_components(model: &Model) -> Vec<String> {
         let base = name.trim_end_matches(|c: char| c.is_ascii_digit());
         let list = find(base).filter(|own| own.kind != Type::Scalar && base.len() < name.len())?;
         let is_made_of_it = match &list.origin {
-            Origin::Formula(formula) => names_in(formula.text()).iter().any(|used| used == name),
+            ParameterOrigin::Formula(formula) => {
+                names_in(formula.text()).iter().any(|used| used == name)
+            }
             _ => false,
         };
         let is_component = name[base.len()..]
@@ -142,7 +144,7 @@ fn of_components(model: &Model) -> Vec<String> {
 }
 
 /// Differences such as `1-3`, where a range may be meant.
-fn differences(root: &Section<'_>) -> Vec<String> {
+fn differences(root: &CaseTable<'_>) -> Vec<String> {
     let mut all = Vec::new();
     for table in ["parameters", "state"] {
         let entries = root.table(table);
@@ -164,7 +166,7 @@ fn differences(root: &Section<'_>) -> Vec<String> {
 
 /// A density that is a number, and not positive.
 fn of_density(claim: &PlacedClaim) -> Option<String> {
-    let Kind::Density(_) = &claim.kind else { return None };
+    let ClaimKind::Density(_) = &claim.kind else { return None };
     let number = claim.kind.text()?.replace('−', "-").parse::<Rational>().ok()?;
     let is_positive = !number.is_zero() && !number.is_negative();
     (!is_positive).then(|| {

@@ -13,7 +13,7 @@ use crate::formula::{excerpt, nearest};
 
 /// A string of the file with its place.
 #[derive(Clone, Debug)]
-pub struct Text {
+pub struct SpannedStr {
     /// Content of the string.
     pub value: String,
     /// Byte range of the value, quotes included.
@@ -22,7 +22,7 @@ pub struct Text {
     content: Option<usize>,
 }
 
-impl Text {
+impl SpannedStr {
     fn new(value: &str, span: Range<usize>, source: &str) -> Self {
         let raw = source.get(span.clone()).unwrap_or_default();
         let content = raw.find(value).map(|offset| span.start + offset);
@@ -45,7 +45,7 @@ impl Text {
 }
 
 /// A table whose keys are ticked off as they are read.
-pub struct Section<'a> {
+pub struct CaseTable<'a> {
     name: String,
     table: &'a DeTable<'a>,
     source: &'a str,
@@ -55,7 +55,7 @@ pub struct Section<'a> {
     asked: RefCell<Vec<&'static str>>,
 }
 
-impl<'a> Section<'a> {
+impl<'a> CaseTable<'a> {
     /// A table under the name that messages give it.
     pub fn new(
         name: &str,
@@ -78,11 +78,11 @@ impl<'a> Section<'a> {
     }
 
     /// Stand-in for a table that the file leaves out, where all its keys have defaults.
-    pub fn empty<'b>(&self, name: &str, nothing: &'b DeTable<'b>) -> Section<'b>
+    pub fn empty<'b>(&self, name: &str, nothing: &'b DeTable<'b>) -> CaseTable<'b>
     where
         'a: 'b,
     {
-        Section::new(name, nothing, 0..0, self.source, self.mistakes)
+        CaseTable::new(name, nothing, 0..0, self.source, self.mistakes)
     }
 
     /// Value of a key.
@@ -100,12 +100,12 @@ impl<'a> Section<'a> {
     }
 
     /// String of a key.
-    pub fn text(&self, key: &'static str) -> Result<Option<Text>, Mistake> {
+    pub fn text(&self, key: &'static str) -> Result<Option<SpannedStr>, Mistake> {
         self.value(key).map(|value| self.as_text(key, value)).transpose()
     }
 
     /// String of a required key.
-    pub fn required(&self, key: &'static str, remedy: &str) -> Result<Text, Mistake> {
+    pub fn required(&self, key: &'static str, remedy: &str) -> Result<SpannedStr, Mistake> {
         self.text(key)?.ok_or_else(|| self.missing(key, remedy))
     }
 
@@ -127,11 +127,11 @@ impl<'a> Section<'a> {
     }
 
     /// Reads a formula: a string, or a number.
-    pub fn as_text(&self, key: &str, value: &Spanned<DeValue<'_>>) -> Result<Text, Mistake> {
-        let number = |text: String| Ok(Text::made(text, value.span()));
+    pub fn as_text(&self, key: &str, value: &Spanned<DeValue<'_>>) -> Result<SpannedStr, Mistake> {
+        let number = |text: String| Ok(SpannedStr::made(text, value.span()));
         match value.get_ref() {
             DeValue::String(text) => match text.chars().find(|c| is_control(*c)) {
-                None => Ok(Text::new(text, value.span(), self.source)),
+                None => Ok(SpannedStr::new(text, value.span(), self.source)),
                 Some(found) => {
                     let message =
                         format!("`{key}` contains the control character U+{:04X}", found as u32);
@@ -208,7 +208,7 @@ impl<'a> Section<'a> {
     }
 
     /// Reads a table inside this one.
-    pub fn section(&self, key: &'static str) -> Result<Option<Section<'a>>, Mistake> {
+    pub fn section(&self, key: &'static str) -> Result<Option<CaseTable<'a>>, Mistake> {
         let Some(value) = self.value(key) else { return Ok(None) };
         match value.get_ref() {
             DeValue::Table(table) => {
@@ -216,27 +216,27 @@ impl<'a> Section<'a> {
                     Some(outer) => format!("[{outer}.{key}]"),
                     None => format!("[{key}]"),
                 };
-                Ok(Some(Section::new(&name, table, value.span(), self.source, self.mistakes)))
+                Ok(Some(CaseTable::new(&name, table, value.span(), self.source, self.mistakes)))
             }
             _ => Err(self.wrong_type(key, "a table", value.span())),
         }
     }
 
     /// Table of an entry of this one, if it is a table.
-    pub fn inner(&self, key: &str, value: &'a Spanned<DeValue<'a>>) -> Option<Section<'a>> {
+    pub fn inner(&self, key: &str, value: &'a Spanned<DeValue<'a>>) -> Option<CaseTable<'a>> {
         let DeValue::Table(table) = value.get_ref() else { return None };
         let outer = self.name.trim_matches(['[', ']']);
         let name = format!("[{outer}.{key}]");
-        Some(Section::new(&name, table, value.span(), self.source, self.mistakes))
+        Some(CaseTable::new(&name, table, value.span(), self.source, self.mistakes))
     }
 
     /// Reads a table inside this one; `None` where it is absent, or is not a table.
-    pub fn table(&self, key: &'static str) -> Option<Section<'a>> {
+    pub fn table(&self, key: &'static str) -> Option<CaseTable<'a>> {
         self.keep(self.section(key)).flatten()
     }
 
     /// Reads the tables of an array of tables; notes a mistake for any other entry.
-    pub fn tables(&self, key: &'static str) -> Vec<Section<'a>> {
+    pub fn tables(&self, key: &'static str) -> Vec<CaseTable<'a>> {
         let Some(value) = self.value(key) else { return Vec::new() };
         let name = format!("[[{key}]]");
         let wrong = |span| self.wrong_type(key, &format!("an array of tables: {name}"), span);
@@ -246,7 +246,7 @@ impl<'a> Section<'a> {
         };
         let table = |item: &'a Spanned<DeValue<'a>>| match item.get_ref() {
             DeValue::Table(table) => {
-                Ok(Section::new(&name, table, item.span(), self.source, self.mistakes))
+                Ok(CaseTable::new(&name, table, item.span(), self.source, self.mistakes))
             }
             _ => Err(wrong(item.span())),
         };
@@ -254,7 +254,7 @@ impl<'a> Section<'a> {
     }
 
     /// Reads the strings of an array, or a single string.
-    pub fn texts(&self, key: &'static str) -> Result<Vec<Text>, Mistake> {
+    pub fn texts(&self, key: &'static str) -> Result<Vec<SpannedStr>, Mistake> {
         match self.value(key) {
             None => Ok(Vec::new()),
             Some(value) => match value.get_ref() {

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use crate::formula::{Formula, Scope, Type, is_function, skeleton};
-use crate::mechanics::{Entry, Meaning, Vocabulary};
+use crate::mechanics::{Meaning, Vocabulary, VocabularyEntry};
 
 /// Hidden names, each once: the hidden quantities of the system, and the declared names that would
 /// otherwise be functions, the unit matrix, π, e, or components of the system's own names (γ3).
@@ -20,7 +20,7 @@ pub fn all(vocabulary: &Vocabulary, quantities: Vec<String>) -> Vec<String> {
 }
 
 /// Whether the name would have a meaning if it were not declared.
-fn is_known_without_it(vocabulary: &Vocabulary, entry: &Entry) -> bool {
+fn is_known_without_it(vocabulary: &Vocabulary, entry: &VocabularyEntry) -> bool {
     let name = entry.name.as_str();
     let is_number = entry.kind == Type::Scalar && matches!(name, "e" | "π");
     match entry.meaning {

@@ -9,17 +9,17 @@ use toml::de::DeValue;
 use super::foreign;
 use super::section::numbers;
 use crate::formula::{Formula, FormulaError, MAX_COMPONENTS, Scope, Type};
-use crate::mechanics::{Draw, Range, Recipe};
+use crate::mechanics::{Draw, Range, SamplerSpec};
 use crate::number::rational::{Rational, RationalError};
 
 /// Value of `[parameters]` or `[state]`.
-pub enum Given {
+pub enum GivenValue {
     /// Fixed components.
     Fixed(Type, Vec<Rational>),
     /// Numbers of a vector, or of the diagonal of a matrix, depending on the use.
     List(Vec<Rational>),
     /// Components drawn anew for every state.
-    Drawn(Recipe),
+    Drawn(SamplerSpec),
     /// Any other text, to be read as a formula.
     Formula(String),
 }
@@ -50,7 +50,7 @@ pub fn list(values: Vec<Rational>, is_diagonal: bool) -> (Type, Vec<Rational>) {
 }
 
 /// Reads a value; sizes are whole numbers in the names of `scope`.
-pub fn given(value: &Spanned<DeValue<'_>>, scope: &dyn Scope) -> Result<Given, Refusal> {
+pub fn given(value: &Spanned<DeValue<'_>>, scope: &dyn Scope) -> Result<GivenValue, Refusal> {
     match value.get_ref() {
         DeValue::Integer(number) => fixed_scalar(&number.to_string()),
         DeValue::Float(number) => fixed_scalar(&number.to_string()),
@@ -61,7 +61,7 @@ pub fn given(value: &Spanned<DeValue<'_>>, scope: &dyn Scope) -> Result<Given, R
                     return Err("an empty list has no components".to_string())?;
                 }
                 sized(Type::Vector(values.len()))?;
-                return Ok(Given::List(values));
+                return Ok(GivenValue::List(values));
             }
             let rows: Option<Vec<Vec<String>>> = array
                 .iter()
@@ -74,7 +74,7 @@ pub fn given(value: &Spanned<DeValue<'_>>, scope: &dyn Scope) -> Result<Given, R
             match rows.filter(|rows| width > 0 && rows.iter().all(|row| row.len() == width)) {
                 Some(rows) => {
                     let kind = sized(Type::Matrix(rows.len(), width))?;
-                    Ok(Given::Fixed(kind, read_all(&rows.concat())?))
+                    Ok(GivenValue::Fixed(kind, read_all(&rows.concat())?))
                 }
                 None => Err("a matrix is a list of rows of equal length".to_string())?,
             }
@@ -94,8 +94,8 @@ fn sized(kind: Type) -> Result<Type, Refusal> {
     }
 }
 
-fn fixed_scalar(text: &str) -> Result<Given, Refusal> {
-    Ok(Given::Fixed(Type::Scalar, read_all(&[text.to_string()])?))
+fn fixed_scalar(text: &str) -> Result<GivenValue, Refusal> {
+    Ok(GivenValue::Fixed(Type::Scalar, read_all(&[text.to_string()])?))
 }
 
 fn read_all(texts: &[String]) -> Result<Vec<Rational>, String> {
@@ -115,18 +115,18 @@ fn diagonal(values: Vec<Rational>) -> Vec<Rational> {
 }
 
 /// Reads a string: a number, a range with its shape, a list of alternatives, or a formula.
-pub fn described(text: &str, scope: &dyn Scope) -> Result<Given, Refusal> {
+pub fn described(text: &str, scope: &dyn Scope) -> Result<GivenValue, Refusal> {
     let start = text.len() - text.trim_start().len();
     let text = text.trim();
     if let Ok(number) = text.parse::<Rational>() {
-        return Ok(Given::Fixed(Type::Scalar, vec![number]));
+        return Ok(GivenValue::Fixed(Type::Scalar, vec![number]));
     }
     if text == "rotation" {
-        return Ok(Given::Drawn(Recipe::Rotation));
+        return Ok(GivenValue::Drawn(SamplerSpec::Rotation));
     }
     if let Some(list) = text.strip_prefix("one of ") {
         let values: Vec<String> = list.split(',').map(|item| item.trim().to_string()).collect();
-        return Ok(Given::Drawn(Recipe::Scalar(Draw::OneOf(read_all(&values)?))));
+        return Ok(GivenValue::Drawn(SamplerSpec::Scalar(Draw::OneOf(read_all(&values)?))));
     }
     if let Some((message, remedy)) = foreign::range(text) {
         return Err(Refusal::Form(message, remedy));
@@ -138,10 +138,10 @@ pub fn described(text: &str, scope: &dyn Scope) -> Result<Given, Refusal> {
     let parts = arguments(inner);
     // the range stands last; a form with indices has a body there
     let Some((low, high)) = parts.last().and_then(|(_, last)| last.split_once("..")) else {
-        return Ok(Given::Formula(text.to_string()));
+        return Ok(GivenValue::Formula(text.to_string()));
     };
     if low.contains(['(', '[']) || high.contains(['(', '[']) {
-        return Ok(Given::Formula(text.to_string()));
+        return Ok(GivenValue::Formula(text.to_string()));
     }
     let range = range(low, high)?;
     let inside = start + text.len() - inner.len() - usize::from(inner.len() < text.len());
@@ -150,7 +150,7 @@ pub fn described(text: &str, scope: &dyn Scope) -> Result<Given, Refusal> {
         Formula::whole_number(size, scope).map_err(refused)
     });
     let sizes = sizes.collect::<Result<Vec<i64>, Refusal>>()?;
-    Ok(Given::Drawn(recipe(shape, &sizes, range)?))
+    Ok(GivenValue::Drawn(recipe(shape, &sizes, range)?))
 }
 
 /// Splits a text at commas outside of brackets; also returns the places where the parts begin.
@@ -172,7 +172,7 @@ fn arguments(text: &str) -> Vec<(usize, &str)> {
     parts
 }
 
-fn recipe(shape: &str, sizes: &[i64], range: Range) -> Result<Recipe, Refusal> {
+fn recipe(shape: &str, sizes: &[i64], range: Range) -> Result<SamplerSpec, Refusal> {
     let size = |size: &i64| {
         usize::try_from(*size)
             .ok()
@@ -188,24 +188,24 @@ fn recipe(shape: &str, sizes: &[i64], range: Range) -> Result<Recipe, Refusal> {
         _ => Err(format!("`{shape}` has one size: {shape}(4, a..b)")),
     };
     let recipe = match shape {
-        "" if sizes.is_empty() => Recipe::Scalar(draw),
+        "" if sizes.is_empty() => SamplerSpec::Scalar(draw),
         "vector" => match sizes[..] {
-            [] => Recipe::Vector(3, draw),
-            [length] => Recipe::Vector(length, draw),
+            [] => SamplerSpec::Vector(3, draw),
+            [length] => SamplerSpec::Vector(length, draw),
             _ => Err("a vector has one size: vector(4, a..b)".to_string())?,
         },
         "matrix" => match sizes[..] {
-            [] => Recipe::Matrix(3, 3, draw),
-            [rows, columns] => Recipe::Matrix(rows, columns, draw),
+            [] => SamplerSpec::Matrix(3, 3, draw),
+            [rows, columns] => SamplerSpec::Matrix(rows, columns, draw),
             _ => Err("a matrix has two sizes: matrix(4, 4, a..b)".to_string())?,
         },
-        "diag" => Recipe::Diagonal(square(1)?, draw),
-        "spherical" => Recipe::Spherical(square(1)?, draw),
-        "symmetric" => Recipe::Symmetric(square(1)?, draw),
-        "skew" => Recipe::Skew(square(1)?, draw),
-        "inertia" if sizes.is_empty() => Recipe::Inertia(range),
-        "axisymmetric" if sizes.is_empty() => Recipe::AxisymmetricInertia(range),
-        "full" if sizes.is_empty() => Recipe::FullInertia(range),
+        "diag" => SamplerSpec::Diagonal(square(1)?, draw),
+        "spherical" => SamplerSpec::Spherical(square(1)?, draw),
+        "symmetric" => SamplerSpec::Symmetric(square(1)?, draw),
+        "skew" => SamplerSpec::Skew(square(1)?, draw),
+        "inertia" if sizes.is_empty() => SamplerSpec::Inertia(range),
+        "axisymmetric" if sizes.is_empty() => SamplerSpec::AxisymmetricInertia(range),
+        "full" if sizes.is_empty() => SamplerSpec::FullInertia(range),
         "inertia" | "axisymmetric" | "full" => {
             Err(format!("`{shape}` is a tensor of ℝ³ and has no size: {shape}(a..b)"))?
         }
@@ -234,11 +234,11 @@ fn range(low: &str, high: &str) -> Result<Range, Refusal> {
 }
 
 /// Type and ranges of a state variable, one range for each component.
-pub fn state_draws(given: &Given) -> Option<(Type, Vec<Draw>)> {
+pub fn state_draws(given: &GivenValue) -> Option<(Type, Vec<Draw>)> {
     match given {
-        Given::Drawn(recipe @ (Recipe::Scalar(_) | Recipe::Vector(..) | Recipe::Matrix(..))) => {
-            Some((recipe.kind(), recipe.draws()))
-        }
+        GivenValue::Drawn(
+            recipe @ (SamplerSpec::Scalar(_) | SamplerSpec::Vector(..) | SamplerSpec::Matrix(..)),
+        ) => Some((recipe.kind(), recipe.draws())),
         _ => None,
     }
 }

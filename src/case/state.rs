@@ -7,10 +7,10 @@ use toml::de::DeValue;
 
 use super::error::{Mistake, Problem};
 use super::parameters::named;
-use super::section::Section;
-use super::shapes::{Given, Refusal, given, state_draws};
+use super::section::CaseTable;
+use super::shapes::{GivenValue, Refusal, given, state_draws};
 use crate::formula::Type;
-use crate::mechanics::{Draw, Meaning, Range, Reach, Variable, Vocabulary};
+use crate::mechanics::{Dependence, Draw, Meaning, Range, Variable, Vocabulary};
 
 /// State variables with the draws of their components.
 #[derive(Clone, Debug)]
@@ -25,7 +25,7 @@ pub struct State {
 pub const TIME: &str = "t";
 
 /// Reads a table of names and ranges; `reach` is the dependence that the names stand for.
-pub fn state(section: &Section<'_>, vocabulary: &mut Vocabulary, reach: Reach) -> State {
+pub fn state(section: &CaseTable<'_>, vocabulary: &mut Vocabulary, reach: Dependence) -> State {
     let mut state = State { variables: Vec::new(), draws: Vec::new() };
     add_state(section, vocabulary, reach, &mut state);
     state
@@ -33,9 +33,9 @@ pub fn state(section: &Section<'_>, vocabulary: &mut Vocabulary, reach: Reach) -
 
 /// Reads further state variables.
 pub fn add_state(
-    section: &Section<'_>,
+    section: &CaseTable<'_>,
     vocabulary: &mut Vocabulary,
-    reach: Reach,
+    reach: Dependence,
     state: &mut State,
 ) {
     for (key, value) in section.entries() {
@@ -60,7 +60,7 @@ impl State {
         kind: Type,
         draws: Vec<Draw>,
         vocabulary: &mut Vocabulary,
-        reach: Reach,
+        reach: Dependence,
     ) {
         vocabulary.add(name, Meaning::State(self.variables.len()), kind, reach);
         self.variables.push(Variable { name: name.to_string(), kind });
@@ -68,7 +68,7 @@ impl State {
     }
 
     /// Adds time, between -2 and 2.
-    pub fn add_time(&mut self, vocabulary: &mut Vocabulary, reach: Reach) {
+    pub fn add_time(&mut self, vocabulary: &mut Vocabulary, reach: Dependence) {
         let draw = Draw::Within(Range::between((-2, 1), (2, 1)));
         self.add(TIME, Type::Scalar, vec![draw], vocabulary, reach);
     }
@@ -78,7 +78,7 @@ type Entry<'a> = (&'a Spanned<Cow<'a, str>>, &'a Spanned<DeValue<'a>>);
 
 /// Type of a state variable, and the draws of its components.
 fn variable(
-    section: &Section<'_>,
+    section: &CaseTable<'_>,
     name: &str,
     key: Entry<'_>,
     vocabulary: &Vocabulary,
@@ -106,7 +106,7 @@ fn variable(
         }
     })?;
     state_draws(&given).ok_or_else(|| match given {
-        Given::Drawn(_) => wrong(format!(
+        GivenValue::Drawn(_) => wrong(format!(
             "`{name}` has components that depend on each other: states are drawn component by component"
         )),
         _ => wrong(format!("`{name}` needs a range from which its states are drawn")),

@@ -7,19 +7,19 @@ use super::build::Assumed;
 use super::error::{Mistake, Problem};
 use super::field;
 use super::mistakes::Mistakes;
-use super::order::{Item, Stage};
+use super::order::{Stage, WaitingName};
 use super::parameters::Setting;
-use super::section::{Section, Text};
+use super::section::{CaseTable, SpannedStr};
 use super::state::{self, State, TIME};
 use super::{kinds, shadows};
 use crate::formula::{Formula, Scope, Symbol, Type, canonical_name, names_in};
 use crate::mechanics::{
-    Chart, Draw, LevelEquation, Meaning, Model, Parameter, Quantity, Reach, System, Variable,
+    Chart, Dependence, Draw, LevelEquation, Meaning, Model, Parameter, Quantity, System, Variable,
     Vocabulary,
 };
 
 /// A model with its chart and draws.
-pub struct Parts {
+pub struct ModelParts {
     /// The model.
     pub model: Model,
     /// Chart that makes states.
@@ -36,7 +36,7 @@ pub struct Parts {
 
 /// State of reading a model.
 pub(super) struct Reading<'r, 's> {
-    pub root: &'r Section<'s>,
+    pub root: &'r CaseTable<'s>,
     pub settings: &'r [Setting],
     pub assumed: &'r Assumed,
     pub arbitrary: Arbitrary<'r>,
@@ -48,7 +48,7 @@ pub(super) struct Reading<'r, 's> {
     pub sizes: Vec<String>,
     pub state: State,
     /// Names of `[parameters]` and `[let]`, whether read or pending.
-    pub items: Vec<Item<'s>>,
+    pub items: Vec<WaitingName<'s>>,
     pub abbreviations: Vec<Formula>,
     pub level: Vec<LevelEquation>,
     pub extension: Vec<Formula>,
@@ -58,7 +58,7 @@ pub(super) struct Reading<'r, 's> {
 
 impl<'r, 's> Reading<'r, 's> {
     /// A reading that has not begun.
-    pub fn new(root: &'r Section<'s>, settings: &'r [Setting], assumed: &'r Assumed) -> Self {
+    pub fn new(root: &'r CaseTable<'s>, settings: &'r [Setting], assumed: &'r Assumed) -> Self {
         Self {
             root,
             settings,
@@ -85,7 +85,7 @@ impl<'r, 's> Reading<'r, 's> {
     /// Reads the tables of the system after the parameters; also returns its name.
     ///
     /// `None` if the system is not known.
-    pub fn read(mut self) -> Option<(String, Parts)> {
+    pub fn read(mut self) -> Option<(String, ModelParts)> {
         let text = self.kind()?;
         let Some((_, reader)) = kinds::SYSTEMS.iter().find(|(name, _)| *name == text.value) else {
             let message = format!("unknown system `{}`", text.value);
@@ -113,7 +113,7 @@ impl<'r, 's> Reading<'r, 's> {
             fixed,
         };
         let free_draws = self.state.draws;
-        Some((text.value, Parts { model, chart, free_draws, hidden, alike, is_whole }))
+        Some((text.value, ModelParts { model, chart, free_draws, hidden, alike, is_whole }))
     }
 
     /// Symbols of whole numbers that sizes, and keys of `[field]`, contain.
@@ -134,13 +134,13 @@ impl<'r, 's> Reading<'r, 's> {
         names.filter_map(whole).collect()
     }
 
-    fn kind(&self) -> Option<Text> {
+    fn kind(&self) -> Option<SpannedStr> {
         match self.root.keep(self.root.text("system"))? {
             Some(text) => Some(text),
             None if ["field", "hamiltonian"].iter().any(|key| self.root.has(key)) => {
-                Some(Text::made("field".to_string(), 0..0))
+                Some(SpannedStr::made("field".to_string(), 0..0))
             }
-            None if self.root.has("map") => Some(Text::made("map".to_string(), 0..0)),
+            None if self.root.has("map") => Some(SpannedStr::made("map".to_string(), 0..0)),
             None if self.root.value("lagrangian").is_some() => {
                 let remedy = "add system = \"nonholonomic\" or \"vakonomic\"";
                 self.mistakes().add(self.root.missing("system", remedy));
@@ -163,7 +163,7 @@ impl<'r, 's> Reading<'r, 's> {
     }
 
     /// Reads the variables of a system without built-in ones.
-    pub fn own_state(&mut self, reach: Reach, remedy: &str) {
+    pub fn own_state(&mut self, reach: Dependence, remedy: &str) {
         match self.root.table("state") {
             Some(ranges) => self.state = state::state(&ranges, &mut self.vocabulary, reach),
             None => {
@@ -177,7 +177,7 @@ impl<'r, 's> Reading<'r, 's> {
     }
 
     /// Adds time as a variable where formulas use it and it has no other meaning.
-    fn add_time(&mut self, reach: Reach) {
+    fn add_time(&mut self, reach: Dependence) {
         let is_discrete = self.root.has("map");
         if self.assumed.time && !is_discrete && self.vocabulary.find(TIME).is_none() {
             self.state.add_time(&mut self.vocabulary, reach);
@@ -189,12 +189,12 @@ impl<'r, 's> Reading<'r, 's> {
         &mut self,
         own: &[(&str, Type)],
         draws: &[Draw],
-        quantities: Vec<(&'static str, Quantity, Type, Reach)>,
-        system: &Text,
+        quantities: Vec<(&'static str, Quantity, Type, Dependence)>,
+        system: &SpannedStr,
     ) {
         let given = self.root.table("parameters");
         let place = |name: &str| {
-            let entries = given.as_ref().map(Section::entries).unwrap_or_default();
+            let entries = given.as_ref().map(CaseTable::entries).unwrap_or_default();
             let named = |(key, _): &(&toml::Spanned<std::borrow::Cow<'_, str>>, _)| {
                 canonical_name(key.get_ref()).as_deref() == Some(name)
             };
@@ -207,7 +207,7 @@ impl<'r, 's> Reading<'r, 's> {
                 self.mistakes().add(Mistake::new(place(name), problem));
             }
             let position = matches!(*name, "γ" | "r");
-            let reach = if position { Reach::Configuration } else { Reach::Phase };
+            let reach = if position { Dependence::Configuration } else { Dependence::Phase };
             self.vocabulary.add(name, Meaning::State(index), *kind, reach);
             self.state.variables.push(Variable { name: name.to_string(), kind: *kind });
         }
@@ -219,7 +219,7 @@ impl<'r, 's> Reading<'r, 's> {
     }
 
     /// Names a quantity, unless the file gave the name another meaning.
-    pub fn name(&mut self, name: &str, quantity: Quantity, kind: Type, reach: Reach) {
+    pub fn name(&mut self, name: &str, quantity: Quantity, kind: Type, reach: Dependence) {
         match self.vocabulary.find(name).map(|entry| entry.meaning) {
             None => self.vocabulary.add(name, Meaning::Quantity(quantity), kind, reach),
             // x' is the velocity of x where both are declared.
@@ -233,7 +233,7 @@ impl<'r, 's> Reading<'r, 's> {
     pub fn further_state(&mut self) {
         let first = self.state.variables.len();
         if let Some(section) = self.root.table("state") {
-            state::add_state(&section, &mut self.vocabulary, Reach::Phase, &mut self.state);
+            state::add_state(&section, &mut self.vocabulary, Dependence::Phase, &mut self.state);
         }
         let mut added = self.state.variables[first..].iter();
         if let Some(variable) = added.find(|variable| variable.name != TIME)
@@ -242,7 +242,7 @@ impl<'r, 's> Reading<'r, 's> {
             let remedy = format!("add \"{}'\" = \"…\" under [field]", variable.name);
             self.mistakes().add(self.root.missing("field", &remedy));
         }
-        self.add_time(Reach::Phase);
+        self.add_time(Dependence::Phase);
     }
 
     /// Reads the rates of the added variables.
@@ -266,7 +266,7 @@ impl<'r, 's> Reading<'r, 's> {
     fn name_rates(&mut self) {
         for (index, variable) in self.state.variables.clone().iter().enumerate() {
             let name = format!("{}'", variable.name);
-            self.name(&name, Quantity::Rate(index), variable.kind, Reach::Phase);
+            self.name(&name, Quantity::Rate(index), variable.kind, Dependence::Phase);
         }
     }
 }

@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use super::shapes::{Given, Refusal, described};
-use crate::formula::{Composed, Formula, FormulaError, Scope, Type};
-use crate::mechanics::{Draw, Recipe};
+use super::shapes::{GivenValue, Refusal, described};
+use crate::formula::{Formula, FormulaError, FormulaResult, Scope, Type};
+use crate::mechanics::{Draw, SamplerSpec};
 use crate::number::rational::Rational;
 
 /// ValueSpec of a parameter, or the range of a state variable.
@@ -15,7 +15,7 @@ pub enum ValueSpec {
     /// Components, row by row.
     Components(Type, Vec<Rational>),
     /// Drawn anew for every state; a proof covers all values.
-    Drawn(Recipe),
+    Drawn(SamplerSpec),
     /// Formula in the parameters before it.
     Formula(Formula),
     /// Text as case files write it: `3/4`, `0.5..2`, `inertia(0.5..5)`, `2*m`.
@@ -40,8 +40,8 @@ impl From<Rational> for ValueSpec {
     }
 }
 
-impl From<Recipe> for ValueSpec {
-    fn from(recipe: Recipe) -> Self {
+impl From<SamplerSpec> for ValueSpec {
+    fn from(recipe: SamplerSpec) -> Self {
         ValueSpec::Drawn(recipe)
     }
 }
@@ -67,27 +67,27 @@ impl From<Range<i64>> for ValueSpec {
 impl From<Range<Rational>> for ValueSpec {
     fn from(range: Range<Rational>) -> Self {
         let range = crate::mechanics::Range { low: range.start, high: range.end };
-        ValueSpec::Drawn(Recipe::Scalar(Draw::Within(range)))
+        ValueSpec::Drawn(SamplerSpec::Scalar(Draw::Within(range)))
     }
 }
 
 impl ValueSpec {
     /// The value in the form of the file's reader.
-    pub(super) fn given(&self, scope: &dyn Scope) -> Result<Given, String> {
+    pub(super) fn given(&self, scope: &dyn Scope) -> Result<GivenValue, String> {
         let is_empty = |range: &crate::mechanics::Range| range.low >= range.high;
         match self {
-            ValueSpec::Number(number) => Ok(Given::Fixed(Type::Scalar, vec![number.clone()])),
+            ValueSpec::Number(number) => Ok(GivenValue::Fixed(Type::Scalar, vec![number.clone()])),
             ValueSpec::Components(kind, values) if values.len() == kind.size() => {
-                Ok(Given::Fixed(*kind, values.clone()))
+                Ok(GivenValue::Fixed(*kind, values.clone()))
             }
             ValueSpec::Components(kind, values) => {
                 Err(format!("{} components do not fill a {kind}", values.len()))
             }
-            ValueSpec::Drawn(Recipe::Scalar(Draw::Within(range))) if is_empty(range) => {
+            ValueSpec::Drawn(SamplerSpec::Scalar(Draw::Within(range))) if is_empty(range) => {
                 Err(format!("the range {}..{} is empty", range.low, range.high))
             }
-            ValueSpec::Drawn(recipe) => Ok(Given::Drawn(recipe.clone())),
-            ValueSpec::Formula(formula) => Ok(Given::Formula(formula.to_string())),
+            ValueSpec::Drawn(recipe) => Ok(GivenValue::Drawn(recipe.clone())),
+            ValueSpec::Formula(formula) => Ok(GivenValue::Formula(formula.to_string())),
             ValueSpec::Text(text) => described(text, scope).map_err(|refusal| match refusal {
                 Refusal::Message(message) => message,
                 Refusal::Form(message, remedy) => format!("{message}: {remedy}"),
@@ -126,8 +126,8 @@ impl From<&Formula> for FormulaSource {
     }
 }
 
-impl From<Composed> for FormulaSource {
-    fn from(composed: Composed) -> Self {
+impl From<FormulaResult> for FormulaSource {
+    fn from(composed: FormulaResult) -> Self {
         match composed {
             Ok(formula) => FormulaSource::Formula(formula),
             Err(error) => FormulaSource::Failed(error),

@@ -3,9 +3,11 @@
 use super::claim_error::ClaimError;
 use super::field::both_sides;
 use super::{Case, PlacedClaim, TABLE_ROWS};
-use crate::claim::{Claim, Complex, Entry, Kind, Locus, Place, Reader, STATEMENTS, jets};
+use crate::claim::{
+    Claim, ClaimEntry, ClaimKind, ComplexFormula, LevelSubset, Locus, Reader, STATEMENTS, jets,
+};
 use crate::formula::{Formula, FormulaError, Type, canonical_name};
-use crate::mechanics::{Model, Reach, Vocabulary};
+use crate::mechanics::{Dependence, Model, Vocabulary};
 
 impl Case {
     /// Reads a formula in the names of the case.
@@ -38,9 +40,9 @@ impl Case {
 
     fn placed(&self, claim: &Claim, before: &[PlacedClaim]) -> Result<PlacedClaim, ClaimError> {
         let model = &self.model;
-        let values = Values { claim, model };
+        let values = ClaimTable { claim, model };
         values.check_keys()?;
-        let kind = Kind::read(claim.key(), &values).unwrap_or_else(|| {
+        let kind = ClaimKind::read(claim.key(), &values).unwrap_or_else(|| {
             let remedy = format!("use one of {}", STATEMENTS.join(", "));
             Err(values.complaint(claim.key(), "this kind of claim is unknown".to_string(), &remedy))
         })?;
@@ -95,7 +97,8 @@ impl Case {
         })?;
         let model = &mut self.model;
         model.vocabulary.check_own(formula).map_err(|other| stranger(name, &other))?;
-        let reach = model.vocabulary.reach(formula).map_or(Reach::Parameters, |entry| entry.reach);
+        let reach =
+            model.vocabulary.reach(formula).map_or(Dependence::Parameters, |entry| entry.reach);
         model.vocabulary.define(&canonical, model.abbreviations.len(), formula, reach);
         model.abbreviations.push(formula.clone());
         Ok(())
@@ -113,15 +116,15 @@ pub(super) fn stranger(what: &str, name: &str) -> ClaimError {
 }
 
 /// A claim as a value, read like the table of a file.
-struct Values<'v> {
+struct ClaimTable<'v> {
     claim: &'v Claim,
     model: &'v Model,
 }
 
-impl Values<'_> {
+impl ClaimTable<'_> {
     /// Fails for a key that this kind of claim does not have.
     fn check_keys(&self) -> Result<(), ClaimError> {
-        let companions = Kind::companions(self.claim.key());
+        let companions = ClaimKind::companions(self.claim.key());
         let mut others = self.claim.entries().iter().map(|(key, _)| *key).skip(1);
         match others.find(|key| !companions.contains(key)) {
             None => Ok(()),
@@ -137,7 +140,7 @@ impl Values<'_> {
     }
 
     /// Returns the name that is set, or the text of the statement, with a number if it is taken.
-    fn name(&self, kind: &Kind, before: &[PlacedClaim]) -> Result<String, ClaimError> {
+    fn name(&self, kind: &ClaimKind, before: &[PlacedClaim]) -> Result<String, ClaimError> {
         let is_taken = |name: &String| before.iter().any(|claim| claim.name == *name);
         if let Some(name) = self.claim.name().map(str::to_string) {
             if is_taken(&name) {
@@ -152,13 +155,13 @@ impl Values<'_> {
         Ok(names.find(|name| !is_taken(name)).unwrap_or(base))
     }
 
-    fn place(&self) -> Result<(Place, bool), ClaimError> {
+    fn place(&self) -> Result<(LevelSubset, bool), ClaimError> {
         let model = self.model;
         match self.claim.locus() {
-            Locus::Level => Ok((Place::level(model), false)),
-            Locus::LevelOnly => Ok((Place::level(model), true)),
-            Locus::Everywhere => Ok((Place::everywhere(model), false)),
-            Locus::Equation(text) => match Place::equation(model, text) {
+            Locus::Level => Ok((LevelSubset::level(model), false)),
+            Locus::LevelOnly => Ok((LevelSubset::level(model), true)),
+            Locus::Everywhere => Ok((LevelSubset::everywhere(model), false)),
+            Locus::Equation(text) => match LevelSubset::equation(model, text) {
                 Some(place) => Ok((place, false)),
                 None => {
                     let message = format!("`{text}` is not a place of this case");
@@ -194,13 +197,13 @@ impl Values<'_> {
     fn read(
         &self,
         key: &str,
-        entry: &Entry,
+        entry: &ClaimEntry,
         kind: Option<Type>,
         scope: &Vocabulary,
     ) -> Result<Formula, ClaimError> {
         match entry {
-            Entry::Formula(formula) => self.fits(key, formula, kind, scope),
-            Entry::Text(text) => {
+            ClaimEntry::Formula(formula) => self.fits(key, formula, kind, scope),
+            ClaimEntry::Text(text) => {
                 let read = Formula::parse(text, scope).map_err(|error| {
                     let help = error.help().unwrap_or("write it in the names of the case");
                     ClaimError::new(&self.what(), error.message(), help)
@@ -236,7 +239,7 @@ impl Values<'_> {
     }
 }
 
-impl Reader for Values<'_> {
+impl Reader for ClaimTable<'_> {
     type Error = ClaimError;
 
     fn model(&self) -> &Model {
@@ -246,15 +249,17 @@ impl Reader for Values<'_> {
     fn text(&self, key: &'static str) -> Result<Option<String>, ClaimError> {
         match self.claim.entry(key) {
             None => Ok(None),
-            Some(Entry::Text(text)) => Ok(Some(text.clone())),
-            Some(Entry::Formula(formula)) => Ok(Some(formula.to_string())),
+            Some(ClaimEntry::Text(text)) => Ok(Some(text.clone())),
+            Some(ClaimEntry::Formula(formula)) => Ok(Some(formula.to_string())),
             Some(_) => Err(self.unfit(key, "a text")),
         }
     }
 
     fn texts(&self, key: &'static str) -> Result<Option<Vec<String>>, ClaimError> {
         match self.claim.entry(key) {
-            Some(Entry::List(list)) => Ok(Some(list.iter().map(ToString::to_string).collect())),
+            Some(ClaimEntry::List(list)) => {
+                Ok(Some(list.iter().map(ToString::to_string).collect()))
+            }
             _ => Ok(self.text(key)?.map(|text| vec![text])),
         }
     }
@@ -276,7 +281,7 @@ impl Reader for Values<'_> {
     ) -> Result<Option<Vec<Formula>>, ClaimError> {
         match self.claim.entry(key) {
             None => Ok(None),
-            Some(Entry::List(list)) => list
+            Some(ClaimEntry::List(list)) => list
                 .iter()
                 .map(|one| self.fits(key, one, None, scope))
                 .collect::<Result<_, _>>()
@@ -285,13 +290,13 @@ impl Reader for Values<'_> {
         }
     }
 
-    fn complex_list(&self, key: &'static str) -> Result<Option<Vec<Complex>>, ClaimError> {
+    fn complex_list(&self, key: &'static str) -> Result<Option<Vec<ComplexFormula>>, ClaimError> {
         let scope = &self.model.vocabulary;
         match self.claim.entry(key) {
             None => Ok(None),
-            Some(Entry::Complex(list)) => {
+            Some(ClaimEntry::Complex(list)) => {
                 let fits = |part: &Formula| self.fits(key, part, Some(Type::Scalar), scope);
-                let read = |(real, imaginary): &Complex| {
+                let read = |(real, imaginary): &ComplexFormula| {
                     Ok((fits(real)?, imaginary.as_ref().map(fits).transpose()?))
                 };
                 list.iter().map(read).collect::<Result<_, _>>().map(Some)
@@ -303,10 +308,10 @@ impl Reader for Values<'_> {
     fn equation(&self, key: &'static str) -> Result<(Formula, Formula), ClaimError> {
         let scope = &self.model.vocabulary;
         match self.claim.entry(key) {
-            Some(Entry::Equation(left, right)) => {
+            Some(ClaimEntry::Equation(left, right)) => {
                 Ok((self.fits(key, left, None, scope)?, self.fits(key, right, None, scope)?))
             }
-            Some(Entry::Text(text)) => match both_sides(text, scope) {
+            Some(ClaimEntry::Text(text)) => match both_sides(text, scope) {
                 Some((left, right)) => {
                     Ok((self.fits(key, &left, None, scope)?, self.fits(key, &right, None, scope)?))
                 }
@@ -323,7 +328,7 @@ impl Reader for Values<'_> {
     ) -> Result<Option<Vec<(String, Formula)>>, ClaimError> {
         match self.claim.entry(key) {
             None => Ok(None),
-            Some(Entry::Table(table)) => self.table_of(table, scope).map(Some),
+            Some(ClaimEntry::Table(table)) => self.table_of(table, scope).map(Some),
             Some(_) => Err(self.unfit(key, "a table of formulas")),
         }
     }
@@ -337,7 +342,7 @@ impl Reader for Values<'_> {
     ) -> Result<Option<Vec<(String, Formula)>>, ClaimError> {
         let tables = match self.claim.entry(key) {
             None => return Ok(None),
-            Some(Entry::Tables(tables)) => tables,
+            Some(ClaimEntry::Tables(tables)) => tables,
             Some(_) => return Err(self.unfit(key, "a table of tables")),
         };
         if let Some((other, _)) = tables.iter().find(|(name, _)| !known.contains(name)) {

@@ -7,12 +7,12 @@ use toml::Spanned;
 use super::error::{Mistake, Problem};
 use super::formulas::formula;
 use super::parameters::named;
-use super::section::{Section, Text};
+use super::section::{CaseTable, SpannedStr};
 use super::values::stranger;
 use super::{Case, ClaimError};
 use crate::formula::{Formula, Scope, Type, canonical_name};
 use crate::mechanics::{
-    Block, Meaning, Model, Poisson, Reach, System, Variable, Variables, Vocabulary,
+    BracketBlock, Dependence, Meaning, Model, NewVariables, Poisson, System, Variable, Vocabulary,
 };
 
 /// Name of a bracket that is given without one.
@@ -22,7 +22,7 @@ const ONLY: &str = "poisson";
 const OWN: &str = "hamiltonian";
 
 /// Reads both tables into the model, if they are present; `false` where there is a mistake.
-pub fn read(root: &Section<'_>, model: &mut Model) -> bool {
+pub fn read(root: &CaseTable<'_>, model: &mut Model) -> bool {
     let Some(section) = root.table("variables") else {
         if root.value("variables").is_some() {
             return false;
@@ -33,7 +33,7 @@ pub fn read(root: &Section<'_>, model: &mut Model) -> bool {
     for (key, value) in section.entries() {
         let read = named(key).and_then(|name| {
             let text = section.as_text(key.get_ref(), value)?;
-            let image = formula(&text, &model.vocabulary, &name, None, Reach::Phase)?;
+            let image = formula(&text, &model.vocabulary, &name, None, Dependence::Phase)?;
             Ok((name, image))
         });
         match section.keep(read) {
@@ -49,12 +49,12 @@ pub fn read(root: &Section<'_>, model: &mut Model) -> bool {
     }
     let target = target(model, state, &images);
     let Some(brackets) = brackets(root, &target) else { return false };
-    model.variables = Some(Box::new(Variables { model: target, images, brackets }));
+    model.variables = Some(Box::new(NewVariables { model: target, images, brackets }));
     true
 }
 
 /// Brackets for the state variables themselves, where no new variables are named.
-fn state_brackets(root: &Section<'_>, model: &mut Model) -> bool {
+fn state_brackets(root: &CaseTable<'_>, model: &mut Model) -> bool {
     let own = own_bracket(model);
     if root.value("poisson").is_none() {
         model.variables = own.map(Box::new);
@@ -63,7 +63,7 @@ fn state_brackets(root: &Section<'_>, model: &mut Model) -> bool {
     let variables = own.or_else(|| {
         let images = own_images(model)?;
         let target = target(model, model.state.clone(), &images);
-        Some(Variables { model: target, images, brackets: Vec::new() })
+        Some(NewVariables { model: target, images, brackets: Vec::new() })
     });
     let Some(mut variables) = variables else { return false };
     let Some(brackets) = brackets(root, &variables.model) else { return false };
@@ -73,13 +73,17 @@ fn state_brackets(root: &Section<'_>, model: &mut Model) -> bool {
 }
 
 /// Reads `[poisson]`, one bracket or several with names; `None` where there is a mistake.
-fn brackets(root: &Section<'_>, target: &Model) -> Option<Vec<Poisson>> {
+fn brackets(root: &CaseTable<'_>, target: &Model) -> Option<Vec<Poisson>> {
     let Some(section) = root.table("poisson") else {
         return root.value("poisson").is_none().then(Vec::new);
     };
-    let names = Names { state: &target.state, vocabulary: &target.vocabulary, reach: Reach::Phase };
+    let names = BracketNames {
+        state: &target.state,
+        vocabulary: &target.vocabulary,
+        reach: Dependence::Phase,
+    };
     let entries = section.entries();
-    let named: Vec<(String, Section<'_>)> = entries
+    let named: Vec<(String, CaseTable<'_>)> = entries
         .iter()
         .filter_map(|(key, value)| {
             Some((key.get_ref().to_string(), section.inner(key.get_ref(), value)?))
@@ -118,7 +122,11 @@ fn brackets(root: &Section<'_>, target: &Model) -> Option<Vec<Poisson>> {
 }
 
 /// Reads a bracket; `None` within if it has no block.
-fn bracket(name: &str, section: &Section<'_>, names: &Names<'_>) -> Option<Option<Poisson>> {
+fn bracket(
+    name: &str,
+    section: &CaseTable<'_>,
+    names: &BracketNames<'_>,
+) -> Option<Option<Poisson>> {
     let blocks = blocks(section, names)?;
     let is_given = blocks.iter().flatten().any(Option::is_some);
     Some(is_given.then(|| Poisson { name: name.to_string(), blocks }))
@@ -131,22 +139,22 @@ fn own_images(model: &Model) -> Option<Vec<Formula>> {
 }
 
 /// State variables as variables of the bracket that `[hamiltonian]` gives.
-fn own_bracket(model: &Model) -> Option<Variables> {
+fn own_bracket(model: &Model) -> Option<NewVariables> {
     let System::Hamiltonian(hamiltonian) = &model.system else { return None };
     let images = own_images(model)?;
     let target = target(model, model.state.clone(), &images);
     let again = |formula: &Formula| Formula::parse(formula.text(), &target.vocabulary).ok();
-    let block = |block: &Option<Block>| {
+    let block = |block: &Option<BracketBlock>| {
         Some(match block {
-            Some(Block::Given(formula)) => Some(Block::Given(again(formula)?)),
-            Some(Block::Opposite(formula)) => Some(Block::Opposite(again(formula)?)),
+            Some(BracketBlock::Given(formula)) => Some(BracketBlock::Given(again(formula)?)),
+            Some(BracketBlock::Opposite(formula)) => Some(BracketBlock::Opposite(again(formula)?)),
             other => other.clone(),
         })
     };
-    let row = |row: &Vec<Option<Block>>| row.iter().map(block).collect::<Option<Vec<_>>>();
+    let row = |row: &Vec<Option<BracketBlock>>| row.iter().map(block).collect::<Option<Vec<_>>>();
     let blocks = hamiltonian.blocks.iter().map(row).collect::<Option<Vec<_>>>()?;
     let brackets = vec![Poisson { name: OWN.to_string(), blocks }];
-    Some(Variables { model: target, images, brackets })
+    Some(NewVariables { model: target, images, brackets })
 }
 
 /// Model whose names functions of the new variables use.
@@ -164,31 +172,31 @@ fn target(model: &Model, state: Vec<Variable>, images: &[Formula]) -> Model {
     let keeps_body = is_body && stays(1) && state[0].kind == Type::VECTOR;
     let mut names = model.vocabulary.only(|entry| match entry.meaning {
         Meaning::Quantity(quantity) if keeps_body && quantity.is_of_position() => true,
-        _ => entry.reach == Reach::Parameters,
+        _ => entry.reach == Dependence::Parameters,
     });
     for (index, variable) in state.iter().enumerate() {
         let position = keeps_body && index == 1;
-        let reach = if position { Reach::Configuration } else { Reach::Phase };
+        let reach = if position { Dependence::Configuration } else { Dependence::Phase };
         names.add(&variable.name, Meaning::State(index), variable.kind, reach);
     }
     model.with_names(names, state)
 }
 
 /// Blocks of a bracket, by pairs of variables.
-pub type Blocks = Vec<Vec<Option<Block>>>;
+pub type Blocks = Vec<Vec<Option<BracketBlock>>>;
 
 /// Names in which a bracket is written.
-pub struct Names<'n> {
+pub struct BracketNames<'n> {
     /// Variables of the bracket.
     pub state: &'n [Variable],
     /// Names that formulas may use.
     pub vocabulary: &'n Vocabulary,
     /// Dependence allowed to formulas.
-    pub reach: Reach,
+    pub reach: Dependence,
 }
 
 /// Reads the blocks of a Poisson tensor; `None` where there is a mistake.
-pub fn blocks(section: &Section<'_>, target: &Names<'_>) -> Option<Blocks> {
+pub fn blocks(section: &CaseTable<'_>, target: &BracketNames<'_>) -> Option<Blocks> {
     let count = target.state.len();
     let mut blocks: Blocks = vec![vec![None; count]; count];
     let mut whole = section.keep(structure(section, target, &mut blocks)).is_some();
@@ -202,8 +210,8 @@ pub fn blocks(section: &Section<'_>, target: &Names<'_>) -> Option<Blocks> {
 
 /// Reads `structure = "e(3)"`.
 fn structure(
-    section: &Section<'_>,
-    target: &Names<'_>,
+    section: &CaseTable<'_>,
+    target: &BracketNames<'_>,
     blocks: &mut Blocks,
 ) -> Result<(), Mistake> {
     let Some(text) = section.text("structure")? else { return Ok(()) };
@@ -228,8 +236,8 @@ fn structure(
 /// Reads one entry of `[poisson]`.
 fn block(
     key: &Spanned<Cow<'_, str>>,
-    text: &Text,
-    target: &Names<'_>,
+    text: &SpannedStr,
+    target: &BracketNames<'_>,
     blocks: &mut Blocks,
 ) -> Result<(), Mistake> {
     let index = |name: &str| {
@@ -283,7 +291,7 @@ impl Case {
         let target = target(model, state, &images);
         let brackets = Vec::new();
         let mut changed = self.with_claims(&[])?;
-        changed.model.variables = Some(Box::new(Variables { model: target, images, brackets }));
+        changed.model.variables = Some(Box::new(NewVariables { model: target, images, brackets }));
         Ok(changed)
     }
 
@@ -375,9 +383,9 @@ fn parse(text: &str, names: &Vocabulary) -> Result<Formula, Mistake> {
 }
 
 /// Enters a block, and its opposite.
-fn place(blocks: &mut [Vec<Option<Block>>], (i, j): (usize, usize), block: Formula) {
+fn place(blocks: &mut [Vec<Option<BracketBlock>>], (i, j): (usize, usize), block: Formula) {
     if i != j {
-        blocks[j][i] = Some(Block::Opposite(block.clone()));
+        blocks[j][i] = Some(BracketBlock::Opposite(block.clone()));
     }
-    blocks[i][j] = Some(Block::Given(block));
+    blocks[i][j] = Some(BracketBlock::Given(block));
 }

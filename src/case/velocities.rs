@@ -4,14 +4,14 @@
 use num_traits::{One, Zero};
 
 use super::error::{Mistake, Problem};
-use super::section::Section;
+use super::section::CaseTable;
 use crate::formula::canonical_name;
 use crate::graph::{Expr, record};
-use crate::mechanics::{Algebra, Lagrangian, Model, Phase, Role, System};
+use crate::mechanics::{Algebra, Lagrangian, Model, Phase, System, VariableRole};
 
 /// Rejects a rate that is not linear in the velocities although the equations of motion need it.
 /// Returns a warning for each constraint whose reaction is a matter of definition.
-pub fn check(root: &Section<'_>, model: &Model) -> Result<Vec<String>, Mistake> {
+pub fn check(root: &CaseTable<'_>, model: &Model) -> Result<Vec<String>, Mistake> {
     let System::Lagrangian(lagrangian) = &model.system else { return Ok(Vec::new()) };
     let nonlinear = Nonlinear::of(lagrangian, model);
     if let Some(component) = nonlinear.rates.first() {
@@ -56,7 +56,7 @@ impl Nonlinear {
     /// Finds the nonlinear formulas: f is linear in w when no ∂f/∂w_i contains a velocity as it is
     /// recorded.
     fn of(lagrangian: &Lagrangian, model: &Model) -> Self {
-        let is_carried = |role: &Role| matches!(role, Role::Carried(_));
+        let is_carried = |role: &VariableRole| matches!(role, VariableRole::Carried(_));
         if lagrangian.constraints.is_empty() && !lagrangian.roles.iter().any(is_carried) {
             return Self::default();
         }
@@ -107,7 +107,7 @@ impl Nonlinear {
 }
 
 /// Place in `[field]` of the rate of a variable.
-fn place_of_rate(root: &Section<'_>, name: &str) -> Option<std::ops::Range<usize>> {
+fn place_of_rate(root: &CaseTable<'_>, name: &str) -> Option<std::ops::Range<usize>> {
     let section = root.table("field")?;
     let is_rate = |key: &str| {
         let base = key.split('[').next().unwrap_or(key);

@@ -3,16 +3,16 @@
 
 use super::PlacedClaim;
 use super::error::{Mistake, Problem};
-use super::section::{Section, Text};
+use super::section::{CaseTable, SpannedStr};
 use crate::formula::{Formula, Scope, Symbol, Type, WeightSystem, canonical_name};
 use crate::mechanics::{LevelFunction, Meaning, Model, Quantity};
 use crate::number::rational::Rational;
 
 /// Checks all formulas of a case in every known base dimension, and notes the mistakes.
 pub fn check(
-    root: &Section<'_>,
+    root: &CaseTable<'_>,
     model: &Model,
-    dimensions: Option<&Section<'_>>,
+    dimensions: Option<&CaseTable<'_>>,
     claims: &[PlacedClaim],
 ) {
     let mut systems = Vec::new();
@@ -43,7 +43,7 @@ pub fn check(
 }
 
 /// Checks the formulas of a case apart from its claims.
-fn of_case(root: &Section<'_>, model: &Model, weights: &mut WeightSystem) -> Result<(), Mistake> {
+fn of_case(root: &CaseTable<'_>, model: &Model, weights: &mut WeightSystem) -> Result<(), Mistake> {
     for (index, formula) in model.abbreviations.iter().enumerate() {
         let weight = checked(root, formula, weights)?;
         let meaning = Meaning::Abbreviation(index);
@@ -63,7 +63,7 @@ fn of_case(root: &Section<'_>, model: &Model, weights: &mut WeightSystem) -> Res
 }
 
 fn checked(
-    root: &Section<'_>,
+    root: &CaseTable<'_>,
     formula: &Formula,
     weights: &mut WeightSystem,
 ) -> Result<Option<Rational>, Mistake> {
@@ -134,7 +134,7 @@ impl Scope for Bases {
 }
 
 /// Reads one system of weights for each base dimension that `[dimensions]` uses.
-fn declared(section: &Section<'_>, model: &Model) -> Result<Vec<WeightSystem>, Mistake> {
+fn declared(section: &CaseTable<'_>, model: &Model) -> Result<Vec<WeightSystem>, Mistake> {
     let mut entries = Vec::new();
     let mut bases: Vec<String> = Vec::new();
     for (key, value) in section.entries() {
@@ -153,7 +153,7 @@ fn declared(section: &Section<'_>, model: &Model) -> Result<Vec<WeightSystem>, M
         entries.push((symbol, text));
     }
     let scope = Bases(bases);
-    let formulas: Vec<(Symbol, Formula, Text)> = entries
+    let formulas: Vec<(Symbol, Formula, SpannedStr)> = entries
         .into_iter()
         .map(|(symbol, text)| match Formula::parse(&text.value, &scope) {
             Ok(formula) => Ok((symbol, formula, text)),

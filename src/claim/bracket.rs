@@ -4,7 +4,7 @@ use super::of_bracket::{CHOICE, OfBracket, bracket_of, turned, variables};
 use super::{Reader, difference};
 use crate::formula::{Formula, Type};
 use crate::mechanics::calculus::dot;
-use crate::mechanics::{Phase, Variables};
+use crate::mechanics::{NewVariables, Phase};
 use crate::scalar::Scalar;
 
 /// The claim (∂F/∂y, P ∂G/∂y) = K and P + Pᵀ = 0; for vectors, for every pair of components.
@@ -69,7 +69,7 @@ impl OfBracket for Bracket {
         Some(format!("{{{first}, {second}}}{of} = {value}"))
     }
 
-    fn at<T: Scalar>(&self, variables: &Variables, there: &Phase<'_, T>) -> Vec<T> {
+    fn at<T: Scalar>(&self, variables: &NewVariables, there: &Phase<'_, T>) -> Vec<T> {
         let tensor = variables.tensor(self.bracket, there);
         let flows: Vec<Vec<T>> =
             slopes(there, &self.second).iter().map(|slope| turned(&tensor, slope)).collect();

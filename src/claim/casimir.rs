@@ -3,7 +3,7 @@
 use super::Reader;
 use super::of_bracket::{OfBracket, bracket_of, scalar_in, slope, turned};
 use crate::formula::Formula;
-use crate::mechanics::{Phase, Variables};
+use crate::mechanics::{NewVariables, Phase};
 use crate::scalar::Scalar;
 
 /// The claim P ∂C/∂y = 0 and P + Pᵀ = 0.
@@ -22,7 +22,7 @@ impl OfBracket for Casimir {
         Ok(Self { function: scalar_in(from, Self::NAME)?, bracket })
     }
 
-    fn at<T: Scalar>(&self, variables: &Variables, there: &Phase<'_, T>) -> Vec<T> {
+    fn at<T: Scalar>(&self, variables: &NewVariables, there: &Phase<'_, T>) -> Vec<T> {
         let tensor = variables.tensor(self.bracket, there);
         let mut residual = turned(&tensor, &slope(there, &self.function));
         residual.extend(variables.symmetric_part(&tensor));

@@ -1,11 +1,11 @@
 //! Commutators of vector fields: [u,w] = (u·∇)w − (w·∇)u = z, component by component.
 
 use super::components::Components;
-use super::{Context, Reader, Statement, difference, quadrature_defects};
+use super::{Reader, ResidualContext, Statement, difference, quadrature_defects};
 use crate::formula::Formula;
 use crate::graph::Expr;
 use crate::mechanics::Phase;
-use crate::mechanics::calculus::{Jet, dot};
+use crate::mechanics::calculus::{DualPoint, dot};
 use crate::scalar::Scalar;
 
 /// The claim `[u,w] = z`.
@@ -64,7 +64,7 @@ impl Statement for Commutator {
         Some(format!("[({}), ({})] = {value}", self.of.text, self.with.text))
     }
 
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {
         let (first, second) = self.parts(&jet.phase);
         let found = difference(first, second);
         match self.claimed(&jet.phase) {
@@ -73,15 +73,15 @@ impl Statement for Commutator {
         }
     }
 
-    fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
+    fn context(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> ResidualContext {
         let (first, second) = self.parts(&jet.phase);
         let claimed = self.claimed(&jet.phase).unwrap_or_default();
         let scale = dot(&first, &first) + dot(&second, &second) + dot(&claimed, &claimed);
-        Context { scale: Some(scale), value: claimed, ..Context::default() }
+        ResidualContext { scale: Some(scale), value: claimed, ..ResidualContext::default() }
     }
 
     /// Computes the defects of each ∫ off the level too, which the fields may leave.
-    fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
+    fn quadrature_defects_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
         self.formulas().into_iter().flat_map(|f| quadrature_defects(jet, f, &[])).collect()
     }
 }

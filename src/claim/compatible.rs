@@ -2,7 +2,7 @@
 
 use super::Reader;
 use super::of_bracket::{OfBracket, named_bracket, tensor_slopes};
-use crate::mechanics::{Phase, Variables};
+use crate::mechanics::{NewVariables, Phase};
 use crate::scalar::Scalar;
 
 /// The claim Σ_l (P_il ∂_lQ_jk + Q_il ∂_lP_jk + cyclic in i, j, k) = 0, P + Pᵀ = 0 and Q + Qᵀ = 0.
@@ -36,7 +36,7 @@ impl OfBracket for Compatible {
         Some(self.text.clone())
     }
 
-    fn at<T: Scalar>(&self, variables: &Variables, there: &Phase<'_, T>) -> Vec<T> {
+    fn at<T: Scalar>(&self, variables: &NewVariables, there: &Phase<'_, T>) -> Vec<T> {
         let tensors = self.brackets.map(|bracket| variables.tensor(bracket, there));
         let slopes = self.brackets.map(|bracket| tensor_slopes(variables, bracket, there));
         let n = there.model().dimension();

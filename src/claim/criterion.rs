@@ -9,11 +9,11 @@
 use num_traits::One;
 
 use super::rotation::{self, Among};
-use super::{Context, Objection, Reader, Statement, rest};
+use super::{Objection, Reader, ResidualContext, Statement, rest};
 use crate::graph::{Expr, record};
-use crate::mechanics::calculus::Jet;
-use crate::mechanics::{Chart, Entry, Meaning, Model, NORMAL, Phase, Variable};
-use crate::proof::{Group, Outcome, Prover};
+use crate::mechanics::calculus::DualPoint;
+use crate::mechanics::{Chart, Meaning, Model, NORMAL, Phase, Variable, VocabularyEntry};
+use crate::proof::{Group, GroupOutcome, Prover};
 use crate::scalar::Scalar;
 
 /// The claim that a density exists that is positive and analytic near ω = 0.
@@ -37,13 +37,13 @@ macro_rules! decided_by_criterion {
             from.word(Self::NAME, "exists").map(|()| Self)
         }
 
-        fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+        fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {
             jet.phase.model().system.criterion(&jet.phase)
         }
 
-        fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
+        fn context(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> ResidualContext {
             let scale = jet.phase.model().system.criterion_scale(&jet.phase);
-            Context { scale: Some(scale), ..Context::default() }
+            ResidualContext { scale: Some(scale), ..ResidualContext::default() }
         }
     };
 }
@@ -110,7 +110,7 @@ fn rest_without_density(model: &Model) -> Option<String> {
 /// Describes a rest or a permanent rotation that excludes positive C¹ densities.
 fn place_without_density(model: &Model) -> Option<String> {
     rest_without_density(model).or_else(|| {
-        let found = rotation::without_density(model, Among::RestsAndRotations)?;
+        let found = rotation::without_density(model, Among::Rotations)?;
         Some(format!("this excludes densities that are positive and C¹ near the {found}"))
     })
 }
@@ -119,7 +119,7 @@ fn place_without_density(model: &Model) -> Option<String> {
 fn objection_to_variables(model: &Model, name: &str) -> Option<Objection> {
     (!model.extension.is_empty()).then(|| Objection {
         message: format!(
-            "the criterion that decides `{name}` does not cover variables added by [state]"
+            "the criterion that decides `{name}` does not cover variables added by [state] or `frame`"
         ),
         remedy: "state it in a case without them, or state a density instead: density = \"ρ\"",
     })
@@ -174,7 +174,7 @@ fn objection(model: &Model, name: &str) -> Option<Objection> {
 }
 
 /// Whether the name is a function of γ and the parameters.
-fn is_of_position(entry: &Entry) -> bool {
+fn is_of_position(entry: &VocabularyEntry) -> bool {
     match entry.meaning {
         Meaning::Parameter(_) | Meaning::Abbreviation(_) => true,
         Meaning::State(index) => index == NORMAL,
@@ -197,7 +197,7 @@ fn is_surface(model: &Model) -> bool {
         Ok((graph, Some(twist))) => {
             let prover = Prover { sources: &[], extents: &[], seed: 1 };
             let outcomes = prover.prove(&graph, &[Group::of(vec![twist])]).unwrap_or_default();
-            matches!(outcomes.as_slice(), [Outcome::Zero(_)])
+            matches!(outcomes.as_slice(), [GroupOutcome::Zero(_)])
         }
         Err(_) => false,
     }
@@ -209,7 +209,7 @@ fn adds_no_divergence(model: &Model) -> bool {
     let parameters = model.free_components();
     let recorded = record(parameters + model.dimension(), |inputs| {
         let (parameters, state) = inputs.split_at(parameters);
-        let jet = Jet::new(Phase::new(model, parameters, state));
+        let jet = DualPoint::new(Phase::new(model, parameters, state));
         let axes = jet.along_axes().iter().enumerate().skip(model.dimension() - added);
         axes.map(|(index, along)| along.field()[index].eps).sum::<Expr>()
     });

@@ -9,10 +9,10 @@
 
 use num_dual::DualNum;
 
-use super::{Context, Reader, Statement};
+use super::{Reader, ResidualContext, Statement};
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
-use crate::mechanics::calculus::{Jet, dot};
+use crate::mechanics::calculus::{DualPoint, dot};
 use crate::scalar::Scalar;
 
 /// ρ is an invariant density: v(ln ρ) + div v = 0 on the level, or |ρ∘Φ det DΦ| = |ρ|.
@@ -40,7 +40,7 @@ impl Statement for Density {
     }
 
     /// Computes v(ln ρ) + div v minus the cofactors of the level functions.
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {
         if jet.phase.model().system.is_map() {
             let [here, there] = self.squares(jet, kept);
             return vec![there - here];
@@ -51,40 +51,40 @@ impl Statement for Density {
     }
 
     /// The scale |v|(|∇ln ρ| + 1/|x|), in squares, and ρ itself for its sign.
-    fn context(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Context {
+    fn context(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> ResidualContext {
         if jet.phase.model().system.is_map() {
             let squares = self.squares(jet, kept);
-            return Context {
+            return ResidualContext {
                 scale: Some(dot(&squares, &squares)),
                 value: vec![jet.phase.scalar(&self.0)],
-                ..Context::default()
+                ..ResidualContext::default()
             };
         }
         let slope = self.slope(jet);
         let (field, state) = (jet.phase.field(), jet.phase.state());
         let rate = dot(&slope, &slope) + dot(&state, &state).recip();
-        Context {
+        ResidualContext {
             scale: Some(dot(field, field) * rate),
             value: vec![jet.phase.scalar(&self.0)],
-            ..Context::default()
+            ..ResidualContext::default()
         }
     }
 
-    fn slopes(&self, jet: &Jet<'_, Expr>) -> Vec<Vec<Expr>> {
+    fn slopes(&self, jet: &DualPoint<'_, Expr>) -> Vec<Vec<Expr>> {
         vec![self.slope(jet)]
     }
 }
 
 impl Density {
     /// ρ² and (ρ∘Φ det DΦ)², with the factor of the level's volume on a level.
-    fn squares<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> [T; 2] {
+    fn squares<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> [T; 2] {
         let (here, there) = (jet.phase.scalar(&self.0), jet.image().scalar(&self.0));
         let moved = there * jet.expansion(kept);
         [here * here, moved * moved]
     }
 
     /// Computes ∇ln ρ.
-    fn slope(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
+    fn slope(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
         jet.logarithmic_gradient(&self.0)
     }
 }

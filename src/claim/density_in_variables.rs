@@ -4,7 +4,7 @@ use super::of_bracket::{defects, of, scalar_in, variables};
 use super::{Jets, Reader, Statement};
 use crate::formula::Formula;
 use crate::graph::Expr;
-use crate::mechanics::calculus::{Jet, trace_of_quotient};
+use crate::mechanics::calculus::{DualPoint, trace_of_quotient};
 use crate::scalar::Scalar;
 
 /// The claim that the measure ρ dy is invariant: v(ln ρ) + Σ ∂y'_i/∂y_i = 0.
@@ -29,7 +29,7 @@ impl Statement for DensityInVariables {
     }
 
     /// Computes v(ln ρ∘φ) + tr(dφ⁻¹ d(L_vφ)): the divergence of the motion in the new variables.
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {
         let variables = of(jet.phase.model());
         let moved = jet.phase.lift(jet.phase.field());
         let along = variables.point(&moved);
@@ -44,7 +44,7 @@ impl Statement for DensityInVariables {
         vec![growth + trace_of_quotient(&columns, &rates) - jet.level_cofactor(kept)]
     }
 
-    fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
+    fn quadrature_defects_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
         defects(jet, &[], [&self.0].into_iter())
     }
 }

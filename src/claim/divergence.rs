@@ -3,11 +3,11 @@
 //! F is the divergence relative to the volume ρ dx, or ρσ on a level set with the volume σ of
 //! [`Density`](super::Density), which is invariant exactly when F = 0.
 
-use super::{Context, Objection, Reader, Statement};
+use super::{Objection, Reader, ResidualContext, Statement};
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
 use crate::mechanics::Model;
-use crate::mechanics::calculus::{Jet, dot};
+use crate::mechanics::calculus::{DualPoint, dot};
 use crate::scalar::Scalar;
 
 /// The claim that the divergence relative to a volume is F.
@@ -20,7 +20,7 @@ pub struct Divergence {
 
 impl Divergence {
     /// Computes v(ln ρ) + div v minus the cofactors of the level functions.
-    fn growth<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> T {
+    fn growth<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> T {
         let growth = jet.divergence() - jet.level_cofactor(kept);
         let Some(volume) = &self.volume else { return growth };
         let moved = jet.along_field();
@@ -62,18 +62,18 @@ impl Statement for Divergence {
         is_open.then(|| Objection::open_constant("a divergence"))
     }
 
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {
         vec![self.growth(jet, kept) - jet.phase.scalar(&self.divergence)]
     }
 
     /// The scale |v|/|x| and F itself, in squares.
-    fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
+    fn context(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> ResidualContext {
         let (field, state) = (jet.phase.field(), jet.phase.state());
         let value = jet.phase.scalar(&self.divergence);
-        Context {
+        ResidualContext {
             scale: Some(dot(field, field) / dot(&state, &state) + value * value),
             value: vec![value],
-            ..Context::default()
+            ..ResidualContext::default()
         }
     }
 }

@@ -1,12 +1,12 @@
 //! Entries of claims as values.
 
-use super::Complex;
+use super::ComplexFormula;
 use crate::formula::Formula;
 use crate::number::rational::Rational;
 
 /// Entry of a claim under one of its keys.
 #[derive(Clone, Debug)]
-pub enum Entry {
+pub enum ClaimEntry {
     /// A formula.
     Formula(Formula),
     /// Several formulas in order.
@@ -18,50 +18,50 @@ pub enum Entry {
     /// Tables by the names of their keys.
     Tables(Vec<(&'static str, Vec<(String, Formula)>)>),
     /// Real numbers and conjugate pairs.
-    Complex(Vec<Complex>),
+    Complex(Vec<ComplexFormula>),
     /// A word such as `holds`, a name, or the text of a formula, which is read when a case takes the
     /// claim.
     Text(String),
 }
 
-impl From<Formula> for Entry {
+impl From<Formula> for ClaimEntry {
     fn from(formula: Formula) -> Self {
-        Entry::Formula(formula)
+        ClaimEntry::Formula(formula)
     }
 }
 
-impl From<&Formula> for Entry {
+impl From<&Formula> for ClaimEntry {
     fn from(formula: &Formula) -> Self {
-        Entry::Formula(formula.clone())
+        ClaimEntry::Formula(formula.clone())
     }
 }
 
-impl From<Vec<Formula>> for Entry {
+impl From<Vec<Formula>> for ClaimEntry {
     fn from(formulas: Vec<Formula>) -> Self {
-        Entry::List(formulas)
+        ClaimEntry::List(formulas)
     }
 }
 
-impl From<Vec<(String, Formula)>> for Entry {
+impl From<Vec<(String, Formula)>> for ClaimEntry {
     fn from(table: Vec<(String, Formula)>) -> Self {
-        Entry::Table(table)
+        ClaimEntry::Table(table)
     }
 }
 
-impl From<i64> for Entry {
+impl From<i64> for ClaimEntry {
     fn from(number: i64) -> Self {
-        Entry::Formula(Formula::number(number))
+        ClaimEntry::Formula(Formula::number(number))
     }
 }
 
-impl From<Rational> for Entry {
+impl From<Rational> for ClaimEntry {
     fn from(number: Rational) -> Self {
-        Entry::Formula(Formula::number(number))
+        ClaimEntry::Formula(Formula::number(number))
     }
 }
 
-impl From<&str> for Entry {
+impl From<&str> for ClaimEntry {
     fn from(text: &str) -> Self {
-        Entry::Text(text.to_string())
+        ClaimEntry::Text(text.to_string())
     }
 }

@@ -4,9 +4,9 @@ use num_dual::Dual;
 
 use super::components::Components;
 use super::point::read_point;
-use super::{Complex, Reader, Statement, difference};
+use super::{ComplexFormula, Reader, Statement, difference};
 use crate::formula::{Formula, Type};
-use crate::mechanics::calculus::{Jet, characteristic_polynomial};
+use crate::mechanics::calculus::{DualPoint, characteristic_polynomial};
 use crate::scalar::Scalar;
 
 /// The claim that the field vanishes at a point, and that its linear part there has given
@@ -14,7 +14,7 @@ use crate::scalar::Scalar;
 #[derive(Clone, Debug)]
 pub struct FixedPoint {
     point: Components,
-    spectrum: Option<Vec<Complex>>,
+    spectrum: Option<Vec<ComplexFormula>>,
     /// Coefficients of λ^(n-1), …, 1.
     polynomial: Option<Vec<Formula>>,
 }
@@ -29,7 +29,7 @@ impl Statement for FixedPoint {
         let model = from.model();
         let point = read_point(from, Self::NAME)?.ok_or_else(|| from.missing(Self::NAME))?;
         let spectrum = from.complex_list("spectrum")?;
-        let count = |(_, imaginary): &Complex| if imaginary.is_some() { 2 } else { 1 };
+        let count = |(_, imaginary): &ComplexFormula| if imaginary.is_some() { 2 } else { 1 };
         let eigenvalues: usize = spectrum.iter().flatten().map(count).sum();
         if eigenvalues > model.dimension() {
             let message = format!("{eigenvalues} eigenvalues are too many");
@@ -44,7 +44,7 @@ impl Statement for FixedPoint {
         Ok(Self { point, spectrum, polynomial: read_polynomial(from)? })
     }
 
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {
         let state = self.point.at(&jet.phase);
         let at = jet.phase.with(&[], &state);
         let mut residual = match at.model().system.is_map() {
@@ -60,7 +60,7 @@ impl Statement for FixedPoint {
             .collect();
         let found = characteristic_polynomial(&columns);
         if let Some(spectrum) = &self.spectrum {
-            let value = |(real, imaginary): &Complex| {
+            let value = |(real, imaginary): &ComplexFormula| {
                 (at.scalar(real), imaginary.as_ref().map(|part| at.scalar(part)))
             };
             let eigenvalues: Vec<(T, Option<T>)> = spectrum.iter().map(value).collect();

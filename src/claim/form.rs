@@ -4,17 +4,17 @@
 //! on a level they are compared on vectors along it.
 
 use super::components::Components;
-use super::{Context, Objection, Reader, Statement};
+use super::{Objection, Reader, ResidualContext, Statement};
 use crate::formula::{Formula, Type, canonical_name};
 use crate::graph::Expr;
-use crate::mechanics::calculus::{Jet, dot, transversals};
+use crate::mechanics::calculus::{DualPoint, dot, transversals};
 use crate::mechanics::{Model, Phase};
 use crate::scalar::Scalar;
 
 /// The claim that a form is invariant, or conformally invariant with a factor c.
 #[derive(Clone, Debug)]
 pub struct Form {
-    form: Shape,
+    form: FormShape,
     /// Factor c, if one is given.
     factor: Option<Formula>,
     text: String,
@@ -22,16 +22,16 @@ pub struct Form {
 
 /// Coefficients of a form.
 #[derive(Clone, Debug)]
-enum Shape {
+enum FormShape {
     /// A 1-form Σ α_i dx_i.
     One(Components),
     /// A 2-form ½ Σ Ω_ij dx_i∧dx_j.
-    Two(Vec<Block>),
+    Two(Vec<FormBlock>),
 }
 
 /// Coefficients of dx∧dy for two variables; those of dy∧dx have the opposite sign.
 #[derive(Clone, Debug)]
-struct Block {
+struct FormBlock {
     row: usize,
     column: usize,
     entries: Formula,
@@ -40,7 +40,7 @@ struct Block {
 /// A square matrix, by rows.
 type Square<T> = Vec<Vec<T>>;
 
-impl Block {
+impl FormBlock {
     fn read<R: Reader>(from: &R, name: &str, entries: Formula) -> Result<Self, R::Error> {
         let model = from.model();
         let index = |name: &str| {
@@ -76,7 +76,7 @@ fn start(model: &Model, variable: usize) -> usize {
 }
 
 /// Evaluates Ω, and its symmetric part, which has to vanish.
-fn matrix<T: Scalar>(blocks: &[Block], at: &Phase<'_, T>) -> (Square<T>, Vec<T>) {
+fn matrix<T: Scalar>(blocks: &[FormBlock], at: &Phase<'_, T>) -> (Square<T>, Vec<T>) {
     let model = at.model();
     let mut whole = vec![vec![T::zero(); model.dimension()]; model.dimension()];
     let mut symmetric = Vec::new();
@@ -119,7 +119,7 @@ impl Form {
     }
 
     /// Computes L_vα - cα, or Φ*α - cα.
-    fn of_one<T: Scalar>(&self, form: &Components, jet: &Jet<'_, T>) -> Vec<T> {
+    fn of_one<T: Scalar>(&self, form: &Components, jet: &DualPoint<'_, T>) -> Vec<T> {
         let factor = self.factor(&jet.phase);
         let here = form.at(&jet.phase);
         let columns = jet.derivative();
@@ -136,7 +136,11 @@ impl Form {
     }
 
     /// Computes L_vΩ - cΩ, or Φ*Ω - cΩ, and the symmetric part of Ω.
-    fn of_two<T: Scalar>(&self, blocks: &[Block], jet: &Jet<'_, T>) -> (Square<T>, Vec<T>) {
+    fn of_two<T: Scalar>(
+        &self,
+        blocks: &[FormBlock],
+        jet: &DualPoint<'_, T>,
+    ) -> (Square<T>, Vec<T>) {
         let factor = self.factor(&jet.phase);
         let (here, symmetric) = matrix(blocks, &jet.phase);
         // rows k, columns i: ∂_iv_k
@@ -197,13 +201,13 @@ impl Statement for Form {
         let text = given.iter().map(text).collect::<Vec<_>>().join(" + ");
         if pairs == 0 {
             let components = Components::read(from, Self::NAME, &from.model().vocabulary)?;
-            let form = Shape::One(components.ok_or_else(|| from.missing(Self::NAME))?);
+            let form = FormShape::One(components.ok_or_else(|| from.missing(Self::NAME))?);
             return Ok(Self { form, factor, text });
         }
-        let mut blocks: Vec<Block> = Vec::new();
+        let mut blocks: Vec<FormBlock> = Vec::new();
         for (name, entries) in given {
-            let block = Block::read(from, &name, entries)?;
-            let is_same = |other: &Block| {
+            let block = FormBlock::read(from, &name, entries)?;
+            let is_same = |other: &FormBlock| {
                 let (a, b) = ((block.row, block.column), (other.row, other.column));
                 a == b || a == (b.1, b.0)
             };
@@ -214,13 +218,13 @@ impl Statement for Form {
             }
             blocks.push(block);
         }
-        Ok(Self { form: Shape::Two(blocks), factor, text })
+        Ok(Self { form: FormShape::Two(blocks), factor, text })
     }
 
     fn formulas(&self) -> Vec<&Formula> {
         let own: Vec<&Formula> = match &self.form {
-            Shape::One(components) => components.formulas().collect(),
-            Shape::Two(blocks) => blocks.iter().map(|block| &block.entries).collect(),
+            FormShape::One(components) => components.formulas().collect(),
+            FormShape::Two(blocks) => blocks.iter().map(|block| &block.entries).collect(),
         };
         own.into_iter().chain(&self.factor).collect()
     }
@@ -232,8 +236,8 @@ impl Statement for Form {
     fn about(&self, entries: Formula) -> Option<Self> {
         let mut other = self.clone();
         match &mut other.form {
-            Shape::Two(blocks) => blocks.first_mut()?.entries = entries,
-            Shape::One(_) => return None,
+            FormShape::Two(blocks) => blocks.first_mut()?.entries = entries,
+            FormShape::One(_) => return None,
         }
         Some(other)
     }
@@ -243,16 +247,16 @@ impl Statement for Form {
         is_open.then(|| Objection::open_constant("a form"))
     }
 
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {
         let gradients = jet.level_gradients(kept);
         let across = transversals(&gradients);
         match &self.form {
-            Shape::One(form) => {
+            FormShape::One(form) => {
                 let mut found = self.of_one(form, jet);
                 along_level(&mut found, &gradients, &across);
                 found
             }
-            Shape::Two(blocks) => {
+            FormShape::Two(blocks) => {
                 let (mut found, mut residual) = self.of_two(blocks, jet);
                 // along the level in the first argument, then in the second
                 for _ in 0..2 {
@@ -267,13 +271,13 @@ impl Statement for Form {
         }
     }
 
-    fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
+    fn context(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> ResidualContext {
         let value: Vec<Expr> = match &self.form {
-            Shape::One(form) => form.at(&jet.phase),
-            Shape::Two(blocks) => matrix(blocks, &jet.phase).0.concat(),
+            FormShape::One(form) => form.at(&jet.phase),
+            FormShape::Two(blocks) => matrix(blocks, &jet.phase).0.concat(),
         };
         let steep: Expr = jet.derivative().iter().map(|column| dot(column, column)).sum();
         let scale = dot(&value, &value) * (steep + Expr::from(1.0));
-        Context { scale: Some(scale), value, ..Context::default() }
+        ResidualContext { scale: Some(scale), value, ..ResidualContext::default() }
     }
 }

@@ -6,7 +6,7 @@ use super::of_bracket::{
 use super::{Condition, Reader, Statement, difference};
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
-use crate::mechanics::calculus::Jet;
+use crate::mechanics::calculus::DualPoint;
 use crate::scalar::Scalar;
 
 /// The claim N⁻¹y' = P ∂H/∂y and P + Pᵀ = 0.
@@ -30,7 +30,7 @@ impl Statement for Hamiltonian {
         Ok(Self { hamiltonian, multiplier, bracket })
     }
 
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {
         let variables = of(jet.phase.model());
         let there = variables.point(&jet.phase);
         let multiplier = self.multiplier.as_ref().map_or_else(T::one, |n| there.scalar(n));
@@ -42,11 +42,11 @@ impl Statement for Hamiltonian {
         residual
     }
 
-    fn conditions(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+    fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
         vec![they_vary(jet, "the new variables obey a relation", false)]
     }
 
-    fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
+    fn quadrature_defects_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
         defects(jet, &[self.bracket], [&self.hamiltonian].into_iter().chain(&self.multiplier))
     }
 }

@@ -2,11 +2,11 @@
 
 use num_dual::DualNum;
 
-use super::{Condition, Context, Need, Reader, Statement, difference};
+use super::{Condition, Need, Reader, ResidualContext, Statement, difference};
 use crate::formula::Formula;
 use crate::graph::Expr;
-use crate::mechanics::calculus::{Jet, dot};
-use crate::mechanics::{Model, Reach};
+use crate::mechanics::calculus::{DualPoint, dot};
+use crate::mechanics::{Dependence, Model};
 use crate::scalar::Scalar;
 
 /// The claim A = B.
@@ -54,12 +54,12 @@ impl Statement for Identity {
         Some(Self { right, ..self.clone() })
     }
 
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {
         let value = |formula| jet.phase.evaluate(formula).components();
         difference(value(&self.left), value(&self.right))
     }
 
-    fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
+    fn context(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> ResidualContext {
         let value = |formula| jet.phase.evaluate(formula).components();
         size_of_sides(value(&self.left), value(&self.right))
     }
@@ -87,17 +87,17 @@ impl Statement for Rate {
         Some(Self { rate, ..self.clone() })
     }
 
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {
         difference(jet.rates(&self.function), jet.phase.evaluate(&self.rate).components())
     }
 
-    fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
+    fn context(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> ResidualContext {
         let steepness: Expr = jet.gradients(&self.function).iter().map(|g| dot(g, g)).sum();
         let (field, rate) = (jet.phase.field(), jet.phase.evaluate(&self.rate).components());
-        Context {
+        ResidualContext {
             scale: Some(steepness * dot(field, field) + dot(&rate, &rate)),
             value: rate,
-            ..Context::default()
+            ..ResidualContext::default()
         }
     }
 }
@@ -126,7 +126,7 @@ impl Statement for Relation {
     }
 
     /// Requires that κ has no pole on all of F = 0: x' = 1 = (1/x) x does not preserve x = 0.
-    fn conditions(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+    fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
         let function = jet.phase.scalar(&self.function);
         let factor = jet.phase.evaluate_literally(&self.cofactor).components();
         let inverse = jet.phase.scalar(&self.cofactor).recip();
@@ -141,7 +141,7 @@ impl Statement for Relation {
     }
 
     fn remark(&self, model: &Model) -> Option<String> {
-        let moves = |symbol| model.vocabulary.entry(symbol).reach > Reach::Parameters;
+        let moves = |symbol| model.vocabulary.entry(symbol).reach > Dependence::Parameters;
         let all = model.vocabulary.with_abbreviations(&self.cofactor, &model.abbreviations);
         let below = all.into_iter().flat_map(Formula::denominators);
         let mut texts: Vec<&str> = below
@@ -157,7 +157,7 @@ impl Statement for Relation {
         })
     }
 
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {
         let value = jet.phase.scalar(&self.cofactor) * jet.phase.scalar(&self.function);
         let moved = match jet.phase.model().system.is_map() {
             true => vec![jet.image().scalar(&self.function)],
@@ -168,10 +168,10 @@ impl Statement for Relation {
 }
 
 /// Returns the square |A|² + |B|² of the scale, and A as the value.
-fn size_of_sides(left: Vec<Expr>, right: Vec<Expr>) -> Context {
-    Context {
+fn size_of_sides(left: Vec<Expr>, right: Vec<Expr>) -> ResidualContext {
+    ResidualContext {
         scale: Some(dot(&left, &left) + dot(&right, &right)),
         value: left,
-        ..Context::default()
+        ..ResidualContext::default()
     }
 }

@@ -3,7 +3,7 @@
 use super::{Reader, Statement};
 use crate::formula::Formula;
 use crate::mechanics::Model;
-use crate::mechanics::calculus::{Jet, gram_determinant};
+use crate::mechanics::calculus::{DualPoint, gram_determinant};
 use crate::scalar::Scalar;
 
 /// The claim that the gradients of these functions and of the level functions are linearly
@@ -20,7 +20,7 @@ impl Independent {
 
 /// Largest number of functions, those of the level included; the work on the Gram determinant grows
 /// with its fourth power.
-pub const MOST: usize = 24;
+pub const MOST_FUNCTIONS: usize = 24;
 
 impl Statement for Independent {
     const NAME: &'static str = "independent";
@@ -30,7 +30,7 @@ impl Statement for Independent {
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let formulas = from.list(Self::NAME)?.ok_or_else(|| from.missing(Self::NAME))?;
-        let most = MOST.saturating_sub(from.model().level.len());
+        let most = MOST_FUNCTIONS.saturating_sub(from.model().level.len());
         if formulas.is_empty() || formulas.len() > most {
             let message = format!("{} functions cannot be compared", formulas.len());
             let remedy = format!("list between 1 and {most} functions");
@@ -44,7 +44,7 @@ impl Statement for Independent {
     }
 
     /// Computes the Gram determinant of the gradients, zero exactly where they are dependent.
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {
         let mut gradients = jet.level_gradients(kept);
         for formula in &self.0 {
             gradients.extend(jet.gradients(formula));

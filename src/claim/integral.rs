@@ -1,10 +1,10 @@
 //! First integrals: L_vF = 0, or F∘Φ = F for a map; for scalars, vectors and matrices.
 
-use super::{Context, Novelty, Reader, Statement, difference};
+use super::{Novelty, Reader, ResidualContext, Statement, difference};
 use crate::formula::Formula;
 use crate::graph::Expr;
 use crate::mechanics::Phase;
-use crate::mechanics::calculus::{Jet, dot, rejection};
+use crate::mechanics::calculus::{DualPoint, dot, rejection};
 use crate::scalar::Scalar;
 
 /// F is a first integral: L_vF = 0, or F∘Φ = F.
@@ -28,7 +28,7 @@ impl Statement for Integral {
     }
 
     /// L_vF, or F∘Φ - F.
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {
         if jet.phase.model().system.is_map() {
             let value = |at: &Phase<'_, T>| at.evaluate(&self.0).components();
             return difference(value(&jet.image()), value(&jet.phase));
@@ -37,23 +37,23 @@ impl Statement for Integral {
     }
 
     /// The scale |∇F||v|, or |F|.
-    fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
+    fn context(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> ResidualContext {
         if jet.phase.model().system.is_map() {
             let [value, there] =
                 [&jet.phase, &jet.image()].map(|at| at.evaluate(&self.0).components());
             let scale = Some(dot(&value, &value) + dot(&there, &there));
-            return Context { scale, value, ..Context::default() };
+            return ResidualContext { scale, value, ..ResidualContext::default() };
         }
         let field = jet.phase.field();
         let steepness: Expr = self.slopes(jet).iter().map(|slope| dot(slope, slope)).sum();
-        Context {
+        ResidualContext {
             scale: Some(steepness * dot(field, field)),
             value: jet.phase.evaluate(&self.0).components(),
-            ..Context::default()
+            ..ResidualContext::default()
         }
     }
 
-    fn novelty(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Novelty {
+    fn novelty(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> Novelty {
         let slopes = self.slopes(jet);
         let mut known = jet.level_gradients(kept);
         let beside = |known: &[Vec<Expr>]| -> Vec<Expr> {
@@ -68,7 +68,7 @@ impl Statement for Integral {
         Novelty { slope: Some(slope), off_level, off_general }
     }
 
-    fn slopes(&self, jet: &Jet<'_, Expr>) -> Vec<Vec<Expr>> {
+    fn slopes(&self, jet: &DualPoint<'_, Expr>) -> Vec<Vec<Expr>> {
         jet.gradients(&self.0)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Reader;
 use super::of_bracket::{OfBracket, bracket_of, tensor_slopes};
-use crate::mechanics::{Phase, Variables};
+use crate::mechanics::{NewVariables, Phase};
 use crate::scalar::Scalar;
 
 /// The claim Σ_l (P_il ∂_lP_jk + P_jl ∂_lP_ki + P_kl ∂_lP_ij) = 0 and P + Pᵀ = 0.
@@ -20,7 +20,7 @@ impl OfBracket for JacobiIdentity {
         from.word(Self::NAME, "holds").map(|()| Self { bracket })
     }
 
-    fn at<T: Scalar>(&self, variables: &Variables, there: &Phase<'_, T>) -> Vec<T> {
+    fn at<T: Scalar>(&self, variables: &NewVariables, there: &Phase<'_, T>) -> Vec<T> {
         let tensor = variables.tensor(self.bracket, there);
         let n = tensor.len();
         let slopes = tensor_slopes(variables, self.bracket, there);

@@ -1,10 +1,10 @@
 //! Lax pairs: L' = [L,A] = LA − AL for square matrices of any size.
 
-use super::{Context, Reader, Statement, difference};
+use super::{Reader, ResidualContext, Statement, difference};
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
 use crate::mechanics::Phase;
-use crate::mechanics::calculus::{Jet, dot};
+use crate::mechanics::calculus::{DualPoint, dot};
 use crate::scalar::Scalar;
 
 /// The claim L_vL = LA − AL.
@@ -78,20 +78,20 @@ impl Statement for Lax {
         Some(Self { partner, ..self.clone() })
     }
 
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {
         let (first, second) = self.products(&jet.phase);
         difference(jet.rates(&self.matrix), difference(first, second))
     }
 
-    fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
+    fn context(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> ResidualContext {
         let steepness: Expr = jet.gradients(&self.matrix).iter().map(|g| dot(g, g)).sum();
         let field = jet.phase.field();
         let (first, second) = self.products(&jet.phase);
         let sides = dot(&first, &first) + dot(&second, &second);
-        Context {
+        ResidualContext {
             scale: Some(steepness * dot(field, field) + sides),
             value: jet.phase.evaluate(&self.matrix).components(),
-            ..Context::default()
+            ..ResidualContext::default()
         }
     }
 }

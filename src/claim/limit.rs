@@ -3,11 +3,11 @@
 use num_dual::Dual;
 use num_traits::{One, Zero};
 
-use super::{Context, Reader, Statement, difference};
+use super::{Reader, ResidualContext, Statement, difference};
 use crate::formula::{Formula, Type, Value};
 use crate::graph::Expr;
 use crate::mechanics::Meaning;
-use crate::mechanics::calculus::Jet;
+use crate::mechanics::calculus::DualPoint;
 use crate::scalar::Scalar;
 
 /// Reads the scalar parameter named by a key.
@@ -77,19 +77,22 @@ impl Statement for Limit {
     }
 
     /// Adds A'' at 0 if a slope is given: ε^(3/2) has a slope there too, and is not O(ε²).
-    fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
+    fn context(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> ResidualContext {
         if self.slope.is_none() {
-            return Context::default();
+            return ResidualContext::default();
         }
         let zero = [(self.parameter, Value::Scalar(Expr::zero()))];
         let at = jet.phase.with(&zero, &jet.phase.state());
         let near = at.lift_parameter(self.parameter, Expr::one());
         let nearer = near.lift_parameter(self.parameter, Dual::from_re(Expr::one()));
         let values = nearer.evaluate(&self.function).components();
-        Context { value: values.iter().map(|x| x.eps.eps).collect(), ..Context::default() }
+        ResidualContext {
+            value: values.iter().map(|x| x.eps.eps).collect(),
+            ..ResidualContext::default()
+        }
     }
 
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {
         let zero = [(self.parameter, Value::Scalar(T::zero()))];
         let at = jet.phase.with(&zero, &jet.phase.state());
         let near = at.lift_parameter(self.parameter, T::one());

@@ -3,11 +3,11 @@
 //! The inequality x ≤ 0 is the equation x + |x| = 0. It is proved if intervals show that x is positive
 //! at no state, and refuted by a state at which x is positive.
 
-use super::{Context, Objection, Reader, Statement};
+use super::{Objection, Reader, ResidualContext, Statement};
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
 use crate::mechanics::Model;
-use crate::mechanics::calculus::Jet;
+use crate::mechanics::calculus::DualPoint;
 use crate::scalar::Scalar;
 
 /// The claim that F does not increase; a given rate is compared with the formula.
@@ -19,7 +19,7 @@ pub struct Lyapunov {
 
 impl Lyapunov {
     /// Computes L_vF, or F∘Φ - F.
-    fn growth<T: Scalar>(&self, jet: &Jet<'_, T>) -> T {
+    fn growth<T: Scalar>(&self, jet: &DualPoint<'_, T>) -> T {
         match jet.phase.model().system.is_map() {
             true => jet.image().scalar(&self.function) - jet.phase.scalar(&self.function),
             false => jet.lie_derivative(|at| at.scalar(&self.function)),
@@ -55,7 +55,7 @@ impl Statement for Lyapunov {
         is_open.then(|| Objection::open_constant("a rate with a sign"))
     }
 
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {
         let growth = self.growth(jet);
         let excess = |x: T| x + x.modulus();
         match &self.rate {
@@ -67,7 +67,10 @@ impl Statement for Lyapunov {
         }
     }
 
-    fn context(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Context {
-        Context { value: vec![jet.phase.scalar(&self.function)], ..Context::default() }
+    fn context(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> ResidualContext {
+        ResidualContext {
+            value: vec![jet.phase.scalar(&self.function)],
+            ..ResidualContext::default()
+        }
     }
 }

@@ -41,8 +41,8 @@ mod value;
 
 use crate::formula::Formula;
 use crate::graph::Expr;
-use crate::mechanics::calculus::{Jet, rejection};
-use crate::mechanics::{Model, Phase, Variables};
+use crate::mechanics::calculus::{DualPoint, rejection};
+use crate::mechanics::{Model, NewVariables, Phase};
 use crate::scalar::Scalar;
 
 pub use bracket::Bracket;
@@ -55,22 +55,22 @@ pub use criterion::{AnalyticDensity, PositionDensity, SmoothDensity};
 pub use density::Density;
 pub use density_in_variables::DensityInVariables;
 pub use divergence::Divergence;
-pub use entry::Entry;
+pub use entry::ClaimEntry;
 pub use expect::Expect;
 pub use fixed_point::FixedPoint;
 pub use form::Form;
 pub use hamiltonian::Hamiltonian;
 pub use identity::{Identity, Rate, Relation};
-pub use independence::{Independent, MOST as MOST_COMPARED};
+pub use independence::{Independent, MOST_FUNCTIONS as MOST_COMPARED};
 pub use integral::Integral;
 pub use jacobi_identity::JacobiIdentity;
 pub use lax::Lax;
 pub use limit::Limit;
 pub use lyapunov::Lyapunov;
 pub use no_density_near::NoDensityNear;
-pub use place::Place;
+pub use place::LevelSubset;
 
-pub use reader::{Complex, Reader};
+pub use reader::{ComplexFormula, Reader};
 pub use statement::{Jets, Objection, Statement};
 pub use symmetry_field::SymmetryField;
 pub use transformation::{Map, Reversor, Symmetry};
@@ -81,14 +81,14 @@ macro_rules! kinds {
     ($($kind:ident),* $(,)?) => {
         /// A claimed statement, by kind.
         #[derive(Clone, Debug)]
-        pub enum Kind {
+        pub enum ClaimKind {
             $(#[doc = concat!("See [`", stringify!($kind), "`].")] $kind($kind),)*
         }
 
         /// Evaluates an expression for the statement of any kind.
         macro_rules! of_each {
             ($self:expr, $statement:ident => $result:expr) => {
-                match $self { $(Kind::$kind($statement) => $result,)* }
+                match $self { $(ClaimKind::$kind($statement) => $result,)* }
             };
         }
 
@@ -103,11 +103,11 @@ macro_rules! kinds {
             }
         }
 
-        impl Kind {
+        impl ClaimKind {
             /// Reads the statement of `key`, one of [`STATEMENTS`].
             pub fn read<R: Reader>(key: &str, from: &R) -> Option<Result<Self, R::Error>> {
                 match key {
-                    $(_ if key == $kind::NAME => Some($kind::read(from).map(Kind::$kind)),)*
+                    $(_ if key == $kind::NAME => Some($kind::read(from).map(ClaimKind::$kind)),)*
                     _ => None,
                 }
             }
@@ -122,44 +122,44 @@ macro_rules! kinds {
 
             /// Returns the kind's name in case files and reports.
             pub fn name(&self) -> &'static str {
-                match self { $(Kind::$kind(_) => $kind::NAME,)* }
+                match self { $(ClaimKind::$kind(_) => $kind::NAME,)* }
             }
 
             /// Whether the claim is that the residual is *not* identically zero.
             pub fn is_negated(&self) -> bool {
-                match self { $(Kind::$kind(_) => $kind::NEGATED,)* }
+                match self { $(ClaimKind::$kind(_) => $kind::NEGATED,)* }
             }
 
             /// Whether the place of the claim is the image of one in new variables.
             pub fn is_at_images(&self) -> bool {
-                match self { $(Kind::$kind(_) => $kind::AT_IMAGES,)* }
+                match self { $(ClaimKind::$kind(_) => $kind::AT_IMAGES,)* }
             }
 
             /// Whether the claim is an inequality, which holding at the states tried does not make
             /// likely.
             pub fn is_inequality(&self) -> bool {
-                match self { $(Kind::$kind(_) => $kind::IS_INEQUALITY,)* }
+                match self { $(ClaimKind::$kind(_) => $kind::IS_INEQUALITY,)* }
             }
 
             /// Whether the claim can be about a map instead of a flow.
             fn is_of_maps(&self) -> bool {
-                match self { $(Kind::$kind(_) => $kind::OF_MAPS,)* }
+                match self { $(ClaimKind::$kind(_) => $kind::OF_MAPS,)* }
             }
 
             /// Suggests a reason for a residual that is defined nowhere.
             pub fn hint_when_undefined(&self) -> &'static str {
-                match self { $(Kind::$kind(_) => $kind::UNDEFINED,)* }
+                match self { $(ClaimKind::$kind(_) => $kind::UNDEFINED,)* }
             }
 
             /// Whether the claim may hold in wider places, and whether that is of interest.
             pub fn widens(&self) -> bool {
-                match self { $(Kind::$kind(_) => $kind::WIDENS,)* }
+                match self { $(ClaimKind::$kind(_) => $kind::WIDENS,)* }
             }
 
             /// Makes the same claim about another formula, if it is about one.
             pub fn about(&self, formula: Formula) -> Option<Self> {
                 match self {
-                    $(Kind::$kind(statement) => statement.about(formula).map(Kind::$kind),)*
+                    $(ClaimKind::$kind(statement) => statement.about(formula).map(ClaimKind::$kind),)*
                 }
             }
         }
@@ -196,7 +196,7 @@ kinds! {
     DensityInVariables,
 }
 
-impl Kind {
+impl ClaimKind {
     /// Returns the formula of the claim, if it has one.
     pub fn formula(&self) -> Option<&Formula> {
         self.formulas().into_iter().next()
@@ -219,17 +219,17 @@ impl Kind {
     }
 
     /// Computes the gradients of F, or of ln ρ.
-    pub fn slopes(&self, jet: &Jet<'_, Expr>) -> Vec<Vec<Expr>> {
+    pub fn slopes(&self, jet: &DualPoint<'_, Expr>) -> Vec<Vec<Expr>> {
         of_each!(self, statement => statement.slopes(jet))
     }
 
     /// Computes the scalars that vanish where the claim holds.
-    pub fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
+    pub fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {
         of_each!(self, statement => statement.residual(jet, kept))
     }
 
     /// Computes auxiliary values, needed at a few states only.
-    pub fn context(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Context {
+    pub fn context(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> ResidualContext {
         let mut context = of_each!(self, statement => statement.context(jet, kept));
         context.quadrature_defects = self.quadrature_defects(jet, kept);
         context
@@ -237,26 +237,26 @@ impl Kind {
 
     /// Computes values that vanish exactly when the integrand of each ∫ is a function of its
     /// variable there: ∇f minus its projection on ∇x and the gradients of the level functions.
-    pub fn quadrature_defects(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Vec<Expr> {
+    pub fn quadrature_defects(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> Vec<Expr> {
         let own = self.formulas().into_iter().flat_map(|f| quadrature_defects(jet, f, kept));
         let elsewhere = of_each!(self, statement => statement.quadrature_defects_elsewhere(jet));
         own.chain(elsewhere).collect()
     }
 
     /// Computes values that decide whether an integral is independent of those common to all cases.
-    pub fn novelty(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Novelty {
+    pub fn novelty(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> Novelty {
         of_each!(self, statement => statement.novelty(jet, kept))
     }
 
     /// Returns the conditions that the claim presupposes.
-    pub fn conditions(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Vec<Condition> {
+    pub fn conditions(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> Vec<Condition> {
         of_each!(self, statement => statement.conditions(jet, kept))
     }
 
     /// Computes the residual at given values of the new variables, if it depends on nothing else.
     pub fn residual_of_values(
         &self,
-        variables: &Variables,
+        variables: &NewVariables,
         there: &Phase<'_, Expr>,
     ) -> Option<Vec<Expr>> {
         of_each!(self, statement => statement.residual_of_values(variables, there))
@@ -306,7 +306,7 @@ fn difference<T: Scalar>(a: Vec<T>, b: Vec<T>) -> Vec<T> {
 
 /// Auxiliary values for the interpretation of a vanishing residual.
 #[derive(Clone, Debug, Default)]
-pub struct Context {
+pub struct ResidualContext {
     /// Square of the residual's scale; a residual is resolved when its error bound is far below the
     /// root of this.
     pub scale: Option<Expr>,
@@ -331,7 +331,11 @@ pub struct Novelty {
 
 /// Computes ∇f minus its projection on ∇x and the gradients of the level functions, for each ∫(f,
 /// x) in a formula.
-pub fn quadrature_defects(jet: &Jet<'_, Expr>, formula: &Formula, kept: &[bool]) -> Vec<Expr> {
+pub fn quadrature_defects(
+    jet: &DualPoint<'_, Expr>,
+    formula: &Formula,
+    kept: &[bool],
+) -> Vec<Expr> {
     let model = jet.phase.model();
     let mut defects = Vec::new();
     let all = model.vocabulary.with_abbreviations(formula, &model.abbreviations);

@@ -7,10 +7,10 @@
 
 use super::components::Components;
 use super::point::read_point;
-use super::{Condition, Context, Need, Reader, Statement, difference};
+use super::{Condition, Need, Reader, ResidualContext, Statement, difference};
 use crate::graph::Expr;
 use crate::mechanics::Model;
-use crate::mechanics::calculus::Jet;
+use crate::mechanics::calculus::DualPoint;
 use crate::scalar::Scalar;
 
 /// The claim that no measure with a continuous density, positive at a fixed point, is invariant
@@ -19,12 +19,12 @@ use crate::scalar::Scalar;
 pub struct NoDensityNear(Components);
 
 impl NoDensityNear {
-    fn jet<'m, T: Scalar>(&self, jet: &Jet<'m, T>) -> Jet<'m, T> {
-        Jet::new(jet.phase.with(&[], &self.0.at(&jet.phase)))
+    fn jet<'m, T: Scalar>(&self, jet: &DualPoint<'m, T>) -> DualPoint<'m, T> {
+        DualPoint::new(jet.phase.with(&[], &self.0.at(&jet.phase)))
     }
 
     /// Computes the divergence at the point, or (det DΦ)² - 1 of a map.
-    fn growth(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Expr {
+    fn growth(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> Expr {
         let at = self.jet(jet);
         if jet.phase.model().system.is_map() {
             let factor = at.expansion(kept);
@@ -48,7 +48,7 @@ impl Statement for NoDensityNear {
     }
 
     /// Computes the field at the point and the level functions there.
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {
         let at = self.jet(jet);
         let mut residual = match at.phase.model().system.is_map() {
             true => difference(at.phase.field().to_vec(), at.phase.state()),
@@ -58,11 +58,11 @@ impl Statement for NoDensityNear {
         residual
     }
 
-    fn context(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Context {
-        Context { value: vec![self.growth(jet, kept)], ..Context::default() }
+    fn context(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> ResidualContext {
+        ResidualContext { value: vec![self.growth(jet, kept)], ..ResidualContext::default() }
     }
 
-    fn conditions(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Vec<Condition> {
+    fn conditions(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> Vec<Condition> {
         let otherwise = match jet.phase.model().system.is_map() {
             true => "it is not known that |det DΦ| differs from 1 at the point for all parameters",
             false => {

@@ -3,8 +3,8 @@
 use super::{Condition, Need, Reader, Statement, quadrature_defects};
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
-use crate::mechanics::calculus::Jet;
-use crate::mechanics::{Model, Phase, Poisson, Variables};
+use crate::mechanics::calculus::DualPoint;
+use crate::mechanics::{Model, NewVariables, Phase, Poisson};
 use crate::scalar::Scalar;
 
 /// A statement about brackets at each value of the new variables, whatever the motion.
@@ -23,7 +23,7 @@ pub trait OfBracket: Clone {
     }
 
     /// Computes the scalars that vanish where the statement holds, at a point of the new variables.
-    fn at<T: Scalar>(&self, variables: &Variables, there: &Phase<'_, T>) -> Vec<T>;
+    fn at<T: Scalar>(&self, variables: &NewVariables, there: &Phase<'_, T>) -> Vec<T>;
 
     /// Returns the indices of the brackets.
     fn brackets(&self) -> Vec<usize>;
@@ -48,24 +48,24 @@ impl<S: OfBracket> Statement for S {
         OfBracket::text(self)
     }
 
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {
         let variables = of(jet.phase.model());
         self.at(variables, &variables.point(&jet.phase))
     }
 
     fn residual_of_values(
         &self,
-        variables: &Variables,
+        variables: &NewVariables,
         there: &Phase<'_, Expr>,
     ) -> Option<Vec<Expr>> {
         Some(self.at(variables, there))
     }
 
-    fn conditions(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+    fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
         vec![they_vary(jet, ON_A_PART, true)]
     }
 
-    fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
+    fn quadrature_defects_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
         defects(jet, &self.brackets(), self.functions().into_iter())
     }
 }
@@ -78,7 +78,7 @@ const ON_A_PART: &str = "the new variables obey a relation, and what is said of 
 pub(super) fn variables<'r, R: Reader>(
     from: &'r R,
     key: &'static str,
-) -> Result<&'r Variables, R::Error> {
+) -> Result<&'r NewVariables, R::Error> {
     from.model().variables.as_deref().ok_or_else(|| {
         let message =
             format!("`{key}` is a claim about a bracket or new variables, and the case has none");
@@ -133,7 +133,7 @@ fn names(brackets: &[Poisson]) -> String {
 }
 
 /// Returns the variables of a model; claims about them are refused if there are none.
-pub(super) fn of(model: &Model) -> &Variables {
+pub(super) fn of(model: &Model) -> &NewVariables {
     match &model.variables {
         Some(variables) => variables,
         None => unreachable!("checked when the claim was read"),
@@ -153,12 +153,12 @@ pub(super) fn turned<T: Scalar>(tensor: &[Vec<T>], u: &[T]) -> Vec<T> {
 /// Computes values that vanish exactly when each ∫ in functions of the new variables, and in the
 /// bracket, is a function of its variable.
 pub(super) fn defects<'f>(
-    jet: &Jet<'_, Expr>,
+    jet: &DualPoint<'_, Expr>,
     brackets: &[usize],
     functions: impl Iterator<Item = &'f Formula>,
 ) -> Vec<Expr> {
     let variables = of(jet.phase.model());
-    let there = Jet::new(variables.point(&jet.phase));
+    let there = DualPoint::new(variables.point(&jet.phase));
     let of_one = |formula: &Formula| quadrature_defects(&there, formula, &[]);
     let brackets = brackets.iter().map(|bracket| &variables.brackets[*bracket]);
     let blocks = brackets.flat_map(Poisson::given_blocks);
@@ -167,7 +167,11 @@ pub(super) fn defects<'f>(
 
 /// Requires that the new variables vary independently, so that statements about them hold for all
 /// their values.
-pub(super) fn they_vary(jet: &Jet<'_, Expr>, otherwise: &str, is_essential: bool) -> Condition {
+pub(super) fn they_vary(
+    jet: &DualPoint<'_, Expr>,
+    otherwise: &str,
+    is_essential: bool,
+) -> Condition {
     let images = of(jet.phase.model()).images.iter();
     let rows: Vec<Vec<Expr>> = images.flat_map(|image| jet.gradients(image)).collect();
     let need = Need::Rank { rank: rows.len(), rows };
@@ -176,7 +180,7 @@ pub(super) fn they_vary(jet: &Jet<'_, Expr>, otherwise: &str, is_essential: bool
 
 /// Computes the derivatives of a tensor: the entry l is ∂P/∂y_l.
 pub(super) fn tensor_slopes<T: Scalar>(
-    variables: &Variables,
+    variables: &NewVariables,
     bracket: usize,
     there: &Phase<'_, T>,
 ) -> Vec<Vec<Vec<T>>> {

@@ -4,12 +4,12 @@ use crate::mechanics::Model;
 
 /// The level equations that states must satisfy.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct Place {
+pub struct LevelSubset {
     /// One entry for each level equation of the model.
     pub kept: Vec<bool>,
 }
 
-impl Place {
+impl LevelSubset {
     /// Makes the place of all equations: the level set.
     pub fn level(model: &Model) -> Self {
         Self { kept: vec![true; model.level.len()] }

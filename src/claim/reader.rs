@@ -4,7 +4,7 @@ use crate::formula::{Formula, Type};
 use crate::mechanics::{Model, Vocabulary};
 
 /// A real number, or the real and the imaginary part of a conjugate pair.
-pub type Complex = (Formula, Option<Formula>);
+pub type ComplexFormula = (Formula, Option<Formula>);
 
 /// The entries of one claim, independent of the file format.
 pub trait Reader {
@@ -79,7 +79,7 @@ pub trait Reader {
     ) -> Self::Error;
 
     /// Returns the entries of a list of real or complex numbers: a, or a and b for a ± b*i.
-    fn complex_list(&self, key: &'static str) -> Result<Option<Vec<Complex>>, Self::Error>;
+    fn complex_list(&self, key: &'static str) -> Result<Option<Vec<ComplexFormula>>, Self::Error>;
 
     /// Makes a complaint about an entry.
     fn complaint(&self, key: &'static str, message: String, remedy: &str) -> Self::Error;

@@ -8,10 +8,10 @@ use nalgebra::Vector3;
 use num_dual::DualNum;
 
 use crate::graph::{Evaluator, Expr, Tape, record};
-use crate::mechanics::{Draws, Model, NORMAL, Phase};
+use crate::mechanics::{DrawSource, Model, NORMAL, Phase};
 use crate::number::Domain;
 use crate::number::ball::Ball;
-use crate::proof::{Group, Outcome, Prover};
+use crate::proof::{Group, GroupOutcome, Prover};
 use crate::scalar::Scalar;
 
 /// Number of bodies of the case that are tried.
@@ -19,7 +19,7 @@ const BODIES: u64 = 8;
 
 /// A candidate for γ₀, apart from its sign.
 #[derive(Clone, Copy)]
-enum Direction {
+enum RestDirection {
     Axis(usize),
     Rotor,
 }
@@ -29,20 +29,20 @@ pub(super) fn without_density(model: &Model) -> Option<String> {
     if !model.system.rest_excludes_densities() || !model.extension.is_empty() {
         return None;
     }
-    let rotor = model.system.gyrostat().map(|_| Direction::Rotor);
-    let directions = [2, 1, 0].map(Direction::Axis).into_iter().chain(rotor);
+    let rotor = model.system.gyrostat().map(|_| RestDirection::Rotor);
+    let directions = [2, 1, 0].map(RestDirection::Axis).into_iter().chain(rotor);
     let both = directions.flat_map(|one| [(one, true), (one, false)]);
     both.into_iter().find(|(one, up)| excludes(model, *one, *up).is_some()).map(|(one, up)| {
         let sign = if up { "" } else { "−" };
         match one {
-            Direction::Axis(k) => format!("γ = {sign}e{}", k + 1),
-            Direction::Rotor => format!("γ = {sign}S/|S|"),
+            RestDirection::Axis(k) => format!("γ = {sign}e{}", k + 1),
+            RestDirection::Rotor => format!("γ = {sign}S/|S|"),
         }
     })
 }
 
 /// Proves that the direction is a rest and that C₁ is not 0 there.
-fn excludes(model: &Model, direction: Direction, up: bool) -> Option<()> {
+fn excludes(model: &Model, direction: RestDirection, up: bool) -> Option<()> {
     let draws = model.parameter_draws();
     let (graph, (torque, along)) = record(draws.len(), |inputs| {
         let (free, _) = model.make_parameters(inputs);
@@ -58,8 +58,8 @@ fn excludes(model: &Model, direction: Direction, up: bool) -> Option<()> {
         let sign = Expr::from(if up { 1.0 } else { -1.0 });
         let mut axis = Vector3::repeat(zero);
         match direction {
-            Direction::Axis(k) => axis[k] = sign,
-            Direction::Rotor => {
+            RestDirection::Axis(k) => axis[k] = sign,
+            RestDirection::Rotor => {
                 axis.z = Expr::from(1.0);
                 if let Some(rotor) = rotor(&phase_at(axis)) {
                     let length = rotor.dot(&rotor).sqrt();
@@ -79,13 +79,13 @@ fn excludes(model: &Model, direction: Direction, up: bool) -> Option<()> {
     let along = along?;
     let prover = Prover { sources: &[], extents: &[], seed: 1 };
     let outcomes = prover.prove(&graph, &[Group::of(torque.clone())]).ok()?;
-    if !matches!(outcomes.as_slice(), [Outcome::Zero(_)]) {
+    if !matches!(outcomes.as_slice(), [GroupOutcome::Zero(_)]) {
         return None;
     }
     let outputs: Vec<Expr> = torque.into_iter().chain([along]).collect();
     let tape = Tape::new(&graph, &outputs);
     let mut evaluator = Evaluator::new(&tape, Ball::<1>);
-    let numbers = Draws::new(&draws);
+    let numbers = DrawSource::new(&draws);
     (0..BODIES).find_map(|index| {
         let values = numbers.state(0, index);
         let inputs: Vec<_> = values.into_iter().map(|value| Ball::<1>.values(&[value])).collect();

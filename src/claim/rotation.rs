@@ -10,8 +10,8 @@ use num_dual::Dual;
 
 use crate::graph::{Evaluator, Expr, Tape, record};
 use crate::level::Newton;
-use crate::mechanics::calculus::Jet;
-use crate::mechanics::{Draws, Model, Phase};
+use crate::mechanics::calculus::DualPoint;
+use crate::mechanics::{DrawSource, Model, Phase};
 use crate::number::Domain;
 use crate::number::ball::{Ball, Balls};
 use crate::scalar::Scalar;
@@ -52,7 +52,7 @@ pub(super) struct Steady {
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Among {
     Rests,
-    RestsAndRotations,
+    Rotations,
 }
 
 /// The equations K = 0 and what is asked at their solutions.
@@ -84,7 +84,7 @@ impl Sought {
             let state = |gamma: &Vector3<Expr>| -> Vec<Expr> {
                 (gamma * speed).iter().chain(gamma).copied().collect()
             };
-            let jet = Jet::new(Phase::new(model, &free, &state(&gamma)));
+            let jet = DualPoint::new(Phase::new(model, &free, &state(&gamma)));
             let moment = model.system.turning_moment(&jet.phase)?;
             let [by_u, by_v] = along.map(|axis| {
                 let moved = model.system.turning_moment(&jet.phase.lift(&state(&axis)));
@@ -134,11 +134,11 @@ pub(super) fn without_density(model: &Model, among: Among) -> Option<Steady> {
     }
     let draws = model.parameter_draws();
     let sought = Sought::new(model, draws.len())?;
-    let numbers = Draws::new(&draws);
+    let numbers = DrawSource::new(&draws);
     let has_rotor = model.system.gyrostat().is_some();
     let is_tried = |speed: &f64| match *speed == 0.0 {
-        true => !has_rotor,
-        false => among == Among::RestsAndRotations,
+        true => among == Among::Rests && !has_rotor,
+        false => among == Among::Rotations,
     };
     (0..BODIES).find_map(|body| {
         let values = numbers.state(SEED, body);

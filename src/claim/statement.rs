@@ -1,10 +1,10 @@
 //! Interface of the kinds of claims.
 
-use super::{Condition, Context, Novelty, Reader};
+use super::{Condition, Novelty, Reader, ResidualContext};
 use crate::formula::Formula;
 use crate::graph::Expr;
-use crate::mechanics::calculus::Jet;
-use crate::mechanics::{Model, Phase, Variables};
+use crate::mechanics::calculus::DualPoint;
+use crate::mechanics::{Model, NewVariables, Phase};
 use crate::scalar::Scalar;
 
 /// The derivatives of its formulas that a claim contains.
@@ -67,7 +67,7 @@ pub trait Statement: Clone {
 
     /// Computes the scalars that vanish where the claim holds; `kept` are the level equations
     /// imposed.
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T>;
+    fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T>;
 
     /// Returns all formulas in the names of the case; the first is the one that is shown and
     /// mutated, if [`about`](Statement::about) can replace it.
@@ -87,18 +87,18 @@ pub trait Statement: Clone {
 
     /// Computes values that vanish exactly when each ∫ in the names of another model is a function
     /// of its variable there.
-    fn quadrature_defects_elsewhere(&self, _: &Jet<'_, Expr>) -> Vec<Expr> {
+    fn quadrature_defects_elsewhere(&self, _: &DualPoint<'_, Expr>) -> Vec<Expr> {
         Vec::new()
     }
 
     /// Computes auxiliary values, needed at a few states only.
-    fn context(&self, _: &Jet<'_, Expr>, _: &[bool]) -> Context {
-        Context::default()
+    fn context(&self, _: &DualPoint<'_, Expr>, _: &[bool]) -> ResidualContext {
+        ResidualContext::default()
     }
 
     /// Computes values that decide whether an integral is independent of those common to all cases;
     /// needed for claims that may hold.
-    fn novelty(&self, _: &Jet<'_, Expr>, _: &[bool]) -> Novelty {
+    fn novelty(&self, _: &DualPoint<'_, Expr>, _: &[bool]) -> Novelty {
         Novelty::default()
     }
 
@@ -108,17 +108,17 @@ pub trait Statement: Clone {
     }
 
     /// Computes the gradients by which an integral or a density is new.
-    fn slopes(&self, _: &Jet<'_, Expr>) -> Vec<Vec<Expr>> {
+    fn slopes(&self, _: &DualPoint<'_, Expr>) -> Vec<Vec<Expr>> {
         Vec::new()
     }
 
     /// Returns the conditions that the claim presupposes.
-    fn conditions(&self, _: &Jet<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+    fn conditions(&self, _: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
         Vec::new()
     }
 
     /// Computes the residual at given values of the new variables, if it depends on nothing else.
-    fn residual_of_values(&self, _: &Variables, _: &Phase<'_, Expr>) -> Option<Vec<Expr>> {
+    fn residual_of_values(&self, _: &NewVariables, _: &Phase<'_, Expr>) -> Option<Vec<Expr>> {
         None
     }
 

@@ -3,7 +3,7 @@
 use super::components::Components;
 use super::{Reader, Statement};
 use crate::formula::{Formula, Type};
-use crate::mechanics::calculus::{Jet, dot};
+use crate::mechanics::calculus::{DualPoint, dot};
 use crate::scalar::Scalar;
 
 /// The claim `[u,v] = c v`, with c = 0 unless a weight is given.
@@ -27,7 +27,7 @@ impl Statement for SymmetryField {
         self.components.formulas().chain(&self.weight).collect()
     }
 
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {
         let moved = jet.along_field();
         let (field, rate): (Vec<T>, Vec<T>) =
             self.components.at(moved).iter().map(|x| (x.re, x.eps)).unzip();

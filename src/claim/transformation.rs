@@ -3,8 +3,8 @@
 use super::{Condition, Jets, Need, Reader, Statement, difference, quadrature_defects};
 use crate::formula::{Formula, Type};
 use crate::graph::{Expr, record};
-use crate::mechanics::calculus::Jet;
-use crate::mechanics::{Meaning, Model, Phase, Reach, Variable};
+use crate::mechanics::calculus::DualPoint;
+use crate::mechanics::{Dependence, Meaning, Model, Phase, Variable};
 use crate::scalar::Scalar;
 
 /// A map σ of phase space to itself, which may change parameters too.
@@ -91,7 +91,7 @@ impl Transformation {
     }
 
     /// Zero where the parameters that σ gives do not change along the motion, as parameters must not.
-    fn parameters_move<T: Scalar>(&self, jet: &Jet<'_, T>) -> Vec<T> {
+    fn parameters_move<T: Scalar>(&self, jet: &DualPoint<'_, T>) -> Vec<T> {
         let images = self.parameters.iter().map(|(_, image)| image);
         if !jet.phase.model().system.is_map() {
             return images.flat_map(|image| jet.rates(image)).collect();
@@ -104,7 +104,7 @@ impl Transformation {
     }
 
     /// Computes dσ·v.
-    fn pushed<T: Scalar>(&self, jet: &Jet<'_, T>) -> Vec<T> {
+    fn pushed<T: Scalar>(&self, jet: &DualPoint<'_, T>) -> Vec<T> {
         self.image(jet.along_field()).into_iter().map(|x| x.eps).collect()
     }
 }
@@ -146,7 +146,7 @@ impl Statement for Symmetry {
             let names = &from.model().vocabulary;
             names.with_abbreviations(time, &from.model().abbreviations).iter().any(|formula| {
                 let mut reaches = formula.symbols().map(|symbol| names.entry(symbol).reach);
-                reaches.any(|reach| reach > Reach::Parameters)
+                reaches.any(|reach| reach > Dependence::Parameters)
             })
         };
         if time.as_ref().is_some_and(moves) {
@@ -168,7 +168,7 @@ impl Statement for Symmetry {
         self.map.parameters.iter().map(|(index, _)| *index).collect()
     }
 
-    fn conditions(&self, jet: &Jet<'_, Expr>, kept: &[bool]) -> Vec<Condition> {
+    fn conditions(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> Vec<Condition> {
         let columns = jet.along_axes().iter().map(|phase| self.map.image(phase));
         let columns: Vec<_> = columns.collect();
         let rank = columns.len();
@@ -183,7 +183,7 @@ impl Statement for Symmetry {
         }]
     }
 
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {
         let there = self.map.point(&jet.phase);
         let mut residual = match jet.phase.model().system.is_map() {
             true => difference(self.map.image(&jet.image()), there.field().to_vec()),
@@ -216,7 +216,7 @@ impl Statement for Reversor {
         self.0.parameters.iter().map(|(index, _)| *index).collect()
     }
 
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, kept: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {
         let there = self.0.point(&jet.phase);
         let twice = self.0.point(&there);
         let mut residual = match jet.phase.model().system.is_map() {
@@ -257,7 +257,7 @@ impl Statement for Map {
         let mut state = Vec::new();
         for (index, (name, image)) in names.iter().zip(&images).enumerate() {
             let kind = image.value_type();
-            vocabulary.add(name, Meaning::State(index), kind, Reach::Phase);
+            vocabulary.add(name, Meaning::State(index), kind, Dependence::Phase);
             state.push(Variable { name: name.clone(), kind });
         }
         let target = model.with_names(vocabulary, state);
@@ -286,7 +286,7 @@ impl Statement for Map {
         self.images.iter().chain(&self.multiplier).collect()
     }
 
-    fn conditions(&self, jet: &Jet<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+    fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
         let rows: Vec<_> = self.images.iter().flat_map(|image| jet.gradients(image)).collect();
         vec![Condition {
             need: Need::Rank { rank: rows.len(), rows },
@@ -295,7 +295,7 @@ impl Statement for Map {
         }]
     }
 
-    fn residual<T: Scalar>(&self, jet: &Jet<'_, T>, _: &[bool]) -> Vec<T> {
+    fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {
         let images: Vec<T> =
             self.images.iter().flat_map(|image| jet.phase.evaluate(image).components()).collect();
         let there = jet.phase.in_model(&self.target, &images);
@@ -310,9 +310,10 @@ impl Statement for Map {
             .collect()
     }
 
-    fn quadrature_defects_elsewhere(&self, jet: &Jet<'_, Expr>) -> Vec<Expr> {
+    fn quadrature_defects_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
         let images = self.images.iter().flat_map(|image| jet.phase.evaluate(image).components());
-        let there = Jet::new(jet.phase.in_model(&self.target, &images.collect::<Vec<Expr>>()));
+        let there =
+            DualPoint::new(jet.phase.in_model(&self.target, &images.collect::<Vec<Expr>>()));
         self.rates.iter().flat_map(|rate| quadrature_defects(&there, rate, &[])).collect()
     }
 }

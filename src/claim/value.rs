@@ -1,7 +1,7 @@
 //! Claims as values: a statement with its domain, its name and its expectation, before it is added
 //! to a case.
 
-use super::entry::Entry;
+use super::entry::ClaimEntry;
 use super::{
     AnalyticDensity, Casimir, Density, DensityInVariables, Divergence, Expect, Form, Hamiltonian,
     Identity, Independent, Integral, JacobiIdentity, Lyapunov, PositionDensity, Rate, Relation,
@@ -56,7 +56,7 @@ pub enum Locus {
 #[derive(Clone, Debug)]
 pub struct Claim {
     key: &'static str,
-    entries: Vec<(&'static str, Entry)>,
+    entries: Vec<(&'static str, ClaimEntry)>,
     name: Option<String>,
     source: String,
     locus: Locus,
@@ -68,7 +68,7 @@ pub struct Claim {
 impl Claim {
     /// Makes the claim whose kind has this key, one of [`STATEMENTS`](super::STATEMENTS), from the
     /// entry that a case file has there.
-    pub fn of(key: &'static str, entry: impl Into<Entry>) -> Self {
+    pub fn of(key: &'static str, entry: impl Into<ClaimEntry>) -> Self {
         Self {
             key,
             entries: vec![(key, entry.into())],
@@ -82,12 +82,12 @@ impl Claim {
     }
 
     /// Claims that F is a first integral.
-    pub fn integral(function: impl Into<Entry>) -> Self {
+    pub fn integral(function: impl Into<ClaimEntry>) -> Self {
         Self::of(Integral::NAME, function)
     }
 
     /// Claims that ρ is an invariant density.
-    pub fn density(density: impl Into<Entry>) -> Self {
+    pub fn density(density: impl Into<ClaimEntry>) -> Self {
         Self::of(Density::NAME, density)
     }
 
@@ -102,12 +102,15 @@ impl Claim {
     }
 
     /// Claims that the divergence of the field is F.
-    pub fn divergence(divergence: impl Into<Entry>) -> Self {
+    pub fn divergence(divergence: impl Into<ClaimEntry>) -> Self {
         Self::of(Divergence::NAME, divergence)
     }
 
     /// Claims that the divergence of the field relative to the volume ρ dx is F.
-    pub fn divergence_relative_to(volume: impl Into<Entry>, divergence: impl Into<Entry>) -> Self {
+    pub fn divergence_relative_to(
+        volume: impl Into<ClaimEntry>,
+        divergence: impl Into<ClaimEntry>,
+    ) -> Self {
         Self::of(Divergence::NAME, divergence).with("volume", volume)
     }
 
@@ -118,21 +121,24 @@ impl Claim {
 
     /// Claims that A = B.
     pub fn identity(left: &Formula, right: &Formula) -> Self {
-        Self::of(Identity::NAME, Entry::Equation(left.clone(), right.clone()))
+        Self::of(Identity::NAME, ClaimEntry::Equation(left.clone(), right.clone()))
     }
 
     /// Claims that F' = G along the motion.
-    pub fn rate(function: impl Into<Entry>, rate: impl Into<Entry>) -> Self {
+    pub fn rate(function: impl Into<ClaimEntry>, rate: impl Into<ClaimEntry>) -> Self {
         Self::of(Rate::NAME, function).with("equals", rate)
     }
 
     /// Claims that F' = κF, so that F = 0 is invariant.
-    pub fn invariant_relation(function: impl Into<Entry>, cofactor: impl Into<Entry>) -> Self {
+    pub fn invariant_relation(
+        function: impl Into<ClaimEntry>,
+        cofactor: impl Into<ClaimEntry>,
+    ) -> Self {
         Self::of(Relation::NAME, function).with("cofactor", cofactor)
     }
 
     /// Claims that F does not grow along the motion.
-    pub fn lyapunov(function: impl Into<Entry>) -> Self {
+    pub fn lyapunov(function: impl Into<ClaimEntry>) -> Self {
         Self::of(Lyapunov::NAME, function)
     }
 
@@ -167,12 +173,12 @@ impl Claim {
 
     /// Claims that the motion is Hamiltonian with the function H, in the names of the case's
     /// variables and with their bracket.
-    pub fn hamiltonian(function: impl Into<Entry>) -> Self {
+    pub fn hamiltonian(function: impl Into<ClaimEntry>) -> Self {
         Self::of(Hamiltonian::NAME, function)
     }
 
     /// Claims that C is a Casimir function of the bracket, in the names of the case's variables.
-    pub fn casimir(function: impl Into<Entry>) -> Self {
+    pub fn casimir(function: impl Into<ClaimEntry>) -> Self {
         Self::of(Casimir::NAME, function)
     }
 
@@ -182,13 +188,13 @@ impl Claim {
     }
 
     /// Claims that ρ dy is invariant, with ρ in the names of the case's variables y.
-    pub fn density_in_variables(density: impl Into<Entry>) -> Self {
+    pub fn density_in_variables(density: impl Into<ClaimEntry>) -> Self {
         Self::of(DensityInVariables::NAME, density)
     }
 
     /// Adds the entry of a further key, such as the `weight` of a symmetry field.
     #[must_use]
-    pub fn with(mut self, key: &'static str, entry: impl Into<Entry>) -> Self {
+    pub fn with(mut self, key: &'static str, entry: impl Into<ClaimEntry>) -> Self {
         self.entries.push((key, entry.into()));
         self
     }
@@ -241,12 +247,12 @@ impl Claim {
     }
 
     /// Keys with their entries, that of the kind first.
-    pub fn entries(&self) -> &[(&'static str, Entry)] {
+    pub fn entries(&self) -> &[(&'static str, ClaimEntry)] {
         &self.entries
     }
 
     /// Entry of a key.
-    pub fn entry(&self, key: &str) -> Option<&Entry> {
+    pub fn entry(&self, key: &str) -> Option<&ClaimEntry> {
         self.entries.iter().find(|(own, _)| *own == key).map(|(_, entry)| entry)
     }
 

@@ -16,14 +16,14 @@ pub(super) type NodeId = usize;
 /// Operation with its type and the text it was read from.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
-    pub operation: Operation,
+    pub operation: NodeOperation,
     pub value_type: Type,
     pub span: Span,
 }
 
 /// Operation of a node on earlier nodes. Operand types are checked when it is built.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Operation {
+pub(super) enum NodeOperation {
     Number(Rational),
     Constant(Constant),
     /// Value of the symbol in this slot of [`Arena::symbols`].
@@ -78,7 +78,7 @@ pub(super) enum Operation {
     /// Matrix with a vector on its diagonal.
     Diagonal(NodeId),
     /// Function of one scalar.
-    Function(Function, NodeId),
+    Function(ElementaryFunction, NodeId),
     /// Angle of the point (x, y), given as `(y, x)`.
     Angle(NodeId, NodeId),
     /// Least or greatest of some scalars.
@@ -93,10 +93,10 @@ pub(super) enum Operation {
     },
 }
 
-impl Operation {
+impl NodeOperation {
     /// Same operation on other operands.
     pub fn on(&self, mut other: impl FnMut(NodeId) -> NodeId) -> Self {
-        use Operation::*;
+        use NodeOperation::*;
         let mut all = |nodes: &[NodeId]| nodes.iter().map(|node| other(*node)).collect();
         match self {
             Vector(parts) => return Vector(all(parts)),
@@ -156,7 +156,7 @@ pub(super) enum Constant {
 
 /// Functions of one scalar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Function {
+pub(super) enum ElementaryFunction {
     Sqrt,
     Exp,
     Ln,
@@ -198,7 +198,7 @@ pub(super) struct Arena {
 
 impl Arena {
     /// Appends a node.
-    pub fn push(&mut self, operation: Operation, value_type: Type, span: Span) -> NodeId {
+    pub fn push(&mut self, operation: NodeOperation, value_type: Type, span: Span) -> NodeId {
         self.nodes.push(Node { operation, value_type, span });
         self.nodes.len() - 1
     }
@@ -216,7 +216,7 @@ impl Arena {
             self.names.push(name());
             self.symbols.len() - 1
         });
-        self.push(Operation::Symbol(slot), value_type, span)
+        self.push(NodeOperation::Symbol(slot), value_type, span)
     }
 
     /// Same arena with other symbols in the place of its own; `None` where `other` has none.
@@ -236,7 +236,7 @@ impl Arena {
     /// Number held by a node, if it is a constant.
     pub fn constant(&self, node: NodeId) -> Option<&Rational> {
         match &self.nodes[node].operation {
-            Operation::Number(value) => Some(value),
+            NodeOperation::Number(value) => Some(value),
             _ => None,
         }
     }
@@ -255,7 +255,7 @@ impl Arena {
     /// unused.
     pub fn push_folded(
         &mut self,
-        operation: Operation,
+        operation: NodeOperation,
         operands: &[NodeId],
         span: Span,
         fold: impl FnOnce(&[&Rational]) -> Option<Rational>,
@@ -268,7 +268,7 @@ impl Arena {
         match folded.filter(|value| value.bits() <= MAX_CONSTANT_BITS) {
             Some(value) => {
                 self.nodes.truncate(start);
-                self.push(Operation::Number(value), Type::Scalar, span)
+                self.push(NodeOperation::Number(value), Type::Scalar, span)
             }
             None => self.push(operation, Type::Scalar, span),
         }
@@ -282,14 +282,14 @@ mod tests {
     #[test]
     fn numbers_fold_and_leave_nothing_behind() {
         let mut arena = Arena::default();
-        let number = |n: i64| Operation::Number(Rational::from(n));
+        let number = |n: i64| NodeOperation::Number(Rational::from(n));
         let a = arena.push(number(3), Type::Scalar, 0..1);
         let b = arena.push(number(4), Type::Scalar, 2..3);
-        let sum = arena.push_folded(Operation::Add(a, b), &[a, b], 0..3, |n| Some(n[0] + n[1]));
+        let sum = arena.push_folded(NodeOperation::Add(a, b), &[a, b], 0..3, |n| Some(n[0] + n[1]));
         assert_eq!(arena.constant(sum), Some(&Rational::from(7)), "3 + 4");
         assert_eq!(arena.nodes.len(), 1, "the summands are gone");
         let x = arena.push_symbol(Symbol(9), Type::Scalar, 4..5, || "x".to_string());
-        let sum = arena.push_folded(Operation::Add(sum, x), &[sum, x], 0..5, |_| None);
+        let sum = arena.push_folded(NodeOperation::Add(sum, x), &[sum, x], 0..5, |_| None);
         assert_eq!(arena.constant(sum), None, "x is not a number");
     }
 

@@ -1,6 +1,6 @@
 //! Assembly of the values of an indexed form: sums, products, vectors and matrices.
 
-use super::arena::Operation;
+use super::arena::NodeOperation;
 use super::binders::{Term, usage};
 use super::error::{FormulaError, Span};
 use super::kind::Type;
@@ -49,7 +49,7 @@ impl Builder<'_> {
         let is_empty = |term: &&Operand| self.is_empty_sum(term);
         let kept: Vec<&Operand> = terms.iter().filter(|term| !is_empty(term)).collect();
         let Some(first) = kept.first() else {
-            return Ok(self.push(Operation::Zero, Type::Scalar, span));
+            return Ok(self.push(NodeOperation::Zero, Type::Scalar, span));
         };
         if let Some(wrong) = kept.iter().find(|term| term.value_type != first.value_type) {
             let (first, own) = (first.value_type.in_full(), wrong.value_type.in_full());
@@ -58,13 +58,13 @@ impl Builder<'_> {
         }
         let nodes: Vec<usize> = kept.iter().map(|term| term.node).collect();
         if first.value_type != Type::Scalar {
-            let operation = Operation::Sum(nodes.into());
+            let operation = NodeOperation::Sum(nodes.into());
             return Ok(self.push(operation, first.value_type, span));
         }
         let fold = |numbers: &[&Rational]| {
             Some(numbers.iter().fold(Rational::from(0), |sum, number| &sum + number))
         };
-        Ok(self.push_folded(Operation::Sum(nodes.clone().into()), &nodes, span, fold))
+        Ok(self.push_folded(NodeOperation::Sum(nodes.clone().into()), &nodes, span, fold))
     }
 
     fn product_of(&mut self, factors: &[Operand], span: Span) -> Built {
@@ -73,13 +73,13 @@ impl Builder<'_> {
             return Err(FormulaError::new(wrong.span.clone(), message));
         }
         if factors.is_empty() {
-            let one = Operation::Number(Rational::from(1));
+            let one = NodeOperation::Number(Rational::from(1));
             return Ok(self.push(one, Type::Scalar, span));
         }
         let nodes: Vec<usize> = factors.iter().map(|factor| factor.node).collect();
         let fold = |numbers: &[&Rational]| {
             Some(numbers.iter().fold(Rational::from(1), |product, number| &product * number))
         };
-        Ok(self.push_folded(Operation::Product(nodes.clone().into()), &nodes, span, fold))
+        Ok(self.push_folded(NodeOperation::Product(nodes.clone().into()), &nodes, span, fold))
     }
 }

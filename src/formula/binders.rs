@@ -14,10 +14,10 @@
 //! | `E(n)`, `zero(n)`, `zero(n, m)` | the unit matrix, a vector and a matrix of zeros |
 //! | `x[i+1 mod n]` | counted around: 1 follows on n |
 
-use super::arena::Operation;
+use super::arena::NodeOperation;
 use super::error::{FormulaError, Span};
 use super::kind::Type;
-use super::lexer::Kind;
+use super::lexer::TokenKind;
 use super::names::canonical_name;
 use super::parser::{Parsed, Parser};
 use super::partial;
@@ -82,7 +82,7 @@ pub(super) struct Term {
 impl<'t> Parser<'t> {
     /// Reads one of the forms `name(…)`; the name has been read.
     pub(super) fn form(&mut self, name: &str, span: Span) -> Parsed {
-        if self.peek() != Kind::Open {
+        if self.peek() != TokenKind::Open {
             let error = FormulaError::new(span, format!("`{name}` is written with brackets"));
             return Err(error.with_help(usage(name)));
         }
@@ -96,7 +96,7 @@ impl<'t> Parser<'t> {
                     [n, m] => Type::Matrix(n, m),
                     _ => return Err(FormulaError::new(span, "`zero` takes one size or two")),
                 };
-                self.builder.push_sized(Operation::Zero, kind, span)
+                self.builder.push_sized(NodeOperation::Zero, kind, span)
             }
             _ => self.indexed(name, span),
         }
@@ -107,7 +107,7 @@ impl<'t> Parser<'t> {
         let (sizes, brackets) = self.sizes()?;
         let span = span.start..brackets.end;
         match sizes[..] {
-            [n] => self.builder.push_sized(Operation::Identity, Type::Matrix(n, n), span),
+            [n] => self.builder.push_sized(NodeOperation::Identity, Type::Matrix(n, n), span),
             _ => Err(FormulaError::new(span, "a unit matrix has one size")
                 .with_help("write `E(4)`; `E` alone has 3 rows")),
         }
@@ -123,8 +123,8 @@ impl<'t> Parser<'t> {
             })?;
             sizes.push(size);
             match self.peek() {
-                Kind::Comma => self.advance(),
-                Kind::Close => break,
+                TokenKind::Comma => self.advance(),
+                TokenKind::Close => break,
                 _ => return Err(self.unclosed(&open)),
             };
         }
@@ -138,7 +138,7 @@ impl<'t> Parser<'t> {
         let mut terms: Vec<Term> = Vec::new();
         self.fill(&head, 0, &mut terms, &open)?;
         self.position = head.end;
-        if self.peek() != Kind::Close {
+        if self.peek() != TokenKind::Close {
             return Err(self.unclosed(&open));
         }
         let span = span.start..self.advance().end;
@@ -150,7 +150,8 @@ impl<'t> Parser<'t> {
         self.advance();
         let mut head = Head { indices: Vec::new(), conditions: Vec::new(), body: 0, end: 0 };
         loop {
-            let at_name = self.peek() == Kind::Name && self.kind_at(1) == Some(Kind::Comma);
+            let at_name =
+                self.peek() == TokenKind::Name && self.kind_at(1) == Some(TokenKind::Comma);
             if !at_name && head.indices.is_empty() {
                 let place = self.token().span.clone();
                 let message = "an index and its range are missing here";
@@ -163,7 +164,7 @@ impl<'t> Parser<'t> {
             let index = canonical_name(self.text(&place)).unwrap_or_default();
             self.advance();
             let range = self.position;
-            if !self.passes(Kind::Range) {
+            if !self.passes(TokenKind::Range) {
                 let message = format!("the range of `{index}` is missing here");
                 let place = self.token().span.clone();
                 return Err(FormulaError::new(place, message).with_help(usage(name)));
@@ -175,7 +176,7 @@ impl<'t> Parser<'t> {
             head.indices.push(Index { name: index, range });
             self.next_argument(name)?;
         }
-        while self.passes(Kind::Comparison) {
+        while self.passes(TokenKind::Comparison) {
             head.conditions.push(self.position);
             self.next_argument(name)?;
         }
@@ -185,20 +186,20 @@ impl<'t> Parser<'t> {
     }
 
     /// Whether a token of this kind occurs in the argument that begins here.
-    fn passes(&self, kind: Kind) -> bool {
+    fn passes(&self, kind: TokenKind) -> bool {
         self.argument(self.position).any(|(_, found)| found == kind)
     }
 
     /// Tokens of the argument that begins at a token, without those in inner brackets.
-    fn argument(&self, from: usize) -> impl Iterator<Item = (usize, Kind)> {
+    fn argument(&self, from: usize) -> impl Iterator<Item = (usize, TokenKind)> {
         let mut depth = 0usize;
-        let ends = move |kind: Kind| {
+        let ends = move |kind: TokenKind| {
             match kind {
-                Kind::Open | Kind::OpenSquare => depth += 1,
-                Kind::Close | Kind::CloseSquare if depth == 0 => return None,
-                Kind::Close | Kind::CloseSquare => depth -= 1,
-                Kind::Comma if depth == 0 => return None,
-                Kind::End => return None,
+                TokenKind::Open | TokenKind::OpenSquare => depth += 1,
+                TokenKind::Close | TokenKind::CloseSquare if depth == 0 => return None,
+                TokenKind::Close | TokenKind::CloseSquare => depth -= 1,
+                TokenKind::Comma if depth == 0 => return None,
+                TokenKind::End => return None,
                 _ => {}
             }
             Some(depth)
@@ -220,10 +221,12 @@ impl<'t> Parser<'t> {
         let mut place = from;
         loop {
             match self.kind(place) {
-                Some(Kind::Open | Kind::OpenSquare) => depth += 1,
-                Some(Kind::Close | Kind::CloseSquare) if depth > 0 => depth -= 1,
-                Some(Kind::Close | Kind::CloseSquare | Kind::End) | None => return place,
-                Some(Kind::Comma) if depth == 0 => return place,
+                Some(TokenKind::Open | TokenKind::OpenSquare) => depth += 1,
+                Some(TokenKind::Close | TokenKind::CloseSquare) if depth > 0 => depth -= 1,
+                Some(TokenKind::Close | TokenKind::CloseSquare | TokenKind::End) | None => {
+                    return place;
+                }
+                Some(TokenKind::Comma) if depth == 0 => return place,
                 _ => {}
             }
             place += 1;
@@ -233,7 +236,7 @@ impl<'t> Parser<'t> {
     /// Skips to the next argument.
     fn next_argument(&mut self, name: &str) -> Result<(), FormulaError> {
         self.position = self.closing(self.position);
-        if self.peek() != Kind::Comma {
+        if self.peek() != TokenKind::Comma {
             let place = self.token().span.clone();
             let error = FormulaError::new(place, format!("`{name}` has no body"));
             return Err(error.with_help(usage(name)));
@@ -265,13 +268,13 @@ impl<'t> Parser<'t> {
         };
         self.position = index.range;
         let (low, _) = self.whole("a bound")?;
-        if self.peek() != Kind::Range {
+        if self.peek() != TokenKind::Range {
             let place = self.token().span.clone();
             return Err(FormulaError::new(place, "a range is written `1..n`"));
         }
         self.advance();
         let (high, _) = self.whole("a bound")?;
-        if self.peek() != Kind::Comma {
+        if self.peek() != TokenKind::Comma {
             return Err(FormulaError::new(self.token().span.clone(), "a range is written `1..n`"));
         }
         self.count(self.position - index.range, open)?;
@@ -303,7 +306,7 @@ impl<'t> Parser<'t> {
     fn choice(&mut self, span: Span) -> Parsed {
         let open = self.advance();
         let holds = self.condition()?;
-        if self.peek() != Kind::Comma {
+        if self.peek() != TokenKind::Comma {
             return Err(self.unclosed(&open));
         }
         self.advance();
@@ -315,7 +318,7 @@ impl<'t> Parser<'t> {
         self.position = if holds { first } else { second };
         let chosen = self.enclosed(&open, false)?;
         let behind = if holds { second - 1 } else { end };
-        if self.position != behind || self.kind(end) != Some(Kind::Close) {
+        if self.position != behind || self.kind(end) != Some(TokenKind::Close) {
             return Err(self.unclosed(&open));
         }
         self.position = end;

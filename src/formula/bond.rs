@@ -1,6 +1,6 @@
 //! Binding strength of the text of a formula: where it needs brackets inside another.
 
-use super::lexer::{Kind, tokens};
+use super::lexer::{TokenKind, tokens};
 
 /// Operator that a text consists of at its loosest, loosest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -28,35 +28,35 @@ pub(super) fn bond(text: &str) -> Bond {
     for token in &tokens {
         let outside = open.is_empty();
         let found = match token.kind {
-            Kind::Open | Kind::OpenSquare => {
+            TokenKind::Open | TokenKind::OpenSquare => {
                 open.push(token.kind);
                 wants_operand = true;
                 continue;
             }
-            Kind::Bar if wants_operand => {
-                open.push(Kind::Bar);
+            TokenKind::Bar if wants_operand => {
+                open.push(TokenKind::Bar);
                 continue;
             }
-            Kind::Close | Kind::CloseSquare | Kind::Bar => {
+            TokenKind::Close | TokenKind::CloseSquare | TokenKind::Bar => {
                 open.pop();
                 (wants_operand, in_exponent) = (false, false);
                 continue;
             }
             // a^−b is one power
-            Kind::Minus | Kind::Root if wants_operand && in_exponent => continue,
-            Kind::Minus | Kind::Root if wants_operand => Bond::Prefix,
-            Kind::Plus | Kind::Minus => Bond::Sum,
-            Kind::Cross | Kind::Outer => Bond::Cross,
-            Kind::Times | Kind::Slash => Bond::Product,
-            Kind::Caret | Kind::Superscript | Kind::Transpose => Bond::Power,
+            TokenKind::Minus | TokenKind::Root if wants_operand && in_exponent => continue,
+            TokenKind::Minus | TokenKind::Root if wants_operand => Bond::Prefix,
+            TokenKind::Plus | TokenKind::Minus => Bond::Sum,
+            TokenKind::Cross | TokenKind::Outer => Bond::Cross,
+            TokenKind::Times | TokenKind::Slash => Bond::Product,
+            TokenKind::Caret | TokenKind::Superscript | TokenKind::Transpose => Bond::Power,
             _ => Bond::Whole,
         };
         wants_operand = match token.kind {
-            Kind::Superscript | Kind::Transpose => false,
-            Kind::Comma => true,
+            TokenKind::Superscript | TokenKind::Transpose => false,
+            TokenKind::Comma => true,
             _ => found != Bond::Whole,
         };
-        in_exponent = token.kind == Kind::Caret;
+        in_exponent = token.kind == TokenKind::Caret;
         if outside {
             loosest = loosest.min(found);
         }

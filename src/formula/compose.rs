@@ -7,7 +7,7 @@ use std::fmt;
 use std::ops::{Add, Div, Mul, Neg, Range, Sub};
 
 use super::Formula;
-use super::arena::{Arena, NodeId, Operation};
+use super::arena::{Arena, NodeId, NodeOperation};
 use super::bond::{Bond, bond, is_signed};
 use super::error::{FormulaError, Span};
 use super::kind::Type;
@@ -16,7 +16,7 @@ use super::typing::{Builder, Built, Infix, Operand};
 use crate::number::rational::Rational;
 
 /// A formula made of others, or the reason why their types do not fit.
-pub type Composed = Result<Formula, FormulaError>;
+pub type FormulaResult = Result<Formula, FormulaError>;
 
 /// Text and tree of a formula in the making.
 #[derive(Default)]
@@ -61,7 +61,7 @@ impl Draft {
             let moved = |place: usize| (place + start).saturating_sub(leading);
             let span = moved(node.span.start)..moved(node.span.end);
             map.push(match &node.operation {
-                Operation::Symbol(slot) => {
+                NodeOperation::Symbol(slot) => {
                     let (symbol, kind) = formula.arena.symbols[*slot];
                     let name = || formula.arena.names[*slot].clone();
                     self.arena.push_symbol(symbol, kind, span, name)
@@ -81,7 +81,7 @@ impl Draft {
     }
 
     /// Builds the last operation.
-    pub fn build(self, build: impl FnOnce(&mut Builder<'_>) -> Built) -> Composed {
+    pub fn build(self, build: impl FnOnce(&mut Builder<'_>) -> Built) -> FormulaResult {
         let Self { text, arena } = self;
         let mut builder = Builder { arena, text: &text };
         build(&mut builder)?;
@@ -108,12 +108,12 @@ impl Formula {
         };
         let text = text.replacen('-', "−", 1);
         let mut arena = Arena::default();
-        arena.push(Operation::Number(value), Type::Scalar, 0..text.len());
+        arena.push(NodeOperation::Number(value), Type::Scalar, 0..text.len());
         Self { text, arena }
     }
 
     /// Formula of a name of the scope.
-    pub fn name(name: &str, scope: &dyn Scope) -> Composed {
+    pub fn name(name: &str, scope: &dyn Scope) -> FormulaResult {
         Self::parse(name, scope)
     }
 
@@ -140,7 +140,7 @@ impl Formula {
     }
 
     /// Joins two formulas, each in brackets unless it binds as tightly as is required.
-    pub(super) fn joined(&self, infix: Infix, other: &Self) -> Composed {
+    pub(super) fn joined(&self, infix: Infix, other: &Self) -> FormulaResult {
         let (sign, left, right) = match infix {
             Infix::Add => (" + ", Bond::Sum, Bond::Cross),
             Infix::Subtract => (" − ", Bond::Sum, Bond::Cross),
@@ -157,11 +157,11 @@ impl Formula {
     }
 
     /// Product; a product on the right needs no brackets behind a scalar, since a(bc) = (ab)c.
-    fn times(&self, other: &Self) -> Composed {
+    fn times(&self, other: &Self) -> FormulaResult {
         let is_row = self.value_type() == Type::Scalar && other.bond() == Bond::Product;
         // a number such as 1/2 is one factor, and m*1/2 has two
         let first = &other.arena.nodes[other.first_factor()];
-        let is_fraction = matches!(first.operation, Operation::Number(_))
+        let is_fraction = matches!(first.operation, NodeOperation::Number(_))
             && other.text.get(first.span.clone()).is_some_and(|text| bond(text) == Bond::Product);
         let splits = is_fraction && self.constant().is_none();
         if !is_row || splits || is_signed(other.written()) {
@@ -201,11 +201,11 @@ impl Formula {
         let mut at = nodes.len() - 1;
         loop {
             let (a, b) = match nodes[at].operation {
-                Operation::Multiply(a, b)
-                | Operation::Scale(a, b)
-                | Operation::Apply(a, b)
-                | Operation::Compose(a, b)
-                | Operation::Divide(a, b) => (a, b),
+                NodeOperation::Multiply(a, b)
+                | NodeOperation::Scale(a, b)
+                | NodeOperation::Apply(a, b)
+                | NodeOperation::Compose(a, b)
+                | NodeOperation::Divide(a, b) => (a, b),
                 _ => return at,
             };
             let begins = |node: &NodeId| nodes[*node].span.start == nodes[at].span.start;
@@ -217,7 +217,7 @@ impl Formula {
     }
 
     /// Power with a formula as its exponent.
-    pub fn power(&self, exponent: &Formula) -> Composed {
+    pub fn power(&self, exponent: &Formula) -> FormulaResult {
         let mut draft = Draft::default();
         let base = draft.place(self, self.bond() < Bond::Whole);
         draft.write("^");
@@ -226,7 +226,7 @@ impl Formula {
     }
 
     /// Whole power, written above the line: `x²`, `A⁻¹`.
-    pub fn raised(&self, exponent: i32) -> Composed {
+    pub fn raised(&self, exponent: i32) -> FormulaResult {
         let mut draft = Draft::default();
         let base = draft.place(self, self.bond() < Bond::Whole);
         let start = draft.text.len();
@@ -245,7 +245,7 @@ impl Formula {
         parts: &[&Formula],
         close: &str,
         build: impl FnOnce(&mut Builder<'_>, &[Operand], Span) -> Built,
-    ) -> Composed {
+    ) -> FormulaResult {
         let mut draft = Draft::default();
         draft.write(open);
         let mut operands = Vec::new();
@@ -270,7 +270,7 @@ impl Draft {
         mut self,
         product: &Formula,
         lead: impl FnOnce(&mut Builder<'_>, &Operand) -> Built,
-    ) -> Composed {
+    ) -> FormulaResult {
         let start = self.text.len();
         self.write(product.written());
         let first = product.first_factor();
@@ -322,43 +322,43 @@ impl fmt::Display for Formula {
 macro_rules! operators {
     ($($trait:ident $method:ident = $make:expr;)*) => {$(
         impl $trait<&Formula> for &Formula {
-            type Output = Composed;
+            type Output = FormulaResult;
 
             /// Fails where the types of the two formulas do not fit.
-            fn $method(self, other: &Formula) -> Composed {
-                let make: fn(&Formula, &Formula) -> Composed = $make;
+            fn $method(self, other: &Formula) -> FormulaResult {
+                let make: fn(&Formula, &Formula) -> FormulaResult = $make;
                 make(self, other)
             }
         }
 
-        impl $trait<&Formula> for Composed {
-            type Output = Composed;
+        impl $trait<&Formula> for FormulaResult {
+            type Output = FormulaResult;
 
-            fn $method(self, other: &Formula) -> Composed {
+            fn $method(self, other: &Formula) -> FormulaResult {
                 self?.$method(other)
             }
         }
 
         impl $trait<&Formula> for Formula {
-            type Output = Composed;
+            type Output = FormulaResult;
 
-            fn $method(self, other: &Formula) -> Composed {
+            fn $method(self, other: &Formula) -> FormulaResult {
                 (&self).$method(other)
             }
         }
 
         impl $trait<Formula> for &Formula {
-            type Output = Composed;
+            type Output = FormulaResult;
 
-            fn $method(self, other: Formula) -> Composed {
+            fn $method(self, other: Formula) -> FormulaResult {
                 self.$method(&other)
             }
         }
 
         impl $trait<Formula> for Formula {
-            type Output = Composed;
+            type Output = FormulaResult;
 
-            fn $method(self, other: Formula) -> Composed {
+            fn $method(self, other: Formula) -> FormulaResult {
                 (&self).$method(&other)
             }
         }

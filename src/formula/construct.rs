@@ -1,8 +1,8 @@
 //! Vectors, products of vectors, components and calls, made of formulas.
 
-use super::arena::Operation;
+use super::arena::NodeOperation;
 use super::bond::Bond;
-use super::compose::{Composed, Draft};
+use super::compose::{Draft, FormulaResult};
 use super::error::FormulaError;
 use super::kind::Type;
 use super::typing::{Infix, Operand};
@@ -10,7 +10,7 @@ use super::{Formula, functions};
 
 impl Formula {
     /// Dot product `(a,b)`.
-    pub fn dot(&self, other: &Formula) -> Composed {
+    pub fn dot(&self, other: &Formula) -> FormulaResult {
         Self::listed("(", ",", &[self, other], ")", |builder, parts, span| match parts {
             [a, b] => builder.dot(a, b, span),
             _ => Err(FormulaError::new(span, "a dot product takes two vectors")),
@@ -18,17 +18,17 @@ impl Formula {
     }
 
     /// Cross product `a × b`.
-    pub fn cross(&self, other: &Formula) -> Composed {
+    pub fn cross(&self, other: &Formula) -> FormulaResult {
         self.joined(Infix::Cross, other)
     }
 
     /// Outer product `a ⊗ b`.
-    pub fn outer(&self, other: &Formula) -> Composed {
+    pub fn outer(&self, other: &Formula) -> FormulaResult {
         self.joined(Infix::Outer, other)
     }
 
     /// Norm of a vector, or absolute value of a scalar.
-    pub fn modulus(&self) -> Composed {
+    pub fn modulus(&self) -> FormulaResult {
         Self::listed("|", "", &[self], "|", |builder, parts, span| match parts {
             [a] => builder.modulus(a, span),
             _ => Err(FormulaError::new(span, "bars enclose one value")),
@@ -36,7 +36,7 @@ impl Formula {
     }
 
     /// Square root.
-    pub fn sqrt(&self) -> Composed {
+    pub fn sqrt(&self) -> FormulaResult {
         let mut draft = Draft::default();
         draft.write("√");
         let a = draft.place(self, self.bond() < Bond::Prefix);
@@ -47,7 +47,7 @@ impl Formula {
     }
 
     /// Component of a vector, or entry of a matrix, counted from 1: `γ[3]`, `I[1,2]`.
-    pub fn component(&self, indices: &[usize]) -> Composed {
+    pub fn component(&self, indices: &[usize]) -> FormulaResult {
         let mut draft = Draft::default();
         let a = draft.place(self, self.bond() < Bond::Whole);
         let open = draft.text.len();
@@ -68,9 +68,8 @@ impl Formula {
     /// its own for it; as [`component`] otherwise.
     ///
     /// [`component`]: Formula::component
-    pub fn element(&self, index: usize) -> Composed {
-        let is_named =
-            matches!(self.arena.nodes.as_slice(), [only] if only.operation == Operation::Symbol(0));
+    pub fn element(&self, index: usize) -> FormulaResult {
+        let is_named = matches!(self.arena.nodes.as_slice(), [only] if only.operation == NodeOperation::Symbol(0));
         let has_digits = self.written().ends_with(|c: char| c.is_ascii_digit());
         if !is_named || has_digits || self.bond() < Bond::Whole || !(1..=9).contains(&index) {
             return self.component(&[index]);
@@ -86,12 +85,12 @@ impl Formula {
     }
 
     /// Vector `[a, b, …]` of scalars.
-    pub fn vector(parts: &[&Formula]) -> Composed {
+    pub fn vector(parts: &[&Formula]) -> FormulaResult {
         Self::listed("[", ", ", parts, "]", |builder, parts, span| builder.vector(parts, span))
     }
 
     /// Matrix `[[a, b], [c, d]]` of the rows.
-    pub fn rows(rows: &[Vec<&Formula>]) -> Composed {
+    pub fn rows(rows: &[Vec<&Formula>]) -> FormulaResult {
         let rows: Vec<Formula> =
             rows.iter().map(|row| Self::vector(row)).collect::<Result<_, _>>()?;
         let rows: Vec<&Formula> = rows.iter().collect();
@@ -99,7 +98,7 @@ impl Formula {
     }
 
     /// Call of a function of the language, such as `det`, `hat` or `exp`.
-    pub fn call(function: &str, arguments: &[&Formula]) -> Composed {
+    pub fn call(function: &str, arguments: &[&Formula]) -> FormulaResult {
         if !functions::is_function(function) {
             let message = format!("`{function}` is not a function");
             return Err(FormulaError::new(0..function.len(), message));
@@ -116,7 +115,7 @@ impl Type {
     ///
     /// # Errors
     /// There are too few or too many components.
-    pub fn filled(self, components: &[Formula]) -> Composed {
+    pub fn filled(self, components: &[Formula]) -> FormulaResult {
         let parts: Vec<&Formula> = components.iter().collect();
         match (self, parts.as_slice()) {
             (_, all) if all.len() != self.size() => {

@@ -2,7 +2,7 @@
 
 use super::error::{FormulaError, Span, excerpt};
 use super::kind::Type;
-use super::lexer::Kind;
+use super::lexer::TokenKind;
 use super::parser::Parser;
 use super::typing::Operand;
 
@@ -13,13 +13,13 @@ impl Parser<'_> {
     pub(super) fn missing_times(&mut self, left: &Operand) -> FormulaError {
         let token = self.token().clone();
         let right = match (self.attempt(), token.kind) {
-            (Err(error), Kind::Bar) => return self.odd_bar(&token.span, error),
+            (Err(error), TokenKind::Bar) => return self.odd_bar(&token.span, error),
             (right, _) => right.ok(),
         };
         let a = excerpt(self.text(&left.span));
         let b = match (&right, token.kind) {
             (Some(right), _) => excerpt(self.text(&right.span)),
-            (None, Kind::Name | Kind::Number) => excerpt(self.text(&token.span)),
+            (None, TokenKind::Name | TokenKind::Number) => excerpt(self.text(&token.span)),
             (None, _) => format!("{}…", self.text(&token.span)),
         };
         if matches!((left.value_type, b.as_str()), (Type::Vector(_), "x" | "X")) {
@@ -39,16 +39,16 @@ impl Parser<'_> {
     }
 
     /// Advice for a token that follows a value and is no factor of it.
-    fn adjacent(&self, left: &Operand, kind: &Kind, text: &str) -> Option<String> {
+    fn adjacent(&self, left: &Operand, kind: &TokenKind, text: &str) -> Option<String> {
         match (kind, text) {
-            (Kind::Name, "mod") => {
+            (TokenKind::Name, "mod") => {
                 Some("`k mod n` stands in an index, as in `x[i+1 mod n]`".to_string())
             }
-            (Kind::Name, "if" | "where" | "for" | "when") => Some(
+            (TokenKind::Name, "if" | "where" | "for" | "when") => Some(
                 "`if(i = j, a, b)` compares indices; values have `max`, `min`, `sign` and `|x|`"
                     .to_string(),
             ),
-            (Kind::Number, number) if number.starts_with('.') => {
+            (TokenKind::Number, number) if number.starts_with('.') => {
                 let left = self.text(&left.span);
                 Some(match left.ends_with(|c: char| c.is_ascii_digit()) {
                     true => "a number has one decimal point".to_string(),
@@ -74,7 +74,7 @@ impl Parser<'_> {
     pub(super) fn missing_operand(&self) -> FormulaError {
         let span = self.token().span.clone();
         let error = match self.peek() {
-            Kind::End => {
+            TokenKind::End => {
                 // point at the operator that is left without its right side
                 let end = self.builder.text.trim_end().len();
                 let start =
@@ -91,20 +91,30 @@ impl Parser<'_> {
         };
         let before = self.builder.text[..span.start].trim_end().chars().next_back();
         match (self.peek(), before) {
-            (Kind::Times, Some('*')) => error.with_help("a power is written `a^b`"),
-            (Kind::Plus, None | Some('(' | '[' | ',')) => {
+            (TokenKind::Times, Some('*')) => error.with_help("a power is written `a^b`"),
+            (TokenKind::Plus, None | Some('(' | '[' | ',')) => {
                 error.with_help("leave out a leading `+`")
             }
-            (Kind::Plus | Kind::Minus | Kind::Times | Kind::Slash | Kind::Cross, Some(_)) => {
-                error.with_help("remove one of the two signs")
-            }
-            (Kind::Times | Kind::Slash | Kind::Cross | Kind::Outer | Kind::Caret, None) => {
-                error.with_help("write what stands before the sign, or remove it")
-            }
-            (Kind::Comparison, None) if self.text(&span) == "<" => {
+            (
+                TokenKind::Plus
+                | TokenKind::Minus
+                | TokenKind::Times
+                | TokenKind::Slash
+                | TokenKind::Cross,
+                Some(_),
+            ) => error.with_help("remove one of the two signs"),
+            (
+                TokenKind::Times
+                | TokenKind::Slash
+                | TokenKind::Cross
+                | TokenKind::Outer
+                | TokenKind::Caret,
+                None,
+            ) => error.with_help("write what stands before the sign, or remove it"),
+            (TokenKind::Comparison, None) if self.text(&span) == "<" => {
                 error.with_help("a dot product is written `(a,b)`")
             }
-            (Kind::Comparison, _) => error.with_help(NO_EQUATION),
+            (TokenKind::Comparison, _) => error.with_help(NO_EQUATION),
             _ => error,
         }
     }
@@ -135,21 +145,21 @@ impl Parser<'_> {
         let span = self.token().span.clone();
         let found = self.text(&span);
         match self.peek() {
-            Kind::Close | Kind::CloseSquare => {
+            TokenKind::Close | TokenKind::CloseSquare => {
                 FormulaError::new(span, format!("this `{found}` closes nothing"))
                     .with_help("remove it, or open a bracket before it")
             }
-            Kind::Comparison => {
+            TokenKind::Comparison => {
                 FormulaError::new(span, format!("`{found}` has no meaning in a formula"))
                     .with_help(NO_EQUATION)
             }
-            Kind::Range => FormulaError::new(span, format!("`{found}` has no meaning here"))
+            TokenKind::Range => FormulaError::new(span, format!("`{found}` has no meaning here"))
                 .with_help("a range is written in `sum(i, 1..n, …)` and similar forms"),
-            Kind::Comma if self.is_decimal(&span) => {
+            TokenKind::Comma if self.is_decimal(&span) => {
                 FormulaError::new(span, "a decimal number has a point, not a comma")
                     .with_help("write 0.5 in place of 0,5")
             }
-            Kind::Comma => FormulaError::new(span, "a comma is allowed only inside brackets")
+            TokenKind::Comma => FormulaError::new(span, "a comma is allowed only inside brackets")
                 .with_help("a dot product is written `(a,b)`, a vector `[a,b,c]`"),
             _ => FormulaError::new(span, format!("`{found}` cannot follow a complete formula")),
         }

@@ -10,10 +10,10 @@ pub(super) type Span = Range<usize>;
 ///
 /// One pointer wide, since every step of reading a formula returns a result with one.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FormulaError(Box<Fault>);
+pub struct FormulaError(Box<PlacedFault>);
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Fault {
+struct PlacedFault {
     message: String,
     span: Span,
     help: Option<String>,
@@ -24,7 +24,7 @@ struct Fault {
 
 impl FormulaError {
     pub(super) fn new(span: Span, message: impl Into<String>) -> Self {
-        Self(Box::new(Fault {
+        Self(Box::new(PlacedFault {
             message: message.into(),
             span,
             help: None,

@@ -5,10 +5,10 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::arena::{Arena, Constant, Function, NodeId, Operation};
+use super::arena::{Arena, Constant, ElementaryFunction, NodeId, NodeOperation};
 use super::kind::Type;
 use super::scope::Symbol;
-use super::value::{Table, Value};
+use super::value::{MatrixEntries, Value};
 use super::{algebra, elementary, tables};
 use crate::scalar::Scalar;
 
@@ -33,10 +33,10 @@ impl<T: Scalar> Values<T> {
         self.0[node].components()
     }
 
-    fn table(&self, node: NodeId) -> Table<T> {
+    fn table(&self, node: NodeId) -> MatrixEntries<T> {
         match &self.0[node] {
             Value::Table(table) => table.clone(),
-            Value::Matrix(matrix) => Table::from_fn((3, 3), |i, j| matrix[(i, j)]),
+            Value::Matrix(matrix) => MatrixEntries::from_fn((3, 3), |i, j| matrix[(i, j)]),
             _ => unreachable!("{TYPED}"),
         }
     }
@@ -78,7 +78,7 @@ fn list<T: Scalar>(components: Vec<T>) -> Value<T> {
     }
 }
 
-fn table<T: Scalar>(entries: Table<T>) -> Value<T> {
+fn table<T: Scalar>(entries: MatrixEntries<T>) -> Value<T> {
     match (entries.rows(), entries.columns()) {
         (3, 3) => Value::Matrix(Matrix3::from_fn(|i, j| entries[(i, j)])),
         _ => Value::Table(entries),
@@ -121,35 +121,35 @@ fn steps<T: Scalar>(arena: &Arena, symbols: &[Value<T>]) -> Vec<Value<T>> {
 }
 
 fn step<T: Scalar>(
-    operation: &Operation,
+    operation: &NodeOperation,
     kind: Type,
     v: &Values<T>,
     symbols: &[Value<T>],
 ) -> Value<T> {
     use Value::{Matrix, Scalar, Vector};
     match operation {
-        Operation::Number(value) => Scalar(T::rational(value)),
-        Operation::Constant(Constant::Pi) => Scalar(elementary::pi()),
-        Operation::Constant(Constant::Euler) => Scalar(T::one().exp()),
-        Operation::Symbol(slot) => symbols[*slot].clone(),
-        Operation::Identity => match kind {
+        NodeOperation::Number(value) => Scalar(T::rational(value)),
+        NodeOperation::Constant(Constant::Pi) => Scalar(elementary::pi()),
+        NodeOperation::Constant(Constant::Euler) => Scalar(T::one().exp()),
+        NodeOperation::Symbol(slot) => symbols[*slot].clone(),
+        NodeOperation::Identity => match kind {
             Type::Matrix(n, _) if n != 3 => table(tables::identity(n)),
             _ => Matrix(algebra::identity()),
         },
-        Operation::Zero => Value::from_components(kind, &vec![T::zero(); kind.size()]),
-        Operation::Negate(a) => v.0[*a].map(|x| -x),
-        Operation::Add(a, b) => v.zip(*a, *b, |x, y| x + y),
-        Operation::Subtract(a, b) => v.zip(*a, *b, |x, y| x - y),
-        Operation::Multiply(a, b) => Scalar(v.scalar(*a) * v.scalar(*b)),
-        Operation::Scale(a, b) => {
+        NodeOperation::Zero => Value::from_components(kind, &vec![T::zero(); kind.size()]),
+        NodeOperation::Negate(a) => v.0[*a].map(|x| -x),
+        NodeOperation::Add(a, b) => v.zip(*a, *b, |x, y| x + y),
+        NodeOperation::Subtract(a, b) => v.zip(*a, *b, |x, y| x - y),
+        NodeOperation::Multiply(a, b) => Scalar(v.scalar(*a) * v.scalar(*b)),
+        NodeOperation::Scale(a, b) => {
             let factor = v.scalar(*a);
             v.0[*b].map(|x| factor * x)
         }
-        Operation::Divide(a, b) => {
+        NodeOperation::Divide(a, b) => {
             let divisor = v.scalar(*b);
             v.0[*a].map(|x| x / divisor)
         }
-        Operation::Power(a, exponent) => {
+        NodeOperation::Power(a, exponent) => {
             let x = v.scalar(*a);
             Scalar(match exponent.to_integer() {
                 Some(1) => x,
@@ -158,31 +158,33 @@ fn step<T: Scalar>(
                 _ => x.power(exponent),
             })
         }
-        Operation::PowerOf(a, b) => Scalar(v.scalar(*a).power_of(v.scalar(*b))),
-        Operation::Component(a, i) => Scalar(v.component(*a, *i)),
-        Operation::Entry(a, i, j) => Scalar(v.entry(*a, *i, *j)),
-        Operation::Row(a, i) => list((0..kind.size()).map(|j| v.entry(*a, *i, j)).collect()),
-        Operation::Vector(entries) => match entries[..] {
+        NodeOperation::PowerOf(a, b) => Scalar(v.scalar(*a).power_of(v.scalar(*b))),
+        NodeOperation::Component(a, i) => Scalar(v.component(*a, *i)),
+        NodeOperation::Entry(a, i, j) => Scalar(v.entry(*a, *i, *j)),
+        NodeOperation::Row(a, i) => list((0..kind.size()).map(|j| v.entry(*a, *i, j)).collect()),
+        NodeOperation::Vector(entries) => match entries[..] {
             [x, y, z] => Vector(Vector3::new(v.scalar(x), v.scalar(y), v.scalar(z))),
             _ => list(v.scalars(entries)),
         },
-        Operation::Rows(rows) => {
+        NodeOperation::Rows(rows) => {
             let entries: Vec<T> = rows.iter().flat_map(|row| v.list(*row)).collect();
             Value::from_components(kind, &entries)
         }
-        Operation::Sum(terms) => sum(terms, v),
-        Operation::Product(factors) => {
+        NodeOperation::Sum(terms) => sum(terms, v),
+        NodeOperation::Product(factors) => {
             let product = factors.iter().map(|a| v.scalar(*a)).reduce(|a, b| a * b);
             Scalar(product.unwrap_or_else(T::one))
         }
-        Operation::Function(function, a) => Scalar(apply(*function, v.scalar(*a))),
-        Operation::Angle(y, x) => Scalar(elementary::angle(v.scalar(*y), v.scalar(*x))),
-        Operation::Extreme(which, all) => {
+        NodeOperation::Function(function, a) => Scalar(apply(*function, v.scalar(*a))),
+        NodeOperation::Angle(y, x) => Scalar(elementary::angle(v.scalar(*y), v.scalar(*x))),
+        NodeOperation::Extreme(which, all) => {
             let all = all.iter().map(|a| v.scalar(*a));
             Scalar(all.reduce(|a, b| elementary::extreme(*which, a, b)).expect(TYPED))
         }
-        Operation::Antiderivative(f, x) => Scalar(T::antiderivative(v.scalar(*f), v.scalar(*x))),
-        Operation::Partial { derivative, of, .. } => {
+        NodeOperation::Antiderivative(f, x) => {
+            Scalar(T::antiderivative(v.scalar(*f), v.scalar(*x)))
+        }
+        NodeOperation::Partial { derivative, of, .. } => {
             // undefined where the function is
             let nothing = v.list(*of).into_iter().map(|x| T::zero() * x).reduce(|a, b| a + b);
             let nothing = nothing.unwrap_or_else(T::zero);
@@ -193,7 +195,7 @@ fn step<T: Scalar>(
 }
 
 /// Evaluates an operation of linear algebra if all its operands lie in ℝ³.
-fn in_space<T: Scalar>(operation: &Operation, v: &Values<T>) -> Option<Value<T>> {
+fn in_space<T: Scalar>(operation: &NodeOperation, v: &Values<T>) -> Option<Value<T>> {
     use Value::{Matrix, Scalar, Vector};
     let vector = |node: &NodeId| match &v.0[*node] {
         Vector(vector) => Some(vector),
@@ -204,38 +206,38 @@ fn in_space<T: Scalar>(operation: &Operation, v: &Values<T>) -> Option<Value<T>>
         _ => None,
     };
     Some(match operation {
-        Operation::Apply(a, b) => Vector(algebra::apply(matrix(a)?, vector(b)?)),
-        Operation::Compose(a, b) => Matrix(algebra::compose(matrix(a)?, matrix(b)?)),
-        Operation::Dot(a, b) => Scalar(algebra::dot(vector(a)?, vector(b)?)),
-        Operation::Cross(a, b) => Vector(algebra::cross(vector(a)?, vector(b)?)),
-        Operation::Outer(a, b) => Matrix(algebra::outer(vector(a)?, vector(b)?)),
-        Operation::MatrixPower(a, n) => Matrix(algebra::power(matrix(a)?, *n)),
-        Operation::Transpose(a) => Matrix(algebra::transpose(matrix(a)?)),
-        Operation::Inverse(a) => Matrix(algebra::inverse(matrix(a)?)),
-        Operation::Adjugate(a) => Matrix(algebra::adjugate(matrix(a)?)),
-        Operation::Determinant(a) => Scalar(algebra::determinant(matrix(a)?)),
-        Operation::Trace(a) => Scalar(algebra::trace(matrix(a)?)),
-        Operation::Solve(a, b) => Vector(algebra::solve(matrix(a)?, vector(b)?)),
-        Operation::Diagonal(a) => Matrix(algebra::diagonal(vector(a)?)),
+        NodeOperation::Apply(a, b) => Vector(algebra::apply(matrix(a)?, vector(b)?)),
+        NodeOperation::Compose(a, b) => Matrix(algebra::compose(matrix(a)?, matrix(b)?)),
+        NodeOperation::Dot(a, b) => Scalar(algebra::dot(vector(a)?, vector(b)?)),
+        NodeOperation::Cross(a, b) => Vector(algebra::cross(vector(a)?, vector(b)?)),
+        NodeOperation::Outer(a, b) => Matrix(algebra::outer(vector(a)?, vector(b)?)),
+        NodeOperation::MatrixPower(a, n) => Matrix(algebra::power(matrix(a)?, *n)),
+        NodeOperation::Transpose(a) => Matrix(algebra::transpose(matrix(a)?)),
+        NodeOperation::Inverse(a) => Matrix(algebra::inverse(matrix(a)?)),
+        NodeOperation::Adjugate(a) => Matrix(algebra::adjugate(matrix(a)?)),
+        NodeOperation::Determinant(a) => Scalar(algebra::determinant(matrix(a)?)),
+        NodeOperation::Trace(a) => Scalar(algebra::trace(matrix(a)?)),
+        NodeOperation::Solve(a, b) => Vector(algebra::solve(matrix(a)?, vector(b)?)),
+        NodeOperation::Diagonal(a) => Matrix(algebra::diagonal(vector(a)?)),
         _ => return None,
     })
 }
 
-fn of_any_size<T: Scalar>(operation: &Operation, v: &Values<T>) -> Value<T> {
+fn of_any_size<T: Scalar>(operation: &NodeOperation, v: &Values<T>) -> Value<T> {
     use Value::Scalar;
     match operation {
-        Operation::Apply(a, b) => list(tables::apply(&v.table(*a), &v.list(*b))),
-        Operation::Compose(a, b) => table(tables::compose(&v.table(*a), &v.table(*b))),
-        Operation::Dot(a, b) => Scalar(tables::dot(&v.list(*a), &v.list(*b))),
-        Operation::Outer(a, b) => table(tables::outer(&v.list(*a), &v.list(*b))),
-        Operation::MatrixPower(a, n) => table(tables::power(&v.table(*a), *n)),
-        Operation::Transpose(a) => table(tables::transpose(&v.table(*a))),
-        Operation::Inverse(a) => table(tables::inverse(&v.table(*a))),
-        Operation::Adjugate(a) => table(tables::adjugate(&v.table(*a))),
-        Operation::Determinant(a) => Scalar(tables::determinant(&v.table(*a))),
-        Operation::Trace(a) => Scalar(tables::trace(&v.table(*a))),
-        Operation::Solve(a, b) => list(tables::solve(&v.table(*a), &v.list(*b))),
-        Operation::Diagonal(a) => table(tables::diagonal(&v.list(*a))),
+        NodeOperation::Apply(a, b) => list(tables::apply(&v.table(*a), &v.list(*b))),
+        NodeOperation::Compose(a, b) => table(tables::compose(&v.table(*a), &v.table(*b))),
+        NodeOperation::Dot(a, b) => Scalar(tables::dot(&v.list(*a), &v.list(*b))),
+        NodeOperation::Outer(a, b) => table(tables::outer(&v.list(*a), &v.list(*b))),
+        NodeOperation::MatrixPower(a, n) => table(tables::power(&v.table(*a), *n)),
+        NodeOperation::Transpose(a) => table(tables::transpose(&v.table(*a))),
+        NodeOperation::Inverse(a) => table(tables::inverse(&v.table(*a))),
+        NodeOperation::Adjugate(a) => table(tables::adjugate(&v.table(*a))),
+        NodeOperation::Determinant(a) => Scalar(tables::determinant(&v.table(*a))),
+        NodeOperation::Trace(a) => Scalar(tables::trace(&v.table(*a))),
+        NodeOperation::Solve(a, b) => list(tables::solve(&v.table(*a), &v.list(*b))),
+        NodeOperation::Diagonal(a) => table(tables::diagonal(&v.list(*a))),
         _ => unreachable!("{TYPED}"),
     }
 }
@@ -252,24 +254,24 @@ fn sum<T: Scalar>(terms: &[NodeId], v: &Values<T>) -> Value<T> {
     Value::from_components(v.0[*first].value_type(), &total)
 }
 
-fn apply<T: Scalar>(function: Function, x: T) -> T {
+fn apply<T: Scalar>(function: ElementaryFunction, x: T) -> T {
     match function {
-        Function::Sqrt => x.sqrt(),
-        Function::Exp => x.exp(),
-        Function::Ln => x.ln(),
-        Function::Sin => x.sin(),
-        Function::Cos => x.cos(),
-        Function::Tan => x.tan(),
-        Function::Asin => x.arcsine(),
-        Function::Acos => elementary::arccosine(x),
-        Function::Atan => x.atan(),
-        Function::Sinh => x.sinh(),
-        Function::Cosh => x.cosh(),
-        Function::Tanh => x.tanh(),
-        Function::Asinh => x.asinh(),
-        Function::Acosh => x.acosh(),
-        Function::Atanh => x.atanh(),
-        Function::Modulus => x.modulus(),
-        Function::Sign => x / x.modulus(),
+        ElementaryFunction::Sqrt => x.sqrt(),
+        ElementaryFunction::Exp => x.exp(),
+        ElementaryFunction::Ln => x.ln(),
+        ElementaryFunction::Sin => x.sin(),
+        ElementaryFunction::Cos => x.cos(),
+        ElementaryFunction::Tan => x.tan(),
+        ElementaryFunction::Asin => x.arcsine(),
+        ElementaryFunction::Acos => elementary::arccosine(x),
+        ElementaryFunction::Atan => x.atan(),
+        ElementaryFunction::Sinh => x.sinh(),
+        ElementaryFunction::Cosh => x.cosh(),
+        ElementaryFunction::Tanh => x.tanh(),
+        ElementaryFunction::Asinh => x.asinh(),
+        ElementaryFunction::Acosh => x.acosh(),
+        ElementaryFunction::Atanh => x.atanh(),
+        ElementaryFunction::Modulus => x.modulus(),
+        ElementaryFunction::Sign => x / x.modulus(),
     }
 }

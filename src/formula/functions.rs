@@ -1,6 +1,6 @@
 //! Named functions: their spellings, their arguments, and the nodes they become.
 
-use super::arena::{Extreme, Function, Operation};
+use super::arena::{ElementaryFunction, Extreme, NodeOperation};
 use super::error::{FormulaError, Span};
 use super::kind::Type;
 use super::typing::{Builder, Built, Infix, Operand};
@@ -14,7 +14,7 @@ type Build = fn(&mut Builder<'_>, &[Operand], Span) -> Built;
 
 /// Type required of an argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Wanted {
+enum RequiredType {
     Scalar,
     Vector,
     /// Vector of ℝ³.
@@ -23,9 +23,9 @@ enum Wanted {
     Square,
 }
 
-use Wanted::{Matrix, Scalar, Spatial, Square, Vector};
+use RequiredType::{Matrix, Scalar, Spatial, Square, Vector};
 
-impl Wanted {
+impl RequiredType {
     fn takes(self, found: Type) -> bool {
         match (self, found) {
             (Scalar, Type::Scalar) | (Vector, Type::Vector(_)) | (Matrix, Type::Matrix(..)) => true,
@@ -48,16 +48,16 @@ impl Wanted {
 
 /// Arguments of a function.
 #[derive(Clone, Copy, Debug)]
-enum Arguments {
+enum ArgumentTypes {
     /// One argument for each entry.
-    These(&'static [Wanted]),
+    These(&'static [RequiredType]),
     /// At least this number of arguments of one kind.
-    Several(usize, Wanted),
+    Several(usize, RequiredType),
 }
 
-use Arguments::{Several, These};
+use ArgumentTypes::{Several, These};
 
-impl Arguments {
+impl ArgumentTypes {
     fn fit(self, arguments: &[Operand]) -> bool {
         self.takes_count(arguments.len())
             && arguments.iter().enumerate().all(|(k, a)| self.at(k).takes(a.value_type))
@@ -70,7 +70,7 @@ impl Arguments {
         }
     }
 
-    fn at(self, place: usize) -> Wanted {
+    fn at(self, place: usize) -> RequiredType {
         match self {
             These(wanted) => wanted[place],
             Several(_, wanted) => wanted,
@@ -88,11 +88,15 @@ impl Arguments {
 /// Overload of a function.
 struct Overload {
     names: &'static [&'static str],
-    arguments: Arguments,
+    arguments: ArgumentTypes,
     build: Build,
 }
 
-const fn overload(names: &'static [&'static str], arguments: Arguments, build: Build) -> Overload {
+const fn overload(
+    names: &'static [&'static str],
+    arguments: ArgumentTypes,
+    build: Build,
+) -> Overload {
     Overload { names, arguments, build }
 }
 
@@ -109,14 +113,14 @@ const FUNCTIONS: &[Overload] = &[
     overload(&["inverse", "inv"], These(&[Square]), |f, a, s| f.inverse(&a[0], s)),
     overload(&["adj"], These(&[Square]), |f, a, s| {
         f.small(&a[0])?;
-        Ok(f.push(Operation::Adjugate(a[0].node), a[0].value_type, s))
+        Ok(f.push(NodeOperation::Adjugate(a[0].node), a[0].value_type, s))
     }),
     overload(&["det"], These(&[Square]), |f, a, s| {
         f.small(&a[0])?;
-        Ok(f.push(Operation::Determinant(a[0].node), Type::Scalar, s))
+        Ok(f.push(NodeOperation::Determinant(a[0].node), Type::Scalar, s))
     }),
     overload(&["trace", "tr", "Tr"], These(&[Square]), |f, a, s| {
-        Ok(f.push(Operation::Trace(a[0].node), Type::Scalar, s))
+        Ok(f.push(NodeOperation::Trace(a[0].node), Type::Scalar, s))
     }),
     overload(&["solve"], These(&[Square, Vector]), solve),
     overload(&["diag"], These(&[Vector]), |f, a, s| f.diagonal(&a[0], s)),
@@ -129,40 +133,54 @@ const FUNCTIONS: &[Overload] = &[
     overload(&["mat"], Several(1, Vector), |f, a, s| f.rows(a, s)),
     overload(&["mat"], Several(1, Scalar), square_of_entries),
     overload(&["sqrt"], These(&[Scalar]), |f, a, s| f.root(&a[0], s)),
-    overload(&["exp"], These(&[Scalar]), |f, a, s| scalar(f, Function::Exp, a, s)),
-    overload(&["log", "ln"], These(&[Scalar]), |f, a, s| scalar(f, Function::Ln, a, s)),
-    overload(&["sin"], These(&[Scalar]), |f, a, s| scalar(f, Function::Sin, a, s)),
-    overload(&["cos"], These(&[Scalar]), |f, a, s| scalar(f, Function::Cos, a, s)),
-    overload(&["tan"], These(&[Scalar]), |f, a, s| scalar(f, Function::Tan, a, s)),
-    overload(&["asin", "arcsin"], These(&[Scalar]), |f, a, s| scalar(f, Function::Asin, a, s)),
-    overload(&["acos", "arccos"], These(&[Scalar]), |f, a, s| scalar(f, Function::Acos, a, s)),
-    overload(&["atan", "arctan"], These(&[Scalar]), |f, a, s| scalar(f, Function::Atan, a, s)),
-    overload(&["sinh"], These(&[Scalar]), |f, a, s| scalar(f, Function::Sinh, a, s)),
-    overload(&["cosh"], These(&[Scalar]), |f, a, s| scalar(f, Function::Cosh, a, s)),
-    overload(&["tanh"], These(&[Scalar]), |f, a, s| scalar(f, Function::Tanh, a, s)),
-    overload(&["asinh", "arsinh"], These(&[Scalar]), |f, a, s| scalar(f, Function::Asinh, a, s)),
-    overload(&["acosh", "arcosh"], These(&[Scalar]), |f, a, s| scalar(f, Function::Acosh, a, s)),
-    overload(&["atanh", "artanh"], These(&[Scalar]), |f, a, s| scalar(f, Function::Atanh, a, s)),
+    overload(&["exp"], These(&[Scalar]), |f, a, s| scalar(f, ElementaryFunction::Exp, a, s)),
+    overload(&["log", "ln"], These(&[Scalar]), |f, a, s| scalar(f, ElementaryFunction::Ln, a, s)),
+    overload(&["sin"], These(&[Scalar]), |f, a, s| scalar(f, ElementaryFunction::Sin, a, s)),
+    overload(&["cos"], These(&[Scalar]), |f, a, s| scalar(f, ElementaryFunction::Cos, a, s)),
+    overload(&["tan"], These(&[Scalar]), |f, a, s| scalar(f, ElementaryFunction::Tan, a, s)),
+    overload(&["asin", "arcsin"], These(&[Scalar]), |f, a, s| {
+        scalar(f, ElementaryFunction::Asin, a, s)
+    }),
+    overload(&["acos", "arccos"], These(&[Scalar]), |f, a, s| {
+        scalar(f, ElementaryFunction::Acos, a, s)
+    }),
+    overload(&["atan", "arctan"], These(&[Scalar]), |f, a, s| {
+        scalar(f, ElementaryFunction::Atan, a, s)
+    }),
+    overload(&["sinh"], These(&[Scalar]), |f, a, s| scalar(f, ElementaryFunction::Sinh, a, s)),
+    overload(&["cosh"], These(&[Scalar]), |f, a, s| scalar(f, ElementaryFunction::Cosh, a, s)),
+    overload(&["tanh"], These(&[Scalar]), |f, a, s| scalar(f, ElementaryFunction::Tanh, a, s)),
+    overload(&["asinh", "arsinh"], These(&[Scalar]), |f, a, s| {
+        scalar(f, ElementaryFunction::Asinh, a, s)
+    }),
+    overload(&["acosh", "arcosh"], These(&[Scalar]), |f, a, s| {
+        scalar(f, ElementaryFunction::Acosh, a, s)
+    }),
+    overload(&["atanh", "artanh"], These(&[Scalar]), |f, a, s| {
+        scalar(f, ElementaryFunction::Atanh, a, s)
+    }),
     overload(&["abs"], These(&[Scalar]), |f, a, s| f.modulus(&a[0], s)),
-    overload(&["sign", "sgn"], These(&[Scalar]), |f, a, s| scalar(f, Function::Sign, a, s)),
+    overload(&["sign", "sgn"], These(&[Scalar]), |f, a, s| {
+        scalar(f, ElementaryFunction::Sign, a, s)
+    }),
     overload(&["atan2"], These(&[Scalar, Scalar]), |f, a, s| {
-        Ok(f.push(Operation::Angle(a[0].node, a[1].node), Type::Scalar, s))
+        Ok(f.push(NodeOperation::Angle(a[0].node, a[1].node), Type::Scalar, s))
     }),
     overload(&["min"], Several(1, Scalar), |f, a, s| extreme(f, Extreme::Least, a, s)),
     overload(&["max"], Several(1, Scalar), |f, a, s| extreme(f, Extreme::Greatest, a, s)),
     overload(&["∫", "integral"], These(&[Scalar, Scalar]), |f, a, s| {
-        Ok(f.push(Operation::Antiderivative(a[0].node, a[1].node), Type::Scalar, s))
+        Ok(f.push(NodeOperation::Antiderivative(a[0].node, a[1].node), Type::Scalar, s))
     }),
 ];
 
-fn scalar(f: &mut Builder<'_>, function: Function, a: &[Operand], span: Span) -> Built {
-    Ok(f.push(Operation::Function(function, a[0].node), Type::Scalar, span))
+fn scalar(f: &mut Builder<'_>, function: ElementaryFunction, a: &[Operand], span: Span) -> Built {
+    Ok(f.push(NodeOperation::Function(function, a[0].node), Type::Scalar, span))
 }
 
 /// Builds the least or the greatest of some scalars.
 pub(super) fn extreme(f: &mut Builder<'_>, which: Extreme, a: &[Operand], span: Span) -> Built {
     let nodes: Vec<usize> = a.iter().map(|a| a.node).collect();
-    let operation = Operation::Extreme(which, nodes.clone().into());
+    let operation = NodeOperation::Extreme(which, nodes.clone().into());
     Ok(f.push_folded(operation, &nodes, span, |numbers: &[&Rational]| {
         let best = match which {
             Extreme::Least => numbers.iter().min(),
@@ -179,7 +197,7 @@ fn solve(f: &mut Builder<'_>, a: &[Operand], span: Span) -> Built {
         let message = format!("a {left} cannot be solved for a {right}");
         return Err(FormulaError::new(a[1].span.clone(), message));
     }
-    Ok(f.push(Operation::Solve(a[0].node, a[1].node), a[1].value_type, span))
+    Ok(f.push(NodeOperation::Solve(a[0].node, a[1].node), a[1].value_type, span))
 }
 
 /// Builds a square matrix `mat(a,b,c,d)` from its entries.
@@ -197,9 +215,9 @@ fn square_of_entries(f: &mut Builder<'_>, a: &[Operand], span: Span) -> Built {
 
 /// Builds `[a]×`, the matrix with `[a]× b = a × b`.
 fn hat(f: &mut Builder<'_>, a: &[Operand], span: Span) -> Built {
-    let zero = f.push(Operation::Number(Rational::from(0)), Type::Scalar, span.clone());
-    let [x, y, z] =
-        [0, 1, 2].map(|k| f.push(Operation::Component(a[0].node, k), Type::Scalar, span.clone()));
+    let zero = f.push(NodeOperation::Number(Rational::from(0)), Type::Scalar, span.clone());
+    let [x, y, z] = [0, 1, 2]
+        .map(|k| f.push(NodeOperation::Component(a[0].node, k), Type::Scalar, span.clone()));
     let [minus_x, minus_y, minus_z] = [&x, &y, &z].map(|k| f.negate(k, span.clone()));
     let rows = [[&zero, &minus_z, &y], [&z, &zero, &minus_x], [&minus_y, &x, &zero]]
         .map(|row| f.vector(&row.map(Operand::clone), span.clone()));
@@ -211,12 +229,12 @@ impl Builder<'_> {
     /// Builds `a⁻¹`.
     pub fn inverse(&mut self, a: &Operand, span: Span) -> Built {
         self.small(a)?;
-        Ok(self.push(Operation::Inverse(a.node), a.value_type, span))
+        Ok(self.push(NodeOperation::Inverse(a.node), a.value_type, span))
     }
 
     fn diagonal(&mut self, a: &Operand, span: Span) -> Built {
         let rows = a.value_type.size();
-        self.push_sized(Operation::Diagonal(a.node), Type::Matrix(rows, rows), span)
+        self.push_sized(NodeOperation::Diagonal(a.node), Type::Matrix(rows, rows), span)
     }
 
     /// Number of rows of a matrix, or an error if it is too large for a determinant.
@@ -318,7 +336,7 @@ mod tests {
     fn operands(types: &[Type]) -> (Builder<'static>, Vec<Operand>) {
         let mut arena = Arena::default();
         let operands = types.iter().enumerate().map(|(i, ty)| Operand {
-            node: arena.push(Operation::Identity, *ty, i..i + 1),
+            node: arena.push(NodeOperation::Identity, *ty, i..i + 1),
             value_type: *ty,
             span: i..i + 1,
         });
@@ -328,7 +346,7 @@ mod tests {
 
     #[test]
     fn every_overload_builds_from_its_own_arguments() {
-        let kind = |wanted: Wanted| match wanted {
+        let kind = |wanted: RequiredType| match wanted {
             Scalar => Type::Scalar,
             Vector | Spatial => Type::VECTOR,
             Matrix | Square => Type::MATRIX,

@@ -1,9 +1,9 @@
 //! Homogeneity of formulas: weights of nodes, and equality of the weights of added terms.
 
-use super::arena::{Arena, Function, NodeId, Operation};
+use super::arena::{Arena, ElementaryFunction, NodeId, NodeOperation};
 use super::error::{FormulaError, Span, excerpt};
 use super::kind::Type;
-use super::weights::{Form, Weight, WeightSystem};
+use super::weights::{LinearWeight, Weight, WeightSystem};
 use crate::number::rational::Rational;
 
 /// Checks every node and returns the weight of the last, if it is known by then.
@@ -26,57 +26,59 @@ struct Check<'a> {
     text: &'a str,
     system: &'a mut WeightSystem,
     /// Weights of the nodes passed; `None` for zero, which fits any weight.
-    forms: Vec<Option<Form>>,
+    forms: Vec<Option<LinearWeight>>,
 }
 
 impl Check<'_> {
     /// Weight of a node, from those of its operands.
-    fn form(&mut self, node: NodeId) -> Result<Option<Form>, FormulaError> {
+    fn form(&mut self, node: NodeId) -> Result<Option<LinearWeight>, FormulaError> {
         let one = Rational::from(1);
         Ok(match &self.arena.nodes[node].operation {
-            Operation::Number(value) => (!value.is_zero()).then(Form::zero),
-            Operation::Identity | Operation::Constant(_) => Some(Form::zero()),
-            Operation::Symbol(slot) => Some(self.system.symbol(self.arena.symbols[*slot].0)),
-            Operation::Add(a, b) | Operation::Subtract(a, b) => self.equal(node, &[*a, *b])?,
-            Operation::Vector(all) | Operation::Rows(all) | Operation::Sum(all) => {
+            NodeOperation::Number(value) => (!value.is_zero()).then(LinearWeight::zero),
+            NodeOperation::Identity | NodeOperation::Constant(_) => Some(LinearWeight::zero()),
+            NodeOperation::Symbol(slot) => Some(self.system.symbol(self.arena.symbols[*slot].0)),
+            NodeOperation::Add(a, b) | NodeOperation::Subtract(a, b) => {
+                self.equal(node, &[*a, *b])?
+            }
+            NodeOperation::Vector(all) | NodeOperation::Rows(all) | NodeOperation::Sum(all) => {
                 self.equal(node, all)?
             }
-            Operation::Product(all) => {
+            NodeOperation::Product(all) => {
                 let factors = all.iter().map(|a| self.forms[*a].as_ref());
-                factors.collect::<Option<Vec<&Form>>>().map(|factors| {
-                    factors.into_iter().fold(Form::zero(), |sum, form| sum.plus(form, &one))
+                factors.collect::<Option<Vec<&LinearWeight>>>().map(|factors| {
+                    factors.into_iter().fold(LinearWeight::zero(), |sum, form| sum.plus(form, &one))
                 })
             }
-            Operation::Zero => None,
-            Operation::Multiply(a, b)
-            | Operation::Scale(a, b)
-            | Operation::Apply(a, b)
-            | Operation::Compose(a, b)
-            | Operation::Dot(a, b)
-            | Operation::Cross(a, b)
-            | Operation::Outer(a, b)
-            | Operation::Antiderivative(a, b) => self.combined(*a, *b, &one),
-            Operation::Divide(a, b) => self.combined(*a, *b, &-&one),
-            Operation::Solve(a, b) => self.combined(*b, *a, &-&one),
-            Operation::Power(a, exponent) => self.times(*a, exponent),
-            Operation::PowerOf(a, b) => self.power_of(*a, *b)?,
-            Operation::MatrixPower(a, n) => self.times(*a, &Rational::from(i64::from(*n))),
-            Operation::Inverse(a) => self.times(*a, &-&one),
-            Operation::Adjugate(a) => self.times(*a, &Rational::from(self.rows(*a) - 1)),
-            Operation::Determinant(a) => self.times(*a, &Rational::from(self.rows(*a))),
-            Operation::Partial { derivative: a, .. }
-            | Operation::Negate(a)
-            | Operation::Component(a, _)
-            | Operation::Row(a, _)
-            | Operation::Entry(a, _, _)
-            | Operation::Transpose(a)
-            | Operation::Trace(a)
-            | Operation::Diagonal(a) => self.forms[*a].clone(),
-            Operation::Function(function, a) => self.function(*function, *a)?,
-            Operation::Extreme(_, all) => self.equal(node, all)?,
-            Operation::Angle(y, x) => {
+            NodeOperation::Zero => None,
+            NodeOperation::Multiply(a, b)
+            | NodeOperation::Scale(a, b)
+            | NodeOperation::Apply(a, b)
+            | NodeOperation::Compose(a, b)
+            | NodeOperation::Dot(a, b)
+            | NodeOperation::Cross(a, b)
+            | NodeOperation::Outer(a, b)
+            | NodeOperation::Antiderivative(a, b) => self.combined(*a, *b, &one),
+            NodeOperation::Divide(a, b) => self.combined(*a, *b, &-&one),
+            NodeOperation::Solve(a, b) => self.combined(*b, *a, &-&one),
+            NodeOperation::Power(a, exponent) => self.times(*a, exponent),
+            NodeOperation::PowerOf(a, b) => self.power_of(*a, *b)?,
+            NodeOperation::MatrixPower(a, n) => self.times(*a, &Rational::from(i64::from(*n))),
+            NodeOperation::Inverse(a) => self.times(*a, &-&one),
+            NodeOperation::Adjugate(a) => self.times(*a, &Rational::from(self.rows(*a) - 1)),
+            NodeOperation::Determinant(a) => self.times(*a, &Rational::from(self.rows(*a))),
+            NodeOperation::Partial { derivative: a, .. }
+            | NodeOperation::Negate(a)
+            | NodeOperation::Component(a, _)
+            | NodeOperation::Row(a, _)
+            | NodeOperation::Entry(a, _, _)
+            | NodeOperation::Transpose(a)
+            | NodeOperation::Trace(a)
+            | NodeOperation::Diagonal(a) => self.forms[*a].clone(),
+            NodeOperation::Function(function, a) => self.function(*function, *a)?,
+            NodeOperation::Extreme(_, all) => self.equal(node, all)?,
+            NodeOperation::Angle(y, x) => {
                 self.equal(node, &[*y, *x])?;
-                Some(Form::zero())
+                Some(LinearWeight::zero())
             }
         })
     }
@@ -90,8 +92,12 @@ impl Check<'_> {
     }
 
     /// Common weight of terms that have to agree.
-    fn equal(&mut self, node: NodeId, terms: &[NodeId]) -> Result<Option<Form>, FormulaError> {
-        let mut first: Option<(NodeId, Form)> = None;
+    fn equal(
+        &mut self,
+        node: NodeId,
+        terms: &[NodeId],
+    ) -> Result<Option<LinearWeight>, FormulaError> {
+        let mut first: Option<(NodeId, LinearWeight)> = None;
         for term in terms {
             let Some(form) = self.forms[*term].clone() else {
                 continue;
@@ -108,54 +114,64 @@ impl Check<'_> {
         Ok(first.map(|(_, form)| form))
     }
 
-    fn combined(&self, a: NodeId, b: NodeId, factor: &Rational) -> Option<Form> {
+    fn combined(&self, a: NodeId, b: NodeId, factor: &Rational) -> Option<LinearWeight> {
         let (a, b) = (self.forms[a].clone()?, self.forms[b].as_ref()?);
         Some(a.plus(b, factor))
     }
 
-    fn times(&self, a: NodeId, factor: &Rational) -> Option<Form> {
+    fn times(&self, a: NodeId, factor: &Rational) -> Option<LinearWeight> {
         self.forms[a].as_ref().map(|form| form.times(factor))
     }
 
     /// Weight of a power whose exponent is not a number: open unless the base is weightless.
-    fn power_of(&mut self, base: NodeId, exponent: NodeId) -> Result<Option<Form>, FormulaError> {
+    fn power_of(
+        &mut self,
+        base: NodeId,
+        exponent: NodeId,
+    ) -> Result<Option<LinearWeight>, FormulaError> {
         self.weightless(exponent, "an exponent")?;
         let Some(form) = self.forms[base].clone() else {
             return Ok(None);
         };
         let weightless = self.system.reduced(form).known().is_some_and(Rational::is_zero);
-        Ok(Some(if weightless { Form::zero() } else { self.system.fresh() }))
+        Ok(Some(if weightless { LinearWeight::zero() } else { self.system.fresh() }))
     }
 
-    fn function(&mut self, function: Function, a: NodeId) -> Result<Option<Form>, FormulaError> {
+    fn function(
+        &mut self,
+        function: ElementaryFunction,
+        a: NodeId,
+    ) -> Result<Option<LinearWeight>, FormulaError> {
         let name = match function {
-            Function::Sqrt => return Ok(self.times(a, &Rational::new(1, 2))),
-            Function::Modulus => return Ok(self.forms[a].clone()),
+            ElementaryFunction::Sqrt => return Ok(self.times(a, &Rational::new(1, 2))),
+            ElementaryFunction::Modulus => return Ok(self.forms[a].clone()),
             // the logarithm of a density changes by a constant, which no derivative sees
-            Function::Ln | Function::Sign => return Ok(Some(Form::zero())),
-            Function::Exp => "the argument of exp",
-            Function::Sin => "the argument of sin",
-            Function::Cos => "the argument of cos",
-            Function::Tan => "the argument of tan",
-            Function::Asin => "the argument of asin",
-            Function::Acos => "the argument of acos",
-            Function::Atan => "the argument of atan",
-            Function::Sinh => "the argument of sinh",
-            Function::Cosh => "the argument of cosh",
-            Function::Tanh => "the argument of tanh",
-            Function::Asinh => "the argument of asinh",
-            Function::Acosh => "the argument of acosh",
-            Function::Atanh => "the argument of atanh",
+            ElementaryFunction::Ln | ElementaryFunction::Sign => {
+                return Ok(Some(LinearWeight::zero()));
+            }
+            ElementaryFunction::Exp => "the argument of exp",
+            ElementaryFunction::Sin => "the argument of sin",
+            ElementaryFunction::Cos => "the argument of cos",
+            ElementaryFunction::Tan => "the argument of tan",
+            ElementaryFunction::Asin => "the argument of asin",
+            ElementaryFunction::Acos => "the argument of acos",
+            ElementaryFunction::Atan => "the argument of atan",
+            ElementaryFunction::Sinh => "the argument of sinh",
+            ElementaryFunction::Cosh => "the argument of cosh",
+            ElementaryFunction::Tanh => "the argument of tanh",
+            ElementaryFunction::Asinh => "the argument of asinh",
+            ElementaryFunction::Acosh => "the argument of acosh",
+            ElementaryFunction::Atanh => "the argument of atanh",
         };
         self.weightless(a, name)?;
-        Ok(Some(Form::zero()))
+        Ok(Some(LinearWeight::zero()))
     }
 
     fn weightless(&mut self, node: NodeId, what: &str) -> Result<(), FormulaError> {
         let Some(form) = self.forms[node].clone() else {
             return Ok(());
         };
-        self.system.equate(&form, &Form::zero()).map_err(|weight| {
+        self.system.equate(&form, &LinearWeight::zero()).map_err(|weight| {
             let span = self.arena.nodes[node].span.clone();
             let message = format!(
                 "{what} must have weight 0: `{}` scales as {}",
@@ -170,7 +186,8 @@ impl Check<'_> {
         let (left, right) = (self.first_term(a), self.first_term(b));
         let [a, b] = [left, right].map(|node| {
             let weight = self.forms[node].clone().map(|form| self.system.reduced(form));
-            let weight = weight.as_ref().and_then(Form::known).map(|weight| self.power(weight));
+            let weight =
+                weight.as_ref().and_then(LinearWeight::known).map(|weight| self.power(weight));
             (self.written(&self.arena.nodes[node].span), weight)
         });
         let message = match (a, b) {
@@ -188,7 +205,7 @@ impl Check<'_> {
     /// First term with a weight of a sum written without brackets.
     fn first_term(&self, mut node: NodeId) -> NodeId {
         let nodes = &self.arena.nodes;
-        while let Operation::Add(a, b) | Operation::Subtract(a, b) = nodes[node].operation {
+        while let NodeOperation::Add(a, b) | NodeOperation::Subtract(a, b) = nodes[node].operation {
             // a bracketed sum starts before its first term
             if nodes[node].span.start < nodes[a].span.start {
                 break;

@@ -5,7 +5,7 @@ use super::names::identifier_length;
 
 /// Kind of a token; the texts of numbers and names are read off the span.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum TokenKind {
     Number,
     Name,
     /// A power written above the line: `²`, `⁻¹`.
@@ -37,11 +37,11 @@ pub(super) enum Kind {
 /// Token with its place.
 #[derive(Clone, Debug)]
 pub(super) struct Token {
-    pub kind: Kind,
+    pub kind: TokenKind,
     pub span: Span,
 }
 
-/// Splits a formula into tokens, an [`Kind::End`] last.
+/// Splits a formula into tokens, an [`TokenKind::End`] last.
 pub(super) fn tokens(text: &str) -> Result<Vec<Token>, FormulaError> {
     let mut tokens = Vec::new();
     let mut start = 0;
@@ -55,41 +55,41 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, FormulaError> {
         tokens.push(Token { kind, span: start..start + length });
         start += length;
     }
-    tokens.push(Token { kind: Kind::End, span: start..start });
+    tokens.push(Token { kind: TokenKind::End, span: start..start });
     Ok(tokens)
 }
 
 /// Reads the token at the start of `rest`; returns its kind and its length in bytes.
-fn token(rest: &str, first: char) -> Option<(Kind, usize)> {
+fn token(rest: &str, first: char) -> Option<(TokenKind, usize)> {
     if let Some(length) = comparison_length(rest) {
-        return Some((Kind::Comparison, length));
+        return Some((TokenKind::Comparison, length));
     }
     if rest.starts_with("..") {
-        return Some((Kind::Range, 2));
+        return Some((TokenKind::Range, 2));
     }
     let sign = match first {
-        '+' => Kind::Plus,
-        '-' | '−' | '–' => Kind::Minus,
-        '×' | '⨯' => Kind::Cross,
-        '⊗' => Kind::Outer,
-        '*' | '·' | '⋅' | '∙' | '∗' => Kind::Times,
-        '/' => Kind::Slash,
-        '^' => Kind::Caret,
-        '√' => Kind::Root,
-        '∫' => Kind::Integral,
-        'ᵀ' | '⊤' => Kind::Transpose,
-        '(' => Kind::Open,
-        ')' => Kind::Close,
-        '[' => Kind::OpenSquare,
-        ']' => Kind::CloseSquare,
-        '|' => Kind::Bar,
-        ',' => Kind::Comma,
-        '…' | '‥' => Kind::Range,
+        '+' => TokenKind::Plus,
+        '-' | '−' | '–' => TokenKind::Minus,
+        '×' | '⨯' => TokenKind::Cross,
+        '⊗' => TokenKind::Outer,
+        '*' | '·' | '⋅' | '∙' | '∗' => TokenKind::Times,
+        '/' => TokenKind::Slash,
+        '^' => TokenKind::Caret,
+        '√' => TokenKind::Root,
+        '∫' => TokenKind::Integral,
+        'ᵀ' | '⊤' => TokenKind::Transpose,
+        '(' => TokenKind::Open,
+        ')' => TokenKind::Close,
+        '[' => TokenKind::OpenSquare,
+        ']' => TokenKind::CloseSquare,
+        '|' => TokenKind::Bar,
+        ',' => TokenKind::Comma,
+        '…' | '‥' => TokenKind::Range,
         _ => {
             return [
-                (Kind::Number, number_length(rest)),
-                (Kind::Superscript, superscript_length(rest)),
-                (Kind::Name, identifier_length(rest)),
+                (TokenKind::Number, number_length(rest)),
+                (TokenKind::Superscript, superscript_length(rest)),
+                (TokenKind::Name, identifier_length(rest)),
             ]
             .into_iter()
             .find(|(_, length)| *length > 0);
@@ -196,13 +196,13 @@ fn follows_a_name(text: &str) -> bool {
 mod tests {
     use super::*;
 
-    fn kinds(text: &str) -> Vec<Kind> {
+    fn kinds(text: &str) -> Vec<TokenKind> {
         tokens(text).expect("tokens").into_iter().map(|token| token.kind).collect()
     }
 
     #[test]
     fn numbers_stop_where_names_begin() {
-        use Kind::{End, Name, Number};
+        use TokenKind::{End, Name, Number};
         assert_eq!(kinds("2m"), [Number, Name, End], "a factor without its sign");
         assert_eq!(kinds("2e"), [Number, Name, End], "e without digits is a name");
         assert_eq!(kinds("2.5e-3"), [Number, End], "an exponent");
@@ -212,7 +212,7 @@ mod tests {
 
     #[test]
     fn superscripts_and_transposes_end_a_name() {
-        use Kind::{End, Name, Superscript, Transpose};
+        use TokenKind::{End, Name, Superscript, Transpose};
         assert_eq!(kinds("γ²"), [Name, Superscript, End], "a square");
         assert_eq!(kinds("B⁻¹"), [Name, Superscript, End], "an inverse");
         assert_eq!(kinds("Bᵀ"), [Name, Transpose, End], "a transpose");
@@ -240,7 +240,7 @@ mod tests {
 
     #[test]
     fn ranges_and_comparisons_are_signs() {
-        use Kind::{Comparison, End, Name, Number, Range};
+        use TokenKind::{Comparison, End, Name, Number, Range};
         assert_eq!(kinds("1..n"), [Number, Range, Name, End], "not the number 1.");
         assert_eq!(kinds("0.5..2"), [Number, Range, Number, End], "decimals end before it");
         assert_eq!(kinds("i ≠ j"), [Name, Comparison, Name, End], "one sign");

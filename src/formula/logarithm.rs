@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use num_dual::Dual;
 
-use super::arena::{Arena, Function, NodeId, Operation};
+use super::arena::{Arena, ElementaryFunction, NodeId, NodeOperation};
 use super::evaluate::values;
 use super::kind::Type;
 use super::scope::Symbol;
@@ -90,26 +90,26 @@ fn terms<T: Scalar>(arena: &Arena, scalar: impl Fn(NodeId) -> T) -> Option<Vec<T
     let mut factors = vec![(root, T::one())];
     while let Some((node, coefficient)) = factors.pop() {
         match &arena.nodes[node].operation {
-            Operation::Number(_) => {}
-            Operation::Product(all) => factors.extend(all.iter().map(|a| (*a, coefficient))),
-            Operation::Multiply(a, b) => factors.extend([(*b, coefficient), (*a, coefficient)]),
-            Operation::Divide(a, b) => factors.extend([(*b, -coefficient), (*a, coefficient)]),
-            Operation::Negate(a) | Operation::Function(Function::Modulus, a) => {
+            NodeOperation::Number(_) => {}
+            NodeOperation::Product(all) => factors.extend(all.iter().map(|a| (*a, coefficient))),
+            NodeOperation::Multiply(a, b) => factors.extend([(*b, coefficient), (*a, coefficient)]),
+            NodeOperation::Divide(a, b) => factors.extend([(*b, -coefficient), (*a, coefficient)]),
+            NodeOperation::Negate(a) | NodeOperation::Function(ElementaryFunction::Modulus, a) => {
                 factors.push((*a, coefficient));
             }
-            Operation::Power(_, exponent) if exponent.is_zero() => {}
-            Operation::Power(a, exponent) => {
+            NodeOperation::Power(_, exponent) if exponent.is_zero() => {}
+            NodeOperation::Power(a, exponent) => {
                 factors.push((*a, coefficient * T::rational(exponent)));
             }
-            Operation::Function(Function::Sqrt, a) => {
+            NodeOperation::Function(ElementaryFunction::Sqrt, a) => {
                 factors.push((*a, coefficient * T::rational(&Rational::new(1, 2))));
             }
-            Operation::PowerOf(a, b) => {
+            NodeOperation::PowerOf(a, b) => {
                 let beside = Beside::Factor(scalar(*a).ln());
                 terms.push(Term { coefficient, node: *b, beside });
                 factors.push((*a, coefficient * scalar(*b)));
             }
-            Operation::Function(Function::Exp, a) => {
+            NodeOperation::Function(ElementaryFunction::Exp, a) => {
                 terms.push(Term { coefficient, node: *a, beside: Beside::Nothing });
             }
             _ => {

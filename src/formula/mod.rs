@@ -85,7 +85,7 @@ use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
 pub(crate) use algebra::adjugate;
-pub use compose::Composed;
+pub use compose::FormulaResult;
 pub use error::FormulaError;
 pub(crate) use error::excerpt;
 pub use functions::names as function_names;
@@ -94,12 +94,12 @@ pub use layout::Layout;
 pub use mutation::Mutant;
 pub use names::{ascii_name, canonical_name};
 pub(crate) use names::{names_in, skeleton};
-pub use scope::{Origin, Scope, Symbol};
+pub use scope::{Scope, Symbol, SymbolOrigin};
 pub use spelling::nearest;
-pub use value::{Table, Value};
+pub use value::{MatrixEntries, Value};
 pub use weights::{Weight, WeightSystem};
 
-use arena::{Arena, Node, Operation};
+use arena::{Arena, Node, NodeOperation};
 
 /// A formula with its names resolved and its types checked.
 #[derive(Clone, Debug)]
@@ -199,8 +199,8 @@ impl Formula {
     /// and `true` if it is |x|.
     pub fn radicand(&self) -> Option<(Formula, bool)> {
         let (argument, is_modulus) = match self.root().operation {
-            Operation::Function(arena::Function::Sqrt, a) => (a, false),
-            Operation::Function(arena::Function::Modulus, a) => (a, true),
+            NodeOperation::Function(arena::ElementaryFunction::Sqrt, a) => (a, false),
+            NodeOperation::Function(arena::ElementaryFunction::Modulus, a) => (a, true),
             _ => return None,
         };
         let mut arena = self.arena.clone();
@@ -210,7 +210,7 @@ impl Formula {
 
     /// Whether the formula contains an `∫`.
     pub fn has_antiderivative(&self) -> bool {
-        let integral = |node: &Node| matches!(node.operation, Operation::Antiderivative(..));
+        let integral = |node: &Node| matches!(node.operation, NodeOperation::Antiderivative(..));
         self.arena.nodes.iter().any(integral)
     }
 
@@ -224,7 +224,7 @@ impl Formula {
     ) -> Vec<(T, T)> {
         let values = evaluate::values(&self.arena, lookup);
         let pair = |node: &Node| match node.operation {
-            Operation::Antiderivative(f, x) => Some((values[f].scalar()?, values[x].scalar()?)),
+            NodeOperation::Antiderivative(f, x) => Some((values[f].scalar()?, values[x].scalar()?)),
             _ => None,
         };
         self.arena.nodes.iter().filter_map(pair).collect()

@@ -6,13 +6,13 @@
 //! another type, or equals the original is left out.
 
 use super::Formula;
-use super::arena::{Extreme, Function, NodeId, Operation};
+use super::arena::{ElementaryFunction, Extreme, NodeId, NodeOperation};
 use super::kind::Type;
 use super::scope::Scope;
 use crate::number::rational::Rational;
 
 /// Limit on the mutants of one formula; of more, an evenly spaced selection is taken.
-const MOST: usize = 60;
+const MOST_MUTANTS: usize = 60;
 /// The factor 1 + 2⁻⁵⁰.
 const NEAR_ONE: &str = "1125899906842625/1125899906842624";
 /// Number of replacements tried for each use of a name.
@@ -48,7 +48,7 @@ impl Formula {
                 mutants.push(Mutant { formula, change: edit.change });
             }
         }
-        let step = mutants.len().div_ceil(MOST).max(1);
+        let step = mutants.len().div_ceil(MOST_MUTANTS).max(1);
         mutants.into_iter().step_by(step).collect()
     }
 
@@ -56,14 +56,14 @@ impl Formula {
     fn written_nodes(&self) -> Vec<NodeId> {
         let mut hidden = vec![false; self.arena.nodes.len()];
         for (node, own) in self.arena.nodes.iter().enumerate() {
-            if let Operation::Partial { by, .. } = own.operation {
+            if let NodeOperation::Partial { by, .. } = own.operation {
                 hidden[by + 1..node].fill(true);
             }
         }
         (0..hidden.len()).filter(|node| !hidden[*node]).collect()
     }
 
-    fn operations(&self) -> impl Iterator<Item = &Operation> {
+    fn operations(&self) -> impl Iterator<Item = &NodeOperation> {
         self.arena.nodes.iter().map(|node| &node.operation)
     }
 
@@ -72,36 +72,38 @@ impl Formula {
     }
 
     /// Replaces the part of `node` in the text.
-    fn edit(&self, node: NodeId, by: &str, change: String) -> Edit {
+    fn edit(&self, node: NodeId, by: &str, change: String) -> MutantEdit {
         let span = &self.arena.nodes[node].span;
         let (before, after) = (self.text.get(..span.start), self.text.get(span.end..));
         let text = format!("{}({by}){}", before.unwrap_or(""), after.unwrap_or(""));
-        Edit { text, change }
+        MutantEdit { text, change }
     }
 
     /// Replaces the operator between two operands in the text.
-    fn operator(&self, a: NodeId, b: NodeId, from: &[char], to: &str) -> Option<Edit> {
+    fn operator(&self, a: NodeId, b: NodeId, from: &[char], to: &str) -> Option<MutantEdit> {
         let gap = self.arena.nodes[a].span.end..self.arena.nodes[b].span.start;
         let found = self.text.get(gap.clone())?.find(from)? + gap.start;
         let sign = self.text[found..].chars().next()?;
         let (before, after) = (&self.text[..found], &self.text[found + sign.len_utf8()..]);
-        Some(Edit { text: format!("{before}{to}{after}"), change: format!("{sign} → {to}") })
+        Some(MutantEdit {
+            text: format!("{before}{to}{after}"), change: format!("{sign} → {to}")
+        })
     }
 
-    fn edits_of(&self, node: NodeId, scope: &dyn Scope, edits: &mut Vec<Edit>) {
+    fn edits_of(&self, node: NodeId, scope: &dyn Scope, edits: &mut Vec<MutantEdit>) {
         let own = self.part(node);
         let replaced = |by: String| self.edit(node, &by, format!("{own} → {by}"));
         match &self.arena.nodes[node].operation {
-            Operation::Number(value) => {
+            NodeOperation::Number(value) => {
                 edits.push(replaced((value + &Rational::from(1)).to_string()));
                 edits.push(replaced(format!("-({own})")));
                 edits.push(replaced(format!("{own}*({NEAR_ONE})")));
             }
-            Operation::Constant(_) => edits.push(replaced(format!("{own}*({NEAR_ONE})"))),
-            Operation::Angle(y, x) => {
+            NodeOperation::Constant(_) => edits.push(replaced(format!("{own}*({NEAR_ONE})"))),
+            NodeOperation::Angle(y, x) => {
                 edits.push(replaced(format!("atan2({}, {})", self.part(*x), self.part(*y))));
             }
-            Operation::Extreme(which, all) => {
+            NodeOperation::Extreme(which, all) => {
                 edits.extend(all.iter().map(|a| self.kept(node, *a)));
                 let arguments: Vec<&str> = all.iter().map(|a| self.part(*a)).collect();
                 let other = match which {
@@ -110,45 +112,48 @@ impl Formula {
                 };
                 edits.push(replaced(format!("{other}({})", arguments.join(", "))));
             }
-            Operation::Symbol(slot) => {
+            NodeOperation::Symbol(slot) => {
                 let (_, kind) = self.arena.symbols[*slot];
                 edits.extend(others(own, kind, scope).into_iter().map(replaced));
             }
-            Operation::Negate(a) => edits.push(replaced(self.part(*a).to_string())),
-            Operation::Add(a, b) => {
+            NodeOperation::Negate(a) => edits.push(replaced(self.part(*a).to_string())),
+            NodeOperation::Add(a, b) => {
                 edits.extend(self.operator(*a, *b, &['+'], "−"));
                 self.terms(node, *a, *b, edits);
             }
-            Operation::Subtract(a, b) => {
+            NodeOperation::Subtract(a, b) => {
                 edits.extend(self.operator(*a, *b, &['-', '−'], "+"));
                 self.terms(node, *a, *b, edits);
             }
-            Operation::Multiply(a, b)
-            | Operation::Scale(a, b)
-            | Operation::Apply(a, b)
-            | Operation::Compose(a, b)
-            | Operation::Solve(a, b) => {
+            NodeOperation::Multiply(a, b)
+            | NodeOperation::Scale(a, b)
+            | NodeOperation::Apply(a, b)
+            | NodeOperation::Compose(a, b)
+            | NodeOperation::Solve(a, b) => {
                 for kept in [*a, *b] {
                     edits.push(self.kept(node, kept));
                 }
             }
-            Operation::Divide(a, b) => {
+            NodeOperation::Divide(a, b) => {
                 let (above, below) = (self.part(*a), self.part(*b));
                 edits.push(self.kept(node, *a));
                 edits.push(replaced(format!("({below})/({above})")));
             }
-            Operation::Power(a, exponent) => {
+            NodeOperation::Power(a, exponent) => {
                 let base = self.part(*a);
                 let one = Rational::from(1);
                 for other in [exponent + &one, -exponent, exponent + &Rational::new(1, 2)] {
                     edits.push(replaced(format!("({base})^({other})")));
                 }
             }
-            Operation::Function(Function::Sqrt | Function::Modulus | Function::Sign, a)
-            | Operation::Inverse(a)
-            | Operation::Transpose(a)
-            | Operation::Adjugate(a) => edits.push(self.kept(node, *a)),
-            Operation::Dot(a, b) => {
+            NodeOperation::Function(
+                ElementaryFunction::Sqrt | ElementaryFunction::Modulus | ElementaryFunction::Sign,
+                a,
+            )
+            | NodeOperation::Inverse(a)
+            | NodeOperation::Transpose(a)
+            | NodeOperation::Adjugate(a) => edits.push(self.kept(node, *a)),
+            NodeOperation::Dot(a, b) => {
                 let (left, right) = (self.part(*a), self.part(*b));
                 edits.push(replaced(format!("({left},{left})")));
                 edits.push(replaced(format!("({right},{right})")));
@@ -158,7 +163,7 @@ impl Formula {
     }
 
     /// Edits of a sum: a term doubled, a near miss of it, and each term dropped.
-    fn terms(&self, node: NodeId, a: NodeId, b: NodeId, edits: &mut Vec<Edit>) {
+    fn terms(&self, node: NodeId, a: NodeId, b: NodeId, edits: &mut Vec<MutantEdit>) {
         for term in [a, b] {
             let text = self.part(term);
             edits.push(self.edit(term, &format!("2*({text})"), format!("{text} doubled")));
@@ -170,14 +175,14 @@ impl Formula {
     }
 
     /// Replaces a node by one of its operands.
-    fn kept(&self, node: NodeId, operand: NodeId) -> Edit {
+    fn kept(&self, node: NodeId, operand: NodeId) -> MutantEdit {
         let (own, part) = (self.part(node), self.part(operand));
         self.edit(node, part, format!("{own} → {part}"))
     }
 }
 
 /// Changed text.
-struct Edit {
+struct MutantEdit {
     text: String,
     change: String,
 }
@@ -200,9 +205,9 @@ mod tests {
     use super::super::{Scope, Symbol};
     use super::*;
 
-    struct Letters;
+    struct LetterSpans;
 
-    impl Scope for Letters {
+    impl Scope for LetterSpans {
         fn lookup(&self, name: &str) -> Option<(Symbol, Type)> {
             let kind = match name {
                 "m" | "R" => Type::Scalar,
@@ -219,8 +224,8 @@ mod tests {
     }
 
     fn texts(text: &str) -> Vec<String> {
-        let formula = Formula::parse(text, &Letters).expect("a formula");
-        let mutants = formula.mutants(&Letters);
+        let formula = Formula::parse(text, &LetterSpans).expect("a formula");
+        let mutants = formula.mutants(&LetterSpans);
         mutants.iter().map(|mutant| mutant.formula.text().to_string()).collect()
     }
 
@@ -254,8 +259,8 @@ mod tests {
             "det(J)^(1/2)",
             "(ω,γ)²/m",
         ] {
-            let formula = Formula::parse(text, &Letters).expect("a formula");
-            let mutants = formula.mutants(&Letters);
+            let formula = Formula::parse(text, &LetterSpans).expect("a formula");
+            let mutants = formula.mutants(&LetterSpans);
             assert!(!mutants.is_empty(), "{text} can be wrong in some way");
             for mutant in mutants {
                 assert_eq!(mutant.formula.value_type(), Type::Scalar, "{}", mutant.change);

@@ -1,12 +1,12 @@
 //! Primary operands of the grammar: numbers, names, calls, literals and indices.
 
-use super::arena::Operation;
+use super::arena::NodeOperation;
 use super::error::{FormulaError, Span};
 use super::kind::Type;
-use super::lexer::{Kind, fraction, superscript_number};
+use super::lexer::{TokenKind, fraction, superscript_number};
 use super::names::canonical_name;
 use super::parser::{Parsed, Parser};
-use super::scope::{Meaning, resolve};
+use super::scope::{NameMeaning, resolve};
 use super::typing::Operand;
 use super::{binders, functions};
 use crate::number::rational::{Rational, RationalError};
@@ -28,7 +28,8 @@ impl Parser<'_> {
             .unwrap_or(text)
             .parse()
             .map_err(|error| too_long(&span, &error))?;
-        let node = self.builder.arena.push(Operation::Number(value), Type::Scalar, span.clone());
+        let node =
+            self.builder.arena.push(NodeOperation::Number(value), Type::Scalar, span.clone());
         Ok(self.builder.operand(node, span))
     }
 
@@ -47,7 +48,7 @@ impl Parser<'_> {
     pub(super) fn name_at(&mut self, span: Span) -> Parsed {
         let name = self.text(&span);
         if let Some(value) = self.bound(name) {
-            let number = Operation::Number(Rational::from(value));
+            let number = NodeOperation::Number(Rational::from(value));
             return Ok(self.builder.push(number, Type::Scalar, span));
         }
         let meaning = resolve(name, self.scope);
@@ -65,25 +66,29 @@ impl Parser<'_> {
         if self.whole_numbers && meaning.is_some() {
             return self.known_number(name, span);
         }
-        if meaning == Some(Meaning::Identity) && self.peek() == Kind::Open {
+        if meaning == Some(NameMeaning::Identity) && self.peek() == TokenKind::Open {
             return self.unit_matrix(span);
         }
         let (builder, scope) = (&mut self.builder, self.scope);
         Ok(match meaning {
-            Some(Meaning::Whole(symbol, ty)) => builder.symbol(symbol, ty, span, scope),
-            Some(Meaning::Component(symbol, ty, i)) => {
+            Some(NameMeaning::Whole(symbol, ty)) => builder.symbol(symbol, ty, span, scope),
+            Some(NameMeaning::Component(symbol, ty, i)) => {
                 let vector = builder.symbol(symbol, ty, span.clone(), scope);
-                builder.push(Operation::Component(vector.node, i), Type::Scalar, span)
+                builder.push(NodeOperation::Component(vector.node, i), Type::Scalar, span)
             }
-            Some(Meaning::Entry(symbol, ty, i, j)) => {
+            Some(NameMeaning::Entry(symbol, ty, i, j)) => {
                 let matrix = builder.symbol(symbol, ty, span.clone(), scope);
-                builder.push(Operation::Entry(matrix.node, i, j), Type::Scalar, span)
+                builder.push(NodeOperation::Entry(matrix.node, i, j), Type::Scalar, span)
             }
-            Some(Meaning::Constant(constant)) => {
-                builder.push(Operation::Constant(constant), Type::Scalar, span)
+            Some(NameMeaning::Constant(constant)) => {
+                builder.push(NodeOperation::Constant(constant), Type::Scalar, span)
             }
-            Some(Meaning::Identity) => builder.push(Operation::Identity, Type::MATRIX, span),
-            Some(Meaning::OutOfRange(base, ty)) => return Err(out_of_range(name, &base, ty, span)),
+            Some(NameMeaning::Identity) => {
+                builder.push(NodeOperation::Identity, Type::MATRIX, span)
+            }
+            Some(NameMeaning::OutOfRange(base, ty)) => {
+                return Err(out_of_range(name, &base, ty, span));
+            }
             None => return Err(self.unknown_name(name, span)),
         })
     }
@@ -101,23 +106,23 @@ impl Parser<'_> {
         if !fixed.contains(&symbol) {
             fixed.push(symbol);
         }
-        let number = Operation::Number(Rational::from(value));
+        let number = NodeOperation::Number(Rational::from(value));
         Ok(self.builder.push(number, Type::Scalar, span))
     }
 
     fn call(&mut self, name: &str, span: Span) -> Parsed {
-        if self.peek() != Kind::Open {
+        if self.peek() != TokenKind::Open {
             let error = FormulaError::new(span, format!("`{name}` is a function"));
             return Err(error.with_help(functions::usage(name)));
         }
-        let (arguments, brackets) = self.list(Kind::Close)?;
+        let (arguments, brackets) = self.list(TokenKind::Close)?;
         let span = span.start..brackets.end;
         functions::call(&mut self.builder, name, &arguments, span)
     }
 
     /// Reads `[a,b,c]`, or `[[..],[..],[..]]` by rows.
     pub(super) fn literal(&mut self) -> Parsed {
-        let (items, span) = self.list(Kind::CloseSquare)?;
+        let (items, span) = self.list(TokenKind::CloseSquare)?;
         let is_row = |item: &Operand| {
             self.text(&item.span).starts_with('[') && matches!(item.value_type, Type::Vector(_))
         };
@@ -138,17 +143,17 @@ impl Parser<'_> {
         let open = self.advance();
         let mut indices = Vec::new();
         loop {
-            if self.peek() == Kind::End {
+            if self.peek() == TokenKind::End {
                 return Err(self.unclosed(&open));
             }
-            if matches!(self.peek(), Kind::CloseSquare | Kind::Comma) {
+            if matches!(self.peek(), TokenKind::CloseSquare | TokenKind::Comma) {
                 let error = FormulaError::new(self.token().span.clone(), "an index is missing");
                 return Err(error.with_help("write `γ[3]` or `B[1,2]`"));
             }
             indices.push(self.whole("an index")?);
             match self.peek() {
-                Kind::Comma => self.advance(),
-                Kind::CloseSquare => break,
+                TokenKind::Comma => self.advance(),
+                TokenKind::CloseSquare => break,
                 _ => return Err(self.unclosed(&open)),
             };
         }

@@ -6,7 +6,7 @@
 use super::arena::Arena;
 use super::error::{FormulaError, Span};
 use super::kind::Type;
-use super::lexer::{Kind, Token, tokens};
+use super::lexer::{Token, TokenKind, tokens};
 use super::scope::Scope;
 use super::typing::{Builder, Infix, Operand};
 
@@ -46,7 +46,7 @@ pub(super) fn parse(text: &str, scope: &dyn Scope) -> Result<Arena, FormulaError
     let mut parser = Parser::new(text, scope)?;
     parser.expression(SUM)?;
     match parser.peek() {
-        Kind::End => Ok(parser.builder.arena),
+        TokenKind::End => Ok(parser.builder.arena),
         _ => Err(parser.unexpected_end()),
     }
 }
@@ -56,7 +56,7 @@ pub(super) fn whole_number(text: &str, scope: &dyn Scope) -> Result<i64, Formula
     let mut parser = Parser::new(text, scope)?;
     let (number, _) = parser.whole("this")?;
     match parser.peek() {
-        Kind::End => Ok(number),
+        TokenKind::End => Ok(number),
         _ => Err(parser.unexpected_end()),
     }
 }
@@ -79,7 +79,7 @@ impl<'t> Parser<'t> {
             written_out: 0,
         };
         match parser.peek() {
-            Kind::End => {
+            TokenKind::End => {
                 let error = FormulaError::new(0..text.len(), "the formula is empty");
                 Err(error.with_help("write a formula, such as `x² + y²`, or a number"))
             }
@@ -96,17 +96,17 @@ impl<'t> Parser<'t> {
         &self.tokens[self.position.min(self.tokens.len() - 1)]
     }
 
-    pub(super) fn peek(&self) -> Kind {
+    pub(super) fn peek(&self) -> TokenKind {
         self.token().kind
     }
 
     /// Kind of the token at a position.
-    pub(super) fn kind(&self, place: usize) -> Option<Kind> {
+    pub(super) fn kind(&self, place: usize) -> Option<TokenKind> {
         self.tokens.get(place).map(|token| token.kind)
     }
 
     /// Kind of the token `offset` places after the current one.
-    pub(super) fn kind_at(&self, offset: usize) -> Option<Kind> {
+    pub(super) fn kind_at(&self, offset: usize) -> Option<TokenKind> {
         self.kind(self.position + offset)
     }
 
@@ -144,7 +144,8 @@ impl<'t> Parser<'t> {
             self.advance();
             let right = self.expression(level + 1)?;
             let result = self.builder.infix(infix, &left, &right)?;
-            if level == VECTOR_PRODUCT && matches!(self.peek(), Kind::Cross | Kind::Outer) {
+            if level == VECTOR_PRODUCT && matches!(self.peek(), TokenKind::Cross | TokenKind::Outer)
+            {
                 return Err(self.chained_products(&left, &right));
             }
             left = result;
@@ -155,21 +156,21 @@ impl<'t> Parser<'t> {
     /// Reads `−a`, `√a`, `a^b`.
     fn prefix(&mut self) -> Parsed {
         let kind = self.peek();
-        if !matches!(kind, Kind::Minus | Kind::Root) {
+        if !matches!(kind, TokenKind::Minus | TokenKind::Root) {
             return self.power();
         }
         let sign = self.advance();
         let operand = self.nested(&sign, Self::prefix)?;
         let span = sign.start..operand.span.end;
         match kind {
-            Kind::Minus => Ok(self.builder.negate(&operand, span)),
+            TokenKind::Minus => Ok(self.builder.negate(&operand, span)),
             _ => self.builder.root(&operand, span),
         }
     }
 
     fn power(&mut self) -> Parsed {
         let base = self.postfix()?;
-        if self.peek() != Kind::Caret {
+        if self.peek() != TokenKind::Caret {
             return Ok(base);
         }
         let caret = self.advance();
@@ -211,17 +212,17 @@ impl<'t> Parser<'t> {
         let mut operand = self.primary()?;
         loop {
             operand = match self.peek() {
-                Kind::Superscript => {
+                TokenKind::Superscript => {
                     let exponent = self.advance();
                     let value = self.superscript(&exponent)?;
                     let span = operand.span.start..exponent.end;
                     self.builder.constant_power(&operand, &value, exponent, span)?
                 }
-                Kind::Transpose => {
+                TokenKind::Transpose => {
                     let span = operand.span.start..self.advance().end;
                     self.builder.transpose(&operand, span)?
                 }
-                Kind::OpenSquare => {
+                TokenKind::OpenSquare => {
                     let (indices, brackets) = self.indices()?;
                     self.builder.index(&operand, &indices, brackets)?
                 }
@@ -234,18 +235,18 @@ impl<'t> Parser<'t> {
     /// Reads a number, a name, or what stands in brackets or bars.
     pub(super) fn primary(&mut self) -> Parsed {
         match self.peek() {
-            Kind::Number => self.number(),
-            Kind::Name | Kind::Integral => self.name(),
-            Kind::Open => self.group(),
-            Kind::OpenSquare => self.literal(),
-            Kind::Bar => self.bars(),
+            TokenKind::Number => self.number(),
+            TokenKind::Name | TokenKind::Integral => self.name(),
+            TokenKind::Open => self.group(),
+            TokenKind::OpenSquare => self.literal(),
+            TokenKind::Bar => self.bars(),
             _ => Err(self.missing_operand()),
         }
     }
 
     /// Reads `(a)` or `(a,b)`.
     fn group(&mut self) -> Parsed {
-        let (items, span) = self.list(Kind::Close)?;
+        let (items, span) = self.list(TokenKind::Close)?;
         match items.as_slice() {
             [inner] => {
                 // the brackets belong to the text of their contents
@@ -264,7 +265,7 @@ impl<'t> Parser<'t> {
     fn bars(&mut self) -> Parsed {
         let open = self.advance();
         let inner = self.enclosed(&open, true)?;
-        if self.peek() != Kind::Bar {
+        if self.peek() != TokenKind::Bar {
             return Err(self.unclosed(&open));
         }
         let span = open.start..self.advance().end;
@@ -272,7 +273,7 @@ impl<'t> Parser<'t> {
     }
 
     /// Reads expressions between brackets, separated by commas; the span covers the brackets.
-    pub(super) fn list(&mut self, close: Kind) -> Result<(Vec<Operand>, Span), FormulaError> {
+    pub(super) fn list(&mut self, close: TokenKind) -> Result<(Vec<Operand>, Span), FormulaError> {
         let open = self.advance();
         if self.peek() == close {
             let span = open.start..self.advance().end;
@@ -283,7 +284,7 @@ impl<'t> Parser<'t> {
         loop {
             items.push(self.enclosed(&open, false)?);
             match self.peek() {
-                Kind::Comma => self.advance(),
+                TokenKind::Comma => self.advance(),
                 kind if kind == close => break,
                 _ => return Err(self.unclosed(&open)),
             };
@@ -295,9 +296,9 @@ impl<'t> Parser<'t> {
     /// Whether the next token begins an operand where an operator should stand.
     fn starts_operand(&self) -> bool {
         match self.peek() {
-            Kind::Name => !self.is_modulo(),
-            Kind::Number | Kind::Integral | Kind::Root | Kind::Open => true,
-            Kind::Bar => !self.inside_bars,
+            TokenKind::Name => !self.is_modulo(),
+            TokenKind::Number | TokenKind::Integral | TokenKind::Root | TokenKind::Open => true,
+            TokenKind::Bar => !self.inside_bars,
             _ => false,
         }
     }
@@ -313,14 +314,14 @@ impl<'t> Parser<'t> {
     }
 }
 
-fn infix(kind: Kind) -> Option<(Infix, u8)> {
+fn infix(kind: TokenKind) -> Option<(Infix, u8)> {
     Some(match kind {
-        Kind::Plus => (Infix::Add, SUM),
-        Kind::Minus => (Infix::Subtract, SUM),
-        Kind::Cross => (Infix::Cross, VECTOR_PRODUCT),
-        Kind::Outer => (Infix::Outer, VECTOR_PRODUCT),
-        Kind::Times => (Infix::Multiply, PRODUCT),
-        Kind::Slash => (Infix::Divide, PRODUCT),
+        TokenKind::Plus => (Infix::Add, SUM),
+        TokenKind::Minus => (Infix::Subtract, SUM),
+        TokenKind::Cross => (Infix::Cross, VECTOR_PRODUCT),
+        TokenKind::Outer => (Infix::Outer, VECTOR_PRODUCT),
+        TokenKind::Times => (Infix::Multiply, PRODUCT),
+        TokenKind::Slash => (Infix::Divide, PRODUCT),
         _ => return None,
     })
 }

@@ -9,13 +9,13 @@
 //! x is a state variable or a component of one. State variables are independent of one another and
 //! of the parameters, on a level set too; abbreviations in F are differentiated through.
 
-use super::arena::Operation;
+use super::arena::NodeOperation;
 use super::error::{FormulaError, Span, excerpt};
 use super::kind::Type;
-use super::lexer::Kind;
+use super::lexer::TokenKind;
 use super::parser::{Parsed, Parser};
-use super::scope::{Origin, Symbol, resolve};
-use super::slopes::{Part, Slopes};
+use super::scope::{Symbol, SymbolOrigin, resolve};
+use super::slopes::{Slopes, VariedPart};
 use super::typing::{Built, Operand};
 
 /// The sign of a derivative.
@@ -29,7 +29,7 @@ const USAGE: &str = "write `∂F/∂x`, `∂(a + b)/∂x` or `partial(a + b, x)`
 impl Parser<'_> {
     /// Reads a derivative, if the name that has been read begins one.
     pub(super) fn derivative(&mut self, name: &str, span: &Span) -> Option<Parsed> {
-        if name == CALL && self.peek() == Kind::Open {
+        if name == CALL && self.peek() == TokenKind::Open {
             return Some(self.derivative_call(span.clone()));
         }
         name.starts_with(SIGN).then(|| self.derivative_fraction(span.clone()))
@@ -39,16 +39,16 @@ impl Parser<'_> {
     fn derivative_fraction(&mut self, span: Span) -> Parsed {
         let own = span.start + SIGN.len_utf8()..span.end;
         let of = match own.is_empty() {
-            true if matches!(self.peek(), Kind::Open | Kind::Bar) => self.primary()?,
+            true if matches!(self.peek(), TokenKind::Open | TokenKind::Bar) => self.primary()?,
             true => return Err(unfinished(span)),
             false => self.component_of(own)?,
         };
-        if self.peek() != Kind::Slash {
+        if self.peek() != TokenKind::Slash {
             return Err(unfinished(span.start..of.span.end));
         }
         self.advance();
         let place = self.token().span.clone();
-        if self.peek() != Kind::Name || !self.text(&place).starts_with(SIGN) {
+        if self.peek() != TokenKind::Name || !self.text(&place).starts_with(SIGN) {
             return Err(unfinished(span.start..place.end));
         }
         self.advance();
@@ -63,7 +63,7 @@ impl Parser<'_> {
 
     /// Reads `partial(F, x)`; the name has been read.
     fn derivative_call(&mut self, span: Span) -> Parsed {
-        let (items, brackets) = self.list(Kind::Close)?;
+        let (items, brackets) = self.list(TokenKind::Close)?;
         let span = span.start..brackets.end;
         match items.as_slice() {
             [of, by] => self.differentiated(of, by, span),
@@ -78,7 +78,7 @@ impl Parser<'_> {
             return Err(self.unknown_name(name, place));
         }
         let whole = self.name_at(place)?;
-        if self.peek() != Kind::OpenSquare {
+        if self.peek() != TokenKind::OpenSquare {
             return Ok(whole);
         }
         let (indices, brackets) = self.indices()?;
@@ -127,23 +127,24 @@ impl Parser<'_> {
             },
         };
         let (derivative, of, by) = (derivative.node, of.node, by.node);
-        Ok(builder.push(Operation::Partial { derivative, of, by }, kind, span))
+        Ok(builder.push(NodeOperation::Partial { derivative, of, by }, kind, span))
     }
 
     /// The variable, and its parts in their order.
-    fn varied(&self, by: &Operand) -> Result<(Symbol, Vec<Part>), FormulaError> {
+    fn varied(&self, by: &Operand) -> Result<(Symbol, Vec<VariedPart>), FormulaError> {
         let arena = &self.builder.arena;
         let slot = |node: usize| match arena.nodes[node].operation {
-            Operation::Symbol(slot) => Some(slot),
+            NodeOperation::Symbol(slot) => Some(slot),
             _ => None,
         };
         let (slot, part) = match arena.nodes[by.node].operation {
-            Operation::Component(a, i) => (slot(a), Part::Component(i)),
-            Operation::Entry(a, i, j) => (slot(a), Part::Entry(i, j)),
-            _ => (slot(by.node), Part::Whole),
+            NodeOperation::Component(a, i) => (slot(a), VariedPart::Component(i)),
+            NodeOperation::Entry(a, i, j) => (slot(a), VariedPart::Entry(i, j)),
+            _ => (slot(by.node), VariedPart::Whole),
         };
         let symbol = slot.map(|slot| arena.symbols[slot].0);
-        let is_variable = |symbol: &Symbol| matches!(self.scope.origin(*symbol), Origin::Variable);
+        let is_variable =
+            |symbol: &Symbol| matches!(self.scope.origin(*symbol), SymbolOrigin::Variable);
         let Some(symbol) = symbol.filter(is_variable) else {
             let text = excerpt(self.text(&by.span));
             let message = format!("`{text}` is not a state variable");
@@ -151,9 +152,9 @@ impl Parser<'_> {
             return Err(FormulaError::new(by.span.clone(), message).with_help(help));
         };
         let parts = match (by.value_type, part) {
-            (Type::Vector(n), _) => (0..n).map(Part::Component).collect(),
+            (Type::Vector(n), _) => (0..n).map(VariedPart::Component).collect(),
             (Type::Matrix(rows, columns), _) => {
-                let entry = |k: usize| Part::Entry(k / columns, k % columns);
+                let entry = |k: usize| VariedPart::Entry(k / columns, k % columns);
                 (0..rows * columns).map(entry).collect()
             }
             (Type::Scalar, part) => vec![part],

@@ -1,6 +1,6 @@
 //! Poles of a formula: its denominators and the arguments of its logarithms.
 
-use super::arena::{Function, Operation};
+use super::arena::{ElementaryFunction, NodeOperation};
 use super::{Formula, Symbol};
 
 /// Part of a formula that must not be zero.
@@ -18,10 +18,15 @@ impl Formula {
     pub fn denominators(&self) -> Vec<Denominator<'_>> {
         let nodes = &self.arena.nodes;
         let below = nodes.iter().filter_map(|node| match &node.operation {
-            Operation::Divide(_, b) => Some(*b),
-            Operation::Power(a, exponent) if exponent.is_negative() => Some(*a),
-            Operation::PowerOf(a, _) | Operation::Inverse(a) | Operation::Solve(a, _) => Some(*a),
-            Operation::Function(Function::Ln | Function::Tan | Function::Sign, a) => Some(*a),
+            NodeOperation::Divide(_, b) => Some(*b),
+            NodeOperation::Power(a, exponent) if exponent.is_negative() => Some(*a),
+            NodeOperation::PowerOf(a, _)
+            | NodeOperation::Inverse(a)
+            | NodeOperation::Solve(a, _) => Some(*a),
+            NodeOperation::Function(
+                ElementaryFunction::Ln | ElementaryFunction::Tan | ElementaryFunction::Sign,
+                a,
+            ) => Some(*a),
             _ => None,
         });
         let described = |node: usize| {
@@ -29,7 +34,7 @@ impl Formula {
             let inside =
                 nodes.iter().filter(|n| place.start <= n.span.start && n.span.end <= place.end);
             let symbols = inside.filter_map(|n| match n.operation {
-                Operation::Symbol(slot) => Some(self.arena.symbols[slot].0),
+                NodeOperation::Symbol(slot) => Some(self.arena.symbols[slot].0),
                 _ => None,
             });
             Denominator {

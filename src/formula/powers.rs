@@ -1,6 +1,6 @@
 //! Powers: exponents admitted for scalars, vectors and matrices.
 
-use super::arena::{Constant, Function, MAX_CONSTANT_BITS, NodeId, Operation};
+use super::arena::{Constant, ElementaryFunction, MAX_CONSTANT_BITS, NodeId, NodeOperation};
 use super::error::{FormulaError, Span};
 use super::kind::Type;
 use super::typing::{Builder, Built, Operand};
@@ -22,7 +22,7 @@ impl Builder<'_> {
             Some(value) => self.constant_power(base, &value, exponent.span.clone(), span),
             None if self.is_euler(base) => Ok(self.exponential(exponent.node, span)),
             None if base.value_type == Type::Scalar => {
-                Ok(self.push(Operation::PowerOf(base.node, exponent.node), Type::Scalar, span))
+                Ok(self.push(NodeOperation::PowerOf(base.node, exponent.node), Type::Scalar, span))
             }
             None => {
                 let message = format!("a {} is raised to whole numbers only", base.value_type);
@@ -40,7 +40,7 @@ impl Builder<'_> {
         span: Span,
     ) -> Built {
         if self.is_euler(base) {
-            let number = Operation::Number(value.clone());
+            let number = NodeOperation::Number(value.clone());
             let exponent = self.push(number, Type::Scalar, exponent);
             return Ok(self.exponential(exponent.node, span));
         }
@@ -48,7 +48,7 @@ impl Builder<'_> {
         match (base.value_type, whole) {
             (Type::Scalar, _) => self.scalar_power(base, value, span),
             (Type::Vector(_), Some(2)) => {
-                Ok(self.push(Operation::Dot(base.node, base.node), Type::Scalar, span))
+                Ok(self.push(NodeOperation::Dot(base.node, base.node), Type::Scalar, span))
             }
             (Type::Vector(_), _) => {
                 let error = FormulaError::new(exponent, "a vector has no power except its square");
@@ -61,7 +61,7 @@ impl Builder<'_> {
             }
             (Type::Matrix(..), Some(-1)) => self.inverse(base, span),
             (Type::Matrix(..), Some(n @ 1..=MAX_MATRIX_POWER)) => {
-                let operation = Operation::MatrixPower(base.node, n.unsigned_abs() as u32);
+                let operation = NodeOperation::MatrixPower(base.node, n.unsigned_abs() as u32);
                 Ok(self.push(operation, base.value_type, span))
             }
             (Type::Matrix(..), _) => {
@@ -72,12 +72,12 @@ impl Builder<'_> {
     }
 
     fn is_euler(&self, base: &Operand) -> bool {
-        self.arena.nodes[base.node].operation == Operation::Constant(Constant::Euler)
+        self.arena.nodes[base.node].operation == NodeOperation::Constant(Constant::Euler)
     }
 
     /// Builds e^x as exp(x), for any x.
     fn exponential(&mut self, exponent: NodeId, span: Span) -> Operand {
-        self.push(Operation::Function(Function::Exp, exponent), Type::Scalar, span)
+        self.push(NodeOperation::Function(ElementaryFunction::Exp, exponent), Type::Scalar, span)
     }
 
     fn scalar_power(&mut self, base: &Operand, value: &Rational, span: Span) -> Built {
@@ -92,7 +92,7 @@ impl Builder<'_> {
             let bits = n[0].bits().checked_mul(u64::from(exponent.unsigned_abs()))?;
             (bits <= MAX_CONSTANT_BITS).then(|| n[0].powi(exponent)).flatten()
         };
-        let operation = Operation::Power(base.node, value.clone());
+        let operation = NodeOperation::Power(base.node, value.clone());
         Ok(self.push_folded(operation, &[base.node], span, fold))
     }
 }

@@ -24,14 +24,14 @@ pub trait Scope {
     }
 
     /// Origin of a symbol's value, which `∂F/∂x` has to know.
-    fn origin(&self, _symbol: Symbol) -> Origin<'_> {
-        Origin::Computed
+    fn origin(&self, _symbol: Symbol) -> SymbolOrigin<'_> {
+        SymbolOrigin::Computed
     }
 }
 
 /// Origin of a symbol's value.
 #[derive(Clone, Copy, Debug)]
-pub enum Origin<'s> {
+pub enum SymbolOrigin<'s> {
     /// A variable, independent of all others.
     Variable,
     /// The same for all values of the variables.
@@ -44,7 +44,7 @@ pub enum Origin<'s> {
 
 /// Meaning of a written name.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Meaning {
+pub(super) enum NameMeaning {
     /// A name of the scope.
     Whole(Symbol, Type),
     /// A component of a vector of the scope, counted from 0.
@@ -60,19 +60,19 @@ pub(super) enum Meaning {
 }
 
 /// Looks up a written name: as it stands, in canonical form, then as a component by its digits.
-pub(super) fn resolve(written: &str, scope: &dyn Scope) -> Option<Meaning> {
+pub(super) fn resolve(written: &str, scope: &dyn Scope) -> Option<NameMeaning> {
     let whole = |name: &str| scope.lookup(name);
     if let Some((symbol, ty)) = whole(written) {
-        return Some(Meaning::Whole(symbol, ty));
+        return Some(NameMeaning::Whole(symbol, ty));
     }
     let name = canonical_name(written)?;
     if let Some((symbol, ty)) = whole(&name) {
-        return Some(Meaning::Whole(symbol, ty));
+        return Some(NameMeaning::Whole(symbol, ty));
     }
     match name.as_str() {
-        "E" => return Some(Meaning::Identity),
-        "π" => return Some(Meaning::Constant(Constant::Pi)),
-        "e" => return Some(Meaning::Constant(Constant::Euler)),
+        "E" => return Some(NameMeaning::Identity),
+        "π" => return Some(NameMeaning::Constant(Constant::Pi)),
+        "e" => return Some(NameMeaning::Constant(Constant::Euler)),
         _ => {}
     }
     // the spelling as written may be the one in the scope: `gamma3` where `gamma` is declared
@@ -97,7 +97,7 @@ pub(super) fn name_of(written: &str, symbol: Symbol, scope: &dyn Scope) -> Strin
 }
 
 /// Reads `γ3`, `I1`, `I12` as components of a known `γ`, `I`.
-fn component(name: &str, scope: &dyn Scope) -> Option<Meaning> {
+fn component(name: &str, scope: &dyn Scope) -> Option<NameMeaning> {
     let digits = name.bytes().rev().take_while(u8::is_ascii_digit).count();
     let mut out_of_range = None;
     for count in 1..=digits.min(2) {
@@ -114,12 +114,12 @@ fn component(name: &str, scope: &dyn Scope) -> Option<Meaning> {
             (Type::Vector(length), _) if count == 1 || length > 9 => {
                 if let Some(i) = place(0, count).filter(|i| *i < length && !digits.starts_with('0'))
                 {
-                    return Some(Meaning::Component(symbol, ty, i));
+                    return Some(NameMeaning::Component(symbol, ty, i));
                 }
             }
             (Type::Matrix(rows, columns), 1) => {
                 if let Some(i) = place(0, 1).filter(|i| *i < rows.min(columns)) {
-                    return Some(Meaning::Entry(symbol, ty, i, i));
+                    return Some(NameMeaning::Entry(symbol, ty, i, i));
                 }
             }
             (Type::Matrix(rows, columns), _) => {
@@ -127,12 +127,12 @@ fn component(name: &str, scope: &dyn Scope) -> Option<Meaning> {
                     && i < rows
                     && j < columns
                 {
-                    return Some(Meaning::Entry(symbol, ty, i, j));
+                    return Some(NameMeaning::Entry(symbol, ty, i, j));
                 }
             }
             _ => {}
         }
-        out_of_range = Some(Meaning::OutOfRange(base.to_string(), ty));
+        out_of_range = Some(NameMeaning::OutOfRange(base.to_string(), ty));
     }
     out_of_range
 }
@@ -166,47 +166,59 @@ mod tests {
     #[test]
     fn names_resolve_whole_before_components() {
         let find = |name| resolve(name, &Names);
-        assert_eq!(find("gamma"), Some(Meaning::Whole(Symbol(1), Type::VECTOR)), "canonical");
-        assert_eq!(find("γ3"), Some(Meaning::Component(Symbol(1), Type::VECTOR, 2)), "a component");
+        assert_eq!(find("gamma"), Some(NameMeaning::Whole(Symbol(1), Type::VECTOR)), "canonical");
+        assert_eq!(
+            find("γ3"),
+            Some(NameMeaning::Component(Symbol(1), Type::VECTOR, 2)),
+            "a component"
+        );
         assert_eq!(
             find("gamma_1"),
-            Some(Meaning::Component(Symbol(1), Type::VECTOR, 0)),
+            Some(NameMeaning::Component(Symbol(1), Type::VECTOR, 0)),
             "with underscore"
         );
-        assert_eq!(find("γ2"), Some(Meaning::Whole(Symbol(3), Type::Scalar)), "a whole name wins");
+        assert_eq!(
+            find("γ2"),
+            Some(NameMeaning::Whole(Symbol(3), Type::Scalar)),
+            "a whole name wins"
+        );
         assert_eq!(
             find("r'3"),
-            Some(Meaning::Component(Symbol(4), Type::VECTOR, 2)),
+            Some(NameMeaning::Component(Symbol(4), Type::VECTOR, 2)),
             "of a primed vector"
         );
         assert_eq!(
             find("I1"),
-            Some(Meaning::Entry(Symbol(2), Type::MATRIX, 0, 0)),
+            Some(NameMeaning::Entry(Symbol(2), Type::MATRIX, 0, 0)),
             "a diagonal entry"
         );
-        assert_eq!(find("I₁₂"), Some(Meaning::Entry(Symbol(2), Type::MATRIX, 0, 1)), "an entry");
-        assert_eq!(find("E"), Some(Meaning::Identity), "E is the identity");
-        assert_eq!(find("pi"), Some(Meaning::Constant(Constant::Pi)), "π by its name");
-        assert_eq!(find("e"), Some(Meaning::Constant(Constant::Euler)), "Euler's number");
+        assert_eq!(
+            find("I₁₂"),
+            Some(NameMeaning::Entry(Symbol(2), Type::MATRIX, 0, 1)),
+            "an entry"
+        );
+        assert_eq!(find("E"), Some(NameMeaning::Identity), "E is the identity");
+        assert_eq!(find("pi"), Some(NameMeaning::Constant(Constant::Pi)), "π by its name");
+        assert_eq!(find("e"), Some(NameMeaning::Constant(Constant::Euler)), "Euler's number");
     }
 
     #[test]
     fn components_go_as_far_as_the_size() {
         let find = |name| resolve(name, &Names);
         let kind = Type::Vector(12);
-        assert_eq!(find("x9"), Some(Meaning::Component(Symbol(5), kind, 8)), "one digit");
-        assert_eq!(find("x12"), Some(Meaning::Component(Symbol(5), kind, 11)), "two digits");
-        let out = |name: &str, kind| Some(Meaning::OutOfRange(name.into(), kind));
+        assert_eq!(find("x9"), Some(NameMeaning::Component(Symbol(5), kind, 8)), "one digit");
+        assert_eq!(find("x12"), Some(NameMeaning::Component(Symbol(5), kind, 11)), "two digits");
+        let out = |name: &str, kind| Some(NameMeaning::OutOfRange(name.into(), kind));
         assert_eq!(find("x13"), out("x", kind), "too far");
         let kind = Type::Matrix(2, 3);
-        assert_eq!(find("A23"), Some(Meaning::Entry(Symbol(6), kind, 1, 2)), "row, column");
-        assert_eq!(find("A2"), Some(Meaning::Entry(Symbol(6), kind, 1, 1)), "on the diagonal");
+        assert_eq!(find("A23"), Some(NameMeaning::Entry(Symbol(6), kind, 1, 2)), "row, column");
+        assert_eq!(find("A2"), Some(NameMeaning::Entry(Symbol(6), kind, 1, 1)), "on the diagonal");
         assert_eq!((find("A31"), find("A3")), (out("A", kind), out("A", kind)), "too far");
     }
 
     #[test]
     fn components_out_of_range_and_unknown_names_differ() {
-        let out = Meaning::OutOfRange("γ".into(), Type::VECTOR);
+        let out = NameMeaning::OutOfRange("γ".into(), Type::VECTOR);
         assert_eq!(resolve("γ4", &Names), Some(out), "γ has three components");
         assert_eq!(resolve("m1", &Names), None, "a scalar has none");
         assert_eq!(resolve("y", &Names), None, "unknown");

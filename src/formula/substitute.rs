@@ -1,12 +1,12 @@
 //! Substitution of a formula for a name.
 
-use super::arena::{Arena, Function, Node, NodeId, Operation};
+use super::arena::{Arena, ElementaryFunction, Node, NodeId, NodeOperation};
 use super::binders::is_form;
 use super::bond::{Bond, is_signed};
-use super::compose::Composed;
+use super::compose::FormulaResult;
 use super::error::{FormulaError, Span};
 use super::kind::Type;
-use super::lexer::{Kind, tokens};
+use super::lexer::{TokenKind, tokens};
 use super::typing::{Builder, Infix, Operand};
 use super::{Formula, canonical_name, functions};
 
@@ -29,7 +29,7 @@ impl Formula {
     /// # Errors
     /// The types differ, the name stands in an index or in an indexed form such as `sum`, or
     /// something would be divided by zero.
-    pub fn substitute(&self, name: &str, by: &Formula) -> Composed {
+    pub fn substitute(&self, name: &str, by: &Formula) -> FormulaResult {
         let canonical = canonical_name(name);
         let name = canonical.as_deref().unwrap_or(name);
         let Some(slot) = self.arena.names.iter().position(|own| own == name) else {
@@ -61,14 +61,15 @@ impl Formula {
 
     /// Fails where an index of a form could catch a name, and in derivatives.
     fn without_forms(&self) -> Result<(), FormulaError> {
-        let derivative = |node: &&Node| matches!(node.operation, Operation::Partial { .. });
+        let derivative = |node: &&Node| matches!(node.operation, NodeOperation::Partial { .. });
         if let Some(node) = self.arena.nodes.iter().find(derivative) {
             let message = "nothing can be put into a derivative";
             return Err(FormulaError::new(node.span.clone(), message));
         }
         let tokens = tokens(&self.text)?;
         let calls = tokens.iter().zip(tokens.iter().skip(1));
-        let is_call = |kind: Kind, next: Kind| kind == Kind::Name && next == Kind::Open;
+        let is_call =
+            |kind: TokenKind, next: TokenKind| kind == TokenKind::Name && next == TokenKind::Open;
         for (token, _) in calls.filter(|(own, next)| is_call(own.kind, next.kind)) {
             let name = &self.text[token.span.clone()];
             if is_form(name) && !self.arena.names.iter().any(|own| own == name) {
@@ -84,12 +85,12 @@ impl Formula {
         let all = tokens(&self.text)?;
         let mut edits: Vec<Edit> = Vec::new();
         for (node, own) in self.arena.nodes.iter().enumerate() {
-            if own.operation != Operation::Symbol(slot) {
+            if own.operation != NodeOperation::Symbol(slot) {
                 continue;
             }
             // brackets around a name belong to its node
             let place = all.iter().position(|token| {
-                token.kind == Kind::Name
+                token.kind == TokenKind::Name
                     && own.span.start <= token.span.start
                     && token.span.end <= own.span.end
             });
@@ -101,18 +102,24 @@ impl Formula {
             let written = canonical_name(&self.text[span.clone()]);
             let is_whole = written.as_deref() == Some(name);
             let index = match self.arena.nodes.get(node + 1).map(|next| &next.operation) {
-                Some(Operation::Component(_, i)) if !is_whole => format!("[{}]", i + 1),
-                Some(Operation::Entry(_, i, j)) if !is_whole => format!("[{},{}]", i + 1, j + 1),
+                Some(NodeOperation::Component(_, i)) if !is_whole => format!("[{}]", i + 1),
+                Some(NodeOperation::Entry(_, i, j)) if !is_whole => {
+                    format!("[{},{}]", i + 1, j + 1)
+                }
                 _ => String::new(),
             };
             let before = all[..place].last().map(|token| token.kind);
-            let after = all.get(place + 1).map_or(Kind::End, |token| token.kind);
+            let after = all.get(place + 1).map_or(TokenKind::End, |token| token.kind);
             let wants = before.filter(|_| place > 0).map_or(Bond::Sum, |kind| {
-                let starts =
-                    |kind: Kind| matches!(kind, Kind::Open | Kind::OpenSquare | Kind::Comma);
+                let starts = |kind: TokenKind| {
+                    matches!(kind, TokenKind::Open | TokenKind::OpenSquare | TokenKind::Comma)
+                };
                 let is_prefix = place < 2
                     || starts(all[place - 2].kind)
-                    || matches!(all[place - 2].kind, Kind::Times | Kind::Slash | Kind::Caret);
+                    || matches!(
+                        all[place - 2].kind,
+                        TokenKind::Times | TokenKind::Slash | TokenKind::Caret
+                    );
                 behind(kind, is_prefix)
             });
             let wants = if index.is_empty() { wants.max(before_sign(after)) } else { Bond::Whole };
@@ -128,23 +135,26 @@ impl Formula {
 }
 
 /// Bond required behind an operator.
-fn behind(operator: Kind, is_prefix: bool) -> Bond {
+fn behind(operator: TokenKind, is_prefix: bool) -> Bond {
     match operator {
-        Kind::Minus if is_prefix => Bond::Power,
-        Kind::Plus | Kind::Minus => Bond::Cross,
-        Kind::Cross | Kind::Outer => Bond::Product,
-        Kind::Times | Kind::Slash => Bond::Prefix,
-        Kind::Root => Bond::Power,
-        Kind::Caret => Bond::Whole,
+        TokenKind::Minus if is_prefix => Bond::Power,
+        TokenKind::Plus | TokenKind::Minus => Bond::Cross,
+        TokenKind::Cross | TokenKind::Outer => Bond::Product,
+        TokenKind::Times | TokenKind::Slash => Bond::Prefix,
+        TokenKind::Root => Bond::Power,
+        TokenKind::Caret => Bond::Whole,
         _ => Bond::Sum,
     }
 }
 
 /// Bond required before an operator.
-fn before_sign(operator: Kind) -> Bond {
+fn before_sign(operator: TokenKind) -> Bond {
     match operator {
-        Kind::Cross | Kind::Outer | Kind::Times | Kind::Slash => Bond::Product,
-        Kind::Caret | Kind::Superscript | Kind::Transpose | Kind::OpenSquare => Bond::Whole,
+        TokenKind::Cross | TokenKind::Outer | TokenKind::Times | TokenKind::Slash => Bond::Product,
+        TokenKind::Caret
+        | TokenKind::Superscript
+        | TokenKind::Transpose
+        | TokenKind::OpenSquare => Bond::Whole,
         _ => Bond::Sum,
     }
 }
@@ -164,10 +174,10 @@ impl Rebuilding<'_> {
         for own in &self.formula.arena.nodes {
             let span = self.moved(own.span.start, false)..self.moved(own.span.end, true);
             let node = match &own.operation {
-                Operation::Symbol(slot) if *slot == self.slot => {
+                NodeOperation::Symbol(slot) if *slot == self.slot => {
                     self.put(&mut builder, &own.span, span)
                 }
-                Operation::Symbol(slot) => {
+                NodeOperation::Symbol(slot) => {
                     let (symbol, kind) = self.formula.arena.symbols[*slot];
                     let name = || self.formula.arena.names[*slot].clone();
                     builder.arena.push_symbol(symbol, kind, span, name)
@@ -211,7 +221,7 @@ impl Rebuilding<'_> {
             let moved = |place: usize| (place + start).saturating_sub(self.by.leading());
             let span = moved(own.span.start)..moved(own.span.end);
             map.push(match &own.operation {
-                Operation::Symbol(slot) => {
+                NodeOperation::Symbol(slot) => {
                     let (symbol, kind) = self.by.arena.symbols[*slot];
                     let name = || self.by.arena.names[*slot].clone();
                     builder.arena.push_symbol(symbol, kind, span, name)
@@ -228,7 +238,7 @@ impl Rebuilding<'_> {
 /// Appends an operation, as its value where its operands have become numbers.
 fn folded(
     builder: &mut Builder<'_>,
-    operation: &Operation,
+    operation: &NodeOperation,
     kind: Type,
     span: Span,
 ) -> Result<NodeId, FormulaError> {
@@ -240,28 +250,28 @@ fn folded(
         builder.infix(infix, &a, &b).map(|built| built.node)
     };
     let node = match *operation {
-        Operation::Add(a, b) => infix(builder, Infix::Add, a, b)?,
-        Operation::Subtract(a, b) => infix(builder, Infix::Subtract, a, b)?,
-        Operation::Multiply(a, b) => infix(builder, Infix::Multiply, a, b)?,
-        Operation::Divide(a, b) => infix(builder, Infix::Divide, a, b)?,
-        Operation::Negate(a) => {
+        NodeOperation::Add(a, b) => infix(builder, Infix::Add, a, b)?,
+        NodeOperation::Subtract(a, b) => infix(builder, Infix::Subtract, a, b)?,
+        NodeOperation::Multiply(a, b) => infix(builder, Infix::Multiply, a, b)?,
+        NodeOperation::Divide(a, b) => infix(builder, Infix::Divide, a, b)?,
+        NodeOperation::Negate(a) => {
             let a = at(builder, a);
             builder.negate(&a, span.clone()).node
         }
-        Operation::Function(Function::Modulus, a) => {
+        NodeOperation::Function(ElementaryFunction::Modulus, a) => {
             let a = at(builder, a);
             builder.modulus(&a, span.clone())?.node
         }
-        Operation::Extreme(which, ref parts) => {
+        NodeOperation::Extreme(which, ref parts) => {
             let parts: Vec<Operand> = parts.iter().map(|part| at(builder, *part)).collect();
             functions::extreme(builder, which, &parts, span.clone())?.node
         }
-        Operation::Power(a, ref exponent) => {
+        NodeOperation::Power(a, ref exponent) => {
             let a = at(builder, a);
             let exponent_span = a.span.end..span.end;
             builder.constant_power(&a, exponent, exponent_span, span.clone())?.node
         }
-        Operation::PowerOf(a, b) => {
+        NodeOperation::PowerOf(a, b) => {
             let (a, b) = (at(builder, a), at(builder, b));
             builder.power(&a, &b)?.node
         }

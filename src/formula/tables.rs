@@ -8,7 +8,7 @@
 //! M₁ = E,  M_k = A M_(k-1) + c_(k-1) E,  c_k = -tr(A M_k)/k:  det A = (-1)ⁿ cₙ,  adj A = (-1)ⁿ⁻¹ Mₙ
 //! ```
 
-use super::value::Table;
+use super::value::MatrixEntries;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
@@ -22,46 +22,46 @@ pub(super) fn dot<T: Scalar>(a: &[T], b: &[T]) -> T {
 }
 
 /// Product `A v`.
-pub(super) fn apply<T: Scalar>(a: &Table<T>, v: &[T]) -> Vec<T> {
+pub(super) fn apply<T: Scalar>(a: &MatrixEntries<T>, v: &[T]) -> Vec<T> {
     a.entries().chunks(a.columns()).map(|row| dot(row, v)).collect()
 }
 
 /// Product `A B`.
-pub(super) fn compose<T: Scalar>(a: &Table<T>, b: &Table<T>) -> Table<T> {
-    Table::from_fn((a.rows(), b.columns()), |i, j| {
+pub(super) fn compose<T: Scalar>(a: &MatrixEntries<T>, b: &MatrixEntries<T>) -> MatrixEntries<T> {
+    MatrixEntries::from_fn((a.rows(), b.columns()), |i, j| {
         let products = (0..a.columns()).map(|k| a[(i, k)] * b[(k, j)]);
         products.reduce(|sum, product| sum + product).unwrap_or_else(T::zero)
     })
 }
 
 /// Transpose `Aᵀ`.
-pub(super) fn transpose<T: Scalar>(a: &Table<T>) -> Table<T> {
-    Table::from_fn((a.columns(), a.rows()), |i, j| a[(j, i)])
+pub(super) fn transpose<T: Scalar>(a: &MatrixEntries<T>) -> MatrixEntries<T> {
+    MatrixEntries::from_fn((a.columns(), a.rows()), |i, j| a[(j, i)])
 }
 
 /// Outer product `a ⊗ b`.
-pub(super) fn outer<T: Scalar>(a: &[T], b: &[T]) -> Table<T> {
-    Table::from_fn((a.len(), b.len()), |i, j| a[i] * b[j])
+pub(super) fn outer<T: Scalar>(a: &[T], b: &[T]) -> MatrixEntries<T> {
+    MatrixEntries::from_fn((a.len(), b.len()), |i, j| a[i] * b[j])
 }
 
 /// Identity matrix of `n` rows.
-pub(super) fn identity<T: Scalar>(n: usize) -> Table<T> {
-    Table::from_fn((n, n), |i, j| if i == j { T::one() } else { T::zero() })
+pub(super) fn identity<T: Scalar>(n: usize) -> MatrixEntries<T> {
+    MatrixEntries::from_fn((n, n), |i, j| if i == j { T::one() } else { T::zero() })
 }
 
 /// Diagonal matrix with the diagonal `v`.
-pub(super) fn diagonal<T: Scalar>(v: &[T]) -> Table<T> {
-    Table::from_fn((v.len(), v.len()), |i, j| if i == j { v[i] } else { T::zero() })
+pub(super) fn diagonal<T: Scalar>(v: &[T]) -> MatrixEntries<T> {
+    MatrixEntries::from_fn((v.len(), v.len()), |i, j| if i == j { v[i] } else { T::zero() })
 }
 
 /// Trace.
-pub(super) fn trace<T: Scalar>(a: &Table<T>) -> T {
+pub(super) fn trace<T: Scalar>(a: &MatrixEntries<T>) -> T {
     let diagonal = (0..a.rows()).map(|i| a[(i, i)]);
     diagonal.reduce(|sum, entry| sum + entry).unwrap_or_else(T::zero)
 }
 
 /// Power `A^n` for `n ≥ 1`, by repeated squaring.
-pub(super) fn power<T: Scalar>(a: &Table<T>, n: u32) -> Table<T> {
+pub(super) fn power<T: Scalar>(a: &MatrixEntries<T>, n: u32) -> MatrixEntries<T> {
     // from the bit below the leading one down, so that there is no product with the identity
     (0..n.ilog2()).rev().fold(a.clone(), |result, bit| {
         let square = compose(&result, &result);
@@ -70,7 +70,7 @@ pub(super) fn power<T: Scalar>(a: &Table<T>, n: u32) -> Table<T> {
 }
 
 /// Determinant of a square matrix.
-pub(super) fn determinant<T: Scalar>(a: &Table<T>) -> T {
+pub(super) fn determinant<T: Scalar>(a: &MatrixEntries<T>) -> T {
     let n = a.rows();
     if n > MOST_BY_MINORS {
         return by_characteristic_polynomial(a).0;
@@ -80,32 +80,32 @@ pub(super) fn determinant<T: Scalar>(a: &Table<T>) -> T {
 }
 
 /// Adjugate of a square matrix, with `adj(A) A = det(A) E`.
-pub(super) fn adjugate<T: Scalar>(a: &Table<T>) -> Table<T> {
+pub(super) fn adjugate<T: Scalar>(a: &MatrixEntries<T>) -> MatrixEntries<T> {
     let n = a.rows();
     if n > MOST_BY_MINORS {
         return by_characteristic_polynomial(a).1;
     }
     let without = |k: usize| (0..n).filter(|i| *i != k).collect::<Vec<usize>>();
-    Table::from_fn((n, n), |i, j| {
+    MatrixEntries::from_fn((n, n), |i, j| {
         let cofactor = minor(a, &without(j), &without(i));
         if (i + j).is_multiple_of(2) { cofactor } else { -cofactor }
     })
 }
 
 /// Inverse `A⁻¹`, as adjugate over determinant.
-pub(super) fn inverse<T: Scalar>(a: &Table<T>) -> Table<T> {
+pub(super) fn inverse<T: Scalar>(a: &MatrixEntries<T>) -> MatrixEntries<T> {
     let (cofactors, determinant) = (adjugate(a), determinant(a));
-    Table::from_fn((a.rows(), a.rows()), |i, j| cofactors[(i, j)] / determinant)
+    MatrixEntries::from_fn((a.rows(), a.rows()), |i, j| cofactors[(i, j)] / determinant)
 }
 
 /// Solution `A⁻¹ b` of a linear system, by Cramer's rule.
-pub(super) fn solve<T: Scalar>(a: &Table<T>, b: &[T]) -> Vec<T> {
+pub(super) fn solve<T: Scalar>(a: &MatrixEntries<T>, b: &[T]) -> Vec<T> {
     let determinant = determinant(a);
     apply(&adjugate(a), b).into_iter().map(|numerator| numerator / determinant).collect()
 }
 
 /// Minor of some rows and equally many columns, built up row by row from smaller ones.
-fn minor<T: Scalar>(a: &Table<T>, rows: &[usize], columns: &[usize]) -> T {
+fn minor<T: Scalar>(a: &MatrixEntries<T>, rows: &[usize], columns: &[usize]) -> T {
     // minors[set]: the determinant of the first rows with this set of columns
     let mut minors = vec![T::one(); 1 << columns.len()];
     for set in 1usize..minors.len() {
@@ -121,7 +121,7 @@ fn minor<T: Scalar>(a: &Table<T>, rows: &[usize], columns: &[usize]) -> T {
 }
 
 /// Determinant and adjugate, by the characteristic polynomial.
-fn by_characteristic_polynomial<T: Scalar>(a: &Table<T>) -> (T, Table<T>) {
+fn by_characteristic_polynomial<T: Scalar>(a: &MatrixEntries<T>) -> (T, MatrixEntries<T>) {
     let n = a.rows();
     let mut cofactors = identity(n);
     let mut coefficient = T::zero();
@@ -129,14 +129,14 @@ fn by_characteristic_polynomial<T: Scalar>(a: &Table<T>) -> (T, Table<T>) {
         let product = compose(a, &cofactors);
         coefficient = -trace(&product) * T::rational(&Rational::new(1, k as i64));
         if k < n {
-            cofactors = Table::from_fn((n, n), |i, j| {
+            cofactors = MatrixEntries::from_fn((n, n), |i, j| {
                 let entry = product[(i, j)];
                 if i == j { entry + coefficient } else { entry }
             });
         }
     }
     if n.is_multiple_of(2) {
-        (coefficient, Table::from_fn((n, n), |i, j| -cofactors[(i, j)]))
+        (coefficient, MatrixEntries::from_fn((n, n), |i, j| -cofactors[(i, j)]))
     } else {
         (-coefficient, cofactors)
     }
@@ -147,11 +147,11 @@ mod tests {
     use super::*;
     use nalgebra::DMatrix;
 
-    fn sample(n: usize) -> Table<f64> {
-        Table::from_fn((n, n), |i, j| ((3 * i + 5 * j + i * j * j) % 7) as f64 - 2.5)
+    fn sample(n: usize) -> MatrixEntries<f64> {
+        MatrixEntries::from_fn((n, n), |i, j| ((3 * i + 5 * j + i * j * j) % 7) as f64 - 2.5)
     }
 
-    fn dense(a: &Table<f64>) -> DMatrix<f64> {
+    fn dense(a: &MatrixEntries<f64>) -> DMatrix<f64> {
         DMatrix::from_row_slice(a.rows(), a.columns(), a.entries())
     }
 
@@ -175,7 +175,7 @@ mod tests {
 
     #[test]
     fn products_of_oblong_matrices() {
-        let a = Table::from_fn((2, 3), |i, j| (i + 2 * j) as f64);
+        let a = MatrixEntries::from_fn((2, 3), |i, j| (i + 2 * j) as f64);
         let b = transpose(&a);
         assert_eq!(dense(&compose(&a, &b)), dense(&a) * dense(&b), "A Aᵀ");
         assert_eq!(apply(&a, &[1.0, 2.0, 3.0]), [16.0, 22.0], "A v");

@@ -1,6 +1,6 @@
 //! Types of operators and operands: admitted combinations, and errors for the others.
 
-use super::arena::{Arena, NodeId, Operation};
+use super::arena::{Arena, NodeId, NodeOperation};
 use super::error::{FormulaError, Span, excerpt};
 use super::kind::{MAX_COMPONENTS, Type};
 use super::scope::{Scope, Symbol, name_of};
@@ -41,7 +41,7 @@ impl Builder<'_> {
     }
 
     /// Appends an operation.
-    pub fn push(&mut self, operation: Operation, value_type: Type, span: Span) -> Operand {
+    pub fn push(&mut self, operation: NodeOperation, value_type: Type, span: Span) -> Operand {
         let node = self.arena.push(operation, value_type, span.clone());
         Operand { node, value_type, span }
     }
@@ -60,7 +60,7 @@ impl Builder<'_> {
     }
 
     /// Appends an operation, or returns an error if its value is too large.
-    pub fn push_sized(&mut self, operation: Operation, value_type: Type, span: Span) -> Built {
+    pub fn push_sized(&mut self, operation: NodeOperation, value_type: Type, span: Span) -> Built {
         let allowed = |n: usize| n <= MAX_COMPONENTS;
         let fits = match value_type {
             Type::Matrix(rows, columns) => allowed(rows) && allowed(columns),
@@ -77,7 +77,7 @@ impl Builder<'_> {
     /// Appends a scalar operation, or its value if the operands are numbers.
     pub fn push_folded(
         &mut self,
-        operation: Operation,
+        operation: NodeOperation,
         operands: &[NodeId],
         span: Span,
         fold: impl FnOnce(&[&Rational]) -> Option<Rational>,
@@ -94,7 +94,7 @@ impl Builder<'_> {
     /// Whether this is an empty sum, which can be added to any type.
     pub fn is_empty_sum(&self, operand: &Operand) -> bool {
         operand.value_type == Type::Scalar
-            && self.arena.nodes[operand.node].operation == Operation::Zero
+            && self.arena.nodes[operand.node].operation == NodeOperation::Zero
     }
 
     /// Gives empty sums among some values the type of the others.
@@ -103,7 +103,7 @@ impl Builder<'_> {
         let Some(kind) = kinds.find(|kind| *kind != Type::Scalar) else { return };
         for value in values {
             if self.is_empty_sum(value) {
-                *value = self.push(Operation::Zero, kind, value.span.clone());
+                *value = self.push(NodeOperation::Zero, kind, value.span.clone());
             }
         }
     }
@@ -123,7 +123,7 @@ impl Builder<'_> {
         let (left, right, add) = (a.value_type, b.value_type, infix == Infix::Add);
         if left != right && self.is_empty_sum(b) {
             // the value of a formula is its last node
-            return Ok(self.push(Operation::Sum([a.node].into()), left, span));
+            return Ok(self.push(NodeOperation::Sum([a.node].into()), left, span));
         }
         if left != right && self.is_empty_sum(a) {
             let negative = if add { b.clone() } else { self.negate(b, span.clone()) };
@@ -148,8 +148,11 @@ impl Builder<'_> {
             let unit = if rows == 3 { "E".to_string() } else { format!("E({rows})") };
             return Err(error.with_help(format!("write `{}*{unit}`", self.written(scalar))));
         }
-        let operation =
-            if add { Operation::Add(a.node, b.node) } else { Operation::Subtract(a.node, b.node) };
+        let operation = if add {
+            NodeOperation::Add(a.node, b.node)
+        } else {
+            NodeOperation::Subtract(a.node, b.node)
+        };
         if left != Type::Scalar {
             return Ok(self.push(operation, left, span));
         }
@@ -162,17 +165,17 @@ impl Builder<'_> {
         let (x, y) = (a.node, b.node);
         Ok(match (a.value_type, b.value_type) {
             (Scalar, Scalar) => {
-                let operation = Operation::Multiply(x, y);
+                let operation = NodeOperation::Multiply(x, y);
                 let fold = |n: &[&Rational]| Some(n[0] * n[1]);
                 self.push_folded(operation, &[x, y], span, fold)
             }
-            (Scalar, other) => self.push(Operation::Scale(x, y), other, span),
-            (other, Scalar) => self.push(Operation::Scale(y, x), other, span),
+            (Scalar, other) => self.push(NodeOperation::Scale(x, y), other, span),
+            (other, Scalar) => self.push(NodeOperation::Scale(y, x), other, span),
             (Matrix(rows, columns), Vector(length)) if columns == length => {
-                self.push(Operation::Apply(x, y), Vector(rows), span)
+                self.push(NodeOperation::Apply(x, y), Vector(rows), span)
             }
             (Matrix(rows, inner), Matrix(length, columns)) if inner == length => {
-                self.push_sized(Operation::Compose(x, y), Matrix(rows, columns), span)?
+                self.push_sized(NodeOperation::Compose(x, y), Matrix(rows, columns), span)?
             }
             (Vector(_), Vector(_)) => {
                 let (a, b) = (self.written(a), self.written(b));
@@ -211,7 +214,7 @@ impl Builder<'_> {
             let error = FormulaError::new(b.span.clone(), "this divides by zero");
             return Err(error.with_help("write a divisor that is not 0"));
         }
-        let operation = Operation::Divide(a.node, b.node);
+        let operation = NodeOperation::Divide(a.node, b.node);
         if a.value_type != Type::Scalar {
             return Ok(self.push(operation, a.value_type, span));
         }
@@ -224,10 +227,14 @@ impl Builder<'_> {
         let types = (a.value_type, b.value_type);
         if let (Type::Vector(m), Type::Vector(n)) = types {
             if infix == Infix::Outer {
-                return self.push_sized(Operation::Outer(a.node, b.node), Type::Matrix(m, n), span);
+                return self.push_sized(
+                    NodeOperation::Outer(a.node, b.node),
+                    Type::Matrix(m, n),
+                    span,
+                );
             }
             if (m, n) == (3, 3) {
-                return Ok(self.push(Operation::Cross(a.node, b.node), Type::VECTOR, span));
+                return Ok(self.push(NodeOperation::Cross(a.node, b.node), Type::VECTOR, span));
             }
             let wrong = if m == 3 { b } else { a };
             let message =

@@ -1,6 +1,6 @@
 //! Operations on one operand, and the bracketed pair `(a,b)`.
 
-use super::arena::{Function, Operation};
+use super::arena::{ElementaryFunction, NodeOperation};
 use super::error::{FormulaError, Span};
 use super::kind::Type;
 use super::typing::{Builder, Built, Operand};
@@ -23,12 +23,12 @@ impl Builder<'_> {
             );
             return Err(FormulaError::new(span, message));
         }
-        Ok(self.push(Operation::Dot(a.node, b.node), Type::Scalar, span))
+        Ok(self.push(NodeOperation::Dot(a.node, b.node), Type::Scalar, span))
     }
 
     /// Builds `-a`.
     pub fn negate(&mut self, a: &Operand, span: Span) -> Operand {
-        let operation = Operation::Negate(a.node);
+        let operation = NodeOperation::Negate(a.node);
         let node = if a.value_type == Type::Scalar {
             self.arena.push_folded(operation, &[a.node], span.clone(), |n| Some(-n[0]))
         } else {
@@ -40,7 +40,11 @@ impl Builder<'_> {
     /// Builds `√a`.
     pub fn root(&mut self, a: &Operand, span: Span) -> Built {
         if a.value_type == Type::Scalar {
-            return Ok(self.push(Operation::Function(Function::Sqrt, a.node), Type::Scalar, span));
+            return Ok(self.push(
+                NodeOperation::Function(ElementaryFunction::Sqrt, a.node),
+                Type::Scalar,
+                span,
+            ));
         }
         let message = format!("a {} has no square root", a.value_type);
         Err(FormulaError::new(a.span.clone(), message))
@@ -50,11 +54,12 @@ impl Builder<'_> {
     pub fn modulus(&mut self, a: &Operand, span: Span) -> Built {
         Ok(match a.value_type {
             Type::Scalar => {
-                let operation = Operation::Function(Function::Modulus, a.node);
+                let operation = NodeOperation::Function(ElementaryFunction::Modulus, a.node);
                 self.push_folded(operation, &[a.node], span, |n| Some(n[0].abs()))
             }
             Type::Vector(_) => {
-                let square = self.push(Operation::Dot(a.node, a.node), Type::Scalar, span.clone());
+                let square =
+                    self.push(NodeOperation::Dot(a.node, a.node), Type::Scalar, span.clone());
                 self.root(&square, span)?
             }
             Type::Matrix(..) => {
@@ -68,7 +73,7 @@ impl Builder<'_> {
     pub fn transpose(&mut self, a: &Operand, span: Span) -> Built {
         if let Type::Matrix(rows, columns) = a.value_type {
             let kind = Type::Matrix(columns, rows);
-            return Ok(self.push(Operation::Transpose(a.node), kind, span));
+            return Ok(self.push(NodeOperation::Transpose(a.node), kind, span));
         }
         let message = format!("only a matrix is transposed, this is a {}", a.value_type);
         let error = FormulaError::new(a.span.clone(), message);
@@ -92,15 +97,15 @@ impl Builder<'_> {
         match (a.value_type, indices) {
             (Type::Vector(length), [i]) => {
                 let i = within(i, length, "component")?;
-                Ok(self.push(Operation::Component(a.node, i), Type::Scalar, span))
+                Ok(self.push(NodeOperation::Component(a.node, i), Type::Scalar, span))
             }
             (Type::Matrix(rows, columns), [i]) => {
                 let i = within(i, rows, "row")?;
-                Ok(self.push(Operation::Row(a.node, i), Type::Vector(columns), span))
+                Ok(self.push(NodeOperation::Row(a.node, i), Type::Vector(columns), span))
             }
             (Type::Matrix(rows, columns), [i, j]) => {
                 let (i, j) = (within(i, rows, "row")?, within(j, columns, "column")?);
-                Ok(self.push(Operation::Entry(a.node, i, j), Type::Scalar, span))
+                Ok(self.push(NodeOperation::Entry(a.node, i, j), Type::Scalar, span))
             }
             (Type::Vector(_), _) => {
                 let error = FormulaError::new(brackets, "a vector has one index");
@@ -122,7 +127,7 @@ impl Builder<'_> {
             return Err(FormulaError::new(wrong.span.clone(), message).with_help(help));
         }
         let nodes = parts.iter().map(|part| part.node).collect();
-        self.push_sized(Operation::Vector(nodes), Type::Vector(parts.len()), span)
+        self.push_sized(NodeOperation::Vector(nodes), Type::Vector(parts.len()), span)
     }
 
     /// Builds the matrix with these vectors as rows.
@@ -140,6 +145,6 @@ impl Builder<'_> {
             return Err(FormulaError::new(wrong.span.clone(), message));
         }
         let nodes = rows.iter().map(|row| row.node).collect();
-        self.push_sized(Operation::Rows(nodes), Type::Matrix(rows.len(), first.size()), span)
+        self.push_sized(NodeOperation::Rows(nodes), Type::Matrix(rows.len(), first.size()), span)
     }
 }

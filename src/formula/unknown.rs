@@ -1,7 +1,7 @@
 //! Unknown names and suggestions for them.
 
 use super::error::{FormulaError, Span, excerpt};
-use super::lexer::Kind;
+use super::lexer::TokenKind;
 use super::names::{canonical_name, spelled_names};
 use super::parser::Parser;
 use super::scope::resolve;
@@ -54,7 +54,7 @@ const BOOKS: [(&[&str], &str); 3] = [
 impl Parser<'_> {
     /// The error for an unknown name.
     pub(super) fn unknown_name(&self, name: &str, span: Span) -> FormulaError {
-        let called = self.peek() == Kind::Open;
+        let called = self.peek() == TokenKind::Open;
         let kind = if called { "function" } else { "name" };
         let error = FormulaError::new(span.clone(), format!("unknown {kind} `{}`", excerpt(name)))
             .with_unknown(name);

@@ -21,18 +21,18 @@ pub enum Value<T> {
     /// A vector of another length.
     List(Rc<[T]>),
     /// A matrix of another size.
-    Table(Table<T>),
+    Table(MatrixEntries<T>),
 }
 
 /// Entries of a matrix of any size, row by row.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Table<T> {
+pub struct MatrixEntries<T> {
     rows: usize,
     columns: usize,
     entries: Rc<[T]>,
 }
 
-impl<T> Table<T> {
+impl<T> MatrixEntries<T> {
     /// Builds a matrix of the given size entry by entry.
     pub(super) fn from_fn(
         (rows, columns): (usize, usize),
@@ -59,7 +59,7 @@ impl<T> Table<T> {
     }
 }
 
-impl<T> std::ops::Index<(usize, usize)> for Table<T> {
+impl<T> std::ops::Index<(usize, usize)> for MatrixEntries<T> {
     type Output = T;
 
     /// Entry in a row and a column, both counted from 0.
@@ -106,9 +106,9 @@ impl<T: Copy> Value<T> {
             Value::Vector(value) => Value::Vector(vector(value.data.0[0].map(f))),
             Value::Matrix(value) => Value::Matrix(matrix(rows(value).map(f))),
             Value::List(list) => Value::List(list.iter().map(|x| f(*x)).collect()),
-            Value::Table(Table { rows, columns, entries }) => {
+            Value::Table(MatrixEntries { rows, columns, entries }) => {
                 let entries = entries.iter().map(|x| f(*x)).collect();
-                Value::Table(Table { rows: *rows, columns: *columns, entries })
+                Value::Table(MatrixEntries { rows: *rows, columns: *columns, entries })
             }
         }
     }
@@ -137,7 +137,7 @@ impl<T: Copy> Value<T> {
             Type::Vector(length) => Value::List(components[..length].into()),
             Type::Matrix(rows, columns) => {
                 let entries = components[..rows * columns].into();
-                Value::Table(Table { rows, columns, entries })
+                Value::Table(MatrixEntries { rows, columns, entries })
             }
         }
     }
@@ -178,7 +178,7 @@ mod tests {
     #[test]
     fn map_visits_the_components_in_order() {
         let matrix = Value::Matrix(Matrix3::new(1, 2, 3, 4, 5, 6, 7, 8, 9));
-        let table = Value::Table(Table::from_fn((2, 4), |i, j| (10 * i + j) as i32));
+        let table = Value::Table(MatrixEntries::from_fn((2, 4), |i, j| (10 * i + j) as i32));
         for value in [matrix, table] {
             let mut seen = Vec::new();
             let doubled = value.map(|x| {
@@ -194,7 +194,7 @@ mod tests {
     fn values_open_only_as_what_they_are() {
         assert_eq!(Value::Scalar(1).vector(), None, "a scalar is no vector");
         assert_eq!(Value::Scalar(1).scalar(), Some(1), "but a scalar");
-        let table = Table::from_fn((2, 3), |i, j| 10 * i + j);
+        let table = MatrixEntries::from_fn((2, 3), |i, j| 10 * i + j);
         assert_eq!((table.rows(), table.columns(), table[(1, 2)]), (2, 3, 12), "its last entry");
     }
 }

@@ -10,13 +10,13 @@ pub type Weight = Rational;
 
 /// A weight that may depend on weights not yet known: `constant + Σ factor · unknown`.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Form {
+pub(super) struct LinearWeight {
     constant: Rational,
     /// Factors by unknown; none is zero.
     factors: BTreeMap<usize, Rational>,
 }
 
-impl Form {
+impl LinearWeight {
     pub fn constant(constant: Rational) -> Self {
         Self { constant, factors: BTreeMap::new() }
     }
@@ -26,7 +26,7 @@ impl Form {
     }
 
     /// Returns `self + factor · other`.
-    pub fn plus(mut self, other: &Form, factor: &Rational) -> Self {
+    pub fn plus(mut self, other: &LinearWeight, factor: &Rational) -> Self {
         self.constant = &self.constant + &(&other.constant * factor);
         for (unknown, its) in &other.factors {
             let added = its * factor;
@@ -61,7 +61,7 @@ pub struct WeightSystem {
     symbols: BTreeMap<Symbol, usize>,
     unknowns: usize,
     /// Unknowns expressed in unknowns of smaller number.
-    solved: BTreeMap<usize, Form>,
+    solved: BTreeMap<usize, LinearWeight>,
 }
 
 impl WeightSystem {
@@ -79,15 +79,18 @@ impl WeightSystem {
     pub fn set(&mut self, symbol: Symbol, weight: Rational) {
         let symbol = self.symbol(symbol);
         // a contradiction leaves the system as it was
-        let _ = self.equate(&symbol, &Form::constant(weight));
+        let _ = self.equate(&symbol, &LinearWeight::constant(weight));
     }
 
     /// Weight of a symbol, if it is declared or implied by the formulas checked so far.
     pub fn get(&self, symbol: Symbol) -> Option<Weight> {
         let unknown = *self.symbols.get(&symbol)?;
-        self.reduced(Form { factors: [(unknown, Rational::from(1))].into(), ..Form::zero() })
-            .known()
-            .cloned()
+        self.reduced(LinearWeight {
+            factors: [(unknown, Rational::from(1))].into(),
+            ..LinearWeight::zero()
+        })
+        .known()
+        .cloned()
     }
 
     /// Name of the base dimension.
@@ -96,7 +99,7 @@ impl WeightSystem {
     }
 
     /// Weight of a symbol, known or not.
-    pub(super) fn symbol(&mut self, symbol: Symbol) -> Form {
+    pub(super) fn symbol(&mut self, symbol: Symbol) -> LinearWeight {
         let next = &mut self.unknowns;
         let unknown = *self.symbols.entry(symbol).or_insert_with(|| {
             *next += 1;
@@ -106,13 +109,13 @@ impl WeightSystem {
     }
 
     /// A new unknown weight.
-    pub(super) fn fresh(&mut self) -> Form {
+    pub(super) fn fresh(&mut self) -> LinearWeight {
         self.unknowns += 1;
         variable(self.unknowns - 1)
     }
 
     /// Substitutes everything known into a weight.
-    pub(super) fn reduced(&self, mut form: Form) -> Form {
+    pub(super) fn reduced(&self, mut form: LinearWeight) -> LinearWeight {
         let mut free = BTreeMap::new();
         // solutions contain smaller unknowns only, so the largest is never met again
         while let Some((unknown, factor)) = form.factors.pop_last() {
@@ -123,11 +126,15 @@ impl WeightSystem {
                 }
             }
         }
-        Form { constant: form.constant, factors: free }
+        LinearWeight { constant: form.constant, factors: free }
     }
 
     /// Adds the equation `left = right`; `Err` with the difference if it contradicts others.
-    pub(super) fn equate(&mut self, left: &Form, right: &Form) -> Result<(), Weight> {
+    pub(super) fn equate(
+        &mut self,
+        left: &LinearWeight,
+        right: &LinearWeight,
+    ) -> Result<(), Weight> {
         let minus = Rational::from(-1);
         let mut difference = self.reduced(left.clone().plus(right, &minus));
         let Some((unknown, factor)) = difference.factors.pop_last() else {
@@ -141,8 +148,8 @@ impl WeightSystem {
     }
 }
 
-fn variable(unknown: usize) -> Form {
-    Form { constant: Rational::from(0), factors: [(unknown, Rational::from(1))].into() }
+fn variable(unknown: usize) -> LinearWeight {
+    LinearWeight { constant: Rational::from(0), factors: [(unknown, Rational::from(1))].into() }
 }
 
 #[cfg(test)]
@@ -155,7 +162,7 @@ mod tests {
         let one = Rational::from(1);
         let (x, y) = (system.symbol(Symbol(0)), system.symbol(Symbol(1)));
         let sum = x.clone().plus(&y, &one);
-        assert_eq!(system.equate(&sum, &Form::constant(3.into())), Ok(()), "x + y = 3");
+        assert_eq!(system.equate(&sum, &LinearWeight::constant(3.into())), Ok(()), "x + y = 3");
         assert_eq!(system.get(Symbol(0)), None, "not determined yet");
         assert_eq!(system.equate(&x, &y.times(&Rational::from(2))), Ok(()), "x = 2y");
         assert_eq!(system.get(Symbol(0)), Some(Rational::from(2)), "x");

@@ -1,7 +1,7 @@
 //! Whole numbers that a file fixes: indices, bounds and sizes, and conditions between them.
 
 use super::error::{FormulaError, Span};
-use super::lexer::Kind;
+use super::lexer::TokenKind;
 use super::names::canonical_name;
 use super::parser::{Parser, SUM};
 use super::typing::Operand;
@@ -11,11 +11,11 @@ impl Parser<'_> {
     pub(super) fn condition(&mut self) -> Result<bool, FormulaError> {
         let (mut left, start) = self.whole("a side of a condition")?;
         let mut holds = true;
-        if self.peek() != Kind::Comparison {
+        if self.peek() != TokenKind::Comparison {
             let error = FormulaError::new(start, "a condition is missing here");
             return Err(error.with_help("write `i = j`, `i ≠ j`, `i < j` or the like"));
         }
-        while self.peek() == Kind::Comparison {
+        while self.peek() == TokenKind::Comparison {
             let sign = self.advance();
             let (right, _) = self.whole("a side of a condition")?;
             holds &= match self.text(&sign) {
@@ -57,7 +57,9 @@ impl Parser<'_> {
 
     /// Whether the next token is the `mod` of an index.
     pub(super) fn is_modulo(&self) -> bool {
-        self.whole_numbers && self.peek() == Kind::Name && self.text(&self.token().span) == "mod"
+        self.whole_numbers
+            && self.peek() == TokenKind::Name
+            && self.text(&self.token().span) == "mod"
     }
 
     fn taken(&mut self, operand: &Operand, what: &str) -> Result<(i64, Span), FormulaError> {

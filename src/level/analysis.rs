@@ -5,13 +5,13 @@
 //! are free. The graph shows which entries of the equations' derivatives are free of which
 //! components.
 
+use super::derivatives::{EquationDerivatives, MOST_COMPONENTS, Set, bit, members};
 use super::equation::Equation;
-use super::look::{Look, MOST_COMPONENTS, Set, bit, members};
 use super::quadric::Quadric;
 use super::solution::Solution;
-use super::steps::{Step, choices};
+use super::steps::{SolutionStep, choices};
 use crate::graph::Expr;
-use crate::mechanics::{Model, Origin, components};
+use crate::mechanics::{Model, ParameterOrigin, components};
 
 /// Largest number of equations of a level.
 const MOST_EQUATIONS: usize = 16;
@@ -28,36 +28,36 @@ pub fn solve(model: &Model, kept: &[bool]) -> Option<Solution> {
         return None;
     }
     let looks = |is_squared: bool| {
-        let all: Option<Vec<Look>> = equations
+        let all: Option<Vec<EquationDerivatives>> = equations
             .iter()
             .map(|index| {
                 let is_squared = is_squared && model.level[*index].root.is_some();
-                Look::at(model, Equation { index: *index, is_squared })
+                EquationDerivatives::at(model, Equation { index: *index, is_squared })
             })
             .collect();
         all
     };
     // √A = e is solved as A = e² where it cannot be solved as it stands.
-    let plain = looks(false).and_then(|looks| Search::of(model, looks).steps());
+    let plain = looks(false).and_then(|looks| OrderSearch::of(model, looks).steps());
     let steps = plain.or_else(|| {
         let has_roots = equations.iter().any(|index| model.level[*index].root.is_some());
-        Search::of(model, looks(true).filter(|_| has_roots)?).steps()
+        OrderSearch::of(model, looks(true).filter(|_| has_roots)?).steps()
     })?;
     Some(Solution { steps })
 }
 
 /// The search for an order of solution.
-struct Search<'m> {
+struct OrderSearch<'m> {
     model: &'m Model,
-    looks: Vec<Look>,
+    looks: Vec<EquationDerivatives>,
 }
 
-impl<'m> Search<'m> {
-    fn of(model: &'m Model, looks: Vec<Look>) -> Self {
+impl<'m> OrderSearch<'m> {
+    fn of(model: &'m Model, looks: Vec<EquationDerivatives>) -> Self {
         Self { model, looks }
     }
 
-    fn steps(&self) -> Option<Vec<Step>> {
+    fn steps(&self) -> Option<Vec<SolutionStep>> {
         let mut left: Vec<usize> = (0..self.looks.len()).collect();
         // Components that are solved for, or free because an equation was solved for another
         // component.
@@ -80,7 +80,7 @@ impl<'m> Search<'m> {
                     let (index, component) = self.parameter(&left)?;
                     let equation = self.looks[index].equation;
                     let block = unknown(&index);
-                    (block, vec![index], Step::Parameter { equation, component })
+                    (block, vec![index], SolutionStep::Parameter { equation, component })
                 }
             };
             settled |= block;
@@ -89,22 +89,28 @@ impl<'m> Search<'m> {
             steps.push(step);
         }
         // A parameter that is solved for depends on the whole state: it comes last.
-        let is_parameter = |step: &Step| matches!(step, Step::Parameter { .. });
-        let (parameters, mut others): (Vec<Step>, Vec<Step>) =
+        let is_parameter = |step: &SolutionStep| matches!(step, SolutionStep::Parameter { .. });
+        let (parameters, mut others): (Vec<SolutionStep>, Vec<SolutionStep>) =
             steps.into_iter().partition(is_parameter);
         others.extend(parameters);
         Some(others)
     }
 
     /// Finds a step that solves a block of equations for the same number of its unknowns.
-    fn step(&self, block: &[usize], unknown: Set, settled: Set, solved: Set) -> Option<Step> {
+    fn step(
+        &self,
+        block: &[usize],
+        unknown: Set,
+        settled: Set,
+        solved: Set,
+    ) -> Option<SolutionStep> {
         let count = block.len();
         if count > MOST_TOGETHER || count > unknown.count_ones() as usize {
             return None;
         }
         let choices = choices(&members(unknown), count, MOST_CHOICES);
-        let mut best: Option<(u32, Step)> = None;
-        let mut offer = |cost: u32, step: Step| {
+        let mut best: Option<(u32, SolutionStep)> = None;
+        let mut offer = |cost: u32, step: SolutionStep| {
             if best.as_ref().is_none_or(|(least, _)| cost < *least) {
                 best = Some((cost, step));
             }
@@ -115,7 +121,7 @@ impl<'m> Search<'m> {
             if let Some(cost) = self.linear_cost(block, &chosen, set, solved) {
                 let all = self.linear_together(block, set, unknown);
                 let equations = block.iter().map(|index| self.looks[*index].equation).collect();
-                offer(cost, Step::Linear { equations, components: chosen, all });
+                offer(cost, SolutionStep::Linear { equations, components: chosen, all });
             } else if let Some(step) = self.quadratic(block, chosen, set, unknown) {
                 offer(20, step);
             }
@@ -141,7 +147,9 @@ impl<'m> Search<'m> {
                 chosen.iter().map(move |k| (look, look.slopes[*k]))
             })
         };
-        let is_number = |(look, slope): (&Look, Expr)| look.graph.constant_value(slope).is_some();
+        let is_number = |(look, slope): (&EquationDerivatives, Expr)| {
+            look.graph.constant_value(slope).is_some()
+        };
         if slopes().all(is_number) {
             return Some(1);
         }
@@ -186,7 +194,7 @@ impl<'m> Search<'m> {
         chosen: Vec<usize>,
         set: Set,
         unknown: Set,
-    ) -> Option<Step> {
+    ) -> Option<SolutionStep> {
         let is_linear = |index: &usize| self.looks[*index].is_linear_in(set);
         let (linear, others): (Vec<usize>, Vec<usize>) = block.iter().partition(|k| is_linear(k));
         let [last] = others[..] else { return None };
@@ -214,11 +222,11 @@ impl<'m> Search<'m> {
             && linear.iter().all(|index| self.looks[*index].is_linear_in(together));
         let linear = linear.iter().map(|index| self.looks[*index].equation).collect();
         let quadratic = look.equation;
-        Some(Step::Quadratic { linear, quadratic, components, all, is_of_degree_2 })
+        Some(SolutionStep::Quadratic { linear, quadratic, components, all, is_of_degree_2 })
     }
 
     /// Finds a step for a quadric that has a rational point on an axis and unknown components only.
-    fn quadric(&self, index: usize, unknown: Set, settled: Set) -> Option<Step> {
+    fn quadric(&self, index: usize, unknown: Set, settled: Set) -> Option<SolutionStep> {
         let look = &self.looks[index];
         let contained = look.contained();
         if contained != unknown || contained & settled != 0 {
@@ -230,7 +238,7 @@ impl<'m> Search<'m> {
         let (axis, point) = found?;
         let last = components.remove(axis);
         components.push(last);
-        Some(Step::Quadric { equation: look.equation, components, point })
+        Some(SolutionStep::Quadric { equation: look.equation, components, point })
     }
 
     /// Finds a remaining equation with a scalar parameter that enters it linearly, with a constant
@@ -240,8 +248,9 @@ impl<'m> Search<'m> {
         left.iter().find_map(|index| {
             let look = &self.looks[*index];
             let usable = |(k, slope): &&(usize, Expr)| {
-                let elsewhere =
-                    |other: &Look| other.equation != look.equation && other.parameters.contains(k);
+                let elsewhere = |other: &EquationDerivatives| {
+                    other.equation != look.equation && other.parameters.contains(k)
+                };
                 is_scalar.contains(k)
                     && look.graph.constant_value(*slope).is_some_and(|slope| !slope.is_zero())
                     && !self.looks.iter().any(elsewhere)
@@ -254,11 +263,11 @@ impl<'m> Search<'m> {
 
 /// Returns the components of the free parameters that are scalars drawn from a range.
 fn scalar_components(model: &Model) -> Vec<usize> {
-    use crate::mechanics::{Draw, Recipe};
+    use crate::mechanics::{Draw, SamplerSpec};
     let mut start = 0;
     let mut found = Vec::new();
     for parameter in model.free_parameters() {
-        if let Origin::Free(Recipe::Scalar(Draw::Within(_))) = &parameter.origin {
+        if let ParameterOrigin::Free(SamplerSpec::Scalar(Draw::Within(_))) = &parameter.origin {
             found.push(start);
         }
         start += components(parameter.kind);

@@ -45,7 +45,7 @@ impl Equation {
 
 /// A point of the level under construction.
 #[derive(Clone)]
-pub struct Point<'m> {
+pub struct PartialPoint<'m> {
     /// Model of the system.
     pub model: &'m Model,
     /// Components of the free parameters.
@@ -54,7 +54,7 @@ pub struct Point<'m> {
     pub state: Vec<Expr>,
 }
 
-impl Point<'_> {
+impl PartialPoint<'_> {
     fn phase<T: Scalar>(&self, lift: impl Fn(Expr) -> T, state: &[T]) -> Phase<'_, T> {
         let parameters: Vec<T> = self.parameters.iter().map(|x| lift(*x)).collect();
         Phase::new(self.model, &parameters, state)

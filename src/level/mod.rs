@@ -13,8 +13,8 @@
 //! no part of a level is missed.
 
 mod analysis;
+mod derivatives;
 mod equation;
-mod look;
 mod newton;
 mod quadric;
 mod solution;

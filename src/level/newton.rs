@@ -7,7 +7,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::graph::{Evaluator, Expr, Fault, Graph, Tape, record};
-use crate::mechanics::calculus::Jet;
+use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{LevelFunction, Model, Phase};
 use crate::number::ball::{Ball, Balls};
 use crate::number::float::Float;
@@ -42,7 +42,7 @@ impl Newton {
             .collect();
         let (graph, (values, slopes)) = record(parameters + dimension, |inputs| {
             let (parameters, state) = inputs.split_at(parameters);
-            let jet = Jet::new(Phase::new(model, parameters, state));
+            let jet = DualPoint::new(Phase::new(model, parameters, state));
             let values: Vec<Expr> = functions.iter().map(|f| jet.phase.level_function(f)).collect();
             let slopes = functions.iter().flat_map(|f| jet.gradient(|at| at.level_function(f)));
             (values, slopes.collect::<Vec<Expr>>())

@@ -1,15 +1,15 @@
 //! A solved level: its steps, and the points they make.
 
-use super::equation::Point;
-use super::steps::{Pivot, Step};
+use super::equation::PartialPoint;
+use super::steps::{Pivot, SolutionStep};
 use crate::graph::Expr;
-use crate::mechanics::{Draw, Line, Model, Phase, Range};
-use crate::proof::Fact;
+use crate::mechanics::{Draw, Model, NumberLine, Phase, Range};
+use crate::proof::SignFact;
 
 /// A sequence of steps that makes points of a level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
-    pub(super) steps: Vec<Step>,
+    pub(super) steps: Vec<SolutionStep>,
 }
 
 /// A recorded point of a level.
@@ -17,7 +17,7 @@ pub struct Solved {
     /// Components of the free parameters, followed by those of the state.
     pub made: Vec<Expr>,
     /// Signs of values at the point.
-    pub facts: Vec<(Expr, Fact)>,
+    pub facts: Vec<(Expr, SignFact)>,
     /// Values that must not vanish at any real point, or part of the level is missed.
     pub pivots: Vec<Pivot>,
 }
@@ -25,7 +25,7 @@ pub struct Solved {
 impl Solution {
     /// Number of roots, each with two signs.
     pub fn signs(&self) -> usize {
-        self.steps.iter().filter(|step| matches!(step, Step::Quadratic { .. })).count()
+        self.steps.iter().filter(|step| matches!(step, SolutionStep::Quadratic { .. })).count()
     }
 
     /// Returns the components of the state that are solved for rather than drawn.
@@ -35,8 +35,8 @@ impl Solution {
 
     /// Returns the components of the free parameters that are solved for.
     pub fn parameters(&self) -> Vec<usize> {
-        let component = |step: &Step| match step {
-            Step::Parameter { component, .. } => Some(*component),
+        let component = |step: &SolutionStep| match step {
+            SolutionStep::Parameter { component, .. } => Some(*component),
             _ => None,
         };
         self.steps.iter().filter_map(component).collect()
@@ -46,10 +46,10 @@ impl Solution {
     pub fn draws(&self, free: &[Draw]) -> Vec<Draw> {
         let mut draws = free.to_vec();
         for step in &self.steps {
-            let Step::Quadric { components, .. } = step else { continue };
+            let SolutionStep::Quadric { components, .. } = step else { continue };
             // The directions of lines through the rational point.
             for component in &components[..components.len() - 1] {
-                draws[*component] = Draw::Of(Line::All, Range::between((-8, 5), (8, 5)));
+                draws[*component] = Draw::Of(NumberLine::All, Range::between((-8, 5), (8, 5)));
             }
         }
         draws.extend(vec![Draw::Sign; self.signs()]);
@@ -59,7 +59,7 @@ impl Solution {
     /// Returns the values that must not vanish at any point of the level, from the coordinates of
     /// the point and the free parameters.
     pub fn pivots(&self, model: &Model, parameters: &[Expr], state: &[Expr]) -> Vec<Pivot> {
-        let point = Point { model, parameters: parameters.to_vec(), state: state.to_vec() };
+        let point = PartialPoint { model, parameters: parameters.to_vec(), state: state.to_vec() };
         self.steps.iter().filter_map(|step| step.pivot(&point)).collect()
     }
 
@@ -67,19 +67,19 @@ impl Solution {
     pub fn point(&self, model: &Model, parameters: Vec<Expr>, draws: &[Expr]) -> Solved {
         let (state, signs) = draws.split_at(model.dimension());
         let mut signs = signs.iter().copied();
-        let mut point = Point { model, parameters, state: state.to_vec() };
+        let mut point = PartialPoint { model, parameters, state: state.to_vec() };
         let mut pivots = Vec::new();
         for step in &self.steps {
             let sign = match step {
-                Step::Quadratic { .. } => signs.next(),
+                SolutionStep::Quadratic { .. } => signs.next(),
                 _ => None,
             };
             pivots.extend(step.complete(&mut point, sign));
         }
         let phase = Phase::new(model, &point.parameters, &point.state);
-        let equations = self.steps.iter().flat_map(Step::equations);
+        let equations = self.steps.iter().flat_map(SolutionStep::equations);
         let facts = equations.filter_map(|equation| equation.other_side(&phase));
-        let facts = facts.map(|value| (value, Fact::NotNegative)).collect();
+        let facts = facts.map(|value| (value, SignFact::NotNegative)).collect();
         let made = point.parameters.iter().chain(&point.state).copied().collect();
         Solved { made, facts, pivots }
     }

@@ -3,7 +3,7 @@
 use num_dual::DualNum;
 use num_traits::{One, Zero};
 
-use super::equation::{Equation, Point, determinant};
+use super::equation::{Equation, PartialPoint, determinant};
 use crate::graph::Expr;
 use crate::mechanics::calculus::gram_determinant;
 use crate::number::rational::Rational;
@@ -14,7 +14,7 @@ const MOST_MINORS: usize = 40;
 
 /// A step that solves equations together, for the same number of components of the state.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Step {
+pub enum SolutionStep {
     /// An equation of degree 2 with constant coefficients.
     Quadric {
         /// Equation to solve.
@@ -75,36 +75,38 @@ pub struct Pivot {
     pub components: Vec<usize>,
 }
 
-impl Step {
+impl SolutionStep {
     /// Returns the components of the state that the step makes.
     pub fn components(&self) -> &[usize] {
         match self {
-            Step::Quadric { components, .. }
-            | Step::Linear { components, .. }
-            | Step::Quadratic { components, .. } => components,
-            Step::Parameter { .. } => &[],
+            SolutionStep::Quadric { components, .. }
+            | SolutionStep::Linear { components, .. }
+            | SolutionStep::Quadratic { components, .. } => components,
+            SolutionStep::Parameter { .. } => &[],
         }
     }
 
     /// Returns the equations that the step solves.
     pub fn equations(&self) -> Vec<Equation> {
         match self {
-            Step::Quadric { equation, .. } | Step::Parameter { equation, .. } => vec![*equation],
-            Step::Linear { equations, .. } => equations.clone(),
-            Step::Quadratic { linear, quadratic, .. } => {
+            SolutionStep::Quadric { equation, .. } | SolutionStep::Parameter { equation, .. } => {
+                vec![*equation]
+            }
+            SolutionStep::Linear { equations, .. } => equations.clone(),
+            SolutionStep::Quadratic { linear, quadratic, .. } => {
                 linear.iter().copied().chain([*quadratic]).collect()
             }
         }
     }
 
     /// Returns the pivot at a point of the level, from its coordinates.
-    pub fn pivot(&self, point: &Point<'_>) -> Option<Pivot> {
+    pub fn pivot(&self, point: &PartialPoint<'_>) -> Option<Pivot> {
         let mut completed = point.clone();
         let pivot = self.complete(&mut completed, None)?;
         // The slopes of a linear step do not depend on its results; a quadratic step has taken a
         // root.
         Some(match self {
-            Step::Quadratic { linear, quadratic, all, is_of_degree_2, .. } => {
+            SolutionStep::Quadratic { linear, quadratic, all, is_of_degree_2, .. } => {
                 let equations = self.equations();
                 let mut rows: Vec<Vec<Expr>> =
                     equations.iter().map(|equation| point.slopes(*equation, all)).collect();
@@ -120,16 +122,16 @@ impl Step {
     }
 
     /// Completes a point and returns the pivot if it may vanish; `sign` chooses a root.
-    pub fn complete(&self, point: &mut Point<'_>, sign: Option<Expr>) -> Option<Pivot> {
+    pub fn complete(&self, point: &mut PartialPoint<'_>, sign: Option<Expr>) -> Option<Pivot> {
         match self {
-            Step::Quadric { equation, components, point: start } => {
+            SolutionStep::Quadric { equation, components, point: start } => {
                 quadric(point, *equation, components, start);
                 None
             }
-            Step::Linear { equations, components, all } => {
+            SolutionStep::Linear { equations, components, all } => {
                 Some(linear(point, equations, components, all))
             }
-            Step::Quadratic { linear, quadratic, components, all, .. } => {
+            SolutionStep::Quadratic { linear, quadratic, components, all, .. } => {
                 let equations: Vec<Equation> = linear.iter().copied().chain([*quadratic]).collect();
                 let whole = quadratic_step(point, linear, *quadratic, components, sign);
                 // Where the equations are independent, there are nearby points with a nonzero
@@ -146,7 +148,7 @@ impl Step {
                     components: components.clone(),
                 })
             }
-            Step::Parameter { equation, component } => {
+            SolutionStep::Parameter { equation, component } => {
                 point.parameters[*component] = Expr::zero();
                 let slope = point.parameter_slope(*equation, *component);
                 point.parameters[*component] = -(point.value(*equation) / slope);
@@ -157,7 +159,12 @@ impl Step {
 }
 
 /// Makes x₀ − 2B(x₀,u)/q(u) · u for the direction u in the components, 1 along the axis.
-fn quadric(point: &mut Point<'_>, equation: Equation, components: &[usize], start: &Rational) {
+fn quadric(
+    point: &mut PartialPoint<'_>,
+    equation: Equation,
+    components: &[usize],
+    start: &Rational,
+) {
     let Some((axis, others)) = components.split_last() else { return };
     let mut direction: Vec<(usize, Expr)> =
         others.iter().map(|component| (*component, point.state[*component])).collect();
@@ -176,7 +183,7 @@ fn quadric(point: &mut Point<'_>, equation: Equation, components: &[usize], star
 
 /// Returns the matrix and the constant terms of equations that are linear in some components.
 fn system(
-    point: &mut Point<'_>,
+    point: &mut PartialPoint<'_>,
     equations: &[Equation],
     components: &[usize],
 ) -> (Vec<Vec<Expr>>, Vec<Expr>) {
@@ -192,7 +199,7 @@ fn system(
 /// point of the level: for F = q(x) + (l,x) + c this is 2q + (l,x) = 2F − 2c − (l,x), and F = 0
 /// there.
 fn along_itself(
-    point: &Point<'_>,
+    point: &PartialPoint<'_>,
     linear: &[Equation],
     quadratic: Equation,
     components: &[usize],
@@ -261,7 +268,7 @@ fn solved(rows: &[Vec<Expr>], rest: &[Expr]) -> Vec<Expr> {
 }
 
 fn linear(
-    point: &mut Point<'_>,
+    point: &mut PartialPoint<'_>,
     equations: &[Equation],
     components: &[usize],
     all: &[usize],
@@ -291,7 +298,7 @@ fn linear(
 }
 
 fn quadratic_step(
-    point: &mut Point<'_>,
+    point: &mut PartialPoint<'_>,
     linear: &[Equation],
     quadratic: Equation,
     components: &[usize],
@@ -303,7 +310,7 @@ fn quadratic_step(
     };
     point.state[*last] = Expr::zero();
     if !others.is_empty() {
-        let along = |point: &Point<'_>| -> Vec<Expr> {
+        let along = |point: &PartialPoint<'_>| -> Vec<Expr> {
             linear.iter().flat_map(|equation| point.slopes(*equation, &[*last])).collect()
         };
         let (rows, rest) = system(point, linear, others);

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual;
 
-use super::body::{Polynomial, Shape, axis, scalar, vector};
+use super::body::{Shape, SurfacePolynomial, axis, scalar, vector};
 use super::configuration::Configuration;
 use super::rubber::NORMAL;
 use crate::formula::Formula;
@@ -16,7 +16,7 @@ pub enum Surface {
     Level(Formula),
     /// Level surfaces of F = P(r) + r² with a polynomial P whose coefficients are free parameters;
     /// the state is (M, r).
-    Arbitrary(Polynomial),
+    Arbitrary(SurfacePolynomial),
     /// A support function; the state is (M, γ).
     Support(Shape),
 }

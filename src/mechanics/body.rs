@@ -24,21 +24,21 @@ pub enum Shape {
     /// Contact vector r(γ), extended off |γ| = 1 by its formula.
     Contact(Formula),
     /// Support function |γ| P(γ/|γ|) with a polynomial P whose coefficients are free parameters.
-    Arbitrary(Polynomial),
+    Arbitrary(SurfacePolynomial),
     /// Profile |γ| P(z) with a polynomial P whose coefficients are free parameters.
-    ArbitraryProfile(Polynomial),
+    ArbitraryProfile(SurfacePolynomial),
 }
 
 /// A polynomial on the unit sphere, or on [-1,1], with free parameters as coefficients.
 #[derive(Clone, Debug)]
-pub struct Polynomial {
+pub struct SurfacePolynomial {
     /// Exponents of the variables, one triple for each coefficient.
     pub exponents: Vec<[u32; 3]>,
     /// Index of the first coefficient among the model's parameters.
     pub first_parameter: usize,
 }
 
-impl Polynomial {
+impl SurfacePolynomial {
     /// Makes all monomials of degrees `degree` and `degree - 1` in three variables.
     ///
     /// On the unit sphere these span all polynomials up to that degree, since γ² = 1 there.

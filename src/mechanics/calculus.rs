@@ -17,7 +17,7 @@ use crate::scalar::Scalar;
 pub(super) const MANY: usize = 20;
 
 /// A point of phase space with its lifts to dual numbers, made once for all derivatives.
-pub struct Jet<'m, T> {
+pub struct DualPoint<'m, T> {
     /// The point itself.
     pub phase: Phase<'m, T>,
     along_field: OnceCell<Phase<'m, Dual<T>>>,
@@ -27,7 +27,7 @@ pub struct Jet<'m, T> {
     energy_gradient: OnceCell<Option<Vec<T>>>,
 }
 
-impl<'m, T: Scalar> Jet<'m, T> {
+impl<'m, T: Scalar> DualPoint<'m, T> {
     /// Makes the jet at a point; nothing is computed yet.
     pub fn new(phase: Phase<'m, T>) -> Self {
         Self {

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 
 use super::model::Model;
 use super::phase::Phase;
-use super::recipe::{Draw, Line, Range};
+use super::recipe::{Draw, NumberLine, Range};
 use crate::formula::Formula;
 use crate::scalar::Scalar;
 
@@ -47,10 +47,10 @@ impl Chart {
             Chart::Rolling | Chart::Sphere => {
                 let of =
                     |line, low, high, count| vec![Draw::Of(line, Range::between(low, high)); count];
-                let mut draws = of(Line::All, (-8, 5), (8, 5), 2);
-                draws.extend(of(Line::All, (-2, 1), (2, 1), 3));
+                let mut draws = of(NumberLine::All, (-8, 5), (8, 5), 2);
+                draws.extend(of(NumberLine::All, (-2, 1), (2, 1), 3));
                 // The length of γ, followed by the spin.
-                for (kept, line) in kept.iter().zip([Line::Positive, Line::All]) {
+                for (kept, line) in kept.iter().zip([NumberLine::Positive, NumberLine::All]) {
                     draws.extend(of(line, (1, 2), (3, 2), usize::from(!kept)));
                 }
                 draws.extend(free.iter().cloned());

@@ -6,7 +6,7 @@ use num_dual::Dual;
 
 use super::body::scalar;
 use super::memo::Memo;
-use super::model::{Model, Origin};
+use super::model::{Model, ParameterOrigin};
 use super::rubber::normal;
 use super::vocabulary::Meaning;
 use crate::formula::{Formula, Symbol, Value};
@@ -67,7 +67,7 @@ impl<'m, T: Scalar> Configuration<'m, T> {
     pub fn parameter(&self, index: usize) -> Value<T> {
         match (&self.parameters[index], &self.model.parameters[index].origin) {
             (Some(value), _) => value.clone(),
-            (None, Origin::Formula(formula)) => self.evaluate(formula),
+            (None, ParameterOrigin::Formula(formula)) => self.evaluate(formula),
             (None, _) => unreachable!("only formulas have no value of their own"),
         }
     }
@@ -140,7 +140,7 @@ pub(super) fn formula_of(model: &Model, symbol: Symbol) -> Option<&Formula> {
     match model.vocabulary.entry(symbol).meaning {
         Meaning::Abbreviation(index) => model.abbreviations.get(index),
         Meaning::Parameter(index) => match &model.parameters[index].origin {
-            Origin::Formula(formula) => Some(formula),
+            ParameterOrigin::Formula(formula) => Some(formula),
             _ => None,
         },
         _ => None,

@@ -8,7 +8,7 @@ use chacha20::rand_core::{Rng, SeedableRng};
 
 use super::recipe::{Draw, Range};
 use super::streams::{NUMBERS, Streams, WIDTH};
-use crate::graph::{Work, with_widest_vectors};
+use crate::graph::{Kernel, with_widest_vectors};
 use crate::number::ball::{Balls, about};
 use crate::number::rational::Rational;
 
@@ -19,13 +19,13 @@ const SHORT: u64 = 64;
 ///
 /// The same seed and index give the same numbers on every machine, whatever else is drawn.
 #[derive(Clone, Debug)]
-pub struct Draws {
-    sources: Vec<Source>,
+pub struct DrawSource {
+    sources: Vec<NumberSource>,
 }
 
 /// Source of one number.
 #[derive(Clone, Debug)]
-enum Source {
+enum NumberSource {
     List(Vec<Rational>),
     /// A sign, 1 or −1.
     Sign,
@@ -46,10 +46,10 @@ enum Grid {
     Small { low: i64, step: i64, denominator: i64, count: u64 },
 }
 
-impl Draws {
+impl DrawSource {
     /// Prepares one number for each draw.
     pub fn new(draws: &[Draw]) -> Self {
-        Self { sources: draws.iter().map(Source::new).collect() }
+        Self { sources: draws.iter().map(NumberSource::new).collect() }
     }
 
     /// Number of random numbers for a state.
@@ -69,27 +69,27 @@ impl Draws {
 
     /// Draws other numbers for state `index`, after attempts that did not lead to a state.
     pub fn attempt(&self, seed: u64, index: u64, attempt: u32) -> Vec<Rational> {
-        self.picked(seed, index, attempt, Source::pick)
+        self.picked(seed, index, attempt, NumberSource::pick)
     }
 
     /// Draws numbers for a state near the ends of ranges and near 0, where quantities that are
     /// small elsewhere may change sign.
     pub fn edge(&self, seed: u64, index: u64) -> Vec<Rational> {
-        self.picked(seed, index, 0, Source::edge)
+        self.picked(seed, index, 0, NumberSource::edge)
     }
 
-    /// Returns the f64 nearest to each number of [`Draws::edge`], and whether it is exact.
+    /// Returns the f64 nearest to each number of [`DrawSource::edge`], and whether it is exact.
     pub fn nearest_edge(&self, seed: u64, index: u64) -> Vec<(f64, bool)> {
-        self.picked(seed, index, 0, Source::nearest_edge)
+        self.picked(seed, index, 0, NumberSource::nearest_edge)
     }
 
     /// Returns the f64 nearest to each number, and whether it is exact.
     pub fn nearest(&self, seed: u64, index: u64, attempt: u32) -> Vec<(f64, bool)> {
-        self.picked(seed, index, attempt, Source::nearest)
+        self.picked(seed, index, attempt, NumberSource::nearest)
     }
 
     /// Encloses the numbers of the states from `start` on, one block of lanes for each number:
-    /// those of [`Draws::nearest`].
+    /// those of [`DrawSource::nearest`].
     pub fn fill<const N: usize>(&self, seed: u64, start: u64, columns: &mut [Balls<N>]) {
         let streams = Streams::new(seed);
         with_widest_vectors(Fill { sources: &self.sources, streams, start, columns });
@@ -100,7 +100,7 @@ impl Draws {
         seed: u64,
         index: u64,
         attempt: u32,
-        pick: impl Fn(&Source, u64, bool) -> T,
+        pick: impl Fn(&NumberSource, u64, bool) -> T,
     ) -> Vec<T> {
         let mut stream = ChaCha8Rng::seed_from_u64(seed);
         stream.set_stream(index);
@@ -115,13 +115,13 @@ impl Draws {
 
 /// The numbers of a block of states.
 struct Fill<'f, const N: usize> {
-    sources: &'f [Source],
+    sources: &'f [NumberSource],
     streams: Streams,
     start: u64,
     columns: &'f mut [Balls<N>],
 }
 
-impl<const N: usize> Work for Fill<'_, N> {
+impl<const N: usize> Kernel for Fill<'_, N> {
     #[inline(always)]
     fn run(self) {
         for first in (0..N).step_by(WIDTH) {
@@ -143,11 +143,11 @@ impl<const N: usize> Work for Fill<'_, N> {
     }
 }
 
-impl Source {
+impl NumberSource {
     /// Encloses the numbers of the states from `index` on, made of these bits.
     #[inline(always)]
     fn enclose(&self, index: u64, bits: &[u64; WIDTH], mid: &mut [f64], rad: &mut [f64]) {
-        if let (Source::Range { ends: [low, high], .. }, true) = (self, index >= SHORT) {
+        if let (NumberSource::Range { ends: [low, high], .. }, true) = (self, index >= SHORT) {
             let mut values = [0.0; WIDTH];
             let mut inside = true;
             for (value, bits) in values.iter_mut().zip(bits) {
@@ -168,8 +168,8 @@ impl Source {
 
     fn new(draw: &Draw) -> Self {
         match draw {
-            Draw::OneOf(values) => Source::List(values.clone()),
-            Draw::Sign => Source::Sign,
+            Draw::OneOf(values) => NumberSource::List(values.clone()),
+            Draw::Sign => NumberSource::Sign,
             Draw::Within(range) | Draw::Of(_, range) => {
                 let inwards = |end: &Rational, other: &Rational| {
                     let (nearest, is_exact) = end.to_f64();
@@ -180,7 +180,7 @@ impl Source {
                     }
                 };
                 let ends = [inwards(&range.low, &range.high), inwards(&range.high, &range.low)];
-                Source::Range { grid: Grid::of(range), ends }
+                NumberSource::Range { grid: Grid::of(range), ends }
             }
         }
     }
@@ -188,39 +188,39 @@ impl Source {
     /// Returns the result of `pick` in f64, without making a rational number where parts are small.
     fn nearest(&self, bits: u64, is_short: bool) -> (f64, bool) {
         match self {
-            Source::Sign => (sign(bits) as f64, true),
-            Source::Range { grid, .. } if is_short => grid.nearest(bits),
-            Source::Range { ends, grid } => match between(*ends, bits) {
+            NumberSource::Sign => (sign(bits) as f64, true),
+            NumberSource::Range { grid, .. } if is_short => grid.nearest(bits),
+            NumberSource::Range { ends, grid } => match between(*ends, bits) {
                 Some(value) => (value, true),
                 None => grid.nearest(bits),
             },
-            Source::List(_) => self.pick(bits, is_short).to_f64(),
+            NumberSource::List(_) => self.pick(bits, is_short).to_f64(),
         }
     }
 
     fn pick(&self, bits: u64, is_short: bool) -> Rational {
         match self {
-            Source::List(values) => {
+            NumberSource::List(values) => {
                 let index = scale(bits, values.len() as u64) as usize;
                 values.get(index).cloned().unwrap_or_else(|| Rational::from(0))
             }
-            Source::Sign => Rational::from(sign(bits)),
-            Source::Range { grid, .. } if is_short => grid.pick(bits),
-            Source::Range { ends, grid } => {
+            NumberSource::Sign => Rational::from(sign(bits)),
+            NumberSource::Range { grid, .. } if is_short => grid.pick(bits),
+            NumberSource::Range { ends, grid } => {
                 between(*ends, bits).and_then(Rational::from_f64).unwrap_or_else(|| grid.pick(bits))
             }
         }
     }
 }
 
-impl Source {
+impl NumberSource {
     /// Draws a number near one of both ends or 0, or any number, up to a thousandth of the range.
     fn edge(&self, bits: u64, is_short: bool) -> Rational {
         let (near, bits) = self.near(bits);
         near.and_then(Rational::from_f64).unwrap_or_else(|| self.pick(bits, is_short))
     }
 
-    /// Returns the f64 nearest to [`Source::edge`], and whether it is exact.
+    /// Returns the f64 nearest to [`NumberSource::edge`], and whether it is exact.
     fn nearest_edge(&self, bits: u64, is_short: bool) -> (f64, bool) {
         let (near, bits) = self.near(bits);
         near.map_or_else(|| self.nearest(bits, is_short), |near| (near, true))
@@ -231,7 +231,7 @@ impl Source {
         const NEAR: f64 = 1.0 / 1024.0;
         let (place, bits) = (bits % 4, bits >> 2 << 2);
         let near = match self {
-            Source::Range { ends: [low, high], .. } => {
+            NumberSource::Range { ends: [low, high], .. } => {
                 let width = NEAR * (high - low);
                 match place {
                     0 => between([*low, low + width], bits),

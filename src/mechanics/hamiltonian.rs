@@ -6,22 +6,22 @@ use super::dynamics::Dynamics;
 use super::model::Variable;
 use super::phase::Phase;
 use super::quantity::Quantity;
-use super::variables::{Block, symmetric_part, tensor};
+use super::variables::{BracketBlock, symmetric_part, tensor};
 use crate::formula::{Formula, Value};
 use crate::scalar::Scalar;
 
 /// A Hamiltonian system: a function and a bracket of the state variables.
 #[derive(Clone, Debug)]
-pub struct Hamiltonian {
+pub struct HamiltonianSystem {
     /// Hamiltonian H.
     pub function: Formula,
     /// Blocks of P, by pairs of state variables.
-    pub blocks: Vec<Vec<Option<Block>>>,
+    pub blocks: Vec<Vec<Option<BracketBlock>>>,
     /// Index of the state variable that is time, with rate 1.
     pub clock: Option<usize>,
 }
 
-impl Hamiltonian {
+impl HamiltonianSystem {
     /// Evaluates H.
     fn energy_at<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
         at.scalar(&self.function)
@@ -52,10 +52,10 @@ impl Hamiltonian {
     }
 }
 
-impl Dynamics for Hamiltonian {
+impl Dynamics for HamiltonianSystem {
     /// Returns H and the given blocks.
     fn functions(&self) -> Vec<&Formula> {
-        let blocks = self.blocks.iter().flatten().flatten().filter_map(Block::typed);
+        let blocks = self.blocks.iter().flatten().flatten().filter_map(BracketBlock::typed);
         [&self.function].into_iter().chain(blocks).collect()
     }
 

@@ -1,10 +1,10 @@
 //! Maps of phase space: images of states, derivatives, and factors of volume.
 
-use super::calculus::{Jet, determinant, transversals};
+use super::calculus::{DualPoint, determinant, transversals};
 use super::phase::Phase;
 use crate::scalar::Scalar;
 
-impl<'m, T: Scalar> Jet<'m, T> {
+impl<'m, T: Scalar> DualPoint<'m, T> {
     /// Returns the point Φ(x).
     pub fn image(&self) -> Phase<'m, T> {
         self.phase.with(&[], self.phase.field())
@@ -23,7 +23,7 @@ impl<'m, T: Scalar> Jet<'m, T> {
     pub fn expansion(&self, kept: &[bool]) -> T {
         let mut columns = self.derivative();
         let gradients = self.level_gradients(kept);
-        let there = Jet::new(self.image()).level_gradients(kept);
+        let there = DualPoint::new(self.image()).level_gradients(kept);
         let pairs = transversals(&gradients).into_iter().zip(transversals(&there));
         for ((across, across_there), gradient) in pairs.zip(&gradients) {
             let moved = self.phase.lift(&across);

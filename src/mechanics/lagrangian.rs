@@ -33,7 +33,7 @@ pub struct Lagrangian {
     /// Constraints f_k.
     pub constraints: Vec<Formula>,
     /// Role of each state variable.
-    pub roles: Vec<Role>,
+    pub roles: Vec<VariableRole>,
     /// Commutators of the fields X_i.
     pub algebra: Algebra,
     /// Generalised forces, by the components of the state that are their velocities.
@@ -44,7 +44,7 @@ pub struct Lagrangian {
 
 /// The role of a state variable.
 #[derive(Clone, Debug)]
-pub enum Role {
+pub enum VariableRole {
     /// A coordinate whose rate is the given state variable.
     Coordinate(usize),
     /// A coordinate with a given rate; the components of its formulas follow one after another.
@@ -70,7 +70,7 @@ pub enum Algebra {
 }
 
 /// Terms of the equations of motion at a point.
-struct Motion<T> {
+struct LagrangianTerms<T> {
     /// Components of the state that are velocities.
     velocities: Vec<usize>,
     acceleration: Vec<T>,
@@ -92,7 +92,7 @@ struct Terms<T> {
 impl Dynamics for Lagrangian {
     fn functions(&self) -> Vec<&Formula> {
         let carried = self.roles.iter().flat_map(|role| match role {
-            Role::Carried(rate) => rate.as_slice(),
+            VariableRole::Carried(rate) => rate.as_slice(),
             _ => &[],
         });
         let forces = self.forces.iter().map(|(_, force)| force);
@@ -148,18 +148,18 @@ impl Lagrangian {
 
     /// Returns the components of the state that are velocities.
     pub fn velocities(&self, state: &[Variable]) -> Vec<usize> {
-        self.components(state, |role| matches!(role, Role::Velocity)).collect()
+        self.components(state, |role| matches!(role, VariableRole::Velocity)).collect()
     }
 
     fn multipliers<'a>(&'a self, state: &'a [Variable]) -> impl Iterator<Item = usize> + 'a {
-        self.components(state, |role| matches!(role, Role::Multiplier))
+        self.components(state, |role| matches!(role, VariableRole::Multiplier))
     }
 
     /// Returns the components of the variables with some role.
     fn components<'a>(
         &'a self,
         state: &'a [Variable],
-        keep: impl Fn(&Role) -> bool + 'a,
+        keep: impl Fn(&VariableRole) -> bool + 'a,
     ) -> impl Iterator<Item = usize> + 'a {
         let mut start = 0;
         let places = state.iter().zip(&self.roles).map(move |(variable, role)| {
@@ -189,12 +189,14 @@ impl Lagrangian {
         let mut rates = Vec::new();
         for (role, variable) in self.roles.iter().zip(&at.model.state) {
             match role {
-                Role::Coordinate(velocity) => rates.extend(at.variable(*velocity).components()),
-                Role::Carried(rate) => {
+                VariableRole::Coordinate(velocity) => {
+                    rates.extend(at.variable(*velocity).components())
+                }
+                VariableRole::Carried(rate) => {
                     rates.extend(rate.iter().flat_map(|part| at.evaluate(part).components()));
                 }
-                Role::Time => rates.push(T::one()),
-                Role::Velocity | Role::Multiplier => {
+                VariableRole::Time => rates.push(T::one()),
+                VariableRole::Velocity | VariableRole::Multiplier => {
                     rates.extend(vec![T::zero(); variable.len()]);
                 }
             }
@@ -202,7 +204,7 @@ impl Lagrangian {
         rates
     }
 
-    fn motion<T: Scalar>(&self, phase: &Phase<'_, T>) -> Motion<T> {
+    fn motion<T: Scalar>(&self, phase: &Phase<'_, T>) -> LagrangianTerms<T> {
         let at = &phase.configuration;
         let velocities = self.velocities(&at.model.state);
         let drift = self.drift(at);
@@ -234,7 +236,7 @@ impl Lagrangian {
                 reactions.iter().zip(&responses).map(|(m, r)| *m * r[i]).sum::<T>() + *free
             })
             .collect();
-        Motion { velocities, acceleration, reactions, drift }
+        LagrangianTerms { velocities, acceleration, reactions, drift }
     }
 
     /// Takes the derivatives by sweeps of the recording, in coordinates and where there are many;
@@ -247,7 +249,7 @@ impl Lagrangian {
         force: impl Fn(usize) -> T,
     ) -> Option<Terms<T>> {
         let dimension = at.model.dimension();
-        let is_carried = |role: &Role| matches!(role, Role::Carried(_));
+        let is_carried = |role: &VariableRole| matches!(role, VariableRole::Carried(_));
         if dimension < MANY
             || self.algebra != Algebra::Commuting
             || self.roles.iter().any(is_carried)
@@ -294,7 +296,7 @@ impl Lagrangian {
             .collect();
         let mut pairs = Vec::new();
         for (index, role) in self.roles.iter().enumerate() {
-            if let Role::Coordinate(velocity) = role {
+            if let VariableRole::Coordinate(velocity) = role {
                 let own = starts[index]..starts[index] + state[index].len();
                 pairs.extend(own.zip(starts[*velocity]..));
             }

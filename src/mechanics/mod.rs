@@ -34,32 +34,33 @@ mod vocabulary;
 
 pub use ball::BallOnSurface;
 pub use ball_surface::Surface;
-pub use body::{Polynomial, Shape};
+pub use body::{Shape, SurfacePolynomial};
 pub use chart::{Chart, GivenChart};
 pub use configuration::Configuration;
-pub use draws::Draws;
+pub use draws::DrawSource;
 pub use flat_base::FlatBase;
-pub use hamiltonian::Hamiltonian;
-pub use lagrangian::{Algebra, Lagrangian, Role};
+pub use hamiltonian::HamiltonianSystem;
+pub use lagrangian::{Algebra, Lagrangian, VariableRole};
 pub use model::{
-    LevelEquation, LevelFunction, Model, Origin, Parameter, RootEquation, Variable, components,
+    LevelEquation, LevelFunction, Model, Parameter, ParameterOrigin, RootEquation, Variable,
+    components,
 };
-pub use parts::Part;
+pub use parts::EquationPart;
 pub use phase::Phase;
 pub use quantity::{
     BallSurface, Features, Quantity, of_ball, of_flat_base, of_hamiltonian, of_lagrangian,
     of_rubber, of_spinning,
 };
-pub use recipe::{Draw, Line, Range, Recipe};
+pub use recipe::{Draw, NumberLine, Range, SamplerSpec};
 pub use rigid::RigidBody;
 pub use rubber::{NORMAL, OMEGA, Potential, Rubber};
 pub use spinning::Spinning;
 pub use system::System;
-pub use variables::{Block, Poisson, Variables};
-pub use vocabulary::{Entry, Meaning, Reach, Vocabulary};
+pub use variables::{BracketBlock, NewVariables, Poisson};
+pub use vocabulary::{Dependence, Meaning, Vocabulary, VocabularyEntry};
 
 pub use across::AcrossNormal;
 pub use body::contact_of;
 pub use chart::rolling_point;
 pub use linear::point_mass;
-pub use rolling::{Motion, Pose};
+pub use rolling::{Pose, RollingTerms};

@@ -3,9 +3,9 @@
 use std::rc::Rc;
 
 use super::System;
-use super::recipe::{Draw, Recipe};
-use super::variables::Variables;
-use super::vocabulary::{Meaning, Reach, Vocabulary};
+use super::recipe::{Draw, SamplerSpec};
+use super::variables::NewVariables;
+use super::vocabulary::{Dependence, Meaning, Vocabulary};
 use crate::formula::{Formula, Scope, Symbol, Type, Value};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
@@ -18,16 +18,16 @@ pub struct Parameter {
     /// Type of the value: scalar, vector or matrix.
     pub kind: Type,
     /// Source of the value.
-    pub origin: Origin,
+    pub origin: ParameterOrigin,
 }
 
 /// The source of a parameter's value.
 #[derive(Clone, Debug)]
-pub enum Origin {
+pub enum ParameterOrigin {
     /// Fixed by the file, component by component; folded into the tape.
     Fixed(Vec<Rational>),
     /// Drawn anew for every state: an input of the tape.
-    Free(Recipe),
+    Free(SamplerSpec),
     /// Computed from other parameters.
     Formula(Formula),
 }
@@ -106,7 +106,7 @@ pub struct Model {
     /// a vector may take several formulas.
     pub extension: Vec<Formula>,
     /// New variables as functions of the state, with a bracket for them.
-    pub variables: Option<Box<Variables>>,
+    pub variables: Option<Box<NewVariables>>,
     /// Abbreviations defined by `let`.
     pub abbreviations: Vec<Formula>,
     /// Equations of the level set.
@@ -138,7 +138,8 @@ impl Model {
             }
             let text = self.abbreviations[index].text();
             if let Ok(read) = Formula::parse(text, &named.vocabulary) {
-                let reach = named.vocabulary.reach(&read).map_or(Reach::Parameters, |e| e.reach);
+                let reach =
+                    named.vocabulary.reach(&read).map_or(Dependence::Parameters, |e| e.reach);
                 let meaning = Meaning::Abbreviation(named.abbreviations.len());
                 named.vocabulary.add(&entry.name, meaning, read.value_type(), reach);
                 named.abbreviations.push(read);
@@ -157,7 +158,7 @@ impl Model {
     /// a size or an index, so that the parameter cannot change.
     pub fn is_rigid(&self, parameter: usize, formulas: &[&Formula]) -> bool {
         let given = self.parameters.iter().filter_map(|parameter| match &parameter.origin {
-            Origin::Formula(formula) => Some(formula),
+            ParameterOrigin::Formula(formula) => Some(formula),
             _ => None,
         });
         let own = self.functions().into_iter().chain(&self.abbreviations).chain(given);
@@ -170,7 +171,7 @@ impl Model {
             let formula = match self.vocabulary.entry(symbol).meaning {
                 Meaning::Parameter(index) if index == parameter => return true,
                 Meaning::Parameter(index) => match &self.parameters[index].origin {
-                    Origin::Formula(formula) => Some(formula),
+                    ParameterOrigin::Formula(formula) => Some(formula),
                     _ => None,
                 },
                 Meaning::Abbreviation(index) => self.abbreviations.get(index),
@@ -241,12 +242,14 @@ impl Model {
 
     /// Returns the parameters that are inputs of the tape.
     pub fn free_parameters(&self) -> impl Iterator<Item = &Parameter> {
-        self.parameters.iter().filter(|parameter| matches!(parameter.origin, Origin::Free(_)))
+        self.parameters
+            .iter()
+            .filter(|parameter| matches!(parameter.origin, ParameterOrigin::Free(_)))
     }
 
     /// Returns the place of parameter `index` among the components of the free ones, if it is free.
     pub fn free_component(&self, index: usize) -> Option<usize> {
-        let is_free = |parameter: &Parameter| matches!(parameter.origin, Origin::Free(_));
+        let is_free = |parameter: &Parameter| matches!(parameter.origin, ParameterOrigin::Free(_));
         let before = self.parameters[..index].iter().filter(|parameter| is_free(parameter));
         let start = before.map(|parameter| components(parameter.kind)).sum();
         is_free(&self.parameters[index]).then_some(start)
@@ -254,7 +257,7 @@ impl Model {
 
     /// Returns the draws that make the free parameters, in order.
     pub fn parameter_draws(&self) -> Vec<Draw> {
-        self.recipes().flat_map(Recipe::draws).collect()
+        self.recipes().flat_map(SamplerSpec::draws).collect()
     }
 
     /// Returns the index of the draw of a component of the free parameters, if it is a single drawn
@@ -262,8 +265,8 @@ impl Model {
     pub fn draw_of_component(&self, component: usize) -> Option<usize> {
         let (mut first, mut draw) = (0, 0);
         for parameter in self.free_parameters() {
-            let Origin::Free(recipe) = &parameter.origin else { continue };
-            if first == component && matches!(recipe, Recipe::Scalar(_)) {
+            let ParameterOrigin::Free(recipe) = &parameter.origin else { continue };
+            if first == component && matches!(recipe, SamplerSpec::Scalar(_)) {
                 return Some(draw);
             }
             first += components(parameter.kind);
@@ -284,9 +287,9 @@ impl Model {
         (values, draws)
     }
 
-    fn recipes(&self) -> impl Iterator<Item = &Recipe> {
+    fn recipes(&self) -> impl Iterator<Item = &SamplerSpec> {
         self.parameters.iter().filter_map(|parameter| match &parameter.origin {
-            Origin::Free(recipe) => Some(recipe),
+            ParameterOrigin::Free(recipe) => Some(recipe),
             _ => None,
         })
     }
@@ -297,16 +300,16 @@ impl Model {
         self.parameters
             .iter()
             .map(|parameter| match &parameter.origin {
-                Origin::Fixed(values) => {
+                ParameterOrigin::Fixed(values) => {
                     let values: Vec<T> = values.iter().map(T::rational).collect();
                     Some(Value::from_components(parameter.kind, &values))
                 }
-                Origin::Free(_) => {
+                ParameterOrigin::Free(_) => {
                     let (own, others) = rest.split_at(components(parameter.kind).min(rest.len()));
                     rest = others;
                     Some(Value::from_components(parameter.kind, own))
                 }
-                Origin::Formula(_) => None,
+                ParameterOrigin::Formula(_) => None,
             })
             .collect()
     }

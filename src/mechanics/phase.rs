@@ -15,7 +15,7 @@ use super::configuration::{Configuration, formula_of, lift_parameters};
 use super::memo::Memo;
 use super::model::{LevelFunction, Model, Variable};
 use super::quantity::Quantity;
-use super::rolling::Motion;
+use super::rolling::RollingTerms;
 use super::rubber::{angular_velocity, normal};
 use super::vocabulary::Meaning;
 use crate::formula::{Formula, Symbol, Value};
@@ -28,7 +28,7 @@ pub struct Phase<'m, T> {
     known: Memo<T>,
     /// Values that are defined exactly where the written formulas are.
     literal: Memo<T>,
-    motion: OnceCell<Box<Motion<T>>>,
+    motion: OnceCell<Box<RollingTerms<T>>>,
     ball_motion: OnceCell<Box<BallMotion<T>>>,
     /// Rates of the system's variables, without those that a case adds.
     own_field: OnceCell<Vec<T>>,
@@ -144,7 +144,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
     }
 
     /// Returns the intermediate results of a rolling body's equations.
-    pub(super) fn motion(&self, make: impl FnOnce() -> Motion<T>) -> &Motion<T> {
+    pub(super) fn motion(&self, make: impl FnOnce() -> RollingTerms<T>) -> &RollingTerms<T> {
         self.motion.get_or_init(|| Box::new(make()))
     }
 

@@ -1,6 +1,6 @@
 //! Names that systems define, in the notation of the papers.
 
-use super::vocabulary::Reach;
+use super::vocabulary::Dependence;
 use crate::formula::Type;
 
 /// A quantity computed from the state and the body.
@@ -157,23 +157,23 @@ pub struct Features {
 }
 
 /// Lists the quantities of a rubber body: name, quantity, type, dependence.
-pub fn of_rubber(features: Features) -> Vec<(&'static str, Quantity, Type, Reach)> {
+pub fn of_rubber(features: Features) -> Vec<(&'static str, Quantity, Type, Dependence)> {
     let mut all = of_body(features);
-    all.push(("λ0", Quantity::Multiplier, Type::Scalar, Reach::Phase));
+    all.push(("λ0", Quantity::Multiplier, Type::Scalar, Dependence::Phase));
     all
 }
 
 /// Lists the quantities of a body that may spin.
-pub fn of_spinning(features: Features) -> Vec<(&'static str, Quantity, Type, Reach)> {
+pub fn of_spinning(features: Features) -> Vec<(&'static str, Quantity, Type, Dependence)> {
     let mut all = of_body(features);
-    all.push(("χ", Quantity::DivergenceCovector, Type::VECTOR, Reach::Phase));
+    all.push(("χ", Quantity::DivergenceCovector, Type::VECTOR, Dependence::Phase));
     all
 }
 
 /// Lists the quantities of a body of any shape that rolls.
-fn of_body(features: Features) -> Vec<(&'static str, Quantity, Type, Reach)> {
+fn of_body(features: Features) -> Vec<(&'static str, Quantity, Type, Dependence)> {
+    use Dependence::{Configuration, Parameters, Phase};
     use Quantity::*;
-    use Reach::{Configuration, Parameters, Phase};
     use Type::Scalar;
     const VECTOR: Type = Type::VECTOR;
     const MATRIX: Type = Type::MATRIX;
@@ -222,13 +222,13 @@ fn of_body(features: Features) -> Vec<(&'static str, Quantity, Type, Reach)> {
 }
 
 /// Lists the quantities of a body with a flat part on a sphere.
-pub fn of_flat_base() -> Vec<(&'static str, Quantity, Type, Reach)> {
+pub fn of_flat_base() -> Vec<(&'static str, Quantity, Type, Dependence)> {
     use Quantity::*;
     vec![
-        ("r", Contact, Type::VECTOR, Reach::Phase),
-        ("ω", AngularVelocity, Type::VECTOR, Reach::Phase),
-        ("Ĩ", InertiaAtContact, Type::MATRIX, Reach::Phase),
-        ("energy", Energy, Type::Scalar, Reach::Phase),
+        ("r", Contact, Type::VECTOR, Dependence::Phase),
+        ("ω", AngularVelocity, Type::VECTOR, Dependence::Phase),
+        ("Ĩ", InertiaAtContact, Type::MATRIX, Dependence::Phase),
+        ("energy", Energy, Type::Scalar, Dependence::Phase),
     ]
 }
 
@@ -244,50 +244,50 @@ pub enum BallSurface {
 }
 
 /// Lists the quantities of a ball on a surface.
-pub fn of_ball(surface: BallSurface) -> Vec<(&'static str, Quantity, Type, Reach)> {
+pub fn of_ball(surface: BallSurface) -> Vec<(&'static str, Quantity, Type, Dependence)> {
     use Quantity::*;
     let mut all = vec![
-        ("ω", AngularVelocity, Type::VECTOR, Reach::Phase),
-        ("D", RollingMoment, Type::Scalar, Reach::Parameters),
-        ("energy", Energy, Type::Scalar, Reach::Phase),
+        ("ω", AngularVelocity, Type::VECTOR, Dependence::Phase),
+        ("D", RollingMoment, Type::Scalar, Dependence::Parameters),
+        ("energy", Energy, Type::Scalar, Dependence::Phase),
     ];
     all.extend(match surface {
         BallSurface::Support | BallSurface::Profile => vec![
-            ("r", Contact, Type::VECTOR, Reach::Phase),
-            ("r'", ContactRate, Type::VECTOR, Reach::Phase),
-            ("∂r", Slope, Type::MATRIX, Reach::Phase),
-            ("h", Support, Type::Scalar, Reach::Configuration),
+            ("r", Contact, Type::VECTOR, Dependence::Phase),
+            ("r'", ContactRate, Type::VECTOR, Dependence::Phase),
+            ("∂r", Slope, Type::MATRIX, Dependence::Phase),
+            ("h", Support, Type::Scalar, Dependence::Configuration),
         ],
         BallSurface::Level => vec![
-            ("γ", Normal, Type::VECTOR, Reach::Phase),
-            ("γ'", NormalRate, Type::VECTOR, Reach::Phase),
-            ("F", SurfaceFunction, Type::Scalar, Reach::Configuration),
-            ("n", SurfaceGradient, Type::VECTOR, Reach::Phase),
-            ("∂n", SurfaceHessian, Type::MATRIX, Reach::Phase),
-            ("r'", ContactRate, Type::VECTOR, Reach::Phase),
+            ("γ", Normal, Type::VECTOR, Dependence::Phase),
+            ("γ'", NormalRate, Type::VECTOR, Dependence::Phase),
+            ("F", SurfaceFunction, Type::Scalar, Dependence::Configuration),
+            ("n", SurfaceGradient, Type::VECTOR, Dependence::Phase),
+            ("∂n", SurfaceHessian, Type::MATRIX, Dependence::Phase),
+            ("r'", ContactRate, Type::VECTOR, Dependence::Phase),
         ],
     });
     if surface == BallSurface::Profile {
         all.extend([
-            ("z", AxisCosine, Type::Scalar, Reach::Configuration),
-            ("p", Profile, Type::Scalar, Reach::Phase),
-            ("p'", ProfileRate, Type::Scalar, Reach::Phase),
-            ("p''", ProfileSecond, Type::Scalar, Reach::Phase),
+            ("z", AxisCosine, Type::Scalar, Dependence::Configuration),
+            ("p", Profile, Type::Scalar, Dependence::Phase),
+            ("p'", ProfileRate, Type::Scalar, Dependence::Phase),
+            ("p''", ProfileSecond, Type::Scalar, Dependence::Phase),
         ]);
     }
     all
 }
 
 /// Lists the quantities of Hamilton's equations.
-pub fn of_hamiltonian() -> Vec<(&'static str, Quantity, Type, Reach)> {
-    vec![("energy", Quantity::Energy, Type::Scalar, Reach::Phase)]
+pub fn of_hamiltonian() -> Vec<(&'static str, Quantity, Type, Dependence)> {
+    vec![("energy", Quantity::Energy, Type::Scalar, Dependence::Phase)]
 }
 
 /// Lists the quantities of a Lagrangian system with some constraints.
-pub fn of_lagrangian(constraints: usize) -> Vec<(String, Quantity, Type, Reach)> {
-    let mut all = vec![("energy".to_string(), Quantity::Energy, Type::Scalar, Reach::Phase)];
+pub fn of_lagrangian(constraints: usize) -> Vec<(String, Quantity, Type, Dependence)> {
+    let mut all = vec![("energy".to_string(), Quantity::Energy, Type::Scalar, Dependence::Phase)];
     let reaction =
-        |name: String, index| (name, Quantity::Reaction(index), Type::Scalar, Reach::Phase);
+        |name: String, index| (name, Quantity::Reaction(index), Type::Scalar, Dependence::Phase);
     if constraints == 1 {
         all.push(reaction("μ".to_string(), 0));
     }

@@ -35,7 +35,7 @@ pub enum Draw {
     /// A number of a list.
     OneOf(Vec<Rational>),
     /// A number inside a range that represents a whole line, because no range was declared.
-    Of(Line, Range),
+    Of(NumberLine, Range),
     /// A sign, 1 or −1.
     Sign,
 }
@@ -67,7 +67,7 @@ impl Draw {
 
 /// The set of numbers that a range represents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Line {
+pub enum NumberLine {
     /// All numbers.
     All,
     /// All positive numbers.
@@ -76,7 +76,7 @@ pub enum Line {
 
 /// The construction of a parameter's components from draws.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Recipe {
+pub enum SamplerSpec {
     /// A scalar.
     Scalar(Draw),
     /// A vector of given length with independent components.
@@ -111,7 +111,7 @@ pub enum Recipe {
     },
 }
 
-impl Recipe {
+impl SamplerSpec {
     /// Returns the values within a distance of a fixed one: a scalar, a vector, or a diagonal
     /// matrix, given by its components.
     pub fn around(kind: Type, components: &[Rational], half: &Rational) -> Option<Self> {
@@ -126,20 +126,20 @@ impl Recipe {
                 components.iter().step_by(columns + 1).cloned().collect()
             }
         };
-        Some(Recipe::Around { kind, centres, half: half.clone() })
+        Some(SamplerSpec::Around { kind, centres, half: half.clone() })
     }
 
     /// Returns the type of the value.
     pub fn kind(&self) -> Type {
         match self {
-            Recipe::Scalar(_) => Type::Scalar,
-            Recipe::Vector(length, _) => Type::Vector(*length),
-            Recipe::Around { kind, .. } => *kind,
-            Recipe::Matrix(rows, columns, _) => Type::Matrix(*rows, *columns),
-            Recipe::Symmetric(rows, _)
-            | Recipe::Skew(rows, _)
-            | Recipe::Diagonal(rows, _)
-            | Recipe::Spherical(rows, _) => Type::Matrix(*rows, *rows),
+            SamplerSpec::Scalar(_) => Type::Scalar,
+            SamplerSpec::Vector(length, _) => Type::Vector(*length),
+            SamplerSpec::Around { kind, .. } => *kind,
+            SamplerSpec::Matrix(rows, columns, _) => Type::Matrix(*rows, *columns),
+            SamplerSpec::Symmetric(rows, _)
+            | SamplerSpec::Skew(rows, _)
+            | SamplerSpec::Diagonal(rows, _)
+            | SamplerSpec::Spherical(rows, _) => Type::Matrix(*rows, *rows),
             _ => Type::MATRIX,
         }
     }
@@ -155,18 +155,18 @@ impl Recipe {
         };
         let ranged = |word: &str, range: &Range| format!("{word}({}..{})", range.low, range.high);
         match self {
-            Recipe::Scalar(draw) => draw.text(),
-            Recipe::Vector(length, draw) => sized("vector", &[*length], draw),
-            Recipe::Matrix(rows, columns, draw) => sized("matrix", &[*rows, *columns], draw),
-            Recipe::Symmetric(rows, draw) => sized("symmetric", &[*rows], draw),
-            Recipe::Skew(rows, draw) => sized("skew", &[*rows], draw),
-            Recipe::Diagonal(rows, draw) => sized("diag", &[*rows], draw),
-            Recipe::Spherical(rows, draw) => sized("spherical", &[*rows], draw),
-            Recipe::Inertia(range) => ranged("inertia", range),
-            Recipe::AxisymmetricInertia(range) => ranged("axisymmetric", range),
-            Recipe::FullInertia(range) => ranged("full", range),
-            Recipe::Rotation => "rotation".to_string(),
-            Recipe::Around { centres, half, .. } => {
+            SamplerSpec::Scalar(draw) => draw.text(),
+            SamplerSpec::Vector(length, draw) => sized("vector", &[*length], draw),
+            SamplerSpec::Matrix(rows, columns, draw) => sized("matrix", &[*rows, *columns], draw),
+            SamplerSpec::Symmetric(rows, draw) => sized("symmetric", &[*rows], draw),
+            SamplerSpec::Skew(rows, draw) => sized("skew", &[*rows], draw),
+            SamplerSpec::Diagonal(rows, draw) => sized("diag", &[*rows], draw),
+            SamplerSpec::Spherical(rows, draw) => sized("spherical", &[*rows], draw),
+            SamplerSpec::Inertia(range) => ranged("inertia", range),
+            SamplerSpec::AxisymmetricInertia(range) => ranged("axisymmetric", range),
+            SamplerSpec::FullInertia(range) => ranged("full", range),
+            SamplerSpec::Rotation => "rotation".to_string(),
+            SamplerSpec::Around { centres, half, .. } => {
                 let centres: Vec<String> = centres.iter().map(ToString::to_string).collect();
                 format!("{} ± {half}", centres.join(", "))
             }
@@ -178,18 +178,18 @@ impl Recipe {
         // Moments are sums of two of three positive numbers: I₁ = p₂ + p₃ and so on.
         let halves = |range: &Range, count| vec![Draw::Within(range.halved()); count];
         match self {
-            Recipe::Scalar(draw) | Recipe::Spherical(_, draw) => vec![draw.clone()],
-            Recipe::Vector(count, draw) | Recipe::Diagonal(count, draw) => {
+            SamplerSpec::Scalar(draw) | SamplerSpec::Spherical(_, draw) => vec![draw.clone()],
+            SamplerSpec::Vector(count, draw) | SamplerSpec::Diagonal(count, draw) => {
                 vec![draw.clone(); *count]
             }
-            Recipe::Matrix(rows, columns, draw) => vec![draw.clone(); rows * columns],
-            Recipe::Symmetric(rows, draw) => vec![draw.clone(); rows * (rows + 1) / 2],
-            Recipe::Skew(rows, draw) => vec![draw.clone(); rows * (rows - 1) / 2],
-            Recipe::Inertia(range) => halves(range, 3),
-            Recipe::AxisymmetricInertia(range) => halves(range, 2),
-            Recipe::FullInertia(range) => [halves(range, 3), rotation_draws()].concat(),
-            Recipe::Rotation => rotation_draws(),
-            Recipe::Around { centres, half, .. } => {
+            SamplerSpec::Matrix(rows, columns, draw) => vec![draw.clone(); rows * columns],
+            SamplerSpec::Symmetric(rows, draw) => vec![draw.clone(); rows * (rows + 1) / 2],
+            SamplerSpec::Skew(rows, draw) => vec![draw.clone(); rows * (rows - 1) / 2],
+            SamplerSpec::Inertia(range) => halves(range, 3),
+            SamplerSpec::AxisymmetricInertia(range) => halves(range, 2),
+            SamplerSpec::FullInertia(range) => [halves(range, 3), rotation_draws()].concat(),
+            SamplerSpec::Rotation => rotation_draws(),
+            SamplerSpec::Around { centres, half, .. } => {
                 let range = |centre: &Rational| Range { low: centre - half, high: centre + half };
                 centres.iter().map(|centre| Draw::Within(range(centre))).collect()
             }
@@ -200,32 +200,37 @@ impl Recipe {
     pub fn make<T: Scalar>(&self, draws: &[T]) -> Value<T> {
         let principal = |p: [T; 3]| diagonal([p[1] + p[2], p[0] + p[2], p[0] + p[1]]);
         match (self, draws) {
-            (Recipe::Inertia(_), [x, y, z, ..]) => Value::Matrix(principal([*x, *y, *z])),
-            (Recipe::AxisymmetricInertia(_), [x, z, ..]) => Value::Matrix(principal([*x, *x, *z])),
-            (Recipe::FullInertia(_), [x, y, z, turn @ ..]) => {
+            (SamplerSpec::Inertia(_), [x, y, z, ..]) => Value::Matrix(principal([*x, *y, *z])),
+            (SamplerSpec::AxisymmetricInertia(_), [x, z, ..]) => {
+                Value::Matrix(principal([*x, *x, *z]))
+            }
+            (SamplerSpec::FullInertia(_), [x, y, z, turn @ ..]) => {
                 let turn = rotation(turn);
                 Value::Matrix(turn * principal([*x, *y, *z]) * turn.transpose())
             }
-            (Recipe::Rotation, turn) => Value::Matrix(rotation(turn)),
-            (Recipe::Scalar(_) | Recipe::Vector(..) | Recipe::Matrix(..), components) => {
-                Value::from_components(self.kind(), components)
-            }
-            (Recipe::Around { kind: Type::Matrix(rows, _), .. }, entries) => {
+            (SamplerSpec::Rotation, turn) => Value::Matrix(rotation(turn)),
+            (
+                SamplerSpec::Scalar(_) | SamplerSpec::Vector(..) | SamplerSpec::Matrix(..),
+                components,
+            ) => Value::from_components(self.kind(), components),
+            (SamplerSpec::Around { kind: Type::Matrix(rows, _), .. }, entries) => {
                 self.by_entries(*rows, |i, j| if i == j { entries[i] } else { T::zero() })
             }
-            (Recipe::Around { kind, .. }, components) => Value::from_components(*kind, components),
-            (Recipe::Diagonal(rows, _), entries) => {
+            (SamplerSpec::Around { kind, .. }, components) => {
+                Value::from_components(*kind, components)
+            }
+            (SamplerSpec::Diagonal(rows, _), entries) => {
                 self.by_entries(*rows, |i, j| if i == j { entries[i] } else { T::zero() })
             }
-            (Recipe::Spherical(rows, _), entries) => {
+            (SamplerSpec::Spherical(rows, _), entries) => {
                 self.by_entries(*rows, |i, j| if i == j { entries[0] } else { T::zero() })
             }
-            (Recipe::Symmetric(rows, _), entries) => self.by_entries(*rows, |i, j| {
+            (SamplerSpec::Symmetric(rows, _), entries) => self.by_entries(*rows, |i, j| {
                 let (above, below) = (i.min(j), i.max(j));
                 // the rows before this one have n, n - 1, … entries
                 entries[above * rows - above * above.saturating_sub(1) / 2 + below - above]
             }),
-            (Recipe::Skew(rows, _), entries) => self.by_entries(*rows, |i, j| {
+            (SamplerSpec::Skew(rows, _), entries) => self.by_entries(*rows, |i, j| {
                 let (above, below) = (i.min(j), i.max(j));
                 if i == j {
                     return T::zero();
@@ -246,7 +251,7 @@ impl Recipe {
 }
 
 fn rotation_draws() -> Vec<Draw> {
-    vec![Draw::Of(Line::All, Range::between((-9, 10), (9, 10))); 3]
+    vec![Draw::Of(NumberLine::All, Range::between((-9, 10), (9, 10))); 3]
 }
 
 fn diagonal<T: Scalar>(entries: [T; 3]) -> Matrix3<T> {
@@ -289,8 +294,8 @@ mod tests {
     fn matrices_are_filled_by_their_symmetry() {
         let draw = Draw::Within(Range::between((1, 1), (2, 1)));
         for rows in 1..6 {
-            let symmetric = Recipe::Symmetric(rows, draw.clone());
-            let skew = Recipe::Skew(rows, draw.clone());
+            let symmetric = SamplerSpec::Symmetric(rows, draw.clone());
+            let skew = SamplerSpec::Skew(rows, draw.clone());
             for (recipe, sign) in [(symmetric, 1.0), (skew, -1.0)] {
                 let count = recipe.draws().len();
                 let numbers: Vec<f64> = (1..=count).map(|k| k as f64).collect();
@@ -304,7 +309,7 @@ mod tests {
                 assert_eq!(above, numbers, "each number has one place above the diagonal");
             }
         }
-        let diagonal = Recipe::Diagonal(4, draw).make(&[1.0, 2.0, 3.0, 4.0]);
+        let diagonal = SamplerSpec::Diagonal(4, draw).make(&[1.0, 2.0, 3.0, 4.0]);
         assert_eq!(diagonal.value_type(), Type::Matrix(4, 4), "of its size");
         assert_eq!(diagonal.components()[10], 3.0, "on the diagonal");
     }
@@ -314,7 +319,7 @@ mod tests {
         let half = Rational::new(1, 10);
         let around = |kind, numbers: &[i64]| {
             let numbers: Vec<Rational> = numbers.iter().map(|n| Rational::new(*n, 1)).collect();
-            Recipe::around(kind, &numbers, &half)
+            SamplerSpec::around(kind, &numbers, &half)
         };
         let matrix = around(Type::Matrix(2, 2), &[3, 0, 0, 5]).expect("diagonal");
         let range = |low, high| Draw::Within(Range::between((low, 10), (high, 10)));
@@ -328,7 +333,7 @@ mod tests {
 
     #[test]
     fn moments_keep_the_triangle_inequalities() {
-        let recipe = Recipe::Inertia(Range::between((1, 2), (5, 1)));
+        let recipe = SamplerSpec::Inertia(Range::between((1, 2), (5, 1)));
         let Value::Matrix(inertia) = recipe.make(&[0.3, 2.4, 1.1]) else { unreachable!() };
         let [x, y, z] = [0, 1, 2].map(|k| inertia[(k, k)]);
         assert!(x < y + z && y < x + z && z < x + y, "a body can have these moments");

@@ -8,7 +8,7 @@ use super::body::{Shape, axis, matrix, scalar, vector};
 use super::configuration::Configuration;
 use super::linear::{across, isotropic, point_mass};
 use super::phase::Phase;
-use super::rolling::{Motion, Pose};
+use super::rolling::{Pose, RollingTerms};
 use super::rubber::{NORMAL, Potential, angular_velocity, normal};
 use crate::formula::Formula;
 use crate::scalar::Scalar;
@@ -33,11 +33,11 @@ pub struct RigidBody {
 }
 
 impl RigidBody {
-    pub(super) fn motion<'p, T: Scalar>(&self, phase: &'p Phase<'_, T>) -> &'p Motion<T> {
+    pub(super) fn motion<'p, T: Scalar>(&self, phase: &'p Phase<'_, T>) -> &'p RollingTerms<T> {
         phase.motion(|| {
             let at = &phase.configuration;
             let (r, slope) = self.shape.contact(at);
-            Motion::of(Pose {
+            RollingTerms::of(Pose {
                 omega: angular_velocity(at),
                 gamma: normal(at),
                 mass: scalar(at.evaluate(&self.mass)),

@@ -42,7 +42,7 @@ pub struct Pose<T> {
 }
 
 /// Intermediate results of the equations of motion.
-pub struct Motion<T> {
+pub struct RollingTerms<T> {
     /// Data of the body in this state.
     pub pose: Pose<T>,
     /// Rate γ'.
@@ -51,7 +51,7 @@ pub struct Motion<T> {
     pub contact_rate: Vector3<T>,
 }
 
-impl<T: Scalar> Motion<T> {
+impl<T: Scalar> RollingTerms<T> {
     /// Computes γ' and r' for given data.
     pub fn of(pose: Pose<T>) -> Self {
         let free_rate = pose.gamma.cross(&pose.omega);

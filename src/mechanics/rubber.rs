@@ -6,7 +6,7 @@ use std::ops::{Deref, DerefMut};
 
 use nalgebra::Vector3;
 
-use super::body::{Polynomial, scalar, vector};
+use super::body::{SurfacePolynomial, scalar, vector};
 use super::chart::Chart;
 use super::configuration::Configuration;
 use super::dynamics::Dynamics;
@@ -46,7 +46,7 @@ pub enum Potential {
     /// A potential given by a formula.
     Formula(Formula),
     /// A polynomial with free coefficients, which attains every jet that a residual can contain.
-    Arbitrary(Polynomial),
+    Arbitrary(SurfacePolynomial),
 }
 
 /// Returns the normal γ.

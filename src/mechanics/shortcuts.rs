@@ -21,7 +21,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::linear::{adjugate, determinant_with};
 use super::phase::Phase;
-use super::rolling::{Motion, Pose};
+use super::rolling::{Pose, RollingTerms};
 use super::rubber::Rubber;
 use crate::scalar::Scalar;
 
@@ -66,7 +66,7 @@ struct OnPlane<T> {
 }
 
 impl<T: Scalar> OnPlane<T> {
-    fn of(motion: &Motion<T>) -> Self {
+    fn of(motion: &RollingTerms<T>) -> Self {
         let Pose { omega, gamma, mass, r, slope, inertia, .. } = &motion.pose;
         let (slide, rate) = (&motion.contact_rate, &motion.normal_rate);
         let adjugate = adjugate(inertia);

@@ -58,7 +58,7 @@ impl DerefMut for Spinning {
 }
 
 /// The body at one γ, where its measure is concerned.
-struct Pose<T> {
+struct MeasurePose<T> {
     gamma: Vector3<T>,
     r: Vector3<T>,
     slope: Matrix3<T>,
@@ -70,7 +70,7 @@ struct Pose<T> {
     rolling: Matrix3<T>,
 }
 
-impl<T: Scalar> Pose<T> {
+impl<T: Scalar> MeasurePose<T> {
     /// Computes τ.
     fn twist(&self) -> T {
         (self.inverse * self.rolling).trace()
@@ -100,7 +100,7 @@ impl<T: Scalar> Pose<T> {
 }
 
 impl Spinning {
-    fn pose<T: Scalar>(&self, at: &Configuration<'_, T>) -> Pose<T> {
+    fn pose<T: Scalar>(&self, at: &Configuration<'_, T>) -> MeasurePose<T> {
         let gamma = normal(at);
         let (r, slope) = self.shape.contact(at);
         let across = self.gamma_across(at, &slope);
@@ -113,7 +113,7 @@ impl Spinning {
         let inertia = self.inertia_at(at, &r);
         let adjugate = adjugate(&inertia);
         let determinant = determinant_with(&inertia, &adjugate);
-        Pose {
+        MeasurePose {
             mass: at.scalar(&self.mass),
             inverse: adjugate.map(|x| x / determinant),
             rolling: Matrix3::from_columns(&[0, 1, 2].map(turned)),

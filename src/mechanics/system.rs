@@ -5,7 +5,7 @@ use super::chart::Chart;
 use super::configuration::Configuration;
 use super::dynamics::Dynamics;
 use super::flat_base::FlatBase;
-use super::hamiltonian::Hamiltonian;
+use super::hamiltonian::HamiltonianSystem;
 use super::lagrangian::Lagrangian;
 use super::phase::Phase;
 use super::quantity::Quantity;
@@ -29,7 +29,7 @@ pub enum System {
     /// A Lagrangian with constraints that are linear in the velocities.
     Lagrangian(Box<Lagrangian>),
     /// Hamilton's equations with a bracket given by the case.
-    Hamiltonian(Box<Hamiltonian>),
+    Hamiltonian(Box<HamiltonianSystem>),
     /// A vector field of the user: the rate of each state variable.
     Field(Vec<Formula>),
     /// A map of the user's own: the image of each state variable.

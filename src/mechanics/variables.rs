@@ -1,6 +1,6 @@
 //! New variables y = φ(x) with a bracket, in which Hamiltonian forms are written.
 
-use super::calculus::Jet;
+use super::calculus::DualPoint;
 use super::model::{Model, Variable};
 use super::phase::Phase;
 use crate::formula::Formula;
@@ -8,7 +8,7 @@ use crate::scalar::Scalar;
 
 /// New variables as functions of the state, and a bracket for them.
 #[derive(Clone, Debug)]
-pub struct Variables {
+pub struct NewVariables {
     /// Model of the new variables' names; its parameters are the case's.
     pub model: Model,
     /// One formula for each new variable, in the names of the case.
@@ -23,19 +23,19 @@ pub struct Poisson {
     /// Name by which claims choose it.
     pub name: String,
     /// Blocks of the tensor, by pairs of variables; 0 where none is given.
-    pub blocks: Vec<Vec<Option<Block>>>,
+    pub blocks: Vec<Vec<Option<BracketBlock>>>,
 }
 
 impl Poisson {
     /// Returns the blocks that are formulas.
     pub fn given_blocks(&self) -> impl Iterator<Item = &Formula> {
-        self.blocks.iter().flatten().flatten().filter_map(Block::typed)
+        self.blocks.iter().flatten().flatten().filter_map(BracketBlock::typed)
     }
 }
 
 /// A block of a Poisson tensor.
 #[derive(Clone, Debug)]
-pub enum Block {
+pub enum BracketBlock {
     /// A given block.
     Given(Formula),
     /// The negative transpose of the block given for the opposite pair.
@@ -46,17 +46,17 @@ pub enum Block {
     OppositeUnit,
 }
 
-impl Block {
+impl BracketBlock {
     /// Returns the formula of a given block.
     pub(super) fn typed(&self) -> Option<&Formula> {
         match self {
-            Block::Given(formula) => Some(formula),
+            BracketBlock::Given(formula) => Some(formula),
             _ => None,
         }
     }
 }
 
-impl Variables {
+impl NewVariables {
     /// Evaluates φ(x), component by component.
     pub fn image<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         self.images.iter().flat_map(|image| phase.evaluate(image).components()).collect()
@@ -68,7 +68,7 @@ impl Variables {
     }
 
     /// Computes L_vφ.
-    pub fn rates<T: Scalar>(&self, jet: &Jet<'_, T>) -> Vec<T> {
+    pub fn rates<T: Scalar>(&self, jet: &DualPoint<'_, T>) -> Vec<T> {
         self.images.iter().flat_map(|image| jet.rates(image)).collect()
     }
 
@@ -100,7 +100,7 @@ pub(super) fn symmetric_part<T: Scalar>(state: &[Variable], matrix: &[Vec<T>]) -
 /// Makes the tensor of some blocks at a point in their variables, by rows.
 pub(super) fn tensor<T: Scalar>(
     state: &[Variable],
-    blocks: &[Vec<Option<Block>>],
+    blocks: &[Vec<Option<BracketBlock>>],
     there: &Phase<'_, T>,
 ) -> Vec<Vec<T>> {
     let mut rows = Vec::new();
@@ -116,13 +116,13 @@ pub(super) fn tensor<T: Scalar>(
             // Entry (i, j) of a block that is given for the opposite pair is at (j, i).
             let (values, strides) = match block {
                 None => (vec![T::zero(); variable.len() * across.len()], (across.len(), 1)),
-                Some(Block::Given(p)) => (there.evaluate(p).components(), (across.len(), 1)),
-                Some(Block::Opposite(p)) => {
+                Some(BracketBlock::Given(p)) => (there.evaluate(p).components(), (across.len(), 1)),
+                Some(BracketBlock::Opposite(p)) => {
                     let values = there.evaluate(p).components().into_iter().map(|x| -x);
                     (values.collect(), (1, variable.len()))
                 }
-                Some(Block::Unit) => (unit(T::one()), (across.len(), 1)),
-                Some(Block::OppositeUnit) => (unit(-T::one()), (across.len(), 1)),
+                Some(BracketBlock::Unit) => (unit(T::one()), (across.len(), 1)),
+                Some(BracketBlock::OppositeUnit) => (unit(-T::one()), (across.len(), 1)),
             };
             for (i, row) in rows[start..].iter_mut().enumerate() {
                 row.extend((0..across.len()).map(|j| values[i * strides.0 + j * strides.1]));

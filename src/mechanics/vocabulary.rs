@@ -5,7 +5,7 @@ use std::sync::Arc;
 use rustc_hash::FxHashMap;
 
 use super::quantity::Quantity;
-use crate::formula::{Formula, Origin, Scope, Symbol, Type};
+use crate::formula::{Formula, Scope, Symbol, SymbolOrigin, Type};
 
 /// The meaning of a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,7 +22,7 @@ pub enum Meaning {
 
 /// The dependence of a quantity; later levels include earlier ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Reach {
+pub enum Dependence {
     /// Parameters only.
     Parameters,
     /// Parameters and the configuration γ.
@@ -33,7 +33,7 @@ pub enum Reach {
 
 /// A name with its meaning.
 #[derive(Clone, Debug)]
-pub struct Entry {
+pub struct VocabularyEntry {
     /// Canonical name.
     pub name: String,
     /// Meaning of the name.
@@ -41,7 +41,7 @@ pub struct Entry {
     /// Type of the value: scalar, vector or matrix.
     pub kind: Type,
     /// Dependence of the value.
-    pub reach: Reach,
+    pub reach: Dependence,
     /// Integer value, if the file fixes one.
     pub whole: Option<i64>,
     /// Formula of an abbreviation.
@@ -51,15 +51,15 @@ pub struct Entry {
 /// All names of a case.
 #[derive(Clone, Debug, Default)]
 pub struct Vocabulary {
-    entries: Vec<Entry>,
+    entries: Vec<VocabularyEntry>,
     by_name: FxHashMap<String, u32>,
 }
 
 impl Vocabulary {
     /// Adds a name; a later entry of the same name hides the earlier one.
-    pub fn add(&mut self, name: &str, meaning: Meaning, kind: Type, reach: Reach) {
+    pub fn add(&mut self, name: &str, meaning: Meaning, kind: Type, reach: Dependence) {
         self.by_name.insert(name.to_string(), self.entries.len() as u32);
-        self.entries.push(Entry {
+        self.entries.push(VocabularyEntry {
             name: name.to_string(),
             meaning,
             kind,
@@ -70,7 +70,7 @@ impl Vocabulary {
     }
 
     /// Adds an abbreviation, the one with this index in the model.
-    pub fn define(&mut self, name: &str, index: usize, formula: &Formula, reach: Reach) {
+    pub fn define(&mut self, name: &str, index: usize, formula: &Formula, reach: Dependence) {
         self.add(name, Meaning::Abbreviation(index), formula.value_type(), reach);
         if let Some(entry) = self.entries.last_mut() {
             entry.definition = Some(Arc::new(formula.clone()));
@@ -85,8 +85,8 @@ impl Vocabulary {
     }
 
     /// Adds an entry without making it accessible by name; returns its symbol.
-    pub fn hide(&mut self, name: &str, meaning: Meaning, kind: Type, reach: Reach) -> Symbol {
-        self.entries.push(Entry {
+    pub fn hide(&mut self, name: &str, meaning: Meaning, kind: Type, reach: Dependence) -> Symbol {
+        self.entries.push(VocabularyEntry {
             name: name.to_string(),
             meaning,
             kind,
@@ -107,28 +107,28 @@ impl Vocabulary {
     ///
     /// Symbols keep their meaning, so that abbreviations can still be evaluated.
     pub fn only_parameters(&self) -> Self {
-        self.only(|entry| entry.reach == Reach::Parameters)
+        self.only(|entry| entry.reach == Dependence::Parameters)
     }
 
     /// Returns the same entries, with only some of them accessible by name.
-    pub fn only(&self, keep: impl Fn(&Entry) -> bool) -> Self {
+    pub fn only(&self, keep: impl Fn(&VocabularyEntry) -> bool) -> Self {
         let mut kept = self.clone();
         kept.by_name.retain(|_, index| keep(&self.entries[*index as usize]));
         kept
     }
 
     /// Returns the entry of a symbol.
-    pub fn entry(&self, symbol: Symbol) -> &Entry {
+    pub fn entry(&self, symbol: Symbol) -> &VocabularyEntry {
         &self.entries[symbol.0 as usize]
     }
 
     /// Returns the entry of a name.
-    pub fn find(&self, name: &str) -> Option<&Entry> {
+    pub fn find(&self, name: &str) -> Option<&VocabularyEntry> {
         self.by_name.get(name).map(|index| &self.entries[*index as usize])
     }
 
     /// Iterates over all entries with their symbols.
-    pub fn iter(&self) -> impl Iterator<Item = (Symbol, &Entry)> {
+    pub fn iter(&self) -> impl Iterator<Item = (Symbol, &VocabularyEntry)> {
         self.entries.iter().enumerate().map(|(index, entry)| (Symbol(index as u32), entry))
     }
 
@@ -155,7 +155,7 @@ impl Vocabulary {
     }
 
     /// Returns the names that a formula depends on, directly or through abbreviations.
-    pub fn uses(&self, formula: &Formula, abbreviations: &[Formula]) -> Vec<&Entry> {
+    pub fn uses(&self, formula: &Formula, abbreviations: &[Formula]) -> Vec<&VocabularyEntry> {
         let formulas = self.with_abbreviations(formula, abbreviations).into_iter();
         formulas.flat_map(|f| f.symbols().map(|symbol| self.entry(symbol))).collect()
     }
@@ -198,7 +198,7 @@ impl Vocabulary {
     }
 
     /// Returns the entry with the largest dependence among the names in `formula`.
-    pub fn reach(&self, formula: &Formula) -> Option<&Entry> {
+    pub fn reach(&self, formula: &Formula) -> Option<&VocabularyEntry> {
         formula.symbols().map(|symbol| self.entry(symbol)).max_by_key(|entry| entry.reach)
     }
 }
@@ -217,13 +217,13 @@ impl Scope for Vocabulary {
         self.find(name)?.whole
     }
 
-    fn origin(&self, symbol: Symbol) -> Origin<'_> {
+    fn origin(&self, symbol: Symbol) -> SymbolOrigin<'_> {
         let entry = self.entry(symbol);
         match (entry.meaning, &entry.definition) {
-            (_, Some(formula)) => Origin::Defined(formula),
-            (Meaning::State(_), None) => Origin::Variable,
-            (_, None) if entry.reach == Reach::Parameters => Origin::Constant,
-            _ => Origin::Computed,
+            (_, Some(formula)) => SymbolOrigin::Defined(formula),
+            (Meaning::State(_), None) => SymbolOrigin::Variable,
+            (_, None) if entry.reach == Dependence::Parameters => SymbolOrigin::Constant,
+            _ => SymbolOrigin::Computed,
         }
     }
 }

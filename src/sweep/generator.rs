@@ -11,8 +11,8 @@
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes become vectors")]
 
-use crate::engine::{LANES, Row};
-use crate::graph::{Work, with_widest_vectors};
+use crate::engine::{ROW_STATES, RowBlock};
+use crate::graph::{Kernel, with_widest_vectors};
 use crate::mechanics::Draw;
 
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
@@ -24,11 +24,11 @@ const UNIT: f64 = 1.0 / (1u64 << 32) as f64;
 pub(super) struct Generator {
     /// Keys, one for each pair of draws.
     keys: Vec<u64>,
-    sources: Vec<Source>,
+    sources: Vec<InputSource>,
 }
 
 #[derive(Clone, Debug)]
-enum Source {
+enum InputSource {
     Range { first: f64, step: f64 },
     List(Vec<f64>),
 }
@@ -37,11 +37,11 @@ impl Generator {
     /// Builds a generator with one number for each draw.
     pub(super) fn new(draws: &[Draw], seed: u64) -> Self {
         let source = |draw: &Draw| match draw {
-            Draw::OneOf(values) => Source::List(values.iter().map(|x| x.to_f64().0).collect()),
-            Draw::Sign => Source::List(vec![1.0, -1.0]),
+            Draw::OneOf(values) => InputSource::List(values.iter().map(|x| x.to_f64().0).collect()),
+            Draw::Sign => InputSource::List(vec![1.0, -1.0]),
             Draw::Within(range) | Draw::Of(_, range) => {
                 let step = (&range.high - &range.low).to_f64().0 * UNIT;
-                Source::Range { first: range.low.to_f64().0 + step / 2.0, step }
+                InputSource::Range { first: range.low.to_f64().0 + step / 2.0, step }
             }
         };
         let key = |pair: usize| mixed(mixed(seed).wrapping_add(pair as u64));
@@ -57,7 +57,7 @@ impl Generator {
     }
 
     /// Fills rows, one for each draw, with the draws of the states from `start` on.
-    pub(super) fn fill(&self, start: u64, rows: &mut [Row]) {
+    pub(super) fn fill(&self, start: u64, rows: &mut [RowBlock]) {
         with_widest_vectors(Fill { generator: self, start, rows });
     }
 }
@@ -65,30 +65,30 @@ impl Generator {
 struct Fill<'f> {
     generator: &'f Generator,
     start: u64,
-    rows: &'f mut [Row],
+    rows: &'f mut [RowBlock],
 }
 
-impl Work for Fill<'_> {
+impl Kernel for Fill<'_> {
     #[inline(always)]
     fn run(self) {
         let Generator { keys, sources } = self.generator;
         let draws = sources.chunks(2).zip(self.rows.chunks_mut(2));
         for (key, (sources, rows)) in keys.iter().zip(draws) {
-            let mut bits = [0; LANES];
-            for lane in 0..LANES {
+            let mut bits = [0; ROW_STATES];
+            for lane in 0..ROW_STATES {
                 let counter = self.start.wrapping_add(lane as u64);
                 bits[lane] = mixed(counter.wrapping_mul(GOLDEN) ^ key);
             }
             for (half, (source, row)) in sources.iter().zip(rows).enumerate() {
                 let number = |bits: u64| (bits >> (32 * half)) as u32;
                 match source {
-                    Source::Range { first, step } => {
-                        for lane in 0..LANES {
+                    InputSource::Range { first, step } => {
+                        for lane in 0..ROW_STATES {
                             row.0[lane] = first + step * f64::from(number(bits[lane]));
                         }
                     }
-                    Source::List(values) => {
-                        for lane in 0..LANES {
+                    InputSource::List(values) => {
+                        for lane in 0..ROW_STATES {
                             let scaled = u64::from(number(bits[lane])) * values.len() as u64;
                             let index = scaled >> 32;
                             row.0[lane] = values.get(index as usize).copied().unwrap_or(0.0);
@@ -114,8 +114,8 @@ mod tests {
     use crate::mechanics::Range;
     use crate::number::rational::Rational;
 
-    fn rows(generator: &Generator, start: u64) -> Vec<Row> {
-        let mut rows = vec![Row([0.0; LANES]); generator.sources.len()];
+    fn rows(generator: &Generator, start: u64) -> Vec<RowBlock> {
+        let mut rows = vec![RowBlock([0.0; ROW_STATES]); generator.sources.len()];
         generator.fill(start, &mut rows);
         rows
     }
@@ -131,7 +131,7 @@ mod tests {
         let generator = Generator::new(&three(), 7);
         let (early, late) = (rows(&generator, 0), rows(&generator, 10));
         for k in 0..3 {
-            assert_eq!(early[k].0[10..], late[k].0[..LANES - 10], "draw {k}");
+            assert_eq!(early[k].0[10..], late[k].0[..ROW_STATES - 10], "draw {k}");
         }
         let fewer = Generator::new(&three()[..1], 7);
         assert_eq!(rows(&fewer, 0)[0], early[0], "further draws change nothing");
@@ -146,7 +146,7 @@ mod tests {
     #[test]
     fn every_instruction_set_draws_the_same() {
         let generator = Generator::new(&three(), 7);
-        let mut plain = vec![Row([0.0; LANES]); 3];
+        let mut plain = vec![RowBlock([0.0; ROW_STATES]); 3];
         Fill { generator: &generator, start: 1 << 40, rows: &mut plain }.run();
         assert_eq!(rows(&generator, 1 << 40), plain, "vectors change no bit");
     }
@@ -159,7 +159,7 @@ mod tests {
         let (mut cells, mut listed) = ([0; 64], [0; 6]);
         for block in 0..1000 {
             let rows = rows(&generator, 64 * block);
-            for lane in 0..LANES {
+            for lane in 0..ROW_STATES {
                 let place = |k: usize| {
                     let x = rows[k].0[lane];
                     assert!(-0.5 < x && x < 1.5 && x != 0.0, "{x} is inside");

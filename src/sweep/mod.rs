@@ -9,6 +9,8 @@
 //! their number. The result is the same for any number of threads. It is not a verdict, since a
 //! number in f64 has no error bound. [`judge`](crate::verdict::judge) proves and refutes; a sweep
 //! finds where a formula without a proof is off most, or maps a quantity over ranges of parameters.
+//! A [`Part`](crate::part::Part) of the states may run on any machine; [`Extremes::and`] combines the
+//! results.
 //!
 //! ```
 //! use liouville::case::Case;
@@ -51,13 +53,13 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::case::{Case, PlacedClaim};
-use crate::engine::{Engine, LANES, Means, Row, Runner};
+use crate::engine::{Backend, Engine, ROW_STATES, RowBlock, Runner};
 use crate::graph::{Evaluator, Fault, Tape, record};
 use crate::mechanics::Phase;
-use crate::mechanics::calculus::Jet;
+use crate::mechanics::calculus::DualPoint;
 use crate::number::float::Float;
 use crate::scalar::Scalar;
-use crate::verdict::{Named, Sampler, antiderivative_value, named};
+use crate::verdict::{NamedValue, Sampler, antiderivative_value, named};
 use generator::Generator;
 
 /// Number of states that a thread takes at a time, enough that their distribution costs nothing.
@@ -120,13 +122,14 @@ pub struct Peak {
     /// Number of the state under the sweep's seed.
     pub index: u64,
     /// Largest |residual|/scale of all components. The scale is a reference size of the
-    /// residual ([`crate::claim::Context::scale`]), or 1 for kinds of claims without one.
+    /// residual ([`crate::claim::ResidualContext::scale`]), or 1 for kinds of claims without one.
     pub ratio: f64,
 }
 
 impl Extremes {
-    /// Combines the results of two sweeps, `self` being of earlier states.
-    fn and(self, later: Self) -> Self {
+    /// Combines the results of two sweeps, `self` being of earlier states: of the parts of a sweep
+    /// in order, the result of the whole.
+    pub fn and(self, later: Self) -> Self {
         let peak = match (self.peak, later.peak) {
             (Some(a), Some(b)) => Some(if b.ratio > a.ratio { b } else { a }),
             (a, b) => a.or(b),
@@ -138,7 +141,7 @@ impl Extremes {
 impl<'c> Sweep<'c> {
     /// Records a claim, from the draws of its states on.
     pub fn new(case: &'c Case, claim: &PlacedClaim, seed: u64) -> Result<Self, SweepError> {
-        Self::by(case, claim, seed, Means::Quickest)
+        Self::by(case, claim, seed, Backend::Quickest)
     }
 
     /// Records a claim for an engine of one's choice, which does not affect the numbers.
@@ -146,7 +149,7 @@ impl<'c> Sweep<'c> {
         case: &'c Case,
         claim: &PlacedClaim,
         seed: u64,
-        means: Means,
+        means: Backend,
     ) -> Result<Self, SweepError> {
         let sampler = Sampler::new(case, &claim.place, seed)?;
         if sampler.is_numerical() {
@@ -155,7 +158,7 @@ impl<'c> Sweep<'c> {
         let free = case.model.free_components();
         let (graph, groups) = record(free + case.model.dimension(), |inputs| {
             let (parameters, state) = inputs.split_at(free);
-            let jet = Jet::new(Phase::new(&case.model, parameters, state));
+            let jet = DualPoint::new(Phase::new(&case.model, parameters, state));
             let residual = claim.kind.residual(&jet, &claim.place.kept);
             let scale = claim.kind.context(&jet, &claim.place.kept).scale;
             let ratio = |residual: crate::graph::Expr| {
@@ -200,8 +203,8 @@ impl<'c> Sweep<'c> {
     }
 
     /// Parameters and state of state `index`, by name, in the notation of `eval`.
-    pub fn state(&self, index: u64) -> (Vec<Named>, Vec<Named>) {
-        let mut draws = vec![Row([0.0; LANES]); self.point.inputs()];
+    pub fn state(&self, index: u64) -> (Vec<NamedValue>, Vec<NamedValue>) {
+        let mut draws = vec![RowBlock([0.0; ROW_STATES]); self.point.inputs()];
         self.fix_antiderivatives(&mut draws);
         self.generator.fill(index, &mut draws);
         let mut evaluator = Evaluator::new(&self.point, Float::<1>);
@@ -222,19 +225,19 @@ impl<'c> Sweep<'c> {
     }
 
     /// Sets the antiderivatives, whose rows follow those of the draws.
-    fn fix_antiderivatives(&self, inputs: &mut [Row]) {
+    fn fix_antiderivatives(&self, inputs: &mut [RowBlock]) {
         for (number, row) in inputs.iter_mut().skip(self.generator.draws()).enumerate() {
-            row.0 = [antiderivative_value(number).to_f64().0; LANES];
+            row.0 = [antiderivative_value(number).to_f64().0; ROW_STATES];
         }
     }
 
     /// Evaluates a few states, one row after the other.
     fn look(&self, runner: &mut Runner, states: Range<u64>) -> Extremes {
         let mut found = Extremes::default();
-        for start in states.clone().step_by(LANES) {
+        for start in states.clone().step_by(ROW_STATES) {
             self.generator.fill(start, runner.inputs());
             runner.run();
-            let lanes = (states.end - start).min(LANES as u64) as usize;
+            let lanes = (states.end - start).min(ROW_STATES as u64) as usize;
             let mut ratios = *runner.output(0);
             for component in 1..self.components {
                 worse(&mut ratios, runner.output(component));
@@ -246,7 +249,7 @@ impl<'c> Sweep<'c> {
 }
 
 /// Takes the larger of two values, or an undefined one.
-fn worse(ratios: &mut Row, others: &Row) {
+fn worse(ratios: &mut RowBlock, others: &RowBlock) {
     for (ratio, other) in ratios.0.iter_mut().zip(&others.0) {
         if *other > *ratio || other.is_nan() {
             *ratio = *other;

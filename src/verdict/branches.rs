@@ -4,7 +4,7 @@
 //! For example, x (y² + z² − 1) = 0 is solved by x = 0 where y² + z² ≠ 1, and the cylinder is
 //! another part.
 
-use super::bench::Bench;
+use super::judging::Judging;
 use super::sampler::{Sampler, extent};
 use crate::case::Case;
 use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, record};
@@ -16,7 +16,7 @@ use crate::number::rational::Rational;
 use crate::proof::{Extent, Group, Prover, are_coprime, are_polynomials, is_nowhere_zero};
 use crate::scalar::Scalar;
 
-impl Bench<'_> {
+impl Judging<'_> {
     /// Returns the reason why states may miss a part of their place, if they may.
     pub(super) fn missed_part(&self, sampler: &Sampler) -> Result<Option<String>, Fault> {
         let Some(solution) = sampler.solution() else { return Ok(None) };
@@ -43,7 +43,7 @@ impl Bench<'_> {
         if open.is_empty() {
             return Ok(None);
         }
-        let space = Space::of(self.case, sampler, solution)?;
+        let space = PivotSpace::of(self.case, sampler, solution)?;
         open.retain(|index| !space.is_definite(&space.pivots[*index]));
         // Factors of a single remaining equation do no harm if they have no common factor.
         if let [index] = open[..]
@@ -71,7 +71,7 @@ impl Bench<'_> {
     fn has_no_factor(
         &self,
         sampler: &Sampler,
-        space: &Space,
+        space: &PivotSpace,
         solution: &Solution,
         index: usize,
     ) -> bool {
@@ -129,7 +129,7 @@ impl Bench<'_> {
 ///
 /// Values at computed states do not suffice: these may approach a point of the level without
 /// reaching it, as a stereographic projection approaches its pole.
-struct Space {
+struct PivotSpace {
     graph: Graph,
     pivots: Vec<Pivot>,
     /// Level functions and their negatives, neither of which is negative on the level.
@@ -137,7 +137,7 @@ struct Space {
     extents: Vec<Extent>,
 }
 
-impl Space {
+impl PivotSpace {
     fn of(case: &Case, sampler: &Sampler, solution: &Solution) -> Result<Self, Fault> {
         let (model, first) = (&case.model, sampler.parameter_draws());
         let (graph, (pivots, level)) = record(first + model.dimension(), |inputs| {

@@ -1,17 +1,17 @@
 //! Conversion of findings to reports.
 
+use super::claim_state::ClaimState;
 use super::evidence::{ClaimReport, Verdict};
-use super::finding::Finding;
 use super::judge::{Options, Trust};
-use super::recorded::Recorded;
+use super::recorded::RecordedClaim;
 use crate::case::{Case, Expect};
-use crate::claim::Kind;
+use crate::claim::ClaimKind;
 
 /// Makes the report on a claim, with its verdict compared with the expectation.
 pub fn report(
     case: &Case,
-    item: &Recorded<'_>,
-    finding: Finding,
+    item: &RecordedClaim<'_>,
+    finding: ClaimState,
     options: &Options,
 ) -> ClaimReport {
     let claim = item.claim;
@@ -56,7 +56,7 @@ pub fn report(
         evidence.remark = evidence.remark.or_else(|| claim.kind.remark_on_refutation(&case.model));
     }
     let place = claim.place.name(&case.model);
-    if holds && matches!(claim.kind, Kind::Density(_)) && place != "everywhere" {
+    if holds && matches!(claim.kind, ClaimKind::Density(_)) && place != "everywhere" {
         let functions: Vec<&str> = case
             .model
             .level

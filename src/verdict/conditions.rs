@@ -1,19 +1,19 @@
 //! Conditions that claims presuppose.
 
-use super::bench::Bench;
-use super::field::{Field, combinations};
-use super::finding::undecide;
+use super::claim_state::undecide;
+use super::field::{PrimeFieldStates, combinations};
+use super::judging::Judging;
 use super::ladder::Open;
-use super::recorded::Recorded;
+use super::recorded::RecordedClaim;
 use super::sampler::{Sampler, extent};
 use crate::claim::{Condition, Need};
 use crate::graph::{Expr, Fault, Graph, Step, record};
 use crate::mechanics::Phase;
-use crate::number::{Function, Operation};
-use crate::proof::{Extent, Group, Outcome, Prover, are_coprime, is_nowhere_zero};
+use crate::number::{BinaryOperation, UnaryFunction};
+use crate::proof::{Extent, Group, GroupOutcome, Prover, are_coprime, is_nowhere_zero};
 use crate::scalar::Scalar;
 
-impl Bench<'_> {
+impl Judging<'_> {
     /// Leaves claims undecided if an essential condition is not known to hold, and adds remarks to
     /// others.
     pub(super) fn settle_conditions(
@@ -45,7 +45,7 @@ impl Bench<'_> {
         let otherwise = &condition.otherwise;
         match &condition.need {
             Need::Rank { rows, rank } => {
-                let ranks = Field::new(self, sampler).ranks(rows, &[rows.len()])?;
+                let ranks = PrimeFieldStates::new(self, sampler).ranks(rows, &[rows.len()])?;
                 let found = ranks.and_then(|ranks| ranks.first().copied());
                 Ok(match found {
                     Some(found) if found >= *rank => None,
@@ -81,7 +81,7 @@ impl Bench<'_> {
     }
 
     /// Whether a claim about new variables is proved for all their values, related or not.
-    fn holds_of_all_values(&self, item: &Recorded<'_>) -> Result<bool, Fault> {
+    fn holds_of_all_values(&self, item: &RecordedClaim<'_>) -> Result<bool, Fault> {
         let model = &self.case.model;
         let Some(variables) = model.variables.as_deref() else { return Ok(false) };
         let draws = model.parameter_draws();
@@ -102,7 +102,7 @@ impl Bench<'_> {
                 item.claim.kind.residual_of_values(variables, &there)
             })?;
             let Some(residual) = residual else { return Ok(false) };
-            if !prover.prove(&graph, &[Group::of(residual)])?.iter().all(Outcome::is_zero) {
+            if !prover.prove(&graph, &[Group::of(residual)])?.iter().all(GroupOutcome::is_zero) {
                 return Ok(false);
             }
         }
@@ -153,9 +153,9 @@ fn poles(graph: &Graph, value: Expr) -> Vec<Expr> {
     let reached = graph.reached([value]);
     let steps = graph.steps().zip(&reached).filter(|(_, reached)| **reached);
     let pole = |(step, _): (Step<'_>, &bool)| match step {
-        Step::Unary(Function::Recip | Function::Ln, a) => Some(a),
+        Step::Unary(UnaryFunction::Recip | UnaryFunction::Ln, a) => Some(a),
         Step::Power(a, exponent) if exponent.is_negative() => Some(a),
-        Step::Binary(Operation::Pow, a, _) => Some(a),
+        Step::Binary(BinaryOperation::Pow, a, _) => Some(a),
         _ => None,
     };
     steps.filter_map(pole).map(|place| graph.at(place)).collect()

@@ -4,22 +4,27 @@ use num_dual::Dual;
 use num_traits::{One, Zero};
 
 use crate::case::Case;
-use crate::claim::Place;
+use crate::claim::LevelSubset;
 use crate::graph::{Evaluator, Expr, Fault, Tape, record};
-use crate::mechanics::Draws;
+use crate::mechanics::DrawSource;
 use crate::number::Domain;
-use crate::number::precise::{Approximation, Precise};
+use crate::number::arb::{Approximation, ArbBall};
 
 /// Number of states at which the rank is computed, followed by the precision in bits.
 const STATES: u64 = 8;
-const BITS: u32 = 512;
+const RANK_BITS: u32 = 512;
 
 /// Bounds from below the rank of the chart's derivative with respect to its inputs, by enclosures
 /// at some state.
-pub fn rank(case: &Case, draws: &Draws, parameter_draws: usize, seed: u64) -> Result<usize, Fault> {
+pub fn rank(
+    case: &Case,
+    draws: &DrawSource,
+    parameter_draws: usize,
+    seed: u64,
+) -> Result<usize, Fault> {
     let model = &case.model;
     let inputs = draws.len() - parameter_draws;
-    let level = Place::level(model);
+    let level = LevelSubset::level(model);
     let (graph, slopes) = record(draws.len(), |numbers| {
         let (parameters, state) = model.make_parameters(numbers);
         let parameters: Vec<Dual<Expr>> = parameters.into_iter().map(Dual::from_re).collect();
@@ -34,7 +39,7 @@ pub fn rank(case: &Case, draws: &Draws, parameter_draws: usize, seed: u64) -> Re
             .collect::<Vec<_>>()
     })?;
     let tape = Tape::new(&graph, &slopes);
-    let domain = Precise::new(BITS);
+    let domain = ArbBall::new(RANK_BITS);
     let mut evaluator = Evaluator::new(&tape, domain);
     let rank_at = |index: u64| {
         let point = draws.state(seed, index).into_iter().map(|value| domain.values(&[value]));
@@ -63,11 +68,11 @@ fn proved_rank(mut rows: Vec<Vec<Approximation>>) -> usize {
         columns.retain(|j| *j != column);
         let (above, below) = rows.split_at_mut(rank + 1);
         let pivot = &above[rank];
-        let Some(inverse) = pivot[column].recip(BITS) else { break };
+        let Some(inverse) = pivot[column].recip(RANK_BITS) else { break };
         for row in below {
-            let factor = row[column].mul(&inverse, BITS);
+            let factor = row[column].mul(&inverse, RANK_BITS);
             for j in &columns {
-                row[*j] = row[*j].add(&factor.mul(&pivot[*j], BITS).neg(), BITS);
+                row[*j] = row[*j].add(&factor.mul(&pivot[*j], RANK_BITS).neg(), RANK_BITS);
             }
         }
         rank += 1;
@@ -82,7 +87,7 @@ mod tests {
 
     #[test]
     fn rounding_is_no_rank() {
-        let domain = Precise::new(BITS);
+        let domain = ArbBall::new(RANK_BITS);
         let third = Rational::new(1, 3);
         let rows = |rows: [[Rational; 2]; 2]| {
             rows.map(|row| row.map(|x| domain.rational(&x)).to_vec()).to_vec()

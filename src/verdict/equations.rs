@@ -2,7 +2,7 @@
 
 use crate::case::Case;
 use crate::graph::{Fault, record};
-use crate::mechanics::{Model, Part, Phase};
+use crate::mechanics::{EquationPart, Model, Phase};
 
 /// Size of the recorded equations of motion.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -11,7 +11,7 @@ pub struct EquationsSize {
     pub operations: usize,
     /// Parts that a system of this kind may have, each with its number of operations: those that
     /// go when the part is left out. `None` where the case has none of it.
-    pub parts: Vec<(Part, Option<usize>)>,
+    pub parts: Vec<(EquationPart, Option<usize>)>,
 }
 
 /// Records the equations of motion of a case, as they are and without each of their parts.

@@ -68,7 +68,7 @@ pub enum Independence {
 /// The sign of a density.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Sign {
+pub enum DensitySign {
     /// Positive at every state tried.
     Positive,
     /// Negative at every state tried: its negative is the density of a measure.
@@ -238,7 +238,7 @@ pub struct Evidence {
     pub independence: Option<Independence>,
     /// Sign, for densities that hold.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub sign: Option<Sign>,
+    pub sign: Option<DensitySign>,
     /// Whether the sign is proved at all states rather than observed at those tried.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub sign_is_proved: bool,

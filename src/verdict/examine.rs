@@ -1,34 +1,34 @@
 //! Evaluation of one residual by the enclosures of a block of states.
 
-use super::bench::Bench;
+use super::claim_state::{ClaimState, undecide};
 use super::evidence::{Method, Verdict, Witness};
-use super::finding::{Finding, undecide};
+use super::judging::Judging;
 use super::pass::Total;
-use super::recorded::{Recorded, Span};
+use super::recorded::{RecordedClaim, Span};
 use super::run::Values;
 use super::sampler::Sampler;
 use super::witness::witness;
 use crate::number::Enclosing;
 
 /// Values of a block, with the lanes that contain states.
-pub struct Seen<'v, D: Enclosing> {
+pub struct BlockValues<'v, D: Enclosing> {
     /// Values of the outputs.
     pub values: &'v Values<D>,
     /// Whether each lane counts.
     pub existing: &'v [bool],
 }
 
-impl Bench<'_> {
+impl Judging<'_> {
     /// Refutes by a state whose enclosure excludes zero, if any; otherwise adds the block to the
     /// evidence.
-    pub(super) fn examine<D: Enclosing>(
+    pub(super) fn check_value<D: Enclosing>(
         &self,
         sampler: &Sampler,
         start: u64,
         span: &Span,
-        seen: &Seen<'_, D>,
+        seen: &BlockValues<'_, D>,
         bits: u32,
-        finding: &mut Finding,
+        finding: &mut ClaimState,
     ) {
         settle_method(sampler, finding);
         if self.seek_witness(sampler, start, span.residual.clone(), seen, bits, finding) {
@@ -60,9 +60,9 @@ impl Bench<'_> {
         finding.rung(method, enclosed(states, largest));
     }
 
-    /// Adds to the evidence what further blocks of states show together, as [`Self::examine`] does
+    /// Adds to the evidence what further blocks of states show together, as [`Self::check_value`] does
     /// with one after another.
-    pub(super) fn add(&self, sampler: &Sampler, total: Option<Total>, finding: &mut Finding) {
+    pub(super) fn add(&self, sampler: &Sampler, total: Option<Total>, finding: &mut ClaimState) {
         let Some(Total { all, last }) = total else { return };
         settle_method(sampler, finding);
         let evidence = &mut finding.evidence;
@@ -80,9 +80,9 @@ impl Bench<'_> {
         sampler: &Sampler,
         start: u64,
         residual: std::ops::Range<usize>,
-        seen: &Seen<'_, D>,
+        seen: &BlockValues<'_, D>,
         bits: u32,
-        finding: &mut Finding,
+        finding: &mut ClaimState,
     ) -> bool {
         let residuals = seen.values.range(residual);
         for lane in (0..D::LANES).filter(|lane| seen.existing[*lane]) {
@@ -115,7 +115,7 @@ impl Bench<'_> {
 }
 
 /// Notes that balls are used, where nothing else was.
-fn settle_method(sampler: &Sampler, finding: &mut Finding) {
+fn settle_method(sampler: &Sampler, finding: &mut ClaimState) {
     if finding.evidence.method == Method::Unsettled {
         let numerical = sampler.is_numerical();
         finding.evidence.method = if numerical { Method::NumericalBall } else { Method::Ball };
@@ -128,7 +128,7 @@ fn enclosed(states: usize, largest: f64) -> String {
 }
 
 /// Decides a claim that no state refuted.
-pub fn conclude(item: &Recorded<'_>, finding: &mut Finding) {
+pub fn complete(item: &RecordedClaim<'_>, finding: &mut ClaimState) {
     let kind = item.claim.kind.name();
     if let Some(reason) = finding.undefined.take() {
         finding.evidence.proof = None;

@@ -2,29 +2,32 @@
 //! nothing, and a part of the states with given signs may be empty.
 
 use super::antiderivative_value;
-use super::bench::Bench;
+use super::claim_state::ClaimState;
 use super::evidence::{Method, Verdict, Witness};
-use super::examine::Seen;
+use super::examine::BlockValues;
 use super::field::Where;
-use super::finding::Finding;
-use super::ladder::{BITS, Open, PRECISE_STATES};
-use super::recorded::Recorded;
-use super::sampler::{LANES, Sampler};
+use super::judging::Judging;
+use super::ladder::{LADDER_BITS, Open, PRECISE_STATES};
+use super::recorded::RecordedClaim;
+use super::sampler::{Sampler, TAPE_LANES};
 use super::witness;
 use crate::graph::{Evaluator, Fault, Tape};
+use crate::mechanics::Draw;
 use crate::number::Enclosing;
+use crate::number::arb::ArbBall;
 use crate::number::ball::Ball;
 use crate::number::mixed::{Mixed, Number};
-use crate::number::precise::Precise;
 use crate::number::rational::Rational;
-use crate::proof::Part;
+use crate::proof::{Extent, InputRegion};
 
 /// Largest number of states without a value in f64 that are examined further.
 const MOST_MISSING: usize = 16;
+/// Largest number of choices of signs with which a state is sought.
+const MOST_SIGNS: usize = 16;
 /// Share of doubtful states above which a claim is not confirmed: one in this many.
 const MAX_DOUBTFUL: usize = 4;
 
-impl Bench<'_> {
+impl Judging<'_> {
     /// Examines states of the first block at which a required value is undefined in f64: √0 exists.
     pub(super) fn missing_states(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
         if sampler.is_numerical() {
@@ -37,7 +40,7 @@ impl Bench<'_> {
                 continue;
             }
             let (run, layout) = self.lay_out(sampler, std::iter::once(*item), false);
-            let (span, domain) = (&layout.spans[0], Mixed::new(BITS[0]));
+            let (span, domain) = (&layout.spans[0], Mixed::new(LADDER_BITS[0]));
             let looked = missing.len().min(MOST_MISSING);
             let mut doubtful = 0;
             for lane in &missing[..looked] {
@@ -47,9 +50,16 @@ impl Bench<'_> {
                 let required = [layout.common.clone(), span.requirement.clone()];
                 let mut required = required.into_iter().flat_map(|range| values.range(range));
                 doubtful += usize::from(required.any(|value| *value == Number::Doubtful));
-                let seen = Seen { values: &values, existing: &existing };
+                let seen = BlockValues { values: &values, existing: &existing };
                 let residual = span.residual.clone();
-                if self.seek_witness(sampler, index, residual.clone(), &seen, BITS[0], finding) {
+                if self.seek_witness(
+                    sampler,
+                    index,
+                    residual.clone(),
+                    &seen,
+                    LADDER_BITS[0],
+                    finding,
+                ) {
                     break;
                 }
                 let residual = values.existing(&[residual]);
@@ -57,7 +67,7 @@ impl Bench<'_> {
                     finding.undefined = None;
                 }
             }
-            if doubtful * missing.len() * MAX_DOUBTFUL >= looked * LANES && !finding.is_zero {
+            if doubtful * missing.len() * MAX_DOUBTFUL >= looked * TAPE_LANES && !finding.is_zero {
                 finding.blurred.get_or_insert_with(|| {
                     format!(
                         "at {doubtful} of {looked} states it is not known whether the formula has a \
@@ -92,10 +102,10 @@ impl Bench<'_> {
     /// Refutes a claim by a state in one of the parts.
     fn settle_at(
         &self,
-        item: &Recorded<'_>,
+        item: &RecordedClaim<'_>,
         sampler: &Sampler,
         found: &Where,
-        finding: &mut Finding,
+        finding: &mut ClaimState,
     ) -> bool {
         let chosen = sampler.with(&found.fixed);
         let exists = match found.parts.proper() {
@@ -119,28 +129,28 @@ impl Bench<'_> {
     /// Whether a drawn state lies in a part, with all required values; a witness decides the claim.
     fn drawn_state(
         &self,
-        item: &Recorded<'_>,
+        item: &RecordedClaim<'_>,
         sampler: &Sampler,
-        part: Option<&Part>,
-        finding: &mut Finding,
+        part: Option<&InputRegion>,
+        finding: &mut ClaimState,
     ) -> bool {
         let (run, layout) = self.lay_out(sampler, std::iter::once(item), false);
         let span = &layout.spans[0];
         let member = part.map(Membership::of);
         let mut known = None;
         for block in 0..self.blocks() {
-            let start = block * LANES as u64;
-            let values = run.at(&Ball::<LANES>, &sampler.balls(start));
+            let start = block * TAPE_LANES as u64;
+            let values = run.at(&Ball::<TAPE_LANES>, &sampler.balls(start));
             let mut existing = layout.existing(&values, span);
             if let Some(member) = &member {
-                member.restrict(sampler, &Ball::<LANES>, start, &mut existing);
+                member.restrict(sampler, &Ball::<TAPE_LANES>, start, &mut existing);
             }
             if let Some(lane) = existing.iter().position(|exists| *exists) {
                 known = Some(start + lane as u64);
                 break;
             }
         }
-        let domain = Mixed::new(BITS[0]);
+        let domain = Mixed::new(LADDER_BITS[0]);
         let exists = |index: &u64| {
             let values = run.at(&domain, &sampler.states(&domain, 1, *index));
             let mut existing = layout.existing(&values, span);
@@ -151,11 +161,11 @@ impl Bench<'_> {
         };
         let Some(index) = known.or_else(|| (0..PRECISE_STATES).find(exists)) else { return false };
         finding.evidence.method = Method::PreciseBall;
-        for bits in BITS {
-            let domain = Precise::new(bits);
+        for bits in LADDER_BITS {
+            let domain = ArbBall::new(bits);
             let values = run.at(&domain, &sampler.states(&domain, 1, index));
             let existing = layout.existing(&values, span);
-            let seen = Seen { values: &values, existing: &existing };
+            let seen = BlockValues { values: &values, existing: &existing };
             if self.seek_witness(sampler, index, span.residual.clone(), &seen, bits, finding) {
                 break;
             }
@@ -167,12 +177,13 @@ impl Bench<'_> {
     /// the claim.
     fn state_inside(
         &self,
-        item: &Recorded<'_>,
+        item: &RecordedClaim<'_>,
         sampler: &Sampler,
-        part: &Part,
-        finding: &mut Finding,
+        part: &InputRegion,
+        finding: &mut ClaimState,
     ) -> bool {
-        let Some(point) = part.point(&sampler.extents()) else { return false };
+        let mut all = signed_extents(sampler, part).into_iter();
+        let Some(point) = all.find_map(|extents| part.point(&extents)) else { return false };
         let numbers: Option<Vec<Rational>> = sampler
             .recipes()
             .iter()
@@ -181,7 +192,7 @@ impl Bench<'_> {
             .collect();
         let Some(numbers) = numbers else { return false };
         let (run, layout) = self.lay_out(sampler, std::iter::once(item), false);
-        let (span, domain) = (&layout.spans[0], Mixed::new(BITS[0]));
+        let (span, domain) = (&layout.spans[0], Mixed::new(LADDER_BITS[0]));
         let values = run.at(&domain, &sampler.made_from(&domain, &numbers));
         if !layout.existing(&values, span)[0] {
             return false;
@@ -190,7 +201,7 @@ impl Bench<'_> {
         let away = residuals.iter().find(|value| Mixed::excludes_zero(value, 0));
         if let Some((mid, rad)) = away.and_then(|value| Mixed::enclosure(value, 0)) {
             let digits = away.and_then(|value| Mixed::beyond_f64(value, 0));
-            let printed = sampler.printed_from(&numbers, BITS[0]);
+            let printed = sampler.printed_from(&numbers, LADDER_BITS[0]);
             let witness = witness::witness(self.case, None, &printed, (mid, rad));
             let found = format!("{mid:.3e} ± {rad:.1e} at a state that was looked for");
             finding.evidence.witness = Some(Witness { digits, ..witness });
@@ -202,14 +213,35 @@ impl Bench<'_> {
     }
 }
 
+/// Returns the ranges of the draws in a part of the states, with each choice of the signs that the
+/// part leaves free. A sign is 1 or -1, and nothing between them leads to a state.
+fn signed_extents(sampler: &Sampler, part: &InputRegion) -> Vec<Vec<Extent>> {
+    let mut all = vec![sampler.extents()];
+    for (input, draw) in sampler.recipes().iter().enumerate() {
+        if !matches!(draw, Draw::Sign) {
+            continue;
+        }
+        let given = part.signs.iter().find(|(sign, _)| *sign == input).map(|(_, is)| *is);
+        let choices: Vec<bool> = given.map_or(vec![true, false], |is| vec![is]);
+        let with = |extents: &Vec<Extent>, positive: bool| {
+            let mut extents = extents.clone();
+            extents[input] = Extent::at(&Rational::from(if positive { 1 } else { -1 }));
+            extents
+        };
+        let own = all.iter().flat_map(|extents| choices.iter().map(move |is| with(extents, *is)));
+        all = own.take(MOST_SIGNS).collect();
+    }
+    all
+}
+
 /// The signs that define a part of the states.
 struct Membership<'p> {
-    part: &'p Part,
+    part: &'p InputRegion,
     tape: Tape,
 }
 
 impl<'p> Membership<'p> {
-    fn of(part: &'p Part) -> Self {
+    fn of(part: &'p InputRegion) -> Self {
         Self { part, tape: Tape::new(&part.graph, &part.positive) }
     }
 

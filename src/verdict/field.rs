@@ -1,12 +1,12 @@
 //! Proofs of residuals in prime fields: the claim's graph as a function of the draws, passed to the
 //! prover.
 
-use super::bench::Bench;
+use super::judging::Judging;
 use super::sampler::Sampler;
 use crate::graph::{Expr, Fault};
 use crate::mechanics::Draw;
 use crate::number::rational::Rational;
-use crate::proof::{Certificate, Group, Outcome, Parts, Prover};
+use crate::proof::{Certificate, Group, GroupOutcome, InputRegions, Prover};
 
 /// Largest number of combinations of listed parameter values that are proved one by one.
 const MOST_COMBINATIONS: usize = 64;
@@ -14,8 +14,8 @@ const MOST_COMBINATIONS: usize = 64;
 pub const TOO_MANY_COMBINATIONS: &str = "the lists of parameter values have too many combinations";
 
 /// The states of one place, for proofs in prime fields.
-pub struct Field<'a> {
-    bench: &'a Bench<'a>,
+pub struct PrimeFieldStates<'a> {
+    bench: &'a Judging<'a>,
     sampler: &'a Sampler,
 }
 
@@ -57,7 +57,7 @@ pub struct Where {
     /// Choice of listed parameter values.
     pub fixed: Vec<Option<Rational>>,
     /// Parts of the states.
-    pub parts: Parts,
+    pub parts: InputRegions,
 }
 
 impl Answer {
@@ -69,9 +69,9 @@ impl Answer {
     }
 }
 
-impl<'a> Field<'a> {
+impl<'a> PrimeFieldStates<'a> {
     /// Makes the prime-field side of a place.
-    pub fn new(bench: &'a Bench<'a>, sampler: &'a Sampler) -> Self {
+    pub fn new(bench: &'a Judging<'a>, sampler: &'a Sampler) -> Self {
         Self { bench, sampler }
     }
 
@@ -106,13 +106,13 @@ impl<'a> Field<'a> {
                 let one = match one {
                     // For these listed values there is no state.
                     _ if is_void => Answer::Void,
-                    Outcome::Zero(certificate) => Answer::Zero(certificate),
-                    Outcome::NonZero(parts) => {
+                    GroupOutcome::Zero(certificate) => Answer::Zero(certificate),
+                    GroupOutcome::NonZero(parts) => {
                         Answer::NonZero(vec![Where { fixed: fixed.clone(), parts }])
                     }
-                    Outcome::Silent(reason) => Answer::Silent(reason),
-                    Outcome::Partial => Answer::Partial,
-                    Outcome::Void => Answer::Void,
+                    GroupOutcome::Silent(reason) => Answer::Silent(reason),
+                    GroupOutcome::Partial => Answer::Partial,
+                    GroupOutcome::Void => Answer::Void,
                 };
                 *all = Some(match all.take() {
                     None => one,
@@ -194,9 +194,9 @@ mod tests {
     use crate::case::{Case, Expect};
     use crate::graph::record;
     use crate::mechanics::Phase;
-    use crate::mechanics::calculus::Jet;
+    use crate::mechanics::calculus::DualPoint;
     use crate::verdict::Options;
-    use crate::verdict::recorded::Common;
+    use crate::verdict::recorded::SharedTerms;
 
     /// Returns the answers of prime fields on the claims of a case that are expected to fail.
     fn outcomes_of_false_claims(case: &Case) -> Vec<(String, Answer)> {
@@ -204,21 +204,22 @@ mod tests {
         let inputs = model.free_components() + model.dimension();
         let (graph, (common, residuals)) = record(inputs, |inputs| {
             let (parameters, state) = inputs.split_at(model.free_components());
-            let jet = Jet::new(Phase::new(model, parameters, state));
+            let jet = DualPoint::new(Phase::new(model, parameters, state));
             let residual =
                 |claim: &crate::case::PlacedClaim| claim.kind.residual(&jet, &claim.place.kept);
-            (Common::of(&jet), case.claims.iter().map(residual).collect::<Vec<_>>())
+            (SharedTerms::of(&jet), case.claims.iter().map(residual).collect::<Vec<_>>())
         })
         .expect("records");
         let options = Options::default();
-        let bench = Bench::new(case, &common, &options, &graph, inputs);
+        let bench = Judging::new(case, &common, &options, &graph, inputs);
         let mut found = Vec::new();
         for (claim, residual) in case.claims.iter().zip(residuals) {
             // A claim of independence fails where the residual does vanish.
             if claim.expect == Expect::Fails && !claim.kind.is_negated() {
                 let sampler = Sampler::new(case, &claim.place, 1).expect("samples");
-                let outcome =
-                    Field::new(&bench, &sampler).test(&[Query::of(residual)]).expect("tested");
+                let outcome = PrimeFieldStates::new(&bench, &sampler)
+                    .test(&[Query::of(residual)])
+                    .expect("tested");
                 found.push((claim.name.clone(), outcome.into_iter().next().expect("one group")));
             }
         }

@@ -3,19 +3,19 @@
 
 use std::ops::Range;
 
-use super::bench::Bench;
-use super::examine::Seen;
-use super::finding::Finding;
+use super::claim_state::ClaimState;
+use super::examine::BlockValues;
+use super::judging::Judging;
 use super::ladder::Open;
 use super::pass::{Passed, Total};
-use super::recorded::Layout;
+use super::recorded::OutputLayout;
 use super::run::{MOST_KEPT, MOST_PASSED, Run, waves};
-use super::sampler::{LANES, Sampler};
+use super::sampler::{Sampler, TAPE_LANES};
 
-impl Bench<'_> {
+impl Judging<'_> {
     /// Evaluates balls over f64 at the other blocks, for claims that the fields did not decide.
     pub(super) fn further_states(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
-        let mut laid_out: Option<(Run, Layout, usize)> = None;
+        let mut laid_out: Option<(Run, OutputLayout, usize)> = None;
         for blocks in waves(1..self.blocks(), MOST_PASSED) {
             let mut left: Vec<_> = open
                 .iter_mut()
@@ -32,7 +32,7 @@ impl Bench<'_> {
                 laid_out = Some((run, layout, left.len()));
             }
             let Some((run, layout, _)) = &laid_out else { return };
-            let mut findings: Vec<&mut Finding> =
+            let mut findings: Vec<&mut ClaimState> =
                 left.iter_mut().map(|(_, finding)| &mut **finding).collect();
             match run.pass(sampler, blocks.clone(), layout) {
                 Some(passed) => {
@@ -54,13 +54,13 @@ impl Bench<'_> {
     fn weigh_passed(
         &self,
         sampler: &Sampler,
-        laid_out: (&Run, &Layout),
+        laid_out: (&Run, &OutputLayout),
         passed: impl Iterator<Item = (u64, Vec<Passed>)>,
-        findings: &mut [&mut Finding],
+        findings: &mut [&mut ClaimState],
     ) {
         let mut totals: Vec<Option<Total>> = findings.iter().map(|_| None).collect();
         for (block, passed) in passed {
-            let is_open = |finding: &Finding| finding.settled.is_none();
+            let is_open = |finding: &ClaimState| finding.settled.is_none();
             let mut suspect = false;
             for ((finding, total), own) in findings.iter_mut().zip(&mut totals).zip(&passed) {
                 if is_open(finding) && own.excludes_zero {
@@ -71,8 +71,9 @@ impl Bench<'_> {
                 }
             }
             if suspect {
-                let mut refuted: Vec<&mut Finding> = Vec::new();
-                let mut layout = Layout { common: laid_out.1.common.clone(), spans: Vec::new() };
+                let mut refuted: Vec<&mut ClaimState> = Vec::new();
+                let mut layout =
+                    OutputLayout { common: laid_out.1.common.clone(), spans: Vec::new() };
                 let all = findings.iter_mut().zip(&laid_out.1.spans).zip(&passed);
                 for ((finding, span), _) in all.filter(|(_, own)| own.excludes_zero) {
                     refuted.push(&mut **finding);
@@ -91,18 +92,18 @@ impl Bench<'_> {
     fn look_at(
         &self,
         sampler: &Sampler,
-        (run, layout): (&Run, &Layout),
+        (run, layout): (&Run, &OutputLayout),
         blocks: Range<u64>,
-        findings: &mut [&mut Finding],
+        findings: &mut [&mut ClaimState],
     ) {
         let values = run.at_blocks(sampler, blocks.clone(), |maker, at| maker.balls(at));
         for (block, values) in blocks.zip(values) {
-            let start = block * LANES as u64;
+            let start = block * TAPE_LANES as u64;
             for (finding, span) in findings.iter_mut().zip(&layout.spans) {
                 if finding.settled.is_none() {
                     let existing = layout.existing(&values, span);
-                    let seen = Seen { values: &values, existing: &existing };
-                    self.examine(sampler, start, span, &seen, f64::MANTISSA_DIGITS, finding);
+                    let seen = BlockValues { values: &values, existing: &existing };
+                    self.check_value(sampler, start, span, &seen, f64::MANTISSA_DIGITS, finding);
                 }
             }
         }

@@ -1,27 +1,31 @@
 //! Premises of all claims: states lie on the level, and the motion stays there.
 
-use super::bench::Bench;
-use super::field::{Field, Query};
+use super::field::{PrimeFieldStates, Query};
 use super::judge::JudgeError;
-use super::ladder::{BITS, PRECISE_STATES};
-use super::sampler::{LANES, Sampler};
-use crate::claim::Place;
+use super::judging::Judging;
+use super::ladder::{LADDER_BITS, PRECISE_STATES};
+use super::sampler::{Sampler, TAPE_LANES};
+use crate::claim::LevelSubset;
 use crate::graph::Expr;
+use crate::number::arb::ArbBall;
 use crate::number::ball::Ball;
-use crate::number::precise::Precise;
 
-impl Bench<'_> {
+impl Judging<'_> {
     /// Checks that the motion stays on a part of the level.
-    pub(super) fn check_motion(&self, place: &Place, sampler: &Sampler) -> Result<(), JudgeError> {
+    pub(super) fn check_motion(
+        &self,
+        place: &LevelSubset,
+        sampler: &Sampler,
+    ) -> Result<(), JudgeError> {
         let rates = self.rates_at(place);
         if rates.is_empty() {
             return Ok(());
         }
-        let values = self.run(&rates).at(&Ball::<LANES>, &sampler.balls(0));
+        let values = self.run(&rates).at(&Ball::<TAPE_LANES>, &sampler.balls(0));
         let kept = self.case.model.level.iter().zip(&place.kept).filter(|(_, kept)| **kept);
         for (index, (equation, _)) in kept.enumerate() {
             let rate = values.output(index);
-            if let Some(lane) = (0..LANES).find(|lane| rate.excludes_zero(*lane)) {
+            if let Some(lane) = (0..TAPE_LANES).find(|lane| rate.excludes_zero(*lane)) {
                 let (equation, rate) = (equation.text.clone(), format!("{:e}", rate.mid[lane]));
                 return Err(JudgeError::NotInvariant { equation, rate });
             }
@@ -33,7 +37,7 @@ impl Bench<'_> {
     /// to vanish.
     pub(super) fn name_the_error(
         &self,
-        place: &Place,
+        place: &LevelSubset,
         sampler: &Sampler,
     ) -> Result<(), JudgeError> {
         let kept = || (0..place.kept.len()).filter(|index| place.kept[*index]);
@@ -42,7 +46,7 @@ impl Bench<'_> {
             kept().map(|index| Query::of(vec![values[index]])).collect::<Vec<_>>()
         };
         let (level, rates) = (single(&self.common.level), single(&self.common.level_rates));
-        let field = Field::new(self, sampler);
+        let field = PrimeFieldStates::new(self, sampler);
         for (index, answer) in kept().zip(field.test(&level)?) {
             if answer.is_nonzero() {
                 let by = self.magnitude(sampler, self.common.level[index]);
@@ -61,8 +65,8 @@ impl Bench<'_> {
     /// Prints a value that is not identically zero, at a state where it is seen not to vanish.
     fn magnitude(&self, sampler: &Sampler, value: Expr) -> String {
         let run = self.run(&[value]);
-        for bits in BITS {
-            let domain = Precise::new(bits);
+        for bits in LADDER_BITS {
+            let domain = ArbBall::new(bits);
             for index in 0..PRECISE_STATES {
                 let values = run.at(&domain, &sampler.states(&domain, 1, index));
                 if let Some(found) = values.output(0).as_ref().filter(|x| x.excludes_zero()) {
@@ -70,11 +74,11 @@ impl Bench<'_> {
                 }
             }
         }
-        format!("less than {} bits resolve", BITS[BITS.len() - 1])
+        format!("less than {} bits resolve", LADDER_BITS[LADDER_BITS.len() - 1])
     }
 
     /// Returns the values that must vanish for states to be on the level and to stay there.
-    pub(super) fn ground(&self, place: &Place) -> Vec<Expr> {
+    pub(super) fn level_values(&self, place: &LevelSubset) -> Vec<Expr> {
         let kept = |all: &[Expr]| -> Vec<Expr> {
             let pairs = all.iter().zip(&place.kept).filter(|(_, kept)| **kept);
             pairs.map(|(value, _)| *value).collect()

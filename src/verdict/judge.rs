@@ -1,18 +1,18 @@
 //! Judgement of all claims of a case: recorded once, then taken up the ladder until each is
 //! decided.
 
-use super::bench::Bench;
+use super::claim_state::ClaimState;
 use super::conclude::report;
 use super::evidence::ClaimReport;
-use super::finding::Finding;
+use super::judging::Judging;
 use super::mutants::{MutationReport, mutate};
-use super::recorded::{Common, Recorded};
-use super::sampler::LANES;
+use super::recorded::{RecordedClaim, SharedTerms};
+use super::sampler::TAPE_LANES;
 use crate::case::Case;
-use crate::claim::Place;
+use crate::claim::LevelSubset;
 use crate::graph::{Fault, Graph, record};
 use crate::mechanics::Phase;
-use crate::mechanics::calculus::Jet;
+use crate::mechanics::calculus::DualPoint;
 
 /// Options of a judgement.
 #[derive(Clone, Copy, Debug)]
@@ -41,7 +41,7 @@ pub enum Trust {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { seed: 1, states: 4 * LANES as u64, trust: Trust::Best, mutants: false }
+        Self { seed: 1, states: 4 * TAPE_LANES as u64, trust: Trust::Best, mutants: false }
     }
 }
 
@@ -184,14 +184,14 @@ pub fn recorded_size(case: &Case) -> Result<RecordedSize, Fault> {
 }
 
 /// Records all claims of a case, and what every case needs.
-fn recording(case: &Case) -> Result<(Graph, (Vec<Recorded<'_>>, Common)), Fault> {
+fn recording(case: &Case) -> Result<(Graph, (Vec<RecordedClaim<'_>>, SharedTerms)), Fault> {
     let model = &case.model;
     record(model.free_components() + model.dimension(), |inputs| {
         let (parameters, state) = inputs.split_at(model.free_components());
-        let jet = Jet::new(Phase::new(model, parameters, state));
-        let recorded: Vec<Recorded<'_>> =
-            case.claims.iter().map(|claim| Recorded::new(claim, &jet)).collect();
-        (recorded, Common::of(&jet))
+        let jet = DualPoint::new(Phase::new(model, parameters, state));
+        let recorded: Vec<RecordedClaim<'_>> =
+            case.claims.iter().map(|claim| RecordedClaim::new(claim, &jet)).collect();
+        (recorded, SharedTerms::of(&jet))
     })
 }
 
@@ -201,10 +201,10 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
     let model = &case.model;
     let inputs = model.free_components() + model.dimension();
     let (graph, (recorded, common)) = recording(case)?;
-    let bench = Bench::new(case, &common, options, &graph, inputs);
-    let mut findings: Vec<Finding> = recorded.iter().map(|_| Finding::default()).collect();
+    let bench = Judging::new(case, &common, options, &graph, inputs);
+    let mut findings: Vec<ClaimState> = recorded.iter().map(|_| ClaimState::default()).collect();
     let warnings = [case.warnings.clone(), bench.check()?].concat();
-    let mut places: Vec<&Place> = Vec::new();
+    let mut places: Vec<&LevelSubset> = Vec::new();
     for claim in &case.claims {
         if !places.contains(&&claim.place) {
             places.push(&claim.place);
@@ -215,7 +215,7 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
             recorded.iter().zip(&mut findings).filter(|(item, _)| item.claim.place == *place);
         bench.climb(place, at_place.collect())?;
     }
-    bench.widen(&recorded, &mut findings)?;
+    bench.extend_domain(&recorded, &mut findings)?;
     let claims: Vec<ClaimReport> = recorded
         .iter()
         .zip(findings)

@@ -9,34 +9,38 @@
 //! ball of n bits      increasing precision, for residuals that the field knows not to vanish
 //! ```
 
-use super::bench::Bench;
+use super::claim_state::{ClaimState, NO_QUADRATURE, are_zero, classify, fold, undecide};
 use super::evidence::{Method, Proof, Verdict};
-use super::examine::{Seen, conclude};
-use super::field::{Answer, Field, Query, TOO_MANY_COMBINATIONS, combinations};
-use super::finding::{Finding, NO_QUADRATURE, are_zero, fold, undecide, weigh};
+use super::examine::{BlockValues, complete};
+use super::field::{Answer, PrimeFieldStates, Query, TOO_MANY_COMBINATIONS, combinations};
 use super::judge::{JudgeError, Trust};
-use super::recorded::{Layout, Recorded, Span};
+use super::judging::Judging;
+use super::recorded::{OutputLayout, RecordedClaim, Span};
 use super::run::Run;
-use super::sampler::{LANES, Sampler};
-use crate::claim::Place;
+use super::sampler::{Sampler, TAPE_LANES};
+use crate::claim::LevelSubset;
+use crate::number::arb::ArbBall;
 use crate::number::ball::Ball;
-use crate::number::precise::Precise;
-use crate::number::twofold::TwofoldBall;
+use crate::number::double_double_ball::DoubleDoubleBall;
 
 /// Precisions of the last rung in bits.
-pub const BITS: [u32; 5] = [256, 512, 1024, 2048, 4096];
+pub const LADDER_BITS: [u32; 5] = [256, 512, 1024, 2048, 4096];
 /// Number of states at which all values exist, in each of these precisions.
 pub const PRECISE_STATES: u64 = 4;
-/// Number of states tried to find them.
-const PRECISE_TRIES: u64 = 32;
+/// Number of such states for a claim on which the fields are silent, and number of operations of the
+/// residual up to which they are all tried.
+const CONFIRMING_STATES: u64 = 32;
+const FEW_OPERATIONS: usize = 4096;
+/// Number of states tried to find one of them.
+const PRECISE_TRIES: u64 = 8;
 
-pub type Open<'f, 'r> = Vec<(&'f Recorded<'r>, &'f mut Finding)>;
+pub type Open<'f, 'r> = Vec<(&'f RecordedClaim<'r>, &'f mut ClaimState)>;
 
-impl Bench<'_> {
+impl Judging<'_> {
     /// Decides the claims made at one place.
     pub fn climb<'f, 'r: 'f>(
         &self,
-        place: &Place,
+        place: &LevelSubset,
         mut open: Open<'f, 'r>,
     ) -> Result<(), JudgeError> {
         let sampler = Sampler::new(self.case, place, self.options.seed)?;
@@ -49,7 +53,7 @@ impl Bench<'_> {
             self.climb_each(place, &sampler, missed.as_deref(), negated)?;
         }
         let missed = self.missed_part(&sampler)?;
-        self.settle(place, &sampler, missed.as_deref(), &mut open)?;
+        self.decide(place, &sampler, missed.as_deref(), &mut open)?;
         let mut holding: Open<'_, '_> =
             open.into_iter().filter(|(_, finding)| finding.holds()).collect();
         self.settle_novelty(&sampler, &mut holding)?;
@@ -59,9 +63,9 @@ impl Bench<'_> {
     }
 
     /// Climbs until each claim is decided.
-    fn settle(
+    fn decide(
         &self,
-        place: &Place,
+        place: &LevelSubset,
         sampler: &Sampler,
         missed: Option<&str>,
         open: &mut Open<'_, '_>,
@@ -84,7 +88,7 @@ impl Bench<'_> {
         }
         for (item, finding) in open.iter_mut() {
             if finding.settled.is_none() {
-                conclude(item, finding);
+                complete(item, finding);
             }
             // A claim that holds at the computed states need not hold on the part they miss.
             if let (Some(reason), true) = (missed, finding.holds()) {
@@ -100,7 +104,7 @@ impl Bench<'_> {
     /// values: one choice for which it vanishes refutes the claim.
     fn climb_each(
         &self,
-        place: &Place,
+        place: &LevelSubset,
         sampler: &Sampler,
         missed: Option<&str>,
         open: Open<'_, '_>,
@@ -113,9 +117,9 @@ impl Bench<'_> {
         };
         for (item, finding) in open {
             for fixed in &choices {
-                let mut one = Finding::default();
+                let mut one = ClaimState::default();
                 let chosen = sampler.with(fixed);
-                self.settle(place, &chosen, missed, &mut vec![(item, &mut one)])?;
+                self.decide(place, &chosen, missed, &mut vec![(item, &mut one)])?;
                 let refuted = one.settled == Some(Verdict::Refuted);
                 if !refuted || finding.settled.is_none() {
                     *finding = one;
@@ -136,14 +140,14 @@ impl Bench<'_> {
     /// truth.
     fn first_states(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
         let (run, layout) = self.lay_out(sampler, open.iter().map(|(item, _)| *item), true);
-        let values = run.at(&Ball::<LANES>, &sampler.balls(0));
+        let values = run.at(&Ball::<TAPE_LANES>, &sampler.balls(0));
         for ((item, finding), span) in open.iter_mut().zip(&layout.spans) {
             let existing = layout.existing(&values, span);
-            finding.missing = (0..LANES).filter(|lane| !existing[*lane]).collect();
-            weigh(item, span, &values, &existing, finding);
+            finding.missing = (0..TAPE_LANES).filter(|lane| !existing[*lane]).collect();
+            classify(item, span, &values, &existing, finding);
             if finding.settled.is_none() && finding.undefined.is_none() {
-                let seen = Seen { values: &values, existing: &existing };
-                self.examine(sampler, 0, span, &seen, f64::MANTISSA_DIGITS, finding);
+                let seen = BlockValues { values: &values, existing: &existing };
+                self.check_value(sampler, 0, span, &seen, f64::MANTISSA_DIGITS, finding);
             }
         }
     }
@@ -151,13 +155,13 @@ impl Bench<'_> {
     /// Tests residuals in prime fields: those that are zero there are proved.
     fn fields(
         &self,
-        place: &Place,
+        place: &LevelSubset,
         sampler: &Sampler,
         open: &mut Open<'_, '_>,
     ) -> Result<(), JudgeError> {
         let mut unsettled: Vec<_> =
             open.iter_mut().filter(|(_, finding)| finding.settled.is_none()).collect();
-        let ground = self.ground(place);
+        let ground = self.level_values(place);
         if unsettled.is_empty() && ground.is_empty() {
             return Ok(());
         }
@@ -166,7 +170,7 @@ impl Bench<'_> {
             outputs: [&item.residual[..], &item.context.quadrature_defects].concat(),
             requirement: item.requirement.clone(),
         }));
-        let field = Field::new(self, sampler);
+        let field = PrimeFieldStates::new(self, sampler);
         let mut answers = field.test(&queries)?.into_iter();
         let ground = answers.next();
         if ground.as_ref().is_some_and(Answer::is_nonzero) {
@@ -236,22 +240,22 @@ impl Bench<'_> {
             return;
         }
         let (run, layout) = self.lay_out(sampler, left.iter().map(|(item, _)| *item), true);
-        let domain = TwofoldBall::<LANES>;
-        let values = run.at(&domain, &sampler.states(&domain, LANES, 0));
+        let domain = DoubleDoubleBall::<TAPE_LANES>;
+        let values = run.at(&domain, &sampler.states(&domain, TAPE_LANES, 0));
         for ((item, finding), span) in left.iter_mut().zip(&layout.spans) {
             let method = Method::DoubleDoubleBall;
             finding.evidence.method = method;
             let existing = layout.existing(&values, span);
-            weigh(item, span, &values, &existing, finding);
+            classify(item, span, &values, &existing, finding);
             if finding.undefined.is_some() && self.is_out_of_range(item, sampler) {
                 finding.undefined = None;
             }
             if finding.settled.is_none() && finding.undefined.is_none() {
-                let seen = Seen { values: &values, existing: &existing };
-                self.examine(sampler, 0, span, &seen, 2 * f64::MANTISSA_DIGITS, finding);
+                let seen = BlockValues { values: &values, existing: &existing };
+                self.check_value(sampler, 0, span, &seen, 2 * f64::MANTISSA_DIGITS, finding);
             }
         }
-        let deserves = |finding: &Finding| {
+        let deserves = |finding: &ClaimState| {
             finding.settled.is_none() && !finding.is_zero && finding.undefined.is_none()
         };
         for (item, finding) in left.iter_mut().filter(|(_, finding)| deserves(finding)) {
@@ -259,19 +263,24 @@ impl Bench<'_> {
             let span = &layout.spans[0];
             let before = finding.evidence.method;
             // Where the fields are silent a refutation may not exist.
-            let precisions = if finding.is_nonzero() { &BITS[..] } else { &BITS[..1] };
+            let is_small = finding.evidence.operations <= FEW_OPERATIONS;
+            let (precisions, states) = match finding.is_nonzero() {
+                true => (&LADDER_BITS[..], PRECISE_STATES),
+                false if is_small => (&LADDER_BITS[..1], CONFIRMING_STATES),
+                false => (&LADDER_BITS[..1], PRECISE_STATES),
+            };
             for bits in precisions {
-                let domain = Precise::new(*bits);
+                let domain = ArbBall::new(*bits);
                 finding.evidence.method = Method::PreciseBall;
                 let mut count = 0;
-                for index in 0..PRECISE_TRIES {
-                    if finding.settled.is_some() || count >= PRECISE_STATES {
+                for index in 0..states * PRECISE_TRIES {
+                    if finding.settled.is_some() || count >= states {
                         break;
                     }
                     let values = run.at(&domain, &sampler.states(&domain, 1, index));
                     let existing = layout.existing(&values, span);
                     count += u64::from(existing[0]);
-                    let seen = Seen { values: &values, existing: &existing };
+                    let seen = BlockValues { values: &values, existing: &existing };
                     let residual = span.residual.clone();
                     self.seek_witness(sampler, index, residual, &seen, *bits, finding);
                 }
@@ -283,11 +292,11 @@ impl Bench<'_> {
     }
 
     /// Whether formula and residual are defined, but out of the range of f64.
-    fn is_out_of_range(&self, item: &Recorded<'_>, sampler: &Sampler) -> bool {
+    fn is_out_of_range(&self, item: &RecordedClaim<'_>, sampler: &Sampler) -> bool {
         let mut outputs = self.common.required_at(sampler.kept());
         let parts = [&item.requirement, &item.residual, &item.context.value];
         outputs.extend(parts.into_iter().flatten());
-        let (run, domain) = (self.run(&outputs), Precise::new(BITS[0]));
+        let (run, domain) = (self.run(&outputs), ArbBall::new(LADDER_BITS[0]));
         let is_defined = |index| {
             let values = run.at(&domain, &sampler.states(&domain, 1, index));
             values.existing(std::slice::from_ref(&(0..outputs.len())))[0]
@@ -299,12 +308,12 @@ impl Bench<'_> {
     pub(super) fn lay_out<'r>(
         &self,
         sampler: &Sampler,
-        items: impl Iterator<Item = &'r Recorded<'r>>,
+        items: impl Iterator<Item = &'r RecordedClaim<'r>>,
         with_context: bool,
-    ) -> (Run, Layout) {
+    ) -> (Run, OutputLayout) {
         let mut outputs = self.common.required_at(sampler.kept());
         let common = 0..outputs.len();
         let spans = items.map(|item| Span::lay_out(item, with_context, &mut outputs)).collect();
-        (self.run(&outputs), Layout { common, spans })
+        (self.run(&outputs), OutputLayout { common, spans })
     }
 }

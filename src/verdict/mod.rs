@@ -5,8 +5,8 @@
 //! all states contain 0 and are narrow against the terms that were added. There is no fixed
 //! tolerance.
 
-mod bench;
 mod branches;
+mod claim_state;
 mod conclude;
 mod conditions;
 mod coverage;
@@ -15,10 +15,10 @@ mod evidence;
 mod examine;
 mod existence;
 mod field;
-mod finding;
 mod further;
 mod ground;
 mod judge;
+mod judging;
 mod ladder;
 mod mutants;
 mod novelty;
@@ -33,20 +33,21 @@ mod signs;
 mod state;
 mod statement;
 mod values;
-mod wider;
+mod wider_domain;
 mod witness;
 
 pub use equations::{EquationsSize, equations_size};
 pub use evidence::{
-    ClaimReport, Evidence, Independence, Measurement, Method, Proof, Rung, Sign, Verdict, Witness,
+    ClaimReport, DensitySign, Evidence, Independence, Measurement, Method, Proof, Rung, Verdict,
+    Witness,
 };
 pub use judge::{CaseReport, JudgeError, Options, RecordedSize, Trust, judge, recorded_size};
 pub use mutants::{MutantReport, MutationReport};
 pub(crate) use point::named;
-pub use point::{Digits, Enclosed, Named, PointReport, evaluate, evaluate_digits};
-pub use sampler::{LANES, Sampler};
+pub use point::{Digits, Enclosed, NamedValue, PointReport, evaluate, evaluate_digits};
+pub use sampler::{Sampler, TAPE_LANES};
 pub use state::{StateError, read_state};
-pub use statement::{Composed, Statement, statements};
+pub use statement::{Composed, Residuals, statements};
 pub use values::ClaimsError;
 
 use crate::number::rational::Rational;

@@ -8,23 +8,23 @@
 
 use serde::Serialize;
 
-use super::bench::Bench;
+use super::claim_state::BlockResult;
 use super::evidence::ClaimReport;
-use super::field::{Answer, Field, Query};
-use super::finding::Look;
+use super::field::{Answer, PrimeFieldStates, Query};
 use super::judge::{JudgeError, Options};
-use super::recorded::Common;
+use super::judging::Judging;
+use super::recorded::SharedTerms;
 use super::run::Doubles;
-use super::sampler::{LANES, Sampler};
+use super::sampler::{Sampler, TAPE_LANES};
 use crate::case::{Case, Expect, PlacedClaim};
-use crate::claim::{Kind, Place};
+use crate::claim::{ClaimKind, LevelSubset};
 use crate::formula::Mutant;
 use crate::graph::{Expr, record};
 use crate::mechanics::Phase;
-use crate::mechanics::calculus::Jet;
+use crate::mechanics::calculus::DualPoint;
 use crate::number::Enclosing;
 use crate::number::ball::Ball;
-use crate::number::twofold::TwofoldBall;
+use crate::number::double_double_ball::DoubleDoubleBall;
 
 /// Results of the mutants of a case.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -74,7 +74,7 @@ pub fn mutate(
     let inputs = model.free_components() + model.dimension();
     let (graph, (candidates, common)) = record(inputs, |inputs| {
         let (parameters, state) = inputs.split_at(model.free_components());
-        let jet = Jet::new(Phase::new(model, parameters, state));
+        let jet = DualPoint::new(Phase::new(model, parameters, state));
         let mut candidates = Vec::new();
         for claim in &held {
             let Some(formula) = claim.kind.formula() else { continue };
@@ -88,11 +88,11 @@ pub fn mutate(
                 candidates.push(Candidate { claim, mutant, residual });
             }
         }
-        (candidates, Common::of(&jet))
+        (candidates, SharedTerms::of(&jet))
     })?;
-    let bench = Bench::new(case, &common, options, &graph, inputs);
+    let bench = Judging::new(case, &common, options, &graph, inputs);
     let mut report = MutationReport::default();
-    let mut places: Vec<&Place> = Vec::new();
+    let mut places: Vec<&LevelSubset> = Vec::new();
     for candidate in &candidates {
         if !places.contains(&&candidate.claim.place) {
             places.push(&candidate.claim.place);
@@ -124,7 +124,7 @@ impl Candidate<'_> {
     }
 }
 
-impl Bench<'_> {
+impl Judging<'_> {
     /// Refutes mutants; returns the others, and whether they are proved.
     fn kill<'k, 'c>(
         &self,
@@ -133,9 +133,9 @@ impl Bench<'_> {
         report: &mut MutationReport,
     ) -> Result<Vec<(&'k Candidate<'c>, bool)>, JudgeError> {
         let total = candidates.len();
-        let left = self.not_refuted::<Doubles>(&Ball::<LANES>, &sampler.balls(0), candidates);
+        let left = self.not_refuted::<Doubles>(&Ball::<TAPE_LANES>, &sampler.balls(0), candidates);
         let queries: Vec<Query> = left.iter().map(|c| Query::of(c.residual.clone())).collect();
-        let answers = Field::new(self, sampler).test(&queries)?;
+        let answers = PrimeFieldStates::new(self, sampler).test(&queries)?;
         let (mut proved, mut silent, mut killed) = (Vec::new(), Vec::new(), total - left.len());
         for (candidate, answer) in left.into_iter().zip(answers) {
             match answer {
@@ -148,8 +148,8 @@ impl Bench<'_> {
         let survived = match sampler.is_numerical() {
             true => silent,
             false => {
-                let domain = TwofoldBall::<LANES>;
-                self.not_refuted(&domain, &sampler.states(&domain, LANES, 0), silent)
+                let domain = DoubleDoubleBall::<TAPE_LANES>;
+                self.not_refuted(&domain, &sampler.states(&domain, TAPE_LANES, 0), silent)
             }
         };
         killed += open - survived.len();
@@ -173,7 +173,7 @@ impl Bench<'_> {
         for candidate in candidates {
             let residual = values.range(start..start + candidate.residual.len());
             start += candidate.residual.len();
-            let look = Look::at::<D>(&residual, None, &values.existing(&[]));
+            let look = BlockResult::at::<D>(&residual, None, &values.existing(&[]));
             if look.has_value() && !look.excludes_zero() {
                 left.push(candidate);
             }
@@ -194,13 +194,13 @@ fn depends(
     let mut known_rows = 0;
     let (graph, (rows, common)) = record(inputs, |inputs| {
         let (parameters, state) = inputs.split_at(model.free_components());
-        let jet = Jet::new(Phase::new(model, parameters, state));
+        let jet = DualPoint::new(Phase::new(model, parameters, state));
         // If the level functions are integrals everywhere, all of them are known integrals.
         let all = vec![true; model.level.len()];
         let known = if model.system.conserves_level() { &all } else { &claim.place.kept };
         let mut rows = jet.level_gradients(known);
         rows.extend(jet.energy_gradient().cloned());
-        for other in held.iter().filter(|other| matches!(other.kind, Kind::Integral(_))) {
+        for other in held.iter().filter(|other| matches!(other.kind, ClaimKind::Integral(_))) {
             rows.extend(other.kind.slopes(&jet));
         }
         known_rows = rows.len();
@@ -208,20 +208,20 @@ fn depends(
         let mutant = claim.kind.about(candidate.mutant.formula.clone());
         let new = mutant.map_or(Vec::new(), |mutant| mutant.slopes(&jet));
         match claim.kind {
-            Kind::Integral(_) => rows.extend(new),
+            ClaimKind::Integral(_) => rows.extend(new),
             _ => rows.extend(own.iter().zip(&new).map(|(own, new)| -> Vec<Expr> {
                 own.iter().zip(new).map(|(a, b)| *b - *a).collect()
             })),
         }
-        (rows, Common::of(&jet))
+        (rows, SharedTerms::of(&jet))
     })?;
     // A mutant that is neither an integral nor a density is equivalent to any other true statement
     // in its place.
     if rows.len() == known_rows {
         return Ok(true);
     }
-    let bench = Bench::new(case, &common, options, &graph, inputs);
+    let bench = Judging::new(case, &common, options, &graph, inputs);
     let sampler = Sampler::new(case, &claim.place, options.seed)?;
-    let ranks = Field::new(&bench, &sampler).ranks(&rows, &[known_rows, rows.len()])?;
+    let ranks = PrimeFieldStates::new(&bench, &sampler).ranks(&rows, &[known_rows, rows.len()])?;
     Ok(ranks.is_some_and(|ranks| ranks[0] == ranks[1]))
 }

@@ -5,10 +5,10 @@
 
 use std::ops::Range;
 
-use super::recorded::Layout;
+use super::recorded::OutputLayout;
 use super::run::Doubles;
-use super::sampler::LANES;
-use crate::graph::{Evaluator, Work, with_widest_vectors};
+use super::sampler::TAPE_LANES;
+use crate::graph::{Evaluator, Kernel, with_widest_vectors};
 use crate::number::ball::Balls;
 
 /// Residuals of a claim at a block of states.
@@ -45,9 +45,9 @@ impl Total {
 
 /// Examines the values of all claims at one block of states.
 pub fn passed(
-    states: &[&Balls<LANES>],
+    states: &[&Balls<TAPE_LANES>],
     evaluator: &Evaluator<'_, Doubles>,
-    layout: &Layout,
+    layout: &OutputLayout,
 ) -> Vec<Passed> {
     let mut found = vec![Passed::default(); layout.spans.len()];
     with_widest_vectors(Pass { states, evaluator, layout, found: &mut found });
@@ -55,20 +55,20 @@ pub fn passed(
 }
 
 struct Pass<'p, 't> {
-    states: &'p [&'p Balls<LANES>],
+    states: &'p [&'p Balls<TAPE_LANES>],
     evaluator: &'p Evaluator<'t, Doubles>,
-    layout: &'p Layout,
+    layout: &'p OutputLayout,
     found: &'p mut [Passed],
 }
 
 /// For each lane, 0 if all values so far are finite, and NaN otherwise.
-type Traces = [f64; LANES];
+type Traces = [f64; TAPE_LANES];
 
-impl Work for Pass<'_, '_> {
+impl Kernel for Pass<'_, '_> {
     #[inline(always)]
     fn run(self) {
         let Self { states, evaluator, layout, found } = self;
-        let mut common = [0.0; LANES];
+        let mut common = [0.0; TAPE_LANES];
         states.iter().for_each(|block| trace(&mut common, block));
         trace_all(&mut common, evaluator, layout.common.clone());
         for (found, span) in found.iter_mut().zip(&layout.spans) {
@@ -76,11 +76,11 @@ impl Work for Pass<'_, '_> {
             trace_all(&mut traces, evaluator, span.requirement.clone());
             trace_all(&mut traces, evaluator, span.residual.clone());
             found.states = traces.iter().map(|trace| usize::from(!trace.is_nan())).sum();
-            let mut largest = [0.0; LANES];
+            let mut largest = [0.0; TAPE_LANES];
             let (mut scaled, mut outside) = (largest, largest);
             for index in span.residual.clone() {
                 let Balls { mid, rad } = evaluator.output(index);
-                for lane in 0..LANES {
+                for lane in 0..TAPE_LANES {
                     // NaN if the state does not count; maxima ignore it.
                     let mid = mid[lane].abs() + traces[lane];
                     let ratio = mid / rad[lane];
@@ -107,8 +107,8 @@ fn trace_all(traces: &mut Traces, evaluator: &Evaluator<'_, Doubles>, outputs: R
 
 /// Adds 0 where the lane is finite, and NaN elsewhere.
 #[inline(always)]
-fn trace(traces: &mut Traces, block: &Balls<LANES>) {
-    for lane in 0..LANES {
+fn trace(traces: &mut Traces, block: &Balls<TAPE_LANES>) {
+    for lane in 0..TAPE_LANES {
         traces[lane] += block.mid[lane] * 0.0 + block.rad[lane] * 0.0;
     }
 }

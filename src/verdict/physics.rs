@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use num_traits::One;
 
-use super::sampler::LANES;
+use super::sampler::TAPE_LANES;
 use crate::formula::Value;
 use crate::graph::Expr;
 use crate::mechanics::{Phase, System};
@@ -34,12 +34,12 @@ pub fn outputs(phase: &Phase<'_, Expr>) -> Vec<Expr> {
 
 /// Whether I differs from its transpose at some state, for which the equations of motion are not
 /// meant.
-pub fn is_asymmetric(values: &[&Balls<LANES>]) -> bool {
+pub fn is_asymmetric(values: &[&Balls<TAPE_LANES>]) -> bool {
     let pairs = [(2, 4), (3, 7), (6, 8)];
     values.len() > 9
         && pairs.iter().any(|(above, below)| {
             let (above, below) = (values[*above], values[*below]);
-            (0..LANES).any(|lane| {
+            (0..TAPE_LANES).any(|lane| {
                 let apart = (above.mid[lane] - below.mid[lane]).abs();
                 apart > (above.rad[lane] + below.rad[lane]) * (1.0 + f64::EPSILON)
             })
@@ -47,10 +47,10 @@ pub fn is_asymmetric(values: &[&Balls<LANES>]) -> bool {
 }
 
 /// Returns one warning for each kind of impossibility, with the number of states.
-pub fn warnings(values: &[&Balls<LANES>]) -> Vec<String> {
+pub fn warnings(values: &[&Balls<TAPE_LANES>]) -> Vec<String> {
     let mut counts = [0usize; KINDS.len()];
     let mut defined = 0;
-    for lane in 0..LANES {
+    for lane in 0..TAPE_LANES {
         let defined_here = values.iter().all(|block| block.is_defined(lane));
         if values.len() < 13 || !defined_here {
             continue;
@@ -85,7 +85,7 @@ const KINDS: [&str; 6] = [
     "the mass centre lies outside the ball: |c| > |R|",
 ];
 
-fn impossibilities(values: &[&Balls<LANES>], lane: usize) -> [bool; KINDS.len()] {
+fn impossibilities(values: &[&Balls<TAPE_LANES>], lane: usize) -> [bool; KINDS.len()] {
     let state: Vec<f64> = values.iter().map(|block| block.mid[lane]).collect();
     let below_zero = |index: usize| state[index] < 0.0 && values[index].excludes_zero(lane);
     let inertia = Inertia::of(&Matrix3::from_row_slice(&state[1..10]));

@@ -3,19 +3,19 @@
 use super::sampler::Sampler;
 use super::{JudgeError, antiderivative_value};
 use crate::case::Case;
-use crate::claim::Place;
+use crate::claim::LevelSubset;
 use crate::graph::{Evaluator, Expr, Tape, record};
-use crate::mechanics::calculus::{Jet, determinant};
+use crate::mechanics::calculus::{DualPoint, determinant};
 use crate::mechanics::{Model, Phase, components};
 use crate::number::Domain;
-use crate::number::precise::{Approximation, Precise};
+use crate::number::arb::{Approximation, ArbBall};
 use crate::number::rational::Rational;
 
 /// A number with a bound on its error; `None` where it is undefined.
 pub type Enclosed = Option<(f64, f64)>;
 
 /// A name with the components of its value.
-pub type Named = (String, Vec<String>);
+pub type NamedValue = (String, Vec<String>);
 
 /// Decimal digits of a number; `None` where it is undefined.
 pub type Digits = Option<String>;
@@ -24,9 +24,9 @@ pub type Digits = Option<String>;
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointReport<N = Enclosed> {
     /// Free parameters with their values.
-    pub parameters: Vec<Named>,
+    pub parameters: Vec<NamedValue>,
     /// State variables with their values.
-    pub state: Vec<Named>,
+    pub state: Vec<NamedValue>,
     /// Level equations with the difference of their sides.
     pub level: Vec<(String, N)>,
     /// The time derivatives of the state's components; of a map their images.
@@ -53,7 +53,7 @@ pub struct PointReport<N = Enclosed> {
 }
 
 /// Precision in bits of enclosures: near misses of 10⁻²⁰ and less are visible.
-const BITS: u32 = 160;
+const POINT_BITS: u32 = 160;
 /// Number of bits for a decimal digit, followed by the number of spare bits.
 const BITS_PER_DIGIT: f64 = 3.33;
 const SPARE_BITS: u32 = 64;
@@ -68,8 +68,8 @@ pub fn evaluate(
     seed: u64,
     index: u64,
 ) -> Result<PointReport, JudgeError> {
-    let scene = Scene::new(case, state, seed, index)?;
-    let values = scene.values(&Precise::new(BITS));
+    let scene = PointScene::new(case, state, seed, index)?;
+    let values = scene.values(&ArbBall::new(POINT_BITS));
     Ok(scene.report(values.iter().map(|value| Some(value.as_ref()?.enclosure())).collect()))
 }
 
@@ -83,11 +83,11 @@ pub fn evaluate_digits(
     index: u64,
     wanted: usize,
 ) -> Result<PointReport<Digits>, JudgeError> {
-    let scene = Scene::new(case, state, seed, index)?;
+    let scene = PointScene::new(case, state, seed, index)?;
     let mut bits = (wanted as f64 * BITS_PER_DIGIT) as u32 + SPARE_BITS;
     let mut found: Vec<Digits> = Vec::new();
     for _ in 0..TRIES {
-        let values = scene.values(&Precise::new(bits));
+        let values = scene.values(&ArbBall::new(bits));
         let written = values.iter().map(|value| match value {
             Some(value) => value.decimal(wanted),
             None => None,
@@ -112,7 +112,7 @@ pub fn evaluate_digits(
 }
 
 /// A case at a state: the quantities to be computed, and the input numbers.
-struct Scene<'c> {
+struct PointScene<'c> {
     case: &'c Case,
     point: Vec<Rational>,
     tape: Tape,
@@ -121,7 +121,7 @@ struct Scene<'c> {
     counts: Vec<usize>,
 }
 
-impl<'c> Scene<'c> {
+impl<'c> PointScene<'c> {
     fn new(
         case: &'c Case,
         state: Option<&[Rational]>,
@@ -129,7 +129,7 @@ impl<'c> Scene<'c> {
         index: u64,
     ) -> Result<Self, JudgeError> {
         let model = &case.model;
-        let level = Place::level(model);
+        let level = LevelSubset::level(model);
         let sampler = Sampler::new(case, &level, seed)?;
         let free = model.free_components();
         let drawn = sampler.printed(index, f64::MANTISSA_DIGITS);
@@ -143,7 +143,7 @@ impl<'c> Scene<'c> {
         let mut counts = Vec::new();
         let (graph, outputs) = record(point.len(), |inputs| {
             let (parameters, state) = inputs.split_at(free);
-            let jet = Jet::new(Phase::new(model, parameters, state));
+            let jet = DualPoint::new(Phase::new(model, parameters, state));
             let phase = &jet.phase;
             let mut groups: Vec<Vec<Expr>> = vec![
                 model.level.iter().map(|e| phase.level_function(&e.function)).collect(),
@@ -171,7 +171,7 @@ impl<'c> Scene<'c> {
         Ok(Self { case, point, tape, inputs: graph.inputs(), counts })
     }
 
-    fn values(&self, domain: &Precise) -> Vec<Option<Approximation>> {
+    fn values(&self, domain: &ArbBall) -> Vec<Option<Approximation>> {
         let antiderivatives = (0..self.inputs - self.point.len()).map(antiderivative_value);
         let inputs: Vec<_> = self
             .point
@@ -223,7 +223,7 @@ impl<'c> Scene<'c> {
 }
 
 /// Groups values in the order of a tape's inputs by the names of parameters and of state variables.
-pub(crate) fn named(model: &Model, values: &[String]) -> (Vec<Named>, Vec<Named>) {
+pub(crate) fn named(model: &Model, values: &[String]) -> (Vec<NamedValue>, Vec<NamedValue>) {
     let mut rest = values;
     let mut take = |name: &str, count: usize| {
         let (own, others) = rest.split_at(count);

@@ -7,20 +7,20 @@ use num_dual::DualNum;
 use super::physics;
 use super::run::Values;
 use crate::case::{Expect, PlacedClaim};
-use crate::claim::{Condition, Context, Novelty, Place, quadrature_defects};
+use crate::claim::{Condition, LevelSubset, Novelty, ResidualContext, quadrature_defects};
 use crate::formula::Formula;
 use crate::graph::{Expr, literally};
-use crate::mechanics::calculus::{Jet, rejection};
-use crate::mechanics::{LevelEquation, LevelFunction, Origin, Phase, System};
+use crate::mechanics::calculus::{DualPoint, rejection};
+use crate::mechanics::{LevelEquation, LevelFunction, ParameterOrigin, Phase, System};
 use crate::number::Enclosing;
 
 /// A claim with all expressions recorded for it.
-pub struct Recorded<'c> {
+pub struct RecordedClaim<'c> {
     pub claim: &'c PlacedClaim,
     pub residual: Vec<Expr>,
     /// Values of the claim's formulas as written, which exist where a state counts.
     pub requirement: Vec<Expr>,
-    pub context: Context,
+    pub context: ResidualContext,
     pub novelty: Novelty,
     pub conditions: Vec<Condition>,
     pub wider: Vec<Wider>,
@@ -38,15 +38,15 @@ fn literal_values<'f>(
 
 /// A wider place than the claim's, with the values that vanish if the claim holds there too.
 pub struct Wider {
-    pub place: Place,
+    pub place: LevelSubset,
     pub residual: Vec<Expr>,
     pub defects: Vec<Expr>,
 }
 
-impl<'c> Recorded<'c> {
+impl<'c> RecordedClaim<'c> {
     /// Records the residual of a claim, at its place and in wider ones, and its context.
-    pub fn new(claim: &'c PlacedClaim, jet: &Jet<'_, Expr>) -> Self {
-        let residual = |place: &Place| claim.kind.residual(jet, &place.kept);
+    pub fn new(claim: &'c PlacedClaim, jet: &DualPoint<'_, Expr>) -> Self {
+        let residual = |place: &LevelSubset| claim.kind.residual(jet, &place.kept);
         let wider = match claim.kind.widens() && claim.expect != Expect::Fails {
             true => claim.place.wider(jet.phase.model()),
             false => Vec::new(),
@@ -82,7 +82,7 @@ impl<'c> Recorded<'c> {
 }
 
 /// Expressions that are needed for every case, whatever it claims.
-pub struct Common {
+pub struct SharedTerms {
     pub field: Vec<Expr>,
     /// Formulas of the system as written: without their values there is no state.
     requirement: Vec<Expr>,
@@ -102,9 +102,9 @@ pub struct Common {
     pub dependence: Vec<Vec<Expr>>,
 }
 
-impl Common {
+impl SharedTerms {
     /// Records these expressions.
-    pub fn of(jet: &Jet<'_, Expr>) -> Self {
+    pub fn of(jet: &DualPoint<'_, Expr>) -> Self {
         let phase = &jet.phase;
         let image = phase.model().system.is_map().then(|| jet.image());
         let rate = |function| match &image {
@@ -121,7 +121,7 @@ impl Common {
             requirement: {
                 let model = phase.model();
                 let formulas = model.parameters.iter().filter_map(|p| match &p.origin {
-                    Origin::Formula(formula) => Some(formula),
+                    ParameterOrigin::Formula(formula) => Some(formula),
                     _ => None,
                 });
                 literal_values(phase, formulas.chain(model.dynamics()))
@@ -156,7 +156,7 @@ impl Common {
     }
 }
 
-impl Common {
+impl SharedTerms {
     /// Returns the values that exist at every state at which these equations of the level hold.
     pub fn required_at(&self, kept: &[bool]) -> Vec<Expr> {
         let level = self.level_requirement.iter().zip(kept).filter(|(_, kept)| **kept);
@@ -166,14 +166,14 @@ impl Common {
 }
 
 /// The outputs of a tape for some claims.
-pub struct Layout {
+pub struct OutputLayout {
     /// Values that exist at every state.
     pub common: Range<usize>,
     /// Outputs of each claim.
     pub spans: Vec<Span>,
 }
 
-impl Layout {
+impl OutputLayout {
     /// Whether each lane contains a state with all values that a claim requires.
     pub fn existing<D: Enclosing>(&self, values: &Values<D>, span: &Span) -> Vec<bool> {
         values.existing(&[self.common.clone(), span.requirement.clone()])
@@ -195,14 +195,14 @@ pub struct Span {
 
 impl Span {
     /// Appends a claim's outputs, with its context if requested.
-    pub fn lay_out(item: &Recorded<'_>, with_context: bool, outputs: &mut Vec<Expr>) -> Self {
+    pub fn lay_out(item: &RecordedClaim<'_>, with_context: bool, outputs: &mut Vec<Expr>) -> Self {
         let mut extend = |some: &[Expr]| {
             let start = outputs.len();
             outputs.extend_from_slice(some);
             start..outputs.len()
         };
         let residual = extend(&item.residual);
-        let (nothing, unknown) = (Context::default(), Novelty::default());
+        let (nothing, unknown) = (ResidualContext::default(), Novelty::default());
         let (context, novelty) = match with_context {
             true => (&item.context, &item.novelty),
             false => (&nothing, &unknown),

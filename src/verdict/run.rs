@@ -10,11 +10,11 @@ use crate::number::{Domain, Enclosing};
 
 use super::antiderivative_value;
 use super::pass::{Passed, passed};
-use super::recorded::Layout;
-use super::sampler::{LANES, Maker, Sampler};
+use super::recorded::OutputLayout;
+use super::sampler::{Maker, Sampler, TAPE_LANES};
 
 /// Balls over f64, the first domain of the ladder.
-pub type Doubles = Ball<LANES>;
+pub type Doubles = Ball<TAPE_LANES>;
 
 /// Values of some outputs of a graph at one block of states.
 pub struct Values<D: Domain> {
@@ -89,12 +89,12 @@ impl Run {
         &self,
         sampler: &Sampler,
         blocks: Range<u64>,
-        make: impl Fn(&mut Maker<'_>, u64) -> Vec<Balls<LANES>> + Sync,
+        make: impl Fn(&mut Maker<'_>, u64) -> Vec<Balls<TAPE_LANES>> + Sync,
     ) -> Vec<Values<Doubles>> {
-        let memory = || (sampler.maker(), Evaluator::new(&self.tape, Ball::<LANES>));
+        let memory = || (sampler.maker(), Evaluator::new(&self.tape, Ball::<TAPE_LANES>));
         let one = |(maker, evaluator): &mut (Maker<'_>, Evaluator<'_, Doubles>), block: u64| {
-            let states = make(maker, block * LANES as u64);
-            self.with(evaluator, &Ball::<LANES>, &states)
+            let states = make(maker, block * TAPE_LANES as u64);
+            self.with(evaluator, &Ball::<TAPE_LANES>, &states)
         };
         blocks.into_par_iter().map_init(memory, one).collect()
     }
@@ -105,12 +105,13 @@ impl Run {
         &self,
         sampler: &Sampler,
         blocks: Range<u64>,
-        layout: &Layout,
+        layout: &OutputLayout,
     ) -> Option<Vec<Vec<Passed>>> {
-        let free = self.free(&Ball::<LANES>);
-        let memory = || (sampler.maker(), Evaluator::new(&self.tape, Ball::<LANES>));
+        let free = self.free(&Ball::<TAPE_LANES>);
+        let memory = || (sampler.maker(), Evaluator::new(&self.tape, Ball::<TAPE_LANES>));
         let one = |(maker, evaluator): &mut (Maker<'_>, Evaluator<'_, Doubles>), block: u64| {
-            let states: Vec<&Balls<LANES>> = maker.straight(block * LANES as u64)?.collect();
+            let states: Vec<&Balls<TAPE_LANES>> =
+                maker.straight(block * TAPE_LANES as u64)?.collect();
             evaluator.run(states.iter().copied().chain(&free));
             Some(passed(&states, evaluator, layout))
         };

@@ -12,18 +12,18 @@ use num_integer::Integer;
 use rustc_hash::FxHashSet;
 
 use super::antiderivative_value;
-use super::bench::Bench;
+use super::claim_state::undecide;
 use super::evidence::Verdict;
-use super::finding::undecide;
+use super::judging::Judging;
 use super::ladder::Open;
-use super::recorded::Recorded;
-use super::sampler::{LANES, Sampler};
+use super::recorded::RecordedClaim;
+use super::sampler::{Sampler, TAPE_LANES};
 use super::witness::witness;
 use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape};
 use crate::mechanics::Draw;
 use crate::number::ball::{Ball, Balls};
 use crate::number::rational::Rational;
-use crate::number::{Domain, Function, Operation};
+use crate::number::{BinaryOperation, Domain, UnaryFunction};
 use crate::proof::Group;
 
 /// Largest number of values whose signs are distinguished.
@@ -45,7 +45,7 @@ type Signs = Option<u64>;
 /// A contradiction: the drawn numbers, and an enclosure of the residual.
 type Contradiction = (Numbers, (f64, f64));
 
-impl Bench<'_> {
+impl Judging<'_> {
     /// Encloses the residuals of proved claims in all cells found; a contradiction leaves the claim
     /// undecided.
     pub(super) fn second_opinion(
@@ -91,7 +91,7 @@ impl Bench<'_> {
     }
 
     /// Whether a proof of the claim has more than one cell, as far as its expressions show.
-    fn has_cells(&self, sampler: &Sampler, item: &Recorded<'_>) -> bool {
+    fn has_cells(&self, sampler: &Sampler, item: &RecordedClaim<'_>) -> bool {
         let outputs = item.residual.iter().chain(&item.requirement).copied();
         !signs(self.graph, outputs).is_empty()
             || !signs(sampler.graph(), sampler.made().iter().copied()).is_empty()
@@ -101,7 +101,7 @@ impl Bench<'_> {
     fn contradiction(
         &self,
         sampler: &Sampler,
-        item: &Recorded<'_>,
+        item: &RecordedClaim<'_>,
     ) -> Result<Option<Contradiction>, Fault> {
         let required = [&item.requirement[..], &self.common.required_at(sampler.kept())].concat();
         let group = Group { outputs: item.residual.clone(), required };
@@ -114,16 +114,18 @@ impl Bench<'_> {
         let tape = Tape::new(&graph, &outputs);
         let free = graph.inputs().saturating_sub(sampler.recipes().len());
         let is_range = |draw: &Draw| matches!(draw, Draw::Within(_) | Draw::Of(..));
-        let mut search = Search {
-            evaluator: Evaluator::new(&tape, Ball::<LANES>),
+        let mut search = SignSearch {
+            evaluator: Evaluator::new(&tape, Ball::<TAPE_LANES>),
             is_range: sampler.recipes().iter().map(is_range).collect(),
-            further: (0..free).map(|k| Ball::<LANES>.constant(&antiderivative_value(k))).collect(),
+            further: (0..free)
+                .map(|k| Ball::<TAPE_LANES>.constant(&antiderivative_value(k)))
+                .collect(),
             signs: signs.len(),
             residuals: group.outputs.len(),
         };
         let mut states = Vec::new();
         for start in 0..BLOCKS {
-            let indices = (1 + start) * LANES as u64..(2 + start) * LANES as u64;
+            let indices = (1 + start) * TAPE_LANES as u64..(2 + start) * TAPE_LANES as u64;
             states.extend(indices.clone().map(|index| sampler.nearest_draws(index)));
             states.extend(indices.map(|index| sampler.nearest_edge(index)));
         }
@@ -135,21 +137,21 @@ impl Bench<'_> {
 const BITS_PRINTED: u32 = 53;
 
 /// A search for states with further combinations of signs.
-struct Search<'t> {
-    evaluator: Evaluator<'t, Ball<LANES>>,
+struct SignSearch<'t> {
+    evaluator: Evaluator<'t, Ball<TAPE_LANES>>,
     /// Whether each draw is from a range.
     is_range: Vec<bool>,
     /// Values of antiderivatives, which follow the draws.
-    further: Vec<Balls<LANES>>,
+    further: Vec<Balls<TAPE_LANES>>,
     signs: usize,
     residuals: usize,
 }
 
-impl Search<'_> {
+impl SignSearch<'_> {
     /// Tests some states, and states between those whose signs differ.
     fn run(&mut self, states: Vec<Numbers>) -> Option<Contradiction> {
         let mut first: Vec<(Numbers, Signs)> = Vec::new();
-        for block in states.chunks(LANES) {
+        for block in states.chunks(TAPE_LANES) {
             match self.look(block) {
                 Ok(signs) => first.extend(block.iter().cloned().zip(signs)),
                 Err(contradiction) => return Some(contradiction),
@@ -160,7 +162,7 @@ impl Search<'_> {
         let mut open: VecDeque<_> =
             pairs.map(|pair| (pair[0].clone(), pair[1].clone(), MOST_HALVINGS)).collect();
         for _ in 0..MOST_BLOCKS_BETWEEN {
-            let taken: Vec<_> = open.drain(..open.len().min(LANES)).collect();
+            let taken: Vec<_> = open.drain(..open.len().min(TAPE_LANES)).collect();
             if taken.is_empty() {
                 return None;
             }
@@ -188,10 +190,10 @@ impl Search<'_> {
         let last = states.len() - 1;
         let width = states[0].len();
         let column = |k: usize| Balls::about(|lane| states[lane.min(last)][k]);
-        let mut columns: Vec<Balls<LANES>> = (0..width).map(column).collect();
+        let mut columns: Vec<Balls<TAPE_LANES>> = (0..width).map(column).collect();
         columns.extend(self.further.iter().cloned());
         self.evaluator.run(&columns);
-        let outputs: Vec<&Balls<LANES>> = self.evaluator.outputs().collect();
+        let outputs: Vec<&Balls<TAPE_LANES>> = self.evaluator.outputs().collect();
         let (signs, values) = outputs.split_at(self.signs);
         let (residuals, required) = values.split_at(self.residuals);
         let mut found = Vec::with_capacity(states.len());
@@ -204,7 +206,7 @@ impl Search<'_> {
             if let (Some(away), true) = (away, residuals.iter().all(|r| r.is_defined(lane))) {
                 return Err((numbers.clone(), (away.mid[lane], away.rad[lane])));
             }
-            let code = |block: &Balls<LANES>| match block.excludes_zero(lane) {
+            let code = |block: &Balls<TAPE_LANES>| match block.excludes_zero(lane) {
                 true => 1 + u64::from(block.mid[lane] > 0.0),
                 false => 0,
             };
@@ -238,8 +240,8 @@ fn signs(graph: &Graph, outputs: impl IntoIterator<Item = Expr>) -> Vec<usize> {
     };
     for (_, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
         match step {
-            Step::Unary(Function::Abs, argument) => add(argument),
-            Step::Unary(Function::Sqrt, radicand) => factors(graph, radicand, &mut add),
+            Step::Unary(UnaryFunction::Abs, argument) => add(argument),
+            Step::Unary(UnaryFunction::Sqrt, radicand) => factors(graph, radicand, &mut add),
             Step::Power(radicand, exponent)
                 if exponent.to_integer().is_none() && exponent.parts().1.is_even() =>
             {
@@ -257,8 +259,10 @@ fn factors(graph: &Graph, radicand: usize, add: &mut impl FnMut(usize)) {
     let mut open = vec![radicand];
     while let Some(place) = open.pop() {
         match graph.step(place) {
-            Step::Binary(Operation::Mul, a, b) => open.extend([a, b]),
-            Step::Unary(Function::Neg | Function::Recip, a) | Step::Power(a, _) => open.push(a),
+            Step::Binary(BinaryOperation::Mul, a, b) => open.extend([a, b]),
+            Step::Unary(UnaryFunction::Neg | UnaryFunction::Recip, a) | Step::Power(a, _) => {
+                open.push(a)
+            }
             // the sign of the whole radicand is known
             _ if place == radicand => {}
             _ => add(place),
@@ -271,9 +275,9 @@ mod tests {
     use super::*;
     use crate::graph::record;
     use crate::mechanics::Phase;
-    use crate::mechanics::calculus::Jet;
+    use crate::mechanics::calculus::DualPoint;
     use crate::verdict::Options;
-    use crate::verdict::recorded::Common;
+    use crate::verdict::recorded::SharedTerms;
 
     /// Finds the residual at a state that contradicts `identity`, with y' = 0 and a given range of
     /// x.
@@ -286,12 +290,12 @@ mod tests {
         let (model, claim) = (&case.model, &case.claims[0]);
         let inputs = model.free_components() + model.dimension();
         let (graph, (common, item)) = record(inputs, |inputs| {
-            let jet = Jet::new(Phase::new(model, &[], inputs));
-            (Common::of(&jet), Recorded::new(claim, &jet))
+            let jet = DualPoint::new(Phase::new(model, &[], inputs));
+            (SharedTerms::of(&jet), RecordedClaim::new(claim, &jet))
         })
         .expect("records");
         let options = Options::default();
-        let bench = Bench::new(&case, &common, &options, &graph, inputs);
+        let bench = Judging::new(&case, &common, &options, &graph, inputs);
         let sampler = Sampler::new(&case, &claim.place, 1).expect("samples");
         assert!(bench.has_cells(&sampler, &item), "{identity} has cells");
         bench.contradiction(&sampler, &item).expect("looks").map(|(_, (residual, _))| residual)

@@ -2,26 +2,26 @@
 
 use std::ops::Range;
 
-use super::bench::Bench;
-use super::evidence::Sign;
+use super::claim_state::{ClaimState, undecide};
+use super::evidence::DensitySign;
 use super::field::combinations;
-use super::finding::{Finding, undecide};
-use super::recorded::Recorded;
+use super::judging::Judging;
+use super::recorded::RecordedClaim;
 use super::run::{MOST_KEPT, Run, Values, waves};
-use super::sampler::{LANES, Maker, Sampler};
-use crate::claim::Kind;
+use super::sampler::{Maker, Sampler, TAPE_LANES};
+use crate::claim::ClaimKind;
 use crate::graph::{Expr, Fault};
 use crate::number::Enclosing;
 use crate::number::ball::Ball;
+use crate::number::double_double_ball::DoubleDoubleBall;
 use crate::number::mixed::{Mixed, Number};
-use crate::number::twofold::TwofoldBall;
 use crate::proof::{self, Group};
 
 /// Number of parameter sets for which the sign of a density is observed.
 const PARAMETER_SETS: usize = 4;
 /// Number of states near the ends of ranges, and number of states in exact numbers, at which it is
 /// observed.
-const EDGES: usize = 2 * LANES;
+const EDGES: usize = 2 * TAPE_LANES;
 const EXACT_STATES: usize = 16;
 
 /// Observed signs of a density, negative and positive, by parameter set.
@@ -29,7 +29,7 @@ type Signs = [[bool; 2]; PARAMETER_SETS];
 
 /// Observations of a density.
 #[derive(Clone, Default)]
-struct Seen {
+struct DensityObservations {
     signs: Signs,
     /// Whether some lane contains no state known to exist.
     is_lacking: bool,
@@ -37,16 +37,16 @@ struct Seen {
     is_doubtful: bool,
 }
 
-impl Bench<'_> {
+impl Judging<'_> {
     /// Finds the signs of the densities among claims that hold, over all states for each of a few
     /// parameter sets; a density that is nowhere known to be nonzero is rejected.
     pub(super) fn settle_signs<'f, 'r: 'f>(
         &self,
         sampler: &Sampler,
-        items: impl Iterator<Item = (&'f Recorded<'r>, &'f mut Finding)>,
+        items: impl Iterator<Item = (&'f RecordedClaim<'r>, &'f mut ClaimState)>,
     ) -> Result<(), Fault> {
-        let mut open: Vec<(Expr, &Recorded<'_>, &mut Finding)> = items
-            .filter(|(item, _)| matches!(item.claim.kind, Kind::Density(_)))
+        let mut open: Vec<(Expr, &RecordedClaim<'_>, &mut ClaimState)> = items
+            .filter(|(item, _)| matches!(item.claim.kind, ClaimKind::Density(_)))
             .filter_map(|(item, finding)| Some((*item.context.value.first()?, item, finding)))
             .collect();
         if open.is_empty() {
@@ -64,7 +64,8 @@ impl Bench<'_> {
         });
         let required: Vec<[Range<usize>; 2]> = own.collect();
         let run = self.run(&outputs);
-        let mut seen: Vec<Seen> = vec![Seen::default(); required.len()];
+        let mut seen: Vec<DensityObservations> =
+            vec![DensityObservations::default(); required.len()];
         for blocks in waves(0..self.blocks(), MOST_KEPT) {
             let sharing = |maker: &mut Maker<'_>, start| {
                 maker.balls_sharing_parameters(start, PARAMETER_SETS)
@@ -72,18 +73,18 @@ impl Bench<'_> {
             for values in run.at_blocks(sampler, blocks, sharing) {
                 observe(&values, &required, &mut seen);
             }
-            let is_known = |(seen, proved): (&Seen, &Option<bool>)| match proved {
+            let is_known = |(seen, proved): (&DensityObservations, &Option<bool>)| match proved {
                 Some(_) => sign(&seen.signs).is_some(),
-                None => sign(&seen.signs) == Some(Sign::Changes),
+                None => sign(&seen.signs) == Some(DensitySign::Changes),
             };
             if seen.iter().zip(&proved).all(is_known) {
                 break;
             }
         }
         if !sampler.is_numerical() {
-            let is_open = |(seen, proved): (&Seen, &Option<bool>)| {
+            let is_open = |(seen, proved): (&DensityObservations, &Option<bool>)| {
                 let sign = sign(&seen.signs);
-                sign.is_none() || (proved.is_none() && sign != Some(Sign::Changes))
+                sign.is_none() || (proved.is_none() && sign != Some(DensitySign::Changes))
             };
             if seen.iter().zip(&proved).any(is_open) {
                 self.look_closely(&run, &required, sampler, &mut seen);
@@ -92,7 +93,7 @@ impl Bench<'_> {
         for (((_, _, finding), seen), proved) in open.iter_mut().zip(&seen).zip(proved) {
             finding.evidence.sign = sign(&seen.signs);
             finding.evidence.sign_is_proved =
-                proved.is_some() || finding.evidence.sign == Some(Sign::Changes);
+                proved.is_some() || finding.evidence.sign == Some(DensitySign::Changes);
             finding.evidence.sign_is_partial = seen.is_doubtful && !finding.evidence.sign_is_proved;
             if finding.evidence.sign.is_none() {
                 finding.evidence.sign_is_proved = false;
@@ -109,15 +110,15 @@ impl Bench<'_> {
         run: &Run,
         required: &[[Range<usize>; 2]],
         sampler: &Sampler,
-        seen: &mut [Seen],
+        seen: &mut [DensityObservations],
     ) {
         if seen.iter().any(|seen| sign(&seen.signs).is_none()) {
-            let domain = TwofoldBall::<LANES>;
+            let domain = DoubleDoubleBall::<TAPE_LANES>;
             let states = sampler.states_sharing_parameters(&domain, 0, PARAMETER_SETS);
             observe(&run.at(&domain, &states), required, seen);
         }
-        let domain = Ball::<LANES>;
-        for start in (0..EDGES).step_by(LANES) {
+        let domain = Ball::<TAPE_LANES>;
+        for start in (0..EDGES).step_by(TAPE_LANES) {
             let states = sampler.states_at_edges(&domain, start as u64, PARAMETER_SETS);
             observe(&run.at(&domain, &states), required, seen);
         }
@@ -125,12 +126,12 @@ impl Bench<'_> {
             return;
         }
         let domain = Mixed::new(f64::MANTISSA_DIGITS * 4);
-        for lane in (0..LANES).step_by(LANES / EXACT_STATES) {
+        for lane in (0..TAPE_LANES).step_by(TAPE_LANES / EXACT_STATES) {
             let states = sampler.state_sharing_parameters(&domain, lane as u64, PARAMETER_SETS);
             let values = run.at(&domain, &states);
             for (index, (seen, required)) in seen.iter_mut().zip(required).enumerate() {
                 if seen.is_lacking && values.existing(required)[0] {
-                    let set = &mut seen.signs[lane * PARAMETER_SETS / LANES];
+                    let set = &mut seen.signs[lane * PARAMETER_SETS / TAPE_LANES];
                     note::<Mixed>(values.output(index), 0, set);
                 } else if values.existing(&required[..1])[0] {
                     let own = values.range(required[1].clone());
@@ -144,14 +145,14 @@ impl Bench<'_> {
     fn proved_signs(
         &self,
         sampler: &Sampler,
-        densities: &[(Expr, &Recorded<'_>, &mut Finding)],
+        densities: &[(Expr, &RecordedClaim<'_>, &mut ClaimState)],
     ) -> Result<Vec<Option<bool>>, Fault> {
         let lists = combinations(sampler.recipes()).unwrap_or_default();
         if sampler.is_numerical() || lists.len() != 1 {
             return Ok(vec![None; densities.len()]);
         }
         let common = self.common.required_at(sampler.kept());
-        let group = |(density, item, _): &(Expr, &Recorded<'_>, &mut Finding)| Group {
+        let group = |(density, item, _): &(Expr, &RecordedClaim<'_>, &mut ClaimState)| Group {
             outputs: vec![*density],
             required: [&item.requirement[..], &common].concat(),
         };
@@ -167,7 +168,11 @@ impl Bench<'_> {
 }
 
 /// Records the signs of a block of values at states, by parameter set.
-fn observe<D: Enclosing>(values: &Values<D>, required: &[[Range<usize>; 2]], seen: &mut [Seen]) {
+fn observe<D: Enclosing>(
+    values: &Values<D>,
+    required: &[[Range<usize>; 2]],
+    seen: &mut [DensityObservations],
+) {
     for (index, (seen, required)) in seen.iter_mut().zip(required).enumerate() {
         let existing = values.existing(required);
         for (lane, exists) in existing.into_iter().enumerate() {
@@ -175,7 +180,7 @@ fn observe<D: Enclosing>(values: &Values<D>, required: &[[Range<usize>; 2]], see
                 true => note::<D>(
                     values.output(index),
                     lane,
-                    &mut seen.signs[lane * PARAMETER_SETS / LANES],
+                    &mut seen.signs[lane * PARAMETER_SETS / TAPE_LANES],
                 ),
                 false => seen.is_lacking = true,
             }
@@ -193,16 +198,16 @@ fn note<D: Enclosing>(block: &D::Block, lane: usize, seen: &mut [bool; 2]) {
 }
 
 /// Combines observations, negative and positive, over the parameter sets.
-fn sign(seen: &[[bool; 2]]) -> Option<Sign> {
+fn sign(seen: &[[bool; 2]]) -> Option<DensitySign> {
     if seen.contains(&[true, true]) {
-        return Some(Sign::Changes);
+        return Some(DensitySign::Changes);
     }
     // Different signs for different parameters give one measure for each of them, up to a factor
     // -1.
     let [negative, positive] = [0, 1].map(|sign| seen.iter().any(|set| set[sign]));
     match (positive, negative) {
-        (true, _) => Some(Sign::Positive),
-        (false, true) => Some(Sign::Negative),
+        (true, _) => Some(DensitySign::Positive),
+        (false, true) => Some(DensitySign::Negative),
         (false, false) => None,
     }
 }

@@ -5,14 +5,14 @@ use super::JudgeError;
 use super::field::combinations;
 use super::sampler::Sampler;
 use crate::case::Case;
-use crate::claim::Place;
+use crate::claim::LevelSubset;
 use crate::graph::{Expr, Graph, record};
-use crate::mechanics::calculus::Jet;
+use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{Draw, Phase, components};
 use crate::number::rational::Rational;
 
 /// The values that vanish identically if a claim holds.
-pub struct Statement {
+pub struct Residuals {
     /// Index of the claim in its case.
     pub claim: usize,
     /// One program for each choice of listed values and of the signs ±1 that are drawn; empty if
@@ -41,32 +41,32 @@ pub struct Composed {
 }
 
 /// Values of a claim before they are composed with the draws.
-struct Recorded {
+struct RecordedValues {
     residual: Vec<Expr>,
     quadratures: Vec<Expr>,
 }
 
 /// Composes the statements of some claims of a case, by index.
-pub fn statements(case: &Case, claims: &[usize], seed: u64) -> Result<Vec<Statement>, JudgeError> {
+pub fn statements(case: &Case, claims: &[usize], seed: u64) -> Result<Vec<Residuals>, JudgeError> {
     let model = &case.model;
     let free = model.free_components();
     let (graph, (inputs, recorded, level, rates)) = record(free + model.dimension(), |inputs| {
         let (parameters, state) = inputs.split_at(free);
-        let jet = Jet::new(Phase::new(model, parameters, state));
-        let recorded: Vec<Recorded> = claims
+        let jet = DualPoint::new(Phase::new(model, parameters, state));
+        let recorded: Vec<RecordedValues> = claims
             .iter()
             .map(|index| {
                 let claim = &case.claims[*index];
-                Recorded {
+                RecordedValues {
                     residual: claim.kind.residual(&jet, &claim.place.kept),
                     quadratures: claim.kind.quadrature_defects(&jet, &claim.place.kept),
                 }
             })
             .collect();
-        let common = super::recorded::Common::of(&jet);
+        let common = super::recorded::SharedTerms::of(&jet);
         (inputs.to_vec(), recorded, common.level, common.level_rates)
     })?;
-    let mut samplers: Vec<(&Place, Sampler)> = Vec::new();
+    let mut samplers: Vec<(&LevelSubset, Sampler)> = Vec::new();
     let mut all = Vec::new();
     for (index, own) in claims.iter().zip(&recorded) {
         let place = &case.claims[*index].place;
@@ -113,7 +113,7 @@ pub fn statements(case: &Case, claims: &[usize], seed: u64) -> Result<Vec<Statem
             })
         };
         let programs = choices.iter().map(compose).collect::<Result<_, JudgeError>>()?;
-        all.push(Statement { claim: *index, programs });
+        all.push(Residuals { claim: *index, programs });
     }
     Ok(all)
 }

@@ -4,9 +4,13 @@ use super::expr::{Tree, neg};
 use super::jet::{Jet, Place};
 use super::print::Hand;
 use super::real::{
-    Found, Lack, Real, difference, height, is_zero, modulus, nearest, number, sum, whole,
+    Found, LADDER, Lack, Real, difference, height, is_zero, modulus, nearest, number, sum,
+    sure_sign, whole, with_bits,
 };
 use super::scene::{Origin, Scene};
+
+/// Values of the symbols of a scene.
+pub type Values = Vec<Found<Real>>;
 
 /// A claim about a scene.
 #[derive(Clone, Debug)]
@@ -24,7 +28,7 @@ pub enum Claim {
 }
 
 /// Result at a state.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum At {
     /// A zero residual.
     Zero,
@@ -113,6 +117,20 @@ impl Claim {
         }
     }
 
+    /// Evaluates the claim at a state with these values of the symbols, in as many bits as decide.
+    ///
+    /// The values are made anew in each precision; `None` if they are not a state.
+    pub fn settled(&self, scene: &Scene, values: &dyn Fn() -> Option<Values>) -> Option<At> {
+        let mut found = None;
+        for bits in LADDER {
+            found = with_bits(bits, || values().map(|values| self.at(scene, &values)));
+            if !matches!(found, Some(At::Without(Lack::Digits))) {
+                break;
+            }
+        }
+        found
+    }
+
     /// Evaluates the claim at a state with these values of the symbols.
     pub fn at(&self, scene: &Scene, values: &[Found<Real>]) -> At {
         let found = match self {
@@ -126,7 +144,10 @@ impl Claim {
                 match (largest, scene.lack_elsewhere(values)) {
                     (_, Err(lack)) => At::Without(lack),
                     (None, Ok(())) => At::Zero,
-                    (Some(largest), Ok(())) => At::Off(nearest(&modulus(largest))),
+                    (Some(largest), Ok(())) => match sure_sign(largest) {
+                        Ok(_) => At::Off(nearest(&modulus(largest))),
+                        Err(lack) => At::Without(lack),
+                    },
                 }
             }
         }
@@ -135,74 +156,54 @@ impl Claim {
     fn residuals(&self, scene: &Scene, values: &[Found<Real>]) -> Found<Vec<Real>> {
         let states = scene.states();
         let place = Place { values, along: &states };
-        let flow = || -> Found<Vec<Jet>> {
-            let rate = |at: &usize| match scene.rate(*at) {
-                Some(rate) => place.jet(rate),
-                None => Ok(Jet { value: whole(0), slopes: vec![whole(0); states.len()] }),
-            };
-            states.iter().map(rate).collect()
-        };
-        let along = |of: &Jet, by: &[Jet]| -> Found<Real> {
-            of.slopes
-                .iter()
-                .zip(by)
-                .try_fold(whole(0), |total, (slope, rate)| sum(&total, &(slope * &rate.value)))
-        };
+        let plain = Place { values, along: &[] };
+        let still = whole(0);
+        // What does not move is constant along the motion: |z| has the rate 0 where z' is 0.
+        let flow = Direction::of(&plain, scene.field.iter().map(|(at, rate)| (*at, rate)))?;
         match self {
             Claim::Identity(a, b) => {
-                let plain = Place { values, along: &[] };
                 let (a, b) = super::real::both(plain.value(a), plain.value(b))?;
                 Ok(vec![difference(&a, &b)?])
             }
-            Claim::Integral(f) => {
-                let flow = flow()?;
-                // Where nothing moves, |x| is kept at x = 0, too.
-                if flow.iter().all(|rate| is_zero(&rate.value)) {
-                    return place.value(f).map(|_| vec![whole(0)]);
-                }
-                Ok(vec![along(&place.jet(f)?, &flow)?])
+            Claim::Integral(f) if flow.is_at_rest() => plain.value(f).map(|_| vec![still]),
+            Claim::Integral(f) => Ok(vec![flow.rate(values, f)?]),
+            Claim::Rate(f, g) if flow.is_at_rest() => {
+                let (_, g) = super::real::both(plain.value(f), plain.value(g))?;
+                Ok(vec![g])
             }
             Claim::Rate(f, g) => {
-                let flow = flow()?;
-                if flow.iter().all(|rate| is_zero(&rate.value)) {
-                    let (_, g) = super::real::both(place.value(f), place.value(g))?;
-                    return Ok(vec![g]);
-                }
-                let (f, g) = super::real::both(place.jet(f), place.value(g))?;
-                Ok(vec![difference(&along(&f, &flow)?, &g)?])
+                let (f, g) = super::real::both(flow.rate(values, f), plain.value(g))?;
+                Ok(vec![difference(&f, &g)?])
             }
             Claim::Relation(f, cofactor) => {
-                let (f, cofactor) = super::real::both(place.jet(f), place.value(cofactor))?;
-                Ok(vec![difference(&along(&f, &flow()?)?, &(cofactor * &f.value))?])
+                let (value, cofactor) = super::real::both(plain.value(f), plain.value(cofactor))?;
+                let rate = if flow.is_at_rest() { still } else { flow.rate(values, f)? };
+                Ok(vec![difference(&rate, &(cofactor * value))?])
             }
             Claim::Density(f) => {
-                let flow = flow()?;
-                let is_still =
-                    |rate: &Jet| [&rate.value].into_iter().chain(&rate.slopes).all(is_zero);
-                if flow.iter().all(is_still) {
-                    let inverse = super::real::quotient(&whole(1), &place.value(f)?);
-                    return inverse.map(|_| vec![whole(0)]);
-                }
-                let f = place.jet(f)?;
-                let rate = super::real::quotient(&along(&f, &flow)?, &f.value)?;
-                let diverging =
-                    |total: Real, (k, rate): (usize, &Jet)| sum(&total, &rate.slopes[k]);
-                Ok(vec![flow.iter().enumerate().try_fold(rate, diverging)?])
+                let value = plain.value(f)?;
+                let relative = super::real::quotient(&flow.rate(values, f)?, &value)?;
+                let diverging = |total: Real, (place, rate): (usize, &Tree)| {
+                    let own = Place { values, along: &[place] }.jet(rate)?;
+                    sum(&total, &own.slopes[0])
+                };
+                let field = scene.field.iter().map(|(place, rate)| (*place, rate));
+                Ok(vec![field.into_iter().try_fold(relative, diverging)?])
             }
             Claim::SymmetryField(parts) => {
-                let flow = flow()?;
-                let zero = || Jet { value: whole(0), slopes: vec![whole(0); states.len()] };
-                let own = |at: &usize| match parts.iter().find(|(place, _)| place == at) {
-                    Some((_, tree)) => place.jet(tree),
-                    None => Ok(zero()),
-                };
-                let field: Vec<Jet> = states.iter().map(own).collect::<Found<_>>()?;
+                let own = Direction::of(&plain, parts.iter().map(|(at, rate)| (*at, rate)))?;
                 let mut found = Vec::new();
-                for (u, v) in field.iter().zip(&flow) {
-                    found.push(difference(&along(v, &field)?, &along(u, &flow)?)?);
+                for place in &states {
+                    let along = |by: &Direction, of: Option<&Tree>| match of {
+                        Some(of) => by.rate(values, of),
+                        None => Ok(still.clone()),
+                    };
+                    let part = parts.iter().find(|(at, _)| at == place).map(|(_, tree)| tree);
+                    let turned = along(&own, scene.rate(*place))?;
+                    found.push(difference(&turned, &along(&flow, part)?)?);
                 }
-                for gradient in gradients(scene, &place)? {
-                    found.push(along(&gradient, &field)?);
+                for (a, b) in scene.level.iter().flat_map(|level| &level.equations) {
+                    found.push(own.rate(values, &super::expr::add(a, &neg(b)))?);
                 }
                 Ok(found)
             }
@@ -220,8 +221,41 @@ impl Claim {
     }
 }
 
+/// A vector at a state: the variables that it changes, with their rates.
+///
+/// A variable whose rate is written as 0 is not among them.
+struct Direction {
+    along: Vec<usize>,
+    rates: Vec<Real>,
+}
+
+impl Direction {
+    fn of<'t>(place: &Place<'_>, field: impl Iterator<Item = (usize, &'t Tree)>) -> Found<Self> {
+        let (mut along, mut rates) = (Vec::new(), Vec::new());
+        for (at, rate) in field {
+            if !rate.is(0) {
+                along.push(at);
+                rates.push(place.value(rate)?);
+            }
+        }
+        Ok(Self { along, rates })
+    }
+
+    /// Whether the vector is 0.
+    fn is_at_rest(&self) -> bool {
+        self.rates.iter().all(is_zero)
+    }
+
+    /// Differentiates an expression along the vector.
+    fn rate(&self, values: &[Found<Real>], of: &Tree) -> Found<Real> {
+        let slopes = Place { values, along: &self.along }.jet(of)?.slopes;
+        let parts = slopes.iter().zip(&self.rates);
+        parts.into_iter().try_fold(whole(0), |total, (slope, rate)| sum(&total, &(slope * rate)))
+    }
+}
+
 /// Computes the level functions with their gradients.
-fn gradients(scene: &Scene, place: &Place<'_>) -> Found<Vec<Jet>> {
+pub fn gradients(scene: &Scene, place: &Place<'_>) -> Found<Vec<Jet>> {
     let equations = scene.level.iter().flat_map(|level| &level.equations);
     equations.map(|(a, b)| place.jet(&super::expr::add(a, &neg(b)))).collect()
 }
@@ -233,7 +267,7 @@ fn rank(mut rows: Vec<Vec<Real>>) -> Found<usize> {
     while found < rows.len() {
         let all = (found..rows.len()).flat_map(|r| (0..columns).map(move |c| (r, c)));
         let Some((r, c)) = all.max_by_key(|(r, c)| height(&rows[*r][*c])) else { break };
-        if is_zero(&rows[r][c]) {
+        if sure_sign(&rows[r][c])? == 0 {
             break;
         }
         rows.swap(found, r);

@@ -2,8 +2,8 @@
 
 use super::expr::{Expr, Function, Tree};
 use super::real::{
-    Found, Lack, Real, both, difference, exactly, exp, is_zero, log, modulus, nearest, number,
-    quotient, root, sign, sum, to_the, whole,
+    Found, Lack, Real, atan, both, cos, difference, exactly, exp, is_zero, log, modulus, nearest,
+    number, quotient, root, sin, sum, sure_sign, to_the, whole,
 };
 
 /// A value with its partial derivatives.
@@ -71,7 +71,7 @@ impl Place<'_> {
             }
             Expr::PowerTo(a, b) => {
                 let (a, b) = both(self.jet(a), self.jet(b))?;
-                match sign(&a.value) {
+                match sure_sign(&a.value)? {
                     -1 => return Err(Lack::Value),
                     // 0^b is 0 for b > 0; whether it counts as defined is a convention.
                     0 => return Err(Lack::Decision),
@@ -126,21 +126,16 @@ impl Place<'_> {
                 (value, slope)
             }
             Function::Modulus if is_zero(x) => return self.corner(a),
-            Function::Modulus => (modulus(x), whole(i64::from(sign(x)))),
+            Function::Modulus => (modulus(x), whole(i64::from(sure_sign(x)?))),
             Function::Exp => {
                 let value = exp(x)?;
                 (value.clone(), value)
             }
             Function::Log => (log(x)?, quotient(&whole(1), x)?),
-            Function::Sin | Function::Cos if is_zero(x) => match function {
-                Function::Sin => (whole(0), whole(1)),
-                _ => (whole(1), whole(0)),
-            },
             Function::Sin | Function::Cos if nearest(x).abs() > 1e6 => return Err(Lack::Decision),
-            Function::Sin => (x.sin(), x.cos()),
-            Function::Cos => (x.cos(), -x.sin()),
-            Function::Atan if is_zero(x) => (whole(0), whole(1)),
-            Function::Atan => (x.atan(), whole(1) / (whole(1) + x * x)),
+            Function::Sin => (sin(x)?, cos(x)?),
+            Function::Cos => (cos(x)?, -sin(x)?),
+            Function::Atan => (atan(x), whole(1) / (whole(1) + x * x)),
         };
         Ok(chained(inner, value, &slope))
     }
@@ -148,7 +143,7 @@ impl Place<'_> {
     /// Computes x^(top/bottom), for x > 0; at 0 too if only roots are taken.
     fn fractional(&self, a: &Tree, inner: &Jet, top: i64, bottom: i64) -> Found<Jet> {
         let x = &inner.value;
-        match sign(x) {
+        match sure_sign(x)? {
             -1 => return Err(Lack::Value),
             0 if top < 0 => return Err(Lack::Value),
             0 if bottom == 2 => return self.corner(a),

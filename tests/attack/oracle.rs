@@ -6,46 +6,79 @@ use super::claim::{At, Claim};
 use super::expr::Tree;
 use super::jet::Place;
 use super::random::Stream;
-use super::real::{self, Lack};
-use super::scene::{Point, Scene};
+use super::real::{self, LADDER, Lack, with_bits};
+use super::scene::{Origin, Point, Scene};
 use super::scout::{self, Sight};
+use super::seek;
 
 /// Results at states for a claim.
 #[derive(Clone, Debug, Default)]
 pub struct Survey {
     /// Number of states at which the residual is 0.
     pub zero: usize,
-    /// Number of states at which the residual is not 0, and the first of them.
+    /// States at which the residual is 0.
+    kept: Vec<Point>,
+    /// Number of states at which the residual is not 0.
     pub off: usize,
-    pub first: Option<Point>,
+    /// Number of states at which the residual is not 0, but has no value at states around them.
+    pub lone: usize,
     /// Number of states at which the claim is undefined.
     pub lacking: usize,
     /// Number of undecided states.
     pub unsure: usize,
 }
 
+/// Number of states at which zeros are tested in more bits.
+const SHARPENED: usize = 2;
+/// Distances from a state, in shares of the ranges, at which it is asked whether it is alone; with
+/// the number of directions.
+const AROUND: [f64; 6] = [1e-14, 1e-11, 1e-8, 1e-6, 1e-4, 1e-3];
+const DIRECTIONS: u64 = 48;
+
+/// Whether a state at which the claim fails has no states around it at which it fails, so that it
+/// lies in no open set of states and is not at the edge of one.
+fn is_lone(scene: &Scene, claim: &Claim, point: &Point) -> bool {
+    let free = scene.free();
+    let fails = |(around, index): (f64, u64)| {
+        let mut stream = Stream::new(0x10_4e, index);
+        let beside = free.iter().fold(point.clone(), |point, place| {
+            point.moved(*place, around * (2.0 * stream.unit() - 1.0))
+        });
+        matches!(claim.settled(scene, &|| scene.values(&beside)), Some(At::Off(_)))
+    };
+    let mut all = AROUND.into_iter().flat_map(|by| (0..DIRECTIONS).map(move |k| (by, k)));
+    !free.is_empty() && !all.any(fails)
+}
+
 impl Survey {
     fn look(&mut self, scene: &Scene, claim: &Claim, point: &Point) {
-        let Some(values) = scene.values(point) else { return };
-        match claim.at(scene, &values) {
-            At::Zero => self.zero += 1,
-            At::Off(_) => {
-                self.off += 1;
-                self.first.get_or_insert_with(|| point.clone());
+        match claim.settled(scene, &|| scene.values(point)) {
+            Some(At::Zero) => {
+                self.zero += 1;
+                self.kept.push(point.clone());
             }
-            At::Without(Lack::Value) => self.lacking += 1,
-            At::Without(Lack::Decision) => self.unsure += 1,
+            // √(y√x) has a value at x = 0 for y < 0, too, and at no state nearby.
+            Some(At::Off(_)) if is_lone(scene, claim, point) => self.lone += 1,
+            Some(At::Off(_)) => self.off += 1,
+            Some(At::Without(Lack::Value)) => self.lacking += 1,
+            Some(At::Without(Lack::Decision | Lack::Digits)) => self.unsure += 1,
+            None => {}
+        }
+    }
+
+    /// Tests the last states at which the residual is 0 in more bits.
+    fn sharpen(&mut self, scene: &Scene, claim: &Claim) {
+        for point in std::mem::take(&mut self.kept).iter().rev().take(SHARPENED) {
+            let values = || scene.values(point).map(|values| claim.at(scene, &values));
+            if let Some(At::Off(_)) = with_bits(LADDER[1], values) {
+                (self.off, self.zero) = (self.off + 1, self.zero - 1);
+            }
         }
     }
 
     /// Whether the claim is undefined at all states tested.
     pub fn is_void(&self) -> bool {
-        self.zero == 0 && self.off == 0 && self.unsure == 0
-    }
-
-    /// Share of the states with a value at which the claim fails.
-    pub fn share(&self) -> f64 {
-        self.off as f64 / (self.off + self.zero).max(1) as f64
+        self.zero == 0 && self.off == 0 && self.lone == 0 && self.unsure == 0
     }
 }
 
@@ -57,6 +90,30 @@ pub fn evenly(scene: &Scene, claim: &Claim, stream: &mut Stream, states: usize) 
         survey.look(scene, claim, &point);
     }
     survey
+}
+
+/// Number of states drawn evenly at which the claim has a value, and fails by more than the rounding
+/// of `bits` bits.
+pub fn visibly(
+    scene: &Scene,
+    claim: &Claim,
+    stream: &mut Stream,
+    states: usize,
+    bits: usize,
+) -> (usize, usize) {
+    let (mut valued, mut off) = (0, 0);
+    for _ in 0..states {
+        let point = scene.point(stream, false);
+        let at = || scene.values(&point).map(|values| claim.at(scene, &values));
+        let found = at();
+        if matches!(found, Some(At::Off(_) | At::Zero)) {
+            valued += 1;
+        }
+        if matches!(found, Some(At::Off(_))) {
+            off += usize::from(matches!(with_bits(bits, at), Some(At::Off(_))));
+        }
+    }
+    (valued, off)
 }
 
 /// Tests states in the cells of signs that are found.
@@ -100,15 +157,19 @@ pub fn in_cells(scene: &Scene, claim: &Claim, stream: &mut Stream, effort: usize
             }
         }
     }
+    if effort > 1 {
+        survey.sharpen(scene, claim);
+    }
     survey
 }
 
 /// Finds points of each cell, cells without undefined values first.
 fn cells(scene: &Scene, claim: &Claim, stream: &mut Stream, effort: usize) -> Vec<Vec<Point>> {
     const EACH: usize = 2;
+    let trees = trees(scene, claim);
     let sight = |point: &Point| -> Option<Sight> {
         let values = scene.rough_values(point)?;
-        Some(scout::sight(claim.trees(), &values))
+        Some(scout::sight(trees.iter().copied(), &values))
     };
     let mut cells: BTreeMap<u64, (bool, Vec<Point>)> = BTreeMap::new();
     let mut order: Vec<u64> = Vec::new();
@@ -128,6 +189,18 @@ fn cells(scene: &Scene, claim: &Claim, stream: &mut Stream, effort: usize) -> Ve
             break;
         }
         let point = scene.point(stream, index % 3 == 2);
+        if let Some(found) = sight(&point) {
+            note(&point, found);
+            seen.push((point, found.pattern));
+        }
+    }
+    // Thin cells are searched for.
+    let starts = match effort {
+        0 | 1 => (0, 0),
+        2 => (1, 12),
+        _ => (effort, 120),
+    };
+    for point in seek::thin(scene, &trees, stream, starts) {
         if let Some(found) = sight(&point) {
             note(&point, found);
             seen.push((point, found.pattern));
@@ -160,7 +233,19 @@ fn cells(scene: &Scene, claim: &Claim, stream: &mut Stream, effort: usize) -> Ve
     found.into_iter().map(|(_, points)| points).collect()
 }
 
-/// Number of states at which an expression is positive, and negative.
+/// All formulas on which the value of a claim depends.
+fn trees<'t>(scene: &'t Scene, claim: &'t Claim) -> Vec<&'t Tree> {
+    let level = scene.level.iter().flat_map(|level| &level.equations);
+    let field = scene.field.iter().map(|(_, rate)| rate);
+    let parameters = scene.symbols.iter().filter_map(|symbol| match &symbol.origin {
+        Origin::Formula(tree) => Some(tree),
+        _ => None,
+    });
+    let own = claim.trees().into_iter();
+    own.chain(field).chain(parameters).chain(level.flat_map(|(a, b)| [a, b])).collect()
+}
+
+/// Number of states at which an expression is certainly positive, and negative.
 pub fn signs(
     scene: &Scene,
     tree: &Tree,
@@ -168,11 +253,40 @@ pub fn signs(
     states: usize,
     near_ends: bool,
 ) -> (usize, usize) {
+    let points = (0..states).map(|_| scene.point(stream, near_ends)).collect::<Vec<_>>();
+    signs_at(scene, tree, &points)
+}
+
+/// Number of states, found by descents from so many points, at which an expression is certainly
+/// positive, and negative; enough if there are both.
+pub fn thin_signs(
+    scene: &Scene,
+    tree: &Tree,
+    stream: &mut Stream,
+    (starts, steps): (usize, usize),
+) -> (usize, usize) {
     let (mut positive, mut negative) = (0, 0);
-    for _ in 0..states {
-        let point = scene.point(stream, near_ends);
-        let Some(values) = scene.values(&point) else { continue };
-        match (Place { values: &values, along: &[] }).value(tree).map(|value| real::sign(&value)) {
+    for start in 0..starts {
+        let from = scene.point(stream, start % 3 == 2);
+        let points = seek::of_each_sign(scene, tree, from, steps);
+        let (above, below) = signs_at(scene, tree, &points);
+        (positive, negative) = (positive + above, negative + below);
+        if positive.min(negative) > 0 {
+            break;
+        }
+    }
+    (positive, negative)
+}
+
+fn signs_at(scene: &Scene, tree: &Tree, points: &[Point]) -> (usize, usize) {
+    let (mut positive, mut negative) = (0, 0);
+    for point in points {
+        let Some(values) = scene.values(point) else { continue };
+        let value = (Place { values: &values, along: &[] }).value(tree);
+        if scene.lack_elsewhere(&values).is_err() {
+            continue;
+        }
+        match value.and_then(|value| real::sure_sign(&value)) {
             Ok(1) => positive += 1,
             Ok(-1) => negative += 1,
             _ => {}

@@ -13,7 +13,9 @@ use super::jet::Place;
 use super::oracle::searched;
 use super::print::Hand;
 use super::random::Stream;
-use super::real::{Lack, difference, exactly, height, modulus as size, nearest, whole as number};
+use super::real::{
+    Lack, difference, exactly, height, modulus as size, nearest, sign, whole as number,
+};
 use super::scene::Scene;
 use super::scout;
 use super::told::read;
@@ -122,7 +124,7 @@ pub fn enclosures() -> Result<(), Failed> {
         let Some((middle, radius)) = report.claims[0].2[0] else { continue };
         enclosed += 1;
         let off = size(&difference(&value, &exactly(middle)).unwrap_or_else(|_| number(0)));
-        if off > exactly(radius) && height(&off) > height(&value) - 200 {
+        if sign(&(&off - exactly(radius))) > 0 && height(&off) > height(&value) - 200 {
             let value = nearest(&value);
             return Err(Failed::from(format!(
                 "{middle} ± {radius:e} does not hold {value}:\n{text}"

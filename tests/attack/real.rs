@@ -1,23 +1,60 @@
-//! Real numbers of the oracle: floats of 640 bits in which a sum that cancels is 0.
+//! Real numbers of the oracle: floats with bounds of their errors.
 //!
-//! Claims contain numbers above 10^-40, whose squares can matter. A sum more than 2^420 times
-//! smaller than its terms is taken for 0; between that and 2^340 it is undecided.
+//! A number that differs from 0 by more than its error is certainly not 0. A sum whose error
+//! contains 0 is taken for 0 if its error is 2^[`margin`] times smaller than its terms; otherwise
+//! it is blurred, and more bits decide. Claims contain numbers above 10^-40 and their powers, which
+//! are far above the error in the highest precision.
+
+use std::cell::Cell;
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 
 use super::expr::Number;
 
-/// A float of [`BITS`] bits.
-pub type Real = FBig<HalfEven, 2>;
+type Float = FBig<HalfEven, 2>;
 
-pub const BITS: usize = 640;
-/// Number of lost bits above which a sum is 0.
-const ZERO: isize = 420;
-/// Number of lost bits below which a sum is not 0.
-const CLEAR: isize = 340;
+/// Precisions in bits; each is used where the one before it does not decide.
+pub const LADDER: [usize; 3] = [640, 2048, 6144];
+/// Number of bits that rounding may take from a sum that is nevertheless recognised as 0.
+const SPENT: isize = 220;
+/// Number of bits by which a number must exceed its error.
+const SURE: isize = 4;
 /// Largest argument of exp that is evaluated.
 const STEEP: f64 = 300.0;
+/// Exponent of the error of an exact number.
+const EXACT: isize = isize::MIN / 4;
+
+thread_local! {
+    static BITS: Cell<usize> = const { Cell::new(LADDER[0]) };
+}
+
+/// Precision in which this thread computes.
+pub fn bits() -> usize {
+    BITS.get()
+}
+
+/// Computes something in another precision.
+pub fn with_bits<T>(bits: usize, act: impl FnOnce() -> T) -> T {
+    let before = BITS.replace(bits);
+    let found = act();
+    BITS.set(before);
+    found
+}
+
+/// Number of bits by which the error of a sum must be below its terms for it to be 0.
+fn margin() -> isize {
+    let bits = bits() as isize;
+    (bits - SPENT).max(bits / 2)
+}
+
+/// A float that differs from the exact number by at most 2^error.
+#[derive(Clone, Debug)]
+pub struct Real {
+    value: Float,
+    error: isize,
+}
 
 /// The reason why there is no number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,6 +63,8 @@ pub enum Lack {
     Value,
     /// Definedness is not decided here.
     Decision,
+    /// The precision does not decide whether a number is 0.
+    Digits,
 }
 
 pub type Found<T> = Result<T, Lack>;
@@ -35,27 +74,144 @@ pub fn both<A, B>(a: Found<A>, b: Found<B>) -> Found<(A, B)> {
     match (a, b) {
         (Ok(a), Ok(b)) => Ok((a, b)),
         (Err(Lack::Value), _) | (_, Err(Lack::Value)) => Err(Lack::Value),
-        _ => Err(Lack::Decision),
+        (Err(Lack::Decision), _) | (_, Err(Lack::Decision)) => Err(Lack::Decision),
+        _ => Err(Lack::Digits),
+    }
+}
+
+impl Real {
+    fn exact(value: Float) -> Self {
+        Self { value: value.with_precision(bits()).value(), error: EXACT }
+    }
+
+    /// Adds the error of one rounding to those of the operands.
+    fn rounded(value: Float, error: isize) -> Self {
+        let rounding = tall(&value) - bits() as isize + 1;
+        Self { value, error: error.max(rounding) + 1 }
+    }
+
+    /// Returns the float itself as an exact number.
+    pub fn middle(&self) -> Self {
+        Self { value: self.value.clone(), error: EXACT }
+    }
+
+    /// Returns the number with an error of at least 2^error.
+    pub fn blurred(&self, error: isize) -> Self {
+        Self { value: self.value.clone(), error: self.error.max(error) }
+    }
+
+    /// Whether the number is 0, or certainly is not.
+    fn is_sure(&self) -> bool {
+        tall(&self.value) > self.error + SURE || (is_zero(self) && self.error == EXACT)
+    }
+
+    /// Returns the number if it is known whether it is 0, with terms of this height in it.
+    fn settled(self, terms: isize) -> Found<Self> {
+        match self.is_sure() {
+            true => Ok(self),
+            false if self.error <= terms - margin() => Ok(whole(0)),
+            false => Err(Lack::Digits),
+        }
+    }
+}
+
+/// Returns the place of the leading bit of a float; the least of all for 0.
+fn tall(x: &Float) -> isize {
+    match x.repr().significand().is_zero() {
+        true => EXACT,
+        false => x.repr().exponent() + x.repr().digits() as isize,
+    }
+}
+
+fn plus(a: &Real, b: &Real) -> Real {
+    Real::rounded(&a.value + &b.value, a.error.max(b.error) + 1)
+}
+
+fn minus(a: &Real, b: &Real) -> Real {
+    Real::rounded(&a.value - &b.value, a.error.max(b.error) + 1)
+}
+
+fn times(a: &Real, b: &Real) -> Real {
+    if is_zero(a) && a.error == EXACT || is_zero(b) && b.error == EXACT {
+        return whole(0);
+    }
+    let error = [height(a) + b.error, height(b) + a.error, a.error + b.error];
+    Real::rounded(&a.value * &b.value, error.into_iter().fold(EXACT, isize::max) + 2)
+}
+
+/// Computes a/b for b that is certainly not 0.
+fn over(a: &Real, b: &Real) -> Real {
+    // |b| is above 2^(height - 2) within its error.
+    let down = height(b) - 2;
+    let error = (a.error - down).max(height(a) + b.error - 2 * down).max(EXACT);
+    Real::rounded(&a.value / &b.value, error + 1)
+}
+
+macro_rules! operator {
+    ($name:ident, $method:ident, $by:ident) => {
+        impl $name<&Real> for &Real {
+            type Output = Real;
+            fn $method(self, other: &Real) -> Real {
+                $by(self, other)
+            }
+        }
+        impl $name<Real> for &Real {
+            type Output = Real;
+            fn $method(self, other: Real) -> Real {
+                $by(self, &other)
+            }
+        }
+        impl $name<&Real> for Real {
+            type Output = Real;
+            fn $method(self, other: &Real) -> Real {
+                $by(&self, other)
+            }
+        }
+        impl $name<Real> for Real {
+            type Output = Real;
+            fn $method(self, other: Real) -> Real {
+                $by(&self, &other)
+            }
+        }
+    };
+}
+
+operator!(Add, add, plus);
+operator!(Sub, sub, minus);
+operator!(Mul, mul, times);
+operator!(Div, div, over);
+
+impl Neg for &Real {
+    type Output = Real;
+    fn neg(self) -> Real {
+        Real { value: -&self.value, error: self.error }
+    }
+}
+
+impl Neg for Real {
+    type Output = Real;
+    fn neg(self) -> Real {
+        -&self
     }
 }
 
 pub fn whole(n: i64) -> Real {
-    Real::from(n).with_precision(BITS).value()
+    Real::exact(Float::from(n))
 }
 
 /// Converts a finite f64 exactly.
 pub fn exactly(x: f64) -> Real {
-    Real::try_from(x).expect("a finite number").with_precision(BITS).value()
+    Real::exact(Float::try_from(x).expect("a finite number"))
 }
 
 pub fn nearest(x: &Real) -> f64 {
-    x.to_f64().value()
+    x.value.to_f64().value()
 }
 
 pub fn number(number: Number) -> Real {
     let mut value = whole(number.top);
     if number.bottom != 1 {
-        value /= whole(number.bottom);
+        value = value / whole(number.bottom);
     }
     let tens = (0..number.tens.unsigned_abs()).fold(whole(1), |product, _| product * whole(10));
     match number.tens {
@@ -66,38 +222,37 @@ pub fn number(number: Number) -> Real {
 }
 
 pub fn is_zero(x: &Real) -> bool {
-    x.repr().significand().is_zero()
+    x.value.repr().significand().is_zero()
 }
 
 /// Returns -1, 0 or 1.
 pub fn sign(x: &Real) -> i32 {
     match is_zero(x) {
         true => 0,
-        false if x.repr().significand() < &dashu_int::IBig::ZERO => -1,
+        false if x.value.repr().significand() < &dashu_int::IBig::ZERO => -1,
         false => 1,
     }
 }
 
+/// Returns the sign, if it is certain.
+pub fn sure_sign(x: &Real) -> Found<i32> {
+    if x.is_sure() { Ok(sign(x)) } else { Err(Lack::Digits) }
+}
+
 /// Returns the place of the leading bit; the least of all for 0.
 pub fn height(x: &Real) -> isize {
-    if is_zero(x) { isize::MIN / 4 } else { x.repr().exponent() + x.repr().digits() as isize }
+    tall(&x.value)
 }
 
 /// Computes a + b, or 0 where they cancel.
 pub fn sum(a: &Real, b: &Real) -> Found<Real> {
-    if is_zero(a) {
+    if is_zero(a) && a.error == EXACT {
         return Ok(b.clone());
     }
-    if is_zero(b) {
+    if is_zero(b) && b.error == EXACT {
         return Ok(a.clone());
     }
-    let total = a + b;
-    let lost = height(a).max(height(b)) - height(&total);
-    match lost {
-        ZERO.. => Ok(whole(0)),
-        CLEAR.. => Err(Lack::Decision),
-        _ => Ok(total),
-    }
+    plus(a, b).settled(height(a).max(height(b)))
 }
 
 pub fn difference(a: &Real, b: &Real) -> Found<Real> {
@@ -110,37 +265,65 @@ pub fn modulus(a: &Real) -> Real {
 
 /// Computes the root of a non-negative number.
 pub fn root(a: &Real) -> Found<Real> {
-    match sign(a) {
+    match sure_sign(a)? {
         -1 => Err(Lack::Value),
         0 => Ok(whole(0)),
-        _ => Ok(a.sqrt()),
+        _ => {
+            let value = a.value.sqrt();
+            let error = (a.error - tall(&value) + 2).max(EXACT);
+            Ok(Real::rounded(value, error))
+        }
     }
 }
 
 pub fn quotient(a: &Real, b: &Real) -> Found<Real> {
-    if is_zero(b) { Err(Lack::Value) } else { Ok(a / b) }
+    if sure_sign(b)? == 0 { Err(Lack::Value) } else { Ok(a / b) }
 }
 
 pub fn exp(a: &Real) -> Found<Real> {
     match nearest(a).abs() {
         _ if is_zero(a) => Ok(whole(1)),
-        0.0..STEEP => Ok(a.exp()),
+        0.0..STEEP if a.error < 0 => {
+            let value = a.value.exp();
+            let error = (tall(&value) + a.error + 1).max(EXACT);
+            Ok(Real::rounded(value, error))
+        }
         _ => Err(Lack::Decision),
     }
 }
 
 /// Computes the logarithm of a positive number.
 pub fn log(a: &Real) -> Found<Real> {
-    match sign(a) {
-        1 if *a == whole(1) => Ok(whole(0)),
-        1 => Ok(a.ln()),
+    match sure_sign(a)? {
+        1 if a.value == whole(1).value && a.error == EXACT => Ok(whole(0)),
+        1 => {
+            let error = (a.error - height(a) + 3).max(EXACT);
+            Real::rounded(a.value.ln(), error).settled(1)
+        }
         _ => Err(Lack::Value),
     }
 }
 
+/// Computes sin, or cos: 0 at multiples of a quarter turn.
+fn wave(a: &Real, of: fn(&Float) -> Float) -> Found<Real> {
+    Real::rounded(of(&a.value), a.error).settled(height(a).max(0))
+}
+
+pub fn sin(a: &Real) -> Found<Real> {
+    if is_zero(a) { Ok(whole(0)) } else { wave(a, Float::sin) }
+}
+
+pub fn cos(a: &Real) -> Found<Real> {
+    if is_zero(a) { Ok(whole(1)) } else { wave(a, Float::cos) }
+}
+
+pub fn atan(a: &Real) -> Real {
+    if is_zero(a) { whole(0) } else { Real::rounded(a.value.atan(), a.error) }
+}
+
 /// Computes an integer power.
 pub fn to_the(a: &Real, n: i64) -> Found<Real> {
-    if n < 0 && is_zero(a) {
+    if n < 0 && sure_sign(a)? == 0 {
         return Err(Lack::Value);
     }
     let product = (0..n.unsigned_abs()).fold(whole(1), |product, _| product * a);

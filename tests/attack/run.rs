@@ -15,12 +15,14 @@ use super::wrong::{Truth, Wrong, weighed};
 /// Number of cases with 10 000 claims.
 const CASES: u64 = 8_200;
 
-/// A plan of a run: the number of cases, the seed, and a single case if wanted.
-#[derive(Clone, Copy, Debug)]
+/// A plan of a run: the number of cases, the seed, and single cases if wanted.
+#[derive(Clone, Debug)]
 pub struct Plan {
     pub cases: u64,
+    /// Index of the first case.
+    pub first: u64,
     pub seed: u64,
-    pub only: Option<u64>,
+    pub only: Vec<u64>,
     /// Number of faults of each class that are shrunk and shown.
     pub shown: usize,
 }
@@ -34,11 +36,18 @@ impl Plan {
         };
         Self {
             cases: number("LIOUVILLE_ATTACK").unwrap_or(CASES),
+            first: number("LIOUVILLE_ATTACK_FIRST").unwrap_or(0),
             seed: number("LIOUVILLE_ATTACK_SEED").unwrap_or(1),
-            only: number("LIOUVILLE_ATTACK_ONLY"),
+            only: std::env::var("LIOUVILLE_ATTACK_ONLY").map_or(Vec::new(), |text| listed(&text)),
             shown: number("LIOUVILLE_ATTACK_SHOW").unwrap_or(3) as usize,
         }
     }
+}
+
+/// Reads numbers separated by commas.
+fn listed(text: &str) -> Vec<u64> {
+    let number = |part: &str| part.trim().parse().unwrap_or_else(|_| panic!("{part} is a case"));
+    text.split(',').map(number).collect()
 }
 
 /// The result for a claim.
@@ -62,16 +71,29 @@ struct Fate {
 #[derive(Default)]
 pub struct Outcome {
     pub table: Table,
+    pub claims: usize,
+    /// Number of positive and negative verdicts on claims that the oracle cannot decide.
+    pub open: usize,
     pub wrong: usize,
     pub text: String,
+}
+
+/// Largest share of the claims with a verdict that the oracle leaves open: one in this many.
+const MOST_OPEN: usize = 100;
+
+impl Outcome {
+    /// Whether the oracle decides nearly all claims that have a verdict.
+    pub fn is_open_rarely(&self) -> bool {
+        self.open * MOST_OPEN <= self.claims.max(1000)
+    }
 }
 
 /// Judges all cases of a plan.
 pub fn run(plan: &Plan) -> Outcome {
     let start = Instant::now();
-    let indices = match plan.only {
-        Some(index) => index..index + 1,
-        None => 0..plan.cases,
+    let indices = match plan.only.is_empty() {
+        true => (plan.first..plan.first + plan.cases).collect(),
+        false => plan.only.clone(),
     };
     let fates: Vec<Fate> =
         indices.into_par_iter().flat_map_iter(|index| fates(plan.seed, index)).collect();
@@ -79,6 +101,9 @@ pub fn run(plan: &Plan) -> Outcome {
     let mut faults: BTreeMap<Wrong, Vec<&Fate>> = BTreeMap::new();
     for fate in &fates {
         outcome.table.note(&fate.constructs, fate.truth, fate.word);
+        let is_decided = ["proved", "confirmed", "refuted"].contains(&fate.word);
+        outcome.claims += 1;
+        outcome.open += usize::from(is_decided && fate.truth == Truth::Unsure);
         if let Some(wrong) = fate.wrong {
             faults.entry(wrong).or_default().push(fate);
         }
@@ -99,6 +124,10 @@ pub fn run(plan: &Plan) -> Outcome {
             slowest.index
         ));
     }
+    let Outcome { claims, open, .. } = outcome;
+    outcome
+        .text
+        .push_str(&format!("{open} of {claims} with a verdict that the oracle leaves open\n"));
     for (wrong, list) in faults {
         outcome.text.push_str(&format!("\n{} times: {}\n", list.len(), wrong.words()));
         let mut by: BTreeMap<(&str, &str, &str), Vec<u64>> = BTreeMap::new();
@@ -107,8 +136,7 @@ pub fn run(plan: &Plan) -> Outcome {
             by.entry((fate.constructs[0], place, fate.method)).or_default().push(fate.index);
         }
         for ((kind, place, method), cases) in by {
-            let first = &cases[..cases.len().min(8)];
-            let line = format!("  {:>5} {kind}{place} by {method}: cases {first:?}\n", cases.len());
+            let line = format!("  {:>5} {kind}{place} by {method}: cases {cases:?}\n", cases.len());
             outcome.text.push_str(&line);
         }
         let shown: Vec<String> =

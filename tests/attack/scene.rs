@@ -5,7 +5,7 @@ use super::interval::Interval;
 use super::jet::Place;
 use super::print::Hand;
 use super::random::Stream;
-use super::real::{Found, Lack, Real, exactly, number, sign};
+use super::real::{Found, Real, both, difference, exactly, number, sign};
 use super::scout;
 
 /// The source of the values of a symbol.
@@ -69,6 +69,17 @@ impl Point {
         let middle = self.cube.iter().zip(&other.cube).map(|(a, b)| f64::midpoint(*a, *b));
         same.then(|| Self { cube: middle.collect(), ..self.clone() })
     }
+
+    /// Returns the point with one coordinate changed, inside the range.
+    pub fn moved(&self, place: usize, by: f64) -> Self {
+        let mut point = self.clone();
+        point.cube[place] = (point.cube[place] + by).clamp(0.0, 1.0);
+        point
+    }
+}
+
+fn rough(n: &Number) -> f64 {
+    n.top as f64 / n.bottom as f64 * 10f64.powi(n.tens)
 }
 
 impl Scene {
@@ -231,38 +242,77 @@ impl Scene {
         all
     }
 
-    /// Whether the value is outside the declared range and not one of its ends, whose membership is
-    /// not tested.
-    pub fn is_out_of_range(&self, place: usize, value: &Real) -> bool {
+    /// Whether the value is certainly outside the declared range, by more than `slack`.
+    pub fn is_out_of_range(&self, place: usize, value: &Real, slack: f64) -> bool {
+        let is_below = |a: &Real, b: &Real| {
+            difference(b, &(a + exactly(slack))).is_ok_and(|gap| sign(&gap) > 0)
+        };
         match &self.symbols[place].origin {
             Origin::State(a, b) | Origin::Range(a, b) => {
-                sign(&(value - number(*a))) < 0 || sign(&(number(*b) - value)) < 0
+                is_below(value, &number(*a)) || is_below(&number(*b), value)
             }
             _ => false,
         }
     }
 
+    /// Returns the symbols that vary independently: those drawn from ranges.
+    pub fn free(&self) -> Vec<usize> {
+        let branches = self.level.iter().flat_map(|level| &level.branches);
+        let bound: Vec<usize> = match self.level.as_ref().map_or(0, |level| level.branches.len()) {
+            1 => branches.flatten().map(|(place, _)| *place).collect(),
+            _ => Vec::new(),
+        };
+        let varies = |place: &usize| {
+            let origin = &self.symbols[*place].origin;
+            matches!(origin, Origin::State(..) | Origin::Range(..) | Origin::Input(..))
+        };
+        (0..self.symbols.len()).filter(|place| varies(place) && !bound.contains(place)).collect()
+    }
+
+    /// Returns the ends of a symbol's range in f64.
+    pub fn ends(&self, place: usize) -> (f64, f64) {
+        match &self.symbols[place].origin {
+            Origin::State(a, b) | Origin::Range(a, b) | Origin::Input(a, b) => (rough(a), rough(b)),
+            _ => (f64::NEG_INFINITY, f64::INFINITY),
+        }
+    }
+
+    /// Returns a symbol's value in f64, if it is not given by a formula.
+    pub fn given(&self, point: &Point, place: usize) -> f64 {
+        match &self.symbols[place].origin {
+            Origin::Fixed(n) => rough(n),
+            Origin::List(list) => rough(&list[point.picks[place]]),
+            Origin::Formula(_) => f64::NAN,
+            Origin::State(..) | Origin::Range(..) | Origin::Input(..) => {
+                let (low, high) = self.ends(place);
+                low + (high - low) * point.cube[place]
+            }
+        }
+    }
+
+    /// Returns the dependent variables on a point's branch of the level.
+    pub fn branch(&self, point: &Point) -> &[(usize, Tree)] {
+        let level = self.level.as_ref();
+        level.and_then(|level| level.branches.get(point.branch)).map_or(&[], |branch| branch)
+    }
+
     /// Computes the values in f64.
     pub fn rough_values(&self, point: &Point) -> Option<Vec<f64>> {
-        let value = |n: &Number| n.top as f64 / n.bottom as f64 * 10f64.powi(n.tens);
         let mut values: Vec<f64> = Vec::new();
         for (place, symbol) in self.symbols.iter().enumerate() {
             let found = match &symbol.origin {
-                Origin::State(a, b) | Origin::Range(a, b) | Origin::Input(a, b) => {
-                    value(a) + (value(b) - value(a)) * point.cube[place]
-                }
-                Origin::Fixed(n) => value(n),
-                Origin::List(list) => value(&list[point.picks[place]]),
                 Origin::Formula(tree) => scout::value(tree, &values).unwrap_or(f64::NAN),
+                _ => self.given(point, place),
             };
             values.push(found);
         }
         let Some(level) = &self.level else { return Some(values) };
         for (place, tree) in level.branches.get(point.branch)? {
             let found = scout::value(tree, &values)?;
-            if let Origin::State(a, b) = &self.symbols[*place].origin
-                && !(found > value(a) && found < value(b))
-            {
+            let (low, high) = self.ends(*place);
+            // The ends belong to the range; full precision decides what is next to them.
+            let slack = 1e-9 * (high - low).min(1.0);
+            if !(found >= low - slack && found <= high + slack) {
                 return None;
             }
             values[*place] = found;
@@ -270,15 +320,13 @@ impl Scene {
         Some(values)
     }
 
-    /// Checks that everything the claim does not mention is defined as well.
+    /// Checks that what the claim does not mention is defined as well: the parameters and the
+    /// equations of motion belong to every claim.
     pub fn lack_elsewhere(&self, values: &[Found<Real>]) -> Found<()> {
         let place = Place { values, along: &[] };
-        let elsewhere = values.iter().map(|value| value.clone().map(|_| ()));
-        let rates = self.field.iter().map(|(_, rate)| place.value(rate).map(|_| ()));
-        match elsewhere.chain(rates).all(|found| found.is_ok()) {
-            true => Ok(()),
-            false => Err(Lack::Decision),
-        }
+        let rates = self.field.iter().map(|(_, rate)| place.value(rate));
+        let parts = values.iter().cloned().chain(rates).map(|found| found.map(|_| ()));
+        parts.fold(Ok(()), |all, part| both(all, part).map(|_| ()))
     }
 
     /// Writes the case file with these claims, each the body of a table.

@@ -3,12 +3,10 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use liouville::case::Case;
-use liouville::verdict::{ClaimReport, Options, Verdict, Witness, judge};
+use liouville::verdict::{ClaimReport, Options, Verdict, judge};
 use num_bigint::BigInt;
 
-use super::jet::Place;
-use super::real::{Found, Real, difference, height, is_zero, whole};
-use super::scene::{Origin, Scene};
+use super::real::{Real, whole};
 
 /// The answer on a claim.
 #[derive(Clone, Debug)]
@@ -84,48 +82,6 @@ pub fn told(text: &str, seed: u64, count: usize) -> Vec<Told> {
         let text = text.or_else(|| panic.downcast_ref::<&str>().map(|text| text.to_string()));
         all(Told::Panicked(text.unwrap_or_default()))
     })
-}
-
-/// Reads a witness as values of the scene's symbols, with its distance from the level; `None` if a
-/// number cannot be read, or is outside its range.
-pub fn witnessed(scene: &Scene, witness: &Witness) -> Option<(Vec<Found<Real>>, Real)> {
-    let given = |name: &str| -> Option<&str> {
-        let of_state = witness.state.split_whitespace().find_map(|part| {
-            part.split_once('=').filter(|(own, _)| *own == name).map(|(_, value)| value)
-        });
-        of_state.or_else(|| witness.parameters.get(name).map(String::as_str))
-    };
-    let mut values: Vec<Found<Real>> = Vec::new();
-    for (place, symbol) in scene.symbols.iter().enumerate() {
-        let value = match &symbol.origin {
-            Origin::Fixed(n) => Ok(super::real::number(*n)),
-            Origin::Formula(tree) => Place { values: &values, along: &[] }.value(tree),
-            // No claim names the input of a chart, and the witness gives what depends on it.
-            Origin::Input(..) => Ok(whole(0)),
-            Origin::State(..) | Origin::Range(..) | Origin::List(_) => {
-                let value = read(given(&symbol.name)?)?;
-                if scene.is_out_of_range(place, &value) {
-                    return None;
-                }
-                Ok(value)
-            }
-        };
-        values.push(value);
-    }
-    let mut off = whole(0);
-    for (a, b) in scene.level.iter().flat_map(|level| &level.equations) {
-        let place = Place { values: &values, along: &[] };
-        let gap = difference(&place.value(a).ok()?, &place.value(b).ok()?).ok()?;
-        if height(&gap) > height(&off) {
-            off = gap;
-        }
-    }
-    Some((values, off))
-}
-
-/// Whether a residual is larger than the distance from the level explains.
-pub fn exceeds(residual: f64, off: &Real) -> bool {
-    is_zero(off) || residual > 1e-8
 }
 
 /// Reads a number such as `-0.39`, `3/7`, `1.5e-7`.

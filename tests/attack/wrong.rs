@@ -2,15 +2,16 @@
 
 use std::borrow::Cow;
 
-use liouville::verdict::{ClaimReport, Independence, Sign, Verdict};
+use liouville::verdict::{ClaimReport, DensitySign, Independence, Verdict};
 
 use super::claim::{At, Claim};
 use super::draw::Made;
-use super::oracle::{Survey, evenly, in_cells, searched, signs};
+use super::oracle::{Survey, evenly, in_cells, searched, signs, thin_signs, visibly};
 use super::random::Stream;
 use super::real::Lack;
 use super::scene::Scene;
-use super::told::{Told, exceeds, witnessed};
+use super::told::Told;
+use super::witness::{Shown, shown};
 
 /// A fault of a verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -80,8 +81,14 @@ pub enum Truth {
     Unsure,
 }
 
-/// Largest share of the range on which a confirmed claim may fail.
-const SHARE: f64 = 0.02;
+/// Largest shares of the range on which a confirmed claim may fail by more than the rounding of so
+/// many bits: thousands of states are tried in f64, and 32 states in 256 bits.
+const CONFIRMED: [(usize, f64); 2] = [(256, 0.25), (64, 0.02)];
+
+/// Number and length of descents to states at which a density has the other sign, to contradict a
+/// proof, and to find both signs before a verdict counts as wrong.
+const FEW: (usize, usize) = (1, 12);
+const MANY: (usize, usize) = (40, 120);
 
 /// Determines the truth about a claim, and the fault of a verdict on it.
 pub fn weighed(
@@ -106,12 +113,23 @@ pub fn weighed(
         false => Cow::Borrowed(scene),
     };
     let survey = surveyed(&scene, claim, told, stream);
-    let truth = truth(&scene, claim, &survey);
+    let witness = match told {
+        Told::Report(report) => {
+            report.evidence.witness.as_ref().map(|witness| shown(&scene, claim, witness))
+        }
+        _ => None,
+    };
+    let truth = match (truth(&scene, claim, &survey), witness) {
+        // One state decides, however thin the set of such states is.
+        (_, Some(Shown::At(At::Off(_)))) if claim.is_negated() => Truth::Holds,
+        (_, Some(Shown::At(At::Off(_)))) => Truth::Fails,
+        (truth, _) => truth,
+    };
     if made.vanishes && survey.off > 0 {
         return (truth, Some(Wrong::Instrument));
     }
     let wrong = match told {
-        Told::Report(report) => against(&scene, claim, truth, report, stream)
+        Told::Report(report) => against(&scene, claim, truth, (report, witness), stream)
             .or_else(|| beside(&scene, claim, report, stream)),
         // The motion stays on the level by construction.
         Told::Unjudged(error) if truth != Truth::Void && filled => {
@@ -133,19 +151,21 @@ fn surveyed(scene: &Scene, claim: &Claim, told: &Told, stream: &mut Stream) -> S
     if matches!(told.verdict(), None | Some(Verdict::Undecided)) && !claim.is_negated() {
         return evenly(scene, claim, stream, 24);
     }
-    let survey = searched(scene, claim, stream, if says_zero { 2 } else { 1 });
+    let mut survey = searched(scene, claim, stream, if says_zero { 2 } else { 1 });
     let doubtful = match told.verdict() {
         Some(Verdict::Refuted) if !claim.is_negated() => survey.off == 0,
         Some(Verdict::Proved) if claim.is_negated() => survey.off == 0,
         None | Some(Verdict::Undecided) => false,
         _ => survey.off == 0 && survey.zero == 0,
     };
-    if !doubtful {
-        return survey;
-    }
     // A verdict counts as wrong only after a search thorough enough for thin cells.
-    let survey = searched(scene, claim, stream, 6);
-    if survey.off > 0 { survey } else { searched(scene, claim, stream, 30) }
+    let efforts: &[usize] = if doubtful { &[6, 30] } else { &[] };
+    for effort in efforts {
+        if survey.off == 0 {
+            survey = searched(scene, claim, stream, *effort);
+        }
+    }
+    survey
 }
 
 /// Finds the fault of a verdict.
@@ -153,49 +173,33 @@ fn against(
     scene: &Scene,
     claim: &Claim,
     truth: Truth,
-    report: &ClaimReport,
+    (report, witness): (&ClaimReport, Option<Shown>),
     stream: &mut Stream,
 ) -> Option<Wrong> {
-    // Result at the witness; `None` if it is not a state.
-    let witness = || {
-        report.evidence.witness.as_ref().map(|witness| {
-            let (values, off) = witnessed(scene, witness)?;
-            match claim.at(scene, &values) {
-                At::Off(residual) if !exceeds(residual, &off) => None,
-                At::Without(Lack::Value) => None,
-                at => Some(at),
-            }
-        })
-    };
+    let off_there = matches!(witness, Some(Shown::At(At::Off(_))));
     match (report.verdict, truth) {
-        // A cell in which functions are independent may be too thin for the survey.
-        (Verdict::Proved, Truth::Fails)
-            if claim.is_negated() && matches!(witness(), Some(Some(At::Off(_)))) =>
-        {
-            None
-        }
         (Verdict::Proved, Truth::Fails) => Some(Wrong::ProvedFalse),
         (Verdict::Proved, Truth::Void) => Some(Wrong::ProvedVoid),
         (Verdict::Refuted, Truth::Void) => Some(Wrong::RefutedVoid),
         (Verdict::Confirmed, Truth::Void) => Some(Wrong::ConfirmedVoid),
-        (Verdict::Refuted, truth) if !claim.is_negated() => {
-            let there = witness();
-            match (truth, there) {
-                (_, Some(Some(At::Off(_)))) | (Truth::Fails, None) | (Truth::Unsure, _) => None,
-                (Truth::Fails, Some(Some(At::Without(_)))) => None,
-                // The smaller residuals of a rounded state on a level are not significant.
-                (Truth::Fails, Some(_)) if scene.level.is_some() => None,
-                // A limit has no state.
-                (Truth::Fails, Some(_)) if matches!(claim, Claim::Limit(..)) => None,
-                (Truth::Fails, Some(Some(At::Zero))) => Some(Wrong::IdleWitness),
-                (Truth::Fails, Some(None)) => Some(Wrong::NoWitness),
-                _ => Some(Wrong::RefutedTrue),
+        (Verdict::Refuted, truth) if !claim.is_negated() => match witness {
+            _ if off_there => None,
+            // A limit has no state.
+            Some(_) if matches!(claim, Claim::Limit(..)) && truth != Truth::Holds => None,
+            Some(Shown::At(At::Zero)) if truth == Truth::Fails => Some(Wrong::IdleWitness),
+            Some(Shown::At(At::Zero)) => Some(Wrong::RefutedTrue),
+            Some(Shown::NoState | Shown::At(At::Without(Lack::Value))) => Some(Wrong::NoWitness),
+            Some(Shown::Open | Shown::At(_)) | None => {
+                (truth == Truth::Holds).then_some(Wrong::RefutedTrue)
             }
-        }
+        },
         (Verdict::Refuted, Truth::Holds) => Some(Wrong::RefutedTrue),
         (Verdict::Confirmed, Truth::Fails) => {
-            let share = evenly(scene, claim, stream, 150);
-            (share.off >= 6 && share.share() > SHARE).then_some(Wrong::ConfirmedFalse)
+            let is_large = |(bits, share): (usize, f64)| {
+                let (valued, off) = visibly(scene, claim, stream, 150, bits);
+                off >= 6 && off as f64 > share * valued as f64
+            };
+            CONFIRMED.into_iter().any(is_large).then_some(Wrong::ConfirmedFalse)
         }
         _ => None,
     }
@@ -226,14 +230,19 @@ fn beside(
         {
             let (positive, negative) = signs(scene, density, stream, 200, false);
             let share = |count: usize| count as f64 / (positive + negative).max(1) as f64;
+            let mut thin = |effort| thin_signs(scene, density, stream, effort);
             let wrong = match sign {
-                Sign::Positive => share(negative) > 0.05,
-                Sign::Negative => share(positive) > 0.05,
-                Sign::Changes if positive.min(negative) == 0 => {
-                    let (above, below) = signs(scene, density, stream, 400, true);
-                    positive + negative >= 100 && (above + positive).min(below + negative) == 0
+                DensitySign::Positive if evidence.sign_is_proved => negative > 0 || thin(FEW).1 > 0,
+                DensitySign::Negative if evidence.sign_is_proved => positive > 0 || thin(FEW).0 > 0,
+                // The verifier tries 256 states; where few of the states drawn have a value, it
+                // has seen few signs.
+                DensitySign::Positive => positive + negative > 150 && share(negative) > 0.05,
+                DensitySign::Negative => positive + negative > 150 && share(positive) > 0.05,
+                DensitySign::Changes if positive.min(negative) == 0 => {
+                    let (above, below) = thin(MANY);
+                    (above + positive).min(below + negative) == 0
                 }
-                Sign::Changes => false,
+                DensitySign::Changes => false,
             };
             wrong.then_some(Wrong::OtherSign)
         }
@@ -249,9 +258,12 @@ fn beside(
             }
             let wrong = match independence {
                 Independence::Independent => {
-                    // States of a chart outside the declared ranges are none to the oracle.
-                    let is_charted = scene.level.as_ref().is_some_and(|l| l.chart.is_some());
-                    survey.off == 0 && survey.zero > 0 && survey.unsure == 0 && !is_charted
+                    survey.off == 0 && survey.zero > 0 && survey.unsure == 0
+                }
+                // What accompanies a confirmed integral was seen at the states tried.
+                _ if report.verdict == Verdict::Confirmed => {
+                    let (valued, off) = visibly(scene, &claim, stream, 150, CONFIRMED[1].0);
+                    off >= 6 && off as f64 > CONFIRMED[1].1 * valued as f64
                 }
                 Independence::Constant | Independence::General => survey.off > 0,
             };

@@ -2,7 +2,7 @@
 //! where there are none.
 
 use liouville::number::rational::Rational;
-use liouville::number::{Function, Operation};
+use liouville::number::{BinaryOperation, UnaryFunction};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
@@ -46,13 +46,13 @@ impl<D: Tested> Suite<D> {
         self.domain.constant(&rational(value))
     }
 
-    pub fn unary(&self, f: Function, x: &D::Block) -> D::Block {
+    pub fn unary(&self, f: UnaryFunction, x: &D::Block) -> D::Block {
         let mut out = x.clone();
         self.domain.unary(f, x, &mut out);
         out
     }
 
-    pub fn binary(&self, f: Operation, x: &D::Block, y: &D::Block) -> D::Block {
+    pub fn binary(&self, f: BinaryOperation, x: &D::Block, y: &D::Block) -> D::Block {
         let mut out = x.clone();
         self.domain.binary(f, x, y, &mut out);
         out
@@ -109,16 +109,16 @@ impl<D: Tested> Suite<D> {
     fn one(&self, a: &BigRational) {
         let x = self.of(a);
         self.check(&x, a, "a constant");
-        self.check(&self.unary(Function::Neg, &x), &-a, "-x");
-        self.check(&self.unary(Function::Recip, &x), &a.recip(), "1/x");
+        self.check(&self.unary(UnaryFunction::Neg, &x), &-a, "-x");
+        self.check(&self.unary(UnaryFunction::Recip, &x), &a.recip(), "1/x");
         if D::MODULI {
-            self.check(&self.unary(Function::Abs, &x), &a.abs(), "|x|");
+            self.check(&self.unary(UnaryFunction::Abs, &x), &a.abs(), "|x|");
         }
-        let square = self.binary(Operation::Mul, &x, &x);
+        let square = self.binary(BinaryOperation::Mul, &x, &x);
         self.check(&square, &(a * a), "x x");
         let tiny = !D::ROUNDS || (unit(-480)..unit(480)).contains(&a.abs());
         if tiny {
-            self.check(&self.unary(Function::Sqrt, &square), &a.abs(), "√(x x)");
+            self.check(&self.unary(UnaryFunction::Sqrt, &square), &a.abs(), "√(x x)");
         }
         for n in [-3i64, -1, 1, 2, 5] {
             let power = a.pow(n as i32);
@@ -126,32 +126,32 @@ impl<D: Tested> Suite<D> {
                 self.check(&self.power(&x, (n, 1)), &power, "x^n");
             }
         }
-        let zero = self.binary(Operation::Sub, &x, &x);
+        let zero = self.binary(BinaryOperation::Sub, &x, &x);
         self.check(&zero, &BigRational::zero(), "x - x");
     }
 
     fn two(&self, a: &BigRational, b: &BigRational) {
         let (x, y) = (self.of(a), self.of(b));
         let size = a.abs() + b.abs();
-        self.check_scaled(&self.binary(Operation::Add, &x, &y), &(a + b), &size, "x + y");
-        self.check_scaled(&self.binary(Operation::Sub, &x, &y), &(a - b), &size, "x - y");
-        self.check(&self.binary(Operation::Mul, &x, &y), &(a * b), "x y");
-        for operation in [Operation::Add, Operation::Mul] {
+        self.check_scaled(&self.binary(BinaryOperation::Add, &x, &y), &(a + b), &size, "x + y");
+        self.check_scaled(&self.binary(BinaryOperation::Sub, &x, &y), &(a - b), &size, "x - y");
+        self.check(&self.binary(BinaryOperation::Mul, &x, &y), &(a * b), "x y");
+        for operation in [BinaryOperation::Add, BinaryOperation::Mul] {
             let (xy, yx) = (self.binary(operation, &x, &y), self.binary(operation, &y, &x));
             self.equal(&xy, &yx, &BigRational::zero(), "commutes");
         }
         if !D::ENCLOSES && !(unit(-1000)..unit(1000)).contains(&(a / b).abs()) {
             return;
         }
-        let quotient = self.binary(Operation::Mul, &x, &self.unary(Function::Recip, &y));
-        let back = self.binary(Operation::Mul, &quotient, &y);
+        let quotient = self.binary(BinaryOperation::Mul, &x, &self.unary(UnaryFunction::Recip, &y));
+        let back = self.binary(BinaryOperation::Mul, &quotient, &y);
         self.equal(&back, &x, &a.abs(), "(x/y) y = x");
     }
 
     fn three(&self, a: &BigRational, b: &BigRational, c: &BigRational) {
         let (x, y, z) = (self.of(a), self.of(b), self.of(c));
         let op = |f, x: &D::Block, y: &D::Block| self.binary(f, x, y);
-        let (add, mul) = (Operation::Add, Operation::Mul);
+        let (add, mul) = (BinaryOperation::Add, BinaryOperation::Mul);
         let sum = a.abs() + b.abs() + c.abs();
         self.equal(
             &op(add, &op(add, &x, &y), &z),
@@ -188,18 +188,18 @@ impl<D: Tested> Suite<D> {
         let none = |block: &D::Block, what: &str| {
             assert!(!self.domain.is_defined(block), "{}: {what} has no value", self.name);
         };
-        none(&self.unary(Function::Recip, &zero), "1/0");
-        none(&self.unary(Function::Ln, &zero), "ln 0");
+        none(&self.unary(UnaryFunction::Recip, &zero), "1/0");
+        none(&self.unary(UnaryFunction::Ln, &zero), "ln 0");
         none(&self.power(&zero, (-1, 1)), "0^-1");
         if D::ORDERED {
             none(&self.power(&minus, (1, 3)), "(-2)^(1/3)");
-            none(&self.unary(Function::Sqrt, &minus), "√-2");
-            none(&self.unary(Function::Ln, &minus), "ln -2");
-            self.check(&self.unary(Function::Sqrt, &zero), &BigRational::zero(), "√0");
+            none(&self.unary(UnaryFunction::Sqrt, &minus), "√-2");
+            none(&self.unary(UnaryFunction::Ln, &minus), "ln -2");
+            self.check(&self.unary(UnaryFunction::Sqrt, &zero), &BigRational::zero(), "√0");
         }
-        let gone = self.unary(Function::Recip, &zero);
-        none(&self.binary(Operation::Mul, &gone, &zero), "(1/0) 0");
-        none(&self.binary(Operation::Sub, &gone, &gone), "1/0 - 1/0");
-        none(&self.unary(Function::Abs, &gone), "|1/0|");
+        let gone = self.unary(UnaryFunction::Recip, &zero);
+        none(&self.binary(BinaryOperation::Mul, &gone, &zero), "(1/0) 0");
+        none(&self.binary(BinaryOperation::Sub, &gone, &gone), "1/0 - 1/0");
+        none(&self.unary(UnaryFunction::Abs, &gone), "|1/0|");
     }
 }

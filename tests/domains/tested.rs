@@ -2,15 +2,15 @@
 //! what may equal it.
 
 use liouville::number::Domain;
+use liouville::number::arb::{Approximation, ArbBall};
 use liouville::number::ball::{Ball, Balls};
+use liouville::number::double_double_ball::{DoubleDoubleBall, DoubleDoubleBalls};
 use liouville::number::exact::Exact;
 use liouville::number::float::Float;
 use liouville::number::mixed::{Mixed, Number};
-use liouville::number::precise::{Approximation, Precise};
 use liouville::number::prime::{Prime, UNDEFINED};
 use liouville::number::quadratic::Quadratic;
 use liouville::number::rational::Rational;
-use liouville::number::twofold::{TwofoldBall, Twofolds};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Pow, Signed, Zero};
@@ -80,20 +80,30 @@ impl Tested for Ball<4> {
     }
 }
 
-fn midpoint(block: &Twofolds<4>) -> BigRational {
+fn midpoint(block: &DoubleDoubleBalls<4>) -> BigRational {
     dyadic(block.hi[0]) + dyadic(block.lo[0])
 }
 
-impl Tested for TwofoldBall<4> {
-    fn stands_for(&self, block: &Twofolds<4>, value: &BigRational, _: &BigRational) -> bool {
+impl Tested for DoubleDoubleBall<4> {
+    fn stands_for(
+        &self,
+        block: &DoubleDoubleBalls<4>,
+        value: &BigRational,
+        _: &BigRational,
+    ) -> bool {
         within(value, &midpoint(block), &dyadic(block.rad[0]))
     }
 
-    fn may_equal(&self, a: &Twofolds<4>, b: &Twofolds<4>, _: &BigRational) -> bool {
+    fn may_equal(
+        &self,
+        a: &DoubleDoubleBalls<4>,
+        b: &DoubleDoubleBalls<4>,
+        _: &BigRational,
+    ) -> bool {
         (midpoint(a) - midpoint(b)).abs() <= dyadic(a.rad[0]) + dyadic(b.rad[0])
     }
 
-    fn is_defined(&self, block: &Twofolds<4>) -> bool {
+    fn is_defined(&self, block: &DoubleDoubleBalls<4>) -> bool {
         block.is_defined(0)
     }
 }
@@ -108,7 +118,7 @@ pub fn interval(x: &Approximation) -> (BigRational, BigRational) {
     )
 }
 
-impl Tested for Precise {
+impl Tested for ArbBall {
     const ROUNDS: bool = false;
 
     fn stands_for(

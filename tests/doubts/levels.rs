@@ -1,6 +1,7 @@
 //! Levels that are missed, fall apart, or have dependent equations.
 
-use liouville::verdict::JudgeError;
+use liouville::case::Case;
+use liouville::verdict::{JudgeError, Options, Verdict, judge};
 
 use crate::judged;
 
@@ -23,6 +24,44 @@ fn a_chart_has_to_lie_on_the_level_and_to_fill_it() {
     assert!(matches!(judged(&on_sphere(&off, claim)), Err(JudgeError::OffLevel { .. })));
     let partial = judged(&on_sphere(part, claim));
     assert!(matches!(partial, Err(JudgeError::PartialChart { found: 1, dimension: 2 })));
+}
+
+#[test]
+fn a_witness_that_is_looked_for_lies_on_the_level() {
+    // The claim fails for z > 2 - 1e-7 only, and says nothing about the sign of y = ±√(2 - x²).
+    let text = "title = 'x'\n[state]\nx = '-2..2'\ny = '-20..20'\nz = '-2..2'\n[field]\n\"x'\" = '0'\n\
+                \"y'\" = '0'\n\"z'\" = '0'\n[level]\nequations = ['x² + y² = 2']\n[[claim]]\n\
+                identity = '2 = 2 + (z - (2 - 1e-7) + |z - (2 - 1e-7)|)'\nexpect = 'fails'\n";
+    let found = judged(text).expect("it can be judged").claims.remove(0);
+    assert_eq!(found.verdict, Verdict::Refuted);
+    let state = found.evidence.witness.expect("a state was found").state;
+    let number = |text: &str| -> f64 {
+        let (above, below) = text.split_once('/').unwrap_or((text, "1"));
+        let [above, below] = [above, below].map(|part| part.parse::<f64>().expect("a number"));
+        above / below
+    };
+    let value = |name: &str| {
+        let part = state.split(' ').find_map(|part| part.strip_prefix(name));
+        number(part.expect("each variable is printed"))
+    };
+    let off = value("x=").powi(2) + value("y=").powi(2) - 2.0;
+    assert!(off.abs() < 1e-12, "{state} is off the level by {off}");
+}
+
+#[test]
+fn a_witness_with_a_root_of_nothing_is_printed() {
+    let text = "title = 'x'\n[state]\nx = '-20..20'\ny = '-20..20'\nz = '-2..2'\n[field]\n\"x'\" = '0'\n\
+                \"y'\" = '0'\n\"z'\" = '0'\n[level]\n\
+                equations = ['x - |[sqrt(z + sqrt(y² - 2*y*y + y²)), 7, 5]| = 0']\n[[claim]]\n\
+                identity = '0 = y'\nexpect = 'fails'\n";
+    for seed in [1, 2, 627_816] {
+        let case = Case::parse(text, &[]).expect("a case");
+        let options = Options { seed, ..Options::default() };
+        let found = judge(&case, &options).expect("it can be judged").claims.remove(0);
+        assert_eq!(found.verdict, Verdict::Refuted);
+        let state = found.evidence.witness.expect("a state was drawn").state;
+        assert!(!state.contains("NaN"), "{state}");
+    }
 }
 
 #[test]

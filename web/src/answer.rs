@@ -6,8 +6,10 @@ use liouville::case::Case;
 use liouville::verdict::{CaseReport, Options};
 use liouville_catalogue::{CATALOGUE, inside, templates, title};
 use liouville_report::survey as written;
-use liouville_report::{Digest, Failure, Heading, Outcome, RunReport, diagnostic, json, names};
-use liouville_search::survey::{self, Finding};
+use liouville_report::{
+    CaseDigest, FileFailure, FileOutcome, Heading, RunReport, diagnostic, json, names,
+};
+use liouville_search::survey::{self, TestedClaim};
 use liouville_search::{Ansatz, Effort};
 use serde_json::{Value, json};
 
@@ -23,7 +25,7 @@ pub fn answered(request: &[u8]) -> String {
     answer.unwrap_or_else(|failures| json!({ "failures": listed(&failures) })).to_string()
 }
 
-fn answer(request: Request) -> Result<Value, Vec<Failure>> {
+fn answer(request: Request) -> Result<Value, Vec<FileFailure>> {
     match request {
         Request::Check(source) => check(&source),
         Request::Search(request) => search(&request),
@@ -35,12 +37,12 @@ fn answer(request: Request) -> Result<Value, Vec<Failure>> {
 }
 
 /// Failure of a request, rather than of a case.
-fn wrong(message: &str) -> Failure {
+fn wrong(message: &str) -> FileFailure {
     diagnostic::of_file("request", message, "reload the page", false)
 }
 
 /// Failures with the excerpts that the command prints.
-fn listed(failures: &[Failure]) -> Value {
+fn listed(failures: &[FileFailure]) -> Value {
     let each = failures.iter().map(|failure| {
         json!({
             "message": failure.message,
@@ -54,13 +56,13 @@ fn listed(failures: &[Failure]) -> Value {
 }
 
 /// Reads a case with the limits of the command.
-fn read(source: &Source) -> Result<Case, Vec<Failure>> {
+fn read(source: &Source) -> Result<Case, Vec<FileFailure>> {
     let (text, case) = Case::read_from(source.text.as_bytes(), &[]);
     case.map_err(|error| diagnostic::of_case(&source.path, &text, &error, false))
 }
 
 /// Judges a case; the document is that of `check --json`.
-fn check(source: &Source) -> Result<Value, Vec<Failure>> {
+fn check(source: &Source) -> Result<Value, Vec<FileFailure>> {
     let options = Options::default();
     let case = read(source);
     let judged = case.as_ref().map_err(Clone::clone).and_then(|case| {
@@ -75,7 +77,7 @@ fn check(source: &Source) -> Result<Value, Vec<Failure>> {
     let failures = judged.as_ref().err().map(|failures| listed(failures));
     let heading = case.map_or_else(|_| Heading::default(), |case| Heading::of(&case, &source.text));
     let outcome =
-        Outcome { path: source.path.clone(), heading, result: judged, unreached: Vec::new() };
+        FileOutcome { path: source.path.clone(), heading, result: judged, unreached: Vec::new() };
     let run =
         RunReport { seed: options.seed, outcomes: vec![outcome], elapsed: Duration::default() };
     let document = json::render(&run).map_err(unwritten)?;
@@ -87,18 +89,18 @@ fn check(source: &Source) -> Result<Value, Vec<Failure>> {
     }))
 }
 
-fn unwritten(error: serde_json::Error) -> Vec<Failure> {
+fn unwritten(error: serde_json::Error) -> Vec<FileFailure> {
     vec![wrong(&format!("the answer cannot be written: {error}"))]
 }
 
 /// Claims as the page shows them, in the order of the report.
 fn shown(path: &str, case: &Case, report: &CaseReport) -> Vec<Shown> {
-    let findings = report.claims.iter().map(|claim| Finding::claimed(case, claim.clone()));
+    let findings = report.claims.iter().map(|claim| TestedClaim::claimed(case, claim.clone()));
     findings.map(|finding| Shown::of(path, &finding)).collect()
 }
 
 /// Searches a case; the document is that of `search --json`.
-fn search(request: &Search) -> Result<Value, Vec<Failure>> {
+fn search(request: &Search) -> Result<Value, Vec<FileFailure>> {
     let source = &request.source;
     let case = read(source)?;
     let effort = Effort {
@@ -111,7 +113,7 @@ fn search(request: &Search) -> Result<Value, Vec<Failure>> {
     let found = liouville_search::search(&case, &effort, &mut |_| ())
         .map_err(|error| of_whole(source, &error.to_string(), error.help()))?;
     let document = liouville_report::search::json(&case.title, &found)
-        .and_then(|document| Digest::of(&source.text).sign(&document))
+        .and_then(|document| CaseDigest::of(&source.text).sign(&document))
         .map_err(unwritten)?;
     let shown: Vec<Shown> = found
         .found
@@ -125,16 +127,16 @@ fn search(request: &Search) -> Result<Value, Vec<Failure>> {
     }))
 }
 
-fn of_whole(source: &Source, message: &str, help: &str) -> Vec<Failure> {
+fn of_whole(source: &Source, message: &str, help: &str) -> Vec<FileFailure> {
     vec![diagnostic::of_file(&source.path, message, help, false)]
 }
 
 /// The page of `report`, without the motion.
-fn report(source: &Source) -> Result<Value, Vec<Failure>> {
+fn report(source: &Source) -> Result<Value, Vec<FileFailure>> {
     let case = read(source)?;
     let found = survey::survey(&case, &Options::default(), &mut |_| ())
         .map_err(|error| of_whole(source, &error.to_string(), error.help()))?;
-    let origin = Digest::of(&source.text).line();
+    let origin = CaseDigest::of(&source.text).line();
     Ok(json!({ "page": written::document(&found, &origin).html() }))
 }
 
@@ -150,7 +152,7 @@ fn cases() -> Value {
     })
 }
 
-fn show(name: &str) -> Result<Value, Vec<Failure>> {
+fn show(name: &str) -> Result<Value, Vec<FileFailure>> {
     let template = templates::ALL.iter().find(|(kind, _)| *kind == name).map(|(_, text)| *text);
     let text = template.or_else(|| match inside(name.as_ref()).as_slice() {
         [(_, text)] => Some(*text),

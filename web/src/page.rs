@@ -4,7 +4,7 @@ use liouville::formula::Layout;
 use liouville_report::evidence::command;
 use liouville_report::survey::entry;
 use liouville_report::typeset::mathml::formula;
-use liouville_search::survey::Finding;
+use liouville_search::survey::TestedClaim;
 use serde::Serialize;
 
 /// A claim or a find for the page.
@@ -36,7 +36,7 @@ struct Definition {
 
 impl Shown {
     /// A finding about the case at a path, with its evidence.
-    pub fn of(path: &str, finding: &Finding) -> Self {
+    pub fn of(path: &str, finding: &TestedClaim) -> Self {
         let entry = entry(finding);
         let set = |layout: &Layout, display| formula(layout, display);
         let definitions = entry.definitions.iter().map(|(typed, layout)| Definition {

@@ -2,7 +2,8 @@
 //! JSON, LaTeX, HTML and pictures.
 
 mod commands;
+pub mod parts;
 pub mod report;
 pub mod source;
 
-pub use commands::run;
+pub use commands::{jobs, run};

@@ -3,6 +3,8 @@
 
 #[path = "../../../tests/common/mod.rs"]
 mod common;
+#[path = "absence/functions.rs"]
+mod functions;
 
 use assert_cmd::Command;
 use common::case;
@@ -255,7 +257,7 @@ fn what_cannot_be_counted_has_a_reason() {
     let claim = "[[claim]]\nno-integral = { degree = 2 }\n";
     let with = |rates: [&str; 3]| field(rates.map(str::to_string), claim);
     let open = [
-        with(["exp(x)", "y", "z"]),
+        with(["ln(x)", "y", "z"]),
         with(["k*y", "x", "z"]).replace("[state]", "[parameters]\nk = 'one of 1, 2'\n[state]"),
         "title='t'\n[state]\nx='-1..1'\ny='-1..1'\n[field]\n\"x'\"='y'\n\"y'\"='−x'\n[level]\n\
          equations=['x² + y² = 1']\n"

@@ -6,7 +6,9 @@ use std::fs;
 use std::path::PathBuf;
 
 use assert_cmd::Command;
-use liouville_lab::bench::{Measured, Method, Options, measure_item, work_items};
+use liouville_lab::bench::{
+    BenchOptions, ClaimMeasurements, DifferentiationMethod, measure_item, work_items,
+};
 use predicates::str::contains;
 use serde_json::Value;
 
@@ -32,13 +34,13 @@ fn scratch(name: &str) -> PathBuf {
     path
 }
 
-fn measured() -> Vec<Measured> {
-    let options = Options { blocks: 2, rounds: 1, ..Options::default() };
+fn measured() -> Vec<ClaimMeasurements> {
+    let options = BenchOptions { blocks: 2, rounds: 1, ..BenchOptions::default() };
     let items = work_items().expect("the work items are cases");
     items.iter().flat_map(|item| measure_item(item, &options).expect("measured")).collect()
 }
 
-fn error(measured: &Measured, method: Method, domain: &str) -> f64 {
+fn error(measured: &ClaimMeasurements, method: DifferentiationMethod, domain: &str) -> f64 {
     let row = measured.row(method, domain).unwrap_or_else(|| panic!("{method:?} in {domain}"));
     assert_eq!(row.states, 128, "{}: {method:?} in {domain} has a value everywhere", measured.item);
     row.max_error.expect("an error")
@@ -48,41 +50,48 @@ fn error(measured: &Measured, method: Method, domain: &str) -> f64 {
 fn errors_are_in_the_order_that_theory_gives() {
     for measured in &measured() {
         let name = &measured.item;
-        let tape = error(measured, Method::Tape, "f64");
+        let tape = error(measured, DifferentiationMethod::Tape, "f64");
         assert!(tape > 0.0 && tape <= 1e-11, "{name}: f64 rounds: {tape:e}");
-        assert_eq!(tape, error(measured, Method::Tape, "ball, f64"), "{name}: the same midpoints");
-        let double = error(measured, Method::Tape, "ball, double-double");
+        assert_eq!(
+            tape,
+            error(measured, DifferentiationMethod::Tape, "ball, f64"),
+            "{name}: the same midpoints"
+        );
+        let double = error(measured, DifferentiationMethod::Tape, "ball, double-double");
         assert!(double < 1e-25, "{name}: double-double has 32 digits: {double:e}");
         for (domain, bits) in [("ball, 128 bits", 128), ("ball, 256 bits", 256)] {
-            let (found, most) = (error(measured, Method::Tape, domain), 2f64.powi(16 - bits));
+            let (found, most) =
+                (error(measured, DifferentiationMethod::Tape, domain), 2f64.powi(16 - bits));
             assert!(found > 0.0 && found < most, "{name}, {domain}: {found:e}, {most:e} allowed");
         }
-        let differences = error(measured, Method::CentralDifference, "f64");
+        let differences = error(measured, DifferentiationMethod::CentralDifference, "f64");
         assert!(
             differences > 100.0 * tape,
             "{name}: {differences:e} by differences, tape {tape:e}"
         );
         assert!(differences < 1e-5, "{name}: but differences work: {differences:e}");
         for (method, domain) in [
-            (Method::ComplexStep, "complex f64"),
-            (Method::MergedTape, "f64"),
-            (Method::NumDualByHand, "f64"),
-            (Method::NumDualClosedForm, "f64"),
+            (DifferentiationMethod::ComplexStep, "complex f64"),
+            (DifferentiationMethod::MergedTape, "f64"),
+            (DifferentiationMethod::NumDualByHand, "f64"),
+            (DifferentiationMethod::NumDualClosedForm, "f64"),
         ] {
-            if method == Method::NumDualClosedForm && measured.row(method, domain).is_none() {
+            if method == DifferentiationMethod::NumDualClosedForm
+                && measured.row(method, domain).is_none()
+            {
                 continue;
             }
             let found = error(measured, method, domain);
             assert!(found <= 100.0 * tape, "{name}, {method:?}: {found:e} against {tape:e}");
         }
-        let merged = error(measured, Method::MergedTape, "f64");
-        let interpreted = error(measured, Method::MergedTape, "f64, interpreter");
+        let merged = error(measured, DifferentiationMethod::MergedTape, "f64");
+        let interpreted = error(measured, DifferentiationMethod::MergedTape, "f64, interpreter");
         assert!(interpreted <= 2.0 * merged, "{name}: fused sums round less: {interpreted:e}");
-        if measured.row(Method::MergedTape, "f64, machine code").is_some() {
-            let compiled = error(measured, Method::MergedTape, "f64, machine code");
+        if measured.row(DifferentiationMethod::MergedTape, "f64, machine code").is_some() {
+            let compiled = error(measured, DifferentiationMethod::MergedTape, "f64, machine code");
             assert_eq!(compiled, interpreted, "{name}: the same bits by machine code");
         }
-        for row in measured.rows.iter().filter(|row| row.method != Method::Floor) {
+        for row in measured.rows.iter().filter(|row| row.method != DifferentiationMethod::Floor) {
             let (bound, worst) = (row.max_bound, row.max_error.expect("an error"));
             assert!(bound.is_none_or(|bound| bound >= worst), "{name}: a bound bounds: {row:?}");
             assert!(row.median_error.expect("an error") <= worst, "{name}: {row:?}");
@@ -123,7 +132,9 @@ fn json_has_the_documented_form() {
     }
     let methods: BTreeSet<&str> = rows.iter().filter_map(|row| row["method"].as_str()).collect();
     // There is a floor where there is machine code.
-    let expected = Method::ALL.iter().filter(|m| **m != Method::Floor || methods.contains("floor"));
+    let expected = DifferentiationMethod::ALL
+        .iter()
+        .filter(|m| **m != DifferentiationMethod::Floor || methods.contains("floor"));
     assert_eq!(methods.len(), expected.count(), "every method is there: {methods:?}");
     assert!(report.get("errors").is_none(), "and no errors");
 }

@@ -6,6 +6,8 @@ mod limits;
 mod motion;
 #[path = "cli/orbits.rs"]
 mod orbits;
+#[path = "cli/parts.rs"]
+mod parts;
 #[path = "cli/pictures.rs"]
 mod pictures;
 #[path = "cli/site.rs"]

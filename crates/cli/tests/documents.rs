@@ -209,3 +209,21 @@ fn the_gallery_lists_all_pictures_of_its_folder() {
         assert!(!is_picture || listed.contains(&name), "{name} is drawn by the list");
     }
 }
+
+#[test]
+fn the_contents_list_all_pages() {
+    let contents = fs::read_to_string(root().join("docs/SUMMARY.md")).expect("the contents");
+    let listed: Vec<&str> = contents
+        .split("](")
+        .skip(1)
+        .map(|rest| rest.split(')').next().expect("a link ends"))
+        .collect();
+    for page in &listed {
+        assert!(root().join("docs").join(page).is_file(), "{page} is there");
+    }
+    for entry in fs::read_dir(root().join("docs")).expect("a folder").flatten() {
+        let name = entry.file_name().to_string_lossy().to_string();
+        let is_page = name.ends_with(".md") && name != "SUMMARY.md";
+        assert!(!is_page || listed.contains(&name.as_str()), "{name} is in the contents");
+    }
+}

@@ -7,7 +7,7 @@ use liouville::case::Case;
 use liouville::verdict::Options;
 use liouville_cli::report::survey as written;
 use liouville_flow::portrait;
-use liouville_search::survey::{Class, Integrals, Measure, Survey, survey};
+use liouville_search::survey::{HierarchyClass, Integrals, MeasureStatus, Survey, survey};
 use predicates::str::contains;
 
 /// Writes a body with parameters m and I, and further ones.
@@ -32,15 +32,15 @@ const AXES: &str = "B = \"diag(1..4)\"\n";
 /// A body with its expected report: class, measure, formulas of integrals.
 struct Expected {
     body: String,
-    class: Class,
-    measure: Measure,
+    class: HierarchyClass,
+    measure: MeasureStatus,
     integrals: &'static [&'static str],
 }
 
 fn expect(
     (system, parameters, shape): (&str, String, &str),
-    class: Class,
-    measure: Measure,
+    class: HierarchyClass,
+    measure: MeasureStatus,
     integrals: &'static [&'static str],
 ) -> Expected {
     Expected { body: body(system, &parameters, shape), class, measure, integrals }
@@ -58,8 +58,8 @@ fn check(expected: &Expected) -> Survey {
 
 #[test]
 fn bodies_on_a_plane_stand_where_the_paper_puts_them() {
-    use Class::{IntegralAndMeasure, IntegralOnly, MeasureOnly, Neither, NotKnown};
-    use Measure::{ClosedForm, Excluded, ExcludedForConfiguration};
+    use HierarchyClass::{IntegralAndMeasure, IntegralOnly, MeasureOnly, Neither, NotKnown};
+    use MeasureStatus::{ClosedForm, Excluded, ExcludedForConfiguration};
     let plane = |parameters: String, shape| ("rubber-plane", parameters, shape);
     let ball = "shape = \"ball\"";
     let balanced = plane(format!("{TRIAXIAL}{BALL}"), ball);
@@ -97,7 +97,7 @@ fn a_rotor_keeps_or_ends_the_integral() {
         "profile = \"arbitrary\"\ngyrostat = \"S\"",
     );
     let found = surveyed(&revolution);
-    assert_eq!(found.hierarchy.class, Class::IntegralAndMeasure, "a rotor along the axis");
+    assert_eq!(found.hierarchy.class, HierarchyClass::IntegralAndMeasure, "a rotor along the axis");
     assert!(found.integrals[0].formula().contains('∫'), "F2 by quadrature");
     assert!(found.hamiltonian.is_empty(), "no conformally Hamiltonian form with a rotor");
     let ellipsoid = body(
@@ -106,15 +106,15 @@ fn a_rotor_keeps_or_ends_the_integral() {
         "shape = \"ellipsoid\"\ngyrostat = \"S\"",
     );
     let found = surveyed(&ellipsoid);
-    assert_eq!(found.hierarchy.class, Class::MeasureOnly, "the measure stays");
+    assert_eq!(found.hierarchy.class, HierarchyClass::MeasureOnly, "the measure stays");
     assert!(found.fails.iter().any(|one| one.formula() == "(Ĩ*ω,B⁻¹*ω)"), "F2 dies");
     assert!(found.reversors.is_empty(), "no reversor with a rotor in general position");
 }
 
 #[test]
 fn bodies_on_a_sphere_stand_where_the_paper_puts_them() {
-    use Class::{IntegralAndMeasure, MeasureOnly, Neither};
-    use Measure::{ByQuadrature, ClosedForm, Excluded};
+    use HierarchyClass::{IntegralAndMeasure, MeasureOnly, Neither};
+    use MeasureStatus::{ByQuadrature, ClosedForm, Excluded};
     let sphere = |parameters: String, shape| ("rubber-sphere", parameters, shape);
     let curved = |curvature: &str| format!("{TRIAXIAL}{BALL}k = \"{curvature}\"\n");
     let ball = "shape = \"ball\"";
@@ -132,8 +132,8 @@ fn bodies_on_a_sphere_stand_where_the_paper_puts_them() {
 
 #[test]
 fn flat_bases_surfaces_and_fields_stand_too() {
-    use Class::{IntegralAndMeasure, MeasureOnly, Neither};
-    use Measure::{ClosedForm, Excluded};
+    use HierarchyClass::{IntegralAndMeasure, MeasureOnly, Neither};
+    use MeasureStatus::{ClosedForm, Excluded};
     let flat = |inertia: &str, z: &str| {
         ("flat-base", format!("{inertia}k = \"0.3..2\"\nz = \"{z}\"\n"), "height = \"z\"")
     };

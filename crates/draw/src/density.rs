@@ -7,13 +7,13 @@ use crate::text::plain;
 
 /// Counts of points in the cells of a rectangle.
 #[derive(Clone, Debug)]
-pub struct Density {
+pub struct CountGrid {
     columns: usize,
     /// Counts row by row from above.
     counts: Vec<u32>,
 }
 
-impl Density {
+impl CountGrid {
     /// Counts points over the ranges of two axes.
     pub fn of(
         points: impl Iterator<Item = [f64; 2]>,
@@ -77,7 +77,7 @@ mod tests {
     fn points_are_counted_once_and_outsiders_are_not() {
         let axis = |from, to| Axis::new(plain("x"), from, to);
         let points = [[0.1, 0.1], [0.1, 0.1], [0.9, 0.9], [2.0, 0.5], [f64::NAN, 0.0]];
-        let found = Density::of(points.into_iter(), &axis(0.0, 1.0), &axis(0.0, 1.0), [2, 2]);
+        let found = CountGrid::of(points.into_iter(), &axis(0.0, 1.0), &axis(0.0, 1.0), [2, 2]);
         assert_eq!(found.counts, [0, 1, 2, 0], "above is first");
         let paints = found.paints();
         assert!(paints[0].is_none() && paints[1] == Some(gradient(0.0)), "{paints:?}");

@@ -2,8 +2,8 @@
 
 use crate::layout::Layout;
 use crate::palette::Paint;
-use crate::plot::{Entry, Plot};
-use crate::scene::{Anchor, Item, Scene};
+use crate::plot::{LegendEntry, Plot};
+use crate::scene::{Anchor, Scene, SceneItem};
 use crate::text::{Text, plain};
 
 /// Figure with its words.
@@ -80,8 +80,8 @@ impl Figure {
     }
 
     /// Entries of all plots, each once.
-    pub(crate) fn entries(&self) -> Vec<Entry> {
-        let mut found: Vec<Entry> = Vec::new();
+    pub(crate) fn entries(&self) -> Vec<LegendEntry> {
+        let mut found: Vec<LegendEntry> = Vec::new();
         for entry in self.plots.iter().flat_map(|plot| &plot.legend) {
             if !found.contains(entry) {
                 found.push(entry.clone());
@@ -98,6 +98,6 @@ impl Figure {
 }
 
 /// Upright words in ink.
-pub(crate) fn words(at: [f64; 2], text: &Text, size: f64, anchor: Anchor) -> Item {
-    Item::Words { at, text: text.clone(), size, anchor, turned: false, paint: Paint::Ink }
+pub(crate) fn words(at: [f64; 2], text: &Text, size: f64, anchor: Anchor) -> SceneItem {
+    SceneItem::Words { at, text: text.clone(), size, anchor, turned: false, paint: Paint::Ink }
 }

@@ -204,9 +204,9 @@ fn contour_with(contour: &[([f64; 2], bool)], pen: &mut impl Pen) {
 mod tests {
     use super::*;
 
-    struct Extent(usize, [f64; 2], [f64; 2]);
+    struct GlyphExtent(usize, [f64; 2], [f64; 2]);
 
-    impl Extent {
+    impl GlyphExtent {
         fn take(&mut self, to: [f64; 2]) {
             self.0 += 1;
             self.1 = [self.1[0].min(to[0]), self.1[1].min(to[1])];
@@ -214,7 +214,7 @@ mod tests {
         }
     }
 
-    impl Pen for Extent {
+    impl Pen for GlyphExtent {
         fn go(&mut self, to: [f64; 2]) {
             self.take(to);
         }
@@ -227,8 +227,8 @@ mod tests {
         fn close(&mut self) {}
     }
 
-    fn extent(slanted: bool, letter: char) -> Extent {
-        let mut found = Extent(0, [9.0; 2], [-9.0; 2]);
+    fn extent(slanted: bool, letter: char) -> GlyphExtent {
+        let mut found = GlyphExtent(0, [9.0; 2], [-9.0; 2]);
         let face = face(slanted);
         face.draw(face.glyph(letter), &mut found);
         found
@@ -238,7 +238,7 @@ mod tests {
     fn every_letter_of_formulas_has_an_outline_within_the_line() {
         for letter in "ωγλμκπσφψΩΓΔΣ−·×⊗∂∫√≤≠∞⁻⁰¹²³⁸₀₁₉öłЖ°′".chars()
         {
-            let Extent(points, low, high) = extent(false, letter);
+            let GlyphExtent(points, low, high) = extent(false, letter);
             assert!(points > 2 && face(false).glyph(letter) != 0, "{letter}");
             assert!(low[1] > -0.4 && high[1] < 1.2 && high[0] < 1.2, "{letter}: {low:?} {high:?}");
         }
@@ -248,7 +248,7 @@ mod tests {
     #[test]
     fn letters_have_the_shape_of_the_font() {
         // H of DejaVu Sans Condensed: two stems from the base line to 1493 units.
-        let Extent(points, low, high) = extent(false, 'H');
+        let GlyphExtent(points, low, high) = extent(false, 'H');
         assert_eq!((points, low[1]), (13, 0.0), "twelve corners, and back to the first");
         assert!((high[1] - 1493.0 / UNITS).abs() < 1e-12, "{high:?}");
         assert_eq!(face(false).glyph('漢'), 0, "no such letter");

@@ -2,7 +2,7 @@
 
 use crate::font::width;
 use crate::palette::Paint;
-use crate::scene::{Anchor, Item, Point};
+use crate::scene::{Anchor, Point, SceneItem};
 use crate::text::plain;
 
 /// Left, top, right and bottom of a rectangle.
@@ -24,7 +24,7 @@ impl Labels {
     }
 
     /// Writes a label near a point, if there is room; without one, the legend suffices.
-    pub fn put(&mut self, out: &mut Vec<Item>, [x, y]: Point, words: &str) {
+    pub fn put(&mut self, out: &mut Vec<SceneItem>, [x, y]: Point, words: &str) {
         let (width, step) = (width(words, self.size), 0.65 * self.size);
         for shift in (0..12).flat_map(|k| [f64::from(k) * -step, f64::from(k) * step]) {
             let beside = 0.85 * self.size + shift.abs() * 0.6;
@@ -46,7 +46,7 @@ impl Labels {
     /// Writes the label with this left end and middle height, if the place is free.
     fn try_at(
         &mut self,
-        out: &mut Vec<Item>,
+        out: &mut Vec<SceneItem>,
         [x, y]: Point,
         [left, middle]: Point,
         words: &str,
@@ -59,14 +59,14 @@ impl Labels {
         let over = left < x && x < right;
         if middle != y && !over {
             let end = if left > x { left - 0.2 * self.size } else { right + 0.2 * self.size };
-            out.push(Item::Lines {
+            out.push(SceneItem::Lines {
                 lines: vec![vec![[x, y], [end, middle]]],
                 width: 0.06 * self.size,
                 paint: Paint::Soft,
                 opacity: 1.0,
             });
         }
-        out.push(Item::Words {
+        out.push(SceneItem::Words {
             at: [left, middle + 0.36 * self.size],
             text: plain(words),
             size: self.size,

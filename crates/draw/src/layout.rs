@@ -4,7 +4,7 @@ mod frame;
 
 use crate::axis::Axis;
 use crate::figure::Figure;
-use crate::plot::{Bar, Entry, Plot};
+use crate::plot::{Bar, LegendEntry, Plot};
 use crate::text::{Text, plain};
 
 /// Type size of a figure of usual width, in millimetres: 8 points.
@@ -20,7 +20,7 @@ pub(crate) struct Layout {
     /// Distance of all parts to the edge.
     pub rim: f64,
     pub title: Vec<Text>,
-    pub legend: Vec<Vec<(f64, Entry)>>,
+    pub legend: Vec<Vec<(f64, LegendEntry)>>,
     pub legend_top: f64,
     pub caption: Vec<Text>,
     pub caption_top: f64,
@@ -167,8 +167,8 @@ impl Layout {
     }
 
     /// Entries of the legend in lines.
-    fn flow(&self, entries: Vec<Entry>, inner: f64) -> Vec<Vec<(f64, Entry)>> {
-        let mut lines: Vec<Vec<(f64, Entry)>> = Vec::new();
+    fn flow(&self, entries: Vec<LegendEntry>, inner: f64) -> Vec<Vec<(f64, LegendEntry)>> {
+        let mut lines: Vec<Vec<(f64, LegendEntry)>> = Vec::new();
         let mut left = self.rim;
         for entry in entries {
             let width = 1.7 * self.type_size + entry.text.width(self.type_size);

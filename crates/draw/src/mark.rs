@@ -1,11 +1,11 @@
 //! Signs of points, for marks in plots and entries of legends.
 
 use crate::palette::Paint;
-use crate::scene::{Item, Outline, Point};
+use crate::scene::{Outline, Point, SceneItem};
 
 /// Shape of a sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mark {
+pub enum MarkShape {
     /// Filled circle.
     Disc,
     /// Circle with an empty inside.
@@ -30,12 +30,12 @@ pub enum Mark {
     Dot,
 }
 
-impl Mark {
+impl MarkShape {
     /// Items that draw the sign, about twice `size` across.
-    pub(crate) fn items(self, [x, y]: Point, size: f64, paint: Paint) -> Vec<Item> {
+    pub(crate) fn items(self, [x, y]: Point, size: f64, paint: Paint) -> Vec<SceneItem> {
         let filled = |corners: &[(f64, f64)]| {
             let corners = corners.iter().map(|(dx, dy)| [x + dx * size, y + dy * size]).collect();
-            vec![Item::Shape {
+            vec![SceneItem::Shape {
                 outline: Outline::Polygon(corners),
                 fill: Some(paint),
                 stroke: None,
@@ -43,29 +43,29 @@ impl Mark {
             }]
         };
         let disc = |radius: f64| {
-            vec![Item::Shape {
+            vec![SceneItem::Shape {
                 outline: Outline::Circle([x, y], radius),
                 fill: Some(paint),
                 stroke: None,
                 opacity: 1.0,
             }]
         };
-        let lines = |lines: Vec<Vec<Point>>, paint, width| Item::Lines {
+        let lines = |lines: Vec<Vec<Point>>, paint, width| SceneItem::Lines {
             lines,
             width,
             paint,
             opacity: 1.0,
         };
         match self {
-            Mark::Disc => disc(0.9 * size),
-            Mark::Dot => disc(0.35 * size),
-            Mark::Ring => vec![Item::Shape {
+            MarkShape::Disc => disc(0.9 * size),
+            MarkShape::Dot => disc(0.35 * size),
+            MarkShape::Ring => vec![SceneItem::Shape {
                 outline: Outline::Circle([x, y], 0.9 * size),
                 fill: Some(Paint::Paper),
                 stroke: Some((paint, 0.35 * size)),
                 opacity: 1.0,
             }],
-            Mark::Cross => {
+            MarkShape::Cross => {
                 let d = 0.85 * size;
                 let both = vec![
                     vec![[x - d, y - d], [x + d, y + d]],
@@ -73,13 +73,13 @@ impl Mark {
                 ];
                 vec![lines(both.clone(), Paint::Paper, 0.9 * size), lines(both, paint, 0.4 * size)]
             }
-            Mark::Up => filled(&[(0.0, -1.1), (1.1, 0.9), (-1.1, 0.9)]),
-            Mark::Down => filled(&[(0.0, 1.1), (1.1, -0.9), (-1.1, -0.9)]),
-            Mark::Bar => filled(&[(-1.2, -0.4), (1.2, -0.4), (1.2, 0.4), (-1.2, 0.4)]),
-            Mark::Diamond => filled(&[(0.0, -1.2), (1.2, 0.0), (0.0, 1.2), (-1.2, 0.0)]),
-            Mark::Needle => filled(&[(0.0, -1.2), (0.6, 0.0), (0.0, 1.2), (-0.6, 0.0)]),
-            Mark::Box => filled(&[(-1.2, -1.0), (1.2, -1.0), (1.2, 1.0), (-1.2, 1.0)]),
-            Mark::Line => {
+            MarkShape::Up => filled(&[(0.0, -1.1), (1.1, 0.9), (-1.1, 0.9)]),
+            MarkShape::Down => filled(&[(0.0, 1.1), (1.1, -0.9), (-1.1, -0.9)]),
+            MarkShape::Bar => filled(&[(-1.2, -0.4), (1.2, -0.4), (1.2, 0.4), (-1.2, 0.4)]),
+            MarkShape::Diamond => filled(&[(0.0, -1.2), (1.2, 0.0), (0.0, 1.2), (-1.2, 0.0)]),
+            MarkShape::Needle => filled(&[(0.0, -1.2), (0.6, 0.0), (0.0, 1.2), (-0.6, 0.0)]),
+            MarkShape::Box => filled(&[(-1.2, -1.0), (1.2, -1.0), (1.2, 1.0), (-1.2, 1.0)]),
+            MarkShape::Line => {
                 vec![lines(
                     vec![vec![[x - 1.5 * size, y], [x + 1.5 * size, y]]],
                     paint,
@@ -90,13 +90,13 @@ impl Mark {
     }
 
     /// A rim of paper around the sign, so that dots do not hide it.
-    pub(crate) fn halo(self, [x, y]: Point, size: f64) -> Option<Item> {
-        let circle = Item::Shape {
+    pub(crate) fn halo(self, [x, y]: Point, size: f64) -> Option<SceneItem> {
+        let circle = SceneItem::Shape {
             outline: Outline::Circle([x, y], 1.4 * size),
             fill: Some(Paint::Paper),
             stroke: None,
             opacity: 0.85,
         };
-        (!matches!(self, Mark::Dot | Mark::Line | Mark::Box)).then_some(circle)
+        (!matches!(self, MarkShape::Dot | MarkShape::Line | MarkShape::Box)).then_some(circle)
     }
 }

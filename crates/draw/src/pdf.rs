@@ -10,11 +10,11 @@ use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
 use crate::font::{self, ASCENT, DESCENT, Face};
 use crate::palette::{Paint, Paper};
 use crate::raster::offset;
-use crate::scene::{Anchor, Item, Outline, Scene};
+use crate::scene::{Anchor, Outline, Scene, SceneItem};
 use crate::text::{DROP, INDEX, Text};
 
 /// Points to the millimetre.
-const POINTS: f64 = 72.0 / 25.4;
+const POINTS_PER_MM: f64 = 72.0 / 25.4;
 /// Control points of a quarter of a circle of radius 1.
 const QUARTER: f64 = 0.552_284_749_8;
 const ROMAN: SystemInfo<'static> =
@@ -22,7 +22,7 @@ const ROMAN: SystemInfo<'static> =
 
 /// Draws a scene on one page of its size.
 pub fn pdf(scene: &Scene, paper: Paper) -> Vec<u8> {
-    let mut writer = Writer {
+    let mut writer = PdfWriter {
         content: Content::new(),
         paper,
         opacities: BTreeSet::new(),
@@ -33,7 +33,7 @@ pub fn pdf(scene: &Scene, paper: Paper) -> Vec<u8> {
     writer.finish(scene)
 }
 
-struct Writer<'s> {
+struct PdfWriter<'s> {
     content: Content,
     paper: Paper,
     /// Opacities in use, in thousandths.
@@ -51,9 +51,9 @@ fn opacity_name(thousandths: u16) -> String {
     format!("O{thousandths}")
 }
 
-impl<'s> Writer<'s> {
+impl<'s> PdfWriter<'s> {
     fn page(&mut self, scene: &'s Scene) {
-        let (scale, height) = (POINTS as f32, (scene.height * POINTS) as f32);
+        let (scale, height) = (POINTS_PER_MM as f32, (scene.height * POINTS_PER_MM) as f32);
         self.content.save_state();
         self.content.transform([scale, 0.0, 0.0, -scale, 0.0, height]);
         self.content.set_line_join(LineJoinStyle::RoundJoin);
@@ -89,9 +89,9 @@ impl<'s> Writer<'s> {
         self.content.restore_state();
     }
 
-    fn item(&mut self, item: &'s Item) {
+    fn item(&mut self, item: &'s SceneItem) {
         match item {
-            Item::Dots { at, diameter, paint, opacity } => self.faint(*opacity, |own| {
+            SceneItem::Dots { at, diameter, paint, opacity } => self.faint(*opacity, |own| {
                 own.stroke(*paint, *diameter);
                 own.content.set_line_cap(LineCapStyle::RoundCap);
                 for [x, y] in at {
@@ -106,14 +106,14 @@ impl<'s> Writer<'s> {
                 }
                 own.content.set_line_cap(LineCapStyle::ButtCap);
             }),
-            Item::Lines { lines, width, paint, opacity } => self.faint(*opacity, |own| {
+            SceneItem::Lines { lines, width, paint, opacity } => self.faint(*opacity, |own| {
                 own.stroke(*paint, *width);
                 for line in lines.iter().filter(|line| line.len() > 1) {
                     own.follow(line);
                     own.content.stroke();
                 }
             }),
-            Item::Boxes { boxes, paint } => {
+            SceneItem::Boxes { boxes, paint } => {
                 self.fill(*paint);
                 for place in boxes {
                     let [x, y, width, height] = place.map(|v| v as f32);
@@ -123,7 +123,7 @@ impl<'s> Writer<'s> {
                     self.content.fill_nonzero();
                 }
             }
-            Item::Shape { outline, fill, stroke, opacity } => {
+            SceneItem::Shape { outline, fill, stroke, opacity } => {
                 if let Some(paint) = fill {
                     self.faint(*opacity, |own| {
                         own.fill(*paint);
@@ -137,11 +137,11 @@ impl<'s> Writer<'s> {
                     self.content.stroke();
                 }
             }
-            Item::Words { at, text, size, anchor, turned, paint } => {
+            SceneItem::Words { at, text, size, anchor, turned, paint } => {
                 self.fill(*paint);
                 self.words(*at, text, *size, *anchor, *turned);
             }
-            Item::Image { place, columns, pixels } => {
+            SceneItem::Image { place, columns, pixels } => {
                 let [x, y, width, height] = place.map(|v| v as f32);
                 self.content.save_state();
                 // An image stands on its lower edge, and the page is upside down here.
@@ -247,7 +247,7 @@ impl<'s> Writer<'s> {
                 id
             })
             .collect();
-        let size = [scene.width, scene.height].map(|side| (side * POINTS) as f32);
+        let size = [scene.width, scene.height].map(|side| (side * POINTS_PER_MM) as f32);
         let mut drawn = pdf.page(page);
         drawn.parent(tree).media_box(Rect::new(0.0, 0.0, size[0], size[1])).contents(content);
         let mut resources = drawn.resources();

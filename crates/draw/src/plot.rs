@@ -1,8 +1,8 @@
 //! One plot: axes with layers of points, lines and cells, marks over them, and their meaning.
 
 use crate::axis::Axis;
-use crate::density::Density;
-use crate::mark::Mark;
+use crate::density::CountGrid;
+use crate::mark::MarkShape;
 use crate::palette::Paint;
 use crate::text::Text;
 
@@ -22,9 +22,9 @@ pub struct Plot {
     /// Layers, later ones over earlier ones.
     pub layers: Vec<Layer>,
     /// Marked points, over all layers.
-    pub marks: Vec<Sign>,
+    pub marks: Vec<MarkedPoint>,
     /// Meanings of colours and signs.
-    pub legend: Vec<Entry>,
+    pub legend: Vec<LegendEntry>,
     /// Meaning of a colour scale.
     pub bar: Option<Bar>,
 }
@@ -39,16 +39,16 @@ pub enum Layer {
     /// Cells that fill the frame: the number of columns, and colours row by row from above.
     Cells(usize, Vec<Option<Paint>>),
     /// Shaded density of points.
-    Density(Density),
+    Density(CountGrid),
 }
 
 /// Marked point.
 #[derive(Clone, Debug)]
-pub struct Sign {
+pub struct MarkedPoint {
     /// Position in the coordinates of the axes.
     pub at: [f64; 2],
     /// Shape.
-    pub mark: Mark,
+    pub mark: MarkShape,
     /// Colour.
     pub paint: Paint,
     /// Words beside the sign, where there is room.
@@ -59,9 +59,9 @@ pub struct Sign {
 
 /// Entry of a legend.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Entry {
+pub struct LegendEntry {
     /// Sign before the words.
-    pub mark: Mark,
+    pub mark: MarkShape,
     /// Colour of the sign.
     pub paint: Paint,
     /// Meaning.

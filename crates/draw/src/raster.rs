@@ -8,7 +8,7 @@ use tiny_skia::{
 
 use crate::font::{self, Pen};
 use crate::palette::{Paint, Paper};
-use crate::scene::{Anchor, Item, Outline, Scene};
+use crate::scene::{Anchor, Outline, Scene, SceneItem};
 use crate::text::{DROP, INDEX, Text};
 
 /// Reasons why no PNG can be made.
@@ -39,14 +39,14 @@ impl std::fmt::Display for PngError {
 impl std::error::Error for PngError {}
 
 /// Most pixels of a picture.
-const MOST: f64 = 2e8;
+const MOST_PIXELS: f64 = 2e8;
 const INCH: f64 = 25.4;
 
 /// Draws a scene with a number of pixels to the inch.
 pub fn png(scene: &Scene, dots_an_inch: f64, paper: Paper) -> Result<Vec<u8>, PngError> {
     let scale = dots_an_inch / INCH;
     let (width, height) = ((scene.width * scale).round(), (scene.height * scale).round());
-    let fits = width >= 1.0 && height >= 1.0 && width * height <= MOST;
+    let fits = width >= 1.0 && height >= 1.0 && width * height <= MOST_PIXELS;
     let pixmap = if fits { Pixmap::new(width as u32, height as u32) } else { None };
     let mut canvas = Canvas {
         pixmap: pixmap.ok_or(PngError::Size { width, height })?,
@@ -155,9 +155,9 @@ impl Canvas {
         }
     }
 
-    fn item(&mut self, item: &Item) {
+    fn item(&mut self, item: &SceneItem) {
         match item {
-            Item::Dots { at, diameter, paint, opacity } => {
+            SceneItem::Dots { at, diameter, paint, opacity } => {
                 let paint = self.paint(*paint, *opacity);
                 let transform = self.placed();
                 for [x, y] in at {
@@ -166,7 +166,7 @@ impl Canvas {
                     self.fill(path, &paint, transform);
                 }
             }
-            Item::Lines { lines, width, paint, opacity } => {
+            SceneItem::Lines { lines, width, paint, opacity } => {
                 let mut path = PathBuilder::new();
                 for line in lines {
                     follow(&mut path, line);
@@ -174,7 +174,7 @@ impl Canvas {
                 let paint = self.paint(*paint, *opacity);
                 self.stroke(path, *width, &paint);
             }
-            Item::Boxes { boxes, paint } => {
+            SceneItem::Boxes { boxes, paint } => {
                 let mut paint = self.paint(*paint, 1.0);
                 // Neighbours share their edges: half covered pixels would show them.
                 paint.anti_alias = false;
@@ -184,7 +184,7 @@ impl Canvas {
                     }
                 }
             }
-            Item::Shape { outline, fill, stroke, opacity } => {
+            SceneItem::Shape { outline, fill, stroke, opacity } => {
                 if let Some(fill) = fill {
                     let (paint, transform) = (self.paint(*fill, *opacity), self.placed());
                     self.fill(outlined(outline), &paint, transform);
@@ -194,15 +194,15 @@ impl Canvas {
                     self.stroke(outlined(outline), *width, &paint);
                 }
             }
-            Item::Words { at, text, size, anchor, turned, paint } => {
+            SceneItem::Words { at, text, size, anchor, turned, paint } => {
                 let paint = self.paint(*paint, 1.0);
                 let turn = Transform::from_rotate(if *turned { -90.0 } else { 0.0 });
                 let there = self.placed().pre_translate(at[0] as f32, at[1] as f32);
-                let mut path = Letters(PathBuilder::new(), [0.0; 2], 0.0);
+                let mut path = LetterPath(PathBuilder::new(), [0.0; 2], 0.0);
                 write(text, *size, *anchor, &mut path);
                 self.fill(path.0, &paint, there.pre_concat(turn));
             }
-            Item::Image { place, columns, pixels } => self.image(*place, *columns, pixels),
+            SceneItem::Image { place, columns, pixels } => self.image(*place, *columns, pixels),
         }
     }
 
@@ -242,15 +242,15 @@ fn outlined(outline: &Outline) -> PathBuilder {
 }
 
 /// Path of letters, with the place of the letter and its size.
-struct Letters(PathBuilder, [f64; 2], f64);
+struct LetterPath(PathBuilder, [f64; 2], f64);
 
-impl Letters {
+impl LetterPath {
     fn at(&self, [x, y]: [f64; 2]) -> (f32, f32) {
         ((self.1[0] + self.2 * x) as f32, (self.1[1] - self.2 * y) as f32)
     }
 }
 
-impl Pen for Letters {
+impl Pen for LetterPath {
     fn go(&mut self, to: [f64; 2]) {
         let (x, y) = self.at(to);
         self.0.move_to(x, y);
@@ -280,7 +280,7 @@ pub(crate) fn offset(text: &Text, size: f64, anchor: Anchor) -> f64 {
     }
 }
 
-fn write(text: &Text, size: f64, anchor: Anchor, path: &mut Letters) {
+fn write(text: &Text, size: f64, anchor: Anchor, path: &mut LetterPath) {
     path.1 = [offset(text, size, anchor), 0.0];
     for piece in &text.pieces {
         let face = font::face(piece.slanted);

@@ -17,12 +17,12 @@ pub struct Scene {
     /// Height in millimetres.
     pub height: f64,
     /// Items from the back to the front.
-    pub items: Vec<Item>,
+    pub items: Vec<SceneItem>,
 }
 
 /// Item of a scene; lengths are in millimetres, opacities from 0 to 1.
 #[derive(Clone, Debug)]
-pub enum Item {
+pub enum SceneItem {
     /// Round dots of one colour. Where they overlap, opacities add up.
     Dots {
         /// Centres.

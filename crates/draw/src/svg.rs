@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::palette::{Paint, Paper};
 use crate::raster;
-use crate::scene::{Anchor, Item, Outline, Scene};
+use crate::scene::{Anchor, Outline, Scene, SceneItem};
 use crate::text::{DROP, INDEX, Text};
 
 /// Typefaces of the words: the one that widths are measured with, then others.
@@ -19,7 +19,7 @@ pub fn svg(scene: &Scene) -> String {
          text {{ font-family: {FACES}; }}\n",
         escaped(&scene.title)
     );
-    let mut writer = Writer::new(false);
+    let mut writer = SvgWriter::new(false);
     let body = writer.body(scene);
     out.push_str(&writer.colours(Paper::Light));
     let dark = writer.colours(Paper::Dark);
@@ -34,7 +34,7 @@ pub fn svg(scene: &Scene) -> String {
 /// Draws a scene within a page, which provides the paper and the colour of the words.
 pub fn inline_svg(scene: &Scene) -> String {
     let (width, height) = (number(scene.width), number(scene.height));
-    let mut writer = Writer::new(true);
+    let mut writer = SvgWriter::new(true);
     let body = writer.body(scene);
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
@@ -45,14 +45,14 @@ pub fn inline_svg(scene: &Scene) -> String {
 }
 
 /// Writer of items, which notes the colours that they use.
-struct Writer {
+struct SvgWriter {
     /// Whether a page provides the ink, and colours are written in place.
     is_inline: bool,
     /// Colours that differ between light and dark paper.
     used: Vec<Paint>,
 }
 
-impl Writer {
+impl SvgWriter {
     fn new(is_inline: bool) -> Self {
         let used = match is_inline {
             true => Vec::new(),
@@ -100,15 +100,15 @@ impl Writer {
         out
     }
 
-    fn item(&mut self, out: &mut String, item: &Item) {
+    fn item(&mut self, out: &mut String, item: &SceneItem) {
         match item {
-            Item::Dots { at, diameter, paint, opacity } => {
+            SceneItem::Dots { at, diameter, paint, opacity } => {
                 let attributes = self.painted(*paint, false, true);
                 let round =
                     format!("stroke-linecap=\"round\" stroke-width=\"{}\"", number(*diameter));
                 dots(out, at, &format!("{attributes} {round}"), *opacity);
             }
-            Item::Lines { lines, width, paint, opacity } => {
+            SceneItem::Lines { lines, width, paint, opacity } => {
                 let attributes = self.painted(*paint, false, true);
                 let path: String = lines.iter().map(|line| path(line)).collect();
                 let _ = writeln!(
@@ -118,7 +118,7 @@ impl Writer {
                     faint("opacity", *opacity)
                 );
             }
-            Item::Boxes { boxes, paint } => {
+            SceneItem::Boxes { boxes, paint } => {
                 let attributes = self.painted(*paint, true, false);
                 let _ = write!(out, "<path {attributes} shape-rendering=\"crispEdges\" d=\"");
                 for place in boxes {
@@ -127,7 +127,7 @@ impl Writer {
                 }
                 out.push_str("\"/>\n");
             }
-            Item::Shape { outline, fill, stroke, opacity } => {
+            SceneItem::Shape { outline, fill, stroke, opacity } => {
                 if let Some(fill) = fill {
                     let attributes = self.painted(*fill, true, false);
                     shape(out, outline, &format!("{attributes}{}", faint("opacity", *opacity)));
@@ -141,7 +141,7 @@ impl Writer {
                     );
                 }
             }
-            Item::Words { at, text, size, anchor, turned, paint } => {
+            SceneItem::Words { at, text, size, anchor, turned, paint } => {
                 let attributes = self.painted(*paint, true, false);
                 let anchor = match anchor {
                     Anchor::Start => "start",
@@ -161,7 +161,7 @@ impl Writer {
                     words(text, *size)
                 );
             }
-            Item::Image { place, columns, pixels } => {
+            SceneItem::Image { place, columns, pixels } => {
                 let colour = |paint: &Option<Paint>| match paint.map(|paint| paint.on(Paper::Light))
                 {
                     Some([r, g, b]) => [r, g, b, 255],

@@ -10,7 +10,7 @@
 use std::error::Error;
 
 use liouville::case::Case;
-use liouville::number::pair::Pair;
+use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
 use liouville_flow::{Precision, Start, orbit, value_at};
 
@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         value_at(&case.model, integral, &start.parameters, &start.state).map(|value| value[0])
     };
     let first = value(&start)?;
-    let step = Pair::from_f64(0.5);
+    let step = DoubleDouble::from_f64(0.5);
 
     println!("t,p,q,r,drift");
     for point in 0..=POINTS {

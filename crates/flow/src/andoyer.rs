@@ -17,7 +17,7 @@ use super::start::Start;
 use liouville::case::Angle;
 use liouville::graph::{Evaluator, Expr, Tape, record};
 use liouville::mechanics::{Model, Phase, System};
-use liouville::number::pair::{Pair, Pairs};
+use liouville::number::double_double::{DoubleDouble, DoubleDoubles};
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 
@@ -58,7 +58,7 @@ pub fn section_functions<T: Scalar>(phase: &Phase<'_, T>, g0: &Angle) -> [T; 2] 
 }
 
 /// Returns g' on the section, from the rate of the section function.
-pub fn rate(g0: &Angle, state: &[Pair], slope: f64) -> f64 {
+pub fn rate(g0: &Angle, state: &[DoubleDouble], slope: f64) -> f64 {
     let [x, y, z] = [state[0].hi, state[1].hi, state[2].hi];
     let s = libm::hypot(x, y);
     match g0 {
@@ -69,7 +69,7 @@ pub fn rate(g0: &Angle, state: &[Pair], slope: f64) -> f64 {
 }
 
 /// Returns (l, L/G) of a state, with l in [0, 2π).
-pub fn coordinates(state: &[Pair]) -> [f64; 2] {
+pub fn coordinates(state: &[DoubleDouble]) -> [f64; 2] {
     let [x, y, z] = [state[0].hi, state[1].hi, state[2].hi];
     let l = libm::atan2(x, y);
     let turn = 2.0 * std::f64::consts::PI;
@@ -78,8 +78,8 @@ pub fn coordinates(state: &[Pair]) -> [f64; 2] {
 }
 
 /// Displacement in (l, L/G) from one state to a nearby one, to the relative accuracy of f64.
-pub fn displacement(from: &[Pair], to: &[Pair]) -> [f64; 2] {
-    let length = |x: &[Pair]| (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt();
+pub fn displacement(from: &[DoubleDouble], to: &[DoubleDouble]) -> [f64; 2] {
+    let length = |x: &[DoubleDouble]| (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt();
     let (a, b) = (length(from).recip(), length(to).recip());
     let along = from[0] * to[0] + from[1] * to[1];
     let turned = to[0] * from[1] - to[1] * from[0];
@@ -131,19 +131,19 @@ impl Sphere {
     /// Returns the state over (l, L/G), on the level set up to the rounding of pairs.
     pub fn state(
         &self,
-        at: [Pair; 2],
-        energy: Pair,
-        loose: &[Pair],
-    ) -> Result<Vec<Pair>, FlowError> {
+        at: [DoubleDouble; 2],
+        energy: DoubleDouble,
+        loose: &[DoubleDouble],
+    ) -> Result<Vec<DoubleDouble>, FlowError> {
         let [l, z] = at.map(|x| x.hi);
         if !l.is_finite() || z.abs() >= 1.0 || z.is_nan() {
             return Err(FlowError::OffSphere { l, z });
         }
         let mut inputs = vec![at[0], at[1], energy];
         inputs.extend(loose);
-        let mut evaluator = Evaluator::new(&self.tape, Pairs);
+        let mut evaluator = Evaluator::new(&self.tape, DoubleDoubles);
         evaluator.run(&inputs);
-        let outputs: Vec<Pair> = evaluator.outputs().copied().collect();
+        let outputs: Vec<DoubleDouble> = evaluator.outputs().copied().collect();
         if outputs[0].hi.is_nan() || outputs[0].hi <= 0.0 {
             return Err(FlowError::BelowPotential {
                 l,
@@ -157,15 +157,15 @@ impl Sphere {
 }
 
 /// States of the section at a given energy.
-pub struct Chart<'m> {
+pub struct SectionChart<'m> {
     /// Model that the states belong to.
     pub model: &'m Model,
     parameters: Vec<Rational>,
     sphere: Sphere,
-    energy: Pair,
+    energy: DoubleDouble,
 }
 
-impl<'m> Chart<'m> {
+impl<'m> SectionChart<'m> {
     /// Prepares the states with g = g₀ and this energy.
     pub fn new(
         model: &'m Model,
@@ -174,17 +174,17 @@ impl<'m> Chart<'m> {
         energy: &Rational,
     ) -> Result<Self, FlowError> {
         let sphere = Sphere::new(model, parameters, &[], g0)?;
-        let (parameters, energy) = (parameters.to_vec(), Pair::from_rational(energy));
+        let (parameters, energy) = (parameters.to_vec(), DoubleDouble::from_rational(energy));
         Ok(Self { model, parameters, sphere, energy })
     }
 
     /// Returns the state over (l, L/G).
     pub fn start(&self, at: [f64; 2]) -> Result<Start, FlowError> {
-        self.start_at(at.map(Pair::from_f64))
+        self.start_at(at.map(DoubleDouble::from_f64))
     }
 
     /// Returns the state over a point given in double-double.
-    pub fn start_at(&self, at: [Pair; 2]) -> Result<Start, FlowError> {
+    pub fn start_at(&self, at: [DoubleDouble; 2]) -> Result<Start, FlowError> {
         let state = self.sphere.state(at, self.energy, &[])?;
         Start::near(self.model, self.parameters.clone(), state)
     }

@@ -11,14 +11,14 @@ use super::periodic::{End, SectionMap};
 use super::section::SectionRequest;
 use super::start::fixed_parameters;
 use liouville::case::{Case, Expect};
-use liouville::claim::Kind;
+use liouville::claim::ClaimKind;
 use liouville::graph::{Evaluator, Expr, Tape, record};
-use liouville::number::pair::{Pair, Pairs};
+use liouville::number::double_double::{DoubleDouble, DoubleDoubles};
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 
 /// Number of starts at which the area form is tested.
-const POINTS: usize = 12;
+const AREA_STARTS: usize = 12;
 /// Smallest deviation of a factor from 1 that counts, in errors of the derivative.
 const ERRORS: f64 = 10.0;
 /// Distances of the finite differences, relative to the widest.
@@ -48,7 +48,7 @@ pub fn area_forms(case: &Case, request: &SectionRequest) -> Result<Vec<AreaForm>
         .iter()
         .filter(|claim| claim.expect == Expect::Holds)
         .filter_map(|claim| match &claim.kind {
-            Kind::Density(density) => Some((&claim.name, &density.0)),
+            ClaimKind::Density(density) => Some((&claim.name, &density.0)),
             _ => None,
         })
         .filter(|(_, formula)| !case.model.has_antiderivative(formula))
@@ -84,7 +84,7 @@ pub fn area_forms(case: &Case, request: &SectionRequest) -> Result<Vec<AreaForm>
             broken: None,
         })
         .collect();
-    for at in request.starts.iter().take(POINTS) {
+    for at in request.starts.iter().take(AREA_STARTS) {
         let Ok(factors) = factors(&map, &tape, *at) else { continue };
         for (form, (factor, error)) in seen.iter_mut().zip(factors) {
             let deviation = (factor - 1.0).abs();
@@ -107,9 +107,9 @@ pub fn area_forms(case: &Case, request: &SectionRequest) -> Result<Vec<AreaForm>
 fn factors(map: &SectionMap<'_>, tape: &Tape, at: [f64; 2]) -> Result<Vec<(f64, f64)>, FlowError> {
     let passage = map.passage(at, 1)?;
     let weights = |end: &End| {
-        let mut evaluator = Evaluator::new(tape, Pairs);
+        let mut evaluator = Evaluator::new(tape, DoubleDoubles);
         evaluator.run(&end.state);
-        let values: Vec<Pair> = evaluator.outputs().copied().collect();
+        let values: Vec<DoubleDouble> = evaluator.outputs().copied().collect();
         values.into_iter().map(|weight| (weight.hi * end.rate).abs()).collect::<Vec<f64>>()
     };
     let determinant = |scale: f64| {

@@ -1,9 +1,9 @@
 //! Axes of a plane of motions: quantities that vary, by their names in a case.
 
-use super::plane::{Axis, Coordinate};
+use super::plane::{ChartAxis, Coordinate};
 use liouville::case::Case;
 use liouville::formula::{Type, canonical_name};
-use liouville::mechanics::Origin;
+use liouville::mechanics::ParameterOrigin;
 use liouville::number::rational::Rational;
 
 /// Correct form of an axis.
@@ -25,7 +25,7 @@ impl AxisMistake {
     }
 }
 
-impl Axis {
+impl ChartAxis {
     /// Reads an axis `NAME=a..b` of `count` points; also returns its canonical name.
     pub fn read(case: &Case, text: &str, count: usize) -> Result<(String, Self), AxisMistake> {
         let wrong = |message: &str| AxisMistake::new(message, FORM);
@@ -41,7 +41,7 @@ impl Axis {
             AxisMistake::new(&format!("there is no `{name}` to vary"), &known(case))
         })?;
         if let Coordinate::Parameter { index, .. } = coordinate
-            && matches!(case.model.parameters[index].origin, Origin::Formula(_))
+            && matches!(case.model.parameters[index].origin, ParameterOrigin::Formula(_))
         {
             let message = format!("`{name}` is computed from other parameters");
             return Err(AxisMistake::new(&message, "vary those that it is computed from"));
@@ -130,7 +130,7 @@ mod tests {
             &[],
         );
         let case = case.expect("a case");
-        let (name, axis) = Axis::read(&case, "c3 = -1/2 .. 2pi", 4).expect("an axis");
+        let (name, axis) = ChartAxis::read(&case, "c3 = -1/2 .. 2pi", 4).expect("an axis");
         let component = Coordinate::Parameter { index: 2, component: 2 };
         assert_eq!((name.as_str(), axis.coordinate, axis.count), ("c3", component, 4));
         assert_eq!(axis.from, Rational::new(-1, 2));
@@ -144,7 +144,7 @@ mod tests {
             ("b=0..1", "`b` is computed from other parameters"),
             ("n=0..1", "`n` is a size, or stands in an index"),
         ] {
-            let mistake = Axis::read(&case, text, 4).expect_err(text);
+            let mistake = ChartAxis::read(&case, text, 4).expect_err(text);
             assert_eq!(mistake.message, wrong, "{text}");
         }
     }

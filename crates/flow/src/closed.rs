@@ -11,23 +11,23 @@
 
 use super::andoyer::displacement;
 use super::error::FlowError;
-use super::number::Number;
-use super::periodic::{Multipliers, PeriodicPoint, SectionMap, newton_step};
+use super::number::SeriesNumber;
+use super::periodic::{ComputedPeriodicPoint, Multipliers, SectionMap, newton_step};
 use super::start::{Start, level_basis};
 use super::stepper::{Accuracy, Stepper};
 use super::variational::variational_program;
-use liouville::number::pair::Pair;
+use liouville::number::double_double::DoubleDouble;
 
 /// A number with an estimate of its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Measured {
+pub struct MeasuredNumber {
     /// Measured value.
     pub value: f64,
     /// Error estimate; never below the rounding of `value`.
     pub error: f64,
 }
 
-impl Measured {
+impl MeasuredNumber {
     /// Combines the values in f64 and in double-double: the second is the value, their difference
     /// the error.
     pub fn twice(float: f64, pair: f64) -> Self {
@@ -37,15 +37,15 @@ impl Measured {
 
 /// A closed orbit computed in f64 and in double-double.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ClosedOrbit {
-    float: PeriodicPoint,
-    pair: PeriodicPoint,
+pub struct ComputedClosedOrbit {
+    float: ComputedPeriodicPoint,
+    pair: ComputedPeriodicPoint,
 }
 
-impl ClosedOrbit {
+impl ComputedClosedOrbit {
     /// Measures a number of the orbit, with its error.
-    pub fn measure(&self, number: impl Fn(&PeriodicPoint) -> f64) -> Measured {
-        Measured::twice(number(&self.float), number(&self.pair))
+    pub fn measure(&self, number: impl Fn(&ComputedPeriodicPoint) -> f64) -> MeasuredNumber {
+        MeasuredNumber::twice(number(&self.float), number(&self.pair))
     }
 
     /// Measures a number that depends on the kind of the multipliers. `None` where the two
@@ -53,28 +53,28 @@ impl ClosedOrbit {
     pub fn measure_multipliers(
         &self,
         number: impl Fn(Multipliers) -> Option<f64>,
-    ) -> Option<Measured> {
-        let of = |point: &PeriodicPoint| number(point.multipliers());
-        Some(Measured::twice(of(&self.float)?, of(&self.pair)?))
+    ) -> Option<MeasuredNumber> {
+        let of = |point: &ComputedPeriodicPoint| number(point.multipliers());
+        Some(MeasuredNumber::twice(of(&self.float)?, of(&self.pair)?))
     }
 
     /// The periodic point, computed in double-double and rounded to f64.
-    pub fn point(&self) -> &PeriodicPoint {
+    pub fn point(&self) -> &ComputedPeriodicPoint {
         &self.pair
     }
 }
 
 impl SectionMap<'_> {
     /// Finds the closed orbit through the periodic point near `near`.
-    pub fn closed(&self, near: [f64; 2], period: usize) -> Result<ClosedOrbit, FlowError> {
+    pub fn closed(&self, near: [f64; 2], period: usize) -> Result<ComputedClosedOrbit, FlowError> {
         let found = self.periodic(near, period)?;
         let none = FlowError::NoPeriodicPoint { l: near[0], z: near[1], period };
         let derivative = self.derivative(found.at, period, 1.0)?;
-        let mut at = found.at.map(Pair::from_f64);
-        let mut best: Option<(PeriodicPoint, Start, Pair)> = None;
+        let mut at = found.at.map(DoubleDouble::from_f64);
+        let mut best: Option<(ComputedPeriodicPoint, Start, DoubleDouble)> = None;
         loop {
             let start = self.chart.start_at(at)?;
-            let back = self.passage_from::<Pair>(&start, period, Accuracy::PAIR)?;
+            let back = self.passage_from::<DoubleDouble>(&start, period, Accuracy::PAIR)?;
             let (defect, time) = (displacement(&start.state, &back.arrival.state), back.time);
             let residual = libm::hypot(defect[0], defect[1]);
             // With a derivative of eight digits each step gains eight digits, until rounding stops
@@ -83,36 +83,38 @@ impl SectionMap<'_> {
             if residual.is_nan() || residual > last / 2.0 {
                 break;
             }
-            let point = PeriodicPoint { at: at.map(|x| x.hi), time: time.hi, residual, ..found };
+            let point =
+                ComputedPeriodicPoint { at: at.map(|x| x.hi), time: time.hi, residual, ..found };
             best = Some((point, start, time));
             if residual == 0.0 {
                 break;
             }
             let step = newton_step(derivative, defect);
-            at = [0, 1].map(|k| at[k] + Pair::from_f64(step[k]));
+            at = [0, 1].map(|k| at[k] + DoubleDouble::from_f64(step[k]));
         }
         let (mut pair, start, time) = best.ok_or(none)?;
-        (pair.trace, pair.determinant) = self.monodromy::<Pair>(&start, time, Accuracy::PAIR)?;
-        let (start, time) = (self.chart.start(found.at)?, Pair::from_f64(found.time));
+        (pair.trace, pair.determinant) =
+            self.monodromy::<DoubleDouble>(&start, time, Accuracy::PAIR)?;
+        let (start, time) = (self.chart.start(found.at)?, DoubleDouble::from_f64(found.time));
         let mut float = found;
         (float.trace, float.determinant) = self.monodromy::<f64>(&start, time, Accuracy::FLOAT)?;
-        Ok(ClosedOrbit { float, pair })
+        Ok(ComputedClosedOrbit { float, pair })
     }
 
     /// Distance between the images in f64 and in double-double after `crossings` crossings.
     pub fn blur(&self, at: [f64; 2], crossings: usize) -> Result<f64, FlowError> {
         let start = self.chart.start(at)?;
         let float = self.passage_from::<f64>(&start, crossings, Accuracy::FLOAT)?.arrival;
-        let pair = self.passage_from::<Pair>(&start, crossings, Accuracy::PAIR)?.arrival;
+        let pair = self.passage_from::<DoubleDouble>(&start, crossings, Accuracy::PAIR)?.arrival;
         let [dl, dz] = displacement(&pair.state, &float.state);
         Ok(libm::hypot(dl, dz))
     }
 
     /// λ₁ + λ₂ and λ₁ λ₂ of the closed orbit with this start and this period.
-    fn monodromy<T: Number<One = T>>(
+    fn monodromy<T: SeriesNumber<One = T>>(
         &self,
         start: &Start,
-        time: Pair,
+        time: DoubleDouble,
         accuracy: Accuracy,
     ) -> Result<(f64, f64), FlowError> {
         let (model, dimension) = (self.chart.model, self.chart.model.dimension());
@@ -120,7 +122,7 @@ impl SectionMap<'_> {
         let program = variational_program(model, &start.parameters, basis.len())?;
         let mut begin = start.state.clone();
         begin.extend(basis.iter().flatten());
-        begin.push(Pair::default());
+        begin.push(DoubleDouble::default());
         let mut stepper = Stepper::<T>::new(&program, accuracy);
         stepper.start(0, &begin, time);
         while !stepper.is_done(0) {
@@ -131,7 +133,7 @@ impl SectionMap<'_> {
         let end = stepper.pairs(0);
         let moved = end[dimension..].chunks(dimension);
         let trace = basis.iter().zip(moved).flat_map(|(e, moved)| e.iter().zip(moved));
-        let trace = trace.fold(Pair::from_f64(-2.0), |sum, (e, x)| sum + *e * *x);
+        let trace = trace.fold(DoubleDouble::from_f64(-2.0), |sum, (e, x)| sum + *e * *x);
         let volume = end.last().map_or(0.0, |volume| volume.hi);
         Ok((trace.hi, libm::exp(volume)))
     }

@@ -12,8 +12,8 @@
 //! and its slopes are the same at all orders: they are computed once, from the values.
 
 use super::form::Row;
-use super::number::Number;
-use super::program::{Instruction, Program, Rule};
+use super::number::SeriesNumber;
+use super::program::{RowInstruction, Rule, TaylorProgram};
 use liouville::number::rational::Rational;
 
 /// Bytes of a cache line; order 1 of each row is aligned to it.
@@ -45,15 +45,15 @@ pub(super) fn first<'l, X>(list: &mut &'l [X], count: u32) -> &'l [X] {
 }
 
 /// A Taylor program bound to memory.
-pub(super) struct Code<T> {
-    pub(super) operations: Vec<Operation<T>>,
+pub(super) struct BoundProgram<T> {
+    pub(super) operations: Vec<InitialOperation<T>>,
     /// One entry for each operation.
     pub(super) finishes: Vec<Finish<T>>,
     /// Number of products of each operation that has any.
     pub(super) counts: Vec<u32>,
     pub(super) products: Vec<Product>,
-    pub(super) factors: Vec<Factor<T>>,
-    pub(super) terms: Vec<Term<T>>,
+    pub(super) factors: Vec<SlopeFactor<T>>,
+    pub(super) terms: Vec<SlopeTerm<T>>,
     /// Indices of the terms n x_n, whose slope is the order n.
     pub(super) thetas: Vec<u32>,
     pub(super) copies: Vec<Copied<T>>,
@@ -72,14 +72,14 @@ pub(super) struct Product {
 }
 
 /// Contribution of a product c x y to the slopes of x_n and y_n; `x` and `y` are indices of terms.
-pub(super) struct Factor<T> {
+pub(super) struct SlopeFactor<T> {
     pub(super) x: u32,
     pub(super) y: u32,
     pub(super) weight: T,
 }
 
 /// Product slope · x.
-pub(super) struct Term<T> {
+pub(super) struct SlopeTerm<T> {
     pub(super) x: Place,
     pub(super) slope: T,
     /// Part of the slope that does not depend on the values.
@@ -101,8 +101,8 @@ pub(super) struct Component {
 }
 
 /// Computation of order 0 of a row.
-pub(super) struct Operation<T> {
-    pub(super) rule: Bound<T>,
+pub(super) struct InitialOperation<T> {
+    pub(super) rule: PlacedRule<T>,
     pub(super) constant: T,
     pub(super) factors: Part,
     pub(super) terms: Part,
@@ -111,7 +111,7 @@ pub(super) struct Operation<T> {
 /// Computation of the orders above 0 of a row.
 pub(super) struct Finish<T> {
     pub(super) scale: T,
-    pub(super) order: Order,
+    pub(super) order: OrderEffect,
     /// Index of the operation's inner sum; without products, of one that is 0.
     pub(super) inner: u32,
     /// Number of terms of the operation.
@@ -123,7 +123,7 @@ pub(super) struct Finish<T> {
 
 /// Effect of the order n on an operation.
 #[derive(Clone, Copy)]
-pub(super) enum Order {
+pub(super) enum OrderEffect {
     /// No effect.
     Free,
     /// Division of the inner sum by n.
@@ -131,7 +131,7 @@ pub(super) enum Order {
 }
 
 /// A rule with rows replaced by their places in memory.
-pub(super) enum Bound<T> {
+pub(super) enum PlacedRule<T> {
     Sum,
     Theta,
     Recip(Place),
@@ -144,15 +144,15 @@ pub(super) enum Bound<T> {
     Power { x: Place, exponent: Rational, factor: T },
 }
 
-impl<T> Bound<T> {
+impl<T> PlacedRule<T> {
     /// Whether the operation is a sum of products.
     pub(super) fn is_sum(&self) -> bool {
-        matches!(self, Bound::Sum)
+        matches!(self, PlacedRule::Sum)
     }
 }
 
 /// Placement of rows and their copies in memory.
-struct Layout {
+struct RowLayout {
     base: usize,
     copy_base: usize,
     stride: usize,
@@ -172,7 +172,7 @@ struct SecondFactor {
     is_stored: bool,
 }
 
-impl Layout {
+impl RowLayout {
     fn row(&self, row: Row) -> Place {
         (self.base + row * self.stride) as Place
     }
@@ -218,16 +218,16 @@ impl Layout {
     }
 }
 
-impl<T: Number> Code<T> {
+impl<T: SeriesNumber> BoundProgram<T> {
     /// Binds a program to memory that begins `aligned` numbers before the border of a cache line;
     /// also returns the length of memory needed.
-    pub(super) fn new(program: &Program, order: usize, aligned: usize) -> (Self, usize) {
+    pub(super) fn new(program: &TaylorProgram, order: usize, aligned: usize) -> (Self, usize) {
         let width = T::WIDTH;
         let stride = width + order.next_multiple_of(width);
         let copy_base = aligned + program.rows * stride;
         let backwards = width > 1;
         let (base, copies) = (aligned + width - 1, Vec::new());
-        let mut layout = Layout { base, copy_base, stride, backwards, copies, stored: 0 };
+        let mut layout = RowLayout { base, copy_base, stride, backwards, copies, stored: 0 };
         let mut products = Vec::new();
         for instruction in &program.instructions {
             let own = instruction.form.products.iter();
@@ -264,7 +264,7 @@ impl<T: Number> Code<T> {
         (code, copy_base + layout.stored * stride)
     }
 
-    fn copies_of(&mut self, layout: &Layout, row: Row) -> u32 {
+    fn copies_of(&mut self, layout: &RowLayout, row: Row) -> u32 {
         let before = self.copies.len();
         for own in layout.copies.iter().filter(|own| own.row == row && own.is_stored) {
             self.copies.push(Copied { place: own.place, weight: T::rational(&own.weight) });
@@ -272,34 +272,39 @@ impl<T: Number> Code<T> {
         (self.copies.len() - before) as u32
     }
 
-    fn bind(&mut self, layout: &Layout, instruction: &Instruction) {
+    fn bind(&mut self, layout: &RowLayout, instruction: &RowInstruction) {
         let at = |row: &Row| layout.row(*row);
         let (order, rule) = match &instruction.rule {
-            Rule::Sum => (Order::Free, Bound::Sum),
+            Rule::Sum => (OrderEffect::Free, PlacedRule::Sum),
             Rule::Theta(_) => {
                 self.thetas.push(self.terms.len() as u32);
-                (Order::Free, Bound::Theta)
+                (OrderEffect::Free, PlacedRule::Theta)
             }
-            Rule::Recip(x) => (Order::Free, Bound::Recip(at(x))),
-            Rule::Sqrt(x) => (Order::Free, Bound::Sqrt(at(x))),
-            Rule::Exp(x) => (Order::Divides, Bound::Exp(at(x))),
-            Rule::Ln(x) => (Order::Divides, Bound::Ln(at(x))),
+            Rule::Recip(x) => (OrderEffect::Free, PlacedRule::Recip(at(x))),
+            Rule::Sqrt(x) => (OrderEffect::Free, PlacedRule::Sqrt(at(x))),
+            Rule::Exp(x) => (OrderEffect::Divides, PlacedRule::Exp(at(x))),
+            Rule::Ln(x) => (OrderEffect::Divides, PlacedRule::Ln(at(x))),
             Rule::Sin { x, cosine } => {
-                (Order::Divides, Bound::Sin { x: at(x), cosine: at(cosine) })
+                (OrderEffect::Divides, PlacedRule::Sin { x: at(x), cosine: at(cosine) })
             }
-            Rule::Cos { x, sine } => (Order::Divides, Bound::Cos { x: at(x), sine: at(sine) }),
+            Rule::Cos { x, sine } => {
+                (OrderEffect::Divides, PlacedRule::Cos { x: at(x), sine: at(sine) })
+            }
             Rule::Atan { x, square } => {
-                (Order::Divides, Bound::Atan { x: at(x), square: at(square) })
+                (OrderEffect::Divides, PlacedRule::Atan { x: at(x), square: at(square) })
             }
             Rule::Power { x, exponent } => {
                 let factor = T::rational(exponent);
-                (Order::Divides, Bound::Power { x: at(x), exponent: exponent.clone(), factor })
+                (
+                    OrderEffect::Divides,
+                    PlacedRule::Power { x: at(x), exponent: exponent.clone(), factor },
+                )
             }
         };
         let (terms, factors) = match instruction.rule.argument() {
             None => self.bind_sum(layout, instruction),
             Some(x) => {
-                self.terms.push(Term { x: at(&x), slope: T::ZERO, fixed: T::ONE });
+                self.terms.push(SlopeTerm { x: at(&x), slope: T::ZERO, fixed: T::ONE });
                 ((self.terms.len() as u32 - 1, self.terms.len() as u32), (0, 0))
             }
         };
@@ -308,7 +313,7 @@ impl<T: Number> Code<T> {
             self.counts.push(instruction.form.products.len() as u32);
         }
         let constant = instruction.form.constant.as_ref().map_or(T::ZERO, T::rational);
-        self.operations.push(Operation { rule, constant, factors, terms });
+        self.operations.push(InitialOperation { rule, constant, factors, terms });
         let copies = self.copies_of(layout, instruction.out);
         self.finishes.push(Finish {
             scale: T::ONE,
@@ -321,7 +326,7 @@ impl<T: Number> Code<T> {
     }
 
     /// Binds the rows of a sum, those computed last at the end, as they become available last.
-    fn bind_sum(&mut self, layout: &Layout, instruction: &Instruction) -> (Part, Part) {
+    fn bind_sum(&mut self, layout: &RowLayout, instruction: &RowInstruction) -> (Part, Part) {
         let form = &instruction.form;
         let factors = form.products.iter().flat_map(|(_, x, y)| [*x, *y]);
         let mut rows: Vec<Row> = form.linear.iter().map(|(_, row)| *row).chain(factors).collect();
@@ -331,10 +336,10 @@ impl<T: Number> Code<T> {
         for row in &rows {
             let own = form.linear.iter().find(|(_, x)| x == row);
             let fixed = own.map_or(T::ZERO, |(weight, _)| T::rational(weight));
-            self.terms.push(Term { x: layout.row(*row), slope: fixed, fixed });
+            self.terms.push(SlopeTerm { x: layout.row(*row), slope: fixed, fixed });
         }
         let term = |row: &Row| first + rows.partition_point(|other| other < row) as u32;
-        self.factors.extend(form.products.iter().map(|(weight, x, y)| Factor {
+        self.factors.extend(form.products.iter().map(|(weight, x, y)| SlopeFactor {
             x: term(x),
             y: term(y),
             weight: T::rational(weight),

@@ -6,7 +6,7 @@ use super::motion::point;
 use liouville::formula::{Formula, Type};
 use liouville::graph::{Evaluator, Tape, record};
 use liouville::mechanics::Phase;
-use liouville::number::pair::{Pair, Pairs};
+use liouville::number::double_double::{DoubleDouble, DoubleDoubles};
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 
@@ -17,11 +17,11 @@ const TIME: &str = "t";
 pub struct Columns {
     lexicon: Lexicon,
     titles: Vec<String>,
-    sources: Vec<Source>,
+    sources: Vec<ColumnSource>,
 }
 
 #[derive(Clone, Debug)]
-enum Source {
+enum ColumnSource {
     Time,
     Formula(Formula),
 }
@@ -37,12 +37,12 @@ impl Columns {
             }
             if part == TIME && !lexicon.knows(TIME) {
                 titles.push(TIME.to_string());
-                sources.push(Source::Time);
+                sources.push(ColumnSource::Time);
                 continue;
             }
             let formula = lexicon.formula(part, place.start)?;
             titles.extend(titled(part, &formula));
-            sources.push(Source::Formula(formula));
+            sources.push(ColumnSource::Formula(formula));
         }
         Ok(Self { lexicon, titles, sources })
     }
@@ -62,9 +62,9 @@ impl Columns {
 
     /// Values of the formulas at a point; the time is left out.
     pub(super) fn values<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
-        let value = |source: &Source| match source {
-            Source::Time => Vec::new(),
-            Source::Formula(formula) => phase.evaluate(formula).components(),
+        let value = |source: &ColumnSource| match source {
+            ColumnSource::Time => Vec::new(),
+            ColumnSource::Formula(formula) => phase.evaluate(formula).components(),
         };
         self.sources.iter().flat_map(value).collect()
     }
@@ -74,9 +74,9 @@ impl Columns {
         let model = self.lexicon.model();
         let (graph, values) =
             record(model.dimension(), |state| self.values(&point(model, parameters, state)))?;
-        let count = |source: &Source| match source {
-            Source::Time => None,
-            Source::Formula(formula) => Some(formula.value_type().size()),
+        let count = |source: &ColumnSource| match source {
+            ColumnSource::Time => None,
+            ColumnSource::Formula(formula) => Some(formula.value_type().size()),
         };
         let counts = self.sources.iter().map(count).collect();
         Ok(Gauge { counts, tape: Tape::new(&graph, &values) })
@@ -105,8 +105,8 @@ pub(super) struct Gauge {
 
 impl Gauge {
     /// Returns a function from times and states to rows.
-    pub fn rows(&self) -> impl FnMut(Pair, &[Pair]) -> Vec<Pair> {
-        let mut evaluator = Evaluator::new(&self.tape, Pairs);
+    pub fn rows(&self) -> impl FnMut(DoubleDouble, &[DoubleDouble]) -> Vec<DoubleDouble> {
+        let mut evaluator = Evaluator::new(&self.tape, DoubleDoubles);
         move |time, state| {
             evaluator.run(state);
             let mut values = evaluator.outputs().copied();

@@ -2,19 +2,19 @@
 //! exactly.
 
 use super::error::FlowError;
-use super::form::{Form, Row};
-use super::program::{Instruction, Program, Rule};
+use super::form::{BilinearForm, Row};
+use super::program::{RowInstruction, Rule, TaylorProgram};
 use liouville::graph::{Expr, Graph, Step};
-use liouville::number::pair::{Pair, Pairs};
+use liouville::number::double_double::{DoubleDouble, DoubleDoubles};
 use liouville::number::rational::Rational;
-use liouville::number::{Domain, Function, Operation};
+use liouville::number::{BinaryOperation, Domain, UnaryFunction};
 
 /// Size above which coefficients are no longer folded.
 const MAX_COEFFICIENT_BITS: u64 = 1 << 13;
 /// Largest number of terms of a sum that its readers repeat instead of sharing a row.
 const MAX_REPEATED_TERMS: usize = 1;
 
-impl Program {
+impl TaylorProgram {
     /// Compiles a field: `rates` and `outputs` as functions of the graph's inputs, which are the
     /// state alone.
     pub fn compile(graph: &Graph, rates: &[Expr], outputs: &[Expr]) -> Result<Self, FlowError> {
@@ -28,7 +28,7 @@ impl Program {
 
     fn with_constants(
         graph: &Graph,
-        constants: &[Option<Pair>],
+        constants: &[Option<DoubleDouble>],
         rates: &[Expr],
         outputs: &[Expr],
     ) -> Result<Self, FlowError> {
@@ -52,9 +52,9 @@ impl Program {
         };
         for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
             let form = match (step, &constants[place]) {
-                (Step::Constant(value), _) => Form::of_constant(value),
+                (Step::Constant(value), _) => BilinearForm::of_constant(value),
                 (_, Some(value)) => {
-                    Form::of_constant(&value.to_rational().unwrap_or(Rational::from(0)))
+                    BilinearForm::of_constant(&value.to_rational().unwrap_or(Rational::from(0)))
                 }
                 _ => compiler.form_of(step, dimension)?,
             };
@@ -65,7 +65,7 @@ impl Program {
             rows.push(compiler.row(place));
         }
         let outputs = rows.split_off(dimension);
-        Ok(Program {
+        Ok(TaylorProgram {
             dimension,
             rows: compiler.next,
             instructions: compiler.instructions,
@@ -76,20 +76,20 @@ impl Program {
 }
 
 /// Values of the steps that depend only on constants, such as √2.
-fn constants(graph: &Graph) -> Vec<Option<Pair>> {
-    let mut values: Vec<Option<Pair>> = Vec::with_capacity(graph.len());
+fn constants(graph: &Graph) -> Vec<Option<DoubleDouble>> {
+    let mut values: Vec<Option<DoubleDouble>> = Vec::with_capacity(graph.len());
     for step in graph.steps() {
         let at = |place: usize| values[place];
-        let mut out = Pair::NAN;
+        let mut out = DoubleDouble::NAN;
         let made = match step {
-            Step::Constant(value) => Some(Pair::from_rational(value)),
+            Step::Constant(value) => Some(DoubleDouble::from_rational(value)),
             Step::Input(_) => None,
             Step::Unary(function, a) => at(a).map(|x| {
-                Pairs.unary(function, &x, &mut out);
+                DoubleDoubles.unary(function, &x, &mut out);
                 out
             }),
             Step::Binary(operation, a, b) => at(a).zip(at(b)).map(|(x, y)| {
-                Pairs.binary(operation, &x, &y, &mut out);
+                DoubleDoubles.binary(operation, &x, &y, &mut out);
                 out
             }),
             Step::Power(a, exponent) => at(a).map(|x| x.power(exponent)),
@@ -101,10 +101,10 @@ fn constants(graph: &Graph) -> Vec<Option<Pair>> {
 
 struct Compiler {
     uses: Vec<usize>,
-    forms: Vec<Option<Form>>,
+    forms: Vec<Option<BilinearForm>>,
     /// Row of each step that has one, up to a factor.
     rows: Vec<Option<(Rational, Row)>>,
-    instructions: Vec<Instruction>,
+    instructions: Vec<RowInstruction>,
     next: Row,
     /// Sines and cosines, made together: argument, sine, cosine.
     circular: Vec<(Row, Row, Row)>,
@@ -113,10 +113,10 @@ struct Compiler {
 }
 
 impl Compiler {
-    fn emit(&mut self, rule: Rule, form: Form) -> Row {
+    fn emit(&mut self, rule: Rule, form: BilinearForm) -> Row {
         let out = self.next;
         self.next += 1;
-        self.instructions.push(Instruction { rule, out, form });
+        self.instructions.push(RowInstruction { rule, out, form });
         out
     }
 
@@ -124,78 +124,76 @@ impl Compiler {
         Rational::from(1)
     }
 
-    fn product(a: Row, b: Row) -> Form {
-        Form::of_product(Self::one(), a, b)
+    fn product(a: Row, b: Row) -> BilinearForm {
+        BilinearForm::of_product(Self::one(), a, b)
     }
 
-    fn form_of(&mut self, step: Step<'_>, dimension: usize) -> Result<Form, FlowError> {
+    fn form_of(&mut self, step: Step<'_>, dimension: usize) -> Result<BilinearForm, FlowError> {
         Ok(match step {
-            Step::Constant(value) => Form::of_constant(value),
-            Step::Input(input) if input < dimension => Form::of_row(Self::one(), input),
+            Step::Constant(value) => BilinearForm::of_constant(value),
+            Step::Input(input) if input < dimension => BilinearForm::of_row(Self::one(), input),
             Step::Input(_) => return Err(FlowError::Antiderivative),
-            Step::Binary(Operation::Add, a, b) => self.term(a).plus(self.term(b)),
-            Step::Binary(Operation::Sub, a, b) => {
+            Step::Binary(BinaryOperation::Add, a, b) => self.term(a).plus(self.term(b)),
+            Step::Binary(BinaryOperation::Sub, a, b) => {
                 let minus = self.term(b).times(&Rational::from(-1));
                 self.term(a).plus(minus)
             }
-            Step::Binary(Operation::Mul, a, b) => self.times(a, b),
-            Step::Binary(Operation::Pow, a, b) => {
+            Step::Binary(BinaryOperation::Mul, a, b) => self.times(a, b),
+            Step::Binary(BinaryOperation::Pow, a, b) => {
                 let base = self.row(a);
                 let logarithm = self.logarithm(base);
                 let (factor, exponent) = self.factor(b);
-                let argument = self.emit(Rule::Sum, Form::of_product(factor, exponent, logarithm));
-                Form::of_row(Self::one(), self.exponential(argument))
+                let argument =
+                    self.emit(Rule::Sum, BilinearForm::of_product(factor, exponent, logarithm));
+                BilinearForm::of_row(Self::one(), self.exponential(argument))
             }
-            Step::Unary(Function::Neg, a) => self.term(a).times(&Rational::from(-1)),
-            Step::Unary(Function::Recip, a) => {
+            Step::Unary(UnaryFunction::Neg, a) => self.term(a).times(&Rational::from(-1)),
+            Step::Unary(UnaryFunction::Recip, a) => {
                 let (factor, x) = self.factor(a);
                 let out = self.next;
                 let row = self.emit(Rule::Recip(x), Self::product(x, out));
                 let nowhere = || FlowError::Singular { time: 0.0, state: Vec::new() };
-                Form::of_row(factor.recip().ok_or_else(nowhere)?, row)
+                BilinearForm::of_row(factor.recip().ok_or_else(nowhere)?, row)
             }
             Step::Unary(function, a) => {
                 let x = self.row(a);
                 let row = self.function(function, x)?;
-                Form::of_row(Self::one(), row)
+                BilinearForm::of_row(Self::one(), row)
             }
             Step::Power(a, exponent) => {
                 let x = self.row(a);
                 let theta = self.theta(x);
                 // The row itself, and its θ, which comes after it.
                 let (out, own_theta) = (self.next, self.next + 1);
-                let form = Form::of_product(exponent.clone(), theta, out).plus(Form::of_product(
-                    Rational::from(-1),
-                    own_theta,
-                    x,
-                ));
+                let form = BilinearForm::of_product(exponent.clone(), theta, out)
+                    .plus(BilinearForm::of_product(Rational::from(-1), own_theta, x));
                 let rule = Rule::Power { x, exponent: exponent.clone() };
                 let row = self.emit(rule, form);
                 self.theta(row);
-                Form::of_row(Self::one(), row)
+                BilinearForm::of_row(Self::one(), row)
             }
         })
     }
 
-    fn function(&mut self, function: Function, x: Row) -> Result<Row, FlowError> {
+    fn function(&mut self, function: UnaryFunction, x: Row) -> Result<Row, FlowError> {
         Ok(match function {
-            Function::Sqrt => {
+            UnaryFunction::Sqrt => {
                 let out = self.next;
                 self.emit(Rule::Sqrt(x), Self::product(out, out))
             }
-            Function::Exp => self.exponential(x),
-            Function::Ln => self.logarithm(x),
-            Function::Sin => self.sine_and_cosine(x).0,
-            Function::Cos => self.sine_and_cosine(x).1,
-            Function::Atan => {
-                let square = Form::of_constant(&Self::one()).plus(Self::product(x, x));
+            UnaryFunction::Exp => self.exponential(x),
+            UnaryFunction::Ln => self.logarithm(x),
+            UnaryFunction::Sin => self.sine_and_cosine(x).0,
+            UnaryFunction::Cos => self.sine_and_cosine(x).1,
+            UnaryFunction::Atan => {
+                let square = BilinearForm::of_constant(&Self::one()).plus(Self::product(x, x));
                 let square = self.emit(Rule::Sum, square);
                 let own_theta = self.next + 1;
                 let row = self.emit(Rule::Atan { x, square }, Self::product(own_theta, square));
                 self.theta(row);
                 row
             }
-            Function::Neg | Function::Recip | Function::Abs => {
+            UnaryFunction::Neg | UnaryFunction::Recip | UnaryFunction::Abs => {
                 return Err(FlowError::of_function(function));
             }
         })
@@ -231,14 +229,14 @@ impl Compiler {
         if let Some((_, theta)) = self.thetas.iter().find(|(row, _)| *row == x) {
             return *theta;
         }
-        let theta = self.emit(Rule::Theta(x), Form::default());
+        let theta = self.emit(Rule::Theta(x), BilinearForm::default());
         self.thetas.push((x, theta));
         theta
     }
 
-    fn times(&mut self, a: usize, b: usize) -> Form {
+    fn times(&mut self, a: usize, b: usize) -> BilinearForm {
         for (constant, other) in [(a, b), (b, a)] {
-            let value = self.forms[constant].as_ref().and_then(Form::as_constant);
+            let value = self.forms[constant].as_ref().and_then(BilinearForm::as_constant);
             if let Some(value) = value
                 && value.bits() <= MAX_COEFFICIENT_BITS
             {
@@ -246,20 +244,20 @@ impl Compiler {
             }
         }
         let ((p, x), (q, y)) = (self.factor(a), self.factor(b));
-        Form::of_product(&p * &q, x, y)
+        BilinearForm::of_product(&p * &q, x, y)
     }
 
     /// Contribution of a step to a sum: its own terms, or the row that holds them.
-    fn term(&mut self, place: usize) -> Form {
+    fn term(&mut self, place: usize) -> BilinearForm {
         if let Some((factor, row)) = &self.rows[place] {
-            return Form::of_row(factor.clone(), *row);
+            return BilinearForm::of_row(factor.clone(), *row);
         }
-        let Some(form) = &self.forms[place] else { return Form::default() };
+        let Some(form) = &self.forms[place] else { return BilinearForm::default() };
         if self.uses[place] <= 1 || form.len() <= MAX_REPEATED_TERMS && form.products.is_empty() {
             return form.clone();
         }
         let (factor, row) = self.factor(place);
-        Form::of_row(factor, row)
+        BilinearForm::of_row(factor, row)
     }
 
     /// A step as a factor times a row.
@@ -282,7 +280,7 @@ impl Compiler {
         if factor.is_one() {
             return row;
         }
-        let row = self.emit(Rule::Sum, Form::of_row(factor, row));
+        let row = self.emit(Rule::Sum, BilinearForm::of_row(factor, row));
         self.rows[place] = Some((Self::one(), row));
         row
     }

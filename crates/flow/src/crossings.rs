@@ -2,16 +2,16 @@
 //!
 //! A motion that has all its crossings gives its lane to the next one.
 
+use super::batch::{Lockstep, MOTION_LANES, Queue, in_batches};
 use super::error::FlowError;
 use super::event::{Ends, Event, Sides, value};
 use super::lanes::Lanes;
-use super::number::Number;
-use super::program::Program;
+use super::number::SeriesNumber;
+use super::program::TaylorProgram;
 use super::start::Start;
-use super::stepper::{Accuracy, Piece, Stepper};
-use super::swarm::{Abreast, LANES, Queue, swarm};
+use super::stepper::{Accuracy, MotionPiece, Stepper};
 use liouville::case::Direction;
-use liouville::number::pair::Pair;
+use liouville::number::double_double::DoubleDouble;
 
 /// Number of steps without a crossing after which a motion counts as lost.
 const MAX_STEPS_BETWEEN: u64 = 100_000;
@@ -21,8 +21,8 @@ const MAX_OTHERS: usize = 1000;
 const NEVER: f64 = 1e15;
 
 /// Motions to follow. Output 0 of the program vanishes on the surface.
-pub(super) struct Task<'t> {
-    pub program: &'t Program,
+pub(super) struct CrossingTask<'t> {
+    pub program: &'t TaylorProgram,
     pub starts: &'t [Result<Start, FlowError>],
     /// Direction of the crossings that count.
     pub direction: Direction,
@@ -44,7 +44,7 @@ pub(super) struct Met<P> {
 }
 
 /// Crossings of one motion.
-pub(super) struct Track<P> {
+pub(super) struct MotionCrossings<P> {
     /// Crossings that count, without those at the beginning.
     pub crossings: Vec<Met<P>>,
     /// Number of crossings in the other direction.
@@ -54,41 +54,43 @@ pub(super) struct Track<P> {
     /// Number of steps taken.
     pub steps: u64,
     /// Final state, where it is finite.
-    pub end: Option<Vec<Pair>>,
+    pub end: Option<Vec<DoubleDouble>>,
     /// Reason why the motion ended early, or did not start.
     pub problem: Option<FlowError>,
 }
 
-impl Task<'_> {
+impl CrossingTask<'_> {
     /// Follows all motions; `look` makes a function of the times and states of crossings,
     /// one for each thread. Calls `progress` after each motion.
-    pub fn run<P: Send, L: FnMut(Pair, &[Pair]) -> P>(
+    pub fn run<P: Send, L: FnMut(DoubleDouble, &[DoubleDouble]) -> P>(
         &self,
         threads: usize,
         look: &(dyn Fn() -> L + Sync),
         progress: &(dyn Fn() + Sync),
-    ) -> Vec<Track<P>> {
-        swarm(self.starts.len(), threads, |queue, abreast| match abreast {
-            Abreast::One => Worker::<f64, P, L>::new(self, queue, look()).run(progress),
-            Abreast::Lanes => Worker::<Lanes<LANES>, P, L>::new(self, queue, look()).run(progress),
+    ) -> Vec<MotionCrossings<P>> {
+        in_batches(self.starts.len(), threads, |queue, lockstep| match lockstep {
+            Lockstep::One => Worker::<f64, P, L>::new(self, queue, look()).run(progress),
+            Lockstep::Lanes => {
+                Worker::<Lanes<MOTION_LANES>, P, L>::new(self, queue, look()).run(progress)
+            }
         })
     }
 }
 
 /// Motions of one thread.
-struct Worker<'w, T: Number<One = f64>, P, L> {
-    task: &'w Task<'w>,
+struct Worker<'w, T: SeriesNumber<One = f64>, P, L> {
+    task: &'w CrossingTask<'w>,
     queue: &'w Queue,
     look: L,
     stepper: Stepper<T>,
     running: Vec<Option<Running<P>>>,
-    done: Vec<(usize, Track<P>)>,
+    done: Vec<(usize, MotionCrossings<P>)>,
 }
 
 /// Motion in a lane.
 struct Running<P> {
     index: usize,
-    track: Track<P>,
+    track: MotionCrossings<P>,
     sides: Sides,
     /// Number of crossings in the direction that counts, including those left out.
     counted: usize,
@@ -96,14 +98,16 @@ struct Running<P> {
     last_met: (u64, usize),
 }
 
-impl<'w, T: Number<One = f64>, P: Send, L: FnMut(Pair, &[Pair]) -> P> Worker<'w, T, P, L> {
-    fn new(task: &'w Task<'w>, queue: &'w Queue, look: L) -> Self {
+impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDouble]) -> P>
+    Worker<'w, T, P, L>
+{
+    fn new(task: &'w CrossingTask<'w>, queue: &'w Queue, look: L) -> Self {
         let stepper = Stepper::new(task.program, Accuracy::FLOAT);
         let running = (0..T::LANES).map(|_| None).collect();
         Self { task, queue, look, stepper, running, done: Vec::new() }
     }
 
-    fn run(mut self, progress: &(dyn Fn() + Sync)) -> Vec<(usize, Track<P>)> {
+    fn run(mut self, progress: &(dyn Fn() + Sync)) -> Vec<(usize, MotionCrossings<P>)> {
         loop {
             for lane in 0..T::LANES {
                 if self.running[lane].is_none() {
@@ -128,7 +132,7 @@ impl<'w, T: Number<One = f64>, P: Send, L: FnMut(Pair, &[Pair]) -> P> Worker<'w,
     /// Puts the next motion into a lane; motions without a start are finished at once.
     fn fill(&mut self, lane: usize, progress: &(dyn Fn() + Sync)) {
         while let Some(index) = self.queue.take() {
-            let mut track = Track {
+            let mut track = MotionCrossings {
                 crossings: Vec::new(),
                 others: 0,
                 tangencies: 0,
@@ -139,7 +143,7 @@ impl<'w, T: Number<One = f64>, P: Send, L: FnMut(Pair, &[Pair]) -> P> Worker<'w,
             match &self.task.starts[index] {
                 Ok(start) => {
                     let until = if self.task.backwards { -NEVER } else { NEVER };
-                    self.stepper.start(lane, &start.state, Pair::from_f64(until));
+                    self.stepper.start(lane, &start.state, DoubleDouble::from_f64(until));
                     let sides = Sides::default();
                     self.running[lane] =
                         Some(Running { index, track, sides, counted: 0, last_met: (0, 0) });
@@ -200,13 +204,13 @@ impl<'w, T: Number<One = f64>, P: Send, L: FnMut(Pair, &[Pair]) -> P> Worker<'w,
 
 impl<P> Running<P> {
     /// Records an event. Returns whether the motion has all its crossings.
-    fn meet<T: Number<One = f64>>(
+    fn meet<T: SeriesNumber<One = f64>>(
         &mut self,
         event: Event<f64>,
-        piece: &Piece<'_, T>,
-        task: &Task<'_>,
+        piece: &MotionPiece<'_, T>,
+        task: &CrossingTask<'_>,
         steps: u64,
-        look: &mut impl FnMut(Pair, &[Pair]) -> P,
+        look: &mut impl FnMut(DoubleDouble, &[DoubleDouble]) -> P,
     ) -> bool {
         let (after, rising) = match event {
             Event::Tangency { .. } => {
@@ -230,7 +234,7 @@ impl<P> Running<P> {
         self.counted += 1;
         self.last_met = (steps, self.track.others);
         if self.counted > task.skip {
-            let time = piece.begin() + Pair::from_f64(after);
+            let time = piece.begin() + DoubleDouble::from_f64(after);
             let at = look(time, &piece.state(after));
             self.track.crossings.push(Met { at, time: time.hi, rising });
         }

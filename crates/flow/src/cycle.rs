@@ -13,17 +13,17 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::closed::Measured;
+use super::closed::MeasuredNumber;
 use super::error::FlowError;
 use super::motion::program;
 use super::multiplier::{self, CycleKind, Multiplier};
-use super::number::Number;
-use super::program::Program;
-use super::start::{Level, Start, level_basis};
+use super::number::SeriesNumber;
+use super::program::TaylorProgram;
+use super::start::{LevelFunctions, Start, level_basis};
 use super::stepper::{Accuracy, Stepper};
 use super::variational::variational_program;
 use liouville::mechanics::Model;
-use liouville::number::pair::Pair;
+use liouville::number::double_double::DoubleDouble;
 
 /// Iteration limit of Newton's method.
 const MOST_ITERATIONS: usize = 40;
@@ -41,7 +41,7 @@ const MOST_STEPS: u64 = 1_000_000;
 /// Functions that fix one closed orbit of a family.
 pub(super) struct Pins {
     /// Level functions of the model, then those that follow.
-    pub functions: Level,
+    pub functions: LevelFunctions,
     /// Whether the energy follows.
     pub has_energy: bool,
     /// Whether the function of a surface comes last.
@@ -54,11 +54,11 @@ pub struct Cycle {
     /// State on the orbit.
     pub start: Start,
     /// Time after which the motion is back.
-    pub period: Measured,
+    pub period: MeasuredNumber,
     /// Distance between the state and its image, in double-double.
     pub residual: f64,
     /// Integral of the divergence on the level along the orbit.
-    pub volume: Measured,
+    pub volume: MeasuredNumber,
     /// Multipliers besides 1 along the orbit and 1 across the levels of the energy.
     pub multipliers: Vec<Multiplier>,
     /// Stability, where the errors allow a statement.
@@ -72,19 +72,21 @@ pub(super) fn cycle(
     time: f64,
     pins: &Pins,
 ) -> Result<Cycle, FlowError> {
-    let mut search = Search::new(model, start, time, pins)?;
+    let mut search = CycleSearch::new(model, start, time, pins)?;
     search.converge()?;
     let matrix = search.equations()?.0;
     let residual = search.refine(&matrix)?;
-    let (float, pair) =
-        (search.derivative::<f64>(Accuracy::FLOAT)?, search.derivative::<Pair>(Accuracy::PAIR)?);
+    let (float, pair) = (
+        search.derivative::<f64>(Accuracy::FLOAT)?,
+        search.derivative::<DoubleDouble>(Accuracy::PAIR)?,
+    );
     let (multipliers, kind) = search.multipliers(&float, &pair)?;
     let float_period = search.float_period;
     Ok(Cycle {
         start: search.start,
-        period: Measured::twice(float_period, search.time.hi),
+        period: MeasuredNumber::twice(float_period, search.time.hi),
         residual,
-        volume: Measured::twice(float.volume.hi, pair.volume.hi),
+        volume: MeasuredNumber::twice(float.volume.hi, pair.volume.hi),
         multipliers,
         kind,
     })
@@ -93,39 +95,39 @@ pub(super) fn cycle(
 /// Derivative of the flow over the period, on the level.
 struct Derivative {
     /// BᵀMB, column by column.
-    columns: Vec<Vec<Pair>>,
-    volume: Pair,
-    end: Vec<Pair>,
+    columns: Vec<Vec<DoubleDouble>>,
+    volume: DoubleDouble,
+    end: Vec<DoubleDouble>,
 }
 
-struct Search<'s> {
+struct CycleSearch<'s> {
     model: &'s Model,
     pins: &'s Pins,
     /// Values that the pinned functions are to have.
-    wanted: Vec<Pair>,
-    level: Level,
-    field: Program,
+    wanted: Vec<DoubleDouble>,
+    level: LevelFunctions,
+    field: TaylorProgram,
     guess: f64,
     start: Start,
-    time: Pair,
+    time: DoubleDouble,
     /// Period to which f64 has converged.
     float_period: f64,
 }
 
-impl<'s> Search<'s> {
+impl<'s> CycleSearch<'s> {
     fn new(model: &'s Model, start: &Start, time: f64, pins: &'s Pins) -> Result<Self, FlowError> {
-        let level = Level::new(model, &start.parameters, &[])?;
+        let level = LevelFunctions::new(model, &start.parameters, &[])?;
         let field = program(model, &start.parameters, |_| Vec::new())?;
         let mut wanted = pins.functions.at(&start.state).0;
         let first = level.len();
-        wanted[..first].fill(Pair::default());
+        wanted[..first].fill(DoubleDouble::default());
         if pins.has_surface
             && let Some(last) = wanted.last_mut()
         {
-            *last = Pair::default();
+            *last = DoubleDouble::default();
         }
         let (start, guess, float_period) = (start.clone(), time, time);
-        let time = Pair::from_f64(time);
+        let time = DoubleDouble::from_f64(time);
         Ok(Self { model, pins, wanted, level, field, guess, start, time, float_period })
     }
 
@@ -134,7 +136,10 @@ impl<'s> Search<'s> {
     }
 
     /// State after the period.
-    fn image<T: Number<One = T>>(&self, accuracy: Accuracy) -> Result<Vec<Pair>, FlowError> {
+    fn image<T: SeriesNumber<One = T>>(
+        &self,
+        accuracy: Accuracy,
+    ) -> Result<Vec<DoubleDouble>, FlowError> {
         carried::<T>(&self.field, &self.start.state, self.time, accuracy)
     }
 
@@ -146,17 +151,20 @@ impl<'s> Search<'s> {
         stepper.velocity(0)
     }
 
-    fn derivative<T: Number<One = T>>(&self, accuracy: Accuracy) -> Result<Derivative, FlowError> {
+    fn derivative<T: SeriesNumber<One = T>>(
+        &self,
+        accuracy: Accuracy,
+    ) -> Result<Derivative, FlowError> {
         let dimension = self.model.dimension();
         let basis = level_basis(self.model, &self.start)?;
         let program = variational_program(self.model, &self.start.parameters, basis.len())?;
         let mut begin = self.start.state.clone();
         begin.extend(basis.iter().flatten());
-        begin.push(Pair::default());
+        begin.push(DoubleDouble::default());
         let end = carried::<T>(&program, &begin, self.time, accuracy)?;
         let moved = end[dimension..dimension * (basis.len() + 1)].chunks(dimension);
         let columns = moved.map(|vector| basis.iter().map(|e| dot(e, vector)).collect()).collect();
-        let volume = end.last().copied().unwrap_or(Pair::NAN);
+        let volume = end.last().copied().unwrap_or(DoubleDouble::NAN);
         Ok(Derivative { columns, volume, end: end[..dimension].to_vec() })
     }
 
@@ -171,14 +179,14 @@ impl<'s> Search<'s> {
         let pinned = values.len() - first + usize::from(!self.pins.has_surface);
         let mut matrix = DMatrix::zeros(count + pinned, count + 1);
         let mut right = DVector::zeros(count + pinned);
-        let gap: Vec<Pair> = differences(&derivative.end, &self.start.state);
-        let along = |vector: &[f64], e: &[Pair]| -> f64 {
+        let gap: Vec<DoubleDouble> = differences(&derivative.end, &self.start.state);
+        let along = |vector: &[f64], e: &[DoubleDouble]| -> f64 {
             vector.iter().zip(e).map(|(x, e)| x * e.hi).sum()
         };
         for (row, e) in basis.iter().enumerate() {
             for (column, moved) in derivative.columns.iter().enumerate() {
                 let unit = if row == column { 1.0 } else { 0.0 };
-                matrix[(row, column)] = (moved[row] - Pair::from_f64(unit)).hi;
+                matrix[(row, column)] = (moved[row] - DoubleDouble::from_f64(unit)).hi;
             }
             matrix[(row, count)] = along(&velocity, e);
             right[row] = -dot(e, &gap).hi;
@@ -206,10 +214,10 @@ impl<'s> Search<'s> {
     fn step(&mut self, step: &DVector<f64>, factor: f64) -> Result<(), FlowError> {
         let basis = level_basis(self.model, &self.start)?;
         for (e, u) in basis.iter().zip(step.iter()) {
-            let u = Pair::from_f64(u * factor);
+            let u = DoubleDouble::from_f64(u * factor);
             self.start.state.iter_mut().zip(e).for_each(|(x, e)| *x = *x + *e * u);
         }
-        self.time = self.time + Pair::from_f64(step[basis.len()] * factor);
+        self.time = self.time + DoubleDouble::from_f64(step[basis.len()] * factor);
         self.level.correct(&mut self.start.state, &[])?;
         Ok(())
     }
@@ -244,9 +252,9 @@ impl<'s> Search<'s> {
     /// Repeats steps with the residual in double-double until rounding stops them. Returns the
     /// distance that is left.
     fn refine(&mut self, matrix: &DMatrix<f64>) -> Result<f64, FlowError> {
-        let mut best: Option<(f64, Start, Pair)> = None;
+        let mut best: Option<(f64, Start, DoubleDouble)> = None;
         loop {
-            let gap = differences(&self.image::<Pair>(Accuracy::PAIR)?, &self.start.state);
+            let gap = differences(&self.image::<DoubleDouble>(Accuracy::PAIR)?, &self.start.state);
             let distance = norm(gap.iter().map(|x| x.hi));
             let last = best.as_ref().map_or(f64::INFINITY, |(distance, ..)| *distance);
             if distance.is_nan() || distance > last / 2.0 {
@@ -280,7 +288,7 @@ impl<'s> Search<'s> {
     ) -> Result<(Vec<Multiplier>, Option<CycleKind>), FlowError> {
         let basis = level_basis(self.model, &self.start)?;
         let tangent = |vector: &[f64]| -> Vec<f64> {
-            let along = |e: &Vec<Pair>| vector.iter().zip(e).map(|(x, e)| x * e.hi).sum();
+            let along = |e: &Vec<DoubleDouble>| vector.iter().zip(e).map(|(x, e)| x * e.hi).sum();
             basis.iter().map(along).collect()
         };
         let mut known = vec![tangent(&self.velocity())];
@@ -297,13 +305,13 @@ impl<'s> Search<'s> {
         if basis.len() == known.len() + 2 {
             let trace = |derivative: &Derivative| {
                 let diagonal = derivative.columns.iter().enumerate().map(|(k, column)| column[k]);
-                let trivial = Pair::from_f64(-(known.len() as f64));
+                let trivial = DoubleDouble::from_f64(-(known.len() as f64));
                 diagonal.fold(trivial, |sum, x| sum + x).hi
             };
             let product = |derivative: &Derivative| libm::exp(derivative.volume.hi);
             return Ok(multiplier::two(
-                Measured::twice(trace(float), trace(pair)),
-                Measured::twice(product(float), product(pair)),
+                MeasuredNumber::twice(trace(float), trace(pair)),
+                MeasuredNumber::twice(product(float), product(pair)),
             ));
         }
         Ok(multiplier::all(&matrix(float), &matrix(pair), &known))
@@ -315,14 +323,14 @@ pub(super) fn keeps_energy(
     model: &Model,
     start: &Start,
     time: f64,
-    functions: &Level,
+    functions: &LevelFunctions,
     place: usize,
 ) -> Result<bool, FlowError> {
     let program = program(model, &start.parameters, |_| Vec::new())?;
-    let energy = |state: &[Pair]| functions.at(state).0[place].hi;
+    let energy = |state: &[DoubleDouble]| functions.at(state).0[place].hi;
     let first = energy(&start.state);
     let mut stepper = Stepper::<f64>::new(&program, Accuracy::FLOAT);
-    stepper.start(0, &start.state, Pair::from_f64(time));
+    stepper.start(0, &start.state, DoubleDouble::from_f64(time));
     while !stepper.is_done(0) && stepper.steps(0) < MOST_STEPS {
         stepper.expand();
         stepper.check(0)?;
@@ -336,12 +344,12 @@ pub(super) fn keeps_energy(
 }
 
 /// Follows a motion for a time.
-fn carried<T: Number<One = T>>(
-    program: &Program,
-    begin: &[Pair],
-    time: Pair,
+fn carried<T: SeriesNumber<One = T>>(
+    program: &TaylorProgram,
+    begin: &[DoubleDouble],
+    time: DoubleDouble,
     accuracy: Accuracy,
-) -> Result<Vec<Pair>, FlowError> {
+) -> Result<Vec<DoubleDouble>, FlowError> {
     let mut stepper = Stepper::<T>::new(program, accuracy);
     stepper.start(0, begin, time);
     while !stepper.is_done(0) {
@@ -372,10 +380,10 @@ fn norm(parts: impl Iterator<Item = f64>) -> f64 {
     parts.map(|x| x * x).sum::<f64>().sqrt()
 }
 
-fn dot(a: &[Pair], b: &[Pair]) -> Pair {
-    a.iter().zip(b).fold(Pair::default(), |sum, (x, y)| sum + *x * *y)
+fn dot(a: &[DoubleDouble], b: &[DoubleDouble]) -> DoubleDouble {
+    a.iter().zip(b).fold(DoubleDouble::default(), |sum, (x, y)| sum + *x * *y)
 }
 
-fn differences(a: &[Pair], b: &[Pair]) -> Vec<Pair> {
+fn differences(a: &[DoubleDouble], b: &[DoubleDouble]) -> Vec<DoubleDouble> {
     a.iter().zip(b).map(|(x, y)| *x - *y).collect()
 }

@@ -1,14 +1,19 @@
 //! Reasons why a motion cannot be computed.
 
 use liouville::graph::Fault;
-use liouville::number::Function;
+use liouville::number::UnaryFunction;
+use serde::{Deserialize, Serialize};
 
 /// Reason why a motion cannot be computed.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+///
+/// Those of single motions can be written to a record and read back; the motion that was stopped
+/// cannot, and those of the equations of all motions.
+#[derive(Clone, Debug, PartialEq, thiserror::Error, Serialize, Deserialize)]
 pub enum FlowError {
     /// The field contains a function that has no Taylor series.
     #[error("the field contains {0}, which has no Taylor series where it changes its sign")]
-    NotAnalytic(&'static str),
+    #[serde(skip)]
+    NotAnalytic(#[serde(skip)] &'static str),
     /// The field contains an antiderivative, whose value is not known.
     #[error("the field contains ∫, whose value is not determined")]
     Antiderivative,
@@ -16,8 +21,10 @@ pub enum FlowError {
     #[error("{}", singular(*time, state))]
     Singular {
         /// Time of the last state.
+        #[serde(with = "super::record")]
         time: f64,
         /// Last state.
+        #[serde(with = "super::record")]
         state: Vec<f64>,
     },
     /// The section uses variables that this system does not have.
@@ -38,8 +45,10 @@ pub enum FlowError {
     #[error("(l, L/G) = ({l}, {z}) is not a point of the section: |L/G| has to be below 1")]
     OffSphere {
         /// Coordinate l.
+        #[serde(with = "super::record")]
         l: f64,
         /// Coordinate L/G.
+        #[serde(with = "super::record")]
         z: f64,
     },
     /// The energy is not above the potential at the start.
@@ -48,18 +57,23 @@ pub enum FlowError {
     )]
     BelowPotential {
         /// Coordinate l.
+        #[serde(with = "super::record")]
         l: f64,
         /// Coordinate L/G.
+        #[serde(with = "super::record")]
         z: f64,
         /// Potential at the start.
+        #[serde(with = "super::record")]
         potential: f64,
         /// Energy of the section.
+        #[serde(with = "super::record")]
         energy: f64,
     },
     /// The motion does not return to the section.
     #[error("{}", never_crossed(*time, *crossings, *others))]
     NeverCrossed {
         /// Time up to which the motion was followed.
+        #[serde(with = "super::record")]
         time: f64,
         /// Number of crossings found.
         crossings: usize,
@@ -91,40 +105,48 @@ pub enum FlowError {
     #[error("the start violates the one-sided constraint: its function is {by:e} there")]
     BehindConstraint {
         /// Value of r, which must not be negative.
+        #[serde(with = "super::record")]
         by: f64,
     },
     /// Contact and free motion alternate without end.
     #[error("contact and free motion alternate without end near t = {time}")]
     TooManyPhases {
         /// Time near which the phases accumulate.
+        #[serde(with = "super::record")]
         time: f64,
     },
     /// Newton's method does not converge.
     #[error("no point of period {period} was found near (l, L/G) = ({l}, {z})")]
     NoPeriodicPoint {
         /// Coordinate l.
+        #[serde(with = "super::record")]
         l: f64,
         /// Coordinate L/G.
+        #[serde(with = "super::record")]
         z: f64,
         /// Period, in crossings of the section.
         period: usize,
     },
     /// Newton's method for a closed orbit does not converge.
     #[error("no closed orbit was found near the start, with a period near {0}")]
-    NoClosedOrbit(f64),
+    NoClosedOrbit(#[serde(with = "super::record")] f64),
     /// The equations of a closed orbit are singular.
     #[error(
         "the closed orbit near t = {0} is degenerate: it is one of a family, such as those of a further integral"
     )]
-    Degenerate(f64),
+    Degenerate(#[serde(with = "super::record")] f64),
     /// The point has no separatrices.
     #[error("the periodic point ({l:.6}, {z:.6}) is not hyperbolic but of kind: {kind}")]
+    #[serde(skip)]
     NotHyperbolic {
         /// Coordinate l.
+        #[serde(with = "super::record")]
         l: f64,
         /// Coordinate L/G.
+        #[serde(with = "super::record")]
         z: f64,
         /// Kind of the periodic point.
+        #[serde(skip)]
         kind: &'static str,
     },
     /// The field has a sum of more terms than a proof allows for.
@@ -132,12 +154,14 @@ pub enum FlowError {
     TooLong,
     /// The motion was stopped from outside.
     #[error("the motion was stopped")]
+    #[serde(skip)]
     Stopped,
     /// No state on the level set was found.
     #[error("no state on the level set was found near the one that was asked for")]
     NoStart,
     /// The equations cannot be recorded.
     #[error("{0}")]
+    #[serde(skip)]
     Recording(#[from] Fault),
 }
 
@@ -216,9 +240,9 @@ impl FlowError {
     }
 
     /// The error for a function without a Taylor rule.
-    pub(super) fn of_function(function: Function) -> Self {
+    pub(super) fn of_function(function: UnaryFunction) -> Self {
         match function {
-            Function::Abs => FlowError::NotAnalytic("|x|"),
+            UnaryFunction::Abs => FlowError::NotAnalytic("|x|"),
             _ => FlowError::NotAnalytic("a function"),
         }
     }

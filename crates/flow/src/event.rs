@@ -4,7 +4,7 @@
 //! between them if there is one, brackets each root; Newton's method finds it, guarded by bisection.
 //! An extremum whose value is 0 up to rounding is a tangency, not a crossing.
 
-use super::number::Number;
+use super::number::SeriesNumber;
 
 /// Iteration limit, above the count of bisection alone.
 const MAX_STEPS: usize = 200;
@@ -29,7 +29,7 @@ pub enum Event<T> {
 }
 
 /// Evaluates a polynomial and its derivative.
-pub fn value<T: Number>(polynomial: &[T], at: T) -> (T, T) {
+pub fn value<T: SeriesNumber>(polynomial: &[T], at: T) -> (T, T) {
     let (mut sum, mut slope) = (T::ZERO, T::ZERO);
     for coefficient in polynomial.iter().rev() {
         slope = slope * at + sum;
@@ -39,7 +39,7 @@ pub fn value<T: Number>(polynomial: &[T], at: T) -> (T, T) {
 }
 
 /// Coefficients of the derivative of a polynomial.
-pub fn slope<T: Number>(polynomial: &[T]) -> Vec<T> {
+pub fn slope<T: SeriesNumber>(polynomial: &[T]) -> Vec<T> {
     let terms = polynomial.iter().enumerate().skip(1);
     terms.map(|(n, coefficient)| T::float(n as f64) * *coefficient).collect()
 }
@@ -56,7 +56,7 @@ pub struct Ends<T> {
     rates: [T; 2],
 }
 
-impl<T: Number> Ends<T> {
+impl<T: SeriesNumber> Ends<T> {
     /// Ends of no pieces.
     pub const NONE: Self = Self {
         length: T::ZERO,
@@ -102,7 +102,7 @@ impl Sides {
     }
 
     /// Whether a lane has no event, where `events` would find none. Remembers the side at its end.
-    pub fn pass<T: Number>(&mut self, ends: &Ends<T>, lane: usize) -> bool {
+    pub fn pass<T: SeriesNumber>(&mut self, ends: &Ends<T>, lane: usize) -> bool {
         let at = |value: T| value.lane(lane).leading();
         let (length, first, last) = (at(ends.length), at(ends.first), at(ends.last));
         let [first_rate, last_rate] = ends.rates.map(at);
@@ -117,7 +117,11 @@ impl Sides {
     }
 
     /// Finds the events between 0 and `length`, except at 0 if the motion starts there.
-    pub fn events<T: Number<One = T>>(&mut self, polynomial: &[T], length: T) -> Vec<Event<T>> {
+    pub fn events<T: SeriesNumber<One = T>>(
+        &mut self,
+        polynomial: &[T],
+        length: T,
+    ) -> Vec<Event<T>> {
         if length.leading() == 0.0 {
             return Vec::new();
         }
@@ -134,7 +138,7 @@ impl Sides {
     }
 }
 
-fn between<T: Number<One = T>>(
+fn between<T: SeriesNumber<One = T>>(
     polynomial: &[T],
     length: T,
     begin: bool,
@@ -174,7 +178,7 @@ fn turns(first: f64, last: f64, length: f64, begin: bool) -> bool {
 
 /// Sign of a function just after a beginning at which it vanishes: that of the first term that is
 /// not rounding.
-fn starts_positive<T: Number>(polynomial: &[T], rounding: f64, length: T) -> bool {
+fn starts_positive<T: SeriesNumber>(polynomial: &[T], rounding: f64, length: T) -> bool {
     let mut power = 1.0;
     for coefficient in polynomial {
         let term = coefficient.leading() * power;
@@ -187,7 +191,7 @@ fn starts_positive<T: Number>(polynomial: &[T], rounding: f64, length: T) -> boo
 }
 
 /// Largest term of a polynomial on a piece.
-pub(super) fn size<T: Number>(polynomial: &[T], length: T) -> f64 {
+pub(super) fn size<T: SeriesNumber>(polynomial: &[T], length: T) -> f64 {
     let mut power = 1.0;
     let mut largest: f64 = 0.0;
     for coefficient in polynomial {
@@ -198,7 +202,7 @@ pub(super) fn size<T: Number>(polynomial: &[T], length: T) -> f64 {
 }
 
 /// Finds the root between `a`, where the sign is `positive`, and `b`, where it is the other.
-fn root<T: Number<One = T>>(polynomial: &[T], a: T, b: T, positive: bool) -> T {
+fn root<T: SeriesNumber<One = T>>(polynomial: &[T], a: T, b: T, positive: bool) -> T {
     let (mut a, mut b) = (a, b);
     let half = T::float(0.5);
     let tolerance = 4.0 * T::EPSILON * (b - a).leading().abs();

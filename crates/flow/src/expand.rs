@@ -4,16 +4,16 @@
 //! each row is finished in turn, from the same order of the rows before it. Where there are many
 //! expansions, machine code does the same.
 
-use super::code::{Bound, Code, Copied, Order, Place, first, part, part_mut};
-use super::number::{BLOCK, Number};
+use super::code::{BoundProgram, Copied, OrderEffect, Place, PlacedRule, first, part, part_mut};
+use super::number::{BLOCK, SeriesNumber};
 use super::series::Series;
-use liouville::graph::Work;
-use liouville::number::Function;
+use liouville::graph::Kernel;
+use liouville::number::UnaryFunction;
 
 /// Work of one expansion.
-pub(super) struct Expansion<'s, T: Number>(pub(super) &'s mut Series<T>);
+pub(super) struct Expansion<'s, T: SeriesNumber>(pub(super) &'s mut Series<T>);
 
-impl<T: Number> Work for Expansion<'_, T> {
+impl<T: SeriesNumber> Kernel for Expansion<'_, T> {
     #[inline(always)]
     fn run(self) {
         let series = self.0;
@@ -32,7 +32,7 @@ impl<T: Number> Work for Expansion<'_, T> {
     }
 }
 
-impl<T: Number> Series<T> {
+impl<T: SeriesNumber> Series<T> {
     /// Computes order 0 of all rows and order 1 of the state, with the slopes.
     #[inline(always)]
     pub(super) fn begin(&mut self) {
@@ -86,7 +86,7 @@ impl<T: Number> Series<T> {
         let by_n = self.inverses[n];
         for finish in &self.code.finishes {
             let mut value = finish.scale * self.inner[finish.inner as usize];
-            if let Order::Divides = finish.order {
+            if let OrderEffect::Divides = finish.order {
                 value = value * by_n;
             }
             for term in first(&mut terms, finish.terms) {
@@ -117,7 +117,7 @@ impl<T: Number> Series<T> {
         for (operation, finish) in self.code.operations.iter().zip(&self.code.finishes) {
             let at = |x: &Place| rows.at(*x);
             let value = match &operation.rule {
-                Bound::Sum => {
+                PlacedRule::Sum => {
                     let mut sum = operation.constant;
                     for term in part(&self.code.terms, operation.terms) {
                         sum = sum.fused(term.fixed, at(&term.x));
@@ -128,15 +128,15 @@ impl<T: Number> Series<T> {
                     }
                     sum.settled()
                 }
-                Bound::Theta => T::ZERO,
-                Bound::Recip(x) => at(x).recip(),
-                Bound::Sqrt(x) => at(x).apply(Function::Sqrt),
-                Bound::Exp(x) => at(x).apply(Function::Exp),
-                Bound::Ln(x) => at(x).apply(Function::Ln),
-                Bound::Sin { x, .. } => at(x).apply(Function::Sin),
-                Bound::Cos { x, .. } => at(x).apply(Function::Cos),
-                Bound::Atan { x, .. } => at(x).apply(Function::Atan),
-                Bound::Power { x, exponent, .. } => at(x).power(exponent),
+                PlacedRule::Theta => T::ZERO,
+                PlacedRule::Recip(x) => at(x).recip(),
+                PlacedRule::Sqrt(x) => at(x).apply(UnaryFunction::Sqrt),
+                PlacedRule::Exp(x) => at(x).apply(UnaryFunction::Exp),
+                PlacedRule::Ln(x) => at(x).apply(UnaryFunction::Ln),
+                PlacedRule::Sin { x, .. } => at(x).apply(UnaryFunction::Sin),
+                PlacedRule::Cos { x, .. } => at(x).apply(UnaryFunction::Cos),
+                PlacedRule::Atan { x, .. } => at(x).apply(UnaryFunction::Atan),
+                PlacedRule::Power { x, exponent, .. } => at(x).power(exponent),
             };
             // Order 0 does not enter the inner sums: behind order 1 there are zeros.
             rows.put(finish.place, &[], value);
@@ -152,7 +152,7 @@ struct Rows<'m, T> {
     copied: usize,
 }
 
-impl<T: Number> Rows<'_, T> {
+impl<T: SeriesNumber> Rows<'_, T> {
     // Places are below the length of the memory, and so is n: their sum does not overflow.
     #[inline(always)]
     fn at(&self, place: Place) -> T {
@@ -168,7 +168,7 @@ impl<T: Number> Rows<'_, T> {
     }
 }
 
-impl<T: Number> Code<T> {
+impl<T: SeriesNumber> BoundProgram<T> {
     /// Computes the slopes and scales, which are the same at all orders.
     #[inline(always)]
     fn slopes(&mut self, memory: &[T]) {
@@ -176,7 +176,7 @@ impl<T: Number> Code<T> {
         for (operation, finish) in self.operations.iter().zip(&mut self.finishes) {
             let z = at(&finish.place);
             let (scale, slope) = match &operation.rule {
-                Bound::Sum => {
+                PlacedRule::Sum => {
                     for term in part_mut(&mut self.terms, operation.terms) {
                         term.slope = term.fixed;
                     }
@@ -193,18 +193,18 @@ impl<T: Number> Code<T> {
                     }
                     continue;
                 }
-                Bound::Theta => (T::ZERO, T::ONE),
-                Bound::Recip(_) => (-z, -(z * z)),
-                Bound::Sqrt(_) => {
+                PlacedRule::Theta => (T::ZERO, T::ONE),
+                PlacedRule::Recip(_) => (-z, -(z * z)),
+                PlacedRule::Sqrt(_) => {
                     let half = (z + z).recip();
                     (-half, half)
                 }
-                Bound::Exp(_) => (T::ONE, z),
-                Bound::Ln(x) => (-at(x).recip(), at(x).recip()),
-                Bound::Sin { cosine, .. } => (T::ONE, at(cosine)),
-                Bound::Cos { sine, .. } => (-T::ONE, -at(sine)),
-                Bound::Atan { square, .. } => (-at(square).recip(), at(square).recip()),
-                Bound::Power { x, factor, .. } => (at(x).recip(), *factor * z * at(x).recip()),
+                PlacedRule::Exp(_) => (T::ONE, z),
+                PlacedRule::Ln(x) => (-at(x).recip(), at(x).recip()),
+                PlacedRule::Sin { cosine, .. } => (T::ONE, at(cosine)),
+                PlacedRule::Cos { sine, .. } => (-T::ONE, -at(sine)),
+                PlacedRule::Atan { square, .. } => (-at(square).recip(), at(square).recip()),
+                PlacedRule::Power { x, factor, .. } => (at(x).recip(), *factor * z * at(x).recip()),
             };
             finish.scale = scale;
             self.terms[operation.terms.0 as usize].slope = slope;

@@ -7,13 +7,13 @@ pub type Row = usize;
 
 /// A form constant + Σ c x + Σ c x y over rows x, y.
 #[derive(Clone, Debug, Default)]
-pub struct Form {
+pub struct BilinearForm {
     pub constant: Option<Rational>,
     pub linear: Vec<(Rational, Row)>,
     pub products: Vec<(Rational, Row, Row)>,
 }
 
-impl Form {
+impl BilinearForm {
     pub fn of_constant(value: &Rational) -> Self {
         Self { constant: Some(value.clone()), ..Self::default() }
     }

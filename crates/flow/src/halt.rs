@@ -50,7 +50,7 @@ impl Drop for Former {
 /// use std::sync::Arc;
 /// use std::sync::atomic::AtomicBool;
 /// use liouville::case::Case;
-/// use liouville::number::pair::Pair;
+/// use liouville::number::double_double::Pair;
 /// use liouville_flow::{FlowError, Precision, Start, orbit, stoppable};
 ///
 /// let case = Case::parse("title = 'a'\n[state]\nx = '-1..1'\n[field]\n\"x'\" = '1 - x'\n", &[])?;

@@ -2,12 +2,12 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
+use super::batch::MOTION_LANES;
 use super::machine::LaneMachine;
-use super::number::{BLOCK, Number, applied, powered};
+use super::number::{BLOCK, SeriesNumber, applied, powered};
 use super::series::Series;
-use super::swarm::LANES;
-use liouville::number::Function;
-use liouville::number::pair::{Pair, two_sum};
+use liouville::number::UnaryFunction;
+use liouville::number::double_double::{DoubleDouble, two_sum};
 use liouville::number::rational::Rational;
 
 /// A vector of `N` f64, one lane for each orbit.
@@ -47,9 +47,9 @@ impl<const N: usize> Default for Lanes<N> {
 }
 
 /// Number of lanes that series have.
-const N: usize = LANES;
+const N: usize = MOTION_LANES;
 
-impl Number for Lanes<N> {
+impl SeriesNumber for Lanes<N> {
     type One = f64;
     const ZERO: Self = Self([0.0; N]);
     const ONE: Self = Self([1.0; N]);
@@ -79,10 +79,10 @@ impl Number for Lanes<N> {
     fn leading(self) -> f64 {
         self.0[0]
     }
-    fn pair(self) -> Pair {
-        Pair::from_f64(self.0[0])
+    fn pair(self) -> DoubleDouble {
+        DoubleDouble::from_f64(self.0[0])
     }
-    fn split(value: Pair) -> (Self, Self) {
+    fn split(value: DoubleDouble) -> (Self, Self) {
         (Self([value.hi; N]), Self([value.lo; N]))
     }
     #[inline(always)]
@@ -97,7 +97,7 @@ impl Number for Lanes<N> {
         Self(self.0.map(|x| 1.0 / x))
     }
     #[inline(always)]
-    fn apply(self, function: Function) -> Self {
+    fn apply(self, function: UnaryFunction) -> Self {
         Self(self.0.map(|x| applied(function, x)))
     }
     fn power(self, exponent: &Rational) -> Self {

@@ -5,12 +5,12 @@ use num_dual::Dual;
 use super::columns::Columns;
 use super::error::FlowError;
 use super::motion::point;
-use super::start::{Level, Start, drawn};
-use super::surface::Surface;
+use super::start::{LevelFunctions, Start, drawn};
+use super::surface::CrossingSurface;
 use liouville::case::{Case, Direction};
 use liouville::graph::{Evaluator, Expr, Tape, record};
 use liouville::mechanics::{Model, Phase};
-use liouville::number::pair::{Pair, Pairs};
+use liouville::number::double_double::{DoubleDouble, DoubleDoubles};
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 
@@ -34,7 +34,7 @@ pub enum Begin {
 #[derive(Clone, Copy)]
 pub struct Launchpad<'l> {
     /// Surface.
-    pub surface: &'l Surface,
+    pub surface: &'l CrossingSurface,
     /// Axes.
     pub axes: &'l Columns,
     /// Direction in which the motion is to cross the surface.
@@ -72,7 +72,7 @@ impl Launches<'_> {
         };
         let model = &self.case.model;
         if self.energy.is_none() {
-            let state = state.iter().map(Pair::from_rational).collect();
+            let state = state.iter().map(DoubleDouble::from_rational).collect();
             return Start::near(model, parameters, state);
         }
         let conditions = self.conditions(model, &parameters, &|_| Vec::new())?;
@@ -85,11 +85,11 @@ impl Launches<'_> {
         model: &Model,
         parameters: &[Rational],
         further: &dyn Fn(&Lifted<'_>) -> Vec<Dual<Expr>>,
-    ) -> Result<Level, FlowError> {
+    ) -> Result<LevelFunctions, FlowError> {
         if self.energy.is_some() && !model.system.has_energy() {
             return Err(FlowError::NoEnergy);
         }
-        Level::with(model, parameters, &|phase| {
+        LevelFunctions::with(model, parameters, &|phase| {
             let energy = self.energy.zip(model.system.energy(phase));
             let mut all: Vec<_> =
                 energy.map(|(given, own)| own - Dual::rational(given)).into_iter().collect();
@@ -118,7 +118,7 @@ impl Launches<'_> {
         for index in 0..TRIES {
             let state = drawn(self.case, self.seed, index)?.1;
             let Ok(start) = moved(&conditions, parameters.clone(), &state) else { continue };
-            let mut evaluator = Evaluator::new(&rate, Pairs);
+            let mut evaluator = Evaluator::new(&rate, DoubleDoubles);
             evaluator.run(&start.state);
             let rate = evaluator.output(0).hi;
             let fits = match pad.direction {
@@ -138,18 +138,19 @@ impl Launches<'_> {
 
 /// Moves a state to where the conditions hold.
 fn moved(
-    conditions: &Level,
+    conditions: &LevelFunctions,
     parameters: Vec<Rational>,
     state: &[Rational],
 ) -> Result<Start, FlowError> {
-    let mut state: Vec<Pair> = state.iter().map(Pair::from_rational).collect();
+    let mut state: Vec<DoubleDouble> = state.iter().map(DoubleDouble::from_rational).collect();
     let moved = conditions.correct(&mut state, &[])?;
     // Where conditions contradict each other the steps may shrink elsewhere than at a zero.
-    let norm = |parts: &[Pair]| parts.iter().map(|x| x.hi * x.hi).sum::<f64>().sqrt();
+    let norm = |parts: &[DoubleDouble]| parts.iter().map(|x| x.hi * x.hi).sum::<f64>().sqrt();
     let size = norm(&state).max(1.0);
     let (values, gradients) = conditions.at(&state);
-    let holds =
-        |(value, gradient): (&Pair, &Vec<Pair>)| value.hi.abs() <= HOLDS * size * norm(gradient);
+    let holds = |(value, gradient): (&DoubleDouble, &Vec<DoubleDouble>)| {
+        value.hi.abs() <= HOLDS * size * norm(gradient)
+    };
     match values.iter().zip(&gradients).all(holds) {
         true => Ok(Start { parameters, state, moved }),
         false => Err(FlowError::NoStart),

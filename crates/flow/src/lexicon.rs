@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use liouville::case::Case;
 use liouville::formula::{Formula, FormulaError, Type, canonical_name};
-use liouville::mechanics::{Meaning, Model, Reach};
+use liouville::mechanics::{Dependence, Meaning, Model};
 
 /// Names of a case, with the formulas of its claims by the names of the claims.
 pub struct Lexicon {
@@ -52,7 +52,7 @@ impl Lexicon {
                 continue;
             }
             let meaning = Meaning::Abbreviation(model.abbreviations.len());
-            model.vocabulary.add(&name, meaning, formula.value_type(), Reach::Phase);
+            model.vocabulary.add(&name, meaning, formula.value_type(), Dependence::Phase);
             model.abbreviations.push(formula.clone());
         }
         Self { model }
@@ -79,7 +79,10 @@ impl Lexicon {
 
     /// Whether the value of a formula depends on the state.
     pub(super) fn varies(&self, formula: &Formula) -> bool {
-        self.model.vocabulary.reach(formula).is_some_and(|entry| entry.reach > Reach::Parameters)
+        self.model
+            .vocabulary
+            .reach(formula)
+            .is_some_and(|entry| entry.reach > Dependence::Parameters)
     }
 
     /// Whether something has this name.

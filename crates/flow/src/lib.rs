@@ -11,6 +11,7 @@
 mod andoyer;
 mod area;
 mod axis;
+mod batch;
 mod closed;
 mod code;
 mod columns;
@@ -38,6 +39,7 @@ mod periodic;
 mod plane;
 mod portrait;
 mod program;
+mod record;
 mod request;
 mod returns;
 mod samples;
@@ -49,7 +51,6 @@ mod spectrum;
 mod start;
 mod stepper;
 mod surface;
-mod swarm;
 mod track;
 mod validated;
 mod variational;
@@ -57,7 +58,7 @@ mod variational;
 pub use andoyer::{applies as has_andoyer_section, spread};
 pub use area::{AreaForm, area_forms};
 pub use axis::{AxisMistake, number_with_pi};
-pub use closed::{ClosedOrbit, Measured};
+pub use closed::{ComputedClosedOrbit, MeasuredNumber};
 pub use columns::Columns;
 pub use cycle::Cycle;
 pub use error::FlowError;
@@ -68,9 +69,9 @@ pub use lyapunov::{Alignment, Character, Estimate, Exponents};
 pub use motion::Loose;
 pub use multiplier::{CycleKind, Multiplier};
 pub use one_sided::{Contact, ContactEvent};
-pub use orbit::{Followed, Orbit, Precision, Role, orbit, value_at};
-pub use periodic::{Multipliers, PeriodicPoint, SectionMap};
-pub use plane::{Axis, Coordinate, Launch, PlaneRequest, plane};
+pub use orbit::{Followed, Orbit, Precision, QuantityRole, orbit, value_at};
+pub use periodic::{ComputedPeriodicPoint, Multipliers, SectionMap};
+pub use plane::{ChartAxis, Coordinate, Launch, PlaneRequest, plane, plane_part};
 pub use portrait::{Portrait, portrait};
 pub use request::{ChoiceError, SectionChoice};
 pub use returns::{closed_orbit, crossing_time};
@@ -81,10 +82,12 @@ pub use section::{
 pub use separatrix::{Separatrices, separatrices};
 pub use spectrum::{Spectrum, spectra};
 pub use start::{Start, fixed_parameters};
-pub use surface::{Surface, SurfaceCrossing, SurfaceOrbit, SurfaceRequest, surface_section};
-pub use track::{Rolling, Track, track};
+pub use surface::{
+    CrossingSurface, SurfaceCrossing, SurfaceOrbit, SurfaceRequest, surface_section,
+};
+pub use track::{RollingSamples, Track, track};
 pub use validated::{
-    Data, Enclosure, Horseshoe, Margin, Obstacle, ProvedOrbit, Reached, Request, follow, prove,
-    prove_horseshoe, replay,
+    Enclosure, Margin, Obstacle, ProofData, ProvedHorseshoe, ProvedOrbit, Reached, Request, follow,
+    prove, prove_horseshoe, replay,
 };
 pub use variational::Variational;

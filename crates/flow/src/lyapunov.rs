@@ -3,6 +3,8 @@
 //! The time after the first tenth is cut into blocks, whose spread gives the standard error. The
 //! error is reliable only where a block is longer than the slow drift between regions.
 
+use serde::{Deserialize, Serialize};
+
 /// Number of blocks after the transient.
 pub(super) const BLOCKS: usize = 10;
 /// Fraction of the time left out as transient.
@@ -15,18 +17,21 @@ const PARALLEL: f64 = 1e-8;
 const ENDS: f64 = 10.0;
 
 /// A mean with its standard error.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// Mean over all blocks.
+    #[serde(with = "super::record")]
     pub mean: f64,
     /// Standard error of the mean, from the spread of the blocks.
+    #[serde(with = "super::record")]
     pub error: f64,
     /// Mean over the later half of the blocks.
+    #[serde(with = "super::record")]
     pub later: f64,
 }
 
 /// Apparent kind of motion; the estimates next to it show how sure that is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Character {
     /// No positive exponent: periodic, quasiperiodic, or attracted to such a motion.
     Regular,
@@ -63,18 +68,21 @@ impl Character {
 }
 
 /// Alignment of two tangent vectors carried along the flow (SALI; Skokos 2001).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Alignment {
     /// min(|u + w|, |u - w|) of the two unit vectors at the end.
+    #[serde(with = "super::record")]
     pub index: f64,
     /// Time since which they have been parallel up to rounding, if they are.
+    #[serde(with = "super::record")]
     pub since: Option<f64>,
 }
 
 /// Largest exponent, mean divergence and alignment index of a motion.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Exponents {
     /// Time for which the motion was followed.
+    #[serde(with = "super::record")]
     pub time: f64,
     /// Largest Lyapunov exponent, in the time of the equations.
     pub largest: Estimate,

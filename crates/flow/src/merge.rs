@@ -13,7 +13,7 @@ use liouville::mechanics::Model;
 use liouville::number::exact::{Exact, square_root};
 use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
-use liouville::number::{Domain, Function, Operation};
+use liouville::number::{BinaryOperation, Domain, UnaryFunction};
 
 /// Number of states at which relations are tested.
 const STATES: usize = 5;
@@ -40,10 +40,10 @@ pub fn merged(
         let is_looked_at = reached[place] || matches!(step, Step::Constant(_));
         let residues =
             if is_looked_at { residues(step, &values, &field, &states, &mut exact) } else { None };
-        values.push(residues.map(|residues| Seen { place, residues }));
+        values.push(residues.map(|residues| StepValues { place, residues }));
     }
     let exact = RefCell::new(exact);
-    let direction = |own: &Seen| -> Option<[u64; STATES - 1]> {
+    let direction = |own: &StepValues| -> Option<[u64; STATES - 1]> {
         let [first, others @ ..] = own.residues;
         match own.is_zero() {
             // A multiple of 1.
@@ -55,7 +55,7 @@ pub fn merged(
             }
         }
     };
-    let factor = |own: &Seen, other: &Seen| -> Option<Rational> {
+    let factor = |own: &StepValues, other: &StepValues| -> Option<Rational> {
         let mut exact = exact.borrow_mut();
         let factor = &exact.at(own.place)? * &exact.at(other.place)?.recip()?;
         let image = field.rational(&factor)?;
@@ -67,12 +67,12 @@ pub fn merged(
 }
 
 /// Step with its values modulo the prime at all states.
-struct Seen {
+struct StepValues {
     place: usize,
     residues: [u64; STATES],
 }
 
-impl Seen {
+impl StepValues {
     fn is_zero(&self) -> bool {
         self.residues == [0; STATES]
     }
@@ -86,7 +86,7 @@ impl Seen {
 /// of constants are handled.
 fn residues(
     step: Step<'_>,
-    earlier: &[Option<Seen>],
+    earlier: &[Option<StepValues>],
     field: &Modulus,
     states: &[Vec<Rational>],
     exact: &mut FirstState<'_>,
@@ -102,24 +102,24 @@ fn residues(
             }
             Some(values)
         }
-        Step::Unary(Function::Neg, a) => Some(seen(a)?.residues.map(|x| field.sub(0, x))),
-        Step::Unary(Function::Recip, a) => {
+        Step::Unary(UnaryFunction::Neg, a) => Some(seen(a)?.residues.map(|x| field.sub(0, x))),
+        Step::Unary(UnaryFunction::Recip, a) => {
             let x = seen(a).filter(|x| x.residues.iter().all(|x| *x != 0))?;
             let mut inverses = [0; STATES];
             field.inverses(&x.residues, &mut inverses);
             Some(inverses)
         }
-        Step::Unary(Function::Sqrt, a) => {
+        Step::Unary(UnaryFunction::Sqrt, a) => {
             let square = seen(a).filter(|x| x.is_constant())?;
             constant(&square_root(&exact.at(square.place)?)?)
         }
         Step::Binary(operation, a, b) => {
             let (x, y) = (seen(a)?.residues, seen(b)?.residues);
             let combine: fn(&Modulus, u64, u64) -> u64 = match operation {
-                Operation::Add => Modulus::add,
-                Operation::Sub => Modulus::sub,
-                Operation::Mul => Modulus::mul,
-                Operation::Pow => return None,
+                BinaryOperation::Add => Modulus::add,
+                BinaryOperation::Sub => Modulus::sub,
+                BinaryOperation::Mul => Modulus::mul,
+                BinaryOperation::Pow => return None,
             };
             Some(std::array::from_fn(|k| combine(field, x[k], y[k])))
         }
@@ -160,7 +160,10 @@ impl FirstState<'_> {
             Step::Constant(value) => out = Some(value.clone()),
             Step::Input(input) => out = self.state.get(input).cloned(),
             // Irrational values are dropped.
-            Step::Unary(function @ (Function::Neg | Function::Recip | Function::Sqrt), a) => {
+            Step::Unary(
+                function @ (UnaryFunction::Neg | UnaryFunction::Recip | UnaryFunction::Sqrt),
+                a,
+            ) => {
                 Exact.unary(function, &argument(a), &mut out);
             }
             Step::Unary(..) | Step::Power(..) => {}

@@ -2,7 +2,7 @@
 
 use super::error::FlowError;
 use super::merge::merged;
-use super::program::Program;
+use super::program::TaylorProgram;
 use liouville::graph::{Expr, record};
 use liouville::mechanics::{Model, Phase};
 use liouville::number::rational::Rational;
@@ -44,7 +44,7 @@ pub fn program(
     model: &Model,
     parameters: &[Rational],
     further: impl FnOnce(&Phase<'_, Expr>) -> Vec<Expr>,
-) -> Result<Program, FlowError> {
+) -> Result<TaylorProgram, FlowError> {
     extended_program(model, parameters, 0, |phase, _| (phase.field().to_vec(), further(phase)))
 }
 
@@ -55,7 +55,7 @@ pub(super) fn extended_program(
     parameters: &[Rational],
     more: usize,
     build: impl FnOnce(&Phase<'_, Expr>, &[Expr]) -> (Vec<Expr>, Vec<Expr>),
-) -> Result<Program, FlowError> {
+) -> Result<TaylorProgram, FlowError> {
     if model.system.is_map() {
         return Err(FlowError::Discrete);
     }
@@ -68,11 +68,11 @@ pub(super) fn extended_program(
         return Err(FlowError::Antiderivative);
     }
     if !model.system.conserves_level() {
-        return Program::compile(&graph, &rates, &outputs);
+        return TaylorProgram::compile(&graph, &rates, &outputs);
     }
     let count = rates.len();
     let wanted = [rates, outputs].concat();
     let (simpler, mut values) = merged(model, &graph, &wanted)?;
     let outputs = values.split_off(count);
-    Program::compile(&simpler, &values, &outputs)
+    TaylorProgram::compile(&simpler, &values, &outputs)
 }

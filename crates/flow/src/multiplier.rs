@@ -2,7 +2,7 @@
 
 use nalgebra::{Complex, DMatrix, DVector};
 
-use super::closed::Measured;
+use super::closed::MeasuredNumber;
 
 /// Roundings of the largest entry of a matrix that its entries may have.
 const ROUNDINGS: f64 = 16.0;
@@ -76,7 +76,10 @@ fn kind(multipliers: &[Multiplier]) -> Option<CycleKind> {
 }
 
 /// Two multipliers from their sum and their product.
-pub(super) fn two(sum: Measured, product: Measured) -> (Vec<Multiplier>, Option<CycleKind>) {
+pub(super) fn two(
+    sum: MeasuredNumber,
+    product: MeasuredNumber,
+) -> (Vec<Multiplier>, Option<CycleKind>) {
     let half = sum.value / 2.0;
     let square = half * half - product.value;
     let apart = 2.0 * square.abs().sqrt();
@@ -194,8 +197,8 @@ fn across(dimension: usize, known: &[Vec<f64>]) -> DMatrix<f64> {
 mod tests {
     use super::*;
 
-    fn measured(value: f64, error: f64) -> Measured {
-        Measured { value, error }
+    fn measured(value: f64, error: f64) -> MeasuredNumber {
+        MeasuredNumber { value, error }
     }
 
     #[test]

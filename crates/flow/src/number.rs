@@ -4,15 +4,15 @@ use std::fmt::Debug;
 use std::ops::{Add, Mul, Neg, Sub};
 
 use super::lanes::Lanes;
-use super::machine::Machine;
+use super::machine::TaylorCode;
 use super::series::Series;
+use liouville::number::double_double::{DoubleDouble, two_product, two_sum};
 use liouville::number::float::Float;
-use liouville::number::pair::{Pair, two_product, two_sum};
 use liouville::number::rational::Rational;
-use liouville::number::{Domain, Function};
+use liouville::number::{Domain, UnaryFunction};
 
 /// A number that series are made of; undefined ones are not finite.
-pub trait Number:
+pub trait SeriesNumber:
     Copy
     + Debug
     + Send
@@ -23,7 +23,7 @@ pub trait Number:
     + Neg<Output = Self>
 {
     /// Type of one lane.
-    type One: Number<One = Self::One>;
+    type One: SeriesNumber<One = Self::One>;
     /// The number 0.
     const ZERO: Self;
     /// The number 1.
@@ -50,9 +50,9 @@ pub trait Number:
     /// Leading part of the first lane.
     fn leading(self) -> f64;
     /// First lane as a pair.
-    fn pair(self) -> Pair;
+    fn pair(self) -> DoubleDouble;
     /// Splits a pair into a number in all lanes and the rounding remainder.
-    fn split(value: Pair) -> (Self, Self);
+    fn split(value: DoubleDouble) -> (Self, Self);
     /// Returns self + x y, to be normalised after the last term.
     fn fused(self, x: Self, y: Self) -> Self;
     /// Normalises a sum after its last term.
@@ -63,7 +63,7 @@ pub trait Number:
     /// Returns 1/x.
     fn recip(self) -> Self;
     /// Returns f(x).
-    fn apply(self, function: Function) -> Self;
+    fn apply(self, function: UnaryFunction) -> Self;
     /// Returns x^q.
     fn power(self, exponent: &Rational) -> Self;
     /// Returns the larger of a size and |other|, which is left out where it is NaN.
@@ -94,7 +94,7 @@ pub trait Number:
 
 /// Applies a function to an f64, by the platform-independent implementation that tapes use.
 #[inline(always)]
-pub(super) fn applied(function: Function, x: f64) -> f64 {
+pub(super) fn applied(function: UnaryFunction, x: f64) -> f64 {
     let mut out = [0.0];
     Float::<1>.unary(function, &[x], &mut out);
     out[0]
@@ -111,7 +111,7 @@ const WIDTH: usize = 8;
 /// Number of dot products finished at once.
 pub(super) const BLOCK: usize = 8;
 
-impl Number for f64 {
+impl SeriesNumber for f64 {
     type One = f64;
     const ZERO: f64 = 0.0;
     const ONE: f64 = 1.0;
@@ -119,7 +119,7 @@ impl Number for f64 {
     const EPSILON: f64 = f64::EPSILON;
     const WIDTH: usize = WIDTH;
     type Partial = Lanes<WIDTH>;
-    type Machine = Machine;
+    type Machine = TaylorCode;
 
     fn rational(value: &Rational) -> Self {
         value.to_f64().0
@@ -140,10 +140,10 @@ impl Number for f64 {
     fn leading(self) -> f64 {
         self
     }
-    fn pair(self) -> Pair {
-        Pair::from_f64(self)
+    fn pair(self) -> DoubleDouble {
+        DoubleDouble::from_f64(self)
     }
-    fn split(value: Pair) -> (Self, Self) {
+    fn split(value: DoubleDouble) -> (Self, Self) {
         (value.hi, value.lo)
     }
     #[inline(always)]
@@ -155,7 +155,7 @@ impl Number for f64 {
         1.0 / self
     }
     #[inline(always)]
-    fn apply(self, function: Function) -> Self {
+    fn apply(self, function: UnaryFunction) -> Self {
         applied(function, self)
     }
     fn power(self, exponent: &Rational) -> Self {
@@ -208,10 +208,10 @@ fn folded<const H: usize>(a: &[f64; WIDTH], b: &[f64; WIDTH]) -> [f64; WIDTH] {
     std::array::from_fn(|k| near[k] + far[k])
 }
 
-impl Number for Pair {
-    type One = Pair;
-    const ZERO: Pair = Pair { hi: 0.0, lo: 0.0 };
-    const ONE: Pair = Pair { hi: 1.0, lo: 0.0 };
+impl SeriesNumber for DoubleDouble {
+    type One = DoubleDouble;
+    const ZERO: DoubleDouble = DoubleDouble { hi: 0.0, lo: 0.0 };
+    const ONE: DoubleDouble = DoubleDouble { hi: 1.0, lo: 0.0 };
     const LANES: usize = 1;
     const EPSILON: f64 = f64::EPSILON * f64::EPSILON;
     const WIDTH: usize = WIDTH;
@@ -219,61 +219,61 @@ impl Number for Pair {
     type Machine = ();
 
     fn rational(value: &Rational) -> Self {
-        Pair::from_rational(value)
+        DoubleDouble::from_rational(value)
     }
     #[inline(always)]
-    fn from_lanes(value: impl Fn(usize) -> Pair) -> Self {
+    fn from_lanes(value: impl Fn(usize) -> DoubleDouble) -> Self {
         value(0)
     }
     #[inline(always)]
-    fn lane(self, _: usize) -> Pair {
+    fn lane(self, _: usize) -> DoubleDouble {
         self
     }
     #[inline(always)]
     fn float(value: f64) -> Self {
-        Pair::from_f64(value)
+        DoubleDouble::from_f64(value)
     }
     #[inline(always)]
     fn leading(self) -> f64 {
         self.hi
     }
-    fn pair(self) -> Pair {
+    fn pair(self) -> DoubleDouble {
         self
     }
-    fn split(value: Pair) -> (Self, Self) {
+    fn split(value: DoubleDouble) -> (Self, Self) {
         (value, Self::ZERO)
     }
     #[inline(always)]
-    fn fused(self, x: Pair, y: Pair) -> Pair {
+    fn fused(self, x: DoubleDouble, y: DoubleDouble) -> DoubleDouble {
         // The rounding errors of products and sums are added up in the low part (Ogita, Rump, Oishi
         // 2005).
         let (product, error) = two_product(x.hi, y.hi);
         let (hi, rest) = two_sum(self.hi, product);
         let cross = x.hi.mul_add(y.lo, x.lo.mul_add(y.hi, error));
-        Pair { hi, lo: self.lo + (rest + cross) }
+        DoubleDouble { hi, lo: self.lo + (rest + cross) }
     }
     #[inline(always)]
-    fn settled(self) -> Pair {
+    fn settled(self) -> DoubleDouble {
         let (hi, lo) = two_sum(self.hi, self.lo);
-        Pair { hi, lo }
+        DoubleDouble { hi, lo }
     }
     #[inline(always)]
     fn recip(self) -> Self {
-        Pair::recip(self)
+        DoubleDouble::recip(self)
     }
     #[inline(always)]
-    fn apply(self, function: Function) -> Self {
+    fn apply(self, function: UnaryFunction) -> Self {
         match function {
-            Function::Sqrt => self.sqrt(),
-            _ => Pair::apply(self, function),
+            UnaryFunction::Sqrt => self.sqrt(),
+            _ => DoubleDouble::apply(self, function),
         }
     }
     fn power(self, exponent: &Rational) -> Self {
-        Pair::power(self, exponent)
+        DoubleDouble::power(self, exponent)
     }
     #[inline(always)]
-    fn larger(self, other: Pair) -> Pair {
-        Pair::from_f64(self.hi.max(other.hi.abs()))
+    fn larger(self, other: DoubleDouble) -> DoubleDouble {
+        DoubleDouble::from_f64(self.hi.max(other.hi.abs()))
     }
     #[inline(always)]
     fn advance(hi: &mut Self, _: &mut Self, increment: Self) {
@@ -284,18 +284,18 @@ impl Number for Pair {
         PairLanes { hi: [0.0; WIDTH], lo: [0.0; WIDTH] }
     }
     #[inline(always)]
-    fn dot(mut sum: PairLanes, x: &[Pair], y: &[Pair], _: bool) -> PairLanes {
+    fn dot(mut sum: PairLanes, x: &[DoubleDouble], y: &[DoubleDouble], _: bool) -> PairLanes {
         let (x, y) = (x.as_chunks::<WIDTH>().0, y.as_chunks::<WIDTH>().0);
         for (x, y) in x.iter().zip(y) {
             for k in 0..WIDTH {
-                let next = Pair { hi: sum.hi[k], lo: sum.lo[k] }.fused(x[k], y[k]);
+                let next = DoubleDouble { hi: sum.hi[k], lo: sum.lo[k] }.fused(x[k], y[k]);
                 (sum.hi[k], sum.lo[k]) = (next.hi, next.lo);
             }
         }
         sum
     }
     #[inline(always)]
-    fn totals(sums: &[PairLanes; BLOCK], totals: &mut [Pair; BLOCK]) {
+    fn totals(sums: &[PairLanes; BLOCK], totals: &mut [DoubleDouble; BLOCK]) {
         let (mut hi, mut lo) = ([0.0; BLOCK], [0.0; BLOCK]);
         for lane in 0..WIDTH {
             for (k, sum) in sums.iter().enumerate() {
@@ -303,7 +303,7 @@ impl Number for Pair {
                 (hi[k], lo[k]) = (s, lo[k] + (rest + sum.lo[lane]));
             }
         }
-        *totals = std::array::from_fn(|k| Pair { hi: hi[k], lo: lo[k] }.settled());
+        *totals = std::array::from_fn(|k| DoubleDouble { hi: hi[k], lo: lo[k] }.settled());
     }
 }
 

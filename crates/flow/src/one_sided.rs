@@ -8,15 +8,15 @@
 use super::error::FlowError;
 use super::event::{Event, Sides, size, slope, value};
 use super::motion::program;
-use super::number::Number;
+use super::number::SeriesNumber;
 use super::orbit::Watcher;
-use super::program::Program;
+use super::program::TaylorProgram;
 use super::start::Start;
 use super::stepper::{Accuracy, Stepper};
 use liouville::case::{Case, OneSided};
-use liouville::mechanics::calculus::Jet;
+use liouville::mechanics::calculus::DualPoint;
 use liouville::mechanics::{Model, System};
-use liouville::number::pair::Pair;
+use liouville::number::double_double::DoubleDouble;
 
 /// Roundings of the largest term of r below which a minimum counts as 0.
 const ROUNDINGS: f64 = 4096.0;
@@ -40,24 +40,24 @@ pub struct ContactEvent {
     /// Kind of the event.
     pub kind: Contact,
     /// Time of the event.
-    pub time: Pair,
+    pub time: DoubleDouble,
     /// State at the event.
-    pub state: Vec<Pair>,
+    pub state: Vec<DoubleDouble>,
 }
 
 /// Both fields, each with the function that ends its phase.
 struct Phases {
     /// Free field, with r, r' and λ as further functions.
-    free: Program,
+    free: TaylorProgram,
     /// Field of contact, with λ as a further function.
-    contact: Program,
+    contact: TaylorProgram,
 }
 
 impl Phases {
     fn new(case: &Case, rule: &OneSided, start: &Start) -> Result<Self, FlowError> {
         let model = &case.model;
         let free = program(model, &start.parameters, |phase| {
-            let jet = Jet::new(phase.in_model(model, &phase.state()));
+            let jet = DualPoint::new(phase.in_model(model, &phase.state()));
             let mut outputs = vec![phase.scalar(&rule.function)];
             outputs.extend(jet.rates(&rule.function));
             outputs.push(phase.scalar(&rule.reaction));
@@ -72,17 +72,17 @@ impl Phases {
 
 /// A motion under the constraint.
 pub(super) struct OneSidedMotion {
-    pub end: Vec<Pair>,
+    pub end: Vec<DoubleDouble>,
     pub steps: u64,
     pub events: Vec<ContactEvent>,
 }
 
 /// Follows a motion from a start with r ≥ 0; `look` sees each piece, and the state after it.
-pub(super) fn follow<T: Number<One = T>>(
+pub(super) fn follow<T: SeriesNumber<One = T>>(
     case: &Case,
     rule: &OneSided,
     start: &Start,
-    time: Pair,
+    time: DoubleDouble,
     accuracy: Accuracy,
     look: &mut impl Watcher<T>,
 ) -> Result<OneSidedMotion, FlowError> {
@@ -96,7 +96,7 @@ pub(super) fn follow<T: Number<One = T>>(
         events: Vec::new(),
         steps: 0,
         state: start.state.clone(),
-        now: Pair::default(),
+        now: DoubleDouble::default(),
         until: time,
     };
     let mut touching = walk.begins_in_contact()?;
@@ -110,17 +110,17 @@ pub(super) fn follow<T: Number<One = T>>(
     Err(FlowError::TooManyPhases { time: walk.now.hi })
 }
 
-struct Walk<T: Number> {
+struct Walk<T: SeriesNumber> {
     free: Stepper<T>,
     contact: Stepper<T>,
     events: Vec<ContactEvent>,
     steps: u64,
-    state: Vec<Pair>,
-    now: Pair,
-    until: Pair,
+    state: Vec<DoubleDouble>,
+    now: DoubleDouble,
+    until: DoubleDouble,
 }
 
-impl<T: Number<One = T>> Walk<T> {
+impl<T: SeriesNumber<One = T>> Walk<T> {
     /// Whether the motion begins in contact: r = 0, and r would fall, or would not move while λ >
     /// 0.
     fn begins_in_contact(&mut self) -> Result<bool, FlowError> {
@@ -222,7 +222,7 @@ impl<T: Number<One = T>> Walk<T> {
 
 /// Whether the function falls below 0 behind this root by more than rounding. With slope s and
 /// curvature c its minimum is -s²/2c.
-fn is_deep<T: Number>(polynomial: &[T], root: T, length: T) -> bool {
+fn is_deep<T: SeriesNumber>(polynomial: &[T], root: T, length: T) -> bool {
     let rate = slope(polynomial);
     let (fall, curvature) = value(&rate, root);
     let depth = fall.leading() * fall.leading() / (2.0 * curvature.leading().abs());

@@ -2,18 +2,18 @@
 
 use super::error::FlowError;
 use super::motion::{point, program};
-use super::number::Number;
+use super::number::SeriesNumber;
 use super::one_sided::{ContactEvent, follow};
 use super::samples::Samples;
 use super::start::Start;
-use super::stepper::{Accuracy, Piece, Stepper};
+use super::stepper::{Accuracy, MotionPiece, Stepper};
 use liouville::case::{Case, Expect};
-use liouville::claim::Kind;
+use liouville::claim::ClaimKind;
 use liouville::formula::Formula;
 use liouville::graph::{Evaluator, Expr, Tape, record};
 use liouville::mechanics::{LevelFunction, Model, Phase};
+use liouville::number::double_double::{DoubleDouble, DoubleDoubles};
 use liouville::number::float::Float;
-use liouville::number::pair::{Pair, Pairs};
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 
@@ -31,7 +31,7 @@ pub enum Precision {
 
 /// Role of a followed quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Role {
+pub enum QuantityRole {
     /// A function that defines the level set.
     Level,
     /// The energy.
@@ -48,9 +48,9 @@ pub struct Followed {
     /// Name of the quantity.
     pub name: String,
     /// Role of the quantity.
-    pub role: Role,
+    pub role: QuantityRole,
     /// Components at the start.
-    pub value: Vec<Pair>,
+    pub value: Vec<DoubleDouble>,
     /// Largest |F(t) - F(0)|/|F(0)| at the times sampled; |F(t) - F(0)| where f64 cannot
     /// distinguish F(0) from 0.
     pub drift: f64,
@@ -66,9 +66,9 @@ pub struct Orbit {
     /// Initial state.
     pub start: Start,
     /// Duration.
-    pub time: Pair,
+    pub time: DoubleDouble,
     /// Final state.
-    pub end: Vec<Pair>,
+    pub end: Vec<DoubleDouble>,
     /// Number of steps taken.
     pub steps: u64,
     /// Order of the series.
@@ -83,7 +83,7 @@ pub struct Orbit {
 pub fn orbit(
     case: &Case,
     start: Start,
-    time: Pair,
+    time: DoubleDouble,
     precision: Precision,
 ) -> Result<Orbit, FlowError> {
     let mut nothing = Samples::nothing();
@@ -94,39 +94,39 @@ pub fn orbit(
 pub(super) fn sampled(
     case: &Case,
     start: Start,
-    time: Pair,
+    time: DoubleDouble,
     precision: Precision,
     samples: &mut Samples<'_>,
 ) -> Result<Orbit, FlowError> {
     match precision {
         Precision::Float => orbit_over::<f64>(case, start, time, Accuracy::FLOAT, samples),
-        Precision::Pair => orbit_over::<Pair>(case, start, time, Accuracy::PAIR, samples),
+        Precision::Pair => orbit_over::<DoubleDouble>(case, start, time, Accuracy::PAIR, samples),
     }
 }
 
 /// Observer of a motion in steps.
-pub(super) trait Watcher<T: Number> {
+pub(super) trait Watcher<T: SeriesNumber> {
     /// Sees a piece of the motion up to `length`; `begin` is the time at which it begins.
-    fn piece(&mut self, begin: Pair, piece: &Piece<'_, T>, length: T::One);
+    fn piece(&mut self, begin: DoubleDouble, piece: &MotionPiece<'_, T>, length: T::One);
 
     /// Sees a state at the end of a piece.
-    fn state(&mut self, now: Pair, state: &[Pair]);
+    fn state(&mut self, now: DoubleDouble, state: &[DoubleDouble]);
 }
 
 /// Observer of a single motion: its drift, and its samples.
 struct Looks<'l, 's> {
     watch: Watch,
     samples: &'l mut Samples<'s>,
-    time: Pair,
+    time: DoubleDouble,
     looks: u32,
 }
 
-impl<T: Number<One = T>> Watcher<T> for Looks<'_, '_> {
-    fn piece(&mut self, begin: Pair, piece: &Piece<'_, T>, length: T) {
+impl<T: SeriesNumber<One = T>> Watcher<T> for Looks<'_, '_> {
+    fn piece(&mut self, begin: DoubleDouble, piece: &MotionPiece<'_, T>, length: T) {
         self.samples.piece(begin, piece, length);
     }
 
-    fn state(&mut self, now: Pair, state: &[Pair]) {
+    fn state(&mut self, now: DoubleDouble, state: &[DoubleDouble]) {
         let passed = now.hi / self.time.hi * f64::from(LOOKS);
         if passed >= f64::from(self.looks) {
             self.looks = passed as u32 + 1;
@@ -135,10 +135,10 @@ impl<T: Number<One = T>> Watcher<T> for Looks<'_, '_> {
     }
 }
 
-fn orbit_over<T: Number<One = T>>(
+fn orbit_over<T: SeriesNumber<One = T>>(
     case: &Case,
     start: Start,
-    time: Pair,
+    time: DoubleDouble,
     accuracy: Accuracy,
     samples: &mut Samples<'_>,
 ) -> Result<Orbit, FlowError> {
@@ -177,7 +177,7 @@ struct Watch {
 }
 
 /// Origin of a followed quantity.
-enum Source<'c> {
+enum QuantitySource<'c> {
     Level(&'c LevelFunction),
     Energy,
     Formula(&'c Formula),
@@ -185,13 +185,13 @@ enum Source<'c> {
     Sum,
 }
 
-impl Source<'_> {
+impl QuantitySource<'_> {
     fn values(&self, phase: &Phase<'_, Expr>) -> Vec<Expr> {
         match self {
-            Source::Level(function) => vec![phase.level_function(function)],
-            Source::Energy => phase.model().system.energy(phase).into_iter().collect(),
-            Source::Formula(formula) => phase.evaluate(formula).components(),
-            Source::Sum => {
+            QuantitySource::Level(function) => vec![phase.level_function(function)],
+            QuantitySource::Energy => phase.model().system.energy(phase).into_iter().collect(),
+            QuantitySource::Formula(formula) => phase.evaluate(formula).components(),
+            QuantitySource::Sum => {
                 let weight = |k: usize| Expr::rational(&Rational::from(k as i64 + 1));
                 let terms = phase.state().into_iter().enumerate();
                 vec![terms.map(|(k, x)| weight(k) * x).sum()]
@@ -220,14 +220,14 @@ impl Watch {
             (rest, blur) = (others, other_blur);
             let size = norm(own.iter().map(|x| x.hi));
             let is_zero = size <= norm(own_blur.iter().copied());
-            let scale = if role == Role::Level || is_zero { 1.0 } else { size };
+            let scale = if role == QuantityRole::Level || is_zero { 1.0 } else { size };
             let value = own.to_vec();
             followed.push(Followed { name, role, value, drift: 0.0, drift_at_end: 0.0, scale });
         }
         Ok(Self { tape, followed })
     }
 
-    fn look(&mut self, state: &[Pair]) {
+    fn look(&mut self, state: &[DoubleDouble]) {
         let values = values(&self.tape, state);
         let mut rest = values.as_slice();
         for followed in &mut self.followed {
@@ -251,24 +251,28 @@ pub fn value_at(
     model: &Model,
     formula: &Formula,
     parameters: &[Rational],
-    state: &[Pair],
-) -> Result<Vec<Pair>, FlowError> {
+    state: &[DoubleDouble],
+) -> Result<Vec<DoubleDouble>, FlowError> {
     let (graph, components) = record(model.dimension(), |state| {
-        Source::Formula(formula).values(&point(model, parameters, state))
+        QuantitySource::Formula(formula).values(&point(model, parameters, state))
     })?;
     Ok(values(&Tape::new(&graph, &components), state))
 }
 
-fn values(tape: &Tape, state: &[Pair]) -> Vec<Pair> {
-    let mut evaluator = Evaluator::new(tape, Pairs);
+fn values(tape: &Tape, state: &[DoubleDouble]) -> Vec<DoubleDouble> {
+    let mut evaluator = Evaluator::new(tape, DoubleDoubles);
     evaluator.run(state);
     evaluator.outputs().copied().collect()
 }
 
 /// Relative change of the energy from a start to another state; 0 for a system without energy.
-pub(super) fn energy_drift(model: &Model, start: &Start, end: &[Pair]) -> Result<f64, FlowError> {
+pub(super) fn energy_drift(
+    model: &Model,
+    start: &Start,
+    end: &[DoubleDouble],
+) -> Result<f64, FlowError> {
     let (graph, energy) = record(model.dimension(), |state| {
-        Source::Energy.values(&point(model, &start.parameters, state))
+        QuantitySource::Energy.values(&point(model, &start.parameters, state))
     })?;
     let tape = Tape::new(&graph, &energy);
     let both = (values(&tape, &start.state), values(&tape, end));
@@ -277,29 +281,31 @@ pub(super) fn energy_drift(model: &Model, start: &Start, end: &[Pair]) -> Result
 }
 
 /// Lists the level functions, the energy, the claimed integrals, and formulas that have to drift.
-fn sources(case: &Case) -> Vec<(String, Role, Source<'_>)> {
+fn sources(case: &Case) -> Vec<(String, QuantityRole, QuantitySource<'_>)> {
     let model = &case.model;
     let level = model.level.iter();
     let mut sources: Vec<_> = level
-        .map(|equation| (equation.text.clone(), Role::Level, Source::Level(&equation.function)))
+        .map(|equation| {
+            (equation.text.clone(), QuantityRole::Level, QuantitySource::Level(&equation.function))
+        })
         .collect();
     if model.system.has_energy() {
-        sources.push(("energy".to_string(), Role::Energy, Source::Energy));
+        sources.push(("energy".to_string(), QuantityRole::Energy, QuantitySource::Energy));
     }
     for claim in &case.claims {
-        let Kind::Integral(integral) = &claim.kind else { continue };
+        let ClaimKind::Integral(integral) = &claim.kind else { continue };
         let named_energy = claim.name == "energy" && model.system.has_energy();
         if integral.0.has_antiderivative() || named_energy {
             continue;
         }
         let role = match claim.expect {
-            Expect::Holds | Expect::Open => Role::Integral,
-            Expect::Fails => Role::Decoy,
+            Expect::Holds | Expect::Open => QuantityRole::Integral,
+            Expect::Fails => QuantityRole::Decoy,
         };
-        sources.push((claim.name.clone(), role, Source::Formula(&integral.0)));
+        sources.push((claim.name.clone(), role, QuantitySource::Formula(&integral.0)));
     }
-    if sources.iter().all(|(_, role, _)| *role != Role::Decoy) {
-        sources.push(("Σ k x_k".to_string(), Role::Decoy, Source::Sum));
+    if sources.iter().all(|(_, role, _)| *role != QuantityRole::Decoy) {
+        sources.push(("Σ k x_k".to_string(), QuantityRole::Decoy, QuantitySource::Sum));
     }
     sources
 }

@@ -2,16 +2,16 @@
 
 use std::f64::consts::PI;
 
-use super::andoyer::{Chart, applies, coordinates, rate, section_functions};
+use super::andoyer::{SectionChart, applies, coordinates, rate, section_functions};
 use super::error::FlowError;
 use super::event::{Event, Sides, value};
 use super::motion::program;
-use super::number::Number;
-use super::program::Program;
+use super::number::SeriesNumber;
+use super::program::TaylorProgram;
 use super::start::{Start, fixed_parameters};
 use super::stepper::{Accuracy, Stepper};
 use liouville::case::{Angle, Case};
-use liouville::number::pair::Pair;
+use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
 
 /// Iteration limit; Newton's method converges in far fewer from a nearby point.
@@ -27,7 +27,7 @@ const RESIDUAL: f64 = 1e-12;
 
 /// A periodic point of the section map.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PeriodicPoint {
+pub struct ComputedPeriodicPoint {
     /// Position: l and L/G.
     pub at: [f64; 2],
     /// Number of crossings after which it returns.
@@ -59,7 +59,7 @@ pub enum Multipliers {
     Real(f64, f64),
 }
 
-impl PeriodicPoint {
+impl ComputedPeriodicPoint {
     /// Roots of λ² - trace λ + determinant.
     pub fn multipliers(&self) -> Multipliers {
         let half = self.trace / 2.0;
@@ -101,7 +101,7 @@ impl PeriodicPoint {
 /// State of a motion on the section, with the rate of g.
 #[derive(Clone, Debug)]
 pub(super) struct End {
-    pub state: Vec<Pair>,
+    pub state: Vec<DoubleDouble>,
     /// Rate g'.
     pub rate: f64,
 }
@@ -110,14 +110,14 @@ pub(super) struct End {
 pub(super) struct Passage {
     pub departure: End,
     pub arrival: End,
-    pub time: Pair,
+    pub time: DoubleDouble,
 }
 
 /// Map from the section g = g₀ to itself, over crossings in both directions.
 pub struct SectionMap<'c> {
     g0: Angle,
-    pub(super) chart: Chart<'c>,
-    program: Program,
+    pub(super) chart: SectionChart<'c>,
+    program: TaylorProgram,
 }
 
 impl<'c> SectionMap<'c> {
@@ -135,7 +135,7 @@ impl<'c> SectionMap<'c> {
         let program =
             program(&case.model, &parameters, |phase| section_functions(phase, g0).to_vec())?;
         let g0 = g0.clone();
-        Ok(Self { chart: Chart::new(&case.model, &parameters, &g0, energy)?, program, g0 })
+        Ok(Self { chart: SectionChart::new(&case.model, &parameters, &g0, energy)?, program, g0 })
     }
 
     /// Angle of the section.
@@ -156,7 +156,7 @@ impl<'c> SectionMap<'c> {
     }
 
     /// Follows a motion from a state back to the section, in any precision.
-    pub(super) fn passage_from<T: Number<One = T>>(
+    pub(super) fn passage_from<T: SeriesNumber<One = T>>(
         &self,
         start: &Start,
         crossings: usize,
@@ -164,7 +164,7 @@ impl<'c> SectionMap<'c> {
     ) -> Result<Passage, FlowError> {
         let mut departure = None;
         let mut stepper = Stepper::<T>::new(&self.program, accuracy);
-        stepper.start(0, &start.state, Pair::from_f64(NEVER));
+        stepper.start(0, &start.state, DoubleDouble::from_f64(NEVER));
         let (mut sides, mut met) = (Sides::default(), 0);
         while stepper.steps(0) < MAX_STEPS_BETWEEN * crossings as u64 {
             stepper.expand();
@@ -231,7 +231,11 @@ impl<'c> SectionMap<'c> {
     }
 
     /// Finds the periodic point near `near`.
-    pub fn periodic(&self, near: [f64; 2], period: usize) -> Result<PeriodicPoint, FlowError> {
+    pub fn periodic(
+        &self,
+        near: [f64; 2],
+        period: usize,
+    ) -> Result<ComputedPeriodicPoint, FlowError> {
         let mut at = near;
         let mut best = f64::INFINITY;
         for _ in 0..MAX_STEPS {
@@ -242,7 +246,7 @@ impl<'c> SectionMap<'c> {
                 let [[a, b], [c, d]] = derivative;
                 let (trace, determinant) = (a + d, a * d - b * c);
                 let at = [(at[0] + 2.0 * PI) % (2.0 * PI), at[1]];
-                return Ok(PeriodicPoint {
+                return Ok(ComputedPeriodicPoint {
                     at,
                     period,
                     time,

@@ -4,13 +4,14 @@ use super::andoyer::Sphere;
 use super::error::FlowError;
 use super::lyapunov::Exponents;
 use super::motion::Loose;
-use super::shadow::{Begin, Shadowed};
-use super::start::{Level, Start, fixed_parameters};
+use super::shadow::{ShadowStart, Shadowed};
+use super::start::{LevelFunctions, Start, fixed_parameters};
 use liouville::case::{Angle, Case};
 use liouville::formula::Type;
-use liouville::mechanics::{Draw, Model, Origin, Range, Recipe, components};
-use liouville::number::pair::Pair;
+use liouville::mechanics::{Draw, Model, ParameterOrigin, Range, SamplerSpec, components};
+use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
+use liouville::part::Part;
 
 /// Quantity that varies along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,7 +33,7 @@ pub enum Coordinate {
 
 /// One axis of the plane.
 #[derive(Clone, Debug)]
-pub struct Axis {
+pub struct ChartAxis {
     /// Quantity along the axis.
     pub coordinate: Coordinate,
     /// Lower end.
@@ -43,7 +44,7 @@ pub struct Axis {
     pub count: usize,
 }
 
-impl Axis {
+impl ChartAxis {
     /// Position of a point, between -1 and 1.
     fn place(&self, index: usize) -> Rational {
         Rational::new(2 * index as i64 + 1 - self.count as i64, self.count as i64)
@@ -88,7 +89,7 @@ pub enum Launch {
 #[derive(Clone, Debug)]
 pub struct PlaneRequest {
     /// Horizontal and vertical axis.
-    pub axes: [Axis; 2],
+    pub axes: [ChartAxis; 2],
     /// Starts of the motions.
     pub launch: Launch,
     /// Time for which each motion is followed; negative for backwards.
@@ -106,14 +107,26 @@ pub fn plane(
     threads: usize,
     progress: &(dyn Fn() + Sync),
 ) -> Result<Vec<Result<Exponents, FlowError>>, FlowError> {
+    plane_part(case, request, Part::WHOLE, threads, progress)
+}
+
+/// Classifies a part of the motions of a plane, each with the same bits as among all of them.
+pub fn plane_part(
+    case: &Case,
+    request: &PlaneRequest,
+    part: Part,
+    threads: usize,
+    progress: &(dyn Fn() + Sync),
+) -> Result<Vec<Result<Exponents, FlowError>>, FlowError> {
     let Free { model, parameters, places } = Free::new(case, request)?;
     let model = &model;
     let [across, up] = &request.axes;
     let loose: Vec<Loose> = request.axes.iter().filter_map(|axis| axis.loose(&places)).collect();
     let equations = Shadowed::new(model, &parameters, &loose)?;
     let launcher = Launcher::new(case, model, request, &parameters, &loose)?;
-    let points = (0..up.count).flat_map(|row| (0..across.count).map(move |column| [column, row]));
-    let begins: Vec<Result<Begin, FlowError>> =
+    let cells = part.range((across.count * up.count) as u64);
+    let points = cells.map(|cell| cell as usize).map(|k| [k % across.count, k / across.count]);
+    let begins: Vec<Result<ShadowStart, FlowError>> =
         points.map(|at| launcher.begin(equations.level(), at)).collect();
     Ok(equations.follow(&begins, request.time, threads, progress))
 }
@@ -133,23 +146,23 @@ impl Free {
         let mut drawn = drawn.as_slice();
         let mut model = case.model.clone();
         let varies = |wanted: usize| {
-            let is_it = |axis: &Axis| matches!(axis.coordinate, Coordinate::Parameter { index, .. } if index == wanted);
+            let is_it = |axis: &ChartAxis| matches!(axis.coordinate, Coordinate::Parameter { index, .. } if index == wanted);
             request.axes.iter().any(is_it)
         };
         let (mut parameters, mut places) = (Vec::new(), Vec::new());
         for (index, parameter) in model.parameters.iter_mut().enumerate() {
             places.push(parameters.len());
             match &parameter.origin {
-                Origin::Free(_) => {
+                ParameterOrigin::Free(_) => {
                     let (own, others) = drawn.split_at(components(parameter.kind));
                     parameters.extend_from_slice(own);
                     drawn = others;
                 }
-                Origin::Fixed(values) if varies(index) => {
+                ParameterOrigin::Fixed(values) if varies(index) => {
                     parameters.extend_from_slice(values);
-                    parameter.origin = Origin::Free(open(parameter.kind));
+                    parameter.origin = ParameterOrigin::Free(open(parameter.kind));
                 }
-                Origin::Fixed(_) | Origin::Formula(_) => {}
+                ParameterOrigin::Fixed(_) | ParameterOrigin::Formula(_) => {}
             }
         }
         Ok(Self { model, parameters, places })
@@ -157,24 +170,24 @@ impl Free {
 }
 
 /// Recipe that admits any value of a type; nothing is drawn from it.
-fn open(kind: Type) -> Recipe {
+fn open(kind: Type) -> SamplerSpec {
     let draw = Draw::Within(Range { low: Rational::from(-1), high: Rational::from(1) });
     match kind {
-        Type::Scalar => Recipe::Scalar(draw),
-        Type::Vector(length) => Recipe::Vector(length, draw),
-        Type::Matrix(rows, columns) => Recipe::Matrix(rows, columns, draw),
+        Type::Scalar => SamplerSpec::Scalar(draw),
+        Type::Vector(length) => SamplerSpec::Vector(length, draw),
+        Type::Matrix(rows, columns) => SamplerSpec::Matrix(rows, columns, draw),
     }
 }
 
 /// Source of the starts of a plane.
 struct Launcher<'r> {
-    axes: &'r [Axis; 2],
-    source: Source,
+    axes: &'r [ChartAxis; 2],
+    source: AxisSource,
 }
 
-enum Source {
-    Sphere { sphere: Sphere, at: [f64; 2], energy: Pair },
-    State(Vec<Pair>),
+enum AxisSource {
+    Sphere { sphere: Sphere, at: [f64; 2], energy: DoubleDouble },
+    State(Vec<DoubleDouble>),
 }
 
 impl<'r> Launcher<'r> {
@@ -186,31 +199,31 @@ impl<'r> Launcher<'r> {
         loose: &[Loose],
     ) -> Result<Self, FlowError> {
         let source = match &request.launch {
-            Launch::Section { g0, energy, at } => Source::Sphere {
+            Launch::Section { g0, energy, at } => AxisSource::Sphere {
                 sphere: Sphere::new(model, parameters, loose, g0)?,
                 at: *at,
-                energy: Pair::from_rational(energy),
+                energy: DoubleDouble::from_rational(energy),
             },
             Launch::State(state) => {
-                Source::State(Start::new(case, state.as_deref(), request.seed, 0)?.state)
+                AxisSource::State(Start::new(case, state.as_deref(), request.seed, 0)?.state)
             }
         };
         Ok(Self { axes: &request.axes, source })
     }
 
     /// Returns the start at a point of the plane.
-    fn begin(&self, level: &Level, at: [usize; 2]) -> Result<Begin, FlowError> {
+    fn begin(&self, level: &LevelFunctions, at: [usize; 2]) -> Result<ShadowStart, FlowError> {
         let axes = || self.axes.iter().zip(at);
-        let is_loose = |axis: &Axis| matches!(axis.coordinate, Coordinate::Parameter { .. });
-        let loose: Vec<Pair> = axes()
+        let is_loose = |axis: &ChartAxis| matches!(axis.coordinate, Coordinate::Parameter { .. });
+        let loose: Vec<DoubleDouble> = axes()
             .filter(|(axis, _)| is_loose(axis))
-            .map(|(axis, index)| Pair::from_rational(&axis.place(index)))
+            .map(|(axis, index)| DoubleDouble::from_rational(&axis.place(index)))
             .collect();
         let state = match &self.source {
-            Source::Sphere { sphere, at, energy } => {
+            AxisSource::Sphere { sphere, at, energy } => {
                 let (mut at, mut energy) = (*at, *energy);
                 for (axis, index) in axes() {
-                    let value = Pair::from_rational(&axis.value(index));
+                    let value = DoubleDouble::from_rational(&axis.value(index));
                     match axis.coordinate {
                         Coordinate::L => at[0] = value.hi,
                         Coordinate::Z => at[1] = value.hi,
@@ -218,14 +231,14 @@ impl<'r> Launcher<'r> {
                         Coordinate::Parameter { .. } => {}
                     }
                 }
-                sphere.state(at.map(Pair::from_f64), energy, &loose)?
+                sphere.state(at.map(DoubleDouble::from_f64), energy, &loose)?
             }
-            Source::State(state) => {
+            AxisSource::State(state) => {
                 let mut state = state.clone();
                 level.correct(&mut state, &loose)?;
                 state
             }
         };
-        Ok(Begin { state, loose })
+        Ok(ShadowStart { state, loose })
     }
 }

@@ -16,7 +16,7 @@
 //!
 //! The inner sums need lower orders only, whatever the instruction: all are made first.
 
-use super::form::{Form, Row};
+use super::form::{BilinearForm, Row};
 use liouville::number::rational::Rational;
 
 /// Last stage of an instruction, given the inner sum Σ c x_k y_{n-k} of its products.
@@ -66,28 +66,28 @@ impl Rule {
 
 /// Computation of one row.
 #[derive(Clone, Debug)]
-pub struct Instruction {
+pub struct RowInstruction {
     pub rule: Rule,
     pub out: Row,
     /// Terms of a sum; for the other rules, the products of the inner sum.
-    pub form: Form,
+    pub form: BilinearForm,
 }
 
 /// Field and further functions of the state, as instructions over rows of coefficients.
 ///
 /// Rows `0..dimension` are the state; each instruction makes one further row.
 #[derive(Clone, Debug)]
-pub struct Program {
+pub struct TaylorProgram {
     pub(super) dimension: usize,
     pub(super) rows: usize,
-    pub(super) instructions: Vec<Instruction>,
+    pub(super) instructions: Vec<RowInstruction>,
     /// Rows of the rates of the state's components.
     pub(super) rates: Vec<Row>,
     /// Rows of the further functions.
     pub(super) outputs: Vec<Row>,
 }
 
-impl Program {
+impl TaylorProgram {
     /// Number of components of the state.
     pub fn dimension(&self) -> usize {
         self.dimension

@@ -2,7 +2,7 @@
 
 use super::andoyer::{applies, spread};
 use super::error::FlowError;
-use super::plane::{Axis, Coordinate, Launch};
+use super::plane::{ChartAxis, Coordinate, Launch};
 use super::section::SectionRequest;
 use liouville::case::{Angle, Case, Direction};
 use liouville::mechanics::System;
@@ -105,10 +105,10 @@ impl SectionChoice {
     pub fn launch(
         &self,
         case: &Case,
-        axes: &[Axis; 2],
+        axes: &[ChartAxis; 2],
         state: Option<Vec<Rational>>,
     ) -> Result<Launch, ChoiceError> {
-        let is_start = |axis: &Axis| !matches!(axis.coordinate, Coordinate::Parameter { .. });
+        let is_start = |axis: &ChartAxis| !matches!(axis.coordinate, Coordinate::Parameter { .. });
         let plan = case.section.as_ref();
         let on_section = !self.starts.is_empty() || axes.iter().any(is_start);
         if state.is_some() && axes.iter().any(is_start) {

@@ -1,14 +1,14 @@
 //! Closed orbits of a case: through periodic points of a section, or near states.
 
 use super::andoyer::section_functions;
-use super::crossings::Task;
+use super::crossings::CrossingTask;
 use super::cycle::{Cycle, Pins, cycle, keeps_energy};
 use super::error::FlowError;
-use super::periodic::{PeriodicPoint, SectionMap};
-use super::start::{Level, Start};
-use super::surface::Surface;
+use super::periodic::{ComputedPeriodicPoint, SectionMap};
+use super::start::{LevelFunctions, Start};
+use super::surface::CrossingSurface;
 use liouville::case::{Case, Direction};
-use liouville::number::pair::Pair;
+use liouville::number::double_double::DoubleDouble;
 use liouville::scalar::Scalar;
 use num_dual::Dual;
 
@@ -18,11 +18,11 @@ impl SectionMap<'_> {
         &self,
         near: [f64; 2],
         period: usize,
-    ) -> Result<(PeriodicPoint, Cycle), FlowError> {
+    ) -> Result<(ComputedPeriodicPoint, Cycle), FlowError> {
         let point = self.periodic(near, period)?;
         let start = self.chart.start(point.at)?;
         let model = self.chart.model;
-        let functions = Level::with(model, &start.parameters, &|phase| {
+        let functions = LevelFunctions::with(model, &start.parameters, &|phase| {
             let energy = model.system.energy(phase);
             let [section, _] = section_functions(phase, self.g0());
             vec![energy.unwrap_or(Dual::from_re(Scalar::undefined())), section]
@@ -39,15 +39,15 @@ pub fn closed_orbit(
     case: &Case,
     start: &Start,
     time: f64,
-    surface: Option<&Surface>,
+    surface: Option<&CrossingSurface>,
 ) -> Result<Cycle, FlowError> {
-    let model = surface.map_or(&case.model, Surface::model);
-    let energy = Level::with(model, &start.parameters, &|phase| {
+    let model = surface.map_or(&case.model, CrossingSurface::model);
+    let energy = LevelFunctions::with(model, &start.parameters, &|phase| {
         model.system.energy(phase).into_iter().collect()
     })?;
     let place = model.level.len();
     let has_energy = energy.len() > place && keeps_energy(model, start, time, &energy, place)?;
-    let functions = Level::with(model, &start.parameters, &|phase| {
+    let functions = LevelFunctions::with(model, &start.parameters, &|phase| {
         let energy = model.system.energy(phase).filter(|_| has_energy);
         let surface = surface.map(|surface| surface.value(phase));
         energy.into_iter().chain(surface).collect()
@@ -60,12 +60,12 @@ pub fn closed_orbit(
 /// the first crossing, and the time to the last.
 pub fn crossing_time(
     start: &Start,
-    surface: &Surface,
+    surface: &CrossingSurface,
     direction: Direction,
     crossings: usize,
 ) -> Result<(Start, f64), FlowError> {
     let program = surface.program(&start.parameters)?;
-    let task = Task {
+    let task = CrossingTask {
         program: &program,
         starts: &[Ok(start.clone())],
         direction,
@@ -74,7 +74,8 @@ pub fn crossing_time(
         backwards: false,
         has_side: false,
     };
-    let mut tracks = task.run(1, &|| |_: Pair, state: &[Pair]| state.to_vec(), &|| ());
+    let mut tracks =
+        task.run(1, &|| |_: DoubleDouble, state: &[DoubleDouble]| state.to_vec(), &|| ());
     let track = tracks.pop().ok_or(FlowError::NoStart)?;
     let (first, last) = (track.crossings.first(), track.crossings.get(crossings));
     match (first, last, track.problem) {

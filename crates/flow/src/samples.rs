@@ -1,14 +1,14 @@
 //! Samples of motions at equal intervals of time, from the polynomials of their steps.
 
+use super::batch::each;
 use super::columns::{Columns, Gauge};
 use super::error::FlowError;
-use super::number::Number;
+use super::number::SeriesNumber;
 use super::orbit::{Orbit, Precision, sampled};
 use super::start::Start;
-use super::stepper::Piece;
-use super::swarm::each;
+use super::stepper::MotionPiece;
 use liouville::case::Case;
-use liouville::number::pair::Pair;
+use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
 
 /// Columns and interval of samples: at the times 0, Δ, 2Δ, … up to the end.
@@ -24,7 +24,7 @@ pub struct SampledOrbit {
     /// Motion as a whole, or the reason why it ended early or did not start.
     pub orbit: Result<Orbit, FlowError>,
     /// Rows of samples, up to the end or to where the motion ended early.
-    pub rows: Vec<Vec<Pair>>,
+    pub rows: Vec<Vec<DoubleDouble>>,
 }
 
 /// Follows several motions, each with samples if these are requested. Calls `progress` after each.
@@ -64,19 +64,19 @@ fn one(
         Some((sampling, gauge)) => Samples::new(gauge, &sampling.every, time),
         None => Samples::nothing(),
     };
-    let orbit = sampled(case, start, Pair::from_rational(time), precision, &mut samples);
+    let orbit = sampled(case, start, DoubleDouble::from_rational(time), precision, &mut samples);
     SampledOrbit { orbit, rows: samples.rows }
 }
 
 /// Function from a time and a state to a row.
-type Row<'s> = Box<dyn FnMut(Pair, &[Pair]) -> Vec<Pair> + 's>;
+type Row<'s> = Box<dyn FnMut(DoubleDouble, &[DoubleDouble]) -> Vec<DoubleDouble> + 's>;
 
 /// Samples taken so far.
 pub(super) struct Samples<'s> {
     row: Option<Row<'s>>,
     /// Interval, negative backwards in time.
     every: Rational,
-    rows: Vec<Vec<Pair>>,
+    rows: Vec<Vec<DoubleDouble>>,
 }
 
 impl<'s> Samples<'s> {
@@ -91,12 +91,17 @@ impl<'s> Samples<'s> {
     }
 
     /// Time of the next sample, rounded once.
-    fn next(&self) -> Pair {
-        Pair::from_rational(&(&self.every * &Rational::from(self.rows.len() as i64)))
+    fn next(&self) -> DoubleDouble {
+        DoubleDouble::from_rational(&(&self.every * &Rational::from(self.rows.len() as i64)))
     }
 
     /// Takes the samples of a piece of the motion that begins at a time.
-    pub fn piece<T: Number<One = T>>(&mut self, begin: Pair, piece: &Piece<'_, T>, length: T) {
+    pub fn piece<T: SeriesNumber<One = T>>(
+        &mut self,
+        begin: DoubleDouble,
+        piece: &MotionPiece<'_, T>,
+        length: T,
+    ) {
         let Some(mut row) = self.row.take() else { return };
         let forwards = length.leading() >= 0.0;
         loop {
@@ -116,7 +121,7 @@ impl<'s> Samples<'s> {
     }
 
     /// Takes the sample at the end, where one is due.
-    pub fn end(&mut self, time: Pair, state: &[Pair]) {
+    pub fn end(&mut self, time: DoubleDouble, state: &[DoubleDouble]) {
         let next = self.next();
         let Some(row) = &mut self.row else { return };
         if (next - time).hi == 0.0 {

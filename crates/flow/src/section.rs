@@ -1,14 +1,16 @@
 //! Poincaré sections of rolling bodies, g = g₀ in the Andoyer-like variables.
 
-use super::andoyer::{Chart, applies, coordinates, section_functions};
-use super::crossings::{Met, Task, Track};
+use serde::{Deserialize, Serialize};
+
+use super::andoyer::{SectionChart, applies, coordinates, section_functions};
+use super::crossings::{CrossingTask, Met, MotionCrossings};
 use super::error::FlowError;
 use super::motion::{point, program};
 use super::orbit::energy_drift;
 use super::start::{Start, fixed_parameters};
 use liouville::case::{Angle, Case, Direction};
 use liouville::graph::{Evaluator, Tape, record};
-use liouville::number::pair::{Pair, Pairs};
+use liouville::number::double_double::{DoubleDouble, DoubleDoubles};
 use liouville::number::rational::Rational;
 
 /// Start of an orbit, or the reason why there is none.
@@ -38,20 +40,23 @@ pub struct SectionRequest {
 }
 
 /// A crossing of the section.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Crossing {
     /// Position: l and L/G.
+    #[serde(with = "super::record")]
     pub at: [f64; 2],
     /// Time of the crossing.
+    #[serde(with = "super::record")]
     pub time: f64,
     /// Whether g grows with time there.
     pub rising: bool,
 }
 
 /// Crossings of one orbit.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SectionOrbit {
     /// Start of the orbit.
+    #[serde(with = "super::record")]
     pub start: [f64; 2],
     /// Crossings that count, without those at the beginning.
     pub crossings: Vec<Crossing>,
@@ -62,6 +67,7 @@ pub struct SectionOrbit {
     /// Number of steps taken.
     pub steps: u64,
     /// Relative change of the energy between start and end.
+    #[serde(with = "super::record")]
     pub drift: f64,
     /// Reason why the orbit ended early, or did not start.
     pub problem: Option<FlowError>,
@@ -81,10 +87,10 @@ pub fn section(
     let parameters = fixed_parameters(case, request.seed, request.index)?;
     let program =
         program(&case.model, &parameters, |phase| section_functions(phase, &request.g0).to_vec())?;
-    let chart = Chart::new(&case.model, &parameters, &request.g0, &request.energy)?;
+    let chart = SectionChart::new(&case.model, &parameters, &request.g0, &request.energy)?;
     let starts: Vec<Result<Start, FlowError>> =
         request.starts.iter().map(|at| chart.start(*at)).collect();
-    let task = Task {
+    let task = CrossingTask {
         program: &program,
         starts: &starts,
         direction: request.direction,
@@ -94,8 +100,12 @@ pub fn section(
         // The other half of the circle is g = g₀ + π, where g' has the other sign too.
         has_side: true,
     };
-    let tracks = task.run(threads, &|| |_: Pair, state: &[Pair]| coordinates(state), progress);
-    let orbit = |((track, start), at): ((Track<[f64; 2]>, &Launched), &[f64; 2])| {
+    let tracks = task.run(
+        threads,
+        &|| |_: DoubleDouble, state: &[DoubleDouble]| coordinates(state),
+        progress,
+    );
+    let orbit = |((track, start), at): ((MotionCrossings<[f64; 2]>, &Launched), &[f64; 2])| {
         let drift = match (start, &track.end) {
             (Ok(start), Some(end)) => energy_drift(&case.model, start, end)?,
             _ => 0.0,
@@ -127,7 +137,7 @@ pub fn section_starts(
         return Err(FlowError::NoAndoyer);
     }
     let parameters = fixed_parameters(case, seed, 0)?;
-    let chart = Chart::new(&case.model, &parameters, g0, energy)?;
+    let chart = SectionChart::new(&case.model, &parameters, g0, energy)?;
     Ok(points.iter().map(|at| chart.start(*at)).collect())
 }
 
@@ -140,12 +150,12 @@ pub fn values_at_starts(
     let formula = case.claim(claim).and_then(|claim| claim.kind.formula());
     let formula = formula.ok_or_else(|| FlowError::NoSuchClaim(claim.to_string()))?;
     let parameters = fixed_parameters(case, request.seed, request.index)?;
-    let chart = Chart::new(&case.model, &parameters, &request.g0, &request.energy)?;
+    let chart = SectionChart::new(&case.model, &parameters, &request.g0, &request.energy)?;
     let (graph, values) = record(case.model.dimension(), |state| {
         point(&case.model, &parameters, state).evaluate(formula).components()
     })?;
     let tape = Tape::new(&graph, &values[..1]);
-    let mut evaluator = Evaluator::new(&tape, Pairs);
+    let mut evaluator = Evaluator::new(&tape, DoubleDoubles);
     let mut at = |start: Start| {
         evaluator.run(&start.state);
         evaluator.output(0).hi

@@ -4,7 +4,7 @@
 //! the curve up to s²: its images under the map are the curve.
 
 use super::error::FlowError;
-use super::periodic::{Multipliers, PeriodicPoint, SectionMap};
+use super::periodic::{ComputedPeriodicPoint, Multipliers, SectionMap};
 use super::section::{SectionOrbit, SectionRequest, section};
 use liouville::case::{Case, Direction};
 
@@ -15,12 +15,12 @@ const LENGTH: f64 = 20.0;
 /// Limit on the number of images, near multipliers of 1.
 const MAX_IMAGES: f64 = 300.0;
 /// Number of points of the piece on each side.
-const POINTS: usize = 300;
+const PIECE_POINTS: usize = 300;
 
 /// Stable and unstable curves of a hyperbolic point.
 pub struct Separatrices {
     /// Periodic point.
-    pub point: PeriodicPoint,
+    pub point: ComputedPeriodicPoint,
     /// Orbits on the unstable curve.
     pub unstable: Vec<SectionOrbit>,
     /// Orbits on the stable curve.
@@ -62,10 +62,10 @@ pub fn separatrices(
 }
 
 /// Points of the line on both sides, from `BEGIN` to the first image.
-fn domain(point: &PeriodicPoint, [dl, dz]: [f64; 2], growth: f64) -> Vec<[f64; 2]> {
+fn domain(point: &ComputedPeriodicPoint, [dl, dz]: [f64; 2], growth: f64) -> Vec<[f64; 2]> {
     let side = |sign: f64| {
-        (0..POINTS).map(move |k| {
-            let s = sign * BEGIN * libm::pow(growth, k as f64 / POINTS as f64);
+        (0..PIECE_POINTS).map(move |k| {
+            let s = sign * BEGIN * libm::pow(growth, k as f64 / PIECE_POINTS as f64);
             [point.at[0] + s * dl, point.at[1] + s * dz]
         })
     };

@@ -1,21 +1,21 @@
 //! Taylor coefficients of a motion at a state.
 
-use super::code::{Code, LINE};
+use super::batch::MOTION_LANES;
+use super::code::{BoundProgram, LINE};
 use super::expand::Expansion;
 use super::lanes::Lanes;
-use super::machine::{LaneMachine, Machine};
-use super::number::{BLOCK, Number};
-use super::program::Program;
-use super::swarm::LANES;
+use super::machine::{LaneMachine, TaylorCode};
+use super::number::{BLOCK, SeriesNumber};
+use super::program::TaylorProgram;
 use liouville::graph::with_widest_vectors;
 use liouville::number::rational::Rational;
 
 /// A program over one type of number, with the memory to run it.
-pub struct Series<T: Number> {
+pub struct Series<T: SeriesNumber> {
     pub(super) order: usize,
     /// Order to which rows are padded.
     pub(super) orders: usize,
-    pub(super) code: Code<T>,
+    pub(super) code: BoundProgram<T>,
     /// Reciprocals 1/n.
     pub(super) inverses: Vec<T>,
     /// Inner sums of the operations that have any, at the current order, before and after their
@@ -28,14 +28,14 @@ pub struct Series<T: Number> {
     pub(super) machine: Option<Box<T::Machine>>,
 }
 
-impl<T: Number> Series<T> {
+impl<T: SeriesNumber> Series<T> {
     /// Prepares the program for expansions to this order.
-    pub fn new(program: &Program, order: usize) -> Self {
+    pub fn new(program: &TaylorProgram, order: usize) -> Self {
         let line = LINE / size_of::<T>().clamp(1, LINE);
-        let (_, length) = Code::<T>::new(program, order, line);
+        let (_, length) = BoundProgram::<T>::new(program, order, line);
         let memory = vec![T::ZERO; length + line];
         let aligned = memory.as_ptr().align_offset(LINE).min(line);
-        let (code, _) = Code::new(program, order, aligned);
+        let (code, _) = BoundProgram::new(program, order, aligned);
         let sums = (code.counts.len() + 1).next_multiple_of(BLOCK);
         Self {
             order,
@@ -83,7 +83,7 @@ impl Series<f64> {
         if self.expansions < MANY {
             self.expansions += 1;
             if self.expansions == MANY {
-                self.machine = Machine::new(&self.code, self.order).map(Box::new);
+                self.machine = TaylorCode::new(&self.code, self.order).map(Box::new);
             }
         }
         let Some(mut machine) = self.machine.take() else { return false };
@@ -97,7 +97,7 @@ impl Series<f64> {
     }
 }
 
-impl Series<Lanes<LANES>> {
+impl Series<Lanes<MOTION_LANES>> {
     /// Computes all orders by machine code. Returns `false` where there is none.
     #[inline(always)]
     pub(super) fn by_machine(&mut self) -> bool {
@@ -118,7 +118,7 @@ impl Series<Lanes<LANES>> {
     }
 }
 
-impl<T: Number> Series<T> {
+impl<T: SeriesNumber> Series<T> {
     /// Coefficients of a component of the state, orders 0 to `order`.
     #[inline(always)]
     pub fn component(&self, index: usize) -> &[T] {

@@ -7,19 +7,19 @@
 //! Parameters that differ from motion to motion are constant components of the state, so that one
 //! program serves all.
 
+use super::batch::{MOTION_LANES, Queue, in_batches};
 use super::error::FlowError;
 use super::lanes::Lanes;
 use super::lyapunov::{Exponents, Record};
 use super::motion::{Loose, extended_program, filled};
-use super::program::Program;
-use super::start::Level;
+use super::program::TaylorProgram;
+use super::start::LevelFunctions;
 use super::stepper::{Accuracy, Stepper};
-use super::swarm::{LANES, Queue, swarm};
 use liouville::graph::{Evaluator, Expr, Tape, record};
-use liouville::mechanics::calculus::Jet;
+use liouville::mechanics::calculus::DualPoint;
 use liouville::mechanics::{Model, Phase};
+use liouville::number::double_double::DoubleDouble;
 use liouville::number::float::Float;
-use liouville::number::pair::Pair;
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 
@@ -31,17 +31,17 @@ const DISTANCE: f64 = 1e-6;
 const FAR: f64 = 30.0;
 
 /// Start of a motion: its state, and the loose parameters by their positions in their ranges.
-pub(super) struct Begin {
-    pub state: Vec<Pair>,
-    pub loose: Vec<Pair>,
+pub(super) struct ShadowStart {
+    pub state: Vec<DoubleDouble>,
+    pub loose: Vec<DoubleDouble>,
 }
 
 /// Equations shared by all motions.
 pub(super) struct Shadowed {
-    program: Program,
+    program: TaylorProgram,
     /// div v as a function of the state and the loose parameters.
     divergence: Tape,
-    level: Level,
+    level: LevelFunctions,
 }
 
 impl Shadowed {
@@ -55,15 +55,15 @@ impl Shadowed {
         })?;
         let (graph, divergence) = record(model.dimension() + loose.len(), |inputs| {
             let (state, more) = inputs.split_at(model.dimension());
-            let jet = Jet::new(Phase::new(model, &filled(parameters, loose, more), state));
+            let jet = DualPoint::new(Phase::new(model, &filled(parameters, loose, more), state));
             jet.divergence() - jet.level_cofactor(&vec![true; model.level.len()])
         })?;
-        let level = Level::new(model, parameters, loose)?;
+        let level = LevelFunctions::new(model, parameters, loose)?;
         Ok(Self { program, divergence: Tape::new(&graph, &[divergence]), level })
     }
 
     /// Level set on which motions start.
-    pub fn level(&self) -> &Level {
+    pub fn level(&self) -> &LevelFunctions {
         &self.level
     }
 
@@ -71,12 +71,12 @@ impl Shadowed {
     /// error.
     pub fn follow(
         &self,
-        begins: &[Result<Begin, FlowError>],
+        begins: &[Result<ShadowStart, FlowError>],
         time: f64,
         threads: usize,
         progress: &(dyn Fn() + Sync),
     ) -> Vec<Result<Exponents, FlowError>> {
-        swarm(begins.len(), threads, |queue, _| {
+        in_batches(begins.len(), threads, |queue, _| {
             Worker::new(self, begins, time).run(queue, progress)
         })
     }
@@ -95,19 +95,23 @@ struct Running {
 /// Motions of one thread.
 struct Worker<'w> {
     equations: &'w Shadowed,
-    begins: &'w [Result<Begin, FlowError>],
+    begins: &'w [Result<ShadowStart, FlowError>],
     time: f64,
-    stepper: Stepper<Lanes<LANES>>,
-    divergence: Evaluator<'w, Float<LANES>>,
+    stepper: Stepper<Lanes<MOTION_LANES>>,
+    divergence: Evaluator<'w, Float<MOTION_LANES>>,
     running: Vec<Option<Running>>,
     done: Done,
 }
 
 impl<'w> Worker<'w> {
-    fn new(equations: &'w Shadowed, begins: &'w [Result<Begin, FlowError>], time: f64) -> Self {
+    fn new(
+        equations: &'w Shadowed,
+        begins: &'w [Result<ShadowStart, FlowError>],
+        time: f64,
+    ) -> Self {
         let stepper = Stepper::new(&equations.program, Accuracy::ROUGH);
-        let divergence = Evaluator::new(&equations.divergence, Float::<LANES>);
-        let running = (0..LANES / COUPLE).map(|_| None).collect();
+        let divergence = Evaluator::new(&equations.divergence, Float::<MOTION_LANES>);
+        let running = (0..MOTION_LANES / COUPLE).map(|_| None).collect();
         Self { equations, begins, time, stepper, divergence, running, done: Vec::new() }
     }
 
@@ -142,7 +146,7 @@ impl<'w> Worker<'w> {
 
     /// Puts a motion and its shadow into two lanes; one without a start ends immediately.
     fn fill(&mut self, couple: usize, index: usize, progress: &(dyn Fn() + Sync)) {
-        let Begin { state, loose } = match &self.begins[index] {
+        let ShadowStart { state, loose } = match &self.begins[index] {
             Ok(begin) => begin,
             Err(problem) => {
                 self.done.push((index, Err(problem.clone())));
@@ -151,11 +155,12 @@ impl<'w> Worker<'w> {
             }
         };
         let record = Record::short(self.time);
-        let end = Pair::from_f64(record.end().unwrap_or(self.time));
+        let end = DoubleDouble::from_f64(record.end().unwrap_or(self.time));
         let distance = DISTANCE * state.iter().map(|x| x.hi * x.hi).sum::<f64>().sqrt();
         let along = self.equations.level.along(state, loose, 0);
-        let beside = state.iter().zip(&along).map(|(x, u)| *x + Pair::from_f64(distance * u));
-        let shadow: Vec<Pair> = beside.chain(loose.iter().copied()).collect();
+        let beside =
+            state.iter().zip(&along).map(|(x, u)| *x + DoubleDouble::from_f64(distance * u));
+        let shadow: Vec<DoubleDouble> = beside.chain(loose.iter().copied()).collect();
         self.stepper.start(COUPLE * couple, &[state.as_slice(), loose].concat(), end);
         self.stepper.start(COUPLE * couple + 1, &shadow, end);
         self.running[couple] = Some(Running { index, record, distance, volume: 0.0 });
@@ -165,7 +170,7 @@ impl<'w> Worker<'w> {
     fn integrate_divergence(&mut self) {
         let away = 0.5 / 3f64.sqrt();
         for share in [0.5 - away, 0.5 + away] {
-            let inputs: Vec<[f64; LANES]> =
+            let inputs: Vec<[f64; MOTION_LANES]> =
                 self.stepper.within(share).into_iter().map(|lanes| lanes.0).collect();
             self.divergence.run(&inputs);
             let values = self.divergence.output(0);
@@ -183,14 +188,16 @@ impl<'w> Worker<'w> {
         let Some(running) = &mut self.running[couple] else { return false };
         let (own, other) = (COUPLE * couple, COUPLE * couple + 1);
         let (state, shadow) = (self.stepper.pairs(own), self.stepper.pairs(other));
-        let apart: Vec<Pair> = shadow.iter().zip(&state).map(|(x, y)| *x - *y).collect();
+        let apart: Vec<DoubleDouble> = shadow.iter().zip(&state).map(|(x, y)| *x - *y).collect();
         let length = apart.iter().map(|x| x.hi * x.hi).sum::<f64>().sqrt();
         let growth = length / running.distance;
         let is_done = self.stepper.is_done(own);
         if is_done || !(1.0 / FAR..=FAR).contains(&growth) {
             running.record.grow(growth);
-            let back = |(x, d): (&Pair, &Pair)| *x + *d * Pair::from_f64(1.0 / growth);
-            let shadow: Vec<Pair> = state.iter().zip(&apart).map(back).collect();
+            let back = |(x, d): (&DoubleDouble, &DoubleDouble)| {
+                *x + *d * DoubleDouble::from_f64(1.0 / growth)
+            };
+            let shadow: Vec<DoubleDouble> = state.iter().zip(&apart).map(back).collect();
             self.stepper.place(other, &shadow);
         }
         if !is_done {
@@ -199,8 +206,8 @@ impl<'w> Worker<'w> {
         running.record.finish_block(running.volume);
         match running.record.end() {
             Some(end) => {
-                self.stepper.extend(own, Pair::from_f64(end));
-                self.stepper.extend(other, Pair::from_f64(end));
+                self.stepper.extend(own, DoubleDouble::from_f64(end));
+                self.stepper.extend(other, DoubleDouble::from_f64(end));
                 false
             }
             None => true,

@@ -1,20 +1,23 @@
 //! All Lyapunov exponents of motions: tangent vectors made orthonormal after each step
 //! (Benettin, Galgani, Giorgilli, Strelcyn 1980).
 
+use serde::{Deserialize, Serialize};
+
+use super::batch::each;
 use super::error::FlowError;
 use super::lyapunov::{BLOCKS, Estimate, SKIPPED, estimate};
-use super::program::Program;
-use super::start::{Level, Start, level_basis};
+use super::program::TaylorProgram;
+use super::start::{LevelFunctions, Start, level_basis};
 use super::stepper::{Accuracy, Stepper};
-use super::swarm::each;
 use super::variational::variational_program;
 use liouville::mechanics::Model;
-use liouville::number::pair::Pair;
+use liouville::number::double_double::DoubleDouble;
 
 /// All exponents of a motion on its level, the largest first.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Spectrum {
     /// Time for which the motion was followed.
+    #[serde(with = "super::record")]
     pub time: f64,
     /// Exponents, one for each dimension of the level.
     pub exponents: Vec<Estimate>,
@@ -52,7 +55,7 @@ pub fn spectra(
             .map(|start| Err(start.as_ref().err().cloned().unwrap_or(FlowError::NoStart)))
             .collect());
     };
-    let equations = Level::new(model, &first.parameters, &[])?.len();
+    let equations = LevelFunctions::new(model, &first.parameters, &[])?.len();
     let count = model.dimension().saturating_sub(equations);
     if count == 0 {
         return Err(FlowError::NoTangents);
@@ -77,7 +80,7 @@ struct Sums {
 }
 
 fn spectrum(
-    program: &Program,
+    program: &TaylorProgram,
     model: &Model,
     start: &Start,
     time: f64,
@@ -87,13 +90,13 @@ fn spectrum(
     let count = basis.len();
     let mut begin = start.state.clone();
     begin.extend(basis.into_iter().flatten());
-    begin.push(Pair::default());
+    begin.push(DoubleDouble::default());
     let block = time * (1.0 - SKIPPED) / BLOCKS as f64;
     let mut sums =
         Sums { growth: vec![0.0; count], volume: 0.0, blocks: Vec::new(), volumes: Vec::new() };
-    let level = Level::new(model, &start.parameters, &[])?;
+    let level = LevelFunctions::new(model, &start.parameters, &[])?;
     let mut stepper = Stepper::<f64>::new(program, Accuracy::FLOAT);
-    stepper.start(0, &begin, Pair::from_f64(time * SKIPPED));
+    stepper.start(0, &begin, DoubleDouble::from_f64(time * SKIPPED));
     loop {
         stepper.expand();
         stepper.check(0)?;
@@ -119,7 +122,7 @@ fn spectrum(
         if done > BLOCKS {
             break;
         }
-        stepper.extend(0, Pair::from_f64(time * SKIPPED + block * done as f64));
+        stepper.extend(0, DoubleDouble::from_f64(time * SKIPPED + block * done as f64));
     }
     // The first block is the transient.
     let blocks = &sums.blocks[1..];
@@ -131,7 +134,11 @@ fn spectrum(
 
 /// Makes vectors orthonormal one after another, across unit vectors. Returns their lengths across
 /// those before.
-fn orthonormalised(vectors: &mut [Pair], dimension: usize, mut unit: Vec<Vec<f64>>) -> Vec<f64> {
+fn orthonormalised(
+    vectors: &mut [DoubleDouble],
+    dimension: usize,
+    mut unit: Vec<Vec<f64>>,
+) -> Vec<f64> {
     let mut lengths = Vec::new();
     for vector in vectors.chunks_mut(dimension) {
         let mut rest: Vec<f64> = vector.iter().map(|x| x.hi).collect();
@@ -142,7 +149,7 @@ fn orthonormalised(vectors: &mut [Pair], dimension: usize, mut unit: Vec<Vec<f64
         }
         let length = rest.iter().map(|x| x * x).sum::<f64>().sqrt();
         rest.iter_mut().for_each(|x| *x /= length);
-        vector.iter_mut().zip(&rest).for_each(|(x, rest)| *x = Pair::from_f64(*rest));
+        vector.iter_mut().zip(&rest).for_each(|(x, rest)| *x = DoubleDouble::from_f64(*rest));
         lengths.push(length);
         unit.push(rest);
     }

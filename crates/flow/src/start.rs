@@ -5,13 +5,13 @@ use num_dual::Dual;
 
 use super::error::FlowError;
 use super::motion::{Loose, filled, point};
-use super::number::Number;
+use super::number::SeriesNumber;
 use liouville::case::Case;
-use liouville::claim::{Components, Place};
+use liouville::claim::{Components, LevelSubset};
 use liouville::graph::{Evaluator, Expr, Tape, record};
-use liouville::mechanics::calculus::{Jet, rejection};
+use liouville::mechanics::calculus::{DualPoint, rejection};
 use liouville::mechanics::{Model, Phase};
-use liouville::number::pair::{Pair, Pairs};
+use liouville::number::double_double::{DoubleDouble, DoubleDoubles};
 use liouville::number::rational::Rational;
 use liouville::verdict::Sampler;
 
@@ -24,7 +24,7 @@ pub struct Start {
     /// Components of the free parameters.
     pub parameters: Vec<Rational>,
     /// Components of the state.
-    pub state: Vec<Pair>,
+    pub state: Vec<DoubleDouble>,
     /// Distance from the state requested.
     pub moved: f64,
 }
@@ -35,7 +35,7 @@ pub(super) fn drawn(
     seed: u64,
     index: u64,
 ) -> Result<(Vec<Rational>, Vec<Rational>), FlowError> {
-    let sampler = Sampler::new(case, &Place::level(&case.model), seed)?;
+    let sampler = Sampler::new(case, &LevelSubset::level(&case.model), seed)?;
     let mut values: Vec<Rational> = sampler
         .printed(index, f64::MANTISSA_DIGITS)
         .iter()
@@ -60,7 +60,7 @@ impl Start {
         index: u64,
     ) -> Result<Self, FlowError> {
         let (parameters, drawn) = drawn(case, seed, index)?;
-        let state = state.unwrap_or(&drawn).iter().map(Pair::from_rational).collect();
+        let state = state.unwrap_or(&drawn).iter().map(DoubleDouble::from_rational).collect();
         Self::near(&case.model, parameters, state)
     }
 
@@ -73,8 +73,8 @@ impl Start {
         let (graph, components) =
             record(model.dimension(), |state| claimed.at(&point(model, &parameters, state)))?;
         let tape = Tape::new(&graph, &components);
-        let mut evaluator = Evaluator::new(&tape, Pairs);
-        evaluator.run(&vec![Pair::default(); model.dimension()]);
+        let mut evaluator = Evaluator::new(&tape, DoubleDoubles);
+        evaluator.run(&vec![DoubleDouble::default(); model.dimension()]);
         let state = evaluator.outputs().copied().collect();
         Self::near(model, parameters, state)
     }
@@ -83,9 +83,9 @@ impl Start {
     pub fn near(
         model: &Model,
         parameters: Vec<Rational>,
-        mut state: Vec<Pair>,
+        mut state: Vec<DoubleDouble>,
     ) -> Result<Self, FlowError> {
-        let moved = Level::new(model, &parameters, &[])?.correct(&mut state, &[])?;
+        let moved = LevelFunctions::new(model, &parameters, &[])?.correct(&mut state, &[])?;
         Ok(Self { parameters, state, moved })
     }
 }
@@ -94,18 +94,18 @@ impl Start {
 type Further<'f> = dyn Fn(&Phase<'_, Dual<Expr>>) -> Vec<Dual<Expr>> + 'f;
 
 /// Level functions of a model, possibly further ones, and their gradients.
-pub(super) struct Level {
+pub(super) struct LevelFunctions {
     tape: Tape,
     equations: usize,
 }
 
-impl Level {
+impl LevelFunctions {
     /// Records the level functions of a model with these parameters, some of them loose.
     pub fn new(model: &Model, parameters: &[Rational], loose: &[Loose]) -> Result<Self, FlowError> {
-        let kept = Place::level(model).kept;
+        let kept = LevelSubset::level(model).kept;
         let (graph, outputs) = record(model.dimension() + loose.len(), |inputs| {
             let (state, more) = inputs.split_at(model.dimension());
-            let jet = Jet::new(Phase::new(model, &filled(parameters, loose, more), state));
+            let jet = DualPoint::new(Phase::new(model, &filled(parameters, loose, more), state));
             let level = model.level.iter();
             let mut outputs: Vec<_> =
                 level.map(|equation| jet.phase.level_function(&equation.function)).collect();
@@ -151,23 +151,23 @@ impl Level {
     }
 
     /// Values of the functions at a state, and their gradients one after another.
-    pub fn at(&self, state: &[Pair]) -> (Vec<Pair>, Vec<Vec<Pair>>) {
-        let mut evaluator = Evaluator::new(&self.tape, Pairs);
+    pub fn at(&self, state: &[DoubleDouble]) -> (Vec<DoubleDouble>, Vec<Vec<DoubleDouble>>) {
+        let mut evaluator = Evaluator::new(&self.tape, DoubleDoubles);
         evaluator.run(state);
-        let mut values: Vec<Pair> = evaluator.outputs().copied().collect();
+        let mut values: Vec<DoubleDouble> = evaluator.outputs().copied().collect();
         let slopes = values.split_off(self.equations);
-        (values, slopes.chunks(state.len().max(1)).map(<[Pair]>::to_vec).collect())
+        (values, slopes.chunks(state.len().max(1)).map(<[DoubleDouble]>::to_vec).collect())
     }
 
     /// Evaluates the level functions, then their gradients one by one, at a state.
-    fn values(&self, state: &[Pair], loose: &[Pair]) -> Vec<f64> {
-        let mut evaluator = Evaluator::new(&self.tape, Pairs);
+    fn values(&self, state: &[DoubleDouble], loose: &[DoubleDouble]) -> Vec<f64> {
+        let mut evaluator = Evaluator::new(&self.tape, DoubleDoubles);
         evaluator.run(&[state, loose].concat());
         evaluator.outputs().map(|value| value.hi).collect()
     }
 
     /// Orthonormal basis of the span of the gradients at a state.
-    pub fn normals(&self, state: &[Pair]) -> Vec<Vec<f64>> {
+    pub fn normals(&self, state: &[DoubleDouble]) -> Vec<Vec<f64>> {
         let mut unit: Vec<Vec<f64>> = Vec::new();
         for gradient in self.at(state).1 {
             let gradient: Vec<f64> = gradient.iter().map(|x| x.hi).collect();
@@ -181,12 +181,16 @@ impl Level {
     }
 
     /// Moves a state to the level. Returns the distance.
-    pub fn correct(&self, state: &mut [Pair], loose: &[Pair]) -> Result<f64, FlowError> {
+    pub fn correct(
+        &self,
+        state: &mut [DoubleDouble],
+        loose: &[DoubleDouble],
+    ) -> Result<f64, FlowError> {
         if self.equations == 0 {
             return Ok(0.0);
         }
         let begin = state.to_vec();
-        let norm = |state: &[Pair]| state.iter().map(|x| x.hi * x.hi).sum::<f64>().sqrt();
+        let norm = |state: &[DoubleDouble]| state.iter().map(|x| x.hi * x.hi).sum::<f64>().sqrt();
         let mut last = f64::INFINITY;
         for _ in 0..MAX_STEPS {
             let outputs = self.values(state, loose);
@@ -200,14 +204,15 @@ impl Level {
                 break;
             }
             // Steps shrink until rounding stops them; components near 0 would shrink for ever.
-            let rounding = Pair::EPSILON * norm(state);
+            let rounding = DoubleDouble::EPSILON * norm(state);
             if size <= rounding || (size >= last && size < f64::EPSILON * norm(state)) {
-                let moved: Vec<Pair> = state.iter().zip(&begin).map(|(x, y)| *x - *y).collect();
+                let moved: Vec<DoubleDouble> =
+                    state.iter().zip(&begin).map(|(x, y)| *x - *y).collect();
                 return Ok(norm(&moved));
             }
             last = size;
             for (x, dx) in state.iter_mut().zip(step.iter()) {
-                *x = *x - Pair::from_f64(*dx);
+                *x = *x - DoubleDouble::from_f64(*dx);
             }
         }
         Err(FlowError::NoStart)
@@ -215,7 +220,7 @@ impl Level {
 
     /// Returns a unit vector tangent to the level set at a state, in no special direction;
     /// different for each index.
-    pub fn along(&self, state: &[Pair], loose: &[Pair], index: usize) -> Vec<f64> {
+    pub fn along(&self, state: &[DoubleDouble], loose: &[DoubleDouble], index: usize) -> Vec<f64> {
         let outputs = self.values(state, loose);
         let gradients: Vec<Vec<f64>> =
             outputs[self.equations..].chunks(state.len()).map(<[f64]>::to_vec).collect();
@@ -230,19 +235,22 @@ impl Level {
 
 /// Orthonormal basis of the tangent space of the level set at a start, by the Gram–Schmidt method:
 /// the gradients first, then the axes, that with the longest remainder next.
-pub(super) fn level_basis(model: &Model, start: &Start) -> Result<Vec<Vec<Pair>>, FlowError> {
-    let level = Level::new(model, &start.parameters, &[])?;
-    let mut evaluator = Evaluator::new(&level.tape, Pairs);
+pub(super) fn level_basis(
+    model: &Model,
+    start: &Start,
+) -> Result<Vec<Vec<DoubleDouble>>, FlowError> {
+    let level = LevelFunctions::new(model, &start.parameters, &[])?;
+    let mut evaluator = Evaluator::new(&level.tape, DoubleDoubles);
     evaluator.run(&start.state);
-    let outputs: Vec<Pair> = evaluator.outputs().copied().collect();
+    let outputs: Vec<DoubleDouble> = evaluator.outputs().copied().collect();
     let dimension = model.dimension();
-    let mut unit: Vec<Vec<Pair>> = Vec::new();
+    let mut unit: Vec<Vec<DoubleDouble>> = Vec::new();
     for gradient in outputs[level.equations..].chunks(dimension) {
         unit.push(normalised(across(gradient, &unit)));
     }
     let axis = |k: usize| {
-        let mut axis = vec![Pair::default(); dimension];
-        axis[k] = Pair::from_f64(1.0);
+        let mut axis = vec![DoubleDouble::default(); dimension];
+        axis[k] = DoubleDouble::from_f64(1.0);
         axis
     };
     while unit.len() < dimension {
@@ -253,17 +261,17 @@ pub(super) fn level_basis(model: &Model, start: &Start) -> Result<Vec<Vec<Pair>>
     Ok(unit.split_off(level.equations))
 }
 
-fn dot(a: &[Pair], b: &[Pair]) -> Pair {
-    a.iter().zip(b).fold(Pair::default(), |sum, (x, y)| sum + *x * *y)
+fn dot(a: &[DoubleDouble], b: &[DoubleDouble]) -> DoubleDouble {
+    a.iter().zip(b).fold(DoubleDouble::default(), |sum, (x, y)| sum + *x * *y)
 }
 
-fn normalised(vector: Vec<Pair>) -> Vec<Pair> {
+fn normalised(vector: Vec<DoubleDouble>) -> Vec<DoubleDouble> {
     let factor = dot(&vector, &vector).sqrt().recip();
     vector.into_iter().map(|x| x * factor).collect()
 }
 
 /// Component of a vector orthogonal to unit vectors; two passes are enough against rounding.
-fn across(vector: &[Pair], unit: &[Vec<Pair>]) -> Vec<Pair> {
+fn across(vector: &[DoubleDouble], unit: &[Vec<DoubleDouble>]) -> Vec<DoubleDouble> {
     let mut rest = vector.to_vec();
     for e in unit.iter().chain(unit) {
         let along = dot(&rest, e);

@@ -9,11 +9,11 @@ use std::ops::Range;
 use super::error::FlowError;
 use super::event::Ends;
 use super::halt::Halt;
-use super::number::Number;
-use super::program::Program;
+use super::number::SeriesNumber;
+use super::program::TaylorProgram;
 use super::series::Series;
-use liouville::graph::{Work, with_widest_vectors};
-use liouville::number::pair::Pair;
+use liouville::graph::{Kernel, with_widest_vectors};
+use liouville::number::double_double::DoubleDouble;
 
 /// Order of the series, and step size constant κ.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,7 +35,7 @@ impl Accuracy {
 }
 
 /// Motions in lockstep, one in each lane.
-pub struct Stepper<T: Number> {
+pub struct Stepper<T: SeriesNumber> {
     series: Series<T>,
     kappa: f64,
     /// State, and its rounding remainder.
@@ -58,19 +58,23 @@ struct Sizes<T> {
 /// Time and step of one motion.
 #[derive(Clone, Copy)]
 struct Lane<One> {
-    time: Pair,
+    time: DoubleDouble,
     /// Final time; its sign relative to `time` is the direction.
-    until: Pair,
+    until: DoubleDouble,
     /// Step from the present expansion.
     step: One,
     steps: u64,
 }
 
-impl<T: Number> Stepper<T> {
+impl<T: SeriesNumber> Stepper<T> {
     /// Prepares motions of a program's field; each lane needs a start.
-    pub fn new(program: &Program, accuracy: Accuracy) -> Self {
-        let idle =
-            Lane { time: Pair::default(), until: Pair::default(), step: T::One::ZERO, steps: 0 };
+    pub fn new(program: &TaylorProgram, accuracy: Accuracy) -> Self {
+        let idle = Lane {
+            time: DoubleDouble::default(),
+            until: DoubleDouble::default(),
+            step: T::One::ZERO,
+            steps: 0,
+        };
         let state = vec![T::ZERO; program.dimension()];
         Self {
             series: Series::new(program, accuracy.order),
@@ -84,16 +88,17 @@ impl<T: Number> Stepper<T> {
     }
 
     /// Starts a motion at time 0 that ends at time `until`, which may be negative.
-    pub fn start(&mut self, lane: usize, state: &[Pair], until: Pair) {
+    pub fn start(&mut self, lane: usize, state: &[DoubleDouble], until: DoubleDouble) {
         if T::LANES == 1 {
             self.series.clear();
         }
         self.place(lane, state);
-        self.lanes[lane] = Lane { time: Pair::default(), until, step: T::One::ZERO, steps: 0 };
+        self.lanes[lane] =
+            Lane { time: DoubleDouble::default(), until, step: T::One::ZERO, steps: 0 };
     }
 
     /// Moves a motion to another state, at the same time.
-    pub fn place(&mut self, lane: usize, state: &[Pair]) {
+    pub fn place(&mut self, lane: usize, state: &[DoubleDouble]) {
         for (index, value) in state.iter().enumerate() {
             let (value, rest) = T::One::split(*value);
             set(&mut self.state[index], lane, value);
@@ -112,14 +117,14 @@ impl<T: Number> Stepper<T> {
     }
 
     /// Changes the final time of a motion.
-    pub fn extend(&mut self, lane: usize, until: Pair) {
+    pub fn extend(&mut self, lane: usize, until: DoubleDouble) {
         self.lanes[lane].until = until;
     }
 
     /// Expands all motions at their states and chooses their steps.
     pub fn expand(&mut self) {
         self.series.expand(&self.state);
-        with_widest_vectors(Measure(self));
+        with_widest_vectors(ErrorMeasure(self));
         for index in 0..T::LANES {
             let size = self.step_size(index);
             let lane = &mut self.lanes[index];
@@ -207,7 +212,7 @@ impl<T: Number> Stepper<T> {
     }
 
     /// Time of a motion.
-    pub fn time(&self, lane: usize) -> Pair {
+    pub fn time(&self, lane: usize) -> DoubleDouble {
         self.lanes[lane].time
     }
 
@@ -217,14 +222,14 @@ impl<T: Number> Stepper<T> {
     }
 
     /// State of a motion.
-    pub fn pairs(&self, lane: usize) -> Vec<Pair> {
+    pub fn pairs(&self, lane: usize) -> Vec<DoubleDouble> {
         let parts = self.state.iter().zip(&self.rest);
         parts.map(|(x, rest)| x.lane(lane).pair() + rest.lane(lane).pair()).collect()
     }
 
     /// Present piece of a motion.
-    pub fn piece(&self, lane: usize) -> Piece<'_, T> {
-        Piece { stepper: self, lane }
+    pub fn piece(&self, lane: usize) -> MotionPiece<'_, T> {
+        MotionPiece { stepper: self, lane }
     }
 
     fn step_size(&self, lane: usize) -> f64 {
@@ -241,15 +246,15 @@ impl<T: Number> Stepper<T> {
     /// Values that decide whether a further function can vanish on the present pieces.
     pub fn ends(&self, output: usize) -> Ends<T> {
         let mut ends = Ends::NONE;
-        with_widest_vectors(Outline { stepper: self, output, ends: &mut ends });
+        with_widest_vectors(EndValues { stepper: self, output, ends: &mut ends });
         ends
     }
 }
 
 /// Work of measuring the present expansions.
-struct Measure<'s, T: Number>(&'s mut Stepper<T>);
+struct ErrorMeasure<'s, T: SeriesNumber>(&'s mut Stepper<T>);
 
-impl<T: Number> Work for Measure<'_, T> {
+impl<T: SeriesNumber> Kernel for ErrorMeasure<'_, T> {
     #[inline(always)]
     fn run(self) {
         let stepper = self.0;
@@ -267,13 +272,13 @@ impl<T: Number> Work for Measure<'_, T> {
 }
 
 /// Work of evaluating a further function at the ends of the present pieces.
-struct Outline<'s, T: Number> {
+struct EndValues<'s, T: SeriesNumber> {
     stepper: &'s Stepper<T>,
     output: usize,
     ends: &'s mut Ends<T>,
 }
 
-impl<T: Number> Work for Outline<'_, T> {
+impl<T: SeriesNumber> Kernel for EndValues<'_, T> {
     #[inline(always)]
     fn run(self) {
         let Self { stepper, output, ends } = self;
@@ -282,15 +287,15 @@ impl<T: Number> Work for Outline<'_, T> {
     }
 }
 
-fn set<T: Number>(target: &mut T, lane: usize, value: T::One) {
+fn set<T: SeriesNumber>(target: &mut T, lane: usize, value: T::One) {
     let old = *target;
     *target = T::from_lanes(|other| if other == lane { value } else { old.lane(other) });
 }
 
 /// Work of advancing all states to the ends of their steps.
-struct Advance<'s, T: Number>(&'s mut Stepper<T>);
+struct Advance<'s, T: SeriesNumber>(&'s mut Stepper<T>);
 
-impl<T: Number> Work for Advance<'_, T> {
+impl<T: SeriesNumber> Kernel for Advance<'_, T> {
     #[inline(always)]
     fn run(self) {
         let stepper = self.0;
@@ -304,7 +309,7 @@ impl<T: Number> Work for Advance<'_, T> {
 
 /// Returns Σ x_k h^k from k = 1 on.
 #[inline(always)]
-fn increment<T: Number>(coefficients: &[T], step: T) -> T {
+fn increment<T: SeriesNumber>(coefficients: &[T], step: T) -> T {
     let mut sum = T::ZERO;
     for coefficient in coefficients[1..].iter().rev() {
         sum = coefficient.fused(sum, step).settled();
@@ -313,14 +318,14 @@ fn increment<T: Number>(coefficients: &[T], step: T) -> T {
 }
 
 /// A motion between two steps, as polynomials in the time since the first.
-pub struct Piece<'s, T: Number> {
+pub struct MotionPiece<'s, T: SeriesNumber> {
     stepper: &'s Stepper<T>,
     lane: usize,
 }
 
-impl<T: Number> Piece<'_, T> {
+impl<T: SeriesNumber> MotionPiece<'_, T> {
     /// Time at which the piece begins.
-    pub fn begin(&self) -> Pair {
+    pub fn begin(&self) -> DoubleDouble {
         self.stepper.lanes[self.lane].time
     }
 
@@ -335,7 +340,7 @@ impl<T: Number> Piece<'_, T> {
     }
 
     /// State at a time after the beginning.
-    pub fn state(&self, after: T::One) -> Vec<Pair> {
+    pub fn state(&self, after: T::One) -> Vec<DoubleDouble> {
         let stepper = self.stepper;
         (0..stepper.state.len())
             .map(|row| {

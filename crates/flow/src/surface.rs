@@ -1,30 +1,32 @@
 //! Poincaré sections of any system: crossings of a surface that a formula gives.
 
+use serde::{Deserialize, Serialize};
+
 use super::columns::Columns;
-use super::crossings::{Met, Task, Track};
+use super::crossings::{CrossingTask, Met, MotionCrossings};
 use super::error::FlowError;
 use super::lexicon::{FormulaMistake, Lexicon};
 use super::motion::program;
 use super::orbit::energy_drift;
-use super::program::Program;
+use super::program::TaylorProgram;
 use super::start::Start;
 use liouville::case::{Case, Direction};
 use liouville::formula::{Formula, Type};
 use liouville::graph::Expr;
 use liouville::mechanics::{Model, Phase};
-use liouville::number::pair::Pair;
+use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 
 /// Surface f = g in phase space, crossed upwards where f - g grows.
-pub struct Surface {
+pub struct CrossingSurface {
     lexicon: Lexicon,
     left: Formula,
     right: Option<Formula>,
     text: String,
 }
 
-impl Surface {
+impl CrossingSurface {
     /// Reads `f = g`, or a formula that vanishes on the surface.
     pub fn read(lexicon: Lexicon, text: &str) -> Result<Self, FormulaMistake> {
         let mut sides = text.split('=');
@@ -98,7 +100,7 @@ impl Surface {
     }
 
     /// Compiles the field with the surface's function.
-    pub(super) fn program(&self, parameters: &[Rational]) -> Result<Program, FlowError> {
+    pub(super) fn program(&self, parameters: &[Rational]) -> Result<TaylorProgram, FlowError> {
         program(self.model(), parameters, |phase| vec![self.value(phase)])
     }
 }
@@ -106,7 +108,7 @@ impl Surface {
 /// Request for the crossings of a surface.
 pub struct SurfaceRequest<'r> {
     /// Surface that is crossed.
-    pub surface: &'r Surface,
+    pub surface: &'r CrossingSurface,
     /// Values recorded at each crossing.
     pub axes: &'r Columns,
     /// Direction of the crossings that count.
@@ -120,18 +122,20 @@ pub struct SurfaceRequest<'r> {
 }
 
 /// Crossing of a surface.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SurfaceCrossing {
     /// Values of the axes.
+    #[serde(with = "super::record")]
     pub at: Vec<f64>,
     /// Time of the crossing.
+    #[serde(with = "super::record")]
     pub time: f64,
     /// Whether the surface's function grows with time there.
     pub rising: bool,
 }
 
 /// Crossings of one motion.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SurfaceOrbit {
     /// Crossings that count, without those at the beginning.
     pub crossings: Vec<SurfaceCrossing>,
@@ -143,6 +147,7 @@ pub struct SurfaceOrbit {
     pub steps: u64,
     /// Relative change of the energy between start and end; `None` for a system without energy, and
     /// where the motion has no end.
+    #[serde(with = "super::record")]
     pub drift: Option<f64>,
     /// Reason why the motion ended early, or did not start.
     pub problem: Option<FlowError>,
@@ -163,7 +168,7 @@ pub fn surface_section(
     };
     let program = request.surface.program(&first.parameters)?;
     let gauge = request.axes.recorded(&first.parameters)?;
-    let task = Task {
+    let task = CrossingTask {
         program: &program,
         starts,
         direction: request.direction,
@@ -174,11 +179,11 @@ pub fn surface_section(
     };
     let look = || {
         let mut row = gauge.rows();
-        move |time: Pair, state: &[Pair]| -> Vec<f64> {
+        move |time: DoubleDouble, state: &[DoubleDouble]| -> Vec<f64> {
             row(time, state).into_iter().map(|x| x.hi).collect()
         }
     };
-    let orbit = |(track, start): (Track<Vec<f64>>, &Result<Start, FlowError>)| {
+    let orbit = |(track, start): (MotionCrossings<Vec<f64>>, &Result<Start, FlowError>)| {
         let drift = match (start, &track.end) {
             (Ok(start), Some(end)) if case.model.system.has_energy() => {
                 Some(energy_drift(&case.model, start, end)?)

@@ -7,7 +7,7 @@
 
 /// Values along a motion at equal intervals of time.
 #[derive(Clone, Copy, Debug)]
-pub struct Rolling {
+pub struct RollingSamples {
     /// Angular velocity ω.
     pub turning: [f64; 3],
     /// Normal γ.
@@ -63,11 +63,12 @@ fn horizontal(normal: [f64; 3]) -> [f64; 3] {
 }
 
 /// Computes the track of a motion given at intervals `step` of time.
-pub fn track(motion: &[Rolling], step: f64) -> Track {
+pub fn track(motion: &[RollingSamples], step: f64) -> Track {
     let Some(first) = motion.first() else { return Track { points: Vec::new(), error: 0.0 } };
     let alpha = horizontal(first.normal);
     let mut frame = [alpha, cross(first.normal, alpha), first.normal];
-    let speed = |frame: &[[f64; 3]; 3], at: &Rolling| [0, 1].map(|k| dot(frame[k], at.velocity));
+    let speed =
+        |frame: &[[f64; 3]; 3], at: &RollingSamples| [0, 1].map(|k| dot(frame[k], at.velocity));
     let (mut points, mut at, mut error) = (vec![[0.0; 2]], [0.0; 2], 0.0f64);
     let mut speeds = vec![speed(&frame, first)];
     let double = 2.0 * step;
@@ -95,20 +96,21 @@ mod tests {
 
     /// Ball of radius 1 that turns with ω, constant in the fixed frame and given there; the attitude
     /// begins as the unit matrix.
-    fn ball(turning: [f64; 3], time: f64) -> Rolling {
+    fn ball(turning: [f64; 3], time: f64) -> RollingSamples {
         // In the body, what is at rest in the fixed frame turns backwards.
         let turned = |vector| seen(vector, scaled(turning, time));
         let normal = turned([0.0, 0.0, 1.0]);
         // r = −γ, and γ' = γ × ω.
         let velocity = scaled(cross(normal, turned(turning)), -1.0);
-        Rolling { turning: turned(turning), normal, velocity }
+        RollingSamples { turning: turned(turning), normal, velocity }
     }
 
     #[test]
     fn a_ball_that_turns_evenly_runs_straight_and_as_far_as_it_turns() {
         let turning = [0.3, -0.8, 0.5];
         let step = 0.01;
-        let motion: Vec<Rolling> = (0..=400).map(|k| ball(turning, step * f64::from(k))).collect();
+        let motion: Vec<RollingSamples> =
+            (0..=400).map(|k| ball(turning, step * f64::from(k))).collect();
         let found = track(&motion, step);
         assert_eq!(found.points.len(), 101);
         assert!(found.error < 1e-9, "{}", found.error);
@@ -122,7 +124,7 @@ mod tests {
     #[test]
     fn a_wrong_normal_shows_in_the_error() {
         let step = 0.01;
-        let mut motion: Vec<Rolling> =
+        let mut motion: Vec<RollingSamples> =
             (0..=40).map(|k| ball([0.3, -0.8, 0.5], step * f64::from(k))).collect();
         motion[20].normal = [1.0, 0.0, 0.0];
         assert!(track(&motion, step).error > 0.5, "the state's normal is far");

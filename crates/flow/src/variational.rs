@@ -5,18 +5,18 @@
 
 use std::ops::Range;
 
+use super::batch::{Lockstep, MOTION_LANES, Queue, in_batches};
 use super::error::FlowError;
 use super::lanes::Lanes;
 use super::lyapunov::{Exponents, Record};
 use super::motion::extended_program;
-use super::number::Number;
-use super::program::Program;
-use super::start::{Level, Start};
+use super::number::SeriesNumber;
+use super::program::TaylorProgram;
+use super::start::{LevelFunctions, Start};
 use super::stepper::{Accuracy, Stepper};
-use super::swarm::{Abreast, LANES, Queue, swarm};
 use liouville::mechanics::Model;
-use liouville::mechanics::calculus::Jet;
-use liouville::number::pair::Pair;
+use liouville::mechanics::calculus::DualPoint;
+use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
 
 /// Number of tangent vectors; the alignment index takes two.
@@ -24,7 +24,7 @@ const VECTORS: usize = 2;
 
 /// Equations of a motion with tangent vectors: the rows are the state, the vectors, and ∫ div v.
 struct Bundle {
-    program: Program,
+    program: TaylorProgram,
     dimension: usize,
 }
 
@@ -37,12 +37,12 @@ impl Bundle {
     }
 
     /// All rows at the start of a motion, with the vectors tangent to the level set.
-    fn begin(&self, level: &Level, state: &[Pair]) -> Vec<Pair> {
+    fn begin(&self, level: &LevelFunctions, state: &[DoubleDouble]) -> Vec<DoubleDouble> {
         let mut begin = state.to_vec();
         for index in 0..VECTORS {
-            begin.extend(level.along(state, &[], index).into_iter().map(Pair::from_f64));
+            begin.extend(level.along(state, &[], index).into_iter().map(DoubleDouble::from_f64));
         }
-        begin.push(Pair::default());
+        begin.push(DoubleDouble::default());
         begin
     }
 
@@ -58,15 +58,15 @@ impl Bundle {
     /// error.
     fn follow(
         &self,
-        begins: &[Result<Vec<Pair>, FlowError>],
+        begins: &[Result<Vec<DoubleDouble>, FlowError>],
         time: f64,
         threads: usize,
         progress: &(dyn Fn() + Sync),
     ) -> Vec<Result<Exponents, FlowError>> {
-        let task = Task { bundle: self, begins, time };
-        swarm(begins.len(), threads, |queue, abreast| match abreast {
-            Abreast::One => Worker::<f64>::new(&task).run(queue, progress),
-            Abreast::Lanes => Worker::<Lanes<LANES>>::new(&task).run(queue, progress),
+        let task = VariationalTask { bundle: self, begins, time };
+        in_batches(begins.len(), threads, |queue, lockstep| match lockstep {
+            Lockstep::One => Worker::<f64>::new(&task).run(queue, progress),
+            Lockstep::Lanes => Worker::<Lanes<MOTION_LANES>>::new(&task).run(queue, progress),
         })
     }
 }
@@ -76,10 +76,10 @@ pub(super) fn variational_program(
     model: &Model,
     parameters: &[Rational],
     vectors: usize,
-) -> Result<Program, FlowError> {
+) -> Result<TaylorProgram, FlowError> {
     let dimension = model.dimension();
     extended_program(model, parameters, vectors * dimension + 1, |phase, more| {
-        let jet = Jet::new(phase.with(&[], &phase.state()));
+        let jet = DualPoint::new(phase.with(&[], &phase.state()));
         let mut rates = jet.phase.field().to_vec();
         for vector in more[..vectors * dimension].chunks(dimension) {
             rates.extend(jet.phase.lift(vector).field().iter().map(|rate| rate.eps));
@@ -91,24 +91,24 @@ pub(super) fn variational_program(
 }
 
 /// Motions to follow, with their equations and time.
-struct Task<'t> {
+struct VariationalTask<'t> {
     bundle: &'t Bundle,
-    begins: &'t [Result<Vec<Pair>, FlowError>],
+    begins: &'t [Result<Vec<DoubleDouble>, FlowError>],
     time: f64,
 }
 
 type Done = Vec<(usize, Result<Exponents, FlowError>)>;
 
 /// Motions of one thread.
-struct Worker<'t, T: Number<One = f64>> {
-    task: &'t Task<'t>,
+struct Worker<'t, T: SeriesNumber<One = f64>> {
+    task: &'t VariationalTask<'t>,
     stepper: Stepper<T>,
     running: Vec<Option<(usize, Record)>>,
     done: Done,
 }
 
-impl<'t, T: Number<One = f64>> Worker<'t, T> {
-    fn new(task: &'t Task<'t>) -> Self {
+impl<'t, T: SeriesNumber<One = f64>> Worker<'t, T> {
+    fn new(task: &'t VariationalTask<'t>) -> Self {
         let stepper = Stepper::new(&task.bundle.program, Accuracy::FLOAT);
         let running = (0..T::LANES).map(|_| None).collect();
         Self { task, stepper, running, done: Vec::new() }
@@ -146,7 +146,7 @@ impl<'t, T: Number<One = f64>> Worker<'t, T> {
             Ok(begin) => {
                 let record = Record::new(self.task.time);
                 let end = record.end().unwrap_or(self.task.time);
-                self.stepper.start(lane, begin, Pair::from_f64(end));
+                self.stepper.start(lane, begin, DoubleDouble::from_f64(end));
                 self.running[lane] = Some((index, record));
             }
             Err(problem) => {
@@ -181,7 +181,7 @@ impl<'t, T: Number<One = f64>> Worker<'t, T> {
         record.finish_block(state[bundle.volume()].hi);
         match record.end() {
             Some(end) => {
-                self.stepper.extend(lane, Pair::from_f64(end));
+                self.stepper.extend(lane, DoubleDouble::from_f64(end));
                 false
             }
             None => true,
@@ -202,7 +202,7 @@ impl<'t, T: Number<One = f64>> Worker<'t, T> {
 /// Motions of one system, each with two tangent vectors and ∫ div v.
 pub struct Variational {
     bundle: Bundle,
-    begins: Vec<Result<Vec<Pair>, FlowError>>,
+    begins: Vec<Result<Vec<DoubleDouble>, FlowError>>,
 }
 
 impl Variational {
@@ -218,7 +218,7 @@ impl Variational {
         starts: &[Result<Start, FlowError>],
     ) -> Result<Self, FlowError> {
         let bundle = Bundle::new(model, parameters)?;
-        let level = Level::new(model, parameters, &[])?;
+        let level = LevelFunctions::new(model, parameters, &[])?;
         let begin = |start: &Start| bundle.begin(&level, &start.state);
         let begins = starts.iter().map(|start| start.as_ref().map(begin).map_err(Clone::clone));
         Ok(Self { begins: begins.collect(), bundle })

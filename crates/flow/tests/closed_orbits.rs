@@ -1,6 +1,9 @@
 //! Closed orbits: proved where they are, with known numbers inside the enclosures, and not
 //! elsewhere.
 
+#[path = "closed_orbits/horseshoes.rs"]
+mod horseshoes;
+
 use std::path::Path;
 
 use liouville::case::Case;
@@ -21,11 +24,6 @@ fn catalogue(path: &str) -> Vec<ClaimReport> {
     let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("cases").join(path);
     let case = Case::read(&path, &[]).1;
     closed_orbits(case.unwrap_or_else(|error| panic!("{}: {error}", path.display())))
-}
-
-fn horseshoe(text: &str) -> ClaimReport {
-    let case = Case::parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
-    of_kind(case, "horseshoe").remove(0)
 }
 
 fn judged(text: &str) -> ClaimReport {
@@ -263,7 +261,7 @@ fn proved(text: &str) -> (Case, liouville_flow::ProvedOrbit) {
 
 fn replayed(
     case: &Case,
-    data: &liouville_flow::Data,
+    data: &liouville_flow::ProofData,
 ) -> Result<liouville_flow::ProvedOrbit, String> {
     let options = Options::default();
     liouville_flow::observe::verify(case, &case.motions[0], data, &options).map(|found| found.1)
@@ -307,7 +305,7 @@ p = \"-3..3\"\n[field]\n\"x'\" = \"p\"\n\
 fn data_that_prove_nothing_are_refused() {
     let (case, found) = proved(&van_der_pol("(1 − x²)", &format!("{CYCLE}\ndensity = \"none\"")));
     let good = &found.data;
-    let refused = |what: &str, change: &dyn Fn(&mut liouville_flow::Data)| {
+    let refused = |what: &str, change: &dyn Fn(&mut liouville_flow::ProofData)| {
         let mut data = good.clone();
         change(&mut data);
         assert_ne!(data, *good, "{what}");
@@ -337,7 +335,7 @@ fn data_that_prove_nothing_are_refused() {
     refused("an order of 0", &|data| data.order = 0);
     refused("an order that is too low", &|data| data.order = 3);
     refused("an order without end", &|data| data.order = 1 << 40);
-    refused("nothing at all", &|data| *data = liouville_flow::Data::default());
+    refused("nothing at all", &|data| *data = liouville_flow::ProofData::default());
 }
 
 #[test]
@@ -399,72 +397,4 @@ fn boxes_without_change_of_volume_exclude_nothing() {
     assert!(reason.contains("not proved that the motion keeps"), "{reason}");
     let alone = judged(&one.replace("parameters = { k = \"± 1e-5\" }\n", ""));
     assert_eq!(alone.verdict, Verdict::Proved, "for k = 1 it is kept: {:?}", alone.evidence);
-}
-
-/// A pendulum's saddle and an oscillator that does not touch it: integrable, and the saddle's stable
-/// and unstable curves are one.
-const INTEGRABLE: &str = r#"
-title = "a saddle and an oscillator"
-[state]
-x = "-2..2"
-u = "-2..2"
-y = "-2..2"
-v = "-2..2"
-[field]
-"x'" = "u"
-"u'" = "x − x³"
-"y'" = "v"
-"v'" = "−y"
-[[claim]]
-horseshoe = 6.2831853072
-state = { x = "0", u = "0", y = "1", v = "0" }
-integrals = ["(u² + v² − x² + y²)/2 + x^4/4"]
-integral = "none"
-"#;
-
-#[test]
-fn the_saddle_of_figure_8_has_a_horseshoe() {
-    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/figures/fig-8.toml"));
-    let case = Case::read(path, &[]).1.unwrap_or_else(|error| panic!("{error}"));
-    let claim = of_kind(case, "horseshoe").remove(0);
-    assert_eq!(claim.verdict, Verdict::Proved, "{:?}", claim.evidence);
-    let theorem = claim.evidence.theorem.expect("stated");
-    assert!(theorem.contains("real-analytic integral"), "{theorem}");
-    assert!(theorem.contains("entropy ≥ 0.0"), "{theorem}");
-}
-
-#[test]
-fn no_horseshoe_is_proved_where_there_is_none() {
-    let with = |from: &str, to: &str| {
-        assert!(INTEGRABLE.contains(from), "{from}");
-        horseshoe(&INTEGRABLE.replace(from, to))
-    };
-    let both = "integrals = [\"(u² − x²)/2 + x^4/4\", \"v² + y²\"]";
-    let one = "integrals = [\"(u² + v² − x² + y²)/2 + x^4/4\"]";
-    for (name, claim, reason) in [
-        ("curves that are one", horseshoe(INTEGRABLE), "homoclinic orbit are not proved"),
-        ("a centre", with("x = \"0\"", "x = \"1\""), "no saddle"),
-        // the first is critical on the saddle, and is left out
-        ("both integrals known", with(one, both), "homoclinic orbit are not proved"),
-        ("no integral known", with(one, ""), "leave 3 dimensions, not 4"),
-        ("no integral", with("x^4/4", "x^4/5"), "not proved that the motion keeps"),
-        ("no orbit", with("y = \"1\"", "y = \"0\""), ""),
-    ] {
-        assert_eq!(claim.verdict, Verdict::Undecided, "{name}: {:?}", claim.evidence);
-        let found = claim.evidence.reason.clone().expect("a reason");
-        assert!(found.contains(reason), "{name}: {found}");
-    }
-}
-
-#[test]
-fn mistakes_in_horseshoes_have_a_place() {
-    for (from, to, expected) in [
-        ("6.2831853072", "-1", "does not have the period -1"),
-        ("integral = \"none\"", "integral = \"x\"", "cannot be claimed here"),
-        ("integrals = [", "density = \"none\"\nintegrals = [", "makes 2 statements"),
-    ] {
-        let text = INTEGRABLE.replace(from, to);
-        let error = Case::parse(&text, &[]).expect_err(to).to_string();
-        assert!(error.contains(expected), "{to}: {error}");
-    }
 }

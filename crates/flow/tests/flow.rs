@@ -8,10 +8,10 @@ mod lanes;
 mod sections;
 
 use liouville::case::Case;
-use liouville::number::pair::Pair;
+use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
 use liouville::verdict::read_state;
-use liouville_flow::{Contact, FlowError, Orbit, Precision, Role, Start, orbit};
+use liouville_flow::{Contact, FlowError, Orbit, Precision, QuantityRole, Start, orbit};
 use nalgebra::{Matrix3, Vector3};
 
 /// The unbalanced ball of the speed comparison, with the common initial state.
@@ -40,14 +40,14 @@ fn start(case: &Case, text: &str) -> Start {
 }
 
 fn follow(case: &Case, text: &str, time: f64, precision: Precision) -> Orbit {
-    orbit(case, start(case, text), Pair::from_f64(time), precision).expect("no singularity")
+    orbit(case, start(case, text), DoubleDouble::from_f64(time), precision).expect("no singularity")
 }
 
 fn parse(text: &str) -> Case {
     Case::parse(text, &[]).expect("a case")
 }
 
-fn distance(a: &[Pair], b: &[Pair]) -> f64 {
+fn distance(a: &[DoubleDouble], b: &[DoubleDouble]) -> f64 {
     a.iter().zip(b).map(|(x, y)| (*x - *y).hi.powi(2)).sum::<f64>().sqrt()
 }
 
@@ -61,7 +61,7 @@ fn integrals_of_a_long_motion_drift_by_rounding_alone() {
         for followed in &found.followed {
             let drift = followed.drift;
             match followed.role {
-                Role::Decoy => assert!(drift > 0.1, "{}: {drift:e}", followed.name),
+                QuantityRole::Decoy => assert!(drift > 0.1, "{}: {drift:e}", followed.name),
                 _ => assert!(drift <= bound, "{}: {drift:e} in {precision:?}", followed.name),
             }
         }
@@ -74,7 +74,8 @@ fn a_motion_runs_back_to_its_start() {
     let there = follow(&case, BALL_START, 20.0, Precision::Float);
     let mut begin = there.start.clone();
     begin.state = there.end;
-    let back = orbit(&case, begin, Pair::from_f64(-20.0), Precision::Float).expect("runs back");
+    let back =
+        orbit(&case, begin, DoubleDouble::from_f64(-20.0), Precision::Float).expect("runs back");
     assert!(distance(&back.end, &there.start.state) < 1e-12, "there and back again");
 }
 
@@ -123,7 +124,7 @@ fn an_independent_integrator_agrees() {
     let begin: Vec<f64> = found.start.state.iter().map(|x| x.hi).collect();
     let begin: [f64; 6] = begin.try_into().expect("six components");
     let at_end = |steps: u32| {
-        let last = runge_kutta(ball_by_hand, begin, 20.0, steps).map(Pair::from_f64);
+        let last = runge_kutta(ball_by_hand, begin, 20.0, steps).map(DoubleDouble::from_f64);
         distance(&found.end, &last)
     };
     let (coarse, fine) = (at_end(2_000), at_end(40_000));
@@ -132,7 +133,7 @@ fn an_independent_integrator_agrees() {
 }
 
 /// Integrates a field with a known solution.
-fn solved(field: &str, begin: &str, time: f64) -> (f64, Pair) {
+fn solved(field: &str, begin: &str, time: f64) -> (f64, DoubleDouble) {
     let text = format!(
         "title = 't'\nsystem = 'field'\ncheck-weights = false\n[state]\nx = '0.5..2'\n\
          [field]\n\"x'\" = '{field}'\n"
@@ -181,7 +182,7 @@ fn a_singularity_is_told_with_its_time() {
     let text = "title = 't'\nsystem = 'field'\ncheck-weights = false\n[state]\nx = '0.5..2'\n\
                 [field]\n\"x'\" = 'x²'\n";
     let case = parse(text);
-    let found = orbit(&case, start(&case, "x=1"), Pair::from_f64(2.0), Precision::Float);
+    let found = orbit(&case, start(&case, "x=1"), DoubleDouble::from_f64(2.0), Precision::Float);
     let Err(FlowError::Singular { time, .. }) = found else { panic!("1/(1 - t) ends at t = 1") };
     assert!((time - 1.0).abs() < 1e-9, "found at t = {time}");
 }
@@ -191,7 +192,7 @@ fn a_modulus_is_refused_by_name() {
     let text = "title = 't'\nsystem = 'field'\ncheck-weights = false\n[state]\nx = '0.5..2'\n\
                 [field]\n\"x'\" = 'abs(x)'\n";
     let case = parse(text);
-    let found = orbit(&case, start(&case, "x=1"), Pair::from_f64(2.0), Precision::Float);
+    let found = orbit(&case, start(&case, "x=1"), DoubleDouble::from_f64(2.0), Precision::Float);
     let error = found.expect_err("|x| has no series at 0").to_string();
     assert!(error.contains("|x|"), "{error}");
 }
@@ -232,7 +233,7 @@ fn contact_leaving_and_grazing_at_the_right_times() {
 fn a_start_behind_the_constraint_is_refused() {
     let case = catalogue("one-sided/motion.toml");
     let begin = start(&case, "ω=[-1,-1,-1]");
-    let found = orbit(&case, begin, Pair::from_f64(1.0), Precision::Float);
+    let found = orbit(&case, begin, DoubleDouble::from_f64(1.0), Precision::Float);
     assert!(matches!(found, Err(FlowError::BehindConstraint { .. })), "(ω,e) < 0");
 }
 

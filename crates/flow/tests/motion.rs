@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use liouville::case::{Case, Expect};
-use liouville::claim::motion::{MOTIONS, Motion};
+use liouville::claim::motion::{MOTIONS, MotionKind};
 use liouville::verdict::{ClaimReport, Options, Verdict, judge};
 use liouville_flow::observe::{evidence_against_density, observe};
 
@@ -13,13 +13,13 @@ fn catalogue(path: &str) -> Case {
 }
 
 /// Returns the reports on the claims of a case for which `wanted` holds.
-fn reports(mut case: Case, wanted: impl Fn(&Motion) -> bool) -> Vec<ClaimReport> {
+fn reports(mut case: Case, wanted: impl Fn(&MotionKind) -> bool) -> Vec<ClaimReport> {
     case.motions.retain(|claim| wanted(&claim.kind));
     assert!(!case.motions.is_empty(), "{}: nothing to look at", case.title);
     observe(&case, &Options::default())
 }
 
-fn all_agree(path: &str, wanted: impl Fn(&Motion) -> bool) {
+fn all_agree(path: &str, wanted: impl Fn(&MotionKind) -> bool) {
     for claim in reports(catalogue(path), wanted) {
         assert!(claim.agrees, "{path}: {} came out {:#?}", claim.name, claim.evidence);
     }
@@ -28,14 +28,14 @@ fn all_agree(path: &str, wanted: impl Fn(&Motion) -> bool) {
 #[test]
 fn fixed_points_that_are_soon_back() {
     for figure in ["3", "7", "8", "10", "14", "A1-a", "A1-d", "A1-h"] {
-        let is_point = |claim: &Motion| matches!(claim, Motion::PeriodicPoint(_));
+        let is_point = |claim: &MotionKind| matches!(claim, MotionKind::PeriodicPoint(_));
         all_agree(&format!("figures/fig-{figure}.toml"), is_point);
     }
 }
 
 #[test]
 fn short_runs_of_the_first_figure() {
-    let is_short = |claim: &Motion| !matches!(claim, Motion::PeriodicPoint(_));
+    let is_short = |claim: &MotionKind| !matches!(claim, MotionKind::PeriodicPoint(_));
     all_agree("figures/fig-3.toml", is_short);
 }
 

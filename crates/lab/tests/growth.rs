@@ -5,10 +5,11 @@
 //! valgrind, or on another processor, the nodes of the graph are counted alone.
 
 use std::process::Command;
+use std::time::Duration;
 
 use liouville::case::Case;
 use liouville::verdict::{RecordedSize, recorded_size};
-use liouville_lab::growth::{FAMILIES, Family};
+use liouville_lab::growth::{CaseFamily, FAMILIES, SizePoint, at_size, measure};
 
 /// Families with a small size, which is doubled, and the greatest exponent allowed. Claims of one
 /// field share most of their operations, and are left out.
@@ -25,7 +26,7 @@ const MEMBERS: [(&str, u64, f64); 8] = [
 
 const MEMBER: &str = "LIOUVILLE_COUNTED_MEMBER";
 
-fn family(name: &str) -> &'static Family {
+fn family(name: &str) -> &'static CaseFamily {
     FAMILIES.iter().find(|family| family.name == name).expect("a family of this name")
 }
 
@@ -102,4 +103,37 @@ fn instructions_of_recording_grow_as_its_residuals() {
         println!("{name}: {counts:?} instructions for {sizes:?} operations, exponent {found:.2}");
         assert!(found <= most, "{name}: {found:.2}, {counts:?} instructions");
     }
+}
+
+#[test]
+fn all_claims_of_small_members_hold() {
+    for family in FAMILIES.iter().filter(|family| !family.counts_states) {
+        let point = at_size(family, family.first).expect("a member of a family is judged");
+        assert_eq!(point.holding, point.claims, "{}: {point:?}", family.name);
+        assert!(point.claims > 0 && point.operations > 0, "{}: {point:?}", family.name);
+    }
+}
+
+#[test]
+fn powers_have_their_exponents() {
+    let power = |_: &CaseFamily, size: u64| {
+        let n = size as f64;
+        Ok(SizePoint {
+            size,
+            operations: 5 * size as usize,
+            nodes: 0,
+            read: 0.0,
+            record: 7.0 * n.powi(3),
+            judge: 0.0,
+            memory: None,
+            claims: 1,
+            holding: 1,
+        })
+    };
+    let found = measure(family("chain"), Duration::from_secs(60), power).exponents;
+    let is = |found: Option<f64>, power: f64| found.is_some_and(|e| (e - power).abs() < 1e-12);
+    assert!(is(found.operations, 1.0), "{found:?}");
+    assert!(is(found.record, 3.0) && is(found.size, 3.0), "{found:?}");
+    let alone = measure(family("chain"), Duration::ZERO, power).exponents;
+    assert_eq!(alone.record, None, "one point has no slope");
 }

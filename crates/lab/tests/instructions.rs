@@ -6,7 +6,7 @@
 
 use std::process::Command;
 
-use liouville::engine::{Engine, Means, Row};
+use liouville::engine::{Backend, Engine, RowBlock};
 use liouville::graph::Tape;
 use liouville_lab::bench::{record_residual, work_items};
 
@@ -38,18 +38,18 @@ fn counted_record(index: usize) -> Tape {
 
 #[inline(never)]
 fn counted_interpret(tape: &Tape) -> f64 {
-    run(tape, Means::Interpreter)
+    run(tape, Backend::Interpreter)
 }
 
 #[inline(never)]
 fn counted_compile(tape: &Tape) -> f64 {
-    run(tape, Means::Quickest)
+    run(tape, Backend::Quickest)
 }
 
-fn run(tape: &Tape, means: Means) -> f64 {
+fn run(tape: &Tape, means: Backend) -> f64 {
     let mut runner = Engine::new(tape, means).runner();
     for (k, row) in runner.inputs().iter_mut().enumerate() {
-        *row = Row(std::array::from_fn(|lane| 1.0 + (k * 64 + lane) as f64 / 1000.0));
+        *row = RowBlock(std::array::from_fn(|lane| 1.0 + (k * 64 + lane) as f64 / 1000.0));
     }
     runner.run();
     runner.output(0).0[0]

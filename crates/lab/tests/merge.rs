@@ -6,12 +6,12 @@ mod common;
 
 use common::case;
 use liouville::case::Case;
-use liouville::claim::Place;
+use liouville::claim::LevelSubset;
 use liouville::graph::{Evaluator, Expr, Graph, Tape, record};
 use liouville::mechanics::Phase;
-use liouville::mechanics::calculus::Jet;
+use liouville::mechanics::calculus::DualPoint;
 use liouville::number::float::Float;
-use liouville::proof::{Group, Outcome, Prover};
+use liouville::proof::{Group, GroupOutcome, Prover};
 use liouville::scalar::Scalar;
 use liouville::verdict::Sampler;
 use liouville_lab::bench::{record_merged, record_residual, work_items};
@@ -116,12 +116,12 @@ fn bodies() -> Vec<Case> {
 #[test]
 fn short_formulas_are_proved_equal_to_the_definitions() {
     for case in bodies() {
-        let everywhere = Place::everywhere(&case.model);
+        let everywhere = LevelSubset::everywhere(&case.model);
         let sampler = Sampler::new(&case, &everywhere, 1).expect("samples");
         let free = case.model.free_components();
         let (graph, differences) = record(free + case.model.dimension(), |inputs| {
             let (parameters, state) = inputs.split_at(free);
-            let jet = Jet::new(Phase::new(&case.model, parameters, state));
+            let jet = DualPoint::new(Phase::new(&case.model, parameters, state));
             let system = &case.model.system;
             let claims = case.claims.iter();
             let mut long: Vec<Expr> =
@@ -144,7 +144,7 @@ fn short_formulas_are_proved_equal_to_the_definitions() {
         let extents = sampler.extents();
         let prover = Prover { sources: &[], extents: &extents, seed: 1 };
         for (index, outcome) in prover.prove(&graph, &groups).expect("proves").iter().enumerate() {
-            assert!(matches!(outcome, Outcome::Zero(_)), "value {index}: {outcome:?}");
+            assert!(matches!(outcome, GroupOutcome::Zero(_)), "value {index}: {outcome:?}");
         }
     }
 }
@@ -174,12 +174,12 @@ fn the_divergence_of_a_body_that_may_spin_is_its_closed_formula() {
         body("rolling-plane", "", "support = 'arbitrary'\npotential = 'γ1*γ2²'"),
         body("rolling-sphere", "B = 'diag(1..3)'\nk = '0.1..0.3'", "shape = 'ellipsoid'"),
     ] {
-        let everywhere = Place::everywhere(&case.model);
+        let everywhere = LevelSubset::everywhere(&case.model);
         let sampler = Sampler::new(&case, &everywhere, 1).expect("samples");
         let free = case.model.free_components();
         let (graph, difference) = record(free + case.model.dimension(), |inputs| {
             let (parameters, state) = inputs.split_at(free);
-            let jet = Jet::new(Phase::new(&case.model, parameters, state));
+            let jet = DualPoint::new(Phase::new(&case.model, parameters, state));
             let own = case.model.system.divergence(&jet.phase).expect("known");
             jet.divergence() - own
         })
@@ -191,7 +191,7 @@ fn the_divergence_of_a_body_that_may_spin_is_its_closed_formula() {
         let extents = sampler.extents();
         let prover = Prover { sources: &[], extents: &extents, seed: 1 };
         let outcomes = prover.prove(&graph, &groups).expect("proves");
-        assert!(matches!(outcomes.as_slice(), [Outcome::Zero(_)]), "{outcomes:?}");
+        assert!(matches!(outcomes.as_slice(), [GroupOutcome::Zero(_)]), "{outcomes:?}");
     }
     let driven = body("rolling-plane", "R = 1", "shape = 'ball'\nmoment = '(ω,γ)*γ'");
     let inputs = vec![0.5; driven.model.free_components() + driven.model.dimension()];

@@ -5,28 +5,28 @@ use std::ops::Range;
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
-use super::Failure;
+use super::FileFailure;
 use liouville::case::{CaseError, Mistake};
 use liouville::verdict::JudgeError;
 
 /// Failures for the mistakes in the file `path` with the text `source`.
-pub fn of_case(path: &str, source: &str, error: &CaseError, colour: bool) -> Vec<Failure> {
+pub fn of_case(path: &str, source: &str, error: &CaseError, colour: bool) -> Vec<FileFailure> {
     let told = |mistake: &Mistake| of_mistake(path, source, mistake, colour);
     error.mistakes().iter().map(told).collect()
 }
 
 /// Joins failures for display on a terminal.
-pub fn rendered(failures: &[Failure]) -> String {
+pub fn rendered(failures: &[FileFailure]) -> String {
     let texts: Vec<&str> = failures.iter().map(|failure| failure.rendered.as_str()).collect();
     texts.join("\n\n")
 }
 
-fn of_mistake(path: &str, source: &str, mistake: &Mistake, colour: bool) -> Failure {
+fn of_mistake(path: &str, source: &str, mistake: &Mistake, colour: bool) -> FileFailure {
     at(path, source, mistake.span.clone(), mistake.message(), mistake.help(), colour)
 }
 
 /// Failure for an error that prevents judging the case in the file `path` with the text `source`.
-pub fn of_judging(path: &str, source: &str, error: &JudgeError, colour: bool) -> Failure {
+pub fn of_judging(path: &str, source: &str, error: &JudgeError, colour: bool) -> FileFailure {
     let place = |text: &str| source.find(text).map(|start| start..start + text.len());
     let span = match error {
         JudgeError::NotInvariant { equation, .. } | JudgeError::Dependent(equation) => {
@@ -49,7 +49,7 @@ fn at(
     message: String,
     help: Option<String>,
     colour: bool,
-) -> Failure {
+) -> FileFailure {
     let span = span.filter(|span| source.get(span.clone()).is_some());
     let before = span.as_ref().map(|span| &source[..span.start]);
     let line = before.map(|before| before.matches('\n').count() + 1);
@@ -62,7 +62,7 @@ fn at(
         None => title.element(Level::NOTE.message(format!("in {path}"))),
     };
     let rendered = render(group, help.as_deref(), colour);
-    Failure { message, help, line, column, rendered }
+    FileFailure { message, help, line, column, rendered }
 }
 
 /// Failure at a place in the text of an option.
@@ -73,17 +73,17 @@ pub fn of_option(
     message: &str,
     help: Option<&str>,
     colour: bool,
-) -> Failure {
+) -> FileFailure {
     at(option, text, Some(span), message.to_string(), help.map(str::to_string), colour)
 }
 
 /// Failure that concerns a file, or a folder, as a whole.
-pub fn of_file(path: &str, message: &str, help: &str, colour: bool) -> Failure {
+pub fn of_file(path: &str, message: &str, help: &str, colour: bool) -> FileFailure {
     let title = Level::ERROR.primary_title(message);
     let group = title.element(Level::NOTE.message(format!("in {path}")));
     let rendered = render(group, Some(help), colour);
     let (message, help) = (message.to_string(), Some(help.to_string()));
-    Failure { message, help, line: None, column: None, rendered }
+    FileFailure { message, help, line: None, column: None, rendered }
 }
 
 fn render<'a>(group: Group<'a>, help: Option<&'a str>, colour: bool) -> String {

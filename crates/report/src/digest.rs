@@ -11,9 +11,9 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// SHA-256 of the text of a case, in hexadecimal digits.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Digest(String);
+pub struct CaseDigest(String);
 
-impl Digest {
+impl CaseDigest {
     /// Digest of a text.
     pub fn of(text: &str) -> Self {
         let mut digits = String::from("sha256:");
@@ -40,7 +40,7 @@ impl Digest {
     }
 }
 
-impl fmt::Display for Digest {
+impl fmt::Display for CaseDigest {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         out.write_str(&self.0)
     }
@@ -53,8 +53,8 @@ mod tests {
     #[test]
     fn digests_are_those_of_sha256sum() {
         let empty = "sha256:e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855";
-        assert_eq!(Digest::of("").to_string(), empty);
-        let signed = Digest::of("").sign("{\"title\": \"x\"}").expect("an object");
+        assert_eq!(CaseDigest::of("").to_string(), empty);
+        let signed = CaseDigest::of("").sign("{\"title\": \"x\"}").expect("an object");
         let order: Vec<usize> =
             ["version", "digest", "title"].iter().filter_map(|key| signed.find(key)).collect();
         assert!(order.len() == 3 && order.is_sorted(), "{signed}");

@@ -1,6 +1,6 @@
 //! Evidence of `check -v`: formula, climb, witness and reasons of each claim.
 
-use liouville::verdict::{CaseReport, EquationsSize, Measurement, Method, Sign, Witness};
+use liouville::verdict::{CaseReport, DensitySign, EquationsSize, Measurement, Method, Witness};
 
 /// Decimal places of measured numbers.
 const ALL: f64 = 15.0;
@@ -62,12 +62,12 @@ pub fn details(path: &str, report: &CaseReport) -> String {
         }
         if let Some(sign) = evidence.sign {
             let sign = match sign {
-                Sign::Positive => "positive",
-                Sign::Negative => "negative",
-                Sign::Changes => "of both signs",
+                DensitySign::Positive => "positive",
+                DensitySign::Negative => "negative",
+                DensitySign::Changes => "of both signs",
             };
             let extent = match (evidence.sign_is_proved, evidence.sign) {
-                (true, Some(Sign::Changes)) => "at states with the same parameters",
+                (true, Some(DensitySign::Changes)) => "at states with the same parameters",
                 (true, _) => "at all states",
                 (false, _) if evidence.sign_is_partial => "where its value is known",
                 (false, _) => "at the states that were tried",
@@ -114,7 +114,7 @@ pub fn options(witness: &Witness) -> String {
 }
 
 /// Quotes a word for a shell where it needs that.
-fn shell_quoted(word: &str) -> String {
+pub fn shell_quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+,:".contains(c);
     match !word.is_empty() && word.chars().all(is_plain) {
         true => word.to_string(),

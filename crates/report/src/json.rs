@@ -2,11 +2,11 @@
 
 use serde::Serialize;
 
-use super::{Digest, Failure, RunReport, Summary, VERSION};
+use super::{CaseDigest, FileFailure, RunReport, Summary, VERSION};
 use liouville::verdict::{ClaimReport, MutationReport};
 
 #[derive(Serialize)]
-struct Root<'a> {
+struct CheckJson<'a> {
     version: &'static str,
     seed: u64,
     cases: Vec<CaseEntry<'a>>,
@@ -22,7 +22,7 @@ struct CaseEntry<'a> {
     source: &'a str,
     system: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
-    digest: Option<&'a Digest>,
+    digest: Option<&'a CaseDigest>,
     #[serde(skip_serializing_if = "<[String]>::is_empty")]
     warnings: &'a [String],
     #[serde(skip_serializing_if = "<[String]>::is_empty")]
@@ -36,12 +36,12 @@ struct CaseEntry<'a> {
 struct ErrorEntry<'a> {
     path: &'a str,
     #[serde(flatten)]
-    failure: &'a Failure,
+    failure: &'a FileFailure,
 }
 
 /// Renders the run as pretty-printed JSON.
 pub fn render(run: &RunReport) -> Result<String, serde_json::Error> {
-    let mut root = Root {
+    let mut root = CheckJson {
         version: VERSION,
         seed: run.seed,
         cases: Vec::new(),

@@ -12,7 +12,7 @@ pub mod site;
 pub mod survey;
 pub mod typeset;
 
-pub use digest::{Digest, VERSION};
+pub use digest::{CaseDigest, VERSION};
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -25,20 +25,20 @@ use liouville::verdict::{CaseReport, ClaimReport, EquationsSize, MutationReport,
 
 /// Outcome for one file of a run.
 #[derive(Debug)]
-pub struct Outcome {
+pub struct FileOutcome {
     /// Path as given or found.
     pub path: String,
     /// Title, source, system and column of the case; empty where it could not be read.
     pub heading: Heading,
     /// Verdicts, or the reasons why there are none.
-    pub result: Result<CaseReport, Vec<Failure>>,
+    pub result: Result<CaseReport, Vec<FileFailure>>,
     /// Names of the claims that were not reached when the run was stopped.
     pub unreached: Vec<String>,
 }
 
 /// Reason why a file could not be judged.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Failure {
+pub struct FileFailure {
     /// Message that describes the error.
     pub message: String,
     /// Suggested correction.
@@ -69,7 +69,7 @@ pub struct Heading {
     /// Notes of the author.
     pub notes: Vec<String>,
     /// Digest of the file's text.
-    pub digest: Option<Digest>,
+    pub digest: Option<CaseDigest>,
     /// Formulas of the claims that fill cells of a table, by the names of the claims.
     pub statements: BTreeMap<String, Layout>,
     /// Size of the recorded equations of motion, where it was asked for.
@@ -85,7 +85,7 @@ impl Heading {
             system: case.system.clone(),
             column: case.column.clone(),
             notes: case.notes.clone(),
-            digest: Some(Digest::of(text)),
+            digest: Some(CaseDigest::of(text)),
             statements: statements(case),
             equations: None,
         }
@@ -109,7 +109,7 @@ pub struct RunReport {
     /// Seed of all states.
     pub seed: u64,
     /// Outcome of each file, in the order of the paths.
-    pub outcomes: Vec<Outcome>,
+    pub outcomes: Vec<FileOutcome>,
     /// Duration of the run.
     pub elapsed: Duration,
 }
@@ -169,7 +169,7 @@ fn is_zero(count: &usize) -> bool {
 
 impl RunReport {
     /// All claims of all cases that were judged.
-    pub fn claims(&self) -> impl Iterator<Item = (&Outcome, &ClaimReport)> {
+    pub fn claims(&self) -> impl Iterator<Item = (&FileOutcome, &ClaimReport)> {
         self.outcomes.iter().flat_map(|outcome| {
             let claims = outcome.result.iter().flat_map(|report| &report.claims);
             claims.map(move |claim| (outcome, claim))
@@ -177,7 +177,7 @@ impl RunReport {
     }
 
     /// Mutants of all cases, where they were requested.
-    pub fn mutants(&self) -> impl Iterator<Item = (&Outcome, &MutationReport)> {
+    pub fn mutants(&self) -> impl Iterator<Item = (&FileOutcome, &MutationReport)> {
         self.outcomes.iter().filter_map(|outcome| {
             let report = outcome.result.as_ref().ok()?;
             Some((outcome, report.mutants.as_ref()?))

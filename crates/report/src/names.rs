@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use liouville::case::Case;
 use liouville::formula::{Scope, function_names};
-use liouville::mechanics::{Entry, Meaning, Origin};
+use liouville::mechanics::{Meaning, ParameterOrigin, VocabularyEntry};
 
 /// Lists the names with their kinds and meanings, and the functions.
 pub fn text(case: &Case) -> String {
@@ -41,15 +41,15 @@ pub fn text(case: &Case) -> String {
 const GROUPS: [&str; 4] = ["state variables", "parameters", "abbreviations", "quantities"];
 
 /// Returns the group of a name, and what it stands for.
-fn meaning(case: &Case, entry: &Entry) -> (&'static str, String) {
+fn meaning(case: &Case, entry: &VocabularyEntry) -> (&'static str, String) {
     match entry.meaning {
         Meaning::State(_) => (GROUPS[0], String::new()),
         Meaning::Parameter(index) => {
             let own = case.model.parameters.get(index);
             let origin = own.map(|parameter| match &parameter.origin {
-                Origin::Fixed(_) => "fixed".to_string(),
-                Origin::Free(_) => "drawn for every state".to_string(),
-                Origin::Formula(formula) => format!("= {}", formula.text()),
+                ParameterOrigin::Fixed(_) => "fixed".to_string(),
+                ParameterOrigin::Free(_) => "drawn for every state".to_string(),
+                ParameterOrigin::Formula(formula) => format!("= {}", formula.text()),
             });
             (GROUPS[1], origin.unwrap_or_default())
         }

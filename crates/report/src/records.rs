@@ -6,7 +6,7 @@ use std::fmt::Write;
 use liouville::verdict::{ClaimReport, Verdict};
 
 use super::typeset::mathml;
-use super::{Outcome, RunReport};
+use super::{FileOutcome, RunReport};
 
 /// Renders a header and one line for each claim; files that could not be judged have one line.
 pub fn csv(run: &RunReport) -> String {
@@ -71,7 +71,7 @@ pub fn junit(run: &RunReport) -> String {
     out
 }
 
-fn suite(outcome: &Outcome) -> String {
+fn suite(outcome: &FileOutcome) -> String {
     let path = escaped(&outcome.path);
     let mut out = String::new();
     match &outcome.result {

@@ -2,10 +2,10 @@
 
 use serde_json::json;
 
-use liouville_search::{MultiplierReport, Report};
+use liouville_search::{MultiplierReport, SearchReport};
 
 /// Renders the report as JSON.
-pub fn json(title: &str, report: &Report) -> Result<String, serde_json::Error> {
+pub fn json(title: &str, report: &SearchReport) -> Result<String, serde_json::Error> {
     serde_json::to_string_pretty(&json!({
         "title": title,
         "counts": report.counts,
@@ -21,7 +21,7 @@ pub fn json(title: &str, report: &Report) -> Result<String, serde_json::Error> {
 }
 
 /// Renders the report as text.
-pub fn text(title: &str, report: &Report) -> String {
+pub fn text(title: &str, report: &SearchReport) -> String {
     let mut out = format!("{title}\n");
     if !report.counts.is_empty() {
         out.push_str("\nintegrals polynomial in the velocities, with any smooth coefficients:\n");

@@ -1,8 +1,8 @@
 //! Index of a site of reports: by hierarchy, and by folder.
 
-use liouville_search::survey::Class;
+use liouville_search::survey::HierarchyClass;
 
-use crate::Failure;
+use crate::FileFailure;
 use crate::typeset::mathml::escaped;
 
 const STYLE: &str = include_str!("survey/page.css");
@@ -19,39 +19,39 @@ pub struct Page {
     /// Publication that the case is taken from.
     pub source: String,
     /// Outcome for the case.
-    pub outcome: Outcome,
+    pub outcome: SiteOutcome,
 }
 
 /// Outcome for a case of the site.
 #[derive(Clone, Debug)]
-pub enum Outcome {
+pub enum SiteOutcome {
     /// A report, in the file of this name, with `/` between folders.
-    Report(String, Standing),
+    Report(String, SiteGroup),
     /// No report: the reasons.
-    Failed(Vec<Failure>),
+    Failed(Vec<FileFailure>),
     /// No report, because the run was stopped.
     Unreached,
 }
 
 /// Group of a case in the index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Standing {
+pub enum SiteGroup {
     /// Class of the system in the hierarchy.
-    Class(Class),
+    Class(HierarchyClass),
     /// Verdicts on the claims alone.
     Claims,
 }
 
 /// Order of the index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Order {
+pub enum SiteOrder {
     /// By the class of the system.
     Hierarchy,
     /// By the folder of the case.
     Folder,
 }
 
-impl Order {
+impl SiteOrder {
     /// Both orders.
     pub const ALL: [Self; 2] = [Self::Hierarchy, Self::Folder];
 
@@ -72,19 +72,19 @@ impl Order {
 }
 
 /// Groups of the hierarchy in the order of the index.
-const STANDINGS: [Standing; 6] = [
-    Standing::Class(Class::IntegralAndMeasure),
-    Standing::Class(Class::MeasureOnly),
-    Standing::Class(Class::IntegralOnly),
-    Standing::Class(Class::Neither),
-    Standing::Class(Class::NotKnown),
-    Standing::Claims,
+const STANDINGS: [SiteGroup; 6] = [
+    SiteGroup::Class(HierarchyClass::IntegralAndMeasure),
+    SiteGroup::Class(HierarchyClass::MeasureOnly),
+    SiteGroup::Class(HierarchyClass::IntegralOnly),
+    SiteGroup::Class(HierarchyClass::Neither),
+    SiteGroup::Class(HierarchyClass::NotKnown),
+    SiteGroup::Claims,
 ];
 
-impl Standing {
+impl SiteGroup {
     fn words(self) -> &'static str {
         match self {
-            Self::Class(Class::NotKnown) => "class not known",
+            Self::Class(HierarchyClass::NotKnown) => "class not known",
             Self::Class(class) => class.words(),
             Self::Claims => "verdicts on claims alone",
         }
@@ -92,14 +92,14 @@ impl Standing {
 }
 
 /// Renders the index in an order; `origin` names the program.
-pub fn index(title: &str, origin: &str, pages: &[Page], order: Order) -> String {
+pub fn index(title: &str, origin: &str, pages: &[Page], order: SiteOrder) -> String {
     let (title, mut groups) = (escaped(title), Vec::new());
     match order {
-        Order::Hierarchy => groups.extend(STANDINGS.iter().map(|standing| {
+        SiteOrder::Hierarchy => groups.extend(STANDINGS.iter().map(|standing| {
             let is_meant = |page: &&Page| page.standing() == Some(*standing);
             (standing.words().to_string(), pages.iter().filter(is_meant).collect::<Vec<_>>())
         })),
-        Order::Folder => {
+        SiteOrder::Folder => {
             for page in pages.iter().filter(|page| page.standing().is_some()) {
                 let folder = page.path.rsplit_once('/').map_or("", |(folder, _)| folder);
                 match groups.iter_mut().find(|(own, _)| own == folder) {
@@ -110,7 +110,7 @@ pub fn index(title: &str, origin: &str, pages: &[Page], order: Order) -> String 
         }
     }
     groups.retain(|(_, members)| !members.is_empty());
-    let others = Order::ALL.into_iter().map(|other| match other == order {
+    let others = SiteOrder::ALL.into_iter().map(|other| match other == order {
         true => format!("<li>{}</li>\n", other.words()),
         false => format!("<li><a href=\"{}\">{}</a></li>\n", other.file(), other.words()),
     });
@@ -154,19 +154,19 @@ fn counted(count: usize, what: &str) -> String {
 
 impl Page {
     /// Group of the case, if it has a report.
-    fn standing(&self) -> Option<Standing> {
+    fn standing(&self) -> Option<SiteGroup> {
         match self.outcome {
-            Outcome::Report(_, standing) => Some(standing),
-            Outcome::Failed(_) | Outcome::Unreached => None,
+            SiteOutcome::Report(_, standing) => Some(standing),
+            SiteOutcome::Failed(_) | SiteOutcome::Unreached => None,
         }
     }
 }
 
-fn entry(page: &Page, order: Order) -> String {
-    let Outcome::Report(file, standing) = &page.outcome else { return String::new() };
+fn entry(page: &Page, order: SiteOrder) -> String {
+    let SiteOutcome::Report(file, standing) = &page.outcome else { return String::new() };
     let class = match standing {
-        Standing::Class(Class::IntegralAndMeasure) => "holds",
-        Standing::Class(Class::Neither) => "fails",
+        SiteGroup::Class(HierarchyClass::IntegralAndMeasure) => "holds",
+        SiteGroup::Class(HierarchyClass::Neither) => "fails",
         _ => "open",
     };
     let mut out = format!(
@@ -183,16 +183,16 @@ fn entry(page: &Page, order: Order) -> String {
     }
     let path = escaped(&page.path);
     let told = match order {
-        Order::Hierarchy => path,
-        Order::Folder => format!("{}; {path}", standing.words()),
+        SiteOrder::Hierarchy => path,
+        SiteOrder::Folder => format!("{}; {path}", standing.words()),
     };
     out + &format!("<p class=\"remark\">{told}</p>\n</article>\n")
 }
 
 fn failed(pages: &[Page]) -> Vec<String> {
     let each = pages.iter().filter_map(|page| match &page.outcome {
-        Outcome::Failed(failures) => Some((page, failures)),
-        Outcome::Report(..) | Outcome::Unreached => None,
+        SiteOutcome::Failed(failures) => Some((page, failures)),
+        SiteOutcome::Report(..) | SiteOutcome::Unreached => None,
     });
     each.map(|(page, failures)| {
         let texts: Vec<&str> = failures.iter().map(|one| one.rendered.as_str()).collect();
@@ -206,13 +206,13 @@ fn failed(pages: &[Page]) -> Vec<String> {
 }
 
 fn unreached(pages: &[Page]) -> Vec<String> {
-    let each = pages.iter().filter(|page| matches!(page.outcome, Outcome::Unreached));
+    let each = pages.iter().filter(|page| matches!(page.outcome, SiteOutcome::Unreached));
     each.map(|page| format!("<p>{}</p>\n", escaped(&page.path))).collect()
 }
 
 /// Way back from a page to the index, as long as the page is deep in folders.
 pub fn way_back(file: &str) -> String {
-    "../".repeat(file.matches('/').count()) + Order::Hierarchy.file()
+    "../".repeat(file.matches('/').count()) + SiteOrder::Hierarchy.file()
 }
 
 /// Name of a file in an address: what an address would read as something else is escaped.
@@ -231,23 +231,24 @@ fn address(file: &str) -> String {
 mod tests {
     use super::*;
 
-    fn page(path: &str, outcome: Outcome) -> Page {
+    fn page(path: &str, outcome: SiteOutcome) -> Page {
         let [lead, source] = ["a <body>", "(1.1)"].map(str::to_string);
         Page { path: path.to_string(), title: format!("Case {path}"), lead, source, outcome }
     }
 
     #[test]
     fn every_case_is_in_both_indices() {
-        let report = |file: &str, class| Outcome::Report(file.to_string(), Standing::Class(class));
+        let report =
+            |file: &str, class| SiteOutcome::Report(file.to_string(), SiteGroup::Class(class));
         let failure = crate::diagnostic::of_file("c.toml", "bad <key>", "mend it", false);
         let pages = [
-            page("a.toml", report("a.html", Class::Neither)),
-            page("b/50% & γ.toml", report("b/50% & γ.html", Class::IntegralAndMeasure)),
-            page("b/map.toml", Outcome::Report("b/map.html".to_string(), Standing::Claims)),
-            page("c.toml", Outcome::Failed(vec![failure])),
-            page("d.toml", Outcome::Unreached),
+            page("a.toml", report("a.html", HierarchyClass::Neither)),
+            page("b/50% & γ.toml", report("b/50% & γ.html", HierarchyClass::IntegralAndMeasure)),
+            page("b/map.toml", SiteOutcome::Report("b/map.html".to_string(), SiteGroup::Claims)),
+            page("c.toml", SiteOutcome::Failed(vec![failure])),
+            page("d.toml", SiteOutcome::Unreached),
         ];
-        for order in Order::ALL {
+        for order in SiteOrder::ALL {
             let text = index("Cases", "liouville 1", &pages, order);
             for words in [
                 "<a href=\"a.html\">Case a.toml</a>",
@@ -263,7 +264,7 @@ mod tests {
             let anchors = text.matches("href=\"#s").count();
             assert_eq!(anchors, text.matches("<section id=\"s").count(), "{order:?}: anchors");
         }
-        let text = index("Cases", "liouville 1", &pages, Order::Hierarchy);
+        let text = index("Cases", "liouville 1", &pages, SiteOrder::Hierarchy);
         let place = |words: &str| text.find(&format!("<h2>{words}</h2>"));
         let places = ["integral and measure", "neither integral nor measure", "without a report"];
         let places = places.map(|words| place(words).expect("a heading"));

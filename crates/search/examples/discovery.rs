@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use liouville::case::Case;
 use liouville::verdict::Verdict;
-use liouville_search::{Effort, Halt, Report, search};
+use liouville_search::{Effort, Halt, SearchReport, search};
 
 /// Folder that is searched without arguments.
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benchmark/pegasus");
@@ -36,7 +36,7 @@ fn row(path: &Path, limit: Option<f64>) -> Row {
     let name = path.file_stem().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let (known, report, failure) = match outcome {
         Ok((known, report)) => (known, report, None),
-        Err(failure) => (None, Report::default(), Some(failure)),
+        Err(failure) => (None, SearchReport::default(), Some(failure)),
     };
     let proved = |kind: &str| {
         let own = report.found.iter().filter(|found| found.kind == kind);
@@ -60,7 +60,7 @@ fn row(path: &Path, limit: Option<f64>) -> Row {
     }
 }
 
-fn searched(path: &Path, limit: Option<f64>) -> Result<(Option<usize>, Report), String> {
+fn searched(path: &Path, limit: Option<f64>) -> Result<(Option<usize>, SearchReport), String> {
     let case = Case::read(path, &[]).1.map_err(|error| error.to_string())?;
     let halt =
         limit.map_or_else(Halt::default, |limit| Halt::within(Duration::from_secs_f64(limit)));

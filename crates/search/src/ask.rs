@@ -2,8 +2,8 @@
 
 use super::{Effort, SearchError};
 use liouville::case::{Case, Expect};
-use liouville::claim::{Claim, Integral, Kind, MOST_COMPARED};
-use liouville::formula::{Composed, Formula, FormulaError, Type};
+use liouville::claim::{Claim, ClaimKind, Integral, MOST_COMPARED};
+use liouville::formula::{Formula, FormulaError, FormulaResult, Type};
 use liouville::verdict::{ClaimReport, Evidence, Verdict, judge};
 
 /// Judges claims about a case, and returns the reports.
@@ -88,7 +88,7 @@ pub fn claimed(case: &Case, effort: &Effort) -> Result<Vec<Claimed>, SearchError
     }
     let mut all = Vec::new();
     for claim in case.claims.iter().filter(|claim| claim.expect == Expect::Holds) {
-        if let Kind::Integral(Integral(own)) = &claim.kind {
+        if let ClaimKind::Integral(Integral(own)) = &claim.kind {
             let formulas = components(own)?.into_iter();
             all.extend(formulas.map(|formula| Claimed { name: claim.name.clone(), formula }));
         }
@@ -109,7 +109,7 @@ pub fn claimed(case: &Case, effort: &Effort) -> Result<Vec<Claimed>, SearchError
 /// Splits a formula into its components.
 pub fn components(formula: &Formula) -> Result<Vec<Formula>, FormulaError> {
     let whole = formula.bracketed();
-    let at = |indices: &[usize]| -> Composed { whole.component(indices) };
+    let at = |indices: &[usize]| -> FormulaResult { whole.component(indices) };
     match formula.value_type() {
         Type::Scalar => Ok(vec![formula.clone()]),
         Type::Vector(length) => (1..=length).map(|i| at(&[i])).collect(),

@@ -3,24 +3,27 @@
 
 use super::ansatz::Hamiltonians;
 use super::terms::recorded;
-use super::{Effort, Report, SearchError, Term};
+use super::{Effort, FurtherTerm, SearchError, SearchReport};
 use liouville::case::Case;
-use liouville::claim::Place;
+use liouville::claim::LevelSubset;
 use liouville::formula::Formula;
 use liouville::proof::Prover;
 use liouville::verdict::Sampler;
 
-/// Withdraws the theorems that depend on branches, if the formulas of a case contain moduli, or roots
-/// that depend on each other: modulo a prime these have another sign at half of all points.
-pub fn withdraw(case: &Case, effort: &Effort, report: &mut Report) -> Result<(), SearchError> {
+/// Withdraws all theorems so far if the formulas of a case contain moduli, or roots that depend on
+/// each other: modulo a prime these have another sign at half of all points.
+pub fn withdraw(
+    case: &Case,
+    effort: &Effort,
+    report: &mut SearchReport,
+) -> Result<(), SearchError> {
     let counts = report.counts.len() + report.multipliers.len();
-    let excluded = report.excluded.iter().filter(|own| !own.holds_on_all_branches).count();
-    if counts + excluded + report.conditions.len() == 0 || are_true(case, effort)? {
+    if counts + report.excluded.len() + report.conditions.len() == 0 || are_true(case, effort)? {
         return Ok(());
     }
     report.counts.clear();
     report.multipliers.clear();
-    report.excluded.retain(|own| own.holds_on_all_branches);
+    report.excluded.clear();
     report.conditions.clear();
     report.remark(
         "nothing is counted or excluded: the formulas contain a modulus, or a root that depends on \
@@ -32,7 +35,7 @@ pub fn withdraw(case: &Case, effort: &Effort, report: &mut Report) -> Result<(),
 
 /// Whether all formulas that enter theorems agree modulo primes with their values at real states.
 pub fn are_true(case: &Case, effort: &Effort) -> Result<bool, SearchError> {
-    let sampler = Sampler::new(case, &Place::level(&case.model), effort.options.seed)?;
+    let sampler = Sampler::new(case, &LevelSubset::level(&case.model), effort.options.seed)?;
     if sampler.is_numerical() {
         return Ok(true);
     }
@@ -41,8 +44,8 @@ pub fn are_true(case: &Case, effort: &Effort) -> Result<bool, SearchError> {
         Some(Hamiltonians::Known) | None => None,
     };
     let terms = effort.terms.iter().filter_map(|term| match term {
-        Term::Formula(formula) => Some(formula.clone()),
-        Term::Text(text) => Formula::parse(text, &case.model.vocabulary).ok(),
+        FurtherTerm::Formula(formula) => Some(formula.clone()),
+        FurtherTerm::Text(text) => Formula::parse(text, &case.model.vocabulary).ok(),
     });
     let typed: Vec<Formula> = terms.chain(given).collect();
     let (graph, outputs) = recorded(case, |jet| {

@@ -5,10 +5,10 @@ use std::ops::RangeInclusive;
 use serde::Serialize;
 
 use super::budget::STEPS;
-use super::jets::{self, Asked, Count};
+use super::jets::{self, DimensionCount, VelocityPolynomials};
 use super::local::Local;
 use super::products::Generators;
-use super::{Effort, Excluded, Report, SearchError};
+use super::{Effort, Excluded, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::formula::Formula;
 use liouville::mechanics::Draw;
@@ -38,7 +38,7 @@ pub struct CountReport {
 
 /// Estimated size and duration of a count.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Plan {
+pub struct CountEstimate {
     /// Number of unknowns of the largest system.
     pub unknowns: u64,
     /// Least time to set up all systems, in seconds.
@@ -48,7 +48,7 @@ pub struct Plan {
 }
 
 /// Estimates the cost of counting integrals within the effort; `None` if they cannot be counted.
-pub fn plan(case: &Case, effort: &Effort) -> Option<Plan> {
+pub fn plan(case: &Case, effort: &Effort) -> Option<CountEstimate> {
     let local = Local::of(case, &[]).ok()?;
     let mixed = case.model.system.energy_is_inhomogeneous();
     let combinations = listed(&case.model.parameter_draws()).len() as f64;
@@ -57,7 +57,7 @@ pub fn plan(case: &Case, effort: &Effort) -> Option<Plan> {
     let (unknowns, seconds) = counted
         .filter(|(_, seconds)| *seconds <= effort.seconds)
         .fold((0, 0.0), |(most, sum), (unknowns, seconds)| (unknowns.max(most), sum + seconds));
-    Some(Plan { unknowns, seconds, megabytes: megabytes(unknowns) })
+    Some(CountEstimate { unknowns, seconds, megabytes: megabytes(unknowns) })
 }
 
 fn megabytes(unknowns: u64) -> u64 {
@@ -69,13 +69,13 @@ fn megabytes(unknowns: u64) -> u64 {
 pub fn count(
     case: &Case,
     effort: &Effort,
-    report: &mut Report,
+    report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
     let mixed = case.model.system.energy_is_inhomogeneous();
     let mut undecided = 1..=effort.degree;
     if let Some(free) = free_motion(case).filter(|_| mixed) {
-        let motion = Motion::of(&free, false, true, effort)?;
+        let motion = CountedMotion::of(&free, false, true, effort)?;
         motion.series(undecided.clone(), effort, report, progress)?;
         let excess = report.counts.iter().find(|count| count.dimension > count.known);
         match excess {
@@ -85,7 +85,7 @@ pub fn count(
             Some(excess) => undecided = excess.degree..=effort.degree,
         }
     }
-    Motion::of(case, mixed, false, effort)?.series(undecided, effort, report, progress)
+    CountedMotion::of(case, mixed, false, effort)?.series(undecided, effort, report, progress)
 }
 
 /// Makes the same body without potential and gyrostat, if these are known.
@@ -97,7 +97,7 @@ pub fn free_motion(case: &Case) -> Option<Case> {
 }
 
 /// The motion whose integrals are counted.
-struct Motion<'c> {
+struct CountedMotion<'c> {
     case: &'c Case,
     /// Whether all degrees up to the given one are counted together.
     mixed: bool,
@@ -107,7 +107,7 @@ struct Motion<'c> {
     energy: Generators,
 }
 
-impl<'c> Motion<'c> {
+impl<'c> CountedMotion<'c> {
     fn of(case: &'c Case, mixed: bool, free: bool, effort: &Effort) -> Result<Self, SearchError> {
         Ok(Self { case, mixed, free, energy: Generators::energy(case, effort)? })
     }
@@ -117,7 +117,7 @@ impl<'c> Motion<'c> {
         &self,
         degrees: RangeInclusive<u32>,
         effort: &Effort,
-        report: &mut Report,
+        report: &mut SearchReport,
         progress: &mut dyn FnMut(&str),
     ) -> Result<(), SearchError> {
         let Some(locals) = locals(self.case, report)? else { return Ok(()) };
@@ -169,9 +169,9 @@ impl<'c> Motion<'c> {
         effort: &Effort,
     ) -> Result<CountReport, SearchError> {
         let known = self.energy.products(degree, self.mixed);
-        let asked = Asked { degree, mixed: self.mixed };
+        let asked = VelocityPolynomials { degree, mixed: self.mixed };
         let found = largest(locals, asked, &Rational::from(0), known, effort)?;
-        let Count { dimension, size: (unknowns, equations) } = found;
+        let DimensionCount { dimension, size: (unknowns, equations) } = found;
         let (mixed, free) = (self.mixed, self.free);
         Ok(CountReport { degree, mixed, free, dimension, known, unknowns, equations })
     }
@@ -179,7 +179,7 @@ impl<'c> Motion<'c> {
 
 /// Records the equations of motion for each combination of listed values; `None`, with a remark, if
 /// there are too many combinations or nothing can be counted.
-pub fn locals(case: &Case, report: &mut Report) -> Result<Option<Vec<Local>>, SearchError> {
+pub fn locals(case: &Case, report: &mut SearchReport) -> Result<Option<Vec<Local>>, SearchError> {
     let mut locals = Vec::new();
     for fixed in listed(&case.model.parameter_draws()) {
         match Local::of(case, &fixed) {
@@ -201,12 +201,12 @@ pub fn locals(case: &Case, report: &mut Report) -> Result<Option<Vec<Local>>, Se
 /// Returns the largest count over the listed values: a theorem is about all of them.
 pub fn largest(
     locals: &[Local],
-    asked: Asked,
+    asked: VelocityPolynomials,
     weight: &Rational,
     least: usize,
     effort: &Effort,
-) -> Result<Count, SearchError> {
-    let counts: Result<Vec<Count>, SearchError> =
+) -> Result<DimensionCount, SearchError> {
+    let counts: Result<Vec<DimensionCount>, SearchError> =
         locals.iter().map(|local| jets::count(local, asked, weight, least, effort)).collect();
     counts?.into_iter().max_by_key(|count| count.dimension).ok_or(SearchError::NoSeries)
 }
@@ -249,7 +249,11 @@ fn binomial(n: u32, k: u32) -> u64 {
 }
 
 /// States the theorems of absence that follow from the counts and the known integrals.
-pub fn conclude(case: &Case, effort: &Effort, report: &mut Report) -> Result<(), SearchError> {
+pub fn conclude(
+    case: &Case,
+    effort: &Effort,
+    report: &mut SearchReport,
+) -> Result<(), SearchError> {
     if report.counts.is_empty() {
         return Ok(());
     }
@@ -292,7 +296,6 @@ pub fn conclude(case: &Case, effort: &Effort, report: &mut Report) -> Result<(),
         theorem: format!(
             "For generic values of the free parameters, and the given values of the fixed ones, {what}{forces}"
         ),
-        holds_on_all_branches: false,
     });
     Ok(())
 }

@@ -6,12 +6,12 @@
 use super::ask::{holds, judged_alone};
 use super::integrals::tell;
 use super::library;
-use super::linear::Functions;
+use super::linear::SampledFunctions;
 use super::terms::{one, powers, recorded};
-use super::{Effort, Found, Report, SearchError};
+use super::{Effort, Found, SearchError, SearchReport};
 use liouville::case::Case;
-use liouville::claim::{Claim, Place};
-use liouville::formula::{Composed, Formula};
+use liouville::claim::{Claim, LevelSubset};
+use liouville::formula::{Formula, FormulaResult};
 use liouville::graph::{Expr, Graph};
 use liouville::number::rational::Rational;
 
@@ -25,12 +25,16 @@ struct Logarithms {
 }
 
 /// Searches for densities and integrals of this form.
-pub fn densities(case: &Case, effort: &Effort, report: &mut Report) -> Result<(), SearchError> {
+pub fn densities(
+    case: &Case,
+    effort: &Effort,
+    report: &mut SearchReport,
+) -> Result<(), SearchError> {
     let model = &case.model;
     let factors = library::factors(model);
     let exponents = library::exponents(model);
     let forms = library::linear_factors(model);
-    let kept = Place::level(model).kept;
+    let kept = LevelSubset::level(model).kept;
     let (graph, (divergence, rates, moving)) = recorded(case, |jet| {
         let moved = jet.along_field();
         let growth =
@@ -63,7 +67,7 @@ pub fn densities(case: &Case, effort: &Effort, report: &mut Report) -> Result<()
 }
 
 /// Product of some factors; 1 of none.
-fn multiplied(factors: &[Formula]) -> Composed {
+fn multiplied(factors: &[Formula]) -> FormulaResult {
     match factors.split_first() {
         None => Ok(one()),
         Some((first, others)) => others.iter().try_fold(first.clone(), |all, next| &all * next),
@@ -79,7 +83,7 @@ impl Logarithms {
         effort: &Effort,
     ) -> Result<Option<Vec<Formula>>, SearchError> {
         let columns: Vec<Vec<Expr>> = self.rates.iter().cloned().chain([target]).collect();
-        let mut functions = Functions::new(case, &self.graph, &columns, effort.options.seed)?;
+        let mut functions = SampledFunctions::new(case, &self.graph, &columns, effort)?;
         let defined = functions.defined();
         if defined.last() != Some(&self.rates.len()) {
             return Ok(None);
@@ -91,7 +95,7 @@ impl Logarithms {
         };
         // The target is the last column: if it depends on the others, one vector has 1 there.
         let one = Rational::from(1);
-        let vectors = relations.rational().0;
+        let vectors = relations.rational()?.0;
         let Some(vector) = vectors.iter().find(|vector| vector.last() == Some(&one)) else {
             return Ok(None);
         };

@@ -4,10 +4,10 @@
 use super::SearchError;
 use super::echelon::Echelon;
 use super::local::Local;
-use super::series::Series;
+use super::series::TruncatedSeries;
 use liouville::graph::{Evaluator, Tape};
 use liouville::number::prime::Modulus;
-use liouville::proof::Chance;
+use liouville::proof::ProofRng;
 
 /// Exponents of the velocities, each with a coefficient series.
 pub type Polynomial = Vec<(Vec<u32>, Vec<u64>)>;
@@ -16,16 +16,16 @@ pub type Polynomial = Vec<(Vec<u32>, Vec<u64>)>;
 type Rates<'a> = dyn FnMut(&[u64]) -> Option<Vec<Vec<u64>>> + 'a;
 
 /// Taylor series of the field: polynomials in the velocities with series as coefficients.
-pub struct Expansion {
+pub struct FieldExpansion {
     /// Rates of the positions.
     pub positions: Vec<Polynomial>,
     /// Rates of the velocities.
     pub velocities: Vec<Polynomial>,
 }
 
-impl Expansion {
+impl FieldExpansion {
     /// Computes div v in these coordinates, to one order less than the rates.
-    pub fn divergence(&self, series: &Series) -> Polynomial {
+    pub fn divergence(&self, series: &TruncatedSeries) -> Polynomial {
         let along = self.positions.iter().enumerate().flat_map(|(i, rate)| {
             rate.iter().map(move |(power, value)| (power.clone(), series.derivative(i, value)))
         });
@@ -49,21 +49,21 @@ pub struct Taylor<'l> {
     /// Order of the expansion.
     pub order: u32,
     /// Domain of the series.
-    pub series: Series,
+    pub series: TruncatedSeries,
     tape: Tape,
 }
 
 impl<'l> Taylor<'l> {
     /// Prepares series modulo a prime.
     pub fn new(local: &'l Local, modulus: Modulus, order: u32) -> Self {
-        let series = Series::new(modulus, local.coordinates.positions, order);
+        let series = TruncatedSeries::new(modulus, local.coordinates.positions, order);
         let tape = Tape::new(&local.graph, &local.rates);
         Self { local, modulus, order, series, tape }
     }
 
     /// Draws random positions.
-    pub fn positions(&self, chance: &mut Chance) -> Vec<u64> {
-        (0..self.local.coordinates.positions).map(|_| chance.element(&self.modulus)).collect()
+    pub fn positions(&self, rng: &mut ProofRng) -> Vec<u64> {
+        (0..self.local.coordinates.positions).map(|_| rng.element(&self.modulus)).collect()
     }
 
     /// Expands the field about a point; `None` where it is undefined.
@@ -71,8 +71,8 @@ impl<'l> Taylor<'l> {
         &mut self,
         parameters: &[u64],
         positions: &[u64],
-        chance: &mut Chance,
-    ) -> Result<Option<Expansion>, SearchError> {
+        rng: &mut ProofRng,
+    ) -> Result<Option<FieldExpansion>, SearchError> {
         let (modulus, series) = (self.modulus, &self.series);
         let velocities = self.local.coordinates.velocities;
         let mut evaluator = Evaluator::new(&self.tape, series.clone());
@@ -85,7 +85,7 @@ impl<'l> Taylor<'l> {
             let found: Vec<Vec<u64>> = evaluator.outputs().cloned().collect();
             found.iter().all(|rate| !rate.is_empty()).then_some(found)
         };
-        let check: Vec<u64> = (0..velocities).map(|_| chance.element(&modulus)).collect();
+        let check: Vec<u64> = (0..velocities).map(|_| rng.element(&modulus)).collect();
         let Some(polynomials) = quadratic(velocities, &modulus, &mut rates_at) else {
             return Ok(None);
         };
@@ -97,7 +97,7 @@ impl<'l> Taylor<'l> {
             return Err(SearchError::NotSpanned);
         }
         let mut rates = polynomials.into_iter();
-        Ok(Some(Expansion {
+        Ok(Some(FieldExpansion {
             positions: rates.by_ref().take(positions.len()).collect(),
             velocities: rates.collect(),
         }))

@@ -4,20 +4,27 @@ use num_dual::Dual;
 
 use super::ask::{are_comparable, holds, independent, judged};
 use super::library;
-use super::linear::Functions;
+use super::linear::SampledFunctions;
 use super::second_opinion::second_opinion;
 use super::terms::{is_one, recorded, sum};
-use super::{Effort, Found, Report, SearchError};
+use super::{Effort, Found, SearchError, SearchReport};
 use liouville::case::Case;
-use liouville::claim::{Claim, Place};
+use liouville::claim::{Claim, LevelSubset};
 use liouville::formula::{Formula, FormulaError};
 use liouville::graph::Expr;
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 use liouville::verdict::{ClaimReport, Independence};
 
+/// End of the note on relations whose coefficients are not rational.
+pub const IRRATIONAL: &str = "relations do not have small rational coefficients";
+
 /// Searches for integrals; proved ones go into the report.
-pub fn integrals(case: &Case, effort: &Effort, report: &mut Report) -> Result<(), SearchError> {
+pub fn integrals(
+    case: &Case,
+    effort: &Effort,
+    report: &mut SearchReport,
+) -> Result<(), SearchError> {
     let terms = terms(case, effort, report)?;
     let candidates = over_denominators(case, &terms, &Rational::from(0), effort, report)?;
     let claims: Vec<Claim> = candidates.iter().map(Claim::integral).collect();
@@ -45,13 +52,13 @@ pub fn tell(
     formula: &Formula,
     found: ClaimReport,
     effort: &Effort,
-    report: &mut Report,
+    report: &mut SearchReport,
 ) -> Result<(), SearchError> {
     let told: Vec<Formula> = report.functions("integral").cloned().collect();
     if !are_comparable(case, &told) {
         let count = told.len();
         report.remark(format!(
-            "an integral that is not listed, as it cannot be compared with the {count} that are: {formula}"
+            "an integral is not listed, since it cannot be compared with the {count} that are: {formula}"
         ));
         return Ok(());
     }
@@ -75,7 +82,7 @@ pub fn tell(
 pub fn terms(
     case: &Case,
     effort: &Effort,
-    report: &mut Report,
+    report: &mut SearchReport,
 ) -> Result<Vec<Formula>, SearchError> {
     let model = &case.model;
     let own: Result<Vec<Formula>, SearchError> =
@@ -91,10 +98,10 @@ pub fn over_denominators(
     terms: &[Formula],
     weight: &Rational,
     effort: &Effort,
-    report: &mut Report,
+    report: &mut SearchReport,
 ) -> Result<Vec<Formula>, SearchError> {
     let model = &case.model;
-    let kept = Place::level(model).kept;
+    let kept = LevelSubset::level(model).kept;
     let mut candidates = Vec::new();
     if terms.is_empty() {
         return Ok(candidates);
@@ -113,13 +120,12 @@ pub fn over_denominators(
             terms.iter().map(|term| vec![rate(term)]).collect::<Vec<_>>()
         })?;
         let seed = effort.options.seed;
-        let mut functions = Functions::new(case, &graph, &rates, seed)?;
-        let (vectors, irrational) = functions.relations()?.rational();
+        let mut functions = SampledFunctions::new(case, &graph, &rates, effort)?;
+        let (vectors, irrational) = functions.relations()?.rational()?;
         let dimension = vectors.len() + irrational;
         report.opinions.extend(second_opinion(&functions, denominator.text(), dimension, seed));
         if irrational > 0 {
-            let many = format!("{irrational} relations do not have small rational coefficients");
-            report.remark(many);
+            report.remark(format!("{irrational} {IRRATIONAL}"));
         }
         let written = |vector: &Vec<Rational>| {
             let above = sum(vector, terms)?;
@@ -136,12 +142,12 @@ fn distinct(
     case: &Case,
     terms: Vec<Formula>,
     effort: &Effort,
-    report: &mut Report,
+    report: &mut SearchReport,
 ) -> Result<Vec<Formula>, SearchError> {
     let (graph, values) = recorded(case, |jet| {
         terms.iter().map(|term| vec![jet.phase.scalar(term)]).collect::<Vec<_>>()
     })?;
-    let mut functions = Functions::new(case, &graph, &values, effort.options.seed)?;
+    let mut functions = SampledFunctions::new(case, &graph, &values, effort)?;
     let defined = functions.defined();
     functions.restrict(&defined);
     let kept = match functions.relations() {

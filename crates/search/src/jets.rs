@@ -8,15 +8,15 @@
 //! modulo p is never above the rank in characteristic 0, so that an empty answer is a theorem about
 //! generic parameters.
 
-use crate::streams::Stream;
+use crate::streams::SearchStream;
 use rustc_hash::FxHashMap;
 
 use super::budget::Budget;
 use super::echelon::Echelon;
-use super::expansion::{Expansion, Taylor};
+use super::expansion::{FieldExpansion, Taylor};
 use super::local::Local;
 use super::series::exponents;
-use super::{Effort, SearchError};
+use super::{Effort, Halt, SearchError};
 use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
 
@@ -31,7 +31,7 @@ type Entries = Vec<(usize, u64)>;
 
 /// The space of polynomials in the velocities to be counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Asked {
+pub struct VelocityPolynomials {
     /// Degree in the velocities.
     pub degree: u32,
     /// Whether all degrees up to it are counted together, as needed with a gyrostat or a potential.
@@ -40,7 +40,7 @@ pub struct Asked {
 
 /// A dimension as an upper bound for generic parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Count {
+pub struct DimensionCount {
     /// Dimension of the space.
     pub dimension: usize,
     /// Numbers of unknowns and equations.
@@ -51,11 +51,11 @@ pub struct Count {
 /// integrals for α = 0. The order of the Taylor coefficients rises until the count is stable.
 pub fn count(
     local: &Local,
-    asked: Asked,
+    asked: VelocityPolynomials,
     weight: &Rational,
     least: usize,
     effort: &Effort,
-) -> Result<Count, SearchError> {
+) -> Result<DimensionCount, SearchError> {
     let mut last = None;
     let lowest = 2 * asked.degree + 2;
     for order in [lowest, lowest + 1, lowest + 3, lowest + 5] {
@@ -70,26 +70,26 @@ pub fn count(
 
 fn count_to_order(
     local: &Local,
-    asked: Asked,
+    asked: VelocityPolynomials,
     weight: &Rational,
     order: u32,
     effort: &Effort,
-) -> Result<Count, SearchError> {
-    let mut chance = Stream::Jets.under(effort.options.seed);
-    let modulus = chance.prime(&[], &[]);
+) -> Result<DimensionCount, SearchError> {
+    let mut rng = SearchStream::Jets.under(effort.options.seed);
+    let modulus = rng.prime(&[], &[]);
     let weight = modulus.rational(weight).ok_or(SearchError::NoSeries)?;
     let mut taylor = Taylor::new(local, modulus, order);
     for _ in 0..MOST_POINTS {
-        let parameters = local.parameters(&modulus, &mut chance);
-        let positions = taylor.positions(&mut chance);
-        if let Some(expansion) = taylor.at(&parameters, &positions, &mut chance)? {
+        let parameters = local.parameters(&modulus, &mut rng);
+        let positions = taylor.positions(&mut rng);
+        if let Some(expansion) = taylor.at(&parameters, &positions, &mut rng)? {
             let budget = Budget::of(effort);
             let (unknowns, entries) = extent(&expansion, &taylor, asked);
             budget.admits(unknowns, entries)?;
-            let system = Equations::of(&expansion, &taylor, asked, weight);
+            let system = Equations::of(&expansion, &taylor, asked, weight, &effort.halt)?;
             let dimension = system.dimension(&system.solved(&budget)?.0);
             let size = (system.columns.len(), system.rows.len());
-            return Ok(Count { dimension, size });
+            return Ok(DimensionCount { dimension, size });
         }
     }
     Err(SearchError::NoSeries)
@@ -97,7 +97,11 @@ fn count_to_order(
 
 /// Number of unknowns of the equations, and an estimate of the number of their entries, by the degrees
 /// of the terms that are not 0.
-fn extent(expansion: &Expansion, taylor: &Taylor<'_>, asked: Asked) -> (usize, f64) {
+fn extent(
+    expansion: &FieldExpansion,
+    taylor: &Taylor<'_>,
+    asked: VelocityPolynomials,
+) -> (usize, f64) {
     let order = taylor.order as usize;
     let monomials = taylor.series.monomials();
     let degrees: Vec<usize> = monomials.iter().map(|m| m.iter().sum::<u32>() as usize).collect();
@@ -160,9 +164,15 @@ impl Equations {
     }
 
     /// Sets up the equations for L_vP + α div v P = 0 at a point, where α is the weight.
-    pub fn of(expansion: &Expansion, taylor: &Taylor<'_>, asked: Asked, weight: u64) -> Self {
+    pub fn of(
+        expansion: &FieldExpansion,
+        taylor: &Taylor<'_>,
+        asked: VelocityPolynomials,
+        weight: u64,
+        halt: &Halt,
+    ) -> Result<Self, SearchError> {
         let (modulus, order) = (taylor.modulus, taylor.order);
-        let Asked { degree, mixed } = asked;
+        let VelocityPolynomials { degree, mixed } = asked;
         let divergence = match weight {
             0 => Vec::new(),
             _ => expansion.divergence(&taylor.series),
@@ -182,6 +192,7 @@ impl Equations {
         columns.sort_by_key(|(a, k)| (std::cmp::Reverse(total(&monomials[*k])), *a, *k));
         let mut rows: FxHashMap<RowKey, Entries> = FxHashMap::default();
         for (column, (a, k)) in columns.iter().enumerate() {
+            halt.check()?;
             let mut add = |power: Vec<u32>, monomial: &[u32], coefficient: &[u64], factor: u64| {
                 for (other, value) in monomials.iter().zip(coefficient) {
                     if *value == 0 {
@@ -225,6 +236,6 @@ impl Equations {
         let mut rows: Vec<_> = rows.into_iter().collect();
         rows.sort_by(|(a, _), (b, _)| a.cmp(b));
         let columns = columns.into_iter().map(|(_, k)| total(&monomials[k])).collect();
-        Self { columns, degree, rows, modulus }
+        Ok(Self { columns, degree, rows, modulus })
     }
 }

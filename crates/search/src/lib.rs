@@ -47,8 +47,8 @@ use liouville::verdict::{ClaimReport, Evidence, Options, Verdict};
 
 pub use absence::{complete, judge};
 pub use ansatz::{Ansatz, Hamiltonians};
-pub use conditions::{Condition, Wanted};
-pub use counts::{CountReport, Plan, plan};
+pub use conditions::{ConditionTarget, ParameterCondition};
+pub use counts::{CountEstimate, CountReport, plan};
 pub use error::SearchError;
 pub use halt::Halt;
 pub use multipliers::MultiplierReport;
@@ -63,9 +63,9 @@ pub struct Effort {
     /// Whether the claims of the case are ignored.
     pub blind: bool,
     /// Terms of integrals in addition to those offered by the system.
-    pub terms: Vec<Term>,
+    pub terms: Vec<FurtherTerm>,
     /// Search for conditions on the parameters, if any.
-    pub conditions: Option<Wanted>,
+    pub conditions: Option<ConditionTarget>,
     /// Time in seconds above which a count is left out.
     pub seconds: f64,
     /// Scope of the polynomial ansatz.
@@ -97,37 +97,37 @@ impl Default for Effort {
 
 /// A further term that integrals may contain.
 #[derive(Clone, Debug)]
-pub enum Term {
+pub enum FurtherTerm {
     /// Text in the names of the case.
     Text(String),
     /// Formula of the case.
     Formula(Formula),
 }
 
-impl From<&str> for Term {
+impl From<&str> for FurtherTerm {
     fn from(text: &str) -> Self {
-        Term::Text(text.to_string())
+        FurtherTerm::Text(text.to_string())
     }
 }
 
-impl From<String> for Term {
+impl From<String> for FurtherTerm {
     fn from(text: String) -> Self {
-        Term::Text(text)
+        FurtherTerm::Text(text)
     }
 }
 
-impl From<Formula> for Term {
+impl From<Formula> for FurtherTerm {
     fn from(formula: Formula) -> Self {
-        Term::Formula(formula)
+        FurtherTerm::Formula(formula)
     }
 }
 
-impl Term {
+impl FurtherTerm {
     /// The term as a scalar of the case.
     fn read(&self, model: &Model) -> Result<Formula, SearchError> {
         match self {
-            Term::Formula(formula) => Ok(formula.clone()),
-            Term::Text(text) => {
+            FurtherTerm::Formula(formula) => Ok(formula.clone()),
+            FurtherTerm::Text(text) => {
                 let read = terms::read([text.as_str()], &model.vocabulary).pop();
                 read.ok_or_else(|| SearchError::NoTerm(text.clone()))
             }
@@ -235,14 +235,11 @@ pub struct Excluded {
     pub error_log2: Option<f64>,
     /// Theorem with its hypotheses.
     pub theorem: String,
-    /// Whether it is proved for both signs of each root, and contains no modulus.
-    #[serde(skip)]
-    pub holds_on_all_branches: bool,
 }
 
 /// The outcome of a search.
 #[derive(Clone, Debug, Default, Serialize)]
-pub struct Report {
+pub struct SearchReport {
     /// Numbers of integrals, degree by degree.
     pub counts: Vec<CountReport>,
     /// Numbers of polynomials whose powers are densities.
@@ -258,7 +255,7 @@ pub struct Report {
     pub opinions: Vec<SecondOpinion>,
     /// Parameter conditions for claims that fail in general.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub conditions: Vec<Condition>,
+    pub conditions: Vec<ParameterCondition>,
     /// Parts that could not be carried out, with reasons.
     pub remarks: Vec<String>,
     /// Parts that a stopped search did not reach; empty for a complete search.
@@ -271,7 +268,7 @@ pub struct Report {
     claimed: Vec<Claimed>,
 }
 
-impl Report {
+impl SearchReport {
     /// Returns the formulas of one kind found for the case without additional data.
     pub fn formulas(&self, kind: &str) -> impl Iterator<Item = &str> {
         self.of_case(kind).map(|found| found.formula.as_str())
@@ -321,11 +318,11 @@ pub fn search(
     case: &Case,
     effort: &Effort,
     progress: &mut dyn FnMut(&str),
-) -> Result<Report, SearchError> {
+) -> Result<SearchReport, SearchError> {
     if case.model.system.is_map() {
         return Err(SearchError::Discrete);
     }
-    let mut report = Report::default();
+    let mut report = SearchReport::default();
     let case = &abbreviated(case)?;
     report.claimed = ask::claimed(case, effort)?;
     report.stage("the number of integrals", effort, |report| {
@@ -356,13 +353,18 @@ pub fn search(
             conditions::conditions(case, wanted, effort, report, progress)
         })?;
     }
+    branches::withdraw(case, effort, &mut report)?;
+    // Theorems on orbits hold for both signs of each root, and are about fields without moduli.
     report.stage("relations along an orbit", effort, |report| {
-        orbit::search(case, effort, report, progress)
+        orbit::search(case, effort, effort.halt.is_timed(), report, progress)
     })?;
+    if !report.orbits.is_empty() {
+        // The search along orbits has these as well.
+        report.remarks.retain(|remark| !remark.ends_with(integrals::IRRATIONAL));
+    }
     for remark in std::mem::take(&mut report.without_points) {
         report.remark(remark);
     }
-    branches::withdraw(case, effort, &mut report)?;
     Ok(report)
 }
 

@@ -5,7 +5,7 @@
 //! does not have, or has with another type, is not offered.
 
 use super::terms::{is_one, one};
-use liouville::formula::{Composed, Formula, Type};
+use liouville::formula::{Formula, FormulaResult, Type};
 use liouville::mechanics::{Meaning, Model, System};
 
 fn has(model: &Model, name: &str, kind: Type) -> bool {
@@ -24,7 +24,7 @@ fn scalars(model: &Model, texts: &[&str]) -> Vec<Formula> {
 }
 
 /// Keeps the formulas that can be made, and are scalars.
-fn kept(made: impl IntoIterator<Item = Composed>) -> Vec<Formula> {
+fn kept(made: impl IntoIterator<Item = FormulaResult>) -> Vec<Formula> {
     let scalar = |formula: &Formula| formula.value_type() == Type::Scalar;
     made.into_iter().flatten().filter(scalar).collect()
 }
@@ -44,7 +44,7 @@ fn potential_parameters(model: &Model) -> Vec<Formula> {
 }
 
 /// Product of two factors, of which one may be 1.
-fn product(a: &Formula, b: &Formula) -> Composed {
+fn product(a: &Formula, b: &Formula) -> FormulaResult {
     match (is_one(a), is_one(b)) {
         (true, _) => Ok(b.clone()),
         (_, true) => Ok(a.clone()),

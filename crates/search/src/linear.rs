@@ -1,56 +1,59 @@
 //! Rational relations between functions of a state and the parameters: Σ a_j f_j = 0 with constant
 //! a_j, found at random points modulo a prime.
 
-use super::SearchError;
 use super::echelon::Echelon;
 use super::local::sign;
-use crate::streams::Stream;
+use super::{Effort, Halt, SearchError};
+use crate::streams::SearchStream;
 use liouville::case::Case;
-use liouville::claim::Place;
+use liouville::claim::LevelSubset;
 use liouville::graph::{Evaluator, Expr, Graph, Tape};
-use liouville::mechanics::{Draw, Draws};
+use liouville::mechanics::{Draw, DrawSource};
 use liouville::number::ball::Ball;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
 use liouville::number::rational::Rational;
 use liouville::number::{Domain, Enclosing};
-use liouville::proof::{Chance, reconstruct};
+use liouville::proof::{ProofRng, reconstruct};
 use liouville::verdict::Sampler;
 
 /// Number of rows beyond the number of columns: each false relation survives one with probability
 /// 1/p.
-const SPARE: usize = 8;
+const SPARE_ROWS: usize = 8;
 /// Number of lanes of the evaluation.
-const LANES: usize = 8;
+const RELATION_LANES: usize = 8;
 /// Number of blocks without a value after which a function is given up; roots exist at half of the
 /// points.
 const TRIALS: usize = 16;
 
 /// Functions on the level, evaluated at random states and parameters modulo a prime.
-pub struct Functions {
+pub struct SampledFunctions {
     graph: Graph,
     outputs: Vec<Vec<Expr>>,
     draws: Vec<Draw>,
     modulus: Modulus,
-    chance: Chance,
+    rng: ProofRng,
+    halt: Halt,
 }
 
-impl Functions {
+impl SampledFunctions {
     /// Prepares functions recorded in `graph`, each with some components, at states of the level.
     pub fn new(
         case: &Case,
         graph: &Graph,
         functions: &[Vec<Expr>],
-        seed: u64,
+        effort: &Effort,
     ) -> Result<Self, SearchError> {
-        let sampler = Sampler::new(case, &Place::level(&case.model), seed)?;
+        let seed = effort.options.seed;
+        let sampler = Sampler::new(case, &LevelSubset::level(&case.model), seed)?;
         if sampler.is_numerical() {
             return Err(SearchError::NoChart);
         }
         let fixed = vec![None; sampler.recipes().len()];
         let (graph, outputs) = sampler.compose(graph, functions, &fixed)?;
-        let mut chance = Stream::Relations.under(seed);
-        let modulus = chance.prime(&[3, 5], &[2, 3]);
-        Ok(Self { graph, outputs, draws: sampler.recipes().to_vec(), modulus, chance })
+        let mut rng = SearchStream::Relations.under(seed);
+        let modulus = rng.prime(&[3, 5], &[2, 3]);
+        let (draws, halt) = (sampler.recipes().to_vec(), effort.halt.clone());
+        Ok(Self { graph, outputs, draws, modulus, rng, halt })
     }
 
     /// Returns the functions that have a value somewhere.
@@ -85,7 +88,7 @@ impl Functions {
             Draw::OneOf(values) => Draw::OneOf(values.iter().take(1).cloned().collect()),
             within => within.clone(),
         };
-        let draws = Draws::new(&self.draws.iter().map(first).collect::<Vec<Draw>>());
+        let draws = DrawSource::new(&self.draws.iter().map(first).collect::<Vec<Draw>>());
         let mut rows = Vec::new();
         for index in 0..states as u64 {
             let drawn = draws.state(seed, index);
@@ -108,19 +111,20 @@ impl Functions {
     }
 
     /// Finds a basis of the relations among the columns, by echelon form.
-    pub fn relations(&mut self) -> Result<Relations, SearchError> {
+    pub fn relations(&mut self) -> Result<FunctionRelations, SearchError> {
         let columns = self.outputs.len();
         let mut echelon = Echelon::new(columns, self.modulus);
-        let mut dependent = 0;
-        self.visit(64 * (columns + SPARE), &mut |row| {
+        let (mut dependent, halt) = (0, self.halt.clone());
+        self.visit(64 * (columns + SPARE_ROWS), &mut |row| {
             if !row.contains(&UNDEFINED) {
                 dependent = if echelon.push(row) { 0 } else { dependent + 1 };
             }
-            dependent < SPARE
+            dependent < SPARE_ROWS && halt.check().is_ok()
         });
-        match dependent < SPARE {
+        halt.check()?;
+        match dependent < SPARE_ROWS {
             true => Err(SearchError::NoPoints),
-            false => Ok(Relations { echelon, modulus: self.modulus }),
+            false => Ok(FunctionRelations { echelon, modulus: self.modulus, halt }),
         }
     }
 
@@ -129,13 +133,13 @@ impl Functions {
     fn visit(&mut self, blocks: usize, look: &mut dyn FnMut(Vec<u64>) -> bool) {
         let height = self.outputs.first().map_or(0, Vec::len);
         let tape = Tape::new(&self.graph, &self.outputs.concat());
-        let mut evaluator = Evaluator::new(&tape, Prime::new([self.modulus; LANES]));
+        let mut evaluator = Evaluator::new(&tape, Prime::new([self.modulus; RELATION_LANES]));
         for _ in 0..blocks {
-            let inputs: Vec<[u64; LANES]> =
+            let inputs: Vec<[u64; RELATION_LANES]> =
                 (0..self.graph.inputs()).map(|input| self.draw(input)).collect();
             evaluator.run(&inputs);
-            let values: Vec<&[u64; LANES]> = evaluator.outputs().collect();
-            for lane in 0..LANES {
+            let values: Vec<&[u64; RELATION_LANES]> = evaluator.outputs().collect();
+            for lane in 0..RELATION_LANES {
                 for component in 0..height {
                     let column = values.iter().skip(component).step_by(height);
                     if !look(column.map(|block| block[lane]).collect()) {
@@ -146,39 +150,42 @@ impl Functions {
         }
     }
 
-    fn draw(&mut self, input: usize) -> [u64; LANES] {
+    fn draw(&mut self, input: usize) -> [u64; RELATION_LANES] {
         match self.draws.get(input) {
             Some(Draw::OneOf(values)) => {
                 let first = values.first().and_then(|value| self.modulus.rational(value));
-                [first.unwrap_or(0); LANES]
+                [first.unwrap_or(0); RELATION_LANES]
             }
-            Some(Draw::Sign) => std::array::from_fn(|_| sign(&self.modulus, &mut self.chance)),
-            _ => std::array::from_fn(|_| self.chance.element(&self.modulus)),
+            Some(Draw::Sign) => std::array::from_fn(|_| sign(&self.modulus, &mut self.rng)),
+            _ => std::array::from_fn(|_| self.rng.element(&self.modulus)),
         }
     }
 }
 
 /// Relations between functions.
-pub struct Relations {
+pub struct FunctionRelations {
     echelon: Echelon,
     modulus: Modulus,
+    halt: Halt,
 }
 
-impl Relations {
+impl FunctionRelations {
     /// Returns the columns that do not depend on those before them.
     pub fn independent(&self) -> Vec<usize> {
         (0..self.echelon.columns()).filter(|column| self.echelon.has_pivot(*column)).collect()
     }
 
     /// Returns a basis of the relations with rational coefficients; others are omitted and counted.
-    pub fn rational(&self) -> (Vec<Vec<Rational>>, usize) {
-        let mut irrational = 0;
-        let vectors = self.echelon.null_space().into_iter().filter_map(|vector| {
+    pub fn rational(&self) -> Result<(Vec<Vec<Rational>>, usize), SearchError> {
+        let (mut vectors, mut irrational) = (Vec::new(), 0);
+        for free in self.echelon.free() {
+            self.halt.check()?;
             let image = |x: &u64| reconstruct(*x, &self.modulus);
-            let found: Option<Vec<Rational>> = vector.iter().map(image).collect();
+            let own = self.echelon.null_vector(free);
+            let found: Option<Vec<Rational>> = own.iter().map(image).collect();
             irrational += usize::from(found.is_none());
-            found
-        });
-        (vectors.collect(), irrational)
+            vectors.extend(found);
+        }
+        Ok((vectors, irrational))
     }
 }

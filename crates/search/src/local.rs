@@ -6,16 +6,16 @@ use super::SearchError;
 use liouville::case::Case;
 use liouville::graph::{Expr, Graph, record};
 use liouville::mechanics::calculus::{dot, solve_positive};
-use liouville::mechanics::{Chart, Draw, Phase, Role, System};
+use liouville::mechanics::{Chart, Draw, Phase, System, VariableRole};
 use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
-use liouville::proof::Chance;
+use liouville::proof::ProofRng;
 use liouville::scalar::Scalar;
 
 /// Local coordinates of the level, positions followed by velocities.
 #[derive(Clone, Debug)]
 pub struct Coordinates {
-    kind: Kind,
+    kind: LocalKind,
     /// Number of positions.
     pub positions: usize,
     /// Number of velocities.
@@ -23,7 +23,7 @@ pub struct Coordinates {
 }
 
 #[derive(Clone, Debug)]
-enum Kind {
+enum LocalKind {
     /// Coordinates (u,v) of γ by stereographic projection, with ω = w₁γ_u + w₂γ_v.
     Rolling,
     /// Stereographic projection of γ, with M or ω free.
@@ -42,14 +42,14 @@ impl Coordinates {
         let split = |positions: Vec<usize>, velocities: Vec<usize>| Self {
             positions: positions.len(),
             velocities: velocities.len(),
-            kind: Kind::Components([positions, velocities].concat()),
+            kind: LocalKind::Components([positions, velocities].concat()),
         };
         match (&model.system, &case.chart) {
             (System::Rubber(_), Chart::Rolling) => {
-                Ok(Self { kind: Kind::Rolling, positions: 2, velocities: 2 })
+                Ok(Self { kind: LocalKind::Rolling, positions: 2, velocities: 2 })
             }
             (System::Ball(_) | System::Spinning(_), Chart::Sphere) => {
-                Ok(Self { kind: Kind::Sphere, positions: 2, velocities: 3 })
+                Ok(Self { kind: LocalKind::Sphere, positions: 2, velocities: 3 })
             }
             (System::FlatBase(_), _) => Ok(split(vec![2, 3], vec![0, 1])),
             (System::Lagrangian(lagrangian), _) if model.level.is_empty() => {
@@ -57,10 +57,10 @@ impl Coordinates {
                 for (role, variable) in lagrangian.roles.iter().zip(&model.state) {
                     let own = start..start + variable.len();
                     match role {
-                        Role::Coordinate(_) | Role::Carried(_) | Role::Time => {
-                            positions.extend(own)
-                        }
-                        Role::Velocity | Role::Multiplier => velocities.extend(own),
+                        VariableRole::Coordinate(_)
+                        | VariableRole::Carried(_)
+                        | VariableRole::Time => positions.extend(own),
+                        VariableRole::Velocity | VariableRole::Multiplier => velocities.extend(own),
                     }
                     start += variable.len();
                 }
@@ -78,7 +78,7 @@ impl Coordinates {
             [two * u * scale, two * v * scale, (one - u * u - v * v) * scale]
         };
         match (&self.kind, coordinates) {
-            (Kind::Rolling, [u, v, w1, w2]) => {
+            (LocalKind::Rolling, [u, v, w1, w2]) => {
                 let along = |du: T, dv: T| {
                     let (u, v) = (Dual::new(*u, du), Dual::new(*v, dv));
                     let (one, two) = (Dual::from_re(one), Dual::from_re(two));
@@ -89,10 +89,10 @@ impl Coordinates {
                 let omega = (0..3).map(|k| *w1 * a[k].eps + *w2 * b[k].eps);
                 omega.chain(normal(*u, *v)).collect()
             }
-            (Kind::Sphere, [u, v, momentum @ ..]) => {
+            (LocalKind::Sphere, [u, v, momentum @ ..]) => {
                 momentum.iter().copied().chain(normal(*u, *v)).collect()
             }
-            (Kind::Components(places), _) => {
+            (LocalKind::Components(places), _) => {
                 let mut state = vec![T::zero(); places.len()];
                 for (place, value) in places.iter().zip(coordinates) {
                     state[*place] = *value;
@@ -165,24 +165,24 @@ impl Local {
 
 impl Local {
     /// Draws the parameters at random; of a list the first value is taken.
-    pub fn parameters(&self, modulus: &Modulus, chance: &mut Chance) -> Vec<u64> {
-        random(&self.draws, modulus, chance)
+    pub fn parameters(&self, modulus: &Modulus, rng: &mut ProofRng) -> Vec<u64> {
+        random(&self.draws, modulus, rng)
     }
 }
 
 /// Draws random values of parameters; of a list the first value is taken.
-pub fn random(draws: &[Draw], modulus: &Modulus, chance: &mut Chance) -> Vec<u64> {
+pub fn random(draws: &[Draw], modulus: &Modulus, rng: &mut ProofRng) -> Vec<u64> {
     let value = |draw: &Draw| match draw {
         Draw::OneOf(values) => values.first().and_then(|x| modulus.rational(x)).unwrap_or(0),
         Draw::Sign => modulus.one(),
-        Draw::Within(_) | Draw::Of(..) => chance.element(modulus),
+        Draw::Within(_) | Draw::Of(..) => rng.element(modulus),
     };
     draws.iter().map(value).collect()
 }
 
 /// Draws 1 or -1.
-pub fn sign(m: &Modulus, chance: &mut Chance) -> u64 {
-    if chance.coin() { m.one() } else { m.sub(0, m.one()) }
+pub fn sign(m: &Modulus, rng: &mut ProofRng) -> u64 {
+    if rng.coin() { m.one() } else { m.sub(0, m.one()) }
 }
 
 fn zero() -> Expr {

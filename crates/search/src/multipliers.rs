@@ -13,10 +13,10 @@ use serde::Serialize;
 use super::ask::{holds, judged_alone};
 use super::counts::{free_motion, largest, locals};
 use super::integrals::{over_denominators, terms};
-use super::jets::{Asked, Count};
+use super::jets::{DimensionCount, VelocityPolynomials};
 use super::local::Local;
 use super::terms::{is_one, numeric_exponent};
-use super::{Effort, Excluded, Found, Report, SearchError};
+use super::{Effort, Excluded, Found, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::number::rational::Rational;
@@ -25,7 +25,7 @@ use liouville::number::rational::Rational;
 pub const WEIGHTS: [i64; 8] = [1, -1, 2, -2, 3, -3, 4, -4];
 
 /// Largest degree of polynomials that are counted.
-const MOST: u32 = 4;
+const MOST_DEGREE: u32 = 4;
 
 /// Number of polynomials whose powers are densities.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -52,7 +52,7 @@ pub struct MultiplierReport {
 pub fn multipliers(
     case: &Case,
     effort: &Effort,
-    report: &mut Report,
+    report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
     progress("densities that depend on the velocities");
@@ -97,11 +97,11 @@ fn series(
     let none = Rational::from(1);
     let mut counted = Vec::new();
     let configuration = (0, None, none);
-    let others = (1..=effort.degree.min(MOST))
+    let others = (1..=effort.degree.min(MOST_DEGREE))
         .flat_map(|degree| WEIGHTS.map(|alpha| (degree, Some(alpha), Rational::from(alpha))));
     for (degree, alpha, weight) in std::iter::once(configuration).chain(others) {
-        let asked = Asked { degree, mixed };
-        let Count { dimension, size: (unknowns, equations) } =
+        let asked = VelocityPolynomials { degree, mixed };
+        let DimensionCount { dimension, size: (unknowns, equations) } =
             largest(locals, asked, &weight, 0, effort)?;
         counted.push(MultiplierReport {
             degree,
@@ -120,7 +120,12 @@ fn series(
 }
 
 /// Searches for P among the terms that the system offers; proved densities go into the report.
-fn find(case: &Case, alpha: i64, effort: &Effort, report: &mut Report) -> Result<(), SearchError> {
+fn find(
+    case: &Case,
+    alpha: i64,
+    effort: &Effort,
+    report: &mut SearchReport,
+) -> Result<(), SearchError> {
     let terms = terms(case, effort, report)?;
     let mut candidates = over_denominators(case, &terms, &Rational::from(alpha), effort, report)?;
     candidates.sort_by_key(|formula| formula.text().chars().count());
@@ -140,7 +145,7 @@ fn find(case: &Case, alpha: i64, effort: &Effort, report: &mut Report) -> Result
 }
 
 fn theorem(effort: &Effort, free: bool, mixed: bool) -> Excluded {
-    let degree = effort.degree.min(MOST);
+    let degree = effort.degree.min(MOST_DEGREE);
     let forces = match (free, mixed) {
         (true, _) => {
             " Leading forms belong to the free motion, so this holds for every gyrostat and every potential."
@@ -166,6 +171,5 @@ fn theorem(effort: &Effort, free: bool, mixed: bool) -> Excluded {
         theorem: format!(
             "For generic values of the free parameters, and the given values of the fixed ones, {what}.{forces}"
         ),
-        holds_on_all_branches: false,
     }
 }

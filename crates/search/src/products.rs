@@ -1,12 +1,12 @@
 //! Products of known integrals, and their number in each degree in the velocities.
 
-use crate::streams::Stream;
+use crate::streams::SearchStream;
 use num_dual::Dual;
 
 use super::SearchError;
 use super::echelon::Echelon;
 use super::local::Coordinates;
-use super::{Effort, Report, ask};
+use super::{Effort, SearchReport, ask};
 use liouville::case::Case;
 use liouville::formula::Formula;
 use liouville::graph::{Evaluator, Expr, Tape, record};
@@ -14,9 +14,9 @@ use liouville::mechanics::Phase;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
 
 /// Highest degree that is recognised.
-const MOST: usize = 16;
+const MOST_DEGREE: usize = 16;
 /// Number of points of a line at which slopes are taken.
-const POINTS: usize = 2 * MOST + 8;
+const SLOPE_POINTS: usize = 2 * MOST_DEGREE + 8;
 /// Number of lines to try, since roots exist on some only.
 const TRIALS: usize = 64;
 
@@ -40,7 +40,7 @@ impl Generators {
     }
 
     /// Collects the energy and all integrals found or claimed.
-    pub fn all(case: &Case, effort: &Effort, report: &Report) -> Result<Self, SearchError> {
+    pub fn all(case: &Case, effort: &Effort, report: &SearchReport) -> Result<Self, SearchError> {
         let mut generators = Self::energy(case, effort)?;
         let mut told: Vec<Formula> = report.functions("integral").cloned().collect();
         for ask::Claimed { formula, .. } in &report.claimed {
@@ -134,15 +134,15 @@ pub fn degree(case: &Case, formula: &Formula, seed: u64) -> Result<Option<u32>, 
     if moving.iter().any(|rate| !graph.constant_value(*rate).is_some_and(|rate| rate.is_zero())) {
         return Ok(None);
     }
-    let mut chance = Stream::Products.under(seed);
-    let modulus = chance.prime(&[3, 5], &[2, 3]);
+    let mut rng = SearchStream::Products.under(seed);
+    let modulus = rng.prime(&[3, 5], &[2, 3]);
     let tape = Tape::new(&graph, &[slope]);
-    let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; POINTS]));
+    let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; SLOPE_POINTS]));
     for _ in 0..TRIALS {
-        let mut values: Vec<[u64; POINTS]> =
-            (1..inputs).map(|_| [chance.element(&modulus); POINTS]).collect();
+        let mut values: Vec<[u64; SLOPE_POINTS]> =
+            (1..inputs).map(|_| [rng.element(&modulus); SLOPE_POINTS]).collect();
         values.push(std::array::from_fn(|s| modulus.integer(s as u64)));
-        values.resize(graph.inputs(), [modulus.one(); POINTS]);
+        values.resize(graph.inputs(), [modulus.one(); SLOPE_POINTS]);
         evaluator.run(&values);
         let slopes = evaluator.output(0);
         if !slopes.contains(&UNDEFINED) {
@@ -155,7 +155,7 @@ pub fn degree(case: &Case, formula: &Formula, seed: u64) -> Result<Option<u32>, 
 /// Finds the degree of a polynomial whose logarithm has these slopes at 0, 1, 2, …, if there is
 /// one.
 fn polynomial_degree(slopes: &[u64], m: &Modulus) -> Option<u32> {
-    let mut echelon = Echelon::new(MOST + 1, *m);
+    let mut echelon = Echelon::new(MOST_DEGREE + 1, *m);
     for (s, slope) in slopes.iter().enumerate() {
         let s = m.integer(s as u64);
         // P' - P (ln F)', with the coefficients of P from the highest down
@@ -166,7 +166,7 @@ fn polynomial_degree(slopes: &[u64], m: &Modulus) -> Option<u32> {
             };
             m.sub(slope_of_power, m.mul(*slope, m.power(s, power)))
         };
-        echelon.push((0..=MOST as u64).rev().map(entry).collect());
+        echelon.push((0..=MOST_DEGREE as u64).rev().map(entry).collect());
     }
     match &echelon.null_space()[..] {
         [only] => only.iter().rev().rposition(|entry| *entry != 0).map(|degree| degree as u32),
@@ -192,9 +192,10 @@ mod tests {
 
     #[test]
     fn degrees_come_from_slopes_of_logarithms() {
-        let m = Stream::Products.under(1).prime(&[3, 5], &[2, 3]);
+        let m = SearchStream::Products.under(1).prime(&[3, 5], &[2, 3]);
         let of = |slope: &dyn Fn(u64) -> u64| {
-            let slopes: Vec<u64> = (0..POINTS as u64).map(|s| slope(m.integer(s + 5))).collect();
+            let slopes: Vec<u64> =
+                (0..SLOPE_POINTS as u64).map(|s| slope(m.integer(s + 5))).collect();
             polynomial_degree(&slopes, &m)
         };
         let over = |a: u64, b: u64| m.mul(a, m.inverse(b));

@@ -2,10 +2,10 @@
 
 use serde::Serialize;
 
-use super::linear::Functions;
+use super::linear::SampledFunctions;
 
 /// Number of states beyond the number of terms.
-const SPARE: usize = 32;
+const SPARE_STATES: usize = 32;
 
 /// Singular values on both sides of the gap expected from the relations modulo a prime.
 #[derive(Clone, Debug, Serialize)]
@@ -36,13 +36,13 @@ impl SecondOpinion {
 /// Computes the singular values of the functions, each scaled to length 1 over the states; `None`
 /// if they have too few values there.
 pub fn second_opinion(
-    functions: &Functions,
+    functions: &SampledFunctions,
     denominator: &str,
     relations: usize,
     seed: u64,
 ) -> Option<SecondOpinion> {
     let terms = functions.count();
-    let rows = functions.floats(terms + SPARE, seed);
+    let rows = functions.floats(terms + SPARE_STATES, seed);
     if rows.len() < terms {
         return None;
     }

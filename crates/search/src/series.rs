@@ -7,12 +7,12 @@
 
 use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
-use liouville::number::{Domain, Function, Operation};
+use liouville::number::{BinaryOperation, Domain, UnaryFunction};
 
 /// The domain of series in some variables up to some total degree, modulo a prime. A block is one
 /// series; an empty block is undefined.
 #[derive(Clone, Debug)]
-pub struct Series {
+pub struct TruncatedSeries {
     modulus: Modulus,
     /// Exponents of each monomial, by increasing degree.
     monomials: Vec<Vec<u32>>,
@@ -44,7 +44,7 @@ pub fn exponents(variables: usize, total: u32) -> Vec<Vec<u32>> {
     }
 }
 
-impl Series {
+impl TruncatedSeries {
     /// Makes the domain of series up to `degree`.
     pub fn new(modulus: Modulus, variables: usize, degree: u32) -> Self {
         let monomials: Vec<Vec<u32>> =
@@ -151,7 +151,7 @@ impl Series {
     }
 }
 
-impl Domain for Series {
+impl Domain for TruncatedSeries {
     type Block = Vec<u64>;
 
     fn constant(&self, value: &Rational) -> Vec<u64> {
@@ -162,44 +162,46 @@ impl Domain for Series {
         values.first().map_or(Vec::new(), |value| self.constant(value))
     }
 
-    fn unary(&self, function: Function, x: &Vec<u64>, out: &mut Vec<u64>) {
+    fn unary(&self, function: UnaryFunction, x: &Vec<u64>, out: &mut Vec<u64>) {
         let m = &self.modulus;
         *out = match function {
             _ if x.is_empty() => Vec::new(),
-            Function::Neg => x.iter().map(|x| m.sub(0, *x)).collect(),
-            Function::Recip => {
+            UnaryFunction::Neg => x.iter().map(|x| m.sub(0, *x)).collect(),
+            UnaryFunction::Recip => {
                 let minus = m.sub(0, m.one());
                 match x[0] {
                     0 => Vec::new(),
                     first => self.raised(x, minus, m.inverse(first)).unwrap_or_default(),
                 }
             }
-            Function::Sqrt => {
+            UnaryFunction::Sqrt => {
                 let half = m.rational(&Rational::new(1, 2)).unwrap_or(0);
                 let root = m.root(x[0]);
                 root.and_then(|root| self.raised(x, half, root)).unwrap_or_default()
             }
-            Function::Abs => match m.is_square(x[0]) {
+            UnaryFunction::Abs => match m.is_square(x[0]) {
                 true => x.clone(),
                 false => x.iter().map(|x| m.sub(0, *x)).collect(),
             },
-            Function::Exp | Function::Ln | Function::Sin | Function::Cos | Function::Atan => {
-                Vec::new()
-            }
+            UnaryFunction::Exp
+            | UnaryFunction::Ln
+            | UnaryFunction::Sin
+            | UnaryFunction::Cos
+            | UnaryFunction::Atan => Vec::new(),
         };
     }
 
-    fn binary(&self, operation: Operation, x: &Vec<u64>, y: &Vec<u64>, out: &mut Vec<u64>) {
+    fn binary(&self, operation: BinaryOperation, x: &Vec<u64>, y: &Vec<u64>, out: &mut Vec<u64>) {
         let m = &self.modulus;
         let termwise = |f: &dyn Fn(u64, u64) -> u64| -> Vec<u64> {
             x.iter().zip(y).map(|(x, y)| f(*x, *y)).collect()
         };
         *out = match operation {
             _ if x.is_empty() || y.is_empty() => Vec::new(),
-            Operation::Add => termwise(&|x, y| m.add(x, y)),
-            Operation::Sub => termwise(&|x, y| m.sub(x, y)),
-            Operation::Mul => self.product(x, y),
-            Operation::Pow => Vec::new(),
+            BinaryOperation::Add => termwise(&|x, y| m.add(x, y)),
+            BinaryOperation::Sub => termwise(&|x, y| m.sub(x, y)),
+            BinaryOperation::Mul => self.product(x, y),
+            BinaryOperation::Pow => Vec::new(),
         };
     }
 
@@ -215,8 +217,8 @@ impl Domain for Series {
 mod tests {
     use super::*;
 
-    fn domain() -> Series {
-        Series::new(Modulus::new(2_305_843_009_213_693_951), 2, 6)
+    fn domain() -> TruncatedSeries {
+        TruncatedSeries::new(Modulus::new(2_305_843_009_213_693_951), 2, 6)
     }
 
     #[test]
@@ -227,10 +229,10 @@ mod tests {
         let y = d.variable(1, m.integer(5));
         x = d.product(&x, &y);
         let (mut inverse, mut root, mut cube) = (Vec::new(), Vec::new(), Vec::new());
-        d.unary(Function::Recip, &x, &mut inverse);
+        d.unary(UnaryFunction::Recip, &x, &mut inverse);
         assert_eq!(d.product(&x, &inverse), d.number(m.one()), "x (1/x) = 1");
         let square = d.product(&x, &x);
-        d.unary(Function::Sqrt, &square, &mut root);
+        d.unary(UnaryFunction::Sqrt, &square, &mut root);
         assert_eq!(d.product(&root, &root), square, "√s √s = s");
         d.power(&x, &Rational::from(3), &mut cube);
         assert_eq!(cube, d.product(&square, &x), "x³ = x² x");
@@ -243,7 +245,7 @@ mod tests {
         let mut series = Vec::new();
         let mut one_minus = d.variable(0, m.sub(0, m.one()));
         one_minus.iter_mut().for_each(|x| *x = m.sub(0, *x));
-        d.unary(Function::Recip, &one_minus, &mut series);
+        d.unary(UnaryFunction::Recip, &one_minus, &mut series);
         for (monomial, coefficient) in d.monomials.iter().zip(&series) {
             let expected = if monomial[1] == 0 { m.one() } else { 0 };
             assert_eq!(*coefficient, expected, "1/(1 - x) = Σ xⁿ");

@@ -1,10 +1,10 @@
 //! Streams of random numbers of the searches: one for each purpose, disjoint from those of proofs.
 
-use liouville::proof::Chance;
+use liouville::proof::ProofRng;
 
 /// Purpose of random numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stream {
+pub enum SearchStream {
     /// Points at which Taylor coefficients are taken.
     Jets = 40,
     /// Points for relations between terms.
@@ -35,14 +35,14 @@ pub enum Stream {
     Moduli = 60,
 }
 
-impl Stream {
+impl SearchStream {
     /// Makes the random numbers for this purpose under a seed.
-    pub fn under(self, seed: u64) -> Chance {
-        Chance::new(seed, self as u64)
+    pub fn under(self, seed: u64) -> ProofRng {
+        ProofRng::new(seed, self as u64)
     }
 
     /// Makes the random numbers of stream `number` from this one on.
-    pub fn numbered(self, seed: u64, number: u64) -> Chance {
-        Chance::new(seed, self as u64 + number)
+    pub fn numbered(self, seed: u64, number: u64) -> ProofRng {
+        ProofRng::new(seed, self as u64 + number)
     }
 }

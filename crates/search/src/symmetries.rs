@@ -5,11 +5,11 @@ use num_bigint::BigInt;
 use num_traits::Zero;
 
 use super::ask::{holds, judged_alone};
-use super::linear::Functions;
+use super::linear::SampledFunctions;
 use super::terms::{combined, integers, one, recorded, whole};
-use super::{Effort, Found, Report, SearchError};
+use super::{Effort, Found, SearchError, SearchReport};
 use liouville::case::Case;
-use liouville::claim::{Claim, Place};
+use liouville::claim::{Claim, LevelSubset};
 use liouville::formula::{Formula, FormulaError, Type};
 use liouville::graph::Expr;
 use liouville::mechanics::calculus::dot;
@@ -17,16 +17,20 @@ use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 
 /// Largest number of state components for which linear fields are tried.
-const MOST: usize = 9;
+const MOST_COMPONENTS: usize = 9;
 
 /// Searches for symmetry fields; proved ones go into the report.
-pub fn symmetries(case: &Case, effort: &Effort, report: &mut Report) -> Result<(), SearchError> {
+pub fn symmetries(
+    case: &Case,
+    effort: &Effort,
+    report: &mut SearchReport,
+) -> Result<(), SearchError> {
     let model = &case.model;
     let dimension = model.dimension();
-    if dimension > MOST || !model.extension.is_empty() {
+    if dimension > MOST_COMPONENTS || !model.extension.is_empty() {
         return Ok(());
     }
-    let kept = Place::level(model).kept;
+    let kept = LevelSubset::level(model).kept;
     // Fields x_i ∂/∂x_j and ∂/∂x_j, as pairs (i, j); followed by c.
     let sources = (0..dimension).map(Some).chain([None]);
     let fields: Vec<(Option<usize>, usize)> =
@@ -56,14 +60,15 @@ pub fn symmetries(case: &Case, effort: &Effort, report: &mut Report) -> Result<(
         columns.push(weight.collect());
         columns
     })?;
-    let relations = match Functions::new(case, &graph, &columns, effort.options.seed) {
+    let relations = match SampledFunctions::new(case, &graph, &columns, effort) {
         Err(SearchError::NoChart) => return Ok(()),
         functions => match functions?.relations() {
             Err(SearchError::NoPoints) => return Ok(()),
             relations => relations?,
         },
     };
-    for vector in relations.rational().0 {
+    for vector in relations.rational()?.0 {
+        effort.halt.check()?;
         let (shown, entries, claim) = spelled(case, &fields, &integers(&vector))?;
         if let Some(found) = judged_alone(case, claim, effort)?.filter(holds) {
             let parts: Vec<&Formula> = entries.iter().map(|(_, value)| value).collect();

@@ -5,9 +5,9 @@ use num_integer::Integer;
 use num_traits::{Signed, Zero};
 
 use liouville::case::Case;
-use liouville::formula::{Composed, Formula, FormulaError, Type};
+use liouville::formula::{Formula, FormulaError, FormulaResult, Type};
 use liouville::graph::{Expr, Fault, Graph, record};
-use liouville::mechanics::calculus::Jet;
+use liouville::mechanics::calculus::DualPoint;
 use liouville::mechanics::{Phase, Vocabulary};
 use liouville::number::rational::Rational;
 
@@ -21,13 +21,13 @@ pub fn read<'t>(texts: impl IntoIterator<Item = &'t str>, vocabulary: &Vocabular
 /// Records values at a point of phase space; the inputs are parameters and state.
 pub fn recorded<R>(
     case: &Case,
-    make: impl FnOnce(&Jet<'_, Expr>) -> R,
+    make: impl FnOnce(&DualPoint<'_, Expr>) -> R,
 ) -> Result<(Graph, R), Fault> {
     let model = &case.model;
     let inputs = model.free_components() + model.dimension();
     record(inputs, |inputs| {
         let (parameters, state) = inputs.split_at(model.free_components());
-        make(&Jet::new(Phase::new(model, parameters, state)))
+        make(&DualPoint::new(Phase::new(model, parameters, state)))
     })
 }
 
@@ -73,9 +73,9 @@ pub fn integers(coefficients: &[Rational]) -> Vec<BigInt> {
 
 /// A sum that grows term by term, with a sign before each.
 #[derive(Default)]
-pub struct Sum(Option<Formula>);
+pub struct TermSum(Option<Formula>);
 
-impl Sum {
+impl TermSum {
     /// Adds a term, or subtracts it.
     pub fn add(&mut self, is_negative: bool, term: &Formula) -> Result<(), FormulaError> {
         let sum = match (self.0.take(), is_negative) {
@@ -95,13 +95,13 @@ impl Sum {
 }
 
 /// Σ a_j T_j, up to a factor.
-pub fn sum(coefficients: &[Rational], terms: &[Formula]) -> Composed {
+pub fn sum(coefficients: &[Rational], terms: &[Formula]) -> FormulaResult {
     Ok(combined(&primitive(coefficients), terms)?.unwrap_or_else(|| Formula::number(0)))
 }
 
 /// Σ a_j T_j; `None` for an empty sum.
 pub fn combined(multiples: &[BigInt], terms: &[Formula]) -> Result<Option<Formula>, FormulaError> {
-    let mut sum = Sum::default();
+    let mut sum = TermSum::default();
     for (multiple, term) in multiples.iter().zip(terms).filter(|(a, _)| !a.is_zero()) {
         let magnitude = multiple.abs();
         let own = match (magnitude == 1.into(), is_one(term)) {
@@ -151,7 +151,7 @@ pub fn powers(
 }
 
 /// Σ a_j e_j as an exponent: `2`, `(1/2)`, `((1 + k*R)/2)`.
-pub fn exponent(coefficients: &[Rational], exponents: &[Formula]) -> Composed {
+pub fn exponent(coefficients: &[Rational], exponents: &[Formula]) -> FormulaResult {
     let (multiples, below) = cleared(coefficients);
     let above = combined(&multiples, exponents)?.unwrap_or_else(|| Formula::number(0));
     let is_number = above.constant().is_some();
@@ -165,7 +165,7 @@ pub fn exponent(coefficients: &[Rational], exponents: &[Formula]) -> Composed {
 }
 
 /// A number as an exponent: `2`, `(1/2)`, `(−2)`.
-pub fn numeric_exponent(value: Rational) -> Composed {
+pub fn numeric_exponent(value: Rational) -> FormulaResult {
     exponent(&[value], &[one()])
 }
 
@@ -174,9 +174,9 @@ mod tests {
     use super::*;
     use liouville::formula::{Scope, Symbol};
 
-    struct Letters;
+    struct TermLetters;
 
-    impl Scope for Letters {
+    impl Scope for TermLetters {
         fn lookup(&self, name: &str) -> Option<(Symbol, Type)> {
             let place = ["a", "b", "c", "k", "R"].iter().position(|known| *known == name)?;
             Some((Symbol(place as u32), Type::Scalar))
@@ -190,8 +190,8 @@ mod tests {
     #[test]
     fn sums_and_exponents_read_well() {
         let q = |n, d| Rational::new(n, d);
-        let f = |text: &str| Formula::parse(text, &Letters).expect("a formula");
-        let text = |made: Composed| made.expect("scalars").to_string();
+        let f = |text: &str| Formula::parse(text, &TermLetters).expect("a formula");
+        let text = |made: FormulaResult| made.expect("scalars").to_string();
         let terms = ["a", "b", "c"].map(f);
         assert_eq!(text(sum(&[q(-1, 2), q(0, 1), q(1, 3)], &terms)), "3*a − 2*c");
         assert_eq!(equation(&[q(-1, 2), q(0, 1), q(1, 3)], &["a", "b", "c"]), "3*a − 2*c = 0");

@@ -10,13 +10,13 @@ use std::path::Path;
 
 use liouville::case::{Case, Setting};
 use liouville::verdict::Verdict;
-use liouville_search::{Effort, Halt, Report, search};
+use liouville_search::{Effort, Halt, SearchReport, search};
 
 fn effort(degree: u32) -> Effort {
     Effort { degree, ..Effort::default() }
 }
 
-fn searched(path: &str, effort: &Effort) -> Report {
+fn searched(path: &str, effort: &Effort) -> SearchReport {
     let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases"))
         .join(path)
         .with_extension("toml");

@@ -12,72 +12,72 @@
 
 use num_dual::Dual;
 
-use super::notation::{Involution, Place, Quantity, VectorField};
+use super::notation::{Involution, Quantity, TestState, VectorField};
 use liouville::mechanics::calculus::transversals;
 use liouville::scalar::Scalar;
 
 /// Values that must vanish, with the name shown on failure.
 pub type Parts<T> = Vec<(&'static str, Vec<T>)>;
 
-/// A claim about a vector field, to be tested by [`at`](Claim::at) or proved by
-/// [`prove`](Claim::prove).
+/// A claim about a vector field, to be tested by [`at`](FieldClaim::at) or proved by
+/// [`prove`](FieldClaim::prove).
 #[must_use = "nothing is checked before `at` or `prove`"]
-pub struct Claim<'a, V, S, const N: usize> {
+pub struct FieldClaim<'a, V, S, const N: usize> {
     pub(super) field: &'a V,
     pub(super) statement: S,
 }
 
-impl<'a, V, S, const N: usize> Claim<'a, V, S, N> {
+impl<'a, V, S, const N: usize> FieldClaim<'a, V, S, N> {
     pub(super) fn new(field: &'a V, statement: S) -> Self {
         Self { field, statement }
     }
 }
 
 /// A property of a vector field that can be tested or proved.
-pub trait Statement<V, const N: usize> {
+pub trait FieldProperty<V, const N: usize> {
     /// Computes the values that vanish at x if the property holds on the level of a place.
-    fn residual<T: Scalar>(&self, field: &V, place: &impl Place<N>, x: [T; N]) -> Parts<T>;
+    fn residual<T: Scalar>(&self, field: &V, place: &impl TestState<N>, x: [T; N]) -> Parts<T>;
 }
 
 /// Property tested by [`VectorField::conserves`].
 pub struct Conserved<'a, Q>(pub(super) &'a Q);
 
 /// Property tested by [`VectorField::has_density`].
-pub struct Density<'a, Q>(pub(super) &'a Q);
+pub struct HasDensity<'a, Q>(pub(super) &'a Q);
 
 /// Property tested by [`VectorField::has_log_density`].
 pub struct LogDensity<'a, Q>(pub(super) &'a Q);
 
 /// Property tested by [`VectorField::commutes_with`].
-pub struct SymmetryField<'a, U>(pub(super) &'a U);
+pub struct CommutesWith<'a, U>(pub(super) &'a U);
 
 /// Property tested by [`VectorField::is_reversed_by`].
 pub struct Reversed<'a, S>(pub(super) &'a S);
 
-impl<V: VectorField<N>, Q: Quantity<N>, const N: usize> Statement<V, N> for Conserved<'_, Q> {
-    fn residual<T: Scalar>(&self, field: &V, _: &impl Place<N>, x: [T; N]) -> Parts<T> {
+impl<V: VectorField<N>, Q: Quantity<N>, const N: usize> FieldProperty<V, N> for Conserved<'_, Q> {
+    fn residual<T: Scalar>(&self, field: &V, _: &impl TestState<N>, x: [T; N]) -> Parts<T> {
         vec![("L_vF", vec![self.0.value(lift(x, field.rates(x))).eps])]
     }
 }
 
-impl<V: VectorField<N>, Q: Quantity<N>, const N: usize> Statement<V, N> for Density<'_, Q> {
-    fn residual<T: Scalar>(&self, field: &V, place: &impl Place<N>, x: [T; N]) -> Parts<T> {
+impl<V: VectorField<N>, Q: Quantity<N>, const N: usize> FieldProperty<V, N> for HasDensity<'_, Q> {
+    fn residual<T: Scalar>(&self, field: &V, place: &impl TestState<N>, x: [T; N]) -> Parts<T> {
         let density = self.0.value(lift(x, field.rates(x)));
         vec![liouville(density.eps / density.re, field, place, x)]
     }
 }
 
-impl<V: VectorField<N>, Q: Quantity<N>, const N: usize> Statement<V, N> for LogDensity<'_, Q> {
-    fn residual<T: Scalar>(&self, field: &V, place: &impl Place<N>, x: [T; N]) -> Parts<T> {
+impl<V: VectorField<N>, Q: Quantity<N>, const N: usize> FieldProperty<V, N> for LogDensity<'_, Q> {
+    fn residual<T: Scalar>(&self, field: &V, place: &impl TestState<N>, x: [T; N]) -> Parts<T> {
         let logarithm = self.0.value(lift(x, field.rates(x)));
         vec![liouville(logarithm.eps, field, place, x)]
     }
 }
 
-impl<V: VectorField<N>, U: VectorField<N>, const N: usize> Statement<V, N>
-    for SymmetryField<'_, U>
+impl<V: VectorField<N>, U: VectorField<N>, const N: usize> FieldProperty<V, N>
+    for CommutesWith<'_, U>
 {
-    fn residual<T: Scalar>(&self, field: &V, place: &impl Place<N>, x: [T; N]) -> Parts<T> {
+    fn residual<T: Scalar>(&self, field: &V, place: &impl TestState<N>, x: [T; N]) -> Parts<T> {
         let (v, u) = (field.rates(x), self.0.rates(x));
         let (along_v, along_u) = (self.0.rates(lift(x, v)), field.rates(lift(x, u)));
         let commutator = along_v.iter().zip(along_u).map(|(a, b)| a.eps - b.eps).collect();
@@ -86,8 +86,8 @@ impl<V: VectorField<N>, U: VectorField<N>, const N: usize> Statement<V, N>
     }
 }
 
-impl<V: VectorField<N>, S: Involution<N>, const N: usize> Statement<V, N> for Reversed<'_, S> {
-    fn residual<T: Scalar>(&self, field: &V, place: &impl Place<N>, x: [T; N]) -> Parts<T> {
+impl<V: VectorField<N>, S: Involution<N>, const N: usize> FieldProperty<V, N> for Reversed<'_, S> {
+    fn residual<T: Scalar>(&self, field: &V, place: &impl TestState<N>, x: [T; N]) -> Parts<T> {
         let pushed = self.0.image(lift(x, field.rates(x)));
         let there = pushed.map(|y| y.re);
         let reversed = pushed.iter().zip(field.rates(there)).map(|(y, v)| y.eps + v).collect();
@@ -104,7 +104,7 @@ impl<V: VectorField<N>, S: Involution<N>, const N: usize> Statement<V, N> for Re
 /// level.
 pub fn premises<V: VectorField<N>, T: Scalar, const N: usize>(
     field: &V,
-    place: &impl Place<N>,
+    place: &impl TestState<N>,
     x: [T; N],
 ) -> Parts<T> {
     let moved = place.level(lift(x, field.rates(x)));
@@ -119,7 +119,7 @@ pub fn premises<V: VectorField<N>, T: Scalar, const N: usize>(
 fn liouville<V: VectorField<N>, T: Scalar, const N: usize>(
     along: T,
     field: &V,
-    place: &impl Place<N>,
+    place: &impl TestState<N>,
     x: [T; N],
 ) -> (&'static str, Vec<T>) {
     let divergence: T = (0..N).map(|k| field.rates(lift(x, axis(k)))[k].eps).sum();
@@ -136,7 +136,10 @@ fn liouville<V: VectorField<N>, T: Scalar, const N: usize>(
 }
 
 /// Computes the gradients of the level functions.
-pub fn level_gradients<T: Scalar, const N: usize>(place: &impl Place<N>, x: [T; N]) -> Vec<Vec<T>> {
+pub fn level_gradients<T: Scalar, const N: usize>(
+    place: &impl TestState<N>,
+    x: [T; N],
+) -> Vec<Vec<T>> {
     let columns: Vec<Vec<Dual<T>>> = (0..N).map(|k| place.level(lift(x, axis(k)))).collect();
     let count = columns.first().map_or(0, Vec::len);
     (0..count).map(|i| columns.iter().map(|column| column[i].eps).collect()).collect()

@@ -8,14 +8,14 @@ use liouville::proof::Certificate;
 /// The reason why an assertion failed. Inside `proptest!` the operator `?` turns it into a failed
 /// case.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Failure {
+pub enum AssertionFailure {
     /// The claim is false at this state: an enclosure of the residual excludes 0.
     #[error("refuted: {0}")]
-    Refuted(Box<Witness>),
+    Refuted(Box<FieldWitness>),
     /// A premise of every claim is false at this state: the field leaves the level, the chart's
     /// point is not on it, or a condition of the field is violated.
     #[error("the claim has no meaning here: {0}")]
-    Premise(Box<Witness>),
+    Premise(Box<FieldWitness>),
     /// The residual does not vanish in prime fields, but no enclosure near this state excludes 0.
     #[error(
         "refuted in prime fields: {what} does not vanish identically, but it is below every \
@@ -34,13 +34,13 @@ pub enum Failure {
         /// Value that should vanish.
         what: &'static str,
         /// State at which it is undefined.
-        at: State,
+        at: DrawnState,
     },
     /// The chart covers too little of its level near this state for a proof on the level.
     #[error(
         "the chart does not fill its level at {0}, or the level functions depend on each other"
     )]
-    Chart(State),
+    Chart(DrawnState),
     /// Neither a counterexample nor a proof was found.
     #[error("{what} could not be proved to vanish: {why}")]
     Unproved {
@@ -54,7 +54,7 @@ pub enum Failure {
     Recording(#[from] Fault),
 }
 
-impl Failure {
+impl AssertionFailure {
     /// Whether the failure refutes the claim itself.
     pub fn is_refutation(&self) -> bool {
         matches!(self, Self::Refuted(_) | Self::RefutedInFields { .. })
@@ -63,7 +63,7 @@ impl Failure {
 
 /// A state at which a value that should vanish does not.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Witness {
+pub struct FieldWitness {
     /// Value that should vanish.
     pub what: &'static str,
     /// Index of the component.
@@ -71,10 +71,10 @@ pub struct Witness {
     /// Midpoint and radius of a ball that contains the component and excludes 0.
     pub enclosure: (f64, f64),
     /// State of the refutation.
-    pub at: State,
+    pub at: DrawnState,
 }
 
-impl fmt::Display for Witness {
+impl fmt::Display for FieldWitness {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (mid, rad) = self.enclosure;
         let Self { what, component, at, .. } = self;
@@ -87,14 +87,14 @@ impl fmt::Display for Witness {
 
 /// A drawn state.
 #[derive(Clone, Debug, PartialEq)]
-pub struct State {
+pub struct DrawnState {
     /// Numbers from which it is made, exact as given.
     pub coordinates: Vec<f64>,
     /// Rounded point of ℝᴺ.
     pub point: Vec<f64>,
 }
 
-impl fmt::Display for State {
+impl fmt::Display for DrawnState {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(out, "x = {:?}", self.point)?;
         if self.coordinates != self.point {
@@ -107,9 +107,9 @@ impl fmt::Display for State {
 /// A proof that a claim holds on the whole of a chart: wherever all its terms are defined, and on
 /// the side of each root and modulus on which the state lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Proof(pub Certificate);
+pub struct ChartProof(pub Certificate);
 
-impl fmt::Display for Proof {
+impl fmt::Display for ChartProof {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Certificate { points, primes, degree, error_log2, .. } = self.0;
         write!(

@@ -79,7 +79,7 @@
 //! | [`commutes_with`](VectorField::commutes_with) | \[v,u\] |
 //! | [`is_reversed_by`](VectorField::is_reversed_by) | dσ·v + v∘σ and σ∘σ - id |
 //!
-//! [`at`](Claim::at) asserts the property at a state, [`prove`](Claim::prove) on the whole chart.
+//! [`at`](FieldClaim::at) asserts the property at a state, [`prove`](FieldClaim::prove) on the whole chart.
 //! On a [`Level`] both also check that the chart's point lies on it and that the field preserves
 //! it. The theory is in docs/soundness.md, the usage in docs/testing.md.
 
@@ -96,9 +96,9 @@ mod strategies;
 pub use liouville::scalar;
 
 pub use body::{Ball, Body, Ellipsoid, OnUnitSphere, Polynomial, Shifted, Sum};
-pub use claim::Claim;
-pub use failure::{Failure, Proof, State, Witness};
-pub use notation::{Involution, Level, On, Place, Quantity, VectorField};
+pub use claim::FieldClaim;
+pub use failure::{AssertionFailure, ChartProof, DrawnState, FieldWitness};
+pub use notation::{Involution, Level, On, Quantity, TestState, VectorField};
 pub use rolling::{Energy, Rolling, RollingLevel};
 pub use strategies::{
     body_of_revolution, convex_body, ellipsoid, inertia_tensor, number, principal_moments,

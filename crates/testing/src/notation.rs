@@ -4,7 +4,7 @@
 //! implements it; existing functions are wrapped by the macros [`field!`](crate::field),
 //! [`quantity!`](crate::quantity) and [`involution!`](crate::involution).
 
-use super::claim::{Claim, Conserved, Density, LogDensity, Reversed, SymmetryField};
+use super::claim::{CommutesWith, Conserved, FieldClaim, HasDensity, LogDensity, Reversed};
 use liouville::scalar::Scalar;
 
 /// A vector field x' = v(x) on ℝᴺ.
@@ -26,11 +26,11 @@ pub trait VectorField<const N: usize> {
     fn conserves<'a, Q: Quantity<N>>(
         &'a self,
         quantity: &'a Q,
-    ) -> Claim<'a, Self, Conserved<'a, Q>, N>
+    ) -> FieldClaim<'a, Self, Conserved<'a, Q>, N>
     where
         Self: Sized,
     {
-        Claim::new(self, Conserved(quantity))
+        FieldClaim::new(self, Conserved(quantity))
     }
 
     /// Claims that ρ is an invariant density: v(ln ρ) + div v, minus the cofactors of the level
@@ -38,44 +38,44 @@ pub trait VectorField<const N: usize> {
     fn has_density<'a, Q: Quantity<N>>(
         &'a self,
         density: &'a Q,
-    ) -> Claim<'a, Self, Density<'a, Q>, N>
+    ) -> FieldClaim<'a, Self, HasDensity<'a, Q>, N>
     where
         Self: Sized,
     {
-        Claim::new(self, Density(density))
+        FieldClaim::new(self, HasDensity(density))
     }
 
     /// Claims an invariant density given by ln ρ.
     fn has_log_density<'a, Q: Quantity<N>>(
         &'a self,
         logarithm: &'a Q,
-    ) -> Claim<'a, Self, LogDensity<'a, Q>, N>
+    ) -> FieldClaim<'a, Self, LogDensity<'a, Q>, N>
     where
         Self: Sized,
     {
-        Claim::new(self, LogDensity(logarithm))
+        FieldClaim::new(self, LogDensity(logarithm))
     }
 
     /// Claims that u is a symmetry field: `[v,u] = 0`, and u is tangent to the level.
     fn commutes_with<'a, U: VectorField<N>>(
         &'a self,
         other: &'a U,
-    ) -> Claim<'a, Self, SymmetryField<'a, U>, N>
+    ) -> FieldClaim<'a, Self, CommutesWith<'a, U>, N>
     where
         Self: Sized,
     {
-        Claim::new(self, SymmetryField(other))
+        FieldClaim::new(self, CommutesWith(other))
     }
 
     /// Claims that σ reverses time: dσ·v = -v∘σ and σ∘σ = id, and σ preserves the level.
     fn is_reversed_by<'a, S: Involution<N>>(
         &'a self,
         map: &'a S,
-    ) -> Claim<'a, Self, Reversed<'a, S>, N>
+    ) -> FieldClaim<'a, Self, Reversed<'a, S>, N>
     where
         Self: Sized,
     {
-        Claim::new(self, Reversed(map))
+        FieldClaim::new(self, Reversed(map))
     }
 }
 
@@ -106,7 +106,7 @@ pub trait Level<const K: usize, const N: usize> {
 ///
 /// The point is made inside the arithmetic that an assertion uses, and so lies exactly on its
 /// level. An array is a point of ℝᴺ, [`On`] a point of a level.
-pub trait Place<const N: usize> {
+pub trait TestState<const N: usize> {
     /// Returns the numbers, exact as given.
     fn coordinates(&self) -> &[f64];
 
@@ -117,7 +117,7 @@ pub trait Place<const N: usize> {
     fn level<T: Scalar>(&self, x: [T; N]) -> Vec<T>;
 }
 
-impl<const N: usize> Place<N> for [f64; N] {
+impl<const N: usize> TestState<N> for [f64; N] {
     fn coordinates(&self) -> &[f64] {
         self
     }
@@ -140,7 +140,7 @@ pub struct On<L, const K: usize> {
     pub coordinates: [f64; K],
 }
 
-impl<L: Level<K, N>, const K: usize, const N: usize> Place<N> for On<L, K> {
+impl<L: Level<K, N>, const K: usize, const N: usize> TestState<N> for On<L, K> {
     fn coordinates(&self) -> &[f64] {
         &self.coordinates
     }

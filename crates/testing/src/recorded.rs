@@ -5,37 +5,37 @@ use num_dual::Dual;
 use num_traits::{One, Zero};
 
 use super::claim::{Parts, level_gradients};
-use super::failure::{Failure, Proof, State, Witness};
-use super::notation::Place;
+use super::failure::{AssertionFailure, ChartProof, DrawnState, FieldWitness};
+use super::notation::TestState;
 use liouville::graph::{Evaluator, Expr, Graph, Tape, record};
 use liouville::mechanics::calculus::gram_determinant;
-use liouville::mechanics::{Draw, Draws, Range};
+use liouville::mechanics::{Draw, DrawSource, Range};
 use liouville::number::Enclosing;
+use liouville::number::arb::ArbBall;
 use liouville::number::ball::Ball;
-use liouville::number::precise::Precise;
 use liouville::number::rational::Rational;
-use liouville::proof::{Certificate, Extent, Group, Outcome, Prover};
+use liouville::proof::{Certificate, Extent, Group, GroupOutcome, Prover};
 use liouville::verdict::antiderivative_value;
 
 /// Precision in bits of the second evaluation at a state, where balls over f64 contain 0.
-const BITS: u32 = 256;
+const SECOND_BITS: u32 = 256;
 /// Seed of primes, points and neighbours.
 const SEED: u64 = 1;
 /// Number of nearby states evaluated after a refutation in prime fields.
 const NEIGHBOURS: u64 = 32;
 
 /// A claim as a graph whose inputs are the coordinates of a chart.
-pub struct Recorded {
+pub struct RecordedField {
     graph: Graph,
     /// Premises, followed by the residual of the claim.
-    rows: Vec<Row>,
+    rows: Vec<RecordedComponent>,
     point: Vec<Expr>,
     /// Value that is not 0 where the chart fills its level.
     filling: Expr,
 }
 
 /// One component that must vanish.
-struct Row {
+struct RecordedComponent {
     what: &'static str,
     component: usize,
     is_premise: bool,
@@ -45,13 +45,13 @@ struct Row {
 /// Midpoint and radius of a ball, absent where the value is undefined.
 type Enclosure = Option<(f64, f64)>;
 
-impl Recorded {
+impl RecordedField {
     /// Records the residual and the premises at the point of a place.
     pub fn new<const N: usize>(
-        place: &impl Place<N>,
+        place: &impl TestState<N>,
         residual: impl FnOnce([Expr; N]) -> Parts<Expr>,
         premises: impl FnOnce([Expr; N]) -> Parts<Expr>,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, AssertionFailure> {
         let (graph, (rows, point, filling)) = record(place.coordinates().len(), |u| {
             let x = place.point(u);
             let mut rows = rows(premises(x), true);
@@ -64,12 +64,12 @@ impl Recorded {
     /// Fails if an enclosure excludes 0, or if a value is undefined.
     ///
     /// A ball over f64 that contains 0, or is undefined, is computed again in 256 bits.
-    pub fn look(&self, coordinates: &[f64]) -> Result<(), Failure> {
+    pub fn look(&self, coordinates: &[f64]) -> Result<(), AssertionFailure> {
         let numbers = exact(coordinates).ok_or_else(|| self.undefined(0, coordinates))?;
         let values: Vec<Expr> = self.rows.iter().map(|row| row.value).collect();
         let coarse = enclosures(&Ball::<1>, &self.graph, &values, &numbers);
         self.refute(&coarse, coordinates)?;
-        let fine = enclosures(&Precise::new(BITS), &self.graph, &values, &numbers);
+        let fine = enclosures(&ArbBall::new(SECOND_BITS), &self.graph, &values, &numbers);
         self.refute(&fine, coordinates)?;
         match fine.iter().position(|(enclosure, _)| enclosure.is_none()) {
             Some(row) => Err(self.undefined(row, coordinates)),
@@ -77,15 +77,19 @@ impl Recorded {
         }
     }
 
-    fn refute(&self, found: &[(Enclosure, bool)], coordinates: &[f64]) -> Result<(), Failure> {
+    fn refute(
+        &self,
+        found: &[(Enclosure, bool)],
+        coordinates: &[f64],
+    ) -> Result<(), AssertionFailure> {
         for (row, (enclosure, excludes_zero)) in self.rows.iter().zip(found) {
             if let (Some(enclosure), true) = (*enclosure, *excludes_zero) {
                 let at = self.state(coordinates);
-                let Row { what, component, .. } = *row;
-                let witness = Box::new(Witness { what, component, enclosure, at });
+                let RecordedComponent { what, component, .. } = *row;
+                let witness = Box::new(FieldWitness { what, component, enclosure, at });
                 return Err(match row.is_premise {
-                    true => Failure::Premise(witness),
-                    false => Failure::Refuted(witness),
+                    true => AssertionFailure::Premise(witness),
+                    false => AssertionFailure::Refuted(witness),
                 });
             }
         }
@@ -93,15 +97,15 @@ impl Recorded {
     }
 
     /// Fails where the chart does not fill its level.
-    pub fn check_chart(&self, coordinates: &[f64]) -> Result<(), Failure> {
+    pub fn check_chart(&self, coordinates: &[f64]) -> Result<(), AssertionFailure> {
         let excludes_zero = exact(coordinates).is_some_and(|numbers| {
-            enclosures(&Precise::new(BITS), &self.graph, &[self.filling], &numbers)[0].1
+            enclosures(&ArbBall::new(SECOND_BITS), &self.graph, &[self.filling], &numbers)[0].1
         });
-        excludes_zero.then_some(()).ok_or_else(|| Failure::Chart(self.state(coordinates)))
+        excludes_zero.then_some(()).ok_or_else(|| AssertionFailure::Chart(self.state(coordinates)))
     }
 
     /// Proves that all rows vanish, in prime fields.
-    pub fn prove(&self, coordinates: &[f64]) -> Result<Proof, Failure> {
+    pub fn prove(&self, coordinates: &[f64]) -> Result<ChartProof, AssertionFailure> {
         // A proof is about a connected part of the chart on which no radicand and no modulus has a
         // zero: one state determines the signs of all.
         let numbers = exact(coordinates).unwrap_or_default();
@@ -113,55 +117,56 @@ impl Recorded {
         for (row, outcome) in self.rows.iter().zip(outcomes) {
             let what = row.what;
             match outcome {
-                Outcome::Zero(found) => {
+                GroupOutcome::Zero(found) => {
                     proof = Some(proof.map_or(found, |before| before.and(found)));
                 }
-                Outcome::NonZero(_) => {
+                GroupOutcome::NonZero(_) => {
                     self.look_around(coordinates)?;
-                    return Err(Failure::RefutedInFields { what });
+                    return Err(AssertionFailure::RefutedInFields { what });
                 }
-                Outcome::Silent(why) => return Err(Failure::Unproved { what, why }),
-                Outcome::Void | Outcome::Partial => {
+                GroupOutcome::Silent(why) => return Err(AssertionFailure::Unproved { what, why }),
+                GroupOutcome::Void | GroupOutcome::Partial => {
                     let why = "it has no value".to_string();
-                    return Err(Failure::Unproved { what, why });
+                    return Err(AssertionFailure::Unproved { what, why });
                 }
             }
         }
-        let nothing = || Failure::Unproved { what: "nothing", why: "nothing was said".to_string() };
-        proof.map(Proof).ok_or_else(nothing)
+        let nothing =
+            || AssertionFailure::Unproved { what: "nothing", why: "nothing was said".to_string() };
+        proof.map(ChartProof).ok_or_else(nothing)
     }
 
     /// Evaluates states near the given one, and fails at the first that refutes.
-    fn look_around(&self, coordinates: &[f64]) -> Result<(), Failure> {
+    fn look_around(&self, coordinates: &[f64]) -> Result<(), AssertionFailure> {
         let step = Draw::Within(Range::between((-1, 8), (1, 8)));
-        let steps = Draws::new(&vec![step; coordinates.len()]);
+        let steps = DrawSource::new(&vec![step; coordinates.len()]);
         for index in 0..NEIGHBOURS {
             let steps = steps.state(SEED, index);
             let moved = coordinates.iter().zip(&steps).map(|(x, step)| x + step.to_f64().0);
             match self.look(&moved.collect::<Vec<f64>>()) {
-                Ok(()) | Err(Failure::Undefined { .. }) => {}
+                Ok(()) | Err(AssertionFailure::Undefined { .. }) => {}
                 refuted => return refuted,
             }
         }
         Ok(())
     }
 
-    fn undefined(&self, row: usize, coordinates: &[f64]) -> Failure {
+    fn undefined(&self, row: usize, coordinates: &[f64]) -> AssertionFailure {
         let what = self.rows.get(row).map_or("the state", |row| row.what);
-        Failure::Undefined { what, at: self.state(coordinates) }
+        AssertionFailure::Undefined { what, at: self.state(coordinates) }
     }
 
-    fn state(&self, coordinates: &[f64]) -> State {
+    fn state(&self, coordinates: &[f64]) -> DrawnState {
         let point = exact(coordinates).map(|numbers| {
             let found = enclosures(&Ball::<1>, &self.graph, &self.point, &numbers);
             found.iter().map(|(ball, _)| ball.map_or(f64::NAN, |(mid, _)| mid)).collect()
         });
-        State { coordinates: coordinates.to_vec(), point: point.unwrap_or_default() }
+        DrawnState { coordinates: coordinates.to_vec(), point: point.unwrap_or_default() }
     }
 }
 
-fn rows(parts: Parts<Expr>, is_premise: bool) -> Vec<Row> {
-    let row = |what, (component, value)| Row { what, component, is_premise, value };
+fn rows(parts: Parts<Expr>, is_premise: bool) -> Vec<RecordedComponent> {
+    let row = |what, (component, value)| RecordedComponent { what, component, is_premise, value };
     parts
         .into_iter()
         .flat_map(|(what, values)| values.into_iter().enumerate().map(move |x| row(what, x)))
@@ -171,7 +176,7 @@ fn rows(parts: Parts<Expr>, is_premise: bool) -> Vec<Row> {
 /// Computes det(J Jᵀ + G Gᵀ) of the chart's derivative J and the level's gradients G, which are
 /// orthogonal to each other: 0 exactly where the chart misses some direction in the level, or the
 /// level functions are dependent.
-fn filling<const N: usize>(place: &impl Place<N>, u: &[Expr], x: [Expr; N]) -> Expr {
+fn filling<const N: usize>(place: &impl TestState<N>, u: &[Expr], x: [Expr; N]) -> Expr {
     let gradients = level_gradients(place, x);
     let columns = (0..u.len()).map(|k| {
         let along = |j: usize| if j == k { Expr::one() } else { Expr::zero() };

@@ -5,7 +5,9 @@ use num_dual::Dual;
 
 use super::body::{Body, euler_defect};
 use super::notation::{Level, Quantity, VectorField};
-use liouville::mechanics::{AcrossNormal, Motion, Pose, contact_of, point_mass, rolling_point};
+use liouville::mechanics::{
+    AcrossNormal, Pose, RollingTerms, contact_of, point_mass, rolling_point,
+};
 use liouville::scalar::Scalar;
 
 /// A body rolling without slipping or spinning on a plane or a sphere: the field of (ω,γ) in ℝ⁶.
@@ -70,12 +72,12 @@ impl<B: Body> Rolling<B> {
         central + point_mass(T::from(self.mass), r)
     }
 
-    fn motion<T: Scalar>(&self, [w1, w2, w3, g1, g2, g3]: [T; 6]) -> Motion<T> {
+    fn motion<T: Scalar>(&self, [w1, w2, w3, g1, g2, g3]: [T; 6]) -> RollingTerms<T> {
         let gamma = [g1, g2, g3];
         let (r, slope) = contact_of(|i, j| self.body.support(along(along(gamma, i), j)));
         let normal = Vector3::from(gamma);
         let curvature = (self.curvature != 0.0).then(|| T::from(self.curvature));
-        Motion::of(Pose {
+        RollingTerms::of(Pose {
             omega: Vector3::new(w1, w2, w3),
             gamma: normal,
             mass: T::from(self.mass),

@@ -5,21 +5,21 @@
 //!                                └──▶ prime fields ───────▶ proved, refuted, or silent
 //! ```
 
-use super::claim::{Claim, Statement, premises};
-use super::failure::{Failure, Proof};
-use super::notation::{Place, VectorField};
-use super::recorded::Recorded;
+use super::claim::{FieldClaim, FieldProperty, premises};
+use super::failure::{AssertionFailure, ChartProof};
+use super::notation::{TestState, VectorField};
+use super::recorded::RecordedField;
 
-impl<V, S, const N: usize> Claim<'_, V, S, N>
+impl<V, S, const N: usize> FieldClaim<'_, V, S, N>
 where
     V: VectorField<N>,
-    S: Statement<V, N>,
+    S: FieldProperty<V, N>,
 {
     /// Asserts the claim at one state: no enclosure of its residual excludes 0, neither over f64
     /// nor in 256 bits. The state is a point of ℝᴺ or of a level, and stands for its exact numbers.
     ///
     /// There is no tolerance: a residual that fails is not 0.
-    pub fn at(&self, state: &impl Place<N>) -> Result<(), Failure> {
+    pub fn at(&self, state: &impl TestState<N>) -> Result<(), AssertionFailure> {
         self.record(state)?.look(state.coordinates())
     }
 
@@ -28,7 +28,7 @@ where
     ///
     /// Parameters have their given values. For a proof for all values, make them further variables
     /// whose rates are 0.
-    pub fn prove(&self, state: &impl Place<N>) -> Result<Proof, Failure> {
+    pub fn prove(&self, state: &impl TestState<N>) -> Result<ChartProof, AssertionFailure> {
         let recorded = self.record(state)?;
         let coordinates = state.coordinates();
         recorded.look(coordinates)?;
@@ -36,8 +36,8 @@ where
         recorded.prove(coordinates)
     }
 
-    fn record(&self, place: &impl Place<N>) -> Result<Recorded, Failure> {
-        Recorded::new(
+    fn record(&self, place: &impl TestState<N>) -> Result<RecordedField, AssertionFailure> {
+        RecordedField::new(
             place,
             |x| self.statement.residual(self.field, place, x),
             |x| premises(self.field, place, x),

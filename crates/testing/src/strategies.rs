@@ -14,7 +14,7 @@ use super::rolling::RollingLevel;
 /// Half the number of steps in a range.
 const STEPS: i32 = 128;
 /// Largest fraction of a body's radius by which its polynomial may reduce the radii of curvature.
-const MOST: f64 = 0.9;
+const MOST_REDUCTION: f64 = 0.9;
 
 /// Draws a number strictly inside a range, in 256 steps; dyadic if the range's ends are.
 pub fn number(range: Range<f64>) -> impl Strategy<Value = f64> + Clone {
@@ -96,7 +96,7 @@ fn polynomial(radius: f64, weighted: impl Iterator<Item = ([i32; 3], f64)>) -> P
     let degree = |exponents: &[i32; 3]| f64::from(exponents.iter().sum::<i32>());
     let curved = weighted.iter().filter(|(exponents, _)| degree(exponents) > 1.0);
     let total: f64 = curved.map(|(_, weight)| weight.abs()).sum();
-    let scale = radius * MOST / total.max(1.0);
+    let scale = radius * MOST_REDUCTION / total.max(1.0);
     let sized = weighted.into_iter().map(|(exponents, weight)| {
         let size = (degree(&exponents).powi(2) - 1.0).max(2.0);
         (exponents, weight * scale / size)

@@ -10,9 +10,9 @@ mod random;
 use common::case;
 use liouville::scalar::Scalar;
 use liouville_testing::{
-    Ball, Body, Ellipsoid, Failure, Level, On, OnUnitSphere, Polynomial, Rolling, RollingLevel,
-    Shifted, Sum, VectorField, body_of_revolution, convex_body, ellipsoid, inertia_tensor, number,
-    principal_moments, rolling_state, state,
+    AssertionFailure, Ball, Body, Ellipsoid, Level, On, OnUnitSphere, Polynomial, Rolling,
+    RollingLevel, Shifted, Sum, VectorField, body_of_revolution, convex_body, ellipsoid,
+    inertia_tensor, number, principal_moments, rolling_state, state,
 };
 use liouville_testing::{field, involution, quantity};
 use nalgebra::Matrix3;
@@ -202,7 +202,9 @@ fn energy_is_proved_on_the_level_and_a_wrong_integral_is_not() {
     let square = quantity!(|x: [_; 6]| x[0] * x[0]);
     rolling.conserves(&square).at(&rest).expect("true at this state");
     let failure = rolling.conserves(&square).prove(&rest).expect_err("but no integral");
-    let Failure::Refuted(witness) = failure else { panic!("a witness near it: {failure}") };
+    let AssertionFailure::Refuted(witness) = failure else {
+        panic!("a witness near it: {failure}")
+    };
     assert_ne!(witness.at.coordinates, rest.coordinates);
     assert!(witness.enclosure.0.abs() > witness.enclosure.1, "{witness}");
 }
@@ -303,7 +305,7 @@ fn logarithms_of_densities_and_transcendental_integrals() {
     outside.expect("the logarithm drops out of the derivative");
     let root = quantity!(|x: [_; 2]| x[0].sqrt());
     let failure = field.conserves(&root).at(&[-1.0, 1.0]).expect_err("√-1");
-    assert!(matches!(failure, Failure::Undefined { .. }), "{failure}");
+    assert!(matches!(failure, AssertionFailure::Undefined { .. }), "{failure}");
 }
 
 /// A support function h of degree 2, such as the square of a radius typed by mistake.

@@ -3,12 +3,12 @@
 use super::super::ClaimError;
 use super::super::field::level_equation;
 use super::super::parameters::{NO_NAME, origin_of};
-use super::super::shapes::{Given, list, state_draws};
+use super::super::shapes::{GivenValue, list, state_draws};
 use super::super::value::{FormulaSource, ValueSpec};
 use super::super::values::stranger;
-use super::{Build, ModelBuilder, Part};
+use super::{BodyPart, Build, ModelBuilder};
 use crate::formula::{Formula, Type, canonical_name};
-use crate::mechanics::{Meaning, Origin, Parameter, Reach};
+use crate::mechanics::{Dependence, Meaning, Parameter, ParameterOrigin};
 
 impl ModelBuilder {
     /// Carries out a step for a canonical name, unless an earlier one failed.
@@ -45,18 +45,18 @@ impl ModelBuilder {
             ClaimError::new(name, message, remedy)
         };
         let (kind, origin) = match value.given(&self.vocabulary).map_err(refuse)? {
-            Given::Fixed(kind, values) => (kind, Origin::Fixed(values)),
-            Given::Drawn(recipe) => (recipe.kind(), Origin::Free(recipe)),
-            Given::List(values) => {
+            GivenValue::Fixed(kind, values) => (kind, ParameterOrigin::Fixed(values)),
+            GivenValue::Drawn(recipe) => (recipe.kind(), ParameterOrigin::Free(recipe)),
+            GivenValue::List(values) => {
                 let (kind, values) = list(values, false);
-                (kind, Origin::Fixed(values))
+                (kind, ParameterOrigin::Fixed(values))
             }
-            Given::Formula(text) => {
+            GivenValue::Formula(text) => {
                 let source = match value {
                     ValueSpec::Formula(formula) => FormulaSource::Formula(formula.clone()),
                     _ => FormulaSource::Text(text),
                 };
-                let read = self.read(name, &source, None, Reach::Parameters)?;
+                let read = self.read(name, &source, None, Dependence::Parameters)?;
                 (read.value_type(), origin_of(read))
             }
         };
@@ -64,13 +64,13 @@ impl ModelBuilder {
             self.sizes.push(text.clone());
         }
         let whole = match (&origin, kind) {
-            (Origin::Fixed(values), Type::Scalar) => {
+            (ParameterOrigin::Fixed(values), Type::Scalar) => {
                 values.first().and_then(|own| own.to_integer())
             }
             _ => None,
         };
         let meaning = Meaning::Parameter(self.parameters.len());
-        self.vocabulary.add(name, meaning, kind, Reach::Parameters);
+        self.vocabulary.add(name, meaning, kind, Dependence::Parameters);
         if let Some(whole) = whole {
             self.vocabulary.set_whole(name, whole);
         }
@@ -90,7 +90,7 @@ impl ModelBuilder {
         if let ValueSpec::Text(text) = range {
             self.sizes.push(text.clone());
         }
-        self.state.add(name, kind, draws, &mut self.vocabulary, Reach::Phase);
+        self.state.add(name, kind, draws, &mut self.vocabulary, Dependence::Phase);
         self.rates.push(None);
         Ok(())
     }
@@ -105,8 +105,8 @@ impl ModelBuilder {
             return Err(ClaimError::new("level", message, "leave the equation out"));
         }
         let scalar = Some(Type::Scalar);
-        let left = self.read("the left side", left, scalar, Reach::Phase)?;
-        let right = self.read("the right side", right, scalar, Reach::Phase)?;
+        let left = self.read("the left side", left, scalar, Dependence::Phase)?;
+        let right = self.read("the right side", right, scalar, Dependence::Phase)?;
         let is_zero = right.constant().is_some_and(|value| value.is_zero());
         let function = match is_zero {
             true => left.clone(),
@@ -118,7 +118,7 @@ impl ModelBuilder {
         Ok(())
     }
 
-    pub(super) fn part(mut self, part: Part, source: impl Into<FormulaSource>) -> Self {
+    pub(super) fn part(mut self, part: BodyPart, source: impl Into<FormulaSource>) -> Self {
         if self.error.is_none() {
             let is_body = matches!(self.build, Build::Rolling { .. });
             let is_new = self.parts.iter().all(|(own, _)| *own != part);
@@ -148,7 +148,7 @@ impl ModelBuilder {
         what: &str,
         source: &FormulaSource,
         kind: Option<Type>,
-        reach: Reach,
+        reach: Dependence,
     ) -> Result<Formula, ClaimError> {
         let read = match source {
             FormulaSource::Formula(formula) => {
@@ -171,7 +171,7 @@ impl ModelBuilder {
             Some(entry) if entry.reach > reach => {
                 let message = format!("`{}` changes along the motion", entry.name);
                 let remedy = match reach {
-                    Reach::Parameters => "use parameters alone",
+                    Dependence::Parameters => "use parameters alone",
                     _ => "use γ and parameters",
                 };
                 Err(ClaimError::new(what, message, remedy))

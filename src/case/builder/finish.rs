@@ -2,10 +2,10 @@
 
 use super::super::value::FormulaSource;
 use super::super::{Case, ClaimError, build, shadows};
-use super::{Build, ModelBuilder, Part};
+use super::{BodyPart, Build, ModelBuilder};
 use crate::formula::{Formula, Scope, Symbol, Type, names_in};
 use crate::mechanics::{
-    Chart, Features, LevelEquation, LevelFunction, Meaning, Model, Potential, Quantity, Reach,
+    Chart, Dependence, Features, LevelEquation, LevelFunction, Meaning, Model, Potential, Quantity,
     RigidBody, Rubber, Shape, Spinning, System, Variable, of_rubber, of_spinning,
 };
 
@@ -97,7 +97,7 @@ impl ModelBuilder {
         let read = |(variable, rate): (&Variable, &Option<FormulaSource>)| {
             let what = format!("{}'", variable.name);
             match rate {
-                Some(rate) => self.read(&what, rate, Some(variable.kind), Reach::Phase),
+                Some(rate) => self.read(&what, rate, Some(variable.kind), Dependence::Phase),
                 None => Err(ClaimError::new(&what, "the rate is missing", "give it by `rate`")),
             }
         };
@@ -110,7 +110,7 @@ impl ModelBuilder {
             let name = format!("{}'", variable.name);
             if self.vocabulary.find(&name).is_none() {
                 let meaning = Meaning::Quantity(Quantity::Rate(index));
-                self.vocabulary.add(&name, meaning, variable.kind, Reach::Phase);
+                self.vocabulary.add(&name, meaning, variable.kind, Dependence::Phase);
             }
         }
     }
@@ -125,25 +125,25 @@ impl ModelBuilder {
         names.filter_map(whole).collect()
     }
 
-    fn source(&self, part: Part) -> Option<&FormulaSource> {
+    fn source(&self, part: BodyPart) -> Option<&FormulaSource> {
         self.parts.iter().find(|(own, _)| *own == part).map(|(_, source)| source)
     }
 
     /// Reads a constant of the body, or the parameter that represents it.
-    fn constant(&self, part: Part, name: &str, kind: Type) -> Result<Formula, ClaimError> {
+    fn constant(&self, part: BodyPart, name: &str, kind: Type) -> Result<Formula, ClaimError> {
         let default = FormulaSource::from(name);
         let source = self.source(part).unwrap_or(&default);
-        self.read(name, source, Some(kind), Reach::Parameters)
+        self.read(name, source, Some(kind), Dependence::Parameters)
     }
 
     fn body(&mut self, spins: bool, curved: bool) -> Result<System, ClaimError> {
-        let mass = self.constant(Part::Mass, "m", Type::Scalar)?;
-        let inertia = self.constant(Part::Inertia, "I", Type::MATRIX)?;
+        let mass = self.constant(BodyPart::Mass, "m", Type::Scalar)?;
+        let inertia = self.constant(BodyPart::Inertia, "I", Type::MATRIX)?;
         let curvature =
-            curved.then(|| self.constant(Part::Curvature, "k", Type::Scalar)).transpose()?;
-        let rotor = self.source(Part::Gyrostat);
+            curved.then(|| self.constant(BodyPart::Curvature, "k", Type::Scalar)).transpose()?;
+        let rotor = self.source(BodyPart::Gyrostat);
         let gyrostat = rotor
-            .map(|rotor| self.read("gyrostat", rotor, Some(Type::VECTOR), Reach::Parameters))
+            .map(|rotor| self.read("gyrostat", rotor, Some(Type::VECTOR), Dependence::Parameters))
             .transpose()?;
         let shape = self.shape()?;
         let has = |name: &str, kind: Type| {
@@ -153,7 +153,7 @@ impl ModelBuilder {
             radius: has("R", Type::Scalar),
             displacement: has("c", Type::VECTOR),
             curvature: curved,
-            potential: self.source(Part::Potential).is_some(),
+            potential: self.source(BodyPart::Potential).is_some(),
             profile: false,
         };
         let quantities = if spins { of_spinning(features) } else { of_rubber(features) };
@@ -162,9 +162,9 @@ impl ModelBuilder {
         let (own, others): (Vec<_>, Vec<_>) =
             quantities.into_iter().partition(|(_, quantity, _, _)| is_potential(quantity));
         self.name_quantities(others);
-        let given = self.source(Part::Potential);
+        let given = self.source(BodyPart::Potential);
         let potential = given
-            .map(|given| self.read("U", given, Some(Type::Scalar), Reach::Configuration))
+            .map(|given| self.read("U", given, Some(Type::Scalar), Dependence::Configuration))
             .transpose()?;
         self.name_quantities(own);
         let equation =
@@ -188,7 +188,7 @@ impl ModelBuilder {
         })
     }
 
-    fn name_quantities(&mut self, quantities: Vec<(&'static str, Quantity, Type, Reach)>) {
+    fn name_quantities(&mut self, quantities: Vec<(&'static str, Quantity, Type, Dependence)>) {
         for (name, quantity, kind, reach) in quantities {
             if self.vocabulary.find(name).is_none() {
                 self.vocabulary.add(name, Meaning::Quantity(quantity), kind, reach);
@@ -197,12 +197,12 @@ impl ModelBuilder {
     }
 
     fn shape(&self) -> Result<Shape, ClaimError> {
-        let reach = Reach::Configuration;
+        let reach = Dependence::Configuration;
         let (scalar, vector) = (Some(Type::Scalar), Some(Type::VECTOR));
-        let given = [Part::Support, Part::Contact];
+        let given = [BodyPart::Support, BodyPart::Contact];
         let mut given = given.into_iter().filter_map(|part| Some((part, self.source(part)?)));
         match (given.next(), given.next()) {
-            (Some((Part::Support, source)), None) => {
+            (Some((BodyPart::Support, source)), None) => {
                 self.read("support", source, scalar, reach).map(Shape::Support)
             }
             (Some((_, source)), None) => {

@@ -7,7 +7,7 @@ use super::ClaimError;
 use super::state::State;
 use super::value::{FormulaSource, ValueSpec};
 use crate::formula::{Formula, Type};
-use crate::mechanics::{LevelEquation, Model, Parameter, Reach, Vocabulary};
+use crate::mechanics::{Dependence, LevelEquation, Model, Parameter, Vocabulary};
 
 /// Kind of system that is built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,7 +18,7 @@ enum Build {
 
 /// A part of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Part {
+enum BodyPart {
     Support,
     Contact,
     Mass,
@@ -61,7 +61,7 @@ pub struct ModelBuilder {
     rates: Vec<Option<FormulaSource>>,
     abbreviations: Vec<Formula>,
     level: Vec<LevelEquation>,
-    parts: Vec<(Part, FormulaSource)>,
+    parts: Vec<(BodyPart, FormulaSource)>,
     error: Option<ClaimError>,
 }
 
@@ -110,7 +110,7 @@ impl ModelBuilder {
             error: None,
         };
         if let Build::Rolling { .. } = build {
-            for (name, reach) in [("ω", Reach::Phase), ("γ", Reach::Configuration)] {
+            for (name, reach) in [("ω", Dependence::Phase), ("γ", Dependence::Configuration)] {
                 let (names, kind) = (&mut builder.vocabulary, Type::VECTOR);
                 builder.state.add(name, kind, Vec::new(), names, reach);
                 builder.rates.push(None);
@@ -180,9 +180,9 @@ impl ModelBuilder {
         let formula = formula.into();
         self.attempt(name, |builder, name| {
             builder.check_free(name)?;
-            let read = builder.read(name, &formula, None, Reach::Phase)?;
+            let read = builder.read(name, &formula, None, Dependence::Phase)?;
             let entry = builder.vocabulary.reach(&read);
-            let reach = entry.map_or(Reach::Parameters, |entry| entry.reach);
+            let reach = entry.map_or(Dependence::Parameters, |entry| entry.reach);
             builder.vocabulary.define(name, builder.abbreviations.len(), &read, reach);
             builder.abbreviations.push(read);
             Ok(())
@@ -206,43 +206,43 @@ impl ModelBuilder {
     /// Sets the support function h(γ) of a body.
     #[must_use]
     pub fn support(self, support: impl Into<FormulaSource>) -> Self {
-        self.part(Part::Support, support)
+        self.part(BodyPart::Support, support)
     }
 
     /// Sets the vector r(γ) from the mass centre of a body to its point of contact.
     #[must_use]
     pub fn contact(self, contact: impl Into<FormulaSource>) -> Self {
-        self.part(Part::Contact, contact)
+        self.part(BodyPart::Contact, contact)
     }
 
     /// Sets the mass of a body, the parameter m otherwise.
     #[must_use]
     pub fn mass(self, mass: impl Into<FormulaSource>) -> Self {
-        self.part(Part::Mass, mass)
+        self.part(BodyPart::Mass, mass)
     }
 
     /// Sets the inertia tensor of a body, the parameter I otherwise.
     #[must_use]
     pub fn inertia(self, inertia: impl Into<FormulaSource>) -> Self {
-        self.part(Part::Inertia, inertia)
+        self.part(BodyPart::Inertia, inertia)
     }
 
     /// Sets the curvature of the sphere that a body rolls on, the parameter k otherwise.
     #[must_use]
     pub fn curvature(self, curvature: impl Into<FormulaSource>) -> Self {
-        self.part(Part::Curvature, curvature)
+        self.part(BodyPart::Curvature, curvature)
     }
 
     /// Sets the angular momentum of a rotor in a body.
     #[must_use]
     pub fn gyrostat(self, rotor: impl Into<FormulaSource>) -> Self {
-        self.part(Part::Gyrostat, rotor)
+        self.part(BodyPart::Gyrostat, rotor)
     }
 
     /// Sets the potential U(γ) of the forces on a body.
     #[must_use]
     pub fn potential(self, potential: impl Into<FormulaSource>) -> Self {
-        self.part(Part::Potential, potential)
+        self.part(BodyPart::Potential, potential)
     }
 
     /// Reads a formula in the names declared so far.
@@ -252,7 +252,7 @@ impl ModelBuilder {
     pub fn formula(&self, text: &str) -> Result<Formula, ClaimError> {
         match &self.error {
             Some(error) => Err(error.clone()),
-            None => self.read(text, &FormulaSource::from(text), None, Reach::Phase),
+            None => self.read(text, &FormulaSource::from(text), None, Dependence::Phase),
         }
     }
 }

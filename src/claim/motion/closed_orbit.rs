@@ -1,8 +1,8 @@
 //! Closed orbits, with the change of volume along them.
 
-use super::{Beginning, Motional, Neighbourhood, Stability, Stated, required_number, word};
+use super::{Beginning, Motional, Neighbourhood, Stability, Stated, integrals, period, word};
 use crate::claim::Reader;
-use crate::formula::{Formula, Type};
+use crate::formula::Formula;
 
 /// Change of volume along a closed orbit: the sign of the integral of the divergence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,28 +40,18 @@ impl Motional for ClosedOrbit {
         &["start", "state", "divergence", "stability", "density", "integrals", "parameters"];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
-        let period = required_number(from, Self::NAME)?;
-        if period.value <= 0.0 || period.value.is_nan() {
-            let message = format!("a closed orbit does not have the period {}", period.text);
-            return Err(from.complaint(Self::NAME, message, "write its period, above 0"));
-        }
         let changes = [
             ("negative", Change::Negative),
             ("positive", Change::Positive),
             ("nonzero", Change::Nonzero),
         ];
-        let integrals = from.list("integrals")?.unwrap_or_default();
-        if integrals.iter().any(|formula| formula.value_type() != Type::Scalar) {
-            let message = "an integral that holds an orbit is a scalar".to_string();
-            return Err(from.complaint("integrals", message, "list the components one by one"));
-        }
         Ok(Self {
-            period,
+            period: period(from, Self::NAME, "write its period, above 0")?,
             beginning: Beginning::read(from)?,
             divergence: word(from, "divergence", &changes)?,
             stability: word(from, "stability", &Stability::ALL)?,
             excludes_density: word(from, "density", &[("none", ())])?.is_some(),
-            integrals,
+            integrals: integrals(from)?,
             parameters: Neighbourhood::read(from, "parameters")?,
         })
     }

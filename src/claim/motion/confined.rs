@@ -5,7 +5,7 @@ use crate::claim::Reader;
 
 /// A coordinate of the section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Axis {
+pub enum SectionCoordinate {
     /// Angle l.
     L,
     /// Ratio L/G.
@@ -19,7 +19,7 @@ pub struct Confined {
     /// Text of the claim as typed.
     text: String,
     /// Coordinate that is bounded.
-    pub axis: Axis,
+    pub axis: SectionCoordinate,
     /// Lower and upper bound.
     pub between: [Stated; 2],
     /// Smallest share of the crossings that must lie between the bounds.
@@ -40,8 +40,8 @@ impl Motional for Confined {
         let text = from.text(Self::NAME)?.ok_or_else(|| from.missing(Self::NAME))?;
         let parts: Vec<&str> = text.split('<').map(str::trim).collect();
         let (low, axis, high) = match parts[..] {
-            [low, "l", high] => (low, Axis::L, high),
-            [low, "L/G", high] => (low, Axis::Z, high),
+            [low, "l", high] => (low, SectionCoordinate::L, high),
+            [low, "L/G", high] => (low, SectionCoordinate::Z, high),
             _ => {
                 let message = format!("`{text}` is not a part of the section");
                 return Err(from.complaint(Self::NAME, message, "write \"0.4 < l < 2.9\""));

@@ -1,8 +1,8 @@
 //! Horseshoes at a saddle, and the integrals that they exclude.
 
-use super::{Beginning, Motional, Stated, required_number, word};
+use super::{Beginning, Motional, Stated, integrals, period, word};
 use crate::claim::Reader;
-use crate::formula::{Formula, Type};
+use crate::formula::Formula;
 
 /// The claim that motions near a closed orbit of saddle kind, with this period, form a horseshoe.
 #[derive(Clone, Debug)]
@@ -22,21 +22,11 @@ impl Motional for Horseshoe {
     const COMPANIONS: &'static [&'static str] = &["start", "state", "integral", "integrals"];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
-        let period = required_number(from, Self::NAME)?;
-        if period.value <= 0.0 || period.value.is_nan() {
-            let message = format!("a closed orbit does not have the period {}", period.text);
-            return Err(from.complaint(Self::NAME, message, "write that of the saddle, above 0"));
-        }
-        let integrals = from.list("integrals")?.unwrap_or_default();
-        if integrals.iter().any(|formula| formula.value_type() != Type::Scalar) {
-            let message = "an integral that holds an orbit is a scalar".to_string();
-            return Err(from.complaint("integrals", message, "list the components one by one"));
-        }
         Ok(Self {
-            period,
+            period: period(from, Self::NAME, "write that of the saddle, above 0")?,
             beginning: Beginning::read(from)?,
             excludes_integral: word(from, "integral", &[("none", ())])?.is_some(),
-            integrals,
+            integrals: integrals(from)?,
         })
     }
 

@@ -1,8 +1,8 @@
 //! Claims about motion: long orbits, periodic points and limits of orbits.
 //!
 //! They have no residual that could be proved to vanish, but are observed: confirmed or refuted by
-//! numbers with errors. Closed orbits and horseshoes are proved. Each kind is one file that defines the claim;
-//! `observe` measures.
+//! numbers with errors. Closed orbits and horseshoes are proved. Each kind is one file that defines
+//! the claim; `observe` measures.
 
 mod beginning;
 mod closed_orbit;
@@ -19,10 +19,11 @@ mod reaches;
 mod stated;
 
 use super::Reader;
+use crate::formula::{Formula, Type};
 
 pub use beginning::Beginning;
 pub use closed_orbit::{Change, ClosedOrbit};
-pub use confined::{Axis, Confined};
+pub use confined::{Confined, SectionCoordinate};
 pub use contacts::{Contacts, Touch};
 pub use exponent::{Exponent, Growth};
 pub use horseshoe::Horseshoe;
@@ -56,18 +57,18 @@ macro_rules! kinds {
     ($($kind:ident),* $(,)?) => {
         /// A claimed statement about motions, by kind.
         #[derive(Clone, Debug)]
-        pub enum Motion {
+        pub enum MotionKind {
             $(#[doc = concat!("See [`", stringify!($kind), "`].")] $kind($kind),)*
         }
 
         /// Keys of the statements that a claim about motion can make.
         pub const MOTIONS: &[&str] = &[$($kind::NAME),*];
 
-        impl Motion {
+        impl MotionKind {
             /// Reads the statement of `key`, one of [`MOTIONS`].
             pub fn read<R: Reader>(key: &str, from: &R) -> Option<Result<Self, R::Error>> {
                 match key {
-                    $(_ if key == $kind::NAME => Some($kind::read(from).map(Motion::$kind)),)*
+                    $(_ if key == $kind::NAME => Some($kind::read(from).map(MotionKind::$kind)),)*
                     _ => None,
                 }
             }
@@ -82,17 +83,17 @@ macro_rules! kinds {
 
             /// Returns the kind's name in case files and reports.
             pub fn name(&self) -> &'static str {
-                match self { $(Motion::$kind(_) => $kind::NAME,)* }
+                match self { $(MotionKind::$kind(_) => $kind::NAME,)* }
             }
 
             /// Returns the start of the motion.
             pub fn beginning(&self) -> &Beginning {
-                match self { $(Motion::$kind(claim) => claim.beginning(),)* }
+                match self { $(MotionKind::$kind(claim) => claim.beginning(),)* }
             }
 
             /// Returns the statement in a few words.
             pub fn text(&self) -> String {
-                match self { $(Motion::$kind(claim) => claim.text(),)* }
+                match self { $(MotionKind::$kind(claim) => claim.text(),)* }
             }
         }
     };
@@ -122,6 +123,26 @@ fn required_number<R: Reader>(from: &R, key: &'static str) -> Result<Stated, R::
     number(from, key)?.ok_or_else(|| from.missing(key))
 }
 
+/// Reads the period of a closed orbit.
+fn period<R: Reader>(from: &R, key: &'static str, remedy: &str) -> Result<Stated, R::Error> {
+    let period = required_number(from, key)?;
+    if period.value <= 0.0 || period.value.is_nan() {
+        let message = format!("a closed orbit does not have the period {}", period.text);
+        return Err(from.complaint(key, message, remedy));
+    }
+    Ok(period)
+}
+
+/// Reads the integrals that hold an orbit besides the level functions and the energy.
+fn integrals<R: Reader>(from: &R) -> Result<Vec<Formula>, R::Error> {
+    let integrals = from.list("integrals")?.unwrap_or_default();
+    if integrals.iter().any(|formula| formula.value_type() != Type::Scalar) {
+        let message = "an integral that holds an orbit is a scalar".to_string();
+        return Err(from.complaint("integrals", message, "list the components one by one"));
+    }
+    Ok(integrals)
+}
+
 fn stated<R: Reader>(from: &R, key: &'static str, text: &str) -> Result<Stated, R::Error> {
     Stated::parse(text).ok_or_else(|| {
         let message = format!("`{text}` is not a number");
@@ -142,16 +163,16 @@ fn point<R: Reader>(from: &R, key: &'static str) -> Result<Option<[Stated; 2]>, 
 }
 
 /// Largest number of crossings, and largest length of a cycle.
-const MOST: usize = 1_000_000_000;
+const MOST_CROSSINGS: usize = 1_000_000_000;
 
 /// Reads a positive integer.
 fn count<R: Reader>(from: &R, key: &'static str) -> Result<Option<usize>, R::Error> {
     let Some(text) = from.text(key)? else { return Ok(None) };
     match text.parse() {
-        Ok(count) if (1..=MOST).contains(&count) => Ok(Some(count)),
+        Ok(count) if (1..=MOST_CROSSINGS).contains(&count) => Ok(Some(count)),
         Ok(1..) => {
             let message = format!("`{text}` is too large");
-            Err(from.complaint(key, message, &format!("write a number up to {MOST}")))
+            Err(from.complaint(key, message, &format!("write a number up to {MOST_CROSSINGS}")))
         }
         _ => Err(from.complaint(key, format!("`{text}` is not a count"), "write 1, 2, 3, …")),
     }

@@ -1,7 +1,7 @@
 //! Parameters that vary about their fixed values.
 
 use crate::claim::Reader;
-use crate::mechanics::{Meaning, Model, Origin, Parameter, Recipe};
+use crate::mechanics::{Meaning, Model, Parameter, ParameterOrigin, SamplerSpec};
 use crate::number::rational::Rational;
 
 /// All values of a parameter within a distance of the fixed one, component by component.
@@ -38,7 +38,7 @@ impl Neighbourhood {
             return complaint(format!("`{name}` is not a parameter"), "name one of [parameters]");
         };
         let own = &model.parameters[parameter];
-        let Origin::Fixed(values) = &own.origin else {
+        let ParameterOrigin::Fixed(values) = &own.origin else {
             let remedy = "give it a number in [parameters], and vary that";
             return complaint(format!("`{name}` has no fixed value to vary about"), remedy);
         };
@@ -82,9 +82,11 @@ impl Neighbourhood {
     }
 
     /// Returns the parameter's recipe: its components within the distance of their values.
-    pub fn recipe(&self, parameter: &Parameter) -> Option<Recipe> {
+    pub fn recipe(&self, parameter: &Parameter) -> Option<SamplerSpec> {
         match &parameter.origin {
-            Origin::Fixed(values) => Recipe::around(parameter.kind, values, &self.half),
+            ParameterOrigin::Fixed(values) => {
+                SamplerSpec::around(parameter.kind, values, &self.half)
+            }
             _ => None,
         }
     }
@@ -92,7 +94,7 @@ impl Neighbourhood {
     /// Frees the parameter in a model. `None` where it is not fixed there.
     pub fn free(&self, model: &mut Model) -> Option<()> {
         let own = model.parameters.get_mut(self.parameter)?;
-        own.origin = Origin::Free(self.recipe(own)?);
+        own.origin = ParameterOrigin::Free(self.recipe(own)?);
         Some(())
     }
 }

@@ -1,14 +1,14 @@
 //! Boxes of the tree of a formula.
 
 use super::Layout;
-use crate::formula::arena::{Arena, Constant, Extreme, Function, NodeId, Operation};
+use crate::formula::arena::{Arena, Constant, ElementaryFunction, Extreme, NodeId, NodeOperation};
 use crate::formula::kind::Type;
 use crate::formula::scope::Symbol;
 use crate::number::rational::Rational;
 
 /// Strength with which a box holds together; one looser than its place requires gets brackets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Bond {
+enum BoxStrength {
     Sum,
     Cross,
     Product,
@@ -16,7 +16,7 @@ enum Bond {
     Whole,
 }
 
-type Bonded = (Layout, Bond);
+type Bonded = (Layout, BoxStrength);
 
 struct Paper<'f> {
     arena: &'f Arena,
@@ -31,8 +31,8 @@ pub(super) fn set(arena: &Arena, names: &dyn Fn(Symbol) -> String) -> Layout {
 impl Paper<'_> {
     /// Sets a node; `inline` where fractions would be too high.
     fn set(&self, node: NodeId, inline: bool) -> Bonded {
-        use Operation::*;
-        let whole = |layout| (layout, Bond::Whole);
+        use NodeOperation::*;
+        let whole = |layout| (layout, BoxStrength::Whole);
         match &self.arena.nodes[node].operation {
             Number(value) => number(value, inline),
             Constant(value) => whole(Layout::name(letter(*value), Type::Scalar)),
@@ -40,29 +40,29 @@ impl Paper<'_> {
             Identity => whole(Layout::name("E", Type::MATRIX)),
             Zero => whole(digits("0")),
             Negate(a) => {
-                let positive = self.at(*a, Bond::Product, inline);
-                (Layout::Row(vec![Layout::Sign("−"), positive]), Bond::Sum)
+                let positive = self.at(*a, BoxStrength::Product, inline);
+                (Layout::Row(vec![Layout::Sign("−"), positive]), BoxStrength::Sum)
             }
-            Add(a, b) => self.between(*a, "+", *b, Bond::Sum, inline),
-            Subtract(a, b) => self.between(*a, "−", *b, Bond::Sum, inline),
-            Cross(a, b) => self.between(*a, "×", *b, Bond::Cross, inline),
-            Outer(a, b) => self.between(*a, "⊗", *b, Bond::Cross, inline),
+            Add(a, b) => self.between(*a, "+", *b, BoxStrength::Sum, inline),
+            Subtract(a, b) => self.between(*a, "−", *b, BoxStrength::Sum, inline),
+            Cross(a, b) => self.between(*a, "×", *b, BoxStrength::Cross, inline),
+            Outer(a, b) => self.between(*a, "⊗", *b, BoxStrength::Cross, inline),
             Multiply(a, b) | Scale(a, b) | Apply(a, b) | Compose(a, b) => {
                 self.product(*a, *b, inline)
             }
-            Divide(a, b) if inline => self.between(*a, "/", *b, Bond::Product, inline),
+            Divide(a, b) if inline => self.between(*a, "/", *b, BoxStrength::Product, inline),
             Divide(a, b) => {
                 let below = Box::new(self.set(*b, inline).0);
                 match without_minus(self.set(*a, inline).0) {
                     Ok(above) => {
                         let fraction = Layout::Fraction(Box::new(above), below);
-                        (Layout::Row(vec![Layout::Sign("−"), fraction]), Bond::Sum)
+                        (Layout::Row(vec![Layout::Sign("−"), fraction]), BoxStrength::Sum)
                     }
-                    Err(above) => (Layout::Fraction(Box::new(above), below), Bond::Power),
+                    Err(above) => (Layout::Fraction(Box::new(above), below), BoxStrength::Power),
                 }
             }
             Dot(a, b) if a == b => {
-                (self.at(*a, Bond::Whole, inline).raised(digits("2")), Bond::Power)
+                (self.at(*a, BoxStrength::Whole, inline).raised(digits("2")), BoxStrength::Power)
             }
             Dot(a, b) => {
                 let parts = vec![self.set(*a, inline).0, Layout::Sign(","), self.set(*b, inline).0];
@@ -70,26 +70,28 @@ impl Paper<'_> {
             }
             Power(a, exponent) => {
                 let exponent = number(exponent, true).0;
-                (self.at(*a, Bond::Whole, inline).raised(exponent), Bond::Power)
+                (self.at(*a, BoxStrength::Whole, inline).raised(exponent), BoxStrength::Power)
             }
             PowerOf(a, b) => {
                 let exponent = self.set(*b, true).0;
-                (self.at(*a, Bond::Whole, inline).raised(exponent), Bond::Power)
+                (self.at(*a, BoxStrength::Whole, inline).raised(exponent), BoxStrength::Power)
             }
-            MatrixPower(a, n) => {
-                (self.at(*a, Bond::Whole, inline).raised(digits(&n.to_string())), Bond::Power)
-            }
-            Inverse(a) => (self.inverse(*a, inline), Bond::Power),
-            Transpose(a) => {
-                (self.at(*a, Bond::Whole, inline).raised(Layout::Word("T")), Bond::Power)
-            }
+            MatrixPower(a, n) => (
+                self.at(*a, BoxStrength::Whole, inline).raised(digits(&n.to_string())),
+                BoxStrength::Power,
+            ),
+            Inverse(a) => (self.inverse(*a, inline), BoxStrength::Power),
+            Transpose(a) => (
+                self.at(*a, BoxStrength::Whole, inline).raised(Layout::Word("T")),
+                BoxStrength::Power,
+            ),
             Solve(a, b) => {
                 let parts = vec![
                     self.inverse(*a, inline),
                     Layout::Space,
-                    self.at(*b, Bond::Product, inline),
+                    self.at(*b, BoxStrength::Product, inline),
                 ];
-                (Layout::Row(parts), Bond::Product)
+                (Layout::Row(parts), BoxStrength::Product)
             }
             Component(a, i) | Row(a, i) => whole(self.indexed(*a, (i + 1).to_string(), inline)),
             Entry(a, i, j) if i == j => whole(self.indexed(*a, (i + 1).to_string(), inline)),
@@ -101,37 +103,42 @@ impl Paper<'_> {
             Determinant(a) => self.applied("det", *a, inline),
             Trace(a) => self.applied("tr", *a, inline),
             Diagonal(a) => self.applied("diag", *a, inline),
-            Sum(terms) => self.chain(terms, Some("+"), Bond::Sum, inline),
-            Product(factors) => self.chain(factors, None, Bond::Product, inline),
+            Sum(terms) => self.chain(terms, Some("+"), BoxStrength::Sum, inline),
+            Product(factors) => self.chain(factors, None, BoxStrength::Product, inline),
             Vector(parts) => whole(self.list(parts, inline)),
             Rows(rows) => whole(self.matrix(rows, inline)),
             Function(function, a) => self.function(*function, *a, inline),
             Angle(y, x) => self.called("atan2", &[*y, *x], inline),
             Extreme(which, all) => self.called(which_word(*which), all, inline),
             Partial { of, by, .. } => {
-                let part =
-                    |node| Layout::Row(vec![Layout::Sign("∂"), self.at(node, Bond::Whole, inline)]);
+                let part = |node| {
+                    Layout::Row(vec![Layout::Sign("∂"), self.at(node, BoxStrength::Whole, inline)])
+                };
                 let (above, below) = (part(*of), part(*by));
                 match inline {
-                    true => (Layout::Row(vec![above, Layout::Sign("/"), below]), Bond::Product),
-                    false => (Layout::Fraction(Box::new(above), Box::new(below)), Bond::Power),
+                    true => {
+                        (Layout::Row(vec![above, Layout::Sign("/"), below]), BoxStrength::Product)
+                    }
+                    false => {
+                        (Layout::Fraction(Box::new(above), Box::new(below)), BoxStrength::Power)
+                    }
                 }
             }
             Antiderivative(f, x) => {
                 let parts = vec![
                     Layout::Sign("∫"),
-                    self.at(*f, Bond::Product, inline),
+                    self.at(*f, BoxStrength::Product, inline),
                     Layout::Space,
                     Layout::Word("d"),
-                    self.at(*x, Bond::Whole, inline),
+                    self.at(*x, BoxStrength::Whole, inline),
                 ];
-                (Layout::Row(parts), Bond::Product)
+                (Layout::Row(parts), BoxStrength::Product)
             }
         }
     }
 
     /// Sets a node in a place that requires this bond.
-    fn at(&self, node: NodeId, least: Bond, inline: bool) -> Layout {
+    fn at(&self, node: NodeId, least: BoxStrength, inline: bool) -> Layout {
         match self.set(node, inline) {
             (layout, bond) if bond >= least => layout,
             (layout, _) => layout.fenced(),
@@ -149,22 +156,22 @@ impl Paper<'_> {
         a: NodeId,
         sign: &'static str,
         b: NodeId,
-        bond: Bond,
+        bond: BoxStrength,
         inline: bool,
     ) -> Bonded {
         let tighter = match bond {
-            Bond::Sum => Bond::Cross,
-            Bond::Cross => Bond::Product,
-            _ => Bond::Power,
+            BoxStrength::Sum => BoxStrength::Cross,
+            BoxStrength::Cross => BoxStrength::Product,
+            _ => BoxStrength::Power,
         };
         // A row of vector products needs brackets.
-        let left = if bond == Bond::Cross { tighter } else { bond };
+        let left = if bond == BoxStrength::Cross { tighter } else { bond };
         let parts = vec![self.at(a, left, inline), Layout::Sign(sign), self.at(b, tighter, inline)];
         (Layout::Row(parts), bond)
     }
 
     fn product(&self, a: NodeId, b: NodeId, inline: bool) -> Bonded {
-        let right = self.at(b, Bond::Product, inline);
+        let right = self.at(b, BoxStrength::Product, inline);
         let sign = match starts_with_digit(&right) {
             true => Layout::Sign("·"),
             false => Layout::Space,
@@ -173,39 +180,39 @@ impl Paper<'_> {
         match without_minus(self.set(a, inline).0) {
             Ok(left) => {
                 let product = Layout::Row(vec![left, sign, right]);
-                (Layout::Row(vec![Layout::Sign("−"), product]), Bond::Sum)
+                (Layout::Row(vec![Layout::Sign("−"), product]), BoxStrength::Sum)
             }
             Err(_) => {
-                let left = self.at(a, Bond::Product, inline);
-                (Layout::Row(vec![left, sign, right]), Bond::Product)
+                let left = self.at(a, BoxStrength::Product, inline);
+                (Layout::Row(vec![left, sign, right]), BoxStrength::Product)
             }
         }
     }
 
     fn inverse(&self, a: NodeId, inline: bool) -> Layout {
         let minus_one = Layout::Row(vec![Layout::Sign("−"), digits("1")]);
-        self.at(a, Bond::Whole, inline).raised(minus_one)
+        self.at(a, BoxStrength::Whole, inline).raised(minus_one)
     }
 
     /// Sets `det A`, with brackets unless A is one letter, or its power.
     fn applied(&self, word: &'static str, a: NodeId, inline: bool) -> Bonded {
-        let argument = self.at(a, Bond::Power, inline);
-        (Layout::Row(vec![Layout::Word(word), Layout::Space, argument]), Bond::Power)
+        let argument = self.at(a, BoxStrength::Power, inline);
+        (Layout::Row(vec![Layout::Word(word), Layout::Space, argument]), BoxStrength::Power)
     }
 
     /// Sets a call such as `max(a,b)`.
     fn called(&self, word: &'static str, arguments: &[NodeId], inline: bool) -> Bonded {
-        (Layout::Row(vec![Layout::Word(word), self.list(arguments, inline)]), Bond::Power)
+        (Layout::Row(vec![Layout::Word(word), self.list(arguments, inline)]), BoxStrength::Power)
     }
 
     fn indexed(&self, a: NodeId, digits: String, inline: bool) -> Layout {
-        if let Operation::Symbol(slot) = self.arena.nodes[a].operation
+        if let NodeOperation::Symbol(slot) = self.arena.nodes[a].operation
             && let Layout::Name { letter, index, primes, .. } = self.symbol(slot)
         {
             let index = if index.is_empty() { digits } else { format!("{index},{digits}") };
             return Layout::Name { letter, kind: Type::Scalar, index, primes };
         }
-        let base = Box::new(self.at(a, Bond::Whole, inline));
+        let base = Box::new(self.at(a, BoxStrength::Whole, inline));
         Layout::Lowered(base, Box::new(Layout::Number(digits)))
     }
 
@@ -230,7 +237,7 @@ impl Paper<'_> {
 
     fn row(&self, node: NodeId, inline: bool) -> Vec<Layout> {
         match &self.arena.nodes[node].operation {
-            Operation::Vector(parts) => shown(parts)
+            NodeOperation::Vector(parts) => shown(parts)
                 .into_iter()
                 .map(|part| part.map_or(Layout::Sign("…"), |part| self.set(*part, inline).0))
                 .collect(),
@@ -243,7 +250,7 @@ impl Paper<'_> {
         &self,
         parts: &[NodeId],
         sign: Option<&'static str>,
-        bond: Bond,
+        bond: BoxStrength,
         inline: bool,
     ) -> Bonded {
         if let [only] = parts {
@@ -254,41 +261,42 @@ impl Paper<'_> {
             if !row.is_empty() {
                 row.push(sign.map_or(Layout::Space, Layout::Sign));
             }
-            let tighter = if bond == Bond::Sum { Bond::Cross } else { Bond::Power };
+            let tighter =
+                if bond == BoxStrength::Sum { BoxStrength::Cross } else { BoxStrength::Power };
             row.push(part.map_or(Layout::Sign("…"), |part| self.at(*part, tighter, inline)));
         }
         (Layout::Row(row), bond)
     }
 
-    fn function(&self, function: Function, a: NodeId, inline: bool) -> Bonded {
-        let bars = |layout| (Layout::Fenced("|", Box::new(layout), "|"), Bond::Whole);
+    fn function(&self, function: ElementaryFunction, a: NodeId, inline: bool) -> Bonded {
+        let bars = |layout| (Layout::Fenced("|", Box::new(layout), "|"), BoxStrength::Whole);
         let word = match function {
-            Function::Modulus => return bars(self.set(a, inline).0),
-            Function::Sqrt => {
+            ElementaryFunction::Modulus => return bars(self.set(a, inline).0),
+            ElementaryFunction::Sqrt => {
                 // |v| is read as √(v,v)
                 return match self.arena.nodes[a].operation {
-                    Operation::Dot(x, y) if x == y => bars(self.set(x, inline).0),
-                    _ => (Layout::Root(Box::new(self.set(a, inline).0)), Bond::Power),
+                    NodeOperation::Dot(x, y) if x == y => bars(self.set(x, inline).0),
+                    _ => (Layout::Root(Box::new(self.set(a, inline).0)), BoxStrength::Power),
                 };
             }
-            Function::Exp => "exp",
-            Function::Ln => "ln",
-            Function::Sin => "sin",
-            Function::Cos => "cos",
-            Function::Tan => "tan",
-            Function::Asin => "arcsin",
-            Function::Acos => "arccos",
-            Function::Atan => "arctan",
-            Function::Sinh => "sinh",
-            Function::Cosh => "cosh",
-            Function::Tanh => "tanh",
-            Function::Asinh => "arsinh",
-            Function::Acosh => "arcosh",
-            Function::Atanh => "artanh",
-            Function::Sign => "sgn",
+            ElementaryFunction::Exp => "exp",
+            ElementaryFunction::Ln => "ln",
+            ElementaryFunction::Sin => "sin",
+            ElementaryFunction::Cos => "cos",
+            ElementaryFunction::Tan => "tan",
+            ElementaryFunction::Asin => "arcsin",
+            ElementaryFunction::Acos => "arccos",
+            ElementaryFunction::Atan => "arctan",
+            ElementaryFunction::Sinh => "sinh",
+            ElementaryFunction::Cosh => "cosh",
+            ElementaryFunction::Tanh => "tanh",
+            ElementaryFunction::Asinh => "arsinh",
+            ElementaryFunction::Acosh => "arcosh",
+            ElementaryFunction::Atanh => "artanh",
+            ElementaryFunction::Sign => "sgn",
         };
         let argument = self.set(a, inline).0.fenced();
-        (Layout::Row(vec![Layout::Word(word), argument]), Bond::Power)
+        (Layout::Row(vec![Layout::Word(word), argument]), BoxStrength::Power)
     }
 }
 
@@ -328,15 +336,18 @@ fn number(value: &Rational, inline: bool) -> Bonded {
     let (above, below) = value.parts();
     let (above, below) = (above.magnitude().to_string(), below.to_string());
     let (layout, bond) = match below.as_str() {
-        "1" => (digits(&above), Bond::Whole),
+        "1" => (digits(&above), BoxStrength::Whole),
         _ if inline => {
             let parts = vec![digits(&above), Layout::Sign("/"), digits(&below)];
-            (Layout::Row(parts), Bond::Product)
+            (Layout::Row(parts), BoxStrength::Product)
         }
-        _ => (Layout::Fraction(Box::new(digits(&above)), Box::new(digits(&below))), Bond::Power),
+        _ => (
+            Layout::Fraction(Box::new(digits(&above)), Box::new(digits(&below))),
+            BoxStrength::Power,
+        ),
     };
     match value.is_negative() {
-        true => (Layout::Row(vec![Layout::Sign("−"), layout]), Bond::Sum),
+        true => (Layout::Row(vec![Layout::Sign("−"), layout]), BoxStrength::Sum),
         false => (layout, bond),
     }
 }

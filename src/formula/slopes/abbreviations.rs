@@ -1,9 +1,9 @@
 //! The chain rule through abbreviations, and names whose derivative is not known.
 
 use super::super::Formula;
-use super::super::arena::{NodeId, Operation};
+use super::super::arena::{NodeId, NodeOperation};
 use super::super::error::FormulaError;
-use super::super::scope::{Origin, Symbol};
+use super::super::scope::{Symbol, SymbolOrigin};
 use super::{Slope, Slopes};
 
 /// Limit on the abbreviations that are made of one another.
@@ -13,9 +13,9 @@ impl Slopes<'_, '_> {
     pub(super) fn symbol(&mut self, symbol: Symbol) -> Slope {
         let scope = self.scope;
         match scope.origin(symbol) {
-            Origin::Variable | Origin::Constant => Ok(None),
-            Origin::Computed => Err(self.opaque(symbol)),
-            Origin::Defined(formula) => {
+            SymbolOrigin::Variable | SymbolOrigin::Constant => Ok(None),
+            SymbolOrigin::Computed => Err(self.opaque(symbol)),
+            SymbolOrigin::Defined(formula) => {
                 if !self.depends(formula, 0)? {
                     return Ok(None);
                 }
@@ -58,10 +58,10 @@ impl Slopes<'_, '_> {
             let known = self.dependent.get(&symbol).copied();
             let depends = match (known, scope.origin(symbol)) {
                 (Some(known), _) => known,
-                (None, Origin::Defined(inner)) => self.depends(inner, depth + 1)?,
+                (None, SymbolOrigin::Defined(inner)) => self.depends(inner, depth + 1)?,
                 // refused when it is met
-                (None, Origin::Computed) => true,
-                (None, Origin::Variable | Origin::Constant) => false,
+                (None, SymbolOrigin::Computed) => true,
+                (None, SymbolOrigin::Variable | SymbolOrigin::Constant) => false,
             };
             self.dependent.insert(symbol, depends);
             any |= depends;
@@ -76,7 +76,7 @@ impl Slopes<'_, '_> {
         for own in &formula.arena.nodes {
             let span = self.span.clone();
             map.push(match &own.operation {
-                Operation::Symbol(slot) => {
+                NodeOperation::Symbol(slot) => {
                     let (symbol, kind) = formula.arena.symbols[*slot];
                     arena.push_symbol(symbol, kind, span, || formula.arena.names[*slot].clone())
                 }

@@ -1,6 +1,6 @@
 //! Derivatives of the functions of one scalar, and of the angle.
 
-use super::super::arena::{Function, NodeId, Operation};
+use super::super::arena::{ElementaryFunction, NodeId, NodeOperation};
 use super::super::error::FormulaError;
 use super::super::kind::Type;
 use super::super::typing::Infix;
@@ -12,12 +12,12 @@ type Made = Result<NodeId, FormulaError>;
 /// Derivative of `node` = f(a), where a' = `slope`.
 pub(super) fn slope(
     own: &mut Slopes<'_, '_>,
-    function: Function,
+    function: ElementaryFunction,
     node: NodeId,
     a: NodeId,
     slope: NodeId,
 ) -> Made {
-    use Function::*;
+    use ElementaryFunction::*;
     let half = Rational::new(-1, 2);
     let factor = match function {
         Sqrt => {
@@ -79,9 +79,9 @@ pub(super) fn angle(own: &mut Slopes<'_, '_>, y: NodeId, x: NodeId) -> Slope {
     own.infix(Infix::Divide, above, below).map(Some)
 }
 
-fn apply(own: &mut Slopes<'_, '_>, function: Function, a: NodeId) -> NodeId {
+fn apply(own: &mut Slopes<'_, '_>, function: ElementaryFunction, a: NodeId) -> NodeId {
     let span = own.span.clone();
-    own.builder.push(Operation::Function(function, a), Type::Scalar, span).node
+    own.builder.push(NodeOperation::Function(function, a), Type::Scalar, span).node
 }
 
 /// The number plus or minus a².

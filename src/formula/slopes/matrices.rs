@@ -1,6 +1,6 @@
 //! Rules of matrices: inverse, determinant, adjugate, solution of equations, powers.
 
-use super::super::arena::{NodeId, Operation};
+use super::super::arena::{NodeId, NodeOperation};
 use super::super::kind::Type;
 use super::super::typing::Infix;
 use super::{Slope, Slopes};
@@ -17,9 +17,9 @@ impl Slopes<'_, '_> {
     /// (det A)' = tr(adj A · A').
     pub(super) fn determinant(&mut self, a: NodeId) -> Slope {
         let Some(slope) = self.of(a)? else { return Ok(None) };
-        let adjugate = self.push(Operation::Adjugate(a), self.at(a).value_type);
+        let adjugate = self.push(NodeOperation::Adjugate(a), self.at(a).value_type);
         let product = self.times(adjugate, slope)?;
-        Ok(Some(self.push(Operation::Trace(product), Type::Scalar)))
+        Ok(Some(self.push(NodeOperation::Trace(product), Type::Scalar)))
     }
 
     /// (A⁻¹b)' = A⁻¹(b' − A' A⁻¹b).
@@ -32,7 +32,7 @@ impl Slopes<'_, '_> {
         let pulled = pulled.map(|pulled| self.negative(pulled));
         let right = self.sum(of_b, pulled)?;
         let kind = self.at(node).value_type;
-        Ok(right.map(|right| self.push(Operation::Solve(a, right), kind)))
+        Ok(right.map(|right| self.push(NodeOperation::Solve(a, right), kind)))
     }
 
     /// (Aⁿ)' = Σ Aᵏ A' Aⁿ⁻¹⁻ᵏ.
@@ -44,7 +44,7 @@ impl Slopes<'_, '_> {
             let mut term = slope;
             for (power, is_left) in [(before, true), (n - 1 - before, false)] {
                 if power > 0 {
-                    let factor = self.push(Operation::MatrixPower(a, power), kind);
+                    let factor = self.push(NodeOperation::MatrixPower(a, power), kind);
                     let (left, right) = if is_left { (factor, term) } else { (term, factor) };
                     term = self.times(left, right)?;
                 }
@@ -65,8 +65,8 @@ impl Slopes<'_, '_> {
         if rows == 1 {
             return Ok(None);
         }
-        let unit = self.push(Operation::Identity, kind);
-        let trace = |own: &mut Self, node| own.push(Operation::Trace(node), Type::Scalar);
+        let unit = self.push(NodeOperation::Identity, kind);
+        let trace = |own: &mut Self, node| own.push(NodeOperation::Trace(node), Type::Scalar);
         let trace_of_slope = trace(self, slope);
         if rows == 2 {
             let unit = self.times(trace_of_slope, unit)?;

@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 
 use rustc_hash::FxHashMap;
 
-use super::arena::{NodeId, Operation};
+use super::arena::{NodeId, NodeOperation};
 use super::error::{FormulaError, Span};
 use super::kind::Type;
 use super::scope::{Scope, Symbol};
@@ -28,7 +28,7 @@ pub(super) type Slope = Result<Option<NodeId>, FormulaError>;
 
 /// Part of a variable that is varied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
+pub(super) enum VariedPart {
     Whole,
     /// Component of a vector, from 0.
     Component(usize),
@@ -41,7 +41,7 @@ pub(super) struct Slopes<'b, 't> {
     builder: &'b mut Builder<'t>,
     scope: &'b dyn Scope,
     variable: Symbol,
-    part: Part,
+    part: VariedPart,
     /// Text of the whole derivative.
     span: Span,
     found: FxHashMap<NodeId, Option<NodeId>>,
@@ -65,7 +65,7 @@ impl<'b, 't> Slopes<'b, 't> {
             builder,
             scope,
             variable,
-            part: Part::Whole,
+            part: VariedPart::Whole,
             span,
             found: FxHashMap::default(),
             written_out: FxHashMap::default(),
@@ -76,7 +76,7 @@ impl<'b, 't> Slopes<'b, 't> {
     }
 
     /// Derivative of a node along a part of the variable.
-    pub fn along(&mut self, part: Part, node: NodeId) -> Slope {
+    pub fn along(&mut self, part: VariedPart, node: NodeId) -> Slope {
         self.part = part;
         self.found.clear();
         self.slope(node)
@@ -108,7 +108,7 @@ impl<'b, 't> Slopes<'b, 't> {
 
     fn is_variable(&self, node: NodeId) -> bool {
         match self.builder.arena.nodes[node].operation {
-            Operation::Symbol(slot) => self.builder.arena.symbols[slot].0 == self.variable,
+            NodeOperation::Symbol(slot) => self.builder.arena.symbols[slot].0 == self.variable,
             _ => false,
         }
     }
@@ -122,11 +122,11 @@ impl<'b, 't> Slopes<'b, 't> {
         let entry = |is_varied: bool| if is_varied { one.clone() } else { zero.clone() };
         let span = self.span.clone();
         let unit = match (self.builder.arena.nodes[node].value_type, self.part) {
-            (Type::Vector(n), Part::Component(i)) => {
+            (Type::Vector(n), VariedPart::Component(i)) => {
                 let parts: Vec<Operand> = (0..n).map(|k| entry(k == i)).collect();
                 self.builder.vector(&parts, span)?
             }
-            (Type::Matrix(rows, columns), Part::Entry(i, j)) => {
+            (Type::Matrix(rows, columns), VariedPart::Entry(i, j)) => {
                 let mut all = Vec::new();
                 for row in 0..rows {
                     let parts: Vec<Operand> =
@@ -147,7 +147,7 @@ impl<'b, 't> Slopes<'b, 't> {
 
     /// Appends a number.
     pub fn number(&mut self, value: impl Into<Rational>) -> Operand {
-        let number = Operation::Number(value.into());
+        let number = NodeOperation::Number(value.into());
         self.builder.push(number, Type::Scalar, self.span.clone())
     }
 
@@ -155,12 +155,12 @@ impl<'b, 't> Slopes<'b, 't> {
     pub fn zero(&mut self, kind: Type) -> Operand {
         match kind {
             Type::Scalar => self.number(0),
-            _ => self.builder.push(Operation::Zero, kind, self.span.clone()),
+            _ => self.builder.push(NodeOperation::Zero, kind, self.span.clone()),
         }
     }
 
     /// Appends an operation that needs no check.
-    fn push(&mut self, operation: Operation, kind: Type) -> NodeId {
+    fn push(&mut self, operation: NodeOperation, kind: Type) -> NodeId {
         self.builder.push(operation, kind, self.span.clone()).node
     }
 

@@ -1,15 +1,15 @@
 //! Rules for the operations of a formula.
 
-use super::super::arena::{Function, NodeId, Operation};
+use super::super::arena::{ElementaryFunction, NodeId, NodeOperation};
 use super::super::error::FormulaError;
 use super::super::kind::Type;
 use super::super::typing::Infix;
-use super::{Part, Slope, Slopes, elementary};
+use super::{Slope, Slopes, VariedPart, elementary};
 use crate::number::rational::Rational;
 
 impl Slopes<'_, '_> {
     pub(super) fn step(&mut self, node: NodeId) -> Slope {
-        use Operation::*;
+        use NodeOperation::*;
         let (operation, kind) = {
             let own = &self.builder.arena.nodes[node];
             (own.operation.clone(), own.value_type)
@@ -49,8 +49,8 @@ impl Slopes<'_, '_> {
             }
             PowerOf(a, b) => self.power_of(node, a, b),
             MatrixPower(a, n) => self.matrix_power(a, n),
-            Component(a, i) if self.is_variable(a) => Ok(self.unit(Part::Component(i))),
-            Entry(a, i, j) if self.is_variable(a) => Ok(self.unit(Part::Entry(i, j))),
+            Component(a, i) if self.is_variable(a) => Ok(self.unit(VariedPart::Component(i))),
+            Entry(a, i, j) if self.is_variable(a) => Ok(self.unit(VariedPart::Entry(i, j))),
             Component(a, _) | Row(a, _) | Entry(a, ..) | Transpose(a) | Trace(a) | Diagonal(a) => {
                 Ok(self.of(a)?.map(|slope| self.push(operation.on(|_| slope), kind)))
             }
@@ -87,7 +87,7 @@ impl Slopes<'_, '_> {
         }
     }
 
-    pub(super) fn unit(&mut self, part: Part) -> Option<NodeId> {
+    pub(super) fn unit(&mut self, part: VariedPart) -> Option<NodeId> {
         (part == self.part).then(|| self.number(1).node)
     }
 
@@ -138,7 +138,7 @@ impl Slopes<'_, '_> {
             Some(slope) => {
                 let one = self.number(1).node;
                 let lower = self.infix(Infix::Subtract, b, one)?;
-                let power = self.push(Operation::PowerOf(a, lower), Type::Scalar);
+                let power = self.push(NodeOperation::PowerOf(a, lower), Type::Scalar);
                 let factor = self.times(b, power)?;
                 Some(self.times(factor, slope)?)
             }
@@ -146,7 +146,8 @@ impl Slopes<'_, '_> {
         };
         let of_exponent = match self.of(b)? {
             Some(slope) => {
-                let logarithm = self.push(Operation::Function(Function::Ln, a), Type::Scalar);
+                let logarithm =
+                    self.push(NodeOperation::Function(ElementaryFunction::Ln, a), Type::Scalar);
                 let factor = self.times(node, logarithm)?;
                 Some(self.times(factor, slope)?)
             }
@@ -158,7 +159,7 @@ impl Slopes<'_, '_> {
     fn parts(
         &mut self,
         parts: &[NodeId],
-        build: impl Fn(Vec<NodeId>) -> Operation,
+        build: impl Fn(Vec<NodeId>) -> NodeOperation,
         kind: Type,
     ) -> Slope {
         let slopes = parts.iter().map(|part| self.of(*part));
@@ -182,7 +183,7 @@ impl Slopes<'_, '_> {
             let others = factors.iter().enumerate().filter(|(k, _)| *k != i);
             let mut all: Vec<NodeId> = others.map(|(_, other)| *other).collect();
             all.push(slope);
-            let term = self.push(Operation::Product(all.into()), Type::Scalar);
+            let term = self.push(NodeOperation::Product(all.into()), Type::Scalar);
             total = self.sum(total, Some(term))?;
         }
         Ok(total)

@@ -1,6 +1,6 @@
 //! Tests of the layout of formulas.
 
-use crate::formula::{Formula, Layout, Origin, Scope, Symbol, Type};
+use crate::formula::{Formula, Layout, Scope, Symbol, SymbolOrigin, Type};
 
 struct Letters;
 
@@ -16,8 +16,8 @@ impl Scope for Letters {
         Vec::new()
     }
 
-    fn origin(&self, _symbol: Symbol) -> Origin<'_> {
-        Origin::Variable
+    fn origin(&self, _symbol: Symbol) -> SymbolOrigin<'_> {
+        SymbolOrigin::Variable
     }
 }
 

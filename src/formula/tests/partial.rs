@@ -5,7 +5,7 @@ use proptest::prelude::*;
 
 use super::random::grown;
 use super::*;
-use crate::formula::Origin;
+use crate::formula::SymbolOrigin;
 
 /// The names of the tests as variables, and abbreviations made of them.
 struct Calculus(Vec<(&'static str, Formula)>);
@@ -29,12 +29,12 @@ impl Scope for Calculus {
         Names.whole_number(name)
     }
 
-    fn origin(&self, symbol: Symbol) -> Origin<'_> {
+    fn origin(&self, symbol: Symbol) -> SymbolOrigin<'_> {
         match symbol.0.checked_sub(FIRST) {
-            Some(place) => Origin::Defined(&self.0[place as usize].1),
-            None if NAMES[symbol.0 as usize].0 == "n" => Origin::Constant,
-            None if NAMES[symbol.0 as usize].0 == "r'" => Origin::Computed,
-            None => Origin::Variable,
+            Some(place) => SymbolOrigin::Defined(&self.0[place as usize].1),
+            None if NAMES[symbol.0 as usize].0 == "n" => SymbolOrigin::Constant,
+            None if NAMES[symbol.0 as usize].0 == "r'" => SymbolOrigin::Computed,
+            None => SymbolOrigin::Variable,
         }
     }
 }
@@ -61,7 +61,9 @@ impl Calculus {
         own: &dyn Fn(Symbol) -> Value<T>,
     ) -> Value<T> {
         match self.origin(symbol) {
-            Origin::Defined(formula) => formula.evaluate(&mut |symbol| self.value(symbol, own)),
+            SymbolOrigin::Defined(formula) => {
+                formula.evaluate(&mut |symbol| self.value(symbol, own))
+            }
             _ => own(symbol),
         }
     }

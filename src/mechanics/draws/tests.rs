@@ -3,7 +3,8 @@ use super::*;
 #[test]
 fn the_stream_is_frozen() {
     let draws = vec![Draw::Within(Range::between((1, 2), (2, 1))); 3];
-    let shown: Vec<String> = Draws::new(&draws).state(7, 3).iter().map(|x| x.to_string()).collect();
+    let shown: Vec<String> =
+        DrawSource::new(&draws).state(7, 3).iter().map(|x| x.to_string()).collect();
     assert_eq!(shown, FROZEN, "a change here changes every witness ever printed");
 }
 
@@ -14,7 +15,7 @@ fn the_nearest_f64_is_that_of_the_number() {
     let ends = [(-3, 7, 5, 3), (0, 1, 1, 1), (-1, 1, 1, 1), (1, 1024, 3, 1024), (1, 3, 1 << 40, 9)];
     let ranges = ends.map(|(a, b, c, d)| Draw::Within(Range::between((a, b), (c, d))));
     let list = Draw::OneOf(vec![Rational::new(1, 3), Rational::new(5, 8)]);
-    let draws = Draws::new(&[&ranges[..], &[list]].concat());
+    let draws = DrawSource::new(&[&ranges[..], &[list]].concat());
     for index in 0..2000 {
         let exact = draws.state(5, index).iter().map(Rational::to_f64).collect::<Vec<_>>();
         assert_eq!(draws.nearest(5, index, 0), exact, "state {index}");
@@ -36,18 +37,18 @@ fn the_nearest_f64_is_that_of_the_number() {
 fn draws_stay_inside_and_off_zero() {
     let range = Range::between((-1, 1), (1, 1));
     let draws = vec![Draw::Within(range.clone()); 2000];
-    for value in Draws::new(&draws).state(1, 0) {
+    for value in DrawSource::new(&draws).state(1, 0) {
         assert!(value > range.low && value < range.high && !value.is_zero(), "{value}");
     }
     let narrow = Draw::Within(Range::between((1, 1_000_000), (2, 1_000_000)));
-    let value = Draws::new(&[narrow]).state(1, 0)[0].clone();
+    let value = DrawSource::new(&[narrow]).state(1, 0)[0].clone();
     assert!(value > Rational::new(1, 1_000_000) && value < Rational::new(2, 1_000_000));
 }
 
 #[test]
 fn later_states_have_all_digits() {
     let range = Range::between((-2, 1), (2, 1));
-    let draws = Draws::new(&[Draw::Within(range.clone()), Draw::Sign]);
+    let draws = DrawSource::new(&[Draw::Within(range.clone()), Draw::Sign]);
     let lengths = |indices: std::ops::Range<u64>| {
         indices.map(|index| draws.state(1, index)[0].bits()).max().unwrap_or(0)
     };
@@ -62,7 +63,7 @@ fn later_states_have_all_digits() {
 
 #[test]
 fn edges_are_near_the_ends_and_near_zero() {
-    let draws = Draws::new(&[Draw::Within(Range::between((-1, 1), (1000, 1)))]);
+    let draws = DrawSource::new(&[Draw::Within(Range::between((-1, 1), (1000, 1)))]);
     let found: Vec<f64> = (0..64).map(|k| draws.edge(1, k)[0].to_f64().0).collect();
     assert!(found.iter().all(|x| *x > -1.0 && *x < 1000.0), "inside: {found:?}");
     assert!(found.iter().any(|x| *x < -0.01), "near the lower end");
@@ -75,7 +76,7 @@ fn edges_are_near_the_ends_and_near_zero() {
 #[test]
 fn states_differ_and_do_not_depend_on_each_other() {
     let draws = vec![Draw::Within(Range::between((0, 1), (1, 1))); 4];
-    let (four, two) = (Draws::new(&draws), Draws::new(&draws[..2]));
+    let (four, two) = (DrawSource::new(&draws), DrawSource::new(&draws[..2]));
     assert_ne!(four.state(1, 0), four.state(1, 1), "each state has numbers of its own");
     assert_eq!(four.state(1, 5)[..2], two.state(1, 5)[..], "further draws change nothing");
 }

@@ -5,7 +5,7 @@ use crate::number::ball::{Ball, Balls};
 use crate::number::mixed::{Mixed, Number};
 use crate::number::rational::Rational;
 
-use super::{LANES, Sampler};
+use super::{Sampler, TAPE_LANES};
 
 /// Number of draws tried for a state that has to lie in given ranges.
 const ATTEMPTS: u32 = 64;
@@ -21,9 +21,9 @@ impl Sampler {
         if !self.is_guarded {
             return attempts;
         }
-        let mut evaluator = Evaluator::new(&self.tape, Ball::<LANES>);
-        for first in (0..lanes).step_by(LANES) {
-            let own = &mut attempts[first..lanes.min(first + LANES)];
+        let mut evaluator = Evaluator::new(&self.tape, Ball::<TAPE_LANES>);
+        for first in (0..lanes).step_by(TAPE_LANES) {
+            let own = &mut attempts[first..lanes.min(first + TAPE_LANES)];
             let mut open: Vec<usize> = (0..own.len()).collect();
             for attempt in 0..ATTEMPTS {
                 let numbers: Vec<Vec<(f64, bool)>> = open
@@ -32,7 +32,7 @@ impl Sampler {
                     .collect();
                 let last = open.len() - 1;
                 let column = |k: usize| Balls::about(|lane| numbers[lane.min(last)][k]);
-                let columns: Vec<Balls<LANES>> = (0..self.draws.len()).map(column).collect();
+                let columns: Vec<Balls<TAPE_LANES>> = (0..self.draws.len()).map(column).collect();
                 evaluator.run(&columns);
                 let exists = |lane: usize| evaluator.outputs().all(|block| block.is_defined(lane));
                 let mut left = Vec::new();
@@ -72,7 +72,7 @@ impl Sampler {
     ) -> Vec<Rational> {
         let mut own = self.draws.attempt(self.seed, index, attempt);
         if let Some(sets) = sets {
-            let set = (index % LANES as u64) as usize * sets / LANES;
+            let set = (index % TAPE_LANES as u64) as usize * sets / TAPE_LANES;
             let shared = self.draws.state(self.seed, set as u64);
             own[..self.parameter_draws].clone_from_slice(&shared[..self.parameter_draws]);
         }
@@ -88,7 +88,7 @@ impl Sampler {
     ) -> Vec<(f64, bool)> {
         let mut own = self.draws.nearest(self.seed, index, attempt);
         if let Some(sets) = sets {
-            let set = (index % LANES as u64) as usize * sets / LANES;
+            let set = (index % TAPE_LANES as u64) as usize * sets / TAPE_LANES;
             let shared = self.draws.nearest(self.seed, set as u64, 0);
             own[..self.parameter_draws].copy_from_slice(&shared[..self.parameter_draws]);
         }

@@ -4,7 +4,7 @@ use crate::graph::Evaluator;
 use crate::number::Domain;
 use crate::number::rational::Rational;
 
-use super::{LANES, Sampler};
+use super::{Sampler, TAPE_LANES};
 
 impl Sampler {
     /// Computes parameters and state for `lanes` states in another domain; states found numerically
@@ -37,7 +37,7 @@ impl Sampler {
         start: u64,
         sets: usize,
     ) -> Vec<D::Block> {
-        let attempts = self.attempts(start, LANES, Some(sets));
+        let attempts = self.attempts(start, TAPE_LANES, Some(sets));
         let state = |(lane, attempt)| self.drawn_numbers(start + lane as u64, attempt, Some(sets));
         let numbers: Vec<Vec<Rational>> = attempts.into_iter().enumerate().map(state).collect();
         self.made_in(domain, &numbers)
@@ -64,12 +64,12 @@ impl Sampler {
         sets: usize,
     ) -> Vec<D::Block> {
         let state = |lane: usize| {
-            let mut values = self.draws.state(self.seed, (lane * sets / LANES) as u64);
+            let mut values = self.draws.state(self.seed, (lane * sets / TAPE_LANES) as u64);
             let own = self.draws.edge(self.seed, start + lane as u64);
             values[self.parameter_draws..].clone_from_slice(&own[self.parameter_draws..]);
             values
         };
-        self.made_in(domain, &(0..LANES).map(state).collect::<Vec<_>>())
+        self.made_in(domain, &(0..TAPE_LANES).map(state).collect::<Vec<_>>())
     }
 
     /// Converts the draws of some states to a domain, one block for each draw.

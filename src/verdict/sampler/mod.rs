@@ -14,26 +14,26 @@ pub use ranges::extent;
 use std::sync::Arc;
 
 use crate::case::Case;
-use crate::claim::Place;
+use crate::claim::LevelSubset;
 use crate::graph::{Expr, Fault, Graph, Step, Tape, literally, record};
 use crate::level::{self, Newton, Pivot, Solution};
-use crate::mechanics::{Chart, Draw, Draws};
-use crate::number::Function;
+use crate::mechanics::{Chart, Draw, DrawSource};
+use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
-use crate::proof::{Extent, Source};
+use crate::proof::{Extent, InputDistribution};
 
 use super::{JudgeError, coverage};
 
 use ranges::{guarded, ranges};
 
 /// Number of states in one run of a tape.
-pub const LANES: usize = 64;
+pub const TAPE_LANES: usize = 64;
 
 /// A sampler of the inputs of a case's tapes at one place.
 #[derive(Clone)]
 pub struct Sampler {
     seed: u64,
-    draws: Draws,
+    draws: DrawSource,
     recipes: Vec<Draw>,
     /// Parameters and state as functions of the draws.
     graph: Arc<Graph>,
@@ -59,7 +59,7 @@ pub struct Sampler {
 
 impl Sampler {
     /// Makes a sampler of states at `place`.
-    pub fn new(case: &Case, place: &Place, seed: u64) -> Result<Self, Fault> {
+    pub fn new(case: &Case, place: &LevelSubset, seed: u64) -> Result<Self, Fault> {
         let (model, kept) = (&case.model, &place.kept);
         let some = kept.iter().any(|kept| *kept);
         let is_charted = match &case.chart {
@@ -98,10 +98,10 @@ impl Sampler {
         let (tape, unguarded) = (Tape::new(&graph, &guarded), Tape::new(&graph, &made));
         let is_guarded = solution.is_some();
         let reached = graph.reached(guarded.iter().copied());
-        let is_modulus = |step: Step<'_>| matches!(step, Step::Unary(Function::Abs, _));
+        let is_modulus = |step: Step<'_>| matches!(step, Step::Unary(UnaryFunction::Abs, _));
         let has_moduli = (0..reached.len()).any(|k| reached[k] && is_modulus(graph.step(k)));
         let dimension = model.dimension();
-        let (recipes, draws) = (draws.clone(), Draws::new(&draws));
+        let (recipes, draws) = (draws.clone(), DrawSource::new(&draws));
         let (graph, pivots) = (Arc::new(graph), pivots.into());
         let solution = solution.map(Arc::new);
         Ok(Self {
@@ -151,7 +151,7 @@ impl Sampler {
             None => draw.clone(),
         };
         let recipes: Vec<Draw> = self.recipes.iter().zip(fixed).map(one).collect();
-        Self { draws: Draws::new(&recipes), recipes, ..self.clone() }
+        Self { draws: DrawSource::new(&recipes), recipes, ..self.clone() }
     }
 
     /// Returns the distribution of each number.
@@ -185,10 +185,10 @@ impl Sampler {
     }
 
     /// Returns the distribution of each draw in a field.
-    pub fn sources(&self) -> Vec<Source> {
+    pub fn sources(&self) -> Vec<InputDistribution> {
         let source = |draw: &Draw| match draw {
-            Draw::Sign => Source::Sign,
-            _ => Source::Uniform,
+            Draw::Sign => InputDistribution::Sign,
+            _ => InputDistribution::Uniform,
         };
         self.recipes.iter().map(source).collect()
     }

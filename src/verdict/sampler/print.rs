@@ -4,12 +4,13 @@ use std::cell::LazyCell;
 
 use crate::case::Case;
 use crate::graph::Evaluator;
-use crate::mechanics::{Draw, Origin};
+use crate::mechanics::{Draw, ParameterOrigin};
+use crate::number::arb::ArbBall;
 use crate::number::exact::Exact;
-use crate::number::precise::Precise;
+use crate::number::mixed::{Mixed, Number};
 use crate::number::rational::Rational;
 
-use super::{LANES, Sampler};
+use super::{Sampler, TAPE_LANES};
 
 /// Number of spare bits in a printed state.
 const SPARE_BITS: u32 = 64;
@@ -39,8 +40,8 @@ impl Sampler {
         if bits > f64::MANTISSA_DIGITS {
             return self.printed_from(&self.numbers(1, index).swap_remove(0), bits);
         }
-        let start = index - index % LANES as u64;
-        let lane = (index % LANES as u64) as usize;
+        let start = index - index % TAPE_LANES as u64;
+        let lane = (index % TAPE_LANES as u64) as usize;
         let balls = LazyCell::new(|| self.balls(start));
         let text = |(k, value): (usize, Option<Rational>)| match value {
             Some(exact) => exact.to_string(),
@@ -51,13 +52,21 @@ impl Sampler {
 
     /// Prints a state made from given numbers, with digits for `bits` bits.
     pub fn printed_from(&self, numbers: &[Rational], bits: u32) -> Vec<String> {
-        let domain = Precise::new(bits + SPARE_BITS);
+        let domain = ArbBall::new(bits + SPARE_BITS);
         let digits = (f64::from(bits) * std::f64::consts::LOG10_2) as usize + SPARE_DIGITS;
         let precise = LazyCell::new(|| self.made_from(&domain, numbers));
         let written = |k: usize| precise[k].as_ref()?.decimal(digits);
+        // Exact numbers know that y² - 2y·y + y² is 0, and has a root.
+        let mixed = LazyCell::new(|| self.made_from(&Mixed::new(bits + SPARE_BITS), numbers));
+        let partly_exact = |k: usize| match &mixed[k] {
+            Number::Exact(value) => Some(value.to_string()),
+            Number::Ball(ball) => ball.decimal(digits),
+            Number::Nothing | Number::Doubtful => None,
+        };
+        let rounded = |k: usize| written(k).or_else(|| partly_exact(k));
         let text = |(k, value): (usize, Option<Rational>)| match value {
             Some(exact) => exact.to_string(),
-            None => written(k).unwrap_or_else(|| f64::NAN.to_string()),
+            None => rounded(k).unwrap_or_else(|| f64::NAN.to_string()),
         };
         self.exact_from(numbers.to_vec()).into_iter().enumerate().map(text).collect()
     }
@@ -67,7 +76,7 @@ impl Sampler {
         let mut draws = self.recipes.iter();
         let mut listed = Vec::new();
         for parameter in case.model.free_parameters() {
-            let Origin::Free(recipe) = &parameter.origin else { continue };
+            let ParameterOrigin::Free(recipe) = &parameter.origin else { continue };
             let own = draws.by_ref().take(recipe.draws().len());
             let values: Vec<String> = own
                 .filter_map(|draw| match draw {

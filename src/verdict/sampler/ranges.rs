@@ -5,7 +5,7 @@ use num_dual::DualNum;
 use crate::case::Case;
 use crate::graph::{Expr, literally};
 use crate::level::Solution;
-use crate::mechanics::{Draw, Line};
+use crate::mechanics::{Draw, NumberLine};
 use crate::number::rational::Rational;
 use crate::proof::Extent;
 use crate::scalar::Scalar;
@@ -14,8 +14,8 @@ use crate::scalar::Scalar;
 pub fn extent(draw: &Draw) -> Extent {
     match draw {
         Draw::Within(range) => Extent::between(&range.low, &range.high),
-        Draw::Of(Line::All, _) => Extent::ALL,
-        Draw::Of(Line::Positive, _) => Extent::POSITIVE,
+        Draw::Of(NumberLine::All, _) => Extent::ALL,
+        Draw::Of(NumberLine::Positive, _) => Extent::POSITIVE,
         // Each value is substituted before anything is proved.
         Draw::OneOf(_) => Extent::ALL,
         Draw::Sign => Extent::SIGN,

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 
-use super::{Answer, write_new};
+use super::{CommandOutput, write_new};
 use liouville_catalogue::{CATALOGUE, inside, title};
 
 #[derive(Debug, Args)]
@@ -36,7 +36,7 @@ pub enum Action {
     },
 }
 
-pub fn run(options: &Cases) -> Result<Answer, String> {
+pub fn run(options: &Cases) -> Result<CommandOutput, String> {
     let text = match &options.action {
         Action::List { words } => list(words)?,
         Action::Show { name } => match found(name)?.as_slice() {
@@ -45,7 +45,7 @@ pub fn run(options: &Cases) -> Result<Answer, String> {
         },
         Action::Copy { name, folder } => copy(name, folder)?,
     };
-    Ok(Answer { text, code: 0 })
+    Ok(CommandOutput { text, code: 0 })
 }
 
 fn list(words: &[String]) -> Result<String, String> {

@@ -4,29 +4,29 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use crate::report::certificate::{Missing, Origin, certificate};
+use crate::report::certificate::{CaseOrigin, Missing, certificate};
 use crate::report::motion_certificate::motion_certificate;
-use crate::report::{Outcome, RunReport};
+use crate::report::{FileOutcome, RunReport};
 use liouville::case::{Case, MotionClaim};
 use liouville::verdict::{ClaimReport, Method, Verdict, statements};
 use liouville_flow::observe;
 use rayon::prelude::*;
 
 use super::eval::read_settings;
-use super::{Check, source, write};
+use super::{CheckArgs, source, write};
 
 /// Certificates of a case: name of the claim, and text or the reason why there is none.
 type Made = Vec<(String, Result<String, Missing>)>;
 
 /// Writes the certificates of all claims of a run; returns a summary.
-pub fn write_all(folder: &Path, run: &RunReport, options: &Check) -> Result<String, String> {
+pub fn write_all(folder: &Path, run: &RunReport, options: &CheckArgs) -> Result<String, String> {
     std::fs::create_dir_all(folder).map_err(|error| {
         format!(
             "error: cannot make the folder {}: {error}\nhelp: give --certificate a folder to write to",
             folder.display()
         )
     })?;
-    let made: Vec<(&Outcome, Made)> = run
+    let made: Vec<(&FileOutcome, Made)> = run
         .outcomes
         .par_iter()
         .map(|outcome| Ok((outcome, of_case(outcome, options)?)))
@@ -50,7 +50,7 @@ pub fn write_all(folder: &Path, run: &RunReport, options: &Check) -> Result<Stri
 }
 
 /// Makes the certificates of the proofs of a case by points or by folding.
-fn of_case(outcome: &Outcome, options: &Check) -> Result<Made, String> {
+fn of_case(outcome: &FileOutcome, options: &CheckArgs) -> Result<Made, String> {
     let Ok(report) = &outcome.result else { return Ok(Vec::new()) };
     let path = Path::new(&outcome.path);
     if source::is_standard_input(path) {
@@ -73,7 +73,7 @@ fn of_case(outcome: &Outcome, options: &Check) -> Result<Made, String> {
         .filter(is_by_points)
         .filter_map(|claim| Some((by_name(claim)?, claim)))
         .collect();
-    let origin = Origin { path: &outcome.path, text: &text, settings: &options.settings };
+    let origin = CaseOrigin { path: &outcome.path, text: &text, settings: &options.settings };
     let of_motion = of_motion(&case, &report.claims, &origin, options);
     if proved.is_empty() {
         return Ok(of_motion);
@@ -93,7 +93,12 @@ fn of_case(outcome: &Outcome, options: &Check) -> Result<Made, String> {
 }
 
 /// Makes the certificates of the closed orbits that are proved.
-fn of_motion(case: &Case, claims: &[ClaimReport], origin: &Origin<'_>, options: &Check) -> Made {
+fn of_motion(
+    case: &Case,
+    claims: &[ClaimReport],
+    origin: &CaseOrigin<'_>,
+    options: &CheckArgs,
+) -> Made {
     let is_proved = |claim: &&MotionClaim| {
         let mut reports = claims.iter();
         reports.any(|own| {

@@ -8,23 +8,23 @@ use liouville::case::{Case, Column, is_labelled, labels, matches};
 use liouville::verdict::Options;
 
 use super::eval::read_settings;
-use super::judging::{Work, judge};
-use super::{Answer, Check, CheckFormat, certificates, colour, width};
+use super::judging::{JudgingJob, judge};
+use super::{CheckArgs, CheckFormat, CommandOutput, certificates, colour, width};
 
 /// Claims that were asked for, by name or source and by label.
 #[derive(Clone)]
-struct Wanted {
+struct RequestedClaims {
     claims: Vec<String>,
     sources: Vec<String>,
 }
 
-impl Wanted {
+impl RequestedClaims {
     fn is_everything(&self) -> bool {
         self.claims.is_empty() && self.sources.is_empty()
     }
 
     /// Whether a claim is meant, given the source and the column of its case.
-    fn takes(&self, own: &Own<'_>, case: &str, column: Option<&Column>) -> bool {
+    fn takes(&self, own: &RequestedClaim<'_>, case: &str, column: Option<&Column>) -> bool {
         let mut claims = self.claims.iter();
         let is_named =
             self.claims.is_empty() || claims.any(|wanted| is_meant(own.name, own.source, wanted));
@@ -39,7 +39,7 @@ impl Wanted {
     fn prepare(&self, case: &mut Case) {
         let (whole, column) = (case.source.clone(), case.column.clone());
         let takes = |name: &str, source: &str, cell: Option<&str>| {
-            self.takes(&Own { name, source, cell }, &whole, column.as_ref())
+            self.takes(&RequestedClaim { name, source, cell }, &whole, column.as_ref())
         };
         case.motions.retain(|own| takes(&own.name, &own.source, None));
         let mut claims = case.claims.iter().map(|own| (&own.name, &own.source, &own.cell));
@@ -55,16 +55,17 @@ impl Wanted {
 }
 
 /// A claim as it is asked for.
-struct Own<'c> {
+struct RequestedClaim<'c> {
     name: &'c str,
     source: &'c str,
     cell: Option<&'c str>,
 }
 
-pub fn run(options: &Check) -> Result<Answer, String> {
-    let wanted = Wanted { claims: options.claims.clone(), sources: options.sources.clone() };
+pub fn run(options: &CheckArgs) -> Result<CommandOutput, String> {
+    let wanted =
+        RequestedClaims { claims: options.claims.clone(), sources: options.sources.clone() };
     let of_case = wanted.clone();
-    let mut run = judge(Work {
+    let mut run = judge(JudgingJob {
         paths: options.paths.clone(),
         settings: read_settings(&options.settings)?,
         prepare: Box::new(move |case| of_case.prepare(case)),
@@ -77,7 +78,11 @@ pub fn run(options: &Check) -> Result<Answer, String> {
     let is_everything = wanted.is_everything();
     if !is_everything {
         run.retain(|heading, claim| {
-            let own = Own { name: &claim.name, source: &claim.source, cell: claim.cell.as_deref() };
+            let own = RequestedClaim {
+                name: &claim.name,
+                source: &claim.source,
+                cell: claim.cell.as_deref(),
+            };
             wanted.takes(&own, &heading.source, heading.column.as_ref())
         });
         if run.claims().next().is_none() && run.summary().errors == 0 {
@@ -115,7 +120,7 @@ pub fn run(options: &Check) -> Result<Answer, String> {
             }
         }
     }
-    Ok(Answer { text, code: run.exit_code() })
+    Ok(CommandOutput { text, code: run.exit_code() })
 }
 
 /// Whether the name or the source of a claim contains a text, or matches it if it has `*` or `?`.

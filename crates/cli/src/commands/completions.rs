@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use clap_complete::Shell;
 
-use super::{Answer, Arguments};
+use super::{Arguments, CommandOutput};
 
 #[derive(Debug, Args)]
 pub struct Completions {
@@ -23,16 +23,16 @@ pub struct Man {
 /// Name of the program.
 const PROGRAM: &str = "liouville";
 
-pub fn completions(options: &Completions) -> Result<Answer, String> {
+pub fn completions(options: &Completions) -> Result<CommandOutput, String> {
     let mut script = Vec::new();
     clap_complete::generate(options.shell, &mut Arguments::described(), PROGRAM, &mut script);
-    Ok(Answer { text: String::from_utf8_lossy(&script).into_owned(), code: 0 })
+    Ok(CommandOutput { text: String::from_utf8_lossy(&script).into_owned(), code: 0 })
 }
 
-pub fn man(options: &Man) -> Result<Answer, String> {
+pub fn man(options: &Man) -> Result<CommandOutput, String> {
     let folder = options.folder.display();
     std::fs::create_dir_all(&options.folder)
         .and_then(|()| clap_mangen::generate_to(Arguments::described(), &options.folder))
         .map_err(|error| format!("error: cannot write to {folder}: {error}"))?;
-    Ok(Answer { text: format!("{folder}\nnext: man -l {folder}/{PROGRAM}.1\n"), code: 0 })
+    Ok(CommandOutput { text: format!("{folder}\nnext: man -l {folder}/{PROGRAM}.1\n"), code: 0 })
 }

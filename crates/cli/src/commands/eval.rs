@@ -4,14 +4,14 @@ use std::io::IsTerminal;
 use std::path::Path;
 
 use crate::report::point;
-use crate::report::{Digest, diagnostic};
+use crate::report::{CaseDigest, diagnostic};
 use liouville::case::{Case, Setting};
 use liouville::formula::canonical_name;
 use liouville::verdict;
 
-use super::{Answer, Eval, colour, source};
+use super::{CommandOutput, Eval, colour, source};
 
-pub fn run(options: &Eval) -> Result<Answer, String> {
+pub fn run(options: &Eval) -> Result<CommandOutput, String> {
     let case = open(&options.case, &options.settings)?;
     let shown = options.case.display().to_string();
     let coloured = colour(std::io::stderr().is_terminal());
@@ -30,7 +30,7 @@ pub fn run(options: &Eval) -> Result<Answer, String> {
             options.json,
         ),
     }?;
-    Ok(Answer { text, code: 0 })
+    Ok(CommandOutput { text, code: 0 })
 }
 
 /// Message about a state that cannot be read.
@@ -47,7 +47,12 @@ pub(super) fn open(path: &Path, settings: &[String]) -> Result<Case, String> {
 }
 
 /// Reads a case with the values given by `--set`, and the digest of its text.
-pub(super) fn open_signed(path: &Path, settings: &[String]) -> Result<(Case, Digest), String> {
+pub(super) fn open_signed(path: &Path, settings: &[String]) -> Result<(Case, CaseDigest), String> {
+    open_text(path, settings).map(|(case, text)| (case, CaseDigest::of(&text)))
+}
+
+/// Reads a case with the values given by `--set`, and its text.
+pub(super) fn open_text(path: &Path, settings: &[String]) -> Result<(Case, String), String> {
     let settings = read_settings(settings)?;
     let shown = path.display().to_string();
     let coloured = colour(std::io::stderr().is_terminal());
@@ -55,7 +60,16 @@ pub(super) fn open_signed(path: &Path, settings: &[String]) -> Result<(Case, Dig
     let case = case.map_err(|error| {
         diagnostic::rendered(&diagnostic::of_case(&shown, &text, &error, coloured))
     })?;
-    Ok((case, Digest::of(&text)))
+    Ok((case, text))
+}
+
+/// Reads a case from its text, with the values given by `--set`.
+pub(super) fn read_text(path: &Path, text: &str, settings: &[String]) -> Result<Case, String> {
+    let coloured = colour(std::io::stderr().is_terminal());
+    Case::parse(text, &read_settings(settings)?).map_err(|error| {
+        let shown = path.display().to_string();
+        diagnostic::rendered(&diagnostic::of_case(&shown, text, &error, coloured))
+    })
 }
 
 /// Reads the values of `--set`.
@@ -73,7 +87,7 @@ pub(super) fn read_settings(settings: &[String]) -> Result<Vec<Setting>, String>
     Ok(settings)
 }
 
-fn written<N: point::Written>(
+fn written<N: point::Decimal>(
     report: &verdict::PointReport<N>,
     json: bool,
 ) -> Result<String, String> {

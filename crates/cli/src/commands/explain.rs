@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::Answer;
+use super::CommandOutput;
 
 #[derive(Debug, Args)]
 pub struct Explain {
@@ -14,23 +14,23 @@ pub struct Explain {
 const CONCEPTS: &str = include_str!("../../../../docs/concepts.md");
 
 /// A word with its explanation.
-struct Entry {
+struct Explanation {
     word: &'static str,
     text: String,
 }
 
-pub fn run(options: &Explain) -> Result<Answer, String> {
+pub fn run(options: &Explain) -> Result<CommandOutput, String> {
     let entries = entries();
     let words = || entries.iter().map(|entry| entry.word.to_lowercase()).collect::<Vec<_>>();
     if options.word.is_empty() {
         let text = format!("{}\n", words().join("\n"));
-        return Ok(Answer { text, code: 0 });
+        return Ok(CommandOutput { text, code: 0 });
     }
     let asked = options.word.join(" ").to_lowercase();
-    let by_word: Vec<&Entry> =
+    let by_word: Vec<&Explanation> =
         entries.iter().filter(|entry| entry.word.to_lowercase() == asked).collect();
     let emphasised = format!("*{asked}*");
-    let is_defined = |entry: &&Entry| entry.text.contains(&emphasised);
+    let is_defined = |entry: &&Explanation| entry.text.contains(&emphasised);
     let found = match (by_word.is_empty(), entries.iter().find(is_defined)) {
         (false, _) => by_word,
         (true, Some(entry)) => vec![entry],
@@ -43,18 +43,18 @@ pub fn run(options: &Explain) -> Result<Answer, String> {
         ));
     }
     let texts: Vec<String> = found.iter().map(|entry| plain(&entry.text)).collect();
-    Ok(Answer { text: texts.join("\n") + "\n", code: 0 })
+    Ok(CommandOutput { text: texts.join("\n") + "\n", code: 0 })
 }
 
 /// Splits the page into its words and their explanations.
-fn entries() -> Vec<Entry> {
-    let mut entries: Vec<Entry> = Vec::new();
+fn entries() -> Vec<Explanation> {
+    let mut entries: Vec<Explanation> = Vec::new();
     for line in CONCEPTS.lines() {
         let word = line.strip_prefix("**").and_then(|rest| rest.split_once(".**"));
         match (word, entries.last_mut()) {
             (Some((word, rest)), _) => {
                 let text = format!("{word}.{rest}\n");
-                entries.push(Entry { word, text });
+                entries.push(Explanation { word, text });
             }
             (None, Some(_)) if line.starts_with("More: ") => break,
             (None, Some(entry)) if !line.starts_with("```") => {

@@ -12,10 +12,10 @@ use liouville::program::Program;
 
 use super::check::is_meant;
 use super::eval::read_settings;
-use super::{Answer, colour, source};
+use super::{CommandOutput, colour, source};
 
 #[derive(Debug, Args)]
-pub struct Export {
+pub struct ExportArgs {
     /// Case file, `-` for standard input, or a case of the catalogue inside the program
     pub case: PathBuf,
     /// Language of the code
@@ -72,7 +72,7 @@ impl From<To> for Language {
     }
 }
 
-pub fn run(options: &Export) -> Result<Answer, String> {
+pub fn run(options: &ExportArgs) -> Result<CommandOutput, String> {
     let shown = options.case.display().to_string();
     let (text, case) = source::read(&options.case, &read_settings(&options.settings)?);
     let coloured = colour(std::io::stderr().is_terminal());
@@ -98,16 +98,17 @@ pub fn run(options: &Export) -> Result<Answer, String> {
     )];
     origin.extend(options.settings.iter().map(|setting| format!("Given by --set: {setting}.")));
     let module = module(options.out.as_deref(), &options.case);
-    let whole = export::Export { case: &case, program: &program, module: &module, origin: &origin };
+    let whole =
+        export::ExportedCase { case: &case, program: &program, module: &module, origin: &origin };
     let code = export::render(&whole, options.to.into()).map_err(|problem| {
         let help = "export to sympy, maple or mathematica, whose numbers are exact";
         diagnostic::of_file(&shown, &problem, help, coloured).rendered
     })?;
     match &options.out {
-        None => Ok(Answer { text: code, code: 0 }),
+        None => Ok(CommandOutput { text: code, code: 0 }),
         Some(path) => {
             super::write(path, "--out", &code)?;
-            Ok(Answer { text: format!("{}\n", path.display()), code: 0 })
+            Ok(CommandOutput { text: format!("{}\n", path.display()), code: 0 })
         }
     }
 }

@@ -4,7 +4,7 @@ use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use crate::report::{Failure, diagnostic};
+use crate::report::{FileFailure, diagnostic};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::source;
@@ -28,7 +28,7 @@ pub(super) fn bar(length: u64) -> ProgressBar {
     }
 }
 
-pub(super) type Found = Result<PathBuf, (PathBuf, Failure)>;
+pub(super) type Found = Result<PathBuf, (PathBuf, FileFailure)>;
 
 /// Collects all case files under the paths, sorted within each folder; unreadable entries are kept
 /// as failures.
@@ -86,7 +86,7 @@ fn folder(path: &Path, files: &mut Vec<Found>) {
     }
 }
 
-pub(super) fn plain(path: &Path, message: &str, help: &str) -> Failure {
+pub(super) fn plain(path: &Path, message: &str, help: &str) -> FileFailure {
     diagnostic::of_file(&path.display().to_string(), message, help, coloured())
 }
 

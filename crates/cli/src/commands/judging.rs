@@ -7,13 +7,13 @@ use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::Instant;
 
-use crate::report::{Failure, Heading, Outcome, RunReport, diagnostic};
+use crate::report::{FileFailure, FileOutcome, Heading, RunReport, diagnostic};
 use liouville::case::{Case, Expect, Setting};
 use liouville::verdict::{self, CaseReport, ClaimReport, Evidence, JudgeError, Options, Verdict};
 use rayon::prelude::*;
 
 use super::files::{self, Found, coloured, plain};
-use super::limits::{Limits, Stop, signals};
+use super::limits::{LimitArgs, Stop, signals};
 use super::source;
 
 /// Stack of each thread; formulas nest, and what follows them does.
@@ -23,7 +23,7 @@ const STACK: usize = 16 << 20;
 pub type Prepare = Box<dyn Fn(&mut Case) + Send + Sync>;
 
 /// Cases to judge, and how.
-pub struct Work {
+pub struct JudgingJob {
     /// Files and folders.
     pub paths: Vec<PathBuf>,
     /// Values of parameters.
@@ -39,7 +39,7 @@ pub struct Work {
     /// Number of threads.
     pub threads: Option<usize>,
     /// Limits of time and memory.
-    pub limits: Limits,
+    pub limits: LimitArgs,
 }
 
 /// State of a file: its path, and its case until that is judged.
@@ -56,14 +56,14 @@ struct Slot {
     remarks: Vec<String>,
     /// Verdicts so far.
     partial: Option<CaseReport>,
-    result: Option<Result<CaseReport, Vec<Failure>>>,
+    result: Option<Result<CaseReport, Vec<FileFailure>>>,
 }
 
 /// Judges every case of the work.
 ///
 /// A file that fails in any way leaves the others as they are. At a limit, and on Ctrl-C, claims
 /// without a verdict are undecided.
-pub fn judge(work: Work) -> Result<RunReport, String> {
+pub fn judge(work: JudgingJob) -> Result<RunReport, String> {
     let started = Instant::now();
     work.limits.check()?;
     let (limits, seed) = (work.limits, work.options.seed);
@@ -124,18 +124,18 @@ impl Slot {
     }
 
     /// The outcome as far as it is known; `stop` tells why it is not complete.
-    fn outcome(&mut self, stop: Option<Stop>) -> Outcome {
+    fn outcome(&mut self, stop: Option<Stop>) -> FileOutcome {
         let path = self.path.display().to_string();
         let heading = std::mem::take(&mut self.heading);
         let (result, unreached) = match (self.result.take(), stop) {
             (Some(result), _) => (result, Vec::new()),
             (None, stop) => self.unfinished(stop.unwrap_or(Stop::Failed)),
         };
-        Outcome { path, heading, result, unreached }
+        FileOutcome { path, heading, result, unreached }
     }
 
     /// Verdicts so far, and the other claims as undecided, with their names.
-    fn unfinished(&mut self, stop: Stop) -> (Result<CaseReport, Vec<Failure>>, Vec<String>) {
+    fn unfinished(&mut self, stop: Stop) -> (Result<CaseReport, Vec<FileFailure>>, Vec<String>) {
         if !self.is_read {
             let message = format!("the file was not read: {stop}");
             let help = "give it more time or memory, or judge it alone";
@@ -164,7 +164,7 @@ impl Slot {
 }
 
 /// Reads the file of a slot.
-fn read(slot: &Mutex<Slot>, work: &Work) {
+fn read(slot: &Mutex<Slot>, work: &JudgingJob) {
     let path = locked(slot).path.clone();
     if locked(slot).result.is_some() {
         return;
@@ -196,7 +196,7 @@ fn read(slot: &Mutex<Slot>, work: &Work) {
 }
 
 /// Judges the case of a slot.
-fn decide(slot: &Mutex<Slot>, work: &Work) {
+fn decide(slot: &Mutex<Slot>, work: &JudgingJob) {
     let (path, text, case) = {
         let mut slot = locked(slot);
         let Some(case) = slot.case.take() else { return };
@@ -217,7 +217,7 @@ fn decide(slot: &Mutex<Slot>, work: &Work) {
 /// Judges the claims of a case in stages, and hands over what each stage reached.
 fn verdicts(
     case: &Case,
-    work: &Work,
+    work: &JudgingJob,
     keep: &dyn Fn(&CaseReport),
 ) -> Result<CaseReport, JudgeError> {
     let options = &work.options;
@@ -272,7 +272,7 @@ fn stated(case: &Case, motions: bool) -> Vec<ClaimReport> {
 }
 
 /// Failure of a file on which the program itself failed.
-fn fault(path: &Path, panic: &(dyn Any + Send)) -> Failure {
+fn fault(path: &Path, panic: &(dyn Any + Send)) -> FileFailure {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let text = text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message");
     let message = format!("the program failed on this file: {text}");
@@ -285,7 +285,7 @@ mod tests {
 
     #[test]
     fn a_fault_on_one_file_leaves_the_others() {
-        let work = Work {
+        let work = JudgingJob {
             paths: vec!["plane/balanced-ball".into(), "plane/disk".into()],
             settings: Vec::new(),
             prepare: Box::new(|case| assert!(!case.title.contains("Disk"), "a fault")),
@@ -293,11 +293,11 @@ mod tests {
             motions: false,
             sizes: false,
             threads: Some(2),
-            limits: Limits::default(),
+            limits: LimitArgs::default(),
         };
         let run = judge(work).expect("a report");
-        let failed = |outcome: &&Outcome| outcome.result.is_err();
-        let faults: Vec<&Outcome> = run.outcomes.iter().filter(failed).collect();
+        let failed = |outcome: &&FileOutcome| outcome.result.is_err();
+        let faults: Vec<&FileOutcome> = run.outcomes.iter().filter(failed).collect();
         assert_eq!((run.outcomes.len(), faults.len()), (2, 1));
         let failures = faults[0].result.as_ref().expect_err("a failure");
         assert!(failures[0].message.contains("the program failed on this file: a fault"));

@@ -25,7 +25,7 @@ pub const STOPPED: u8 = 3;
 
 /// Limits of time and memory.
 #[derive(Clone, Copy, Debug, Default, Args)]
-pub struct Limits {
+pub struct LimitArgs {
     /// Stop after SECONDS and report what was reached; the exit code is then 3
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
     pub within: Option<Duration>,
@@ -64,7 +64,7 @@ impl fmt::Display for Stop {
     }
 }
 
-impl Limits {
+impl LimitArgs {
     /// Whether there is a limit.
     fn is_some(&self) -> bool {
         self.within.is_some() || self.megabytes.is_some()
@@ -154,15 +154,15 @@ mod tests {
 
     #[test]
     fn work_beyond_a_limit_is_left() {
-        let limits = Limits { within: Some(Duration::from_millis(50)), megabytes: None };
+        let limits = LimitArgs { within: Some(Duration::from_millis(50)), megabytes: None };
         let stop = limits.run(forever).expect_err("stopped");
         assert_eq!(stop.to_string(), "stopped after 0.05 s");
         if memory().is_some() {
-            let limits = Limits { within: None, megabytes: Some(1) };
+            let limits = LimitArgs { within: None, megabytes: Some(1) };
             let stop = limits.run(forever).expect_err("stopped");
             assert_eq!(stop, Stop::Memory(1));
         }
-        let limits = Limits { within: Some(Duration::from_secs(3600)), megabytes: None };
+        let limits = LimitArgs { within: Some(Duration::from_secs(3600)), megabytes: None };
         assert_eq!(limits.run(|| 7), Ok(7), "what ends is handed over");
     }
 

@@ -9,8 +9,10 @@ pub mod explain;
 pub mod explore;
 pub mod export;
 mod files;
+pub mod jobs;
 mod judging;
 mod limits;
+pub mod merge;
 pub mod names;
 pub mod new;
 mod out;
@@ -23,7 +25,7 @@ use std::ffi::OsString;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
-pub use limits::{Limits, STOPPED};
+pub use limits::{LimitArgs, STOPPED};
 pub use run::run;
 
 use crate::source;
@@ -55,14 +57,21 @@ Examples:
   liouville check --source '(3.19)' --source 'Table 1, row 4'
   liouville check - < body.toml
   liouville check body.toml --certificate proofs; python3 docs/certificates/check.py proofs/*")]
-    Check(Check),
+    Check(CheckArgs),
     /// Evaluate the field, the divergence, the criterion and all claims of a case at one state
     #[command(
         after_help = "Example:\n  liouville eval plane/balanced-ball --set m=5/4 --digits 50"
     )]
     Eval(Eval),
     #[command(flatten)]
-    Explore(Box<explore::Command>),
+    Explore(Box<explore::ExploreCommand>),
+    /// Put the parts of a job together: the file that one run writes, with the same bytes
+    #[command(after_help = "\
+Examples:
+  for i in 1 2 3 4; do liouville motion chart figures/fig-8 --x c1=0..2 --y c2=0..2 --part $i/4 --out parts/; done
+  liouville merge parts --out chart.png
+  liouville merge parts --out chart.pdf -- --colour exponent --width 85")]
+    Merge(merge::Merge),
     /// Replay proofs about motion from their certificates, in balls of 256 bits
     #[command(after_help = "\
 Example:
@@ -71,7 +80,7 @@ Example:
     Verify(verify::Verify),
     /// Print a hierarchy table of the paper, filled from verdicts
     #[command(after_help = "Example:\n  liouville table 1 --format latex")]
-    Table(Table),
+    Table(TableArgs),
     /// Write a commented case to start from
     #[command(after_help = "Example:\n  liouville new field system.toml")]
     New(new::New),
@@ -80,10 +89,10 @@ Example:
 Examples:
   liouville export plane/balanced-ball --to python --claim F2 --out ball.py
   liouville export system.toml --to sympy")]
-    Export(export::Export),
+    Export(export::ExportArgs),
     /// List the names that formulas of a case may use
     #[command(after_help = "Example:\n  liouville names plane/balanced-ball")]
-    Names(names::Names),
+    Names(names::NamesArgs),
     /// Explain a word of the reports
     #[command(after_help = "Example:\n  liouville explain witness")]
     Explain(explain::Explain),
@@ -113,7 +122,7 @@ impl Arguments {
     /// All commands and options; former names are hidden.
     fn described() -> clap::Command {
         let mut command = Self::command();
-        let former = explore::Former::augment_subcommands(clap::Command::new("former"));
+        let former = explore::FormerCommand::augment_subcommands(clap::Command::new("former"));
         for one in former.get_subcommands() {
             command = command.mut_subcommand(one.get_name(), |own| own.hide(true));
         }
@@ -123,7 +132,7 @@ impl Arguments {
 
 /// Options of the sampling.
 #[derive(Clone, Copy, Debug, Args)]
-pub struct Sampling {
+pub struct SamplingArgs {
     /// Seed of all random states
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
@@ -133,7 +142,7 @@ pub struct Sampling {
     /// Evidence required for a claim to hold: a proof, or states in floating point alone (faster).
     /// By default a proof is tried, and a confirmation accepted where there is none
     #[arg(long, value_enum)]
-    pub trust: Option<Trust>,
+    pub trust: Option<TrustArg>,
     /// Number of threads; all cores by default. Results do not depend on it
     #[arg(long, value_parser = parse_threads)]
     pub threads: Option<usize>,
@@ -141,24 +150,24 @@ pub struct Sampling {
 
 /// Reads a number of threads.
 pub fn parse_threads(text: &str) -> Result<usize, String> {
-    const MOST: usize = 1024;
-    let threads = text.parse().ok().filter(|threads| (1..=MOST).contains(threads));
-    threads.ok_or(format!("write a number of threads from 1 to {MOST}"))
+    const MOST_THREADS: usize = 1024;
+    let threads = text.parse().ok().filter(|threads| (1..=MOST_THREADS).contains(threads));
+    threads.ok_or(format!("write a number of threads from 1 to {MOST_THREADS}"))
 }
 
 /// Required strength of evidence.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum Trust {
+pub enum TrustArg {
     Proof,
     Float,
 }
 
-impl Sampling {
+impl SamplingArgs {
     pub fn options(&self) -> liouville::verdict::Options {
         use liouville::verdict::{Options, Trust as Asked};
         let trust = match self.trust {
-            Some(Trust::Proof) => Asked::Proof,
-            Some(Trust::Float) => Asked::Float,
+            Some(TrustArg::Proof) => Asked::Proof,
+            Some(TrustArg::Float) => Asked::Float,
             None => Asked::Best,
         };
         Options { seed: self.seed, states: self.states, trust, mutants: false }
@@ -166,7 +175,7 @@ impl Sampling {
 }
 
 #[derive(Debug, Args)]
-pub struct Check {
+pub struct CheckArgs {
     /// Case files, folders of them, or `-` for standard input; paths that do not exist are looked
     /// up in the catalogue inside the program
     #[arg(default_value = "cases")]
@@ -205,9 +214,9 @@ pub struct Check {
     #[arg(short, long, conflicts_with = "verbose")]
     pub quiet: bool,
     #[command(flatten)]
-    pub limits: Limits,
+    pub limits: LimitArgs,
     #[command(flatten)]
-    pub sampling: Sampling,
+    pub sampling: SamplingArgs,
 }
 
 /// Format of the verdicts.
@@ -255,11 +264,11 @@ pub struct Eval {
     #[arg(long)]
     pub json: bool,
     #[command(flatten)]
-    pub limits: Limits,
+    pub limits: LimitArgs,
 }
 
 #[derive(Debug, Args)]
-pub struct Table {
+pub struct TableArgs {
     /// Number of the table: 1 for the plane, 2 for the sphere, 3 for a ball on a surface, 4 for
     /// rolling with and without spin
     #[arg(value_parser = parse_table)]
@@ -274,9 +283,9 @@ pub struct Table {
     #[arg(long, value_enum, default_value_t = TableFormat::Text)]
     pub format: TableFormat,
     #[command(flatten)]
-    pub limits: Limits,
+    pub limits: LimitArgs,
     #[command(flatten)]
-    pub sampling: Sampling,
+    pub sampling: SamplingArgs,
 }
 
 fn parse_table(text: &str) -> Result<u32, String> {
@@ -298,13 +307,13 @@ pub enum TableFormat {
 }
 
 /// Result of a command: text for standard output, and the exit code.
-pub struct Answer {
+pub struct CommandOutput {
     pub text: String,
     pub code: u8,
 }
 
 /// Prints the answer, or the problem, and returns the exit code; invalid input exits with 2.
-pub fn finish(answer: Result<Answer, String>) -> u8 {
+pub fn finish(answer: Result<CommandOutput, String>) -> u8 {
     match answer {
         Ok(answer) => {
             let mut out = anstream::stdout().lock();

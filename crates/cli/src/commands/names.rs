@@ -5,16 +5,16 @@ use std::path::PathBuf;
 use crate::report::names;
 use clap::Args;
 
-use super::Answer;
+use super::CommandOutput;
 use super::eval::open;
 
 #[derive(Debug, Args)]
-pub struct Names {
+pub struct NamesArgs {
     /// Case file; claims are not needed
     pub case: PathBuf,
 }
 
-pub fn run(options: &Names) -> Result<Answer, String> {
+pub fn run(options: &NamesArgs) -> Result<CommandOutput, String> {
     let case = open(&options.case, &[])?;
-    Ok(Answer { text: names::text(&case), code: 0 })
+    Ok(CommandOutput { text: names::text(&case), code: 0 })
 }

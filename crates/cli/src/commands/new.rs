@@ -5,20 +5,20 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use liouville_catalogue::templates;
 
-use super::{Answer, write_new};
+use super::{CommandOutput, write_new};
 
 #[derive(Debug, Args)]
 pub struct New {
     /// Kind of system
     #[arg(value_enum)]
-    pub kind: Kind,
+    pub kind: NewCaseKind,
     /// File to write; printed by default
     pub file: Option<PathBuf>,
 }
 
 /// Kind of system that a new case has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Kind {
+pub enum NewCaseKind {
     /// Rates of the state variables, typed
     Field,
     /// A Hamiltonian and a bracket
@@ -33,28 +33,28 @@ pub enum Kind {
     Surface,
 }
 
-impl Kind {
+impl NewCaseKind {
     /// Returns the case to start from.
     pub fn template(self) -> &'static str {
         match self {
-            Kind::Field => templates::FIELD,
-            Kind::Hamiltonian => templates::HAMILTONIAN,
-            Kind::Lagrangian => templates::LAGRANGIAN,
-            Kind::Map => templates::MAP,
-            Kind::Rolling => templates::ROLLING,
-            Kind::Surface => templates::SURFACE,
+            NewCaseKind::Field => templates::FIELD,
+            NewCaseKind::Hamiltonian => templates::HAMILTONIAN,
+            NewCaseKind::Lagrangian => templates::LAGRANGIAN,
+            NewCaseKind::Map => templates::MAP,
+            NewCaseKind::Rolling => templates::ROLLING,
+            NewCaseKind::Surface => templates::SURFACE,
         }
     }
 }
 
-pub fn run(options: &New) -> Result<Answer, String> {
+pub fn run(options: &New) -> Result<CommandOutput, String> {
     let text = options.kind.template();
     let Some(file) = &options.file else {
-        return Ok(Answer { text: text.to_string(), code: 0 });
+        return Ok(CommandOutput { text: text.to_string(), code: 0 });
     };
     write_new(file, text)?;
     let shown = file.display();
-    Ok(Answer { text: format!("{shown}\nnext: liouville check {shown}\n"), code: 0 })
+    Ok(CommandOutput { text: format!("{shown}\nnext: liouville check {shown}\n"), code: 0 })
 }
 
 #[cfg(test)]
@@ -66,7 +66,7 @@ mod tests {
 
     #[test]
     fn every_template_is_judged_as_it_says() {
-        for kind in Kind::value_variants() {
+        for kind in NewCaseKind::value_variants() {
             let case = Case::parse(kind.template(), &[]).expect("a case");
             let report = liouville_search::judge(&case, &Options::default()).expect("judged");
             assert!(report.warnings.is_empty(), "{kind:?}: {:?}", report.warnings);

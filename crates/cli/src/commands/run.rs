@@ -3,12 +3,16 @@
 use std::ffi::OsString;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use super::{Answer, Arguments, Command, Limits, STOPPED, finish};
+use super::{Arguments, Command, CommandOutput, LimitArgs, STOPPED, finish};
 
 /// Runs the program with these arguments, the first of which is its name, and returns its exit
 /// code. Help and wrong arguments end the process.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    let command = Arguments::read(arguments).command;
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let mut command = Arguments::read(arguments.clone()).command;
+    if let Command::Explore(command) = &mut command {
+        command.keep(arguments.get(1..).unwrap_or_default());
+    }
     let limits = limits(&command);
     if let Err(problem) = limits.check() {
         return finish(Err(problem));
@@ -23,17 +27,17 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 }
 
 /// Limits of a command that has nothing to show before its end.
-fn limits(command: &Command) -> Limits {
+fn limits(command: &Command) -> LimitArgs {
     match command {
         Command::Eval(options) => options.limits,
         Command::Verify(options) => options.limits,
         Command::Explore(command) => command.limits(),
-        _ => Limits::default(),
+        _ => LimitArgs::default(),
     }
 }
 
 /// Runs a command; a fault of the program becomes a message.
-fn whole(command: &Command) -> Result<Answer, String> {
+fn whole(command: &Command) -> Result<CommandOutput, String> {
     catch_unwind(AssertUnwindSafe(|| carry_out(command))).unwrap_or_else(|_| {
         Err("error: the program failed\n\
              help: this is a fault of the program: please report it with the case and the command"
@@ -41,11 +45,12 @@ fn whole(command: &Command) -> Result<Answer, String> {
     })
 }
 
-fn carry_out(command: &Command) -> Result<Answer, String> {
+fn carry_out(command: &Command) -> Result<CommandOutput, String> {
     match command {
         Command::Check(options) => super::check::run(options),
         Command::Eval(options) => super::eval::run(options),
         Command::Verify(options) => super::verify::run(options),
+        Command::Merge(options) => super::merge::run(options),
         Command::Table(options) => super::table::run(options),
         Command::Explore(command) => command.run(),
         Command::New(options) => super::new::run(options),

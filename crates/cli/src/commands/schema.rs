@@ -6,7 +6,7 @@
 use liouville::case::{Case, Problem, SYSTEM_NAMES, TABLE_ROWS, claim_keys};
 use serde_json::{Map, Value, json};
 
-use super::Answer;
+use super::CommandOutput;
 
 /// The guide, whose tables explain keys.
 const GUIDE: &str = include_str!("../../../../docs/writing-a-case.md");
@@ -59,10 +59,10 @@ const LISTS: [&str; 21] = [
     "state",
 ];
 
-pub fn run() -> Result<Answer, String> {
+pub fn run() -> Result<CommandOutput, String> {
     let text =
         serde_json::to_string_pretty(&schema()).map_err(|error| format!("error: {error}"))?;
-    Ok(Answer { text: text + "\n", code: 0 })
+    Ok(CommandOutput { text: text + "\n", code: 0 })
 }
 
 /// The schema of a case file.

@@ -3,12 +3,12 @@
 use crate::report::{diagnostic, table};
 use liouville::case::Case;
 
-use super::judging::{Work, judge};
-use super::{Answer, Table, TableFormat, width};
+use super::judging::{JudgingJob, judge};
+use super::{CommandOutput, TableArgs, TableFormat, width};
 
-pub fn run(options: &Table) -> Result<Answer, String> {
+pub fn run(options: &TableArgs) -> Result<CommandOutput, String> {
     let (sampling, number) = (&options.sampling, options.number);
-    let run = judge(Work {
+    let run = judge(JudgingJob {
         paths: options.paths.clone(),
         settings: Vec::new(),
         prepare: Box::new(move |case| keep_table(case, number)),
@@ -41,7 +41,7 @@ pub fn run(options: &Table) -> Result<Answer, String> {
             TableFormat::Html => table.html(),
         }
     };
-    Ok(Answer { text, code: run.exit_code() })
+    Ok(CommandOutput { text, code: run.exit_code() })
 }
 
 /// Keeps the claims that a table needs: those in its cells, and all of a case with claims of

@@ -6,7 +6,7 @@ use crate::report::motion_certificate::{FORMAT, verify};
 use clap::Args;
 
 use super::eval::read_settings;
-use super::{Answer, Limits, Sampling};
+use super::{CommandOutput, LimitArgs, SamplingArgs};
 
 /// Words by which a certificate of a proof by points is known.
 const BY_POINTS: &str = "\"liouville certificate 1\"";
@@ -17,12 +17,12 @@ pub struct Verify {
     #[arg(required = true)]
     pub certificates: Vec<PathBuf>,
     #[command(flatten)]
-    pub limits: Limits,
+    pub limits: LimitArgs,
     #[command(flatten)]
-    pub sampling: Sampling,
+    pub sampling: SamplingArgs,
 }
 
-pub fn run(options: &Verify) -> Result<Answer, String> {
+pub fn run(options: &Verify) -> Result<CommandOutput, String> {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(options.sampling.threads.unwrap_or(0))
         .build()
@@ -40,7 +40,7 @@ pub fn run(options: &Verify) -> Result<Answer, String> {
     let count = options.certificates.len();
     let noun = if count == 1 { "certificate" } else { "certificates" };
     text.push_str(&format!("{count} {noun}: {} proved, {refused} refused\n", count - refused));
-    Ok(Answer { text, code: u8::from(refused > 0) })
+    Ok(CommandOutput { text, code: u8::from(refused > 0) })
 }
 
 /// Verifies a certificate. The outer error is that of a file that cannot be read.

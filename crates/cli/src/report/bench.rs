@@ -3,36 +3,38 @@
 use comfy_table::{Cell, CellAlignment, Color, Table, presets};
 use serde::Serialize;
 
-use super::Failure;
+use super::FileFailure;
 use super::terminal::Style;
 use liouville::graph::vector_features;
-use liouville::verdict::LANES;
-use liouville_lab::bench::{Measured, Method, Options, Row};
+use liouville::verdict::TAPE_LANES;
+use liouville_lab::bench::{
+    BenchOptions, ClaimMeasurements, DifferentiationMethod, MethodMeasurements,
+};
 
 /// Results of a benchmark run.
 #[derive(Debug)]
 pub struct BenchRun {
     /// Options of the measurements.
-    pub options: Options,
+    pub options: BenchOptions,
     /// Claims measured, in the order of the items.
-    pub measured: Vec<Measured>,
+    pub measured: Vec<ClaimMeasurements>,
     /// Items that could not be measured.
-    pub errors: Vec<(String, Failure)>,
+    pub errors: Vec<(String, FileFailure)>,
 }
 
 impl BenchRun {
     /// A run without measurements.
-    pub fn new(options: Options) -> Self {
+    pub fn new(options: BenchOptions) -> Self {
         Self { options, measured: Vec::new(), errors: Vec::new() }
     }
 }
 
 #[derive(Serialize)]
-struct Root<'a> {
+struct BenchJson<'a> {
     seed: u64,
     states: u64,
     rounds: usize,
-    machine: Machine,
+    machine: MachineFacts,
     items: Vec<ItemEntry<'a>>,
     rows: Vec<RowEntry<'a>>,
     skipped: Vec<SkippedEntry<'a>>,
@@ -42,7 +44,7 @@ struct Root<'a> {
 
 /// Machine properties on which the times depend.
 #[derive(Serialize)]
-struct Machine {
+struct MachineFacts {
     architecture: &'static str,
     os: &'static str,
     features: &'static [&'static str],
@@ -73,14 +75,14 @@ struct RowEntry<'a> {
     item: &'a str,
     claim: &'a str,
     #[serde(flatten)]
-    row: &'a Row,
+    row: &'a MethodMeasurements,
 }
 
 #[derive(Serialize)]
 struct SkippedEntry<'a> {
     item: &'a str,
     claim: &'a str,
-    method: Method,
+    method: DifferentiationMethod,
     reason: &'a str,
 }
 
@@ -88,7 +90,7 @@ struct SkippedEntry<'a> {
 struct ErrorEntry<'a> {
     path: &'a str,
     #[serde(flatten)]
-    failure: &'a Failure,
+    failure: &'a FileFailure,
 }
 
 /// Renders the run as pretty-printed JSON.
@@ -98,26 +100,24 @@ pub fn json(run: &BenchRun) -> Result<String, serde_json::Error> {
         let (item, claim) = (measured.item.as_str(), measured.claim.as_str());
         measured.rows.iter().map(move |row| RowEntry { item, claim, row })
     });
-    let skipped = all().flat_map(|measured| {
-        let (item, claim) = (measured.item.as_str(), measured.claim.as_str());
-        let entry = move |(method, reason): &(Method, &'static str)| SkippedEntry {
-            item,
-            claim,
-            method: *method,
-            reason,
-        };
-        measured.skipped.iter().map(entry)
-    });
+    let skipped =
+        all().flat_map(|measured| {
+            let (item, claim) = (measured.item.as_str(), measured.claim.as_str());
+            let entry = move |(method, reason): &(DifferentiationMethod, &'static str)| {
+                SkippedEntry { item, claim, method: *method, reason }
+            };
+            measured.skipped.iter().map(entry)
+        });
     let error = |(path, failure)| ErrorEntry { path, failure };
-    serde_json::to_string_pretty(&Root {
+    serde_json::to_string_pretty(&BenchJson {
         seed: run.options.seed,
-        states: run.options.blocks * LANES as u64,
+        states: run.options.blocks * TAPE_LANES as u64,
         rounds: run.options.rounds,
-        machine: Machine {
+        machine: MachineFacts {
             architecture: std::env::consts::ARCH,
             os: std::env::consts::OS,
             features: vector_features(),
-            lanes: LANES,
+            lanes: TAPE_LANES,
             threads: 1,
         },
         items: all().map(item).collect(),
@@ -127,9 +127,9 @@ pub fn json(run: &BenchRun) -> Result<String, serde_json::Error> {
     })
 }
 
-fn item(measured: &Measured) -> ItemEntry<'_> {
-    let tape = measured.row(Method::Tape, "f64");
-    let merged = measured.row(Method::MergedTape, "f64");
+fn item(measured: &ClaimMeasurements) -> ItemEntry<'_> {
+    let tape = measured.row(DifferentiationMethod::Tape, "f64");
+    let merged = measured.row(DifferentiationMethod::MergedTape, "f64");
     let time = |method| measured.row(method, "f64").map(|row| row.ns_per_state);
     ItemEntry {
         name: &measured.item,
@@ -137,8 +137,8 @@ fn item(measured: &Measured) -> ItemEntry<'_> {
         kind: measured.kind,
         ns_per_state: tape.map(|row| row.ns_per_state),
         engine_ns_per_state: measured.quickest().map(|row| row.ns_per_state),
-        floor_ns_per_state: time(Method::Floor),
-        num_dual_ns_per_state: time(Method::NumDualByHand),
+        floor_ns_per_state: time(DifferentiationMethod::Floor),
+        num_dual_ns_per_state: time(DifferentiationMethod::NumDualByHand),
         ratio_to_num_dual: measured.ratio_to_num_dual(),
         operations: tape.and_then(|row| row.operations),
         merged_operations: merged.and_then(|row| row.operations),
@@ -168,7 +168,7 @@ pub fn text(run: &BenchRun, style: Style) -> String {
     out.push_str(&format!(
         "errors: |computed − reference| / scale at {} states, seed {}; times: medians of {} \
          interleaved rounds, one thread, {} {features}\n",
-        run.options.blocks * LANES as u64,
+        run.options.blocks * TAPE_LANES as u64,
         run.options.seed,
         run.options.rounds,
         std::env::consts::ARCH,
@@ -189,7 +189,7 @@ const HEADER: [&str; 10] = [
     "largest bound",
 ];
 
-fn table(measured: &Measured, style: Style) -> String {
+fn table(measured: &ClaimMeasurements, style: Style) -> String {
     let mut table = Table::new();
     table.load_style(presets::NOTHING).set_width(style.width);
     if style.colour {
@@ -199,7 +199,7 @@ fn table(measured: &Measured, style: Style) -> String {
     }
     let shade = |cell: Cell| if style.colour { cell.fg(Color::DarkGrey) } else { cell };
     table.set_header(HEADER.map(|title| shade(Cell::new(title))));
-    let unit = measured.row(Method::Tape, "f64").map(|row| row.ns_per_state);
+    let unit = measured.row(DifferentiationMethod::Tape, "f64").map(|row| row.ns_per_state);
     for row in &measured.rows {
         let ratio = unit.map(|unit| digits(row.ns_per_state / unit)).unwrap_or_default();
         let number = |value: Option<f64>| value.map_or(String::new(), |x| format!("{x:.1e}"));

@@ -3,9 +3,9 @@
 use liouville::case::{Case, Expect};
 use liouville::graph::{Expr, Graph, Step};
 use liouville::number::prime::is_prime;
-use liouville::number::{Function, Operation};
+use liouville::number::{BinaryOperation, UnaryFunction};
 use liouville::proof::plain_bounds;
-use liouville::verdict::{ClaimReport, Composed, Statement};
+use liouville::verdict::{ClaimReport, Composed, Residuals};
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 
@@ -13,17 +13,17 @@ use sha2::{Digest, Sha256};
 const FORMAT: &str = "liouville certificate 1";
 /// Numbers of the test: primes, points for each, draws for each.
 const PRIMES: usize = 4;
-const POINTS: usize = 2;
+const TEST_POINTS: usize = 2;
 const DRAWS: f64 = 64.0;
 /// Log₂ of the largest error.
 const TARGET: i64 = -100;
 /// Log₂ of a lower bound on the number of primes p = 3 mod 4 between 2^60 and 2^61.
 const POOL: i32 = 53;
 /// Largest integer that is stated as a degree or a height.
-const MOST: f64 = 9e15;
+const MOST_STATED: f64 = 9e15;
 
 /// Origin of a case: path, text, and the values given to parameters.
-pub struct Origin<'o> {
+pub struct CaseOrigin<'o> {
     /// Path as given.
     pub path: &'o str,
     /// Text of the file.
@@ -46,9 +46,9 @@ pub enum Missing {
 /// Makes the certificate of a claim that was proved.
 pub fn certificate(
     case: &Case,
-    origin: &Origin<'_>,
+    origin: &CaseOrigin<'_>,
     report: &ClaimReport,
-    statement: &Statement,
+    statement: &Residuals,
     seed: u64,
 ) -> Result<Value, Missing> {
     let mut programs: Vec<Value> = Vec::new();
@@ -105,8 +105,8 @@ fn is_made_rationally(composed: &Composed) -> bool {
     let reached = graph.reached(made(composed));
     let is_rational = |step: Step<'_>| match step {
         Step::Constant(_) | Step::Input(_) => true,
-        Step::Unary(function, _) => matches!(function, Function::Neg | Function::Recip),
-        Step::Binary(operation, ..) => operation != Operation::Pow,
+        Step::Unary(function, _) => matches!(function, UnaryFunction::Neg | UnaryFunction::Recip),
+        Step::Binary(operation, ..) => operation != BinaryOperation::Pow,
         Step::Power(_, exponent) => exponent.to_integer().is_some(),
     };
     graph.steps().zip(reached).all(|(step, reached)| !reached || is_rational(step))
@@ -156,11 +156,11 @@ fn step(graph: &Graph, place: usize, places: &[usize]) -> Value {
             json!(["constant", text])
         }
         Step::Input(input) => json!(["input", input]),
-        Step::Unary(Function::Neg, a) => json!(["negative", places[a]]),
-        Step::Unary(Function::Sqrt, a) => json!(["root", places[a]]),
+        Step::Unary(UnaryFunction::Neg, a) => json!(["negative", places[a]]),
+        Step::Unary(UnaryFunction::Sqrt, a) => json!(["root", places[a]]),
         Step::Unary(_, a) => json!(["reciprocal", places[a]]),
-        Step::Binary(Operation::Add, a, b) => json!(["sum", places[a], places[b]]),
-        Step::Binary(Operation::Sub, a, b) => json!(["difference", places[a], places[b]]),
+        Step::Binary(BinaryOperation::Add, a, b) => json!(["sum", places[a], places[b]]),
+        Step::Binary(BinaryOperation::Sub, a, b) => json!(["difference", places[a], places[b]]),
         Step::Binary(_, a, b) => json!(["product", places[a], places[b]]),
         Step::Power(a, exponent) => {
             json!(["power", places[a], exponent.to_integer().unwrap_or_default()])
@@ -171,7 +171,7 @@ fn step(graph: &Graph, place: usize, places: &[usize]) -> Value {
 /// Evidence that the checker derives again; `None` if it would refuse.
 fn evidence(statement: &Value, bounds: &[(f64, f64)]) -> Option<Value> {
     let digest = hex(&canonical(statement));
-    let is_small = |(degree, height): &(f64, f64)| *degree < MOST && *height < MOST;
+    let is_small = |(degree, height): &(f64, f64)| *degree < MOST_STATED && *height < MOST_STATED;
     if !bounds.iter().all(is_small) {
         return None;
     }
@@ -179,7 +179,7 @@ fn evidence(statement: &Value, bounds: &[(f64, f64)]) -> Option<Value> {
     let bounds: Vec<(f64, f64)> = bounds.iter().map(|(d, h)| (d.ceil(), h.ceil())).collect();
     let error = |(degree, height): &(f64, f64)| {
         let prime = (height.max(1.0) + 1.0) / 60.0 / 2f64.powi(POOL);
-        let points = (DRAWS * degree / 2f64.powi(60)).powi(POINTS as i32);
+        let points = (DRAWS * degree / 2f64.powi(60)).powi(TEST_POINTS as i32);
         (PRIMES as f64 * (prime + points).log2()).ceil() as i64
     };
     let many = (bounds.len() as f64).log2().ceil() as i64;
@@ -193,7 +193,7 @@ fn evidence(statement: &Value, bounds: &[(f64, f64)]) -> Option<Value> {
     Some(json!({
         "digest": digest,
         "primes": primes(&digest),
-        "points": PRIMES * POINTS * bounds.len(),
+        "points": PRIMES * TEST_POINTS * bounds.len(),
         "degrees": whole(|bound| bound.0),
         "heights": whole(|bound| bound.1),
         "error_log2": error,

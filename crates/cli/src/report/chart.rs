@@ -3,9 +3,12 @@
 use serde_json::{Value, json};
 
 use liouville_draw::{
-    Axis as Scale, Bar, Entry, Layer, Mark, Paint, Plot, Sign, gradient, math, plain,
+    Axis as Scale, Bar, Layer, LegendEntry, MarkShape, MarkedPoint, Paint, Plot, gradient, math,
+    plain,
 };
-use liouville_flow::{Axis, Character, Exponents, FlowError};
+use liouville_flow::{Character, ChartAxis, Estimate, Exponents, FlowError};
+
+use super::data::quoted;
 
 /// A plane of motions with its request.
 pub struct ChartReport<'r> {
@@ -14,7 +17,7 @@ pub struct ChartReport<'r> {
     /// Names of the axes.
     pub names: [&'r str; 2],
     /// Axes of the plane.
-    pub axes: &'r [Axis; 2],
+    pub axes: &'r [ChartAxis; 2],
     /// Time for which each motion was followed.
     pub time: f64,
     /// Motions, row by row from below.
@@ -23,21 +26,21 @@ pub struct ChartReport<'r> {
 
 /// Kind of a point of the plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Cell {
+enum PlanePoint {
     Motion(Character),
     NoState,
     Broken,
 }
 
 /// All kinds of points, with colours that the colour-blind tell apart, and that differ in grey.
-const CELLS: [(Cell, Paint); 7] = [
-    (Cell::Motion(Character::Regular), Paint::Same([0xc6, 0xdf, 0xf2])),
-    (Cell::Motion(Character::ConservativeChaos), Paint::Same([0xd5, 0x5e, 0x00])),
-    (Cell::Motion(Character::DissipativeChaos), Paint::Same([0xf0, 0xc4, 0x3f])),
-    (Cell::Motion(Character::StrangeRepeller), Paint::Same([0xa2, 0x4b, 0x84])),
-    (Cell::Motion(Character::StrangeAttractor), Paint::Same([0x0b, 0x4f, 0x8a])),
-    (Cell::NoState, Paint::Same([0xd4, 0xd4, 0xd4])),
-    (Cell::Broken, Paint::Same([0x4d, 0x4d, 0x4d])),
+const CELLS: [(PlanePoint, Paint); 7] = [
+    (PlanePoint::Motion(Character::Regular), Paint::Same([0xc6, 0xdf, 0xf2])),
+    (PlanePoint::Motion(Character::ConservativeChaos), Paint::Same([0xd5, 0x5e, 0x00])),
+    (PlanePoint::Motion(Character::DissipativeChaos), Paint::Same([0xf0, 0xc4, 0x3f])),
+    (PlanePoint::Motion(Character::StrangeRepeller), Paint::Same([0xa2, 0x4b, 0x84])),
+    (PlanePoint::Motion(Character::StrangeAttractor), Paint::Same([0x0b, 0x4f, 0x8a])),
+    (PlanePoint::NoState, Paint::Same([0xd4, 0xd4, 0xd4])),
+    (PlanePoint::Broken, Paint::Same([0x4d, 0x4d, 0x4d])),
 ];
 
 /// Meaning of the colours of a chart.
@@ -51,21 +54,21 @@ pub enum Colours {
     Divergence,
 }
 
-impl Cell {
+impl PlanePoint {
     fn of(found: &Result<Exponents, FlowError>) -> Self {
         use FlowError::{BelowPotential, NoStart, OffSphere};
         match found {
-            Ok(found) => Cell::Motion(found.character),
-            Err(BelowPotential { .. } | OffSphere { .. } | NoStart) => Cell::NoState,
-            Err(_) => Cell::Broken,
+            Ok(found) => PlanePoint::Motion(found.character),
+            Err(BelowPotential { .. } | OffSphere { .. } | NoStart) => PlanePoint::NoState,
+            Err(_) => PlanePoint::Broken,
         }
     }
 
     fn name(self) -> &'static str {
         match self {
-            Cell::Motion(character) => character.name(),
-            Cell::NoState => "no state",
-            Cell::Broken => "singular",
+            PlanePoint::Motion(character) => character.name(),
+            PlanePoint::NoState => "no state",
+            PlanePoint::Broken => "singular",
         }
     }
 
@@ -77,7 +80,7 @@ impl Cell {
 impl ChartReport<'_> {
     fn counts(&self) -> [usize; CELLS.len()] {
         let mut counts = [0; CELLS.len()];
-        self.cells.iter().for_each(|found| counts[Cell::of(found).place()] += 1);
+        self.cells.iter().for_each(|found| counts[PlanePoint::of(found).place()] += 1);
         counts
     }
 
@@ -100,7 +103,7 @@ impl ChartReport<'_> {
         for ((cell, _), count) in CELLS.iter().zip(self.counts()).filter(|(_, count)| *count > 0) {
             let share = 100.0 * count as f64 / self.cells.len() as f64;
             out.push_str(&format!("{count:>8}  {share:5.1} %  {}", cell.name()));
-            let is_same = |found: &&Result<Exponents, FlowError>| Cell::of(found) == *cell;
+            let is_same = |found: &&Result<Exponents, FlowError>| PlanePoint::of(found) == *cell;
             if let Some(Err(problem)) = self.cells.iter().find(is_same) {
                 out.push_str(&format!("; the first: {problem}"));
             }
@@ -112,7 +115,7 @@ impl ChartReport<'_> {
     /// Renders all motions as JSON.
     pub fn json(&self) -> Result<String, serde_json::Error> {
         let axis = |index: usize| {
-            let axis: &Axis = &self.axes[index];
+            let axis: &ChartAxis = &self.axes[index];
             json!({
                 "name": self.names[index],
                 "from": axis.from.to_f64().0,
@@ -124,7 +127,7 @@ impl ChartReport<'_> {
             Ok(found) => {
                 json!([found.character.name(), found.largest.mean, found.divergence.mean])
             }
-            Err(_) => json!([Cell::of(found).name()]),
+            Err(_) => json!([PlanePoint::of(found).name()]),
         };
         let columns = self.axes[0].count.max(1);
         let rows: Vec<Vec<Value>> =
@@ -138,19 +141,30 @@ impl ChartReport<'_> {
         }))
     }
 
+    /// Renders all motions as CSV, a line each below a line of titles.
+    pub fn csv(&self) -> String {
+        let mut out = titles(self.names) + "\n";
+        for (place, cell) in self.cells.iter().enumerate() {
+            let problem = cell.as_ref().err().map_or(String::new(), ToString::to_string);
+            out.push_str(&row(self.axes, place, cell, &problem));
+            out.push('\n');
+        }
+        out
+    }
+
     /// Draws the plane; its legend lists only the kinds that occur. The values of the case itself are
     /// marked where they are known and within the axes.
     pub fn plot(&self, colours: Colours, own: [Option<f64>; 2]) -> Plot {
         let mut plot = Plot::new(self.scale(0), self.scale(1));
         let columns = self.axes[0].count.max(1);
         let kind = |found: &Result<Exponents, FlowError>| {
-            let place = Cell::of(found).place();
+            let place = PlanePoint::of(found).place();
             (CELLS[place].1, place)
         };
         let mut paints: Vec<Option<Paint>> = Vec::new();
         let shown = |place: usize| match colours {
             Colours::Class => true,
-            _ => !matches!(CELLS[place].0, Cell::Motion(_)),
+            _ => !matches!(CELLS[place].0, PlanePoint::Motion(_)),
         };
         let bar = self.bar(colours);
         for row in self.cells.chunks(columns).rev() {
@@ -166,7 +180,7 @@ impl ChartReport<'_> {
             if counts[place] > 0 && shown(place) {
                 let share = 100.0 * counts[place] as f64 / self.cells.len() as f64;
                 let text = plain(&format!("{}, {share:.1} %", cell.name()));
-                plot.legend.push(Entry { mark: Mark::Box, paint: *paint, text });
+                plot.legend.push(LegendEntry { mark: MarkShape::Box, paint: *paint, text });
             }
         }
         if let [Some(x), Some(y)] = own
@@ -174,15 +188,15 @@ impl ChartReport<'_> {
                 .iter()
                 .all(|share| (0.0..=1.0).contains(share))
         {
-            let (mark, paint) = (Mark::Cross, Paint::Ink);
-            plot.marks.push(Sign { at: [x, y], mark, paint, label: None, has_rim: false });
-            plot.legend.push(Entry { mark, paint, text: plain("the case itself") });
+            let (mark, paint) = (MarkShape::Cross, Paint::Ink);
+            plot.marks.push(MarkedPoint { at: [x, y], mark, paint, label: None, has_rim: false });
+            plot.legend.push(LegendEntry { mark, paint, text: plain("the case itself") });
         }
         plot
     }
 
     fn scale(&self, index: usize) -> Scale {
-        let (axis, name): (&Axis, &str) = (&self.axes[index], self.names[index]);
+        let (axis, name): (&ChartAxis, &str) = (&self.axes[index], self.names[index]);
         let (from, to) = (axis.from.to_f64().0, axis.to.to_f64().0);
         let is_turn = name == "l" && from == 0.0 && (to - std::f64::consts::TAU).abs() < 1e-9;
         if is_turn { Scale::turn(math(name)) } else { Scale::new(math(name), from, to) }
@@ -204,6 +218,55 @@ impl ChartReport<'_> {
             paints: (0..64).map(|k| gradient((f64::from(k) + 0.5) / 64.0)).collect(),
         })
     }
+}
+
+/// Titles of the columns of a chart as CSV, with these names of the axes.
+pub fn titles([x, y]: [&str; 2]) -> String {
+    let [x, y] = [x, y].map(quoted);
+    format!(
+        "i,j,{x},{y},class,exponent,error,later,divergence,divergence_error,divergence_later,problem"
+    )
+}
+
+/// Line of a motion as CSV: its place and its numbers, with all digits, or its problem.
+pub fn row(
+    axes: &[ChartAxis; 2],
+    place: usize,
+    cell: &Result<Exponents, FlowError>,
+    problem: &str,
+) -> String {
+    let across = axes[0].count.max(1);
+    let (i, j) = (place % across, place / across);
+    let [x, y] = [axes[0].value(i), axes[1].value(j)].map(|value| value.to_f64().0);
+    let class = PlanePoint::of(cell).name();
+    let numbers = match cell {
+        Ok(found) => {
+            let estimates = [found.largest, found.divergence];
+            let numbers =
+                estimates.map(|own| format!("{:?},{:?},{:?}", own.mean, own.error, own.later));
+            numbers.join(",")
+        }
+        Err(_) => ",,,,,".to_string(),
+    };
+    format!("{i},{j},{x:?},{y:?},{class},{numbers},{}", quoted(problem))
+}
+
+/// Numbers of a line that was followed for this time, or the text of its problem.
+pub fn read_row(line: &str, time: f64) -> Option<Result<Exponents, String>> {
+    let fields: Vec<&str> = line.splitn(12, ',').collect();
+    let [_, _, _, _, class, numbers @ .., problem] = &fields[..] else { return None };
+    if !problem.is_empty() {
+        let inner = problem.strip_prefix('"').and_then(|text| text.strip_suffix('"'));
+        return Some(Err(inner.map_or(problem.to_string(), |text| text.replace("\"\"", "\""))));
+    }
+    let numbers: Vec<f64> = numbers.iter().map(|text| text.parse().ok()).collect::<Option<_>>()?;
+    let estimate = |from: usize| {
+        let [mean, error, later] = *numbers.get(from..from + 3)? else { return None };
+        Some(Estimate { mean, error, later })
+    };
+    let character = *Character::ALL.iter().find(|own| own.name() == *class)?;
+    let (largest, divergence) = (estimate(0)?, estimate(3)?);
+    Some(Ok(Exponents { time, largest, divergence, alignment: None, character }))
 }
 
 /// Value that a motion is coloured by.

@@ -3,12 +3,12 @@
 use serde_json::{Value, json};
 
 use liouville::case::Case;
-use liouville_flow::{Cycle, CycleKind, Measured, Multiplier, PeriodicPoint};
+use liouville_flow::{ComputedPeriodicPoint, Cycle, CycleKind, MeasuredNumber, Multiplier};
 
 /// A closed orbit, with the point of the section that it goes through if one was asked for.
-pub struct Found {
+pub struct FoundOrbit {
     /// Periodic point of a rolling body's section.
-    pub point: Option<PeriodicPoint>,
+    pub point: Option<ComputedPeriodicPoint>,
     /// Number of crossings after which the orbit closes, where they were counted.
     pub crossings: Option<usize>,
     /// Orbit.
@@ -16,7 +16,7 @@ pub struct Found {
 }
 
 /// Formats a number with its error: the digits that the error leaves, and one more.
-fn shown(x: Measured) -> String {
+fn shown(x: MeasuredNumber) -> String {
     let digits = libm::ceil(-libm::log10(x.error)) + 1.0;
     if !(x.error > 0.0 && digits.is_finite()) {
         return format!("{:?}", x.value);
@@ -45,7 +45,7 @@ fn verdict(cycle: &Cycle) -> String {
 }
 
 /// Renders a closed orbit in a few lines.
-pub fn text(case: &Case, found: &Found) -> String {
+pub fn text(case: &Case, found: &FoundOrbit) -> String {
     let cycle = &found.cycle;
     let mut out = String::new();
     match (&found.point, found.crossings) {
@@ -84,22 +84,22 @@ pub fn text(case: &Case, found: &Found) -> String {
 fn written(multiplier: &Multiplier) -> String {
     let error = multiplier.error;
     if multiplier.im == 0.0 {
-        return format!(" {}", shown(Measured { value: multiplier.re, error }));
+        return format!(" {}", shown(MeasuredNumber { value: multiplier.re, error }));
     }
-    let modulus = Measured { value: multiplier.modulus(), error: multiplier.modulus_error };
+    let modulus = MeasuredNumber { value: multiplier.modulus(), error: multiplier.modulus_error };
     let angle = libm::atan2(multiplier.im, multiplier.re);
-    let angle = Measured { value: angle, error: error / multiplier.modulus() };
+    let angle = MeasuredNumber { value: angle, error: error / multiplier.modulus() };
     format!("s: modulus {}, argument ±{}", shown(modulus), shown(angle))
 }
 
 /// Product of all multipliers, e^∮ div v.
-fn product(volume: Measured) -> Measured {
+fn product(volume: MeasuredNumber) -> MeasuredNumber {
     let value = libm::exp(volume.value);
-    Measured { value, error: value * (volume.error + f64::EPSILON) }
+    MeasuredNumber { value, error: value * (volume.error + f64::EPSILON) }
 }
 
 /// Renders a closed orbit as JSON.
-pub fn entry(found: &Found) -> Value {
+pub fn entry(found: &FoundOrbit) -> Value {
     let cycle = &found.cycle;
     let multiplier = |one: &Multiplier| {
         json!({
@@ -133,7 +133,7 @@ mod tests {
 
     #[test]
     fn numbers_have_the_digits_that_are_known() {
-        let text = |value, error| shown(Measured { value, error });
+        let text = |value, error| shown(MeasuredNumber { value, error });
         assert_eq!(text(148.166_473_353_152_24, 3e-11), "148.166473353152 ± 3e-11");
         assert_eq!(text(0.5, 0.2), "0.50 ± 2e-1");
         assert_eq!(text(1.0, 0.0), "1.0", "no error, all digits");

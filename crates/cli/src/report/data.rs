@@ -3,29 +3,29 @@
 use serde_json::{Value, json};
 
 use super::orbit::written;
-use liouville::number::pair::Pair;
+use liouville::number::double_double::DoubleDouble;
 use liouville_flow::Precision;
 
 /// Rows of numbers with the titles of their columns.
-pub struct Data {
+pub struct DataTable {
     /// Titles of the columns.
     pub columns: Vec<String>,
     /// Number of columns at the beginning that hold whole numbers.
     pub whole: usize,
     /// Rows, each with a number for each column.
-    pub rows: Vec<Vec<Pair>>,
+    pub rows: Vec<Vec<DoubleDouble>>,
     /// Precision of the numbers.
     pub precision: Precision,
 }
 
-impl Data {
+impl DataTable {
     /// Renders the rows with commas, below a line of titles; in double-double with all digits. What
     /// is undefined is NaN.
     pub fn csv(&self) -> String {
         let titles: Vec<String> = self.columns.iter().map(|title| quoted(title)).collect();
         let mut out = titles.join(",") + "\n";
         for row in &self.rows {
-            let cell = |(place, x): (usize, &Pair)| match place < self.whole {
+            let cell = |(place, x): (usize, &DoubleDouble)| match place < self.whole {
                 true => format!("{:.0}", x.hi),
                 false => written(*x, self.precision),
             };
@@ -55,7 +55,7 @@ impl Data {
     /// Renders columns and rows as JSON: numbers, in double-double decimal strings. What is
     /// undefined is null.
     pub fn json(&self) -> String {
-        let cell = |(place, x): (usize, &Pair)| -> Value {
+        let cell = |(place, x): (usize, &DoubleDouble)| -> Value {
             match self.precision {
                 _ if place < self.whole => json!(x.hi as i64),
                 _ if !x.hi.is_finite() => Value::Null,
@@ -63,14 +63,14 @@ impl Data {
                 Precision::Pair => json!(written(*x, self.precision)),
             }
         };
-        let row = |row: &Vec<Pair>| row.iter().enumerate().map(cell).collect::<Vec<_>>();
+        let row = |row: &Vec<DoubleDouble>| row.iter().enumerate().map(cell).collect::<Vec<_>>();
         let rows: Vec<Vec<Value>> = self.rows.iter().map(row).collect();
         json!({ "columns": self.columns, "rows": rows }).to_string() + "\n"
     }
 }
 
-/// A title as a field of CSV.
-fn quoted(title: &str) -> String {
+/// A text as a field of CSV.
+pub fn quoted(title: &str) -> String {
     match title.contains([',', '"', '\n', '\r']) {
         true => format!("\"{}\"", title.replace('"', "\"\"")),
         false => title.to_string(),
@@ -81,9 +81,9 @@ fn quoted(title: &str) -> String {
 mod tests {
     use super::*;
 
-    fn data() -> Data {
-        let row = |row: [f64; 3]| row.map(Pair::from_f64).to_vec();
-        Data {
+    fn data() -> DataTable {
+        let row = |row: [f64; 3]| row.map(DoubleDouble::from_f64).to_vec();
+        DataTable {
             columns: ["start", "t", "(a,b)"].map(str::to_string).to_vec(),
             whole: 1,
             rows: vec![row([0.0, 0.5, f64::NAN]), row([1.0, 1e-7, -2.0])],

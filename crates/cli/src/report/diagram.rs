@@ -5,10 +5,10 @@
 //! point that has room for one; more are drawn together.
 
 use liouville_draw::{
-    Axis, CATEGORIES, Entry, Figure, Mark, Paint, Plot, Sign, Size, plain, power_of_ten,
-    svg as drawn,
+    Axis, CATEGORIES, Figure, LegendEntry, MarkShape, MarkedPoint, Paint, Plot, Size, plain,
+    power_of_ten, svg as drawn,
 };
-use liouville_lab::bench::{Measured, Method, Row};
+use liouville_lab::bench::{ClaimMeasurements, DifferentiationMethod, MethodMeasurements};
 
 /// Number of claims above which all share one plot.
 const MOST_PLOTS: usize = 6;
@@ -16,12 +16,12 @@ const MOST_PLOTS: usize = 6;
 const LEAST_ERROR: f64 = -90.0;
 
 /// Draws the diagram of some claims.
-pub fn svg(measured: &[Measured]) -> String {
+pub fn svg(measured: &[ClaimMeasurements]) -> String {
     // A residual that is nowhere defined has no error, and no place in the diagram.
-    let shown = |m: &&Row| m.max_error.is_some();
+    let shown = |m: &&MethodMeasurements| m.max_error.is_some();
     let are_apart = measured.len() <= MOST_PLOTS;
-    let plots: Vec<(String, Vec<&Row>)> = if are_apart {
-        let title = |m: &Measured| match m.item == m.claim {
+    let plots: Vec<(String, Vec<&MethodMeasurements>)> = if are_apart {
+        let title = |m: &ClaimMeasurements| match m.item == m.claim {
             true => m.item.clone(),
             false => format!("{}: {}", m.item, m.claim),
         };
@@ -43,7 +43,7 @@ pub fn svg(measured: &[Measured]) -> String {
     drawn(&figure.scene())
 }
 
-fn domains(measured: &[Measured]) -> Vec<&'static str> {
+fn domains(measured: &[ClaimMeasurements]) -> Vec<&'static str> {
     let mut domains = Vec::new();
     for row in measured.iter().flat_map(|m| &m.rows) {
         if !domains.contains(&row.domain) {
@@ -53,20 +53,24 @@ fn domains(measured: &[Measured]) -> Vec<&'static str> {
     domains
 }
 
-fn methods(measured: &[Measured]) -> Vec<Method> {
-    let used =
-        |method: &Method| measured.iter().any(|m| m.rows.iter().any(|r| r.method == *method));
-    Method::ALL.into_iter().filter(|method| *method != Method::Floor && used(method)).collect()
+fn methods(measured: &[ClaimMeasurements]) -> Vec<DifferentiationMethod> {
+    let used = |method: &DifferentiationMethod| {
+        measured.iter().any(|m| m.rows.iter().any(|r| r.method == *method))
+    };
+    DifferentiationMethod::ALL
+        .into_iter()
+        .filter(|method| *method != DifferentiationMethod::Floor && used(method))
+        .collect()
 }
 
-fn legend(methods: &[Method], domains: &[&'static str]) -> Vec<Entry> {
-    let method = |method: &Method| Entry {
+fn legend(methods: &[DifferentiationMethod], domains: &[&'static str]) -> Vec<LegendEntry> {
+    let method = |method: &DifferentiationMethod| LegendEntry {
         mark: mark(*method),
         paint: Paint::Soft,
         text: plain(method.name()),
     };
-    let domain = |(place, name): (usize, &&str)| Entry {
-        mark: Mark::Box,
+    let domain = |(place, name): (usize, &&str)| LegendEntry {
+        mark: MarkShape::Box,
         paint: CATEGORIES[place % CATEGORIES.len()],
         text: plain(name),
     };
@@ -75,7 +79,7 @@ fn legend(methods: &[Method], domains: &[&'static str]) -> Vec<Entry> {
 
 fn plot(
     title: &str,
-    rows: &[&Row],
+    rows: &[&MethodMeasurements],
     [across, up]: &[Axis; 2],
     domains: &[&'static str],
     are_labelled: bool,
@@ -83,15 +87,17 @@ fn plot(
     let mut plot = Plot::new(across.clone(), up.clone());
     plot.title = Some(plain(title));
     (plot.aspect, plot.grid) = (0.42, true);
-    let sign = |row: &&Row| {
+    let sign = |row: &&MethodMeasurements| {
         let place = domains.iter().position(|domain| *domain == row.domain).unwrap_or(0);
         let label = match row.method {
-            Method::Tape | Method::MergedTape => format!("{}, {}", row.method.name(), row.domain),
+            DifferentiationMethod::Tape | DifferentiationMethod::MergedTape => {
+                format!("{}, {}", row.method.name(), row.domain)
+            }
             // The others run in one domain each.
             method => method.name().to_string(),
         };
         let error = row.max_error.filter(|error| *error > 0.0).map_or(f64::NEG_INFINITY, decade);
-        Sign {
+        MarkedPoint {
             // What is exact stands at the left border.
             at: [error.max(across.from()), row.ns_per_state.max(1e-1).log10()],
             mark: mark(row.method),
@@ -105,7 +111,7 @@ fn plot(
 }
 
 /// Axes to whole decades, with room for labels next to the outermost points.
-fn axes<'r>(rows: impl Iterator<Item = &'r Row>) -> [Axis; 2] {
+fn axes<'r>(rows: impl Iterator<Item = &'r MethodMeasurements>) -> [Axis; 2] {
     let (mut errors, mut times) = ((-16.0f64, -10.0f64), (1.0f64, 2.0f64));
     for row in rows {
         let error = decade(row.max_error.filter(|error| *error > 0.0).unwrap_or(1e-16));
@@ -142,13 +148,13 @@ fn time(exponent: i64) -> String {
     format!("{number} {unit}")
 }
 
-fn mark(method: Method) -> Mark {
+fn mark(method: DifferentiationMethod) -> MarkShape {
     match method {
-        Method::Tape | Method::Floor => Mark::Disc,
-        Method::MergedTape => Mark::Bar,
-        Method::NumDualByHand => Mark::Diamond,
-        Method::NumDualClosedForm => Mark::Needle,
-        Method::ComplexStep => Mark::Up,
-        Method::CentralDifference => Mark::Down,
+        DifferentiationMethod::Tape | DifferentiationMethod::Floor => MarkShape::Disc,
+        DifferentiationMethod::MergedTape => MarkShape::Bar,
+        DifferentiationMethod::NumDualByHand => MarkShape::Diamond,
+        DifferentiationMethod::NumDualClosedForm => MarkShape::Needle,
+        DifferentiationMethod::ComplexStep => MarkShape::Up,
+        DifferentiationMethod::CentralDifference => MarkShape::Down,
     }
 }

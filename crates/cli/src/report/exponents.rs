@@ -1,11 +1,13 @@
 //! Report of `exponents`: the class of a motion, with the exponents behind it.
 
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use liouville_flow::{Alignment, Character, Estimate, Exponents, FlowError, Spectrum};
 
 /// A motion that was followed.
-pub struct Row {
+#[derive(Debug, Serialize, Deserialize)]
+pub struct MotionRow {
     /// Name of its start.
     pub name: String,
     /// Exponents in the direction requested.
@@ -14,7 +16,7 @@ pub struct Row {
     pub backward: Option<Result<Exponents, FlowError>>,
 }
 
-impl Row {
+impl MotionRow {
     /// Class of the motion, by both directions where both are known.
     pub fn class(&self) -> Option<Character> {
         let forward = self.forward.as_ref().ok()?;
@@ -30,15 +32,15 @@ pub fn rows(
     names: Vec<String>,
     forward: Vec<Result<Exponents, FlowError>>,
     backward: Option<Vec<Result<Exponents, FlowError>>>,
-) -> Vec<Row> {
+) -> Vec<MotionRow> {
     let mut backward = backward.into_iter().flatten();
     let named = names.into_iter().zip(forward);
-    named.map(|(name, forward)| Row { name, forward, backward: backward.next() }).collect()
+    named.map(|(name, forward)| MotionRow { name, forward, backward: backward.next() }).collect()
 }
 
 /// Counts of the motions in each class, and the class furthest from order among them.
-pub fn classes(rows: &[Row]) -> String {
-    let Some(furthest) = rows.iter().filter_map(Row::class).max() else {
+pub fn classes(rows: &[MotionRow]) -> String {
+    let Some(furthest) = rows.iter().filter_map(MotionRow::class).max() else {
         return "no orbit has a class\n".to_string();
     };
     let counts = Character::ALL.iter().filter_map(|character| {
@@ -50,7 +52,7 @@ pub fn classes(rows: &[Row]) -> String {
 }
 
 /// Renders a few lines for each start.
-pub fn text(title: &str, rows: &[Row]) -> String {
+pub fn text(title: &str, rows: &[MotionRow]) -> String {
     let mut out = format!("{title}\n");
     for row in rows {
         out.push_str(&format!("{}: ", row.name));
@@ -89,7 +91,7 @@ fn lines(found: &Exponents) -> String {
 }
 
 /// Renders the motions as JSON.
-pub fn json(title: &str, rows: &[Row]) -> Result<String, serde_json::Error> {
+pub fn json(title: &str, rows: &[MotionRow]) -> Result<String, serde_json::Error> {
     let told = |found: &Result<Exponents, FlowError>| match found {
         Ok(found) => numbers(found),
         Err(problem) => json!({ "problem": problem.to_string() }),

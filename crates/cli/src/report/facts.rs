@@ -2,12 +2,12 @@
 
 use liouville::case::Case;
 use liouville::formula::Type;
-use liouville::mechanics::Origin;
+use liouville::mechanics::ParameterOrigin;
 use liouville::number::rational::Rational;
 use liouville_draw::{Text, math, plain};
 
 /// Largest number of components of a parameter that a caption shows.
-const MOST: usize = 9;
+const MOST_SHOWN: usize = 9;
 
 /// Joins facts with commas.
 pub fn listed(facts: impl IntoIterator<Item = Text>) -> Text {
@@ -29,8 +29,8 @@ pub fn equation(name: &str, value: &str) -> Text {
 /// Parameters of a case that have fixed values, but those of some names.
 pub fn parameters(case: &Case, without: &[&str]) -> Vec<Text> {
     let one = |parameter: &liouville::mechanics::Parameter| match &parameter.origin {
-        Origin::Fixed(values)
-            if values.len() <= MOST && !without.contains(&parameter.name.as_str()) =>
+        ParameterOrigin::Fixed(values)
+            if values.len() <= MOST_SHOWN && !without.contains(&parameter.name.as_str()) =>
         {
             Some(equation(&parameter.name, &value(parameter.kind, values)))
         }

@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
-use liouville_lab::growth::{Growth, Point};
+use liouville_lab::growth::{FamilyGrowth, SizePoint};
 
 /// Renders the families as text: a table each, and the exponents below it.
-pub fn text(families: &[Growth]) -> String {
+pub fn text(families: &[FamilyGrowth]) -> String {
     let mut out = String::new();
     for growth in families {
         // a `String` takes all that is written to it
@@ -68,17 +68,18 @@ fn seconds(value: f64) -> String {
 }
 
 /// Renders the families as JSON.
-pub fn json(families: &[Growth]) -> Result<String, serde_json::Error> {
+pub fn json(families: &[FamilyGrowth]) -> Result<String, serde_json::Error> {
     serde_json::to_string_pretty(families)
 }
 
 /// Renders a header, and a line for each measurement.
-pub fn csv(families: &[Growth]) -> String {
+pub fn csv(families: &[FamilyGrowth]) -> String {
     let mut out =
         String::from("family,size,operations,nodes,read,record,judge,memory,claims,holding\n");
     for growth in families {
         for point in &growth.points {
-            let Point { size, operations, nodes, read, record, judge, claims, holding, .. } = point;
+            let SizePoint { size, operations, nodes, read, record, judge, claims, holding, .. } =
+                point;
             let memory = point.memory.map_or(String::new(), |bytes| bytes.to_string());
             // a `String` takes all that is written to it
             _ = writeln!(

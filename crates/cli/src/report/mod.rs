@@ -19,11 +19,12 @@ pub mod section;
 pub mod stress;
 pub mod surface;
 pub mod survey;
+pub mod sweep;
 pub mod table;
 pub mod terminal;
 
 pub use liouville_report::{
-    Digest, Failure, Heading, Outcome, RunReport, Summary, VERSION, diagnostic, json, names,
-    records, search,
+    CaseDigest, FileFailure, FileOutcome, Heading, RunReport, Summary, VERSION, diagnostic, json,
+    names, records, search,
 };
 use liouville_report::{evidence, typeset};

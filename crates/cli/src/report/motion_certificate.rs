@@ -2,10 +2,10 @@
 
 use liouville::case::{Case, MotionClaim, Setting};
 use liouville::verdict::{ClaimReport, Options};
-use liouville_flow::{Data, Enclosure, ProvedOrbit, observe};
+use liouville_flow::{Enclosure, ProofData, ProvedOrbit, observe};
 use serde_json::{Value, json};
 
-use super::certificate::{Origin, canonical, hex};
+use super::certificate::{CaseOrigin, canonical, hex};
 use super::hexadecimal::{read, written};
 
 /// Name and version of the format.
@@ -17,7 +17,7 @@ const MARGIN: f64 = 1.0625;
 /// Makes the certificate of a claim about a closed orbit that is proved.
 pub fn motion_certificate(
     claim: &MotionClaim,
-    origin: &Origin<'_>,
+    origin: &CaseOrigin<'_>,
     report: &ClaimReport,
     found: &ProvedOrbit,
 ) -> Value {
@@ -90,7 +90,7 @@ pub fn verify(
 ) -> Result<ClaimReport, String> {
     let whole: Value =
         serde_json::from_str(text).map_err(|error| format!("it is not JSON: {error}"))?;
-    let own = Own { value: &whole, path: String::new() };
+    let own = CertificatePart { value: &whole, path: String::new() };
     own.only(&["format", "statement", "proof", "digest"])?;
     if own.text("format")? != FORMAT {
         return Err(format!("its format is not `{FORMAT}`"));
@@ -140,16 +140,16 @@ pub fn verify(
     Ok(report)
 }
 
-fn data(proof: &Own<'_>) -> Result<Data, String> {
+fn data(proof: &CertificatePart<'_>) -> Result<ProofData, String> {
     let keys = ["order", "functions", "values", "nodes", "shares", "period", "radii", "tails"];
     proof.only(&keys)?;
     let nodes = proof.at("nodes")?.all()?;
     let functions = proof.at("functions")?.all()?;
-    Ok(Data {
+    Ok(ProofData {
         order: proof.at("order")?.whole()?,
-        functions: functions.iter().map(Own::whole).collect::<Result<_, _>>()?,
+        functions: functions.iter().map(CertificatePart::whole).collect::<Result<_, _>>()?,
         values: proof.at("values")?.numbers()?,
-        nodes: nodes.iter().map(Own::numbers).collect::<Result<_, _>>()?,
+        nodes: nodes.iter().map(CertificatePart::numbers).collect::<Result<_, _>>()?,
         shares: proof.at("shares")?.numbers()?,
         period: proof.at("period")?.number()?,
         radii: proof.at("radii")?.numbers()?,
@@ -158,12 +158,12 @@ fn data(proof: &Own<'_>) -> Result<Data, String> {
 }
 
 /// Part of a certificate, with its path for complaints.
-struct Own<'v> {
+struct CertificatePart<'v> {
     value: &'v Value,
     path: String,
 }
 
-impl<'v> Own<'v> {
+impl<'v> CertificatePart<'v> {
     fn complaint<T>(&self, what: &str) -> Result<T, String> {
         let path = match self.path.trim_start_matches('.') {
             "" => "the certificate".to_string(),
@@ -172,11 +172,11 @@ impl<'v> Own<'v> {
         Err(format!("{path} {what}"))
     }
 
-    fn at(&self, key: &str) -> Result<Own<'v>, String> {
+    fn at(&self, key: &str) -> Result<CertificatePart<'v>, String> {
         let path = format!("{}.{key}", self.path);
         match self.value.get(key) {
-            Some(value) => Ok(Own { value, path }),
-            None => Own { value: self.value, path }.complaint("is missing"),
+            Some(value) => Ok(CertificatePart { value, path }),
+            None => CertificatePart { value: self.value, path }.complaint("is missing"),
         }
     }
 
@@ -189,9 +189,10 @@ impl<'v> Own<'v> {
         }
     }
 
-    fn all(&self) -> Result<Vec<Own<'v>>, String> {
+    fn all(&self) -> Result<Vec<CertificatePart<'v>>, String> {
         let Some(all) = self.value.as_array() else { return self.complaint("is not a list") };
-        let one = |(index, value)| Own { value, path: format!("{}[{index}]", self.path) };
+        let one =
+            |(index, value)| CertificatePart { value, path: format!("{}[{index}]", self.path) };
         Ok(all.iter().enumerate().map(one).collect())
     }
 
@@ -221,7 +222,7 @@ impl<'v> Own<'v> {
     }
 
     fn numbers(&self) -> Result<Vec<f64>, String> {
-        self.all()?.iter().map(Own::number).collect()
+        self.all()?.iter().map(CertificatePart::number).collect()
     }
 
     /// Checks that an enclosure lies in the one stated here.

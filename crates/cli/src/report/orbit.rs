@@ -4,29 +4,31 @@ use serde_json::{Map, Value, json};
 
 use liouville::case::Case;
 use liouville::mechanics::Variable;
-use liouville::number::pair::Pair;
-use liouville::number::precise::Approximation;
-use liouville_draw::{Axis, CATEGORIES, Entry, Layer, Mark, Paint, Plot, Sign, Text, math, plain};
-use liouville_flow::{Contact, FlowError, Orbit, Precision, Role};
+use liouville::number::arb::Approximation;
+use liouville::number::double_double::DoubleDouble;
+use liouville_draw::{
+    Axis, CATEGORIES, Layer, LegendEntry, MarkShape, MarkedPoint, Paint, Plot, Text, math, plain,
+};
+use liouville_flow::{Contact, FlowError, Orbit, Precision, QuantityRole};
 
 /// Number of digits printed of a double-double.
 const PAIR_DIGITS: usize = 31;
 
 /// Formats a number with all digits of its precision.
-pub(super) fn written(value: Pair, precision: Precision) -> String {
-    let long = || Approximation::from_twofold(value.hi, value.lo, 0.0)?.decimal(PAIR_DIGITS);
+pub(super) fn written(value: DoubleDouble, precision: Precision) -> String {
+    let long = || Approximation::from_double_double(value.hi, value.lo, 0.0)?.decimal(PAIR_DIGITS);
     match precision {
         Precision::Float => format!("{:?}", value.hi),
         Precision::Pair => long().unwrap_or_else(|| format!("{:?}", value.hi)),
     }
 }
 
-fn role(role: Role) -> &'static str {
+fn role(role: QuantityRole) -> &'static str {
     match role {
-        Role::Level => "level",
-        Role::Energy => "energy",
-        Role::Integral => "integral",
-        Role::Decoy => "decoy",
+        QuantityRole::Level => "level",
+        QuantityRole::Energy => "energy",
+        QuantityRole::Integral => "integral",
+        QuantityRole::Decoy => "decoy",
     }
 }
 
@@ -48,7 +50,7 @@ fn precision_name(precision: Precision) -> &'static str {
 /// Components of a state with the names of its variables.
 fn named<'s>(
     variables: &'s [Variable],
-    state: &'s [Pair],
+    state: &'s [DoubleDouble],
     precision: Precision,
 ) -> impl Iterator<Item = (&'s str, Vec<String>)> {
     let mut rest = state;
@@ -105,7 +107,7 @@ pub fn text(case: &Case, orbit: &Orbit, precision: Precision) -> String {
 
 /// Renders the motion as JSON; states are decimal strings.
 pub fn json(case: &Case, orbit: &Orbit, precision: Precision) -> Result<String, serde_json::Error> {
-    let state = |state: &[Pair]| {
+    let state = |state: &[DoubleDouble]| {
         let entries = named(&case.model.state, state, precision);
         Value::Object(entries.map(|(name, values)| (name.to_string(), json!(values))).collect())
     };
@@ -159,7 +161,8 @@ pub fn text_of_several<'o>(
         let words = match orbit {
             Err(problem) => format!("ended early: {problem}"),
             Ok(orbit) => {
-                let kept = orbit.followed.iter().filter(|followed| followed.role != Role::Decoy);
+                let kept =
+                    orbit.followed.iter().filter(|followed| followed.role != QuantityRole::Decoy);
                 let drifts = kept.map(|followed| followed.drift);
                 let worst = drifts.reduce(|a, b| if b > a || b.is_nan() { b } else { a });
                 let drift = worst.map_or(String::new(), |worst| {
@@ -194,12 +197,12 @@ pub fn json_of_several<'o>(
 
 /// Draws the columns of motions after the first over the first: one line each where the first is
 /// the time, and otherwise the second alone. `None` without two columns.
-pub fn plot(columns: &[String], names: &[String], orbits: &[&[Vec<Pair>]]) -> Option<Plot> {
+pub fn plot(columns: &[String], names: &[String], orbits: &[&[Vec<DoubleDouble>]]) -> Option<Plot> {
     let [first, others @ ..] = columns else { return None };
     let others = if first == "t" { others } else { &others[..others.len().min(1)] };
     let count = others.len();
     let last = others.last()?;
-    let value = |row: &Vec<Pair>, place: usize| row.get(place).map_or(f64::NAN, |x| x.hi);
+    let value = |row: &Vec<DoubleDouble>, place: usize| row.get(place).map_or(f64::NAN, |x| x.hi);
     let all = || orbits.iter().flat_map(|rows| rows.iter());
     let name = if count == 1 { math(last) } else { Text::default() };
     let heights = all().flat_map(|row| (1..=count).map(move |place| value(row, place)));
@@ -217,7 +220,7 @@ pub fn plot(columns: &[String], names: &[String], orbits: &[&[Vec<Pair>]]) -> Op
             }
             if !text.is_empty() && plot.layers.len() <= CATEGORIES.len() {
                 let paint = CATEGORIES[plot.layers.len() - 1];
-                plot.legend.push(Entry { mark: Mark::Line, paint, text });
+                plot.legend.push(LegendEntry { mark: MarkShape::Line, paint, text });
             }
         }
     }
@@ -232,15 +235,19 @@ pub fn track_plot(tracks: &[Vec<[f64; 2]>]) -> Plot {
     for (index, track) in tracks.iter().enumerate() {
         let paint = CATEGORIES[index % CATEGORIES.len()];
         plot.layers.push(Layer::Line(track.clone(), paint));
-        let sign = |at: &[f64; 2]| Sign {
+        let sign = |at: &[f64; 2]| MarkedPoint {
             at: *at,
-            mark: Mark::Ring,
+            mark: MarkShape::Ring,
             paint: Paint::Ink,
             label: None,
             has_rim: false,
         };
         plot.marks.extend(track.first().map(sign));
     }
-    plot.legend.push(Entry { mark: Mark::Ring, paint: Paint::Ink, text: plain("start") });
+    plot.legend.push(LegendEntry {
+        mark: MarkShape::Ring,
+        paint: Paint::Ink,
+        text: plain("start"),
+    });
     plot
 }

@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 use liouville::verdict::{Digits, Enclosed, PointReport};
 
 /// A number of a report in decimal notation.
-pub trait Written {
+pub trait Decimal {
     /// Decimal form of the number, if it is defined.
     fn number(&self) -> Option<String>;
 
@@ -13,7 +13,7 @@ pub trait Written {
     fn error(&self) -> Option<f64>;
 }
 
-impl Written for Enclosed {
+impl Decimal for Enclosed {
     fn number(&self) -> Option<String> {
         self.map(|(mid, _)| decimal(mid))
     }
@@ -23,7 +23,7 @@ impl Written for Enclosed {
     }
 }
 
-impl Written for Digits {
+impl Decimal for Digits {
     fn number(&self) -> Option<String> {
         self.clone()
     }
@@ -34,7 +34,7 @@ impl Written for Digits {
 }
 
 /// Renders the report as JSON; numbers are decimal strings, null where undefined.
-pub fn json<N: Written>(report: &PointReport<N>) -> Result<String, serde_json::Error> {
+pub fn json<N: Decimal>(report: &PointReport<N>) -> Result<String, serde_json::Error> {
     let list = |values: &[N]| Value::from(values.iter().map(number).collect::<Vec<_>>());
     let named = |entries: &[(String, Vec<String>)]| {
         let pair = |(name, values): &(String, Vec<String>)| (name.clone(), json!(values));
@@ -47,7 +47,7 @@ pub fn json<N: Written>(report: &PointReport<N>) -> Result<String, serde_json::E
         .iter()
         .map(|(name, value, residual)| {
             let mut entry = json!({ "value": numbers(value), "residual": numbers(residual) });
-            if let Some(error) = residual.iter().filter_map(Written::error).reduce(f64::max) {
+            if let Some(error) = residual.iter().filter_map(Decimal::error).reduce(f64::max) {
                 entry["residual_error"] = decimal(error).into();
             }
             (name.clone(), entry)
@@ -85,7 +85,7 @@ pub fn json<N: Written>(report: &PointReport<N>) -> Result<String, serde_json::E
 }
 
 /// Renders the report as text: each number with the bound on its error.
-pub fn text<N: Written>(report: &PointReport<N>) -> String {
+pub fn text<N: Decimal>(report: &PointReport<N>) -> String {
     let mut out = String::new();
     let mut line = |name: &str, value: String| out.push_str(&format!("{name:<18} {value}\n"));
     for (name, values) in report.parameters.iter().chain(&report.state) {
@@ -138,7 +138,7 @@ pub fn text<N: Written>(report: &PointReport<N>) -> String {
 }
 
 /// JSON of a number, a list of components, or null.
-fn numbers<N: Written>(values: &[N]) -> Value {
+fn numbers<N: Decimal>(values: &[N]) -> Value {
     match values {
         [] => Value::Null,
         [value] => number(value),
@@ -146,7 +146,7 @@ fn numbers<N: Written>(values: &[N]) -> Value {
     }
 }
 
-fn number(value: &impl Written) -> Value {
+fn number(value: &impl Decimal) -> Value {
     value.number().map_or(Value::Null, Value::String)
 }
 
@@ -155,7 +155,7 @@ fn decimal(value: f64) -> String {
     format!("{value:?}")
 }
 
-fn shown(value: &impl Written) -> String {
+fn shown(value: &impl Decimal) -> String {
     match (value.number(), value.error()) {
         (Some(number), Some(error)) => format!("{number} ± {error:.1e}"),
         (Some(number), None) => number,

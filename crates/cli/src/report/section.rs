@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use liouville::case::{Case, Direction};
 use liouville_flow::{AreaForm, Character, SectionOrbit, SectionRequest};
 
-use super::exponents::{Row, classes};
+use super::exponents::{MotionRow, classes};
 
 /// A section with its request.
 pub struct SectionReport<'r> {
@@ -20,7 +20,7 @@ pub struct SectionReport<'r> {
     /// Tests of the area forms of claimed densities.
     pub areas: &'r [AreaForm],
     /// Orbits with their exponents, if these were requested.
-    pub classes: Option<&'r [Row]>,
+    pub classes: Option<&'r [MotionRow]>,
 }
 
 impl SectionReport<'_> {

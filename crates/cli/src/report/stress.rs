@@ -15,7 +15,7 @@ pub struct SweepReport {
     /// Name of the scenario.
     pub name: &'static str,
     /// Results for each exponent of x.
-    pub points: Vec<Point>,
+    pub points: Vec<StressPoint>,
     /// Tally of all its verdicts.
     pub verdicts: Tally,
     /// Reasons why claims could not be judged, each once.
@@ -24,7 +24,7 @@ pub struct SweepReport {
 
 /// Results at one power of ten.
 #[derive(Clone, Copy, Debug, Serialize)]
-pub struct Point {
+pub struct StressPoint {
     /// Exponent of x = 10^exponent.
     pub exponent: i32,
     /// Digits lost in f64.

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::section::drawing::shade;
 use liouville::case::{Case, Direction};
-use liouville_draw::{Axis, Density, Layer, Plot, gradient, math};
+use liouville_draw::{Axis, CountGrid, Layer, Plot, gradient, math};
 use liouville_flow::{SurfaceOrbit, SurfaceRequest};
 
 /// Crossings of a surface with their request.
@@ -100,7 +100,7 @@ pub fn plot(axes: &[String], orbits: &[SurfaceOrbit], cells: Option<[usize; 2]>)
     let mut plot = Plot::new(scale(0), scale(1));
     if let Some(cells) = cells {
         let points = orbits.iter().flat_map(dots);
-        let density = Density::of(points, &plot.across, &plot.up, cells);
+        let density = CountGrid::of(points, &plot.across, &plot.up, cells);
         plot.bar = Some(density.bar());
         plot.layers.push(Layer::Density(density));
         return plot;

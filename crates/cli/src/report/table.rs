@@ -22,7 +22,7 @@ pub struct Regenerated {
     #[serde(skip_serializing_if = "Option::is_none")]
     caption: Option<String>,
     columns: Vec<u32>,
-    rows: Vec<Row>,
+    rows: Vec<TableRow>,
     /// Claims that define the letters of the table.
     definitions: Vec<CellClaim>,
     notes: Vec<String>,
@@ -31,7 +31,7 @@ pub struct Regenerated {
 }
 
 #[derive(Debug, Serialize)]
-struct Row {
+struct TableRow {
     row: &'static str,
     cells: Vec<Filled>,
 }
@@ -81,7 +81,7 @@ struct CellClaim {
 }
 
 /// Statement of a claim in its cell.
-enum Stated<'c> {
+enum StatedCell<'c> {
     /// A formula: as boxes, and as typed.
     Formula(&'c Layout, &'c str),
     /// Words.
@@ -128,7 +128,7 @@ pub fn regenerate(run: &RunReport, number: u32) -> Regenerated {
         cell.status = status(&cell.claims);
         cell.exists = cell.claims.iter().any(|claim| claim.is_existence(row));
     }
-    let row = |row: &'static str| Row {
+    let row = |row: &'static str| TableRow {
         row,
         cells: table
             .columns
@@ -137,7 +137,7 @@ pub fn regenerate(run: &RunReport, number: u32) -> Regenerated {
             .collect(),
     };
     // A row that is empty in all columns belongs to another table.
-    let said = |row: &Row| row.cells.iter().any(|cell| !cell.is_empty());
+    let said = |row: &TableRow| row.cells.iter().any(|cell| !cell.is_empty());
     table.rows = TABLE_ROWS.into_iter().map(row).filter(said).collect();
     table
 }
@@ -190,7 +190,7 @@ impl Regenerated {
     }
 }
 
-impl Row {
+impl TableRow {
     /// Name of the row in the papers.
     fn label(&self) -> &'static str {
         match self.row {
@@ -282,11 +282,11 @@ impl CellClaim {
     }
 
     /// Statement of the claim: its formula if it has one, what is absent, or its name.
-    fn stated(&self) -> Stated<'_> {
+    fn stated(&self) -> StatedCell<'_> {
         match (self.absent(), &self.layout, &self.formula) {
-            (Some(words), ..) => Stated::Words(words),
-            (None, Some(layout), Some(typed)) => Stated::Formula(layout, typed),
-            _ => Stated::Words(&self.name),
+            (Some(words), ..) => StatedCell::Words(words),
+            (None, Some(layout), Some(typed)) => StatedCell::Formula(layout, typed),
+            _ => StatedCell::Words(&self.name),
         }
     }
 
@@ -362,10 +362,11 @@ mod tests {
     #[test]
     fn neighbours_with_the_same_words_are_one_cell() {
         let words = |text: &str| Filled { words: vec![text.to_string()], ..Filled::default() };
-        let row = Row { row: "surface", cells: vec![words("ball"), words("ball"), words("disk")] };
+        let row =
+            TableRow { row: "surface", cells: vec![words("ball"), words("ball"), words("disk")] };
         let widths: Vec<usize> = row.merged().iter().map(|(_, count)| *count).collect();
         assert_eq!(widths, [2, 1]);
-        let empty = Row { row: "surface", cells: vec![Filled::default(), Filled::default()] };
+        let empty = TableRow { row: "surface", cells: vec![Filled::default(), Filled::default()] };
         assert_eq!(empty.merged().len(), 2, "cells without words stay apart");
     }
 }

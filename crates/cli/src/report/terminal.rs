@@ -3,10 +3,10 @@
 use comfy_table::{Cell, Color, ContentArrangement, Table, presets};
 
 use super::evidence::{details, equations, measured};
-use super::{Outcome, RunReport, diagnostic};
+use super::{FileOutcome, RunReport, diagnostic};
 use liouville::case::Expect;
 use liouville::verdict::{
-    CaseReport, ClaimReport, Independence, Measurement, Method, Sign, Verdict,
+    CaseReport, ClaimReport, DensitySign, Independence, Measurement, Method, Verdict,
 };
 
 /// Decimal places of measured numbers in the table.
@@ -55,7 +55,7 @@ pub fn render(run: &RunReport, style: Style) -> String {
     out
 }
 
-fn case(outcome: &Outcome, style: Style) -> String {
+fn case(outcome: &FileOutcome, style: Style) -> String {
     let heading = &outcome.heading;
     let report = match &outcome.result {
         Err(failures) => return format!("{}\n", diagnostic::rendered(failures)),
@@ -122,7 +122,7 @@ fn theorems(report: &CaseReport) -> String {
 
 /// Renders a case as one line with the counts of its verdicts, followed by the claims that deserve
 /// attention.
-fn line(outcome: &Outcome, style: Style) -> String {
+fn line(outcome: &FileOutcome, style: Style) -> String {
     let Ok(report) = &outcome.result else { return String::new() };
     let is_settled = |claim: &&ClaimReport| {
         claim.agrees && matches!(claim.verdict, Verdict::Proved | Verdict::Refuted)
@@ -224,10 +224,10 @@ fn remark(claim: &ClaimReport) -> String {
                 _ => {}
             }
             match evidence.sign {
-                Some(Sign::Changes) => {
+                Some(DensitySign::Changes) => {
                     words.push("changes sign, no positive measure: zeros or poles".to_string())
                 }
-                Some(Sign::Negative) => words.push("negative: take −ρ".to_string()),
+                Some(DensitySign::Negative) => words.push("negative: take −ρ".to_string()),
                 _ => {}
             }
             words.extend(evidence.remark.clone());

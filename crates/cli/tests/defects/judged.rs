@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use libtest_mimic::{Failed, Trial};
 use liouville::case::Case;
-use liouville::verdict::{ClaimReport, Independence, Options, Sign, judge};
+use liouville::verdict::{ClaimReport, DensitySign, Independence, Options, judge};
 
 use crate::file::{Claim, Group, Mutation};
 use crate::right::Answer;
@@ -74,7 +74,9 @@ fn also(claim: &Claim, answer: &Answer) -> Result<(), String> {
             }
             _ => Ok(()),
         },
-        Some("changes its sign") if matches!(sign, Some(Sign::Positive | Sign::Negative)) => {
+        Some("changes its sign")
+            if matches!(sign, Some(DensitySign::Positive | DensitySign::Negative)) =>
+        {
             Err(format!("it changes its sign, and is told to be {sign:?}"))
         }
         Some("changes its sign") => Ok(()),
@@ -82,13 +84,13 @@ fn also(claim: &Claim, answer: &Answer) -> Result<(), String> {
         Some("is not new") => Err("it is constant, and told to be new".to_string()),
         Some("has no sign of all states") => match answer {
             Answer::Verdict(report)
-                if !report.evidence.sign_is_partial && sign != Some(Sign::Changes) =>
+                if !report.evidence.sign_is_partial && sign != Some(DensitySign::Changes) =>
             {
                 Err(format!("it is told to be {sign:?} at all states"))
             }
             _ => Ok(()),
         },
-        Some("keeps its sign") if sign != Some(Sign::Changes) => Ok(()),
+        Some("keeps its sign") if sign != Some(DensitySign::Changes) => Ok(()),
         Some("keeps its sign") => Err("it does not change its sign".to_string()),
         Some(other) => Err(format!("`{other}` is nothing to be tested")),
     }

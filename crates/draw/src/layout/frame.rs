@@ -7,26 +7,26 @@ use crate::axis::Axis;
 use crate::figure::{Figure, words};
 use crate::labels::Labels;
 use crate::palette::Paint;
-use crate::plot::{Bar, Layer, Plot, Sign};
-use crate::scene::{Anchor, Item, Outline, Point};
+use crate::plot::{Bar, Layer, MarkedPoint, Plot};
+use crate::scene::{Anchor, Outline, Point, SceneItem};
 use crate::text::{Text, plain};
 
 /// Widths of lines in millimetres.
 const HAIR: f64 = 0.15;
 const STROKE: f64 = 0.28;
 
-fn lines(lines: Vec<Vec<Point>>, width: f64, paint: Paint) -> Item {
-    Item::Lines { lines, width, paint, opacity: 1.0 }
+fn lines(lines: Vec<Vec<Point>>, width: f64, paint: Paint) -> SceneItem {
+    SceneItem::Lines { lines, width, paint, opacity: 1.0 }
 }
 
-fn turned(at: Point, text: &Text, size: f64) -> Item {
+fn turned(at: Point, text: &Text, size: f64) -> SceneItem {
     let (text, anchor) = (text.clone(), Anchor::Middle);
-    Item::Words { at, text, size, anchor, turned: true, paint: Paint::Ink }
+    SceneItem::Words { at, text, size, anchor, turned: true, paint: Paint::Ink }
 }
 
 impl Layout {
     /// Draws a plot with its axes and its letter.
-    pub fn draw(&self, out: &mut Vec<Item>, figure: &Figure, plot: &Plot, place: usize) {
+    pub fn draw(&self, out: &mut Vec<SceneItem>, figure: &Figure, plot: &Plot, place: usize) {
         let Some(frame) = self.frames.get(place).copied() else { return };
         let [left, top, wide, high] = frame;
         let at = |[x, y]: [f64; 2]| {
@@ -68,10 +68,10 @@ impl Layout {
         }
     }
 
-    fn outline(&self, out: &mut Vec<Item>, [left, top, wide, high]: [f64; 4]) {
+    fn outline(&self, out: &mut Vec<SceneItem>, [left, top, wide, high]: [f64; 4]) {
         let corners =
             vec![[left, top], [left + wide, top], [left + wide, top + high], [left, top + high]];
-        out.push(Item::Shape {
+        out.push(SceneItem::Shape {
             outline: Outline::Polygon(corners),
             fill: None,
             stroke: Some((Paint::Soft, HAIR)),
@@ -79,11 +79,11 @@ impl Layout {
         });
     }
 
-    fn letter(&self, out: &mut Vec<Item>, letter: &Text, [left, top, ..]: [f64; 4]) {
+    fn letter(&self, out: &mut Vec<SceneItem>, letter: &Text, [left, top, ..]: [f64; 4]) {
         let size = self.type_size;
         let (width, rim) = (letter.width(size), 0.3 * size);
         let (right, bottom) = (left + width + 2.0 * rim, top + 1.45 * size);
-        out.push(Item::Shape {
+        out.push(SceneItem::Shape {
             outline: Outline::Polygon(vec![
                 [left, top],
                 [right, top],
@@ -97,7 +97,7 @@ impl Layout {
         out.push(words([left + rim, top + 1.05 * size], letter, size, Anchor::Start));
     }
 
-    fn grid(&self, out: &mut Vec<Item>, plot: &Plot, [left, top, wide, high]: [f64; 4]) {
+    fn grid(&self, out: &mut Vec<SceneItem>, plot: &Plot, [left, top, wide, high]: [f64; 4]) {
         let across =
             plot.across.ticks.iter().map(|(value, _)| left + plot.across.share(*value) * wide);
         let up = plot.up.ticks.iter().map(|(value, _)| top + (1.0 - plot.up.share(*value)) * high);
@@ -109,7 +109,7 @@ impl Layout {
 
     fn layer(
         &self,
-        out: &mut Vec<Item>,
+        out: &mut Vec<SceneItem>,
         figure: &Figure,
         layer: &Layer,
         [left, top, wide, high]: [f64; 4],
@@ -124,18 +124,18 @@ impl Layout {
         match layer {
             Layer::Dots(points, paint) => {
                 let at = points.iter().map(|point| at(*point)).filter(is_inside).collect();
-                out.push(Item::Dots { at, diameter, paint: *paint, opacity });
+                out.push(SceneItem::Dots { at, diameter, paint: *paint, opacity });
             }
             Layer::Line(points, paint) => {
                 let placed: Vec<Point> = points.iter().map(|point| at(*point)).collect();
                 let pieces = placed.split(|point| !is_inside(point));
                 let lines = pieces.filter(|piece| piece.len() > 1).map(<[Point]>::to_vec).collect();
-                out.push(Item::Lines { lines, width: STROKE, paint: *paint, opacity });
+                out.push(SceneItem::Lines { lines, width: STROKE, paint: *paint, opacity });
             }
             Layer::Cells(columns, paints) => {
                 cells(out, *columns, paints, [left, top, wide, high]);
             }
-            Layer::Density(density) => out.push(Item::Image {
+            Layer::Density(density) => out.push(SceneItem::Image {
                 place: [left, top, wide, high],
                 columns: density.columns(),
                 pixels: density.paints(),
@@ -145,7 +145,7 @@ impl Layout {
 
     fn signs(
         &self,
-        out: &mut Vec<Item>,
+        out: &mut Vec<SceneItem>,
         plot: &Plot,
         [left, top, wide, high]: [f64; 4],
         at: &impl Fn([f64; 2]) -> Point,
@@ -162,7 +162,7 @@ impl Layout {
         let mut labels =
             Labels::new([left, top, left + wide, top + high], &points, 0.86 * self.type_size);
         // From the right: points there have the fewest places for a label.
-        let mut order: Vec<(&Sign, &Point)> = both().collect();
+        let mut order: Vec<(&MarkedPoint, &Point)> = both().collect();
         order.sort_by(|a, b| b.1[0].total_cmp(&a.1[0]));
         for (sign, at) in order {
             if let Some(label) = &sign.label {
@@ -173,7 +173,7 @@ impl Layout {
 
     fn across_axis(
         &self,
-        out: &mut Vec<Item>,
+        out: &mut Vec<SceneItem>,
         axis: &Axis,
         [left, top, wide, high]: [f64; 4],
         named: bool,
@@ -210,7 +210,7 @@ impl Layout {
 
     fn up_axis(
         &self,
-        out: &mut Vec<Item>,
+        out: &mut Vec<SceneItem>,
         axis: &Axis,
         [left, top, _, high]: [f64; 4],
         named: bool,
@@ -249,7 +249,7 @@ impl Layout {
     }
 
     /// Draws a colour bar to the right of a frame.
-    pub fn draw_bar(&self, out: &mut Vec<Item>, bar: &Bar, [left, top, wide, high]: [f64; 4]) {
+    pub fn draw_bar(&self, out: &mut Vec<SceneItem>, bar: &Bar, [left, top, wide, high]: [f64; 4]) {
         let size = self.type_size;
         // As tall as a single plot would be, in the middle.
         let height = high.min(32.0 * size);
@@ -302,7 +302,7 @@ fn is_shown(axis: &Axis, value: f64, every: usize) -> bool {
 
 /// Draws cells, each run of one colour as one rectangle.
 fn cells(
-    out: &mut Vec<Item>,
+    out: &mut Vec<SceneItem>,
     columns: usize,
     paints: &[Option<Paint>],
     [left, top, wide, high]: [f64; 4],
@@ -327,5 +327,5 @@ fn cells(
             column += run;
         }
     }
-    out.extend(found.into_iter().map(|(paint, boxes)| Item::Boxes { boxes, paint }));
+    out.extend(found.into_iter().map(|(paint, boxes)| SceneItem::Boxes { boxes, paint }));
 }

@@ -8,8 +8,8 @@
 use memmap2::Mmap;
 
 use super::super::lanes::Lanes;
-use super::super::number::Number;
-use super::encode::Assembler;
+use super::super::number::SeriesNumber;
+use super::encode::TaylorEncoder;
 use liouville::engine::executable;
 
 /// Signature of the code: rows, copies, constants, sums.
@@ -21,7 +21,7 @@ type Entry = unsafe extern "sysv64" fn(*mut f64, *mut f64, *mut f64, *mut f64);
 type Entry = unsafe extern "C" fn(*mut f64, *mut f64, *mut f64, *mut f64);
 
 /// Numbers of which machine code sees the f64.
-pub(super) trait Packed: Number {
+pub(super) trait Packed: SeriesNumber {
     /// The f64 of a list of numbers.
     fn floats(list: &mut [Self]) -> &mut [f64];
 }
@@ -43,13 +43,13 @@ impl Packed for Lanes<8> {
 }
 
 /// A callable function in executable memory.
-pub(super) struct Executable {
+pub(super) struct TaylorFunction {
     memory: Mmap,
     touched: [(i32, i32); 4],
 }
 
 /// Memory passed to a function.
-pub(super) struct Given<'m> {
+pub(super) struct CallMemory<'m> {
     /// Rows and copies; the next two fields are the offsets of their bases in it.
     pub(super) memory: &'m mut [f64],
     pub(super) rows: usize,
@@ -64,10 +64,10 @@ fn within((least, most): (i32, i32), base: usize, length: usize) -> bool {
     base <= length && base + i64::from(least) >= 0 && base + i64::from(most) <= length
 }
 
-impl Executable {
+impl TaylorFunction {
     /// Maps the code. `None` where the system refuses the memory. The processor must have the
     /// instructions.
-    pub(super) fn new(assembler: &Assembler) -> Option<Self> {
+    pub(super) fn new(assembler: &TaylorEncoder) -> Option<Self> {
         if cfg!(not(target_arch = "x86_64")) {
             return None;
         }
@@ -75,8 +75,8 @@ impl Executable {
     }
 
     /// Calls the function. Panics if it would access memory outside the given buffers.
-    pub(super) fn call(&self, given: Given<'_>) {
-        let Given { memory, rows, copies, constants, sums } = given;
+    pub(super) fn call(&self, given: CallMemory<'_>) {
+        let CallMemory { memory, rows, copies, constants, sums } = given;
         let [of_rows, of_copies, of_constants, of_sums] = self.touched;
         let enough = within(of_rows, rows, memory.len())
             && within(of_copies, copies, memory.len())

@@ -4,7 +4,7 @@
 //! those of a product, and calls a subroutine that is the same for all. All jumps are calls, returns,
 //! and one jump over the subroutines, so that nothing is left to predict.
 
-use super::encode::{Assembler, Base};
+use super::encode::{BaseRegister, TaylorEncoder};
 
 /// Beginning of a subroutine.
 #[derive(Clone, Copy)]
@@ -16,7 +16,7 @@ pub(super) struct Jump(usize);
 /// Bytes of a jump or a call.
 const JUMP: usize = 5;
 
-impl Assembler {
+impl TaylorEncoder {
     /// Jumps to what follows the subroutines.
     pub(super) fn jump(&mut self) -> Jump {
         let jump = Jump(self.bytes.len());
@@ -66,7 +66,7 @@ impl Assembler {
     }
 
     /// Records that a base is moved by up to this many f64 in the course of the function.
-    pub(super) fn moves(&mut self, base: Base, most: i32) {
+    pub(super) fn moves(&mut self, base: BaseRegister, most: i32) {
         self.touched[base as usize].1 += most;
     }
 }
@@ -80,7 +80,7 @@ mod tests {
 
     #[test]
     fn a_disassembler_reads_calls_and_addresses() {
-        let mut to = Assembler::default();
+        let mut to = TaylorEncoder::default();
         let jump = to.jump();
         let label = to.label();
         to.give_back();

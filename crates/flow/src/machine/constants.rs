@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::super::code::{Code, part};
+use super::super::code::{BoundProgram, part};
 use super::call::Packed;
-use super::encode::{At, Base};
+use super::encode::{At, BaseRegister};
 
 /// List of constants: 1/n, 1/(n + 1) and small numbers; a scale for each operation and a slope for
 /// each term; all other constants of the program, once each.
@@ -29,7 +29,7 @@ impl<T: Packed> Constants<T> {
     pub(super) const TWO: At = at(3, T::LANES);
     pub(super) const MINUS_ONE: At = at(4, T::LANES);
 
-    pub(super) fn new(code: &Code<T>) -> Self {
+    pub(super) fn new(code: &BoundProgram<T>) -> Self {
         let mut list: Vec<T> = [0.0, 0.0, 1.0, 2.0, -1.0].map(T::float).to_vec();
         list.extend(code.finishes.iter().map(|finish| finish.scale));
         let slopes = list.len();
@@ -56,7 +56,7 @@ impl<T: Packed> Constants<T> {
     }
 
     /// Copies the scales and slopes of an expansion.
-    pub(super) fn take(&mut self, code: &Code<T>) {
+    pub(super) fn take(&mut self, code: &BoundProgram<T>) {
         let (scales, slopes) = self.list[SCALES..].split_at_mut(self.slopes - SCALES);
         scales.iter_mut().zip(&code.finishes).for_each(|(own, finish)| *own = finish.scale);
         slopes.iter_mut().zip(&code.terms).for_each(|(own, term)| *own = term.slope);
@@ -68,7 +68,7 @@ impl<T: Packed> Constants<T> {
     }
 
     /// Sets the slopes of the terms n x_n.
-    pub(super) fn thetas(&mut self, code: &Code<T>, n: usize) {
+    pub(super) fn thetas(&mut self, code: &BoundProgram<T>, n: usize) {
         for theta in &code.thetas {
             self.list[self.slopes + *theta as usize] = T::float(n as f64);
         }
@@ -111,5 +111,5 @@ impl<T: Packed> Constants<T> {
 
 /// Address of a constant that takes this many f64.
 const fn at(index: usize, lanes: usize) -> At {
-    At(Base::Constants, (index * lanes) as i32)
+    At(BaseRegister::Constants, (index * lanes) as i32)
 }

@@ -1,18 +1,18 @@
 //! Instructions for bound operations.
 
-use super::super::code::{Code, Order, Place, Product, first};
+use super::super::code::{BoundProgram, OrderEffect, Place, Product, first};
 use super::super::number::BLOCK;
 use super::call::Packed;
 use super::constants::Constants;
-use super::encode::{Assembler, At, Base, Pairs, Register, Width};
+use super::encode::{At, BaseRegister, PairSelection, Register, TaylorEncoder, Width};
 
 /// Registers that keep the last rows in turn; 0 and 1 are for temporary values.
 const KEPT: std::ops::Range<usize> = 2..16;
 
 /// Emits the inner sums along `vectors` vectors. The rows are addressed at order 0, the copies at
 /// the last order that exists.
-pub(super) fn inner_sums(code: &Code<f64>, width: Width, vectors: usize) -> Assembler {
-    let mut to = Assembler::default();
+pub(super) fn inner_sums(code: &BoundProgram<f64>, width: Width, vectors: usize) -> TaylorEncoder {
+    let mut to = TaylorEncoder::default();
     let mut products = code.products.as_slice();
     for (block, counts) in code.counts.chunks(BLOCK).enumerate() {
         for (lane, count) in counts.iter().enumerate() {
@@ -29,7 +29,7 @@ pub(super) fn inner_sums(code: &Code<f64>, width: Width, vectors: usize) -> Asse
 /// Adds the products of one operation in the lanes of a register: eight sums, or four where it has
 /// four lanes.
 fn inner_sum(
-    to: &mut Assembler,
+    to: &mut TaylorEncoder,
     width: Width,
     products: &[Product],
     vectors: usize,
@@ -45,8 +45,8 @@ fn inner_sum(
         for product in products {
             for vector in 0..vectors {
                 let along = (vector * BLOCK) as i32 + within;
-                to.load(width, X, At(Base::Rows, product.x as i32 + 1 + along));
-                to.fused(width, sum, X, At(Base::Copies, product.cy as i32 + along));
+                to.load(width, X, At(BaseRegister::Rows, product.x as i32 + 1 + along));
+                to.fused(width, sum, X, At(BaseRegister::Copies, product.cy as i32 + along));
             }
         }
     }
@@ -58,10 +58,10 @@ fn inner_sum(
 /// Adds the lanes of registers 0 to 7 in the interpreter's order,
 /// ((s₀ + s₄) + (s₂ + s₆)) + ((s₁ + s₅) + (s₃ + s₇)); with four lanes, s₀ + s₄ and so on are there
 /// already.
-fn totals(to: &mut Assembler, width: Width, at: i32) {
+fn totals(to: &mut TaylorEncoder, width: Width, at: i32) {
     const X: Register = 8;
     const Y: Register = 9;
-    let mut folded = |first: Pairs, second: Pairs, [out, a, b]: [Register; 3]| {
+    let mut folded = |first: PairSelection, second: PairSelection, [out, a, b]: [Register; 3]| {
         to.pairs(width, first, [X, a, b]);
         to.pairs(width, second, [Y, a, b]);
         to.add(width, out, X, Y);
@@ -70,16 +70,16 @@ fn totals(to: &mut Assembler, width: Width, at: i32) {
     match width {
         Width::Eight => {
             for [a, b] in [[0, 2], [4, 6], [1, 3], [5, 7]] {
-                folded(Pairs::Lower, Pairs::Upper, [a, a, b]);
+                folded(PairSelection::Lower, PairSelection::Upper, [a, a, b]);
             }
             for [a, b] in [[0, 4], [1, 5]] {
-                folded(Pairs::Even, Pairs::Odd, [a, a, b]);
+                folded(PairSelection::Even, PairSelection::Odd, [a, a, b]);
             }
             mixed.push([0, 1]);
         }
         _ => {
             for [a, b] in [[0, 2], [1, 3], [4, 6], [5, 7]] {
-                folded(Pairs::Even, Pairs::Odd, [a, a, b]);
+                folded(PairSelection::Even, PairSelection::Odd, [a, a, b]);
             }
             mixed.extend([[0, 1], [4, 5]]);
         }
@@ -88,19 +88,19 @@ fn totals(to: &mut Assembler, width: Width, at: i32) {
         to.mix(width, false, [X, a, b]);
         to.mix(width, true, [Y, a, b]);
         to.add(width, X, X, Y);
-        to.store(width, X, At(Base::Sums, at + (index * width.numbers()) as i32));
+        to.store(width, X, At(BaseRegister::Sums, at + (index * width.numbers()) as i32));
     }
 }
 
 /// Emits order n of all rows from the inner sums, and order n + 1 of the state. Rows and copies are
 /// addressed at order n, the inner sums of operations at a distance of `slot` numbers.
 pub(super) fn finish<T: Packed>(
-    code: &Code<T>,
+    code: &BoundProgram<T>,
     constants: &Constants<T>,
     width: Width,
     slot: usize,
-) -> Assembler {
-    let mut to = Assembler::default();
+) -> TaylorEncoder {
+    let mut to = TaylorEncoder::default();
     let mut kept = Kept::new();
     let mut term = 0;
     let mut copy = code.of_state;
@@ -108,7 +108,7 @@ pub(super) fn finish<T: Packed>(
     for (index, finish) in code.finishes.iter().enumerate() {
         let own = first(&mut terms, finish.terms);
         let sum = kept.place_of(finish.place);
-        let inner = At(Base::Sums, (finish.inner as usize * slot * T::LANES) as i32);
+        let inner = At(BaseRegister::Sums, (finish.inner as usize * slot * T::LANES) as i32);
         if finish.inner as usize == code.counts.len() {
             to.zero(sum);
         } else if code.operations[index].rule.is_sum() {
@@ -117,7 +117,7 @@ pub(super) fn finish<T: Packed>(
             to.load(width, sum, constants.scale(index));
             to.multiply(width, sum, sum, inner);
         }
-        if let Order::Divides = finish.order {
+        if let OrderEffect::Divides = finish.order {
             to.multiply(width, sum, sum, Constants::<T>::BY_N);
         }
         for read in own {
@@ -142,10 +142,10 @@ pub(super) fn finish<T: Packed>(
 
 /// Emits order n + 1 of the state.
 pub(super) fn next_order<T: Packed>(
-    code: &Code<T>,
+    code: &BoundProgram<T>,
     constants: &Constants<T>,
     width: Width,
-    to: &mut Assembler,
+    to: &mut TaylorEncoder,
     kept: &Kept,
 ) {
     let next = |At(base, distance): At, orders: i32| At(base, distance + orders * T::LANES as i32);
@@ -169,12 +169,12 @@ pub(super) fn next_order<T: Packed>(
 
 /// Address of a row.
 pub(super) fn row<T: Packed>(place: Place) -> At {
-    At(Base::Rows, (place as usize * T::LANES) as i32)
+    At(BaseRegister::Rows, (place as usize * T::LANES) as i32)
 }
 
 /// Address of a copy.
 fn copied<T: Packed>(place: Place) -> At {
-    At(Base::Copies, (place as usize * T::LANES) as i32)
+    At(BaseRegister::Copies, (place as usize * T::LANES) as i32)
 }
 
 /// Rows held in registers.

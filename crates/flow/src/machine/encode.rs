@@ -9,7 +9,7 @@ pub(super) type Register = u8;
 
 /// Memory that a base register points to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Base {
+pub(super) enum BaseRegister {
     /// The rows, at an order: rdi.
     Rows,
     /// The copies, at an order: rsi.
@@ -22,7 +22,7 @@ pub(super) enum Base {
 
 /// Address of a number in memory, or of the first of several.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct At(pub(super) Base, pub(super) i32);
+pub(super) struct At(pub(super) BaseRegister, pub(super) i32);
 
 /// Number of f64 in an operand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,7 +46,7 @@ impl Width {
 
 /// Selection of pairs of neighbours among four or eight numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Pairs {
+pub(super) enum PairSelection {
     /// Pairs of the first half.
     Lower,
     /// Pairs of the second half.
@@ -66,13 +66,13 @@ const SCALAR: u8 = 3;
 
 /// Encoded instructions, and the range of memory they touch.
 #[derive(Debug, Default)]
-pub(super) struct Assembler {
+pub(super) struct TaylorEncoder {
     pub(super) bytes: Vec<u8>,
     /// The least and the largest distance from each base, the latter exclusive.
     pub(super) touched: [(i32, i32); 4],
 }
 
-impl Assembler {
+impl TaylorEncoder {
     /// Sets register = 0 in all lanes.
     pub(super) fn zero(&mut self, register: Register) {
         // vxorpd of 128 bits clears the bits above them.
@@ -139,14 +139,19 @@ impl Assembler {
 
     /// Joins pairs of x and pairs of y: of four numbers the first or the second pair of each, of
     /// eight the two selected.
-    pub(super) fn pairs(&mut self, width: Width, which: Pairs, [register, x, y]: [Register; 3]) {
+    pub(super) fn pairs(
+        &mut self,
+        width: Width,
+        which: PairSelection,
+        [register, x, y]: [Register; 3],
+    ) {
         let (opcode, choice) = match (width, which) {
-            (Width::Eight, Pairs::Lower) => (0x23, 0x44),
-            (Width::Eight, Pairs::Upper) => (0x23, 0xee),
-            (Width::Eight, Pairs::Even) => (0x23, 0x88),
-            (Width::Eight, Pairs::Odd) => (0x23, 0xdd),
-            (_, Pairs::Lower | Pairs::Even) => (0x06, 0x20),
-            (_, Pairs::Upper | Pairs::Odd) => (0x06, 0x31),
+            (Width::Eight, PairSelection::Lower) => (0x23, 0x44),
+            (Width::Eight, PairSelection::Upper) => (0x23, 0xee),
+            (Width::Eight, PairSelection::Even) => (0x23, 0x88),
+            (Width::Eight, PairSelection::Odd) => (0x23, 0xdd),
+            (_, PairSelection::Lower | PairSelection::Even) => (0x06, 0x20),
+            (_, PairSelection::Upper | PairSelection::Odd) => (0x06, 0x31),
         };
         self.between(width, MAP_0F3A, [opcode, register, x, y]);
         self.bytes.push(choice);
@@ -195,10 +200,10 @@ impl Assembler {
             Width::One => self.bytes.extend([0xc4, first, second]),
         }
         let number = match base {
-            Base::Rows => 7,
-            Base::Copies => 6,
-            Base::Constants => 2,
-            Base::Sums => 1,
+            BaseRegister::Rows => 7,
+            BaseRegister::Copies => 6,
+            BaseRegister::Constants => 2,
+            BaseRegister::Sums => 1,
         };
         let operand = (register & 7) << 3 | number;
         // A short distance counts whole vectors of eight.
@@ -223,16 +228,16 @@ mod tests {
 
     use super::*;
 
-    const BASES: [(Base, Iced); 4] = [
-        (Base::Rows, Iced::RDI),
-        (Base::Copies, Iced::RSI),
-        (Base::Constants, Iced::RDX),
-        (Base::Sums, Iced::RCX),
+    const BASES: [(BaseRegister, Iced); 4] = [
+        (BaseRegister::Rows, Iced::RDI),
+        (BaseRegister::Copies, Iced::RSI),
+        (BaseRegister::Constants, Iced::RDX),
+        (BaseRegister::Sums, Iced::RCX),
     ];
 
     /// Assembles a single instruction and reads it back.
-    fn one(emit: impl FnOnce(&mut Assembler)) -> Instruction {
-        let mut assembler = Assembler::default();
+    fn one(emit: impl FnOnce(&mut TaylorEncoder)) -> Instruction {
+        let mut assembler = TaylorEncoder::default();
         emit(&mut assembler);
         let mut decoder = Decoder::with_ip(64, &assembler.bytes, 0, DecoderOptions::NONE);
         let found = decoder.decode();
@@ -338,7 +343,12 @@ mod tests {
                 let mixed = |odd| one(|to| to.mix(width, odd, [register, x, y]));
                 assert_three(&mixed(false), Mnemonic::Vunpcklpd);
                 assert_three(&mixed(true), Mnemonic::Vunpckhpd);
-                let pairs = [Pairs::Lower, Pairs::Upper, Pairs::Even, Pairs::Odd];
+                let pairs = [
+                    PairSelection::Lower,
+                    PairSelection::Upper,
+                    PairSelection::Even,
+                    PairSelection::Odd,
+                ];
                 let choices = match width {
                     Width::Eight => [0x44, 0xee, 0x88, 0xdd],
                     _ => [0x20, 0x31, 0x20, 0x31],
@@ -357,10 +367,10 @@ mod tests {
 
     #[test]
     fn what_is_touched_is_known() {
-        let mut assembler = Assembler::default();
-        assembler.load(Width::Eight, 1, At(Base::Rows, 5));
-        assembler.store(Width::One, 1, At(Base::Copies, -1));
-        assembler.fused(Width::Four, 2, 1, At(Base::Sums, 8));
+        let mut assembler = TaylorEncoder::default();
+        assembler.load(Width::Eight, 1, At(BaseRegister::Rows, 5));
+        assembler.store(Width::One, 1, At(BaseRegister::Copies, -1));
+        assembler.fused(Width::Four, 2, 1, At(BaseRegister::Sums, 8));
         assert_eq!(assembler.touched, [(0, 13), (-1, 0), (0, 0), (0, 12)], "to the last number");
     }
 }

@@ -6,10 +6,10 @@
 //! of the last k. The others are made with the present order, so that what is loaded is used twice;
 //! these two are made when that order is there.
 
-use super::super::code::{Code, Place, Product, first};
+use super::super::code::{BoundProgram, Place, Product, first};
 use super::super::number::BLOCK;
-use super::encode::{Assembler, At, Base, Register, Width};
-use super::lanes::{Block, LANES};
+use super::encode::{At, BaseRegister, Register, TaylorEncoder, Width};
+use super::lanes::{Block, CODE_LANES};
 
 /// Registers for temporary values.
 const X: Register = 14;
@@ -37,15 +37,20 @@ fn last(n: usize) -> usize {
 }
 
 /// Emits the inner sums of order n, and the parts of those of the next order if there is one.
-pub(super) fn two_orders(code: &Code<Block>, width: Width, n: usize, has_next: bool) -> Assembler {
+pub(super) fn two_orders(
+    code: &BoundProgram<Block>,
+    width: Width,
+    n: usize,
+    has_next: bool,
+) -> TaylorEncoder {
     let is_early = early(n);
     let sums: Sums = std::array::from_fn(|j| (j + 1 < n).then_some(j as Register));
     let mut free = BLOCK as Register..X;
     let next: Sums =
         std::array::from_fn(|j| if has_next && is_early(j) { free.next() } else { None });
     let clear =
-        |to: &mut Assembler| sums.iter().chain(&next).flatten().for_each(|sum| to.zero(*sum));
-    let product = |to: &mut Assembler, from: Places| {
+        |to: &mut TaylorEncoder| sums.iter().chain(&next).flatten().for_each(|sum| to.zero(*sum));
+    let product = |to: &mut TaylorEncoder, from: Places| {
         let negative = from.negative;
         for k in 1..n {
             let j = (k - 1) % BLOCK;
@@ -60,15 +65,15 @@ pub(super) fn two_orders(code: &Code<Block>, width: Width, n: usize, has_next: b
             }
         }
     };
-    let end = |to: &mut Assembler| {
+    let end = |to: &mut TaylorEncoder| {
         if let Some(total) = folded(to, width, &sums) {
             normalise(to, width, total, n - 1);
-            to.store(width, total, order(Base::Sums, 0));
+            to.store(width, total, order(BaseRegister::Sums, 0));
         }
         for (slot, pair) in pairs(n).into_iter().enumerate() {
             let pair = pair.map(|j| j.and_then(|j| next[j]));
             if let Some(part) = sum_of(to, width, pair) {
-                to.store(width, part, order(Base::Sums, 1 + slot));
+                to.store(width, part, order(BaseRegister::Sums, 1 + slot));
             }
         }
     };
@@ -79,11 +84,11 @@ pub(super) fn two_orders(code: &Code<Block>, width: Width, n: usize, has_next: b
 }
 
 /// Emits what the inner sums of the order after n still lack.
-pub(super) fn rest(code: &Code<Block>, width: Width, n: usize) -> Assembler {
+pub(super) fn rest(code: &BoundProgram<Block>, width: Width, n: usize) -> TaylorEncoder {
     let is_early = early(n);
     let (first, other) = (0, 1);
-    let clear = |to: &mut Assembler| [first, other].iter().for_each(|sum| to.zero(*sum));
-    let product = |to: &mut Assembler, from: Places| {
+    let clear = |to: &mut TaylorEncoder| [first, other].iter().for_each(|sum| to.zero(*sum));
+    let product = |to: &mut TaylorEncoder, from: Places| {
         for k in 1..=n {
             let sum = match (k - 1) % BLOCK {
                 0 => first,
@@ -95,17 +100,17 @@ pub(super) fn rest(code: &Code<Block>, width: Width, n: usize) -> Assembler {
             to.fused_with(width, from.negative, [sum, X, Y]);
         }
     };
-    let end = |to: &mut Assembler| {
+    let end = |to: &mut TaylorEncoder| {
         for (slot, pair) in pairs(n).into_iter().enumerate() {
             if pair.into_iter().flatten().any(&is_early) {
                 let sum = if slot < 2 { first } else { other };
-                to.load(width, X, order(Base::Sums, 1 + slot));
+                to.load(width, X, order(BaseRegister::Sums, 1 + slot));
                 to.add(width, sum, sum, X);
             }
         }
         to.add(width, first, first, other);
         normalise(to, width, first, n);
-        to.store(width, first, order(Base::Sums, 0));
+        to.store(width, first, order(BaseRegister::Sums, 0));
     };
     in_line(code, &clear, &product, &end)
 }
@@ -120,25 +125,25 @@ struct Places {
 
 impl Places {
     fn row(self, k: usize) -> At {
-        order(Base::Rows, self.x + k)
+        order(BaseRegister::Rows, self.x + k)
     }
 
     fn copy(self, k: usize) -> At {
-        order(Base::Copies, self.cy + k)
+        order(BaseRegister::Copies, self.cy + k)
     }
 }
 
-type Emit<'e> = &'e dyn Fn(&mut Assembler);
-type EmitProduct<'e> = &'e dyn Fn(&mut Assembler, Places);
+type Emit<'e> = &'e dyn Fn(&mut TaylorEncoder);
+type EmitProduct<'e> = &'e dyn Fn(&mut TaylorEncoder, Places);
 
 /// Emits all products of all operations one after another. Sums are cleared before each operation.
 fn in_line(
-    code: &Code<Block>,
+    code: &BoundProgram<Block>,
     clear: Emit<'_>,
     product: EmitProduct<'_>,
     end: Emit<'_>,
-) -> Assembler {
-    let mut to = Assembler::default();
+) -> TaylorEncoder {
+    let mut to = TaylorEncoder::default();
     let mut products = code.products.as_slice();
     for count in &code.counts {
         clear(&mut to);
@@ -147,21 +152,21 @@ fn in_line(
             product(&mut to, Places { x, cy, negative: own.negative });
         }
         end(&mut to);
-        to.next_sums((SLOT * LANES) as i32);
+        to.next_sums((SLOT * CODE_LANES) as i32);
     }
     to.end();
-    to.moves(Base::Sums, (code.counts.len().saturating_sub(1) * SLOT * LANES) as i32);
+    to.moves(BaseRegister::Sums, (code.counts.len().saturating_sub(1) * SLOT * CODE_LANES) as i32);
     to
 }
 
 /// Emits the same by calls of subroutines, of which those for products are long.
 fn by_calls(
-    code: &Code<Block>,
+    code: &BoundProgram<Block>,
     clear: Emit<'_>,
     product: EmitProduct<'_>,
     end: Emit<'_>,
-) -> Assembler {
-    let mut to = Assembler::default();
+) -> TaylorEncoder {
+    let mut to = TaylorEncoder::default();
     let jump = to.jump();
     let [plus, minus] = [false, true].map(|negative| {
         let first = to.label();
@@ -173,11 +178,11 @@ fn by_calls(
     });
     let ending = to.label();
     end(&mut to);
-    to.next_sums((SLOT * LANES) as i32);
+    to.next_sums((SLOT * CODE_LANES) as i32);
     to.give_back();
     to.land(&jump);
     let mut products = code.products.as_slice();
-    let distance = |place: Place| (place as usize * LANES) as i32;
+    let distance = |place: Place| (place as usize * CODE_LANES) as i32;
     for count in &code.counts {
         for (index, own) in first(&mut products, *count).iter().enumerate() {
             to.point(distance(own.x), distance(own.cy));
@@ -188,15 +193,15 @@ fn by_calls(
     }
     to.end();
     let most = |places: &dyn Fn(&Product) -> Place| code.products.iter().map(places).max();
-    to.moves(Base::Rows, distance(most(&|own| own.x).unwrap_or(0)));
-    to.moves(Base::Copies, distance(most(&|own| own.cy).unwrap_or(0)));
-    to.moves(Base::Sums, (code.counts.len().saturating_sub(1) * SLOT * LANES) as i32);
+    to.moves(BaseRegister::Rows, distance(most(&|own| own.x).unwrap_or(0)));
+    to.moves(BaseRegister::Copies, distance(most(&|own| own.cy).unwrap_or(0)));
+    to.moves(BaseRegister::Sums, (code.counts.len().saturating_sub(1) * SLOT * CODE_LANES) as i32);
     to
 }
 
 /// Address of an order of a row, or of a vector of a slot.
-fn order(base: Base, index: usize) -> At {
-    At(base, (index * LANES) as i32)
+fn order(base: BaseRegister, index: usize) -> At {
+    At(base, (index * CODE_LANES) as i32)
 }
 
 /// Sums of the order after n whose totals are its parts, in the order in which they are added.
@@ -211,14 +216,14 @@ fn pairs(n: usize) -> [[Option<usize>; 2]; PARTS] {
     ]
 }
 
-fn folded(to: &mut Assembler, width: Width, sums: &Sums) -> Option<Register> {
+fn folded(to: &mut TaylorEncoder, width: Width, sums: &Sums) -> Option<Register> {
     let mut both = |a, b| sum_of(to, width, [a, b]);
     let [a, b, c, d] = [0, 2, 1, 3].map(|j| both(sums[j], sums[j + BLOCK / 2]));
     let [left, right] = [both(a, b), both(c, d)];
     both(left, right)
 }
 
-fn sum_of(to: &mut Assembler, width: Width, pair: [Option<Register>; 2]) -> Option<Register> {
+fn sum_of(to: &mut TaylorEncoder, width: Width, pair: [Option<Register>; 2]) -> Option<Register> {
     if let [Some(a), Some(b)] = pair {
         to.add(width, a, a, b);
     }
@@ -226,7 +231,7 @@ fn sum_of(to: &mut Assembler, width: Width, pair: [Option<Register>; 2]) -> Opti
 }
 
 /// Adds 0 where fewer than eight terms were added: sums without terms are 0, not -0.
-fn normalise(to: &mut Assembler, width: Width, total: Register, terms: usize) {
+fn normalise(to: &mut TaylorEncoder, width: Width, total: Register, terms: usize) {
     if terms < BLOCK {
         to.zero(X);
         to.add(width, total, total, X);

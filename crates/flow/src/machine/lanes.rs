@@ -1,30 +1,30 @@
 //! Machine code for eight motions in lanes, with the sums that one motion alone has.
 
-use super::super::code::Code;
+use super::super::code::BoundProgram;
 use super::super::lanes::Lanes;
-use super::call::{Executable, Given, Packed};
+use super::call::{CallMemory, Packed, TaylorFunction};
 use super::constants::Constants;
 use super::encode::Width;
 use super::kernel::{self, SLOT};
 use super::{emit, values};
-use liouville::graph::{Vectors, widest};
+use liouville::graph::{InstructionSet, widest};
 
 /// Number of motions.
-pub(super) const LANES: usize = 8;
+pub(super) const CODE_LANES: usize = 8;
 
-pub(super) type Block = Lanes<LANES>;
+pub(super) type Block = Lanes<CODE_LANES>;
 
 /// Functions of a program in lanes, and the data they need besides its memory.
 pub struct LaneMachine {
     order: usize,
     width: Width,
     /// Inner sums of the orders 2, 4, …, each with parts of those of the next order.
-    sums_of_two: Vec<Executable>,
+    sums_of_two: Vec<TaylorFunction>,
     /// Rest of the inner sums of the orders 3, 5, …
-    rest: Vec<Executable>,
-    finish: Executable,
+    rest: Vec<TaylorFunction>,
+    finish: TaylorFunction,
     /// Order 0, if all functions in it are instructions.
-    values: Option<Executable>,
+    values: Option<TaylorFunction>,
     constants: Constants<Block>,
     /// Inner sums and parts of them.
     sums: Vec<Block>,
@@ -32,30 +32,34 @@ pub struct LaneMachine {
 
 impl LaneMachine {
     /// Generates machine code for a program. `None` where the processor or the system allows none.
-    pub(in super::super) fn new(code: &Code<Block>, order: usize) -> Option<Self> {
+    pub(in super::super) fn new(code: &BoundProgram<Block>, order: usize) -> Option<Self> {
         match widest() {
-            Vectors::Avx512 => Self::with_width(code, order, Width::Eight),
-            Vectors::Avx2 => Self::with_width(code, order, Width::Four),
-            Vectors::Baseline => None,
+            InstructionSet::Avx512 => Self::with_width(code, order, Width::Eight),
+            InstructionSet::Avx2 => Self::with_width(code, order, Width::Four),
+            InstructionSet::Baseline => None,
         }
     }
 
     /// Generates code with instructions of this width, which the processor must have.
-    pub(super) fn with_width(code: &Code<Block>, order: usize, width: Width) -> Option<Self> {
+    pub(super) fn with_width(
+        code: &BoundProgram<Block>,
+        order: usize,
+        width: Width,
+    ) -> Option<Self> {
         let constants = Constants::new(code);
         let even = || (2..order).step_by(2);
         let sums_of_two =
-            even().map(|n| Executable::new(&kernel::two_orders(code, width, n, n + 1 < order)));
+            even().map(|n| TaylorFunction::new(&kernel::two_orders(code, width, n, n + 1 < order)));
         let odd = even().filter(|n| n + 1 < order);
-        let rest = odd.map(|n| Executable::new(&kernel::rest(code, width, n)));
+        let rest = odd.map(|n| TaylorFunction::new(&kernel::rest(code, width, n)));
         Some(Self {
             order,
             width,
             sums_of_two: sums_of_two.collect::<Option<_>>()?,
             rest: rest.collect::<Option<_>>()?,
-            finish: Executable::new(&emit::finish(code, &constants, width, SLOT))?,
+            finish: TaylorFunction::new(&emit::finish(code, &constants, width, SLOT))?,
             values: match values::values(code, &constants, width) {
-                Some(values) => Some(Executable::new(&values)?),
+                Some(values) => Some(TaylorFunction::new(&values)?),
                 None => None,
             },
             constants,
@@ -65,7 +69,7 @@ impl LaneMachine {
 
     /// First lanes of the vectors that make up all lanes.
     fn parts(&self) -> impl Iterator<Item = usize> + use<> {
-        (0..LANES).step_by(self.width.numbers())
+        (0..CODE_LANES).step_by(self.width.numbers())
     }
 
     /// Computes order 0 of all rows and order 1 of the state, with the slopes. Returns `false` if
@@ -74,7 +78,7 @@ impl LaneMachine {
         self.constants.at_order(0, inverses);
         let Some(values) = &self.values else { return false };
         for first in self.parts() {
-            values.call(Given {
+            values.call(CallMemory {
                 memory: Block::floats(memory),
                 rows: first,
                 copies: first,
@@ -86,7 +90,7 @@ impl LaneMachine {
     }
 
     /// Copies the slopes computed elsewhere.
-    pub(in super::super) fn take(&mut self, code: &Code<Block>) {
+    pub(in super::super) fn take(&mut self, code: &BoundProgram<Block>) {
         self.constants.take(code);
     }
 
@@ -94,7 +98,7 @@ impl LaneMachine {
     /// `begin` made.
     pub(in super::super) fn run(
         &mut self,
-        code: &Code<Block>,
+        code: &BoundProgram<Block>,
         inverses: &[Block],
         memory: &mut [Block],
     ) {
@@ -105,10 +109,10 @@ impl LaneMachine {
             self.constants.at_order(n, inverses);
             self.constants.thetas(code, n);
             for first in self.parts() {
-                self.finish.call(Given {
+                self.finish.call(CallMemory {
                     memory: Block::floats(memory),
-                    rows: n * LANES + first,
-                    copies: n * LANES + first,
+                    rows: n * CODE_LANES + first,
+                    copies: n * CODE_LANES + first,
                     constants: &mut Block::floats(&mut self.constants.list)[first..],
                     sums: &mut Block::floats(&mut self.sums)[first..],
                 });
@@ -122,7 +126,7 @@ impl LaneMachine {
             return;
         };
         for first in self.parts() {
-            kernel.call(Given {
+            kernel.call(CallMemory {
                 memory: Block::floats(memory),
                 rows: first,
                 copies: first,

@@ -16,51 +16,51 @@ mod values;
 #[cfg(test)]
 mod tests;
 
-use super::code::Code;
-use super::number::{BLOCK, Number};
-use call::{Executable, Given};
+use super::code::BoundProgram;
+use super::number::{BLOCK, SeriesNumber};
+use call::{CallMemory, TaylorFunction};
 use constants::Constants;
 use encode::Width;
 pub use lanes::LaneMachine;
-use liouville::graph::{Vectors, widest};
+use liouville::graph::{InstructionSet, widest};
 
 /// Functions of a program, and the data they need besides its memory.
-pub struct Machine {
+pub struct TaylorCode {
     order: usize,
     orders: usize,
     /// Inner sums, indexed by the number of vectors along the order, less one.
-    inner_sums: Vec<Executable>,
-    finish: Executable,
+    inner_sums: Vec<TaylorFunction>,
+    finish: TaylorFunction,
     /// Order 0, if all functions in it are instructions.
-    values: Option<Executable>,
+    values: Option<TaylorFunction>,
     constants: Constants<f64>,
     /// Values of the inner sums.
     inner: Vec<f64>,
 }
 
-impl Machine {
+impl TaylorCode {
     /// Generates machine code for a program. `None` where the processor or the system allows none.
-    pub(super) fn new(code: &Code<f64>, order: usize) -> Option<Self> {
+    pub(super) fn new(code: &BoundProgram<f64>, order: usize) -> Option<Self> {
         match widest() {
-            Vectors::Avx512 => Self::with_width(code, order, Width::Eight),
-            Vectors::Avx2 => Self::with_width(code, order, Width::Four),
-            Vectors::Baseline => None,
+            InstructionSet::Avx512 => Self::with_width(code, order, Width::Eight),
+            InstructionSet::Avx2 => Self::with_width(code, order, Width::Four),
+            InstructionSet::Baseline => None,
         }
     }
 
     /// Generates code with instructions of this width, which the processor must have.
-    fn with_width(code: &Code<f64>, order: usize, width: Width) -> Option<Self> {
+    fn with_width(code: &BoundProgram<f64>, order: usize, width: Width) -> Option<Self> {
         let constants = Constants::new(code);
         let lengths = 1..=order.div_ceil(BLOCK);
-        let inner_sums = lengths.map(|n| Executable::new(&emit::inner_sums(code, width, n)));
+        let inner_sums = lengths.map(|n| TaylorFunction::new(&emit::inner_sums(code, width, n)));
         let sums = (code.counts.len() + 1).next_multiple_of(BLOCK);
         Some(Self {
             order,
             orders: order.next_multiple_of(BLOCK),
             inner_sums: inner_sums.collect::<Option<_>>()?,
-            finish: Executable::new(&emit::finish(code, &constants, Width::One, 1))?,
+            finish: TaylorFunction::new(&emit::finish(code, &constants, Width::One, 1))?,
             values: match values::values(code, &constants, Width::One) {
-                Some(values) => Some(Executable::new(&values)?),
+                Some(values) => Some(TaylorFunction::new(&values)?),
                 None => None,
             },
             constants,
@@ -74,7 +74,7 @@ impl Machine {
     pub(super) fn begin(&mut self, inverses: &[f64], memory: &mut [f64]) -> bool {
         let Some(values) = &self.values else { return false };
         self.constants.at_order(0, inverses);
-        values.call(Given {
+        values.call(CallMemory {
             memory,
             rows: 0,
             copies: self.orders,
@@ -86,19 +86,19 @@ impl Machine {
 
     /// Copies the slopes computed elsewhere.
     #[inline(always)]
-    pub(super) fn take(&mut self, code: &Code<f64>) {
+    pub(super) fn take(&mut self, code: &BoundProgram<f64>) {
         self.constants.take(code);
     }
 
     /// Computes orders 1 to `order` - 1 of all rows, and up to `order` of the state, from what
     /// `begin` made.
     #[inline(always)]
-    pub(super) fn run(&mut self, code: &Code<f64>, inverses: &[f64], memory: &mut [f64]) {
+    pub(super) fn run(&mut self, code: &BoundProgram<f64>, inverses: &[f64], memory: &mut [f64]) {
         self.inner.fill(0.0);
         for n in 1..self.order {
             let copies = |n: usize| f64::copied(self.orders, n);
             if n >= 2 {
-                self.inner_sums[(n - 2) / BLOCK].call(Given {
+                self.inner_sums[(n - 2) / BLOCK].call(CallMemory {
                     memory,
                     rows: 0,
                     copies: copies(n - 1),
@@ -108,7 +108,7 @@ impl Machine {
             }
             self.constants.at_order(n, inverses);
             self.constants.thetas(code, n);
-            self.finish.call(Given {
+            self.finish.call(CallMemory {
                 memory,
                 rows: n,
                 copies: copies(n),

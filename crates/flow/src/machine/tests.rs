@@ -1,9 +1,9 @@
 use num_dual::DualNum;
 
+use super::super::batch::MOTION_LANES;
 use super::super::lanes::Lanes;
-use super::super::program::Program;
+use super::super::program::TaylorProgram;
 use super::super::series::Series;
-use super::super::swarm::LANES;
 use super::encode::Width;
 use super::*;
 use liouville::graph::{Expr, record};
@@ -13,7 +13,7 @@ use liouville::scalar::Scalar;
 const ORDERS: [usize; 3] = [7, 20, 25];
 
 /// Fields that use all rules, and fields whose rules are all instructions.
-fn programs() -> Vec<(&'static str, Program)> {
+fn programs() -> Vec<(&'static str, TaylorProgram)> {
     let number = |n: i64, d: i64| Expr::rational(&Rational::new(n, d));
     let algebraic = |x: &[Expr]| {
         let size = (x[0] * x[0] + x[1] * x[1] + number(1, 3)).sqrt();
@@ -41,7 +41,7 @@ fn programs() -> Vec<(&'static str, Program)> {
     };
     let program = |dimension: usize, field: &dyn Fn(&[Expr]) -> Vec<Expr>| {
         let (graph, rates) = record(dimension, |x| field(x)).expect("a field");
-        Program::compile(&graph, &rates, &rates[..1]).expect("a program")
+        TaylorProgram::compile(&graph, &rates, &rates[..1]).expect("a program")
     };
     vec![
         ("algebraic", program(3, &algebraic)),
@@ -62,12 +62,13 @@ fn machine_code_has_the_bits_of_the_interpreter() {
             let mut interpreted = Series::<f64>::new(&program, order);
             let mut compiled = Series::<f64>::new(&program, order);
             let widths = match widest() {
-                Vectors::Avx512 => &[Width::Four, Width::Eight][..],
-                Vectors::Avx2 => &[Width::Four],
-                Vectors::Baseline => &[],
+                InstructionSet::Avx512 => &[Width::Four, Width::Eight][..],
+                InstructionSet::Avx2 => &[Width::Four],
+                InstructionSet::Baseline => &[],
             };
             for width in widths.iter().copied() {
-                compiled.machine = Machine::with_width(&compiled.code, order, width).map(Box::new);
+                compiled.machine =
+                    TaylorCode::with_width(&compiled.code, order, width).map(Box::new);
                 assert!(compiled.machine.is_some(), "{name}: there is machine code");
                 for turn in 0..20 {
                     let state: Vec<f64> = (0..program.dimension())
@@ -88,14 +89,14 @@ fn machine_code_has_the_bits_of_the_interpreter() {
 }
 
 /// Machine code for lanes, of each width that the processor has; `None` for the interpreter.
-fn in_lanes(program: &Program, order: usize) -> Vec<Series<Lanes<LANES>>> {
+fn in_lanes(program: &TaylorProgram, order: usize) -> Vec<Series<Lanes<MOTION_LANES>>> {
     let widths = match widest() {
-        Vectors::Avx512 => &[None, Some(Width::Four), Some(Width::Eight)][..],
-        Vectors::Avx2 => &[None, Some(Width::Four)],
-        Vectors::Baseline => &[None],
+        InstructionSet::Avx512 => &[None, Some(Width::Four), Some(Width::Eight)][..],
+        InstructionSet::Avx2 => &[None, Some(Width::Four)],
+        InstructionSet::Baseline => &[None],
     };
     let series = |width: &Option<Width>| {
-        let mut series = Series::<Lanes<LANES>>::new(program, order);
+        let mut series = Series::<Lanes<MOTION_LANES>>::new(program, order);
         if let Some(width) = width {
             series.expansions = u32::MAX;
             series.machine = LaneMachine::with_width(&series.code, order, *width).map(Box::new);
@@ -117,7 +118,7 @@ fn lanes_have_the_bits_of_single_motions() {
                 let at = |lane: usize, k: usize| {
                     f64::from((turn * 37 + k as i32 * 61 + lane as i32 * 17) % 101 - 50) / 47.0
                 };
-                let states: Vec<Lanes<LANES>> = (0..dimension)
+                let states: Vec<Lanes<MOTION_LANES>> = (0..dimension)
                     .map(|k| Lanes(std::array::from_fn(|lane| at(lane, k))))
                     .collect();
                 for series in &mut all {
@@ -126,7 +127,7 @@ fn lanes_have_the_bits_of_single_motions() {
                     }
                     series.expand(&states);
                 }
-                for lane in 0..LANES {
+                for lane in 0..MOTION_LANES {
                     let state: Vec<f64> = (0..dimension).map(|k| at(lane, k)).collect();
                     single.expand(&state);
                     let expected = coefficients(&single, dimension);
@@ -148,7 +149,7 @@ fn lanes_have_the_bits_of_single_motions() {
 fn memory_that_is_too_small_is_refused() {
     let (_, program) = programs().remove(0);
     let series = Series::<f64>::new(&program, 20);
-    let Some(mut machine) = Machine::new(&series.code, 20) else { return };
+    let Some(mut machine) = TaylorCode::new(&series.code, 20) else { return };
     let run = move || machine.run(&series.code, &series.inverses, &mut [0.0; 40]);
     let refused = std::panic::catch_unwind(std::panic::AssertUnwindSafe(run));
     let refused = refused.expect_err("what it would touch is not there");

@@ -1,10 +1,10 @@
 //! Instructions for order 0 of all rows, and for the slopes that the higher orders share.
 
-use super::super::code::{Bound, Code, Operation, Place, part};
+use super::super::code::{BoundProgram, InitialOperation, Place, PlacedRule, part};
 use super::call::Packed;
 use super::constants::Constants;
 use super::emit::{Kept, next_order, row};
-use super::encode::{Assembler, Register, Width};
+use super::encode::{Register, TaylorEncoder, Width};
 
 /// Registers for temporary values.
 const A: Register = 0;
@@ -13,26 +13,26 @@ const B: Register = 1;
 /// Emits order 0 of all rows and order 1 of the state, with scales and slopes. `None` where a rule
 /// is not an instruction.
 pub(super) fn values<T: Packed>(
-    code: &Code<T>,
+    code: &BoundProgram<T>,
     constants: &Constants<T>,
     width: Width,
-) -> Option<Assembler> {
-    let (to, kept) = (Assembler::default(), Kept::new());
-    let mut values = Values { code, constants, width, to, kept };
+) -> Option<TaylorEncoder> {
+    let (to, kept) = (TaylorEncoder::default(), Kept::new());
+    let mut values = ValueCode { code, constants, width, to, kept };
     for (index, operation) in code.operations.iter().enumerate() {
         let place = code.finishes[index].place;
         let term = operation.terms.0 as usize;
         match &operation.rule {
-            Bound::Sum => {
+            PlacedRule::Sum => {
                 values.sum(index, operation, place);
                 values.slopes(operation);
             }
-            Bound::Theta => {
+            PlacedRule::Theta => {
                 values.to.zero(A);
                 values.to.store(width, A, row::<T>(place));
             }
-            Bound::Recip(x) => values.reciprocal(index, term, *x, place),
-            Bound::Sqrt(x) => values.root(index, term, *x, place),
+            PlacedRule::Recip(x) => values.reciprocal(index, term, *x, place),
+            PlacedRule::Sqrt(x) => values.root(index, term, *x, place),
             _ => return None,
         }
     }
@@ -41,17 +41,17 @@ pub(super) fn values<T: Packed>(
     Some(values.to)
 }
 
-struct Values<'c, T> {
-    code: &'c Code<T>,
+struct ValueCode<'c, T> {
+    code: &'c BoundProgram<T>,
     constants: &'c Constants<T>,
     width: Width,
-    to: Assembler,
+    to: TaylorEncoder,
     kept: Kept,
 }
 
-impl<T: Packed> Values<'_, T> {
+impl<T: Packed> ValueCode<'_, T> {
     /// Emits constant + Σ c x + Σ c x y.
-    fn sum(&mut self, index: usize, operation: &Operation<T>, place: Place) {
+    fn sum(&mut self, index: usize, operation: &InitialOperation<T>, place: Place) {
         let sum = self.kept.place_of(place);
         self.to.load(self.width, sum, self.constants.constant(index));
         for index in operation.terms.0..operation.terms.1 {
@@ -72,7 +72,7 @@ impl<T: Packed> Values<'_, T> {
     }
 
     /// Emits the derivatives of a sum with respect to its rows.
-    fn slopes(&mut self, operation: &Operation<T>) {
+    fn slopes(&mut self, operation: &InitialOperation<T>) {
         let factors = part(&self.code.factors, operation.factors);
         for term in operation.terms.0..operation.terms.1 {
             let Some(slope) = self.constants.varying(term as usize) else { continue };

@@ -1,9 +1,9 @@
 //! Closed orbits, proved by enclosures, and the densities that their ∮ div v excludes.
 
-use super::finding::Finding;
+use super::finding::MotionFinding;
 use super::ground::Ground;
-use super::scene::Scene;
-use crate::{Enclosure, FlowError, Measured, Obstacle, ProvedOrbit, Request, Start, prove};
+use super::scene::FollowedCase;
+use crate::{Enclosure, FlowError, MeasuredNumber, Obstacle, ProvedOrbit, Request, Start, prove};
 use liouville::case::Case;
 use liouville::claim::motion::{Change, ClosedOrbit, Neighbourhood, Stability, Stated};
 use liouville::number::rational::Rational;
@@ -16,20 +16,20 @@ pub(super) const NEAR: f64 = 1e-2;
 /// Proves the closed orbit of a claim.
 pub fn look(
     claim: &ClosedOrbit,
-    scene: &Scene<'_>,
+    scene: &FollowedCase<'_>,
     options: &Options,
-) -> Result<Finding, FlowError> {
+) -> Result<MotionFinding, FlowError> {
     by(claim, scene, options, prove).map(|(finding, _)| finding)
 }
 
 /// Judges a claim by an orbit that `proof` encloses; returns the orbit too.
 pub fn by(
     claim: &ClosedOrbit,
-    scene: &Scene<'_>,
+    scene: &FollowedCase<'_>,
     options: &Options,
     proof: impl FnOnce(&Request<'_>) -> Result<ProvedOrbit, Obstacle>,
-) -> Result<(Finding, Option<ProvedOrbit>), FlowError> {
-    let mut finding = Finding::default();
+) -> Result<(MotionFinding, Option<ProvedOrbit>), FlowError> {
+    let mut finding = MotionFinding::default();
     let found = match Ground::of(claim.into(), scene, options)? {
         Ok(ground) => ground.enclosed(proof),
         Err(reason) => Err(reason),
@@ -57,7 +57,7 @@ pub(super) fn exclusion(
 }
 
 /// Compares an orbit with the claim.
-fn judge(claim: &ClosedOrbit, found: &ProvedOrbit, finding: &mut Finding) {
+fn judge(claim: &ClosedOrbit, found: &ProvedOrbit, finding: &mut MotionFinding) {
     let shift = (found.period.mid - claim.period.value).abs() / claim.period.value;
     if !(found.moved <= NEAR && shift <= NEAR) {
         finding.leave_open(format!(
@@ -67,7 +67,7 @@ fn judge(claim: &ClosedOrbit, found: &ProvedOrbit, finding: &mut Finding) {
         ));
         return;
     }
-    let measured = |x: Enclosure| Measured { value: x.mid, error: x.rad };
+    let measured = |x: Enclosure| MeasuredNumber { value: x.mid, error: x.rad };
     finding.note("period", measured(found.period), Some(&claim.period));
     finding.note("∮ div v dt", measured(found.volume), None);
     compare_period(&claim.period, found.period, finding);
@@ -130,7 +130,7 @@ fn name(stability: Stability) -> &'static str {
 }
 
 /// Compares an enclosed period with the digits stated.
-fn compare_period(stated: &Stated, period: Enclosure, finding: &mut Finding) {
+fn compare_period(stated: &Stated, period: Enclosure, finding: &mut MotionFinding) {
     let rounding = 4.0 * f64::EPSILON * (period.mid.abs() + stated.value.abs());
     let gap = (period.mid - stated.value).abs();
     let is_inside = gap + period.rad + rounding <= stated.unit;

@@ -1,16 +1,17 @@
 //! Times at which a motion meets a one-sided constraint, in f64 and in double-double.
 
-use super::finding::Finding;
-use super::scene::Scene;
-use crate::{Contact, FlowError, Measured, Precision, orbit};
+use super::finding::MotionFinding;
+use super::scene::FollowedCase;
+use crate::{Contact, FlowError, MeasuredNumber, Precision, orbit};
 use liouville::claim::motion::{Contacts, Touch};
-use liouville::number::pair::Pair;
+use liouville::number::double_double::DoubleDouble;
 
 /// Compares the events at the constraint with the claim; grazing does not count.
-pub fn look(claim: &Contacts, scene: &Scene<'_>) -> Result<Finding, FlowError> {
+pub fn look(claim: &Contacts, scene: &FollowedCase<'_>) -> Result<MotionFinding, FlowError> {
     let start = scene.start(&claim.beginning)?;
     let events = |precision| {
-        let found = orbit(scene.case, start.clone(), Pair::from_f64(claim.time), precision)?;
+        let found =
+            orbit(scene.case, start.clone(), DoubleDouble::from_f64(claim.time), precision)?;
         let touches = found.events.into_iter().filter_map(|event| match event.kind {
             Contact::Arrives => Some((Touch::Arrives, event.time.hi)),
             Contact::Leaves => Some((Touch::Leaves, event.time.hi)),
@@ -19,7 +20,7 @@ pub fn look(claim: &Contacts, scene: &Scene<'_>) -> Result<Finding, FlowError> {
         Ok::<Vec<(Touch, f64)>, FlowError>(touches.collect())
     };
     let (float, pair) = (events(Precision::Float)?, events(Precision::Pair)?);
-    let mut finding = Finding::default();
+    let mut finding = MotionFinding::default();
     let kinds =
         |events: &[(Touch, f64)]| events.iter().map(|(touch, _)| *touch).collect::<Vec<_>>();
     if kinds(&float) != kinds(&pair) {
@@ -35,7 +36,7 @@ pub fn look(claim: &Contacts, scene: &Scene<'_>) -> Result<Finding, FlowError> {
             Touch::Arrives => "time of arrival",
             Touch::Leaves => "time of leaving",
         };
-        let found = Measured::twice(*rough, *time);
+        let found = MeasuredNumber::twice(*rough, *time);
         match claim.events.get(index) {
             Some((claimed, when)) if claimed == touch => finding.compare(quantity, found, when),
             _ => finding.show(quantity, found),

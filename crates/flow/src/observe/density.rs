@@ -1,8 +1,8 @@
 //! Evidence against a density: a closed orbit along which volumes change.
 
 use super::closed_orbit::exclusion;
-use super::scene::Scene;
-use crate::{Measured, Multipliers, SectionRequest, section, spread};
+use super::scene::FollowedCase;
+use crate::{MeasuredNumber, Multipliers, SectionRequest, section, spread};
 use liouville::case::{Case, Direction};
 use liouville::verdict::Options;
 
@@ -12,7 +12,7 @@ const CROSSINGS: usize = 150;
 
 /// Whether a closed orbit speaks against densities: a density ρ that is smooth and positive there
 /// is the same after the period, so that the flow preserves volumes: λ₁ λ₂ = 1.
-pub fn speaks_against(product: Measured) -> bool {
+pub fn speaks_against(product: MeasuredNumber) -> bool {
     (product.value - 1.0).abs() > product.error
 }
 
@@ -25,7 +25,7 @@ pub fn evidence_against_density(case: &Case, options: &Options) -> Option<String
         return None;
     }
     let plan = case.section.as_ref()?;
-    let scene = Scene::new(case, seed);
+    let scene = FollowedCase::new(case, seed);
     let map = scene.map().ok()?;
     let request = SectionRequest {
         g0: plan.g0.clone(),

@@ -3,19 +3,19 @@
 //! Ten blocks give the standard errors. A sign must also be that of the later five alone:
 //! transients look like chaos that disappears later. A regular motion shows (ln t)/t in place of 0.
 
-use super::finding::{ERRORS, Finding};
-use super::scene::Scene;
-use crate::{Estimate, FlowError, Measured};
+use super::finding::{ERRORS, MotionFinding};
+use super::scene::FollowedCase;
+use crate::{Estimate, FlowError, MeasuredNumber};
 use liouville::claim::motion::{Exponent, Growth, MeanDivergence, Tendency};
 
-fn measured(estimate: Estimate) -> Measured {
-    Measured { value: estimate.mean, error: estimate.error }
+fn measured(estimate: Estimate) -> MeasuredNumber {
+    MeasuredNumber { value: estimate.mean, error: estimate.error }
 }
 
 /// Compares the largest exponent with the claim.
-pub fn exponent(claim: &Exponent, scene: &Scene<'_>) -> Result<Finding, FlowError> {
+pub fn exponent(claim: &Exponent, scene: &FollowedCase<'_>) -> Result<MotionFinding, FlowError> {
     let found = scene.exponents(&claim.beginning, claim.time)?.largest;
-    let mut finding = Finding::default();
+    let mut finding = MotionFinding::default();
     match &claim.value {
         Some(stated) => finding.compare_mean("exponent", measured(found), stated),
         None => finding.show("exponent", measured(found)),
@@ -36,9 +36,12 @@ fn growth(found: Estimate, time: f64) -> Option<Growth> {
 }
 
 /// Compares the mean divergence with the claim.
-pub fn mean_divergence(claim: &MeanDivergence, scene: &Scene<'_>) -> Result<Finding, FlowError> {
+pub fn mean_divergence(
+    claim: &MeanDivergence,
+    scene: &FollowedCase<'_>,
+) -> Result<MotionFinding, FlowError> {
     let found = scene.exponents(&claim.beginning, claim.time)?.divergence;
-    let mut finding = Finding::default();
+    let mut finding = MotionFinding::default();
     match &claim.value {
         Some(stated) => finding.compare_mean("mean divergence", measured(found), stated),
         None => finding.show("mean divergence", measured(found)),

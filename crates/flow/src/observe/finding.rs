@@ -1,6 +1,6 @@
 //! Findings on claims about motion: numbers, each compared with the one stated.
 
-use crate::Measured;
+use crate::MeasuredNumber;
 use liouville::claim::motion::Stated;
 use liouville::verdict::{Evidence, Measurement, Method, Verdict};
 
@@ -9,7 +9,7 @@ pub const ERRORS: f64 = 3.0;
 
 /// Finding on a claim about motion.
 #[derive(Default)]
-pub struct Finding {
+pub struct MotionFinding {
     measured: Vec<Measurement>,
     /// Reasons against the claim.
     against: Vec<String>,
@@ -21,14 +21,14 @@ pub struct Finding {
     pub theorem: Option<String>,
 }
 
-impl Finding {
+impl MotionFinding {
     /// Notes a number.
-    pub fn show(&mut self, quantity: &str, found: Measured) {
+    pub fn show(&mut self, quantity: &str, found: MeasuredNumber) {
         self.note(quantity, found, None);
     }
 
     /// Notes a number with the one stated.
-    pub fn note(&mut self, quantity: &str, found: Measured, stated: Option<&Stated>) {
+    pub fn note(&mut self, quantity: &str, found: MeasuredNumber, stated: Option<&Stated>) {
         self.measured.push(Measurement {
             quantity: quantity.to_string(),
             value: found.value,
@@ -39,7 +39,7 @@ impl Finding {
 
     /// Compares a number with the one stated: they agree within one unit of the last stated digit
     /// and the number's error. An error beyond that unit leaves the claim open.
-    pub fn compare(&mut self, quantity: &str, found: Measured, stated: &Stated) {
+    pub fn compare(&mut self, quantity: &str, found: MeasuredNumber, stated: &Stated) {
         self.within(quantity, found, stated, stated.unit + found.error);
         if stated.unit > 0.0 && found.error > stated.unit {
             self.leave_open(format!("the error of the {quantity} is above the stated digits"));
@@ -47,12 +47,12 @@ impl Finding {
     }
 
     /// Compares a mean with the one stated: they agree within three standard errors of both.
-    pub fn compare_mean(&mut self, quantity: &str, found: Measured, stated: &Stated) {
+    pub fn compare_mean(&mut self, quantity: &str, found: MeasuredNumber, stated: &Stated) {
         let errors = libm::hypot(found.error, stated.error);
         self.within(quantity, found, stated, stated.unit + ERRORS * errors);
     }
 
-    fn within(&mut self, quantity: &str, found: Measured, stated: &Stated, tolerance: f64) {
+    fn within(&mut self, quantity: &str, found: MeasuredNumber, stated: &Stated, tolerance: f64) {
         self.note(quantity, found, Some(stated));
         let difference = (found.value - stated.value).abs();
         if difference.is_nan() {
@@ -106,8 +106,8 @@ mod tests {
 
     fn verdict(stated: &str, value: f64, error: f64) -> Verdict {
         let stated = Stated::parse(stated).expect("a number");
-        let mut finding = Finding::default();
-        finding.compare("number", Measured { value, error }, &stated);
+        let mut finding = MotionFinding::default();
+        finding.compare("number", MeasuredNumber { value, error }, &stated);
         finding.conclude().0
     }
 
@@ -124,9 +124,9 @@ mod tests {
     #[test]
     fn means_agree_within_three_errors_of_both() {
         let with = |value, error| {
-            let mut finding = Finding::default();
+            let mut finding = MotionFinding::default();
             let stated = Stated::parse("0.035 ± 0.003").expect("a number");
-            finding.compare_mean("mean", Measured { value, error }, &stated);
+            finding.compare_mean("mean", MeasuredNumber { value, error }, &stated);
             finding.conclude().0
         };
         assert_eq!(with(0.044, 0.001), Verdict::Confirmed, "within three errors");

@@ -3,18 +3,20 @@
 
 use std::borrow::Cow;
 
-use super::scene::Scene;
+use super::scene::FollowedCase;
 use crate::{Enclosure, FlowError, Loose, Obstacle, ProvedOrbit, Request, Start};
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::claim::motion::{Beginning, ClosedOrbit, Horseshoe, Neighbourhood};
 use liouville::formula::Formula;
-use liouville::mechanics::{Chart, Draw, LevelFunction, Line, Origin, Parameter, Recipe};
+use liouville::mechanics::{
+    Chart, Draw, LevelFunction, NumberLine, Parameter, ParameterOrigin, SamplerSpec,
+};
 use liouville::number::rational::Rational;
 use liouville::verdict::{self, Options, Trust, Verdict};
 
 /// Closed orbit that a claim is about.
-pub struct Asked<'g> {
+pub struct ClaimedOrbit<'g> {
     beginning: &'g Beginning,
     period: f64,
     integrals: &'g [Formula],
@@ -22,7 +24,7 @@ pub struct Asked<'g> {
     wants_multipliers: bool,
 }
 
-impl<'g> From<&'g ClosedOrbit> for Asked<'g> {
+impl<'g> From<&'g ClosedOrbit> for ClaimedOrbit<'g> {
     fn from(claim: &'g ClosedOrbit) -> Self {
         Self {
             beginning: &claim.beginning,
@@ -34,7 +36,7 @@ impl<'g> From<&'g ClosedOrbit> for Asked<'g> {
     }
 }
 
-impl<'g> From<&'g Horseshoe> for Asked<'g> {
+impl<'g> From<&'g Horseshoe> for ClaimedOrbit<'g> {
     fn from(claim: &'g Horseshoe) -> Self {
         Self {
             beginning: &claim.beginning,
@@ -62,8 +64,8 @@ pub struct Ground<'g> {
 impl<'g> Ground<'g> {
     /// Grounds of a claim, or the reason why nothing is proved.
     pub fn of(
-        asked: Asked<'g>,
-        scene: &'g Scene<'_>,
+        asked: ClaimedOrbit<'g>,
+        scene: &'g FollowedCase<'_>,
         options: &Options,
     ) -> Result<Result<Self, String>, FlowError> {
         let case: &'g Case = scene.case;
@@ -128,7 +130,7 @@ impl<'g> Ground<'g> {
     }
 
     /// The same with the horseshoe at the orbit.
-    pub fn chaotic(&self) -> Result<crate::Horseshoe, String> {
+    pub fn chaotic(&self) -> Result<crate::ProvedHorseshoe, String> {
         let found = self.asked_of(crate::prove_horseshoe)?;
         self.checked(found.kept, &found.start)?;
         Ok(found)
@@ -186,7 +188,8 @@ fn freed<'c>(case: &'c Case, varied: &[Neighbourhood]) -> Option<(Cow<'c, Case>,
     }
     let (mut loose, mut first) = (Vec::new(), 0);
     for parameter in own.model.free_parameters() {
-        let Origin::Free(Recipe::Around { centres, half, .. }) = &parameter.origin else {
+        let ParameterOrigin::Free(SamplerSpec::Around { centres, half, .. }) = &parameter.origin
+        else {
             return None;
         };
         let places = places(parameter, centres.len());
@@ -211,7 +214,7 @@ fn centres(case: &Case) -> Vec<Rational> {
     let mut all = Vec::new();
     for parameter in case.model.free_parameters() {
         let mut own = vec![Rational::from(0); parameter.kind.size()];
-        if let Origin::Free(Recipe::Around { centres, .. }) = &parameter.origin {
+        if let ParameterOrigin::Free(SamplerSpec::Around { centres, .. }) = &parameter.origin {
             for (place, centre) in places(parameter, centres.len()).zip(centres) {
                 own[place] = centre.clone();
             }
@@ -260,8 +263,8 @@ fn is_inside(case: &Case, state: &[Enclosure]) -> bool {
         let (low, high) = (x.mid - x.rad, x.mid + x.rad);
         match draw {
             Draw::Within(range) => range.low.to_f64().0 < low && high < range.high.to_f64().0,
-            Draw::Of(Line::All, _) => true,
-            Draw::Of(Line::Positive, _) => low > 0.0,
+            Draw::Of(NumberLine::All, _) => true,
+            Draw::Of(NumberLine::Positive, _) => low > 0.0,
             Draw::OneOf(_) | Draw::Sign => false,
         }
     };

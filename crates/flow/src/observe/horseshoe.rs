@@ -1,16 +1,20 @@
 //! Horseshoes, proved by covering relations, and the integrals that they exclude.
 
 use super::closed_orbit::NEAR;
-use super::finding::Finding;
+use super::finding::MotionFinding;
 use super::ground::Ground;
-use super::scene::Scene;
-use crate::{FlowError, Horseshoe, Measured};
+use super::scene::FollowedCase;
+use crate::{FlowError, MeasuredNumber, ProvedHorseshoe};
 use liouville::claim::motion::Horseshoe as Claim;
 use liouville::verdict::Options;
 
 /// Proves the horseshoe of a claim.
-pub fn look(claim: &Claim, scene: &Scene<'_>, options: &Options) -> Result<Finding, FlowError> {
-    let mut finding = Finding::default();
+pub fn look(
+    claim: &Claim,
+    scene: &FollowedCase<'_>,
+    options: &Options,
+) -> Result<MotionFinding, FlowError> {
+    let mut finding = MotionFinding::default();
     let found = match Ground::of(claim.into(), scene, options)? {
         Ok(ground) => ground.chaotic(),
         Err(reason) => Err(reason),
@@ -23,7 +27,7 @@ pub fn look(claim: &Claim, scene: &Scene<'_>, options: &Options) -> Result<Findi
 }
 
 /// Compares a horseshoe with the claim.
-fn judge(claim: &Claim, found: &Horseshoe, finding: &mut Finding) {
+fn judge(claim: &Claim, found: &ProvedHorseshoe, finding: &mut MotionFinding) {
     let [short, _] = found.times;
     let shift = (short.mid - claim.period.value).abs() / claim.period.value;
     if !(found.moved <= NEAR && shift <= NEAR) {
@@ -34,11 +38,15 @@ fn judge(claim: &Claim, found: &Horseshoe, finding: &mut Finding) {
         ));
         return;
     }
-    finding.note("period", Measured { value: short.mid, error: short.rad }, Some(&claim.period));
+    finding.note(
+        "period",
+        MeasuredNumber { value: short.mid, error: short.rad },
+        Some(&claim.period),
+    );
     finding.theorem = Some(theorem(found, claim.excludes_integral));
 }
 
-fn theorem(found: &Horseshoe, excludes_integral: bool) -> String {
+fn theorem(found: &ProvedHorseshoe, excludes_integral: bool) -> String {
     let [short, long] = found.times.map(|time| time.mid);
     // Printed bounds are rounded down.
     let down = |x: f64, unit: f64| libm::floor(x * unit) / unit;

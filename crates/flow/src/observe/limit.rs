@@ -1,10 +1,10 @@
 //! Limits of motions for a vanishing parameter, compared with the motion at 0.
 
-use super::finding::Finding;
-use super::scene::Scene;
-use crate::{FlowError, Measured, Precision, orbit, value_at};
+use super::finding::MotionFinding;
+use super::scene::FollowedCase;
+use crate::{FlowError, MeasuredNumber, Precision, orbit, value_at};
 use liouville::claim::motion::{Beginning, LimitOfMotion};
-use liouville::number::pair::Pair;
+use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
 
 /// Number of values of the parameter, each a tenth of the previous one.
@@ -14,9 +14,9 @@ const VALUES: i64 = 5;
 ///
 /// With an error C ε^order (1 + O(ε)) the quotients converge; their last difference is the error of
 /// C. If they grow, the order is lower than claimed; if C is not above its error, higher.
-pub fn look(claim: &LimitOfMotion, scene: &Scene<'_>) -> Result<Finding, FlowError> {
+pub fn look(claim: &LimitOfMotion, scene: &FollowedCase<'_>) -> Result<MotionFinding, FlowError> {
     let Beginning::State(point) = &claim.beginning else { return Err(FlowError::NoStart) };
-    let mut finding = Finding::default();
+    let mut finding = MotionFinding::default();
     let Some(component) = claim.component else {
         finding.leave_open("the parameter has a fixed value: give it a range".to_string());
         return Ok(finding);
@@ -27,7 +27,7 @@ pub fn look(claim: &LimitOfMotion, scene: &Scene<'_>) -> Result<Finding, FlowErr
         let mut parameters = drawn.clone();
         parameters[component] = value;
         let start = scene.state(point, parameters)?;
-        let time = Pair::from_f64(claim.time);
+        let time = DoubleDouble::from_f64(claim.time);
         let found = orbit(scene.case, start, time, Precision::Pair)?;
         value_at(model, &claim.function, &found.start.parameters, &found.end)
     };
@@ -45,7 +45,7 @@ pub fn look(claim: &LimitOfMotion, scene: &Scene<'_>) -> Result<Finding, FlowErr
     let differences: Vec<f64> =
         quotients.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     let last = quotients.len() - 1;
-    let found = Measured { value: quotients[last], error: differences[last - 1] };
+    let found = MeasuredNumber { value: quotients[last], error: differences[last - 1] };
     match &claim.constant {
         Some(stated) => finding.compare("constant", found, stated),
         None => finding.show("constant", found),

@@ -1,13 +1,13 @@
 //! Claims about motion: tested by computing motions, and confirmed or refuted by numbers.
 //!
 //! ```text
-//! case ─ claims about motion ─▶ orbits, exponents, periodic points ─▶ numbers with errors ─▶ verdicts
+//! claims about motion ─▶ orbits, exponents, periodic points ─▶ numbers with errors ─▶ verdicts
 //! ```
 //!
-//! Closed orbits, horseshoes and states at a time of a motion are proved, by enclosures; all other claims are
-//! only observed. There a stated number agrees with a computed one if they differ by no more than
-//! the last stated digit and the estimated error of the computation: the spread of blocks, or the
-//! difference between f64 and double-double.
+//! Closed orbits, horseshoes and states at a time of a motion are proved, by enclosures; all other
+//! claims are only observed. There a stated number agrees with a computed one if they differ by no
+//! more than the last stated digit and the estimated error of the computation: the spread of blocks,
+//! or the difference between f64 and double-double.
 
 mod closed_orbit;
 mod contacts;
@@ -23,17 +23,17 @@ mod scene;
 mod section;
 
 use crate::FlowError;
-use crate::{Data, Obstacle, ProvedOrbit, Request, replay};
+use crate::{Obstacle, ProofData, ProvedOrbit, Request, replay};
 use liouville::case::{Case, Expect, MotionClaim};
-use liouville::claim::motion::Motion;
+use liouville::claim::motion::MotionKind;
 use liouville::verdict::{
     self, CaseReport, ClaimReport, Evidence, JudgeError, Method, Options, Trust, Verdict,
 };
 
 pub use density::evidence_against_density;
 
-use finding::Finding;
-use scene::Scene;
+use finding::MotionFinding;
+use scene::FollowedCase;
 
 /// Judges all claims of a case, those about motion last.
 pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
@@ -52,7 +52,7 @@ pub fn observe(case: &Case, options: &Options) -> Vec<ClaimReport> {
 
 /// Judges the claims about motion one after another, and hands over each report as it is made.
 pub fn observe_each(case: &Case, options: &Options, keep: &mut dyn FnMut(ClaimReport)) {
-    let scene = Scene::new(case, options.seed);
+    let scene = FollowedCase::new(case, options.seed);
     for claim in &case.motions {
         keep(report(claim, look(claim, &scene, options), options));
     }
@@ -75,7 +75,7 @@ pub fn proof(
 pub fn verify(
     case: &Case,
     claim: &MotionClaim,
-    data: &Data,
+    data: &ProofData,
     options: &Options,
 ) -> Result<(ClaimReport, ProvedOrbit), String> {
     by(case, claim, options, |request| replay(request, data))
@@ -87,10 +87,10 @@ fn by(
     options: &Options,
     proof: impl FnOnce(&Request<'_>) -> Result<ProvedOrbit, Obstacle>,
 ) -> Result<(ClaimReport, ProvedOrbit), String> {
-    let Motion::ClosedOrbit(kind) = &claim.kind else {
+    let MotionKind::ClosedOrbit(kind) = &claim.kind else {
         return Err("the claim is not about a closed orbit".to_string());
     };
-    let scene = Scene::new(case, options.seed);
+    let scene = FollowedCase::new(case, options.seed);
     let (finding, found) = closed_orbit::by(kind, &scene, options, proof)
         .map_err(|problem| format!("{problem}: {}", problem.help()))?;
     let report = report(claim, Ok(finding), options);
@@ -100,24 +100,28 @@ fn by(
     }
 }
 
-fn look(claim: &MotionClaim, scene: &Scene<'_>, options: &Options) -> Result<Finding, FlowError> {
+fn look(
+    claim: &MotionClaim,
+    scene: &FollowedCase<'_>,
+    options: &Options,
+) -> Result<MotionFinding, FlowError> {
     match &claim.kind {
-        Motion::Exponent(claim) => exponents::exponent(claim, scene),
-        Motion::MeanDivergence(claim) => exponents::mean_divergence(claim, scene),
-        Motion::PeriodicPoint(claim) => periodic::look(claim, scene),
-        Motion::LimitCycle(claim) => section::limit_cycle(claim, scene),
-        Motion::Confined(claim) => section::confined(claim, scene),
-        Motion::LimitOfMotion(claim) => limit::look(claim, scene),
-        Motion::Contacts(claim) => contacts::look(claim, scene),
-        Motion::ClosedOrbit(claim) => closed_orbit::look(claim, scene, options),
-        Motion::Horseshoe(claim) => horseshoe::look(claim, scene, options),
-        Motion::Reaches(claim) => reaches::look(claim, scene),
+        MotionKind::Exponent(claim) => exponents::exponent(claim, scene),
+        MotionKind::MeanDivergence(claim) => exponents::mean_divergence(claim, scene),
+        MotionKind::PeriodicPoint(claim) => periodic::look(claim, scene),
+        MotionKind::LimitCycle(claim) => section::limit_cycle(claim, scene),
+        MotionKind::Confined(claim) => section::confined(claim, scene),
+        MotionKind::LimitOfMotion(claim) => limit::look(claim, scene),
+        MotionKind::Contacts(claim) => contacts::look(claim, scene),
+        MotionKind::ClosedOrbit(claim) => closed_orbit::look(claim, scene, options),
+        MotionKind::Horseshoe(claim) => horseshoe::look(claim, scene, options),
+        MotionKind::Reaches(claim) => reaches::look(claim, scene),
     }
 }
 
 fn report(
     claim: &MotionClaim,
-    found: Result<Finding, FlowError>,
+    found: Result<MotionFinding, FlowError>,
     options: &Options,
 ) -> ClaimReport {
     let (verdict, mut evidence) = match found {

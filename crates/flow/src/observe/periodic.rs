@@ -3,16 +3,16 @@
 use std::f64::consts::PI;
 
 use super::density::speaks_against;
-use super::finding::Finding;
-use super::scene::{Scene, coordinates};
-use crate::{ClosedOrbit, FlowError, Measured, Multipliers, SectionMap};
+use super::finding::MotionFinding;
+use super::scene::{FollowedCase, coordinates};
+use crate::{ComputedClosedOrbit, FlowError, MeasuredNumber, Multipliers, SectionMap};
 use liouville::claim::motion::{PeriodicPoint, Stability};
 
 /// Compares the periodic point found with the claim.
-pub fn look(claim: &PeriodicPoint, scene: &Scene<'_>) -> Result<Finding, FlowError> {
+pub fn look(claim: &PeriodicPoint, scene: &FollowedCase<'_>) -> Result<MotionFinding, FlowError> {
     let map = scene.map()?;
     let orbit = map.closed(coordinates(&claim.at), claim.period)?;
-    let mut finding = Finding::default();
+    let mut finding = MotionFinding::default();
     // The angle, on the turn for which it is stated.
     let turns = ((orbit.point().at[0] - claim.at[0].value) / (2.0 * PI)).round();
     let l = orbit.measure(|point| point.at[0] - 2.0 * PI * turns);
@@ -40,7 +40,11 @@ pub fn look(claim: &PeriodicPoint, scene: &Scene<'_>) -> Result<Finding, FlowErr
     Ok(finding)
 }
 
-fn compare_multipliers(claim: &PeriodicPoint, orbit: &ClosedOrbit, finding: &mut Finding) {
+fn compare_multipliers(
+    claim: &PeriodicPoint,
+    orbit: &ComputedClosedOrbit,
+    finding: &mut MotionFinding,
+) {
     let modulus = orbit.measure_multipliers(|multipliers| match multipliers {
         Multipliers::Complex { modulus, .. } => Some(modulus),
         Multipliers::Real(..) => None,
@@ -69,7 +73,7 @@ fn compare_multipliers(claim: &PeriodicPoint, orbit: &ClosedOrbit, finding: &mut
 }
 
 /// Stability by the multipliers, beyond their errors.
-fn stability_of(orbit: &ClosedOrbit) -> Option<Stability> {
+fn stability_of(orbit: &ComputedClosedOrbit) -> Option<Stability> {
     let product = orbit.measure(|point| point.determinant);
     let off = product.value.abs() - 1.0;
     match orbit.point().multipliers() {
@@ -84,8 +88,8 @@ fn stability_of(orbit: &ClosedOrbit) -> Option<Stability> {
                 })
             };
             let (larger, smaller) = (of(f64::max)?, of(f64::min)?);
-            let beyond = |x: Measured| x.value - 1.0 > x.error;
-            let below = |x: Measured| 1.0 - x.value > x.error;
+            let beyond = |x: MeasuredNumber| x.value - 1.0 > x.error;
+            let below = |x: MeasuredNumber| 1.0 - x.value > x.error;
             match (beyond(larger), below(smaller)) {
                 (true, true) => Some(Stability::Hyperbolic),
                 (false, true) if below(larger) => Some(Stability::Sink),
@@ -99,7 +103,7 @@ fn stability_of(orbit: &ClosedOrbit) -> Option<Stability> {
 /// Proper divisor of the period after which the point already returns, up to its error.
 fn shorter_period(
     map: &SectionMap<'_>,
-    orbit: &ClosedOrbit,
+    orbit: &ComputedClosedOrbit,
     error: f64,
 ) -> Result<Option<usize>, FlowError> {
     let point = orbit.point();

@@ -1,9 +1,9 @@
 //! Values at a time of a motion, proved by an enclosure of the state there.
 
-use super::finding::Finding;
-use super::scene::Scene;
+use super::finding::MotionFinding;
+use super::scene::FollowedCase;
 use crate::motion::{filled, point};
-use crate::{Enclosure, FlowError, Measured, Obstacle, follow};
+use crate::{Enclosure, FlowError, MeasuredNumber, Obstacle, follow};
 use liouville::claim::Components;
 use liouville::claim::motion::{Beginning, Reaches};
 use liouville::graph::{Evaluator, Tape, record};
@@ -16,8 +16,8 @@ use liouville::number::rational::Rational;
 const TIME: f64 = 4.0 * f64::EPSILON;
 
 /// Encloses the state of a claim, and compares the function there with its bounds.
-pub fn look(claim: &Reaches, scene: &Scene<'_>) -> Result<Finding, FlowError> {
-    let mut finding = Finding::default();
+pub fn look(claim: &Reaches, scene: &FollowedCase<'_>) -> Result<MotionFinding, FlowError> {
+    let mut finding = MotionFinding::default();
     let (case, model) = (scene.case, &scene.case.model);
     if model.system.has_arbitrary_function() {
         return Err(FlowError::Arbitrary);
@@ -106,7 +106,7 @@ fn judge(
     model: &Model,
     parameters: &[Rational],
     state: &[Enclosure],
-    finding: &mut Finding,
+    finding: &mut MotionFinding,
 ) -> Result<(), FlowError> {
     let bounds = [(&claim.above, "above"), (&claim.below, "below")];
     let (graph, outputs) = record(model.dimension(), |inputs| {
@@ -121,7 +121,7 @@ fn judge(
     let mut evaluator = Evaluator::new(&tape, Ball::<1>);
     evaluator.run(&state.iter().map(|x| x.block()).collect::<Vec<_>>());
     let values: Vec<Enclosure> = evaluator.outputs().map(Enclosure::first).collect();
-    let found = Measured { value: values[0].mid, error: values[0].rad };
+    let found = MeasuredNumber { value: values[0].mid, error: values[0].rad };
     finding.note(claim.function.text().trim(), found, None);
     let given = bounds.iter().filter_map(|(bound, side)| Some((bound.as_ref()?, side)));
     for ((bound, side), margin) in given.zip(&values[1..]) {

@@ -12,7 +12,7 @@ use liouville::claim::motion::{Beginning, Stated};
 use liouville::number::rational::Rational;
 
 /// A case with the motions followed so far.
-pub struct Scene<'c> {
+pub struct FollowedCase<'c> {
     pub case: &'c Case,
     pub seed: u64,
     map: OnceCell<SectionMap<'c>>,
@@ -25,7 +25,7 @@ pub fn coordinates(at: &[Stated; 2]) -> [f64; 2] {
     [at[0].value, at[1].value]
 }
 
-impl<'c> Scene<'c> {
+impl<'c> FollowedCase<'c> {
     pub fn new(case: &'c Case, seed: u64) -> Self {
         Self { case, seed, map: OnceCell::new(), exponents: RefCell::default() }
     }

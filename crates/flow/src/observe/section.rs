@@ -3,10 +3,10 @@
 
 use std::f64::consts::PI;
 
-use super::finding::Finding;
-use super::scene::Scene;
-use crate::{Crossing, FlowError, Measured};
-use liouville::claim::motion::{Axis, Confined, LimitCycle};
+use super::finding::MotionFinding;
+use super::scene::FollowedCase;
+use crate::{Crossing, FlowError, MeasuredNumber};
+use liouville::claim::motion::{Confined, LimitCycle, SectionCoordinate};
 
 fn distance(a: &Crossing, b: &Crossing) -> f64 {
     let turn = (a.at[0] - b.at[0]) / (2.0 * PI);
@@ -18,7 +18,10 @@ fn distance(a: &Crossing, b: &Crossing) -> f64 {
 /// The displacement |x_(k+n) - x_k| has to fall to half in each quarter of the run, or to the
 /// difference between f64 and double-double after a turn. Its decline gives the remaining distance
 /// to the cycle.
-pub fn limit_cycle(claim: &LimitCycle, scene: &Scene<'_>) -> Result<Finding, FlowError> {
+pub fn limit_cycle(
+    claim: &LimitCycle,
+    scene: &FollowedCase<'_>,
+) -> Result<MotionFinding, FlowError> {
     let crossings = scene.crossings(&claim.beginning, 0, claim.crossings)?.crossings;
     let period = claim.period;
     let last = crossings.len() - 1;
@@ -30,8 +33,8 @@ pub fn limit_cycle(claim: &LimitCycle, scene: &Scene<'_>) -> Result<Finding, Flo
     let quarter = last / 4;
     let falls = [2 * quarter, 3 * quarter, last].map(|end| displacement(end, period));
     let blur = scene.map()?.blur(crossings[last].at, period)?;
-    let mut finding = Finding::default();
-    let shown = |value: f64| Measured { value, error: blur };
+    let mut finding = MotionFinding::default();
+    let shown = |value: f64| MeasuredNumber { value, error: blur };
     finding.show("displacement halfway", shown(falls[0]));
     finding.show("displacement at the end", shown(falls[2]));
     // Accumulated rounding moves a cycle that is about to vanish by its square root.
@@ -57,7 +60,7 @@ pub fn limit_cycle(claim: &LimitCycle, scene: &Scene<'_>) -> Result<Finding, Flo
             .min_by(|a, b| distance(a, &stated).total_cmp(&distance(b, &stated)));
         for (axis, quantity) in ["l", "L/G"].into_iter().enumerate() {
             let value = nearest.map_or(f64::NAN, |crossing| crossing.at[axis]);
-            finding.compare(quantity, Measured { value, error: left }, &point[axis]);
+            finding.compare(quantity, MeasuredNumber { value, error: left }, &point[axis]);
         }
     }
     Ok(finding)
@@ -74,11 +77,11 @@ fn remaining([_, before, last]: [f64; 3], turns: usize, blur: f64) -> f64 {
 }
 
 /// Tests whether the crossings stay in a part of the section, or the stated number of them does.
-pub fn confined(claim: &Confined, scene: &Scene<'_>) -> Result<Finding, FlowError> {
+pub fn confined(claim: &Confined, scene: &FollowedCase<'_>) -> Result<MotionFinding, FlowError> {
     let orbit = scene.crossings(&claim.beginning, claim.skip, claim.crossings)?;
     let axis = match claim.axis {
-        Axis::L => 0,
-        Axis::Z => 1,
+        SectionCoordinate::L => 0,
+        SectionCoordinate::Z => 1,
     };
     let values = orbit.crossings.iter().map(|crossing| crossing.at[axis]);
     let [least, most] = &claim.between;
@@ -86,8 +89,8 @@ pub fn confined(claim: &Confined, scene: &Scene<'_>) -> Result<Finding, FlowErro
     let beyond = values.clone().filter(is_beyond).count();
     let start = (f64::INFINITY, f64::NEG_INFINITY);
     let (low, high) = values.fold(start, |(low, high), x| (low.min(x), high.max(x)));
-    let mut finding = Finding::default();
-    let rounded = |value: f64| Measured { value, error: f64::EPSILON * value.abs() };
+    let mut finding = MotionFinding::default();
+    let rounded = |value: f64| MeasuredNumber { value, error: f64::EPSILON * value.abs() };
     finding.show("lowest", rounded(low));
     finding.show("highest", rounded(high));
     let all = orbit.crossings.len();

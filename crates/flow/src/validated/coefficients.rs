@@ -2,22 +2,22 @@
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes become vectors")]
 
-use liouville::graph::{Work, with_widest_vectors};
+use liouville::graph::{Kernel, with_widest_vectors};
 use liouville::number::ball::{Ball, Balls};
-use liouville::number::{Domain, Function, Operation as Binary};
+use liouville::number::{BinaryOperation as Binary, Domain, UnaryFunction};
 
 use super::enclosure::{Enclosure, raised};
-use super::plan::{Exponent, Operation, Plan, Sum};
+use super::plan::{EnclosedSum, Plan, PowerExponent, RowRule};
 use crate::form::Row;
 
 /// Number of boxes expanded at once.
-pub const LANES: usize = 8;
+pub const BOXES: usize = 8;
 /// One f64 for each box.
-pub type Lane = [f64; LANES];
+pub type Lane = [f64; BOXES];
 /// One ball for each box.
-pub type Block = Balls<LANES>;
+pub type Block = Balls<BOXES>;
 
-const BALL: Ball<LANES> = Ball;
+const BALL: Ball<BOXES> = Ball;
 
 /// Plan with the coefficients of its rows, orders 0 to `order`.
 ///
@@ -35,20 +35,20 @@ impl<'p> Coefficients<'p> {
     /// Prepares expansions to this order.
     pub fn new(plan: &'p Plan, order: usize) -> Self {
         let stride = order + 1;
-        let zeros = vec![[0.0; LANES]; plan.rows * stride];
+        let zeros = vec![[0.0; BOXES]; plan.rows * stride];
         Self { plan, order, stride, mid: zeros.clone(), rad: zeros.clone(), magnitude: zeros }
     }
 
     /// Computes all coefficients at boxes of states, one in each lane.
     pub fn expand(&mut self, state: &[Block]) {
         self.begin(state);
-        with_widest_vectors(Expansion(self, self.order));
+        with_widest_vectors(BoxExpansion(self, self.order));
     }
 
     /// Computes order 0 of all rows.
     pub fn values(&mut self, state: &[Block]) {
         self.begin(state);
-        with_widest_vectors(Expansion(self, 1));
+        with_widest_vectors(BoxExpansion(self, 1));
     }
 
     fn begin(&mut self, state: &[Block]) {
@@ -72,7 +72,7 @@ impl<'p> Coefficients<'p> {
     #[inline(always)]
     fn put(&mut self, row: Row, n: usize, value: &Block) {
         let place = row * self.stride + n;
-        for lane in 0..LANES {
+        for lane in 0..BOXES {
             let (mid, rad) = (value.mid[lane], value.rad[lane]);
             self.mid[place][lane] = mid;
             self.rad[place][lane] = rad;
@@ -83,13 +83,13 @@ impl<'p> Coefficients<'p> {
     /// Encloses Σ x_k y_{n-k} over k from `first` to `last`.
     #[inline(always)]
     fn convolved(&self, x: Row, y: Row, n: usize, first: usize, last: usize) -> Block {
-        let (mut mid, mut rad, mut size) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        let (mut mid, mut rad, mut size) = ([0.0; BOXES], [0.0; BOXES], [0.0; BOXES]);
         let (x, y) = (x * self.stride, y * self.stride + n);
         for k in first..=last {
             let (xm, ym) = (&self.mid[x + k], &self.mid[y - k]);
             let (xr, yr) = (&self.rad[x + k], &self.rad[y - k]);
             let (xa, ya) = (&self.magnitude[x + k], &self.magnitude[y - k]);
-            for lane in 0..LANES {
+            for lane in 0..BOXES {
                 mid[lane] += xm[lane] * ym[lane];
                 rad[lane] += xr[lane] * ya[lane] + xa[lane] * yr[lane];
                 size[lane] += xa[lane] * ya[lane];
@@ -114,49 +114,49 @@ impl<'p> Coefficients<'p> {
 
     /// Computes one coefficient of a row from those of lower orders and of rows before it.
     #[inline(always)]
-    fn coefficient(&self, out: Row, operation: &Operation, n: usize) -> Block {
+    fn coefficient(&self, out: Row, operation: &RowRule, n: usize) -> Block {
         let at = |row: &Row, n: usize| self.get(*row, n);
         let number = |k: usize| constant(Enclosure::exact(k as f64));
         match operation {
-            Operation::Sum(sum) => self.sum(sum, n),
-            Operation::Theta(x) => mul(&number(n), &at(x, n)),
-            Operation::Recip(x) if n == 0 => apply(Function::Recip, &at(x, 0)),
-            Operation::Recip(x) => {
+            RowRule::Sum(sum) => self.sum(sum, n),
+            RowRule::Theta(x) => mul(&number(n), &at(x, n)),
+            RowRule::Recip(x) if n == 0 => apply(UnaryFunction::Recip, &at(x, 0)),
+            RowRule::Recip(x) => {
                 let inner = self.convolved(*x, out, n, 1, n);
-                apply(Function::Neg, &mul(&at(&out, 0), &inner))
+                apply(UnaryFunction::Neg, &mul(&at(&out, 0), &inner))
             }
-            Operation::Power { x, exponent, .. } if n == 0 => power(&at(x, 0), exponent),
-            Operation::Power { x, exponent, .. } => {
+            RowRule::Power { x, exponent, .. } if n == 0 => power(&at(x, 0), exponent),
+            RowRule::Power { x, exponent, .. } => {
                 let moved = mul(&constant(exponent.value), &self.weighted(*x, out, n, n));
                 let own = self.weighted(out, *x, n, n - 1);
-                let divisor = apply(Function::Recip, &mul(&number(n), &at(x, 0)));
+                let divisor = apply(UnaryFunction::Recip, &mul(&number(n), &at(x, 0)));
                 mul(&sub(&moved, &own), &divisor)
             }
-            Operation::Exp(x) if n == 0 => apply(Function::Exp, &at(x, 0)),
-            Operation::Exp(x) => divided(&self.weighted(*x, out, n, n), n),
-            Operation::Ln { x, .. } if n == 0 => apply(Function::Ln, &at(x, 0)),
-            Operation::Ln { x, .. } => {
+            RowRule::Exp(x) if n == 0 => apply(UnaryFunction::Exp, &at(x, 0)),
+            RowRule::Exp(x) => divided(&self.weighted(*x, out, n, n), n),
+            RowRule::Ln { x, .. } if n == 0 => apply(UnaryFunction::Ln, &at(x, 0)),
+            RowRule::Ln { x, .. } => {
                 let own = self.weighted(out, *x, n, n - 1);
                 let rest = sub(&mul(&number(n), &at(x, n)), &own);
-                mul(&rest, &apply(Function::Recip, &mul(&number(n), &at(x, 0))))
+                mul(&rest, &apply(UnaryFunction::Recip, &mul(&number(n), &at(x, 0))))
             }
-            Operation::Sin { x, .. } if n == 0 => apply(Function::Sin, &at(x, 0)),
-            Operation::Sin { x, cosine } => divided(&self.weighted(*x, *cosine, n, n), n),
-            Operation::Cos { x, .. } if n == 0 => apply(Function::Cos, &at(x, 0)),
-            Operation::Cos { x, sine } => {
-                divided(&apply(Function::Neg, &self.weighted(*x, *sine, n, n)), n)
+            RowRule::Sin { x, .. } if n == 0 => apply(UnaryFunction::Sin, &at(x, 0)),
+            RowRule::Sin { x, cosine } => divided(&self.weighted(*x, *cosine, n, n), n),
+            RowRule::Cos { x, .. } if n == 0 => apply(UnaryFunction::Cos, &at(x, 0)),
+            RowRule::Cos { x, sine } => {
+                divided(&apply(UnaryFunction::Neg, &self.weighted(*x, *sine, n, n)), n)
             }
-            Operation::Atan { x, .. } if n == 0 => apply(Function::Atan, &at(x, 0)),
-            Operation::Atan { x, square, .. } => {
+            RowRule::Atan { x, .. } if n == 0 => apply(UnaryFunction::Atan, &at(x, 0)),
+            RowRule::Atan { x, square, .. } => {
                 let own = self.weighted(out, *square, n, n - 1);
                 let rest = sub(&mul(&number(n), &at(x, n)), &own);
-                mul(&rest, &apply(Function::Recip, &mul(&number(n), &at(square, 0))))
+                mul(&rest, &apply(UnaryFunction::Recip, &mul(&number(n), &at(square, 0))))
             }
         }
     }
 
     #[inline(always)]
-    fn sum(&self, sum: &Sum, n: usize) -> Block {
+    fn sum(&self, sum: &EnclosedSum, n: usize) -> Block {
         let mut total = constant(match sum.constant {
             Some(value) if n == 0 => value,
             _ => Enclosure::ZERO,
@@ -181,9 +181,9 @@ impl<'p> Coefficients<'p> {
 }
 
 /// Work of an expansion, up to an order.
-struct Expansion<'c, 'p>(&'c mut Coefficients<'p>, usize);
+struct BoxExpansion<'c, 'p>(&'c mut Coefficients<'p>, usize);
 
-impl Work for Expansion<'_, '_> {
+impl Kernel for BoxExpansion<'_, '_> {
     #[inline(always)]
     fn run(self) {
         let Self(own, order) = self;
@@ -204,7 +204,7 @@ impl Work for Expansion<'_, '_> {
 /// The same ball in every lane.
 #[inline(always)]
 pub fn constant(value: Enclosure) -> Block {
-    Balls::new([value.mid; LANES], [value.rad; LANES])
+    Balls::new([value.mid; BOXES], [value.rad; BOXES])
 }
 
 /// Encloses x + y.
@@ -230,7 +230,7 @@ fn mul(x: &Block, y: &Block) -> Block {
 }
 
 #[inline(always)]
-fn apply(function: Function, x: &Block) -> Block {
+fn apply(function: UnaryFunction, x: &Block) -> Block {
     let mut out = constant(Enclosure::ZERO);
     BALL.unary(function, x, &mut out);
     out
@@ -239,7 +239,7 @@ fn apply(function: Function, x: &Block) -> Block {
 /// Encloses x/n.
 #[inline(always)]
 fn divided(x: &Block, n: usize) -> Block {
-    mul(x, &apply(Function::Recip, &constant(Enclosure::exact(n as f64))))
+    mul(x, &apply(UnaryFunction::Recip, &constant(Enclosure::exact(n as f64))))
 }
 
 /// Encloses x + weight y; weights ±1 are exact.
@@ -252,9 +252,9 @@ fn plus(x: &Block, weight: Enclosure, y: &Block) -> Block {
     }
 }
 
-fn power(x: &Block, exponent: &Exponent) -> Block {
+fn power(x: &Block, exponent: &PowerExponent) -> Block {
     if exponent.is_root {
-        return apply(Function::Sqrt, x);
+        return apply(UnaryFunction::Sqrt, x);
     }
     let mut out = constant(Enclosure::ZERO);
     BALL.power(x, &exponent.exact, &mut out);

@@ -4,7 +4,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 use liouville::number::ball::{Ball, Balls};
 use liouville::number::rational::Rational;
-use liouville::number::{Domain, Function, Operation};
+use liouville::number::{BinaryOperation, Domain, UnaryFunction};
 
 /// Real number within `rad` of `mid`; a radius that is not finite encloses nothing known.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,18 +73,18 @@ impl Enclosure {
     /// Encloses the exponentials.
     pub fn exp(self) -> Self {
         let mut out = Balls::new([0.0], [0.0]);
-        Ball::<1>.unary(Function::Exp, &self.block(), &mut out);
+        Ball::<1>.unary(UnaryFunction::Exp, &self.block(), &mut out);
         Self::first(&out)
     }
 
     /// Encloses the reciprocals; not finite where 0 is among the numbers.
     pub fn recip(self) -> Self {
         let mut out = Balls::new([0.0], [0.0]);
-        Ball::<1>.unary(Function::Recip, &self.block(), &mut out);
+        Ball::<1>.unary(UnaryFunction::Recip, &self.block(), &mut out);
         Self::first(&out)
     }
 
-    fn combined(self, operation: Operation, other: Self) -> Self {
+    fn combined(self, operation: BinaryOperation, other: Self) -> Self {
         let mut out = Balls::new([0.0], [0.0]);
         Ball::<1>.binary(operation, &self.block(), &other.block(), &mut out);
         Self::first(&out)
@@ -94,21 +94,21 @@ impl Enclosure {
 impl Add for Enclosure {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        self.combined(Operation::Add, other)
+        self.combined(BinaryOperation::Add, other)
     }
 }
 
 impl Sub for Enclosure {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
-        self.combined(Operation::Sub, other)
+        self.combined(BinaryOperation::Sub, other)
     }
 }
 
 impl Mul for Enclosure {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        self.combined(Operation::Mul, other)
+        self.combined(BinaryOperation::Mul, other)
     }
 }
 

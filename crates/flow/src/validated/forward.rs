@@ -9,16 +9,16 @@
 //! so that the box turns with the flow. Every rounding is counted, and so is the deviation of Q from
 //! an orthogonal matrix.
 
-use super::coefficients::LANES;
+use super::coefficients::BOXES;
 use super::enclosure::{Enclosure, raised};
 use super::functions::norm;
 use super::guess::Nodes;
 use super::laws::Laws;
-use super::motion::{Boxed, Motion, Passage};
+use super::motion::{Boxed, EnclosedMotion, EnclosedPassage};
 use super::{KAPPAS, LEAST_RADIUS, Obstacle};
 use crate::start::Start;
 use liouville::mechanics::Model;
-use liouville::number::pair::Pair;
+use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
 
 /// Limit on the steps of a motion.
@@ -47,8 +47,8 @@ pub fn follow(
     time: Enclosure,
 ) -> Result<Reached, Obstacle> {
     let laws = Laws { model, parameters, loose: &[], energy: false, integrals: &[] };
-    let motion = Motion::new(&laws)?;
-    let state = start.iter().map(|x| Pair::from_f64(x.mid)).collect();
+    let motion = EnclosedMotion::new(&laws)?;
+    let state = start.iter().map(|x| DoubleDouble::from_f64(x.mid)).collect();
     let begin = Start { parameters: parameters.to_vec(), state, moved: 0.0 };
     let mut obstacle = Obstacle::NoStep(0.0);
     for kappa in KAPPAS {
@@ -62,7 +62,7 @@ pub fn follow(
 }
 
 fn along(
-    motion: &Motion,
+    motion: &EnclosedMotion,
     nodes: &Nodes,
     start: &[Enclosure],
     time: Enclosure,
@@ -79,13 +79,13 @@ fn along(
     let mut cloud = Cloud::about(start);
     let mut index = 0;
     while index < count {
-        let group = index..count.min(index + LANES);
+        let group = index..count.min(index + BOXES);
         let starts: Vec<Boxed> =
             group.clone().map(|k| cloud.foreseen(k - index, nodes, k)).collect();
         let found = motion.passages(&starts, &steps[group.clone()]);
         let now = nodes.shares[..index].iter().sum::<f64>() * time.mid;
         let first = index;
-        let known: Vec<Passage> = found.into_iter().map_while(|passage| passage).collect();
+        let known: Vec<EnclosedPassage> = found.into_iter().map_while(|passage| passage).collect();
         let gaps = gaps(motion, nodes, &cloud.centre, first, &steps, &known);
         for ((passage, gap), start) in known.iter().zip(gaps).zip(&starts) {
             let Some((target, gap)) = gap else { break };
@@ -105,18 +105,18 @@ fn along(
 /// Encloses φ(h, p) - p' for some steps from their nodes p, where p' is the next node, or near the
 /// end of the last step. Returns p' with it.
 fn gaps(
-    motion: &Motion,
+    motion: &EnclosedMotion,
     nodes: &Nodes,
     centre: &[f64],
     first: usize,
     steps: &[Enclosure],
-    passages: &[Passage],
+    passages: &[EnclosedPassage],
 ) -> Vec<Option<(Vec<f64>, Boxed)>> {
     let mut centres = nodes.states[first..][..passages.len()].to_vec();
     if let Some(own) = centres.first_mut() {
         own.copy_from_slice(centre);
     }
-    let end = |passage: &Passage| passage.end.iter().map(|x| x.mid).collect::<Vec<f64>>();
+    let end = |passage: &EnclosedPassage| passage.end.iter().map(|x| x.mid).collect::<Vec<f64>>();
     let targets: Vec<Vec<f64>> = (first + 1..)
         .zip(passages)
         .map(|(next, passage)| nodes.states.get(next).cloned().unwrap_or_else(|| end(passage)))
@@ -192,7 +192,7 @@ impl Cloud {
     }
 
     /// Set of points after a step, around a target. `None` if it is too large to be of use.
-    fn moved(&self, passage: &Passage, gap: &[Enclosure], target: &[f64]) -> Option<Self> {
+    fn moved(&self, passage: &EnclosedPassage, gap: &[Enclosure], target: &[f64]) -> Option<Self> {
         let product = |row: &Boxed, column: &[f64]| {
             let terms = row.iter().zip(column);
             terms.fold(Enclosure::ZERO, |sum, (x, y)| sum + *x * Enclosure::exact(*y))

@@ -6,11 +6,11 @@ use super::motion::Boxed;
 use super::sharp;
 use crate::error::FlowError;
 use liouville::graph::{Evaluator, Expr, Tape, record};
-use liouville::mechanics::calculus::Jet;
+use liouville::mechanics::calculus::DualPoint;
 use liouville::number::Domain;
 use liouville::number::ball::Ball;
+use liouville::number::double_double_ball::{DoubleDoubleBall, DoubleDoubleBalls};
 use liouville::number::rational::Rational;
-use liouville::number::twofold::{TwofoldBall, Twofolds};
 use liouville::scalar::Scalar;
 
 /// Functions with their gradients, recorded.
@@ -38,7 +38,7 @@ impl Functions {
         let kept = vec![true; model.level.len()];
         let (graph, (values, gradients)) = record(dimension + loose, |inputs| {
             let (state, free) = inputs.split_at(dimension);
-            let jet = Jet::new(laws.point(state, free));
+            let jet = DualPoint::new(laws.point(state, free));
             let level = model.level.iter();
             let mut values: Vec<_> =
                 level.map(|equation| jet.phase.level_function(&equation.function)).collect();
@@ -164,9 +164,9 @@ impl Functions {
 
     /// Encloses the values at a state less other numbers, in double-double.
     pub fn sharp(&self, state: &[f64], less: &[Rational]) -> Vec<Enclosure> {
-        let exact = |x: &f64| Twofolds { hi: [*x], lo: [0.0], rad: [0.0] };
+        let exact = |x: &f64| DoubleDoubleBalls { hi: [*x], lo: [0.0], rad: [0.0] };
         let state = state.iter().map(exact).collect();
-        let (values, _) = self.over(TwofoldBall::<1>, state, &exact(&0.0));
+        let (values, _) = self.over(DoubleDoubleBall::<1>, state, &exact(&0.0));
         let pairs = values.iter().zip(less);
         pairs.map(|(value, less)| sharp::difference(value, less)).collect()
     }

@@ -5,7 +5,7 @@ use crate::motion::program;
 use crate::start::Start;
 use crate::stepper::{Accuracy, Stepper};
 use liouville::mechanics::Model;
-use liouville::number::pair::Pair;
+use liouville::number::double_double::DoubleDouble;
 
 use super::motion::ORDER;
 
@@ -28,7 +28,7 @@ impl Nodes {
     ) -> Result<Option<Self>, FlowError> {
         let program = program(model, &start.parameters, |_| Vec::new())?;
         let mut stepper = Stepper::<f64>::new(&program, Accuracy { order: ORDER, kappa });
-        stepper.start(0, &start.state, Pair::from_f64(time));
+        stepper.start(0, &start.state, DoubleDouble::from_f64(time));
         let (mut states, mut shares) = (Vec::new(), Vec::new());
         while !stepper.is_done(0) {
             if states.len() == most {

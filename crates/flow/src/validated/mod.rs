@@ -30,15 +30,15 @@ mod tests;
 
 pub use enclosure::Enclosure;
 pub use forward::{Reached, follow};
-pub use horseshoe::{Horseshoe, Margin, prove as prove_horseshoe};
+pub use horseshoe::{Margin, ProvedHorseshoe, prove as prove_horseshoe};
 pub use obstacle::Obstacle;
-pub use replay::{Data, replay};
+pub use replay::{ProofData, replay};
 pub use request::Request;
 
 use functions::Functions;
 use guess::Nodes;
 use krawczyk::{Inverse, is_regular};
-use motion::{Boxed, Motion, ORDER, Passage};
+use motion::{Boxed, EnclosedMotion, EnclosedPassage, ORDER};
 use request::moved;
 use shooting::{Frames, Shooting, boxes, times};
 
@@ -79,26 +79,32 @@ pub struct ProvedOrbit {
     /// Number of conserved functions, the level's among them.
     pub kept: usize,
     /// Numbers by which the proof can be replayed.
-    pub data: Data,
+    pub data: ProofData,
+}
+
+/// Prepares proofs about motions near a state, with the conserved functions that are independent
+/// there; returns the numbers that say which values these have, too.
+fn prepared(request: &Request<'_>, state: &[f64]) -> Result<(Shooting, Vec<f64>), Obstacle> {
+    let mut functions = Functions::new(&request.laws())?;
+    let numbers = functions.choose(state);
+    if functions.of_level_in_use() < functions.of_level {
+        return Err(Obstacle::Level);
+    }
+    let values = request.values(&functions, &numbers)?;
+    let motion = EnclosedMotion::new(&request.laws())?;
+    Ok((Shooting { motion, functions, values }, numbers))
 }
 
 /// Proves that there is a closed orbit near a state, with enclosures.
 pub fn prove(request: &Request<'_>) -> Result<ProvedOrbit, Obstacle> {
     let Request { model, start, .. } = request;
     let state = request.state();
-    let mut functions = Functions::new(&request.laws())?;
-    let numbers = functions.choose(&state);
-    if functions.of_level_in_use() < functions.of_level {
-        return Err(Obstacle::Level);
-    }
-    let values = request.values(&functions, &numbers)?;
-    let motion = Motion::new(&request.laws())?;
-    let shooting = Shooting { motion, functions, values };
+    let (shooting, numbers) = prepared(request, &state)?;
     let mut obstacle = Obstacle::NoOrbit;
     for kappa in KAPPAS {
         let most = MOST_UNKNOWNS / model.dimension().max(1);
         let nodes = Nodes::along(model, start, request.period, kappa, most)?;
-        match Search::new(&shooting, nodes.ok_or(Obstacle::TooLong)?)
+        match OrbitSearch::new(&shooting, nodes.ok_or(Obstacle::TooLong)?)
             .and_then(|search| search.prove(request.wants_multipliers))
         {
             Ok(mut found) => {
@@ -115,14 +121,14 @@ pub fn prove(request: &Request<'_>) -> Result<ProvedOrbit, Obstacle> {
 }
 
 /// Nodes near a closed orbit, with an approximate inverse of the derivative there.
-struct Search<'s> {
+struct OrbitSearch<'s> {
     shooting: &'s Shooting,
     nodes: Nodes,
     frames: Frames,
     inverse: Inverse,
 }
 
-impl<'s> Search<'s> {
+impl<'s> OrbitSearch<'s> {
     /// Moves the nodes to a closed orbit by Newton's method.
     fn new(shooting: &'s Shooting, mut nodes: Nodes) -> Result<Self, Obstacle> {
         let order = shooting::folded(shooting.motion.dimension, nodes.states.len());
@@ -208,7 +214,7 @@ impl<'s> Search<'s> {
     fn proved(
         &self,
         starts: &[Boxed],
-        passages: &[Passage],
+        passages: &[EnclosedPassage],
         radii: &[f64],
         contraction: f64,
     ) -> Result<ProvedOrbit, Obstacle> {
@@ -241,7 +247,7 @@ impl<'s> Search<'s> {
             contraction,
             moved: 0.0,
             kept: shooting.functions.len(),
-            data: Data {
+            data: ProofData {
                 order: ORDER,
                 functions: shooting.functions.used().to_vec(),
                 values: Vec::new(),
@@ -265,7 +271,7 @@ fn passages(
     nodes: &Nodes,
     starts: &[Boxed],
     period: Enclosure,
-) -> Result<Vec<Passage>, Obstacle> {
+) -> Result<Vec<EnclosedPassage>, Obstacle> {
     all(nodes, shooting.motion.passages(starts, &times(nodes, period)))
 }
 

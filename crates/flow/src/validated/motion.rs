@@ -1,16 +1,16 @@
 //! Motions over one Taylor step from many boxes: end states, derivatives, ∫ div v.
 
-use super::coefficients::{Block, Coefficients, LANES};
+use super::coefficients::{BOXES, Block, Coefficients};
 use super::enclosure::Enclosure;
 use super::laws::Laws;
 use super::plan::Plan;
 use super::sharp;
 use super::tail::{self, End};
 use crate::error::FlowError;
-use crate::program::Program;
+use crate::program::TaylorProgram;
 use liouville::graph::{Expr, record};
 use liouville::mechanics::Phase;
-use liouville::mechanics::calculus::Jet;
+use liouville::mechanics::calculus::DualPoint;
 use liouville::number::ball::Balls;
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
@@ -23,7 +23,7 @@ pub const ORDER: usize = 20;
 pub type Boxed = Vec<Enclosure>;
 
 /// End of a step from a box, with its derivative.
-pub struct Passage {
+pub struct EnclosedPassage {
     /// End states.
     pub end: Boxed,
     /// Derivative of the end with respect to the start, then to the loose parameters, row by row.
@@ -35,7 +35,7 @@ pub struct Passage {
 }
 
 /// Equations of a model, for steps that are proved.
-pub struct Motion {
+pub struct EnclosedMotion {
     pub dimension: usize,
     /// Order of the series.
     pub order: usize,
@@ -50,7 +50,7 @@ pub struct Motion {
     pub full: Plan,
 }
 
-impl Motion {
+impl EnclosedMotion {
     /// Records the field, its derivative along each axis and each loose parameter, the divergence on
     /// the level, and the rates of the conserved functions.
     pub fn new(laws: &Laws<'_>) -> Result<Self, FlowError> {
@@ -61,7 +61,7 @@ impl Motion {
         let sizes = integrals.iter().map(|formula| formula.value_type().size());
         let kept = model.level.len() + usize::from(energy) + sizes.sum::<usize>();
         let full = plan(laws, n * (n + loose) + 1 + kept, |phase, inputs, more| {
-            let jet = Jet::new(phase.with(&[], &phase.state()));
+            let jet = DualPoint::new(phase.with(&[], &phase.state()));
             let mut rates = jet.phase.field().to_vec();
             for (index, vector) in more[..n * (n + loose)].chunks(n).enumerate() {
                 rates.extend(match index.checked_sub(n) {
@@ -118,7 +118,7 @@ impl Motion {
         let starts: Vec<Boxed> =
             starts.iter().map(|state| self.whole(state.iter().map(exact).collect())).collect();
         let mut found = Vec::new();
-        for (group, h) in starts.chunks(LANES).zip(h.chunks(LANES)) {
+        for (group, h) in starts.chunks(BOXES).zip(h.chunks(BOXES)) {
             coefficients.expand(&blocks(group));
             let h: Vec<Boxed> = h.iter().map(|h| vec![exact(h)]).collect();
             let h = &blocks(&h)[0];
@@ -147,7 +147,7 @@ impl Motion {
     }
 
     /// Encloses the states after the steps `h`, with derivatives and ∫ div v.
-    pub fn passages(&self, starts: &[Boxed], h: &[Enclosure]) -> Vec<Option<Passage>> {
+    pub fn passages(&self, starts: &[Boxed], h: &[Enclosure]) -> Vec<Option<EnclosedPassage>> {
         let (n, loose) = (self.dimension, self.loose);
         let count = n * (n + loose);
         let starts: Vec<Boxed> = starts.iter().map(|state| self.whole(state.clone())).collect();
@@ -157,7 +157,7 @@ impl Motion {
             let derivative = (0..n)
                 .map(|row| (0..n + loose).map(|column| columns[column * n + row]).collect())
                 .collect();
-            Passage { end, derivative, volume: columns[count], radius }
+            EnclosedPassage { end, derivative, volume: columns[count], radius }
         };
         steps(&self.full, self.order, &starts, h).into_iter().map(|end| end.map(passage)).collect()
     }
@@ -168,7 +168,7 @@ impl Motion {
         let mut fields = Vec::new();
         let whole = |state: &Boxed| state.iter().copied().chain(self.ranges()).collect();
         let states: Vec<Boxed> = states.iter().map(whole).collect();
-        for group in states.chunks(LANES) {
+        for group in states.chunks(BOXES) {
             coefficients.values(&blocks(group));
             for lane in 0..group.len() {
                 let rates = self.wide.rates[..self.dimension].iter();
@@ -210,13 +210,13 @@ fn plan(
     if graph.inputs() > dimension + loose + more {
         return Err(FlowError::Antiderivative);
     }
-    Plan::new(&Program::exact(&graph, &rates)?)
+    Plan::new(&TaylorProgram::exact(&graph, &rates)?)
 }
 
 fn steps(plan: &Plan, order: usize, starts: &[Boxed], h: &[Enclosure]) -> Vec<Option<End>> {
     let mut coefficients = Coefficients::new(plan, order);
     let (mut ends, mut hope) = (Vec::new(), tail::FIRST);
-    for (group, h) in starts.chunks(LANES).zip(h.chunks(LANES)) {
+    for (group, h) in starts.chunks(BOXES).zip(h.chunks(BOXES)) {
         coefficients.expand(&blocks(group));
         let h: Vec<Boxed> = h.iter().map(|h| vec![*h]).collect();
         let found = tail::states(&coefficients, &blocks(&h)[0], &mut hope);
@@ -230,7 +230,7 @@ fn blocks(states: &[Boxed]) -> Vec<Block> {
     let width = states.first().map_or(0, Vec::len);
     let at = |lane: usize, row: usize| states[lane.min(states.len() - 1)][row];
     let block = |row: usize| {
-        let lanes: [Enclosure; LANES] = std::array::from_fn(|lane| at(lane, row));
+        let lanes: [Enclosure; BOXES] = std::array::from_fn(|lane| at(lane, row));
         Balls::new(lanes.map(|x| x.mid), lanes.map(|x| x.rad))
     };
     (0..width).map(block).collect()

@@ -14,7 +14,7 @@
 
 use super::enclosure::{Enclosure, raised};
 use super::krawczyk::Inverse;
-use super::motion::{Boxed, Passage};
+use super::motion::{Boxed, EnclosedPassage};
 use super::shooting::{Columns, Frames, Shooting, combined};
 
 /// Encloses the sum of the multipliers, without the 1 along the orbit, given boxes of its nodes and
@@ -23,7 +23,7 @@ pub fn sum(
     shooting: &Shooting,
     frames: &Frames,
     boxes: &[Boxed],
-    passages: &[Passage],
+    passages: &[EnclosedPassage],
 ) -> Option<Enclosure> {
     let n = shooting.motion.dimension;
     let across = &frames.across[0];

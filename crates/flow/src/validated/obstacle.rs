@@ -60,7 +60,7 @@ pub enum Obstacle {
     #[error("no surface across the motion is known")]
     Surface,
     /// No homoclinic orbit is found.
-    #[error("no motion is found that leaves the saddle and comes back to it for ever")]
+    #[error("no motion is found that leaves the saddle and returns to it")]
     NoHomoclinic,
     /// The covering relations are not proved.
     #[error("the covering relations along a homoclinic orbit are not proved: {0}")]

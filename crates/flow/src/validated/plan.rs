@@ -1,8 +1,8 @@
 //! Taylor programs with enclosed coefficients, and the reciprocals that their tails need.
 
 use crate::error::FlowError;
-use crate::form::{Form, Row};
-use crate::program::{Program, Rule};
+use crate::form::{BilinearForm, Row};
+use crate::program::{Rule, TaylorProgram};
 
 use super::enclosure::Enclosure;
 use liouville::number::rational::Rational;
@@ -12,9 +12,9 @@ const MOST_TERMS: usize = 1000;
 
 /// Rule of a row, as in the module on programs; `inverse` is a row of reciprocals.
 #[derive(Clone, Debug)]
-pub enum Operation {
+pub enum RowRule {
     /// constant + Σ c x + Σ c x y
-    Sum(Sum),
+    Sum(EnclosedSum),
     /// n x_n, which only rules of other programs read.
     Theta(Row),
     /// 1/x
@@ -23,7 +23,7 @@ pub enum Operation {
     Power {
         x: Row,
         inverse: Row,
-        exponent: Exponent,
+        exponent: PowerExponent,
     },
     Exp(Row),
     /// ln x, with 1/x.
@@ -49,7 +49,7 @@ pub enum Operation {
 
 /// Exponent of a power.
 #[derive(Clone, Debug)]
-pub struct Exponent {
+pub struct PowerExponent {
     /// Whether it is 1/2, and the power a root.
     pub is_root: bool,
     /// The number itself.
@@ -60,16 +60,16 @@ pub struct Exponent {
 
 /// Sum of products with enclosed coefficients.
 #[derive(Clone, Debug)]
-pub struct Sum {
+pub struct EnclosedSum {
     pub constant: Option<Enclosure>,
     pub linear: Vec<(Enclosure, Row)>,
     pub products: Vec<(Enclosure, Row, Row)>,
     /// The same with exact coefficients.
-    pub form: Form,
+    pub form: BilinearForm,
 }
 
-impl Sum {
-    fn of(form: &Form) -> Self {
+impl EnclosedSum {
+    fn of(form: &BilinearForm) -> Self {
         let products = form.products.iter();
         Self {
             constant: form.constant.as_ref().map(Enclosure::of),
@@ -86,14 +86,14 @@ pub struct Plan {
     pub dimension: usize,
     pub rows: usize,
     /// Operations with the rows that they make, arguments first.
-    pub operations: Vec<(Row, Operation)>,
+    pub operations: Vec<(Row, RowRule)>,
     /// Rows of the rates of the state's components.
     pub rates: Vec<Row>,
 }
 
 impl Plan {
     /// Encloses the coefficients of a program whose constants were not rounded.
-    pub fn new(program: &Program) -> Result<Self, FlowError> {
+    pub fn new(program: &TaylorProgram) -> Result<Self, FlowError> {
         let mut plan = Self {
             dimension: program.dimension,
             rows: program.rows,
@@ -106,27 +106,27 @@ impl Plan {
                     if instruction.form.len() > MOST_TERMS {
                         return Err(FlowError::TooLong);
                     }
-                    Operation::Sum(Sum::of(&instruction.form))
+                    RowRule::Sum(EnclosedSum::of(&instruction.form))
                 }
-                Rule::Theta(x) => Operation::Theta(*x),
-                Rule::Recip(x) => Operation::Recip(*x),
+                Rule::Theta(x) => RowRule::Theta(*x),
+                Rule::Recip(x) => RowRule::Recip(*x),
                 Rule::Sqrt(x) => {
                     let (exact, value) = (Rational::new(1, 2), Enclosure::exact(0.5));
-                    let exponent = Exponent { is_root: true, exact, value };
-                    Operation::Power { x: *x, inverse: plan.inverse(*x), exponent }
+                    let exponent = PowerExponent { is_root: true, exact, value };
+                    RowRule::Power { x: *x, inverse: plan.inverse(*x), exponent }
                 }
                 Rule::Power { x, exponent } => {
                     let (exact, value) = (exponent.clone(), Enclosure::of(exponent));
-                    let exponent = Exponent { is_root: false, exact, value };
-                    Operation::Power { x: *x, inverse: plan.inverse(*x), exponent }
+                    let exponent = PowerExponent { is_root: false, exact, value };
+                    RowRule::Power { x: *x, inverse: plan.inverse(*x), exponent }
                 }
-                Rule::Exp(x) => Operation::Exp(*x),
-                Rule::Ln(x) => Operation::Ln { x: *x, inverse: plan.inverse(*x) },
-                Rule::Sin { x, cosine } => Operation::Sin { x: *x, cosine: *cosine },
-                Rule::Cos { x, sine } => Operation::Cos { x: *x, sine: *sine },
+                Rule::Exp(x) => RowRule::Exp(*x),
+                Rule::Ln(x) => RowRule::Ln { x: *x, inverse: plan.inverse(*x) },
+                Rule::Sin { x, cosine } => RowRule::Sin { x: *x, cosine: *cosine },
+                Rule::Cos { x, sine } => RowRule::Cos { x: *x, sine: *sine },
                 Rule::Atan { x, square } => {
                     let inverse = plan.inverse(*square);
-                    Operation::Atan { x: *x, square: *square, inverse }
+                    RowRule::Atan { x: *x, square: *square, inverse }
                 }
             };
             plan.operations.push((instruction.out, operation));
@@ -136,13 +136,13 @@ impl Plan {
 
     /// Row of 1/x, made once.
     fn inverse(&mut self, x: Row) -> Row {
-        let is_own = |(_, operation): &&(Row, Operation)| matches!(operation, Operation::Recip(own) if *own == x);
+        let is_own = |(_, operation): &&(Row, RowRule)| matches!(operation, RowRule::Recip(own) if *own == x);
         if let Some((row, _)) = self.operations.iter().find(is_own) {
             return *row;
         }
         let row = self.rows;
         self.rows += 1;
-        self.operations.push((row, Operation::Recip(x)));
+        self.operations.push((row, RowRule::Recip(x)));
         row
     }
 }

@@ -1,30 +1,30 @@
 //! Residuals in double-double at nodes that are accurate to the last digit of f64.
 
-use super::coefficients::LANES;
+use super::coefficients::BOXES;
 use super::enclosure::Enclosure;
 use super::motion::Boxed;
-use super::plan::{Exponent, Operation, Plan};
-use crate::form::{Form, Row};
-use liouville::number::pair::two_product;
+use super::plan::{Plan, PowerExponent, RowRule};
+use crate::form::{BilinearForm, Row};
+use liouville::number::double_double::two_product;
+use liouville::number::double_double_ball::{DoubleDoubleBall, DoubleDoubleBalls};
 use liouville::number::rational::Rational;
-use liouville::number::twofold::{TwofoldBall, Twofolds};
-use liouville::number::{Domain, Enclosing, Function, Operation as Binary};
+use liouville::number::{BinaryOperation as Binary, Domain, Enclosing, UnaryFunction};
 
-type Block = Twofolds<LANES>;
+type Block = DoubleDoubleBalls<BOXES>;
 
-const BALL: TwofoldBall<LANES> = TwofoldBall;
+const BALL: DoubleDoubleBall<BOXES> = DoubleDoubleBall;
 
 /// Encloses a value less an exact number.
-pub fn difference(value: &Twofolds<1>, less: &Rational) -> Enclosure {
-    let ball = TwofoldBall::<1>;
+pub fn difference(value: &DoubleDoubleBalls<1>, less: &Rational) -> Enclosure {
+    let ball = DoubleDoubleBall::<1>;
     let mut out = value.clone();
     ball.binary(Binary::Sub, value, &ball.constant(less), &mut out);
     enclosure::<1>(&out, 0)
 }
 
-fn enclosure<const N: usize>(block: &Twofolds<N>, lane: usize) -> Enclosure {
+fn enclosure<const N: usize>(block: &DoubleDoubleBalls<N>, lane: usize) -> Enclosure {
     let undefined = (f64::NAN, f64::NAN);
-    let (mid, rad) = TwofoldBall::<N>::enclosure(block, lane).unwrap_or(undefined);
+    let (mid, rad) = DoubleDoubleBall::<N>::enclosure(block, lane).unwrap_or(undefined);
     Enclosure { mid, rad }
 }
 
@@ -38,25 +38,25 @@ pub fn gaps(
     period: f64,
     targets: &[&[f64]],
 ) -> Vec<Boxed> {
-    let mut coefficients = Coefficients::new(plan, order);
+    let mut coefficients = PointCoefficients::new(plan, order);
     let mut found = Vec::new();
     for ((starts, shares), targets) in
-        starts.chunks(LANES).zip(shares.chunks(LANES)).zip(targets.chunks(LANES))
+        starts.chunks(BOXES).zip(shares.chunks(BOXES)).zip(targets.chunks(BOXES))
     {
         let last = starts.len() - 1;
         let of = |values: &dyn Fn(usize) -> f64| Block {
             hi: std::array::from_fn(|lane| values(lane.min(last))),
-            lo: [0.0; LANES],
-            rad: [0.0; LANES],
+            lo: [0.0; BOXES],
+            rad: [0.0; BOXES],
         };
         let state: Vec<Block> =
             (0..plan.dimension).map(|row| of(&|lane| starts[lane][row])).collect();
         coefficients.expand(&state);
-        let products: [(f64, f64); LANES] =
+        let products: [(f64, f64); BOXES] =
             std::array::from_fn(|lane| two_product(shares[lane.min(last)], period));
         // The error of a product is exact unless it underflows.
         let (hi, lo) = (products.map(|x| x.0), products.map(|x| x.1));
-        let h = Block { hi, lo, rad: [f64::MIN_POSITIVE; LANES] };
+        let h = Block { hi, lo, rad: [f64::MIN_POSITIVE; BOXES] };
         let ends: Vec<Block> = (0..plan.dimension)
             .map(|row| {
                 let end = coefficients.polynomial(row, &h);
@@ -69,13 +69,13 @@ pub fn gaps(
 }
 
 /// Taylor coefficients of points.
-struct Coefficients<'p> {
+struct PointCoefficients<'p> {
     plan: &'p Plan,
     order: usize,
     rows: Vec<Block>,
 }
 
-impl<'p> Coefficients<'p> {
+impl<'p> PointCoefficients<'p> {
     fn new(plan: &'p Plan, order: usize) -> Self {
         let zero = BALL.constant(&Rational::from(0));
         Self { plan, order, rows: vec![zero; plan.rows * (order + 1)] }
@@ -128,41 +128,41 @@ impl<'p> Coefficients<'p> {
     }
 
     /// Computes one coefficient of a row from those of lower orders and of rows before it.
-    fn coefficient(&self, out: Row, operation: &Operation, n: usize) -> Block {
+    fn coefficient(&self, out: Row, operation: &RowRule, n: usize) -> Block {
         let value = |function, x: &Row| apply(function, self.at(*x, 0));
-        let per = |x: &Row| apply(Function::Recip, &multiply(&number(n), self.at(*x, 0)));
+        let per = |x: &Row| apply(UnaryFunction::Recip, &multiply(&number(n), self.at(*x, 0)));
         match operation {
-            Operation::Sum(sum) => self.sum(&sum.form, n),
-            Operation::Theta(x) => multiply(&number(n), self.at(*x, n)),
-            Operation::Recip(x) if n == 0 => value(Function::Recip, x),
-            Operation::Recip(x) => {
+            RowRule::Sum(sum) => self.sum(&sum.form, n),
+            RowRule::Theta(x) => multiply(&number(n), self.at(*x, n)),
+            RowRule::Recip(x) if n == 0 => value(UnaryFunction::Recip, x),
+            RowRule::Recip(x) => {
                 let inner = self.convolved(*x, out, n, 1, n);
-                apply(Function::Neg, &multiply(self.at(out, 0), &inner))
+                apply(UnaryFunction::Neg, &multiply(self.at(out, 0), &inner))
             }
-            Operation::Power { x, exponent, .. } if n == 0 => power(self.at(*x, 0), exponent),
-            Operation::Power { x, exponent, .. } => {
+            RowRule::Power { x, exponent, .. } if n == 0 => power(self.at(*x, 0), exponent),
+            RowRule::Power { x, exponent, .. } => {
                 let moved =
                     multiply(&BALL.constant(&exponent.exact), &self.weighted(*x, out, n, n));
                 let rest = combined(Binary::Sub, &moved, &self.weighted(out, *x, n, n - 1));
                 multiply(&rest, &per(x))
             }
-            Operation::Exp(x) if n == 0 => value(Function::Exp, x),
-            Operation::Exp(x) => multiply(&self.weighted(*x, out, n, n), &share(n)),
-            Operation::Ln { x, .. } if n == 0 => value(Function::Ln, x),
-            Operation::Ln { x, .. } => {
+            RowRule::Exp(x) if n == 0 => value(UnaryFunction::Exp, x),
+            RowRule::Exp(x) => multiply(&self.weighted(*x, out, n, n), &share(n)),
+            RowRule::Ln { x, .. } if n == 0 => value(UnaryFunction::Ln, x),
+            RowRule::Ln { x, .. } => {
                 let moved = multiply(&number(n), self.at(*x, n));
                 let rest = combined(Binary::Sub, &moved, &self.weighted(out, *x, n, n - 1));
                 multiply(&rest, &per(x))
             }
-            Operation::Sin { x, .. } if n == 0 => value(Function::Sin, x),
-            Operation::Sin { x, cosine } => multiply(&self.weighted(*x, *cosine, n, n), &share(n)),
-            Operation::Cos { x, .. } if n == 0 => value(Function::Cos, x),
-            Operation::Cos { x, sine } => {
+            RowRule::Sin { x, .. } if n == 0 => value(UnaryFunction::Sin, x),
+            RowRule::Sin { x, cosine } => multiply(&self.weighted(*x, *cosine, n, n), &share(n)),
+            RowRule::Cos { x, .. } if n == 0 => value(UnaryFunction::Cos, x),
+            RowRule::Cos { x, sine } => {
                 let moved = self.weighted(*x, *sine, n, n);
-                apply(Function::Neg, &multiply(&moved, &share(n)))
+                apply(UnaryFunction::Neg, &multiply(&moved, &share(n)))
             }
-            Operation::Atan { x, .. } if n == 0 => value(Function::Atan, x),
-            Operation::Atan { x, square, .. } => {
+            RowRule::Atan { x, .. } if n == 0 => value(UnaryFunction::Atan, x),
+            RowRule::Atan { x, square, .. } => {
                 let moved = multiply(&number(n), self.at(*x, n));
                 let rest = combined(Binary::Sub, &moved, &self.weighted(out, *square, n, n - 1));
                 multiply(&rest, &per(square))
@@ -170,7 +170,7 @@ impl<'p> Coefficients<'p> {
         }
     }
 
-    fn sum(&self, form: &Form, n: usize) -> Block {
+    fn sum(&self, form: &BilinearForm, n: usize) -> Block {
         let mut total = match &form.constant {
             Some(value) if n == 0 => BALL.constant(value),
             _ => number(0),
@@ -194,13 +194,13 @@ impl<'p> Coefficients<'p> {
 }
 
 fn number(value: usize) -> Block {
-    let exact = [value as f64; LANES];
-    Block { hi: exact, lo: [0.0; LANES], rad: [0.0; LANES] }
+    let exact = [value as f64; BOXES];
+    Block { hi: exact, lo: [0.0; BOXES], rad: [0.0; BOXES] }
 }
 
 /// The number 1/n.
 fn share(n: usize) -> Block {
-    apply(Function::Recip, &number(n))
+    apply(UnaryFunction::Recip, &number(n))
 }
 
 fn combined(operation: Binary, x: &Block, y: &Block) -> Block {
@@ -213,7 +213,7 @@ fn multiply(x: &Block, y: &Block) -> Block {
     combined(Binary::Mul, x, y)
 }
 
-fn apply(function: Function, x: &Block) -> Block {
+fn apply(function: UnaryFunction, x: &Block) -> Block {
     let mut out = number(0);
     BALL.unary(function, x, &mut out);
     out
@@ -227,9 +227,9 @@ fn plus(x: &Block, weight: &Rational, y: &Block) -> Block {
     }
 }
 
-fn power(x: &Block, exponent: &Exponent) -> Block {
+fn power(x: &Block, exponent: &PowerExponent) -> Block {
     if exponent.is_root {
-        return apply(Function::Sqrt, x);
+        return apply(UnaryFunction::Sqrt, x);
     }
     let mut out = number(0);
     BALL.power(x, &exponent.exact, &mut out);

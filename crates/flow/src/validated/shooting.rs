@@ -12,12 +12,12 @@
 use super::enclosure::Enclosure;
 use super::functions::Functions;
 use super::guess::Nodes;
-use super::motion::{Boxed, Motion, Passage};
+use super::motion::{Boxed, EnclosedMotion, EnclosedPassage};
 use liouville::number::rational::Rational;
 
 /// System with the functions that it conserves, and their values on the orbit.
 pub struct Shooting {
-    pub motion: Motion,
+    pub motion: EnclosedMotion,
     pub functions: Functions,
     pub values: Vec<Rational>,
 }
@@ -88,7 +88,7 @@ impl Shooting {
         nodes: &Nodes,
         frames: &Frames,
         boxes: &[Boxed],
-        passages: &[Passage],
+        passages: &[EnclosedPassage],
     ) -> Columns {
         let (n, count) = (self.motion.dimension, nodes.states.len());
         let across = n - self.functions.len();
@@ -132,7 +132,7 @@ impl Shooting {
         &self,
         frames: &Frames,
         boxes: &[Boxed],
-        passages: &[Passage],
+        passages: &[EnclosedPassage],
     ) -> Vec<Boxed> {
         let (n, count) = (self.motion.dimension, boxes.len());
         let mut columns = vec![Boxed::new(); self.motion.loose];

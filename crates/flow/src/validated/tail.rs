@@ -17,11 +17,11 @@
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes become vectors")]
 
-use super::coefficients::{Block, Coefficients, LANES, Lane, add};
+use super::coefficients::{BOXES, Block, Coefficients, Lane, add};
 use super::enclosure::{Enclosure, raised};
-use super::plan::{Operation, Sum};
+use super::plan::{EnclosedSum, RowRule};
 use crate::form::Row;
-use liouville::graph::{Work, with_widest_vectors};
+use liouville::graph::{Kernel, with_widest_vectors};
 use liouville::number::ball::Balls;
 
 /// Factor that covers the rounding of any bound here, a sum of at most 10⁴ non-negative terms.
@@ -75,16 +75,16 @@ pub struct Tails<'c, 'p> {
 impl<'c, 'p> Tails<'c, 'p> {
     fn new(coefficients: &'c Coefficients<'p>) -> Self {
         let order = coefficients.order;
-        let zeros = vec![[0.0; LANES]; coefficients.plan.rows * (order + 1)];
+        let zeros = vec![[0.0; BOXES]; coefficients.plan.rows * (order + 1)];
         Self {
             coefficients,
             order,
-            radius: [0.0; LANES],
+            radius: [0.0; BOXES],
             terms: zeros.clone(),
             sums: zeros.clone(),
             weighted_sums: zeros,
-            norms: vec![[0.0; LANES]; coefficients.plan.rows],
-            tails: vec![[0.0; LANES]; coefficients.plan.rows],
+            norms: vec![[0.0; BOXES]; coefficients.plan.rows],
+            tails: vec![[0.0; BOXES]; coefficients.plan.rows],
         }
     }
 
@@ -92,9 +92,9 @@ impl<'c, 'p> Tails<'c, 'p> {
     #[inline(always)]
     fn measure(&mut self) {
         let (order, stride) = (self.order, self.order + 1);
-        let mut powers = vec![[1.0; LANES]; order];
+        let mut powers = vec![[1.0; BOXES]; order];
         for k in 1..order {
-            for lane in 0..LANES {
+            for lane in 0..BOXES {
                 powers[k][lane] = powers[k - 1][lane] * self.radius[lane];
             }
         }
@@ -102,7 +102,7 @@ impl<'c, 'p> Tails<'c, 'p> {
             let place = row * stride;
             let magnitudes = self.coefficients.magnitudes(row);
             for k in (0..order).rev() {
-                for lane in 0..LANES {
+                for lane in 0..BOXES {
                     let term = above(magnitudes[k][lane] * powers[k][lane]);
                     self.terms[place + k][lane] = term;
                     self.sums[place + k][lane] = self.sums[place + k + 1][lane] + term;
@@ -129,10 +129,10 @@ impl<'c, 'p> Tails<'c, 'p> {
     fn crossed(&self, a: Row, b: Row, sums: &[Lane]) -> Lane {
         let stride = self.order + 1;
         let (a, b) = (a * stride, b * stride);
-        let mut total = [0.0; LANES];
+        let mut total = [0.0; BOXES];
         for k in 1..self.order {
             let (term, sum) = (&self.terms[a + k], &sums[b + self.order - k]);
-            for lane in 0..LANES {
+            for lane in 0..BOXES {
                 total[lane] += term[lane] * sum[lane];
             }
         }
@@ -155,18 +155,18 @@ impl<'c, 'p> Tails<'c, 'p> {
     }
 
     /// Bounds the tail of a row from those of its arguments.
-    fn tail(&self, out: Row, operation: &Operation, lane: usize) -> f64 {
+    fn tail(&self, out: Row, operation: &RowRule, lane: usize) -> f64 {
         let n = self.order as f64;
         let tail = |row: &Row| self.tails[*row][lane];
         let found = match operation {
             // Sums have their own rule; a derivative is read by rules that do without its tail.
-            Operation::Sum(_) | Operation::Theta(_) => f64::INFINITY,
-            Operation::Recip(x) => {
+            RowRule::Sum(_) | RowRule::Theta(_) => f64::INFINITY,
+            RowRule::Recip(x) => {
                 let norm = self.norm(out, lane);
                 let defect = above(self.cross(out, *x, lane) + norm * tail(x));
                 over_rest(defect * norm, defect)
             }
-            Operation::Power { x, inverse, exponent } => {
+            RowRule::Power { x, inverse, exponent } => {
                 let q = exponent.value.magnitude();
                 // x_N^q = z_N + τ with x_N θτ = q τ θx_N + [q z_N θx_N - x_N θz_N].
                 let bound = self.reciprocal(*inverse, *x, 0.0, lane);
@@ -179,19 +179,19 @@ impl<'c, 'p> Tails<'c, 'p> {
                 let moved = growth(over_rest(q * share, share));
                 own + (self.norm(out, lane) + own) * moved
             }
-            Operation::Exp(x) => {
+            RowRule::Exp(x) => {
                 let rest = self.cross_weighted(out, *x, lane) / n;
                 let own = over_rest(rest, self.weighted_norm(*x, lane) / n);
                 own + (self.norm(out, lane) + own) * growth(tail(x))
             }
-            Operation::Ln { x, inverse } => {
+            RowRule::Ln { x, inverse } => {
                 // ln x_N = l_N + τ with x_N θτ = -[x_N θl_N].
                 let bound = self.reciprocal(*inverse, *x, 0.0, lane);
                 let own = bound * self.cross_weighted(*x, out, lane) / n;
                 let share = above(bound * tail(x));
                 own + over_rest(share, share)
             }
-            Operation::Sin { x, cosine: other } | Operation::Cos { x, sine: other } => {
+            RowRule::Sin { x, cosine: other } | RowRule::Cos { x, sine: other } => {
                 let rest = self.cross_weighted(out, *x, lane);
                 let rest = rest.max(self.cross_weighted(*other, *x, lane)) / n;
                 let own = over_rest(rest, self.weighted_norm(*x, lane) / n);
@@ -199,7 +199,7 @@ impl<'c, 'p> Tails<'c, 'p> {
                 let moved = growth(tail(x));
                 own + (self.norm(out, lane) + self.norm(*other, lane) + 2.0 * own) * moved
             }
-            Operation::Atan { x, square, inverse } => {
+            RowRule::Atan { x, square, inverse } => {
                 // atan x_N = y_N + τ with (1 + x_N²) θτ = -[(1 + x_N²) θy_N].
                 let beyond = self.cross(*x, *x, lane);
                 let bound = self.reciprocal(*inverse, *square, beyond, lane);
@@ -215,11 +215,11 @@ impl<'c, 'p> Tails<'c, 'p> {
     }
 
     #[inline(always)]
-    fn tail_of_sum(&self, sum: &Sum, crosses: &[Lane]) -> Lane {
-        let mut total = [0.0; LANES];
+    fn tail_of_sum(&self, sum: &EnclosedSum, crosses: &[Lane]) -> Lane {
+        let mut total = [0.0; BOXES];
         for (weight, x) in &sum.linear {
             let (weight, tail) = (weight.magnitude(), &self.tails[*x]);
-            for lane in 0..LANES {
+            for lane in 0..BOXES {
                 total[lane] += weight * tail[lane];
             }
         }
@@ -227,7 +227,7 @@ impl<'c, 'p> Tails<'c, 'p> {
             let weight = weight.magnitude();
             let (a, b) = (&self.tails[*x], &self.tails[*y]);
             let (norm, other) = (&self.norms[*x], &self.norms[*y]);
-            for lane in 0..LANES {
+            for lane in 0..BOXES {
                 let moved = norm[lane] * b[lane] + other[lane] * a[lane] + a[lane] * b[lane];
                 total[lane] += weight * (cross[lane] + moved);
             }
@@ -240,7 +240,7 @@ impl<'c, 'p> Tails<'c, 'p> {
     fn crosses(&self) -> Vec<Lane> {
         let mut crosses = Vec::new();
         for (_, operation) in &self.coefficients.plan.operations {
-            let Operation::Sum(sum) = operation else { continue };
+            let RowRule::Sum(sum) = operation else { continue };
             for (_, x, y) in &sum.products {
                 crosses.push(self.crossed(*x, *y, &self.sums));
             }
@@ -254,7 +254,7 @@ impl<'c, 'p> Tails<'c, 'p> {
         let mut rest = crosses;
         for (out, operation) in &self.coefficients.plan.operations {
             self.tails[*out] = match operation {
-                Operation::Sum(sum) => {
+                RowRule::Sum(sum) => {
                     let (own, others) = rest.split_at(sum.products.len());
                     rest = others;
                     self.tail_of_sum(sum, own)
@@ -267,7 +267,7 @@ impl<'c, 'p> Tails<'c, 'p> {
     /// Looks for tails that Picard's operator maps to themselves, for the present radii. Returns in
     /// which lanes; there the tails of all rows belong to those of the state.
     #[inline(always)]
-    fn settle(&mut self) -> [bool; LANES] {
+    fn settle(&mut self) -> [bool; BOXES] {
         self.measure();
         let (plan, order) = (self.coefficients.plan, self.order);
         let last: Vec<Lane> = (0..plan.dimension)
@@ -287,16 +287,16 @@ impl<'c, 'p> Tails<'c, 'p> {
         // A tail above all that is known of the state is useless.
         let known = &self.norms[..plan.dimension];
         let limit: Lane = std::array::from_fn(|lane| 1.0 + largest(known, lane));
-        let (mut settled, mut hopeless) = ([false; LANES], [false; LANES]);
+        let (mut settled, mut hopeless) = ([false; BOXES], [false; BOXES]);
         for _ in 0..ROUNDS {
             // Where the state's tails are settled this changes nothing.
             self.spread(&crosses);
-            for lane in 0..LANES {
+            for lane in 0..BOXES {
                 if settled[lane] || hopeless[lane] {
                     continue;
                 }
-                let is_finite = |(row, operation): &(Row, Operation)| {
-                    matches!(operation, Operation::Theta(_)) || self.tails[*row][lane].is_finite()
+                let is_finite = |(row, operation): &(Row, RowRule)| {
+                    matches!(operation, RowRule::Theta(_)) || self.tails[*row][lane].is_finite()
                 };
                 if !plan.operations.iter().all(is_finite) {
                     hopeless[lane] = true;
@@ -315,7 +315,7 @@ impl<'c, 'p> Tails<'c, 'p> {
                 let is_near = largest(&self.tails, lane) <= limit[lane];
                 hopeless[lane] = !is_near;
             }
-            if (0..LANES).all(|lane| settled[lane] || hopeless[lane]) {
+            if (0..BOXES).all(|lane| settled[lane] || hopeless[lane]) {
                 break;
             }
         }
@@ -340,9 +340,9 @@ pub struct End {
 }
 
 /// Work of settling tails, and the lanes where they are.
-struct Settling<'t, 'c, 'p>(&'t mut Tails<'c, 'p>, &'t mut [bool; LANES]);
+struct Settling<'t, 'c, 'p>(&'t mut Tails<'c, 'p>, &'t mut [bool; BOXES]);
 
-impl Work for Settling<'_, '_, '_> {
+impl Kernel for Settling<'_, '_, '_> {
     #[inline(always)]
     fn run(self) {
         *self.1 = self.0.settle();
@@ -352,16 +352,16 @@ impl Work for Settling<'_, '_, '_> {
 /// Encloses the states after the times `h` > 0, one in each lane. `None` in a lane where no tail is
 /// found. `hope` is the ratio of radii to steps at which the search begins, and becomes that of the
 /// next.
-pub fn states(coefficients: &Coefficients<'_>, h: &Block, hope: &mut f64) -> [Option<End>; LANES] {
+pub fn states(coefficients: &Coefficients<'_>, h: &Block, hope: &mut f64) -> [Option<End>; BOXES] {
     let (plan, order) = (coefficients.plan, coefficients.order);
     let mut tails = Tails::new(coefficients);
     let longest: Lane = std::array::from_fn(|lane| raised(h.mid[lane] + h.rad[lane], 1));
     tails.radius = longest.map(|h| hope.min(FIRST) * h);
-    let mut settled = [false; LANES];
+    let mut settled = [false; BOXES];
     loop {
         with_widest_vectors(Settling(&mut tails, &mut settled));
         let mut shrinks = false;
-        for lane in 0..LANES {
+        for lane in 0..BOXES {
             let next = tails.radius[lane] * SHRINK;
             if !settled[lane] && next >= LEAST * longest[lane] {
                 tails.radius[lane] = next;
@@ -383,7 +383,7 @@ pub fn states(coefficients: &Coefficients<'_>, h: &Block, hope: &mut f64) -> [Op
     let ends: Vec<Block> = rests
         .iter()
         .enumerate()
-        .map(|(row, rest)| add(&coefficients.polynomial(row, h), &Balls::new([0.0; LANES], *rest)))
+        .map(|(row, rest)| add(&coefficients.polynomial(row, h), &Balls::new([0.0; BOXES], *rest)))
         .collect();
     std::array::from_fn(|lane| {
         let end = |block: &Block| Enclosure { mid: block.mid[lane], rad: block.rad[lane] };

@@ -1,61 +1,61 @@
 //! Enclosures of known solutions, with true values in 200 bits.
 
 use liouville::graph::{Expr, record};
-use liouville::number::precise::Precise;
+use liouville::number::arb::ArbBall;
 use liouville::number::rational::Rational;
-use liouville::number::{Domain, Enclosing, Function, Operation};
+use liouville::number::{BinaryOperation, Domain, Enclosing, UnaryFunction};
 use liouville::scalar::Scalar;
 use num_dual::DualNum;
 
-use super::coefficients::{Block, Coefficients, LANES};
+use super::coefficients::{BOXES, Block, Coefficients};
 use super::enclosure::Enclosure;
 use super::motion::ORDER;
 use super::plan::Plan;
 use super::tail::{End, FIRST, states};
 use super::{coefficients, sharp};
-use crate::program::Program;
+use crate::program::TaylorProgram;
 
-type Number = <Precise as Domain>::Block;
+type Number = <ArbBall as Domain>::Block;
 
-const PRECISE: fn() -> Precise = || Precise::new(200);
+const PRECISE: fn() -> ArbBall = || ArbBall::new(200);
 
 pub(super) fn plan(dimension: usize, field: impl FnOnce(&[Expr]) -> Vec<Expr>) -> Plan {
     let (graph, rates) = record(dimension, |x| field(x)).expect("recorded");
-    Plan::new(&Program::exact(&graph, &rates).expect("compiled")).expect("enclosed")
+    Plan::new(&TaylorProgram::exact(&graph, &rates).expect("compiled")).expect("enclosed")
 }
 
 fn exact(x: f64) -> Number {
     PRECISE().values(&[Rational::from_f64(x).expect("finite")])
 }
 
-fn apply(function: Function, x: &Number) -> Number {
+fn apply(function: UnaryFunction, x: &Number) -> Number {
     let mut out = x.clone();
     PRECISE().unary(function, x, &mut out);
     out
 }
 
-fn combined(operation: Operation, x: &Number, y: &Number) -> Number {
+fn combined(operation: BinaryOperation, x: &Number, y: &Number) -> Number {
     let mut out = x.clone();
     PRECISE().binary(operation, x, y, &mut out);
     out
 }
 
 fn times(x: &Number, y: &Number) -> Number {
-    combined(Operation::Mul, x, y)
+    combined(BinaryOperation::Mul, x, y)
 }
 
 fn plus(x: &Number, y: &Number) -> Number {
-    combined(Operation::Add, x, y)
+    combined(BinaryOperation::Add, x, y)
 }
 
 fn minus(x: &Number, y: &Number) -> Number {
-    combined(Operation::Sub, x, y)
+    combined(BinaryOperation::Sub, x, y)
 }
 
 /// Asserts that a number lies in an enclosure that is not wide.
 fn assert_inside(found: Enclosure, truth: &Number, what: &str) {
     let off = minus(truth, &exact(found.mid));
-    let (mid, rad) = Precise::enclosure(&off, 0).expect("a number");
+    let (mid, rad) = ArbBall::enclosure(&off, 0).expect("a number");
     assert!(mid.abs() + rad <= found.rad, "{what}: off by {mid:e}, radius {:e}", found.rad);
     assert!(found.rad <= 1e-10 * (1.0 + found.mid.abs()), "{what}: wide, {found:?}");
 }
@@ -82,7 +82,7 @@ fn blocks(lanes: &[Vec<Enclosure>]) -> Vec<Block> {
     (0..lanes[0].len()).map(block).collect()
 }
 
-fn step(plan: &Plan, starts: &[Vec<Enclosure>], h: &[Enclosure]) -> [Option<End>; LANES] {
+fn step(plan: &Plan, starts: &[Vec<Enclosure>], h: &[Enclosure]) -> [Option<End>; BOXES] {
     let mut coefficients = Coefficients::new(plan, ORDER);
     coefficients.expand(&blocks(starts));
     let h: Vec<Vec<Enclosure>> = h.iter().map(|h| vec![*h]).collect();
@@ -97,7 +97,7 @@ fn try_all(plan: &Plan, make: impl Fn(&mut Random) -> (Vec<Enclosure>, Enclosure
     let mut random = Random(7);
     for trial in 0..GROUPS {
         let (mut starts, mut h, mut truths) = (Vec::new(), Vec::new(), Vec::new());
-        for _ in 0..LANES {
+        for _ in 0..BOXES {
             let (start, time, truth) = make(&mut random);
             starts.push(start);
             h.push(time);
@@ -126,7 +126,7 @@ fn exponentials_are_enclosed() {
     try_all(&plan, |random| {
         let (x, h) = (random.between(-3.0, 3.0), random.between(1e-6, 0.4));
         let start = if random.next() < 0.5 { Enclosure::exact(x) } else { off(random, x) };
-        let truth = times(&exact(x), &apply(Function::Exp, &exact(h)));
+        let truth = times(&exact(x), &apply(UnaryFunction::Exp, &exact(h)));
         (vec![start], Enclosure::exact(h), vec![truth])
     });
 }
@@ -136,7 +136,8 @@ fn oscillators_and_their_derivatives_are_enclosed() {
     let plan = plan(4, |x| vec![x[1], -x[0], x[3], -x[2]]);
     try_all(&plan, |random| {
         let [x, y, h] = [random.between(-2.0, 2.0), random.between(-2.0, 2.0), random.next() * 0.4];
-        let (cos, sin) = (apply(Function::Cos, &exact(h)), apply(Function::Sin, &exact(h)));
+        let (cos, sin) =
+            (apply(UnaryFunction::Cos, &exact(h)), apply(UnaryFunction::Sin, &exact(h)));
         let moved = |x: f64, y: f64| {
             let (x, y) = (exact(x), exact(y));
             let forth = plus(&times(&x, &cos), &times(&y, &sin));
@@ -159,21 +160,23 @@ fn kepler_orbits_are_enclosed() {
     try_all(&plan, |random| {
         let (s, anomaly) = (random.between(1.0, 1.6), random.between(1e-4, 0.08));
         let (one, two, s2) = (exact(1.0), exact(2.0), times(&exact(s), &exact(s)));
-        let below = apply(Function::Recip, &plus(&s2, &one));
+        let below = apply(UnaryFunction::Recip, &plus(&s2, &one));
         let e = times(&minus(&s2, &one), &below);
-        let (cos, sin) =
-            (apply(Function::Cos, &exact(anomaly)), apply(Function::Sin, &exact(anomaly)));
+        let (cos, sin) = (
+            apply(UnaryFunction::Cos, &exact(anomaly)),
+            apply(UnaryFunction::Sin, &exact(anomaly)),
+        );
         let minor = times(&times(&two, &exact(s)), &below);
         let time = minus(&exact(anomaly), &times(&e, &sin));
-        let rate = apply(Function::Recip, &minus(&one, &times(&e, &cos)));
+        let rate = apply(UnaryFunction::Recip, &minus(&one, &times(&e, &cos)));
         let truth = vec![
             minus(&cos, &e),
             times(&minor, &sin),
-            apply(Function::Neg, &times(&sin, &rate)),
+            apply(UnaryFunction::Neg, &times(&sin, &rate)),
             times(&times(&minor, &cos), &rate),
         ];
         let of = |x: &Number| {
-            let (mid, rad) = Precise::enclosure(x, 0).expect("a number");
+            let (mid, rad) = ArbBall::enclosure(x, 0).expect("a number");
             Enclosure::about(mid, rad)
         };
         let start = vec![of(&times(&two, &below)), Enclosure::ZERO, Enclosure::ZERO];
@@ -206,7 +209,7 @@ fn integrals_of_all_functions_are_enclosed() {
         let b = plus(&exact(a), &exact(h));
         let change = |f: &dyn Fn(&Number) -> Number| minus(&f(&b), &f(&exact(a)));
         let of = |function| move |x: &Number| apply(function, x);
-        let ln = of(Function::Ln);
+        let ln = of(UnaryFunction::Ln);
         let power = |x: &Number, exponent: &Rational| {
             let mut out = x.clone();
             PRECISE().power(x, exponent, &mut out);
@@ -215,18 +218,18 @@ fn integrals_of_all_functions_are_enclosed() {
         let one = exact(1.0);
         let truth = vec![
             b.clone(),
-            change(&of(Function::Exp)),
+            change(&of(UnaryFunction::Exp)),
             change(&|x| minus(&times(x, &ln(x)), x)),
-            change(&|x| apply(Function::Neg, &apply(Function::Cos, x))),
-            change(&of(Function::Sin)),
+            change(&|x| apply(UnaryFunction::Neg, &apply(UnaryFunction::Cos, x))),
+            change(&of(UnaryFunction::Sin)),
             change(&|x| {
                 let rest = times(&exact(0.5), &ln(&plus(&one, &times(x, x))));
-                minus(&times(x, &apply(Function::Atan, x)), &rest)
+                minus(&times(x, &apply(UnaryFunction::Atan, x)), &rest)
             }),
             change(&|x| power(x, &Rational::new(3, 2))),
             change(&|x| power(x, &Rational::new(4, 3))),
             change(&ln),
-            change(&of(Function::Atan)),
+            change(&of(UnaryFunction::Atan)),
         ];
         let start = [vec![Enclosure::exact(a)], vec![Enclosure::ZERO; 9]].concat();
         (start, Enclosure::exact(h), truth)
@@ -237,16 +240,16 @@ fn integrals_of_all_functions_are_enclosed() {
 fn no_tail_reaches_beyond_a_pole() {
     // x = 1/(1 - t), with the radius of convergence 1.
     let plan = plan(1, |x| vec![x[0] * x[0]]);
-    let start = vec![vec![Enclosure::exact(1.0)]; LANES];
-    let at = |h: f64| step(&plan, &start, &[Enclosure::exact(h); LANES]).into_iter().next();
+    let start = vec![vec![Enclosure::exact(1.0)]; BOXES];
+    let at = |h: f64| step(&plan, &start, &[Enclosure::exact(h); BOXES]).into_iter().next();
     for h in [0.7, 0.99, 1.0, 1.5, 100.0] {
         assert!(at(h).flatten().is_none(), "a step of {h} needs a radius above it");
     }
     for h in [0.01, 0.1, 0.25] {
         let end = at(h).flatten().expect("well inside");
-        let truth = apply(Function::Recip, &minus(&exact(1.0), &exact(h)));
+        let truth = apply(UnaryFunction::Recip, &minus(&exact(1.0), &exact(h)));
         let off = minus(&truth, &exact(end.state[0].mid));
-        let (mid, rad) = Precise::enclosure(&off, 0).expect("a number");
+        let (mid, rad) = ArbBall::enclosure(&off, 0).expect("a number");
         assert!(mid.abs() + rad <= end.state[0].rad, "{h}: {:?}", end.state);
         // The remainder is t^21/(1 - t).
         assert!(end.rest[0] >= h.powi(21), "{h}: no bound is below what is left out");
@@ -256,13 +259,13 @@ fn no_tail_reaches_beyond_a_pole() {
 #[test]
 fn undefined_rows_have_no_tail() {
     // 1/x over a box that contains 0, multiplied by 0 or not; √x below 0.
-    let start = vec![vec![Enclosure::about(0.0, 1e-3)]; LANES];
-    let h = [Enclosure::exact(1e-3); LANES];
+    let start = vec![vec![Enclosure::about(0.0, 1e-3)]; BOXES];
+    let h = [Enclosure::exact(1e-3); BOXES];
     let is_open = |plan: &Plan| step(plan, &start, &h).iter().all(Option::is_none);
     assert!(is_open(&plan(1, |x| vec![x[0].recip()])), "a pole in the box");
     assert!(is_open(&plan(1, |x| vec![x[0].sqrt()])), "a branch in the box");
     assert!(is_open(&plan(1, |x| vec![x[0].ln()])), "a logarithm of 0");
-    let unknown = vec![vec![Enclosure::about(1.0, f64::NAN)]; LANES];
+    let unknown = vec![vec![Enclosure::about(1.0, f64::NAN)]; BOXES];
     let constant = plan(1, |x| vec![x[0]]);
     assert!(step(&constant, &unknown, &h).iter().all(Option::is_none), "nothing known");
 }
@@ -277,7 +280,7 @@ fn residuals_in_twice_the_digits_hold() {
         let period = 0.7;
         let rests = {
             let mut coefficients = Coefficients::new(&plan, ORDER);
-            let start = vec![vec![Enclosure::exact(x), Enclosure::exact(y)]; LANES];
+            let start = vec![vec![Enclosure::exact(x), Enclosure::exact(y)]; BOXES];
             coefficients.expand(&blocks(&start));
             let h = Enclosure::exact(share) * Enclosure::exact(period);
             states(&coefficients, &coefficients::constant(h), &mut FIRST.clone())
@@ -286,7 +289,7 @@ fn residuals_in_twice_the_digits_hold() {
         let starts = [vec![x, y]];
         let gap = sharp::gaps(&plan, ORDER, &starts, &[share], period, &[&target]);
         let h = times(&exact(share), &exact(period));
-        let (cos, sin) = (apply(Function::Cos, &h), apply(Function::Sin, &h));
+        let (cos, sin) = (apply(UnaryFunction::Cos, &h), apply(UnaryFunction::Sin, &h));
         let (x, y) = (exact(x), exact(y));
         let truth =
             [plus(&times(&x, &cos), &times(&y, &sin)), minus(&times(&y, &cos), &times(&x, &sin))];

@@ -4,7 +4,7 @@ use liouville::case::{Case, Setting};
 use liouville::number::rational::Rational;
 use liouville::verdict::{evaluate, read_state};
 use liouville_flow::{
-    Axis, Character, Coordinate, Launch, PlaneRequest, Variational, plane, section_starts,
+    Character, ChartAxis, Coordinate, Launch, PlaneRequest, Variational, plane, section_starts,
 };
 
 use crate::catalogue;
@@ -80,9 +80,9 @@ fn a_ball_that_spins_moves_on_tori_and_a_rattleback_gains_and_loses_volume() {
 }
 
 /// Makes an axis of a plane of starts in figure 14, or of parameters.
-fn axis(coordinate: Coordinate, from: f64, to: f64, count: usize) -> Axis {
+fn axis(coordinate: Coordinate, from: f64, to: f64, count: usize) -> ChartAxis {
     let read = |value| Rational::from_f64(value).expect("finite");
-    Axis { coordinate, from: read(from), to: read(to), count }
+    ChartAxis { coordinate, from: read(from), to: read(to), count }
 }
 
 #[test]

@@ -3,10 +3,10 @@
 use std::fmt::Write;
 
 use liouville::case::{Case, Direction};
-use liouville::mechanics::Origin;
+use liouville::mechanics::ParameterOrigin;
 use liouville::number::rational::Rational;
 use liouville_flow::{
-    Columns, FlowError, Lexicon, Start, Surface, SurfaceOrbit, SurfaceRequest, Variational,
+    Columns, CrossingSurface, FlowError, Lexicon, Start, SurfaceOrbit, SurfaceRequest, Variational,
     surface_section,
 };
 
@@ -64,7 +64,7 @@ fn crossed(
     starts: &[Result<Start, FlowError>],
     threads: usize,
 ) -> Vec<SurfaceOrbit> {
-    let surface = Surface::read(Lexicon::new(case), surface).expect("a surface");
+    let surface = CrossingSurface::read(Lexicon::new(case), surface).expect("a surface");
     let axes = Columns::read(Lexicon::new(case), axes).expect("axes");
     let request = SurfaceRequest {
         surface: &surface,
@@ -160,7 +160,9 @@ fn exponents_do_not_show_the_lanes() {
     let figure = catalogue("figures/fig-8.toml");
     let band = parse(ROESSLER);
     for case in [&figure, &band] {
-        assert!(case.model.parameters.iter().all(|own| matches!(own.origin, Origin::Fixed(_))));
+        assert!(
+            case.model.parameters.iter().all(|own| matches!(own.origin, ParameterOrigin::Fixed(_)))
+        );
         let starts = starts(case, 9);
         let parameters: Vec<Rational> = Vec::new();
         let measured = |starts: &[Result<Start, FlowError>], threads| {

@@ -5,18 +5,18 @@
 
 #![allow(clippy::needless_range_loop, reason = "loops over groups are unrolled")]
 
-use super::program::{Program, Step, Sum, Value};
-use super::vector::{Vector, Work, with_vectors};
-use super::{LANES, Row};
-use crate::graph::Vectors;
-use crate::number::{Function, Operation};
+use super::program::{ProgramStep, StepProgram, Sum, Value};
+use super::vector::{BlockKernel, Vector, with_vectors};
+use super::{ROW_STATES, RowBlock};
+use crate::graph::InstructionSet;
+use crate::number::{BinaryOperation, UnaryFunction};
 
 /// Number of vectors of a result; every machine has registers for two operands of this size.
 const GROUP: usize = 8;
 
 /// Operation of a step on its arguments x, y, z; x may be the last result.
 #[derive(Clone, Copy, Debug)]
-enum Kind {
+enum StepKind {
     /// x + y
     Add,
     /// x - y
@@ -38,7 +38,7 @@ enum Kind {
     /// x - y z
     SubMul,
     /// A function of x, native to the processor or not.
-    Function(Function),
+    Function(UnaryFunction),
     /// x^y
     Pow,
 }
@@ -46,7 +46,7 @@ enum Kind {
 /// One step over rows.
 #[derive(Clone, Copy, Debug)]
 struct Instruction {
-    kind: Kind,
+    kind: StepKind,
     /// Row of x; `None` for the last result.
     x: Option<u32>,
     y: u32,
@@ -57,7 +57,7 @@ struct Instruction {
 
 /// A program over numbered rows: inputs, constants, results.
 #[derive(Debug)]
-pub(super) struct Code {
+pub(super) struct InterpretedProgram {
     instructions: Vec<Instruction>,
     constants: Vec<f64>,
     inputs: usize,
@@ -65,9 +65,9 @@ pub(super) struct Code {
     rows: usize,
 }
 
-impl Code {
+impl InterpretedProgram {
     /// Lays out a program.
-    pub(super) fn new(program: &Program) -> Self {
+    pub(super) fn new(program: &StepProgram) -> Self {
         let (reads, is_output) = (program.reads(), program.is_output());
         let arranged: Vec<Arranged> =
             (0..program.steps.len()).map(|index| Arranged::new(program, index)).collect();
@@ -110,7 +110,7 @@ impl Code {
                 out,
             });
         }
-        Code {
+        InterpretedProgram {
             instructions,
             constants: program.constants.clone(),
             inputs: program.inputs,
@@ -120,10 +120,10 @@ impl Code {
     }
 
     /// Memory of a run, with the constants in place.
-    pub(super) fn rows(&self) -> Vec<Row> {
-        let mut rows = vec![Row([0.0; LANES]); self.rows];
+    pub(super) fn rows(&self) -> Vec<RowBlock> {
+        let mut rows = vec![RowBlock([0.0; ROW_STATES]); self.rows];
         for (row, constant) in rows[self.inputs..].iter_mut().zip(&self.constants) {
-            row.0 = [*constant; LANES];
+            row.0 = [*constant; ROW_STATES];
         }
         rows
     }
@@ -134,44 +134,44 @@ impl Code {
     }
 
     /// Runs the program once over its rows.
-    pub(super) fn run(&self, vectors: Vectors, rows: &mut [Row]) {
+    pub(super) fn run(&self, vectors: InstructionSet, rows: &mut [RowBlock]) {
         with_vectors(vectors, Run { instructions: &self.instructions, rows });
     }
 }
 
 /// Step arranged to take the last result as its first argument, if possible.
 struct Arranged {
-    kind: Kind,
+    kind: StepKind,
     arguments: [Value; 3],
     takes_last: bool,
 }
 
 impl Arranged {
-    fn new(program: &Program, index: usize) -> Self {
+    fn new(program: &StepProgram, index: usize) -> Self {
         let last = index.checked_sub(1).map(|last| Value::Step(last as u32));
         let is_last = |value: Value| Some(value) == last;
         // Unused arguments repeat the first one.
         let (kind, arguments) = match program.steps[index] {
-            Step::Unary(function, a) => (Kind::Function(function), [a; 3]),
-            Step::Binary(operation, a, b) => match operation {
-                Operation::Pow => (Kind::Pow, [a, b, a]),
-                Operation::Add if is_last(b) => (Kind::Add, [b, a, b]),
-                Operation::Add => (Kind::Add, [a, b, a]),
-                Operation::Sub if is_last(b) => (Kind::SubFrom, [b, a, b]),
-                Operation::Sub => (Kind::Sub, [a, b, a]),
-                Operation::Mul if is_last(b) => (Kind::Mul, [b, a, b]),
-                Operation::Mul => (Kind::Mul, [a, b, a]),
+            ProgramStep::Unary(function, a) => (StepKind::Function(function), [a; 3]),
+            ProgramStep::Binary(operation, a, b) => match operation {
+                BinaryOperation::Pow => (StepKind::Pow, [a, b, a]),
+                BinaryOperation::Add if is_last(b) => (StepKind::Add, [b, a, b]),
+                BinaryOperation::Add => (StepKind::Add, [a, b, a]),
+                BinaryOperation::Sub if is_last(b) => (StepKind::SubFrom, [b, a, b]),
+                BinaryOperation::Sub => (StepKind::Sub, [a, b, a]),
+                BinaryOperation::Mul if is_last(b) => (StepKind::Mul, [b, a, b]),
+                BinaryOperation::Mul => (StepKind::Mul, [a, b, a]),
             },
-            Step::Fused(sum, [a, b, c]) if is_last(c) => match sum {
-                Sum::Plus => (Kind::AddMul, [c, a, b]),
-                Sum::Minus => (Kind::SubFromMul, [c, a, b]),
-                Sum::From => (Kind::SubMul, [c, a, b]),
+            ProgramStep::Fused(sum, [a, b, c]) if is_last(c) => match sum {
+                Sum::Plus => (StepKind::AddMul, [c, a, b]),
+                Sum::Minus => (StepKind::SubFromMul, [c, a, b]),
+                Sum::From => (StepKind::SubMul, [c, a, b]),
             },
-            Step::Fused(sum, [a, b, c]) => {
+            ProgramStep::Fused(sum, [a, b, c]) => {
                 let kind = match sum {
-                    Sum::Plus => Kind::MulAdd,
-                    Sum::Minus => Kind::MulSub,
-                    Sum::From => Kind::MulSubFrom,
+                    Sum::Plus => StepKind::MulAdd,
+                    Sum::Minus => StepKind::MulSub,
+                    Sum::From => StepKind::MulSubFrom,
                 };
                 (kind, if is_last(b) { [b, a, c] } else { [a, b, c] })
             }
@@ -185,14 +185,14 @@ impl Arranged {
 /// Instructions over rows, with the vector type still to be chosen.
 struct Run<'r> {
     instructions: &'r [Instruction],
-    rows: &'r mut [Row],
+    rows: &'r mut [RowBlock],
 }
 
-impl Work for Run<'_> {
+impl BlockKernel for Run<'_> {
     #[inline(always)]
     fn run<V: Vector>(self) {
         let Self { instructions, rows } = self;
-        for start in (0..LANES).step_by(GROUP * V::LANES) {
+        for start in (0..ROW_STATES).step_by(GROUP * V::LANES) {
             let mut last = [V::splat(0.0); GROUP];
             for instruction in instructions {
                 let x = match instruction.x {
@@ -201,34 +201,40 @@ impl Work for Run<'_> {
                 };
                 let (y, z) = (instruction.y, instruction.z);
                 last = match instruction.kind {
-                    Kind::Add => zip(x, read(rows, y, start), V::add),
-                    Kind::Sub => zip(x, read(rows, y, start), V::sub),
-                    Kind::SubFrom => zip(read(rows, y, start), x, V::sub),
-                    Kind::Mul => zip(x, read(rows, y, start), V::mul),
-                    Kind::MulAdd => zip3(x, read(rows, y, start), read(rows, z, start), V::mul_add),
-                    Kind::MulSub => zip3(x, read(rows, y, start), read(rows, z, start), V::mul_sub),
-                    Kind::MulSubFrom => {
+                    StepKind::Add => zip(x, read(rows, y, start), V::add),
+                    StepKind::Sub => zip(x, read(rows, y, start), V::sub),
+                    StepKind::SubFrom => zip(read(rows, y, start), x, V::sub),
+                    StepKind::Mul => zip(x, read(rows, y, start), V::mul),
+                    StepKind::MulAdd => {
+                        zip3(x, read(rows, y, start), read(rows, z, start), V::mul_add)
+                    }
+                    StepKind::MulSub => {
+                        zip3(x, read(rows, y, start), read(rows, z, start), V::mul_sub)
+                    }
+                    StepKind::MulSubFrom => {
                         zip3(x, read(rows, y, start), read(rows, z, start), V::neg_mul_add)
                     }
-                    Kind::AddMul => zip3(read(rows, y, start), read(rows, z, start), x, V::mul_add),
-                    Kind::SubFromMul => {
+                    StepKind::AddMul => {
+                        zip3(read(rows, y, start), read(rows, z, start), x, V::mul_add)
+                    }
+                    StepKind::SubFromMul => {
                         zip3(read(rows, y, start), read(rows, z, start), x, V::mul_sub)
                     }
-                    Kind::SubMul => {
+                    StepKind::SubMul => {
                         zip3(read(rows, y, start), read(rows, z, start), x, V::neg_mul_add)
                     }
-                    Kind::Function(function) => match function {
-                        Function::Neg => each(x, V::neg),
-                        Function::Recip => zip([V::splat(1.0); GROUP], x, V::div),
-                        Function::Sqrt => each(x, V::sqrt),
-                        Function::Abs => each(x, V::abs),
-                        Function::Exp => by_lane(x, x, |x, _| libm::exp(x)),
-                        Function::Ln => by_lane(x, x, |x, _| libm::log(x)),
-                        Function::Sin => by_lane(x, x, |x, _| libm::sin(x)),
-                        Function::Cos => by_lane(x, x, |x, _| libm::cos(x)),
-                        Function::Atan => by_lane(x, x, |x, _| libm::atan(x)),
+                    StepKind::Function(function) => match function {
+                        UnaryFunction::Neg => each(x, V::neg),
+                        UnaryFunction::Recip => zip([V::splat(1.0); GROUP], x, V::div),
+                        UnaryFunction::Sqrt => each(x, V::sqrt),
+                        UnaryFunction::Abs => each(x, V::abs),
+                        UnaryFunction::Exp => by_lane(x, x, |x, _| libm::exp(x)),
+                        UnaryFunction::Ln => by_lane(x, x, |x, _| libm::log(x)),
+                        UnaryFunction::Sin => by_lane(x, x, |x, _| libm::sin(x)),
+                        UnaryFunction::Cos => by_lane(x, x, |x, _| libm::cos(x)),
+                        UnaryFunction::Atan => by_lane(x, x, |x, _| libm::atan(x)),
                     },
-                    Kind::Pow => by_lane(x, read(rows, y, start), libm::pow),
+                    StepKind::Pow => by_lane(x, read(rows, y, start), libm::pow),
                 };
                 if let Some(row) = instruction.out {
                     let to = &mut rows[row as usize].0[start..][..GROUP * V::LANES];
@@ -245,7 +251,7 @@ impl Work for Run<'_> {
 // library, would be compiled without the instructions that the vectors need.
 
 #[inline(always)]
-fn read<V: Vector>(rows: &[Row], row: u32, start: usize) -> [V; GROUP] {
+fn read<V: Vector>(rows: &[RowBlock], row: u32, start: usize) -> [V; GROUP] {
     let lanes = &rows[row as usize].0[start..][..GROUP * V::LANES];
     let mut group = [V::splat(0.0); GROUP];
     for k in 0..GROUP {
@@ -287,7 +293,7 @@ fn zip3<V: Vector>(
 #[inline(always)]
 fn by_lane<V: Vector>(mut x: [V; GROUP], y: [V; GROUP], f: impl Fn(f64, f64) -> f64) -> [V; GROUP] {
     for k in 0..GROUP {
-        let (mut of_x, mut of_y) = ([0.0; LANES], [0.0; LANES]);
+        let (mut of_x, mut of_y) = ([0.0; ROW_STATES], [0.0; ROW_STATES]);
         x[k].store(&mut of_x);
         y[k].store(&mut of_y);
         for lane in 0..V::LANES {

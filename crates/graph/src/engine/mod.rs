@@ -34,22 +34,22 @@ mod tests;
 
 use std::sync::Arc;
 
-use crate::graph::{Tape, Vectors, widest};
+use crate::graph::{InstructionSet, Tape, widest};
 pub use machine::executable;
 
-use program::Program;
+use program::StepProgram;
 
 /// Number of states in a row.
-pub const LANES: usize = 64;
+pub const ROW_STATES: usize = 64;
 
 /// Numbers of 64 states, one for each, aligned to a cache line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
-pub struct Row(pub [f64; LANES]);
+pub struct RowBlock(pub [f64; ROW_STATES]);
 
 /// Means of running a tape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Means {
+pub enum Backend {
     /// Machine code where possible, else the interpreter. Pays from some ten thousand states on.
     Quickest,
     /// The interpreter.
@@ -58,32 +58,32 @@ pub enum Means {
 
 /// A tape prepared to run; clones share the code.
 #[derive(Clone, Debug)]
-pub struct Engine(Arc<Code>);
+pub struct Engine(Arc<EngineCode>);
 
 #[derive(Debug)]
-struct Code {
+struct EngineCode {
     steps: usize,
     inputs: usize,
-    vectors: Vectors,
-    interpreter: interpreter::Code,
-    machine: Option<machine::Code>,
+    vectors: InstructionSet,
+    interpreter: interpreter::InterpretedProgram,
+    machine: Option<machine::MachineProgram>,
 }
 
 impl Engine {
     /// Prepares a tape.
-    pub fn new(tape: &Tape, means: Means) -> Self {
+    pub fn new(tape: &Tape, means: Backend) -> Self {
         Self::with_vectors(tape, means, widest())
     }
 
-    fn with_vectors(tape: &Tape, means: Means, vectors: Vectors) -> Self {
-        let program = Program::new(tape);
+    fn with_vectors(tape: &Tape, means: Backend, vectors: InstructionSet) -> Self {
+        let program = StepProgram::new(tape);
         let machine = match means {
-            Means::Quickest => machine::Code::new(&program, vectors),
-            Means::Interpreter => None,
+            Backend::Quickest => machine::MachineProgram::new(&program, vectors),
+            Backend::Interpreter => None,
         };
-        let interpreter = interpreter::Code::new(&program);
+        let interpreter = interpreter::InterpretedProgram::new(&program);
         let (steps, inputs) = (program.steps.len(), program.inputs);
-        Self(Arc::new(Code { steps, inputs, vectors, interpreter, machine }))
+        Self(Arc::new(EngineCode { steps, inputs, vectors, interpreter, machine }))
     }
 
     /// Whether there is machine code. Not where the processor or the system does not allow it, nor
@@ -106,7 +106,7 @@ impl Engine {
     pub fn runner(&self) -> Runner {
         let memory = match &self.0.machine {
             Some(code) => Memory::Machine {
-                inputs: vec![Row([0.0; LANES]); self.0.inputs],
+                inputs: vec![RowBlock([0.0; ROW_STATES]); self.0.inputs],
                 memory: code.memory(),
             },
             None => Memory::Interpreter(self.0.interpreter.rows()),
@@ -118,19 +118,19 @@ impl Engine {
 /// Memory in which an [`Engine`] runs.
 #[derive(Debug)]
 pub struct Runner {
-    code: Arc<Code>,
+    code: Arc<EngineCode>,
     memory: Memory,
 }
 
 #[derive(Debug)]
 enum Memory {
-    Interpreter(Vec<Row>),
-    Machine { inputs: Vec<Row>, memory: machine::Memory },
+    Interpreter(Vec<RowBlock>),
+    Machine { inputs: Vec<RowBlock>, memory: machine::Memory },
 }
 
 impl Runner {
     /// Rows of the inputs, to be filled; they keep their values from run to run.
-    pub fn inputs(&mut self) -> &mut [Row] {
+    pub fn inputs(&mut self) -> &mut [RowBlock] {
         match &mut self.memory {
             Memory::Interpreter(rows) => &mut rows[..self.code.inputs],
             Memory::Machine { inputs, .. } => inputs,
@@ -147,7 +147,7 @@ impl Runner {
     }
 
     /// Row of an output of the last run.
-    pub fn output(&self, index: usize) -> &Row {
+    pub fn output(&self, index: usize) -> &RowBlock {
         match &self.memory {
             Memory::Interpreter(rows) => &rows[self.code.interpreter.output(index)],
             Memory::Machine { memory, .. } => memory.output(index),

@@ -11,7 +11,7 @@
 //! rounding less than the tape in the domain `Float`.
 
 use crate::graph::{Instruction, Tape};
-use crate::number::{Function, Operation};
+use crate::number::{BinaryOperation, UnaryFunction};
 
 /// Operand of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,42 +35,44 @@ pub(super) enum Sum {
 
 /// One step of a program.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Step {
-    Unary(Function, Value),
-    Binary(Operation, Value, Value),
+pub(super) enum ProgramStep {
+    Unary(UnaryFunction, Value),
+    Binary(BinaryOperation, Value, Value),
     Fused(Sum, [Value; 3]),
 }
 
-impl Step {
+impl ProgramStep {
     /// Values that the step reads, in order.
     pub(super) fn arguments(&self) -> impl Iterator<Item = Value> {
         let arguments = match *self {
-            Step::Unary(_, a) => [Some(a), None, None],
-            Step::Binary(_, a, b) => [Some(a), Some(b), None],
-            Step::Fused(_, arguments) => arguments.map(Some),
+            ProgramStep::Unary(_, a) => [Some(a), None, None],
+            ProgramStep::Binary(_, a, b) => [Some(a), Some(b), None],
+            ProgramStep::Fused(_, arguments) => arguments.map(Some),
         };
         arguments.into_iter().flatten()
     }
 
     fn with_arguments(self, renamed: impl Fn(Value) -> Value) -> Self {
         match self {
-            Step::Unary(function, a) => Step::Unary(function, renamed(a)),
-            Step::Binary(operation, a, b) => Step::Binary(operation, renamed(a), renamed(b)),
-            Step::Fused(sum, arguments) => Step::Fused(sum, arguments.map(renamed)),
+            ProgramStep::Unary(function, a) => ProgramStep::Unary(function, renamed(a)),
+            ProgramStep::Binary(operation, a, b) => {
+                ProgramStep::Binary(operation, renamed(a), renamed(b))
+            }
+            ProgramStep::Fused(sum, arguments) => ProgramStep::Fused(sum, arguments.map(renamed)),
         }
     }
 }
 
 /// Steps that compute outputs from inputs.
 #[derive(Clone, Debug)]
-pub(super) struct Program {
+pub(super) struct StepProgram {
     pub(super) inputs: usize,
     pub(super) constants: Vec<f64>,
-    pub(super) steps: Vec<Step>,
+    pub(super) steps: Vec<ProgramStep>,
     pub(super) outputs: Vec<Value>,
 }
 
-impl Program {
+impl StepProgram {
     /// Converts a tape to a program.
     pub(super) fn new(tape: &Tape) -> Self {
         let inputs = tape.inputs();
@@ -87,14 +89,16 @@ impl Program {
         for instruction in tape.instructions() {
             let at = |slot: u32| held[slot as usize];
             let (step, out) = match *instruction {
-                Instruction::Unary { function, a, out } => (Step::Unary(function, at(a)), out),
+                Instruction::Unary { function, a, out } => {
+                    (ProgramStep::Unary(function, at(a)), out)
+                }
                 Instruction::Binary { operation, a, b, out } => {
-                    (Step::Binary(operation, at(a), at(b)), out)
+                    (ProgramStep::Binary(operation, at(a), at(b)), out)
                 }
                 Instruction::Power { a, exponent, out } => {
                     constants.push(tape.exponents()[exponent as usize].to_f64().0);
                     let exponent = Value::Constant(constants.len() as u32 - 1);
-                    (Step::Binary(Operation::Pow, at(a), exponent), out)
+                    (ProgramStep::Binary(BinaryOperation::Pow, at(a), exponent), out)
                 }
             };
             let out = out as usize;
@@ -137,14 +141,17 @@ impl Program {
         let (reads, is_output) = (self.reads(), self.is_output());
         let mut absorbed = vec![false; self.steps.len()];
         for index in 0..self.steps.len() {
-            let Step::Binary(operation @ (Operation::Add | Operation::Sub), a, b) =
-                self.steps[index]
+            let ProgramStep::Binary(
+                operation @ (BinaryOperation::Add | BinaryOperation::Sub),
+                a,
+                b,
+            ) = self.steps[index]
             else {
                 continue;
             };
             let product = |value: Value| match value {
                 Value::Step(step) => match self.steps[step as usize] {
-                    Step::Binary(Operation::Mul, x, y)
+                    ProgramStep::Binary(BinaryOperation::Mul, x, y)
                         if reads[step as usize].len() == 1 && !is_output[step as usize] =>
                     {
                         Some((step as usize, x, y))
@@ -158,17 +165,18 @@ impl Program {
             let later = of_a.map(|found| found.0) < of_b.map(|found| found.0);
             let (step, sum, [x, y, z]) = match (of_a, of_b) {
                 (_, Some((step, x, y))) if later => {
-                    let sum = if operation == Operation::Add { Sum::Plus } else { Sum::From };
+                    let sum = if operation == BinaryOperation::Add { Sum::Plus } else { Sum::From };
                     (step, sum, [x, y, a])
                 }
                 (Some((step, x, y)), _) => {
-                    let sum = if operation == Operation::Add { Sum::Plus } else { Sum::Minus };
+                    let sum =
+                        if operation == BinaryOperation::Add { Sum::Plus } else { Sum::Minus };
                     (step, sum, [x, y, b])
                 }
                 _ => continue,
             };
             absorbed[step] = true;
-            self.steps[index] = Step::Fused(sum, [x, y, z]);
+            self.steps[index] = ProgramStep::Fused(sum, [x, y, z]);
         }
         self.without(&absorbed)
     }
@@ -178,7 +186,8 @@ impl Program {
         let (reads, is_output) = (self.reads(), self.is_output());
         let mut absorbed = vec![false; self.steps.len()];
         for index in 0..self.steps.len() {
-            let Step::Unary(Function::Neg, Value::Step(negated)) = self.steps[index] else {
+            let ProgramStep::Unary(UnaryFunction::Neg, Value::Step(negated)) = self.steps[index]
+            else {
                 continue;
             };
             let negated = negated as usize;
@@ -186,9 +195,15 @@ impl Program {
                 continue;
             }
             self.steps[index] = match self.steps[negated] {
-                Step::Binary(Operation::Sub, a, b) => Step::Binary(Operation::Sub, b, a),
-                Step::Fused(Sum::Minus, arguments) => Step::Fused(Sum::From, arguments),
-                Step::Fused(Sum::From, arguments) => Step::Fused(Sum::Minus, arguments),
+                ProgramStep::Binary(BinaryOperation::Sub, a, b) => {
+                    ProgramStep::Binary(BinaryOperation::Sub, b, a)
+                }
+                ProgramStep::Fused(Sum::Minus, arguments) => {
+                    ProgramStep::Fused(Sum::From, arguments)
+                }
+                ProgramStep::Fused(Sum::From, arguments) => {
+                    ProgramStep::Fused(Sum::Minus, arguments)
+                }
                 _ => continue,
             };
             absorbed[negated] = true;

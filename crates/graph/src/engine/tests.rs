@@ -4,7 +4,7 @@ use super::*;
 use crate::graph::{Evaluator, Expr, record};
 use crate::number::float::Float;
 use crate::number::rational::Rational;
-use crate::number::{Function, Operation};
+use crate::number::{BinaryOperation, UnaryFunction};
 use crate::scalar::Scalar;
 
 /// Numbers at which operations differ most: zeros, infinities, NaN, tiny and huge ones.
@@ -46,16 +46,16 @@ impl Sequence {
 
 /// Engines for all ways to run a tape on this machine.
 fn engines(tape: &Tape) -> Vec<Engine> {
-    let all = [Vectors::Baseline, Vectors::Avx2, Vectors::Avx512];
+    let all = [InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512];
     let pairs = all.iter().flat_map(|vectors| {
-        [Means::Interpreter, Means::Quickest]
+        [Backend::Interpreter, Backend::Quickest]
             .map(|means| Engine::with_vectors(tape, means, *vectors))
     });
     pairs.collect()
 }
 
 /// Bits of all outputs; every NaN counts as the same.
-fn bits(engine: &Engine, inputs: &[Row], outputs: usize) -> Vec<[u64; LANES]> {
+fn bits(engine: &Engine, inputs: &[RowBlock], outputs: usize) -> Vec<[u64; ROW_STATES]> {
     let mut runner = engine.runner();
     runner.inputs().copy_from_slice(inputs);
     // A second run must not see the first.
@@ -65,7 +65,7 @@ fn bits(engine: &Engine, inputs: &[Row], outputs: usize) -> Vec<[u64; LANES]> {
     (0..outputs).map(|index| runner.output(index).0.map(bits)).collect()
 }
 
-fn assert_all_equal(tape: &Tape, inputs: &[Row], what: &str) {
+fn assert_all_equal(tape: &Tape, inputs: &[RowBlock], what: &str) {
     let engines = engines(tape);
     let outputs = tape.outputs();
     let reference = bits(&engines[0], inputs, outputs);
@@ -76,25 +76,26 @@ fn assert_all_equal(tape: &Tape, inputs: &[Row], what: &str) {
     }
 }
 
-const FUNCTIONS: [Function; 9] = [
-    Function::Neg,
-    Function::Recip,
-    Function::Sqrt,
-    Function::Abs,
-    Function::Exp,
-    Function::Ln,
-    Function::Sin,
-    Function::Cos,
-    Function::Atan,
+const FUNCTIONS: [UnaryFunction; 9] = [
+    UnaryFunction::Neg,
+    UnaryFunction::Recip,
+    UnaryFunction::Sqrt,
+    UnaryFunction::Abs,
+    UnaryFunction::Exp,
+    UnaryFunction::Ln,
+    UnaryFunction::Sin,
+    UnaryFunction::Cos,
+    UnaryFunction::Atan,
 ];
-const OPERATIONS: [Operation; 4] = [Operation::Add, Operation::Sub, Operation::Mul, Operation::Pow];
+const OPERATIONS: [BinaryOperation; 4] =
+    [BinaryOperation::Add, BinaryOperation::Sub, BinaryOperation::Mul, BinaryOperation::Pow];
 
 #[test]
 fn every_operation_has_the_bits_of_the_domain() {
     let (graph, values) = record(2, |x| {
         let mut all: Vec<Expr> = FUNCTIONS.iter().map(|f| x[0].apply(*f)).collect();
         all.extend(OPERATIONS.iter().map(|operation| x[0].combine(*operation, x[1])));
-        all.push(x[1].combine(Operation::Sub, x[0]));
+        all.push(x[1].combine(BinaryOperation::Sub, x[0]));
         all.push(x[0].power(&Rational::new(5, 3)));
         all.push(x[0]);
         all.push(Expr::rational(&Rational::new(1, 3)));
@@ -105,15 +106,15 @@ fn every_operation_has_the_bits_of_the_domain() {
     let single = values.iter().map(|value| Tape::new(&graph, &[*value]));
     for (index, tape) in single.chain([Tape::new(&graph, &values)]).enumerate() {
         for turn in 0..CORNERS.len() / 4 {
-            let x = Row(std::array::from_fn(|lane| CORNERS[lane % 16]));
-            let y = Row(std::array::from_fn(|lane| CORNERS[4 * turn + lane / 16]));
+            let x = RowBlock(std::array::from_fn(|lane| CORNERS[lane % 16]));
+            let y = RowBlock(std::array::from_fn(|lane| CORNERS[4 * turn + lane / 16]));
             assert_all_equal(&tape, &[x, y], &format!("operation {index}"));
-            let mut domain = Evaluator::new(&tape, Float::<LANES>);
+            let mut domain = Evaluator::new(&tape, Float::<ROW_STATES>);
             domain.run(&[x.0, y.0]);
-            let engine = Engine::new(&tape, Means::Interpreter);
+            let engine = Engine::new(&tape, Backend::Interpreter);
             for (output, found) in bits(&engine, &[x, y], tape.outputs()).iter().enumerate() {
                 let expected = domain.output(output);
-                let same = (0..LANES).all(|lane| match expected[lane] {
+                let same = (0..ROW_STATES).all(|lane| match expected[lane] {
                     value if value.is_nan() => found[lane] == u64::MAX,
                     // The sign of 0 may differ: a negated difference is the opposite one.
                     0.0 => f64::from_bits(found[lane]) == 0.0,
@@ -135,10 +136,10 @@ fn random_tape(sequence: &mut Sequence, length: usize, live: usize) -> Tape {
             let mut pick = || values[first + sequence.next(values.len() - first)];
             let (a, b, c) = (pick(), pick(), pick());
             values.push(match sequence.next(12) {
-                0 => a.apply(Function::Neg),
-                1 => a.apply(Function::Abs),
-                2 => a.apply(Function::Sqrt),
-                3 => a.apply(Function::Recip),
+                0 => a.apply(UnaryFunction::Neg),
+                1 => a.apply(UnaryFunction::Abs),
+                2 => a.apply(UnaryFunction::Sqrt),
+                3 => a.apply(UnaryFunction::Recip),
                 4 => a + b,
                 5 => a - b,
                 6 | 7 => a * b,
@@ -164,7 +165,7 @@ fn random_tapes_have_the_same_bits_in_all_engines() {
         // Up to ten times as many values as there are registers.
         let live = 2 + sequence.next(if turn % 3 == 0 { 320 } else { 30 });
         let tape = random_tape(&mut sequence, length, live);
-        let inputs = [(); 5].map(|_| Row(std::array::from_fn(|_| sequence.number())));
+        let inputs = [(); 5].map(|_| RowBlock(std::array::from_fn(|_| sequence.number())));
         assert_all_equal(&tape, &inputs, &format!("tape {turn}"));
     }
 }
@@ -177,9 +178,11 @@ fn a_sum_of_products_is_rounded_once() {
     for engine in engines(&tape) {
         assert_eq!(engine.steps(), 1, "the product is a part of the difference");
         let mut runner = engine.runner();
-        runner.inputs().copy_from_slice(&[Row([x; LANES]), Row([x * x; LANES])]);
+        runner
+            .inputs()
+            .copy_from_slice(&[RowBlock([x; ROW_STATES]), RowBlock([x * x; ROW_STATES])]);
         runner.run();
-        let left = runner.output(0).0[LANES - 1];
+        let left = runner.output(0).0[ROW_STATES - 1];
         assert_eq!(left, f64::EPSILON * f64::EPSILON, "what rounding took from x²");
     }
 }
@@ -187,10 +190,10 @@ fn a_sum_of_products_is_rounded_once() {
 #[test]
 fn machine_code_is_made_where_it_can_be() {
     let (graph, [plain, other]) =
-        record(1, |x| [x[0] * x[0], x[0].apply(Function::Sin)]).expect("records");
+        record(1, |x| [x[0] * x[0], x[0].apply(UnaryFunction::Sin)]).expect("records");
     let is_code =
-        |value| Engine::new(&Tape::new(&graph, &[value]), Means::Quickest).is_machine_code();
-    let expected = widest() != Vectors::Baseline;
+        |value| Engine::new(&Tape::new(&graph, &[value]), Backend::Quickest).is_machine_code();
+    let expected = widest() != InstructionSet::Baseline;
     assert_eq!(is_code(plain), expected, "a product is an instruction");
     assert!(!is_code(other), "a sine is none");
 }

@@ -8,7 +8,7 @@
 #[cfg(target_arch = "x86_64")]
 use std::arch::x86_64::*;
 
-use crate::graph::Vectors;
+use crate::graph::InstructionSet;
 #[cfg(target_arch = "x86_64")]
 use crate::graph::widest;
 
@@ -35,45 +35,45 @@ pub(super) trait Vector: Copy {
 }
 
 /// Work on blocks, compiled for each type of vector.
-pub(super) trait Work {
+pub(super) trait BlockKernel {
     /// Runs the work. Mark the implementation, and everything it calls, `#[inline(always)]`.
     fn run<V: Vector>(self);
 }
 
 /// Runs work with these vectors, which the processor must have, or with the baseline's.
-pub(super) fn with_vectors(vectors: Vectors, work: impl Work) {
+pub(super) fn with_vectors(vectors: InstructionSet, work: impl BlockKernel) {
     match vectors {
         #[cfg(target_arch = "x86_64")]
-        Vectors::Avx512 if widest() == Vectors::Avx512 => {
+        InstructionSet::Avx512 if widest() == InstructionSet::Avx512 => {
             // SAFETY: the processor has the features that the function is compiled for.
             unsafe { avx512(work) }
         }
         #[cfg(target_arch = "x86_64")]
-        Vectors::Avx2 if widest() != Vectors::Baseline => {
+        InstructionSet::Avx2 if widest() != InstructionSet::Baseline => {
             // SAFETY: as above; every processor with AVX-512 has them too.
             unsafe { avx2(work) }
         }
-        _ => work.run::<Pair>(),
+        _ => work.run::<TwoLanes>(),
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq")]
-fn avx512(work: impl Work) {
+fn avx512(work: impl BlockKernel) {
     work.run::<Eight>();
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-fn avx2(work: impl Work) {
+fn avx2(work: impl BlockKernel) {
     work.run::<Four>();
 }
 
 /// Two lanes in plain Rust: SSE2 and NEON have registers of this width.
 #[derive(Clone, Copy)]
-pub(super) struct Pair([f64; 2]);
+pub(super) struct TwoLanes([f64; 2]);
 
-impl Pair {
+impl TwoLanes {
     #[inline(always)]
     fn map(self, f: impl Fn(f64) -> f64) -> Self {
         Self(self.0.map(f))
@@ -85,7 +85,7 @@ impl Pair {
     }
 }
 
-impl Vector for Pair {
+impl Vector for TwoLanes {
     const LANES: usize = 2;
     #[inline(always)]
     fn load(from: &[f64]) -> Self {

@@ -7,7 +7,7 @@
 
 use super::{Graph, Node, NodeId, ONE, ZERO};
 use crate::number::rational::Rational;
-use crate::number::{Function, Operation};
+use crate::number::{BinaryOperation, UnaryFunction};
 
 /// Partial derivatives that are not 0 by their form, with the places of their variables.
 pub(super) type Row = Vec<(usize, NodeId)>;
@@ -183,14 +183,14 @@ impl Graph {
                 Node::Binary(operation, a, b) => match (of(a), of(b)) {
                     (ZERO, ZERO) => ZERO,
                     (left, right) => match operation {
-                        Operation::Add => self.add(left, right),
-                        Operation::Sub => self.sub(left, right),
-                        Operation::Mul => {
+                        BinaryOperation::Add => self.add(left, right),
+                        BinaryOperation::Sub => self.sub(left, right),
+                        BinaryOperation::Mul => {
                             let first = if left == ZERO { ZERO } else { self.mul(left, b) };
                             let second = if right == ZERO { ZERO } else { self.mul(a, right) };
                             self.add(first, second)
                         }
-                        Operation::Pow => {
+                        BinaryOperation::Pow => {
                             let [by_base, by_exponent] = self.slopes_of_pow(a, b, *id);
                             let first = if left == ZERO { ZERO } else { self.mul(left, by_base) };
                             let second =
@@ -233,16 +233,16 @@ impl Graph {
                 Node::Binary(operation, a, b) => {
                     let (by_a, by_b) = (sweeps.varies[a.0 as usize], sweeps.varies[b.0 as usize]);
                     match operation {
-                        Operation::Add => [Some((a, outer)), Some((b, outer))],
-                        Operation::Sub => {
-                            let minus = by_b.then(|| (b, self.unary(Function::Neg, outer)));
+                        BinaryOperation::Add => [Some((a, outer)), Some((b, outer))],
+                        BinaryOperation::Sub => {
+                            let minus = by_b.then(|| (b, self.unary(UnaryFunction::Neg, outer)));
                             [Some((a, outer)), minus]
                         }
-                        Operation::Mul => [
+                        BinaryOperation::Mul => [
                             by_a.then(|| (a, self.mul(outer, b))),
                             by_b.then(|| (b, self.mul(outer, a))),
                         ],
-                        Operation::Pow => {
+                        BinaryOperation::Pow => {
                             let [by_base, by_exponent] = self.slopes_of_pow(a, b, *id);
                             [
                                 by_a.then(|| (a, self.mul(outer, by_base))),
@@ -264,43 +264,43 @@ impl Graph {
     }
 
     /// Multiplies `factor` by the derivative of `f` at `a`, where `value` is f(a).
-    fn chained(&mut self, f: Function, a: NodeId, value: NodeId, factor: NodeId) -> NodeId {
+    fn chained(&mut self, f: UnaryFunction, a: NodeId, value: NodeId, factor: NodeId) -> NodeId {
         match f {
-            Function::Neg => self.unary(Function::Neg, factor),
-            Function::Recip => {
+            UnaryFunction::Neg => self.unary(UnaryFunction::Neg, factor),
+            UnaryFunction::Recip => {
                 let square = self.mul(value, value);
                 let product = self.mul(factor, square);
-                self.unary(Function::Neg, product)
+                self.unary(UnaryFunction::Neg, product)
             }
-            Function::Sqrt => {
-                let inverse = self.unary(Function::Recip, value);
+            UnaryFunction::Sqrt => {
+                let inverse = self.unary(UnaryFunction::Recip, value);
                 let half = self.constant(Rational::new(1, 2));
                 let slope = self.mul(inverse, half);
                 self.mul(factor, slope)
             }
-            Function::Abs => {
-                let inverse = self.unary(Function::Recip, value);
+            UnaryFunction::Abs => {
+                let inverse = self.unary(UnaryFunction::Recip, value);
                 let along = self.mul(factor, a);
                 self.mul(along, inverse)
             }
-            Function::Exp => self.mul(factor, value),
-            Function::Ln => {
-                let inverse = self.unary(Function::Recip, a);
+            UnaryFunction::Exp => self.mul(factor, value),
+            UnaryFunction::Ln => {
+                let inverse = self.unary(UnaryFunction::Recip, a);
                 self.mul(factor, inverse)
             }
-            Function::Sin => {
-                let cosine = self.unary(Function::Cos, a);
+            UnaryFunction::Sin => {
+                let cosine = self.unary(UnaryFunction::Cos, a);
                 self.mul(factor, cosine)
             }
-            Function::Cos => {
-                let sine = self.unary(Function::Sin, a);
+            UnaryFunction::Cos => {
+                let sine = self.unary(UnaryFunction::Sin, a);
                 let product = self.mul(factor, sine);
-                self.unary(Function::Neg, product)
+                self.unary(UnaryFunction::Neg, product)
             }
-            Function::Atan => {
+            UnaryFunction::Atan => {
                 let square = self.mul(a, a);
                 let sum = self.add(square, ONE);
-                let inverse = self.unary(Function::Recip, sum);
+                let inverse = self.unary(UnaryFunction::Recip, sum);
                 self.mul(factor, inverse)
             }
         }
@@ -316,9 +316,9 @@ impl Graph {
 
     /// Computes the derivatives of x^y by x and by y, where `value` is x^y.
     fn slopes_of_pow(&mut self, x: NodeId, y: NodeId, value: NodeId) -> [NodeId; 2] {
-        let inverse = self.unary(Function::Recip, x);
+        let inverse = self.unary(UnaryFunction::Recip, x);
         let ratio = self.mul(y, inverse);
-        let logarithm = self.unary(Function::Ln, x);
+        let logarithm = self.unary(UnaryFunction::Ln, x);
         [self.mul(value, ratio), self.mul(value, logarithm)]
     }
 }

@@ -11,7 +11,7 @@ use num_traits::{FromPrimitive, Inv, Num, One, Signed, Zero};
 
 use super::expr::Expr;
 use crate::number::rational::Rational;
-use crate::number::{Function, Operation};
+use crate::number::{BinaryOperation, UnaryFunction};
 use crate::scalar::Scalar;
 
 fn whole(value: i64) -> Expr {
@@ -147,7 +147,7 @@ impl DualNum for Expr {
         self * factor
     }
     fn recip(&self) -> Self {
-        self.unary(Function::Recip)
+        self.unary(UnaryFunction::Recip)
     }
     fn powi(&self, n: i32) -> Self {
         self.power(&Rational::from(i64::from(n)))
@@ -159,13 +159,13 @@ impl DualNum for Expr {
         self.power_of(exponent)
     }
     fn sqrt(&self) -> Self {
-        self.unary(Function::Sqrt)
+        self.unary(UnaryFunction::Sqrt)
     }
     fn cbrt(&self) -> Self {
         self.power(&Rational::new(1, 3))
     }
     fn exp(&self) -> Self {
-        self.unary(Function::Exp)
+        self.unary(UnaryFunction::Exp)
     }
     fn exp2(&self) -> Self {
         whole(2).power_of(*self)
@@ -174,7 +174,7 @@ impl DualNum for Expr {
         self.exp() - Self::one()
     }
     fn ln(&self) -> Self {
-        self.unary(Function::Ln)
+        self.unary(UnaryFunction::Ln)
     }
     fn log(&self, base: f64) -> Self {
         self.ln() / Expr::from(base).ln()
@@ -189,10 +189,10 @@ impl DualNum for Expr {
         (Self::one() + *self).ln()
     }
     fn sin(&self) -> Self {
-        self.unary(Function::Sin)
+        self.unary(UnaryFunction::Sin)
     }
     fn cos(&self) -> Self {
-        self.unary(Function::Cos)
+        self.unary(UnaryFunction::Cos)
     }
     fn tan(&self) -> Self {
         self.sin() / self.cos()
@@ -208,7 +208,7 @@ impl DualNum for Expr {
         whole(2) * Self::one().atan() - self.asin()
     }
     fn atan(&self) -> Self {
-        self.unary(Function::Atan)
+        self.unary(UnaryFunction::Atan)
     }
     fn atan2(&self, _: Self) -> Self {
         Expr::refuse("atan2");
@@ -243,7 +243,7 @@ impl DualNum for Expr {
         ((whole(3) - square) * self.sin() - whole(3) * *self * self.cos()) / (square * *self)
     }
     fn mul_add(&self, a: Self, b: Self) -> Self {
-        self.binary(Operation::Mul, a) + b
+        self.binary(BinaryOperation::Mul, a) + b
     }
 }
 

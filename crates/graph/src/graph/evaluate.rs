@@ -1,6 +1,6 @@
 //! Evaluation of a tape over blocks of states in any number domain.
 
-use super::dispatch::{Work, with_widest_vectors};
+use super::dispatch::{Kernel, with_widest_vectors};
 use super::tape::{Instruction, Tape};
 use crate::number::Domain;
 use crate::number::rational::Rational;
@@ -64,7 +64,7 @@ impl<'t, D: Domain> Evaluator<'t, D> {
 /// The loop over the instructions of a tape.
 struct Execution<'e, 't, D: Domain>(&'e mut Evaluator<'t, D>);
 
-impl<D: Domain> Work for Execution<'_, '_, D> {
+impl<D: Domain> Kernel for Execution<'_, '_, D> {
     #[inline(always)]
     fn run(self) {
         let Evaluator { tape, domain, blocks, places, spare } = self.0;

@@ -8,7 +8,7 @@ use std::ops::{
 
 use super::{Fault, Graph, NodeId, with_graph};
 use crate::number::rational::Rational;
-use crate::number::{Function, Operation};
+use crate::number::{BinaryOperation, UnaryFunction};
 use crate::scalar::Scalar;
 
 /// A value of the recording under way. Arithmetic on it adds nodes to the graph.
@@ -59,14 +59,14 @@ impl Expr {
         Self::made(|graph| graph.constant(value))
     }
 
-    pub(super) fn unary(self, function: Function) -> Self {
+    pub(super) fn unary(self, function: UnaryFunction) -> Self {
         Self::made(|graph| {
             let a = self.node_in(graph);
             graph.unary(function, a)
         })
     }
 
-    pub(super) fn binary(self, operation: Operation, other: Self) -> Self {
+    pub(super) fn binary(self, operation: BinaryOperation, other: Self) -> Self {
         Self::made(|graph| {
             let (a, b) = (self.node_in(graph), other.node_in(graph));
             graph.binary(operation, a, b)
@@ -74,12 +74,12 @@ impl Expr {
     }
 
     /// Computes f(x).
-    pub fn apply(self, function: Function) -> Self {
+    pub fn apply(self, function: UnaryFunction) -> Self {
         self.unary(function)
     }
 
     /// Computes x op y.
-    pub fn combine(self, operation: Operation, other: Self) -> Self {
+    pub fn combine(self, operation: BinaryOperation, other: Self) -> Self {
         self.binary(operation, other)
     }
 
@@ -129,11 +129,11 @@ impl Scalar for Expr {
     }
 
     fn power_of(self, exponent: Self) -> Self {
-        self.binary(Operation::Pow, exponent)
+        self.binary(BinaryOperation::Pow, exponent)
     }
 
     fn modulus(self) -> Self {
-        self.unary(Function::Abs)
+        self.unary(UnaryFunction::Abs)
     }
 
     fn antiderivative(integrand: Self, variable: Self) -> Self {
@@ -235,7 +235,7 @@ impl PartialEq<f64> for Expr {
 impl Neg for Expr {
     type Output = Expr;
     fn neg(self) -> Expr {
-        self.unary(Function::Neg)
+        self.unary(UnaryFunction::Neg)
     }
 }
 
@@ -248,7 +248,7 @@ impl Neg for &Expr {
 
 fn quotient(a: Expr, b: Expr) -> Expr {
     // One reciprocal serves every quotient by the same denominator.
-    a.binary(Operation::Mul, b.unary(Function::Recip))
+    a.binary(BinaryOperation::Mul, b.unary(UnaryFunction::Recip))
 }
 
 fn remainder(a: Expr, _: Expr) -> Expr {
@@ -290,9 +290,9 @@ macro_rules! arithmetic {
 }
 
 arithmetic! {
-    Add add AddAssign add_assign |a: Expr, b| a.binary(Operation::Add, b);
-    Sub sub SubAssign sub_assign |a: Expr, b| a.binary(Operation::Sub, b);
-    Mul mul MulAssign mul_assign |a: Expr, b| a.binary(Operation::Mul, b);
+    Add add AddAssign add_assign |a: Expr, b| a.binary(BinaryOperation::Add, b);
+    Sub sub SubAssign sub_assign |a: Expr, b| a.binary(BinaryOperation::Sub, b);
+    Mul mul MulAssign mul_assign |a: Expr, b| a.binary(BinaryOperation::Mul, b);
     Div div DivAssign div_assign quotient;
     Rem rem RemAssign rem_assign remainder;
 }

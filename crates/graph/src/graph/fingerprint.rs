@@ -12,18 +12,18 @@
 use super::{Choice, Expr, Fault, Graph, Member, Node, Step};
 use crate::number::prime::{Modulus, Prime, UNDEFINED, is_prime};
 use crate::number::rational::Rational;
-use crate::number::{Domain, Function, Operation};
+use crate::number::{BinaryOperation, Domain, UnaryFunction};
 
 /// Number of points, half of them modulo each of two primes.
-const POINTS: usize = 64;
-const HALF: usize = POINTS / 2;
+const FINGERPRINT_POINTS: usize = 64;
+const HALF: usize = FINGERPRINT_POINTS / 2;
 /// Number of blocks of points to try: enough for four independent roots.
 const TRIES: u64 = 48;
 /// Bound on numerators and denominators of factors. Below it one prime determines them, and the
 /// other agrees by chance with a probability of 2^-61.
 const MOST_IN_FACTOR: i64 = 1 << 29;
 
-type Values = [u64; POINTS];
+type Values = [u64; FINGERPRINT_POINTS];
 
 /// Size above which a graph stays as it is: the needs of each class are kept as a set.
 const MOST_NODES: usize = 1 << 13;
@@ -68,7 +68,7 @@ impl Graph {
         &self,
         output: usize,
         values: &mut [Option<Values>],
-        moduli: &[Modulus; POINTS],
+        moduli: &[Modulus; FINGERPRINT_POINTS],
         short: &[bool],
     ) {
         let mut open = vec![output];
@@ -95,7 +95,11 @@ impl Graph {
     }
 
     /// Sorts the nodes into classes of proportional values; constants are multiples of 1.
-    fn classes(&self, values: &[Option<Values>], moduli: &[Modulus; POINTS]) -> Vec<Member> {
+    fn classes(
+        &self,
+        values: &[Option<Values>],
+        moduli: &[Modulus; FINGERPRINT_POINTS],
+    ) -> Vec<Member> {
         let inverse = |x: u64, lane: usize| (x != 0).then(|| moduli[lane].inverse(x));
         let direction = |values: &Values| -> Option<Values> {
             if vanishes(values) {
@@ -117,22 +121,22 @@ impl Graph {
     /// such points were found.
     fn fingerprints(
         &self,
-        moduli: &[Modulus; POINTS],
+        moduli: &[Modulus; FINGERPRINT_POINTS],
         reached: &[bool],
         needed: &[bool],
     ) -> Option<Vec<Option<Values>>> {
         let domain = Fingerprint(Prime::new(*moduli));
-        let mut found: Vec<Values> = vec![[UNDEFINED; POINTS]; self.len()];
+        let mut found: Vec<Values> = vec![[UNDEFINED; FINGERPRINT_POINTS]; self.len()];
         let mut accepted = [0, HALF];
         for round in 0..TRIES {
             let values = self.values_at(&domain, reached, round);
-            let mut defined = [true; POINTS];
+            let mut defined = [true; FINGERPRINT_POINTS];
             for (values, _) in values.iter().zip(needed).filter(|(_, needed)| **needed) {
                 for (defined, value) in defined.iter_mut().zip(values) {
                     *defined &= *value != UNDEFINED;
                 }
             }
-            for lane in 0..POINTS {
+            for lane in 0..FINGERPRINT_POINTS {
                 let place = &mut accepted[lane / HALF];
                 if !defined[lane] || *place == (lane / HALF + 1) * HALF {
                     continue;
@@ -140,7 +144,7 @@ impl Graph {
                 found.iter_mut().zip(&values).for_each(|(found, new)| found[*place] = new[lane]);
                 *place += 1;
             }
-            if accepted == [HALF, POINTS] {
+            if accepted == [HALF, FINGERPRINT_POINTS] {
                 let whole = |values: Values| (!values.contains(&UNDEFINED)).then_some(values);
                 return Some(found.into_iter().map(whole).collect());
             }
@@ -154,7 +158,7 @@ impl Graph {
             self.constants.iter().map(|value| domain.constant(value)).collect();
         let mut values: Vec<Values> = Vec::with_capacity(self.len());
         for (node, reached) in self.nodes.iter().zip(reached) {
-            let mut value = [UNDEFINED; POINTS];
+            let mut value = [UNDEFINED; FINGERPRINT_POINTS];
             match *node {
                 Node::Constant(index) => value = constants[index as usize],
                 _ if !reached => {}
@@ -182,7 +186,7 @@ fn vanishes(values: &Values) -> bool {
 }
 
 /// Whether xᵢyⱼ = xⱼyᵢ modulo each prime.
-fn are_proportional(x: &Values, y: &Values, moduli: &[Modulus; POINTS]) -> bool {
+fn are_proportional(x: &Values, y: &Values, moduli: &[Modulus; FINGERPRINT_POINTS]) -> bool {
     moduli.iter().enumerate().all(|(lane, modulus)| {
         let first = lane / HALF * HALF;
         modulus.mul(x[lane], y[first]) == modulus.mul(x[first], y[lane])
@@ -190,7 +194,7 @@ fn are_proportional(x: &Values, y: &Values, moduli: &[Modulus; POINTS]) -> bool 
 }
 
 /// Returns two primes p = 3 mod 4 near 2^61, one for each half of the points.
-fn moduli() -> [Modulus; POINTS] {
+fn moduli() -> [Modulus; FINGERPRINT_POINTS] {
     let mut primes = (0..).map(|k| (1u64 << 61) - 1 - 4 * k).filter(|p| is_prime(*p));
     let mut next = || Modulus::new(primes.next().unwrap_or((1 << 61) - 1));
     let both = [next(), next()];
@@ -219,7 +223,7 @@ fn fraction(modulus: &Modulus, x: u64) -> Option<Rational> {
 }
 
 /// Prime fields with random functions in place of the functions that fields lack.
-struct Fingerprint(Prime<POINTS>);
+struct Fingerprint(Prime<FINGERPRINT_POINTS>);
 
 impl Fingerprint {
     /// Draws a random element for each lane.
@@ -251,22 +255,25 @@ impl Domain for Fingerprint {
         self.0.values(values)
     }
 
-    fn unary(&self, function: Function, x: &Values, out: &mut Values) {
+    fn unary(&self, function: UnaryFunction, x: &Values, out: &mut Values) {
         match function {
-            Function::Neg | Function::Recip | Function::Sqrt | Function::Abs => {
+            UnaryFunction::Neg
+            | UnaryFunction::Recip
+            | UnaryFunction::Sqrt
+            | UnaryFunction::Abs => {
                 self.0.unary(function, x, out);
             }
-            Function::Exp => self.random(1, x, x, out),
-            Function::Ln => self.random(2, x, x, out),
-            Function::Sin => self.random(3, x, x, out),
-            Function::Cos => self.random(4, x, x, out),
-            Function::Atan => self.random(5, x, x, out),
+            UnaryFunction::Exp => self.random(1, x, x, out),
+            UnaryFunction::Ln => self.random(2, x, x, out),
+            UnaryFunction::Sin => self.random(3, x, x, out),
+            UnaryFunction::Cos => self.random(4, x, x, out),
+            UnaryFunction::Atan => self.random(5, x, x, out),
         }
     }
 
-    fn binary(&self, operation: Operation, x: &Values, y: &Values, out: &mut Values) {
+    fn binary(&self, operation: BinaryOperation, x: &Values, y: &Values, out: &mut Values) {
         match operation {
-            Operation::Pow => self.random(6, x, y, out),
+            BinaryOperation::Pow => self.random(6, x, y, out),
             _ => self.0.binary(operation, x, y, out),
         }
     }

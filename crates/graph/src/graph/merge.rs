@@ -8,7 +8,7 @@ use rustc_hash::FxHashMap;
 
 use super::{Expr, Fault, Graph, ONE, Step, record};
 use crate::number::rational::Rational;
-use crate::number::{Function, Operation};
+use crate::number::{BinaryOperation, UnaryFunction};
 use crate::scalar::Scalar;
 
 /// Number of passes, after which the costs have mostly settled.
@@ -214,8 +214,10 @@ impl Step<'_> {
 
     fn is_slow(&self) -> bool {
         match self {
-            Step::Power(..) | Step::Binary(Operation::Pow, ..) => true,
-            Step::Unary(function, _) => !matches!(function, Function::Neg | Function::Abs),
+            Step::Power(..) | Step::Binary(BinaryOperation::Pow, ..) => true,
+            Step::Unary(function, _) => {
+                !matches!(function, UnaryFunction::Neg | UnaryFunction::Abs)
+            }
             _ => false,
         }
     }

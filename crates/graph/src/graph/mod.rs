@@ -24,10 +24,10 @@ use std::cell::RefCell;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::number::rational::Rational;
-use crate::number::{Function, Operation};
+use crate::number::{BinaryOperation, UnaryFunction};
 
 pub use dispatch::vector_features;
-pub use dispatch::{Vectors, Work, widest, with_widest_vectors};
+pub use dispatch::{InstructionSet, Kernel, widest, with_widest_vectors};
 pub use evaluate::Evaluator;
 pub use expr::Expr;
 use index::Index;
@@ -46,8 +46,8 @@ enum Node {
     /// An index into the graph's constants.
     Constant(u32),
     Input(u32),
-    Unary(Function, NodeId),
-    Binary(Operation, NodeId, NodeId),
+    Unary(UnaryFunction, NodeId),
+    Binary(BinaryOperation, NodeId, NodeId),
     /// A power whose exponent is an index into the graph's constants.
     Power(NodeId, u32),
 }
@@ -253,13 +253,15 @@ impl Graph {
         match node {
             Node::Constant(_) | Node::Input(_) => Defined::Always,
             Node::Unary(function, a) => match function {
-                Function::Recip => partly(of(a), a == ZERO),
-                Function::Sqrt if self.constant_at(a).is_some() && !negative(a) => Defined::Always,
-                Function::Sqrt => partly(of(a), negative(a)),
-                Function::Ln => partly(of(a), a == ZERO || negative(a)),
+                UnaryFunction::Recip => partly(of(a), a == ZERO),
+                UnaryFunction::Sqrt if self.constant_at(a).is_some() && !negative(a) => {
+                    Defined::Always
+                }
+                UnaryFunction::Sqrt => partly(of(a), negative(a)),
+                UnaryFunction::Ln => partly(of(a), a == ZERO || negative(a)),
                 _ => of(a),
             },
-            Node::Binary(Operation::Pow, a, b) => {
+            Node::Binary(BinaryOperation::Pow, a, b) => {
                 let never = a == ZERO || negative(a) || of(b) == Defined::Never;
                 partly(of(a), never)
             }

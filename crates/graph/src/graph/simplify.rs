@@ -10,7 +10,7 @@
 use super::{Graph, Node, NodeId, ONE, ZERO};
 use crate::number::exact::square_root;
 use crate::number::rational::Rational;
-use crate::number::{Function, Operation};
+use crate::number::{BinaryOperation, UnaryFunction};
 
 /// Size in bits up to which constants are folded exactly.
 const MAX_CONSTANT_BITS: u64 = 1 << 12;
@@ -41,11 +41,11 @@ impl Graph {
 
     /// Returns the argument of a negation.
     fn negated(&self, id: NodeId) -> Option<NodeId> {
-        self.argument(Function::Neg, id)
+        self.argument(UnaryFunction::Neg, id)
     }
 
     /// Returns the argument of the node if it is an application of `function`.
-    fn argument(&self, function: Function, id: NodeId) -> Option<NodeId> {
+    fn argument(&self, function: UnaryFunction, id: NodeId) -> Option<NodeId> {
         match self.node(id) {
             Node::Unary(f, a) if f == function => Some(a),
             _ => None,
@@ -62,16 +62,16 @@ impl Graph {
         (value.bits() <= MAX_CONSTANT_BITS).then(|| self.constant(value))
     }
 
-    pub(super) fn binary(&mut self, operation: Operation, a: NodeId, b: NodeId) -> NodeId {
+    pub(super) fn binary(&mut self, operation: BinaryOperation, a: NodeId, b: NodeId) -> NodeId {
         match operation {
-            Operation::Add => self.add(a, b),
-            Operation::Sub => self.sub(a, b),
-            Operation::Mul => self.mul(a, b),
-            Operation::Pow => self.pow(a, b),
+            BinaryOperation::Add => self.add(a, b),
+            BinaryOperation::Sub => self.sub(a, b),
+            BinaryOperation::Mul => self.mul(a, b),
+            BinaryOperation::Pow => self.pow(a, b),
         }
     }
 
-    fn commutative(&mut self, operation: Operation, a: NodeId, b: NodeId) -> NodeId {
+    fn commutative(&mut self, operation: BinaryOperation, a: NodeId, b: NodeId) -> NodeId {
         self.intern(Node::Binary(operation, a.min(b), a.max(b)))
     }
 
@@ -89,7 +89,7 @@ impl Graph {
         match (self.negated(a), self.negated(b)) {
             (_, Some(y)) => self.sub(a, y),
             (Some(x), None) => self.sub(b, x),
-            (None, None) => self.commutative(Operation::Add, a, b),
+            (None, None) => self.commutative(BinaryOperation::Add, a, b),
         }
     }
 
@@ -98,7 +98,7 @@ impl Graph {
             return ZERO;
         }
         if a == ZERO {
-            return self.unary(Function::Neg, b);
+            return self.unary(UnaryFunction::Neg, b);
         }
         if b == ZERO {
             return a;
@@ -110,13 +110,13 @@ impl Graph {
             (_, Some(y)) => self.add(a, y),
             (Some(x), None) => {
                 let sum = self.add(x, b);
-                self.unary(Function::Neg, sum)
+                self.unary(UnaryFunction::Neg, sum)
             }
             (None, None) if a > b => {
-                let difference = self.intern(Node::Binary(Operation::Sub, b, a));
-                self.unary(Function::Neg, difference)
+                let difference = self.intern(Node::Binary(BinaryOperation::Sub, b, a));
+                self.unary(UnaryFunction::Neg, difference)
             }
-            (None, None) => self.intern(Node::Binary(Operation::Sub, a, b)),
+            (None, None) => self.intern(Node::Binary(BinaryOperation::Sub, a, b)),
         }
     }
 
@@ -126,7 +126,7 @@ impl Graph {
                 if self.may_drop(other) {
                     return ZERO;
                 }
-                return self.commutative(Operation::Mul, a, b);
+                return self.commutative(BinaryOperation::Mul, a, b);
             }
         }
         if a == ONE {
@@ -150,24 +150,24 @@ impl Graph {
             }
         }
         if self.literal || self.is_undefined(a) || self.is_undefined(b) {
-            return self.commutative(Operation::Mul, a, b);
+            return self.commutative(BinaryOperation::Mul, a, b);
         }
         if a == b
-            && let Some(x) = self.argument(Function::Sqrt, a)
+            && let Some(x) = self.argument(UnaryFunction::Sqrt, a)
         {
             return x;
         }
-        if self.argument(Function::Recip, a) == Some(b)
-            || self.argument(Function::Recip, b) == Some(a)
+        if self.argument(UnaryFunction::Recip, a) == Some(b)
+            || self.argument(UnaryFunction::Recip, b) == Some(a)
         {
             return ONE;
         }
-        self.commutative(Operation::Mul, a, b)
+        self.commutative(BinaryOperation::Mul, a, b)
     }
 
     fn negated_product(&mut self, a: NodeId, b: NodeId) -> NodeId {
         let product = self.mul(a, b);
-        self.unary(Function::Neg, product)
+        self.unary(UnaryFunction::Neg, product)
     }
 
     /// Multiplies by a constant: the sign of a negative constant moves outwards, and two constants
@@ -177,17 +177,17 @@ impl Graph {
             let positive = self.constant(-value);
             return self.negated_product(positive, other);
         }
-        if let Node::Binary(Operation::Mul, x, y) = self.node(other) {
+        if let Node::Binary(BinaryOperation::Mul, x, y) = self.node(other) {
             for (inner, rest) in [(x, y), (y, x)] {
                 if let Some(merged) = self.fold(constant, inner, |p, q| p * q) {
                     return self.mul(merged, rest);
                 }
             }
         }
-        self.commutative(Operation::Mul, constant, other)
+        self.commutative(BinaryOperation::Mul, constant, other)
     }
 
-    pub(super) fn unary(&mut self, function: Function, a: NodeId) -> NodeId {
+    pub(super) fn unary(&mut self, function: UnaryFunction, a: NodeId) -> NodeId {
         if let Some(value) = self.constant_at(a).cloned()
             && let Some(folded) = fold_unary(function, &value)
         {
@@ -201,20 +201,28 @@ impl Graph {
             _ => None,
         };
         match (function, inner) {
-            (Function::Neg, Some((Function::Neg, x)))
-            | (Function::Ln, Some((Function::Exp, x))) => x,
-            (Function::Recip, Some((Function::Recip, x)))
-            | (Function::Exp, Some((Function::Ln, x)))
+            (UnaryFunction::Neg, Some((UnaryFunction::Neg, x)))
+            | (UnaryFunction::Ln, Some((UnaryFunction::Exp, x))) => x,
+            (UnaryFunction::Recip, Some((UnaryFunction::Recip, x)))
+            | (UnaryFunction::Exp, Some((UnaryFunction::Ln, x)))
                 if !self.literal =>
             {
                 x
             }
-            (Function::Recip | Function::Sin | Function::Atan, Some((Function::Neg, x))) => {
+            (
+                UnaryFunction::Recip | UnaryFunction::Sin | UnaryFunction::Atan,
+                Some((UnaryFunction::Neg, x)),
+            ) => {
                 let positive = self.unary(function, x);
-                self.unary(Function::Neg, positive)
+                self.unary(UnaryFunction::Neg, positive)
             }
-            (Function::Cos | Function::Abs, Some((Function::Neg, x))) => self.unary(function, x),
-            (Function::Abs, Some((Function::Abs | Function::Sqrt | Function::Exp, _))) => a,
+            (UnaryFunction::Cos | UnaryFunction::Abs, Some((UnaryFunction::Neg, x))) => {
+                self.unary(function, x)
+            }
+            (
+                UnaryFunction::Abs,
+                Some((UnaryFunction::Abs | UnaryFunction::Sqrt | UnaryFunction::Exp, _)),
+            ) => a,
             _ => self.intern(Node::Unary(function, a)),
         }
     }
@@ -223,7 +231,7 @@ impl Graph {
         match self.constant_at(exponent).cloned() {
             Some(exponent) => self.power(base, &exponent),
             None if base == ONE && self.may_drop(exponent) => base,
-            None => self.intern(Node::Binary(Operation::Pow, base, exponent)),
+            None => self.intern(Node::Binary(BinaryOperation::Pow, base, exponent)),
         }
     }
 
@@ -232,7 +240,7 @@ impl Graph {
     pub(super) fn power(&mut self, base: NodeId, exponent: &Rational) -> NodeId {
         if exponent.is_negative() {
             let positive = self.power(base, &-exponent);
-            return self.unary(Function::Recip, positive);
+            return self.unary(UnaryFunction::Recip, positive);
         }
         let doubled =
             (exponent * &Rational::from(2)).to_integer().and_then(|n| u32::try_from(n).ok());
@@ -242,7 +250,7 @@ impl Graph {
                 if n % 2 == 0 {
                     return whole;
                 }
-                let root = self.unary(Function::Sqrt, base);
+                let root = self.unary(UnaryFunction::Sqrt, base);
                 self.mul(whole, root)
             }
             _ if base == ONE => base,
@@ -271,14 +279,14 @@ impl Graph {
     }
 }
 
-fn fold_unary(function: Function, value: &Rational) -> Option<Rational> {
+fn fold_unary(function: UnaryFunction, value: &Rational) -> Option<Rational> {
     match function {
-        Function::Neg => Some(-value),
-        Function::Recip => value.recip(),
-        Function::Abs => Some(value.abs()),
-        Function::Sqrt => square_root(value),
-        Function::Exp | Function::Cos => value.is_zero().then(|| Rational::from(1)),
-        Function::Sin | Function::Atan => value.is_zero().then(|| Rational::from(0)),
-        Function::Ln => value.is_one().then(|| Rational::from(0)),
+        UnaryFunction::Neg => Some(-value),
+        UnaryFunction::Recip => value.recip(),
+        UnaryFunction::Abs => Some(value.abs()),
+        UnaryFunction::Sqrt => square_root(value),
+        UnaryFunction::Exp | UnaryFunction::Cos => value.is_zero().then(|| Rational::from(1)),
+        UnaryFunction::Sin | UnaryFunction::Atan => value.is_zero().then(|| Rational::from(0)),
+        UnaryFunction::Ln => value.is_one().then(|| Rational::from(0)),
     }
 }

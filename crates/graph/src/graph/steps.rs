@@ -2,7 +2,7 @@
 
 use super::{Expr, Graph, Node};
 use crate::number::rational::Rational;
-use crate::number::{Function, Operation};
+use crate::number::{BinaryOperation, UnaryFunction};
 use crate::scalar::Scalar;
 
 /// One operation; arguments are places of earlier steps.
@@ -13,9 +13,9 @@ pub enum Step<'g> {
     /// A free input, by index.
     Input(usize),
     /// f(x)
-    Unary(Function, usize),
+    Unary(UnaryFunction, usize),
     /// x op y
-    Binary(Operation, usize, usize),
+    Binary(BinaryOperation, usize, usize),
     /// x^q
     Power(usize, &'g Rational),
 }
@@ -162,7 +162,7 @@ mod tests {
         assert!(same, "equal steps are equal nodes");
         let (_, replaced) = record(2, |x| {
             let values = graph.replay(&reached, x, |_, step, _| {
-                matches!(step, Step::Unary(Function::Sqrt, _)).then(|| x[1])
+                matches!(step, Step::Unary(UnaryFunction::Sqrt, _)).then(|| x[1])
             });
             values[graph.place(outputs[0])] == Some(x[0] * x[1] + x[1])
         })

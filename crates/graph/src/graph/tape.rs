@@ -2,7 +2,7 @@
 
 use super::{Expr, Graph, Node};
 use crate::number::rational::Rational;
-use crate::number::{Function, Operation};
+use crate::number::{BinaryOperation, UnaryFunction};
 
 /// Index of the memory for one block of values.
 pub(crate) type Slot = u32;
@@ -11,12 +11,12 @@ pub(crate) type Slot = u32;
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Instruction {
     Unary {
-        function: Function,
+        function: UnaryFunction,
         a: Slot,
         out: Slot,
     },
     Binary {
-        operation: Operation,
+        operation: BinaryOperation,
         a: Slot,
         b: Slot,
         out: Slot,

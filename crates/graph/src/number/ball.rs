@@ -18,7 +18,7 @@
 //! error below one unit in the last place; two are allowed for here.
 
 use super::rational::Rational;
-use super::{Domain, Enclosing, Function, Operation};
+use super::{BinaryOperation, Domain, Enclosing, UnaryFunction};
 
 /// Unit roundoff of f64 under rounding to nearest.
 const UNIT: f64 = f64::EPSILON / 2.0;
@@ -113,36 +113,36 @@ impl<const N: usize> Domain for Ball<N> {
     }
 
     #[inline(always)]
-    fn unary(&self, function: Function, x: &Balls<N>, out: &mut Balls<N>) {
+    fn unary(&self, function: UnaryFunction, x: &Balls<N>, out: &mut Balls<N>) {
         match function {
-            Function::Neg => map(x, out, |a, r| (-a, r)),
-            Function::Abs => map(x, out, |a, r| (a.abs(), r)),
-            Function::Recip => map(x, out, reciprocal),
-            Function::Sqrt => map(x, out, square_root),
-            Function::Exp => map(x, out, exponential),
-            Function::Ln => map(x, out, logarithm),
-            Function::Sin => map(x, out, |a, r| bounded(libm::sin(a), r)),
-            Function::Cos => map(x, out, |a, r| bounded(libm::cos(a), r)),
-            Function::Atan => map(x, out, |a, r| bounded(libm::atan(a), r)),
+            UnaryFunction::Neg => map(x, out, |a, r| (-a, r)),
+            UnaryFunction::Abs => map(x, out, |a, r| (a.abs(), r)),
+            UnaryFunction::Recip => map(x, out, reciprocal),
+            UnaryFunction::Sqrt => map(x, out, square_root),
+            UnaryFunction::Exp => map(x, out, exponential),
+            UnaryFunction::Ln => map(x, out, logarithm),
+            UnaryFunction::Sin => map(x, out, |a, r| bounded(libm::sin(a), r)),
+            UnaryFunction::Cos => map(x, out, |a, r| bounded(libm::cos(a), r)),
+            UnaryFunction::Atan => map(x, out, |a, r| bounded(libm::atan(a), r)),
         }
     }
 
     #[inline(always)]
-    fn binary(&self, operation: Operation, x: &Balls<N>, y: &Balls<N>, out: &mut Balls<N>) {
+    fn binary(&self, operation: BinaryOperation, x: &Balls<N>, y: &Balls<N>, out: &mut Balls<N>) {
         match operation {
-            Operation::Add => zip(x, y, out, |a, ra, b, rb| {
+            BinaryOperation::Add => zip(x, y, out, |a, ra, b, rb| {
                 let z = a + b;
                 (z, widen(ra + rb + UNIT * z.abs()))
             }),
-            Operation::Sub => zip(x, y, out, |a, ra, b, rb| {
+            BinaryOperation::Sub => zip(x, y, out, |a, ra, b, rb| {
                 let z = a - b;
                 (z, widen(ra + rb + UNIT * z.abs()))
             }),
-            Operation::Mul => zip(x, y, out, |a, ra, b, rb| {
+            BinaryOperation::Mul => zip(x, y, out, |a, ra, b, rb| {
                 let z = a * b;
                 (z, widen(a.abs() * rb + b.abs() * ra + ra * rb + UNIT * z.abs()))
             }),
-            Operation::Pow => zip(x, y, out, power),
+            BinaryOperation::Pow => zip(x, y, out, power),
         }
     }
 

@@ -12,7 +12,7 @@
 //! ```
 
 use super::rational::Rational;
-use super::{Domain, Function, Operation};
+use super::{BinaryOperation, Domain, UnaryFunction};
 
 /// The complex domain with `N` lanes. An undefined lane holds NaN.
 #[derive(Clone, Copy, Debug, Default)]
@@ -45,37 +45,37 @@ impl<const N: usize> Domain for Complex<N> {
     }
 
     #[inline(always)]
-    fn unary(&self, function: Function, x: &Complexes<N>, out: &mut Complexes<N>) {
+    fn unary(&self, function: UnaryFunction, x: &Complexes<N>, out: &mut Complexes<N>) {
         match function {
-            Function::Neg => map(x, out, |(a, b)| (-a, -b)),
-            Function::Recip => map(x, out, reciprocal),
-            Function::Sqrt => map(x, out, square_root),
-            Function::Abs => map(x, out, |(a, b)| (a.abs(), b * a.signum())),
-            Function::Exp => map(x, out, exponential),
-            Function::Ln => map(x, out, logarithm),
-            Function::Sin => {
+            UnaryFunction::Neg => map(x, out, |(a, b)| (-a, -b)),
+            UnaryFunction::Recip => map(x, out, reciprocal),
+            UnaryFunction::Sqrt => map(x, out, square_root),
+            UnaryFunction::Abs => map(x, out, |(a, b)| (a.abs(), b * a.signum())),
+            UnaryFunction::Exp => map(x, out, exponential),
+            UnaryFunction::Ln => map(x, out, logarithm),
+            UnaryFunction::Sin => {
                 map(x, out, |(a, b)| (libm::sin(a) * libm::cosh(b), libm::cos(a) * libm::sinh(b)))
             }
-            Function::Cos => {
+            UnaryFunction::Cos => {
                 map(x, out, |(a, b)| (libm::cos(a) * libm::cosh(b), -libm::sin(a) * libm::sinh(b)))
             }
-            Function::Atan => map(x, out, arctangent),
+            UnaryFunction::Atan => map(x, out, arctangent),
         }
     }
 
     #[inline(always)]
     fn binary(
         &self,
-        operation: Operation,
+        operation: BinaryOperation,
         x: &Complexes<N>,
         y: &Complexes<N>,
         out: &mut Complexes<N>,
     ) {
         match operation {
-            Operation::Add => zip(x, y, out, |(a, b), (c, d)| (a + c, b + d)),
-            Operation::Sub => zip(x, y, out, |(a, b), (c, d)| (a - c, b - d)),
-            Operation::Mul => zip(x, y, out, product),
-            Operation::Pow => zip(x, y, out, |z, w| exponential(product(w, logarithm(z)))),
+            BinaryOperation::Add => zip(x, y, out, |(a, b), (c, d)| (a + c, b + d)),
+            BinaryOperation::Sub => zip(x, y, out, |(a, b), (c, d)| (a - c, b - d)),
+            BinaryOperation::Mul => zip(x, y, out, product),
+            BinaryOperation::Pow => zip(x, y, out, |z, w| exponential(product(w, logarithm(z)))),
         }
     }
 
@@ -171,7 +171,7 @@ mod tests {
 
     const STEP: f64 = 1e-100;
 
-    fn at(function: Function, a: f64, b: f64) -> Pair {
+    fn at(function: UnaryFunction, a: f64, b: f64) -> Pair {
         let mut out = Complexes { re: [0.0], im: [0.0] };
         Complex::<1>.unary(function, &Complexes { re: [a], im: [b] }, &mut out);
         (out.re[0], out.im[0])
@@ -186,16 +186,16 @@ mod tests {
     fn a_tiny_step_gives_the_derivative_to_rounding() {
         let x: f64 = 0.7;
         let derivatives = [
-            (Function::Neg, x, -1.0),
-            (Function::Recip, x, -1.0 / (x * x)),
-            (Function::Sqrt, x, 0.5 / x.sqrt()),
-            (Function::Abs, -x, -1.0),
-            (Function::Exp, x, x.exp()),
-            (Function::Ln, x, 1.0 / x),
-            (Function::Sin, x, x.cos()),
-            (Function::Cos, x, -x.sin()),
-            (Function::Atan, x, 1.0 / (1.0 + x * x)),
-            (Function::Atan, -3.0, 0.1),
+            (UnaryFunction::Neg, x, -1.0),
+            (UnaryFunction::Recip, x, -1.0 / (x * x)),
+            (UnaryFunction::Sqrt, x, 0.5 / x.sqrt()),
+            (UnaryFunction::Abs, -x, -1.0),
+            (UnaryFunction::Exp, x, x.exp()),
+            (UnaryFunction::Ln, x, 1.0 / x),
+            (UnaryFunction::Sin, x, x.cos()),
+            (UnaryFunction::Cos, x, -x.sin()),
+            (UnaryFunction::Atan, x, 1.0 / (1.0 + x * x)),
+            (UnaryFunction::Atan, -3.0, 0.1),
         ];
         for (function, x, slope) in derivatives {
             assert_near(at(function, x, STEP).1 / STEP, slope, &format!("{function:?} at {x}"));
@@ -205,16 +205,16 @@ mod tests {
     #[test]
     fn functions_keep_their_identities_off_the_axis() {
         let z = (0.6, 0.3);
-        let (s, t) = at(Function::Sqrt, z.0, z.1);
+        let (s, t) = at(UnaryFunction::Sqrt, z.0, z.1);
         let (re, im) = product((s, t), (s, t));
         assert_near(re, z.0, "Re (√z)²");
         assert_near(im, z.1, "Im (√z)²");
-        let (s, t) = at(Function::Ln, z.0, z.1);
-        let (re, im) = at(Function::Exp, s, t);
+        let (s, t) = at(UnaryFunction::Ln, z.0, z.1);
+        let (re, im) = at(UnaryFunction::Exp, s, t);
         assert_near(re, z.0, "Re e^ln z");
         assert_near(im, z.1, "Im e^ln z");
-        let (a, b) = at(Function::Atan, z.0, z.1);
-        let (sine, cosine) = (at(Function::Sin, a, b), at(Function::Cos, a, b));
+        let (a, b) = at(UnaryFunction::Atan, z.0, z.1);
+        let (sine, cosine) = (at(UnaryFunction::Sin, a, b), at(UnaryFunction::Cos, a, b));
         let (re, im) = product(sine, reciprocal(cosine));
         assert_near(re, z.0, "Re tan atan z");
         assert_near(im, z.1, "Im tan atan z");
@@ -241,9 +241,9 @@ mod tests {
 
     #[test]
     fn what_has_no_real_value_has_no_complex_one() {
-        for function in [Function::Sqrt, Function::Ln] {
+        for function in [UnaryFunction::Sqrt, UnaryFunction::Ln] {
             assert!(at(function, -1.0, STEP).0.is_nan(), "{function:?} at -1");
         }
-        assert_eq!(at(Function::Sqrt, 0.0, 0.0), (0.0, 0.0), "√0 = 0 as on the real axis");
+        assert_eq!(at(UnaryFunction::Sqrt, 0.0, 0.0), (0.0, 0.0), "√0 = 0 as on the real axis");
     }
 }

@@ -5,7 +5,7 @@ use num_bigint::BigInt;
 use num_traits::Signed;
 
 use super::rational::Rational;
-use super::{Domain, Function, Operation};
+use super::{BinaryOperation, Domain, UnaryFunction};
 
 /// Size in bits beyond which a number is given up: too long to read, and slow.
 const MAX_BITS: u64 = 1 << 16;
@@ -25,33 +25,37 @@ impl Domain for Exact {
         values.first().cloned()
     }
 
-    fn unary(&self, function: Function, x: &Option<Rational>, out: &mut Option<Rational>) {
+    fn unary(&self, function: UnaryFunction, x: &Option<Rational>, out: &mut Option<Rational>) {
         *out = x.as_ref().and_then(|x| match function {
-            Function::Neg => Some(-x),
-            Function::Recip => x.recip(),
-            Function::Sqrt => square_root(x),
-            Function::Abs => Some(x.abs()),
-            Function::Exp | Function::Sin | Function::Atan if x.is_zero() => {
-                Some(Rational::from(i64::from(function == Function::Exp)))
+            UnaryFunction::Neg => Some(-x),
+            UnaryFunction::Recip => x.recip(),
+            UnaryFunction::Sqrt => square_root(x),
+            UnaryFunction::Abs => Some(x.abs()),
+            UnaryFunction::Exp | UnaryFunction::Sin | UnaryFunction::Atan if x.is_zero() => {
+                Some(Rational::from(i64::from(function == UnaryFunction::Exp)))
             }
-            Function::Cos if x.is_zero() => Some(Rational::from(1)),
-            Function::Ln if x.is_one() => Some(Rational::from(0)),
-            Function::Exp | Function::Ln | Function::Sin | Function::Cos | Function::Atan => None,
+            UnaryFunction::Cos if x.is_zero() => Some(Rational::from(1)),
+            UnaryFunction::Ln if x.is_one() => Some(Rational::from(0)),
+            UnaryFunction::Exp
+            | UnaryFunction::Ln
+            | UnaryFunction::Sin
+            | UnaryFunction::Cos
+            | UnaryFunction::Atan => None,
         });
     }
 
     fn binary(
         &self,
-        operation: Operation,
+        operation: BinaryOperation,
         x: &Option<Rational>,
         y: &Option<Rational>,
         out: &mut Option<Rational>,
     ) {
         *out = x.as_ref().zip(y.as_ref()).and_then(|(x, y)| match operation {
-            Operation::Add => Some(x + y),
-            Operation::Sub => Some(x - y),
-            Operation::Mul => Some(x * y),
-            Operation::Pow => power(x, y),
+            BinaryOperation::Add => Some(x + y),
+            BinaryOperation::Sub => Some(x - y),
+            BinaryOperation::Mul => Some(x * y),
+            BinaryOperation::Pow => power(x, y),
         });
         if out.as_ref().is_some_and(|value| value.bits() > MAX_BITS) {
             *out = None;

@@ -1,7 +1,7 @@
 //! Plain f64 in blocks of `N` lanes: the fastest domain. It carries no error bound.
 
 use super::rational::Rational;
-use super::{Domain, Function, Operation};
+use super::{BinaryOperation, Domain, UnaryFunction};
 
 /// The f64 domain with `N` lanes. An undefined lane holds NaN.
 #[derive(Clone, Copy, Debug, Default)]
@@ -20,33 +20,33 @@ impl<const N: usize> Domain for Float<N> {
     }
 
     #[inline(always)]
-    fn unary(&self, function: Function, x: &Self::Block, out: &mut Self::Block) {
+    fn unary(&self, function: UnaryFunction, x: &Self::Block, out: &mut Self::Block) {
         match function {
-            Function::Neg => map(x, out, |x| -x),
-            Function::Recip => map(x, out, |x| 1.0 / x),
-            Function::Sqrt => map(x, out, f64::sqrt),
-            Function::Abs => map(x, out, f64::abs),
-            Function::Exp => map(x, out, libm::exp),
-            Function::Ln => map(x, out, libm::log),
-            Function::Sin => map(x, out, libm::sin),
-            Function::Cos => map(x, out, libm::cos),
-            Function::Atan => map(x, out, libm::atan),
+            UnaryFunction::Neg => map(x, out, |x| -x),
+            UnaryFunction::Recip => map(x, out, |x| 1.0 / x),
+            UnaryFunction::Sqrt => map(x, out, f64::sqrt),
+            UnaryFunction::Abs => map(x, out, f64::abs),
+            UnaryFunction::Exp => map(x, out, libm::exp),
+            UnaryFunction::Ln => map(x, out, libm::log),
+            UnaryFunction::Sin => map(x, out, libm::sin),
+            UnaryFunction::Cos => map(x, out, libm::cos),
+            UnaryFunction::Atan => map(x, out, libm::atan),
         }
     }
 
     #[inline(always)]
     fn binary(
         &self,
-        operation: Operation,
+        operation: BinaryOperation,
         x: &Self::Block,
         y: &Self::Block,
         out: &mut Self::Block,
     ) {
         match operation {
-            Operation::Add => zip(x, y, out, |x, y| x + y),
-            Operation::Sub => zip(x, y, out, |x, y| x - y),
-            Operation::Mul => zip(x, y, out, |x, y| x * y),
-            Operation::Pow => zip(x, y, out, libm::pow),
+            BinaryOperation::Add => zip(x, y, out, |x, y| x + y),
+            BinaryOperation::Sub => zip(x, y, out, |x, y| x - y),
+            BinaryOperation::Mul => zip(x, y, out, |x, y| x * y),
+            BinaryOperation::Pow => zip(x, y, out, libm::pow),
         }
     }
 

@@ -4,10 +4,10 @@
 //! A value is exact, enclosed, known not to exist (√-1), or in doubt (the root of a ball that
 //! contains 0 and negative numbers).
 
+use super::arb::{Approximation, ArbBall};
 use super::exact::square_root;
-use super::precise::{Approximation, Precise};
 use super::rational::Rational;
-use super::{Domain, Enclosing, Function, Operation};
+use super::{BinaryOperation, Domain, Enclosing, UnaryFunction};
 
 /// Size in bits beyond which a number is enclosed: exact arithmetic on longer ones takes too long.
 const MAX_BITS: u64 = 1 << 14;
@@ -15,7 +15,7 @@ const MAX_BITS: u64 = 1 << 14;
 /// The mixed domain, with balls of a given precision; one lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Mixed {
-    balls: Precise,
+    balls: ArbBall,
 }
 
 /// A number, or the reason why there is none.
@@ -34,7 +34,7 @@ pub enum Number {
 impl Mixed {
     /// Makes a domain of balls with midpoints of `bits` bits.
     pub fn new(bits: u32) -> Self {
-        Self { balls: Precise::new(bits) }
+        Self { balls: ArbBall::new(bits) }
     }
 
     fn ball(&self, x: &Number) -> Option<Approximation> {
@@ -47,31 +47,31 @@ impl Mixed {
 
     /// Applies a function to a ball. Without an enclosure, the sign of the argument decides whether
     /// a value exists.
-    fn of_ball(&self, function: Function, x: &Number) -> Number {
+    fn of_ball(&self, function: UnaryFunction, x: &Number) -> Number {
         let Some(ball) = self.ball(x) else { return x.clone() };
         match self.balls.function(function, &ball) {
             Some(value) => Number::Ball(value),
             None => {
                 let is_negative = ball.excludes_zero() && !ball.is_positive();
                 match function {
-                    Function::Sqrt | Function::Ln if is_negative => Number::Nothing,
+                    UnaryFunction::Sqrt | UnaryFunction::Ln if is_negative => Number::Nothing,
                     _ => Number::Doubtful,
                 }
             }
         }
     }
 
-    fn exact(&self, function: Function, x: &Rational) -> Option<Number> {
+    fn exact(&self, function: UnaryFunction, x: &Rational) -> Option<Number> {
         let value = match function {
-            Function::Neg => Some(-x),
-            Function::Abs => Some(x.abs()),
-            Function::Recip => return Some(x.recip().map_or(Number::Nothing, Number::Exact)),
-            Function::Sqrt if x.is_negative() => return Some(Number::Nothing),
-            Function::Sqrt => square_root(x),
-            Function::Ln if x.is_zero() || x.is_negative() => return Some(Number::Nothing),
-            Function::Ln => x.is_one().then(|| Rational::from(0)),
-            Function::Exp | Function::Cos => x.is_zero().then(|| Rational::from(1)),
-            Function::Sin | Function::Atan => x.is_zero().then(|| Rational::from(0)),
+            UnaryFunction::Neg => Some(-x),
+            UnaryFunction::Abs => Some(x.abs()),
+            UnaryFunction::Recip => return Some(x.recip().map_or(Number::Nothing, Number::Exact)),
+            UnaryFunction::Sqrt if x.is_negative() => return Some(Number::Nothing),
+            UnaryFunction::Sqrt => square_root(x),
+            UnaryFunction::Ln if x.is_zero() || x.is_negative() => return Some(Number::Nothing),
+            UnaryFunction::Ln => x.is_one().then(|| Rational::from(0)),
+            UnaryFunction::Exp | UnaryFunction::Cos => x.is_zero().then(|| Rational::from(1)),
+            UnaryFunction::Sin | UnaryFunction::Atan => x.is_zero().then(|| Rational::from(0)),
         };
         value.map(Number::Exact)
     }
@@ -107,7 +107,7 @@ impl Domain for Mixed {
         values.first().map_or(Number::Doubtful, |value| Number::Exact(value.clone()))
     }
 
-    fn unary(&self, function: Function, x: &Number, out: &mut Number) {
+    fn unary(&self, function: UnaryFunction, x: &Number, out: &mut Number) {
         *out = match x {
             Number::Exact(value) => {
                 self.exact(function, value).unwrap_or_else(|| self.of_ball(function, x))
@@ -116,22 +116,22 @@ impl Domain for Mixed {
         };
     }
 
-    fn binary(&self, operation: Operation, x: &Number, y: &Number, out: &mut Number) {
+    fn binary(&self, operation: BinaryOperation, x: &Number, y: &Number, out: &mut Number) {
         *out = match (x, y) {
-            _ if operation == Operation::Pow => self.raised(x, y),
+            _ if operation == BinaryOperation::Pow => self.raised(x, y),
             (Number::Nothing, _) | (_, Number::Nothing) => Number::Nothing,
             (Number::Exact(a), Number::Exact(b))
                 if a.bits().saturating_add(b.bits()) <= MAX_BITS =>
             {
                 Number::Exact(match operation {
-                    Operation::Add => a + b,
-                    Operation::Sub => a - b,
-                    Operation::Mul | Operation::Pow => a * b,
+                    BinaryOperation::Add => a + b,
+                    BinaryOperation::Sub => a - b,
+                    BinaryOperation::Mul | BinaryOperation::Pow => a * b,
                 })
             }
             // A product with 0 is 0, however large the other factor.
             (Number::Exact(zero), Number::Ball(_)) | (Number::Ball(_), Number::Exact(zero))
-                if operation == Operation::Mul && zero.is_zero() =>
+                if operation == BinaryOperation::Mul && zero.is_zero() =>
             {
                 Number::Exact(zero.clone())
             }
@@ -190,9 +190,9 @@ impl Enclosing for Mixed {
             Number::Exact(value) => {
                 let (mid, rad) = Self::enclosure(block, lane)?;
                 let hidden = !value.is_zero() && mid.abs() <= rad;
-                hidden.then(|| Precise::new(64).rational(value).rough())
+                hidden.then(|| ArbBall::new(64).rational(value).rough())
             }
-            Number::Ball(ball) => Precise::beyond_f64(&Some(ball.clone()), lane),
+            Number::Ball(ball) => ArbBall::beyond_f64(&Some(ball.clone()), lane),
             Number::Nothing | Number::Doubtful => None,
         }
     }

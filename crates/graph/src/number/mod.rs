@@ -5,23 +5,23 @@
 //! implementation of [`Domain`]; the tape and the evaluator do not depend on the domain they run
 //! in.
 
+pub mod arb;
 pub mod ball;
 pub mod complex;
+pub mod double_double;
+pub mod double_double_ball;
 pub mod exact;
 pub mod float;
 pub mod mixed;
-pub mod pair;
-pub mod precise;
 pub mod prime;
 pub mod quadratic;
 pub mod rational;
-pub mod twofold;
 
 use rational::Rational;
 
 /// A function of one argument that a tape may contain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Function {
+pub enum UnaryFunction {
     /// `-x`
     Neg,
     /// `1/x`
@@ -44,7 +44,7 @@ pub enum Function {
 
 /// A function of two arguments that a tape may contain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Operation {
+pub enum BinaryOperation {
     /// `x + y`
     Add,
     /// `x - y`
@@ -71,10 +71,16 @@ pub trait Domain {
     fn values(&self, values: &[Rational]) -> Self::Block;
 
     /// Computes `out = f(x)`.
-    fn unary(&self, function: Function, x: &Self::Block, out: &mut Self::Block);
+    fn unary(&self, function: UnaryFunction, x: &Self::Block, out: &mut Self::Block);
 
     /// Computes `out = x op y`.
-    fn binary(&self, operation: Operation, x: &Self::Block, y: &Self::Block, out: &mut Self::Block);
+    fn binary(
+        &self,
+        operation: BinaryOperation,
+        x: &Self::Block,
+        y: &Self::Block,
+        out: &mut Self::Block,
+    );
 
     /// Computes `out = x^exponent`; x > 0 unless the exponent is an integer.
     fn power(&self, x: &Self::Block, exponent: &Rational, out: &mut Self::Block);

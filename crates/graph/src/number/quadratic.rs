@@ -12,7 +12,7 @@
 
 use super::prime::{Modulus, UNDEFINED};
 use super::rational::Rational;
-use super::{Domain, Function, Operation};
+use super::{BinaryOperation, Domain, UnaryFunction};
 
 /// a + bi in Montgomery form; undefined where the first part is [`UNDEFINED`].
 pub type Element = [u64; 2];
@@ -203,37 +203,37 @@ impl<const N: usize> Domain for Quadratic<N> {
     }
 
     #[inline(always)]
-    fn unary(&self, function: Function, x: &[Element; N], out: &mut [Element; N]) {
+    fn unary(&self, function: UnaryFunction, x: &[Element; N], out: &mut [Element; N]) {
         match function {
-            Function::Neg => self.map(x, out, |m, [a, b]| Some([m.sub(0, a), m.sub(0, b)])),
-            Function::Recip => self.reciprocals(x, out),
-            Function::Sqrt => self.map(x, out, root),
-            Function::Abs
-            | Function::Exp
-            | Function::Ln
-            | Function::Sin
-            | Function::Cos
-            | Function::Atan => *out = [NONE; N],
+            UnaryFunction::Neg => self.map(x, out, |m, [a, b]| Some([m.sub(0, a), m.sub(0, b)])),
+            UnaryFunction::Recip => self.reciprocals(x, out),
+            UnaryFunction::Sqrt => self.map(x, out, root),
+            UnaryFunction::Abs
+            | UnaryFunction::Exp
+            | UnaryFunction::Ln
+            | UnaryFunction::Sin
+            | UnaryFunction::Cos
+            | UnaryFunction::Atan => *out = [NONE; N],
         }
     }
 
     #[inline(always)]
     fn binary(
         &self,
-        operation: Operation,
+        operation: BinaryOperation,
         x: &[Element; N],
         y: &[Element; N],
         out: &mut [Element; N],
     ) {
         match operation {
-            Operation::Add => {
+            BinaryOperation::Add => {
                 self.zip(x, y, out, |m, [a, b], [c, d]| [m.add(a, c), m.add(b, d)]);
             }
-            Operation::Sub => {
+            BinaryOperation::Sub => {
                 self.zip(x, y, out, |m, [a, b], [c, d]| [m.sub(a, c), m.sub(b, d)]);
             }
-            Operation::Mul => self.zip(x, y, out, product),
-            Operation::Pow => *out = [NONE; N],
+            BinaryOperation::Mul => self.zip(x, y, out, product),
+            BinaryOperation::Pow => *out = [NONE; N],
         }
     }
 
@@ -313,10 +313,10 @@ mod tests {
         let domain = Quadratic::new([m; 4]);
         let x = [[m.integer(3), m.integer(5)], [0, 0], NONE, [0, m.integer(7)]];
         let mut inverse = [NONE; 4];
-        domain.unary(Function::Recip, &x, &mut inverse);
+        domain.unary(UnaryFunction::Recip, &x, &mut inverse);
         assert_eq!(inverse[1..3], [NONE; 2], "of 0, and of nothing");
         let mut one = [NONE; 4];
-        domain.binary(Operation::Mul, &x, &inverse, &mut one);
+        domain.binary(BinaryOperation::Mul, &x, &inverse, &mut one);
         assert_eq!([one[0], one[3]], [[m.one(), 0]; 2], "x · 1/x");
         let mut cube = [NONE; 4];
         domain.power(&x, &Rational::from(-3), &mut cube);

@@ -11,11 +11,11 @@
 use std::rc::Rc;
 
 use crate::graph::{Graph, Step};
-use crate::number::{Function, Operation};
+use crate::number::{BinaryOperation, UnaryFunction};
 
 /// Distribution of an input, from which the values that contain it are bounded.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Source {
+pub enum InputDistribution {
     /// Any element of the prime field, with equal probability: degree 1.
     Uniform,
     /// 1 or -1.
@@ -35,7 +35,7 @@ pub struct Bound {
 
 /// Degree and height of a factor.
 #[derive(Clone, Copy, Debug)]
-struct Factor {
+struct FactorBound {
     degree: f64,
     height: f64,
 }
@@ -43,14 +43,14 @@ struct Factor {
 /// Bounds for all steps of a graph.
 pub struct Bounds {
     bounds: Vec<Option<Bound>>,
-    factors: Vec<Factor>,
+    factors: Vec<FactorBound>,
     /// Factor that is the numerator of a step, by place.
     numerator_of: rustc_hash::FxHashMap<usize, u32>,
 }
 
 impl Bounds {
     /// Bounds the reached steps; `None` for a step with a function that has no bound.
-    pub fn of(graph: &Graph, reached: &[bool], sources: &[Source]) -> Self {
+    pub fn of(graph: &Graph, reached: &[bool], sources: &[InputDistribution]) -> Self {
         let mut all = Self {
             bounds: Vec::with_capacity(reached.len()),
             factors: Vec::new(),
@@ -74,7 +74,7 @@ impl Bounds {
         let bound = self.at(place)?;
         let above = bound.factors.iter().filter(|(_, exponent)| *exponent > 0.0);
         Some(above.fold((bound.degree, bound.height), |(degree, height), (factor, exponent)| {
-            let Factor { degree: d, height: h } = self.factors[*factor as usize];
+            let FactorBound { degree: d, height: h } = self.factors[*factor as usize];
             (degree + exponent * d, height + exponent * h)
         }))
     }
@@ -92,7 +92,7 @@ impl Bounds {
     pub fn of_differences(&self) -> (f64, f64) {
         let expanded = |bound: &Bound| {
             bound.factors.iter().fold((bound.degree, bound.height), |(degree, height), (f, e)| {
-                let Factor { degree: d, height: h } = self.factors[*f as usize];
+                let FactorBound { degree: d, height: h } = self.factors[*f as usize];
                 (degree + e.abs() * d, height + e.abs() * h)
             })
         };
@@ -101,7 +101,7 @@ impl Bounds {
         (2.0 * largest.0, 2.0 * largest.1 + 1.0)
     }
 
-    fn step(&mut self, step: Step<'_>, sources: &[Source]) -> Option<Bound> {
+    fn step(&mut self, step: Step<'_>, sources: &[InputDistribution]) -> Option<Bound> {
         let plain = |degree: f64, height: f64| Bound { degree, height, factors: Rc::new([]) };
         Some(match step {
             Step::Constant(value) => {
@@ -109,30 +109,31 @@ impl Bounds {
                 let mut bound = plain(0.0, above.bits() as f64);
                 if below.bits() > 1 {
                     // A denominator is a factor of degree 0, so that sums share it.
-                    let factor = self.factor(Factor { degree: 0.0, height: below.bits() as f64 });
+                    let factor =
+                        self.factor(FactorBound { degree: 0.0, height: below.bits() as f64 });
                     bound.factors = Rc::new([(factor, -1.0)]);
                 }
                 bound
             }
             Step::Input(input) => match sources.get(input)? {
-                Source::Uniform => plain(1.0, 0.0),
-                Source::Sign => plain(0.0, 0.0),
+                InputDistribution::Uniform => plain(1.0, 0.0),
+                InputDistribution::Sign => plain(0.0, 0.0),
             },
-            Step::Unary(Function::Neg | Function::Abs, a) => self.at(a)?.clone(),
-            Step::Unary(Function::Recip, a) => self.power(a, -1.0)?,
-            Step::Unary(Function::Sqrt, a) => self.power(a, 0.5)?,
-            Step::Unary(..) | Step::Binary(Operation::Pow, ..) => return None,
+            Step::Unary(UnaryFunction::Neg | UnaryFunction::Abs, a) => self.at(a)?.clone(),
+            Step::Unary(UnaryFunction::Recip, a) => self.power(a, -1.0)?,
+            Step::Unary(UnaryFunction::Sqrt, a) => self.power(a, 0.5)?,
+            Step::Unary(..) | Step::Binary(BinaryOperation::Pow, ..) => return None,
             Step::Power(a, exponent) => {
                 let exponent = exponent.to_f64().0;
                 exponent.is_finite().then(|| self.power(a, exponent))??
             }
-            Step::Binary(Operation::Mul, a, b) => {
+            Step::Binary(BinaryOperation::Mul, a, b) => {
                 let (x, y) = (self.at(a)?, self.at(b)?);
                 let (degree, height) = (x.degree + y.degree, x.height + y.height);
                 let factors = merged(&x.factors, &y.factors, |e, f| e + f);
                 Bound { degree, height, factors }
             }
-            Step::Binary(Operation::Add | Operation::Sub, a, b) => {
+            Step::Binary(BinaryOperation::Add | BinaryOperation::Sub, a, b) => {
                 self.sum(self.at(a)?, self.at(b)?)
             }
         })
@@ -149,7 +150,7 @@ impl Bounds {
         // numerator.
         let weight = |factors: &[(u32, f64)]| {
             factors.iter().fold((0.0, 0.0), |(degree, height), (factor, exponent)| {
-                let Factor { degree: d, height: h } = self.factors[*factor as usize];
+                let FactorBound { degree: d, height: h } = self.factors[*factor as usize];
                 (degree + exponent * d, height + exponent * h)
             })
         };
@@ -168,7 +169,7 @@ impl Bounds {
         let next = self.factors.len() as u32;
         let name = *self.numerator_of.entry(place).or_insert(next);
         if name == next {
-            self.factor(Factor { degree: base.degree, height: base.height });
+            self.factor(FactorBound { degree: base.degree, height: base.height });
         }
         let mut factors: Vec<(u32, f64)> =
             base.factors.iter().map(|(f, e)| (*f, e * exponent)).collect();
@@ -177,7 +178,7 @@ impl Bounds {
         Some(Bound { degree: 0.0, height: 0.0, factors: factors.into() })
     }
 
-    fn factor(&mut self, factor: Factor) -> u32 {
+    fn factor(&mut self, factor: FactorBound) -> u32 {
         self.factors.push(factor);
         self.factors.len() as u32 - 1
     }
@@ -228,7 +229,7 @@ mod tests {
     fn degree(inputs: usize, build: impl FnOnce(&[Expr]) -> Expr) -> f64 {
         let (graph, value) = record(inputs, build).expect("records");
         let reached = graph.reached([value]);
-        let bounds = Bounds::of(&graph, &reached, &vec![Source::Uniform; inputs]);
+        let bounds = Bounds::of(&graph, &reached, &vec![InputDistribution::Uniform; inputs]);
         bounds.at(graph.place(value)).expect("an algebraic value").degree
     }
 

@@ -8,10 +8,10 @@ use crate::graph::{Evaluator, Expr, Fault, Graph, Tape, record};
 use crate::number::prime::{Modulus, Prime, UNDEFINED};
 
 use super::cells::with_signs;
-use super::chance::{Chance, Stream};
-use super::digest::Digest;
-use super::trial::{Finding, LANES, points};
-use super::{Asked, Group, Prover, buckets};
+use super::digest::SeedDigest;
+use super::rng::{ProofRng, ProofStream};
+use super::trial::{TRIAL_LANES, TrialResult, points};
+use super::{Group, Prover, QuestionData, buckets};
 
 /// Number of blocks of points at which values are compared.
 const BLOCKS: usize = 16;
@@ -20,20 +20,22 @@ impl Prover<'_> {
     /// Whether the values modulo primes agree, at random points, with those that some choice of
     /// signs of independent roots gives at all real inputs of the extents.
     pub fn is_true_to_branches(&self, graph: &Graph, outputs: &[Expr]) -> Result<bool, Fault> {
-        let digest = Digest::of(self.seed, graph, &[outputs.to_vec()]);
-        let asked = Asked { graph, sources: self.sources_of(graph), digest };
+        let digest = SeedDigest::of(self.seed, graph, &[outputs.to_vec()]);
+        let asked = QuestionData { graph, sources: self.sources_of(graph), digest };
         let group = Group::of(outputs.to_vec());
         let Some(bucket) = buckets(graph, &[group], &asked.sources).pop() else { return Ok(true) };
         if bucket.special.is_empty() {
             return Ok(true);
         }
-        let mut chance = Chance::of(digest, Stream::Primes);
-        let moduli: [Modulus; LANES] = [chance.prime(&[3, 5], &[2, 3]); LANES];
+        let mut rng = ProofRng::of(digest, ProofStream::Primes);
+        let moduli: [Modulus; TRIAL_LANES] = [rng.prime(&[3, 5], &[2, 3]); TRIAL_LANES];
         let reached = graph.reached(outputs.iter().copied());
         for leaf in self.explore(&asked, &[outputs], &bucket)?.leaves {
             let cell = &leaf.cell;
-            let is_settled =
-                matches!(leaf.findings.first(), Some(Some(Finding::Zero(_) | Finding::NonZero)));
+            let is_settled = matches!(
+                leaf.findings.first(),
+                Some(Some(TrialResult::Zero(_) | TrialResult::NonZero))
+            );
             if !is_settled || cell.signs().next().is_some() {
                 return Ok(false);
             }
@@ -55,7 +57,7 @@ impl Prover<'_> {
             let tapes = [Tape::new(graph, outputs), Tape::new(&there, &made)];
             let mut evaluators = tapes.each_ref().map(|tape| Evaluator::new(tape, domain.clone()));
             for _ in 0..BLOCKS {
-                let point = points(&moduli, &asked.sources, &cell.fixed, &mut chance);
+                let point = points(&moduli, &asked.sources, &cell.fixed, &mut rng);
                 let [ours, theirs] = evaluators.each_mut().map(|evaluator| {
                     evaluator.run(&point);
                     evaluator.outputs().copied().collect::<Vec<_>>()

@@ -10,13 +10,13 @@
 //! docs/soundness.md, "Cells".
 
 use crate::graph::{Expr, Fault, Graph, Step, record};
-use crate::number::Function;
+use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
-use super::fact::Fact;
+use super::fact::SignFact;
 use super::rewrite::{Rewrite, conditions};
-use super::trial::{Certificate, Finding, MOST_NESTED, both};
+use super::trial::{Certificate, MOST_NESTED, TrialResult, both};
 
 /// A part of the real inputs on which some signs are fixed.
 pub struct Cell {
@@ -25,7 +25,7 @@ pub struct Cell {
     /// Values that cannot be computed in a field as they stand: roots, moduli, signs, functions.
     pub values: Vec<Expr>,
     /// Signs of values, by place, that hold wherever the claim is to be proved.
-    pub facts: Vec<(usize, Fact)>,
+    pub facts: Vec<(usize, SignFact)>,
     /// Indices of the facts that were chosen: positive on this cell, and not on others.
     chosen: Vec<usize>,
     /// Sign inputs with their chosen values.
@@ -39,12 +39,12 @@ pub struct Leaf {
     /// The cell.
     pub cell: Cell,
     /// Findings by group; `None` for a group that has no value on the cell.
-    pub findings: Vec<Option<Finding>>,
+    pub findings: Vec<Option<TrialResult>>,
 }
 
 /// A change of a cell.
 #[derive(Default)]
-pub struct Change<'c> {
+pub struct CellChange<'c> {
     /// Replacements of steps.
     pub rewrites: &'c [Rewrite],
     /// A sign input, and whether it is 1.
@@ -58,8 +58,12 @@ pub struct Change<'c> {
 impl Cell {
     /// Makes the cell of all real inputs at which the values at some places of a graph exist, given
     /// facts about some of its values.
-    pub fn whole(graph: &Graph, places: &[usize], facts: &[(Expr, Fact)]) -> Result<Self, Fault> {
-        let facts: Vec<(usize, Fact)> =
+    pub fn whole(
+        graph: &Graph,
+        places: &[usize],
+        facts: &[(Expr, SignFact)],
+    ) -> Result<Self, Fault> {
+        let facts: Vec<(usize, SignFact)> =
             facts.iter().map(|(value, fact)| (graph.place(*value), *fact)).collect();
         let all: Vec<usize> = places.iter().copied().chain(facts.iter().map(|f| f.0)).collect();
         let reached = graph.reached_from(&all);
@@ -88,7 +92,7 @@ impl Cell {
     }
 
     /// Returns the facts, together with those about the radicands of all roots in the values.
-    pub fn known(&self) -> Vec<(usize, Fact)> {
+    pub fn known(&self) -> Vec<(usize, SignFact)> {
         let mut known = self.facts.clone();
         let reached = self.graph.reached(self.values.iter().copied());
         for condition in conditions(&self.graph, &reached) {
@@ -101,7 +105,7 @@ impl Cell {
 
     /// Makes the cell, or a part of it, after a change; facts about the radicands of its roots are
     /// kept when the roots are gone.
-    pub fn changed(&self, change: &Change<'_>) -> Result<Self, Fault> {
+    pub fn changed(&self, change: &CellChange<'_>) -> Result<Self, Fault> {
         let facts = self.known();
         let places: Vec<usize> = self.values.iter().map(|value| self.graph.place(*value)).collect();
         let mut needed = places.clone();
@@ -118,7 +122,7 @@ impl Cell {
             let (own, mut facts) = replayed(&values, &places, &facts)?;
             if let Some((place, positive)) = change.chosen {
                 let value = values[place]?;
-                facts.push((if positive { value } else { -value }, Fact::Positive));
+                facts.push((if positive { value } else { -value }, SignFact::Positive));
             }
             Some((own, facts))
         })?;
@@ -159,7 +163,7 @@ fn layers(graph: &Graph, reached: &[bool]) -> Vec<Vec<bool>> {
 
 fn is_root(step: &Step<'_>) -> bool {
     match step {
-        Step::Unary(Function::Sqrt, _) => true,
+        Step::Unary(UnaryFunction::Sqrt, _) => true,
         Step::Power(_, exponent) => exponent.to_integer().is_none(),
         _ => false,
     }
@@ -176,15 +180,15 @@ pub fn with_signs(inputs: &[Expr], signs: impl IntoIterator<Item = (usize, bool)
 }
 
 /// Replayed values and facts in the recording under way.
-type Replayed = (Vec<Expr>, Vec<(Expr, Fact)>);
+type Replayed = (Vec<Expr>, Vec<(Expr, SignFact)>);
 
 fn replayed(
     values: &[Option<Expr>],
     places: &[usize],
-    facts: &[(usize, Fact)],
+    facts: &[(usize, SignFact)],
 ) -> Option<Replayed> {
     let own: Option<Vec<Expr>> = places.iter().map(|place| values[*place]).collect();
-    let facts: Option<Vec<(Expr, Fact)>> =
+    let facts: Option<Vec<(Expr, SignFact)>> =
         facts.iter().map(|(place, fact)| Some((values[*place]?, *fact))).collect();
     own.zip(facts)
 }

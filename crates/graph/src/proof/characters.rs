@@ -3,15 +3,15 @@
 use crate::graph::{Evaluator, Expr, Tape};
 use crate::number::prime::{Prime, UNDEFINED};
 
-use super::chance::{Chance, Stream};
-use super::digest::Digest;
+use super::digest::SeedDigest;
 use super::lower::Algebraic;
-use super::trial::{LANES, PRIMES, Trial, prime_of};
+use super::rng::{ProofRng, ProofStream};
+use super::trial::{PRIMES, TRIAL_LANES, Trial, prime_of};
 
 /// Number of points beyond the number of radicands at which characters are taken.
-const SPARE: usize = 20;
+const SPARE_POINTS: usize = 20;
 /// Largest number of radicands without roots that can be distinguished.
-pub const MOST_FIRST: usize = u128::BITS as usize - SPARE;
+pub const MOST_FIRST: usize = u128::BITS as usize - SPARE_POINTS;
 /// Number of blocks of points to try for characters, for each block needed.
 const PATIENCE: usize = 8;
 
@@ -41,22 +41,23 @@ impl Characters {
         algebraic: &Algebraic<'_>,
         trial: &Trial<'_>,
         radicands: &[Expr],
-        digest: Digest,
+        digest: SeedDigest,
     ) -> Self {
         let tape = Tape::new(&algebraic.graph, radicands);
         let mut evaluator = Evaluator::new(&tape, Prime::new(*trial.moduli()));
-        let mut chance = Chance::of(digest, Stream::Characters);
+        let mut rng = ProofRng::of(digest, ProofStream::Characters);
         let mut next = || {
-            evaluator.run(&trial.points(&[], &mut chance));
-            evaluator.outputs().copied().collect::<Vec<[u64; LANES]>>()
+            evaluator.run(&trial.points(&[], &mut rng));
+            evaluator.outputs().copied().collect::<Vec<[u64; TRIAL_LANES]>>()
         };
         // Radicands that are 0, or undefined, at all points of two blocks are left out.
         let first = [next(), next()];
-        let all = |index: usize, of: u64| first.iter().all(|block| block[index] == [of; LANES]);
+        let all =
+            |index: usize, of: u64| first.iter().all(|block| block[index] == [of; TRIAL_LANES]);
         let zero: Vec<bool> = (0..radicands.len()).map(|index| all(index, 0)).collect();
         let is_used = |index: &usize| !zero[*index] && !all(*index, UNDEFINED);
         let used: Vec<usize> = (0..radicands.len()).filter(is_used).collect();
-        let wanted = (used.len() + SPARE).min(u128::BITS as usize) as u32;
+        let wanted = (used.len() + SPARE_POINTS).min(u128::BITS as usize) as u32;
         let mut residues = vec![None; radicands.len()];
         used.iter().for_each(|index| residues[*index] = Some([0u128; PRIMES]));
         let mut counts = [0; PRIMES];
@@ -149,12 +150,12 @@ mod tests {
     #[test]
     fn random_vectors_are_sums_of_what_they_are_said_to_be() {
         let modulus = crate::number::prime::Modulus::new((1 << 61) - 1);
-        let mut chance = Chance::new(11, 0);
+        let mut rng = ProofRng::new(11, 0);
         for _ in 0..200 {
             let mut space = Space::of_minus_one(12);
             let mut vectors = Vec::new();
             for member in 0..20 {
-                let vector = u128::from(chance.element(&modulus)) & 0xfff;
+                let vector = u128::from(rng.element(&modulus)) & 0xfff;
                 vectors.push(vector);
                 if let Some(sum) = space.insert(vector, member) {
                     let among = (0..member).filter(|k| sum >> k & 1 == 1);

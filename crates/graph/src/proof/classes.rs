@@ -6,11 +6,11 @@ use crate::graph::{Evaluator, Expr, Tape};
 use crate::number::prime::UNDEFINED;
 use crate::number::quadratic::{Element, Quadratic};
 
-use super::chance::{Chance, Stream};
-use super::digest::Digest;
+use super::digest::SeedDigest;
 use super::lower::Algebraic;
+use super::rng::{ProofRng, ProofStream};
 use super::tower::Tower;
-use super::trial::{Certificate, LANES, Residues, Trial};
+use super::trial::{Certificate, Residues, TRIAL_LANES, Trial};
 
 /// Largest number of blocks of points drawn until most values exist.
 const MOST_BLOCKS: usize = 16;
@@ -41,7 +41,12 @@ impl Classes {
 
     /// Classifies those values of the original graph of `algebraic` that contain only independent
     /// roots: a random sign of another root would make unequal values equal.
-    pub fn of(algebraic: &Algebraic<'_>, trial: &Trial<'_>, tower: &Tower, digest: Digest) -> Self {
+    pub fn of(
+        algebraic: &Algebraic<'_>,
+        trial: &Trial<'_>,
+        tower: &Tower,
+        digest: SeedDigest,
+    ) -> Self {
         let count = algebraic.values.len();
         let mut found = Self { of: vec![None; count], zero: vec![None; count], certificate: None };
         let Some(certificate) = trial.of_differences() else { return found };
@@ -54,12 +59,13 @@ impl Classes {
         let tape = Tape::new(&algebraic.graph, &outputs);
         let field = Quadratic::new(*trial.moduli());
         let mut evaluator = Evaluator::new(&tape, field.clone());
-        let mut chance = Chance::of(digest, Stream::Classes);
-        let is_defined = |block: &[Element; LANES]| block.iter().all(|x| x[0] != UNDEFINED);
+        let mut rng = ProofRng::of(digest, ProofStream::Classes);
+        let is_defined = |block: &[Element; TRIAL_LANES]| block.iter().all(|x| x[0] != UNDEFINED);
         let mut most = 0;
-        let mut values: Vec<[Element; LANES]> = Vec::new();
+        let mut values: Vec<[Element; TRIAL_LANES]> = Vec::new();
         for _ in 0..MOST_BLOCKS {
-            evaluator.run(&<Quadratic<LANES> as Residues>::blocks(&trial.points(&[], &mut chance)));
+            evaluator
+                .run(&<Quadratic<TRIAL_LANES> as Residues>::blocks(&trial.points(&[], &mut rng)));
             let defined = evaluator.outputs().filter(|block| is_defined(block)).count();
             if values.is_empty() || defined > most {
                 most = defined;
@@ -69,7 +75,7 @@ impl Classes {
                 break;
             }
         }
-        let mut classes: FxHashMap<[Element; LANES], u32> = FxHashMap::default();
+        let mut classes: FxHashMap<[Element; TRIAL_LANES], u32> = FxHashMap::default();
         let mut merged = 0;
         for (place, block) in places.into_iter().zip(&values) {
             if !is_defined(block) {
@@ -81,7 +87,7 @@ impl Classes {
                 continue;
             }
             found.zero[place] = Some(false);
-            let opposite: [Element; LANES] =
+            let opposite: [Element; TRIAL_LANES] =
                 std::array::from_fn(|lane| field.negative(lane, block[lane]));
             let is_opposite = opposite < *block;
             let next = classes.len() as u32;

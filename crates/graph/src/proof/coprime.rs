@@ -7,10 +7,10 @@
 
 use crate::graph::{Evaluator, Expr, Graph, Step, Tape};
 use crate::number::prime::{Modulus, Prime, UNDEFINED};
-use crate::number::{Function, Operation};
+use crate::number::{BinaryOperation, UnaryFunction};
 
-use super::bounds::{Bounds, Source};
-use super::chance::Chance;
+use super::bounds::{Bounds, InputDistribution};
+use super::rng::ProofRng;
 
 /// Largest degree that is tried.
 const LARGEST_DEGREE: f64 = 400.0;
@@ -22,7 +22,7 @@ const CHECKS: usize = 4;
 /// Whether the values are polynomials in the inputs as they stand.
 pub fn are_polynomials(graph: &Graph, values: &[Expr]) -> bool {
     consist_of(graph, values, |step| match step {
-        Step::Unary(function, _) => function == Function::Neg,
+        Step::Unary(function, _) => function == UnaryFunction::Neg,
         Step::Power(_, exponent) => exponent.to_integer().is_some_and(|n| n >= 0),
         _ => true,
     })
@@ -31,14 +31,14 @@ pub fn are_polynomials(graph: &Graph, values: &[Expr]) -> bool {
 fn consist_of(graph: &Graph, values: &[Expr], of: impl Fn(Step<'_>) -> bool) -> bool {
     let reached = graph.reached(values.iter().copied());
     let mut steps = graph.steps().zip(&reached).filter(|(_, reached)| **reached);
-    steps.all(|(step, _)| !matches!(step, Step::Binary(Operation::Pow, ..)) && of(step))
+    steps.all(|(step, _)| !matches!(step, Step::Binary(BinaryOperation::Pow, ..)) && of(step))
 }
 
 /// Whether some values, quotients of polynomials in the inputs, are known to have no common factor
 /// other than factors of their denominators.
 pub fn are_coprime(graph: &Graph, values: &[Expr], seed: u64) -> bool {
     let is_rational = consist_of(graph, values, |step| match step {
-        Step::Unary(function, _) => matches!(function, Function::Neg | Function::Recip),
+        Step::Unary(function, _) => matches!(function, UnaryFunction::Neg | UnaryFunction::Recip),
         Step::Power(_, exponent) => exponent.to_integer().is_some(),
         _ => true,
     });
@@ -46,7 +46,7 @@ pub fn are_coprime(graph: &Graph, values: &[Expr], seed: u64) -> bool {
         return false;
     }
     let reached = graph.reached(values.iter().copied());
-    let sources = vec![Source::Uniform; graph.inputs()];
+    let sources = vec![InputDistribution::Uniform; graph.inputs()];
     let bounds = Bounds::of(graph, &reached, &sources);
     let degrees = values.iter().map(|value| bounds.expanded_degree(graph.place(*value)));
     let Some(degrees) = degrees.collect::<Option<Vec<f64>>>() else { return false };
@@ -54,11 +54,11 @@ pub fn are_coprime(graph: &Graph, values: &[Expr], seed: u64) -> bool {
     if degree > LARGEST_DEGREE {
         return false;
     }
-    let mut chance = Chance::new(seed, LINES);
-    let modulus = chance.prime(&[], &[]);
+    let mut rng = ProofRng::new(seed, LINES);
+    let modulus = rng.prime(&[], &[]);
     let m = &modulus;
     let [start, along] =
-        [(); 2].map(|()| (0..graph.inputs()).map(|_| chance.element(m)).collect::<Vec<u64>>());
+        [(); 2].map(|()| (0..graph.inputs()).map(|_| rng.element(m)).collect::<Vec<u64>>());
     let tape = Tape::new(graph, values);
     let mut evaluator = Evaluator::new(&tape, Prime::new([modulus]));
     let (degree, polynomial) = (degree as usize, are_polynomials(graph, values));

@@ -14,13 +14,13 @@ use crate::number::rational::Rational;
 
 /// Seed material of the random numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Digest(pub [u8; 32]);
+pub struct SeedDigest(pub [u8; 32]);
 
-impl Digest {
+impl SeedDigest {
     /// Computes the digest of a seed, of the steps that `groups` of outputs need, and of these
     /// outputs.
     pub fn of(seed: u64, graph: &Graph, groups: &[Vec<Expr>]) -> Self {
-        let mut statement = Statement(Sha256::new());
+        let mut statement = StatementHash(Sha256::new());
         statement.word(seed);
         let reached = graph.reached(groups.iter().flatten().copied());
         for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
@@ -35,9 +35,9 @@ impl Digest {
 }
 
 /// The hash of what was written of a statement so far.
-struct Statement(Sha256);
+struct StatementHash(Sha256);
 
-impl Statement {
+impl StatementHash {
     fn word(&mut self, word: u64) {
         self.0.update(word.to_le_bytes());
     }
@@ -94,9 +94,9 @@ mod tests {
     use crate::graph::record;
     use crate::scalar::Scalar;
 
-    fn digest(seed: u64, build: impl FnOnce(&[Expr]) -> Expr) -> Digest {
+    fn digest(seed: u64, build: impl FnOnce(&[Expr]) -> Expr) -> SeedDigest {
         let (graph, value) = record(2, build).expect("records");
-        Digest::of(seed, &graph, &[vec![value]])
+        SeedDigest::of(seed, &graph, &[vec![value]])
     }
 
     #[test]
@@ -114,7 +114,7 @@ mod tests {
         let group = |split: bool| {
             let (graph, all) = record(2, |x| [x[0], x[1]]).expect("records");
             let groups = if split { vec![vec![all[0]], vec![all[1]]] } else { vec![all.to_vec()] };
-            Digest::of(1, &graph, &groups)
+            SeedDigest::of(1, &graph, &groups)
         };
         assert_ne!(group(true), group(false), "other groups");
     }

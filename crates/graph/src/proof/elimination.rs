@@ -28,12 +28,12 @@ pub fn reduce(mut rows: Vec<Vec<u64>>, columns: usize, m: &Modulus) -> (Vec<usiz
 
 #[cfg(test)]
 mod tests {
-    use super::super::chance::Chance;
+    use super::super::rng::ProofRng;
     use super::*;
 
     #[test]
     fn elimination_names_the_basis() {
-        let m = Chance::new(3, 0).prime(&[], &[]);
+        let m = ProofRng::new(3, 0).prime(&[], &[]);
         let n = |x: u64| m.integer(x);
         let rows = vec![vec![n(1), n(2), n(5)], vec![n(2), n(4), n(11)], vec![n(3), n(6), n(16)]];
         let (pivots, rows) = reduce(rows, 3, &m);

@@ -3,22 +3,22 @@
 use rustc_hash::FxHashMap;
 
 use crate::graph::{Expr, Fault, Graph, Step, literally};
-use crate::number::Operation;
+use crate::number::BinaryOperation;
 
 use super::Prover;
-use super::bounds::Source;
-use super::cells::{Cell, Change, Leaf, with_signs};
+use super::bounds::InputDistribution;
+use super::cells::{Cell, CellChange, Leaf, with_signs};
 use super::classes::Classes;
-use super::digest::Digest;
+use super::digest::SeedDigest;
 use super::domain::Region;
-use super::fact::Fact;
+use super::fact::SignFact;
 use super::logarithms::Rules;
 use super::lower::Algebraic;
 use super::next::{Next, for_both, silent};
 use super::rewrite::Rewrite;
-use super::roots::{RootFinder, Search};
-use super::tower::{Standing, Tower};
-use super::trial::{Certificate, Finding, Roots, Trial, both};
+use super::roots::{RootFinder, RootSearch};
+use super::tower::{RootStatus, Tower};
+use super::trial::{Certificate, Roots, Trial, TrialResult, both};
 
 /// Largest number of cells.
 const MOST_CELLS: usize = 64;
@@ -53,9 +53,9 @@ pub struct Explorer<'p> {
     /// Extents of the inputs, and the seed.
     pub prover: &'p Prover<'p>,
     /// Distributions of the inputs.
-    pub sources: &'p [Source],
+    pub sources: &'p [InputDistribution],
     /// Digest of the statement to be proved.
-    pub digest: Digest,
+    pub digest: SeedDigest,
 }
 
 impl Explorer<'_> {
@@ -75,7 +75,7 @@ impl Explorer<'_> {
                 )),
                 false => self.next(&cell)?,
             };
-            let mut divided = |change: Change<'_>| -> Result<(), Fault> {
+            let mut divided = |change: CellChange<'_>| -> Result<(), Fault> {
                 open.push((cell.changed(&change)?, round + 1));
                 Ok(())
             };
@@ -84,13 +84,17 @@ impl Explorer<'_> {
                     explored.certificate = both(explored.certificate, certificate);
                 }
                 Next::Rewrite(rewrites, certificate) => {
-                    divided(Change { rewrites: &rewrites, certificate, ..Change::default() })?;
+                    divided(CellChange {
+                        rewrites: &rewrites,
+                        certificate,
+                        ..CellChange::default()
+                    })?;
                 }
                 Next::DivideInput(input) => {
                     seen += 1;
                     for positive in [false, true] {
                         let fixed = Some((input, positive));
-                        divided(Change { fixed, ..Change::default() })?;
+                        divided(CellChange { fixed, ..CellChange::default() })?;
                     }
                 }
                 Next::Divide { modulus, argument } => {
@@ -98,7 +102,11 @@ impl Explorer<'_> {
                     for positive in [false, true] {
                         let rewrites = [Rewrite::Signed { place: modulus, positive }];
                         let chosen = Some((argument, positive));
-                        divided(Change { rewrites: &rewrites, chosen, ..Change::default() })?;
+                        divided(CellChange {
+                            rewrites: &rewrites,
+                            chosen,
+                            ..CellChange::default()
+                        })?;
                     }
                 }
                 Next::Tested(findings) => explored.leaves.push(Leaf { cell, findings }),
@@ -126,7 +134,7 @@ impl Explorer<'_> {
         cell: &Cell,
         algebraic: &Algebraic<'_>,
         region: &Region<'_>,
-        known: &[(usize, Fact)],
+        known: &[(usize, SignFact)],
     ) -> Result<Next, Fault> {
         let graph = &cell.graph;
         if !algebraic.has_few_signs() {
@@ -148,13 +156,13 @@ impl Explorer<'_> {
         let mut loose: Vec<usize> = Vec::new();
         for index in 0..algebraic.bases.len() {
             match finder.search(index)? {
-                Search::Independent => {}
-                Search::Rewrite(rewrite, own) => {
+                RootSearch::Independent => {}
+                RootSearch::Rewrite(rewrite, own) => {
                     rewrites.push(rewrite);
                     certificate = both(certificate, own);
                 }
-                Search::NeverReal(own) => return Ok(Next::Empty(own)),
-                Search::Unknown => {
+                RootSearch::NeverReal(own) => return Ok(Next::Empty(own)),
+                RootSearch::Unknown => {
                     loose.extend(algebraic.bases[index].links.iter().map(|(_, sign)| *sign));
                 }
             }
@@ -197,7 +205,7 @@ impl Explorer<'_> {
     fn vanishes(&self, trial: &Trial<'_>, tower: &Tower, value: Expr) -> Option<Certificate> {
         let roots = Roots { nested: tower.nested, fixed: &[] };
         match trial.test(&[&[value]], roots).pop() {
-            Some(Finding::Zero(certificate)) => Some(certificate),
+            Some(TrialResult::Zero(certificate)) => Some(certificate),
             _ => None,
         }
     }
@@ -248,7 +256,7 @@ impl Explorer<'_> {
             let mut users =
                 steps.filter(|(_, step)| step.arguments().any(|argument| argument == sign));
             users.all(|(_, step)| match step {
-                Step::Binary(Operation::Mul, a, b) => is_root(if a == sign { b } else { a }),
+                Step::Binary(BinaryOperation::Mul, a, b) => is_root(if a == sign { b } else { a }),
                 _ => false,
             })
         };
@@ -263,11 +271,11 @@ impl Explorer<'_> {
         trial: &Trial<'_>,
         tower: &Tower,
         loose: &[usize],
-        known: &[(usize, Fact)],
+        known: &[(usize, SignFact)],
     ) -> Result<Next, Fault> {
         let Question { graph, groups, special } = self.question;
         let all_silent = |reason: &str| Ok(Next::Tested(silent(groups.len(), reason)));
-        if tower.standings.contains(&Standing::Unreached) {
+        if tower.standings.contains(&RootStatus::Unreached) {
             return all_silent("a root never exists at random points, or is reached too rarely");
         }
         if loose.len() > MOST_CHOICES {
@@ -300,7 +308,7 @@ impl Explorer<'_> {
         let is_void = |group: &[Expr]| group.iter().any(|x| extended.graph.is_nowhere_defined(*x));
         let asked: Vec<&[Expr]> = all.iter().copied().filter(|group| !is_void(group)).collect();
         let extended_trial = Trial::new(&extended, self.digest);
-        let mut found: Vec<Finding> = Vec::new();
+        let mut found: Vec<TrialResult> = Vec::new();
         for choice in 0u32..1 << loose.len() {
             let fixed: Vec<(usize, bool)> =
                 loose.iter().enumerate().map(|(k, sign)| (*sign, choice >> k & 1 == 0)).collect();
@@ -312,21 +320,23 @@ impl Explorer<'_> {
             };
         }
         let mut found = found.into_iter().zip(&asked).map(|(finding, group)| match finding {
-            Finding::NonZero if !loose.is_empty() => Finding::Silent(
+            TrialResult::NonZero if !loose.is_empty() => TrialResult::Silent(
                 "it does not vanish for all choices of signs of dependent roots".to_string(),
             ),
-            Finding::NonZero if extended.has_symbols(group) => Finding::Silent(
+            TrialResult::NonZero if extended.has_symbols(group) => TrialResult::Silent(
                 "it does not vanish for independent symbols in the place of transcendental functions"
                     .to_string(),
             ),
-            Finding::Zero(own) => {
-                Finding::Zero(cell.certificate.map_or(own, |before| own.and(before)))
+            TrialResult::Zero(own) => {
+                TrialResult::Zero(cell.certificate.map_or(own, |before| own.and(before)))
             }
             finding => finding,
         });
-        let mut findings: Vec<Option<Finding>> =
+        let mut findings: Vec<Option<TrialResult>> =
             all.iter().map(|group| if is_void(group) { None } else { found.next() }).collect();
-        let is_open = |finding: &Finding| matches!(finding, Finding::NonZero | Finding::Silent(_));
+        let is_open = |finding: &TrialResult| {
+            matches!(finding, TrialResult::NonZero | TrialResult::Silent(_))
+        };
         if findings.iter().flatten().any(is_open) {
             // x/x is recorded as 1, and is undefined on a cell where x is 0.
             let Some((literal, made)) = algebraic.with(|inputs, at| {
@@ -347,7 +357,8 @@ impl Explorer<'_> {
                 }
             }
         }
-        let is_zero = |finding: &Option<Finding>| matches!(finding, None | Some(Finding::Zero(_)));
+        let is_zero =
+            |finding: &Option<TrialResult>| matches!(finding, None | Some(TrialResult::Zero(_)));
         if cell.is_part() && !findings.iter().all(is_zero) {
             // Find out first whether the cell is empty.
             let classes = Classes::of(algebraic, trial, tower, self.digest);

@@ -2,7 +2,7 @@
 
 /// A sign that a value has wherever the claim is to hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fact {
+pub enum SignFact {
     /// x > 0
     Positive,
     /// x ≥ 0

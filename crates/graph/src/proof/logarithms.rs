@@ -13,19 +13,19 @@
 use num_integer::lcm;
 
 use crate::graph::{Expr, Graph, Step};
-use crate::number::prime::Modulus;
-use crate::number::rational::Rational;
-use crate::number::{Function, Operation};
+use crate::number::BinaryOperation::Pow;
+use crate::number::UnaryFunction::{Exp, Ln};
+use crate::number::{prime::Modulus, rational::Rational};
 use crate::scalar::Scalar;
 
-use super::bounds::Source;
-use super::chance::{Chance, Stream};
-use super::digest::Digest;
+use super::bounds::InputDistribution;
+use super::digest::SeedDigest;
 use super::elimination::reduce;
 use super::lower::Algebraic;
 use super::reconstruct::reconstruct;
-use super::relations::{Defect, MOST, SPARE, prime_for, rows};
+use super::relations::{Defect, MOST_VALUES, SPARE_ROWS, prime_for, rows};
 use super::rewrite::Rewrite;
+use super::rng::{ProofRng, ProofStream};
 use super::trial::{Certificate, both};
 
 /// Largest power n of a relation, and largest exponent in it.
@@ -47,14 +47,14 @@ impl Logarithm {
     pub fn value(&self, graph: &Graph, values: &[Option<Expr>]) -> Option<Expr> {
         let mut sum = Expr::rational(&Rational::from(0));
         for (number, multiple) in &self.numbers {
-            let number = Expr::rational(&Rational::from(*number)).apply(Function::Ln);
+            let number = Expr::rational(&Rational::from(*number)).apply(Ln);
             sum += number * Expr::rational(multiple);
         }
         for (place, multiple) in &self.terms {
             let own = match graph.step(*place) {
-                Step::Unary(Function::Exp, a) => values[a]?,
-                Step::Binary(Operation::Pow, a, y) => values[y]? * values[a]?.apply(Function::Ln),
-                _ => values[*place]?.apply(Function::Ln),
+                Step::Unary(Exp, a) => values[a]?,
+                Step::Binary(Pow, a, y) => values[y]? * values[a]?.apply(Ln),
+                _ => values[*place]?.apply(Ln),
             };
             sum += own * Expr::rational(multiple);
         }
@@ -71,8 +71,8 @@ impl Logarithm {
         for (place, multiple) in &self.terms {
             let exponent = y * Expr::rational(multiple);
             product *= match graph.step(*place) {
-                Step::Unary(Function::Exp, a) => (values[a]? * exponent).apply(Function::Exp),
-                Step::Binary(Operation::Pow, a, y) => values[a]?.power_of(values[y]? * exponent),
+                Step::Unary(Exp, a) => (values[a]? * exponent).apply(Exp),
+                Step::Binary(Pow, a, y) => values[a]?.power_of(values[y]? * exponent),
                 _ => values[*place]?.power_of(exponent),
             };
         }
@@ -88,7 +88,7 @@ pub fn split_exponential(
     values: &[Option<Expr>],
 ) -> Option<Expr> {
     let (rest, factors) = sum(graph, exponent, logarithms, values)?;
-    let mut product = rest.apply(Function::Exp);
+    let mut product = rest.apply(Exp);
     for (place, factor) in logarithms.iter().zip(factors) {
         let argument = graph.step(*place).arguments().next()?;
         product *= values[argument]?.power_of(factor);
@@ -130,9 +130,9 @@ pub struct Rules<'r> {
     /// The same graph, lowered.
     pub algebraic: &'r Algebraic<'r>,
     /// Distributions of the inputs.
-    pub sources: &'r [Source],
+    pub sources: &'r [InputDistribution],
     /// Digest of the statement to be proved.
-    pub digest: Digest,
+    pub digest: SeedDigest,
 }
 
 /// Places with the multiples of their logarithms.
@@ -148,12 +148,12 @@ impl Rules<'_> {
         let (mut arguments, mut exponents, mut powers) = (Vec::new(), Vec::new(), Vec::new());
         for (place, step) in self.graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
             match step {
-                Step::Unary(Function::Ln, a) => arguments.push(a),
-                Step::Binary(Operation::Pow, a, _) => {
+                Step::Unary(Ln, a) => arguments.push(a),
+                Step::Binary(Pow, a, _) => {
                     arguments.push(a);
                     powers.push(place);
                 }
-                Step::Unary(Function::Exp, a) => {
+                Step::Unary(Exp, a) => {
                     exponents.push(a);
                     powers.push(place);
                 }
@@ -207,7 +207,7 @@ impl Rules<'_> {
         for at in (0..=place).rev() {
             match self.graph.step(at) {
                 _ if !is_needed[at] => {}
-                Step::Unary(Function::Ln, _) => logarithms.push(at),
+                Step::Unary(Ln, _) => logarithms.push(at),
                 step => step.arguments().for_each(|argument| is_needed[argument] = true),
             }
         }
@@ -236,7 +236,7 @@ impl Rules<'_> {
         candidates.sort_unstable();
         candidates.dedup();
         candidates.retain(|place| self.algebraic.values[*place].is_some());
-        if candidates.is_empty() || candidates.len() > MOST {
+        if candidates.is_empty() || candidates.len() > MOST_VALUES {
             return found;
         }
         for (place, terms) in self.products(&candidates).unwrap_or_default() {
@@ -258,7 +258,8 @@ impl Rules<'_> {
             let values: Option<Vec<Expr>> =
                 places.iter().map(|place| at(self.algebraic.values[*place]?)).collect();
             let values = values?;
-            let is_free = |(_, source): &(&Expr, &Source)| **source != Source::Sign;
+            let is_free =
+                |(_, source): &(&Expr, &InputDistribution)| **source != InputDistribution::Sign;
             let all = inputs.iter().zip(&self.algebraic.sources);
             let variables: Vec<Expr> = all.filter(is_free).map(|(input, _)| *input).collect();
             // A direction without a special relation to any formula.
@@ -271,16 +272,15 @@ impl Rules<'_> {
             Some(slopes.into_iter().zip(values).map(|(slope, value)| slope / value).collect())
         });
         let (extended, slopes) = extended.ok()??;
-        let (modulus, mut chance) = self.field(&extended);
-        let count = places.len() + SPARE;
-        let rows = rows(&extended, &slopes, false, count, &modulus, &mut chance)?;
+        let (modulus, mut rng) = self.field(&extended);
+        let count = places.len() + SPARE_ROWS;
+        let rows = rows(&extended, &slopes, false, count, &modulus, &mut rng)?;
         let (pivots, rows) = reduce(rows, places.len(), &modulus);
         let mut products = Vec::new();
         for (column, place) in places.iter().enumerate() {
             if pivots.contains(&column) {
                 let step = self.graph.step(*place);
-                if matches!(step, Step::Unary(Function::Exp, _) | Step::Binary(Operation::Pow, ..))
-                {
+                if matches!(step, Step::Unary(Exp, _) | Step::Binary(Pow, ..)) {
                     products.push((*place, vec![(*place, Rational::from(1))]));
                 }
                 continue;
@@ -302,9 +302,9 @@ impl Rules<'_> {
         Defect { graph: self.graph, sources: self.sources, digest: self.digest, is_related }
     }
 
-    fn field(&self, algebraic: &Algebraic<'_>) -> (Modulus, Chance) {
-        let mut chance = Chance::of(self.digest, Stream::Logarithms);
-        (prime_for(algebraic, &mut chance), chance)
+    fn field(&self, algebraic: &Algebraic<'_>) -> (Modulus, ProofRng) {
+        let mut rng = ProofRng::of(self.digest, ProofStream::Logarithms);
+        (prime_for(algebraic, &mut rng), rng)
     }
 
     /// Proves X^n = c Π X_j^n_j.
@@ -356,8 +356,8 @@ impl Rules<'_> {
             Some(vec![ratio])
         });
         let (extended, ratio) = ratio.ok()??;
-        let (modulus, mut chance) = self.field(&extended);
-        let rows = rows(&extended, &ratio, false, 2, &modulus, &mut chance)?;
+        let (modulus, mut rng) = self.field(&extended);
+        let rows = rows(&extended, &ratio, false, 2, &modulus, &mut rng)?;
         let (real, imaginary): (Vec<_>, Vec<_>) =
             rows.chunks(2).map(|point| (point[0][0], point[1][0])).unzip();
         let is_same = real.iter().all(|value| *value == real[0]);

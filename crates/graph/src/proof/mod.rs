@@ -21,7 +21,6 @@
 mod bounds;
 mod branches;
 mod cells;
-mod chance;
 mod characters;
 mod classes;
 mod coprime;
@@ -36,6 +35,7 @@ mod lower;
 mod nested;
 mod next;
 mod numbers;
+mod outcome;
 mod plain;
 mod polynomial;
 mod rank;
@@ -43,6 +43,7 @@ mod reconstruct;
 mod refusals;
 mod relations;
 mod rewrite;
+mod rng;
 mod roots;
 mod squares;
 mod symbols;
@@ -54,33 +55,34 @@ mod tests;
 
 use std::sync::Arc;
 
-pub use bounds::Source;
-pub use chance::Chance;
+pub use bounds::InputDistribution;
 pub use coprime::{are_coprime, are_polynomials};
 pub use domain::{is_nowhere_zero, sign};
 pub use elimination::reduce;
 pub use extent::Extent;
-pub use fact::Fact;
+pub use fact::SignFact;
+pub use outcome::{GroupOutcome, InputRegion, InputRegions};
 pub use plain::plain_bounds;
 pub use reconstruct::reconstruct;
 pub use rewrite::conditions;
+pub use rng::ProofRng;
 pub use trial::Certificate;
 
 use crate::graph::{Expr, Fault, Graph, Step};
-use crate::number::{Function, Operation};
+use crate::number::{BinaryOperation, UnaryFunction};
 
 use cells::{Cell, Leaf};
-use digest::Digest;
+use digest::SeedDigest;
 use explore::{Explored, Explorer, Question};
 use lower::Algebraic;
-use relations::Relations;
+use relations::RelationSearch;
 use symbols::Symbols;
-use trial::{Finding, Roots, Trial};
+use trial::{Roots, Trial, TrialResult};
 
 /// A prover of statements about values of a graph.
 pub struct Prover<'a> {
     /// Distributions of the inputs of the graph in order; further inputs are uniform.
-    pub sources: &'a [Source],
+    pub sources: &'a [InputDistribution],
     /// Extents of the inputs at real states, in order; further inputs are unbounded.
     pub extents: &'a [Extent],
     /// Seed of primes and points, which also depend on the statement to be proved.
@@ -103,84 +105,13 @@ impl Group {
     }
 }
 
-/// The outcome for a group.
-#[derive(Clone, Debug)]
-pub enum Outcome {
-    /// All values are zero wherever they exist.
-    Zero(Certificate),
-    /// One value is not identically zero on the given parts of the real inputs, and hence at some
-    /// real inputs if one of the parts is not empty.
-    NonZero(Parts),
-    /// Undecided, with the reason.
-    Silent(String),
-    /// The values are zero wherever they exist, but do not exist on a part of the inputs at which
-    /// the required values do.
-    Partial,
-    /// The values exist for no real inputs.
-    Void,
-}
-
-/// Parts of the real inputs.
-#[derive(Clone, Debug, Default)]
-pub struct Parts(Option<Vec<Arc<Part>>>);
-
-/// A part of the real inputs on which some inputs have given signs and some values are positive.
-pub struct Part {
-    /// Graph of the computation.
-    pub graph: Graph,
-    /// Values that are positive on the part.
-    pub positive: Vec<Expr>,
-    /// Sign inputs, and whether each is 1.
-    pub signs: Vec<(usize, bool)>,
-}
-
-impl std::fmt::Debug for Part {
-    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(out, "{} signs, {} of inputs", self.positive.len(), self.signs.len())
-    }
-}
-
-impl Part {
-    /// Searches for a point of the part inside the extents of the inputs.
-    pub fn point(&self, extents: &[Extent]) -> Option<Vec<f64>> {
-        let mut inputs = extents.to_vec();
-        for (input, positive) in &self.signs {
-            if let Some(extent) = inputs.get_mut(*input) {
-                *extent = extent.within(*positive);
-            }
-        }
-        let positive: Vec<usize> =
-            self.positive.iter().map(|value| self.graph.place(*value)).collect();
-        domain::point(&self.graph, &inputs, &positive)
-    }
-}
-
-impl Parts {
-    /// Returns the parts; `None` if they are all real inputs.
-    pub fn proper(&self) -> Option<&[Arc<Part>]> {
-        self.0.as_deref()
-    }
-}
-
-impl Outcome {
-    /// Whether all values were proved zero.
-    pub fn is_zero(&self) -> bool {
-        matches!(self, Outcome::Zero(_))
-    }
-
-    /// Whether one value was proved not to vanish identically.
-    pub fn is_nonzero(&self) -> bool {
-        matches!(self, Outcome::NonZero(_))
-    }
-}
-
 impl Prover<'_> {
     /// Decides for each group of outputs whether all of them vanish identically.
-    pub fn prove(&self, graph: &Graph, groups: &[Group]) -> Result<Vec<Outcome>, Fault> {
+    pub fn prove(&self, graph: &Graph, groups: &[Group]) -> Result<Vec<GroupOutcome>, Fault> {
         let outputs: Vec<Vec<Expr>> = groups.iter().map(|group| group.outputs.clone()).collect();
-        let digest = Digest::of(self.seed, graph, &outputs);
-        let question = Asked { graph, sources: self.sources_of(graph), digest };
-        let mut outcomes: Vec<Option<Outcome>> = vec![None; groups.len()];
+        let digest = SeedDigest::of(self.seed, graph, &outputs);
+        let question = QuestionData { graph, sources: self.sources_of(graph), digest };
+        let mut outcomes: Vec<Option<GroupOutcome>> = vec![None; groups.len()];
         for bucket in buckets(graph, groups, &question.sources) {
             let members = &bucket.members;
             let asked: Vec<&[Expr]> =
@@ -191,7 +122,7 @@ impl Prover<'_> {
             };
             for (index, (outcome, is_partial)) in members.iter().zip(found) {
                 outcomes[*index] = Some(match (is_partial, &outcome) {
-                    (true, Outcome::Zero(_) | Outcome::Void) => {
+                    (true, GroupOutcome::Zero(_) | GroupOutcome::Void) => {
                         self.on_all_parts(&question, &groups[*index], outcome)?
                     }
                     _ => outcome,
@@ -203,11 +134,11 @@ impl Prover<'_> {
 
     fn explore(
         &self,
-        question: &Asked<'_>,
+        question: &QuestionData<'_>,
         groups: &[&[Expr]],
         bucket: &Bucket,
     ) -> Result<Explored, Fault> {
-        let Asked { graph, sources, digest } = question;
+        let QuestionData { graph, sources, digest } = question;
         let cell = Cell::whole(graph, &bucket.special, &bucket.facts)?;
         let question = &Question { graph, groups: groups.to_vec(), special: &bucket.special };
         Explorer { question, prover: self, sources, digest: *digest }.explore(cell)
@@ -218,11 +149,11 @@ impl Prover<'_> {
     /// too.
     fn on_all_parts(
         &self,
-        question: &Asked<'_>,
+        question: &QuestionData<'_>,
         group: &Group,
-        outcome: Outcome,
-    ) -> Result<Outcome, Fault> {
-        let Asked { graph, sources, .. } = question;
+        outcome: GroupOutcome,
+    ) -> Result<GroupOutcome, Fault> {
+        let QuestionData { graph, sources, .. } = question;
         if group.required.is_empty() {
             return Ok(outcome);
         }
@@ -236,14 +167,18 @@ impl Prover<'_> {
         };
         let is_missing = |leaf: &Leaf| matches!(&leaf.findings[..], [None, Some(_)]);
         Ok(match leaves.iter().any(is_missing) {
-            true => Outcome::Partial,
+            true => GroupOutcome::Partial,
             false => outcome,
         })
     }
 
     /// Proves groups of rational functions.
-    fn prove_plain(&self, question: &Asked<'_>, groups: &[&[Expr]]) -> Vec<(Outcome, bool)> {
-        let Asked { graph, sources, digest } = question;
+    fn prove_plain(
+        &self,
+        question: &QuestionData<'_>,
+        groups: &[&[Expr]],
+    ) -> Vec<(GroupOutcome, bool)> {
+        let QuestionData { graph, sources, digest } = question;
         let algebraic = Algebraic::plain(graph, sources);
         let trial = Trial::new(&algebraic, *digest);
         let is_void = |group: &&[Expr]| group.iter().any(|x| graph.is_nowhere_defined(*x));
@@ -252,17 +187,17 @@ impl Prover<'_> {
             .iter()
             .zip(findings)
             .map(|(group, finding)| match finding {
-                _ if is_void(group) => (Outcome::Void, true),
-                Finding::Zero(certificate) => (Outcome::Zero(certificate), false),
-                Finding::NonZero => (Outcome::NonZero(Parts::default()), false),
-                Finding::Silent(reason) => (Outcome::Silent(reason), false),
+                _ if is_void(group) => (GroupOutcome::Void, true),
+                TrialResult::Zero(certificate) => (GroupOutcome::Zero(certificate), false),
+                TrialResult::NonZero => (GroupOutcome::NonZero(InputRegions::default()), false),
+                TrialResult::Silent(reason) => (GroupOutcome::Silent(reason), false),
             })
             .collect()
     }
 
-    fn sources_of(&self, graph: &Graph) -> Vec<Source> {
+    fn sources_of(&self, graph: &Graph) -> Vec<InputDistribution> {
         let mut sources = self.sources.to_vec();
-        sources.resize(graph.inputs(), Source::Uniform);
+        sources.resize(graph.inputs(), InputDistribution::Uniform);
         sources
     }
 
@@ -272,8 +207,8 @@ impl Prover<'_> {
         &self,
         graph: &Graph,
         outputs: &[Expr],
-        sources: &[Source],
-        digest: Digest,
+        sources: &[InputDistribution],
+        digest: SeedDigest,
     ) -> Result<(Algebraic<'static>, Option<Certificate>), Fault> {
         let reached = graph.reached(outputs.iter().copied());
         let opaque = Symbols::opaque(graph, &reached);
@@ -281,17 +216,17 @@ impl Prover<'_> {
             return Ok((Algebraic::of(graph, &reached, sources, &opaque)?, None));
         }
         let formal = Algebraic::formal(graph, &reached, sources, &opaque)?;
-        let mut relations = Relations::new(graph, sources, formal, digest);
+        let mut relations = RelationSearch::new(graph, sources, formal, digest);
         let symbols = Symbols::by_basis(graph, &reached, &mut relations);
         Ok((Algebraic::of(graph, &reached, sources, &symbols)?, relations.certificate))
     }
 }
 
 /// Data shared by all groups of a question.
-struct Asked<'q> {
+struct QuestionData<'q> {
     graph: &'q Graph,
-    sources: Vec<Source>,
-    digest: Digest,
+    sources: Vec<InputDistribution>,
+    digest: SeedDigest,
 }
 
 /// Groups that are proved together.
@@ -299,19 +234,19 @@ struct Bucket {
     /// Places of the non-rational steps that they need.
     special: Vec<usize>,
     /// Facts about values, wherever the claim is to hold.
-    facts: Vec<(Expr, Fact)>,
+    facts: Vec<(Expr, SignFact)>,
     /// Indices of the groups.
     members: Vec<usize>,
 }
 
 /// Sorts groups by the non-rational steps that they need and by the facts; in the order of the
 /// first member of each.
-fn buckets(graph: &Graph, groups: &[Group], sources: &[Source]) -> Vec<Bucket> {
+fn buckets(graph: &Graph, groups: &[Group], sources: &[InputDistribution]) -> Vec<Bucket> {
     let is_special = |step: Step<'_>| match step {
         Step::Constant(_) => false,
-        Step::Input(input) => sources.get(input) == Some(&Source::Sign),
-        Step::Unary(function, _) => !matches!(function, Function::Neg | Function::Recip),
-        Step::Binary(operation, ..) => operation == Operation::Pow,
+        Step::Input(input) => sources.get(input) == Some(&InputDistribution::Sign),
+        Step::Unary(function, _) => !matches!(function, UnaryFunction::Neg | UnaryFunction::Recip),
+        Step::Binary(operation, ..) => operation == BinaryOperation::Pow,
         Step::Power(_, exponent) => exponent.to_integer().is_none(),
     };
     let special: Vec<usize> =
@@ -350,32 +285,33 @@ fn buckets(graph: &Graph, groups: &[Group], sources: &[Source]) -> Vec<Bucket> {
 
 /// Combines the findings on all cells for each group; the flag tells whether the group is undefined
 /// on some cell.
-fn combined(explored: Explored, count: usize) -> Vec<(Outcome, bool)> {
+fn combined(explored: Explored, count: usize) -> Vec<(GroupOutcome, bool)> {
     let Explored { leaves, certificate } = explored;
     let of_group = |index: usize| {
         let findings = || leaves.iter().filter_map(move |leaf| leaf.findings[index].as_ref());
-        let is_nonzero = |finding: &Option<Finding>| matches!(finding, Some(Finding::NonZero));
+        let is_nonzero =
+            |finding: &Option<TrialResult>| matches!(finding, Some(TrialResult::NonZero));
         if leaves.iter().any(|leaf| is_nonzero(&leaf.findings[index])) {
-            return Outcome::NonZero(Parts::default());
+            return GroupOutcome::NonZero(InputRegions::default());
         }
         let mut all: Option<Certificate> = None;
         for finding in findings() {
             match finding {
-                Finding::Zero(certificate) => all = trial::both(all, Some(*certificate)),
-                Finding::Silent(reason) => return Outcome::Silent(reason.clone()),
-                Finding::NonZero => {}
+                TrialResult::Zero(certificate) => all = trial::both(all, Some(*certificate)),
+                TrialResult::Silent(reason) => return GroupOutcome::Silent(reason.clone()),
+                TrialResult::NonZero => {}
             }
         }
         match all {
-            Some(all) => Outcome::Zero(certificate.map_or(all, |dropped| all.and(dropped))),
-            None => Outcome::Void,
+            Some(all) => GroupOutcome::Zero(certificate.map_or(all, |dropped| all.and(dropped))),
+            None => GroupOutcome::Void,
         }
     };
-    let mut outcomes: Vec<Outcome> = (0..count).map(of_group).collect();
+    let mut outcomes: Vec<GroupOutcome> = (0..count).map(of_group).collect();
     // A group that is not zero on the whole needs no parts; others keep those on which they are not
     // zero.
     let is_nonzero = |leaf: &Leaf, index: usize| {
-        leaf.cell.is_part() && matches!(leaf.findings[index], Some(Finding::NonZero))
+        leaf.cell.is_part() && matches!(leaf.findings[index], Some(TrialResult::NonZero))
     };
     let of_group = |index: usize| {
         let numbers = (0..leaves.len()).filter(|number| is_nonzero(&leaves[*number], index));
@@ -384,17 +320,18 @@ fn combined(explored: Explored, count: usize) -> Vec<(Outcome, bool)> {
     let parts: Vec<Vec<usize>> = (0..count).map(of_group).collect();
     let is_partial: Vec<bool> =
         (0..count).map(|index| leaves.iter().any(|leaf| leaf.findings[index].is_none())).collect();
-    let shared: Vec<Arc<Part>> = leaves.into_iter().map(|leaf| Arc::new(part(leaf.cell))).collect();
+    let shared: Vec<Arc<InputRegion>> =
+        leaves.into_iter().map(|leaf| Arc::new(part(leaf.cell))).collect();
     for (outcome, own) in outcomes.iter_mut().zip(parts) {
         if outcome.is_nonzero() && !own.is_empty() {
             let parts = own.into_iter().map(|number| Arc::clone(&shared[number])).collect();
-            *outcome = Outcome::NonZero(Parts(Some(parts)));
+            *outcome = GroupOutcome::NonZero(InputRegions(Some(parts)));
         }
     }
     outcomes.into_iter().zip(is_partial).collect()
 }
 
-fn part(cell: Cell) -> Part {
+fn part(cell: Cell) -> InputRegion {
     let positive = cell.signs().map(|place| cell.graph.at(place)).collect();
-    Part { positive, signs: cell.fixed, graph: cell.graph }
+    InputRegion { positive, signs: cell.fixed, graph: cell.graph }
 }

@@ -15,14 +15,14 @@
 use crate::graph::{Expr, Graph, Step};
 use crate::number::exact::square_root;
 use crate::number::rational::Rational;
-use crate::number::{Function, Operation};
+use crate::number::{BinaryOperation, UnaryFunction};
 use crate::scalar::Scalar;
 
 use super::polynomial::{Fraction, MOST_WORK, Polynomial, fraction};
 
 /// A denested root, with variables that stand for values at places.
 #[derive(Clone, Debug)]
-pub enum Written {
+pub enum DenestedRoot {
     /// √c |p/q|; undefined where c is negative.
     Square(Rational, Fraction),
     /// |√u + b y/(2√u)|/|q|, where y is the root at a place.
@@ -47,7 +47,7 @@ pub enum Written {
 
 /// Denests the root of the product of the values at some places, if it is a square or has the form
 /// of a sum.
-pub fn written(graph: &Graph, places: &[usize]) -> Option<Written> {
+pub fn written(graph: &Graph, places: &[usize]) -> Option<DenestedRoot> {
     let roots = roots_of_inputs(graph, places);
     let by_roots = |place: usize, step: Step<'_>| match step {
         // x is y² if y = √x occurs too.
@@ -62,12 +62,12 @@ pub fn written(graph: &Graph, places: &[usize]) -> Option<Written> {
     };
     let product = product(graph, places, &by_roots)?;
     if let Some((scale, root)) = product.square() {
-        return Some(Written::Square(scale, root));
+        return Some(DenestedRoot::Square(scale, root));
     }
     let product = self::product(graph, places, &variable)?;
     let (above, below) = (product.over_square()?, product.below);
     let square_of = |root: u32| match graph.step(root as usize) {
-        Step::Unary(Function::Sqrt, a) => fraction(graph, a, &variable)?.polynomial(),
+        Step::Unary(UnaryFunction::Sqrt, a) => fraction(graph, a, &variable)?.polynomial(),
         _ => None,
     };
     let sum = above.variables().into_iter().rev().find_map(|root| {
@@ -75,12 +75,12 @@ pub fn written(graph: &Graph, places: &[usize]) -> Option<Written> {
         let [even, odd] = above.split(root, &square)?;
         let first = first_of_sum(&even, &odd, &square)?;
         let (root, below) = (root as usize, below.clone());
-        Some(Written::Sum { first, factor: odd, root, below })
+        Some(DenestedRoot::Sum { first, factor: odd, root, below })
     });
     // (a + b√C)(a − b√C) contains no root.
     sum.or_else(|| {
         let radicand = without_roots(graph, above, square_of)?;
-        (places.len() > 1).then_some(Written::Plain { radicand, below })
+        (places.len() > 1).then_some(DenestedRoot::Plain { radicand, below })
     })
 }
 
@@ -91,7 +91,7 @@ fn without_roots(
     square_of: impl Fn(u32) -> Option<Polynomial>,
 ) -> Option<Polynomial> {
     let is_root = |variable: &u32| match graph.step(*variable as usize) {
-        Step::Unary(Function::Sqrt, _) => true,
+        Step::Unary(UnaryFunction::Sqrt, _) => true,
         Step::Power(_, exponent) => exponent.to_integer().is_none(),
         _ => false,
     };
@@ -135,7 +135,7 @@ fn roots_of_inputs(graph: &Graph, places: &[usize]) -> Vec<(usize, usize)> {
     let steps = graph.steps().enumerate().filter(|(place, _)| reached[*place]);
     steps
         .filter_map(|(place, step)| match step {
-            Step::Unary(Function::Sqrt, a) if matches!(graph.step(a), Step::Input(_)) => {
+            Step::Unary(UnaryFunction::Sqrt, a) if matches!(graph.step(a), Step::Input(_)) => {
                 Some((a, place))
             }
             _ => None,
@@ -146,8 +146,8 @@ fn roots_of_inputs(graph: &Graph, places: &[usize]) -> Vec<(usize, usize)> {
 /// Makes a variable for a step that is not a rational operation.
 fn variable(place: usize, step: Step<'_>) -> Option<Polynomial> {
     let is_rational = match step {
-        Step::Constant(_) | Step::Unary(Function::Neg | Function::Recip, _) => true,
-        Step::Binary(operation, ..) => operation != Operation::Pow,
+        Step::Constant(_) | Step::Unary(UnaryFunction::Neg | UnaryFunction::Recip, _) => true,
+        Step::Binary(operation, ..) => operation != BinaryOperation::Pow,
         Step::Power(_, exponent) => exponent.to_integer().is_some(),
         Step::Input(_) | Step::Unary(..) => false,
     };
@@ -164,13 +164,15 @@ fn product(
     Fraction::product(factors?.iter())
 }
 
-impl Written {
+impl DenestedRoot {
     /// Returns the places of its variables.
     pub fn places(&self) -> Vec<usize> {
         let (polynomials, root) = match self {
-            Written::Square(_, root) => ([&root.above, &root.below, &root.below], None),
-            Written::Sum { first, factor, root, below } => ([first, factor, below], Some(*root)),
-            Written::Plain { radicand, below } => ([radicand, below, below], None),
+            DenestedRoot::Square(_, root) => ([&root.above, &root.below, &root.below], None),
+            DenestedRoot::Sum { first, factor, root, below } => {
+                ([first, factor, below], Some(*root))
+            }
+            DenestedRoot::Plain { radicand, below } => ([radicand, below, below], None),
         };
         let variables = polynomials.into_iter().flat_map(Polynomial::variables);
         variables.map(|variable| variable as usize).chain(root).collect()
@@ -180,19 +182,19 @@ impl Written {
     pub fn value(&self, at: impl Fn(usize) -> Option<Expr>) -> Option<Expr> {
         let of = |variable: u32| at(variable as usize);
         match self {
-            Written::Square(scale, _) if scale.is_negative() => None,
-            Written::Square(scale, root) => {
-                let scale = Expr::rational(scale).apply(Function::Sqrt);
+            DenestedRoot::Square(scale, _) if scale.is_negative() => None,
+            DenestedRoot::Square(scale, root) => {
+                let scale = Expr::rational(scale).apply(UnaryFunction::Sqrt);
                 Some(scale * root.value(&of)?.modulus())
             }
-            Written::Sum { first, factor, root, below } => {
-                let u = first.value(&of)?.apply(Function::Sqrt);
+            DenestedRoot::Sum { first, factor, root, below } => {
+                let u = first.value(&of)?.apply(UnaryFunction::Sqrt);
                 let doubled = u + u;
                 let sum = u + factor.value(&of)? * at(*root)? / doubled;
                 Some(sum.modulus() / below.value(&of)?.modulus())
             }
-            Written::Plain { radicand, below } => {
-                let root = radicand.value(&of)?.apply(Function::Sqrt);
+            DenestedRoot::Plain { radicand, below } => {
+                let root = radicand.value(&of)?.apply(UnaryFunction::Sqrt);
                 Some(root / below.value(&of)?.modulus())
             }
         }

@@ -1,7 +1,7 @@
 //! Actions on a cell, and the errors they rest on.
 
 use super::rewrite::Rewrite;
-use super::trial::{Certificate, Finding, both};
+use super::trial::{Certificate, TrialResult, both};
 
 /// The next action on a cell.
 pub enum Next {
@@ -19,7 +19,7 @@ pub enum Next {
     /// Drop the cell: no real inputs lie in it, up to the bounded probability.
     Empty(Option<Certificate>),
     /// Keep the findings of the test.
-    Tested(Vec<Option<Finding>>),
+    Tested(Vec<Option<TrialResult>>),
 }
 
 impl Next {
@@ -28,7 +28,7 @@ impl Next {
     pub fn given(self, related: Option<Certificate>) -> Self {
         let Some(error) = related else { return self };
         let zero = |finding| match finding {
-            Finding::Zero(own) => Finding::Zero(own.and(error)),
+            TrialResult::Zero(own) => TrialResult::Zero(own.and(error)),
             other => other,
         };
         match self {
@@ -43,15 +43,17 @@ impl Next {
 }
 
 /// Makes a silent finding for all groups.
-pub fn silent(count: usize, reason: &str) -> Vec<Option<Finding>> {
-    vec![Some(Finding::Silent(reason.to_string())); count]
+pub fn silent(count: usize, reason: &str) -> Vec<Option<TrialResult>> {
+    vec![Some(TrialResult::Silent(reason.to_string())); count]
 }
 
 /// Combines the findings for two choices of signs.
-pub fn for_both(a: Finding, b: Finding) -> Finding {
+pub fn for_both(a: TrialResult, b: TrialResult) -> TrialResult {
     match (a, b) {
-        (Finding::Zero(a), Finding::Zero(b)) => Finding::Zero(a.and(b)),
-        (Finding::Silent(reason), _) | (_, Finding::Silent(reason)) => Finding::Silent(reason),
-        _ => Finding::NonZero,
+        (TrialResult::Zero(a), TrialResult::Zero(b)) => TrialResult::Zero(a.and(b)),
+        (TrialResult::Silent(reason), _) | (_, TrialResult::Silent(reason)) => {
+            TrialResult::Silent(reason)
+        }
+        _ => TrialResult::NonZero,
     }
 }

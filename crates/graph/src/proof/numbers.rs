@@ -11,7 +11,7 @@ use num_traits::{One, Signed, Zero};
 use crate::number::rational::Rational;
 
 /// Largest number of integers that are refined against each other.
-const MOST: usize = 64;
+const MOST_INTEGERS: usize = 64;
 /// Largest size in bits of a constant whose root is taken.
 const MOST_BITS: u64 = 4096;
 
@@ -32,7 +32,7 @@ impl Numbers {
             if n.is_one() || base.contains(&n) {
                 continue;
             }
-            if base.len() >= MOST {
+            if base.len() >= MOST_INTEGERS {
                 return Self::default();
             }
             match base.iter().position(|known| !known.gcd(&n).is_one()) {

@@ -3,18 +3,18 @@
 
 use crate::graph::{Evaluator, Expr, Graph, Step, Tape};
 use crate::number::prime::{Prime, UNDEFINED};
-use crate::number::{Function, Operation};
+use crate::number::{BinaryOperation, UnaryFunction};
 
-use super::bounds::{Bounds, Source};
-use super::chance::Chance;
-use super::trial::LANES;
+use super::bounds::{Bounds, InputDistribution};
+use super::rng::ProofRng;
+use super::trial::TRIAL_LANES;
 
 /// Stream of the points at which radicands are looked at.
 const PURPOSE: u64 = 1 << 32;
 /// Largest number of square roots.
 const MOST_ROOTS: usize = 100;
 /// Number of points beyond the number of roots.
-const SPARE: usize = 24;
+const SPARE_POINTS: usize = 24;
 
 /// Bounds degree and height of the numerators of some values, all inputs uniform, by Theorem 1 of
 /// docs/soundness.md.
@@ -28,7 +28,7 @@ pub fn plain_bounds(graph: &Graph, outputs: &[Expr], seed: u64) -> Option<(f64, 
     for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
         has_root[place] = step.arguments().any(|argument| has_root[argument]);
         match step {
-            Step::Unary(Function::Sqrt, a) => {
+            Step::Unary(UnaryFunction::Sqrt, a) => {
                 if has_root[a] || matches!(graph.step(a), Step::Constant(_)) {
                     return None;
                 }
@@ -36,8 +36,11 @@ pub fn plain_bounds(graph: &Graph, outputs: &[Expr], seed: u64) -> Option<(f64, 
                 has_root[place] = true;
             }
             Step::Constant(_) | Step::Input(_) => {}
-            Step::Unary(Function::Neg | Function::Recip, _) => {}
-            Step::Binary(Operation::Add | Operation::Sub | Operation::Mul, ..) => {}
+            Step::Unary(UnaryFunction::Neg | UnaryFunction::Recip, _) => {}
+            Step::Binary(
+                BinaryOperation::Add | BinaryOperation::Sub | BinaryOperation::Mul,
+                ..,
+            ) => {}
             Step::Power(_, exponent) if exponent.to_integer().is_some() => {}
             _ => return None,
         }
@@ -45,7 +48,7 @@ pub fn plain_bounds(graph: &Graph, outputs: &[Expr], seed: u64) -> Option<(f64, 
     if !are_independent(graph, &radicands, seed) {
         return None;
     }
-    let bounds = Bounds::of(graph, &reached, &vec![Source::Uniform; graph.inputs()]);
+    let bounds = Bounds::of(graph, &reached, &vec![InputDistribution::Uniform; graph.inputs()]);
     outputs.iter().try_fold((0f64, 0f64), |(degree, height), output| {
         let (d, h) = bounds.numerator(graph.place(*output))?;
         Some((degree.max(d), height.max(h)))
@@ -58,17 +61,17 @@ fn are_independent(graph: &Graph, radicands: &[Expr], seed: u64) -> bool {
     if radicands.is_empty() || radicands.len() > MOST_ROOTS {
         return radicands.is_empty();
     }
-    let mut chance = Chance::new(seed, PURPOSE);
-    let modulus = chance.prime(&[], &[]);
+    let mut rng = ProofRng::new(seed, PURPOSE);
+    let modulus = rng.prime(&[], &[]);
     let tape = Tape::new(graph, radicands);
-    let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; LANES]));
+    let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; TRIAL_LANES]));
     let (mut rows, mut count) = (vec![0u128; radicands.len() + 1], 0);
-    let wanted = radicands.len() + SPARE;
+    let wanted = radicands.len() + SPARE_POINTS;
     for _ in 0..2 * wanted {
-        let point = |_| [0; LANES].map(|_: u64| chance.element(&modulus));
-        evaluator.run(&(0..graph.inputs()).map(point).collect::<Vec<[u64; LANES]>>());
-        let values: Vec<[u64; LANES]> = evaluator.outputs().copied().collect();
-        for lane in 0..LANES {
+        let point = |_| [0; TRIAL_LANES].map(|_: u64| rng.element(&modulus));
+        evaluator.run(&(0..graph.inputs()).map(point).collect::<Vec<[u64; TRIAL_LANES]>>());
+        let values: Vec<[u64; TRIAL_LANES]> = evaluator.outputs().copied().collect();
+        for lane in 0..TRIAL_LANES {
             let is_met = values.iter().all(|block| block[lane] != UNDEFINED && block[lane] != 0);
             if !is_met || count == wanted {
                 continue;

@@ -4,12 +4,12 @@ use crate::graph::{Evaluator, Expr, Fault, Graph, Tape};
 use crate::number::prime::{Prime, UNDEFINED};
 
 use super::Prover;
-use super::chance::{Chance, Stream};
-use super::digest::Digest;
+use super::digest::SeedDigest;
 use super::elimination::reduce;
 use super::lower::Algebraic;
+use super::rng::{ProofRng, ProofStream};
 use super::symbols::Symbols;
-use super::trial::{LANES, Trial};
+use super::trial::{TRIAL_LANES, Trial};
 
 /// Largest number of blocks of points tried until all entries have values.
 const MOST_BLOCKS: usize = 1 << 12;
@@ -26,7 +26,7 @@ impl Prover<'_> {
         rows: &[Vec<Expr>],
         heights: &[usize],
     ) -> Result<Option<Vec<usize>>, Fault> {
-        let digest = Digest::of(self.seed, graph, rows);
+        let digest = SeedDigest::of(self.seed, graph, rows);
         let entries = rows.concat();
         let reached = graph.reached(entries.iter().copied());
         let sources = self.sources_of(graph);
@@ -37,12 +37,12 @@ impl Prover<'_> {
         let trial = Trial::new(&algebraic, digest);
         let tape = Tape::new(&algebraic.graph, &outputs);
         let mut evaluator = Evaluator::new(&tape, Prime::new(*trial.moduli()));
-        let mut chance = Chance::of(digest, Stream::Ranks);
+        let mut rng = ProofRng::of(digest, ProofStream::Ranks);
         let width = rows.first().map_or(0, Vec::len);
         let mut ranks: Option<Vec<usize>> = None;
         for _ in 0..MOST_BLOCKS {
-            evaluator.run(&trial.points(&[], &mut chance));
-            for lane in 0..LANES {
+            evaluator.run(&trial.points(&[], &mut rng));
+            for lane in 0..TRIAL_LANES {
                 let values: Vec<u64> = evaluator.outputs().map(|block| block[lane]).collect();
                 if values.contains(&UNDEFINED) {
                     continue;

@@ -22,12 +22,12 @@ pub fn reconstruct(image: u64, modulus: &Modulus) -> Option<Rational> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::chance::Chance;
+    use super::super::rng::ProofRng;
     use super::*;
 
     #[test]
     fn fractions_are_found_from_their_images() {
-        let modulus = Chance::new(3, 0).prime(&[], &[]);
+        let modulus = ProofRng::new(3, 0).prime(&[], &[]);
         for (n, d) in [(0, 1), (1, 1), (-1, 2), (22, 7), (-104_729, 1_048_573)] {
             let value = Rational::new(n, d);
             let image = modulus.rational(&value).expect("p does not divide d");

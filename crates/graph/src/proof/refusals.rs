@@ -10,18 +10,18 @@ use crate::graph::{Evaluator, Expr, Tape};
 use crate::number::prime::{Modulus, UNDEFINED};
 use crate::number::quadratic::{Element, Quadratic};
 
-use super::chance::{Chance, Stream};
-use super::digest::Digest;
+use super::digest::SeedDigest;
 use super::lower::{Algebraic, Base};
-use super::tower::Standing;
-use super::trial::{LANES, MOST_NESTED, PRIMES, Residues, Trial, prime_of};
+use super::rng::{ProofRng, ProofStream};
+use super::tower::RootStatus;
+use super::trial::{MOST_NESTED, PRIMES, Residues, TRIAL_LANES, Trial, prime_of};
 
 /// Number of points without a refusal after which a nested root is taken to be dependent.
 const ACCEPTED: usize = 32;
 
 /// The observations on one nested radicand.
 #[derive(Clone, Default)]
-struct Seen {
+struct NestedObservations {
     /// Whether the radicand was refused, by prime.
     refused: [bool; PRIMES],
     /// Whether it was no square in F_p, and one, where all roots before it lie in F_p; by prime.
@@ -32,7 +32,7 @@ struct Seen {
     silent: usize,
 }
 
-impl Seen {
+impl NestedObservations {
     fn is_refused(&self, prime: usize) -> bool {
         self.refused[prime] || self.characters[prime] == [true, true]
     }
@@ -48,7 +48,7 @@ impl Seen {
 
 /// The nested radicands of a computation, with the observations on each.
 pub struct Refusals {
-    seen: Vec<Seen>,
+    seen: Vec<NestedObservations>,
 }
 
 impl Refusals {
@@ -58,7 +58,7 @@ impl Refusals {
         trial: &Trial<'_>,
         bases: &[usize],
         nested: &[usize],
-        digest: Digest,
+        digest: SeedDigest,
     ) -> Self {
         let links = bases.iter().flat_map(|index| algebraic.bases[*index].links.iter());
         let first: Vec<Expr> = links.map(|(link, _)| *link).collect();
@@ -67,16 +67,16 @@ impl Refusals {
         let tape = Tape::new(&algebraic.graph, &[first.clone(), chains.concat()].concat());
         let field = Quadratic::new(*trial.moduli());
         let mut evaluator = Evaluator::new(&tape, field.clone());
-        let mut chance = Chance::of(digest, Stream::Refusals);
-        let mut found = Self { seen: vec![Seen::default(); nested.len()] };
+        let mut rng = ProofRng::of(digest, ProofStream::Refusals);
+        let mut found = Self { seen: vec![NestedObservations::default(); nested.len()] };
         // A base without even roots has no links.
         let chained = first.len().saturating_sub(bases.len());
         let roots = chained + chains.iter().map(Vec::len).sum::<usize>();
-        let most = (4 * ACCEPTED * PRIMES / LANES) << (roots as u32).min(MOST_NESTED);
+        let most = (4 * ACCEPTED * PRIMES / TRIAL_LANES) << (roots as u32).min(MOST_NESTED);
         for _ in 0..most {
-            let points = trial.points(&[], &mut chance);
-            evaluator.run(&<Quadratic<LANES> as Residues>::blocks(&points));
-            for lane in 0..LANES {
+            let points = trial.points(&[], &mut rng);
+            evaluator.run(&<Quadratic<TRIAL_LANES> as Residues>::blocks(&points));
+            for lane in 0..TRIAL_LANES {
                 let modulus = &trial.moduli()[lane];
                 let mut values = evaluator.outputs().map(|block| block[lane]);
                 let roots: Vec<Element> = values.by_ref().take(first.len()).collect();
@@ -106,14 +106,14 @@ impl Refusals {
     }
 
     /// Returns the standing of a radicand, by its index among those tested.
-    pub fn standing(&self, index: usize) -> Standing {
+    pub fn standing(&self, index: usize) -> RootStatus {
         let seen = &self.seen[index];
         if seen.is_refused_by_all() {
-            Standing::Independent
+            RootStatus::Independent
         } else if seen.accepted + seen.silent >= ACCEPTED && !seen.is_refused_by_some() {
-            Standing::Dependent(Vec::new())
+            RootStatus::Dependent(Vec::new())
         } else {
-            Standing::Unreached
+            RootStatus::Unreached
         }
     }
 }
@@ -125,7 +125,7 @@ fn chain(base: &Base) -> Vec<Expr> {
     [base.radicand].into_iter().chain(links).collect()
 }
 
-impl Seen {
+impl NestedObservations {
     /// Observes the values of a chain at one point; returns whether all of its roots exist there.
     /// `in_field` tells whether all roots so far lie in F_p.
     fn look(

@@ -6,20 +6,20 @@ use crate::number::quadratic::Quadratic;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
-use super::bounds::Source;
-use super::chance::{Chance, Stream, Wanted};
-use super::digest::Digest;
+use super::bounds::InputDistribution;
+use super::digest::SeedDigest;
 use super::elimination::reduce;
 use super::lower::Algebraic;
 use super::reconstruct::reconstruct;
+use super::rng::{ProofRng, ProofStream, RequiredRoots};
 use super::symbols::Symbols;
 use super::tower::Tower;
-use super::trial::{Certificate, Finding, LANES, Residues, Roots, Trial, both, points};
+use super::trial::{Certificate, Residues, Roots, TRIAL_LANES, Trial, TrialResult, both, points};
 
 /// Largest number of values to be related: the cost is cubic.
-pub const MOST: usize = 40;
+pub const MOST_VALUES: usize = 40;
 /// Number of rows beyond the number of columns.
-pub const SPARE: usize = 4;
+pub const SPARE_ROWS: usize = 4;
 
 /// A map from the values at some places to values that must vanish; `None` if a value is missing.
 pub type Defects<'a> = dyn Fn(&[Option<Expr>]) -> Option<Vec<Expr>> + 'a;
@@ -34,22 +34,22 @@ pub struct Combination {
 }
 
 /// A search for linear relations in a graph; transcendental steps count as independent.
-pub struct Relations<'g> {
+pub struct RelationSearch<'g> {
     graph: &'g Graph,
-    sources: &'g [Source],
+    sources: &'g [InputDistribution],
     algebraic: Algebraic<'static>,
-    digest: Digest,
+    digest: SeedDigest,
     /// Error of the relations proved so far.
     pub certificate: Option<Certificate>,
 }
 
-impl<'g> Relations<'g> {
+impl<'g> RelationSearch<'g> {
     /// Prepares to relate values of `graph`.
     pub fn new(
         graph: &'g Graph,
-        sources: &'g [Source],
+        sources: &'g [InputDistribution],
         algebraic: Algebraic<'static>,
-        digest: Digest,
+        digest: SeedDigest,
     ) -> Self {
         Self { graph, sources, algebraic, digest, certificate: None }
     }
@@ -57,16 +57,16 @@ impl<'g> Relations<'g> {
     /// Expresses each place's value in a basis chosen among them, together with the number 1 if
     /// `with_one`; `None` if no basis was found and proved.
     pub fn between(&mut self, places: &[usize], with_one: bool) -> Option<Vec<Combination>> {
-        if places.is_empty() || places.len() > MOST {
+        if places.is_empty() || places.len() > MOST_VALUES {
             return None;
         }
-        let mut chance = Chance::of(self.digest, Stream::Relations);
-        let modulus = prime_for(&self.algebraic, &mut chance);
+        let mut rng = ProofRng::of(self.digest, ProofStream::Relations);
+        let modulus = prime_for(&self.algebraic, &mut rng);
         let columns = places.len() + usize::from(with_one);
         let outputs: Option<Vec<Expr>> =
             places.iter().map(|place| self.algebraic.values[*place]).collect();
-        let count = columns + SPARE;
-        let rows = rows(&self.algebraic, &outputs?, with_one, count, &modulus, &mut chance)?;
+        let count = columns + SPARE_ROWS;
+        let rows = rows(&self.algebraic, &outputs?, with_one, count, &modulus, &mut rng)?;
         let (pivots, rows) = reduce(rows, columns, &modulus);
         let offset = usize::from(with_one);
         let basis: Vec<usize> = pivots.iter().copied().filter(|c| *c >= offset).collect();
@@ -131,8 +131,8 @@ impl<'g> Relations<'g> {
 }
 
 /// Draws a prime whose field contains the roots of an algebraic graph.
-pub fn prime_for(algebraic: &Algebraic<'_>, chance: &mut Chance) -> Modulus {
-    chance.prime_with_roots(&Wanted {
+pub fn prime_for(algebraic: &Algebraic<'_>, rng: &mut ProofRng) -> Modulus {
+    rng.prime_with_roots(&RequiredRoots {
         odd: algebraic.odd_indices(),
         squares: algebraic.squares(),
         depth: algebraic.depth(),
@@ -147,16 +147,16 @@ pub fn rows(
     with_one: bool,
     count: usize,
     modulus: &Modulus,
-    chance: &mut Chance,
+    rng: &mut ProofRng,
 ) -> Option<Vec<Vec<u64>>> {
     let tape = Tape::new(&algebraic.graph, outputs);
-    let moduli = [*modulus; LANES];
+    let moduli = [*modulus; TRIAL_LANES];
     let mut evaluator = Evaluator::new(&tape, Quadratic::new(moduli));
     let mut rows = Vec::new();
     for _ in 0..64 * count {
-        let block = points(&moduli, &algebraic.sources, &[], chance);
-        evaluator.run(&<Quadratic<LANES> as Residues>::blocks(&block));
-        for lane in 0..LANES {
+        let block = points(&moduli, &algebraic.sources, &[], rng);
+        evaluator.run(&<Quadratic<TRIAL_LANES> as Residues>::blocks(&block));
+        for lane in 0..TRIAL_LANES {
             let values: Vec<[u64; 2]> = evaluator.outputs().map(|block| block[lane]).collect();
             if values.iter().any(|value| value[0] == UNDEFINED) {
                 continue;
@@ -181,9 +181,9 @@ pub struct Defect<'d> {
     /// Graph of the computation.
     pub graph: &'d Graph,
     /// Distributions of its inputs.
-    pub sources: &'d [Source],
+    pub sources: &'d [InputDistribution],
     /// Digest of the statement to be proved.
-    pub digest: Digest,
+    pub digest: SeedDigest,
     /// Whether relations between the arguments of transcendental functions are used.
     pub is_related: bool,
 }
@@ -203,7 +203,7 @@ impl Defect<'_> {
         let (symbols, related) = match self.is_related {
             true => {
                 let formal = Algebraic::formal(&graph, &reached, sources, &opaque).ok()?;
-                let mut relations = Relations::new(&graph, sources, formal, digest);
+                let mut relations = RelationSearch::new(&graph, sources, formal, digest);
                 let symbols = Symbols::by_basis(&graph, &reached, &mut relations);
                 (symbols, relations.certificate)
             }
@@ -220,7 +220,7 @@ impl Defect<'_> {
             return None;
         }
         match trial.test(&[&values], Roots { nested: tower.nested, fixed: &[] }).pop() {
-            Some(Finding::Zero(certificate)) => both(Some(certificate), related),
+            Some(TrialResult::Zero(certificate)) => both(Some(certificate), related),
             _ => None,
         }
     }

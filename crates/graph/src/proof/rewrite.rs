@@ -4,12 +4,12 @@ use rustc_hash::FxHashMap;
 
 use crate::graph::{Expr, Graph, Step};
 use crate::number::rational::Rational;
-use crate::number::{Function, Operation};
+use crate::number::{BinaryOperation, UnaryFunction};
 use crate::scalar::Scalar;
 
-use super::fact::Fact;
+use super::fact::SignFact;
 use super::logarithms::{Logarithm, split_exponential};
-use super::nested::Written;
+use super::nested::DenestedRoot;
 use super::squares::Square;
 
 /// The root of a product of radicands.
@@ -18,7 +18,7 @@ pub enum Root {
     /// √c |b|
     Found(Rational, Square),
     /// A denested root.
-    Written(Written),
+    Written(DenestedRoot),
 }
 
 /// A replacement of steps of a graph.
@@ -99,20 +99,20 @@ impl Rewrite {
         values: &[Option<Expr>],
     ) -> Option<Expr> {
         match (self, step) {
-            (Rewrite::Signed { place: own, positive }, Step::Unary(Function::Abs, a)) => {
+            (Rewrite::Signed { place: own, positive }, Step::Unary(UnaryFunction::Abs, a)) => {
                 let value = values[a].filter(|_| *own == place)?;
                 Some(if *positive { value } else { -value })
             }
             (Rewrite::Vanishing { place: own }, _) => {
                 (*own == place).then(|| Expr::rational(&Rational::from(0)))
             }
-            (Rewrite::Zero { arguments }, Step::Unary(Function::Sqrt, a)) => {
+            (Rewrite::Zero { arguments }, Step::Unary(UnaryFunction::Sqrt, a)) => {
                 arguments.contains(&a).then(|| Expr::rational(&Rational::from(0)))
             }
             (Rewrite::Zero { arguments }, _) => {
                 let (a, _) = power(step)?;
                 let zero = || Expr::rational(&Rational::from(0));
-                arguments.contains(&a).then(|| zero().apply(Function::Recip))
+                arguments.contains(&a).then(|| zero().apply(UnaryFunction::Recip))
             }
             (Rewrite::Root { arguments, root, over }, _) => {
                 let (a, exponent) = power(step)?;
@@ -122,13 +122,13 @@ impl Rewrite {
                 let at = |place: usize| values[place];
                 let mut value = match root {
                     Root::Found(scale, square) => {
-                        let scale = Expr::rational(scale).apply(Function::Sqrt);
+                        let scale = Expr::rational(scale).apply(UnaryFunction::Sqrt);
                         scale * square.value(at)?.modulus()
                     }
                     Root::Written(written) => written.value(at)?,
                 };
                 for other in over {
-                    value /= values[*other]?.apply(Function::Sqrt);
+                    value /= values[*other]?.apply(UnaryFunction::Sqrt);
                 }
                 Some(value.power(&(&exponent * &Rational::from(2))))
             }
@@ -140,14 +140,16 @@ impl Rewrite {
                 split(graph, a, &exponent, values)
             }
             (Rewrite::Logarithm { argument, logarithm }, step) => match step {
-                Step::Unary(Function::Ln, a) if a == *argument => logarithm.value(graph, values),
-                Step::Binary(Operation::Pow, a, y) if a == *argument => {
+                Step::Unary(UnaryFunction::Ln, a) if a == *argument => {
+                    logarithm.value(graph, values)
+                }
+                Step::Binary(BinaryOperation::Pow, a, y) if a == *argument => {
                     logarithm.power(graph, values[y]?, values)
                 }
                 _ => None,
             },
             (Rewrite::Exponential { argument, logarithms }, step) => match step {
-                Step::Unary(Function::Exp, a) if a == *argument => {
+                Step::Unary(UnaryFunction::Exp, a) if a == *argument => {
                     split_exponential(graph, a, logarithms, values)
                 }
                 _ => None,
@@ -160,7 +162,7 @@ impl Rewrite {
 /// Returns argument and exponent of a non-integer power.
 fn power(step: Step<'_>) -> Option<(usize, Rational)> {
     match step {
-        Step::Unary(Function::Sqrt, a) => Some((a, Rational::new(1, 2))),
+        Step::Unary(UnaryFunction::Sqrt, a) => Some((a, Rational::new(1, 2))),
         Step::Power(a, exponent) if exponent.to_integer().is_none() => Some((a, exponent.clone())),
         _ => None,
     }
@@ -186,12 +188,12 @@ fn split(
         };
         match graph.step(at) {
             _ if count == 0 => {}
-            Step::Binary(Operation::Mul, a, b) => {
+            Step::Binary(BinaryOperation::Mul, a, b) => {
                 add(a, count)?;
                 add(b, count)?;
             }
-            Step::Unary(Function::Recip, a) => add(a, -count)?,
-            Step::Unary(Function::Neg, a) => {
+            Step::Unary(UnaryFunction::Recip, a) => add(a, -count)?,
+            Step::Unary(UnaryFunction::Neg, a) => {
                 add(a, count)?;
                 rest = if count % 2 == 0 { rest } else { -rest };
             }
@@ -216,13 +218,15 @@ fn split(
 
 /// Lists the signs without which some steps are undefined: those of the arguments of roots,
 /// logarithms and powers.
-pub fn conditions(graph: &Graph, reached: &[bool]) -> Vec<(usize, Fact)> {
+pub fn conditions(graph: &Graph, reached: &[bool]) -> Vec<(usize, SignFact)> {
     let condition = |step: Step<'_>| match step {
-        Step::Unary(Function::Sqrt, a) => Some((a, Fact::NotNegative)),
-        Step::Unary(Function::Ln, a) | Step::Binary(Operation::Pow, a, _) => {
-            Some((a, Fact::Positive))
+        Step::Unary(UnaryFunction::Sqrt, a) => Some((a, SignFact::NotNegative)),
+        Step::Unary(UnaryFunction::Ln, a) | Step::Binary(BinaryOperation::Pow, a, _) => {
+            Some((a, SignFact::Positive))
         }
-        Step::Power(a, exponent) if exponent.to_integer().is_none() => Some((a, Fact::Positive)),
+        Step::Power(a, exponent) if exponent.to_integer().is_none() => {
+            Some((a, SignFact::Positive))
+        }
         _ => None,
     };
     let steps = graph.steps().zip(reached).filter(|(_, reached)| **reached);

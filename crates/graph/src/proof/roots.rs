@@ -4,14 +4,14 @@ use crate::graph::{Expr, Fault, Graph};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
-use super::digest::Digest;
+use super::digest::SeedDigest;
 use super::domain::Region;
 use super::lower::Algebraic;
-use super::nested::{Written, written};
+use super::nested::{DenestedRoot, written};
 use super::rewrite::{Rewrite, Root};
-use super::squares::{Samples, Square};
-use super::tower::{Standing, Tower};
-use super::trial::{Certificate, Finding, Roots, Trial};
+use super::squares::{RootSamples, Square};
+use super::tower::{RootStatus, Tower};
+use super::trial::{Certificate, Roots, Trial, TrialResult};
 
 /// Largest number of other radicands of either kind multiplied with a nested radicand.
 const MOST_FACTORS: usize = 4;
@@ -19,7 +19,7 @@ const MOST_FACTORS: usize = 4;
 const MOST_SETS: usize = 40;
 
 /// The result of the search for the root of a base.
-pub enum Search {
+pub enum RootSearch {
     /// The root is independent of those before it.
     Independent,
     /// The root has another expression, up to the bounded probability.
@@ -44,48 +44,50 @@ pub struct RootFinder<'f> {
     /// Real inputs under consideration.
     pub region: &'f Region<'f>,
     /// Digest of the statement to be proved.
-    pub digest: Digest,
+    pub digest: SeedDigest,
     /// Values at random points, made on first use.
-    pub samples: Option<Option<Samples>>,
+    pub samples: Option<Option<RootSamples>>,
 }
 
 impl RootFinder<'_> {
     /// Searches for an expression of the root of a base. Roots of odd index are unique in the
     /// fields that are used, and need none.
-    pub fn search(&mut self, base: usize) -> Result<Search, Fault> {
+    pub fn search(&mut self, base: usize) -> Result<RootSearch, Fault> {
         let found = self.of_square(base)?;
         Ok(match found {
-            Search::Rewrite(Rewrite::Root { .. } | Rewrite::Split { .. }, _)
+            RootSearch::Rewrite(Rewrite::Root { .. } | Rewrite::Split { .. }, _)
                 if self.algebraic.bases[base].links.is_empty() =>
             {
-                Search::Independent
+                RootSearch::Independent
             }
             found => found,
         })
     }
 
-    fn of_square(&mut self, base: usize) -> Result<Search, Fault> {
+    fn of_square(&mut self, base: usize) -> Result<RootSearch, Fault> {
         let arguments = || self.algebraic.bases[base].arguments.clone();
         match &self.tower.standings[base] {
-            Standing::Independent => Ok(Search::Independent),
-            Standing::Split => Ok(Search::Rewrite(Rewrite::Split { arguments: arguments() }, None)),
-            Standing::Zero => {
+            RootStatus::Independent => Ok(RootSearch::Independent),
+            RootStatus::Split => {
+                Ok(RootSearch::Rewrite(Rewrite::Split { arguments: arguments() }, None))
+            }
+            RootStatus::Zero => {
                 let radicand = self.algebraic.bases[base].radicand;
                 let roots = Roots { nested: self.tower.nested, fixed: &[] };
                 Ok(match self.trial.test(&[&[radicand]], roots).pop() {
-                    Some(Finding::Zero(certificate)) => {
+                    Some(TrialResult::Zero(certificate)) => {
                         let rewrite = Rewrite::Zero { arguments: arguments() };
-                        Search::Rewrite(rewrite, Some(certificate))
+                        RootSearch::Rewrite(rewrite, Some(certificate))
                     }
-                    _ => Search::Unknown,
+                    _ => RootSearch::Unknown,
                 })
             }
-            Standing::Dependent(others) => self.dependent(base, others.clone()),
-            Standing::Deferred | Standing::Unreached => Ok(Search::Unknown),
+            RootStatus::Dependent(others) => self.dependent(base, others.clone()),
+            RootStatus::Deferred | RootStatus::Unreached => Ok(RootSearch::Unknown),
         }
     }
 
-    fn dependent(&mut self, base: usize, others: Vec<usize>) -> Result<Search, Fault> {
+    fn dependent(&mut self, base: usize, others: Vec<usize>) -> Result<RootSearch, Fault> {
         let is_nested = self.algebraic.mask(self.algebraic.bases[base].radicand) != 0;
         let groups = if is_nested { self.before_nested(base) } else { vec![others] };
         for others in groups {
@@ -93,7 +95,7 @@ impl RootFinder<'_> {
                 return Ok(found);
             }
         }
-        Ok(Search::Unknown)
+        Ok(RootSearch::Unknown)
     }
 
     /// Lists sets of independent roots before a nested one, small ones first: nested roots, and the
@@ -102,7 +104,7 @@ impl RootFinder<'_> {
         let is_nested =
             |index: &usize| self.algebraic.mask(self.algebraic.bases[*index].radicand) != 0;
         let independent: Vec<usize> = (0..base)
-            .filter(|index| self.tower.standings[*index] == Standing::Independent)
+            .filter(|index| self.tower.standings[*index] == RootStatus::Independent)
             .collect();
         let nested = independent.iter().copied().filter(is_nested).take(MOST_FACTORS);
         let others = independent.iter().rev().copied().filter(|index| !is_nested(index));
@@ -118,7 +120,7 @@ impl RootFinder<'_> {
     }
 
     /// Searches for an expression of √(A Π A_i).
-    fn product(&mut self, base: usize, others: &[usize]) -> Result<Option<Search>, Fault> {
+    fn product(&mut self, base: usize, others: &[usize]) -> Result<Option<RootSearch>, Fault> {
         let own = &self.algebraic.bases[base];
         let first = |index: &usize| self.algebraic.bases[*index].arguments.first().copied();
         let Some(over) = others.iter().map(first).collect::<Option<Vec<usize>>>() else {
@@ -135,19 +137,21 @@ impl RootFinder<'_> {
             && let Some(certificate) = self.is_square(base, others, &scale, square)?
         {
             return Ok(Some(match scale.is_negative() {
-                true => Search::NeverReal(Some(certificate)),
-                false => Search::Rewrite(rewrite(Root::Found(scale, square)), Some(certificate)),
+                true => RootSearch::NeverReal(Some(certificate)),
+                false => {
+                    RootSearch::Rewrite(rewrite(Root::Found(scale, square)), Some(certificate))
+                }
             }));
         }
         let own = own.arguments.first().copied();
         let places: Vec<usize> = own.into_iter().chain(over.iter().copied()).collect();
         Ok(written(self.graph, &places).map(|written| match &written {
-            Written::Square(scale, _) if scale.is_negative() => Search::NeverReal(None),
-            _ => Search::Rewrite(rewrite(Root::Written(written)), None),
+            DenestedRoot::Square(scale, _) if scale.is_negative() => RootSearch::NeverReal(None),
+            _ => RootSearch::Rewrite(rewrite(Root::Written(written)), None),
         }))
     }
 
-    fn samples(&mut self) -> Option<&Samples> {
+    fn samples(&mut self) -> Option<&RootSamples> {
         if self.samples.is_none() {
             let outputs: Vec<usize> = (0..self.graph.len())
                 .filter(|place| self.algebraic.values[*place].is_some())
@@ -157,11 +161,11 @@ impl RootFinder<'_> {
             let is_needed = |index: &usize| {
                 matches!(
                     self.tower.standings[*index],
-                    Standing::Independent | Standing::Dependent(_)
+                    RootStatus::Independent | RootStatus::Dependent(_)
                 )
             };
             let needed: Vec<usize> = bases.filter(is_needed).collect();
-            self.samples = Some(Samples::of(self.algebraic, &needed, &known, self.digest));
+            self.samples = Some(RootSamples::of(self.algebraic, &needed, &known, self.digest));
         }
         self.samples.as_ref()?.as_ref()
     }
@@ -190,7 +194,7 @@ impl RootFinder<'_> {
         let trial = Trial::new(&extended, self.digest);
         let roots = Roots { nested: self.tower.nested, fixed: &[] };
         Ok(match trial.test(&[&difference], roots).pop() {
-            Some(Finding::Zero(certificate)) => Some(certificate),
+            Some(TrialResult::Zero(certificate)) => Some(certificate),
             _ => None,
         })
     }

@@ -8,14 +8,14 @@ use crate::number::quadratic::{Element, Quadratic};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
-use super::chance::{Chance, Stream};
-use super::digest::Digest;
+use super::digest::SeedDigest;
 use super::lower::Algebraic;
 use super::reconstruct::reconstruct;
-use super::trial::{LANES, MOST_NESTED, PRIMES, Residues, points, prime_of, suitable_moduli};
+use super::rng::{ProofRng, ProofStream};
+use super::trial::{MOST_NESTED, PRIMES, Residues, TRIAL_LANES, points, prime_of, suitable_moduli};
 
 /// Number of lanes of one prime; the first is compared with the others.
-const SHARED: usize = LANES / PRIMES;
+const SHARED: usize = TRIAL_LANES / PRIMES;
 /// Largest number of blocks of points tried until all needed values exist.
 const MOST_BLOCKS: usize = 8;
 
@@ -54,10 +54,10 @@ impl Square {
 }
 
 /// Values at random points.
-type Values = [Element; LANES];
+type Values = [Element; TRIAL_LANES];
 
 /// The square of the value at a place.
-struct Entry {
+struct SquareAt {
     place: usize,
     square: Values,
     /// The square at the last point divided by that at the first point of the same prime, and the
@@ -68,11 +68,11 @@ struct Entry {
 }
 
 /// All values of a graph at random points where its independent roots exist.
-pub struct Samples {
-    field: Quadratic<LANES>,
-    moduli: [Modulus; LANES],
+pub struct RootSamples {
+    field: Quadratic<TRIAL_LANES>,
+    moduli: [Modulus; TRIAL_LANES],
     /// Entries for values that are nonzero at all points, by increasing place.
-    entries: Vec<Entry>,
+    entries: Vec<SquareAt>,
     /// The first entry with a ratio, and the first with a known sign.
     with_ratio: FxHashMap<Element, [Option<usize>; 2]>,
     /// Values of the radicands, by base.
@@ -80,17 +80,17 @@ pub struct Samples {
 }
 
 /// The point by whose ratio entries are looked up.
-const LAST: usize = LANES - 1;
-const COMPARED: usize = LANES - SHARED;
+const LAST: usize = TRIAL_LANES - 1;
+const COMPARED: usize = TRIAL_LANES - SHARED;
 
-impl Samples {
+impl RootSamples {
     /// Evaluates the graph at points where the radicands of the bases `needed` have roots; `None`
     /// if no such point is found. `known` tells which signs are known.
     pub fn of(
         algebraic: &Algebraic<'_>,
         needed: &[usize],
         known: &[bool],
-        digest: Digest,
+        digest: SeedDigest,
     ) -> Option<Self> {
         let places: Vec<usize> =
             (0..algebraic.values.len()).filter(|at| algebraic.values[*at].is_some()).collect();
@@ -106,14 +106,14 @@ impl Samples {
         let last = radicands.end..outputs.len();
         let tape = Tape::new(&algebraic.graph, &outputs);
         // An identity must be tested modulo primes that were not used to find it.
-        let moduli = suitable_moduli(digest, Stream::Squares, algebraic);
+        let moduli = suitable_moduli(digest, ProofStream::Squares, algebraic);
         let field = Quadratic::new(moduli);
         let mut evaluator = Evaluator::new(&tape, field.clone());
-        let mut chance = Chance::of(digest, Stream::Squares);
+        let mut rng = ProofRng::of(digest, ProofStream::Squares);
         let is_defined = |block: &Values| block.iter().all(|x| x[0] != UNDEFINED);
         let found = (0..MOST_BLOCKS << MOST_NESTED).any(|_| {
-            let block = points(&moduli, &algebraic.sources, &[], &mut chance);
-            evaluator.run(&<Quadratic<LANES> as Residues>::blocks(&block));
+            let block = points(&moduli, &algebraic.sources, &[], &mut rng);
+            evaluator.run(&<Quadratic<TRIAL_LANES> as Residues>::blocks(&block));
             let mut radicands = needed.iter().map(|base| places.len() + base);
             radicands.all(|place| is_defined(evaluator.output(place)))
                 && last.clone().all(|place| is_defined(evaluator.output(place)))
@@ -121,14 +121,14 @@ impl Samples {
         if !found {
             return None;
         }
-        let mut entries: Vec<Entry> = Vec::new();
+        let mut entries: Vec<SquareAt> = Vec::new();
         for (index, place) in places.iter().enumerate() {
             let block = *evaluator.output(index);
             if is_defined(&block) && block.iter().all(|x| *x != [0, 0]) {
                 let square =
                     std::array::from_fn(|lane| field.product(lane, block[lane], block[lane]));
                 let is_known = known.get(*place) == Some(&true);
-                entries.push(Entry { place: *place, square, ratios: [[0; 2]; 2], is_known });
+                entries.push(SquareAt { place: *place, square, ratios: [[0; 2]; 2], is_known });
             }
         }
         let ends = entries.iter().flat_map(|entry| [entry.square[COMPARED], entry.square[LAST]]);
@@ -175,7 +175,7 @@ impl Samples {
 
     /// Finds b such that b² is a constant multiple of the target; returns b and the values of b².
     fn find(&self, target: &Values, only_known: bool, before: usize) -> Option<(Square, Values)> {
-        let of = |ratio: Element| -> Option<&Entry> {
+        let of = |ratio: Element| -> Option<&SquareAt> {
             let [first, known] = self.with_ratio.get(&ratio)?;
             let entry = &self.entries[(if only_known { *known } else { *first })?];
             (entry.place < before).then_some(entry)
@@ -211,8 +211,8 @@ impl Samples {
     }
 
     fn inverse(&self, values: &Values) -> Option<Values> {
-        let mut inverse = [[0; 2]; LANES];
-        for lane in 0..LANES {
+        let mut inverse = [[0; 2]; TRIAL_LANES];
+        for lane in 0..TRIAL_LANES {
             inverse[lane] = self.field.inverse(lane, values[lane])?;
         }
         Some(inverse)
@@ -220,7 +220,7 @@ impl Samples {
 
     /// Whether, for each prime, a is the same multiple of b at all points.
     fn is_multiple(&self, a: &Values, b: &Values) -> bool {
-        (0..LANES).all(|lane| {
+        (0..TRIAL_LANES).all(|lane| {
             let first = prime_of(lane) * SHARED;
             let product = |x: Element, y: Element| self.field.product(lane, x, y);
             product(a[lane], b[first]) == product(a[first], b[lane])
@@ -230,7 +230,7 @@ impl Samples {
     /// Finds the rational number that is a/b at all points.
     fn number(&self, a: &Values, b: &Values) -> Option<Rational> {
         let mut number = None;
-        for lane in (0..LANES).step_by(SHARED) {
+        for lane in (0..TRIAL_LANES).step_by(SHARED) {
             let image = self.field.product(lane, a[lane], self.field.inverse(lane, b[lane])?);
             let found = match image {
                 [real, 0] => reconstruct(real, &self.moduli[lane])?,

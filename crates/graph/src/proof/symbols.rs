@@ -8,9 +8,9 @@ use rustc_hash::FxHashMap;
 
 use crate::graph::{Graph, Step};
 use crate::number::rational::Rational;
-use crate::number::{Function, Operation};
+use crate::number::{BinaryOperation, UnaryFunction};
 
-use super::relations::{Combination, Relations};
+use super::relations::{Combination, RelationSearch};
 
 /// Indices of symbols, each with its integer multiple.
 type Multiples = Vec<(usize, i64)>;
@@ -20,7 +20,7 @@ const LARGEST_MULTIPLE: i64 = 64;
 
 /// The form of a transcendental step in terms of symbols.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Form {
+pub enum SymbolForm {
     /// A separate symbol.
     Opaque(usize),
     /// base^q · Π T_i^n_i
@@ -45,7 +45,7 @@ pub enum Form {
 #[derive(Clone, Debug, Default)]
 pub struct Symbols {
     /// Form by place.
-    pub forms: FxHashMap<usize, Form>,
+    pub forms: FxHashMap<usize, SymbolForm>,
     /// Number of symbols.
     pub count: usize,
 }
@@ -55,7 +55,7 @@ impl Symbols {
     pub fn opaque(graph: &Graph, reached: &[bool]) -> Self {
         let mut symbols = Self::default();
         for (place, _) in transcendental(graph, reached) {
-            symbols.forms.insert(place, Form::Opaque(symbols.count));
+            symbols.forms.insert(place, SymbolForm::Opaque(symbols.count));
             symbols.count += 1;
         }
         symbols
@@ -63,13 +63,13 @@ impl Symbols {
 
     /// Gives each element of a basis a symbol; `relations` finds linear relations between values of
     /// the graph, proved like any identity.
-    pub fn by_basis(graph: &Graph, reached: &[bool], relations: &mut Relations<'_>) -> Self {
+    pub fn by_basis(graph: &Graph, reached: &[bool], relations: &mut RelationSearch<'_>) -> Self {
         let mut symbols = Self::opaque(graph, reached);
         let steps: Vec<(usize, Step<'_>)> = transcendental(graph, reached).collect();
         let exponentials: Vec<(usize, usize, bool)> = steps
             .iter()
             .filter_map(|(place, step)| match step {
-                Step::Unary(Function::Exp, a) => Some((*place, *a, false)),
+                Step::Unary(UnaryFunction::Exp, a) => Some((*place, *a, false)),
                 _ => None,
             })
             .collect();
@@ -77,7 +77,7 @@ impl Symbols {
         // Equal or reciprocal bases share their symbols: (1/x)^y = x^(-y).
         let mut bases: Vec<Vec<(usize, bool)>> = Vec::new();
         for (_, step) in &steps {
-            let Step::Binary(Operation::Pow, base, _) = step else { continue };
+            let Step::Binary(BinaryOperation::Pow, base, _) = step else { continue };
             if bases.iter().flatten().any(|(known, _)| known == base) {
                 continue;
             }
@@ -93,7 +93,7 @@ impl Symbols {
             let powers: Vec<(usize, usize, bool)> = steps
                 .iter()
                 .filter_map(|(place, step)| match step {
-                    Step::Binary(Operation::Pow, a, b) => {
+                    Step::Binary(BinaryOperation::Pow, a, b) => {
                         let (_, inverse) = class.iter().find(|(base, _)| base == a)?;
                         Some((*place, *b, *inverse))
                     }
@@ -105,13 +105,13 @@ impl Symbols {
         let angles: Vec<(usize, usize, bool)> = steps
             .iter()
             .filter_map(|(place, step)| match step {
-                Step::Unary(Function::Sin, a) => Some((*place, *a, true)),
-                Step::Unary(Function::Cos, a) => Some((*place, *a, false)),
+                Step::Unary(UnaryFunction::Sin, a) => Some((*place, *a, true)),
+                Step::Unary(UnaryFunction::Cos, a) => Some((*place, *a, false)),
                 _ => None,
             })
             .collect();
         let eighth = steps.iter().find_map(|(place, step)| match step {
-            Step::Unary(Function::Atan, a) if is_one(graph, *a) => Some(*place),
+            Step::Unary(UnaryFunction::Atan, a) if is_one(graph, *a) => Some(*place),
             _ => None,
         });
         let is_turned = eighth.is_some_and(|eighth| symbols.turned(eighth, &angles, relations));
@@ -127,7 +127,7 @@ impl Symbols {
         &mut self,
         base: Option<usize>,
         steps: &[(usize, usize, bool)],
-        relations: &mut Relations<'_>,
+        relations: &mut RelationSearch<'_>,
     ) {
         let arguments: Vec<usize> = steps.iter().map(|(_, argument, _)| *argument).collect();
         // With a base, the exponent 1 is a basis element: x^1 = x.
@@ -140,17 +140,17 @@ impl Symbols {
             let powers = multiples.into_iter().map(|(k, n)| (first + k, sign * n)).collect();
             let constant = &combination.constant * &Rational::from(sign);
             let base = base.map(|base| (base, constant));
-            self.forms.insert(*place, Form::Product { base, powers });
+            self.forms.insert(*place, SymbolForm::Product { base, powers });
         }
     }
 
-    fn angles(&mut self, steps: &[(usize, usize, bool)], relations: &mut Relations<'_>) {
+    fn angles(&mut self, steps: &[(usize, usize, bool)], relations: &mut RelationSearch<'_>) {
         let arguments: Vec<usize> = steps.iter().map(|(_, argument, _)| *argument).collect();
         let Some(combinations) = relations.between(&arguments, false) else { return };
         let Some((first, multiples)) = self.allot(&combinations) else { return };
         for ((place, _, sine), multiples) in steps.iter().zip(multiples) {
             let multiples = multiples.into_iter().map(|(k, n)| (first + k, n)).collect();
-            self.forms.insert(*place, Form::Angle { multiples, turns: 0, sine: *sine });
+            self.forms.insert(*place, SymbolForm::Angle { multiples, turns: 0, sine: *sine });
         }
     }
 
@@ -160,7 +160,7 @@ impl Symbols {
         &mut self,
         eighth: usize,
         steps: &[(usize, usize, bool)],
-        relations: &mut Relations<'_>,
+        relations: &mut RelationSearch<'_>,
     ) -> bool {
         // π/4 comes first, and so is an element of the basis.
         let arguments: Vec<usize> =
@@ -180,7 +180,7 @@ impl Symbols {
         let Some((first, multiples)) = self.allot(&rest) else { return false };
         for (((place, _, sine), turns), multiples) in steps.iter().zip(turns).zip(multiples) {
             let multiples = multiples.into_iter().map(|(k, n)| (first + k, n)).collect();
-            self.forms.insert(*place, Form::Angle { multiples, turns, sine: *sine });
+            self.forms.insert(*place, SymbolForm::Angle { multiples, turns, sine: *sine });
         }
         true
     }
@@ -243,9 +243,13 @@ fn transcendental<'g>(
             && matches!(
                 step,
                 Step::Unary(
-                    Function::Exp | Function::Ln | Function::Sin | Function::Cos | Function::Atan,
+                    UnaryFunction::Exp
+                        | UnaryFunction::Ln
+                        | UnaryFunction::Sin
+                        | UnaryFunction::Cos
+                        | UnaryFunction::Atan,
                     _
-                ) | Step::Binary(Operation::Pow, ..)
+                ) | Step::Binary(BinaryOperation::Pow, ..)
             )
     })
 }

@@ -8,7 +8,7 @@ use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
 /// Proves over inputs in 1..2, or in -2..-1 for the negative ones.
-fn prove(negative: &[bool], build: impl FnOnce(&[Expr]) -> Expr) -> Outcome {
+fn prove(negative: &[bool], build: impl FnOnce(&[Expr]) -> Expr) -> GroupOutcome {
     let (graph, value) = record(negative.len(), build).expect("records");
     let [one, two] = [1, 2].map(Rational::from);
     let extent = |negative: &bool| match negative {
@@ -20,8 +20,8 @@ fn prove(negative: &[bool], build: impl FnOnce(&[Expr]) -> Expr) -> Outcome {
     prover.prove(&graph, &[Group::of(vec![value])]).expect("records").remove(0)
 }
 
-fn is_proved(outcome: &Outcome) -> bool {
-    matches!(outcome, Outcome::Zero(certificate) if certificate.error_log2 < -100.0)
+fn is_proved(outcome: &GroupOutcome) -> bool {
+    matches!(outcome, GroupOutcome::Zero(certificate) if certificate.error_log2 < -100.0)
 }
 
 fn number(text: &str) -> Expr {
@@ -55,7 +55,7 @@ fn degrees_beyond_the_bound_are_not_proved() {
         }
         (power + 1.0) * (power - 1.0) - power * power + 1.0
     });
-    assert!(matches!(&outcome, Outcome::Silent(why) if why.contains("degree")), "{outcome:?}");
+    assert!(matches!(&outcome, GroupOutcome::Silent(why) if why.contains("degree")), "{outcome:?}");
 }
 
 #[test]
@@ -65,7 +65,7 @@ fn independent_roots_are_certified() {
         (a + b) * (a - b) - x[0] + x[1]
     });
     assert!(is_proved(&outcome), "(√x + √y)(√x - √y) = x - y: {outcome:?}");
-    let Outcome::Zero(certificate) = outcome else { unreachable!() };
+    let GroupOutcome::Zero(certificate) = outcome else { unreachable!() };
     assert_eq!(certificate.roots, 2, "two roots");
     let outcome = prove(&[false, false], |x| x[0].sqrt() + x[1].sqrt() - (x[0] + x[1]).sqrt());
     assert!(outcome.is_nonzero(), "√x + √y is not √(x + y)");
@@ -80,7 +80,7 @@ fn roots_of_squares_have_the_sign_of_the_base() {
     let outcome = prove(&[false, false], binomial);
     assert!(is_proved(&outcome), "√((x + y)²) = x + y for x, y > 0: {outcome:?}");
     assert!(prove(&[true, true], binomial).is_nonzero(), "and not for x, y < 0");
-    let Outcome::NonZero(parts) = prove(&[true, false], binomial) else {
+    let GroupOutcome::NonZero(parts) = prove(&[true, false], binomial) else {
         panic!("x + y has both signs");
     };
     assert_eq!(parts.proper().map(<[_]>::len), Some(1), "it is not zero where x + y < 0");
@@ -165,13 +165,13 @@ fn arguments_share_their_symbols() {
     });
     assert!(is_proved(&outcome), "powers with symbolic exponents: {outcome:?}");
     let outcome = prove(&[false], |x| x[0].sin() - x[0].cos());
-    assert!(matches!(outcome, Outcome::Silent(_)), "not zero for symbols, which says nothing");
+    assert!(matches!(outcome, GroupOutcome::Silent(_)), "not zero for symbols, which says nothing");
 }
 
 #[test]
 fn quarter_turns_are_known() {
     // π/4 = atan 1
-    let eighth = || Expr::rational(&Rational::from(1)).apply(Function::Atan);
+    let eighth = || Expr::rational(&Rational::from(1)).apply(UnaryFunction::Atan);
     let outcome = prove(&[false], |x| (eighth() * 4.0 - x[0]).sin() - x[0].sin());
     assert!(is_proved(&outcome), "sin(π − φ) = sin φ: {outcome:?}");
     let outcome = prove(&[false], |x| (x[0] - eighth() * 2.0).cos() - x[0].sin());
@@ -183,7 +183,10 @@ fn quarter_turns_are_known() {
         assert!(!is_proved(&outcome), "sin({wrong} π/4 − φ) is not sin φ: {outcome:?}");
     }
     let outcome = prove(&[false], |x| eighth().sin() * x[0] - eighth().cos() * x[0]);
-    assert!(matches!(outcome, Outcome::Silent(_)), "sin π/4 is no rational number: {outcome:?}");
+    assert!(
+        matches!(outcome, GroupOutcome::Silent(_)),
+        "sin π/4 is no rational number: {outcome:?}"
+    );
     let outcome = prove(&[false], |x| {
         let (double, half) = (eighth() * 4.0 + x[0] * 2.0, x[0] - eighth() * 2.0);
         double.sin() - half.sin() * half.cos() * 2.0
@@ -197,12 +200,12 @@ fn a_value_that_never_exists_is_not_zero() {
         let zero = (x[0] + 1.0).powi(2) - x[0] * x[0] - x[0] * 2.0 - 1.0;
         zero.recip() * x[0]
     });
-    assert!(matches!(outcome, Outcome::Silent(_)), "1/0: {outcome:?}");
+    assert!(matches!(outcome, GroupOutcome::Silent(_)), "1/0: {outcome:?}");
     let outcome = prove(&[false], |x| {
         let root = (-(x[0] * x[0])).sqrt();
         root - root * x[0] / x[0]
     });
-    assert!(matches!(outcome, Outcome::Void), "√(-x²): {outcome:?}");
+    assert!(matches!(outcome, GroupOutcome::Void), "√(-x²): {outcome:?}");
 }
 
 #[test]
@@ -226,7 +229,7 @@ fn a_root_is_only_replaced_where_its_factors_are_real() {
 }
 
 /// Proves over inputs in -2..2.
-fn prove_anywhere(inputs: usize, build: impl FnOnce(&[Expr]) -> Expr) -> Outcome {
+fn prove_anywhere(inputs: usize, build: impl FnOnce(&[Expr]) -> Expr) -> GroupOutcome {
     let (graph, value) = record(inputs, build).expect("records");
     let two = Rational::from(2);
     let extents = vec![Extent::between(&-&two, &two); inputs];
@@ -373,7 +376,10 @@ fn nothing_holds_where_nothing_is_real() {
         let root = (-(x[0] * x[0]) - x[1] * x[1]).sqrt();
         root - x[0]
     });
-    assert!(matches!(outcome, Outcome::Void), "−x² − y² has no root: {outcome:?}");
+    assert!(matches!(outcome, GroupOutcome::Void), "−x² − y² has no root: {outcome:?}");
     let outcome = prove(&[false], |x| number("-3").sqrt() * x[0]);
-    assert!(matches!(outcome, Outcome::Void | Outcome::Silent(_)), "nor has −3: {outcome:?}");
+    assert!(
+        matches!(outcome, GroupOutcome::Void | GroupOutcome::Silent(_)),
+        "nor has −3: {outcome:?}"
+    );
 }

@@ -12,17 +12,17 @@
 use rustc_hash::FxHashSet;
 
 use crate::graph::{Expr, Graph, Step};
-use crate::number::{Function, Operation};
+use crate::number::{BinaryOperation, UnaryFunction};
 
 use super::characters::{Character, Characters, MOST_FIRST, Space};
-use super::digest::Digest;
+use super::digest::SeedDigest;
 use super::lower::Algebraic;
 use super::refusals::Refusals;
 use super::trial::{MOST_NESTED, Trial};
 
 /// Status of the root of a base.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Standing {
+pub enum RootStatus {
     /// Radicand known not to be a square in the field of the roots before it, modulo each of the
     /// primes.
     Independent,
@@ -41,7 +41,7 @@ pub enum Standing {
 /// Standings of all bases of an algebraic graph.
 pub struct Tower {
     /// Standings by base.
-    pub standings: Vec<Standing>,
+    pub standings: Vec<RootStatus>,
     /// Signs of the independent roots, as bits.
     pub independent: u128,
     /// Number of independent roots whose radicand contains others.
@@ -50,10 +50,15 @@ pub struct Tower {
 
 impl Tower {
     /// Examines the bases of `algebraic`, which was lowered from `graph`.
-    pub fn of(graph: &Graph, algebraic: &Algebraic<'_>, trial: &Trial<'_>, digest: Digest) -> Self {
+    pub fn of(
+        graph: &Graph,
+        algebraic: &Algebraic<'_>,
+        trial: &Trial<'_>,
+        digest: SeedDigest,
+    ) -> Self {
         let bases = &algebraic.bases;
         let mut tower =
-            Self { standings: vec![Standing::Deferred; bases.len()], independent: 0, nested: 0 };
+            Self { standings: vec![RootStatus::Deferred; bases.len()], independent: 0, nested: 0 };
         tower.first_layer(algebraic, trial, digest);
         tower.nested_layers(graph, algebraic, trial, digest);
         tower
@@ -67,7 +72,7 @@ impl Tower {
     /// Whether a value is the square root of an independent base.
     pub fn is_independent_root(&self, algebraic: &Algebraic<'_>, value: Expr) -> bool {
         algebraic.bases.iter().zip(&self.standings).any(|(base, standing)| {
-            *standing == Standing::Independent
+            *standing == RootStatus::Independent
                 && base.links.first().is_some_and(|(link, _)| *link == value)
         })
     }
@@ -79,7 +84,7 @@ impl Tower {
     }
 
     /// Examines radicands without roots.
-    fn first_layer(&mut self, algebraic: &Algebraic<'_>, trial: &Trial<'_>, digest: Digest) {
+    fn first_layer(&mut self, algebraic: &Algebraic<'_>, trial: &Trial<'_>, digest: SeedDigest) {
         let bases = algebraic.bases.iter().enumerate();
         let first: Vec<usize> = bases
             .filter(|(_, base)| algebraic.mask(base.radicand) == 0)
@@ -95,8 +100,8 @@ impl Tower {
             characters.counts.iter().map(|count| Space::of_minus_one(*count)).collect();
         for (own, index) in first.iter().enumerate() {
             let standing = match characters.of_radicand(own) {
-                Character::Zero => Standing::Zero,
-                Character::Unreached => Standing::Unreached,
+                Character::Zero => RootStatus::Zero,
+                Character::Unreached => RootStatus::Unreached,
                 Character::Residues(residues) => {
                     let mut extended = spaces.clone();
                     let relations: Vec<Option<u128>> = extended
@@ -107,16 +112,16 @@ impl Tower {
                     match relations.into_iter().flatten().next() {
                         None => {
                             spaces = extended;
-                            Standing::Independent
+                            RootStatus::Independent
                         }
                         Some(relation) => {
                             let among = (0..own).filter(|k| relation >> k & 1 == 1);
-                            Standing::Dependent(among.map(|k| first[k]).collect())
+                            RootStatus::Dependent(among.map(|k| first[k]).collect())
                         }
                     }
                 }
             };
-            if standing == Standing::Independent {
+            if standing == RootStatus::Independent {
                 self.admit(algebraic, *index);
             }
             self.standings[*index] = standing;
@@ -129,7 +134,7 @@ impl Tower {
         graph: &Graph,
         algebraic: &Algebraic<'_>,
         trial: &Trial<'_>,
-        digest: Digest,
+        digest: SeedDigest,
     ) {
         let is_nested = |index: &usize| algebraic.mask(algebraic.bases[*index].radicand) != 0;
         let mut open = Vec::new();
@@ -141,7 +146,7 @@ impl Tower {
             }
             let has_factor = base.arguments.iter().any(|place| has_root_as_factor(graph, *place));
             if has_factor && self.is_clean(algebraic, base.radicand) {
-                self.standings[index] = Standing::Split;
+                self.standings[index] = RootStatus::Split;
             } else {
                 open.push(index);
             }
@@ -151,7 +156,7 @@ impl Tower {
             return;
         }
         let first: Vec<usize> = (0..self.standings.len())
-            .filter(|index| self.standings[*index] == Standing::Independent)
+            .filter(|index| self.standings[*index] == RootStatus::Independent)
             .collect();
         let refusals = Refusals::of(algebraic, trial, &first, &open, digest);
         for (own, index) in open.iter().enumerate() {
@@ -159,7 +164,7 @@ impl Tower {
                 continue;
             }
             self.standings[*index] = refusals.standing(own);
-            if self.standings[*index] == Standing::Independent {
+            if self.standings[*index] == RootStatus::Independent {
                 self.admit(algebraic, *index);
                 self.nested += 1;
             }
@@ -182,13 +187,13 @@ fn has_root_as_factor(graph: &Graph, place: usize) -> bool {
             continue;
         }
         match graph.step(place) {
-            Step::Unary(Function::Sqrt, _) => return true,
+            Step::Unary(UnaryFunction::Sqrt, _) => return true,
             Step::Power(a, exponent) => match exponent.to_integer() {
                 None => return true,
                 Some(_) => open.push(a),
             },
-            Step::Unary(Function::Neg | Function::Recip, a) => open.push(a),
-            Step::Binary(Operation::Mul, a, b) => open.extend([a, b]),
+            Step::Unary(UnaryFunction::Neg | UnaryFunction::Recip, a) => open.push(a),
+            Step::Binary(BinaryOperation::Mul, a, b) => open.extend([a, b]),
             _ => {}
         }
     }

@@ -10,9 +10,9 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::{Dual, Dual64, DualNum};
 
 /// Numbers of the residuals: f64 and its duals.
-trait Number: DualNum<Primitive = f64> + Copy {}
+trait DualOrFloat: DualNum<Primitive = f64> + Copy {}
 
-impl<T: DualNum<Primitive = f64> + Copy> Number for T {}
+impl<T: DualNum<Primitive = f64> + Copy> DualOrFloat for T {}
 
 const MASS: f64 = 1.3;
 const RADIUS: f64 = 3.0;
@@ -82,7 +82,7 @@ fn rotation_about(gamma: &Vector3<f64>, slopes: &[Vector3<f64>; 3]) -> f64 {
 
 /// Returns Σ ∂ω'_i/∂ω_i of an ellipsoid; γ' has no divergence.
 #[inline]
-fn divergence<T: Number>(omega: &Vector3<T>, gamma: &Vector3<T>, central: &[f64; 3]) -> T {
+fn divergence<T: DualOrFloat>(omega: &Vector3<T>, gamma: &Vector3<T>, central: &[f64; 3]) -> T {
     let along = |axis: usize| {
         let mut omega = omega.map(Dual::from_re);
         omega[axis].eps = T::one();
@@ -100,12 +100,12 @@ fn split(state: &[f64]) -> (Vector3<f64>, Vector3<f64>) {
 }
 
 #[inline]
-fn ball<T: Number>(gamma: &Vector3<T>) -> Vector3<T> {
+fn ball<T: DualOrFloat>(gamma: &Vector3<T>) -> Vector3<T> {
     -(gamma.map(|x| x * RADIUS) + Vector3::from(CENTRE).map(T::from))
 }
 
 #[inline]
-fn ellipsoid<T: Number>(gamma: &Vector3<T>) -> Vector3<T> {
+fn ellipsoid<T: DualOrFloat>(gamma: &Vector3<T>) -> Vector3<T> {
     let image = gamma.component_mul(&Vector3::from(SQUARES).map(T::from));
     let scale = -gamma.dot(&image).sqrt().recip();
     image.map(|x| x * scale)
@@ -113,7 +113,7 @@ fn ellipsoid<T: Number>(gamma: &Vector3<T>) -> Vector3<T> {
 
 /// Returns r' of the ellipsoid for γ' = `rate`.
 #[inline]
-fn ellipsoid_slide<T: Number>(gamma: &Vector3<T>, rate: &Vector3<T>) -> Vector3<T> {
+fn ellipsoid_slide<T: DualOrFloat>(gamma: &Vector3<T>, rate: &Vector3<T>) -> Vector3<T> {
     let squares = Vector3::from(SQUARES).map(T::from);
     let (image, image_rate) = (gamma.component_mul(&squares), rate.component_mul(&squares));
     let square = gamma.dot(&image);
@@ -123,20 +123,20 @@ fn ellipsoid_slide<T: Number>(gamma: &Vector3<T>, rate: &Vector3<T>) -> Vector3<
 }
 
 #[inline]
-fn inertia_at<T: Number>(r: &Vector3<T>, central: &[f64; 3]) -> Matrix3<T> {
+fn inertia_at<T: DualOrFloat>(r: &Vector3<T>, central: &[f64; 3]) -> Matrix3<T> {
     let steiner = Matrix3::from_diagonal_element(r.dot(r)) - r * r.transpose();
     Matrix3::from_diagonal(&Vector3::from(*central).map(T::from)) + steiner.map(|x| x * MASS)
 }
 
 /// Adjugate of a symmetric matrix.
 #[inline]
-fn adjugate<T: Number>(a: &Matrix3<T>) -> Matrix3<T> {
+fn adjugate<T: DualOrFloat>(a: &Matrix3<T>) -> Matrix3<T> {
     let [x, y, z] = [0, 1, 2].map(|k| a.column(k).into_owned());
     Matrix3::from_columns(&[y.cross(&z), z.cross(&x), x.cross(&y)])
 }
 
 #[inline]
-fn acceleration<T: Number>(
+fn acceleration<T: DualOrFloat>(
     omega: &Vector3<T>,
     gamma: &Vector3<T>,
     r: &Vector3<T>,
@@ -155,7 +155,7 @@ fn acceleration<T: Number>(
 
 /// Integral |Ĩω × γ|² - 2mR(γ,c)(Ĩω,ω).
 #[inline]
-fn second_integral<T: Number>(omega: &Vector3<T>, gamma: &Vector3<T>) -> T {
+fn second_integral<T: DualOrFloat>(omega: &Vector3<T>, gamma: &Vector3<T>) -> T {
     let momentum = inertia_at(&ball(gamma), &INERTIA) * omega;
     let turned = momentum.cross(gamma);
     let centre = Vector3::from(CENTRE).map(T::from);

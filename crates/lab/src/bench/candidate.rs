@@ -1,10 +1,10 @@
 //! Interface of the methods that compute a residual, timed as black boxes.
 
-use liouville::number::precise::Approximation;
-use liouville::verdict::{LANES, Sampler, antiderivative_value};
+use liouville::number::arb::Approximation;
+use liouville::verdict::{Sampler, TAPE_LANES, antiderivative_value};
 
 /// Block of states: one entry for each input of the tape, one f64 for each lane.
-pub type Block = Vec<[f64; LANES]>;
+pub type Block = Vec<[f64; TAPE_LANES]>;
 
 /// Method that computes the residual at blocks of states.
 pub trait Candidate {
@@ -28,8 +28,8 @@ pub trait Candidate {
 pub fn states(sampler: &Sampler, blocks: u64, antiderivatives: usize) -> Option<Vec<Block>> {
     (0..blocks)
         .map(|block| {
-            let balls = sampler.balls(block * LANES as u64);
-            let whole: Vec<usize> = (0..LANES)
+            let balls = sampler.balls(block * TAPE_LANES as u64);
+            let whole: Vec<usize> = (0..TAPE_LANES)
                 .filter(|lane| balls.iter().all(|input| input.is_defined(*lane)))
                 .collect();
             let first = *whole.first()?;
@@ -37,7 +37,7 @@ pub fn states(sampler: &Sampler, blocks: u64, antiderivatives: usize) -> Option<
             let values =
                 balls.iter().map(|input| std::array::from_fn(|lane| input.mid[source(lane)]));
             let constants =
-                (0..antiderivatives).map(|k| [antiderivative_value(k).to_f64().0; LANES]);
+                (0..antiderivatives).map(|k| [antiderivative_value(k).to_f64().0; TAPE_LANES]);
             Some(values.chain(constants).collect())
         })
         .collect()

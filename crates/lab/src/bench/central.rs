@@ -6,11 +6,11 @@
 use super::candidate::{Block, Candidate};
 use super::underived::{AlongAxis, AlongField, Term, Underived};
 use liouville::graph::Evaluator;
+use liouville::number::arb::Approximation;
 use liouville::number::float::Float;
-use liouville::number::precise::Approximation;
-use liouville::verdict::LANES;
+use liouville::verdict::TAPE_LANES;
 
-type Run<'t> = Evaluator<'t, Float<LANES>>;
+type Run<'t> = Evaluator<'t, Float<TAPE_LANES>>;
 
 /// Residual by central differences.
 pub struct Central<'t> {
@@ -19,13 +19,13 @@ pub struct Central<'t> {
     along_field: Option<(&'t AlongField, Run<'t>, Run<'t>)>,
     along_axes: Vec<(&'t AlongAxis, Run<'t>)>,
     moved: Block,
-    results: [f64; LANES],
+    results: [f64; TAPE_LANES],
 }
 
 impl<'t> Central<'t> {
     /// Prepares the differences of these tapes at these states.
     pub fn new(underived: &'t Underived, states: &'t [Block]) -> Self {
-        let run = |tape| Evaluator::new(tape, Float::<LANES>);
+        let run = |tape| Evaluator::new(tape, Float::<TAPE_LANES>);
         let along_field = underived.along_field.as_ref();
         Self {
             underived,
@@ -33,7 +33,7 @@ impl<'t> Central<'t> {
             along_field: along_field.map(|part| (part, run(&part.field), run(&part.value))),
             along_axes: underived.along_axes.iter().map(|part| (part, run(&part.values))).collect(),
             moved: Vec::new(),
-            results: [0.0; LANES],
+            results: [0.0; TAPE_LANES],
         }
     }
 }
@@ -44,16 +44,16 @@ impl Candidate for Central<'_> {
         let (first, count) = (self.underived.parameters, self.underived.dimension);
         let reach = norm(&inputs[first..first + count]).map(|size| f64::EPSILON.cbrt() * size);
         self.moved.clone_from(inputs);
-        self.results = [0.0; LANES];
+        self.results = [0.0; TAPE_LANES];
         if let Some((part, field, value)) = &mut self.along_field {
             field.run(inputs);
             let direction: Block = field.outputs().copied().collect();
             let speed = norm(&direction);
-            let step: [f64; LANES] = std::array::from_fn(|lane| reach[lane] / speed[lane]);
+            let step: [f64; TAPE_LANES] = std::array::from_fn(|lane| reach[lane] / speed[lane]);
             let mut at = |sign: f64| {
                 for (k, rate) in direction.iter().enumerate() {
                     let (x, moved) = (&inputs[first + k], &mut self.moved[first + k]);
-                    for lane in 0..LANES {
+                    for lane in 0..TAPE_LANES {
                         moved[lane] = x[lane] + sign * step[lane] * rate[lane];
                     }
                 }
@@ -61,7 +61,7 @@ impl Candidate for Central<'_> {
                 *value.output(0)
             };
             let (ahead, behind) = (at(1.0), at(-1.0));
-            for lane in 0..LANES {
+            for lane in 0..TAPE_LANES {
                 // The mean of both is ρ up to h², as the quotient is the derivative.
                 let unit = if part.logarithmic { 0.5 * (ahead[lane] + behind[lane]) } else { 1.0 };
                 // At an equilibrium the derivative is 0, though there is no direction to step
@@ -75,7 +75,7 @@ impl Candidate for Central<'_> {
             let x = &inputs[part.input];
             let mut at = |sign: f64| {
                 let moved = &mut self.moved[part.input];
-                for lane in 0..LANES {
+                for lane in 0..TAPE_LANES {
                     moved[lane] = x[lane] + sign * reach[lane];
                 }
                 let place = *moved;
@@ -85,7 +85,7 @@ impl Candidate for Central<'_> {
             let ((to, ahead), (from, behind)) = (at(1.0), at(-1.0));
             self.moved[part.input] = *x;
             for (k, term) in part.terms.iter().enumerate() {
-                for lane in 0..LANES {
+                for lane in 0..TAPE_LANES {
                     // The distance between the points as they were rounded.
                     let slope = (ahead[k][lane] - behind[k][lane]) / (to[lane] - from[lane]);
                     self.results[lane] += term.weight(inputs, lane) * slope;
@@ -107,6 +107,6 @@ impl Term {
 }
 
 /// Length of a vector in each lane.
-fn norm(vector: &[[f64; LANES]]) -> [f64; LANES] {
+fn norm(vector: &[[f64; TAPE_LANES]]) -> [f64; TAPE_LANES] {
     std::array::from_fn(|lane| vector.iter().map(|x| x[lane] * x[lane]).sum::<f64>().sqrt())
 }

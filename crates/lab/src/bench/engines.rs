@@ -2,12 +2,12 @@
 
 use std::time::{Duration, Instant};
 
-use super::Method;
+use super::DifferentiationMethod;
 use super::candidate::{Block, Candidate};
-use super::subject::Entry;
-use liouville::engine::{Engine, Means, Runner};
+use super::subject::BenchCandidate;
+use liouville::engine::{Backend, Engine, Runner};
 use liouville::graph::{Expr, Tape, record};
-use liouville::number::precise::Approximation;
+use liouville::number::arb::Approximation;
 
 /// Number of independent sums: more than a processor executes at once, and few enough to have a
 /// register each.
@@ -15,22 +15,29 @@ const CHAINS: usize = 12;
 
 /// Entries for the engines of this machine, and the floor; `laying_out` is the time to lay out the
 /// tape.
-pub fn all<'s>(tape: &Tape, states: &'s [Block], laying_out: Duration) -> Vec<Entry<'s>> {
+pub fn all<'s>(tape: &Tape, states: &'s [Block], laying_out: Duration) -> Vec<BenchCandidate<'s>> {
     let mut entries = Vec::new();
     let mut add = |method, domain, engine: &Engine, set_up, candidate| {
         let operations = Some(engine.steps());
-        entries.push(Entry { method, domain, operations, set_up, candidate });
+        entries.push(BenchCandidate { method, domain, operations, set_up, candidate });
     };
-    let kinds = [("f64, interpreter", Means::Interpreter), ("f64, machine code", Means::Quickest)];
+    let kinds =
+        [("f64, interpreter", Backend::Interpreter), ("f64, machine code", Backend::Quickest)];
     for (domain, means) in kinds {
         let started = Instant::now();
         let engine = Engine::new(tape, means);
         let set_up = laying_out + started.elapsed();
-        if means == Means::Interpreter || engine.is_machine_code() {
+        if means == Backend::Interpreter || engine.is_machine_code() {
             let candidate = Box::new(EngineRun { runner: engine.runner(), states });
-            add(Method::MergedTape, domain, &engine, set_up, candidate as Box<dyn Candidate>);
+            add(
+                DifferentiationMethod::MergedTape,
+                domain,
+                &engine,
+                set_up,
+                candidate as Box<dyn Candidate>,
+            );
             if let Some(floor) = floor(engine.steps()).filter(|_| engine.is_machine_code()) {
-                add(Method::Floor, "f64", &engine, Duration::ZERO, Box::new(floor));
+                add(DifferentiationMethod::Floor, "f64", &engine, Duration::ZERO, Box::new(floor));
             }
         }
     }
@@ -83,5 +90,5 @@ fn floor(steps: usize) -> Option<Floor> {
         chains
     })
     .ok()?;
-    Some(Floor(Engine::new(&Tape::new(&graph, &ends), Means::Quickest).runner()))
+    Some(Floor(Engine::new(&Tape::new(&graph, &ends), Backend::Quickest).runner()))
 }

@@ -1,23 +1,23 @@
 //! Items of a benchmark: three work items of fixed size, or the cases of a user.
 
-use super::{Method, by_hand};
+use super::{DifferentiationMethod, by_hand};
 use liouville::case::{Case, CaseError};
 
 /// Residual as a function of the state's components.
 pub type Residual = fn(&[f64]) -> f64;
 
 /// A case to be measured.
-pub struct Item {
+pub struct BenchItem {
     /// Name: `W1`, or the path of a case file.
     pub name: String,
     /// The case; each of its claims is measured.
     pub case: Case,
     /// Residuals written by hand with num-dual, from the state's components: plain code first, then
     /// from a formula for the residual, where there is one.
-    pub by_hand: Vec<(Method, Residual)>,
+    pub by_hand: Vec<(DifferentiationMethod, Residual)>,
 }
 
-impl Item {
+impl BenchItem {
     /// An item for a user's case.
     pub fn new(name: String, case: Case) -> Self {
         Self { name, case, by_hand: Vec::new() }
@@ -64,14 +64,18 @@ const WORK_ITEMS: [WorkItem; 3] = [
 /// W1: L_vF₂ of the unbalanced ball, F₂ = |Ĩω × γ|² - 2mR(γ,c)(Ĩω,ω).
 /// W2: v(ln ρ) + div v of the ellipsoid with I = mB + μE, ρ = (γ,adj(Ĩ)γ).
 /// W3: (γ, rot a) of an ellipsoid with any inertia, which is not zero.
-pub fn work_items() -> Result<Vec<Item>, CaseError> {
+pub fn work_items() -> Result<Vec<BenchItem>, CaseError> {
     WORK_ITEMS
         .iter()
         .map(|item| {
             let case = Case::parse(item.text, &[])?;
-            let closed = item.closed.map(|closed| (Method::NumDualClosedForm, closed));
-            let by_hand = [(Method::NumDualByHand, item.plain)].into_iter().chain(closed).collect();
-            Ok(Item { name: item.name.to_string(), case, by_hand })
+            let closed =
+                item.closed.map(|closed| (DifferentiationMethod::NumDualClosedForm, closed));
+            let by_hand = [(DifferentiationMethod::NumDualByHand, item.plain)]
+                .into_iter()
+                .chain(closed)
+                .collect();
+            Ok(BenchItem { name: item.name.to_string(), case, by_hand })
         })
         .collect()
 }

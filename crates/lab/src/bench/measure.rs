@@ -5,10 +5,10 @@ use std::time::{Duration, Instant};
 
 use super::candidate::Candidate;
 use super::reference::reference;
-use super::subject::{Entry, Subject};
-use super::{BenchError, Row};
-use liouville::number::precise::Approximation;
-use liouville::verdict::LANES;
+use super::subject::{BenchCandidate, BenchClaim};
+use super::{BenchError, MethodMeasurements};
+use liouville::number::arb::Approximation;
+use liouville::verdict::TAPE_LANES;
 
 /// Minimum run time of a candidate in a round, so that the clock's overhead is negligible.
 const ROUND: Duration = Duration::from_micros(100);
@@ -18,7 +18,10 @@ const ENOUGH: Duration = Duration::from_millis(40);
 const FEWEST: usize = 9;
 
 /// Measures all rows of a subject.
-pub fn measure(subject: &Subject<'_>, rounds: usize) -> Result<Vec<Row>, BenchError> {
+pub fn measure(
+    subject: &BenchClaim<'_>,
+    rounds: usize,
+) -> Result<Vec<MethodMeasurements>, BenchError> {
     let blocks = subject.states().len();
     let truth = reference(subject.residual(), subject.states());
     let scales = subject.scales()?.concat();
@@ -32,7 +35,7 @@ pub fn measure(subject: &Subject<'_>, rounds: usize) -> Result<Vec<Row>, BenchEr
                 Some(value.add(&truth.neg(), u32::MAX).enclosure().0.abs() / scale)
             }));
         let bounds = sorted(found.iter().zip(&scales).map(|(found, scale)| Some(found.1? / scale)));
-        Row {
+        MethodMeasurements {
             method: entry.method,
             domain: entry.domain,
             ns_per_state: nanoseconds,
@@ -59,17 +62,17 @@ fn values(
     candidate: &mut dyn Candidate,
     blocks: usize,
 ) -> Vec<(Option<Approximation>, Option<f64>)> {
-    let mut values = Vec::with_capacity(blocks * LANES);
+    let mut values = Vec::with_capacity(blocks * TAPE_LANES);
     for block in 0..blocks {
         candidate.run(block);
-        values.extend((0..LANES).map(|lane| (candidate.value(lane), candidate.bound(lane))));
+        values.extend((0..TAPE_LANES).map(|lane| (candidate.value(lane), candidate.bound(lane))));
     }
     values
 }
 
 /// Median nanoseconds per state. In each round every candidate runs in turn, so that a change of
 /// the machine's speed affects them all.
-fn times(entries: &mut [Entry<'_>], blocks: usize, rounds: usize) -> Vec<f64> {
+fn times(entries: &mut [BenchCandidate<'_>], blocks: usize, rounds: usize) -> Vec<f64> {
     let repeats: Vec<u32> = entries.iter_mut().map(|entry| calibrate(entry, blocks)).collect();
     let mut samples: Vec<Vec<f64>> = vec![Vec::with_capacity(rounds); entries.len()];
     let mut spent = vec![Duration::ZERO; entries.len()];
@@ -80,7 +83,7 @@ fn times(entries: &mut [Entry<'_>], blocks: usize, rounds: usize) -> Vec<f64> {
             }
             let time = pass(entry.candidate.as_mut(), repeats[k], blocks);
             spent[k] += time;
-            let states = f64::from(repeats[k]) * LANES as f64;
+            let states = f64::from(repeats[k]) * TAPE_LANES as f64;
             samples[k].push(time.as_secs_f64() * 1e9 / states);
         }
     }
@@ -88,7 +91,7 @@ fn times(entries: &mut [Entry<'_>], blocks: usize, rounds: usize) -> Vec<f64> {
 }
 
 /// Number of blocks that fill a round. The first pass warms caches, the second counts.
-fn calibrate(entry: &mut Entry<'_>, blocks: usize) -> u32 {
+fn calibrate(entry: &mut BenchCandidate<'_>, blocks: usize) -> u32 {
     pass(entry.candidate.as_mut(), 1, blocks);
     let once = pass(entry.candidate.as_mut(), 1, blocks).as_nanos().max(1);
     u32::try_from(ROUND.as_nanos().div_ceil(once)).unwrap_or(u32::MAX)

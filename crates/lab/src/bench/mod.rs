@@ -18,7 +18,7 @@
 //! ```
 //!
 //! where the reference is the same residual in a precision beyond every candidate, and the scale is
-//! a reference size of the residual ([`liouville::claim::Context::scale`]): a residual that is zero has
+//! a reference size of the residual ([`liouville::claim::ResidualContext::scale`]): a residual that is zero has
 //! no relative error.
 
 mod by_hand;
@@ -37,14 +37,14 @@ mod underived;
 use serde::Serialize;
 
 pub use candidate::Candidate;
-pub use items::{Item, Residual, work_items};
-pub use subject::{Entry, Subject, record_merged, record_residual};
+pub use items::{BenchItem, Residual, work_items};
+pub use subject::{BenchCandidate, BenchClaim, record_merged, record_residual};
 
 use liouville::graph::Fault;
 
 /// Method of differentiation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
-pub enum Method {
+pub enum DifferentiationMethod {
     /// The recorded residual.
     #[serde(rename = "tape")]
     Tape,
@@ -68,35 +68,35 @@ pub enum Method {
     CentralDifference,
 }
 
-impl Method {
+impl DifferentiationMethod {
     /// All methods, in the order of reports.
-    pub const ALL: [Method; 7] = [
-        Method::Tape,
-        Method::MergedTape,
-        Method::Floor,
-        Method::NumDualByHand,
-        Method::NumDualClosedForm,
-        Method::ComplexStep,
-        Method::CentralDifference,
+    pub const ALL: [DifferentiationMethod; 7] = [
+        DifferentiationMethod::Tape,
+        DifferentiationMethod::MergedTape,
+        DifferentiationMethod::Floor,
+        DifferentiationMethod::NumDualByHand,
+        DifferentiationMethod::NumDualClosedForm,
+        DifferentiationMethod::ComplexStep,
+        DifferentiationMethod::CentralDifference,
     ];
 
     /// Name of the method in reports.
     pub fn name(self) -> &'static str {
         match self {
-            Method::Tape => "tape",
-            Method::MergedTape => "merged tape",
-            Method::Floor => "floor",
-            Method::NumDualByHand => "num-dual by hand",
-            Method::NumDualClosedForm => "num-dual, closed form",
-            Method::ComplexStep => "complex step",
-            Method::CentralDifference => "central difference",
+            DifferentiationMethod::Tape => "tape",
+            DifferentiationMethod::MergedTape => "merged tape",
+            DifferentiationMethod::Floor => "floor",
+            DifferentiationMethod::NumDualByHand => "num-dual by hand",
+            DifferentiationMethod::NumDualClosedForm => "num-dual, closed form",
+            DifferentiationMethod::ComplexStep => "complex step",
+            DifferentiationMethod::CentralDifference => "central difference",
         }
     }
 }
 
 /// Options of a measurement.
 #[derive(Clone, Copy, Debug)]
-pub struct Options {
+pub struct BenchOptions {
     /// Seed of all states.
     pub seed: u64,
     /// Number of blocks of 64 states.
@@ -105,7 +105,7 @@ pub struct Options {
     pub rounds: usize,
 }
 
-impl Default for Options {
+impl Default for BenchOptions {
     fn default() -> Self {
         Self { seed: 1, blocks: 4, rounds: 21 }
     }
@@ -113,7 +113,7 @@ impl Default for Options {
 
 /// Measurements of one claim.
 #[derive(Clone, Debug)]
-pub struct Measured {
+pub struct ClaimMeasurements {
     /// Name of the item: `W1`, or a path.
     pub item: String,
     /// Name of the claim.
@@ -121,16 +121,16 @@ pub struct Measured {
     /// Kind of the claim.
     pub kind: &'static str,
     /// Rows, one for each method in each domain.
-    pub rows: Vec<Row>,
+    pub rows: Vec<MethodMeasurements>,
     /// Methods that cannot be used, with the reasons.
-    pub skipped: Vec<(Method, &'static str)>,
+    pub skipped: Vec<(DifferentiationMethod, &'static str)>,
 }
 
 /// Measurements of one method in one domain.
 #[derive(Clone, Debug, Serialize)]
-pub struct Row {
+pub struct MethodMeasurements {
     /// Method of differentiation.
-    pub method: Method,
+    pub method: DifferentiationMethod,
     /// Name of the arithmetic.
     pub domain: &'static str,
     /// Nanoseconds per state, the median over the rounds.
@@ -150,21 +150,21 @@ pub struct Row {
     pub states: usize,
 }
 
-impl Measured {
+impl ClaimMeasurements {
     /// Row of the merged tape by the quickest engine of this machine.
-    pub fn quickest(&self) -> Option<&Row> {
+    pub fn quickest(&self) -> Option<&MethodMeasurements> {
         let engines = ["f64, machine code", "f64, interpreter"];
-        engines.iter().find_map(|engine| self.row(Method::MergedTape, engine))
+        engines.iter().find_map(|engine| self.row(DifferentiationMethod::MergedTape, engine))
     }
 
     /// Time of the quickest engine divided by that of plain num-dual code.
     pub fn ratio_to_num_dual(&self) -> Option<f64> {
-        let plain = self.row(Method::NumDualByHand, "f64")?;
+        let plain = self.row(DifferentiationMethod::NumDualByHand, "f64")?;
         Some(self.quickest()?.ns_per_state / plain.ns_per_state)
     }
 
     /// Finds the row of a method in a domain.
-    pub fn row(&self, method: Method, domain: &str) -> Option<&Row> {
+    pub fn row(&self, method: DifferentiationMethod, domain: &str) -> Option<&MethodMeasurements> {
         self.rows.iter().find(|row| row.method == method && row.domain == domain)
     }
 }
@@ -191,10 +191,13 @@ impl BenchError {
 }
 
 /// Measures every claim of an item.
-pub fn measure_item(item: &Item, options: &Options) -> Result<Vec<Measured>, BenchError> {
+pub fn measure_item(
+    item: &BenchItem,
+    options: &BenchOptions,
+) -> Result<Vec<ClaimMeasurements>, BenchError> {
     let one = |claim| {
-        let subject = Subject::new(item, claim, options.seed, options.blocks)?;
-        Ok(Measured {
+        let subject = BenchClaim::new(item, claim, options.seed, options.blocks)?;
+        Ok(ClaimMeasurements {
             item: item.name.clone(),
             claim: subject.claim.name.clone(),
             kind: subject.claim.kind.name(),

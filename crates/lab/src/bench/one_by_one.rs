@@ -1,15 +1,15 @@
 //! Functions written by hand, run one state at a time.
 
 use super::candidate::{Block, Candidate};
-use liouville::number::precise::Approximation;
-use liouville::verdict::LANES;
+use liouville::number::arb::Approximation;
+use liouville::verdict::TAPE_LANES;
 
 /// Function of one state, run over blocks.
 pub struct OneByOne<F> {
     residual: F,
     /// Inputs for each block and lane.
     states: Vec<Vec<Vec<f64>>>,
-    results: [f64; LANES],
+    results: [f64; TAPE_LANES],
 }
 
 impl<F: Fn(&[f64]) -> f64> OneByOne<F> {
@@ -18,9 +18,9 @@ impl<F: Fn(&[f64]) -> f64> OneByOne<F> {
         let lane = |block: &Block, lane: usize| block.iter().map(|input| input[lane]).collect();
         let states = states
             .iter()
-            .map(|block| (0..LANES).map(|index| lane(block, index)).collect())
+            .map(|block| (0..TAPE_LANES).map(|index| lane(block, index)).collect())
             .collect();
-        Self { residual, states, results: [0.0; LANES] }
+        Self { residual, states, results: [0.0; TAPE_LANES] }
     }
 }
 

@@ -9,20 +9,20 @@ use super::engines;
 use super::one_by_one::OneByOne;
 use super::tapes;
 use super::underived::{Reason, Underived};
-use super::{BenchError, Item, Method};
+use super::{BenchError, BenchItem, DifferentiationMethod};
 use liouville::case::{Case, PlacedClaim};
 use liouville::graph::{Evaluator, Expr, Fault, Graph, Tape, record};
 use liouville::mechanics::Phase;
-use liouville::mechanics::calculus::Jet;
+use liouville::mechanics::calculus::DualPoint;
 use liouville::number::float::Float;
-use liouville::verdict::{LANES, Sampler};
+use liouville::verdict::{Sampler, TAPE_LANES};
 
 /// Number of recordings, of which the shortest time counts as set-up.
 const RECORDINGS: usize = 3;
 
 /// A claim under measurement.
-pub struct Subject<'i> {
-    item: &'i Item,
+pub struct BenchClaim<'i> {
+    item: &'i BenchItem,
     /// Claim measured.
     pub claim: &'i PlacedClaim,
     states: Vec<Block>,
@@ -34,9 +34,9 @@ pub struct Subject<'i> {
 }
 
 /// Candidate with the facts known before it runs.
-pub struct Entry<'s> {
+pub struct BenchCandidate<'s> {
     /// Method of differentiation.
-    pub method: Method,
+    pub method: DifferentiationMethod,
     /// Name of the arithmetic.
     pub domain: &'static str,
     /// Operations per state, in the arithmetic of the domain, where they are counted.
@@ -47,10 +47,10 @@ pub struct Entry<'s> {
     pub candidate: Box<dyn Candidate + 's>,
 }
 
-impl<'i> Subject<'i> {
+impl<'i> BenchClaim<'i> {
     /// Records a claim of an item and draws `blocks` blocks of states.
     pub fn new(
-        item: &'i Item,
+        item: &'i BenchItem,
         claim: &'i PlacedClaim,
         seed: u64,
         blocks: u64,
@@ -60,7 +60,7 @@ impl<'i> Subject<'i> {
         let ((residual, antiderivatives), recording) = timed(|| record_residual(case, claim))?;
         let (merged, merging) = timed(|| record_merged(case, claim))?;
         let states =
-            states(&sampler, blocks, antiderivatives).ok_or(BenchError::Unreachable(LANES))?;
+            states(&sampler, blocks, antiderivatives).ok_or(BenchError::Unreachable(TAPE_LANES))?;
         let (underived, time) = timed(|| Underived::record(case, claim))?;
         let underived = underived.map(|underived| (underived, time));
         Ok(Self { item, claim, states, residual, merged, merging, recording, underived })
@@ -77,11 +77,11 @@ impl<'i> Subject<'i> {
     }
 
     /// All candidates that compute the residual.
-    pub fn entries(&self) -> Vec<Entry<'_>> {
-        let mut entries: Vec<Entry<'_>> = tapes::all(&self.residual, &self.states)
+    pub fn entries(&self) -> Vec<BenchCandidate<'_>> {
+        let mut entries: Vec<BenchCandidate<'_>> = tapes::all(&self.residual, &self.states)
             .into_iter()
-            .map(|(domain, candidate)| Entry {
-                method: Method::Tape,
+            .map(|(domain, candidate)| BenchCandidate {
+                method: DifferentiationMethod::Tape,
                 domain,
                 operations: Some(self.residual.operations()),
                 set_up: self.recording,
@@ -90,8 +90,8 @@ impl<'i> Subject<'i> {
             .collect();
         entries.insert(
             1,
-            Entry {
-                method: Method::MergedTape,
+            BenchCandidate {
+                method: DifferentiationMethod::MergedTape,
                 domain: "f64",
                 operations: Some(self.merged.operations()),
                 set_up: self.merging,
@@ -100,7 +100,7 @@ impl<'i> Subject<'i> {
         );
         entries.extend(engines::all(&self.merged, &self.states, self.merging));
         let mut at_f64 = |method, domain, operations, set_up, candidate| {
-            entries.push(Entry { method, domain, operations, set_up, candidate });
+            entries.push(BenchCandidate { method, domain, operations, set_up, candidate });
         };
         let none = Duration::ZERO;
         for (method, by_hand) in &self.item.by_hand {
@@ -110,35 +110,35 @@ impl<'i> Subject<'i> {
         if let Ok((underived, time)) = &self.underived {
             let candidate = Box::new(ComplexStep::new(underived, &self.states));
             let operations = Some(underived.operations(1));
-            at_f64(Method::ComplexStep, "complex f64", operations, *time, candidate);
+            at_f64(DifferentiationMethod::ComplexStep, "complex f64", operations, *time, candidate);
             let candidate = Box::new(Central::new(underived, &self.states));
             let operations = Some(underived.operations(2));
-            at_f64(Method::CentralDifference, "f64", operations, *time, candidate);
+            at_f64(DifferentiationMethod::CentralDifference, "f64", operations, *time, candidate);
         }
         entries
     }
 
     /// Methods that are not measured, with the reasons.
-    pub fn skipped(&self) -> Vec<(Method, Reason)> {
+    pub fn skipped(&self) -> Vec<(DifferentiationMethod, Reason)> {
         let mut skipped = Vec::new();
         if let Err(reason) = &self.underived {
-            skipped.push((Method::ComplexStep, *reason));
-            skipped.push((Method::CentralDifference, *reason));
+            skipped.push((DifferentiationMethod::ComplexStep, *reason));
+            skipped.push((DifferentiationMethod::CentralDifference, *reason));
         }
         skipped
     }
 
     /// Scale of the residual at each lane of each block: |∇F||v| of an integral, |v|(|∇ln ρ| +
     /// 1/|x|) of a density, |a| of a criterion.
-    pub fn scales(&self) -> Result<Vec<[f64; LANES]>, BenchError> {
+    pub fn scales(&self) -> Result<Vec<[f64; TAPE_LANES]>, BenchError> {
         let (graph, scale) = with_jet(&self.item.case, |jet| {
             self.claim.kind.context(jet, &self.claim.place.kept).scale
         })?;
         let tape = Tape::new(&graph, scale.as_slice());
-        let mut evaluator = Evaluator::new(&tape, Float::<LANES>);
+        let mut evaluator = Evaluator::new(&tape, Float::<TAPE_LANES>);
         let square = |block: &Block| {
             evaluator.run(block);
-            scale.map_or([f64::NAN; LANES], |_| evaluator.output(0).map(f64::sqrt))
+            scale.map_or([f64::NAN; TAPE_LANES], |_| evaluator.output(0).map(f64::sqrt))
         };
         Ok(self.states.iter().map(square).collect())
     }
@@ -155,7 +155,7 @@ pub fn record_residual(case: &Case, claim: &PlacedClaim) -> Result<(Tape, usize)
 /// quantities for which the system knows shorter formulas are made by those.
 pub fn record_merged(case: &Case, claim: &PlacedClaim) -> Result<Tape, Fault> {
     let (graph, (residual, shortcuts)) = at_point(case, |phase| {
-        let jet = Jet::short(phase);
+        let jet = DualPoint::short(phase);
         let residual = claim.kind.residual(&jet, &claim.place.kept);
         (residual, jet.phase.model().system.shortcuts(&jet.phase))
     })?;
@@ -163,8 +163,11 @@ pub fn record_merged(case: &Case, claim: &PlacedClaim) -> Result<Tape, Fault> {
     Ok(Tape::new(&graph, &residual))
 }
 
-fn with_jet<R>(case: &Case, build: impl FnOnce(&Jet<'_, Expr>) -> R) -> Result<(Graph, R), Fault> {
-    at_point(case, |phase| build(&Jet::new(phase)))
+fn with_jet<R>(
+    case: &Case,
+    build: impl FnOnce(&DualPoint<'_, Expr>) -> R,
+) -> Result<(Graph, R), Fault> {
+    at_point(case, |phase| build(&DualPoint::new(phase)))
 }
 
 fn at_point<'c, R>(

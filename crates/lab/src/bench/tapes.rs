@@ -5,12 +5,12 @@
 use super::candidate::{Block, Candidate};
 use liouville::graph::{Evaluator, Tape};
 use liouville::number::Domain;
+use liouville::number::arb::{Approximation, ArbBall};
 use liouville::number::ball::{Ball, Balls};
+use liouville::number::double_double_ball::{DoubleDoubleBall, DoubleDoubleBalls};
 use liouville::number::float::Float;
-use liouville::number::precise::{Approximation, Precise};
 use liouville::number::rational::Rational;
-use liouville::number::twofold::{TwofoldBall, Twofolds};
-use liouville::verdict::LANES;
+use liouville::verdict::TAPE_LANES;
 
 /// Domain whose results can be read off exactly.
 pub trait Probe: Domain {
@@ -46,20 +46,20 @@ impl<const N: usize> Probe for Ball<N> {
     }
 }
 
-impl<const N: usize> Probe for TwofoldBall<N> {
+impl<const N: usize> Probe for DoubleDoubleBall<N> {
     const LANES: usize = N;
 
-    fn exact(block: &Twofolds<N>, lane: usize) -> Option<Approximation> {
-        let midpoint = Approximation::from_twofold(block.hi[lane], block.lo[lane], 0.0);
+    fn exact(block: &DoubleDoubleBalls<N>, lane: usize) -> Option<Approximation> {
+        let midpoint = Approximation::from_double_double(block.hi[lane], block.lo[lane], 0.0);
         midpoint.filter(|_| block.is_defined(lane))
     }
 
-    fn radius(block: &Twofolds<N>, lane: usize) -> Option<f64> {
+    fn radius(block: &DoubleDoubleBalls<N>, lane: usize) -> Option<f64> {
         block.is_defined(lane).then(|| block.rad[lane])
     }
 }
 
-impl Probe for Precise {
+impl Probe for ArbBall {
     const LANES: usize = 1;
 
     fn exact(block: &Option<Approximation>, _lane: usize) -> Option<Approximation> {
@@ -79,16 +79,16 @@ pub type Named<'t> = (&'static str, Box<dyn Candidate + 't>);
 pub fn all<'t>(tape: &'t Tape, states: &[Block]) -> Vec<Named<'t>> {
     vec![
         ("f64", in_f64(tape, states)),
-        ("ball, f64", run(tape, Ball::<LANES>, states)),
-        ("ball, double-double", run(tape, TwofoldBall::<LANES>, states)),
-        ("ball, 128 bits", run(tape, Precise::new(128), states)),
-        ("ball, 256 bits", run(tape, Precise::new(256), states)),
+        ("ball, f64", run(tape, Ball::<TAPE_LANES>, states)),
+        ("ball, double-double", run(tape, DoubleDoubleBall::<TAPE_LANES>, states)),
+        ("ball, 128 bits", run(tape, ArbBall::new(128), states)),
+        ("ball, 256 bits", run(tape, ArbBall::new(256), states)),
     ]
 }
 
 /// Candidate for a tape in f64.
 pub fn in_f64<'t>(tape: &'t Tape, states: &[Block]) -> Box<dyn Candidate + 't> {
-    run(tape, Float::<LANES>, states)
+    run(tape, Float::<TAPE_LANES>, states)
 }
 
 fn run<'t, D: Probe + 't>(tape: &'t Tape, domain: D, states: &[Block]) -> Box<dyn Candidate + 't> {
@@ -107,7 +107,7 @@ impl<'t, D: Probe> TapeRun<'t, D> {
     /// Converts the states to the domain.
     pub fn new(tape: &'t Tape, domain: D, states: &[Block]) -> Self {
         let part = |block: &Block, start: usize| -> Vec<D::Block> {
-            let image = |input: &[f64; LANES]| {
+            let image = |input: &[f64; TAPE_LANES]| {
                 let lanes = input[start..].iter().take(D::LANES);
                 // States are finite.
                 let zero = || Rational::from(0);
@@ -119,9 +119,12 @@ impl<'t, D: Probe> TapeRun<'t, D> {
         };
         let inputs = states
             .iter()
-            .map(|block| (0..LANES).step_by(D::LANES).map(|start| part(block, start)).collect())
+            .map(|block| {
+                (0..TAPE_LANES).step_by(D::LANES).map(|start| part(block, start)).collect()
+            })
             .collect();
-        let results = (0..LANES).step_by(D::LANES).map(|_| domain.constant(&Rational::from(0)));
+        let results =
+            (0..TAPE_LANES).step_by(D::LANES).map(|_| domain.constant(&Rational::from(0)));
         let results = results.collect();
         Self { evaluator: Evaluator::new(tape, domain), inputs, results }
     }

@@ -9,7 +9,7 @@
 //! ```
 
 use liouville::case::{Case, PlacedClaim};
-use liouville::claim::{Density, Integral, Kind};
+use liouville::claim::{ClaimKind, Density, Integral};
 use liouville::formula::Type;
 use liouville::graph::{Expr, Fault, Graph, Tape, record};
 use liouville::mechanics::{NORMAL, Phase, System};
@@ -64,21 +64,27 @@ impl Underived {
         let (parameters, dimension) = (model.free_components(), model.dimension());
         let inputs = parameters + dimension;
         let kept = claim.place.kept.iter().any(|kept| *kept);
-        if matches!(claim.kind, Kind::Density(_)) && kept && !model.system.conserves_level() {
+        if matches!(claim.kind, ClaimKind::Density(_)) && kept && !model.system.conserves_level() {
             return Ok(Err(
                 "the level changes next to itself, and its cofactor takes second derivatives",
             ));
         }
         let is_criterion = matches!(
             claim.kind,
-            Kind::AnalyticDensity(_) | Kind::SmoothDensity(_) | Kind::PositionDensity(_)
+            ClaimKind::AnalyticDensity(_)
+                | ClaimKind::SmoothDensity(_)
+                | ClaimKind::PositionDensity(_)
         );
         if is_criterion && matches!(model.system, System::Spinning(_)) {
             return Ok(Err("C₁ is not the derivative of one function"));
         }
         let formula = match &claim.kind {
-            Kind::Integral(Integral(formula)) | Kind::Density(Density(formula)) => Some(formula),
-            Kind::AnalyticDensity(_) | Kind::SmoothDensity(_) | Kind::PositionDensity(_) => None,
+            ClaimKind::Integral(Integral(formula)) | ClaimKind::Density(Density(formula)) => {
+                Some(formula)
+            }
+            ClaimKind::AnalyticDensity(_)
+            | ClaimKind::SmoothDensity(_)
+            | ClaimKind::PositionDensity(_) => None,
             _ => return Ok(Err("this kind of claim is not one derivative of one function")),
         };
         if formula.is_some_and(|formula| formula.value_type() != Type::Scalar) {
@@ -100,11 +106,11 @@ impl Underived {
         let along_field = formula.is_some().then(|| AlongField {
             field: Tape::new(&graph, &field),
             value: Tape::new(&graph, &values),
-            logarithmic: matches!(claim.kind, Kind::Density(_)),
+            logarithmic: matches!(claim.kind, ClaimKind::Density(_)),
         });
         let along_axes = match &claim.kind {
-            Kind::Integral(_) => Vec::new(),
-            Kind::Density(_) => divergence(&graph, &field, parameters),
+            ClaimKind::Integral(_) => Vec::new(),
+            ClaimKind::Density(_) => divergence(&graph, &field, parameters),
             _ => rotation(&graph, &values, case),
         };
         Ok(Ok(Self { parameters, dimension, along_field, along_axes }))

@@ -2,7 +2,7 @@
 
 /// A family of cases with a size n.
 #[derive(Clone, Copy, Debug)]
-pub struct Family {
+pub struct CaseFamily {
     /// Name in reports, and on the command line.
     pub name: &'static str,
     /// Quantity that n counts.
@@ -19,7 +19,7 @@ pub struct Family {
     pub(super) repeated: &'static str,
 }
 
-impl Family {
+impl CaseFamily {
     /// Writes the case of size n.
     pub fn case(&self, n: u64) -> String {
         let mut text = self.text.replace("{n}", &n.to_string());
@@ -32,8 +32,8 @@ impl Family {
 }
 
 /// All families, in the order of reports.
-pub const FAMILIES: [Family; 10] = [
-    Family {
+pub const FAMILIES: [CaseFamily; 10] = [
+    CaseFamily {
         name: "chain",
         size: "oscillators",
         first: 5,
@@ -58,7 +58,7 @@ density = "1"
 "#,
         repeated: "",
     },
-    Family {
+    CaseFamily {
         name: "pendulum",
         size: "links",
         first: 4,
@@ -82,7 +82,7 @@ integral = "energy"
 "#,
         repeated: "",
     },
-    Family {
+    CaseFamily {
         name: "toda",
         size: "points",
         first: 25,
@@ -108,7 +108,7 @@ density = "1/product(i, 1..n−1, a[i])"
 "#,
         repeated: "",
     },
-    Family {
+    CaseFamily {
         name: "calogero",
         size: "particles",
         first: 6,
@@ -133,7 +133,7 @@ density = "1"
 "#,
         repeated: "",
     },
-    Family {
+    CaseFamily {
         name: "lotka-volterra",
         size: "species",
         first: 10,
@@ -154,7 +154,7 @@ density = "1/product(i, 1..n, x[i])"
 "#,
         repeated: "",
     },
-    Family {
+    CaseFamily {
         name: "bodies",
         size: "bodies",
         first: 4,
@@ -180,7 +180,7 @@ integral = "sum(i, 1..n, m[i]*q[i] × q'[i])"
 "#,
         repeated: "",
     },
-    Family {
+    CaseFamily {
         name: "claims",
         size: "claims",
         first: 16,
@@ -196,7 +196,7 @@ M = "vector(-2..2)"
 "#,
         repeated: "[[claim]]\nintegral = \"(M,M)² + {i}*(M,inverse(I)*M)\"\n",
     },
-    Family {
+    CaseFamily {
         name: "terms",
         size: "terms",
         first: 250,
@@ -217,7 +217,7 @@ integral = "sum(i, 1..n, (x² + y² + i)²)"
 "#,
         repeated: "",
     },
-    Family {
+    CaseFamily {
         name: "roots",
         size: "roots",
         first: 4,
@@ -238,7 +238,7 @@ integral = "sum(i, 1..n, √(x² + y² + i))"
 "#,
         repeated: "",
     },
-    Family {
+    CaseFamily {
         name: "states",
         size: "states",
         first: 65_536,

@@ -1,6 +1,6 @@
 //! Growth of time and memory with the size of a problem.
 //!
-//! Each [`Family`] is judged at sizes that double, within a limit of time. What matters is the
+//! Each [`CaseFamily`] is judged at sizes that double, within a limit of time. What matters is the
 //! exponent in the number of operations of the residuals: a residual of m operations should take
 //! O(m) to record.
 
@@ -13,26 +13,26 @@ use liouville::case::{Case, CaseError};
 use liouville::graph::Fault;
 use liouville::verdict::{JudgeError, Options, Trust, Verdict, judge, recorded_size};
 
-pub use families::{FAMILIES, Family};
+pub use families::{CaseFamily, FAMILIES};
 
 /// Measurements of one family at increasing sizes.
 #[derive(Clone, Debug, serde::Serialize)]
-pub struct Growth {
+pub struct FamilyGrowth {
     /// Name of the family.
     pub family: &'static str,
     /// Quantity that the size counts.
     pub counts: &'static str,
     /// Measurements, by size.
-    pub points: Vec<Point>,
+    pub points: Vec<SizePoint>,
     /// Exponents fitted to them.
-    pub exponents: Exponents,
+    pub exponents: GrowthExponents,
     /// Reason why the next size was not measured, unless it was the limit of time.
     pub problem: Option<String>,
 }
 
 /// Measurements at one size.
 #[derive(Clone, Copy, Debug, serde::Deserialize, serde::Serialize)]
-pub struct Point {
+pub struct SizePoint {
     /// Size n.
     pub size: u64,
     /// Number of operations of the residuals of all claims together.
@@ -55,7 +55,7 @@ pub struct Point {
 
 /// Exponents of growth, fitted to the larger half of the sizes; none from fewer than two.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct Exponents {
+pub struct GrowthExponents {
     /// Operations of the residuals, in the size.
     pub operations: Option<f64>,
     /// Time to record, in the operations.
@@ -86,12 +86,12 @@ pub enum GrowthError {
 /// Memory that was freed stays with a process, so that the peak of each size is known only where
 /// each has a process to itself.
 pub fn measure(
-    family: &Family,
+    family: &CaseFamily,
     within: Duration,
-    at_size: impl Fn(&Family, u64) -> Result<Point, String>,
-) -> Growth {
+    at_size: impl Fn(&CaseFamily, u64) -> Result<SizePoint, String>,
+) -> FamilyGrowth {
     let started = Instant::now();
-    let mut points: Vec<Point> = Vec::new();
+    let mut points: Vec<SizePoint> = Vec::new();
     let mut size = family.first;
     let mut last = Duration::ZERO;
     let mut problem = None;
@@ -116,7 +116,7 @@ pub fn measure(
         }
         size *= 2;
     }
-    Growth {
+    FamilyGrowth {
         family: family.name,
         counts: family.size,
         exponents: exponents(&points, family.counts_states),
@@ -126,14 +126,14 @@ pub fn measure(
 }
 
 /// Measures one size of a family alone.
-pub fn measure_one(family: &Family, size: u64) -> Growth {
-    let only = Family { first: size, last: size, ..*family };
-    let own = |family: &Family, size| at_size(family, size).map_err(|error| error.to_string());
+pub fn measure_one(family: &CaseFamily, size: u64) -> FamilyGrowth {
+    let only = CaseFamily { first: size, last: size, ..*family };
+    let own = |family: &CaseFamily, size| at_size(family, size).map_err(|error| error.to_string());
     measure(&only, Duration::ZERO, own)
 }
 
 /// Measures one member of a family.
-pub fn at_size(family: &Family, size: u64) -> Result<Point, GrowthError> {
+pub fn at_size(family: &CaseFamily, size: u64) -> Result<SizePoint, GrowthError> {
     memory::forget_peak();
     let text = family.case(size);
     let read = || Case::parse(&text, &[]).map_err(|error| GrowthError::Case(Box::new(error)));
@@ -145,7 +145,7 @@ pub fn at_size(family: &Family, size: u64) -> Result<Point, GrowthError> {
     };
     let (judged, report) = least(|| Ok(judge(&case, &options)?))?;
     let holds = |verdict| matches!(verdict, Verdict::Proved | Verdict::Confirmed);
-    Ok(Point {
+    Ok(SizePoint {
         size,
         operations: recorded.operations,
         nodes: recorded.nodes,
@@ -174,10 +174,10 @@ fn least<R>(work: impl Fn() -> Result<R, GrowthError>) -> Result<(Duration, R), 
 }
 
 /// A quantity of a measurement.
-type Measure = fn(&Point) -> f64;
+type Measure = fn(&SizePoint) -> f64;
 
 /// Fits the exponents to the larger half of the sizes.
-fn exponents(points: &[Point], by_size: bool) -> Exponents {
+fn exponents(points: &[SizePoint], by_size: bool) -> GrowthExponents {
     let larger = &points[points.len() / 2..];
     let larger = if larger.len() < 2 { points } else { larger };
     let fit = |x: Measure, y: Measure| {
@@ -187,7 +187,7 @@ fn exponents(points: &[Point], by_size: bool) -> Exponents {
     let (size, operations): (Measure, Measure) =
         (|point| point.size as f64, |point| point.operations as f64);
     let whole: Measure = |point| point.record + point.judge;
-    Exponents {
+    GrowthExponents {
         operations: fit(size, operations).filter(|_| !by_size),
         record: fit(operations, |point| point.record).filter(|_| !by_size),
         judge: fit(if by_size { size } else { operations }, whole),
@@ -203,27 +203,4 @@ fn slope(points: &[(f64, f64)]) -> Option<f64> {
     let across: f64 = points.iter().map(|point| (point.0 - x) * (point.1 - y)).sum();
     let along: f64 = points.iter().map(|point| (point.0 - x) * (point.0 - x)).sum();
     Some(across / along).filter(|slope| slope.is_finite())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn all_claims_of_small_members_hold() {
-        for family in FAMILIES.iter().filter(|family| !family.counts_states) {
-            let point = at_size(family, family.first).expect("a member of a family is judged");
-            assert_eq!(point.holding, point.claims, "{}: {point:?}", family.name);
-            assert!(point.claims > 0 && point.operations > 0, "{}: {point:?}", family.name);
-        }
-    }
-
-    #[test]
-    fn a_power_has_its_exponent() {
-        let points: Vec<(f64, f64)> =
-            [1.0f64, 2.0, 4.0, 8.0].iter().map(|x| (x.ln(), (7.0 * x.powi(3)).ln())).collect();
-        let found = slope(&points).expect("the points differ");
-        assert!((found - 3.0).abs() < 1e-12, "7 x³ grows with exponent {found}");
-        assert_eq!(slope(&points[..1]), None, "one point has no slope");
-    }
 }

@@ -9,7 +9,7 @@ mod precision;
 mod scenarios;
 
 pub use precision::{Loss, digits_lost};
-pub use scenarios::{SCENARIOS, Scenario, Sweep};
+pub use scenarios::{SCENARIOS, Scenario, SweptPart};
 
 use liouville::case::{Case, CaseError, Expect};
 use liouville::verdict::{JudgeError, Options, Verdict, judge};

@@ -1,18 +1,18 @@
 //! Loss of digits in f64.
 
-use super::{Scenario, StressError, Sweep};
-use liouville::claim::Place;
+use super::{Scenario, StressError, SweptPart};
+use liouville::claim::LevelSubset;
 use liouville::graph::{Evaluator, Tape, record};
-use liouville::mechanics::calculus::Jet;
+use liouville::mechanics::calculus::DualPoint;
 use liouville::mechanics::{Model, Phase};
 use liouville::number::Domain;
+use liouville::number::arb::{Approximation, ArbBall};
 use liouville::number::float::Float;
-use liouville::number::precise::{Approximation, Precise};
 use liouville::number::rational::Rational;
 use liouville::verdict::{JudgeError, Sampler};
 
 /// Bits of the reference: 77 digits.
-const BITS: u32 = 256;
+const REFERENCE_BITS: u32 = 256;
 /// Number of states compared.
 const STATES: u64 = 8;
 
@@ -29,13 +29,13 @@ pub struct Loss {
 pub fn digits_lost(scenario: &Scenario, exponent: i32, seed: u64) -> Result<Loss, StressError> {
     let case = scenario.case(exponent, seed)?;
     let model = &case.model;
-    let level = Place::level(model);
+    let level = LevelSubset::level(model);
     let sampler = Sampler::new(&case, &level, seed).map_err(JudgeError::from)?;
     let (mut field, mut residuals, mut scales) = (Vec::new(), Vec::new(), Vec::new());
     let inputs = model.free_components() + model.dimension();
     let (graph, outputs) = record(inputs, |inputs| {
         let (parameters, state) = inputs.split_at(model.free_components());
-        let jet = Jet::new(Phase::new(model, parameters, state));
+        let jet = DualPoint::new(Phase::new(model, parameters, state));
         field.extend_from_slice(jet.phase.field());
         for claim in &case.claims {
             let residual = claim.kind.residual(&jet, &claim.place.kept);
@@ -58,7 +58,7 @@ pub fn digits_lost(scenario: &Scenario, exponent: i32, seed: u64) -> Result<Loss
         let exact: Vec<Rational> =
             point.into_iter().chain((0..extra).map(|_| Rational::new(1, 3))).collect();
         let floats: Vec<[f64; 1]> = exact.iter().map(|x| [x.to_f64().0]).collect();
-        let domain = Precise::new(BITS);
+        let domain = ArbBall::new(REFERENCE_BITS);
         let seen: Option<Vec<_>> =
             floats.iter().map(|x| Some(domain.constant(&Rational::from_f64(x[0])?))).collect();
         let Some(seen) = seen else { continue };
@@ -95,7 +95,7 @@ fn point(
 ) -> Option<Vec<Rational>> {
     let numbers = sampler.exact(index);
     let mut point = numbers.into_iter().collect::<Option<Vec<Rational>>>()?;
-    if let Sweep::State(factors) = scenario.sweep {
+    if let SweptPart::State(factors) = scenario.sweep {
         let [along_u, along_v, along_omega] = factors(10f64.powi(exponent));
         let state = model.free_components();
         let [w1, w2, w3, x, y, z] = point.get(state..)? else { return None };

@@ -11,7 +11,7 @@ type Setter = fn(&str, &mut dyn FnMut() -> f64) -> Vec<(&'static str, String)>;
 
 /// Part of a case that x enters.
 #[derive(Clone, Copy)]
-pub enum Sweep {
+pub enum SweptPart {
     /// x enters the parameters.
     Parameters(Setter),
     /// x enters a formula, at the mark `{x}` of the text.
@@ -32,7 +32,7 @@ pub struct Scenario {
     /// Last exponent.
     pub to: i32,
     /// Part of the case that x enters.
-    pub sweep: Sweep,
+    pub sweep: SweptPart,
 }
 
 macro_rules! catalogue {
@@ -88,7 +88,7 @@ pub const SCENARIOS: [Scenario; 19] = [
         text: catalogue!("plane/unbalanced-ball"),
         from: -8,
         to: 8,
-        sweep: Sweep::Parameters(|x, random| {
+        sweep: SweptPart::Parameters(|x, random| {
             vec![("m", x.to_string()), ("R", within(random, 1.0, 3.0)), ("I", moments(random))]
         }),
     },
@@ -97,7 +97,7 @@ pub const SCENARIOS: [Scenario; 19] = [
         text: catalogue!("plane/unbalanced-ball"),
         from: -24,
         to: 0,
-        sweep: Sweep::Parameters(|x, random| {
+        sweep: SweptPart::Parameters(|x, random| {
             let exponent = x.trim_start_matches("1e");
             let [a, b, c] = [0; 3].map(|_| within(random, 0.1, 0.5));
             vec![("c", format!("[{a}e{exponent}, -{b}e{exponent}, {c}e{exponent}]"))]
@@ -108,7 +108,7 @@ pub const SCENARIOS: [Scenario; 19] = [
         text: catalogue!("plane/unbalanced-ball"),
         from: -15,
         to: -1,
-        sweep: Sweep::Parameters(|x, random| {
+        sweep: SweptPart::Parameters(|x, random| {
             let unit = |n: i32| format!("{n}/13*(1 - {x})");
             let c = format!("[{}, {}, {}]", unit(3), unit(4), unit(12));
             vec![("R", "1".to_string()), ("c", c), ("m", within(random, 0.5, 2.0))]
@@ -119,7 +119,7 @@ pub const SCENARIOS: [Scenario; 19] = [
         text: catalogue!("plane/unbalanced-ball"),
         from: -18,
         to: -1,
-        sweep: Sweep::Parameters(|x, random| {
+        sweep: SweptPart::Parameters(|x, random| {
             let a = within(random, 1.0, 3.0);
             let moments = format!("[{a}, {a}*(1 + {x}), {a}*(1 - {x})]");
             vec![("I", moments), ("m", within(random, 0.5, 2.0))]
@@ -130,7 +130,7 @@ pub const SCENARIOS: [Scenario; 19] = [
         text: catalogue!("plane/unbalanced-ball"),
         from: -15,
         to: -1,
-        sweep: Sweep::Parameters(|x, random| {
+        sweep: SweptPart::Parameters(|x, random| {
             let a = within(random, 1.0, 2.0);
             vec![("I", format!("[{a}, 1.5, ({a} + 1.5)*(1 - {x})]"))]
         }),
@@ -140,7 +140,7 @@ pub const SCENARIOS: [Scenario; 19] = [
         text: catalogue!("plane/ellipsoid-mb-mu"),
         from: -8,
         to: 8,
-        sweep: Sweep::Parameters(|x, random| {
+        sweep: SweptPart::Parameters(|x, random| {
             let b = within(random, 1.5, 3.0);
             vec![("B", format!("diag(vec({x}, {b}, 2))")), ("μ", within(random, 0.5, 3.0))]
         }),
@@ -150,7 +150,7 @@ pub const SCENARIOS: [Scenario; 19] = [
         text: catalogue!("plane/ellipsoid-mb-mu"),
         from: -8,
         to: 8,
-        sweep: Sweep::Parameters(|x, random| {
+        sweep: SweptPart::Parameters(|x, random| {
             // Some wrong readings are right for m = 1.
             vec![("m", format!("3*{x}")), ("μ", within(random, 0.5, 3.0))]
         }),
@@ -160,15 +160,21 @@ pub const SCENARIOS: [Scenario; 19] = [
         text: catalogue!("plane/ellipsoid-near-measure"),
         from: -30,
         to: -2,
-        sweep: Sweep::Parameters(|x, _| vec![("I", format!("[1 + {x}, 1.5, 2]"))]),
+        sweep: SweptPart::Parameters(|x, _| vec![("I", format!("[1 + {x}, 1.5, 2]"))]),
     },
-    Scenario { name: "formulas off by x", text: NEAR_F2, from: -30, to: -2, sweep: Sweep::Formula },
+    Scenario {
+        name: "formulas off by x",
+        text: NEAR_F2,
+        from: -30,
+        to: -2,
+        sweep: SweptPart::Formula,
+    },
     Scenario {
         name: "kR → −1, balanced ball on a sphere",
         text: catalogue!("sphere/balanced-ball"),
         from: -15,
         to: -1,
-        sweep: Sweep::Parameters(|x, random| {
+        sweep: SweptPart::Parameters(|x, random| {
             vec![("R", "1".into()), ("k", format!("-1 + {x}")), ("m", within(random, 0.5, 2.0))]
         }),
     },
@@ -177,7 +183,7 @@ pub const SCENARIOS: [Scenario; 19] = [
         text: catalogue!("sphere/balanced-ball"),
         from: -15,
         to: -1,
-        sweep: Sweep::Parameters(|x, random| {
+        sweep: SweptPart::Parameters(|x, random| {
             vec![("R", "1".into()), ("k", format!("1 + {x}")), ("m", within(random, 0.5, 2.0))]
         }),
     },
@@ -186,7 +192,7 @@ pub const SCENARIOS: [Scenario; 19] = [
         text: catalogue!("sphere/unbalanced-ball"),
         from: -20,
         to: -1,
-        sweep: Sweep::Parameters(|x, random| {
+        sweep: SweptPart::Parameters(|x, random| {
             vec![("k", x.to_string()), ("m", within(random, 0.5, 2.0))]
         }),
     },
@@ -195,7 +201,7 @@ pub const SCENARIOS: [Scenario; 19] = [
         text: catalogue!("sphere/ellipsoid"),
         from: 0,
         to: 8,
-        sweep: Sweep::Parameters(|x, random| {
+        sweep: SweptPart::Parameters(|x, random| {
             vec![("k", x.to_string()), ("μ", within(random, 3.0, 6.0))]
         }),
     },
@@ -204,7 +210,7 @@ pub const SCENARIOS: [Scenario; 19] = [
         text: catalogue!("sphere/disk"),
         from: -8,
         to: 8,
-        sweep: Sweep::Parameters(|x, random| {
+        sweep: SweptPart::Parameters(|x, random| {
             vec![("μ", x.to_string()), ("k", within(random, 0.1, 0.5))]
         }),
     },
@@ -213,35 +219,35 @@ pub const SCENARIOS: [Scenario; 19] = [
         text: catalogue!("plane/unbalanced-ball"),
         from: -15,
         to: 0,
-        sweep: Sweep::State(|x| [x, x, 1.0]),
+        sweep: SweptPart::State(|x| [x, x, 1.0]),
     },
     Scenario {
         name: "γ to a pole, disk (its edge)",
         text: catalogue!("plane/disk"),
         from: -15,
         to: 0,
-        sweep: Sweep::State(|x| [x, x, 1.0]),
+        sweep: SweptPart::State(|x| [x, x, 1.0]),
     },
     Scenario {
         name: "γ to a coordinate plane, ellipsoid",
         text: catalogue!("plane/ellipsoid-generic"),
         from: -15,
         to: 0,
-        sweep: Sweep::State(|x| [x, 1.0, 1.0]),
+        sweep: SweptPart::State(|x| [x, 1.0, 1.0]),
     },
     Scenario {
         name: "|ω|, unbalanced ball",
         text: catalogue!("plane/unbalanced-ball"),
         from: -8,
         to: 8,
-        sweep: Sweep::State(|x| [1.0, 1.0, x]),
+        sweep: SweptPart::State(|x| [1.0, 1.0, x]),
     },
     Scenario {
         name: "|ω|, ellipsoid on a sphere",
         text: catalogue!("sphere/ellipsoid"),
         from: -8,
         to: 8,
-        sweep: Sweep::State(|x| [1.0, 1.0, x]),
+        sweep: SweptPart::State(|x| [1.0, 1.0, x]),
     },
 ];
 
@@ -250,7 +256,7 @@ impl Scenario {
     pub fn case(&self, exponent: i32, seed: u64) -> Result<Case, StressError> {
         let x = format!("1e{exponent}");
         match self.sweep {
-            Sweep::Parameters(make) => {
+            SweptPart::Parameters(make) => {
                 let mut stream = ChaCha8Rng::seed_from_u64(seed);
                 let mut random = || (stream.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
                 let settings: Vec<Setting> = make(&x, &mut random)
@@ -259,13 +265,13 @@ impl Scenario {
                     .collect();
                 read(self.text, &settings)
             }
-            Sweep::Formula => read(&self.text.replace("{x}", &x), &[]),
-            Sweep::State(_) => read(self.text, &[]),
+            SweptPart::Formula => read(&self.text.replace("{x}", &x), &[]),
+            SweptPart::State(_) => read(self.text, &[]),
         }
     }
 
     /// Whether x changes the case, rather than its states.
     pub fn changes_case(&self) -> bool {
-        !matches!(self.sweep, Sweep::State(_))
+        !matches!(self.sweep, SweptPart::State(_))
     }
 }

@@ -1,27 +1,29 @@
 //! Composition of the document of a survey: its sections and their contents.
 
-use super::document::{Block, Cell, Document, Section};
+use super::document::{Document, DocumentSection, SectionBlock, TableCell};
 use super::entry::{self, blocks, independence};
 use super::picture;
 use liouville::case::Case;
 use liouville::verdict::CaseReport;
-use liouville_search::survey::{Count, Description, Finding, Integrals, Measure, Survey, Unknown};
+use liouville_search::survey::{
+    Description, IntegralCount, Integrals, MeasureStatus, SearchOutcome, Survey, TestedClaim,
+};
 
 /// Composes the document of a survey; `origin` names the program and the case.
 pub fn document(survey: &Survey, origin: &str) -> Document {
     let sections = [
-        Section::new("Where it stands", standing(survey)),
-        Section::new("The system", system(survey)),
-        Section::new("General integrals", blocks(&survey.general)),
-        Section::new("Invariant measure", measure(survey)),
-        Section::new("Further integrals", integrals(survey)),
-        Section::new("Symmetry fields", blocks(&survey.fields)),
-        Section::new("Reversors and symmetries", maps(survey)),
-        Section::new("Conformally Hamiltonian form", hamiltonian(survey)),
-        Section::new("What is excluded", excluded(survey)),
-        Section::new("Not proved", blocks(&survey.undecided)),
-        Section::new("What the case claims", blocks(&survey.claimed)),
-        Section::new("How to repeat this", repeated(survey.seed, origin)),
+        DocumentSection::new("Where it stands", standing(survey)),
+        DocumentSection::new("The system", system(survey)),
+        DocumentSection::new("General integrals", blocks(&survey.general)),
+        DocumentSection::new("Invariant measure", measure(survey)),
+        DocumentSection::new("Further integrals", integrals(survey)),
+        DocumentSection::new("Symmetry fields", blocks(&survey.fields)),
+        DocumentSection::new("Reversors and symmetries", maps(survey)),
+        DocumentSection::new("Conformally Hamiltonian form", hamiltonian(survey)),
+        DocumentSection::new("What is excluded", excluded(survey)),
+        DocumentSection::new("Not proved", blocks(&survey.undecided)),
+        DocumentSection::new("What the case claims", blocks(&survey.claimed)),
+        DocumentSection::new("How to repeat this", repeated(survey.seed, origin)),
     ];
     Document {
         title: survey.title.clone(),
@@ -33,20 +35,20 @@ pub fn document(survey: &Survey, origin: &str) -> Document {
 
 /// Composes the document of a case without a survey: its claims alone.
 pub fn of_claims(case: &Case, report: &CaseReport, seed: u64, origin: &str) -> Document {
-    let claims = report.claims.iter().map(|claim| Finding::claimed(case, claim.clone()));
+    let claims = report.claims.iter().map(|claim| TestedClaim::claimed(case, claim.clone()));
     let own = Description::of(case);
     let lists = [("Given by:", own.functions), ("Equations of motion:", own.equations)];
     let lists = lists.into_iter().chain([("Parameters:", own.parameters)]);
     let stated = lists.filter(|(_, lines)| !lines.is_empty());
     let told = report.warnings.iter().map(|warning| text(format!("Warning: {warning}.")));
     let sections = [
-        Section::new(
+        DocumentSection::new(
             "The system",
-            stated.flat_map(|(words, lines)| [text(words), Block::List(lines)]).collect(),
+            stated.flat_map(|(words, lines)| [text(words), SectionBlock::List(lines)]).collect(),
         ),
-        Section::new("What the case claims", blocks(&claims.collect::<Vec<_>>())),
-        Section::new("Notes", told.collect()),
-        Section::new("How to repeat this", repeated(seed, origin)),
+        DocumentSection::new("What the case claims", blocks(&claims.collect::<Vec<_>>())),
+        DocumentSection::new("Notes", told.collect()),
+        DocumentSection::new("How to repeat this", repeated(seed, origin)),
     ];
     Document {
         title: case.title.clone(),
@@ -56,46 +58,47 @@ pub fn of_claims(case: &Case, report: &CaseReport, seed: u64, origin: &str) -> D
     }
 }
 
-fn text(words: impl Into<String>) -> Block {
-    Block::Text(words.into())
+fn text(words: impl Into<String>) -> SectionBlock {
+    SectionBlock::Text(words.into())
 }
 
-fn standing(survey: &Survey) -> Vec<Block> {
+fn standing(survey: &Survey) -> Vec<SectionBlock> {
     let standing = &survey.hierarchy;
     let mut found = vec![
         text(format!("In the hierarchy: {}.", standing.class.words())),
-        Block::List(standing.grounds.clone()),
-        Block::Picture(picture::hierarchy(standing)),
+        SectionBlock::List(standing.grounds.clone()),
+        SectionBlock::Picture(picture::hierarchy(standing)),
     ];
     if !standing.typical.is_empty() {
         found.push(text("Typical of it:"));
-        found.push(Block::List(standing.typical.clone()));
+        found.push(SectionBlock::List(standing.typical.clone()));
     }
     found
 }
 
-fn system(survey: &Survey) -> Vec<Block> {
+fn system(survey: &Survey) -> Vec<SectionBlock> {
     let mut found = vec![text(survey.sentence.clone())];
-    found.extend(survey.wireframe.as_ref().map(|frame| Block::Picture(picture::body(frame))));
+    found
+        .extend(survey.wireframe.as_ref().map(|frame| SectionBlock::Picture(picture::body(frame))));
     let own = &survey.description;
     if !own.functions.is_empty() {
-        found.extend([text("Given by:"), Block::List(own.functions.clone())]);
+        found.extend([text("Given by:"), SectionBlock::List(own.functions.clone())]);
     }
     if !own.equations.is_empty() {
-        found.extend([text("Equations of motion:"), Block::List(own.equations.clone())]);
+        found.extend([text("Equations of motion:"), SectionBlock::List(own.equations.clone())]);
     }
     if !own.parameters.is_empty() {
-        found.extend([text("Parameters:"), Block::List(own.parameters.clone())]);
+        found.extend([text("Parameters:"), SectionBlock::List(own.parameters.clone())]);
     }
     if survey.parameters.iter().any(|one| one.value.is_none()) {
         found.push(text("What is proved holds for all values of the free parameters."));
     }
     let (holds, fails): (Vec<_>, Vec<_>) = survey.facts.iter().partition(|fact| fact.holds);
-    let told = |facts: Vec<&liouville_search::survey::Fact>| {
+    let told = |facts: Vec<&liouville_search::survey::GeometryFact>| {
         facts.iter().map(|fact| fact.words.clone()).collect::<Vec<_>>()
     };
     if !holds.is_empty() {
-        found.extend([text("Established:"), Block::List(told(holds))]);
+        found.extend([text("Established:"), SectionBlock::List(told(holds))]);
     }
     if !fails.is_empty() {
         let not = told(fails).join("; ");
@@ -108,13 +111,13 @@ fn system(survey: &Survey) -> Vec<Block> {
             format!("{}: {}; {grounds}", fact.words, claim.verdict.word())
         }
     });
-    found.push(Block::Folded("how each was decided", grounds.collect()));
+    found.push(SectionBlock::Folded("how each was decided", grounds.collect()));
     found.extend(survey.notes.iter().map(|note| text(format!("Note: {note}"))));
     found.extend(survey.warnings.iter().map(|warning| text(format!("Warning: {warning}."))));
     found
 }
 
-fn measure(survey: &Survey) -> Vec<Block> {
+fn measure(survey: &Survey) -> Vec<SectionBlock> {
     let mut found = blocks(&survey.criterion);
     let witness = survey.criterion.iter().find_map(|one| one.claim.evidence.witness.as_ref());
     found.extend(
@@ -122,11 +125,11 @@ fn measure(survey: &Survey) -> Vec<Block> {
     );
     found.extend(blocks(&survey.densities));
     let sentence = match survey.hierarchy.measure {
-        Measure::ByQuadrature if survey.densities.is_empty() => Some(
+        MeasureStatus::ByQuadrature if survey.densities.is_empty() => Some(
             "The criterion proves that a density of the configuration exists; no closed form of it is \
              known here. Its values follow by quadrature.",
         ),
-        Measure::ExcludedForConfiguration => Some(
+        MeasureStatus::ExcludedForConfiguration => Some(
             "With forces or a rotor the criterion excludes densities of the configuration alone; one \
              that depends on the velocities stays open.",
         ),
@@ -155,28 +158,28 @@ fn measure(survey: &Survey) -> Vec<Block> {
             false => format!(" For {}.", values.join("; ")),
         };
         found.push(text(format!("{what}{of}{}", closure.unwrap_or_default())));
-        found.push(Block::Picture(picture::sphere(map)));
+        found.push(SectionBlock::Picture(picture::sphere(map)));
         found.push(table_of(map));
     }
     found
 }
 
 /// Table of every eighth column and fourth row of the map, for formats without pictures.
-fn table_of(map: &liouville_search::survey::SphereMap) -> Block {
+fn table_of(map: &liouville_search::survey::SphereMap) -> SectionBlock {
     let shown =
-        |value: &Option<f64>| Cell::Text(value.map_or("–".to_string(), |x| format!("{x:.4}")));
+        |value: &Option<f64>| TableCell::Text(value.map_or("–".to_string(), |x| format!("{x:.4}")));
     let rows = map.latitudes.iter().zip(&map.values).skip(1).step_by(4).map(|(latitude, row)| {
-        let mut cells = vec![Cell::Text(format!("{latitude:+.1}°"))];
+        let mut cells = vec![TableCell::Text(format!("{latitude:+.1}°"))];
         cells.extend(row.iter().step_by(8).map(shown));
         cells
     });
-    Block::Table {
+    SectionBlock::Table {
         head: vec!["latitude", "3.75°", "63.75°", "123.75°", "183.75°", "243.75°", "303.75°"],
         rows: rows.collect(),
     }
 }
 
-fn integrals(survey: &Survey) -> Vec<Block> {
+fn integrals(survey: &Survey) -> Vec<SectionBlock> {
     let mut found = blocks(&survey.integrals);
     if !survey.dependent.is_empty() {
         found.push(text("Also integrals, and functions of those above:"));
@@ -200,8 +203,8 @@ fn integrals(survey: &Survey) -> Vec<Block> {
     found
 }
 
-fn count(count: &Count, measure: Measure) -> String {
-    let has_measure = matches!(measure, Measure::ClosedForm | Measure::ByQuadrature);
+fn count(count: &IntegralCount, measure: MeasureStatus) -> String {
+    let has_measure = matches!(measure, MeasureStatus::ClosedForm | MeasureStatus::ByQuadrature);
     let found = count.independent.len();
     let verdict = match (found >= count.needed, has_measure) {
         (true, true) => "with the measure this is enough",
@@ -220,18 +223,18 @@ fn count(count: &Count, measure: Measure) -> String {
     )
 }
 
-fn maps(survey: &Survey) -> Vec<Block> {
+fn maps(survey: &Survey) -> Vec<SectionBlock> {
     let mut found = Vec::new();
-    let row = |one: &Finding, with_set: bool| {
+    let row = |one: &TestedClaim, with_set: bool| {
         let map = one.images.iter().map(|image| format!("{} ↦ {}", image.name, image.formula));
         let map = map.collect::<Vec<_>>().join(", ");
         let mut cells = vec![
-            Cell::Text(one.claim.name.clone()),
-            Cell::Formula(map, one.shown.statement.clone()),
-            Cell::Text(one.claim.verdict.word().to_string()),
+            TableCell::Text(one.claim.name.clone()),
+            TableCell::Formula(map, one.shown.statement.clone()),
+            TableCell::Text(one.claim.verdict.word().to_string()),
         ];
         if with_set {
-            cells.push(Cell::Text(match one.fixed_set.map(|set| set.dimension) {
+            cells.push(TableCell::Text(match one.fixed_set.map(|set| set.dimension) {
                 Some(Some(dimension)) => dimension.to_string(),
                 Some(None) => "empty".to_string(),
                 None => "–".to_string(),
@@ -245,14 +248,14 @@ fn maps(survey: &Survey) -> Vec<Block> {
         found.push(text(
             "Reversors, with the dimension of what they leave in place on the level set:",
         ));
-        found.push(Block::Table {
+        found.push(SectionBlock::Table {
             head: vec!["reversor", "map", "verdict", "dimension"],
             rows: survey.reversors.iter().map(|one| row(one, true)).collect(),
         });
     }
     if !survey.symmetries.is_empty() {
         found.push(text("Discrete symmetries:"));
-        found.push(Block::Table {
+        found.push(SectionBlock::Table {
             head: vec!["symmetry", "map", "verdict"],
             rows: survey.symmetries.iter().map(|one| row(one, false)).collect(),
         });
@@ -260,7 +263,7 @@ fn maps(survey: &Survey) -> Vec<Block> {
     found
 }
 
-fn hamiltonian(survey: &Survey) -> Vec<Block> {
+fn hamiltonian(survey: &Survey) -> Vec<SectionBlock> {
     if survey.hamiltonian.is_empty() {
         return Vec::new();
     }
@@ -272,7 +275,7 @@ fn hamiltonian(survey: &Survey) -> Vec<Block> {
     found
 }
 
-fn excluded(survey: &Survey) -> Vec<Block> {
+fn excluded(survey: &Survey) -> Vec<SectionBlock> {
     let mut found = theorems(&survey.search);
     if !survey.fails.is_empty() {
         found.push(text("Known of such systems, and refuted for this one:"));
@@ -281,8 +284,8 @@ fn excluded(survey: &Survey) -> Vec<Block> {
     found
 }
 
-fn theorems(search: &Unknown) -> Vec<Block> {
-    let mut found: Vec<Block> =
+fn theorems(search: &SearchOutcome) -> Vec<SectionBlock> {
+    let mut found: Vec<SectionBlock> =
         search.excluded.iter().map(|one| text(format!("Theorem. {}", one.theorem))).collect();
     if !search.counts.is_empty() {
         found.push(text(
@@ -296,10 +299,10 @@ fn theorems(search: &Unknown) -> Vec<Block> {
                 (false, false) => count.degree.to_string(),
             };
             let numbers = [count.dimension, count.known, count.unknowns, count.equations];
-            let cells = numbers.iter().map(|number| Cell::Text(number.to_string()));
-            std::iter::once(Cell::Text(degree)).chain(cells).collect()
+            let cells = numbers.iter().map(|number| TableCell::Text(number.to_string()));
+            std::iter::once(TableCell::Text(degree)).chain(cells).collect()
         };
-        found.push(Block::Table {
+        found.push(SectionBlock::Table {
             head: vec!["degree", "at most", "known", "unknowns", "equations"],
             rows: search.counts.iter().map(row).collect(),
         });
@@ -308,7 +311,7 @@ fn theorems(search: &Unknown) -> Vec<Block> {
     found
 }
 
-fn repeated(seed: u64, origin: &str) -> Vec<Block> {
+fn repeated(seed: u64, origin: &str) -> Vec<SectionBlock> {
     vec![text(format!(
         "{origin}, seed {}: the same input gives the same report. Pass a witness to `liouville eval` as \
          printed.",

@@ -12,19 +12,19 @@ pub struct Document {
     /// Class of the system, in a few words.
     pub headline: String,
     /// Sections of the report.
-    pub sections: Vec<Section>,
+    pub sections: Vec<DocumentSection>,
 }
 
 /// A section of a report.
-pub struct Section {
+pub struct DocumentSection {
     /// Heading of the section.
     pub title: &'static str,
     /// Contents of the section.
-    pub blocks: Vec<Block>,
+    pub blocks: Vec<SectionBlock>,
 }
 
 /// A block of a section.
-pub enum Block {
+pub enum SectionBlock {
     /// A paragraph.
     Text(String),
     /// Items of a list.
@@ -32,20 +32,20 @@ pub enum Block {
     /// Heading and lines that are folded away where the format allows it.
     Folded(&'static str, Vec<String>),
     /// A claim with its verdict.
-    Entry(Box<Entry>),
+    Entry(Box<JudgedClaim>),
     /// A table with a heading.
     Table {
         /// Heading of each column.
         head: Vec<&'static str>,
         /// Rows, as long as the heading.
-        rows: Vec<Vec<Cell>>,
+        rows: Vec<Vec<TableCell>>,
     },
     /// A picture, for formats that support them.
     Picture(Picture),
 }
 
 /// A cell of a table.
-pub enum Cell {
+pub enum TableCell {
     /// Words.
     Text(String),
     /// A formula, as typed and as typeset.
@@ -53,9 +53,9 @@ pub enum Cell {
 }
 
 /// A claim with its verdict.
-pub struct Entry {
+pub struct JudgedClaim {
     /// Mark of the verdict.
-    pub mark: Mark,
+    pub mark: VerdictMark,
     /// Verdict in one word.
     pub verdict: &'static str,
     /// Name of the claim.
@@ -76,7 +76,7 @@ pub struct Entry {
 
 /// Mark of a verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mark {
+pub enum VerdictMark {
     /// The claim holds.
     Holds,
     /// The claim fails.
@@ -85,20 +85,20 @@ pub enum Mark {
     Open,
 }
 
-impl Mark {
+impl VerdictMark {
     /// Sign of the mark in all formats.
     pub fn sign(self) -> &'static str {
         match self {
-            Mark::Holds => "✓",
-            Mark::Fails => "✗",
-            Mark::Open => "?",
+            VerdictMark::Holds => "✓",
+            VerdictMark::Fails => "✗",
+            VerdictMark::Open => "?",
         }
     }
 }
 
-impl Section {
+impl DocumentSection {
     /// A section, or `None` if it has no contents.
-    pub fn new(title: &'static str, blocks: Vec<Block>) -> Option<Self> {
+    pub fn new(title: &'static str, blocks: Vec<SectionBlock>) -> Option<Self> {
         (!blocks.is_empty()).then_some(Self { title, blocks })
     }
 }

@@ -1,17 +1,17 @@
 //! Findings as entries of a report.
 
-use super::document::{Block, Entry, Mark};
+use super::document::{JudgedClaim, SectionBlock, VerdictMark};
 use crate::evidence::options;
-use liouville::verdict::{ClaimReport, Evidence, Independence, Sign, Verdict, Witness};
-use liouville_search::survey::Finding;
+use liouville::verdict::{ClaimReport, DensitySign, Evidence, Independence, Verdict, Witness};
+use liouville_search::survey::TestedClaim;
 
 /// Findings as blocks, one after the other.
-pub fn blocks(findings: &[Finding]) -> Vec<Block> {
-    findings.iter().map(|one| Block::Entry(Box::new(entry(one)))).collect()
+pub fn blocks(findings: &[TestedClaim]) -> Vec<SectionBlock> {
+    findings.iter().map(|one| SectionBlock::Entry(Box::new(entry(one)))).collect()
 }
 
 /// Entry of a finding.
-pub fn entry(finding: &Finding) -> Entry {
+pub fn entry(finding: &TestedClaim) -> JudgedClaim {
     let claim = &finding.claim;
     let evidence = &claim.evidence;
     let map =
@@ -31,7 +31,7 @@ pub fn entry(finding: &Finding) -> Entry {
             definition.1 = Some(layout.clone());
         }
     }
-    Entry {
+    JudgedClaim {
         mark: mark(claim.verdict),
         verdict: claim.verdict.word(),
         name: claim.name.clone(),
@@ -44,17 +44,17 @@ pub fn entry(finding: &Finding) -> Entry {
     }
 }
 
-fn mark(verdict: Verdict) -> Mark {
+fn mark(verdict: Verdict) -> VerdictMark {
     match verdict {
-        Verdict::Proved | Verdict::Confirmed => Mark::Holds,
-        Verdict::Refuted => Mark::Fails,
-        Verdict::Undecided => Mark::Open,
+        Verdict::Proved | Verdict::Confirmed => VerdictMark::Holds,
+        Verdict::Refuted => VerdictMark::Fails,
+        Verdict::Undecided => VerdictMark::Open,
     }
 }
 
 /// Entry of the claim that integrals are independent.
-pub fn independence(claim: &ClaimReport) -> Block {
-    Block::Entry(Box::new(Entry {
+pub fn independence(claim: &ClaimReport) -> SectionBlock {
+    SectionBlock::Entry(Box::new(JudgedClaim {
         mark: mark(claim.verdict),
         verdict: claim.verdict.word(),
         name: "they are independent".to_string(),
@@ -68,16 +68,16 @@ pub fn independence(claim: &ClaimReport) -> Block {
 }
 
 /// Additional facts about the verdict on a finding.
-fn remarks(finding: &Finding) -> Vec<String> {
+fn remarks(finding: &TestedClaim) -> Vec<String> {
     let evidence = &finding.claim.evidence;
     let mut remarks = Vec::new();
     if finding.holds() {
         remarks.extend(place(&evidence.holds));
         match evidence.sign {
-            Some(Sign::Changes) => {
+            Some(DensitySign::Changes) => {
                 remarks.push("zeros or poles: a measure between them".to_string())
             }
-            Some(Sign::Negative) => remarks.push("negative: take −ρ".to_string()),
+            Some(DensitySign::Negative) => remarks.push("negative: take −ρ".to_string()),
             _ => {}
         }
         if finding.is_quadrature() {

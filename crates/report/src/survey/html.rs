@@ -1,7 +1,7 @@
 //! A document as one self-contained HTML page: formulas as MathML, pictures as SVG, evidence
 //! folded, light or dark as the reader's system.
 
-use super::document::{Block, Cell, Document, Entry, Mark};
+use super::document::{Document, JudgedClaim, SectionBlock, TableCell, VerdictMark};
 use crate::typeset::mathml::{escaped, formula};
 
 const STYLE: &str = include_str!("page.css");
@@ -33,14 +33,14 @@ pub fn render(document: &Document, index: Option<&str>) -> String {
     out + "</main>\n</body>\n</html>\n"
 }
 
-fn set(block: &Block) -> String {
+fn set(block: &SectionBlock) -> String {
     match block {
-        Block::Text(text) => format!("<p>{}</p>\n", escaped(text)),
-        Block::List(items) => list(items),
-        Block::Folded(what, lines) => folded(what, lines),
-        Block::Entry(entry) => self::entry(entry),
-        Block::Table { head, rows } => table(head, rows),
-        Block::Picture(picture) => format!(
+        SectionBlock::Text(text) => format!("<p>{}</p>\n", escaped(text)),
+        SectionBlock::List(items) => list(items),
+        SectionBlock::Folded(what, lines) => folded(what, lines),
+        SectionBlock::Entry(entry) => self::entry(entry),
+        SectionBlock::Table { head, rows } => table(head, rows),
+        SectionBlock::Picture(picture) => format!(
             "<figure>{}<figcaption>{}</figcaption></figure>\n",
             picture.svg,
             escaped(&picture.caption)
@@ -57,13 +57,14 @@ fn folded(what: &str, lines: &[String]) -> String {
     format!("<details><summary>{}</summary>\n{}</details>\n", escaped(what), list(lines))
 }
 
-fn table(head: &[&str], rows: &[Vec<Cell>]) -> String {
-    let cell = |cell: &Cell| match cell {
-        Cell::Text(text) => format!("<td>{}</td>", escaped(text)),
-        Cell::Formula(_, Some(layout)) => format!("<td>{}</td>", formula(layout, false)),
-        Cell::Formula(text, None) => format!("<td><code>{}</code></td>", escaped(text)),
+fn table(head: &[&str], rows: &[Vec<TableCell>]) -> String {
+    let cell = |cell: &TableCell| match cell {
+        TableCell::Text(text) => format!("<td>{}</td>", escaped(text)),
+        TableCell::Formula(_, Some(layout)) => format!("<td>{}</td>", formula(layout, false)),
+        TableCell::Formula(text, None) => format!("<td><code>{}</code></td>", escaped(text)),
     };
-    let line = |row: &Vec<Cell>| format!("<tr>{}</tr>\n", row.iter().map(cell).collect::<String>());
+    let line =
+        |row: &Vec<TableCell>| format!("<tr>{}</tr>\n", row.iter().map(cell).collect::<String>());
     let head: String = head.iter().map(|word| format!("<th>{}</th>", escaped(word))).collect();
     let body: String = rows.iter().map(line).collect();
     format!(
@@ -71,11 +72,11 @@ fn table(head: &[&str], rows: &[Vec<Cell>]) -> String {
     )
 }
 
-fn entry(entry: &Entry) -> String {
+fn entry(entry: &JudgedClaim) -> String {
     let class = match entry.mark {
-        Mark::Holds => "holds",
-        Mark::Fails => "fails",
-        Mark::Open => "open",
+        VerdictMark::Holds => "holds",
+        VerdictMark::Fails => "fails",
+        VerdictMark::Open => "open",
     };
     let mut out = format!(
         "<article class=\"{class}\">\n<h3><span class=\"verdict\">{} {}</span> {}",

@@ -1,6 +1,6 @@
 //! A document as LaTeX, for XeLaTeX or LuaLaTeX.
 
-use super::document::{Block, Cell, Document, Entry};
+use super::document::{Document, JudgedClaim, SectionBlock, TableCell};
 use crate::typeset::latex::{escaped, formula};
 
 const HEAD: &str = "% XeLaTeX or LuaLaTeX\n\\documentclass[a4paper,11pt]{article}\n\\usepackage{amsmath,amssymb,longtable,fontspec}\n\
@@ -21,13 +21,13 @@ pub fn render(document: &Document) -> String {
     out + "\\end{document}\n"
 }
 
-fn set(block: &Block) -> String {
+fn set(block: &SectionBlock) -> String {
     match block {
-        Block::Text(text) => format!("{}\n\n", escaped(text)),
-        Block::List(items) => list(items),
-        Block::Folded(_, lines) => small(lines),
-        Block::Entry(entry) => self::entry(entry),
-        Block::Table { head, rows } => {
+        SectionBlock::Text(text) => format!("{}\n\n", escaped(text)),
+        SectionBlock::List(items) => list(items),
+        SectionBlock::Folded(_, lines) => small(lines),
+        SectionBlock::Entry(entry) => self::entry(entry),
+        SectionBlock::Table { head, rows } => {
             let mut out = format!("\\begin{{longtable}}{{{}}}\n", "l".repeat(head.len()));
             out.push_str(&format!("{} \\\\\n\\hline\n", head.join(" & ")));
             for row in rows {
@@ -37,7 +37,7 @@ fn set(block: &Block) -> String {
             out + "\\end{longtable}\n"
         }
         // LaTeX does not support SVG; the HTML page has the pictures.
-        Block::Picture(_) => String::new(),
+        SectionBlock::Picture(_) => String::new(),
     }
 }
 
@@ -50,15 +50,15 @@ fn small(lines: &[String]) -> String {
     format!("{{\\footnotesize\n{}}}\n", list(lines))
 }
 
-fn cell(cell: &Cell) -> String {
+fn cell(cell: &TableCell) -> String {
     match cell {
-        Cell::Text(text) => escaped(text),
-        Cell::Formula(_, Some(layout)) => format!("${}$", formula(layout)),
-        Cell::Formula(text, None) => format!("\\texttt{{{}}}", escaped(text)),
+        TableCell::Text(text) => escaped(text),
+        TableCell::Formula(_, Some(layout)) => format!("${}$", formula(layout)),
+        TableCell::Formula(text, None) => format!("\\texttt{{{}}}", escaped(text)),
     }
 }
 
-fn entry(entry: &Entry) -> String {
+fn entry(entry: &JudgedClaim) -> String {
     let mark = match entry.mark.sign() {
         "✓" => "$\\checkmark$",
         "✗" => "$\\times$",

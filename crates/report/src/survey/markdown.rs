@@ -1,6 +1,6 @@
 //! A document as Markdown; formulas as LaTeX between dollars, evidence folded.
 
-use super::document::{Block, Cell, Document, Entry};
+use super::document::{Document, JudgedClaim, SectionBlock, TableCell};
 use crate::typeset::latex::formula;
 
 /// Renders the whole document.
@@ -15,16 +15,16 @@ pub fn render(document: &Document) -> String {
     out
 }
 
-fn set(block: &Block) -> String {
+fn set(block: &SectionBlock) -> String {
     match block {
-        Block::Text(text) => format!("{}\n\n", escaped(&one_line(text))),
-        Block::List(items) => {
+        SectionBlock::Text(text) => format!("{}\n\n", escaped(&one_line(text))),
+        SectionBlock::List(items) => {
             let lines: String = items.iter().map(|item| format!("- {}\n", escaped(item))).collect();
             lines + "\n"
         }
-        Block::Folded(what, lines) => folded(what, lines),
-        Block::Entry(entry) => self::entry(entry),
-        Block::Table { head, rows } => {
+        SectionBlock::Folded(what, lines) => folded(what, lines),
+        SectionBlock::Entry(entry) => self::entry(entry),
+        SectionBlock::Table { head, rows } => {
             let mut out = format!("| {} |\n|{}\n", head.join(" | "), "---|".repeat(head.len()));
             for row in rows {
                 let cells: Vec<String> = row.iter().map(cell).collect();
@@ -32,7 +32,7 @@ fn set(block: &Block) -> String {
             }
             out + "\n"
         }
-        Block::Picture(picture) => {
+        SectionBlock::Picture(picture) => {
             format!("*{}* (in the HTML page)\n\n", escaped(&picture.caption))
         }
     }
@@ -43,15 +43,17 @@ fn folded(what: &str, lines: &[String]) -> String {
     format!("<details><summary>{what}</summary>\n\n{lines}\n</details>\n\n")
 }
 
-fn cell(cell: &Cell) -> String {
+fn cell(cell: &TableCell) -> String {
     match cell {
-        Cell::Text(text) => escaped(text),
-        Cell::Formula(_, Some(layout)) => format!("${}$", formula(layout).replace('|', "\\vert ")),
-        Cell::Formula(text, None) => format!("`{}`", text.replace('|', "∣")),
+        TableCell::Text(text) => escaped(text),
+        TableCell::Formula(_, Some(layout)) => {
+            format!("${}$", formula(layout).replace('|', "\\vert "))
+        }
+        TableCell::Formula(text, None) => format!("`{}`", text.replace('|', "∣")),
     }
 }
 
-fn entry(entry: &Entry) -> String {
+fn entry(entry: &JudgedClaim) -> String {
     let mut out = format!("**{} {}** {}", entry.mark.sign(), entry.verdict, escaped(&entry.name));
     if !entry.source.is_empty() {
         out.push_str(&format!(" ({})", escaped(&entry.source)));

@@ -17,7 +17,7 @@ mod picture;
 use liouville_search::survey::Survey;
 
 pub use compose::{document, of_claims};
-pub use document::{Block, Cell, Document, Entry, Mark, Section};
+pub use document::{Document, DocumentSection, JudgedClaim, SectionBlock, TableCell, VerdictMark};
 pub use entry::entry;
 pub use picture::Picture;
 
@@ -38,7 +38,7 @@ pub fn latex(survey: &Survey, origin: &str) -> String {
 
 impl Document {
     /// Inserts a section after the description of the system.
-    pub fn insert(&mut self, section: Section) {
+    pub fn insert(&mut self, section: DocumentSection) {
         self.sections.insert(self.sections.len().min(2), section);
     }
 

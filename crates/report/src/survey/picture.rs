@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use liouville_search::survey::{Class, SphereMap, Standing, Wireframe};
+use liouville_search::survey::{HierarchyClass, HierarchyPlace, SphereMap, Wireframe};
 
 /// A picture with its caption.
 pub struct Picture {
@@ -151,14 +151,14 @@ fn mixed(stops: &[[f64; 3]], share: f64) -> String {
 }
 
 /// Draws the four classes, with that of the system marked.
-pub fn hierarchy(standing: &Standing) -> Picture {
+pub fn hierarchy(standing: &HierarchyPlace) -> Picture {
     const WIDE: f64 = 150.0;
     const HIGH: f64 = 52.0;
     let cells = [
-        (0, 0, Class::IntegralAndMeasure, "integral and measure"),
-        (1, 0, Class::MeasureOnly, "measure only"),
-        (0, 1, Class::IntegralOnly, "integral only"),
-        (1, 1, Class::Neither, "neither"),
+        (0, 0, HierarchyClass::IntegralAndMeasure, "integral and measure"),
+        (1, 0, HierarchyClass::MeasureOnly, "measure only"),
+        (0, 1, HierarchyClass::IntegralOnly, "integral only"),
+        (1, 1, HierarchyClass::Neither, "neither"),
     ];
     let mut inner = String::new();
     for (column, row, class, words) in cells {

@@ -1,40 +1,40 @@
 //! Known integrals: those that the file claims and that are proved, and the energy.
 
-use super::super::ansatz::coordinates;
-use super::super::ansatz::system::System;
+use super::super::ansatz::system::LinearSystem;
 use super::super::ask::{components, independent, is_energy, proved_energy};
-use super::super::linear::Functions;
+use super::super::linear::SampledFunctions;
 use super::super::products::{Generators, degree};
 use super::super::terms::recorded;
 use super::super::{Effort, SearchError};
 use liouville::case::Case;
-use liouville::claim::{Integral, Kind};
+use liouville::claim::{ClaimKind, Integral};
 use liouville::formula::{Formula, Type};
 use liouville::mechanics::Draw;
 use liouville::verdict::{ClaimReport, Verdict};
 
 /// Largest number of products that are counted.
-const MOST: usize = 2000;
+const MOST_PRODUCTS: usize = 2000;
 
 /// Integrals of a case, each proved, component by component.
-pub struct Known {
+pub struct ProvedIntegrals {
     formulas: Vec<Formula>,
 }
 
 /// Space of the polynomials in known integrals up to a degree.
-pub struct Space {
+pub struct ProductSpace {
     /// Number of independent polynomials among them.
     pub dimension: usize,
     /// Integrals that generate them.
     pub formulas: Vec<Formula>,
 }
 
-impl Known {
+impl ProvedIntegrals {
     /// Collects the proved integrals among the claims of a case, from the reports on them.
     pub fn of(case: &Case, reports: &[ClaimReport], effort: &Effort) -> Result<Self, SearchError> {
         let mut formulas: Vec<Formula> = proved_energy(case, effort)?.into_iter().collect();
         for (claim, report) in case.claims.iter().zip(reports) {
-            if let (Kind::Integral(Integral(own)), Verdict::Proved) = (&claim.kind, report.verdict)
+            if let (ClaimKind::Integral(Integral(own)), Verdict::Proved) =
+                (&claim.kind, report.verdict)
             {
                 formulas.extend(components(own)?);
             }
@@ -54,7 +54,7 @@ impl Known {
 
     /// Returns the integrals that have values modulo a prime, as terms: those without exp, ln and
     /// the like, and without ∫, whose constant is open.
-    pub fn terms(&self, case: &Case, seed: u64) -> Result<Vec<Formula>, SearchError> {
+    pub fn terms(&self, case: &Case, effort: &Effort) -> Result<Vec<Formula>, SearchError> {
         let mut own = self.formulas.clone();
         own.retain(|term| {
             term.value_type() == Type::Scalar && !case.model.has_antiderivative(term)
@@ -62,7 +62,7 @@ impl Known {
         let (graph, values) = recorded(case, |jet| {
             own.iter().map(|term| vec![jet.phase.scalar(term)]).collect::<Vec<_>>()
         })?;
-        let defined = Functions::new(case, &graph, &values, seed)?.defined();
+        let defined = SampledFunctions::new(case, &graph, &values, effort)?.defined();
         Ok(defined.into_iter().map(|k| own[k].clone()).collect())
     }
 
@@ -71,7 +71,12 @@ impl Known {
     /// Products are independent over the numbers where their values at random states, modulo a prime
     /// and for one choice of the parameters, have full rank; or where the integrals are independent
     /// functions. The larger of the two numbers counts.
-    pub fn of_degree(&self, case: &Case, most: u32, effort: &Effort) -> Result<Space, SearchError> {
+    pub fn of_degree(
+        &self,
+        case: &Case,
+        most: u32,
+        effort: &Effort,
+    ) -> Result<ProductSpace, SearchError> {
         let seed = effort.options.seed;
         let mut independents: Vec<(Formula, u32)> = Vec::new();
         for formula in &self.formulas {
@@ -84,11 +89,11 @@ impl Known {
             }
         }
         let by_gradients = Generators::of(independents.clone());
-        let mut best = Space {
+        let mut best = ProductSpace {
             dimension: by_gradients.products(most, true),
             formulas: independents.into_iter().map(|(formula, _)| formula).collect(),
         };
-        if let Some(space) = self.by_values(case, most, seed)?
+        if let Some(space) = self.by_values(case, most, effort)?
             && space.dimension > best.dimension
         {
             best = space;
@@ -98,22 +103,27 @@ impl Known {
 
     /// Counts products by their values; `None` if lists of parameters would need more than one
     /// count, or if some product has no value modulo a prime.
-    fn by_values(&self, case: &Case, most: u32, seed: u64) -> Result<Option<Space>, SearchError> {
+    fn by_values(
+        &self,
+        case: &Case,
+        most: u32,
+        effort: &Effort,
+    ) -> Result<Option<ProductSpace>, SearchError> {
         if has_lists(case) {
             return Ok(None);
         }
         let mut terms = Vec::new();
         let mut own = Vec::new();
-        for term in self.terms(case, seed)? {
-            let known = degree(case, &term, seed)?.filter(|degree| *degree > 0);
+        for term in self.terms(case, effort)? {
+            let known = degree(case, &term, effort.options.seed)?.filter(|degree| *degree > 0);
             if let Some(degree) = known.filter(|degree| *degree <= most) {
                 own.push((term.clone(), degree));
                 terms.push(term);
             }
         }
         let products = Generators::of(own).exponents(most, true);
-        let dimension = rank(case, &terms, &products, &[], seed)?;
-        Ok(dimension.map(|dimension| Space { dimension, formulas: terms }))
+        let dimension = rank(case, &terms, &products, &[], effort)?;
+        Ok(dimension.map(|dimension| ProductSpace { dimension, formulas: terms }))
     }
 }
 
@@ -133,13 +143,13 @@ pub fn rank(
     terms: &[Formula],
     products: &[Vec<u32>],
     further: &[Formula],
-    seed: u64,
+    effort: &Effort,
 ) -> Result<Option<usize>, SearchError> {
-    if products.len() > MOST || contains_integrals(case)? {
+    if products.len() > MOST_PRODUCTS || contains_integrals(case)? {
         return Ok(None);
     }
     let mut outputs = (Vec::new(), Vec::new());
-    let system = System::record(case, &coordinates(case), seed, |jet, recording| {
+    let system = LinearSystem::record(case, effort, |jet, recording| {
         let mut give = |term: &Formula| recording.give(jet.phase.scalar(term));
         outputs.0 = terms.iter().map(&mut give).collect();
         outputs.1 = further.iter().map(&mut give).collect();
@@ -151,7 +161,7 @@ pub fn rank(
     };
     let own = outputs.1.iter().map(|output| vec![*output]);
     let columns: Vec<Vec<usize>> = products.iter().map(product).chain(own).collect();
-    let relations = system.combination_relations(&at, &[], &columns);
+    let relations = system.combination_relations(&at, &[], &columns)?;
     Ok(relations.map(|relations| columns.len() - relations.len()))
 }
 

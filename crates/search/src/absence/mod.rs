@@ -4,22 +4,24 @@
 //! known        the integrals that the file claims and that are proved, with the energy
 //! velocities   polynomials in the velocities with any smooth coefficients, by Taylor coefficients
 //! polynomials  polynomials in all variables of a field, by random states
+//! functions    fractions of polynomials in the state and functions of it, along an orbit
 //! ```
 //!
 //! A count bounds the number of integrals or densities from above; the known ones bound it from
 //! below. If both bounds agree, there are no others. Otherwise one of the others is sought and
 //! proved: a witness that refutes the claim.
 
+mod functions;
 mod known;
 mod polynomials;
 mod velocities;
 
 use std::time::Duration;
 
-use super::ansatz::monomials::Variables;
+use super::ansatz::monomials::AnsatzVariables;
 use super::local::Coordinates;
 use super::{Ansatz, Effort, Halt, SearchError, abbreviated, branches};
-use known::Known;
+use known::ProvedIntegrals;
 use liouville::case::{AbsenceClaim, Case, Expect};
 use liouville::claim::absence::Absence;
 use liouville::formula::Formula;
@@ -31,10 +33,10 @@ use liouville::verdict::{
 /// Limit on the estimated time of a count, in seconds; longer counts are left out.
 const SECONDS: f64 = 20.0;
 /// Limit on the time for a claim.
-const MOST: Duration = Duration::from_secs(60);
+const MOST_TIME: Duration = Duration::from_secs(60);
 
 /// The outcome of a claim of absence.
-enum Outcome {
+enum AbsenceOutcome {
     /// No such integral or density exists.
     Excluded {
         /// Theorem with its hypotheses.
@@ -78,54 +80,61 @@ fn look(case: &Case, judged: &[ClaimReport], options: &Options) -> Vec<ClaimRepo
     let options = Options { trust: Trust::Best, mutants: false, ..*options };
     let ground = abbreviated(case).and_then(|case| {
         let effort = Effort { options, ..Effort::default() };
-        let known = Known::of(&case, judged, &effort)?;
+        let known = ProvedIntegrals::of(&case, judged, &effort)?;
         Ok((case, known))
     });
     let outcome = |claim: &AbsenceClaim| {
         let (case, known) = match &ground {
             Ok((case, known)) => (case, known),
-            Err(error) => return Outcome::Open(error.to_string()),
+            Err(error) => return AbsenceOutcome::Open(error.to_string()),
         };
-        let asked = Asked::new(case, known, options);
-        asked.look(&claim.kind).unwrap_or_else(|error| Outcome::Open(error.to_string()))
+        let asked = AbsenceCase::new(case, known, options);
+        asked.look(&claim.kind).unwrap_or_else(|error| AbsenceOutcome::Open(error.to_string()))
     };
     case.absences.iter().map(|claim| report(claim, outcome(claim))).collect()
 }
 
 /// A case whose claims of absence are judged.
-struct Asked<'a> {
+struct AbsenceCase<'a> {
     case: &'a Case,
-    known: &'a Known,
+    known: &'a ProvedIntegrals,
     effort: Effort,
 }
 
-impl<'a> Asked<'a> {
-    fn new(case: &'a Case, known: &'a Known, options: Options) -> Self {
+impl<'a> AbsenceCase<'a> {
+    fn new(case: &'a Case, known: &'a ProvedIntegrals, options: Options) -> Self {
         let effort = Effort {
             seconds: SECONDS,
             // Roots in known integrals must have the right branch as well.
             terms: known.formulas().iter().cloned().map(Into::into).collect(),
             ansatz: Ansatz { wanted: true, ..Ansatz::default() },
-            halt: Halt::within(MOST),
+            halt: Halt::within(MOST_TIME),
             options,
             ..Effort::default()
         };
         Self { case, known, effort }
     }
 
-    fn look(&self, kind: &Absence) -> Result<Outcome, SearchError> {
+    fn look(&self, kind: &Absence) -> Result<AbsenceOutcome, SearchError> {
         let system = &self.case.model.system;
         if system.has_arbitrary_function() {
             let reason = "a function of the body is arbitrary, and a count needs a given one";
-            return Ok(Outcome::Open(reason.to_string()));
+            return Ok(AbsenceOutcome::Open(reason.to_string()));
         }
         let outcome = if Coordinates::of(self.case).is_ok() {
             velocities::look(self, kind)?
         } else {
-            let own = Variables::of(self.case).filter(|own| !own.have_velocities());
+            let own = AnsatzVariables::of(self.case).filter(|own| !own.have_velocities());
             match own {
-                Some(variables) => polynomials::look(self, &variables, kind)?,
-                None => Outcome::Open(
+                Some(variables) => match (polynomials::look(self, &variables, kind)?, kind) {
+                    (Some(outcome), _) => outcome,
+                    // Its theorem holds on all branches of roots, and moduli have no part in it.
+                    (None, Absence::NoIntegral(claim)) => {
+                        return functions::no_integral(self, claim.degree);
+                    }
+                    (None, Absence::NoDensity(_)) => polynomials::nothing(),
+                },
+                None => AbsenceOutcome::Open(
                     "velocities are not known apart, and polynomials in all variables are counted \
                      without a level set only"
                         .to_string(),
@@ -133,8 +142,8 @@ impl<'a> Asked<'a> {
             }
         };
         match outcome {
-            Outcome::Excluded { .. } if !branches::are_true(self.case, &self.effort)? => {
-                Ok(Outcome::Open(
+            AbsenceOutcome::Excluded { .. } if !branches::are_true(self.case, &self.effort)? => {
+                Ok(AbsenceOutcome::Open(
                     "the formulas contain a modulus, or a root that depends on others: a count \
                      modulo a prime says nothing about them"
                         .to_string(),
@@ -191,18 +200,18 @@ fn generated(class: &str, formulas: &[Formula]) -> String {
     }
 }
 
-fn report(claim: &AbsenceClaim, outcome: Outcome) -> ClaimReport {
+fn report(claim: &AbsenceClaim, outcome: AbsenceOutcome) -> ClaimReport {
     let mut evidence = Evidence { method: Method::Count, ..Evidence::default() };
     let verdict = match outcome {
-        Outcome::Excluded { theorem, counted } => {
+        AbsenceOutcome::Excluded { theorem, counted } => {
             (evidence.theorem, evidence.remark) = (Some(theorem), Some(counted));
             Verdict::Proved
         }
-        Outcome::Exhibited(what) => {
+        AbsenceOutcome::Exhibited(what) => {
             evidence.exhibit = Some(what);
             Verdict::Refuted
         }
-        Outcome::Open(reason) => {
+        AbsenceOutcome::Open(reason) => {
             evidence.reason = Some(reason);
             Verdict::Undecided
         }

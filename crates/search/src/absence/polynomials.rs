@@ -5,22 +5,21 @@
 //! parameters, so that the null space is at least as large as the space of integrals.
 
 use super::super::SearchError;
-use super::super::ansatz::coefficients::{Coefficients, Ratio};
-use super::super::ansatz::coordinates;
-use super::super::ansatz::monomials::Variables;
+use super::super::ansatz::coefficients::{PrimitiveVector, Ratio};
+use super::super::ansatz::monomials::AnsatzVariables;
 use super::super::ansatz::subspace::complement;
-use super::super::ansatz::system::{At, Column, Recording, System};
+use super::super::ansatz::system::{Column, LinearSystem, PrimePoint, Recording};
 use super::super::ask::judged_alone;
 use super::super::multipliers::WEIGHTS;
 use super::super::products::Generators;
 use super::super::terms::{is_one, numeric_exponent};
 use super::known::{contains_integrals, has_lists, rank};
-use super::{Asked, Outcome, generated};
+use super::{AbsenceCase, AbsenceOutcome, generated};
 use liouville::claim::Claim;
 use liouville::claim::absence::Absence;
 use liouville::formula::{Formula, FormulaError};
 use liouville::graph::Expr;
-use liouville::mechanics::calculus::Jet;
+use liouville::mechanics::calculus::DualPoint;
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 use liouville::verdict::Verdict;
@@ -28,18 +27,19 @@ use liouville::verdict::Verdict;
 /// Lower bound on the elementary steps of an elimination per second.
 const STEPS: f64 = 5e8;
 
-/// Judges a claim by polynomials in all variables.
+/// Judges a claim by polynomials in all variables; `None` if the field has no value modulo a prime.
 pub fn look(
-    asked: &Asked<'_>,
-    variables: &Variables,
+    asked: &AbsenceCase<'_>,
+    variables: &AnsatzVariables,
     kind: &Absence,
-) -> Result<Outcome, SearchError> {
+) -> Result<Option<AbsenceOutcome>, SearchError> {
+    let open = |reason: String| Ok(Some(AbsenceOutcome::Open(reason)));
     if has_lists(asked.case) {
         let reason = "a parameter has a list of values: write a separate case for each value";
-        return Ok(Outcome::Open(reason.to_string()));
+        return open(reason.to_string());
     }
     if contains_integrals(asked.case)? {
-        return Ok(Outcome::Open("the field contains ∫".to_string()));
+        return open("the field contains ∫".to_string());
     }
     let degree = match kind {
         Absence::NoIntegral(claim) => claim.degree,
@@ -53,31 +53,31 @@ pub fn look(
     };
     let seconds = systems * unknowns.powi(3) / STEPS;
     if seconds > asked.effort.seconds {
-        return Ok(Outcome::Open(format!(
+        return open(format!(
             "degree {degree} has {unknowns} unknowns, and may take {seconds:.0} s: ask for a lower one"
-        )));
+        ));
     }
     let counting = Counting::new(asked, variables, degree, monomials)?;
-    let Some(counting) = counting else { return Ok(nothing()) };
+    let Some(counting) = counting else { return Ok(None) };
     match kind {
-        Absence::NoIntegral(_) => counting.no_integral(),
-        Absence::NoDensity(_) => counting.no_density(),
+        Absence::NoIntegral(_) => counting.no_integral().map(Some),
+        Absence::NoDensity(_) => counting.no_density().map(Some),
     }
 }
 
 /// Returns the outcome if the field has no value at any state modulo a prime.
-fn nothing() -> Outcome {
-    Outcome::Open(SearchError::NoPoints.to_string())
+pub fn nothing() -> AbsenceOutcome {
+    AbsenceOutcome::Open(SearchError::NoPoints.to_string())
 }
 
 /// Count of the polynomials of a field.
 struct Counting<'a> {
-    asked: &'a Asked<'a>,
-    variables: &'a Variables,
+    asked: &'a AbsenceCase<'a>,
+    variables: &'a AnsatzVariables,
     degree: u32,
     monomials: Vec<Vec<u32>>,
-    system: System,
-    at: At,
+    system: LinearSystem,
+    at: PrimePoint,
     /// Known integrals, with their outputs.
     known: Vec<(Formula, usize)>,
     /// Direction for each choice of α; that of integrals is 0.
@@ -98,16 +98,15 @@ struct Space {
 impl<'a> Counting<'a> {
     /// Records the field; `None` if it has no value modulo a prime.
     fn new(
-        asked: &'a Asked<'a>,
-        variables: &'a Variables,
+        asked: &'a AbsenceCase<'a>,
+        variables: &'a AnsatzVariables,
         degree: u32,
         monomials: Vec<Vec<u32>>,
     ) -> Result<Option<Self>, SearchError> {
         let case = asked.case;
-        let seed = asked.effort.options.seed;
-        let terms = asked.known.terms(case, seed)?;
+        let terms = asked.known.terms(case, &asked.effort)?;
         let (mut outputs, mut weighted, mut output) = (Vec::new(), Vec::new(), 0);
-        let mut record = |jet: &Jet<'_, Expr>, own: &mut Recording| {
+        let mut record = |jet: &DualPoint<'_, Expr>, own: &mut Recording| {
             let zero = Expr::rational(&Rational::from(0));
             own.derive_growing(jet.along_field(), &variables.terms, zero);
             outputs = terms.iter().map(|term| own.give(jet.phase.scalar(term))).collect();
@@ -119,7 +118,7 @@ impl<'a> Counting<'a> {
                 weighted.push((alpha, direction));
             }
         };
-        let mut system = System::record(case, &coordinates(case), seed, &mut record)?;
+        let mut system = LinearSystem::record(case, &asked.effort, &mut record)?;
         let product = |direction: usize| {
             monomials.iter().map(move |exponents| Column::Product {
                 derivation: direction,
@@ -156,13 +155,15 @@ impl<'a> Counting<'a> {
 
     /// Returns the degrees of the known integrals; `None` for one that is not a polynomial of the
     /// class.
-    fn degrees(&self) -> Option<Vec<Option<u32>>> {
+    fn degrees(&self) -> Result<Option<Vec<Option<u32>>>, SearchError> {
         let count = self.monomials.len();
         let first = 1 + (1 + self.weighted.len()) * count;
         let given: Vec<usize> = (first..first + self.known.len()).collect();
         let columns = [self.columns(0), given].concat();
-        let relations = self.system.dependences(&self.at, &columns)?;
-        Some(
+        let Some(relations) = self.system.dependences(&self.at, &columns)? else {
+            return Ok(None);
+        };
+        Ok(Some(
             (0..self.known.len())
                 .map(|k| {
                     let alone = |own: &&Vec<u64>| {
@@ -175,12 +176,12 @@ impl<'a> Counting<'a> {
                     used.map(|column| self.monomials[column].iter().sum()).max()
                 })
                 .collect(),
-        )
+        ))
     }
 
     /// Returns the polynomials in the known integrals up to the degree.
     fn space(&self) -> Result<Option<Space>, SearchError> {
-        let Some(degrees) = self.degrees() else { return Ok(None) };
+        let Some(degrees) = self.degrees()? else { return Ok(None) };
         let own: Vec<(&(Formula, usize), u32)> = self
             .known
             .iter()
@@ -195,8 +196,8 @@ impl<'a> Counting<'a> {
             each.flat_map(|(power, ((_, output), _))| vec![*output; *power as usize]).collect()
         };
         let products = exponents.iter().map(product).collect();
-        let seed = self.asked.effort.options.seed;
-        let dimension = rank(self.asked.case, &terms, &exponents, &[], seed)?;
+        let effort = &self.asked.effort;
+        let dimension = rank(self.asked.case, &terms, &exponents, &[], effort)?;
         Ok(dimension.map(|dimension| Space { terms, exponents, products, dimension }))
     }
 
@@ -204,21 +205,21 @@ impl<'a> Counting<'a> {
         format!("a polynomial of degree at most {} in the variables of the state", self.degree)
     }
 
-    fn no_integral(&self) -> Result<Outcome, SearchError> {
+    fn no_integral(&self) -> Result<AbsenceOutcome, SearchError> {
         let columns = self.columns(0);
-        let found = self.system.null_space(&self.at, &columns);
+        let found = self.system.null_space(&self.at, &columns)?;
         let (Some(found), Some(space)) = (found, self.space()?) else {
             return Ok(nothing());
         };
         let dimension = found.len();
         if dimension < space.dimension {
-            return Ok(Outcome::Open(format!(
+            return Ok(AbsenceOutcome::Open(format!(
                 "the count is {dimension}, fewer than the {} known integrals",
                 space.dimension
             )));
         }
         if dimension == space.dimension {
-            return Ok(Outcome::Excluded {
+            return Ok(AbsenceOutcome::Excluded {
                 theorem: self.asked.theorem(&generated(&self.class(), &space.terms)),
                 counted: format!(
                     "at most {dimension} independent integrals, constants included: all known"
@@ -232,14 +233,14 @@ impl<'a> Counting<'a> {
                 own
             })
             .collect();
-        let new = complement(&self.system, &self.at, &padded, &space.products).unwrap_or_default();
+        let new = complement(&self.system, &self.at, &padded, &space.products)?.unwrap_or_default();
         for vector in &new {
             self.asked.effort.halt.check()?;
             if let Some(formula) = self.integral(vector, &space)? {
-                return Ok(Outcome::Exhibited(format!("integral, proved: {formula}")));
+                return Ok(AbsenceOutcome::Exhibited(format!("integral, proved: {formula}")));
             }
         }
-        Ok(Outcome::Open(format!(
+        Ok(AbsenceOutcome::Open(format!(
             "at most {dimension} independent integrals exist, constants included; {} are known, and no \
              other was found in closed form",
             space.dimension
@@ -255,20 +256,22 @@ impl<'a> Counting<'a> {
             return Ok(None);
         }
         let own = [formula];
-        let seed = self.asked.effort.options.seed;
-        let with = rank(case, &space.terms, &space.exponents, &own, seed)?;
+        let effort = &self.asked.effort;
+        let with = rank(case, &space.terms, &space.exponents, &own, effort)?;
         let [formula] = own;
         Ok((with == Some(space.dimension + 1)).then_some(formula))
     }
 
     /// Writes Σ c_a x^a for all values of the parameters, if its coefficients are fractions in
     /// them.
-    fn written(&self, vector: &[u64], direction: usize) -> Result<Option<Formula>, FormulaError> {
+    fn written(&self, vector: &[u64], direction: usize) -> Result<Option<Formula>, SearchError> {
         let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
         let start = self.columns(direction).first().copied();
         let columns = |start: usize| support.iter().map(|k| start + k).collect::<Vec<_>>();
-        let coefficients = start.and_then(|start| Coefficients::of(&self.system, &columns(start)));
-        let Some(coefficients) = coefficients else { return Ok(None) };
+        let Some(start) = start else { return Ok(None) };
+        let Some(coefficients) = PrimitiveVector::of(&self.system, &columns(start))? else {
+            return Ok(None);
+        };
         let functions = self.functions(support.iter().copied())?;
         let sum = coefficients.sum(&(0..support.len()).collect::<Vec<_>>(), &functions)?;
         Ok(Some(sum.unwrap_or_else(|| Formula::number(0))))
@@ -284,11 +287,11 @@ impl<'a> Counting<'a> {
         Ok(report.is_some_and(|report| report.verdict == Verdict::Proved))
     }
 
-    fn no_density(&self) -> Result<Outcome, SearchError> {
+    fn no_density(&self) -> Result<AbsenceOutcome, SearchError> {
         for (alpha, direction) in &self.weighted {
             self.asked.effort.halt.check()?;
             let columns = self.columns(*direction);
-            let Some(found) = self.system.null_space(&self.at, &columns) else {
+            let Some(found) = self.system.null_space(&self.at, &columns)? else {
                 return Ok(nothing());
             };
             let Some(vector) = found.first() else { continue };
@@ -299,16 +302,16 @@ impl<'a> Counting<'a> {
                     false => polynomial.bracketed().power(&root)?,
                 };
                 if self.holds(Claim::density(&formula))? {
-                    return Ok(Outcome::Exhibited(format!("density, proved: {formula}")));
+                    return Ok(AbsenceOutcome::Exhibited(format!("density, proved: {formula}")));
                 }
             }
-            return Ok(Outcome::Open(format!(
+            return Ok(AbsenceOutcome::Open(format!(
                 "the count allows a density P^{root}, but none was found in closed form"
             )));
         }
         // L_vP + s div v = 0, without the constants: ln ρ = P/s.
         let columns = [&self.columns(0)[1..], &[self.divergence]].concat();
-        let Some(found) = self.system.null_space(&self.at, &columns) else { return Ok(nothing()) };
+        let Some(found) = self.system.null_space(&self.at, &columns)? else { return Ok(nothing()) };
         if found.iter().any(|own| own.last().is_some_and(|last| *last != 0)) {
             return self.exponential(&found, &columns);
         }
@@ -316,29 +319,35 @@ impl<'a> Counting<'a> {
         if found.len() + 1 != space.dimension {
             let reason = "there are more integrals of this degree than are claimed, and the count does \
                           not tell them from densities: claim them as well";
-            return Ok(Outcome::Open(reason.to_string()));
+            return Ok(AbsenceOutcome::Open(reason.to_string()));
         }
         let statement = format!(
             "there is no invariant density P^(1/α), α = ±1, ±2, ±3, ±4, and none of the form exp P, with \
              P {}",
             self.class()
         );
-        Ok(Outcome::Excluded {
+        Ok(AbsenceOutcome::Excluded {
             theorem: self.asked.theorem(&statement),
             counted: "0 are counted".to_string(),
         })
     }
 
     /// Writes exp P and judges it as a density.
-    fn exponential(&self, found: &[Vec<u64>], columns: &[usize]) -> Result<Outcome, SearchError> {
+    fn exponential(
+        &self,
+        found: &[Vec<u64>],
+        columns: &[usize],
+    ) -> Result<AbsenceOutcome, SearchError> {
         let own = found.iter().find(|own| own.last().is_some_and(|last| *last != 0));
         let open = || {
-            Ok(Outcome::Open("the count allows a density exp P, but none was found".to_string()))
+            Ok(AbsenceOutcome::Open(
+                "the count allows a density exp P, but none was found".to_string(),
+            ))
         };
         let Some(vector) = own else { return open() };
         let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
         let used: Vec<usize> = support.iter().map(|k| columns[*k]).collect();
-        let Some(coefficients) = Coefficients::of(&self.system, &used) else { return open() };
+        let Some(coefficients) = PrimitiveVector::of(&self.system, &used)? else { return open() };
         let last = support.len() - 1;
         let functions = self.functions(support[..last].iter().map(|k| columns[*k]))?;
         let sum = coefficients.sum(&(0..last).collect::<Vec<_>>(), &functions)?;
@@ -350,7 +359,7 @@ impl<'a> Counting<'a> {
         };
         let formula = Formula::call("exp", &[&exponent])?;
         match self.holds(Claim::density(&formula))? {
-            true => Ok(Outcome::Exhibited(format!("density, proved: {formula}"))),
+            true => Ok(AbsenceOutcome::Exhibited(format!("density, proved: {formula}"))),
             false => open(),
         }
     }

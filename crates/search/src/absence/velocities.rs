@@ -5,15 +5,17 @@ use super::super::counts::{self, CountReport};
 use super::super::local::Local;
 use super::super::products::degree;
 use super::super::terms::numeric_exponent;
-use super::super::{Effort, Found, Report, SearchError, ansatz, densities, integrals, multipliers};
-use super::{Asked, Outcome, generated};
+use super::super::{
+    Effort, Found, SearchError, SearchReport, ansatz, densities, integrals, multipliers,
+};
+use super::{AbsenceCase, AbsenceOutcome, generated};
 use liouville::claim::absence::Absence;
 use liouville::formula::Formula;
 use liouville::number::rational::Rational;
 use liouville::verdict::Verdict;
 
 /// Judges a claim by Taylor coefficients.
-pub fn look(asked: &Asked<'_>, kind: &Absence) -> Result<Outcome, SearchError> {
+pub fn look(asked: &AbsenceCase<'_>, kind: &Absence) -> Result<AbsenceOutcome, SearchError> {
     match kind {
         Absence::NoIntegral(claim) => no_integral(asked, claim.degree),
         Absence::NoDensity(claim) => no_density(asked, claim.degree),
@@ -48,24 +50,31 @@ fn bound(counts: &[CountReport], degree: u32) -> Option<Bound> {
     }
 }
 
-fn no_integral(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
+fn no_integral(asked: &AbsenceCase<'_>, most: u32) -> Result<AbsenceOutcome, SearchError> {
     let case = asked.case;
     let effort = &Effort { degree: most, ..asked.effort.clone() };
-    let mut report = Report::default();
+    let mut report = SearchReport::default();
     counts::count(case, effort, &mut report, &mut |_| {})?;
     let class = format!(
         "a polynomial of degree at most {most} in the velocities, with any smooth coefficients on any \
          open set of positions"
     );
     let dimension = match bound(&report.counts, most) {
-        None => return Ok(Outcome::Open(reasons(&report, "the count does not reach this degree"))),
+        None => {
+            return Ok(AbsenceOutcome::Open(reasons(
+                &report,
+                "the count does not reach this degree",
+            )));
+        }
         Some(Bound::Leading) => {
             // If the energy is conserved, subtracting its powers lowers the degree.
             let known = asked.known.formulas().iter();
             let names: Vec<Formula> = known.filter(|one| is_energy(one)).cloned().collect();
             return Ok(match names.is_empty() {
-                true => Outcome::Open("the energy is not known to be an integral".to_string()),
-                false => Outcome::Excluded {
+                true => {
+                    AbsenceOutcome::Open("the energy is not known to be an integral".to_string())
+                }
+                false => AbsenceOutcome::Excluded {
                     theorem: asked.theorem(&generated(&class, &names)),
                     counted: "leading forms are powers of the energy".to_string(),
                 },
@@ -75,20 +84,20 @@ fn no_integral(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
     };
     let known = asked.known.of_degree(case, most, effort)?;
     if known.dimension > dimension {
-        return Ok(Outcome::Open(format!(
+        return Ok(AbsenceOutcome::Open(format!(
             "the count is {dimension}, fewer than the {} known integrals",
             known.dimension
         )));
     }
     if known.dimension == dimension {
-        return Ok(Outcome::Excluded {
+        return Ok(AbsenceOutcome::Excluded {
             theorem: asked.theorem(&generated(&class, &known.formulas)),
             counted: format!(
                 "at most {dimension} independent integrals, constants included: all known"
             ),
         });
     }
-    let mut found = |run: &mut dyn FnMut(&mut Report) -> Result<(), SearchError>| {
+    let mut found = |run: &mut dyn FnMut(&mut SearchReport) -> Result<(), SearchError>| {
         run(&mut report)?;
         witness(asked, most, &report)
     };
@@ -99,8 +108,8 @@ fn no_integral(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
             None => found(&mut |report| ansatz::search(case, effort, report, &mut |_| {}))?,
         },
     };
-    Ok(exhibit.map(Outcome::Exhibited).unwrap_or_else(|| {
-        Outcome::Open(format!(
+    Ok(exhibit.map(AbsenceOutcome::Exhibited).unwrap_or_else(|| {
+        AbsenceOutcome::Open(format!(
             "at most {dimension} independent integrals exist, constants included; {} are known, and no \
              other was found in closed form",
             known.dimension
@@ -109,7 +118,11 @@ fn no_integral(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
 }
 
 /// Returns an integral of a report that refutes the claim.
-fn witness(asked: &Asked<'_>, most: u32, report: &Report) -> Result<Option<String>, SearchError> {
+fn witness(
+    asked: &AbsenceCase<'_>,
+    most: u32,
+    report: &SearchReport,
+) -> Result<Option<String>, SearchError> {
     let own = |found: &&Found| {
         found.kind == "integral" && found.with.is_empty() && found.verdict == Verdict::Proved
     };
@@ -134,18 +147,18 @@ fn shown(what: &str, found: &Found) -> String {
     format!("{what}, proved: {}{names}", found.formula)
 }
 
-fn no_density(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
+fn no_density(asked: &AbsenceCase<'_>, most: u32) -> Result<AbsenceOutcome, SearchError> {
     let case = asked.case;
     let effort = &Effort { degree: most, ..asked.effort.clone() };
     let mixed = case.model.system.energy_is_inhomogeneous();
     let (unknowns, seconds) = counts::size(&Local::of(case, &[])?, most, mixed);
     let seconds = seconds * multipliers::WEIGHTS.len() as f64;
     if seconds > effort.seconds {
-        return Ok(Outcome::Open(format!(
+        return Ok(AbsenceOutcome::Open(format!(
             "degree {most} has {unknowns} unknowns, and takes {seconds:.0} s and more: ask for a lower one"
         )));
     }
-    let mut report = Report::default();
+    let mut report = SearchReport::default();
     multipliers::multipliers(case, effort, &mut report, &mut |_| {})?;
     if !report.excluded.is_empty() {
         let powers = match most {
@@ -156,13 +169,13 @@ fn no_density(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
             ),
         };
         let statement = format!("there is no invariant density of the positions alone{powers}");
-        return Ok(Outcome::Excluded {
+        return Ok(AbsenceOutcome::Excluded {
             theorem: asked.theorem(&statement),
             counted: "0 are counted".to_string(),
         });
     }
     if report.multipliers.is_empty() {
-        return Ok(Outcome::Open(reasons(&report, "nothing can be counted")));
+        return Ok(AbsenceOutcome::Open(reasons(&report, "nothing can be counted")));
     }
     densities::densities(case, effort, &mut report)?;
     for found in &report.found {
@@ -171,14 +184,16 @@ fn no_density(asked: &Asked<'_>, most: u32) -> Result<Outcome, SearchError> {
         }
         let Some(function) = &found.function else { continue };
         if is_of_class(asked, function, most)? {
-            return Ok(Outcome::Exhibited(shown("density", found)));
+            return Ok(AbsenceOutcome::Exhibited(shown("density", found)));
         }
     }
-    Ok(Outcome::Open("the count allows a density, but none was found in closed form".to_string()))
+    Ok(AbsenceOutcome::Open(
+        "the count allows a density, but none was found in closed form".to_string(),
+    ))
 }
 
 /// Whether a density is a function of the positions alone, or P^(1/α) with P up to this degree.
-fn is_of_class(asked: &Asked<'_>, formula: &Formula, most: u32) -> Result<bool, SearchError> {
+fn is_of_class(asked: &AbsenceCase<'_>, formula: &Formula, most: u32) -> Result<bool, SearchError> {
     for alpha in multipliers::WEIGHTS {
         let power = numeric_exponent(Rational::from(alpha))?;
         let polynomial = formula.bracketed().power(&power)?;
@@ -189,7 +204,7 @@ fn is_of_class(asked: &Asked<'_>, formula: &Formula, most: u32) -> Result<bool, 
     Ok(false)
 }
 
-fn reasons(report: &Report, otherwise: &str) -> String {
+fn reasons(report: &SearchReport, otherwise: &str) -> String {
     // `check` has no such options.
     let remark = |text: &String| match text.split_once("; raise --") {
         Some((reason, _)) => format!("{reason}: ask for a lower degree"),

@@ -9,11 +9,11 @@ use num_traits::{Signed, Zero};
 use super::super::SearchError;
 use super::super::terms::{combined, is_one, whole};
 use super::monomials::power_product;
-use super::poisson::Family;
+use super::poisson::BracketSearch;
 use liouville::case::Case;
-use liouville::formula::{Composed, Formula, FormulaError, Type};
+use liouville::formula::{Formula, FormulaError, FormulaResult, Type};
 
-impl Family<'_> {
+impl BracketSearch<'_> {
     /// Entries P_ij, i < j, by rows; the last multiple divides all, unless it is 0.
     pub(super) fn entries(&self, multiples: &[BigInt]) -> Result<Vec<Formula>, FormulaError> {
         let (field, own) = match multiples.split_last() {
@@ -126,7 +126,7 @@ fn is_zero(formula: &Formula) -> bool {
     formula.constant().is_some_and(|value| value.is_zero())
 }
 
-fn row(parts: Vec<Formula>) -> Composed {
+fn row(parts: Vec<Formula>) -> FormulaResult {
     Type::Vector(parts.len()).filled(&parts)
 }
 
@@ -141,7 +141,7 @@ pub(super) enum Weight {
 
 impl Weight {
     /// The weight as a formula.
-    pub(super) fn formula(&self) -> Composed {
+    pub(super) fn formula(&self) -> FormulaResult {
         match self {
             Weight::Above(own) => Ok(own.clone()),
             Weight::Below(own) => Formula::number(1) / own,
@@ -149,7 +149,7 @@ impl Weight {
     }
 
     /// The product of the weight and a monomial.
-    fn on(&self, power: &Formula) -> Composed {
+    fn on(&self, power: &Formula) -> FormulaResult {
         match self {
             Weight::Above(own) if is_one(own) => Ok(power.clone()),
             Weight::Above(own) if is_one(power) => Ok(own.clone()),

@@ -1,60 +1,60 @@
 //! Sign changes of the state that preserve or reverse the motion: every integral is a sum of
 //! integrals that they multiply by ±1, so that a linear system decomposes into blocks.
 
-use crate::streams::Stream;
+use crate::streams::SearchStream;
 use std::collections::BTreeMap;
 
 use super::super::SearchError;
 use super::super::terms::recorded;
-use super::monomials::Variables;
+use super::monomials::AnsatzVariables;
 use super::system::Column;
 use liouville::case::Case;
-use liouville::claim::Place;
+use liouville::claim::LevelSubset;
 use liouville::formula::Formula;
 use liouville::graph::{Evaluator, Tape, record};
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
 use liouville::verdict::Sampler;
 
 /// Number of states at which a symmetry is tested.
-const LANES: usize = 8;
+const TEST_STATES: usize = 8;
 /// Largest number of components for which sign changes are tried.
-const MOST: usize = 10;
+const MOST_COMPONENTS: usize = 10;
 
 /// A sign change of the state and the factors.
-struct Signs {
+struct SignChange {
     changed: Vec<bool>,
     factors: Vec<bool>,
 }
 
 /// The sign changes of a case that are symmetries or reversors.
-pub struct Characters(Vec<Signs>);
+pub struct SignChanges(Vec<SignChange>);
 
-impl Characters {
+impl SignChanges {
     /// Finds the sign changes of the motion on the level that multiply each of the factors by ±1.
     pub fn of(
         case: &Case,
-        variables: &Variables,
+        variables: &AnsatzVariables,
         factors: &[Formula],
         seed: u64,
     ) -> Result<Self, SearchError> {
         let count = variables.count();
-        if count > MOST {
+        if count > MOST_COMPONENTS {
             return Ok(Self(Vec::new()));
         }
         let model = &case.model;
         let inputs = model.free_components() + model.dimension();
         let (identity, same) = record(inputs, |inputs| inputs.to_vec())?;
-        let sampler = Sampler::new(case, &Place::level(model), seed)?;
+        let sampler = Sampler::new(case, &LevelSubset::level(model), seed)?;
         let fixed = vec![None; sampler.recipes().len()];
         let (made, outputs) = sampler.compose(&identity, &[same], &fixed)?;
-        let mut chance = Stream::Characters.under(seed);
-        let modulus = chance.prime(&[3, 5], &[2, 3]);
+        let mut rng = SearchStream::Characters.under(seed);
+        let modulus = rng.prime(&[3, 5], &[2, 3]);
         let tape = Tape::new(&made, &outputs.concat());
-        let mut states = Evaluator::new(&tape, Prime::new([modulus; LANES]));
-        let draws: Vec<[u64; LANES]> =
-            (0..made.inputs()).map(|_| std::array::from_fn(|_| chance.element(&modulus))).collect();
+        let mut states = Evaluator::new(&tape, Prime::new([modulus; TEST_STATES]));
+        let draws: Vec<[u64; TEST_STATES]> =
+            (0..made.inputs()).map(|_| std::array::from_fn(|_| rng.element(&modulus))).collect();
         states.run(&draws);
-        let point: Vec<[u64; LANES]> = states.outputs().copied().collect();
+        let point: Vec<[u64; TEST_STATES]> = states.outputs().copied().collect();
         let (graph, (level, field)) = recorded(case, |jet| {
             let level = model.level.iter().map(|one| jet.phase.level_function(&one.function));
             let values = factors.iter().map(|term| jet.phase.scalar(term));
@@ -62,10 +62,10 @@ impl Characters {
             (level, jet.phase.field().iter().copied().chain(values).collect::<Vec<_>>())
         })?;
         let tape = Tape::new(&graph, &[level.clone(), field].concat());
-        let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; LANES]));
-        let mut at = |changed: &[bool]| -> Vec<[u64; LANES]> {
+        let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; TEST_STATES]));
+        let mut at = |changed: &[bool]| -> Vec<[u64; TEST_STATES]> {
             let mut inputs = point.clone();
-            inputs.resize(graph.inputs(), [modulus.one(); LANES]);
+            inputs.resize(graph.inputs(), [modulus.one(); TEST_STATES]);
             let first = model.free_components();
             for (block, _) in inputs[first..].iter_mut().zip(changed).filter(|(_, own)| **own) {
                 *block = block.map(|x| negated(&modulus, x));
@@ -93,7 +93,7 @@ impl Characters {
             }
             let factors: Option<Vec<bool>> =
                 (count..count + factors.len()).map(|k| Some(ratio(k)?.unwrap_or(false))).collect();
-            Some(Signs { changed, factors: factors? })
+            Some(SignChange { changed, factors: factors? })
         });
         Ok(Self(found.collect()))
     }
@@ -105,7 +105,7 @@ impl Characters {
             let character = match column {
                 Column::Given(_) => Vec::new(),
                 Column::Product { factor, exponents, .. } => {
-                    let sign = |signs: &Signs| {
+                    let sign = |signs: &SignChange| {
                         let own = exponents.iter().zip(&signs.changed);
                         let odd: u32 = own.filter(|(_, changed)| **changed).map(|(a, _)| *a).sum();
                         (odd % 2 == 1) != signs.factors[*factor]
@@ -125,7 +125,7 @@ fn negated(m: &Modulus, x: u64) -> u64 {
 
 /// Whether y = -x (`Some(true)`) or y = x (`Some(false)`) in all lanes; `Some(None)` where both
 /// are 0. The outer option is `None` where they are neither, or defined nowhere.
-fn ratio(m: &Modulus, x: &[u64; LANES], y: &[u64; LANES]) -> Option<Option<bool>> {
+fn ratio(m: &Modulus, x: &[u64; TEST_STATES], y: &[u64; TEST_STATES]) -> Option<Option<bool>> {
     let defined: Vec<(u64, u64)> = x
         .iter()
         .copied()

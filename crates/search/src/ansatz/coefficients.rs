@@ -7,23 +7,26 @@
 
 use num_bigint::BigInt;
 use num_integer::Integer;
-use num_traits::{One, Signed, Zero};
+use num_traits::{Signed, Zero};
 
 use super::super::echelon::Echelon;
 use super::super::series::exponents;
-use super::super::terms::{Sum, combined, is_one};
+use super::super::terms::{TermSum, combined, is_one};
+use super::super::{Halt, SearchError};
+use super::Coordinates;
 use super::monomials::power_product;
-use super::system::{At, System};
-use liouville::formula::{Composed, Formula, FormulaError};
+use super::system::{LinearSystem, PrimePoint};
+use liouville::formula::{Formula, FormulaError, FormulaResult};
 use liouville::number::prime::Modulus;
 use liouville::proof::reconstruct;
+use numbers::{Number, Roots, numbers};
 
 /// Number of primes after which rational coefficients are given up.
 const PRIMES: u64 = 8;
 /// Largest number of coefficients of a numerator and denominator together.
-const MOST: usize = 640;
+const MOST_COEFFICIENTS: usize = 640;
 /// Number of samples beyond the number of unknowns.
-const SPARE: usize = 8;
+const SPARE_SAMPLES: usize = 8;
 /// Number of choices of parameters beyond those wanted, since some have no value.
 const BARREN: u64 = 64;
 
@@ -48,24 +51,31 @@ impl Ratio {
 
 /// Coefficients of a vector: one polynomial for each column, without common factor.
 #[derive(Clone, Debug)]
-pub struct Coefficients {
+pub struct PrimitiveVector {
     /// Coordinates in which they are polynomials.
     names: Vec<Formula>,
     /// Polynomials by column.
     pub polynomials: Vec<Polynomial>,
 }
 
-impl Coefficients {
+impl PrimitiveVector {
     /// Finds the vector on some columns that is 1 at the last of them, for all values of the
     /// parameters; `None` if its coefficients are not fractions of low degree.
-    pub fn of(system: &System, columns: &[usize]) -> Option<Self> {
-        Self::through(&Columns { system, columns })
+    pub fn of(system: &LinearSystem, columns: &[usize]) -> Result<Option<Self>, SearchError> {
+        Self::through(&NullVector { system, columns })
     }
 
     /// Finds a vector for all values of the parameters from its images; `None` if its coefficients
     /// are not fractions of low degree.
-    pub fn through(source: &dyn Vectors) -> Option<Self> {
-        let mut samples = Samples { source, next: 0, known: Vec::new() };
+    pub fn through(source: &dyn Vectors) -> Result<Option<Self>, SearchError> {
+        let found = Self::fitted(source);
+        // A stopped search says nothing about the coefficients.
+        source.halt().check()?;
+        Ok(found)
+    }
+
+    fn fitted(source: &dyn Vectors) -> Option<Self> {
+        let mut samples = VectorSamples { source, next: 0, known: Vec::new() };
         let varying = samples.varying()?;
         if varying.is_empty() {
             return numbers(source);
@@ -93,13 +103,13 @@ impl Coefficients {
     }
 
     /// Coefficient of a column as a formula.
-    pub fn formula(&self, column: usize) -> Composed {
+    pub fn formula(&self, column: usize) -> FormulaResult {
         Ok(self.coefficient(column)?.unwrap_or_else(|| Formula::number(0)))
     }
 
     /// Σ coefficient · function over the columns `own`; `None` where all are 0.
     pub fn sum(&self, own: &[usize], functions: &[Ratio]) -> Result<Option<Formula>, FormulaError> {
-        let mut sum = Sum::default();
+        let mut sum = TermSum::default();
         for (column, function) in own.iter().zip(functions) {
             let polynomial = &self.polynomials[*column];
             let is_negative = match polynomial.as_slice() {
@@ -128,7 +138,7 @@ impl Coefficients {
     }
 
     /// Negative of the coefficient of a column that is a single term.
-    fn magnitude(&self, column: usize) -> Composed {
+    fn magnitude(&self, column: usize) -> FormulaResult {
         let mut other = self.clone();
         other.polynomials[column]
             .iter_mut()
@@ -154,33 +164,39 @@ impl Coefficients {
 pub trait Vectors {
     /// The parameters' coordinates.
     fn names(&self) -> &[Formula];
+    /// Condition for an early end.
+    fn halt(&self) -> &Halt;
     /// Number of entries.
     fn width(&self) -> usize;
     /// Image for choice `index` of the parameters modulo the prime with number `prime`, 1 at its
     /// last entry; `None` where there is none.
-    fn image(&self, prime: u64, index: u64) -> Option<(At, Vec<u64>)>;
+    fn image(&self, prime: u64, index: u64) -> Option<(PrimePoint, Vec<u64>)>;
 }
 
 /// The null vector on some columns of a system.
-pub struct Columns<'s> {
+pub struct NullVector<'s> {
     /// System of equations.
-    pub system: &'s System,
+    pub system: &'s LinearSystem,
     /// Columns of the vector.
     pub columns: &'s [usize],
 }
 
-impl Vectors for Columns<'_> {
+impl Vectors for NullVector<'_> {
     fn names(&self) -> &[Formula] {
         self.system.coordinates()
+    }
+
+    fn halt(&self) -> &Halt {
+        self.system.halt()
     }
 
     fn width(&self) -> usize {
         self.columns.len()
     }
 
-    fn image(&self, prime: u64, index: u64) -> Option<(At, Vec<u64>)> {
+    fn image(&self, prime: u64, index: u64) -> Option<(PrimePoint, Vec<u64>)> {
         let at = self.system.at(prime, index)?;
-        let vectors = self.system.null_space(&at, self.columns)?;
+        let vectors = self.system.null_space(&at, self.columns).ok()??;
         let one = at.modulus.one();
         let last = vectors.into_iter().next_back().filter(|own| own.last() == Some(&one))?;
         Some((at, last))
@@ -188,18 +204,18 @@ impl Vectors for Columns<'_> {
 }
 
 /// Values of the vector for choices of the parameters, computed on demand.
-struct Samples<'s> {
+struct VectorSamples<'s> {
     source: &'s dyn Vectors,
     next: u64,
     /// Choices of the parameters with the vector there.
-    known: Vec<(At, Vec<u64>)>,
+    known: Vec<(PrimePoint, Vec<u64>)>,
 }
 
-impl Samples<'_> {
+impl VectorSamples<'_> {
     fn extend(&mut self, count: usize) -> Option<()> {
         let last = self.next + count as u64 + BARREN;
         while self.known.len() < count {
-            if self.next > last {
+            if self.next > last || self.source.halt().check().is_err() {
                 return None;
             }
             let found = self.source.image(0, self.next);
@@ -222,7 +238,7 @@ impl Samples<'_> {
     }
 
     /// Fits coefficients as polynomials in some of the coordinates, over a common denominator.
-    fn fitted(&mut self, kept: &[usize]) -> Option<Coefficients> {
+    fn fitted(&mut self, kept: &[usize]) -> Option<PrimitiveVector> {
         if kept.is_empty() {
             return None;
         }
@@ -239,24 +255,24 @@ impl Samples<'_> {
                 }
                 found.push(above.scaled(m, m.inverse(below.images[0].1)));
             }
-            let rational = |fitted: &Fitted| {
-                let part =
-                    |(a, image): &(Vec<u32>, u64)| Some((a.clone(), reconstruct(*image, m)?));
+            let roots = Roots::of(self.source.names());
+            let at = &self.known.first()?.0;
+            let numbers = |fitted: &Fitted| {
+                let part = |(a, image): &(Vec<u32>, u64)| {
+                    let own = match reconstruct(*image, m) {
+                        Some(value) => {
+                            let (above, below) = value.parts();
+                            Number::fraction(above, below)
+                        }
+                        None => roots.number(&[(at, *image)])?,
+                    };
+                    Some((a.clone(), own))
+                };
                 fitted.images.iter().map(part).collect::<Option<Vec<_>>>()
             };
-            let rational: Vec<Vec<_>> = found.iter().map(rational).collect::<Option<_>>()?;
-            let below = rational
-                .iter()
-                .flatten()
-                .fold(BigInt::one(), |lcm, (_, value)| lcm.lcm(&value.parts().1));
-            let cleared = |(a, value): &(Vec<u32>, liouville::number::rational::Rational)| {
-                let (above, own) = value.parts();
-                (a.clone(), above * (&below / own))
-            };
-            let polynomials =
-                rational.iter().map(|own| own.iter().map(cleared).collect()).collect();
+            let numbers: Vec<Vec<_>> = found.iter().map(numbers).collect::<Option<_>>()?;
             let names = kept.iter().map(|k| self.source.names()[*k].clone()).collect();
-            return Some(Coefficients { names, polynomials }.reduced());
+            return Some(roots.coefficients(names, &numbers).reduced());
         }
     }
 
@@ -267,23 +283,30 @@ impl Samples<'_> {
         column: usize,
         denominators: &[Fitted],
     ) -> Option<(Fitted, Fitted)> {
-        let monomials = |degree: u32| -> Vec<Vec<u32>> {
-            (0..=degree).flat_map(|total| exponents(kept.len(), total)).collect()
+        // A root is linear in a numerator, and can be removed from a denominator.
+        let is_root: Vec<bool> =
+            kept.iter().map(|k| Coordinates::is_root(&self.source.names()[*k])).collect();
+        let roots = is_root.iter().filter(|own| **own).count();
+        let plain = kept.len() - roots;
+        let monomials = |degree: u32, power: u32| -> Vec<Vec<u32>> {
+            let all = (0..=degree).flat_map(|total| exponents(kept.len(), total));
+            let fits =
+                |own: &Vec<u32>| own.iter().zip(&is_root).all(|(a, root)| !root || *a <= power);
+            all.filter(fits).collect()
         };
         let mut trials: Vec<(usize, u32, u32)> = (0..=8u32)
             .flat_map(|above| (0..=6u32).map(move |below| (above, below)))
-            .map(|(above, below)| {
-                (count(kept.len(), above) + count(kept.len(), below), above, below)
-            })
-            .filter(|(unknowns, ..)| *unknowns <= MOST)
+            .map(|(above, below)| (linear(plain, roots, above) + count(plain, below), above, below))
+            .filter(|(unknowns, ..)| *unknowns <= MOST_COEFFICIENTS)
             .collect();
         trials.sort();
         for (unknowns, above, below) in trials {
-            self.extend(unknowns + SPARE)?;
+            self.extend(unknowns + SPARE_SAMPLES)?;
             let m = self.known[0].0.modulus;
-            let (upper, lower) = (monomials(above), monomials(below));
+            let (upper, lower) = (monomials(above, 1), monomials(below, 0));
             let mut echelon = Echelon::new(unknowns, m);
-            for (at, vector) in &self.known[..unknowns + SPARE] {
+            for (at, vector) in &self.known[..unknowns + SPARE_SAMPLES] {
+                self.source.halt().check().ok()?;
                 let point: Vec<u64> = kept.iter().map(|k| at.coordinates[*k]).collect();
                 let value = denominators
                     .iter()
@@ -342,56 +365,16 @@ fn count(variables: usize, degree: u32) -> usize {
     (1..=variables).fold(1, |product, i| product * (degree as usize + i) / i)
 }
 
-/// Finds rational coefficients, confirmed modulo one further prime.
-fn numbers(source: &dyn Vectors) -> Option<Coefficients> {
-    let mut product = BigInt::one();
-    let mut residues: Vec<BigInt> = vec![BigInt::ZERO; source.width()];
-    for prime in 0..PRIMES {
-        let found = (0..BARREN).find_map(|index| source.image(prime, index));
-        let Some((at, vector)) = found else { continue };
-        let m = &at.modulus;
-        let own = BigInt::from(m.prime());
-        let images: Vec<BigInt> =
-            vector.iter().map(|image| BigInt::from(m.to_integer(*image))).collect();
-        let fractions: Option<Vec<(BigInt, BigInt)>> =
-            residues.iter().map(|residue| fraction(residue, &product)).collect();
-        if let Some(fractions) = fractions.filter(|_| !product.is_one()) {
-            let agrees = |((above, below), image): (&(BigInt, BigInt), &BigInt)| {
-                (above - below * image).mod_floor(&own).is_zero()
-            };
-            if fractions.iter().zip(&images).all(agrees) {
-                let below = fractions.iter().fold(BigInt::one(), |lcm, (_, below)| lcm.lcm(below));
-                let polynomial = |(above, own): &(BigInt, BigInt)| match above.is_zero() {
-                    true => Vec::new(),
-                    false => vec![(Vec::new(), above * (&below / own))],
-                };
-                let polynomials = fractions.iter().map(polynomial).collect();
-                return Some(Coefficients { names: Vec::new(), polynomials }.reduced());
-            }
-        }
-        let inverse = product.modinv(&own)?;
-        for (residue, image) in residues.iter_mut().zip(&images) {
-            let missing = ((image - &*residue) * &inverse).mod_floor(&own);
-            *residue += &product * missing;
-        }
-        product *= own;
-    }
-    None
+/// Number of monomials of at most this degree that are linear in each of some roots.
+fn linear(plain: usize, roots: usize, degree: u32) -> usize {
+    (0..=roots.min(degree as usize))
+        .map(|own| {
+            let chosen = (1..=own).fold(1, |product, i| product * (roots + 1 - i) / i);
+            chosen * count(plain, degree - own as u32)
+        })
+        .sum()
 }
 
-/// Finds the fraction with numerator and denominator below √(M/2) and this residue.
-fn fraction(residue: &BigInt, modulus: &BigInt) -> Option<(BigInt, BigInt)> {
-    let bound = (modulus / 2u32).sqrt();
-    let mut previous = (modulus.clone(), BigInt::ZERO);
-    let mut current = (residue.clone(), BigInt::one());
-    while current.0 > bound {
-        let quotient = &previous.0 / &current.0;
-        let next = (&previous.0 - &quotient * &current.0, &previous.1 - &quotient * &current.1);
-        (previous, current) = (current, next);
-    }
-    let (above, below) = if current.1.is_negative() { (-current.0, -current.1) } else { current };
-    (!below.is_zero() && below <= bound).then_some((above, below))
-}
-
+mod numbers;
 #[cfg(test)]
 mod tests;

@@ -3,7 +3,8 @@
 use liouville::case::Case;
 use liouville::formula::{Formula, FormulaError, Type};
 use liouville::mechanics::{
-    Draw, Meaning, Model, Origin, Parameter, Potential, Range, Reach, Recipe, System,
+    Dependence, Draw, Meaning, Model, Parameter, ParameterOrigin, Potential, Range, SamplerSpec,
+    System,
 };
 
 /// Adds a term to the potential of a model; `None` if the system admits no potential, or if the term
@@ -17,8 +18,8 @@ pub fn with_potential(model: &Model, further: &Formula) -> Option<Model> {
         Some(Potential::Arbitrary(_)) => return None,
     };
     let vocabulary = &changed.vocabulary;
-    let reach = vocabulary.reach(&potential).map_or(Reach::Parameters, |entry| entry.reach);
-    if potential.value_type() != Type::Scalar || reach > Reach::Configuration {
+    let reach = vocabulary.reach(&potential).map_or(Dependence::Parameters, |entry| entry.reach);
+    if potential.value_type() != Type::Scalar || reach > Dependence::Configuration {
         return None;
     }
     body.potential = Some(Potential::Formula(potential));
@@ -56,9 +57,9 @@ pub fn with_constants(
         model.parameters.push(Parameter {
             name: name.clone(),
             kind: Type::Scalar,
-            origin: Origin::Free(Recipe::Scalar(Draw::Within(range))),
+            origin: ParameterOrigin::Free(SamplerSpec::Scalar(Draw::Within(range))),
         });
-        model.vocabulary.add(name, meaning, Type::Scalar, Reach::Parameters);
+        model.vocabulary.add(name, meaning, Type::Scalar, Dependence::Parameters);
     }
     let constants: Result<Vec<Formula>, FormulaError> =
         names.iter().map(|name| Formula::name(name, &model.vocabulary)).collect();

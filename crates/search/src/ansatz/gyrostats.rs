@@ -13,30 +13,30 @@
 use super::super::ask::{holds, is_energy, judged_alone};
 use super::super::products::Generators;
 use super::super::terms::{is_one, read};
-use super::super::{Effort, Excluded, Found, Report, SearchError};
-use super::coefficients::{Coefficients, Ratio};
+use super::super::{Effort, Excluded, Found, SearchError, SearchReport};
+use super::coefficients::{PrimitiveVector, Ratio};
 use super::forces::{appended, combination, with_constants, with_gyrostat};
-use super::monomials::Variables;
-use super::size::Size;
-use super::system::{Column, System};
-use super::{coordinates, factors, written};
+use super::monomials::AnsatzVariables;
+use super::size::SystemSize;
+use super::system::{Column, LinearSystem};
+use super::{factors, note_unwritten, written};
 use liouville::case::Case;
 use liouville::claim::Claim;
-use liouville::formula::{Composed, Formula, FormulaError};
+use liouville::formula::{Formula, FormulaError, FormulaResult};
 use liouville::graph::Expr;
 use liouville::mechanics::Model;
-use liouville::mechanics::calculus::Jet;
+use liouville::mechanics::calculus::DualPoint;
 
 /// Finds, for each known integral of degree 1 or 2, the rotors under which it persists.
 pub fn gyrostats(
     case: &Case,
     effort: &Effort,
-    report: &mut Report,
+    report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
     let unit: Option<Vec<Model>> =
         (0..3).map(|axis| with_gyrostat(&case.model, &unit_vector(axis).ok()?)).collect();
-    let (Some(variables), Some(unit)) = (Variables::of(case), unit) else {
+    let (Some(variables), Some(unit)) = (AnsatzVariables::of(case), unit) else {
         report.remark("no search for rotors: the system admits none, or has one".to_string());
         return Ok(());
     };
@@ -68,7 +68,7 @@ pub fn gyrostats(
 }
 
 /// Unit vector along an axis of the frame.
-fn unit_vector(axis: usize) -> Composed {
+fn unit_vector(axis: usize) -> FormulaResult {
     let [a, b, c] = [0, 1, 2].map(|k| Formula::number(i64::from(k == axis)));
     Formula::vector(&[&a, &b, &c])
 }
@@ -77,7 +77,7 @@ fn unit_vector(axis: usize) -> Composed {
 struct Rotors<'a> {
     case: &'a Case,
     effort: &'a Effort,
-    variables: &'a Variables,
+    variables: &'a AnsatzVariables,
     /// Models with a unit rotor along each axis.
     unit: &'a [Model],
     below: &'a [Formula],
@@ -88,7 +88,7 @@ struct Rotors<'a> {
 
 /// A direction of the rotor, with the terms added to the integral.
 #[derive(Clone)]
-struct Direction {
+struct RotorDirection {
     rotor: Formula,
     linear: Formula,
 }
@@ -96,12 +96,12 @@ struct Direction {
 impl Rotors<'_> {
     fn search(
         &self,
-        report: &mut Report,
+        report: &mut SearchReport,
         progress: &mut dyn FnMut(&str),
     ) -> Result<(), SearchError> {
         let what = format!("rotors that preserve {}", self.integral);
         let system = self.linear()?;
-        let size = Size::of(&[(0..system.columns.len()).collect()]);
+        let size = SystemSize::of(&[(0..system.columns.len()).collect()]);
         progress(&format!("{what}: {size}"));
         if let Some(reason) = size.beyond(self.effort) {
             report.remark(format!("{what}: not tried; {size}; {reason}"));
@@ -129,13 +129,12 @@ impl Rotors<'_> {
                 self.degree - 1,
                 self.below.iter().map(Formula::text).collect::<Vec<_>>().join(", ")
             ),
-            holds_on_all_branches: false,
         });
         Ok(())
     }
 
     /// Computes (∂F/∂ω, A(e_i)) for each axis.
-    fn gains(&self, jet: &Jet<'_, Expr>, function: &Formula) -> Vec<Expr> {
+    fn gains(&self, jet: &DualPoint<'_, Expr>, function: &Formula) -> Vec<Expr> {
         let (state, field) = (jet.phase.state(), jet.phase.field());
         let gain = |model: &Model| {
             let beside = jet.phase.in_model(model, &state);
@@ -156,16 +155,14 @@ impl Rotors<'_> {
     }
 
     /// Sets up the equations of first order; the rotor's components are the last columns.
-    fn linear(&self) -> Result<System, SearchError> {
+    fn linear(&self) -> Result<LinearSystem, SearchError> {
         let over = factors(self.below)?;
-        let seed = self.effort.options.seed;
         let mut given = Vec::new();
-        let mut system =
-            System::record(self.case, &coordinates(self.case), seed, |jet, recording| {
-                recording.derive(jet.along_field(), &self.variables.terms, &over);
-                let gains = self.gains(jet, &self.integral);
-                given = gains.into_iter().map(|gain| recording.give(gain)).collect();
-            })?;
+        let mut system = LinearSystem::record(self.case, self.effort, |jet, recording| {
+            recording.derive(jet.along_field(), &self.variables.terms, &over);
+            let gains = self.gains(jet, &self.integral);
+            given = gains.into_iter().map(|gain| recording.give(gain)).collect();
+        })?;
         let rotors = given.into_iter().map(Column::Given);
         system.columns = self.products(self.degree - 1, self.below).chain(rotors).collect();
         Ok(system)
@@ -174,17 +171,15 @@ impl Rotors<'_> {
     /// Returns the number of directions to first order, and those whose coefficients are known.
     fn directions(
         &self,
-        system: &System,
-        report: &mut Report,
-    ) -> Result<Option<(usize, Vec<Direction>)>, FormulaError> {
+        system: &LinearSystem,
+        report: &mut SearchReport,
+    ) -> Result<Option<(usize, Vec<RotorDirection>)>, SearchError> {
         let first = system.columns.len() - 3;
-        let solved = system.at(0, 0).and_then(|at| {
-            let mut columns = system.distinct(&at, &(0..first).collect::<Vec<_>>())?;
-            columns.extend(first..first + 3);
-            let vectors = system.null_space(&at, &columns)?;
-            Some((columns, vectors))
-        });
-        let Some((columns, vectors)) = solved else { return Ok(None) };
+        let Some(at) = system.at(0, 0) else { return Ok(None) };
+        let own: Vec<usize> = (0..first).collect();
+        let Some(mut columns) = system.distinct(&at, &own)? else { return Ok(None) };
+        columns.extend(first..first + 3);
+        let Some(vectors) = system.null_space(&at, &columns)? else { return Ok(None) };
         let mut found = Vec::new();
         let mut dimension = 0;
         for vector in &vectors {
@@ -194,11 +189,9 @@ impl Rotors<'_> {
                 continue;
             }
             dimension += 1;
-            let Some(coefficients) = Coefficients::of(system, &support) else {
-                report.remark(format!(
-                    "a rotor with {} terms has coefficients that are not fractions of low degree in the parameters; give values with --set",
-                    support.len()
-                ));
+            let Some(coefficients) = PrimitiveVector::of(system, &support)? else {
+                let what = format!("a rotor with {} terms", support.len());
+                note_unwritten(self.case, &what, report);
                 continue;
             };
             let component = |axis: usize| {
@@ -208,7 +201,7 @@ impl Rotors<'_> {
             let own: Vec<usize> = (0..support.len()).filter(|k| support[*k] < first).collect();
             let linear = self.sum(system, &coefficients, &support, &own)?;
             let [a, b, c] = [component(0)?, component(1)?, component(2)?];
-            found.push(Direction { rotor: Formula::vector(&[&a, &b, &c])?, linear });
+            found.push(RotorDirection { rotor: Formula::vector(&[&a, &b, &c])?, linear });
         }
         Ok(Some((dimension, found)))
     }
@@ -216,11 +209,11 @@ impl Rotors<'_> {
     /// Σ coefficient · function over some columns of a support.
     fn sum(
         &self,
-        system: &System,
-        coefficients: &Coefficients,
+        system: &LinearSystem,
+        coefficients: &PrimitiveVector,
         support: &[usize],
         own: &[usize],
-    ) -> Composed {
+    ) -> FormulaResult {
         let function =
             |k: &usize| written(self.variables, self.below, &system.columns[support[*k]]);
         let functions: Vec<Ratio> =
@@ -229,7 +222,10 @@ impl Rotors<'_> {
     }
 
     /// Finds terms of second order for each product of two directions; `None` where there are none.
-    fn quadratic(&self, directions: &[Direction]) -> Result<Vec<Option<Formula>>, SearchError> {
+    fn quadratic(
+        &self,
+        directions: &[RotorDirection],
+    ) -> Result<Vec<Option<Formula>>, SearchError> {
         if self.degree < 2 {
             return Ok(vec![Some(Formula::number(0)); pairs(directions.len()).len()]);
         }
@@ -240,59 +236,62 @@ impl Rotors<'_> {
             .collect();
         let along = Rotors { unit: &units, integral: self.integral.clone(), ..*self };
         let over = factors(self.below)?;
-        let seed = self.effort.options.seed;
         let pairs = pairs(directions.len());
         let mut given = Vec::new();
-        let mut system =
-            System::record(self.case, &coordinates(self.case), seed, |jet, recording| {
-                recording.derive(jet.along_field(), &self.variables.terms, &over);
-                let gains: Vec<Vec<Expr>> =
-                    linear.iter().map(|form| along.gains(jet, form)).collect();
-                given = pairs
-                    .iter()
-                    .map(|(k, l)| match k == l {
-                        true => recording.give(gains[*k][*k]),
-                        false => recording.give(gains[*k][*l] + gains[*l][*k]),
-                    })
-                    .collect();
-            })?;
+        let mut system = LinearSystem::record(self.case, self.effort, |jet, recording| {
+            recording.derive(jet.along_field(), &self.variables.terms, &over);
+            let gains: Vec<Vec<Expr>> = linear.iter().map(|form| along.gains(jet, form)).collect();
+            given = pairs
+                .iter()
+                .map(|(k, l)| match k == l {
+                    true => recording.give(gains[*k][*k]),
+                    false => recording.give(gains[*k][*l] + gains[*l][*k]),
+                })
+                .collect();
+        })?;
         let products: Vec<Column> = self.products(0, self.below).collect();
         let first = products.len();
         system.columns = products.into_iter().chain(given.into_iter().map(Column::Given)).collect();
         let Some(at) = system.at(0, 0) else { return Ok(vec![None; pairs.len()]) };
         let own: Vec<usize> = (0..first).collect();
-        let Some(distinct) = system.distinct(&at, &own) else { return Ok(vec![None; pairs.len()]) };
-        let solved = |pair: usize| -> Result<Option<Formula>, FormulaError> {
+        let Some(distinct) = system.distinct(&at, &own)? else {
+            return Ok(vec![None; pairs.len()]);
+        };
+        let solved = |pair: usize| -> Result<Option<Formula>, SearchError> {
             let kept = distinct.iter().copied().filter(|column| *column != own[0]);
             let columns: Vec<usize> = kept.chain([first + pair]).collect();
-            let vector = system.null_space(&at, &columns).and_then(|mut found| found.pop());
+            let vector = system.null_space(&at, &columns)?.and_then(|mut found| found.pop());
             let Some(vector) = vector else { return Ok(None) };
             let used = columns.iter().zip(&vector).filter(|(_, entry)| **entry != 0);
             let support: Vec<usize> = used.map(|(column, _)| *column).collect();
             if support.last() != Some(&(first + pair)) {
                 return Ok(None);
             }
-            let Some(coefficients) = Coefficients::of(&system, &support) else { return Ok(None) };
+            let Some(coefficients) = PrimitiveVector::of(&system, &support)? else {
+                return Ok(None);
+            };
             let last = support.len() - 1;
             let own: Vec<usize> = (0..last).collect();
             let sum = self.sum(&system, &coefficients, &support, &own)?;
             let below = coefficients.formula(last)?;
             match is_one(&below) {
                 true => Ok(Some(sum)),
-                false => (sum.bracketed() / &below.bracketed()).map(Some),
+                false => Ok(Some((sum.bracketed() / &below.bracketed())?)),
             }
         };
-        let found: Result<Vec<Option<Formula>>, FormulaError> =
-            (0..pairs.len()).map(solved).collect();
-        Ok(found?)
+        (0..pairs.len()).map(solved).collect()
     }
 
     /// Reports the integral with all directions that admit one, each with a free constant; returns
     /// their number.
-    fn tell(&self, directions: &[Direction], report: &mut Report) -> Result<usize, SearchError> {
-        let mut kept: Vec<&Direction> = directions.iter().collect();
+    fn tell(
+        &self,
+        directions: &[RotorDirection],
+        report: &mut SearchReport,
+    ) -> Result<usize, SearchError> {
+        let mut kept: Vec<&RotorDirection> = directions.iter().collect();
         while !kept.is_empty() {
-            let own: Vec<Direction> = kept.iter().map(|one| (*one).clone()).collect();
+            let own: Vec<RotorDirection> = kept.iter().map(|one| (*one).clone()).collect();
             let quadratic = self.quadratic(&own)?;
             let pairs = pairs(own.len());
             // Drop a direction without a term for its square first, then the last one in a pair
@@ -310,10 +309,10 @@ impl Rotors<'_> {
 
     fn prove(
         &self,
-        own: &[Direction],
+        own: &[RotorDirection],
         pairs: &[(usize, usize)],
         quadratic: &[Option<Formula>],
-        report: &mut Report,
+        report: &mut SearchReport,
     ) -> Result<usize, SearchError> {
         let (mut extended, names) = with_constants(self.case, "s", own.len())?;
         let rotor = combination(names.iter().zip(own.iter().map(|one| &one.rotor)))?;

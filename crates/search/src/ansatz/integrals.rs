@@ -5,14 +5,14 @@ use super::super::ask::{holds, judged_alone};
 use super::super::integrals::tell;
 use super::super::products::Generators;
 use super::super::terms::{is_one, read};
-use super::super::{Effort, Excluded, Report, SearchError, library};
-use super::characters::Characters;
-use super::coefficients::{Coefficients, Ratio};
-use super::monomials::Variables;
-use super::size::Size;
+use super::super::{Effort, Excluded, SearchError, SearchReport, library};
+use super::characters::SignChanges;
+use super::coefficients::{PrimitiveVector, Ratio};
+use super::monomials::AnsatzVariables;
+use super::size::SystemSize;
 use super::subspace::complement;
-use super::system::{Column, System};
-use super::{coordinates, factors};
+use super::system::{Column, LinearSystem};
+use super::{factors, note_unwritten};
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::formula::{Formula, FormulaError};
@@ -38,10 +38,10 @@ enum Outcome {
 pub fn integrals(
     case: &Case,
     effort: &Effort,
-    report: &mut Report,
+    report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    let Some(variables) = Variables::of(case) else {
+    let Some(variables) = AnsatzVariables::of(case) else {
         if effort.ansatz.wanted {
             report.remark("no global ansatz: the level has no standard monomials here".to_string());
         }
@@ -68,7 +68,7 @@ pub fn integrals(
             return Ok(());
         }
         for below in denominators(&case.model)? {
-            let mut search = Search {
+            let mut search = IntegralSearch {
                 case,
                 effort,
                 variables: &variables,
@@ -101,10 +101,10 @@ fn denominators(model: &Model) -> Result<Vec<Formula>, FormulaError> {
 }
 
 /// The search in one degree in the velocities, over one denominator.
-struct Search<'a> {
+struct IntegralSearch<'a> {
     case: &'a Case,
     effort: &'a Effort,
-    variables: &'a Variables,
+    variables: &'a AnsatzVariables,
     degree: u32,
     mixed: bool,
     below: Formula,
@@ -112,13 +112,13 @@ struct Search<'a> {
     known: &'a mut Generators,
 }
 
-impl Search<'_> {
+impl IntegralSearch<'_> {
     /// Searches for integrals of increasing degree in the positions; returns whether all that were
     /// counted are found.
     fn run(
         &mut self,
         dimension: Option<usize>,
-        report: &mut Report,
+        report: &mut SearchReport,
         progress: &mut dyn FnMut(&str),
     ) -> Result<bool, SearchError> {
         let highest = self.effort.ansatz.positions;
@@ -141,7 +141,7 @@ impl Search<'_> {
         &mut self,
         positions: u32,
         is_last: bool,
-        report: &mut Report,
+        report: &mut SearchReport,
         progress: &mut dyn FnMut(&str),
     ) -> Result<bool, SearchError> {
         let Self { case, effort, variables, .. } = *self;
@@ -151,11 +151,10 @@ impl Search<'_> {
         let generators = &*self.known;
         let known: Vec<Formula> = generators.formulas().cloned().collect();
         let mut outputs = Vec::new();
-        let mut system = System::record(case, &coordinates(case), seed, |jet, recording| {
+        let mut system = LinearSystem::record(case, effort, |jet, recording| {
             recording.derive(jet.along_field(), &variables.terms, &over);
             outputs = known.iter().map(|term| recording.give(jet.phase.scalar(term))).collect();
         })?;
-        system.halt = effort.halt.clone();
         let lowest = if self.mixed { 0 } else { self.degree };
         let mut exponents: Vec<Vec<u32>> = (lowest..=self.degree)
             .flat_map(|degree| variables.monomials(degree, 0..=positions))
@@ -164,8 +163,8 @@ impl Search<'_> {
         exponents.sort_by_key(|own| own.iter().sum::<u32>());
         let product = |exponents| Column::Product { derivation: 0, factor: 0, exponents };
         system.columns = exponents.into_iter().map(product).collect();
-        let blocks = Characters::of(case, variables, &over, seed)?.blocks(&system.columns);
-        let size = Size::of(&blocks);
+        let blocks = SignChanges::of(case, variables, &over, seed)?.blocks(&system.columns);
+        let size = SystemSize::of(&blocks);
         let what = self.words(positions);
         progress(&format!("{what}: {size}"));
         if let Some(reason) = size.beyond(effort) {
@@ -175,10 +174,7 @@ impl Search<'_> {
         let Some(at) = system.at(0, 0) else { return Ok(false) };
         let mut found: Vec<Vec<u64>> = Vec::new();
         for block in &blocks {
-            self.effort.halt.check()?;
-            let vectors = system.null_space(&at, block);
-            self.effort.halt.check()?;
-            let Some(vectors) = vectors else { return Ok(false) };
+            let Some(vectors) = system.null_space(&at, block)? else { return Ok(false) };
             found.extend(vectors.into_iter().map(|vector| {
                 let mut full = vec![0; system.columns.len()];
                 block.iter().zip(vector).for_each(|(column, entry)| full[*column] = entry);
@@ -195,11 +191,10 @@ impl Search<'_> {
             })
             .collect();
         let dimension = found.len();
-        let new = complement(&system, &at, &found, &products);
-        self.effort.halt.check()?;
-        let Some(new) = new else { return Ok(false) };
+        let Some(new) = complement(&system, &at, &found, &products)? else { return Ok(false) };
         let mut outcomes = Vec::new();
         for vector in &new {
+            effort.halt.check()?;
             outcomes.push(self.tell(&system, vector, report)?);
         }
         if is_last || outcomes.contains(&Outcome::Told) {
@@ -211,17 +206,16 @@ impl Search<'_> {
     /// Writes a null vector as a formula and judges it.
     fn tell(
         &mut self,
-        system: &System,
+        system: &LinearSystem,
         vector: &[u64],
-        report: &mut Report,
+        report: &mut SearchReport,
     ) -> Result<Outcome, SearchError> {
         let Self { case, effort, .. } = *self;
         let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
-        let Some(coefficients) = Coefficients::of(system, &support) else {
-            report.remark(format!(
-                "an integral of degree {} with {} terms over {} has coefficients that are not fractions of low degree in the parameters; give values with --set",
-                self.degree, support.len(), self.below
-            ));
+        let Some(coefficients) = PrimitiveVector::of(system, &support)? else {
+            let (degree, count, below) = (self.degree, support.len(), &self.below);
+            let what = format!("an integral of degree {degree} with {count} terms over {below}");
+            note_unwritten(case, &what, report);
             return Ok(Outcome::Open);
         };
         let functions: Result<Vec<Ratio>, FormulaError> =
@@ -280,8 +274,8 @@ impl Search<'_> {
     }
 
     /// States a theorem: an upper bound on the integrals that the ansatz contains.
-    fn exclude(&self, what: &str, dimension: usize, outcomes: &[Outcome], report: &mut Report) {
-        let many = |outcome| outcomes.iter().filter(|own| **own == outcome).count();
+    fn exclude(&self, what: &str, dimension: usize, found: &[Outcome], report: &mut SearchReport) {
+        let many = |outcome| found.iter().filter(|own| **own == outcome).count();
         let (open, dependent) = (many(Outcome::Open), many(Outcome::Dependent));
         let generic =
             "For generic values of the free parameters, and the given values of the fixed ones,";
@@ -289,7 +283,7 @@ impl Search<'_> {
             0 => format!("{generic} no integrals are {what}, constants aside."),
             _ => format!(
                 "{generic} at most {dimension} integrals, independent over the numbers, are {what}: {} of them are products of known integrals",
-                dimension - outcomes.len()
+                dimension - found.len()
             ),
         };
         for (count, words) in [
@@ -310,7 +304,6 @@ impl Search<'_> {
             known: dimension - open,
             error_log2: None,
             theorem,
-            holds_on_all_branches: false,
         });
     }
 }
@@ -329,9 +322,9 @@ mod tests {
         }
     }
 
-    fn searched(text: &str, effort: &Effort) -> Report {
+    fn searched(text: &str, effort: &Effort) -> SearchReport {
         let case = Case::parse(text, &[]).expect("a case");
-        let mut report = Report::default();
+        let mut report = SearchReport::default();
         integrals(&case, effort, &mut report, &mut |_| {}).expect("it can be searched");
         report
     }

@@ -7,6 +7,7 @@
 //!               consists of the integrals
 //! subspace      the complement of functions of known integrals
 //! coefficients  numbers, or functions of the parameters, by interpolation
+//! surd          numbers a + b √n
 //! verdict       each find is judged as a claim like any other
 //! ```
 //!
@@ -25,15 +26,21 @@ mod poisson;
 mod potentials;
 mod size;
 pub mod subspace;
+mod surd;
 pub mod system;
 
 use super::conditions::components;
+use super::orbit::roots;
+use super::streams::SearchStream;
 use super::terms::{is_one, one, read};
-use super::{Effort, Report, SearchError};
+use super::{Effort, SearchError, SearchReport};
 use coefficients::Ratio;
 use liouville::case::Case;
 use liouville::formula::{Formula, FormulaError};
-use monomials::Variables;
+use liouville::mechanics::Draw;
+use liouville::number::prime::Modulus;
+use liouville::number::rational::Rational;
+use monomials::AnsatzVariables;
 pub use poisson::Hamiltonians;
 use system::Column;
 
@@ -62,7 +69,7 @@ impl Default for Ansatz {
 pub fn search(
     case: &Case,
     effort: &Effort,
-    report: &mut Report,
+    report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
     integrals::integrals(case, effort, report, progress)?;
@@ -78,11 +85,60 @@ pub fn search(
     Ok(())
 }
 
-/// Lists the parameters' components in which coefficients are written, including those of J if
-/// there is one.
-pub fn coordinates(case: &Case) -> Vec<Formula> {
-    let tensor = read(["J1", "J2", "J3", "J12", "J13", "J23"], &case.model.vocabulary);
-    [components(case), tensor].concat()
+/// Functions of the parameters in which coefficients are written.
+pub struct Coordinates {
+    /// Components of the parameters, of J if there is one, and square roots in the field.
+    pub names: Vec<Formula>,
+    /// Numbers under these roots.
+    pub radicands: Vec<Rational>,
+}
+
+impl Coordinates {
+    /// Lists the coordinates of a case.
+    pub fn of(case: &Case) -> Result<Self, SearchError> {
+        let tensor = read(["J1", "J2", "J3", "J12", "J13", "J23"], &case.model.vocabulary);
+        let mut own = Self { names: [components(case), tensor].concat(), radicands: Vec::new() };
+        for (root, number) in roots(case)? {
+            own.names.push(root);
+            own.radicands.extend(number);
+        }
+        Ok(own)
+    }
+
+    /// Whether a coordinate is a root, whose square is a function of others.
+    pub fn is_root(name: &Formula) -> bool {
+        name.text().starts_with('√')
+    }
+
+    /// Draws a prime modulo which the numbers under roots are squares.
+    pub fn prime(radicands: &[Rational], seed: u64, number: u64) -> Modulus {
+        let mut rng = SearchStream::Moduli.numbered(seed, number);
+        loop {
+            let modulus = rng.prime(&[3, 5], &[2, 3]);
+            let has_root =
+                |own: &Rational| modulus.rational(own).is_some_and(|x| modulus.is_square(x));
+            if radicands.iter().all(has_root) {
+                return modulus;
+            }
+        }
+    }
+}
+
+/// Notes that a find cannot be written, once for all finds.
+pub fn note_unwritten(case: &Case, what: &str, report: &mut SearchReport) {
+    let is_fixed = |draw: &Draw| matches!(draw, Draw::OneOf(_));
+    let reason = match case.model.parameter_draws().iter().all(is_fixed) {
+        true => {
+            "has coefficients that are neither fractions nor a + b√n with a root √n in the field"
+        }
+        false => {
+            "has coefficients that are not fractions of low degree in the parameters; give values with \
+             --set"
+        }
+    };
+    if !report.remarks.iter().any(|remark| remark.ends_with(reason)) {
+        report.remark(format!("{what} {reason}"));
+    }
 }
 
 /// Lists the factors 1/d for the denominators d.
@@ -92,7 +148,7 @@ fn factors(below: &[Formula]) -> Result<Vec<Formula>, FormulaError> {
 
 /// Function that a column differentiates.
 fn written(
-    variables: &Variables,
+    variables: &AnsatzVariables,
     below: &[Formula],
     column: &Column,
 ) -> Result<Ratio, FormulaError> {

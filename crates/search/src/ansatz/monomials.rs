@@ -7,8 +7,8 @@
 use crate::series::exponents;
 use crate::terms::{one, read};
 use liouville::case::Case;
-use liouville::formula::{Composed, Formula};
-use liouville::mechanics::{Chart, Role, System};
+use liouville::formula::{Formula, FormulaResult};
+use liouville::mechanics::{Chart, System, VariableRole};
 
 /// The relations of the level, by which some monomials are redundant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +23,7 @@ enum Ideal {
 
 /// The variables of a polynomial ansatz: the components of the state.
 #[derive(Clone, Debug)]
-pub struct Variables {
+pub struct AnsatzVariables {
     /// Components of the state as formulas.
     pub terms: Vec<Formula>,
     /// Whether each of them is a velocity.
@@ -31,7 +31,7 @@ pub struct Variables {
     ideal: Ideal,
 }
 
-impl Variables {
+impl AnsatzVariables {
     /// Returns the components of a case's state; `None` for a level without known standard
     /// monomials.
     pub fn of(case: &Case) -> Option<Self> {
@@ -46,7 +46,7 @@ impl Variables {
             (System::Lagrangian(lagrangian), _) if model.level.is_empty() => {
                 let roles = lagrangian.roles.iter().zip(&model.state);
                 let own = roles.flat_map(|(role, variable)| {
-                    let moves = matches!(role, Role::Velocity | Role::Multiplier);
+                    let moves = matches!(role, VariableRole::Velocity | VariableRole::Multiplier);
                     vec![moves; variable.len()]
                 });
                 (own.collect(), Ideal::None)
@@ -113,7 +113,7 @@ impl Variables {
     }
 
     /// Monomial with these exponents.
-    pub fn monomial(&self, exponents: &[u32]) -> Composed {
+    pub fn monomial(&self, exponents: &[u32]) -> FormulaResult {
         power_product(&self.terms, exponents)
     }
 }
@@ -123,7 +123,7 @@ fn first(velocities: usize, all: usize) -> Vec<bool> {
 }
 
 /// Product of powers Π x^a; 1 for the empty product.
-pub fn power_product(factors: &[Formula], exponents: &[u32]) -> Composed {
+pub fn power_product(factors: &[Formula], exponents: &[u32]) -> FormulaResult {
     let used = factors.iter().zip(exponents).filter(|(_, exponent)| **exponent > 0);
     let mut product: Option<Formula> = None;
     for (factor, exponent) in used {
@@ -145,9 +145,9 @@ pub fn power_product(factors: &[Formula], exponents: &[u32]) -> Composed {
 mod tests {
     use super::*;
 
-    fn variables(text: &str) -> Variables {
+    fn variables(text: &str) -> AnsatzVariables {
         let case = Case::parse(text, &[]).expect("a case");
-        Variables::of(&case).expect("it has standard monomials")
+        AnsatzVariables::of(&case).expect("it has standard monomials")
     }
 
     #[test]

@@ -9,10 +9,10 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 
 use super::super::ask::{holds, judged, judged_alone};
-use super::super::linear::Functions;
+use super::super::linear::SampledFunctions;
 use super::super::series::exponents;
 use super::super::terms::{integers, one, recorded};
-use super::super::{Effort, Excluded, Found, Report, SearchError};
+use super::super::{Effort, Excluded, Found, SearchError, SearchReport};
 use super::brackets::Weight;
 use super::components;
 use liouville::case::Case;
@@ -47,7 +47,7 @@ pub fn brackets(
     case: &Case,
     wanted: &Hamiltonians,
     effort: &Effort,
-    report: &mut Report,
+    report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
     let model = &case.model;
@@ -68,7 +68,9 @@ pub fn brackets(
     };
     let functions = match wanted {
         Hamiltonians::Known => known.clone(),
-        Hamiltonians::Given(text) => vec![super::super::Term::from(text.as_str()).read(model)?],
+        Hamiltonians::Given(text) => {
+            vec![super::super::FurtherTerm::from(text.as_str()).read(model)?]
+        }
     };
     if functions.is_empty() {
         report.remark(
@@ -81,7 +83,7 @@ pub fn brackets(
         effort.halt.check()?;
         let name = hamiltonian.to_string();
         progress(&format!("brackets with the Hamiltonian {name}"));
-        let family = Family::new(case, effort, hamiltonian, weights.clone())?;
+        let family = BracketSearch::new(case, effort, hamiltonian, weights.clone())?;
         // A function that claims about a bracket cannot read, such as `energy`, is not tried as a
         // Hamiltonian.
         if family.with_bracket(&[]).and_then(|asked| family.reads(&asked)).is_err() {
@@ -108,7 +110,7 @@ fn weights(case: &Case, effort: &Effort) -> Result<Vec<Weight>, SearchError> {
     let (graph, values) = recorded(case, |jet| {
         formulas.iter().map(|weight| vec![jet.phase.scalar(weight)]).collect::<Vec<_>>()
     })?;
-    let mut functions = Functions::new(case, &graph, &values, effort.options.seed)?;
+    let mut functions = SampledFunctions::new(case, &graph, &values, effort)?;
     let defined = functions.defined();
     functions.restrict(&defined);
     let independent = functions.relations()?.independent();
@@ -116,14 +118,14 @@ fn weights(case: &Case, effort: &Effort) -> Result<Vec<Weight>, SearchError> {
 }
 
 /// The unknown coefficient of w xᵃ in P_ij, i < j.
-pub(super) struct Unknown {
+pub(super) struct BracketUnknown {
     pub(super) pair: (usize, usize),
     pub(super) weight: usize,
     pub(super) exponents: Vec<u32>,
 }
 
 /// The search for brackets with one Hamiltonian.
-pub(super) struct Family<'a> {
+pub(super) struct BracketSearch<'a> {
     pub(super) case: &'a Case,
     effort: &'a Effort,
     hamiltonian: Formula,
@@ -131,10 +133,10 @@ pub(super) struct Family<'a> {
     /// Components of the state.
     pub(super) names: Vec<Formula>,
     degree: u32,
-    pub(super) unknowns: Vec<Unknown>,
+    pub(super) unknowns: Vec<BracketUnknown>,
 }
 
-impl<'a> Family<'a> {
+impl<'a> BracketSearch<'a> {
     fn new(
         case: &'a Case,
         effort: &'a Effort,
@@ -144,11 +146,11 @@ impl<'a> Family<'a> {
         let dimension = case.model.dimension();
         let pairs: Vec<(usize, usize)> =
             (0..dimension).flat_map(|i| (i + 1..dimension).map(move |j| (i, j))).collect();
-        let unknowns = |degree: u32| -> Vec<Unknown> {
+        let unknowns = |degree: u32| -> Vec<BracketUnknown> {
             let mut found = Vec::new();
             for weight in 0..weights.len() {
                 for monomial in (0..=degree).flat_map(|total| exponents(dimension, total)) {
-                    let one = |pair: &(usize, usize)| Unknown {
+                    let one = |pair: &(usize, usize)| BracketUnknown {
                         pair: *pair,
                         weight,
                         exponents: monomial.clone(),
@@ -170,10 +172,10 @@ impl<'a> Family<'a> {
         Ok(Self { case, effort, hamiltonian, weights, names, degree, unknowns: own })
     }
 
-    fn search(&self, known: &[Formula], report: &mut Report) -> Result<(), SearchError> {
+    fn search(&self, known: &[Formula], report: &mut SearchReport) -> Result<(), SearchError> {
         let name = &self.hamiltonian;
         let (graph, columns) = self.recorded()?;
-        let functions = Functions::new(self.case, &graph, &columns, self.effort.options.seed);
+        let functions = SampledFunctions::new(self.case, &graph, &columns, self.effort);
         let relations = match functions.and_then(|mut functions| functions.relations()) {
             Err(error @ (SearchError::NoChart | SearchError::NoPoints)) => {
                 report.remark(format!("no search for brackets with {name}: {error}"));
@@ -181,7 +183,7 @@ impl<'a> Family<'a> {
             }
             relations => relations?,
         };
-        let (vectors, irrational) = relations.rational();
+        let (vectors, irrational) = relations.rational()?;
         // The field is the last column: 1 in the solution, 0 in those of P ∂H = 0.
         let is_solution = |vector: &Vec<Rational>| vector.last().is_some_and(|c| !c.is_zero());
         let (solutions, beside): (Vec<_>, Vec<_>) = vectors.into_iter().partition(is_solution);
@@ -211,7 +213,7 @@ impl<'a> Family<'a> {
             let slopes: Vec<Expr> = (0..dimension).map(slope).collect();
             let weights: Vec<Expr> =
                 weights.iter().map(|weight| jet.phase.scalar(weight)).collect();
-            let column = |unknown: &Unknown| {
+            let column = |unknown: &BracketUnknown| {
                 let (i, j) = unknown.pair;
                 let powers = state.iter().zip(&unknown.exponents);
                 let factors = powers.flat_map(|(x, a)| (0..*a).map(move |_| *x));
@@ -233,7 +235,7 @@ impl<'a> Family<'a> {
         solution: &[Rational],
         beside: &[Vec<Rational>],
         known: &[Formula],
-        report: &mut Report,
+        report: &mut SearchReport,
     ) -> Result<(), SearchError> {
         let model = &self.case.model;
         let name = &self.hamiltonian;
@@ -289,7 +291,11 @@ impl<'a> Family<'a> {
     /// States a theorem, once all solutions of P ∂H = 0 modulo the prime are proved to be
     /// solutions: then the rank of the unknowns' columns is that modulo the prime, and the rank
     /// with v is not below that.
-    fn exclude(&self, beside: &[Vec<Rational>], report: &mut Report) -> Result<(), SearchError> {
+    fn exclude(
+        &self,
+        beside: &[Vec<Rational>],
+        report: &mut SearchReport,
+    ) -> Result<(), SearchError> {
         let name = &self.hamiltonian;
         for vector in beside {
             self.effort.halt.check()?;
@@ -321,7 +327,6 @@ impl<'a> Family<'a> {
             theorem: format!(
                 "There is no skew P with v = P ∂H, H = {name}, whose entries are polynomials of degree at most {degree} in the state with {coefficients}."
             ),
-            holds_on_all_branches: false,
         });
         Ok(())
     }

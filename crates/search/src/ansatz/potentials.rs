@@ -8,13 +8,13 @@
 use super::super::ask::{holds, is_energy, judged_alone};
 use super::super::products::Generators;
 use super::super::terms::read;
-use super::super::{Effort, Excluded, Found, Report, SearchError};
-use super::coefficients::{Coefficients, Ratio};
+use super::super::{Effort, Excluded, Found, SearchError, SearchReport};
+use super::coefficients::{PrimitiveVector, Ratio};
 use super::forces::{appended, combination, with_constants, with_potential};
-use super::monomials::Variables;
-use super::size::Size;
-use super::system::{Column, System};
-use super::{coordinates, factors, written};
+use super::monomials::AnsatzVariables;
+use super::size::SystemSize;
+use super::system::{Column, LinearSystem};
+use super::{factors, note_unwritten, written};
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::formula::{Formula, FormulaError};
@@ -32,14 +32,14 @@ const GAIN: u32 = 6;
 pub fn potentials(
     case: &Case,
     effort: &Effort,
-    report: &mut Report,
+    report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
     let axes = read(["γ1", "γ2", "γ3"], &case.model.vocabulary);
     let unit: Option<Vec<Model>> =
         axes.iter().map(|component| with_potential(&case.model, component)).collect();
     let unit = unit.filter(|unit| unit.len() == 3);
-    let (Some(variables), Some(unit)) = (Variables::of(case), unit) else {
+    let (Some(variables), Some(unit)) = (AnsatzVariables::of(case), unit) else {
         let reason = "the system admits none, or has one with free coefficients";
         report.remark(format!("no search for potentials: {reason}"));
         return Ok(());
@@ -57,26 +57,26 @@ pub fn potentials(
     }
     for integral in own {
         effort.halt.check()?;
-        let family = Family { case, effort, variables: &variables, unit: &unit, integral };
+        let family = PotentialSearch { case, effort, variables: &variables, unit: &unit, integral };
         family.search(report, progress)?;
     }
     Ok(())
 }
 
 /// The search for the potentials that preserve one integral.
-struct Family<'a> {
+struct PotentialSearch<'a> {
     case: &'a Case,
     effort: &'a Effort,
-    variables: &'a Variables,
+    variables: &'a AnsatzVariables,
     /// Models with an additional potential γ_i.
     unit: &'a [Model],
     integral: Formula,
 }
 
-impl Family<'_> {
+impl PotentialSearch<'_> {
     fn search(
         &self,
-        report: &mut Report,
+        report: &mut SearchReport,
         progress: &mut dyn FnMut(&str),
     ) -> Result<(), SearchError> {
         let vocabulary = &self.case.model.vocabulary;
@@ -104,7 +104,7 @@ impl Family<'_> {
         let first = gains.len();
         system.columns = gains.into_iter().chain(potentials).collect();
         let count = system.columns.len();
-        let size = Size::of(&[(0..count).collect()]);
+        let size = SystemSize::of(&[(0..count).collect()]);
         let what = format!("potentials that preserve {}", self.integral);
         progress(&format!("{what}: {size}"));
         if let Some(reason) = size.beyond(self.effort) {
@@ -115,11 +115,11 @@ impl Family<'_> {
         let mut columns = Vec::new();
         for range in [0..first, first..count] {
             let own: Vec<usize> = range.collect();
-            let Some(distinct) = system.distinct(&at, &own) else { return Ok(()) };
+            let Some(distinct) = system.distinct(&at, &own)? else { return Ok(()) };
             // The constant is the first of the functions; it has no effect.
             columns.extend(distinct.into_iter().filter(|column| *column != own[0]));
         }
-        let Some(vectors) = system.null_space(&at, &columns) else { return Ok(()) };
+        let Some(vectors) = system.null_space(&at, &columns)? else { return Ok(()) };
         let mut found = Vec::new();
         for vector in &vectors {
             let pairs = columns.iter().zip(vector).filter(|(_, entry)| **entry != 0);
@@ -127,11 +127,9 @@ impl Family<'_> {
             if support.last().is_none_or(|last| *last < first) {
                 continue;
             }
-            let Some(coefficients) = Coefficients::of(&system, &support) else {
-                report.remark(format!(
-                    "a potential with {} terms has coefficients that are not fractions of low degree in the parameters; give values with --set",
-                    support.len()
-                ));
+            let Some(coefficients) = PrimitiveVector::of(&system, &support)? else {
+                let what = format!("a potential with {} terms", support.len());
+                note_unwritten(self.case, &what, report);
                 continue;
             };
             let sum = |potential: bool| {
@@ -162,15 +160,14 @@ impl Family<'_> {
                 self.integral,
                 if told == dimension && told > 0 { ": those listed here" } else { "" }
             ),
-            holds_on_all_branches: false,
         });
         Ok(())
     }
 
     /// Records derivatives along γ → γ + tP with P_i = (∂F/∂ω, A(e_i)), and along the motion.
-    fn recorded(&self, over: &[Formula]) -> Result<System, SearchError> {
+    fn recorded(&self, over: &[Formula]) -> Result<LinearSystem, SearchError> {
         let Self { case, effort, variables, .. } = self;
-        System::record(case, &coordinates(case), effort.options.seed, |jet, recording| {
+        LinearSystem::record(case, effort, |jet, recording| {
             let state = jet.phase.state();
             let field = jet.phase.field();
             let gains = self.unit.iter().map(|model| {
@@ -193,7 +190,7 @@ impl Family<'_> {
     fn tell(
         &self,
         found: &[(Formula, Option<Formula>)],
-        report: &mut Report,
+        report: &mut SearchReport,
     ) -> Result<usize, SearchError> {
         if found.is_empty() {
             return Ok(0);

@@ -7,14 +7,14 @@ const STEPS: f64 = 5e8;
 
 /// Numbers of unknowns and blocks of a linear system.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Size {
+pub struct SystemSize {
     unknowns: usize,
     blocks: usize,
     largest: usize,
     seconds: f64,
 }
 
-impl Size {
+impl SystemSize {
     /// Computes the size of a system that decomposes into blocks.
     pub fn of(blocks: &[Vec<usize>]) -> Self {
         let sizes = || blocks.iter().map(Vec::len);
@@ -41,7 +41,7 @@ impl Size {
     }
 }
 
-impl std::fmt::Display for Size {
+impl std::fmt::Display for SystemSize {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Self { unknowns, blocks, largest, seconds } = self;
         let megabytes = self.megabytes();

@@ -1,7 +1,8 @@
 //! Complement of the functions of known integrals in a null space.
 
-use super::system::{At, System};
-use liouville::proof::reduce;
+use super::super::SearchError;
+use super::super::echelon::Echelon;
+use super::system::{LinearSystem, PrimePoint};
 
 /// Selects the vectors that, together with combinations of `products`, span the null space; each
 /// product is a list of outputs whose values are multiplied. `None` if too few states have values.
@@ -10,19 +11,23 @@ use liouville::proof::reduce;
 /// the last vector that it contains ends; so those at whose end no known combination ends are a
 /// basis of the complement, the same for all parameters in general position.
 pub fn complement(
-    system: &System,
-    at: &At,
+    system: &LinearSystem,
+    at: &PrimePoint,
     vectors: &[Vec<u64>],
     products: &[Vec<usize>],
-) -> Option<Vec<Vec<u64>>> {
+) -> Result<Option<Vec<Vec<u64>>>, SearchError> {
     if vectors.is_empty() {
-        return Some(Vec::new());
+        return Ok(Some(Vec::new()));
     }
-    let relations = system.combination_relations(at, vectors, products)?;
+    let Some(relations) = system.combination_relations(at, vectors, products)? else {
+        return Ok(None);
+    };
     let count = vectors.len();
-    let reversed: Vec<Vec<u64>> =
-        relations.iter().map(|own| own[..count].iter().rev().copied().collect()).collect();
-    let (ends, _) = reduce(reversed, count, &at.modulus);
-    let is_new = |k: &usize| !ends.contains(&(count - 1 - k));
-    Some((0..count).filter(is_new).map(|k| vectors[k].clone()).collect())
+    let mut ends = Echelon::new(count, at.modulus);
+    for own in relations {
+        system.halt().check()?;
+        ends.push(own[..count].iter().rev().copied().collect());
+    }
+    let is_new = |k: &usize| !ends.has_pivot(count - 1 - k);
+    Ok(Some((0..count).filter(is_new).map(|k| vectors[k].clone()).collect()))
 }

@@ -4,18 +4,19 @@
 //! d(W x^a) = x^a (W Σ a_i dx_i/x_i + dW): the tape computes x, dx, W and dW once for each state,
 //! and all columns follow from them.
 
-use crate::streams::Stream;
+use crate::streams::SearchStream;
 use num_dual::Dual;
 
 use super::super::echelon::Echelon;
 use super::super::local::{random, sign};
 use super::super::terms::recorded;
-use super::super::{Halt, SearchError};
+use super::super::{Effort, Halt, SearchError};
+use super::Coordinates;
 use liouville::case::Case;
-use liouville::claim::Place;
+use liouville::claim::LevelSubset;
 use liouville::formula::Formula;
 use liouville::graph::{Evaluator, Expr, Tape};
-use liouville::mechanics::calculus::Jet;
+use liouville::mechanics::calculus::DualPoint;
 use liouville::mechanics::{Draw, Phase};
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
 use liouville::number::rational::Rational;
@@ -23,12 +24,12 @@ use liouville::scalar::Scalar;
 use liouville::verdict::Sampler;
 
 /// Number of lanes of the evaluation.
-const LANES: usize = 8;
+const SYSTEM_LANES: usize = 8;
 /// Number of successive dependent rows after which the rank is accepted: accidents have probability
 /// p⁻⁸.
-const SPARE: usize = 8;
+const SPARE_ROWS: usize = 8;
 /// Largest number of choices of parameters tried until some state has a value, roots included.
-const POINTS: usize = 64;
+const MOST_DRAWS: usize = 64;
 
 /// A column of a linear system.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -105,7 +106,7 @@ impl Recording {
 
 /// A prime, and values for the draws of the parameters.
 #[derive(Clone, Debug)]
-pub struct At {
+pub struct PrimePoint {
     /// Prime field.
     pub modulus: Modulus,
     /// Values of the draws of the parameters.
@@ -114,8 +115,11 @@ pub struct At {
     pub coordinates: Vec<u64>,
 }
 
+/// Basis of the relations between columns; `None` if too few states have values.
+type Found = Result<Option<Vec<Vec<u64>>>, SearchError>;
+
 /// A linear system: its columns, and the tape that computes its rows.
-pub struct System {
+pub struct LinearSystem {
     /// Columns of the unknowns.
     pub columns: Vec<Column>,
     tape: Tape,
@@ -126,34 +130,37 @@ pub struct System {
     /// Number of outputs before the coordinates of the parameters.
     own: usize,
     coordinates: Vec<Formula>,
+    /// Numbers under roots in the field.
+    radicands: Vec<Rational>,
     seed: u64,
     /// Condition for an early end of eliminations.
-    pub halt: Halt,
+    halt: Halt,
 }
 
-impl System {
+impl LinearSystem {
     /// Records the values that `make` needs at a state of the level; the columns are added later.
     pub fn record(
         case: &Case,
-        coordinates: &[Formula],
-        seed: u64,
-        make: impl FnOnce(&Jet<'_, Expr>, &mut Recording),
+        effort: &Effort,
+        make: impl FnOnce(&DualPoint<'_, Expr>, &mut Recording),
     ) -> Result<Self, SearchError> {
+        let seed = effort.options.seed;
+        let Coordinates { names, radicands } = Coordinates::of(case)?;
         let (graph, (recording, own)) = recorded(case, |jet| {
             let mut recording = Recording::default();
             make(jet, &mut recording);
             let own = recording.outputs.len();
-            let values = coordinates.iter().map(|term| jet.phase.scalar(term));
+            let values = names.iter().map(|term| jet.phase.scalar(term));
             recording.outputs.extend(values);
             (recording, own)
         })?;
-        let sampler = Sampler::new(case, &Place::level(&case.model), seed)?;
+        let sampler = Sampler::new(case, &LevelSubset::level(&case.model), seed)?;
         if sampler.is_numerical() {
             return Err(SearchError::NoChart);
         }
         let fixed = vec![None; sampler.recipes().len()];
         let (graph, outputs) = sampler.compose(&graph, &[recording.outputs], &fixed)?;
-        let mut system = Self {
+        Ok(Self {
             columns: Vec::new(),
             tape: Tape::new(&graph, &outputs.concat()),
             inputs: graph.inputs(),
@@ -161,12 +168,16 @@ impl System {
             draws: sampler.recipes().to_vec(),
             derivations: recording.derivations,
             own,
-            coordinates: Vec::new(),
+            coordinates: names,
+            radicands,
             seed,
-            halt: Halt::default(),
-        };
-        system.coordinates = coordinates.to_vec();
-        Ok(system)
+            halt: effort.halt.clone(),
+        })
+    }
+
+    /// Condition for an early end.
+    pub fn halt(&self) -> &Halt {
+        &self.halt
     }
 
     /// Returns the parameters' coordinates.
@@ -176,13 +187,13 @@ impl System {
 
     /// Makes choice `index` of the parameters, modulo the prime with index `prime`; `None` where no
     /// state has a value.
-    pub fn at(&self, prime: u64, index: u64) -> Option<At> {
-        let modulus = Stream::Moduli.numbered(self.seed, prime).prime(&[3, 5], &[2, 3]);
-        let mut chance =
-            Stream::Equations.under(self.seed ^ index.wrapping_mul(0x9e37_79b9_7f4a_7c15));
-        for _ in 0..POINTS {
-            let parameters = random(&self.parameters, &modulus, &mut chance);
-            let mut at = At { modulus, parameters, coordinates: Vec::new() };
+    pub fn at(&self, prime: u64, index: u64) -> Option<PrimePoint> {
+        let modulus = Coordinates::prime(&self.radicands, self.seed, prime);
+        let mut rng =
+            SearchStream::Equations.under(self.seed ^ index.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        for _ in 0..MOST_DRAWS {
+            let parameters = random(&self.parameters, &modulus, &mut rng);
+            let mut at = PrimePoint { modulus, parameters, coordinates: Vec::new() };
             let mut seen = None;
             self.visit(&at, index, 4, &mut |values| {
                 seen = Some(values[self.own..].to_vec());
@@ -200,26 +211,26 @@ impl System {
     /// `false` if it has not within the limit of blocks.
     fn visit(
         &self,
-        at: &At,
+        at: &PrimePoint,
         stream: u64,
         blocks: usize,
         look: &mut dyn FnMut(&[u64]) -> bool,
     ) -> bool {
-        let mut chance = Stream::Combinations.under(self.seed.wrapping_add(stream));
-        let mut evaluator = Evaluator::new(&self.tape, Prime::new([at.modulus; LANES]));
+        let mut rng = SearchStream::Combinations.under(self.seed.wrapping_add(stream));
+        let mut evaluator = Evaluator::new(&self.tape, Prime::new([at.modulus; SYSTEM_LANES]));
         for _ in 0..blocks {
-            let inputs: Vec<[u64; LANES]> = (0..self.inputs)
+            let inputs: Vec<[u64; SYSTEM_LANES]> = (0..self.inputs)
                 .map(|input| match at.parameters.get(input) {
-                    Some(value) => [*value; LANES],
+                    Some(value) => [*value; SYSTEM_LANES],
                     None if matches!(self.draws.get(input), Some(Draw::Sign)) => {
-                        std::array::from_fn(|_| sign(&at.modulus, &mut chance))
+                        std::array::from_fn(|_| sign(&at.modulus, &mut rng))
                     }
-                    None => std::array::from_fn(|_| chance.element(&at.modulus)),
+                    None => std::array::from_fn(|_| rng.element(&at.modulus)),
                 })
                 .collect();
             evaluator.run(&inputs);
-            let values: Vec<[u64; LANES]> = evaluator.outputs().copied().collect();
-            for lane in 0..LANES {
+            let values: Vec<[u64; SYSTEM_LANES]> = evaluator.outputs().copied().collect();
+            for lane in 0..SYSTEM_LANES {
                 let row: Vec<u64> = values.iter().map(|block| block[lane]).collect();
                 if !row.contains(&UNDEFINED) && !look(&row) {
                     return true;
@@ -232,7 +243,7 @@ impl System {
     /// Finds a basis of the relations between some columns, each vector being 1 at a free column, 0
     /// at the other free ones and at all columns after its own; `None` if too few states have
     /// values.
-    pub fn null_space(&self, at: &At, columns: &[usize]) -> Option<Vec<Vec<u64>>> {
+    pub fn null_space(&self, at: &PrimePoint, columns: &[usize]) -> Found {
         self.relations(at, columns.len(), &mut |values| {
             self.row(&at.modulus, values, columns, &|column, powers| {
                 powers.derivative(&at.modulus, column)
@@ -242,7 +253,7 @@ impl System {
 
     /// A basis of the relations between the functions themselves, as
     /// [`null_space`](Self::null_space) has it between their derivatives.
-    pub fn dependences(&self, at: &At, columns: &[usize]) -> Option<Vec<Vec<u64>>> {
+    pub fn dependences(&self, at: &PrimePoint, columns: &[usize]) -> Found {
         let m = &at.modulus;
         self.relations(at, columns.len(), &mut |values| {
             self.row(m, values, columns, &|column, powers| powers.value(m, column))
@@ -251,22 +262,26 @@ impl System {
 
     /// Selects the columns whose functions do not depend on earlier ones; `None` if too few states
     /// have values.
-    pub fn distinct(&self, at: &At, columns: &[usize]) -> Option<Vec<usize>> {
-        let relations = self.dependences(at, columns)?;
+    pub fn distinct(
+        &self,
+        at: &PrimePoint,
+        columns: &[usize],
+    ) -> Result<Option<Vec<usize>>, SearchError> {
+        let Some(relations) = self.dependences(at, columns)? else { return Ok(None) };
         let last = |own: &Vec<u64>| own.iter().rposition(|entry| *entry != 0);
         let dependent: Vec<usize> = relations.iter().filter_map(last).collect();
         let kept = (0..columns.len()).filter(|k| !dependent.contains(k));
-        Some(kept.map(|k| columns[k]).collect())
+        Ok(Some(kept.map(|k| columns[k]).collect()))
     }
 
     /// Finds a basis of the relations between combinations of the functions, and products of
     /// outputs.
     pub fn combination_relations(
         &self,
-        at: &At,
+        at: &PrimePoint,
         combinations: &[Vec<u64>],
         further: &[Vec<usize>],
-    ) -> Option<Vec<Vec<u64>>> {
+    ) -> Found {
         let m = &at.modulus;
         let columns: Vec<usize> = (0..self.columns.len()).collect();
         self.relations(at, combinations.len() + further.len(), &mut |values| {
@@ -281,20 +296,24 @@ impl System {
 
     fn relations(
         &self,
-        at: &At,
+        at: &PrimePoint,
         width: usize,
         row: &mut dyn FnMut(&[u64]) -> Option<Vec<u64>>,
-    ) -> Option<Vec<Vec<u64>>> {
+    ) -> Found {
         let mut echelon = Echelon::new(width, at.modulus);
         let mut dependent = 0;
-        let enough = self.visit(at, 1, 64 * (width + SPARE), &mut |values| {
+        let enough = self.visit(at, 1, 64 * (width + SPARE_ROWS), &mut |values| {
             if let Some(row) = row(values) {
                 dependent = if echelon.push(row) { 0 } else { dependent + 1 };
             }
-            dependent < SPARE && self.halt.check().is_ok()
+            dependent < SPARE_ROWS && self.halt.check().is_ok()
         });
-        let vector = |free| self.halt.check().ok().map(|()| echelon.null_vector(free));
-        enough.then(|| echelon.free().into_iter().map(vector).collect())?
+        self.halt.check()?;
+        if !enough {
+            return Ok(None);
+        }
+        let vector = |free| self.halt.check().map(|()| echelon.null_vector(free));
+        echelon.free().into_iter().map(vector).collect::<Result<_, _>>().map(Some)
     }
 
     /// Computes the entries of some columns at a state; `None` where a variable is 0.
@@ -303,10 +322,13 @@ impl System {
         m: &Modulus,
         values: &[u64],
         columns: &[usize],
-        entry: &dyn Fn(&Column, &Powers<'_>) -> u64,
+        entry: &dyn Fn(&Column, &VariablePowers<'_>) -> u64,
     ) -> Option<Vec<u64>> {
-        let powers: Option<Vec<Powers<'_>>> =
-            self.derivations.iter().map(|own| Powers::of(m, own, values, self.highest())).collect();
+        let powers: Option<Vec<VariablePowers<'_>>> = self
+            .derivations
+            .iter()
+            .map(|own| VariablePowers::of(m, own, values, self.highest()))
+            .collect();
         let powers = powers?;
         let one = |index: &usize| match &self.columns[*index] {
             Column::Given(output) => values[*output],
@@ -325,14 +347,14 @@ impl System {
 }
 
 /// Powers and logarithmic derivatives of the variables at a state, with the factors.
-struct Powers<'v> {
+struct VariablePowers<'v> {
     powers: Vec<Vec<u64>>,
     growth: Vec<u64>,
     factors: &'v [u64],
     slopes: &'v [u64],
 }
 
-impl<'v> Powers<'v> {
+impl<'v> VariablePowers<'v> {
     fn of(m: &Modulus, own: &Derivation, values: &'v [u64], highest: u32) -> Option<Self> {
         let (x, rest) = values[own.start..].split_at(own.variables);
         let (dx, rest) = rest.split_at(own.variables);

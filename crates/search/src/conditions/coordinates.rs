@@ -3,12 +3,12 @@
 use crate::terms::read;
 use liouville::case::Case;
 use liouville::formula::{Formula, Type};
-use liouville::mechanics::Origin;
+use liouville::mechanics::ParameterOrigin;
 
 /// Lists the components of the drawn parameters, including constant and equal ones.
 pub fn components(case: &Case) -> Vec<Formula> {
     let model = &case.model;
-    let drawn = model.parameters.iter().filter(|p| matches!(p.origin, Origin::Free(_)));
+    let drawn = model.parameters.iter().filter(|p| matches!(p.origin, ParameterOrigin::Free(_)));
     let names = drawn.flat_map(|parameter| {
         let name = &parameter.name;
         match parameter.kind {

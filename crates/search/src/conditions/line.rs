@@ -1,11 +1,12 @@
 //! Zeros of a residual along random lines of parameters.
 
-use super::polynomial::{Polynomial, Ring};
-use super::residual::{LANES, Residual, Seen};
-use crate::streams::Stream;
+use super::polynomial::{Polynomial, PrimePolynomials};
+use super::residual::{RESIDUAL_LANES, Residual, ResidualPoint};
+use crate::streams::SearchStream;
+use crate::{Effort, Halt, SearchError};
 use liouville::graph::Evaluator;
 use liouville::number::prime::{Modulus, Prime};
-use liouville::proof::Chance;
+use liouville::proof::ProofRng;
 
 /// Number of states whose residuals are compared.
 const STATES: usize = 3;
@@ -13,7 +14,7 @@ const STATES: usize = 3;
 const CHECKS: usize = 16;
 /// Smallest number of values of a residual along the line, followed by the largest.
 const LEAST: usize = 16;
-const MOST: usize = 1024;
+const MOST_RESIDUALS: usize = 1024;
 
 /// Number of draws of states until the residual has values: a constant root exists for half of
 /// them.
@@ -28,7 +29,7 @@ enum Gap {
 }
 
 /// The result along one line.
-pub enum Along {
+pub enum LineResult {
     /// The residual vanishes everywhere.
     Always,
     /// The residual is not a fraction of a degree within reach.
@@ -41,26 +42,27 @@ pub enum Along {
 /// Random lines for one residual modulo one prime.
 pub struct Lines<'r> {
     residual: &'r Residual,
-    evaluator: Evaluator<'r, Prime<LANES>>,
+    evaluator: Evaluator<'r, Prime<RESIDUAL_LANES>>,
     modulus: Modulus,
-    chance: Chance,
+    rng: ProofRng,
     /// Number of values that sufficed before.
     enough: usize,
     /// Whether each draw moves along a line.
     moving: Vec<bool>,
+    halt: Halt,
 }
 
 impl<'r> Lines<'r> {
     /// Prepares lines modulo a random prime; `None` if the residual is not a fraction along any.
     ///
     /// Draws under a root stay fixed along a line if the residual is not a fraction otherwise.
-    pub fn new(residual: &'r Residual, seed: u64) -> Option<Self> {
-        let mut chance = Stream::Lines.under(seed);
-        let modulus = chance.prime(&[3, 5], &[2, 3]);
+    pub fn new(residual: &'r Residual, effort: &Effort) -> Result<Option<Self>, SearchError> {
+        let mut rng = SearchStream::Lines.under(effort.options.seed);
+        let modulus = rng.prime(&[3, 5], &[2, 3]);
         let evaluator = residual.evaluator(modulus);
         let free: Vec<bool> = residual.free().collect();
-        let moving = free.clone();
-        let mut lines = Self { residual, evaluator, modulus, chance, enough: LEAST, moving };
+        let (moving, halt) = (free.clone(), effort.halt.clone());
+        let mut lines = Self { residual, evaluator, modulus, rng, enough: LEAST, moving, halt };
         if !lines.is_fraction() {
             let alone = |draw: usize| (0..free.len()).map(|j| j == draw && free[j]).collect();
             let each = (0..free.len()).map(|draw| {
@@ -69,7 +71,9 @@ impl<'r> Lines<'r> {
             });
             lines.moving = each.collect::<Vec<bool>>();
         }
-        (lines.moving.contains(&true) && lines.is_fraction()).then_some(lines)
+        let is_fraction = lines.moving.contains(&true) && lines.is_fraction();
+        lines.halt.check()?;
+        Ok(is_fraction.then_some(lines))
     }
 
     /// Whether the residual is a fraction along a line.
@@ -82,7 +86,7 @@ impl<'r> Lines<'r> {
     /// Finds the numerators for a random state at which the residual has values.
     fn somewhere(&mut self, origin: &[u64], slope: &[u64]) -> Option<Vec<Polynomial>> {
         for _ in 0..DRAWS {
-            let state = self.residual.state(&self.modulus, &mut self.chance);
+            let state = self.residual.state(&self.modulus, &mut self.rng);
             match self.numerators(origin, slope, &state) {
                 Ok(numerators) => return Some(numerators),
                 Err(Gap::Undefined) => {}
@@ -95,9 +99,9 @@ impl<'r> Lines<'r> {
     /// Draws a random line.
     fn line(&mut self) -> (Vec<u64>, Vec<u64>) {
         let m = self.modulus;
-        let origin = self.residual.parameters(&m, &mut self.chance);
+        let origin = self.residual.parameters(&m, &mut self.rng);
         let slope = self.moving.iter().map(|moving| match moving {
-            true => self.chance.element(&m),
+            true => self.rng.element(&m),
             false => 0,
         });
         (origin, slope.collect())
@@ -109,27 +113,35 @@ impl<'r> Lines<'r> {
     }
 
     /// Examines another line.
-    pub fn next(&mut self) -> Along {
+    pub fn next(&mut self) -> Result<LineResult, SearchError> {
+        let found = self.examined();
+        self.halt.check()?;
+        Ok(found)
+    }
+
+    fn examined(&mut self) -> LineResult {
         let m = self.modulus;
-        let ring = Ring(m);
+        let ring = PrimePolynomials(m);
         let (origin, slope) = self.line();
         let mut common: Polynomial = Vec::new();
         for _ in 0..STATES {
-            let Some(numerators) = self.somewhere(&origin, &slope) else { return Along::Unknown };
+            let Some(numerators) = self.somewhere(&origin, &slope) else {
+                return LineResult::Unknown;
+            };
             for numerator in numerators {
                 common = ring.common(&common, &numerator);
             }
             if common.len() == 1 {
-                return Along::Points(Vec::new(), 0);
+                return LineResult::Points(Vec::new(), 0);
             }
         }
         if common.is_empty() {
-            return Along::Always;
+            return LineResult::Always;
         }
         let degree = common.len() - 1;
-        let roots = ring.roots(&common, &mut self.chance);
+        let roots = ring.roots(&common, &mut self.rng);
         let points = roots.into_iter().filter_map(|t| self.confirmed(&at(&m, &origin, &slope, t)));
-        Along::Points(points.collect(), degree)
+        LineResult::Points(points.collect(), degree)
     }
 
     /// Finds the numerators of the residual's components, for one state.
@@ -140,23 +152,26 @@ impl<'r> Lines<'r> {
         state: &[u64],
     ) -> Result<Vec<Polynomial>, Gap> {
         let m = self.modulus;
-        let ring = Ring(m);
+        let ring = PrimePolynomials(m);
         let mut values: Vec<(u64, Vec<u64>)> = Vec::new();
         let mut wanted = self.enough;
         loop {
             let mut tries = 0;
             while values.len() < wanted {
+                // The caller looks at the clock before it draws conclusions.
+                self.halt.check().map_err(|_| Gap::NoFraction)?;
                 tries += 1;
                 if tries > DRAWS * wanted || (tries == DRAWS && values.is_empty()) {
                     return Err(Gap::Undefined);
                 }
-                let places: [u64; LANES] = std::array::from_fn(|_| self.chance.element(&m));
+                let places: [u64; RESIDUAL_LANES] = std::array::from_fn(|_| self.rng.element(&m));
                 let points = places.map(|t| [&at(&m, origin, slope, t), state].concat());
                 let seen = self.residual.at(&mut self.evaluator, &points);
                 let defined = places.into_iter().zip(seen);
                 values.extend(defined.filter_map(|(t, seen)| Some((t, seen.residual?))));
             }
             let component = |k: usize| -> Option<Polynomial> {
+                self.halt.check().ok()?;
                 let value = |f: &dyn Fn(u64) -> u64| -> Vec<(u64, u64)> {
                     values.iter().map(|(t, residual)| (*t, f(residual[k]))).collect()
                 };
@@ -169,7 +184,7 @@ impl<'r> Lines<'r> {
                 self.enough = wanted;
                 return Ok(all);
             }
-            if wanted >= MOST {
+            if wanted >= MOST_RESIDUALS {
                 return Err(Gap::NoFraction);
             }
             wanted *= 2;
@@ -182,9 +197,10 @@ impl<'r> Lines<'r> {
         let (mut zeros, mut components) = (0, None);
         for _ in 0..8 * CHECKS {
             let points = std::array::from_fn(|_| {
-                [parameters, &self.residual.state(&m, &mut self.chance)].concat()
+                [parameters, &self.residual.state(&m, &mut self.rng)].concat()
             });
-            for Seen { residual, components: own } in self.residual.at(&mut self.evaluator, &points)
+            for ResidualPoint { residual, components: own } in
+                self.residual.at(&mut self.evaluator, &points)
             {
                 match residual {
                     Some(residual) if residual.iter().any(|x| *x != 0) => return None,

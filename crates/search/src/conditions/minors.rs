@@ -5,24 +5,24 @@
 //! minor vanish, so it is a root of the common divisor of minors at several points. All such values
 //! are found, including complex ones; those in the field are confirmed by a count.
 
-use super::polynomial::{Polynomial, Ring};
+use super::polynomial::{Polynomial, PrimePolynomials};
 use crate::budget::Budget;
 use crate::expansion::Taylor;
-use crate::jets::{Asked, Equations, RowKey};
+use crate::jets::{Equations, RowKey, VelocityPolynomials};
 use crate::local::Local;
-use crate::streams::Stream;
+use crate::streams::SearchStream;
 use crate::{Effort, SearchError};
 use liouville::case::Case;
-use liouville::mechanics::{Draw, Origin, Recipe};
+use liouville::mechanics::{Draw, ParameterOrigin, SamplerSpec};
 use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
-use liouville::proof::{Chance, reconstruct};
+use liouville::proof::{ProofRng, reconstruct};
 
 /// Number of points whose minors are compared.
-const POINTS: usize = 2;
+const MINOR_POINTS: usize = 2;
 /// Smallest number of values of a minor, followed by the largest.
 const LEAST: usize = 64;
-const MOST: usize = 2048;
+const MOST_MINORS: usize = 2048;
 /// Number of draws of a point, or of a value, until the field has a series there.
 const DRAWS: usize = 64;
 /// Number of choices of the other parameters under which a relation must persist.
@@ -33,8 +33,8 @@ pub fn scalars(case: &Case) -> Vec<(String, usize)> {
     let mut draw = 0;
     let mut found = Vec::new();
     for parameter in &case.model.parameters {
-        let Origin::Free(recipe) = &parameter.origin else { continue };
-        if matches!(recipe, Recipe::Scalar(Draw::Within(_) | Draw::Of(..))) {
+        let ParameterOrigin::Free(recipe) = &parameter.origin else { continue };
+        if matches!(recipe, SamplerSpec::Scalar(Draw::Within(_) | Draw::Of(..))) {
             found.push((parameter.name.clone(), draw));
         }
         draw += recipe.draws().len();
@@ -47,7 +47,7 @@ pub fn scalars(case: &Case) -> Vec<(String, usize)> {
 pub fn relations(
     case: &Case,
     local: &Local,
-    asked: Asked,
+    asked: VelocityPolynomials,
     (name, draw): &(String, usize),
     effort: &Effort,
 ) -> Result<Vec<String>, SearchError> {
@@ -106,30 +106,36 @@ fn is_simple(value: &Rational) -> bool {
 struct Minors<'l> {
     taylor: Taylor<'l>,
     effort: &'l Effort,
-    asked: Asked,
+    asked: VelocityPolynomials,
     draw: usize,
     parameters: Vec<u64>,
     modulus: Modulus,
-    chance: Chance,
+    rng: ProofRng,
 }
 
 impl<'l> Minors<'l> {
-    fn new(local: &'l Local, asked: Asked, draw: usize, round: u64, effort: &'l Effort) -> Self {
-        let mut chance = Stream::Minors.under(effort.options.seed + round);
-        let modulus = chance.prime(&[], &[]);
-        let small = |chance: &mut Chance| 2 + modulus.to_integer(chance.element(&modulus)) % 97;
-        let parameters = local.parameters(&modulus, &mut chance);
+    fn new(
+        local: &'l Local,
+        asked: VelocityPolynomials,
+        draw: usize,
+        round: u64,
+        effort: &'l Effort,
+    ) -> Self {
+        let mut rng = SearchStream::Minors.under(effort.options.seed + round);
+        let modulus = rng.prime(&[], &[]);
+        let small = |rng: &mut ProofRng| 2 + modulus.to_integer(rng.element(&modulus)) % 97;
+        let parameters = local.parameters(&modulus, &mut rng);
         let parameters = parameters
             .into_iter()
             .zip(&local.draws)
             .map(|(listed, draw)| match draw {
                 Draw::OneOf(_) => listed,
                 Draw::Sign => modulus.one(),
-                Draw::Within(_) | Draw::Of(..) => modulus.integer(small(&mut chance)),
+                Draw::Within(_) | Draw::Of(..) => modulus.integer(small(&mut rng)),
             })
             .collect();
         let taylor = Taylor::new(local, modulus, 2 * asked.degree + 2);
-        Self { taylor, effort, asked, draw, parameters, modulus, chance }
+        Self { taylor, effort, asked, draw, parameters, modulus, rng }
     }
 
     /// Sets up the equations at a value of the parameter; `None` where the field has no series.
@@ -140,26 +146,32 @@ impl<'l> Minors<'l> {
     ) -> Result<Option<Equations>, SearchError> {
         let mut parameters = self.parameters.clone();
         parameters[self.draw] = value;
-        let expansion = self.taylor.at(&parameters, positions, &mut self.chance)?;
-        Ok(expansion.map(|e| Equations::of(&e, &self.taylor, self.asked, 0)))
+        let expansion = self.taylor.at(&parameters, positions, &mut self.rng)?;
+        let halt = &self.effort.halt;
+        expansion.map(|e| Equations::of(&e, &self.taylor, self.asked, 0, halt)).transpose()
     }
 
     /// Finds the values at which there are more integrals.
     fn special_values(&mut self) -> Result<Vec<u64>, SearchError> {
-        let ring = Ring(self.modulus);
+        let ring = PrimePolynomials(self.modulus);
         let mut common: Polynomial = Vec::new();
         let mut dimension = usize::MAX;
-        for _ in 0..POINTS {
+        for _ in 0..MINOR_POINTS {
             let (numerator, own) = self.minor()?;
             common = ring.common(&common, &numerator);
             dimension = dimension.min(own);
         }
-        let candidates = ring.roots(&common, &mut self.chance);
+        let candidates = ring.roots(&common, &mut self.rng);
         let mut found = Vec::new();
         for value in candidates {
             for _ in 0..DRAWS {
-                let positions = self.taylor.positions(&mut self.chance);
-                let Ok(Some(equations)) = self.equations(value, &positions) else { continue };
+                self.effort.halt.check()?;
+                let positions = self.taylor.positions(&mut self.rng);
+                let own = match self.equations(value, &positions) {
+                    Err(error @ SearchError::Stopped) => return Err(error),
+                    own => own,
+                };
+                let Ok(Some(equations)) = own else { continue };
                 if equations.dimension(&equations.solved(&Budget::unlimited(&self.effort.halt))?.0)
                     > dimension
                 {
@@ -174,10 +186,10 @@ impl<'l> Minors<'l> {
     /// Finds the numerator of a maximal minor at a random point, and the number of integrals in
     /// general.
     fn minor(&mut self) -> Result<(Polynomial, usize), SearchError> {
-        let ring = Ring(self.modulus);
+        let ring = PrimePolynomials(self.modulus);
         for _ in 0..DRAWS {
-            let positions = self.taylor.positions(&mut self.chance);
-            let value = self.chance.element(&self.modulus);
+            let positions = self.taylor.positions(&mut self.rng);
+            let value = self.rng.element(&self.modulus);
             let Some(equations) = self.equations(value, &positions)? else { continue };
             let (echelon, rows) = equations.solved(&Budget::unlimited(&self.effort.halt))?;
             let dimension = equations.dimension(&echelon);
@@ -185,15 +197,16 @@ impl<'l> Minors<'l> {
                 (0..echelon.columns()).filter(|column| echelon.has_pivot(*column)).collect();
             let mut values = Vec::new();
             let (mut wanted, mut tries) = (LEAST, 0);
-            while wanted <= MOST {
+            while wanted <= MOST_MINORS {
                 while values.len() < wanted && tries < DRAWS * wanted {
                     tries += 1;
                     self.effort.halt.check()?;
-                    let value = self.chance.element(&self.modulus);
+                    let value = self.rng.element(&self.modulus);
                     if let Some(equations) = self.equations(value, &positions)? {
-                        values.push((value, self.determinant(&equations, &rows, &columns)));
+                        values.push((value, self.determinant(&equations, &rows, &columns)?));
                     }
                 }
+                self.effort.halt.check()?;
                 if let Some((numerator, _)) = ring.fraction(&values) {
                     return Ok((numerator, dimension));
                 }
@@ -205,7 +218,12 @@ impl<'l> Minors<'l> {
     }
 
     /// Computes the determinant of some rows and columns.
-    fn determinant(&self, equations: &Equations, rows: &[RowKey], columns: &[usize]) -> u64 {
+    fn determinant(
+        &self,
+        equations: &Equations,
+        rows: &[RowKey],
+        columns: &[usize],
+    ) -> Result<u64, SearchError> {
         let m = self.modulus;
         let mut matrix: Vec<Vec<u64>> = equations
             .rows()
@@ -213,11 +231,14 @@ impl<'l> Minors<'l> {
             .map(|(_, row)| columns.iter().map(|column| row[*column]).collect())
             .collect();
         if matrix.len() < columns.len() {
-            return 0;
+            return Ok(0);
         }
         let mut determinant = m.one();
         for k in 0..columns.len() {
-            let Some(pivot) = (k..matrix.len()).find(|row| matrix[*row][k] != 0) else { return 0 };
+            self.effort.halt.check()?;
+            let Some(pivot) = (k..matrix.len()).find(|row| matrix[*row][k] != 0) else {
+                return Ok(0);
+            };
             if pivot != k {
                 matrix.swap(pivot, k);
                 determinant = m.sub(0, determinant);
@@ -233,6 +254,6 @@ impl<'l> Minors<'l> {
                 }
             }
         }
-        determinant
+        Ok(determinant)
     }
 }

@@ -21,10 +21,10 @@ mod variety;
 
 use serde::Serialize;
 
-use super::jets::Asked;
-use super::{Effort, Report, SearchError};
+use super::jets::VelocityPolynomials;
+use super::{Effort, SearchError, SearchReport};
 pub use coordinates::components;
-use line::{Along, Lines};
+use line::{LineResult, Lines};
 use liouville::case::{Case, PlacedClaim};
 use residual::Residual;
 
@@ -41,7 +41,7 @@ const REPEATED: usize = 2;
 
 /// A condition on the parameters under which a statement holds.
 #[derive(Clone, Debug, Serialize)]
-pub struct Condition {
+pub struct ParameterCondition {
     /// Statement that holds.
     pub of: String,
     /// Alternative equations, each sufficient; empty if no condition was found.
@@ -52,7 +52,7 @@ pub struct Condition {
 
 /// The statements for which conditions are searched.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Wanted {
+pub enum ConditionTarget {
     /// Existence of a density of the configuration, and of integrals of degree 1 and 2 in the
     /// velocities.
     Existence,
@@ -63,19 +63,19 @@ pub enum Wanted {
 /// Finds the conditions under which statements hold that fail in general.
 pub fn conditions(
     case: &Case,
-    wanted: &Wanted,
+    wanted: &ConditionTarget,
     effort: &Effort,
-    report: &mut Report,
+    report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
     match wanted {
-        Wanted::Claim(name) => {
+        ConditionTarget::Claim(name) => {
             let named = case.claims.iter().find(|claim| &claim.name == name);
             let claim = named.ok_or_else(|| SearchError::NoClaim(name.clone()))?;
             progress(&format!("conditions for {name}"));
             report.conditions.extend(condition(case, Some(claim), effort)?);
         }
-        Wanted::Existence => {
+        ConditionTarget::Existence => {
             if case.model.system.has_criterion() {
                 progress("conditions for a density of the configuration");
                 report.conditions.extend(condition(case, None, effort)?);
@@ -90,7 +90,7 @@ pub fn conditions(
 fn integrals(
     case: &Case,
     effort: &Effort,
-    report: &mut Report,
+    report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
     let mixed = case.model.system.energy_is_inhomogeneous();
@@ -105,7 +105,7 @@ fn integrals(
             let (equations, grounds) = match minors::relations(
                 case,
                 &local,
-                Asked { degree, mixed },
+                VelocityPolynomials { degree, mixed },
                 &parameter,
                 effort,
             ) {
@@ -117,7 +117,7 @@ fn integrals(
                 Err(error) => return Err(error),
             };
             let of = format!("{of}, by the value of {}", parameter.0);
-            report.conditions.push(Condition { of, equations, grounds });
+            report.conditions.push(ParameterCondition { of, equations, grounds });
         }
     }
     Ok(())
@@ -128,13 +128,13 @@ fn condition(
     case: &Case,
     claim: Option<&PlacedClaim>,
     effort: &Effort,
-) -> Result<Option<Condition>, SearchError> {
+) -> Result<Option<ParameterCondition>, SearchError> {
     let of = claim.map_or("a density ρ of the configuration exists", |claim| &claim.name);
     let told = |equations: Vec<String>, grounds: String| {
-        Ok(Some(Condition { of: of.to_string(), equations, grounds }))
+        Ok(Some(ParameterCondition { of: of.to_string(), equations, grounds }))
     };
     let Some(residual) = Residual::of(case, claim, effort.options.seed)? else { return Ok(None) };
-    let Some(mut lines) = Lines::new(&residual, effort.options.seed) else {
+    let Some(mut lines) = Lines::new(&residual, effort)? else {
         let grounds = "the residual is not a fraction of low degree in the parameters";
         return told(Vec::new(), grounds.to_string());
     };
@@ -142,16 +142,15 @@ fn condition(
     let (mut equations, mut points): (Vec<(String, usize)>, Vec<Vec<u64>>) = Default::default();
     let (mut degree, mut seen, mut tried) = (0, 0, 0);
     for line in 0..LINES {
-        effort.halt.check()?;
-        match lines.next() {
-            Along::Always => return Ok(None),
-            Along::Unknown => {
+        match lines.next()? {
+            LineResult::Always => return Ok(None),
+            LineResult::Unknown => {
                 return told(
                     Vec::new(),
                     "the residual is not a fraction of low degree in the parameters".to_string(),
                 );
             }
-            Along::Points(found, own) => {
+            LineResult::Points(found, own) => {
                 degree = degree.max(own);
                 for point in found {
                     seen += 1;

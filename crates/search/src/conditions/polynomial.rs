@@ -1,16 +1,16 @@
 //! Polynomials in one variable modulo a prime: interpolation by fractions, common factors, roots.
 
 use liouville::number::prime::Modulus;
-use liouville::proof::Chance;
+use liouville::proof::ProofRng;
 
 /// Coefficients as residues from low to high degree; the last one is not 0.
 pub type Polynomial = Vec<u64>;
 
 /// The polynomial ring F_p[x].
 #[derive(Clone, Copy)]
-pub struct Ring(pub Modulus);
+pub struct PrimePolynomials(pub Modulus);
 
-impl Ring {
+impl PrimePolynomials {
     fn trimmed(mut a: Polynomial) -> Polynomial {
         while a.last() == Some(&0) {
             a.pop();
@@ -108,7 +108,7 @@ impl Ring {
     }
 
     /// Finds the distinct roots in the field.
-    pub fn roots(&self, a: &[u64], chance: &mut Chance) -> Vec<u64> {
+    pub fn roots(&self, a: &[u64], rng: &mut ProofRng) -> Vec<u64> {
         if a.len() < 2 {
             return Vec::new();
         }
@@ -116,26 +116,26 @@ impl Ring {
         let x = [0, self.0.one()];
         let frobenius = self.power_modulo(&x, self.0.prime(), a);
         let mut found = Vec::new();
-        self.split(&self.common(a, &self.difference(&frobenius, &x)), chance, &mut found);
+        self.split(&self.common(a, &self.difference(&frobenius, &x)), rng, &mut found);
         found.sort_unstable();
         found
     }
 
     /// Splits a product of distinct linear factors by the squares among root + shift.
-    fn split(&self, a: &[u64], chance: &mut Chance, found: &mut Vec<u64>) {
+    fn split(&self, a: &[u64], rng: &mut ProofRng, found: &mut Vec<u64>) {
         match a {
             [] | [_] => {}
             [constant, slope] => {
                 found.push(self.0.mul(self.0.sub(0, *constant), self.0.inverse(*slope)));
             }
             _ => loop {
-                let shifted = [chance.element(&self.0), self.0.one()];
+                let shifted = [rng.element(&self.0), self.0.one()];
                 let power = self.power_modulo(&shifted, (self.0.prime() - 1) / 2, a);
                 let part = self.common(a, &self.difference(&power, &[self.0.one()]));
                 if part.len() > 1 && part.len() < a.len() {
                     let other = self.divided(a, &part).0;
-                    self.split(&part, chance, found);
-                    self.split(&other, chance, found);
+                    self.split(&part, rng, found);
+                    self.split(&other, rng, found);
                     return;
                 }
             },
@@ -161,21 +161,21 @@ const CHECKS: usize = 3;
 mod tests {
     use super::*;
 
-    fn ring() -> (Ring, Chance) {
-        let mut chance = Chance::new(5, 0);
-        (Ring(chance.prime(&[], &[])), chance)
+    fn ring() -> (PrimePolynomials, ProofRng) {
+        let mut rng = ProofRng::new(5, 0);
+        (PrimePolynomials(rng.prime(&[], &[])), rng)
     }
 
     #[test]
     fn fractions_come_from_values() {
-        let (ring, mut chance) = ring();
+        let (ring, mut rng) = ring();
         let m = ring.0;
         let n = |x: u64| m.integer(x);
         // (x² + 3)/(x³ + 2x + 7)
         let (above, below) = (vec![n(3), 0, n(1)], vec![n(7), n(2), 0, n(1)]);
         let points: Vec<(u64, u64)> = (0..16)
             .map(|_| {
-                let x = chance.element(&m);
+                let x = rng.element(&m);
                 let inverse = m.inverse(ring.evaluate(&below, x));
                 (x, m.mul(ring.evaluate(&above, x), inverse))
             })
@@ -186,7 +186,7 @@ mod tests {
 
     #[test]
     fn roots_are_all_found() {
-        let (ring, mut chance) = ring();
+        let (ring, mut rng) = ring();
         let m = ring.0;
         let linear = |x: u64| vec![m.sub(0, m.integer(x)), m.one()];
         // (x - 4)(x - 9)²(x² + 1), where -1 is not a square.
@@ -195,7 +195,7 @@ mod tests {
         let product = factors.iter().fold(vec![m.one()], |a, b| ring.product(&a, b));
         let mut expected = vec![m.integer(4), m.integer(9)];
         expected.sort_unstable();
-        assert_eq!(ring.roots(&product, &mut chance), expected);
+        assert_eq!(ring.roots(&product, &mut rng), expected);
         let common = ring.common(&product, &ring.product(&linear(9), &linear(5)));
         assert_eq!(common, linear(9), "the greatest common divisor");
     }

@@ -3,18 +3,18 @@
 use super::coordinates::components;
 use crate::SearchError;
 use crate::local::random;
-use crate::streams::Stream;
+use crate::streams::SearchStream;
 use crate::terms::recorded;
 use liouville::case::{Case, PlacedClaim};
-use liouville::claim::Place;
+use liouville::claim::LevelSubset;
 use liouville::graph::{Evaluator, Expr, Tape};
 use liouville::mechanics::Draw;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
-use liouville::proof::Chance;
+use liouville::proof::ProofRng;
 use liouville::verdict::Sampler;
 
 /// Number of points evaluated at a time.
-pub const LANES: usize = 8;
+pub const RESIDUAL_LANES: usize = 8;
 
 /// A residual that has to vanish for all states.
 pub struct Residual {
@@ -30,7 +30,7 @@ pub struct Residual {
 }
 
 /// One point of an evaluation: the residual, and the parameters' components.
-pub struct Seen {
+pub struct ResidualPoint {
     /// Values of the residual; `None` where it is undefined.
     pub residual: Option<Vec<u64>>,
     /// Values of the parameters' components.
@@ -58,7 +58,7 @@ impl Residual {
             (residual, values)
         })?;
         let Some(residual) = residual else { return Ok(None) };
-        let place = claim.map_or_else(|| Place::level(model), |claim| claim.place.clone());
+        let place = claim.map_or_else(|| LevelSubset::level(model), |claim| claim.place.clone());
         let sampler = Sampler::new(case, &place, seed)?;
         if sampler.is_numerical() {
             return Err(SearchError::NoChart);
@@ -80,14 +80,14 @@ impl Residual {
 
     /// Returns the components that differ between draws, and from those before them.
     fn varying(&self, seed: u64) -> Vec<usize> {
-        let mut chance = Stream::Residuals.under(seed);
-        let modulus = chance.prime(&[3, 5], &[2, 3]);
+        let mut rng = SearchStream::Residuals.under(seed);
+        let modulus = rng.prime(&[3, 5], &[2, 3]);
         let mut evaluator = self.evaluator(modulus);
         let mut point = || {
-            let parameters = self.parameters(&modulus, &mut chance);
-            [parameters, self.state(&modulus, &mut chance)].concat()
+            let parameters = self.parameters(&modulus, &mut rng);
+            [parameters, self.state(&modulus, &mut rng)].concat()
         };
-        let points: [Vec<u64>; LANES] = std::array::from_fn(|_| point());
+        let points: [Vec<u64>; RESIDUAL_LANES] = std::array::from_fn(|_| point());
         let seen = self.at(&mut evaluator, &points);
         let column = |k: usize| seen.each_ref().map(|seen| seen.components[k]);
         let is_new = |k: &usize| {
@@ -108,8 +108,8 @@ impl Residual {
     }
 
     /// Draws the parameters at random; of a list the first value is taken.
-    pub fn parameters(&self, modulus: &Modulus, chance: &mut Chance) -> Vec<u64> {
-        random(&self.parameters, modulus, chance)
+    pub fn parameters(&self, modulus: &Modulus, rng: &mut ProofRng) -> Vec<u64> {
+        random(&self.parameters, modulus, rng)
     }
 
     /// Whether each draw of the parameters is from a range rather than a list.
@@ -118,29 +118,29 @@ impl Residual {
     }
 
     /// Draws a random state.
-    pub fn state(&self, modulus: &Modulus, chance: &mut Chance) -> Vec<u64> {
-        (self.parameters.len()..self.inputs).map(|_| chance.element(modulus)).collect()
+    pub fn state(&self, modulus: &Modulus, rng: &mut ProofRng) -> Vec<u64> {
+        (self.parameters.len()..self.inputs).map(|_| rng.element(modulus)).collect()
     }
 
     /// Makes an evaluator modulo a prime.
-    pub fn evaluator(&self, modulus: Modulus) -> Evaluator<'_, Prime<LANES>> {
-        Evaluator::new(&self.tape, Prime::new([modulus; LANES]))
+    pub fn evaluator(&self, modulus: Modulus) -> Evaluator<'_, Prime<RESIDUAL_LANES>> {
+        Evaluator::new(&self.tape, Prime::new([modulus; RESIDUAL_LANES]))
     }
 
     /// Evaluates residual and components at points, each given by draws of parameters and state.
     pub fn at(
         &self,
-        evaluator: &mut Evaluator<'_, Prime<LANES>>,
-        points: &[Vec<u64>; LANES],
-    ) -> [Seen; LANES] {
-        let inputs: Vec<[u64; LANES]> =
+        evaluator: &mut Evaluator<'_, Prime<RESIDUAL_LANES>>,
+        points: &[Vec<u64>; RESIDUAL_LANES],
+    ) -> [ResidualPoint; RESIDUAL_LANES] {
+        let inputs: Vec<[u64; RESIDUAL_LANES]> =
             (0..self.inputs).map(|input| std::array::from_fn(|lane| points[lane][input])).collect();
         evaluator.run(&inputs);
-        let values: Vec<&[u64; LANES]> = evaluator.outputs().collect();
+        let values: Vec<&[u64; RESIDUAL_LANES]> = evaluator.outputs().collect();
         std::array::from_fn(|lane| {
             let (residual, components) = values.split_at(self.height);
             let residual: Vec<u64> = residual.iter().map(|block| block[lane]).collect();
-            Seen {
+            ResidualPoint {
                 residual: (!residual.contains(&UNDEFINED)).then_some(residual),
                 components: components.iter().map(|block| block[lane]).collect(),
             }

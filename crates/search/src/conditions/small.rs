@@ -3,14 +3,14 @@
 //! A variety of codimension two has about one point in p². Most conditions met in one field may be
 //! accidents of that field; so equations are found modulo one prime and confirmed modulo another.
 
-use super::residual::{LANES, Residual};
+use super::residual::{RESIDUAL_LANES, Residual};
 use super::variety::{monomial, power, simple};
 use crate::echelon::Echelon;
 use crate::series::exponents;
-use crate::streams::Stream;
+use crate::streams::SearchStream;
 use crate::{Effort, Halt, SearchError};
 use liouville::number::prime::Modulus;
-use liouville::proof::Chance;
+use liouville::proof::ProofRng;
 
 /// Primes that are 3 modulo 4: equations are found modulo the first and confirmed modulo the
 /// second.
@@ -26,7 +26,7 @@ const DEGREE: u32 = 2;
 /// Number of random subsets of the points that are tried: some points are accidents of the field.
 const SUBSETS: usize = 200;
 /// Number of points beyond the number of monomials.
-const SPARE: usize = 8;
+const SPARE_POINTS: usize = 8;
 
 /// Finds systems of equations each of which makes the residual vanish; returns them with the number
 /// of points met.
@@ -34,9 +34,9 @@ pub fn conditions(
     residual: &Residual,
     effort: &Effort,
 ) -> Result<(Vec<String>, usize), SearchError> {
-    let mut chance = Stream::SmallPolynomials.under(effort.options.seed);
-    let found = points(residual, PRIMES[0], &mut chance, &effort.halt)?;
-    let again = points(residual, PRIMES[1], &mut chance, &effort.halt)?;
+    let mut rng = SearchStream::SmallPolynomials.under(effort.options.seed);
+    let found = points(residual, PRIMES[0], &mut rng, &effort.halt)?;
+    let again = points(residual, PRIMES[1], &mut rng, &effort.halt)?;
     let (first, second) = (Modulus::new(PRIMES[0]), Modulus::new(PRIMES[1]));
     let names = residual.names();
     let all: Vec<usize> = (0..names.len()).collect();
@@ -64,7 +64,7 @@ pub fn conditions(
     let in_field = |field: usize| -> Vec<Vec<u64>> {
         others.iter().filter(|(_, of)| *of == field).map(|(point, _)| point.clone()).collect()
     };
-    systems.extend(system(names, &in_field(0), &in_field(1), first, second, &mut chance));
+    systems.extend(system(names, &in_field(0), &in_field(1), first, second, &mut rng));
     Ok((systems, met))
 }
 
@@ -72,22 +72,22 @@ pub fn conditions(
 fn points(
     residual: &Residual,
     prime: u64,
-    chance: &mut Chance,
+    rng: &mut ProofRng,
     halt: &Halt,
 ) -> Result<Vec<Vec<u64>>, SearchError> {
     let small = Modulus::new(prime);
-    let large = chance.prime(&[], &[]);
+    let large = rng.prime(&[], &[]);
     let mut evaluator = residual.evaluator(small);
     let reduced =
         |values: Vec<u64>| -> Vec<u64> { values.iter().map(|x| small.integer(*x)).collect() };
-    let draw = |chance: &mut Chance| reduced(residual.parameters(&large, chance));
+    let draw = |rng: &mut ProofRng| reduced(residual.parameters(&large, rng));
     let mut found = Vec::new();
-    let mut parameters: [Vec<u64>; LANES] = std::array::from_fn(|_| draw(chance));
-    let (mut zeros, mut looks) = ([0; LANES], [0; LANES]);
+    let mut parameters: [Vec<u64>; RESIDUAL_LANES] = std::array::from_fn(|_| draw(rng));
+    let (mut zeros, mut looks) = ([0; RESIDUAL_LANES], [0; RESIDUAL_LANES]);
     for _ in 0..RUNS {
         halt.check()?;
         let points = std::array::from_fn(|lane| {
-            let state = reduced(residual.state(&large, chance));
+            let state = reduced(residual.state(&large, rng));
             [parameters[lane].as_slice(), &state].concat()
         });
         for (lane, seen) in residual.at(&mut evaluator, &points).into_iter().enumerate() {
@@ -100,7 +100,7 @@ fn points(
             }
             // The next parameters take the lane as soon as these are decided.
             if is_hit || is_zero == Some(false) || looks[lane] >= 4 * STATES {
-                parameters[lane] = draw(chance);
+                parameters[lane] = draw(rng);
                 (zeros[lane], looks[lane]) = (0, 0);
             }
         }
@@ -115,23 +115,23 @@ fn system(
     again: &[Vec<u64>],
     first: Modulus,
     second: Modulus,
-    chance: &mut Chance,
+    rng: &mut ProofRng,
 ) -> Option<String> {
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let monomials: Vec<Vec<u32>> =
         (0..=DEGREE).flat_map(|total| exponents(names.len(), total)).collect();
-    let wanted = monomials.len() + SPARE;
+    let wanted = monomials.len() + SPARE_POINTS;
     if points.len() < wanted + REPEATED {
         return None;
     }
     let row = |point: &Vec<u64>, m: &Modulus| -> Vec<u64> {
         monomials.iter().map(|e| power(point, e, m)).collect()
     };
-    let large = chance.prime(&[], &[]);
+    let large = rng.prime(&[], &[]);
     for _ in 0..SUBSETS {
         let mut echelon = Echelon::new(monomials.len(), first);
         for _ in 0..wanted {
-            let index = large.to_integer(chance.element(&large)) as usize % points.len();
+            let index = large.to_integer(rng.element(&large)) as usize % points.len();
             echelon.push(row(&points[index], &first));
         }
         let equations: Vec<Vec<i64>> =

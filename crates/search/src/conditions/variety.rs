@@ -8,7 +8,7 @@ use liouville::number::rational::Rational;
 use liouville::proof::reconstruct;
 
 /// Number of points beyond the number of monomials.
-const SPARE: usize = 8;
+const SPARE_POINTS: usize = 8;
 
 /// Finds the equations of least degree that hold at all points, as text; `None` if none has degree
 /// at most `most`, or if there are too few points.
@@ -23,7 +23,7 @@ pub fn equations(
     for degree in 1..=most {
         let monomials: Vec<Vec<u32>> =
             (0..=degree).flat_map(|total| exponents(names.len(), total)).collect();
-        if points.len() < monomials.len() + SPARE {
+        if points.len() < monomials.len() + SPARE_POINTS {
             return None;
         }
         let mut echelon = Echelon::new(monomials.len(), *modulus);
@@ -51,7 +51,7 @@ pub fn equations(
 
 /// Number of points needed for equations of this degree.
 pub fn needed(coordinates: usize, degree: u32) -> usize {
-    (0..=degree).map(|total| exponents(coordinates, total).len()).sum::<usize>() + SPARE
+    (0..=degree).map(|total| exponents(coordinates, total).len()).sum::<usize>() + SPARE_POINTS
 }
 
 /// Returns the components that differ between points, and from those before them.
@@ -102,16 +102,16 @@ pub fn simple(names: &[String], point: &[u64], among: &[usize]) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use liouville::proof::Chance;
+    use liouville::proof::ProofRng;
 
     #[test]
     fn a_hyperbola_is_found_from_its_points() {
-        let mut chance = Chance::new(3, 0);
-        let m = chance.prime(&[], &[]);
+        let mut rng = ProofRng::new(3, 0);
+        let m = rng.prime(&[], &[]);
         let names: Vec<String> = ["k", "R", "two"].map(str::to_string).to_vec();
         let points: Vec<Vec<u64>> = (0..20)
             .map(|_| {
-                let radius = chance.element(&m);
+                let radius = rng.element(&m);
                 let curvature = m.mul(m.sub(0, m.integer(2)), m.inverse(radius));
                 vec![curvature, radius, m.integer(2)]
             })

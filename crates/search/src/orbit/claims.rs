@@ -6,13 +6,13 @@ use liouville::verdict::{ClaimReport, Verdict};
 
 use super::super::ask::judged_alone;
 use super::super::integrals::tell;
-use super::super::{Found, Report, SearchError};
-use super::setting::Setting;
+use super::super::{Found, SearchError, SearchReport};
+use super::setting::OrbitSetting;
 use liouville::case::Case;
 
 /// A statement about the case.
 #[derive(Clone, Debug)]
-pub enum Statement {
+pub enum OrbitStatement {
     /// L_vF = 0.
     Integral(Formula),
     /// ρ is the density of an invariant measure.
@@ -26,34 +26,34 @@ pub enum Statement {
     },
 }
 
-impl Statement {
+impl OrbitStatement {
     fn claim(&self) -> Claim {
         match self {
-            Statement::Integral(formula) => Claim::integral(formula),
-            Statement::Density(formula) => Claim::density(formula),
-            Statement::Rate { function, rate } => Claim::rate(function, rate),
+            OrbitStatement::Integral(formula) => Claim::integral(formula),
+            OrbitStatement::Density(formula) => Claim::density(formula),
+            OrbitStatement::Rate { function, rate } => Claim::rate(function, rate),
         }
     }
 
     fn mapped(&self, map: impl Fn(&Formula) -> Option<Formula>) -> Option<Self> {
         Some(match self {
-            Statement::Integral(formula) => Statement::Integral(map(formula)?),
-            Statement::Density(formula) => Statement::Density(map(formula)?),
-            Statement::Rate { function, rate } => {
-                Statement::Rate { function: map(function)?, rate: map(rate)? }
+            OrbitStatement::Integral(formula) => OrbitStatement::Integral(map(formula)?),
+            OrbitStatement::Density(formula) => OrbitStatement::Density(map(formula)?),
+            OrbitStatement::Rate { function, rate } => {
+                OrbitStatement::Rate { function: map(function)?, rate: map(rate)? }
             }
         })
     }
 }
 
 /// Case about which finds are claims.
-fn judged_case<'c>(setting: &Setting<'c>) -> &'c Case {
+fn judged_case<'c>(setting: &OrbitSetting<'c>) -> &'c Case {
     setting.origin.map_or(setting.case, |origin| origin.case)
 }
 
 /// Writes a formula in the names of the case that is judged; `None` if it is too long or too deep for
 /// the reader of formulas.
-fn written(setting: &Setting<'_>, formula: &Formula) -> Option<Formula> {
+fn written(setting: &OrbitSetting<'_>, formula: &Formula) -> Option<Formula> {
     match setting.origin {
         None => setting.case.formula(formula.text()).ok().map(|_| formula.clone()),
         Some(origin) => origin.case.formula(&origin.extension.back(formula)).ok(),
@@ -61,7 +61,7 @@ fn written(setting: &Setting<'_>, formula: &Formula) -> Option<Formula> {
 }
 
 /// Writes an integral, up to a factor, in the names of the case that is judged.
-fn written_integral(setting: &Setting<'_>, formula: &Formula) -> Option<Formula> {
+fn written_integral(setting: &OrbitSetting<'_>, formula: &Formula) -> Option<Formula> {
     match setting.origin {
         None => written(setting, formula),
         Some(origin) => origin.case.formula(&origin.extension.back_integral(formula)).ok(),
@@ -70,8 +70,8 @@ fn written_integral(setting: &Setting<'_>, formula: &Formula) -> Option<Formula>
 
 /// Judges a statement; returns the report of one that is proved.
 pub fn proved(
-    setting: &Setting<'_>,
-    statement: &Statement,
+    setting: &OrbitSetting<'_>,
+    statement: &OrbitStatement,
 ) -> Result<Option<ClaimReport>, SearchError> {
     let Some(statement) = statement.mapped(|formula| written(setting, formula)) else {
         return Ok(None);
@@ -81,8 +81,8 @@ pub fn proved(
 
 /// Judges a statement in the names of the case that is judged.
 fn judged_here(
-    setting: &Setting<'_>,
-    statement: &Statement,
+    setting: &OrbitSetting<'_>,
+    statement: &OrbitStatement,
 ) -> Result<Option<ClaimReport>, SearchError> {
     let report = judged_alone(judged_case(setting), statement.claim(), setting.effort)?;
     Ok(report.filter(|report| report.verdict == Verdict::Proved))
@@ -91,12 +91,12 @@ fn judged_here(
 /// Adds an integral to the report if it is proved, and independent of those there; returns whether
 /// it was added.
 pub fn integral(
-    setting: &Setting<'_>,
+    setting: &OrbitSetting<'_>,
     formula: &Formula,
-    report: &mut Report,
+    report: &mut SearchReport,
 ) -> Result<bool, SearchError> {
     let Some(formula) = written_integral(setting, formula) else { return Ok(false) };
-    let statement = Statement::Integral(formula.clone());
+    let statement = OrbitStatement::Integral(formula.clone());
     let Some(found) = judged_here(setting, &statement)? else { return Ok(false) };
     let before = report.found.len();
     tell(judged_case(setting), &formula, found, setting.effort, report)?;
@@ -105,12 +105,12 @@ pub fn integral(
 
 /// Adds another find to the report if it is proved.
 pub fn other(
-    setting: &Setting<'_>,
+    setting: &OrbitSetting<'_>,
     kind: &'static str,
     formula: &Formula,
-    statement: &Statement,
+    statement: &OrbitStatement,
     with: Vec<(&'static str, &Formula)>,
-    report: &mut Report,
+    report: &mut SearchReport,
 ) -> Result<bool, SearchError> {
     let Some(found) = proved(setting, statement)? else { return Ok(false) };
     let Some(formula) = written(setting, formula) else { return Ok(false) };

@@ -10,16 +10,16 @@ use liouville::proof::reconstruct;
 
 use super::super::ansatz::coefficients::Ratio;
 use super::super::ansatz::monomials::power_product;
-use super::super::ansatz::system::At;
+use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
 use super::super::terms::sum;
-use super::super::{Report, SearchError};
-use super::claims::{self, Statement};
-use super::factor::Factor;
+use super::super::{SearchError, SearchReport};
+use super::claims::{self, OrbitStatement};
+use super::factor::RatedPolynomial;
 use super::images::{self, Images};
-use super::line::Line;
+use super::line::RandomLine;
 use super::monomials;
-use super::setting::{Origin, Setting};
+use super::setting::{ExtendedCase, OrbitSetting};
 
 /// Number of primes tried until all special places of a line lie in the field, for polynomials of
 /// degree up to 2, and of higher degree.
@@ -27,12 +27,12 @@ const PRIMES: [u64; 2] = [4, 2];
 /// Largest number of conjugate factors that are multiplied.
 const CONJUGATES: usize = 4;
 /// Largest number of candidates of one degree.
-const MOST: usize = 40;
+const MOST_CANDIDATES: usize = 40;
 
 /// The search for Darboux polynomials in some variables.
-pub struct Search<'s, 'c> {
+pub struct DarbouxSearch<'s, 'c> {
     /// Case with its points.
-    pub setting: &'s Setting<'c>,
+    pub setting: &'s OrbitSetting<'c>,
     /// Variables of the polynomials.
     pub variables: &'s [usize],
     /// Degree of the field in the state.
@@ -41,13 +41,13 @@ pub struct Search<'s, 'c> {
 
 type Terms = Vec<(Vec<u32>, u64)>;
 
-impl Search<'_, '_> {
+impl DarbouxSearch<'_, '_> {
     /// Searches the polynomials of one degree; new ones are added to the factors.
     pub fn of_degree(
         &self,
         degree: u32,
-        factors: &mut Vec<Factor>,
-        report: &mut Report,
+        factors: &mut Vec<RatedPolynomial>,
+        report: &mut SearchReport,
     ) -> Result<(), SearchError> {
         let all = monomials::up_to(self.variables, self.setting.dimension(), degree);
         let mut seen: Vec<Vec<Vec<u32>>> = Vec::new();
@@ -85,11 +85,13 @@ impl Search<'_, '_> {
     /// Candidates in these monomials for one choice of the parameters, and whether they are all.
     fn candidates(
         &self,
-        at: &At,
+        at: &PrimePoint,
         all: &[Vec<u32>],
-        factors: &[Factor],
+        factors: &[RatedPolynomial],
     ) -> Result<(Vec<Terms>, bool), SearchError> {
-        let Some(line) = Line::draw(self.setting, at, 0) else { return Ok((Vec::new(), true)) };
+        let Some(line) = RandomLine::draw(self.setting, at, 0) else {
+            return Ok((Vec::new(), true));
+        };
         let (special, is_whole) = line.special(all, self.degree, factors)?;
         let mut vectors: Vec<Vec<u64>> = Vec::new();
         let mut open = Vec::new();
@@ -100,9 +102,11 @@ impl Search<'_, '_> {
                 false => open.push(own),
             }
         }
-        if !open.is_empty() && open.len() <= MOST {
+        if !open.is_empty() && open.len() <= MOST_CANDIDATES {
             // f vanishes along the orbits of all its points, the relations P − c Q differ.
-            let Some(other) = Line::draw(self.setting, at, 1) else { return Ok((vec![], true)) };
+            let Some(other) = RandomLine::draw(self.setting, at, 1) else {
+                return Ok((vec![], true));
+            };
             let others = other.special(all, self.degree, factors)?.0;
             for (one, two) in open.iter().flat_map(|one| others.iter().map(move |two| (one, two))) {
                 self.setting.effort.halt.check()?;
@@ -115,7 +119,7 @@ impl Search<'_, '_> {
         }
         vectors.sort();
         vectors.dedup();
-        vectors.truncate(MOST);
+        vectors.truncate(MOST_CANDIDATES);
         let terms = |vector: Vec<u64>| {
             let own = all.iter().cloned().zip(vector).filter(|(_, entry)| *entry != 0);
             own.collect::<Terms>()
@@ -142,7 +146,7 @@ impl Search<'_, '_> {
         &self,
         support: &[Vec<u32>],
         count: usize,
-        factors: &[Factor],
+        factors: &[RatedPolynomial],
     ) -> Result<Option<Formula>, SearchError> {
         let one: Terms = support.iter().map(|own| (own.clone(), 1)).collect();
         let mut monomials = vec![vec![0; self.setting.dimension()]];
@@ -157,7 +161,7 @@ impl Search<'_, '_> {
             monomials = next;
         }
         monomials.sort_by_key(|own| (own.iter().sum::<u32>(), std::cmp::Reverse(own.clone())));
-        let make = |at: &At| {
+        let make = |at: &PrimePoint| {
             let candidates = self.candidates(at, support, factors).ok()?.0;
             let full: Vec<Terms> =
                 candidates.into_iter().filter(|own| own.len() == support.len()).collect();
@@ -166,10 +170,7 @@ impl Search<'_, '_> {
             Some(monomials.iter().map(|own| all.get(own).copied().unwrap_or(0)).collect())
         };
         let images = Images { setting: self.setting, width: monomials.len(), is_split: true, make };
-        let Some(coefficients) = images::coefficients(&images, &self.setting.effort.halt) else {
-            self.setting.effort.halt.check()?;
-            return Ok(None);
-        };
+        let Some(coefficients) = images::coefficients(&images)? else { return Ok(None) };
         let functions: Vec<Ratio> = monomials
             .iter()
             .map(|own| power_product(&self.setting.terms, own).map(Ratio::of))
@@ -183,17 +184,19 @@ impl Search<'_, '_> {
         &self,
         formula: &Formula,
         degree: u32,
-        factors: &mut Vec<Factor>,
-        report: &mut Report,
+        factors: &mut Vec<RatedPolynomial>,
+        report: &mut SearchReport,
     ) -> Result<(), SearchError> {
         let known = factors.iter().any(|factor| factor.formula.text() == formula.text());
-        let Some(factor) = Factor::of(self.setting, formula, degree)?.filter(|_| !known) else {
+        let Some(factor) = RatedPolynomial::of(self.setting, formula, degree)?.filter(|_| !known)
+        else {
             return Ok(());
         };
         // A product of known factors is not new.
         let Some(at) = self.setting.split(0, 0) else { return Ok(()) };
-        let line = Line::draw(self.setting, &at, 0);
-        if line.is_none_or(|line| !line.has_more(&factor, factors)) {
+        let line = RandomLine::draw(self.setting, &at, 0);
+        let Some(line) = line else { return Ok(()) };
+        if !line.has_more(&factor, factors)? {
             return Ok(());
         }
         let Some(cofactor) = factor.cofactor(self.setting, self.variables, self.degree)? else {
@@ -201,8 +204,8 @@ impl Search<'_, '_> {
         };
         if !cofactor.constant().is_some_and(|value| value.is_zero()) {
             let rate = (cofactor.bracketed() * &formula.bracketed())?;
-            let statement = Statement::Rate { function: formula.clone(), rate };
-            let is_adjoined = |origin: Origin<'_>| origin.extension.is_exponential(formula);
+            let statement = OrbitStatement::Rate { function: formula.clone(), rate };
+            let is_adjoined = |origin: ExtendedCase<'_>| origin.extension.is_exponential(formula);
             let with = vec![("cofactor", &cofactor)];
             let kind = "darboux-polynomial";
             if !self.setting.origin.is_some_and(is_adjoined)
@@ -219,8 +222,8 @@ impl Search<'_, '_> {
     pub fn parts(
         &self,
         parts: &[(Formula, u32)],
-        factors: &mut Vec<Factor>,
-        report: &mut Report,
+        factors: &mut Vec<RatedPolynomial>,
+        report: &mut SearchReport,
     ) -> Result<(), SearchError> {
         for (formula, degree) in parts {
             self.setting.effort.halt.check()?;

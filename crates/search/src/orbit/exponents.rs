@@ -6,16 +6,16 @@
 
 use liouville::graph::Tape;
 
-use super::super::ansatz::system::At;
+use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
 use super::super::terms::recorded;
-use super::super::{Report, SearchError};
-use super::claims::{self, Statement};
-use super::factor::Factor;
+use super::super::{SearchError, SearchReport};
+use super::claims::{self, OrbitStatement};
+use super::factor::RatedPolynomial;
 use super::images::{self, Images};
-use super::known::Known;
+use super::known::IndependentIntegrals;
 use super::monomials::{self, value};
-use super::setting::{SPARE, Setting, run};
+use super::setting::{OrbitSetting, SPARE_ORDERS, run};
 
 /// Largest number of monomials of g.
 const MONOMIALS: usize = 60;
@@ -27,7 +27,7 @@ const CONSTANT_RATE: &str = "function-of-constant-rate";
 
 /// A term of the logarithmic rate.
 #[derive(Clone, Debug)]
-pub enum Column {
+pub enum RateTerm {
     /// Rate of a monomial.
     Monomial(Vec<u32>),
     /// Cofactor of a factor.
@@ -39,23 +39,23 @@ pub enum Column {
 }
 
 /// The linear system for some factors.
-pub struct Exponents<'s, 'c> {
+pub struct ExponentSystem<'s, 'c> {
     /// Case with its points.
-    pub setting: &'s Setting<'c>,
+    pub setting: &'s OrbitSetting<'c>,
     variables: &'s [usize],
     /// Factors with known cofactors.
-    pub factors: &'s [Factor],
+    pub factors: &'s [RatedPolynomial],
     /// Terms of the logarithmic rate.
-    pub columns: Vec<Column>,
+    pub columns: Vec<RateTerm>,
     divergence: Tape,
 }
 
-impl<'s, 'c> Exponents<'s, 'c> {
+impl<'s, 'c> ExponentSystem<'s, 'c> {
     /// Sets up the system.
     pub fn of(
-        setting: &'s Setting<'c>,
+        setting: &'s OrbitSetting<'c>,
         variables: &'s [usize],
-        factors: &'s [Factor],
+        factors: &'s [RatedPolynomial],
     ) -> Result<Self, SearchError> {
         let own = setting.origin.map(|origin| &origin.extension.divergence);
         let (graph, divergence) = recorded(setting.case, |jet| {
@@ -64,22 +64,23 @@ impl<'s, 'c> Exponents<'s, 'c> {
         let fits = |degree: &u32| monomials::count(variables.len(), *degree) <= MONOMIALS;
         let degree = (1..=DEGREE).rev().find(fits).unwrap_or(1);
         let all = monomials::up_to(variables, setting.dimension(), degree);
-        let monomials = all.into_iter().skip(1).map(Column::Monomial);
-        let own = (0..factors.len()).map(Column::Factor);
-        let columns = monomials.chain(own).chain([Column::Constant, Column::Divergence]).collect();
+        let monomials = all.into_iter().skip(1).map(RateTerm::Monomial);
+        let own = (0..factors.len()).map(RateTerm::Factor);
+        let columns =
+            monomials.chain(own).chain([RateTerm::Constant, RateTerm::Divergence]).collect();
         let divergence = Tape::new(&graph, &[divergence]);
         Ok(Self { setting, variables, factors, columns, divergence })
     }
 
     /// Null vectors on some columns, each with its last nonzero entry, 1, in a different column.
-    fn relations(&self, at: &At, columns: &[usize]) -> Result<Vec<Vec<u64>>, SearchError> {
+    fn relations(&self, at: &PrimePoint, columns: &[usize]) -> Result<Vec<Vec<u64>>, SearchError> {
         let mut echelon = Echelon::new(columns.len(), at.modulus);
         let mut dependent = 0;
-        for number in 0..4 * (columns.len() + SPARE) as u64 {
+        for number in 0..4 * (columns.len() + SPARE_ORDERS) as u64 {
             self.setting.effort.halt.check()?;
             let Some(row) = self.row(at, number, columns)? else { continue };
             dependent = if echelon.push(row) { 0 } else { dependent + 1 };
-            if dependent == SPARE {
+            if dependent == SPARE_ORDERS {
                 return Ok(echelon.null_space());
             }
         }
@@ -88,7 +89,7 @@ impl<'s, 'c> Exponents<'s, 'c> {
 
     fn row(
         &self,
-        at: &At,
+        at: &PrimePoint,
         number: u64,
         columns: &[usize],
     ) -> Result<Option<Vec<u64>>, SearchError> {
@@ -96,7 +97,7 @@ impl<'s, 'c> Exponents<'s, 'c> {
         let Some((point, orbit)) = self.setting.orbit(at, number, 2)? else { return Ok(None) };
         let inputs = [point.parameters.as_slice(), &point.state].concat();
         let entry = |column: &usize| match &self.columns[*column] {
-            Column::Monomial(own) => {
+            RateTerm::Monomial(own) => {
                 let slope = |k: usize| {
                     let mut lower = own.clone();
                     lower[k] -= 1;
@@ -106,18 +107,22 @@ impl<'s, 'c> Exponents<'s, 'c> {
                 let used = (0..own.len()).filter(|k| own[*k] > 0);
                 Some(used.fold(0, |sum, k| m.add(sum, slope(k))))
             }
-            Column::Factor(place) => {
+            RateTerm::Factor(place) => {
                 let (own, rate) = self.factors[*place].at(at, &point)?;
                 (own != 0).then(|| m.mul(rate, m.inverse(own)))
             }
-            Column::Constant => Some(m.one()),
-            Column::Divergence => run(&self.divergence, m, &inputs).map(|values| values[0]),
+            RateTerm::Constant => Some(m.one()),
+            RateTerm::Divergence => run(&self.divergence, m, &inputs).map(|values| values[0]),
         };
         Ok(columns.iter().map(entry).collect())
     }
 
     /// Solves the system, and adds proved finds to the report.
-    pub fn search(&self, known: &mut Known, report: &mut Report) -> Result<(), SearchError> {
+    pub fn search(
+        &self,
+        known: &mut IndependentIntegrals,
+        report: &mut SearchReport,
+    ) -> Result<(), SearchError> {
         let Some(at) = self.setting.at(0, 0) else { return Ok(()) };
         let all: Vec<usize> = (0..self.columns.len()).collect();
         for vector in self.relations(&at, &all)? {
@@ -126,36 +131,36 @@ impl<'s, 'c> Exponents<'s, 'c> {
             let Some(last) = support.last() else { continue };
             match self.columns[*last] {
                 // A polynomial integral, which the search for these has found.
-                Column::Monomial(_) => {}
-                Column::Factor(_) => self.integral(&support, known, report)?,
+                RateTerm::Monomial(_) => {}
+                RateTerm::Factor(_) => self.integral(&support, known, report)?,
                 // Others differ from the first by integrals.
-                Column::Constant if report.formulas(CONSTANT_RATE).next().is_none() => {
+                RateTerm::Constant if report.formulas(CONSTANT_RATE).next().is_none() => {
                     self.rate(&support, report)?;
                 }
-                Column::Constant => {}
-                Column::Divergence if support.len() > 1 => self.density(&support, report)?,
-                Column::Divergence => {}
+                RateTerm::Constant => {}
+                RateTerm::Divergence if support.len() > 1 => self.density(&support, report)?,
+                RateTerm::Divergence => {}
             }
         }
         Ok(())
     }
 
     /// Coefficients of the null vector on a support, for all values of the parameters.
-    fn vector(&self, support: &[usize]) -> Option<images::Vector> {
-        let make = |at: &At| self.relations(at, support).ok()?.pop();
+    fn vector(&self, support: &[usize]) -> Result<Option<images::ParametricVector>, SearchError> {
+        let make = |at: &PrimePoint| self.relations(at, support).ok()?.pop();
         let images = Images { setting: self.setting, width: support.len(), is_split: false, make };
-        images::vector(&images, &self.setting.effort.halt)
+        images::vector(&images)
     }
 
     fn integral(
         &self,
         support: &[usize],
-        known: &mut Known,
-        report: &mut Report,
+        known: &mut IndependentIntegrals,
+        report: &mut SearchReport,
     ) -> Result<(), SearchError> {
-        let Some(vector) = self.vector(support) else { return Ok(()) };
+        let Some(vector) = self.vector(support)? else { return Ok(()) };
         let has_exponential =
-            support.iter().any(|column| matches!(self.columns[*column], Column::Monomial(_)));
+            support.iter().any(|column| matches!(self.columns[*column], RateTerm::Monomial(_)));
         let is_product = !has_exponential && (0..support.len()).all(|k| vector.is_number(k));
         let formula = |moduli: bool| match is_product {
             true => self.product(support, &vector, moduli),
@@ -170,12 +175,12 @@ impl<'s, 'c> Exponents<'s, 'c> {
         Ok(())
     }
 
-    fn rate(&self, support: &[usize], report: &mut Report) -> Result<(), SearchError> {
-        let Some(vector) = self.vector(support) else { return Ok(()) };
+    fn rate(&self, support: &[usize], report: &mut SearchReport) -> Result<(), SearchError> {
+        let Some(vector) = self.vector(support)? else { return Ok(()) };
         let rate = vector.minus(support.len() - 1)?;
         for moduli in [false, true] {
             let function = self.logarithm(support, &vector, moduli)?;
-            let statement = Statement::Rate { function: function.clone(), rate: rate.clone() };
+            let statement = OrbitStatement::Rate { function: function.clone(), rate: rate.clone() };
             let with = vec![("rate", &rate)];
             if claims::other(self.setting, CONSTANT_RATE, &function, &statement, with, report)? {
                 break;
@@ -184,14 +189,14 @@ impl<'s, 'c> Exponents<'s, 'c> {
         Ok(())
     }
 
-    fn density(&self, support: &[usize], report: &mut Report) -> Result<(), SearchError> {
+    fn density(&self, support: &[usize], report: &mut SearchReport) -> Result<(), SearchError> {
         if report.formulas("density").next().is_some() {
             return Ok(());
         }
-        let Some(vector) = self.vector(support) else { return Ok(()) };
+        let Some(vector) = self.vector(support)? else { return Ok(()) };
         for moduli in [false, true] {
             let formula = self.product(support, &vector, moduli)?;
-            let statement = Statement::Density(formula.clone());
+            let statement = OrbitStatement::Density(formula.clone());
             let (setting, none) = (self.setting, Vec::new());
             if claims::other(setting, "density", &formula, &statement, none, report)? {
                 break;

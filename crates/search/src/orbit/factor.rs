@@ -8,16 +8,16 @@ use liouville::graph::{Expr, Tape};
 use super::super::SearchError;
 use super::super::ansatz::coefficients::Ratio;
 use super::super::ansatz::monomials::power_product;
-use super::super::ansatz::system::At;
+use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
 use super::super::terms::{is_one, recorded};
 use super::images::{self, Images};
 use super::monomials::{self, value};
-use super::setting::{Point, SPARE, Setting, run};
+use super::setting::{OrbitSetting, PrimePhasePoint, SPARE_ORDERS, run};
 
 /// A polynomial of the state with its rate.
 #[derive(Clone)]
-pub struct Factor {
+pub struct RatedPolynomial {
     /// Formula in the names of the case.
     pub formula: Formula,
     /// Bound on its degree in the state.
@@ -25,10 +25,10 @@ pub struct Factor {
     tape: Tape,
 }
 
-impl Factor {
+impl RatedPolynomial {
     /// Reads a formula; `None` if it is not a scalar of the case.
     pub fn of(
-        setting: &Setting<'_>,
+        setting: &OrbitSetting<'_>,
         formula: &Formula,
         degree: u32,
     ) -> Result<Option<Self>, SearchError> {
@@ -44,7 +44,7 @@ impl Factor {
     }
 
     /// Value and rate at a point.
-    pub fn at(&self, at: &At, point: &Point) -> Option<(u64, u64)> {
+    pub fn at(&self, at: &PrimePoint, point: &PrimePhasePoint) -> Option<(u64, u64)> {
         let inputs = [point.parameters.as_slice(), &point.state].concat();
         run(&self.tape, at.modulus, &inputs).map(|values| (values[0], values[1]))
     }
@@ -53,16 +53,16 @@ impl Factor {
     /// `None` if there is none.
     pub fn cofactor(
         &self,
-        setting: &Setting<'_>,
+        setting: &OrbitSetting<'_>,
         variables: &[usize],
         degree: usize,
-    ) -> Result<Option<Formula>, FormulaError> {
+    ) -> Result<Option<Formula>, SearchError> {
         let highest = degree.saturating_sub(1) as u32;
         let all = monomials::up_to(variables, setting.dimension(), highest);
-        let make = |at: &At| {
+        let make = |at: &PrimePoint| {
             let m = at.modulus;
             let mut echelon = Echelon::new(all.len() + 1, m);
-            for number in 0..(all.len() + SPARE) as u64 {
+            for number in 0..(all.len() + SPARE_ORDERS) as u64 {
                 let point = setting.point(at, number)?;
                 let (own, rate) = self.at(at, &point)?;
                 let row = all.iter().map(|a| m.mul(own, value(&m, &point.state, a)));
@@ -74,19 +74,17 @@ impl Factor {
             Some(vector)
         };
         let images = Images { setting, width: all.len(), is_split: false, make };
-        let Some(coefficients) = images::coefficients(&images, &setting.effort.halt) else {
-            return Ok(None);
-        };
+        let Some(coefficients) = images::coefficients(&images)? else { return Ok(None) };
         let functions: Vec<Ratio> = all
             .iter()
             .map(|a| power_product(&setting.terms, a).map(Ratio::of))
-            .collect::<Result<_, _>>()?;
+            .collect::<Result<_, FormulaError>>()?;
         let above = coefficients.sum(&(0..all.len()).collect::<Vec<_>>(), &functions)?;
         let above = above.unwrap_or_else(|| Formula::number(0));
         let below = coefficients.formula(all.len())?;
         match is_one(&below) {
             true => Ok(Some(above)),
-            false => (above.bracketed() / &below.bracketed()).map(Some),
+            false => Ok(Some((above.bracketed() / &below.bracketed())?)),
         }
     }
 }

@@ -1,39 +1,39 @@
 //! Fractions of polynomials as formulas that are judged.
 
-use liouville::formula::{Composed, Formula};
+use liouville::formula::{Formula, FormulaResult};
 use num_bigint::BigInt;
 use num_integer::Integer;
 
-use super::super::ansatz::coefficients::{Coefficients, Polynomial, Ratio};
+use super::super::ansatz::coefficients::{Polynomial, PrimitiveVector, Ratio};
 use super::super::ansatz::monomials::power_product;
 use super::super::terms::is_one;
-use super::super::{Report, SearchError};
+use super::super::{SearchError, SearchReport};
 use super::claims;
-use super::known::Known;
-use super::rational::Rational;
+use super::known::IndependentIntegrals;
+use super::rational::RationalSearch;
 
 /// A fraction P/Q by the monomials of both.
-pub struct Fraction {
+pub struct MonomialFraction {
     /// Monomials of P.
     pub above: Vec<Vec<u32>>,
     /// Monomials of Q.
     pub below: Vec<Vec<u32>>,
 }
 
-impl Rational<'_, '_> {
+impl RationalSearch<'_, '_> {
     /// Writes a fraction and has it judged.
     pub fn tell(
         &self,
-        fraction: &Fraction,
-        coefficients: Option<Coefficients>,
-        known: &mut Known,
-        report: &mut Report,
+        fraction: &MonomialFraction,
+        coefficients: Option<PrimitiveVector>,
+        known: &mut IndependentIntegrals,
+        report: &mut SearchReport,
     ) -> Result<bool, SearchError> {
         self.setting.effort.halt.check()?;
         let Some(mut coefficients) = coefficients else { return Ok(false) };
         let (above, below) = coefficients.polynomials.split_at_mut(fraction.above.len());
         [above, &mut below[..fraction.below.len()]].into_iter().for_each(reduce_whole);
-        let written = |own: &[Vec<u32>], start: usize| -> Composed {
+        let written = |own: &[Vec<u32>], start: usize| -> FormulaResult {
             let functions: Vec<Ratio> = own
                 .iter()
                 .map(|a| power_product(&self.setting.terms, a).map(Ratio::of))

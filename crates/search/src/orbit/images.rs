@@ -2,25 +2,25 @@
 
 use std::cell::Cell;
 
-use liouville::formula::{Composed, Formula};
+use liouville::formula::{Formula, FormulaResult};
 use liouville::number::rational::Rational;
 use num_traits::ToPrimitive;
 
-use super::super::Halt;
-use super::super::ansatz::coefficients::{Coefficients, Vectors};
-use super::super::ansatz::system::At;
+use super::super::ansatz::coefficients::{PrimitiveVector, Vectors};
+use super::super::ansatz::system::PrimePoint;
 use super::super::terms::{is_one, numeric_exponent};
-use super::setting::Setting;
+use super::super::{Halt, SearchError};
+use super::setting::OrbitSetting;
 
 /// Largest number of choices of the parameters for one vector.
-const MOST: usize = 96;
+const MOST_CHOICES: usize = 96;
 /// Number of choices of the parameters tried until one has the vector.
 const TRIES: u64 = 8;
 
 /// A vector by a function of the parameters; an entry 1 is added at its end.
 pub struct Images<'s, 'c, F> {
     /// Case with its points.
-    pub setting: &'s Setting<'c>,
+    pub setting: &'s OrbitSetting<'c>,
     /// Number of entries without the last.
     pub width: usize,
     /// Whether the fields have the roots of small integers.
@@ -29,16 +29,20 @@ pub struct Images<'s, 'c, F> {
     pub make: F,
 }
 
-impl<F: Fn(&At) -> Option<Vec<u64>>> Vectors for Images<'_, '_, F> {
+impl<F: Fn(&PrimePoint) -> Option<Vec<u64>>> Vectors for Images<'_, '_, F> {
     fn names(&self) -> &[Formula] {
         self.setting.coordinates()
+    }
+
+    fn halt(&self) -> &Halt {
+        &self.setting.effort.halt
     }
 
     fn width(&self) -> usize {
         self.width + 1
     }
 
-    fn image(&self, prime: u64, index: u64) -> Option<(At, Vec<u64>)> {
+    fn image(&self, prime: u64, index: u64) -> Option<(PrimePoint, Vec<u64>)> {
         let at = match self.is_split {
             true => self.setting.split(prime, index)?,
             false => self.setting.at(prime, index)?,
@@ -54,7 +58,6 @@ impl<F: Fn(&At) -> Option<Vec<u64>>> Vectors for Images<'_, '_, F> {
 struct Limited<'v> {
     source: &'v dyn Vectors,
     support: Vec<usize>,
-    halt: &'v Halt,
     left: Cell<usize>,
 }
 
@@ -63,54 +66,62 @@ impl Vectors for Limited<'_> {
         self.source.names()
     }
 
+    fn halt(&self) -> &Halt {
+        self.source.halt()
+    }
+
     fn width(&self) -> usize {
         self.support.len()
     }
 
-    fn image(&self, prime: u64, index: u64) -> Option<(At, Vec<u64>)> {
+    fn image(&self, prime: u64, index: u64) -> Option<(PrimePoint, Vec<u64>)> {
         self.left.set(self.left.get().checked_sub(1)?);
-        self.halt.check().ok()?;
+        self.halt().check().ok()?;
         let (at, vector) = self.source.image(prime, index)?;
         Some((at, self.support.iter().map(|k| vector[*k]).collect()))
     }
 }
 
-/// Finds the vector for all values of the parameters.
-pub fn coefficients(source: &dyn Vectors, halt: &Halt) -> Option<Coefficients> {
-    let mut first = (0..TRIES).filter(|_| halt.check().is_ok());
-    let (_, vector) = first.find_map(|index| source.image(0, index))?;
+/// Finds the vector for all values of the parameters; `None` if its entries are not fractions of low
+/// degree in them.
+pub fn coefficients(source: &dyn Vectors) -> Result<Option<PrimitiveVector>, SearchError> {
+    let mut first = (0..TRIES).filter(|_| source.halt().check().is_ok());
+    let Some((_, vector)) = first.find_map(|index| source.image(0, index)) else {
+        source.halt().check()?;
+        return Ok(None);
+    };
     let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
-    let limited = Limited { source, support: support.clone(), halt, left: Cell::new(MOST) };
-    let mut found = Coefficients::through(&limited)?;
+    let limited = Limited { source, support: support.clone(), left: Cell::new(MOST_CHOICES) };
+    let Some(mut found) = PrimitiveVector::through(&limited)? else { return Ok(None) };
     let mut own = support.into_iter().zip(std::mem::take(&mut found.polynomials)).peekable();
     let next = |k| own.next_if(|(place, _)| *place == k).map(|(_, one)| one).unwrap_or_default();
     found.polynomials = (0..vector.len()).map(next).collect();
-    Some(found)
+    Ok(Some(found))
 }
 
 /// A vector found for all values of the parameters, over a common denominator.
-pub struct Vector {
+pub struct ParametricVector {
     /// Numerators, and the denominator as the last.
-    pub coefficients: Coefficients,
+    pub coefficients: PrimitiveVector,
     width: usize,
 }
 
 /// Finds a vector for all values of the parameters, with its denominator.
-pub fn vector<F: Fn(&At) -> Option<Vec<u64>>>(
+pub fn vector<F: Fn(&PrimePoint) -> Option<Vec<u64>>>(
     source: &Images<'_, '_, F>,
-    halt: &Halt,
-) -> Option<Vector> {
-    Some(Vector { coefficients: coefficients(source, halt)?, width: source.width })
+) -> Result<Option<ParametricVector>, SearchError> {
+    let found = coefficients(source)?;
+    Ok(found.map(|coefficients| ParametricVector { coefficients, width: source.width }))
 }
 
-impl Vector {
+impl ParametricVector {
     /// Common denominator.
-    pub fn below(&self) -> Composed {
+    pub fn below(&self) -> FormulaResult {
         self.coefficients.formula(self.width)
     }
 
     /// Entry as an exponent.
-    pub fn exponent(&self, place: usize) -> Composed {
+    pub fn exponent(&self, place: usize) -> FormulaResult {
         if let Some(value) = self.number(place) {
             return numeric_exponent(value);
         }
@@ -122,7 +133,7 @@ impl Vector {
     }
 
     /// Entry with the other sign, without the denominator.
-    pub fn minus(&self, place: usize) -> Composed {
+    pub fn minus(&self, place: usize) -> FormulaResult {
         Ok(-self.coefficients.formula(place)?.bracketed())
     }
 

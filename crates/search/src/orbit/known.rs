@@ -2,14 +2,14 @@
 
 use super::super::ask::energy;
 use super::super::terms::recorded;
-use super::super::{Report, SearchError};
-use super::claims::{self, Statement};
-use super::setting::Setting;
+use super::super::{SearchError, SearchReport};
+use super::claims::{self, OrbitStatement};
+use super::setting::OrbitSetting;
 use liouville::formula::{Formula, Type};
 
 /// An integral with the variables that it may contain.
 #[derive(Clone, Debug)]
-struct One {
+struct KnownIntegral {
     formula: Formula,
     /// Degree of a polynomial.
     degree: Option<u32>,
@@ -18,15 +18,15 @@ struct One {
 
 /// Independent integrals found so far.
 #[derive(Clone, Debug, Default)]
-pub struct Known {
-    all: Vec<One>,
+pub struct IndependentIntegrals {
+    all: Vec<KnownIntegral>,
     /// Numerators and denominators of rational ones, with their degrees.
     pub parts: Vec<(Formula, u32)>,
 }
 
-impl Known {
+impl IndependentIntegrals {
     /// Collects what the search has found before, and the energy where it is conserved.
-    pub fn of(setting: &Setting<'_>, report: &Report) -> Result<Self, SearchError> {
+    pub fn of(setting: &OrbitSetting<'_>, report: &SearchReport) -> Result<Self, SearchError> {
         let mut known = Self::default();
         if let Some(origin) = setting.origin {
             for formula in &origin.extension.known {
@@ -36,7 +36,7 @@ impl Known {
         }
         let all: Vec<usize> = (0..setting.dimension()).collect();
         if let Some(energy) = energy(setting.case) {
-            let statement = Statement::Integral(energy.clone());
+            let statement = OrbitStatement::Integral(energy.clone());
             if claims::proved(setting, &statement)?.is_some() {
                 known.add(energy, None, &all);
             }
@@ -49,7 +49,7 @@ impl Known {
 
     /// Adds an integral that is independent of the others.
     pub fn add(&mut self, formula: Formula, degree: Option<u32>, variables: &[usize]) {
-        self.all.push(One { formula, degree, variables: variables.to_vec() });
+        self.all.push(KnownIntegral { formula, degree, variables: variables.to_vec() });
     }
 
     /// Iterates over the formulas.
@@ -59,7 +59,7 @@ impl Known {
 
     /// Number of integrals in these variables alone.
     pub fn within(&self, variables: &[usize]) -> usize {
-        let inside = |one: &&One| one.variables.iter().all(|k| variables.contains(k));
+        let inside = |one: &&KnownIntegral| one.variables.iter().all(|k| variables.contains(k));
         self.all.iter().filter(inside).count()
     }
 
@@ -85,7 +85,7 @@ impl Known {
 }
 
 /// Variables that a formula contains.
-fn used(setting: &Setting<'_>, formula: &Formula) -> Result<Vec<usize>, SearchError> {
+fn used(setting: &OrbitSetting<'_>, formula: &Formula) -> Result<Vec<usize>, SearchError> {
     let case = setting.case;
     let is_scalar = formula.value_type() == Type::Scalar;
     let terms: Vec<&Formula> = [formula].into_iter().filter(|_| is_scalar).collect();

@@ -8,24 +8,24 @@
 
 use liouville::number::prime::Modulus;
 
-use super::super::SearchError;
-use super::super::ansatz::system::At;
+use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
-use super::factor::Factor;
-use super::monomials::Along;
-use super::setting::{Point, SPARE, Setting};
+use super::super::{Halt, SearchError};
+use super::factor::RatedPolynomial;
+use super::monomials::MonomialSeries;
+use super::setting::{OrbitSetting, PrimePhasePoint, SPARE_ORDERS};
 use super::univariate::{gcd, interpolated, roots, without};
 
 /// Largest degree of a field in the state.
 const DEGREE: usize = 24;
 
 /// A random line in the space of states.
-pub struct Line<'s, 'c> {
+pub struct RandomLine<'s, 'c> {
     /// Case with its points.
-    pub setting: &'s Setting<'c>,
+    pub setting: &'s OrbitSetting<'c>,
     /// Prime and parameters.
-    pub at: &'s At,
-    start: Point,
+    pub at: &'s PrimePoint,
+    start: PrimePhasePoint,
     direction: Vec<u64>,
 }
 
@@ -37,49 +37,65 @@ pub struct Special {
     pub excess: usize,
 }
 
-impl<'s, 'c> Line<'s, 'c> {
+impl<'s, 'c> RandomLine<'s, 'c> {
     /// Draws a line.
-    pub fn draw(setting: &'s Setting<'c>, at: &'s At, number: u64) -> Option<Self> {
+    pub fn draw(setting: &'s OrbitSetting<'c>, at: &'s PrimePoint, number: u64) -> Option<Self> {
         let start = setting.point(at, (number << 1) | (1 << 40))?;
         let direction = setting.point(at, (number << 1) | (1 << 40) | 1)?.state;
         Some(Self { setting, at, start, direction })
     }
 
-    fn point(&self, place: u64) -> Point {
+    fn point(&self, place: u64) -> PrimePhasePoint {
         let m = &self.at.modulus;
         let state = self.start.state.iter().zip(&self.direction);
         let state = state.map(|(x, u)| m.add(*x, m.mul(place, *u))).collect();
-        Point { parameters: self.start.parameters.clone(), state }
+        PrimePhasePoint { parameters: self.start.parameters.clone(), state }
     }
 
     /// Restriction of a polynomial to the line.
-    fn restricted(&self, factor: &Factor) -> Option<Vec<u64>> {
+    fn restricted(&self, factor: &RatedPolynomial) -> Result<Option<Vec<u64>>, SearchError> {
         let m = &self.at.modulus;
         let value = |t: u64| factor.at(self.at, &self.point(m.integer(t))).map(|(value, _)| value);
         let values: Option<Vec<u64>> = (0..=u64::from(factor.degree)).map(value).collect();
-        values.map(|values| interpolated(m, &values))
+        let halt = &self.setting.effort.halt;
+        values.map(|values| interpolated(m, &values, halt)).transpose()
+    }
+
+    /// Removes all common factors with `other` from a polynomial on the line.
+    fn without(&self, own: Vec<u64>, other: &[u64]) -> Result<Vec<u64>, SearchError> {
+        without(&self.at.modulus, own, other, &self.setting.effort.halt)
     }
 
     /// Whether a polynomial has a factor that none of the others has.
-    pub fn has_more(&self, factor: &Factor, others: &[Factor]) -> bool {
-        let Some(mut rest) = self.restricted(factor) else { return false };
-        for other in others.iter().filter_map(|other| self.restricted(other)) {
-            rest = without(&self.at.modulus, rest, &other);
+    pub fn has_more(
+        &self,
+        factor: &RatedPolynomial,
+        others: &[RatedPolynomial],
+    ) -> Result<bool, SearchError> {
+        let Some(mut rest) = self.restricted(factor)? else { return Ok(false) };
+        for other in others {
+            if let Some(other) = self.restricted(other)? {
+                rest = self.without(rest, &other)?;
+            }
         }
-        rest.len() > 1
+        Ok(rest.len() > 1)
     }
 
     /// Degree of the field in the state; `None` if it is not a polynomial of low degree.
     pub fn degree(&self) -> Result<Option<usize>, SearchError> {
         let m = &self.at.modulus;
         let mut rates = vec![Vec::new(); self.direction.len()];
-        for t in 0..(DEGREE + SPARE) as u64 {
+        for t in 0..(DEGREE + SPARE_ORDERS) as u64 {
             let point = self.point(m.integer(t));
             let Some(orbit) = self.setting.along(self.at, &point, 2)? else { return Ok(None) };
             rates.iter_mut().zip(orbit).for_each(|(own, series)| own.push(series[1]));
         }
-        let degrees = rates.iter().map(|own| interpolated(m, own).len().saturating_sub(1));
-        Ok(degrees.max().filter(|degree| *degree <= DEGREE))
+        let mut degree = None;
+        for own in &rates {
+            let own = interpolated(m, own, &self.setting.effort.halt)?;
+            degree = degree.max(Some(own.len().saturating_sub(1)));
+        }
+        Ok(degree.filter(|degree| *degree <= DEGREE))
     }
 
     fn rows(
@@ -91,7 +107,9 @@ impl<'s, 'c> Line<'s, 'c> {
         let Some(orbit) = self.setting.along(self.at, &self.point(place), orders)? else {
             return Ok(None);
         };
-        Along::new(self.at.modulus, &orbit).rows(monomials, &self.setting.effort.halt).map(Some)
+        MonomialSeries::new(self.at.modulus, &orbit)
+            .rows(monomials, &self.setting.effort.halt)
+            .map(Some)
     }
 
     /// Finds the special places on the line for polynomials in these monomials, `without` the zeros
@@ -101,9 +119,9 @@ impl<'s, 'c> Line<'s, 'c> {
         &self,
         monomials: &[Vec<u32>],
         degree: usize,
-        known: &[Factor],
+        known: &[RatedPolynomial],
     ) -> Result<(Vec<Special>, bool), SearchError> {
-        let m = self.at.modulus;
+        let (m, halt) = (self.at.modulus, &self.setting.effort.halt);
         let none = (Vec::new(), true);
         let Some(generic) = self.reduced(m.integer(1 << 40), monomials)? else { return Ok(none) };
         let columns: Vec<usize> =
@@ -118,21 +136,24 @@ impl<'s, 'c> Line<'s, 'c> {
         let count = total + growth * (rank * (rank + 1) / 2) + 2;
         let (mut first, mut second) = (Vec::new(), Vec::new());
         for t in 0..count as u64 {
-            self.setting.effort.halt.check()?;
+            halt.check()?;
             let Some(rows) = self.rows(m.integer(t), &own, rank + 1)? else { return Ok(none) };
-            let (a, b) = determinants(&m, rows);
+            let (a, b) = determinants(&m, rows, halt)?;
             first.push(a);
             second.push(b);
         }
-        let (first, second) = (interpolated(&m, &first), interpolated(&m, &second));
-        let mut rest = gcd(&m, &first, &second);
-        for own in known.iter().filter_map(|factor| self.restricted(factor)) {
-            rest = without(&m, rest, &own);
+        let first = interpolated(&m, &first, halt)?;
+        let second = interpolated(&m, &second, halt)?;
+        let mut rest = gcd(&m, &first, &second, halt)?;
+        for factor in known {
+            if let Some(own) = self.restricted(factor)? {
+                rest = self.without(rest, &own)?;
+            }
         }
         let mut found = Vec::new();
-        for place in roots(&m, &rest) {
+        for place in roots(&m, &rest, halt)? {
             let factor = [m.sub(0, place), m.one()];
-            rest = without(&m, rest, &factor);
+            rest = self.without(rest, &factor)?;
             let Some(echelon) = self.reduced(place, monomials)? else { continue };
             let pivots = (0..monomials.len()).filter(|column| echelon.has_pivot(*column)).count();
             let excess = rank.saturating_sub(pivots);
@@ -145,7 +166,7 @@ impl<'s, 'c> Line<'s, 'c> {
 
     /// Taylor coefficients of the monomials at a place, reduced.
     fn reduced(&self, place: u64, monomials: &[Vec<u32>]) -> Result<Option<Echelon>, SearchError> {
-        let Some(rows) = self.rows(place, monomials, monomials.len() + SPARE)? else {
+        let Some(rows) = self.rows(place, monomials, monomials.len() + SPARE_ORDERS)? else {
             return Ok(None);
         };
         let mut echelon = Echelon::new(monomials.len(), self.at.modulus);
@@ -153,7 +174,7 @@ impl<'s, 'c> Line<'s, 'c> {
         for row in rows {
             self.setting.effort.halt.check()?;
             dependent = if echelon.push(row) { 0 } else { dependent + 1 };
-            if dependent == SPARE {
+            if dependent == SPARE_ORDERS {
                 break;
             }
         }
@@ -162,13 +183,18 @@ impl<'s, 'c> Line<'s, 'c> {
 }
 
 /// Determinants of n + 1 rows of length n, once without the last and once without the one before.
-fn determinants(m: &Modulus, mut rows: Vec<Vec<u64>>) -> (u64, u64) {
+fn determinants(
+    m: &Modulus,
+    mut rows: Vec<Vec<u64>>,
+    halt: &Halt,
+) -> Result<(u64, u64), SearchError> {
     let size = rows.len() - 1;
     let mut product = m.one();
     for done in 0..size - 1 {
         let Some(pivot) = (done..size).find(|column| rows[done][*column] != 0) else {
-            return (0, 0);
+            return Ok((0, 0));
         };
+        halt.check()?;
         if pivot != done {
             rows.iter_mut().for_each(|row| row.swap(done, pivot));
             product = m.sub(0, product);
@@ -186,5 +212,5 @@ fn determinants(m: &Modulus, mut rows: Vec<Vec<u64>>) -> (u64, u64) {
             }
         }
     }
-    (m.mul(product, rows[size - 1][size - 1]), m.mul(product, rows[size][size - 1]))
+    Ok((m.mul(product, rows[size - 1][size - 1]), m.mul(product, rows[size][size - 1])))
 }

@@ -11,6 +11,7 @@
 //! exponents    densities, and integrals with powers, logarithms and exponentials, from cofactors
 //! adjoin       functions of the state as further variables
 //! part         all of these in the variables of a part of the field
+//! fractions    for claims of absence: relations that known integrals do not explain
 //! claims       each find is judged as a claim like any other
 //! ```
 //!
@@ -23,6 +24,7 @@ mod darboux;
 mod exponents;
 mod factor;
 mod fraction;
+pub mod fractions;
 mod images;
 mod known;
 mod line;
@@ -40,17 +42,21 @@ mod univariate;
 use serde::Serialize;
 
 use liouville::case::Case;
+use liouville::formula::Formula;
 use liouville::mechanics::System;
+use liouville::number::rational::Rational;
+use liouville::verdict::Verdict;
 
-use self::known::Known;
-use self::line::Line;
-use self::part::Part;
-use self::setting::Setting;
-use super::{Effort, Report, SearchError};
+use self::known::IndependentIntegrals;
+use self::line::RandomLine;
+use self::part::VariableSet;
+use self::setting::OrbitSetting;
+use super::ask::proved_energy;
+use super::{Effort, SearchError, SearchReport};
 
 /// Limits of one round of a search.
 #[derive(Clone, Copy)]
-struct Limits {
+struct RoundLimits {
     /// Largest number of monomials of a relation.
     monomials: usize,
     /// Largest degree of a relation.
@@ -60,17 +66,17 @@ struct Limits {
 }
 
 /// Limits without a limit of time.
-const MODEST: Limits = Limits { monomials: 300, degree: 8, steps: 4e7 };
+const MODEST: RoundLimits = RoundLimits { monomials: 300, degree: 8, steps: 4e7 };
 
 /// The same where functions are further variables.
-const EXTENDED: Limits = Limits { monomials: 400, degree: 8, steps: 4e7 };
+const EXTENDED: RoundLimits = RoundLimits { monomials: 400, degree: 8, steps: 4e7 };
 
 /// Limits that follow while there is time.
-const FURTHER: [Limits; 4] = [
-    Limits { monomials: 500, degree: 16, steps: 2e8 },
-    Limits { monomials: 900, degree: 24, steps: 2e9 },
-    Limits { monomials: 1700, degree: 24, steps: 2e10 },
-    Limits { monomials: 3200, degree: 24, steps: 2e11 },
+const FURTHER: [RoundLimits; 4] = [
+    RoundLimits { monomials: 500, degree: 16, steps: 2e8 },
+    RoundLimits { monomials: 900, degree: 24, steps: 2e9 },
+    RoundLimits { monomials: 1700, degree: 24, steps: 2e10 },
+    RoundLimits { monomials: 3200, degree: 24, steps: 2e11 },
 ];
 
 /// Relations between monomials of at most a degree along one orbit.
@@ -86,11 +92,13 @@ pub struct OrbitReport {
     pub integrals: usize,
 }
 
-/// Searches a field for integrals; proved ones go into the report.
+/// Searches a field for integrals; proved ones go into the report. If `further`, the limits grow while
+/// there is time.
 pub fn search(
     case: &Case,
     effort: &Effort,
-    report: &mut Report,
+    further: bool,
+    report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
     let is_field = match case.model.system {
@@ -101,12 +109,13 @@ pub fn search(
     let mut divided = Vec::new();
     let mut is_extended = false;
     let is_done =
-        |report: &Report| report.functions("integral").count() + 1 >= case.model.dimension();
+        |report: &SearchReport| report.functions("integral").count() + 1 >= case.model.dimension();
     let before = report.orbits.len();
     // At last with half of each angle.
     for _ in 0..2 {
-        let Some(extension) = adjoin::extended(case, effort, report, divided)? else { break };
-        let Ok(setting) = Setting::extended(case, &extension, effort)? else { break };
+        let known = found(case, effort, report)?;
+        let Some(extension) = adjoin::extended(case, effort, &known, divided)? else { break };
+        let Ok(setting) = OrbitSetting::extended(case, &extension, effort)? else { break };
         is_extended = true;
         report.without_points.clear();
         report.orbits.truncate(before);
@@ -116,27 +125,34 @@ pub fn search(
             break;
         }
     }
+    if is_extended {
+        let known = found(case, effort, report)?;
+        fractions::conclude(case, effort, &known, true, report)?;
+    }
     if is_done(report) && is_extended {
         return Ok(());
     }
     let plain = match is_field {
-        true => Setting::of(case, effort)?,
+        true => OrbitSetting::of(case, effort)?,
         false => Err(String::new()),
     };
     match plain {
         Ok(setting) => {
             report.orbits.truncate(before);
-            along_orbits(&setting, true, report, progress)
+            along_orbits(&setting, further, report, progress)
         }
         Err(reason) if is_field && !is_extended => {
             report.remark(format!("no relations along orbits: {reason}"));
             Ok(())
         }
-        Err(_) if is_extended && effort.halt.is_timed() => {
-            let Some(extension) = adjoin::extended(case, effort, report, Vec::new())? else {
+        Err(_) if is_extended && further => {
+            let known = found(case, effort, report)?;
+            let Some(extension) = adjoin::extended(case, effort, &known, Vec::new())? else {
                 return Ok(());
             };
-            let Ok(setting) = Setting::extended(case, &extension, effort)? else { return Ok(()) };
+            let Ok(setting) = OrbitSetting::extended(case, &extension, effort)? else {
+                return Ok(());
+            };
             report.orbits.truncate(before);
             along_orbits(&setting, true, report, progress)
         }
@@ -144,22 +160,36 @@ pub fn search(
     }
 }
 
-/// Searches the parts of a field; if `further` and there is a limit of time, within growing limits.
+/// Lists the square roots of parameters and numbers in a field, with the numbers.
+pub fn roots(case: &Case) -> Result<Vec<(Formula, Option<Rational>)>, SearchError> {
+    match case.model.system {
+        System::Field(_) | System::Hamiltonian(_) => adjoin::roots(case),
+        _ => Ok(Vec::new()),
+    }
+}
+
+/// Lists the energy and the integrals found so far, as far as they are proved.
+fn found(case: &Case, effort: &Effort, report: &SearchReport) -> Result<Vec<Formula>, SearchError> {
+    let energy = proved_energy(case, effort)?.into_iter();
+    let own = report.of_case("integral").filter(|found| found.verdict == Verdict::Proved);
+    Ok(energy.chain(own.filter_map(|found| found.function.clone())).collect())
+}
+
+/// Searches the parts of a field; if `further`, within growing limits.
 fn along_orbits(
-    setting: &Setting<'_>,
+    setting: &OrbitSetting<'_>,
     further: bool,
-    report: &mut Report,
+    report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    let halt = &setting.effort.halt;
-    let mut known = Known::of(setting, report)?;
+    let mut known = IndependentIntegrals::of(setting, report)?;
     let degree = match setting.is_on_level() || !setting.flow.is_rational {
         true => None,
         false => degree_of_field(setting)?,
     };
-    let part = |variables| Part::new(variables, degree);
-    let mut parts: Vec<Part> = blocks::closed(setting.case)?.into_iter().map(part).collect();
-    let mut run = |limits: Limits, report: &mut Report| -> Result<(), SearchError> {
+    let part = |variables| VariableSet::new(variables, degree);
+    let mut parts: Vec<VariableSet> = blocks::closed(setting.case)?.into_iter().map(part).collect();
+    let mut run = |limits: RoundLimits, report: &mut SearchReport| -> Result<(), SearchError> {
         for place in 0..parts.len() {
             let (before, rest) = parts.split_at_mut(place);
             let Some(part) = rest.first_mut() else { continue };
@@ -170,7 +200,11 @@ fn along_orbits(
     };
     let limits = if setting.origin.is_some() { EXTENDED } else { MODEST };
     let outcome = run(limits, report).and_then(|()| {
-        for limits in FURTHER.iter().filter(|_| further && halt.is_timed()) {
+        if setting.origin.is_none() && !setting.is_on_level() {
+            let known = found(setting.case, setting.effort, report)?;
+            fractions::conclude(setting.case, setting.effort, &known, false, report)?;
+        }
+        for limits in FURTHER.iter().filter(|_| further) {
             match run(*limits, report) {
                 // The time limit of the user is reached.
                 Err(SearchError::Stopped) => break,
@@ -180,7 +214,7 @@ fn along_orbits(
         Ok(())
     });
     if let Some(whole) = parts.last() {
-        whole.conclude(setting, report)?;
+        whole.conclude(setting, report);
     }
     match outcome {
         Err(error) if error.is_of_count() => {
@@ -192,9 +226,9 @@ fn along_orbits(
 }
 
 /// Degree of a field in the state; `None` if it is not a polynomial of low degree.
-fn degree_of_field(setting: &Setting<'_>) -> Result<Option<usize>, SearchError> {
+fn degree_of_field(setting: &OrbitSetting<'_>) -> Result<Option<usize>, SearchError> {
     let Some(at) = setting.at(0, 0) else { return Ok(None) };
-    match Line::draw(setting, &at, 0) {
+    match RandomLine::draw(setting, &at, 0) {
         Some(line) => line.degree(),
         None => Ok(None),
     }

@@ -25,13 +25,13 @@ pub fn count(variables: usize, degree: u32) -> usize {
 }
 
 /// Series of monomials along an orbit, made on demand.
-pub struct Along<'o> {
+pub struct MonomialSeries<'o> {
     modulus: Modulus,
     orbit: &'o [Vec<u64>],
     known: FxHashMap<Vec<u32>, Vec<u64>>,
 }
 
-impl<'o> Along<'o> {
+impl<'o> MonomialSeries<'o> {
     /// Takes the series of the variables.
     pub fn new(modulus: Modulus, orbit: &'o [Vec<u64>]) -> Self {
         Self { modulus, orbit, known: FxHashMap::default() }

@@ -1,14 +1,13 @@
 //! Separate search of a set of variables, and the theorem about all variables.
 
-use super::super::{Excluded, Report, SearchError};
-use super::adjoin::absence::{Class, Powers};
-use super::darboux::Search as Darboux;
-use super::exponents::Exponents;
-use super::factor::Factor;
-use super::known::Known;
-use super::rational::Rational;
-use super::setting::{Origin, Setting};
-use super::{Limits, OrbitReport, monomials, polynomials, relations};
+use super::super::{Excluded, SearchError, SearchReport};
+use super::darboux::DarbouxSearch as Darboux;
+use super::exponents::ExponentSystem;
+use super::factor::RatedPolynomial;
+use super::known::IndependentIntegrals;
+use super::rational::RationalSearch;
+use super::setting::{ExtendedCase, OrbitSetting};
+use super::{OrbitReport, RoundLimits, fractions, monomials, polynomials, relations};
 
 /// Largest degree of a Darboux polynomial.
 const DARBOUX: u32 = 12;
@@ -16,7 +15,7 @@ const DARBOUX: u32 = 12;
 const MOST_DEGREE: u32 = 64;
 
 /// A set of variables, and how far it has been searched.
-pub struct Part {
+pub struct VariableSet {
     variables: Vec<usize>,
     /// Degree of the relations that comes next.
     next: u32,
@@ -24,14 +23,14 @@ pub struct Part {
     next_darboux: u32,
     /// Degree of the field, where it is a polynomial.
     degree: Option<usize>,
-    factors: Vec<Factor>,
+    factors: Vec<RatedPolynomial>,
     /// Number of factors at the last search for exponents.
     combined: Option<usize>,
     /// Relations of each degree that has been searched.
     done: Vec<OrbitReport>,
 }
 
-impl Part {
+impl VariableSet {
     /// Starts with no degree searched; `degree` is that of the field, where it is a polynomial.
     pub fn new(variables: Vec<usize>, degree: Option<usize>) -> Self {
         Self {
@@ -46,9 +45,10 @@ impl Part {
     }
 
     /// Takes over the factors of sets inside this one.
-    pub fn inherit(&mut self, parts: &[Part]) {
-        let inside = |part: &&Part| part.variables.iter().all(|k| self.variables.contains(k));
-        let all: Vec<Factor> =
+    pub fn inherit(&mut self, parts: &[VariableSet]) {
+        let inside =
+            |part: &&VariableSet| part.variables.iter().all(|k| self.variables.contains(k));
+        let all: Vec<RatedPolynomial> =
             parts.iter().filter(inside).flat_map(|part| &part.factors).cloned().collect();
         for factor in all {
             if self.factors.iter().all(|own| own.formula.text() != factor.formula.text()) {
@@ -60,10 +60,10 @@ impl Part {
     /// Searches all degrees within the limits.
     pub fn round(
         &mut self,
-        setting: &Setting<'_>,
-        limits: Limits,
-        known: &mut Known,
-        report: &mut Report,
+        setting: &OrbitSetting<'_>,
+        limits: RoundLimits,
+        known: &mut IndependentIntegrals,
+        report: &mut SearchReport,
         progress: &mut dyn FnMut(&str),
     ) -> Result<(), SearchError> {
         let count = self.variables.len();
@@ -79,9 +79,9 @@ impl Part {
             // The whole state on a level: factors are given by the functions there.
             if let Some(origin) = setting.origin.filter(|_| count == setting.dimension()) {
                 for formula in &origin.extension.factors {
-                    let has = |own: &Factor| own.formula.text() == formula.text();
+                    let has = |own: &RatedPolynomial| own.formula.text() == formula.text();
                     if !self.factors.iter().any(has) {
-                        self.factors.extend(Factor::of(setting, formula, 1)?);
+                        self.factors.extend(RatedPolynomial::of(setting, formula, 1)?);
                     }
                 }
                 self.combined =
@@ -105,7 +105,7 @@ impl Part {
     }
 
     /// Monomials of the relations that come next; none if there are very many.
-    fn monomials(&self, setting: &Setting<'_>) -> Vec<Vec<u32>> {
+    fn monomials(&self, setting: &OrbitSetting<'_>) -> Vec<Vec<u32>> {
         let mut all = monomials::up_to(&self.variables, setting.dimension(), self.next);
         if let Some(origin) = setting.origin {
             all.retain(|own| origin.extension.is_standard(own));
@@ -116,10 +116,10 @@ impl Part {
     /// Searches one degree.
     fn step(
         &mut self,
-        setting: &Setting<'_>,
+        setting: &OrbitSetting<'_>,
         monomials: &[Vec<u32>],
-        known: &mut Known,
-        report: &mut Report,
+        known: &mut IndependentIntegrals,
+        report: &mut SearchReport,
         progress: &mut dyn FnMut(&str),
     ) -> Result<(), SearchError> {
         let degree = self.next;
@@ -144,62 +144,32 @@ impl Part {
             polynomials::polynomials(setting, variables, monomials, degree, known, report)?;
         }
         if step.integrals > known.within(variables) {
-            let rational = Rational { setting, variables, monomials, degree };
+            let rational = RationalSearch { setting, variables, monomials, degree };
             rational.search(&at, &step.relations, step.integrals, known, report)?;
         }
         Ok(())
     }
 
     /// Reports the degree reached and the theorem of absence.
-    pub fn conclude(&self, setting: &Setting<'_>, report: &mut Report) -> Result<(), SearchError> {
+    pub fn conclude(&self, setting: &OrbitSetting<'_>, report: &mut SearchReport) {
         report.orbits.extend(self.done.iter().cloned());
-        let is_rational = match setting.origin {
-            None => setting.flow.is_rational,
-            Some(_) => setting.flow.is_rational_in_state,
-        };
-        if !is_rational || setting.has_lists() {
-            return Ok(());
+        if !setting.flow.is_rational || setting.has_lists() || setting.is_on_level() {
+            return;
         }
+        let none = self.done.iter().rfind(|own| own.relations == 0);
+        let Some(degree) = none.map(|own| own.degree) else { return };
         let names: Vec<String> = setting.terms.iter().map(ToString::to_string).collect();
-        let (degree, names, addition) = match setting.origin {
-            None if setting.is_on_level() => return Ok(()),
-            None => {
-                let none = self.done.iter().rfind(|own| own.relations == 0);
-                (none.map(|own| own.degree), names, "")
-            }
-            Some(Origin { extension, .. }) => {
-                let Some(class) = &extension.class else { return Ok(()) };
-                let own = setting.terms.iter().zip(&class.powers);
-                let own = own.filter(|(_, powers)| **powers != Powers::None);
-                let names = own.map(|(term, _)| extension.back(term)).collect();
-                let addition = if class.is_linear { ", linear in each root" } else { "" };
-                (self.excluded(setting, class)?, names, addition)
-            }
-        };
-        let Some(degree) = degree else { return Ok(()) };
-        let generic = match setting.case.model.free_components() {
-            0 => "",
-            _ => {
-                "For generic values of the free parameters, and the given values of the fixed ones, "
-            }
-        };
         let names = names.join(", ");
         let statement = |degree: u32| {
-            let text = format!(
-                "{generic}no fraction P/Q of polynomials in {names} of degree at most {degree}{addition}, \
-                 with any complex coefficients, is an integral, constants aside; a polynomial of that \
-                 degree is none either."
-            );
-            let mut letters = text.chars();
-            let first = letters.next().map(|letter| letter.to_uppercase().to_string());
-            first.unwrap_or_default() + letters.as_str()
+            let class = format!("polynomials in {names} of degree at most {degree}");
+            fractions::sentence(setting.case, &fractions::none_is(&class))
         };
         // The same polynomials may have been excluded up to another degree.
         let is_stated = |own: &Excluded, degrees: std::ops::Range<u32>| {
             degrees.map(statement).any(|other| other == own.theorem)
         };
         if report.excluded.iter().any(|own| is_stated(own, degree..MOST_DEGREE)) {
-            return Ok(());
+            return;
         }
         report.excluded.retain(|own| !is_stated(own, 1..degree));
         report.excluded.push(Excluded {
@@ -208,31 +178,14 @@ impl Part {
             known: 0,
             error_log2: None,
             theorem: statement(degree),
-            holds_on_all_branches: setting.origin.is_some(),
         });
-        Ok(())
-    }
-
-    /// Highest degree for which the polynomials of a class have no relation along an orbit.
-    fn excluded(&self, setting: &Setting<'_>, class: &Class) -> Result<Option<u32>, SearchError> {
-        let mut found = None;
-        let Some(at) = setting.at(0, 0) else { return Ok(None) };
-        for degree in 1..self.next {
-            let mut own = monomials::up_to(&self.variables, setting.dimension(), degree);
-            own.retain(|monomial| class.has(monomial));
-            match setting.relations(&at, 0, &own)? {
-                Some(relations) if relations.free.is_empty() => found = Some(degree),
-                _ => break,
-            }
-        }
-        Ok(found)
     }
 }
 
 /// Whether all integrals of an extended case are known: one less than its dimension.
-fn is_complete(setting: &Setting<'_>, known: &Known) -> bool {
+fn is_complete(setting: &OrbitSetting<'_>, known: &IndependentIntegrals) -> bool {
     let is_full =
-        |origin: Origin<'_>| known.formulas().count() + 1 >= origin.case.model.dimension();
+        |origin: ExtendedCase<'_>| known.formulas().count() + 1 >= origin.case.model.dimension();
     setting.origin.is_some_and(is_full)
 }
 
@@ -246,15 +199,15 @@ fn steps(variables: usize, degree: u32, field: usize) -> f64 {
 /// Searches for densities and integrals from cofactors, if there are more of them than at the last
 /// time; returns how many there are.
 fn combine(
-    setting: &Setting<'_>,
+    setting: &OrbitSetting<'_>,
     variables: &[usize],
-    factors: &[Factor],
+    factors: &[RatedPolynomial],
     last: Option<usize>,
-    known: &mut Known,
-    report: &mut Report,
+    known: &mut IndependentIntegrals,
+    report: &mut SearchReport,
 ) -> Result<Option<usize>, SearchError> {
     if last != Some(factors.len()) {
-        Exponents::of(setting, variables, factors)?.search(known, report)?;
+        ExponentSystem::of(setting, variables, factors)?.search(known, report)?;
     }
     Ok(Some(factors.len()))
 }

@@ -3,55 +3,50 @@
 //! A row is one random state modulo a prime, a column the rate of one monomial. Monomials whose
 //! values depend on those of others on the level are left out.
 
-use super::super::ansatz::coefficients::{Columns, Ratio};
-use super::super::ansatz::coordinates;
+use super::super::ansatz::coefficients::{NullVector, Ratio};
 use super::super::ansatz::monomials::power_product;
+use super::super::ansatz::note_unwritten;
 use super::super::ansatz::subspace::complement;
-use super::super::ansatz::system::{Column, System};
+use super::super::ansatz::system::{Column, LinearSystem};
 use super::super::terms::one;
-use super::super::{Report, SearchError};
+use super::super::{SearchError, SearchReport};
 use super::claims;
 use super::images;
-use super::known::Known;
-use super::setting::Setting;
+use super::known::IndependentIntegrals;
+use super::setting::OrbitSetting;
 use liouville::formula::Formula;
 
 /// Searches for integrals that are sums of these monomials in some variables, of at most this degree;
 /// returns whether some was found.
 pub fn polynomials(
-    setting: &Setting<'_>,
+    setting: &OrbitSetting<'_>,
     variables: &[usize],
     all: &[Vec<u32>],
     degree: u32,
-    known: &mut Known,
-    report: &mut Report,
+    known: &mut IndependentIntegrals,
+    report: &mut SearchReport,
 ) -> Result<bool, SearchError> {
     let (case, effort) = (setting.case, setting.effort);
     let given: Vec<Formula> = known.formulas().cloned().collect();
     let mut outputs = Vec::new();
-    let seed = effort.options.seed;
-    let mut system = System::record(case, &coordinates(case), seed, |jet, recording| {
+    let mut system = LinearSystem::record(case, effort, |jet, recording| {
         recording.derive(jet.along_field(), &setting.terms, &[one()]);
         outputs = given.iter().map(|term| recording.give(jet.phase.scalar(term))).collect();
     })?;
-    system.halt = effort.halt.clone();
     let product = |exponents| Column::Product { derivation: 0, factor: 0, exponents };
     system.columns = all.iter().cloned().map(product).collect();
     let Some(at) = system.at(0, 0) else { return Ok(false) };
     let every: Vec<usize> = (0..all.len()).collect();
     let columns = match setting.is_on_level() {
         false => every,
-        true => match system.distinct(&at, &every) {
+        true => match system.distinct(&at, &every)? {
             Some(columns) => columns,
             None => return Ok(false),
         },
     };
     // The constant is the first.
     let columns = &columns[1..];
-    effort.halt.check()?;
-    let found = system.null_space(&at, columns);
-    effort.halt.check()?;
-    let Some(vectors) = found else { return Ok(false) };
+    let Some(vectors) = system.null_space(&at, columns)? else { return Ok(false) };
     let spread = |own: Vec<u64>| {
         let mut full = vec![0; all.len()];
         columns.iter().zip(own).for_each(|(column, entry)| full[*column] = entry);
@@ -66,21 +61,16 @@ pub fn polynomials(
             own.flat_map(|(power, output)| vec![*output; *power as usize]).collect()
         })
         .collect();
-    let new = complement(&system, &at, &vectors, &products);
-    effort.halt.check()?;
-    let Some(new) = new else { return Ok(false) };
+    let Some(new) = complement(&system, &at, &vectors, &products)? else { return Ok(false) };
     let mut found = false;
     for vector in new {
         effort.halt.check()?;
         let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
         let Some(coefficients) =
-            images::coefficients(&Columns { system: &system, columns: &support }, &effort.halt)
+            images::coefficients(&NullVector { system: &system, columns: &support })?
         else {
-            report.remark(format!(
-                "an integral of degree {degree} with {} terms has coefficients that are not fractions of low \
-                 degree in the parameters; give values with --set",
-                support.len()
-            ));
+            let what = format!("an integral of degree {degree} with {} terms", support.len());
+            note_unwritten(case, &what, report);
             continue;
         };
         let functions: Result<Vec<Ratio>, _> = support

@@ -2,13 +2,13 @@
 
 use liouville::number::prime::{Modulus, is_prime};
 
-use super::super::streams::Stream;
+use super::super::streams::SearchStream;
 
 /// Draws primes p = 1 mod 840 between 2^60 and 2^61.
 pub fn split(seed: u64, count: usize) -> Vec<Modulus> {
-    let mut chance = Stream::OrbitLines.under(seed);
+    let mut rng = SearchStream::OrbitLines.under(seed);
     let whole = Modulus::new((1 << 61) - 1);
-    let candidates = std::iter::repeat_with(|| (chance.element(&whole) | 1 << 60) / 840 * 840 + 1);
+    let candidates = std::iter::repeat_with(|| (rng.element(&whole) | 1 << 60) / 840 * 840 + 1);
     let primes = candidates.filter(|own| own >> 60 == 1 && is_prime(*own));
     primes.take(count).map(Modulus::new).collect()
 }

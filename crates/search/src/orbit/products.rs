@@ -1,31 +1,31 @@
 //! Π f^α e^g and its logarithm, as formulas.
 
-use liouville::formula::{Composed, Formula};
+use liouville::formula::{Formula, FormulaResult};
 
 use super::super::ansatz::coefficients::Ratio;
 use super::super::ansatz::monomials::power_product;
 use super::super::terms::{is_one, one};
-use super::exponents::{Column, Exponents};
+use super::exponents::{ExponentSystem, RateTerm};
 use super::images;
 
-impl Exponents<'_, '_> {
+impl ExponentSystem<'_, '_> {
     /// Makes the logarithm Σ α ln f + g.
     pub fn logarithm(
         &self,
         support: &[usize],
-        vector: &images::Vector,
+        vector: &images::ParametricVector,
         has_moduli: bool,
-    ) -> Composed {
+    ) -> FormulaResult {
         let mut functions = Vec::new();
         let mut places = Vec::new();
         for (place, column) in support.iter().enumerate() {
             let function = match &self.columns[*column] {
-                Column::Monomial(own) => power_product(&self.setting.terms, own)?,
-                Column::Factor(own) if has_moduli => {
+                RateTerm::Monomial(own) => power_product(&self.setting.terms, own)?,
+                RateTerm::Factor(own) if has_moduli => {
                     Formula::call("ln", &[&self.factors[*own].formula.modulus()?])?
                 }
-                Column::Factor(own) => Formula::call("ln", &[&self.factors[*own].formula])?,
-                Column::Constant | Column::Divergence => continue,
+                RateTerm::Factor(own) => Formula::call("ln", &[&self.factors[*own].formula])?,
+                RateTerm::Constant | RateTerm::Divergence => continue,
             };
             functions.push(Ratio::of(function));
             places.push(place);
@@ -38,18 +38,18 @@ impl Exponents<'_, '_> {
     pub fn product(
         &self,
         support: &[usize],
-        vector: &images::Vector,
+        vector: &images::ParametricVector,
         has_moduli: bool,
-    ) -> Composed {
+    ) -> FormulaResult {
         let mut powers: Vec<Formula> = Vec::new();
         let mut exponent = (Vec::new(), Vec::new());
         for (place, column) in support.iter().enumerate() {
             match &self.columns[*column] {
-                Column::Monomial(own) => {
+                RateTerm::Monomial(own) => {
                     exponent.0.push(place);
                     exponent.1.push(Ratio::of(power_product(&self.setting.terms, own)?));
                 }
-                Column::Factor(own) => {
+                RateTerm::Factor(own) => {
                     let formula = &self.factors[*own].formula;
                     let base = match has_moduli && !vector.is_whole(place) {
                         true => formula.modulus()?,
@@ -61,7 +61,7 @@ impl Exponents<'_, '_> {
                         false => base.power(&power.bracketed())?,
                     });
                 }
-                Column::Constant | Column::Divergence => {}
+                RateTerm::Constant | RateTerm::Divergence => {}
             }
         }
         if !exponent.0.is_empty() {

@@ -8,14 +8,14 @@
 
 use liouville::proof::reduce;
 
-use super::super::ansatz::system::At;
+use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
-use super::super::{Report, SearchError};
-use super::fraction::Fraction;
+use super::super::{SearchError, SearchReport};
+use super::fraction::MonomialFraction;
 use super::images::{self, Images};
-use super::known::Known;
+use super::known::IndependentIntegrals;
 use super::monomials::{self, value};
-use super::setting::{Relations, SPARE, Setting};
+use super::setting::{OrbitRelations, OrbitSetting, SPARE_ORDERS};
 
 /// Number of orbits whose relations are compared.
 const ORBITS: u64 = 4;
@@ -25,9 +25,9 @@ const UNKNOWNS: usize = 120;
 const TERMS: usize = 40;
 
 /// The search for rational integrals in some variables.
-pub struct Rational<'s, 'c> {
+pub struct RationalSearch<'s, 'c> {
     /// Case with its points.
-    pub setting: &'s Setting<'c>,
+    pub setting: &'s OrbitSetting<'c>,
     /// Variables of the integrals.
     pub variables: &'s [usize],
     /// Monomials of the relations.
@@ -36,16 +36,16 @@ pub struct Rational<'s, 'c> {
     pub degree: u32,
 }
 
-impl Rational<'_, '_> {
+impl RationalSearch<'_, '_> {
     /// Searches for integrals until the number of independent algebraic integrals is reached; returns
     /// whether one was found.
     pub fn search(
         &self,
-        at: &At,
-        first: &Relations,
+        at: &PrimePoint,
+        first: &OrbitRelations,
         wanted: usize,
-        known: &mut Known,
-        report: &mut Report,
+        known: &mut IndependentIntegrals,
+        report: &mut SearchReport,
     ) -> Result<bool, SearchError> {
         let mut found = false;
         for interpolated in [false, true] {
@@ -63,7 +63,7 @@ impl Rational<'_, '_> {
                     continue;
                 }
                 let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
-                let one = Relation { of: self, support: self.picked(&support) };
+                let one = LeadingRelations { of: self, support: self.picked(&support) };
                 found |= one.search(at, interpolated, known, report)?;
             }
         }
@@ -76,8 +76,8 @@ impl Rational<'_, '_> {
 }
 
 /// The relations with one leading monomial, the last of their support.
-struct Relation<'r, 's, 'c> {
-    of: &'r Rational<'s, 'c>,
+struct LeadingRelations<'r, 's, 'c> {
+    of: &'r RationalSearch<'s, 'c>,
     support: Vec<Vec<u32>>,
 }
 
@@ -86,9 +86,9 @@ type Along = (Vec<u64>, Vec<u64>);
 /// Monomials of a numerator and of a denominator.
 type Supports = (Vec<Vec<u32>>, Vec<Vec<u32>>);
 
-impl Relation<'_, '_, '_> {
+impl LeadingRelations<'_, '_, '_> {
     /// The relation along the orbit of a number, 1 at its last monomial, with the point.
-    fn along(&self, at: &At, number: u64) -> Result<Option<Along>, SearchError> {
+    fn along(&self, at: &PrimePoint, number: u64) -> Result<Option<Along>, SearchError> {
         let Some(all) = self.of.setting.relations(at, number, &self.support)? else {
             return Ok(None);
         };
@@ -98,9 +98,10 @@ impl Relation<'_, '_, '_> {
     }
 
     /// The space that the relations of several orbits span, in reduced form.
-    fn span(&self, at: &At) -> Result<Vec<Vec<u64>>, SearchError> {
+    fn span(&self, at: &PrimePoint) -> Result<Vec<Vec<u64>>, SearchError> {
         let mut vectors = Vec::new();
         for number in 0..ORBITS {
+            self.of.setting.effort.halt.check()?;
             vectors.extend(self.along(at, number)?.map(|(vector, _)| vector));
         }
         Ok(reduce(vectors, self.support.len(), &at.modulus).1)
@@ -108,10 +109,10 @@ impl Relation<'_, '_, '_> {
 
     fn search(
         &self,
-        at: &At,
+        at: &PrimePoint,
         interpolated: bool,
-        known: &mut Known,
-        report: &mut Report,
+        known: &mut IndependentIntegrals,
+        report: &mut SearchReport,
     ) -> Result<bool, SearchError> {
         let span = self.span(at)?;
         match (span.len(), interpolated) {
@@ -127,12 +128,12 @@ impl Relation<'_, '_, '_> {
     fn pencil(
         &self,
         span: &[Vec<u64>],
-        known: &mut Known,
-        report: &mut Report,
+        known: &mut IndependentIntegrals,
+        report: &mut SearchReport,
     ) -> Result<bool, SearchError> {
         let used = |row: &Vec<u64>| (0..row.len()).filter(|k| row[*k] != 0).collect::<Vec<_>>();
         let (above, below) = (used(&span[0]), used(&span[1]));
-        let make = |at: &At| {
+        let make = |at: &PrimePoint| {
             let span = self.span(at).ok().filter(|span| span.len() == 2)?;
             let own = above.iter().map(|k| span[0][*k]);
             Some(own.chain(below.iter().map(|k| span[1][*k])).collect())
@@ -140,22 +141,17 @@ impl Relation<'_, '_, '_> {
         let width = above.len() + below.len();
         let images = Images { setting: self.of.setting, width, is_split: false, make };
         let picked = |own: &[usize]| own.iter().map(|k| self.support[*k].clone()).collect();
-        let fraction = Fraction { above: picked(&above), below: picked(&below) };
-        self.of.tell(
-            &fraction,
-            images::coefficients(&images, &self.of.setting.effort.halt),
-            known,
-            report,
-        )
+        let fraction = MonomialFraction { above: picked(&above), below: picked(&below) };
+        self.of.tell(&fraction, images::coefficients(&images)?, known, report)
     }
 
     /// A coefficient of the relation as a function of the point.
     fn interpolated(
         &self,
-        at: &At,
+        at: &PrimePoint,
         span: &[Vec<u64>],
-        known: &mut Known,
-        report: &mut Report,
+        known: &mut IndependentIntegrals,
+        report: &mut SearchReport,
     ) -> Result<bool, SearchError> {
         let setting = self.of.setting;
         let last = self.support.len() - 1;
@@ -165,18 +161,18 @@ impl Relation<'_, '_, '_> {
             setting.effort.halt.check()?;
             // The others have the same degree, or more.
             let Some((above, below)) = self.lowest(at, place)? else { break };
-            let make = |at: &At| self.fraction(at, place, &above, &below).ok().flatten();
+            let make = |at: &PrimePoint| self.fraction(at, place, &above, &below).ok().flatten();
             let width = above.len() + below.len();
             let images = Images { setting, width, is_split: false, make };
-            let coefficients = images::coefficients(&images, &self.of.setting.effort.halt);
-            let fraction = Fraction { above: above.clone(), below: below.clone() };
+            let coefficients = images::coefficients(&images)?;
+            let fraction = MonomialFraction { above: above.clone(), below: below.clone() };
             found |= self.of.tell(&fraction, coefficients, known, report)?;
         }
         Ok(found)
     }
 
     /// Monomials of numerator and denominator of a coefficient, of the lowest degree.
-    fn lowest(&self, at: &At, place: usize) -> Result<Option<Supports>, SearchError> {
+    fn lowest(&self, at: &PrimePoint, place: usize) -> Result<Option<Supports>, SearchError> {
         let dimension = self.of.setting.dimension();
         for degree in 1.. {
             let all = monomials::up_to(self.of.variables, dimension, degree);
@@ -198,7 +194,7 @@ impl Relation<'_, '_, '_> {
     /// Coefficients of A and B with A(q) − c(q) B(q) = 0, where they are unique up to a factor.
     fn fraction(
         &self,
-        at: &At,
+        at: &PrimePoint,
         place: usize,
         above: &[Vec<u32>],
         below: &[Vec<u32>],
@@ -206,7 +202,7 @@ impl Relation<'_, '_, '_> {
         let m = at.modulus;
         let width = above.len() + below.len();
         let mut echelon = Echelon::new(width, m);
-        for number in 0..(width + SPARE) as u64 {
+        for number in 0..(width + SPARE_ORDERS) as u64 {
             let Some((vector, point)) = self.along(at, number)? else { continue };
             let minus = m.sub(0, vector[place]);
             let upper = above.iter().map(|own| value(&m, &point, own));

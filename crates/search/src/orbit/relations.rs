@@ -1,15 +1,15 @@
 //! Numbers of relations along an orbit, and of the algebraic integrals behind them.
 
 use super::super::SearchError;
-use super::super::ansatz::system::At;
+use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
 use super::monomials::value;
-use super::setting::{Point, Relations, SPARE, Setting};
+use super::setting::{OrbitRelations, OrbitSetting, PrimePhasePoint, SPARE_ORDERS};
 
 /// Relations of one degree along one orbit.
-pub struct Step {
+pub struct RelationStep {
     /// Relations in reduced form.
-    pub relations: Relations,
+    pub relations: OrbitRelations,
     /// Number of independent algebraic integrals: that of the relations' gradients, without the
     /// level's own.
     pub integrals: usize,
@@ -17,10 +17,10 @@ pub struct Step {
 
 /// Expands one orbit and finds its relations; `None` where it has no series.
 pub fn step(
-    setting: &Setting<'_>,
-    at: &At,
+    setting: &OrbitSetting<'_>,
+    at: &PrimePoint,
     monomials: &[Vec<u32>],
-) -> Result<Option<Step>, SearchError> {
+) -> Result<Option<RelationStep>, SearchError> {
     let Some(relations) = setting.relations(at, 0, monomials)? else { return Ok(None) };
     let point = &relations.point;
     let all = rank(setting, at, monomials, &relations.vectors, point)?;
@@ -31,24 +31,24 @@ pub fn step(
         }
         false => 0,
     };
-    Ok(Some(Step { integrals: all.saturating_sub(own), relations }))
+    Ok(Some(RelationStep { integrals: all.saturating_sub(own), relations }))
 }
 
 /// Combinations of the monomials that vanish on the level.
 fn on_level(
-    setting: &Setting<'_>,
-    at: &At,
+    setting: &OrbitSetting<'_>,
+    at: &PrimePoint,
     monomials: &[Vec<u32>],
 ) -> Result<Vec<Vec<u64>>, SearchError> {
     let m = at.modulus;
     let mut echelon = Echelon::new(monomials.len(), m);
     let mut dependent = 0;
-    for number in 0..2 * (monomials.len() + SPARE) as u64 {
+    for number in 0..2 * (monomials.len() + SPARE_ORDERS) as u64 {
         setting.effort.halt.check()?;
         let Some(point) = setting.point(at, number) else { continue };
         let row = monomials.iter().map(|own| value(&m, &point.state, own)).collect();
         dependent = if echelon.push(row) { 0 } else { dependent + 1 };
-        if dependent == SPARE {
+        if dependent == SPARE_ORDERS {
             break;
         }
     }
@@ -57,11 +57,11 @@ fn on_level(
 
 /// Rank of the gradients of polynomials at a point.
 fn rank(
-    setting: &Setting<'_>,
-    at: &At,
+    setting: &OrbitSetting<'_>,
+    at: &PrimePoint,
     monomials: &[Vec<u32>],
     vectors: &[Vec<u64>],
-    point: &Point,
+    point: &PrimePhasePoint,
 ) -> Result<usize, SearchError> {
     let m = at.modulus;
     let dimension = setting.dimension();
@@ -85,7 +85,7 @@ fn rank(
 }
 
 /// Gradient of a monomial at a point.
-fn gradient(at: &At, exponents: &[u32], point: &Point) -> Vec<u64> {
+fn gradient(at: &PrimePoint, exponents: &[u32], point: &PrimePhasePoint) -> Vec<u64> {
     let m = at.modulus;
     let along = |variable: usize| {
         if exponents[variable] == 0 {

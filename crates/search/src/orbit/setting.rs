@@ -1,30 +1,30 @@
 //! Random points of a case modulo a prime, their orbits, and relations along them.
 
 use liouville::case::Case;
-use liouville::claim::Place;
+use liouville::claim::LevelSubset;
 use liouville::graph::{Evaluator, Expr, Step, Tape, record};
 use liouville::mechanics::Draw;
-use liouville::number::Operation;
+use liouville::number::BinaryOperation;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 use liouville::verdict::Sampler;
 
-use super::super::ansatz::coordinates;
-use super::super::ansatz::system::At;
+use super::super::ansatz::Coordinates;
+use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
 use super::super::local::{random, sign};
-use super::super::streams::Stream;
+use super::super::streams::SearchStream;
 use super::super::terms::{read, recorded};
 use super::super::{Effort, SearchError};
 use super::adjoin::Extension;
-use super::monomials::Along;
+use super::monomials::MonomialSeries;
 use super::primes;
 use super::taylor::Flow;
 use liouville::formula::Formula;
 
 /// Number of orders beyond those that the unknowns take: accidents have probability p⁻⁸.
-pub const SPARE: usize = 8;
+pub const SPARE_ORDERS: usize = 8;
 /// Number of primes of each kind.
 const PRIMES: u64 = 8;
 /// Number of points drawn until an orbit has a series.
@@ -34,7 +34,7 @@ const DRAWS: usize = 512;
 
 /// A point of phase space modulo a prime.
 #[derive(Clone, Debug)]
-pub struct Point {
+pub struct PrimePhasePoint {
     /// Components of the free parameters.
     pub parameters: Vec<u64>,
     /// Components of the state.
@@ -42,11 +42,11 @@ pub struct Point {
 }
 
 /// A case whose orbits are expanded modulo primes.
-pub struct Setting<'c> {
+pub struct OrbitSetting<'c> {
     /// Case that is searched.
     pub case: &'c Case,
     /// Case whose functions are further variables here.
-    pub origin: Option<Origin<'c>>,
+    pub origin: Option<ExtendedCase<'c>>,
     /// Limits of the search.
     pub effort: &'c Effort,
     /// Field of the case.
@@ -61,7 +61,7 @@ pub struct Setting<'c> {
 
 /// A case with the extension that is searched in its place.
 #[derive(Clone, Copy)]
-pub struct Origin<'c> {
+pub struct ExtendedCase<'c> {
     /// Case itself.
     pub case: &'c Case,
     /// Its functions as variables.
@@ -69,7 +69,7 @@ pub struct Origin<'c> {
 }
 
 /// A point with the Taylor coefficients of its orbit, component by component.
-pub type Orbit = (Point, Vec<Vec<u64>>);
+pub type Orbit = (PrimePhasePoint, Vec<Vec<u64>>);
 
 /// The map from random numbers to parameters and states.
 struct Points {
@@ -83,7 +83,7 @@ struct Points {
     coordinates: Tape,
 }
 
-impl<'c> Setting<'c> {
+impl<'c> OrbitSetting<'c> {
     /// Records the extension of a case; the text is the reason why it has no orbits modulo primes.
     pub fn extended(
         case: &'c Case,
@@ -91,7 +91,7 @@ impl<'c> Setting<'c> {
         effort: &'c Effort,
     ) -> Result<Result<Self, String>, SearchError> {
         let made = Self::of(&extension.case, effort)?;
-        Ok(made.map(|own| Self { origin: Some(Origin { case, extension }), ..own }))
+        Ok(made.map(|own| Self { origin: Some(ExtendedCase { case, extension }), ..own }))
     }
 
     /// Records a case; the text is the reason why it has no orbits modulo primes.
@@ -109,11 +109,11 @@ impl<'c> Setting<'c> {
         if terms.len() < model.dimension() {
             return Ok(Err("the components of the state have no names".to_string()));
         }
-        let sampler = Sampler::new(case, &Place::level(model), effort.options.seed)?;
+        let sampler = Sampler::new(case, &LevelSubset::level(model), effort.options.seed)?;
         if sampler.is_numerical() {
             return Ok(Err(SearchError::NoChart.to_string()));
         }
-        let named = coordinates(case);
+        let Coordinates { names: named, radicands } = Coordinates::of(case)?;
         let (graph, values) = recorded(case, |jet| {
             named.iter().map(|term| jet.phase.scalar(term)).collect::<Vec<_>>()
         })?;
@@ -126,7 +126,7 @@ impl<'c> Setting<'c> {
             coordinates: Tape::new(&graph, &values),
         };
         let seed = effort.options.seed;
-        let prime = |number| Stream::Moduli.numbered(seed, number).prime(&[3, 5], &[2, 3]);
+        let prime = |number| Coordinates::prime(&radicands, seed, number);
         let primes = (0..PRIMES).map(prime).collect();
         let split_primes = primes::split(seed, PRIMES as usize);
         Ok(Ok(Self {
@@ -159,24 +159,24 @@ impl<'c> Setting<'c> {
     }
 
     /// Makes choice `index` of the parameters modulo the prime with number `prime`.
-    pub fn at(&self, prime: u64, index: u64) -> Option<At> {
+    pub fn at(&self, prime: u64, index: u64) -> Option<PrimePoint> {
         self.within(*self.primes.get(prime as usize)?, index)
     }
 
     /// Makes choice `index` of the parameters modulo the prime p = 1 mod 840 with number `prime`, in
     /// whose field the roots of −1, 2, 3, 5 and 7 exist.
-    pub fn split(&self, prime: u64, index: u64) -> Option<At> {
+    pub fn split(&self, prime: u64, index: u64) -> Option<PrimePoint> {
         self.within(*self.split_primes.get(prime as usize)?, index)
     }
 
     /// Makes choice `index` of the parameters in a given field.
-    fn within(&self, modulus: Modulus, index: u64) -> Option<At> {
+    fn within(&self, modulus: Modulus, index: u64) -> Option<PrimePoint> {
         let seed = self.effort.options.seed ^ index.wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        let mut chance = Stream::Orbits.under(seed);
+        let mut rng = SearchStream::Orbits.under(seed);
         let own = &self.points.draws[..self.points.of_parameters];
         for _ in 0..TRIES {
-            let parameters = random(own, &modulus, &mut chance);
-            let mut at = At { modulus, parameters, coordinates: Vec::new() };
+            let parameters = random(own, &modulus, &mut rng);
+            let mut at = PrimePoint { modulus, parameters, coordinates: Vec::new() };
             let Some(point) = self.point(&at, u64::MAX) else { continue };
             let inputs = [point.parameters, point.state].concat();
             let Some(values) = run(&self.points.coordinates, modulus, &inputs) else { continue };
@@ -195,26 +195,34 @@ impl<'c> Setting<'c> {
     }
 
     /// Draws the random point of a number.
-    pub fn point(&self, at: &At, number: u64) -> Option<Point> {
+    pub fn point(&self, at: &PrimePoint, number: u64) -> Option<PrimePhasePoint> {
         let seed = self.effort.options.seed ^ number.wrapping_mul(0xd1b5_4a32_d192_ed03);
-        let mut chance = Stream::OrbitPoints.under(seed);
+        let mut rng = SearchStream::OrbitPoints.under(seed);
         let Points { tape, draws, of_parameters, parameters, .. } = &self.points;
         for _ in 0..DRAWS {
             let own = draws[*of_parameters..].iter().map(|draw| match draw {
-                Draw::Sign => sign(&at.modulus, &mut chance),
-                _ => chance.element(&at.modulus),
+                Draw::Sign => sign(&at.modulus, &mut rng),
+                _ => rng.element(&at.modulus),
             });
             let inputs: Vec<u64> = at.parameters.iter().copied().chain(own).collect();
             if let Some(made) = run(tape, at.modulus, &inputs) {
                 let (parameters, state) = made.split_at(*parameters);
-                return Some(Point { parameters: parameters.to_vec(), state: state.to_vec() });
+                return Some(PrimePhasePoint {
+                    parameters: parameters.to_vec(),
+                    state: state.to_vec(),
+                });
             }
         }
         None
     }
 
     /// Expands the orbit through the random point of a number.
-    pub fn orbit(&self, at: &At, number: u64, orders: usize) -> Result<Option<Orbit>, SearchError> {
+    pub fn orbit(
+        &self,
+        at: &PrimePoint,
+        number: u64,
+        orders: usize,
+    ) -> Result<Option<Orbit>, SearchError> {
         for attempt in 0..TRIES {
             let Some(point) = self.point(at, number.wrapping_add(attempt << 32)) else {
                 return Ok(None);
@@ -229,11 +237,11 @@ impl<'c> Setting<'c> {
     /// Expands the orbit through a point.
     pub fn along(
         &self,
-        at: &At,
-        point: &Point,
+        at: &PrimePoint,
+        point: &PrimePhasePoint,
         orders: usize,
     ) -> Result<Option<Vec<Vec<u64>>>, SearchError> {
-        let Point { parameters, state } = point;
+        let PrimePhasePoint { parameters, state } = point;
         self.flow.orbit(&at.modulus, parameters, state, orders, &self.effort.halt)
     }
 
@@ -241,19 +249,19 @@ impl<'c> Setting<'c> {
     /// has coefficient 1 at its last monomial, which occurs in no other relation.
     pub fn relations(
         &self,
-        at: &At,
+        at: &PrimePoint,
         number: u64,
         monomials: &[Vec<u32>],
-    ) -> Result<Option<Relations>, SearchError> {
-        let orders = monomials.len() + SPARE;
+    ) -> Result<Option<OrbitRelations>, SearchError> {
+        let orders = monomials.len() + SPARE_ORDERS;
         let Some((point, orbit)) = self.orbit(at, number, orders)? else { return Ok(None) };
-        let rows = Along::new(at.modulus, &orbit).rows(monomials, &self.effort.halt)?;
+        let rows = MonomialSeries::new(at.modulus, &orbit).rows(monomials, &self.effort.halt)?;
         let mut echelon = Echelon::new(monomials.len(), at.modulus);
         let mut dependent = 0;
         for row in rows {
             self.effort.halt.check()?;
             dependent = if echelon.push(row) { 0 } else { dependent + 1 };
-            if dependent == SPARE {
+            if dependent == SPARE_ORDERS {
                 break;
             }
         }
@@ -263,7 +271,7 @@ impl<'c> Setting<'c> {
             self.effort.halt.check()?;
             vectors.push(echelon.null_vector(*own));
         }
-        Ok(Some(Relations { point, vectors, free }))
+        Ok(Some(OrbitRelations { point, vectors, free }))
     }
 }
 
@@ -277,7 +285,7 @@ fn without_ranges(sampler: &Sampler) -> Result<Tape, SearchError> {
     let (made, outputs) = record(graph.inputs(), |inputs| {
         let zero = Expr::rational(&Rational::from(0));
         let values = graph.replay(&reached, inputs, |_, step, _| match step {
-            Step::Binary(Operation::Mul, a, b) if is_zero(a) || is_zero(b) => Some(zero),
+            Step::Binary(BinaryOperation::Mul, a, b) if is_zero(a) || is_zero(b) => Some(zero),
             _ => None,
         });
         let value = |own: &Expr| values[graph.place(*own)].unwrap_or(zero);
@@ -297,9 +305,9 @@ pub fn run(tape: &Tape, modulus: Modulus, inputs: &[u64]) -> Option<Vec<u64>> {
 }
 
 /// Relations between monomials along one orbit.
-pub struct Relations {
+pub struct OrbitRelations {
     /// Point of the orbit.
-    pub point: Point,
+    pub point: PrimePhasePoint,
     /// Coefficients of the relations.
     pub vectors: Vec<Vec<u64>>,
     /// Monomial of each relation's own.

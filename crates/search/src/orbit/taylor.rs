@@ -8,7 +8,7 @@ use liouville::case::Case;
 use liouville::graph::{Graph, Step};
 use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
-use liouville::number::{Function, Operation};
+use liouville::number::{BinaryOperation, UnaryFunction};
 
 use super::super::terms::recorded;
 use super::super::{Halt, SearchError};
@@ -70,17 +70,17 @@ impl Flow {
                 Step::Constant(value) => Rule::Constant(value.clone()),
                 Step::Input(input) if input < parameters => Rule::Parameter(input),
                 Step::Input(input) => Rule::Variable(input - parameters),
-                Step::Unary(Function::Neg, a) => Rule::Minus(at[a]),
-                Step::Unary(Function::Recip, a) => Rule::Inverse(at[a]),
-                Step::Unary(Function::Sqrt, a) => {
+                Step::Unary(UnaryFunction::Neg, a) => Rule::Minus(at[a]),
+                Step::Unary(UnaryFunction::Recip, a) => Rule::Inverse(at[a]),
+                Step::Unary(UnaryFunction::Sqrt, a) => {
                     is_rational = false;
                     is_rational_in_state &= !varies[a];
                     Rule::Power(at[a], Rational::new(1, 2))
                 }
-                Step::Unary(..) | Step::Binary(Operation::Pow, ..) => return None,
-                Step::Binary(Operation::Add, a, b) => Rule::Sum(at[a], at[b]),
-                Step::Binary(Operation::Sub, a, b) => Rule::Difference(at[a], at[b]),
-                Step::Binary(Operation::Mul, a, b) => Rule::Product(at[a], at[b]),
+                Step::Unary(..) | Step::Binary(BinaryOperation::Pow, ..) => return None,
+                Step::Binary(BinaryOperation::Add, a, b) => Rule::Sum(at[a], at[b]),
+                Step::Binary(BinaryOperation::Sub, a, b) => Rule::Difference(at[a], at[b]),
+                Step::Binary(BinaryOperation::Mul, a, b) => Rule::Product(at[a], at[b]),
                 Step::Power(a, exponent) => {
                     let is_whole = exponent.parts().1 == 1.into();
                     is_rational &= is_whole;

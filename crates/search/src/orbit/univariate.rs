@@ -2,6 +2,8 @@
 
 use liouville::number::prime::Modulus;
 
+use super::super::{Halt, SearchError};
+
 /// Removes leading zeros.
 fn trimmed(mut f: Vec<u64>) -> Vec<u64> {
     while f.last() == Some(&0) {
@@ -16,7 +18,7 @@ pub fn degree(f: &[u64]) -> Option<usize> {
 }
 
 /// Finds the polynomial with given values at 0, 1, 2, …
-pub fn interpolated(m: &Modulus, values: &[u64]) -> Vec<u64> {
+pub fn interpolated(m: &Modulus, values: &[u64], halt: &Halt) -> Result<Vec<u64>, SearchError> {
     let count = values.len();
     let numbers: Vec<u64> = (0..count as u64).map(|k| m.integer(k)).collect();
     let inverses: Vec<u64> =
@@ -24,12 +26,14 @@ pub fn interpolated(m: &Modulus, values: &[u64]) -> Vec<u64> {
     // Newton's divided differences in place.
     let mut slopes = values.to_vec();
     for (level, inverse) in inverses.iter().enumerate().skip(1) {
+        halt.check()?;
         for k in (level..count).rev() {
             slopes[k] = m.mul(m.sub(slopes[k], slopes[k - 1]), *inverse);
         }
     }
     let mut f: Vec<u64> = Vec::with_capacity(count);
     for k in (0..count).rev() {
+        halt.check()?;
         // f ← f (t − k) + slope
         f.insert(0, 0);
         for place in 0..f.len() - 1 {
@@ -37,7 +41,7 @@ pub fn interpolated(m: &Modulus, values: &[u64]) -> Vec<u64> {
         }
         f[0] = m.add(f[0], slopes[k]);
     }
-    trimmed(f)
+    Ok(trimmed(f))
 }
 
 /// Divides by a polynomial that is not 0; returns quotient and remainder.
@@ -61,9 +65,10 @@ pub fn divided(m: &Modulus, f: &[u64], by: &[u64]) -> (Vec<u64>, Vec<u64>) {
 }
 
 /// Greatest common divisor with leading coefficient 1; empty for two zeros.
-pub fn gcd(m: &Modulus, f: &[u64], g: &[u64]) -> Vec<u64> {
+pub fn gcd(m: &Modulus, f: &[u64], g: &[u64], halt: &Halt) -> Result<Vec<u64>, SearchError> {
     let (mut f, mut g) = (trimmed(f.to_vec()), trimmed(g.to_vec()));
     while !g.is_empty() {
+        halt.check()?;
         let rest = divided(m, &f, &g).1;
         (f, g) = (g, rest);
     }
@@ -71,15 +76,20 @@ pub fn gcd(m: &Modulus, f: &[u64], g: &[u64]) -> Vec<u64> {
         let inverse = m.inverse(last);
         f.iter_mut().for_each(|entry| *entry = m.mul(*entry, inverse));
     }
-    f
+    Ok(f)
 }
 
 /// Removes all common factors with `other`.
-pub fn without(m: &Modulus, mut f: Vec<u64>, other: &[u64]) -> Vec<u64> {
+pub fn without(
+    m: &Modulus,
+    mut f: Vec<u64>,
+    other: &[u64],
+    halt: &Halt,
+) -> Result<Vec<u64>, SearchError> {
     loop {
-        let common = gcd(m, &f, other);
+        let common = gcd(m, &f, other, halt)?;
         if degree(&common).is_none_or(|own| own == 0) {
-            return f;
+            return Ok(f);
         }
         f = divided(m, &f, &common).0;
     }
@@ -98,38 +108,46 @@ fn product(m: &Modulus, f: &[u64], g: &[u64], by: &[u64]) -> Vec<u64> {
     divided(m, &all, by).1
 }
 
-fn power(m: &Modulus, base: &[u64], exponent: u64, by: &[u64]) -> Vec<u64> {
+fn power(
+    m: &Modulus,
+    base: &[u64],
+    exponent: u64,
+    by: &[u64],
+    halt: &Halt,
+) -> Result<Vec<u64>, SearchError> {
     let mut result = vec![m.one()];
     for bit in (0..64 - exponent.leading_zeros()).rev() {
+        halt.check()?;
         result = product(m, &result, &result, by);
         if exponent >> bit & 1 == 1 {
             result = product(m, &result, base, by);
         }
     }
-    result
+    Ok(result)
 }
 
 /// Finds the distinct roots in the field of a polynomial that is not 0.
-pub fn roots(m: &Modulus, f: &[u64]) -> Vec<u64> {
+pub fn roots(m: &Modulus, f: &[u64], halt: &Halt) -> Result<Vec<u64>, SearchError> {
     if degree(f).is_none_or(|own| own == 0) {
-        return Vec::new();
+        return Ok(Vec::new());
     }
     let t = [0, m.one()];
-    let mut frobenius = power(m, &t, m.prime(), f);
+    let mut frobenius = power(m, &t, m.prime(), f, halt)?;
     frobenius.resize(frobenius.len().max(2), 0);
     frobenius[1] = m.sub(frobenius[1], m.one());
     let mut found = Vec::new();
-    let mut open = vec![(gcd(m, f, &frobenius), 1u64)];
+    let mut open = vec![(gcd(m, f, &frobenius, halt)?, 1u64)];
     while let Some((own, shift)) = open.pop() {
         match degree(&own) {
             None | Some(0) => {}
             Some(1) => found.push(m.sub(0, m.mul(own[0], m.inverse(own[1])))),
             // (t + shift)^((p − 1)/2) is 1 at half of the roots.
             Some(_) => {
-                let mut half = power(m, &[m.integer(shift), m.one()], (m.prime() - 1) / 2, &own);
+                let base = [m.integer(shift), m.one()];
+                let mut half = power(m, &base, (m.prime() - 1) / 2, &own, halt)?;
                 half.resize(half.len().max(1), 0);
                 half[0] = m.sub(half[0], m.one());
-                let part = gcd(m, &own, &half);
+                let part = gcd(m, &own, &half, halt)?;
                 let rest = divided(m, &own, &part).0;
                 let is_whole = degree(&part) == degree(&own) || degree(&part) == Some(0);
                 match is_whole {
@@ -139,7 +157,7 @@ pub fn roots(m: &Modulus, f: &[u64]) -> Vec<u64> {
             }
         }
     }
-    found
+    Ok(found)
 }
 
 #[cfg(test)]
@@ -158,12 +176,14 @@ mod tests {
             m.mul(m.mul(twice, factor(5)), m.mul(factor(11), square))
         };
         let values: Vec<u64> = (0..12).map(|t| value(n(t))).collect();
-        let f = interpolated(&m, &values);
+        let halt = Halt::default();
+        let f = interpolated(&m, &values, &halt).expect("no halt");
         assert_eq!(degree(&f), Some(6), "as many as factors");
-        let mut found: Vec<u64> = roots(&m, &f).into_iter().map(|t| m.to_integer(t)).collect();
+        let found = roots(&m, &f, &halt).expect("no halt");
+        let mut found: Vec<u64> = found.into_iter().map(|t| m.to_integer(t)).collect();
         found.sort_unstable();
         assert_eq!(found, [3, 5, 11], "each once");
-        let rest = without(&m, f, &[m.sub(0, n(3)), m.one()]);
+        let rest = without(&m, f, &[m.sub(0, n(3)), m.one()], &halt).expect("no halt");
         assert_eq!(degree(&rest), Some(4), "the double root is gone");
     }
 }

@@ -6,7 +6,7 @@ use liouville::mechanics::System;
 
 /// A candidate for an axis of revolution of the body and its inertia tensor.
 #[derive(Clone, Debug)]
-pub struct Axis {
+pub struct RevolutionAxis {
     /// Name of the axis.
     pub name: String,
     /// Unit vector along the axis.
@@ -18,7 +18,7 @@ pub struct Axis {
 }
 
 /// Lists the candidates: the axes of the frame, and those along the vectors of the case.
-pub fn tried(case: &Case) -> Vec<Axis> {
+pub fn tried(case: &Case) -> Vec<RevolutionAxis> {
     let second = match &case.model.system {
         System::Rubber(_) | System::Spinning(_) => "γ",
         System::Ball(ball) if ball.surface.is_level() => "r",
@@ -26,10 +26,10 @@ pub fn tried(case: &Case) -> Vec<Axis> {
         _ => return Vec::new(),
     };
     let frame = ["[1, 0, 0]", "[0, 1, 0]", "[0, 0, 1]"];
-    let mut axes: Vec<Axis> = frame
+    let mut axes: Vec<RevolutionAxis> = frame
         .into_iter()
         .enumerate()
-        .map(|(k, vector)| Axis {
+        .map(|(k, vector)| RevolutionAxis {
             name: format!("e{}", k + 1),
             vector: vector.to_string(),
             index: Some(k),
@@ -37,7 +37,7 @@ pub fn tried(case: &Case) -> Vec<Axis> {
         })
         .collect();
     let vectors = case.model.parameters.iter().filter(|one| one.kind == Type::VECTOR);
-    axes.extend(vectors.map(|one| Axis {
+    axes.extend(vectors.map(|one| RevolutionAxis {
         name: one.name.clone(),
         vector: format!("({0}/|{0}|)", one.name),
         index: None,
@@ -46,7 +46,7 @@ pub fn tried(case: &Case) -> Vec<Axis> {
     axes
 }
 
-impl Axis {
+impl RevolutionAxis {
     /// Returns the replacements for the placeholders of a family.
     pub fn words(&self) -> Vec<(&'static str, String)> {
         let a = &self.vector;

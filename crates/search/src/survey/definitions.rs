@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::question::Finding;
+use super::question::TestedClaim;
 use liouville::case::Case;
 
 /// Definition of a name in formulas.
@@ -32,7 +32,10 @@ pub fn define(name: &str, formula: &str) -> Definition {
 
 /// Merges the definitions and formulas of several findings; names with different meanings are
 /// renamed.
-pub fn merged(bindings: &[Definition], findings: &[&Finding]) -> (Vec<Definition>, Vec<String>) {
+pub fn merged(
+    bindings: &[Definition],
+    findings: &[&TestedClaim],
+) -> (Vec<Definition>, Vec<String>) {
     let mut all = bindings.to_vec();
     let mut formulas = Vec::new();
     for (number, finding) in findings.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use liouville::case::Case;
 use liouville::formula::Formula;
-use liouville::mechanics::{Block, Origin, Potential, Shape, Surface, System};
+use liouville::mechanics::{BracketBlock, ParameterOrigin, Potential, Shape, Surface, System};
 use serde::Serialize;
 
 /// Contents of a case that describe its system.
@@ -69,13 +69,14 @@ impl Description {
                 for (row, blocks) in names.iter().zip(&own_function.blocks) {
                     for (column, block) in names.iter().zip(blocks) {
                         match block {
-                            Some(Block::Given(formula)) => own
+                            Some(BracketBlock::Given(formula)) => own
                                 .functions
                                 .push(format!("{{{row},{column}}} = {}", formula.text())),
-                            Some(Block::Unit) => {
+                            Some(BracketBlock::Unit) => {
                                 own.functions.push(format!("{{{row},{column}}} = E"));
                             }
-                            Some(Block::Opposite(_) | Block::OppositeUnit) | None => {}
+                            Some(BracketBlock::Opposite(_) | BracketBlock::OppositeUnit) | None => {
+                            }
                         }
                     }
                 }
@@ -180,12 +181,12 @@ fn parameters(case: &Case) -> Vec<String> {
     let own = case.model.parameters.iter().filter(|parameter| !parameter.name.contains('['));
     own.map(|parameter| {
         let value = match &parameter.origin {
-            Origin::Fixed(values) => {
+            ParameterOrigin::Fixed(values) => {
                 let values: Vec<String> = values.iter().map(ToString::to_string).collect();
                 format!("= {}", parameter.kind.listed(&values, ["(", ", ", ")"]))
             }
-            Origin::Formula(formula) => format!("= {}", formula.text()),
-            Origin::Free(recipe) => format!("in {}", recipe.text()),
+            ParameterOrigin::Formula(formula) => format!("= {}", formula.text()),
+            ParameterOrigin::Free(recipe) => format!("in {}", recipe.text()),
         };
         format!("{} {value}", parameter.name)
     })

@@ -14,7 +14,7 @@ use super::data;
 
 /// A family of systems with the formulas to be tried on them.
 #[derive(Clone, Debug)]
-pub struct Family {
+pub struct SystemFamily {
     /// Name of the family.
     pub name: String,
     /// Kinds of systems to which it applies.
@@ -120,16 +120,16 @@ const TEXTS: [&str; 70] = files![
 ];
 
 /// Returns all families, in the order in which they are tried.
-pub fn all() -> Vec<Family> {
+pub fn all() -> Vec<SystemFamily> {
     TEXTS.iter().filter_map(|text| read(text)).collect()
 }
 
 /// Reads a family from its file; a test ensures that each can be read.
-fn read(text: &str) -> Option<Family> {
+fn read(text: &str) -> Option<SystemFamily> {
     let document = DeTable::parse(text).ok()?;
     let table = document.get_ref();
     let claims = text.find("[[claim]]").map_or("", |start| &text[start..]);
-    Some(Family {
+    Some(SystemFamily {
         name: data::word(table, "family")?,
         systems: data::words(table, "system"),
         when: data::words(table, "when"),
@@ -144,7 +144,7 @@ fn read(text: &str) -> Option<Family> {
     })
 }
 
-impl Family {
+impl SystemFamily {
     /// Whether the family applies to this kind of system with these facts.
     pub fn applies(&self, system: &str, holds: impl Fn(&str) -> bool) -> bool {
         self.systems.iter().any(|known| known == system)

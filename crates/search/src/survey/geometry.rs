@@ -6,18 +6,18 @@
 use serde::Serialize;
 use toml::de::DeTable;
 
-use super::axis::{self, Axis};
+use super::axis::{self, RevolutionAxis};
 use super::data;
 use super::definitions::{Definition, define, defined};
 use liouville::case::Case;
-use liouville::claim::{Claim, Entry, Identity, Integral, Statement};
+use liouville::claim::{Claim, ClaimEntry, Identity, Integral, Statement};
 use liouville::formula::{Scope, Type};
 use liouville::mechanics::{Surface, System};
 use liouville::verdict::{ClaimReport, JudgeError, Options, Verdict, judge};
 
 /// A fact about a geometry, with its proof or its witness.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Fact {
+pub struct GeometryFact {
     /// Name of the fact in conditions.
     pub id: String,
     /// Description of the fact.
@@ -33,9 +33,9 @@ pub struct Fact {
 #[derive(Clone, Debug, Default)]
 pub struct Geometry {
     /// All facts that were examined.
-    pub facts: Vec<Fact>,
+    pub facts: Vec<GeometryFact>,
     /// Axes of revolution.
-    pub axes: Vec<Axis>,
+    pub axes: Vec<RevolutionAxis>,
     /// Standard names for quantities that the case names differently.
     pub bindings: Vec<Definition>,
 }
@@ -50,7 +50,7 @@ const TEXTS: [&str; 6] = [
 ];
 
 /// A fact to be examined: its claim, the fact that is its premise, and the fact that implies it.
-struct Asked {
+struct PendingFact {
     id: String,
     words: String,
     given: Option<String>,
@@ -85,7 +85,7 @@ impl Geometry {
     }
 
     /// Whether a fact holds, in general or about this axis.
-    pub fn has_about(&self, id: &str, axis: Option<&Axis>) -> bool {
+    pub fn has_about(&self, id: &str, axis: Option<&RevolutionAxis>) -> bool {
         self.has(id) || axis.is_some_and(|axis| self.has(&format!("{id} about {}", axis.name)))
     }
 
@@ -117,11 +117,11 @@ impl Geometry {
         case: &Case,
         options: &Options,
         names: &[Definition],
-        asked: Asked,
+        asked: PendingFact,
     ) -> Result<bool, JudgeError> {
         let claim = decided(case, options, names, &asked.claim)?;
         let holds = claim.as_ref().is_some_and(is_true);
-        self.facts.push(Fact { id: asked.id, words: asked.words, holds, claim });
+        self.facts.push(GeometryFact { id: asked.id, words: asked.words, holds, claim });
         Ok(holds)
     }
 
@@ -129,7 +129,7 @@ impl Geometry {
     fn read_features(&mut self, case: &Case) {
         let mut note = |id: &str, words: &str| {
             let (id, words) = (id.to_string(), words.to_string());
-            self.facts.push(Fact { id, words, holds: true, claim: None });
+            self.facts.push(GeometryFact { id, words, holds: true, claim: None });
         };
         let (forces, rotor) = match &case.model.system {
             system @ (System::Rubber(_) | System::Spinning(_)) => {
@@ -167,7 +167,12 @@ impl Geometry {
         }
     }
 
-    fn try_axis(&mut self, case: &Case, options: &Options, axis: Axis) -> Result<(), JudgeError> {
+    fn try_axis(
+        &mut self,
+        case: &Case,
+        options: &Options,
+        axis: RevolutionAxis,
+    ) -> Result<(), JudgeError> {
         let (a, name) = (&axis.vector, &axis.name);
         let is_body = case.model.system.body().is_some();
         let (what, tensor) = match is_body {
@@ -175,12 +180,12 @@ impl Geometry {
             false => ("the surface is", "0*E".to_string()),
         };
         let names = self.bindings.clone();
-        let asked = |id: &str, words: String, identity: String| Asked {
+        let asked = |id: &str, words: String, identity: String| PendingFact {
             id: format!("{id} about {name}"),
             words,
             given: None,
             unless: None,
-            claim: Claim::of(Identity::NAME, Entry::Text(identity)),
+            claim: Claim::of(Identity::NAME, ClaimEntry::Text(identity)),
         };
         let words = format!("{what} of revolution about {name}");
         let turned = asked("revolution", words, format!("(r, {a} × γ)*E + {tensor} = 0*E"));
@@ -202,7 +207,7 @@ impl Geometry {
             if !case.model.vocabulary.lookup(name).is_some_and(|(_, found)| found == kind) {
                 return Ok(false);
             }
-            let identity = Entry::Text(format!("{meaning} = {name}"));
+            let identity = ClaimEntry::Text(format!("{meaning} = {name}"));
             let claim = Claim::of(Identity::NAME, identity);
             Ok(decided(case, options, &names, &claim)?.as_ref().is_some_and(is_true))
         };
@@ -222,9 +227,10 @@ impl Geometry {
 }
 
 /// Reads a fact of a file; a test ensures that each can be read.
-fn asked(fact: &DeTable<'_>) -> Option<Asked> {
-    let statement = |key: &'static str| Some(Claim::of(key, Entry::Text(data::word(fact, key)?)));
-    Some(Asked {
+fn asked(fact: &DeTable<'_>) -> Option<PendingFact> {
+    let statement =
+        |key: &'static str| Some(Claim::of(key, ClaimEntry::Text(data::word(fact, key)?)));
+    Some(PendingFact {
         id: data::word(fact, "id")?,
         words: data::word(fact, "words")?,
         given: data::word(fact, "given"),

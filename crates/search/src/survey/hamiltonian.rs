@@ -11,10 +11,10 @@
 //! BMB 2013, (2.14)-(2.19), (2.28), for any potential and without a rotor.
 
 use super::definitions::{Definition, define, defined, merged, used_by};
-use super::question::{Finding, Question};
+use super::question::{SurveyQuestion, TestedClaim};
 use super::shown::Typesetter;
 use liouville::case::Case;
-use liouville::claim::{Claim, Entry};
+use liouville::claim::{Claim, ClaimEntry};
 use liouville::formula::Formula;
 use liouville::mechanics::System;
 use liouville::verdict::{JudgeError, Options};
@@ -24,8 +24,8 @@ pub fn form(
     case: &Case,
     options: &Options,
     bindings: &[Definition],
-    density: &Finding,
-) -> Result<Vec<Finding>, JudgeError> {
+    density: &TestedClaim,
+) -> Result<Vec<TestedClaim>, JudgeError> {
     let System::Rubber(body) = &case.model.system else { return Ok(Vec::new()) };
     if body.gyrostat.is_some() || body.moment.is_some() || !case.model.extension.is_empty() {
         return Ok(Vec::new());
@@ -49,7 +49,7 @@ pub fn form(
     };
     let potential = if body.potential.is_some() { " + U" } else { "" };
     let claims = vec![
-        Claim::hamiltonian(Entry::Text(format!("{energy}{potential}")))
+        Claim::hamiltonian(ClaimEntry::Text(format!("{energy}{potential}")))
             .with("multiplier", "N")
             .named("H"),
         Claim::density_in_variables("1/N").named("ρ"),
@@ -57,7 +57,7 @@ pub fn form(
     let asked = defined(case, &names)
         .and_then(|named| in_momenta(&named))
         .and_then(|bracketed| bracketed.with_claims(&claims).ok());
-    let mut question = Question::plain("conformally Hamiltonian form", &names, claims);
+    let mut question = SurveyQuestion::plain("conformally Hamiltonian form", &names, claims);
     question.source = match volume {
         "" => "BMB 2013, (2.14)-(2.19)".to_string(),
         _ => "BMB 2013, (2.28)".to_string(),

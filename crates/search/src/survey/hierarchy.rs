@@ -6,7 +6,7 @@ use serde::Serialize;
 /// State of knowledge about a positive invariant density.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Measure {
+pub enum MeasureStatus {
     /// Found in closed form, and proved.
     ClosedForm,
     /// Known to exist by the criterion, given by a quadrature.
@@ -39,7 +39,7 @@ pub enum Integrals {
 
 /// A class of the hierarchy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub enum Class {
+pub enum HierarchyClass {
     /// An integral other than the energy, and a measure.
     #[serde(rename = "integral and measure")]
     IntegralAndMeasure,
@@ -59,11 +59,11 @@ pub enum Class {
 
 /// Place of a system in the hierarchy, with the grounds for it and its typical behaviour.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Standing {
+pub struct HierarchyPlace {
     /// Class of the system.
-    pub class: Class,
+    pub class: HierarchyClass,
     /// State of knowledge about densities.
-    pub measure: Measure,
+    pub measure: MeasureStatus,
     /// State of knowledge about integrals.
     pub integrals: Integrals,
     /// Grounds for the class, and questions left open.
@@ -72,37 +72,52 @@ pub struct Standing {
     pub typical: Vec<String>,
 }
 
-impl Class {
+impl HierarchyClass {
     /// Returns the name used in reports.
     pub fn words(self) -> &'static str {
         match self {
-            Class::IntegralAndMeasure => "integral and measure",
-            Class::IntegralOnly => "integral only",
-            Class::MeasureOnly => "measure only",
-            Class::Neither => "neither integral nor measure",
-            Class::NotKnown => "not known",
+            HierarchyClass::IntegralAndMeasure => "integral and measure",
+            HierarchyClass::IntegralOnly => "integral only",
+            HierarchyClass::MeasureOnly => "measure only",
+            HierarchyClass::Neither => "neither integral nor measure",
+            HierarchyClass::NotKnown => "not known",
         }
     }
 }
 
-impl Standing {
+impl HierarchyPlace {
     /// Finds the standing of a system with these invariants; `reversors` is the number of reversors
     /// found.
-    pub fn of(measure: Measure, integrals: Integrals, reversors: usize) -> Self {
+    pub fn of(measure: MeasureStatus, integrals: Integrals, reversors: usize) -> Self {
         let has_integral = matches!(integrals, Integrals::Enough | Integrals::Some);
         let class = match (measure, has_integral) {
-            (Measure::ClosedForm | Measure::ByQuadrature, true) => Class::IntegralAndMeasure,
-            (Measure::ClosedForm | Measure::ByQuadrature, false) => Class::MeasureOnly,
-            (Measure::Excluded | Measure::ExcludedAtRotation, true) => Class::IntegralOnly,
-            (Measure::Excluded | Measure::ExcludedAtRotation, false) => Class::Neither,
-            (Measure::ExcludedForConfiguration | Measure::Singular | Measure::NotKnown, _) => {
-                Class::NotKnown
+            (MeasureStatus::ClosedForm | MeasureStatus::ByQuadrature, true) => {
+                HierarchyClass::IntegralAndMeasure
             }
+            (MeasureStatus::ClosedForm | MeasureStatus::ByQuadrature, false) => {
+                HierarchyClass::MeasureOnly
+            }
+            (MeasureStatus::Excluded | MeasureStatus::ExcludedAtRotation, true) => {
+                HierarchyClass::IntegralOnly
+            }
+            (MeasureStatus::Excluded | MeasureStatus::ExcludedAtRotation, false) => {
+                HierarchyClass::Neither
+            }
+            (
+                MeasureStatus::ExcludedForConfiguration
+                | MeasureStatus::Singular
+                | MeasureStatus::NotKnown,
+                _,
+            ) => HierarchyClass::NotKnown,
         };
         let grounds = vec![grounds_of(measure).to_string(), integrals.grounds()];
         let mut typical: Vec<String> =
             typical(class, integrals).iter().map(|line| line.to_string()).collect();
-        if reversors > 0 && matches!(class, Class::IntegralOnly | Class::Neither | Class::NotKnown)
+        if reversors > 0
+            && matches!(
+                class,
+                HierarchyClass::IntegralOnly | HierarchyClass::Neither | HierarchyClass::NotKnown
+            )
         {
             typical.push(
                 "each reversor takes an attractor to a repeller of the same kind; near its fixed set \
@@ -115,27 +130,27 @@ impl Standing {
     }
 }
 
-fn grounds_of(measure: Measure) -> &'static str {
+fn grounds_of(measure: MeasureStatus) -> &'static str {
     match measure {
-        Measure::ClosedForm => "a measure: proved, in closed form",
-        Measure::ByQuadrature => "a measure: proved to exist, by quadrature",
-        Measure::Excluded => {
+        MeasureStatus::ClosedForm => "a measure: proved, in closed form",
+        MeasureStatus::ByQuadrature => "a measure: proved to exist, by quadrature",
+        MeasureStatus::Excluded => {
             "no measure: the criterion is not 0, so that no density is positive and C¹ near ω = 0; one \
              with singularities there is not excluded"
         }
-        Measure::ExcludedAtRotation => {
+        MeasureStatus::ExcludedAtRotation => {
             "no measure: near a permanent rotation no density is continuous and positive; one with \
              singularities there is not excluded"
         }
-        Measure::ExcludedForConfiguration => {
+        MeasureStatus::ExcludedForConfiguration => {
             "a measure: not known; no density of the configuration alone exists, one that depends on \
              the velocities is open"
         }
-        Measure::Singular => {
+        MeasureStatus::Singular => {
             "a measure: not known; an invariant density was found, with zeros or poles, and is a measure \
              between them"
         }
-        Measure::NotKnown => "a measure: not known",
+        MeasureStatus::NotKnown => "a measure: not known",
     }
 }
 
@@ -157,30 +172,30 @@ impl Integrals {
     }
 }
 
-fn typical(class: Class, integrals: Integrals) -> &'static [&'static str] {
+fn typical(class: HierarchyClass, integrals: Integrals) -> &'static [&'static str] {
     match (class, integrals) {
-        (Class::IntegralAndMeasure, Integrals::Enough) => &[
+        (HierarchyClass::IntegralAndMeasure, Integrals::Enough) => &[
             "integrable by quadratures (Euler, Jacobi): on compact regular joint levels without fixed \
              points the motion is on two-dimensional tori, quasi-periodic after a change of time",
             "no attractors, no chaos",
         ],
-        (Class::IntegralAndMeasure, _) => &[
+        (HierarchyClass::IntegralAndMeasure, _) => &[
             "motion on the joint levels preserves a measure: no attractors; one integral short of \
              quadratures, chaos is possible and usually weak",
         ],
-        (Class::IntegralOnly, _) => &[
+        (HierarchyClass::IntegralOnly, _) => &[
             "the phase space is foliated by the joint levels; on them there may be limit cycles, \
              towards which the motion settles, and rotation numbers may lock",
             "no chaos where the joint levels are two-dimensional",
         ],
-        (Class::MeasureOnly, _) => &[
+        (HierarchyClass::MeasureOnly, _) => &[
             "the Poincaré map preserves an area: no attractors, islands in a chaotic sea as in a \
              Hamiltonian system",
         ],
-        (Class::Neither, _) => &[
+        (HierarchyClass::Neither, _) => &[
             "attractors and repellers are possible, strange ones among them, as in a dissipative \
              system, though the energy is conserved",
         ],
-        (Class::NotKnown, _) => &[],
+        (HierarchyClass::NotKnown, _) => &[],
     }
 }

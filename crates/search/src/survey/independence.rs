@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::definitions::{Definition, defined, merged};
-use super::question::Finding;
+use super::question::TestedClaim;
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::formula::Formula;
@@ -11,7 +11,7 @@ use liouville::verdict::{ClaimReport, JudgeError, Options, Verdict, judge};
 
 /// Number of independent integrals against that needed by the theorem of Euler and Jacobi.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Count {
+pub struct IntegralCount {
     /// Dimension of the level set.
     pub dimension: usize,
     /// Number of integrals that the theorem needs in addition to a density.
@@ -24,11 +24,11 @@ pub struct Count {
 }
 
 /// Selection of integrals that are independent of each other and of the energy.
-pub struct Independent {
+pub struct IndependentSelection {
     /// Indices of the independent integrals.
     pub kept: Vec<usize>,
     /// Count of independent integrals.
-    pub count: Count,
+    pub count: IntegralCount,
 }
 
 /// Takes integrals in order if they are independent of those before them, general ones first;
@@ -37,15 +37,15 @@ pub fn count(
     case: &Case,
     options: &Options,
     bindings: &[Definition],
-    integrals: &[&Finding],
+    integrals: &[&TestedClaim],
     implied: &[String],
-) -> Result<Independent, JudgeError> {
+) -> Result<IndependentSelection, JudgeError> {
     let dimension = case.model.dimension() - case.model.level.len();
     let energy = has_energy(case, options)?;
     let mut kept: Vec<usize> = Vec::new();
     let mut proof = None;
     for index in 0..integrals.len() {
-        let trial: Vec<&Finding> = kept.iter().chain([&index]).map(|k| integrals[*k]).collect();
+        let trial: Vec<&TestedClaim> = kept.iter().chain([&index]).map(|k| integrals[*k]).collect();
         let claim = independent(case, options, bindings, energy, &trial)?;
         if let Some(claim) = claim.filter(|claim| claim.verdict == Verdict::Proved) {
             kept.push(index);
@@ -58,13 +58,13 @@ pub fn count(
     // twice.
     let beside = kept.iter().filter(|k| !integrals[**k].is_general).count();
     let implied = &implied[beside.min(implied.len())..];
-    let count = Count {
+    let count = IntegralCount {
         dimension,
         needed: dimension.saturating_sub(2),
         independent: energy.into_iter().chain(names).chain(implied.iter().cloned()).collect(),
         claim: proof,
     };
-    Ok(Independent { kept, count })
+    Ok(IndependentSelection { kept, count })
 }
 
 /// Whether the energy is proved to be conserved.
@@ -93,7 +93,7 @@ fn independent(
     options: &Options,
     bindings: &[Definition],
     energy: bool,
-    findings: &[&Finding],
+    findings: &[&TestedClaim],
 ) -> Result<Option<ClaimReport>, JudgeError> {
     let (definitions, formulas) = merged(bindings, findings);
     let Some(named) = defined(case, &definitions) else { return Ok(None) };

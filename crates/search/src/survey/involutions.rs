@@ -6,10 +6,10 @@
 //! potential, the map is a symmetry (BMB 2013, A.1.2-A.1.13); the prover decides each case.
 
 use super::mirrors::Mirror;
-use super::question::{Finding, FixedSet, Question};
+use super::question::{FixedSet, SurveyQuestion, TestedClaim};
 use liouville::case::Case;
 use liouville::claim::{Claim, Reversor, Statement, Symmetry};
-use liouville::formula::{Composed, Formula, Type};
+use liouville::formula::{Formula, FormulaResult, Type};
 use liouville::mechanics::System;
 use liouville::verdict::{JudgeError, Options};
 
@@ -22,7 +22,7 @@ struct Turn {
 
 /// A candidate map: its name, its key in a claim, the images by state variable, the dimension of
 /// its fixed set.
-struct Candidate {
+struct MapCandidate {
     name: String,
     key: &'static str,
     images: Vec<(String, Formula)>,
@@ -30,20 +30,20 @@ struct Candidate {
 }
 
 /// Finds reversors and symmetries and proves them, reversors first; refuted candidates are omitted.
-pub fn find(case: &Case, options: &Options) -> Result<Vec<Finding>, JudgeError> {
+pub fn find(case: &Case, options: &Options) -> Result<Vec<TestedClaim>, JudgeError> {
     let candidates = candidates(case);
-    let claim = |one: &Candidate| Claim::of(one.key, one.images.clone()).named(&one.name);
+    let claim = |one: &MapCandidate| Claim::of(one.key, one.images.clone()).named(&one.name);
     let claims = candidates.iter().map(claim).collect();
-    let question = Question::plain("maps of the frame", &[], claims);
+    let question = SurveyQuestion::plain("maps of the frame", &[], claims);
     let mut found = question.ask(case, options)?.unwrap_or_default();
     for (finding, candidate) in found.iter_mut().zip(&candidates) {
         finding.fixed_set = candidate.fixed_set;
     }
-    found.retain(Finding::holds);
+    found.retain(TestedClaim::holds);
     Ok(found)
 }
 
-fn candidates(case: &Case) -> Vec<Candidate> {
+fn candidates(case: &Case) -> Vec<MapCandidate> {
     let turns = || Turn::all().into_iter();
     let variable = |name: &str| case.formula(name);
     match &case.model.system {
@@ -52,9 +52,9 @@ fn candidates(case: &Case) -> Vec<Candidate> {
             let (Ok(omega), Ok(gamma)) = (variable("ω"), variable("γ")) else {
                 return Vec::new();
             };
-            let candidate = |map: &Map, axial: i8| {
+            let candidate = |map: &FrameMap, axial: i8| {
                 let turned = map.image(&omega, axial * map.determinant()).ok()?;
-                Some(Candidate {
+                Some(MapCandidate {
                     name: map.name(axial < 0),
                     key: key(axial),
                     images: vec![("ω".into(), turned), ("γ".into(), map.image(&gamma, 1).ok()?)],
@@ -66,7 +66,7 @@ fn candidates(case: &Case) -> Vec<Candidate> {
                     }),
                 })
             };
-            both(Map::all(case), candidate)
+            both(FrameMap::all(case), candidate)
         }
         System::Ball(ball) => {
             let is_level = ball.surface.is_level();
@@ -74,9 +74,9 @@ fn candidates(case: &Case) -> Vec<Candidate> {
             let (Ok(momentum), Ok(place)) = (variable("M"), variable(second)) else {
                 return Vec::new();
             };
-            both(Map::all(case), |map, axial| {
+            both(FrameMap::all(case), |map, axial| {
                 let turned = map.image(&momentum, axial * map.determinant()).ok()?;
-                Some(Candidate {
+                Some(MapCandidate {
                     name: map.name(axial < 0),
                     key: key(axial),
                     images: vec![("M".into(), turned), (second.into(), map.image(&place, 1).ok()?)],
@@ -102,7 +102,12 @@ fn candidates(case: &Case) -> Vec<Candidate> {
                     let of_axis = usize::from(axial * turn.determinant() == 1);
                     Some(along - 1 + velocity - of_axis)
                 });
-                Some(Candidate { name: turn.name(axial < 0), key: key(axial), images, fixed_set })
+                Some(MapCandidate {
+                    name: turn.name(axial < 0),
+                    key: key(axial),
+                    images,
+                    fixed_set,
+                })
             })
         }
         System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_) => {
@@ -136,10 +141,10 @@ fn fixed(
 /// Lists reversors (axial −1) of all involutions, then symmetries (axial 1) except the identity.
 fn both<M: Orthogonal>(
     maps: Vec<M>,
-    candidate: impl Fn(&M, i8) -> Option<Candidate>,
-) -> Vec<Candidate> {
+    candidate: impl Fn(&M, i8) -> Option<MapCandidate>,
+) -> Vec<MapCandidate> {
     let involutions = maps.iter().filter(|map| map.is_involution());
-    let mut all: Vec<Candidate> = involutions.filter_map(|map| candidate(map, -1)).collect();
+    let mut all: Vec<MapCandidate> = involutions.filter_map(|map| candidate(map, -1)).collect();
     let others = maps.iter().filter(|map| !map.is_identity());
     all.extend(others.filter_map(|map| candidate(map, 1)));
     all
@@ -155,12 +160,12 @@ trait Orthogonal {
 }
 
 /// An orthogonal map of a body's frame.
-enum Map {
+enum FrameMap {
     Turn(Turn),
     Mirror(Mirror),
 }
 
-impl Map {
+impl FrameMap {
     /// Lists the 48 signed permutations, and reflections about the vectors of the case.
     fn all(case: &Case) -> Vec<Self> {
         let turns = Turn::all().into_iter().map(Self::Turn);
@@ -175,7 +180,7 @@ impl Map {
     }
 
     /// sign·Q x as a formula, x a variable.
-    fn image(&self, x: &Formula, sign: i8) -> Composed {
+    fn image(&self, x: &Formula, sign: i8) -> FormulaResult {
         match self {
             Self::Turn(turn) => turn.image(x, sign),
             Self::Mirror(mirror) => mirror.image(x, sign),
@@ -183,7 +188,7 @@ impl Map {
     }
 }
 
-impl Orthogonal for Map {
+impl Orthogonal for FrameMap {
     fn determinant(&self) -> i8 {
         match self {
             Self::Turn(turn) => turn.determinant(),
@@ -215,7 +220,7 @@ const MOST_COMPONENTS: usize = 6;
 
 /// Lists the sign changes of the components of a state without a frame; of whole variables if there
 /// are many.
-fn sign_changes(case: &Case) -> Vec<Candidate> {
+fn sign_changes(case: &Case) -> Vec<MapCandidate> {
     let model = &case.model;
     let single = model.dimension() <= MOST_COMPONENTS;
     let parts = |kind: Type| match kind {
@@ -242,7 +247,7 @@ fn sign_changes(case: &Case) -> Vec<Candidate> {
                 }
                 let whole = !flips.contains(&false);
                 fixed -= if whole { variable.len() } else { flips.iter().filter(|f| **f).count() };
-                let part = |k: usize| -> Composed {
+                let part = |k: usize| -> FormulaResult {
                     Ok(signed(own.component(&[k + 1])?, if flips[k] { -1 } else { 1 }))
                 };
                 let parts: Result<Vec<Formula>, _> = (0..flips.len()).map(part).collect();
@@ -257,7 +262,7 @@ fn sign_changes(case: &Case) -> Vec<Candidate> {
             // On a level the dimension depends on the intersection with the fixed space.
             let known = key == Reversor::NAME && model.level.is_empty();
             let fixed_set = known.then_some(FixedSet { dimension: Some(fixed) });
-            all.push(Candidate {
+            all.push(MapCandidate {
                 name: format!("{key} {}", changed.join(", ")),
                 key,
                 images,
@@ -287,8 +292,8 @@ impl Turn {
         format!("{minus}{}", self.places[i] + 1)
     }
 
-    fn image(self, x: &Formula, sign: i8) -> Composed {
-        let part = |i: usize| -> Composed {
+    fn image(self, x: &Formula, sign: i8) -> FormulaResult {
+        let part = |i: usize| -> FormulaResult {
             Ok(signed(x.element(self.places[i] + 1)?, self.signs[i] * sign))
         };
         let [a, b, c] = [part(0)?, part(1)?, part(2)?];

@@ -5,7 +5,7 @@
 //! vector of the case: a parameter, or a normal to two parameters.
 
 use liouville::case::Case;
-use liouville::formula::{Composed, Formula, Type};
+use liouville::formula::{Formula, FormulaResult, Type};
 use liouville::mechanics::Model;
 
 /// A reflection, E − 2 n⊗n/(n,n), or a half turn, which is its negative.
@@ -35,7 +35,7 @@ impl Mirror {
     }
 
     /// sign·Q x as a formula, x a variable.
-    pub fn image(&self, x: &Formula, sign: i8) -> Composed {
+    pub fn image(&self, x: &Formula, sign: i8) -> FormulaResult {
         let n = &self.normal;
         let along = (Formula::number(2) * &x.dot(n)? / &n.dot(n)? * n)?;
         match self.is_turn == (sign > 0) {

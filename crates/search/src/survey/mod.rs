@@ -41,18 +41,18 @@ use liouville_flow::observe::evidence_against_density;
 
 pub use definitions::Definition;
 pub use description::Description;
-pub use geometry::Fact;
-pub use hierarchy::{Class, Integrals, Measure, Standing};
-pub use independence::Count;
-pub use question::{Finding, FixedSet};
+pub use geometry::GeometryFact;
+pub use hierarchy::{HierarchyClass, HierarchyPlace, Integrals, MeasureStatus};
+pub use independence::IntegralCount;
+pub use question::{FixedSet, TestedClaim};
 pub use shown::Shown;
 pub use sphere::SphereMap;
-pub use unknown::{Unknown, of_search};
+pub use unknown::{SearchOutcome, of_search};
 pub use wireframe::Wireframe;
-pub use words::Given;
+pub use words::GivenParameter;
 
 use geometry::Geometry;
-use question::Question;
+use question::SurveyQuestion;
 
 /// All known invariants of a system, with proofs.
 #[derive(Clone, Debug, Serialize)]
@@ -68,49 +68,49 @@ pub struct Survey {
     /// Functions, ranges and equations of motion.
     pub description: Description,
     /// Parameters; proofs cover all values of the free ones.
-    pub parameters: Vec<Given>,
+    pub parameters: Vec<GivenParameter>,
     /// Surface of the body with the parameters of the first state, for a picture.
     #[serde(skip)]
     pub wireframe: Option<Wireframe>,
     /// Notes of the case.
     pub notes: Vec<String>,
     /// Facts about the geometry, true and false.
-    pub facts: Vec<Fact>,
+    pub facts: Vec<GeometryFact>,
     /// Place in the hierarchy.
-    pub hierarchy: Standing,
+    pub hierarchy: HierarchyPlace,
     /// Integrals common to all such systems, and the energy.
-    pub general: Vec<Finding>,
+    pub general: Vec<TestedClaim>,
     /// Criterion for a density of the configuration.
-    pub criterion: Vec<Finding>,
+    pub criterion: Vec<TestedClaim>,
     /// Densities that hold.
-    pub densities: Vec<Finding>,
+    pub densities: Vec<TestedClaim>,
     /// Map of ln ρ, or of the criterion, on the sphere.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sphere: Option<SphereMap>,
     /// Integrals other than the general ones, each independent of those before it.
-    pub integrals: Vec<Finding>,
+    pub integrals: Vec<TestedClaim>,
     /// Integrals that depend on these and have simple formulas.
-    pub dependent: Vec<Finding>,
+    pub dependent: Vec<TestedClaim>,
     /// Rates from which further integrals follow by a linear equation.
-    pub rates: Vec<Finding>,
+    pub rates: Vec<TestedClaim>,
     /// Count for the theorem of Euler and Jacobi.
-    pub independence: Count,
+    pub independence: IntegralCount,
     /// Symmetry fields.
-    pub fields: Vec<Finding>,
+    pub fields: Vec<TestedClaim>,
     /// Reversors, with the dimensions of their fixed sets.
-    pub reversors: Vec<Finding>,
+    pub reversors: Vec<TestedClaim>,
     /// Discrete symmetries.
-    pub symmetries: Vec<Finding>,
+    pub symmetries: Vec<TestedClaim>,
     /// Conformally Hamiltonian form, if there is a density in closed form and no rotor.
-    pub hamiltonian: Vec<Finding>,
+    pub hamiltonian: Vec<TestedClaim>,
     /// Claims and questions of the case.
-    pub claimed: Vec<Finding>,
+    pub claimed: Vec<TestedClaim>,
     /// Known invariants of such systems that fail for this one.
-    pub fails: Vec<Finding>,
+    pub fails: Vec<TestedClaim>,
     /// Claims that could not be decided.
-    pub undecided: Vec<Finding>,
+    pub undecided: Vec<TestedClaim>,
     /// Results of the search beyond the families.
-    pub search: Unknown,
+    pub search: SearchOutcome,
     /// Physical impossibilities of the states drawn.
     pub warnings: Vec<String>,
 }
@@ -126,11 +126,11 @@ pub fn survey(
     }
     progress("claims of the case");
     let own = liouville::verdict::judge(case, options)?;
-    let claimed: Vec<Finding> = own
+    let claimed: Vec<TestedClaim> = own
         .claims
         .into_iter()
         .filter(|claim| claim.expect != Expect::Fails)
-        .map(|claim| Finding::claimed(case, claim))
+        .map(|claim| TestedClaim::claimed(case, claim))
         .collect();
     progress("the geometry");
     let geometry = Geometry::of(case, options)?;
@@ -139,13 +139,13 @@ pub fn survey(
     progress("symmetries and reversors");
     let (reversors, symmetries) = involutions::find(case, options)?
         .into_iter()
-        .partition::<Vec<Finding>, _>(|found| found.is("reversor"));
+        .partition::<Vec<TestedClaim>, _>(|found| found.is("reversor"));
     progress("further integrals");
-    let mut search = Unknown::of(case, options, progress);
+    let mut search = SearchOutcome::of(case, options, progress);
     all.append(&mut search.findings);
     progress("classification");
     let mut sorted = Sorted::of(all);
-    let candidates: Vec<&Finding> = sorted.integrals.iter().collect();
+    let candidates: Vec<&TestedClaim> = sorted.integrals.iter().collect();
     let independent =
         independence::count(case, options, &geometry.bindings, &candidates, &implied)?;
     let (mut integrals, mut dependent) = (Vec::new(), Vec::new());
@@ -175,14 +175,14 @@ pub fn survey(
         (true, None) => Integrals::NotKnown,
     };
     let sphere = match measure {
-        Measure::ClosedForm | Measure::ByQuadrature => sphere::density(case, options)?,
-        Measure::Excluded | Measure::ExcludedAtRotation | Measure::ExcludedForConfiguration => {
-            sphere::criterion(case, options)?
-        }
-        Measure::Singular | Measure::NotKnown => None,
+        MeasureStatus::ClosedForm | MeasureStatus::ByQuadrature => sphere::density(case, options)?,
+        MeasureStatus::Excluded
+        | MeasureStatus::ExcludedAtRotation
+        | MeasureStatus::ExcludedForConfiguration => sphere::criterion(case, options)?,
+        MeasureStatus::Singular | MeasureStatus::NotKnown => None,
     };
-    let mut hierarchy = Standing::of(measure, standing, reversors.len());
-    if !matches!(measure, Measure::ClosedForm | Measure::ByQuadrature) {
+    let mut hierarchy = HierarchyPlace::of(measure, standing, reversors.len());
+    if !matches!(measure, MeasureStatus::ClosedForm | MeasureStatus::ByQuadrature) {
         progress("closed orbits");
         hierarchy.grounds.extend(evidence_against_density(case, options));
     }
@@ -224,10 +224,10 @@ fn tried(
     options: &Options,
     geometry: &Geometry,
     progress: &mut dyn FnMut(&str),
-) -> Result<(Vec<Finding>, Vec<String>), JudgeError> {
+) -> Result<(Vec<TestedClaim>, Vec<String>), JudgeError> {
     let (mut all, mut implied) = (Vec::new(), Vec::new());
     for family in family::all() {
-        let axes: Vec<Option<&axis::Axis>> = match family.around {
+        let axes: Vec<Option<&axis::RevolutionAxis>> = match family.around {
             true => geometry.axes.iter().map(Some).collect(),
             false => vec![None],
         };
@@ -237,9 +237,9 @@ fn tried(
             }
             let family = axis.map_or(family.clone(), |axis| family.with(&axis.words()));
             progress(&family.name);
-            let question = Question::of(&family, &geometry.bindings);
+            let question = SurveyQuestion::of(&family, &geometry.bindings);
             let found = question.ask(case, options)?.unwrap_or_default();
-            if !found.is_empty() && found.iter().all(Finding::holds) {
+            if !found.is_empty() && found.iter().all(TestedClaim::holds) {
                 implied.extend(family.gives);
             }
             all.extend(found);
@@ -251,18 +251,18 @@ fn tried(
 /// Findings sorted by subject.
 #[derive(Default)]
 struct Sorted {
-    general: Vec<Finding>,
-    integrals: Vec<Finding>,
-    criterion: Vec<Finding>,
-    densities: Vec<Finding>,
-    rates: Vec<Finding>,
-    fields: Vec<Finding>,
-    fails: Vec<Finding>,
-    undecided: Vec<Finding>,
+    general: Vec<TestedClaim>,
+    integrals: Vec<TestedClaim>,
+    criterion: Vec<TestedClaim>,
+    densities: Vec<TestedClaim>,
+    rates: Vec<TestedClaim>,
+    fields: Vec<TestedClaim>,
+    fails: Vec<TestedClaim>,
+    undecided: Vec<TestedClaim>,
 }
 
 impl Sorted {
-    fn of(all: Vec<Finding>) -> Self {
+    fn of(all: Vec<TestedClaim>) -> Self {
         let mut sorted = Self::default();
         let mut told: Vec<(&'static str, String)> = Vec::new();
         for finding in all {
@@ -289,8 +289,8 @@ impl Sorted {
             place.push(finding);
         }
         // A smooth density is of interest where an analytic one is not decided.
-        let is_open = |one: &Finding| one.claim.verdict == Verdict::Undecided;
-        let is_decided = |one: &Finding| one.is("analytic-density") && !is_open(one);
+        let is_open = |one: &TestedClaim| one.claim.verdict == Verdict::Undecided;
+        let is_decided = |one: &TestedClaim| one.is("analytic-density") && !is_open(one);
         if sorted.criterion.iter().any(is_decided) {
             sorted.criterion.retain(|one| !one.is("smooth-density"));
         }
@@ -305,22 +305,22 @@ impl Sorted {
 }
 
 /// Determines the state of knowledge about a density of constant sign.
-fn measure(sorted: &Sorted) -> Measure {
+fn measure(sorted: &Sorted) -> MeasureStatus {
     let verdict = |kind: &str| {
         let claim = sorted.criterion.iter().find(|one| one.is(kind));
         claim.map_or(Verdict::Undecided, |one| one.claim.verdict)
     };
     let mut measures = sorted.densities.iter().filter(|one| one.is_measure());
     if measures.any(|one| !one.is_quadrature()) {
-        return Measure::ClosedForm;
+        return MeasureStatus::ClosedForm;
     }
     match (verdict("position-density"), verdict("analytic-density")) {
-        (Verdict::Proved, _) => Measure::ByQuadrature,
-        (_, Verdict::Refuted) => Measure::Excluded,
-        _ if verdict("smooth-density") == Verdict::Refuted => Measure::ExcludedAtRotation,
-        (Verdict::Refuted, _) => Measure::ExcludedForConfiguration,
-        _ if sorted.densities.iter().any(Finding::is_measure) => Measure::ByQuadrature,
-        _ if !sorted.densities.is_empty() => Measure::Singular,
-        _ => Measure::NotKnown,
+        (Verdict::Proved, _) => MeasureStatus::ByQuadrature,
+        (_, Verdict::Refuted) => MeasureStatus::Excluded,
+        _ if verdict("smooth-density") == Verdict::Refuted => MeasureStatus::ExcludedAtRotation,
+        (Verdict::Refuted, _) => MeasureStatus::ExcludedForConfiguration,
+        _ if sorted.densities.iter().any(TestedClaim::is_measure) => MeasureStatus::ByQuadrature,
+        _ if !sorted.densities.is_empty() => MeasureStatus::Singular,
+        _ => MeasureStatus::NotKnown,
     }
 }

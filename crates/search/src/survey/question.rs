@@ -8,16 +8,18 @@ use toml::de::DeTable;
 
 use super::data;
 use super::definitions::{Definition, define, defined, distinct, used_by};
-use super::family::Family;
+use super::family::SystemFamily;
 use super::shown::{Shown, Typesetter};
 use liouville::case::Case;
-use liouville::claim::{Claim, Entry};
+use liouville::claim::{Claim, ClaimEntry};
 use liouville::mechanics::Meaning;
-use liouville::verdict::{ClaimReport, Independence, JudgeError, Options, Sign, Verdict, judge};
+use liouville::verdict::{
+    ClaimReport, DensitySign, Independence, JudgeError, Options, Verdict, judge,
+};
 
 /// Claims to be tested on a case, with the names they use.
 #[derive(Clone, Debug, Default)]
-pub struct Question {
+pub struct SurveyQuestion {
     /// Family of the claims.
     pub family: String,
     /// Source of the claims.
@@ -29,27 +31,27 @@ pub struct Question {
     /// Definitions in order.
     pub definitions: Vec<Definition>,
     /// Claims to be judged.
-    pub body: Body,
+    pub body: ClaimFormulas,
 }
 
 /// Claims of a question.
 #[derive(Clone, Debug)]
-pub enum Body {
+pub enum ClaimFormulas {
     /// Tables `[[claim]]` of a family's file.
     File(String),
     /// Claims as values.
     Claims(Vec<Claim>),
 }
 
-impl Default for Body {
+impl Default for ClaimFormulas {
     fn default() -> Self {
-        Body::Claims(Vec::new())
+        ClaimFormulas::Claims(Vec::new())
     }
 }
 
 /// A claim that was tested, with its verdict.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Finding {
+pub struct TestedClaim {
     /// Report on the claim.
     #[serde(flatten)]
     pub claim: ClaimReport,
@@ -90,7 +92,7 @@ const SEARCH: &str = "the search";
 /// Kinds of claims that are tables of formulas, one for each variable.
 const TABLES: [&str; 3] = ["symmetry-field", "symmetry", "reversor"];
 
-impl Finding {
+impl TestedClaim {
     /// Makes a finding from a claim of the case, with the abbreviations that it uses.
     pub fn claimed(case: &Case, claim: ClaimReport) -> Self {
         let names = &case.model.vocabulary;
@@ -162,7 +164,7 @@ impl Finding {
     /// Whether the finding is a density of constant sign.
     pub fn is_measure(&self) -> bool {
         let sign = self.claim.evidence.sign;
-        self.is("density") && self.is_proved() && sign != Some(Sign::Changes)
+        self.is("density") && self.is_proved() && sign != Some(DensitySign::Changes)
     }
 
     /// Whether a formula contains an unevaluated integral.
@@ -177,9 +179,9 @@ impl Finding {
     }
 }
 
-impl Question {
+impl SurveyQuestion {
     /// Makes the question of a family, with names for quantities that the case names differently.
-    pub fn of(family: &Family, bindings: &[Definition]) -> Self {
+    pub fn of(family: &SystemFamily, bindings: &[Definition]) -> Self {
         let own = family
             .definitions
             .iter()
@@ -190,13 +192,13 @@ impl Question {
             note: family.note.clone(),
             is_general: family.general,
             definitions: distinct(bindings.iter().cloned().chain(own)),
-            body: Body::File(family.claims.clone()),
+            body: ClaimFormulas::File(family.claims.clone()),
         }
     }
 
     /// Makes a question of claims alone.
     pub fn plain(family: &str, bindings: &[Definition], claims: Vec<Claim>) -> Self {
-        let (family, body) = (family.to_string(), Body::Claims(claims));
+        let (family, body) = (family.to_string(), ClaimFormulas::Claims(claims));
         Self { family, definitions: bindings.to_vec(), body, ..Self::default() }
     }
 
@@ -205,14 +207,18 @@ impl Question {
     fn asked(&self, case: &Case) -> Option<Case> {
         let named = defined(case, &self.definitions)?;
         match &self.body {
-            Body::File(text) => named.ask(text).ok(),
-            Body::Claims(claims) => named.with_claims(claims).ok(),
+            ClaimFormulas::File(text) => named.ask(text).ok(),
+            ClaimFormulas::Claims(claims) => named.with_claims(claims).ok(),
         }
     }
 
     /// Puts the question to a case and judges it; `None` if it is meaningless for the case, for
     /// example because of a name that the case does not have.
-    pub fn ask(&self, case: &Case, options: &Options) -> Result<Option<Vec<Finding>>, JudgeError> {
+    pub fn ask(
+        &self,
+        case: &Case,
+        options: &Options,
+    ) -> Result<Option<Vec<TestedClaim>>, JudgeError> {
         match self.asked(case) {
             Some(asked) => self.findings(&asked, options).map(Some),
             None => Ok(None),
@@ -220,7 +226,11 @@ impl Question {
     }
 
     /// Judges the claims of a case as those of the question.
-    pub fn findings(&self, asked: &Case, options: &Options) -> Result<Vec<Finding>, JudgeError> {
+    pub fn findings(
+        &self,
+        asked: &Case,
+        options: &Options,
+    ) -> Result<Vec<TestedClaim>, JudgeError> {
         let report = judge(asked, options)?;
         let tables = self.tables();
         let images = tables.into_iter().chain(std::iter::repeat(Vec::new()));
@@ -232,8 +242,8 @@ impl Question {
     /// Returns the tables of formulas in the claims, one for each claim.
     fn tables(&self) -> Vec<Vec<Definition>> {
         let text = match &self.body {
-            Body::Claims(claims) => return claims.iter().map(table_of).collect(),
-            Body::File(text) => text,
+            ClaimFormulas::Claims(claims) => return claims.iter().map(table_of).collect(),
+            ClaimFormulas::File(text) => text,
         };
         let Ok(document) = DeTable::parse(text) else { return Vec::new() };
         let claims = data::tables(document.get_ref(), "claim");
@@ -250,7 +260,7 @@ impl Question {
         mut claim: ClaimReport,
         images: Vec<Definition>,
         paper: &Typesetter<'_>,
-    ) -> Finding {
+    ) -> TestedClaim {
         claim.source = match (self.source.as_str(), claim.source.as_str()) {
             (source, own) if own.is_empty() || source.contains(own) => source.to_string(),
             ("", own) => own.to_string(),
@@ -268,7 +278,7 @@ impl Question {
             (None, []) => None,
             (None, images) => paper.images(images),
         };
-        Finding {
+        TestedClaim {
             shown: Shown { statement, definitions: paper.definitions(&definitions) },
             // A note concerns the formulas of its family.
             remark: self.note.clone().filter(|_| images.is_empty() || is_rate),
@@ -285,7 +295,7 @@ impl Question {
 /// Returns the table of formulas in a claim, if it has one.
 fn table_of(claim: &Claim) -> Vec<Definition> {
     match claim.entry(claim.key()) {
-        Some(Entry::Table(table)) => {
+        Some(ClaimEntry::Table(table)) => {
             table.iter().map(|(name, formula)| define(name, formula.text())).collect()
         }
         _ => Vec::new(),

@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 use serde::Serialize;
 
 use liouville::case::Case;
-use liouville::claim::Place;
+use liouville::claim::LevelSubset;
 use liouville::mechanics::{Model, Phase, System};
 use liouville::number::rational::Rational;
 use liouville::verdict::{JudgeError, Options, Sampler};
@@ -51,14 +51,14 @@ pub struct SphereMap {
 }
 
 /// One body of the case, evaluated at points of the sphere.
-pub(super) struct Body<'c> {
+pub(super) struct BodyOnSphere<'c> {
     model: &'c Model,
     parameters: Vec<f64>,
 }
 
 /// Maps the logarithm of a density that exists by the criterion.
 pub fn density(case: &Case, options: &Options) -> Result<Option<SphereMap>, JudgeError> {
-    let Some((body, parameters)) = Body::first(case, options)? else { return Ok(None) };
+    let Some((body, parameters)) = BodyOnSphere::first(case, options)? else { return Ok(None) };
     let (latitudes, longitudes) = grid();
     let step = 2.0 * PI / LONGITUDES as f64;
     let reference = |latitude, longitude| body.reference(point(latitude, longitude)).abs().ln();
@@ -99,7 +99,7 @@ pub fn density(case: &Case, options: &Options) -> Result<Option<SphereMap>, Judg
 
 /// Maps the criterion (γ, rot w), where no density of the configuration exists.
 pub fn criterion(case: &Case, options: &Options) -> Result<Option<SphereMap>, JudgeError> {
-    let Some((body, parameters)) = Body::first(case, options)? else { return Ok(None) };
+    let Some((body, parameters)) = BodyOnSphere::first(case, options)? else { return Ok(None) };
     let (latitudes, longitudes) = grid();
     let value = |latitude: f64, longitude: f64| rounded(body.criterion(point(latitude, longitude)));
     let row =
@@ -138,7 +138,7 @@ fn rounded(value: f64) -> Option<f64> {
     value.is_finite().then(|| format!("{value:.5e}").parse().ok()).flatten()
 }
 
-impl<'c> Body<'c> {
+impl<'c> BodyOnSphere<'c> {
     /// Takes the body with the parameters of the first state; `None` for a case without a body, or
     /// with further variables.
     pub fn first(
@@ -149,7 +149,7 @@ impl<'c> Body<'c> {
         if model.system.body().is_none() || !model.extension.is_empty() {
             return Ok(None);
         }
-        let printed = Sampler::new(case, &Place::level(model), options.seed)?
+        let printed = Sampler::new(case, &LevelSubset::level(model), options.seed)?
             .printed(0, f64::MANTISSA_DIGITS);
         let numbers = printed[..model.free_components()].iter();
         let parameters: Vec<f64> = numbers

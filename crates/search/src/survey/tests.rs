@@ -78,7 +78,7 @@ fn no_family_is_dead() {
         let mut proved: Vec<String> = Vec::new();
         let mut stated: Vec<String> = Vec::new();
         for (case, geometry) in &bodies {
-            let axes: Vec<Option<&axis::Axis>> = match family.around {
+            let axes: Vec<Option<&axis::RevolutionAxis>> = match family.around {
                 true => geometry.axes.iter().map(Some).collect(),
                 false => vec![None],
             };
@@ -87,7 +87,7 @@ fn no_family_is_dead() {
                     continue;
                 }
                 let family = axis.map_or(family.clone(), |axis| family.with(&axis.words()));
-                let question = Question::of(&family, &geometry.bindings);
+                let question = SurveyQuestion::of(&family, &geometry.bindings);
                 let found = question.ask(case, &options).expect("judged");
                 let found = found
                     .unwrap_or_else(|| panic!("{} can be asked of {}", family.name, case.title));

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::definitions::define;
-use super::question::Finding;
+use super::question::TestedClaim;
 use crate::{CountReport, Effort, Excluded, Found, search};
 use liouville::case::Case;
 use liouville::case::Expect;
@@ -18,7 +18,7 @@ const SECONDS: f64 = 2.0;
 
 /// Outcome of a search.
 #[derive(Clone, Debug, Default, Serialize)]
-pub struct Unknown {
+pub struct SearchOutcome {
     /// Numbers of integrals, degree by degree.
     pub counts: Vec<CountReport>,
     /// Families excluded by theorems.
@@ -27,10 +27,10 @@ pub struct Unknown {
     pub remarks: Vec<String>,
     /// Invariants found, as claims with verdicts.
     #[serde(skip)]
-    pub findings: Vec<Finding>,
+    pub findings: Vec<TestedClaim>,
 }
 
-impl Unknown {
+impl SearchOutcome {
     /// Runs the search; its failures become remarks.
     pub fn of(case: &Case, options: &Options, progress: &mut dyn FnMut(&str)) -> Self {
         let effort = Effort {
@@ -75,7 +75,7 @@ impl Unknown {
 }
 
 /// Makes a finding from a result of the search, with the names that the search added.
-pub fn of_search(case: &Case, found: Found) -> Finding {
+pub fn of_search(case: &Case, found: Found) -> TestedClaim {
     let names = found.abbreviations.iter().map(|(name, text)| define(name, text)).collect();
     let claim = ClaimReport {
         name: format!("{} found by search", found.kind),
@@ -90,5 +90,5 @@ pub fn of_search(case: &Case, found: Found) -> Finding {
         note: None,
         evidence: found.evidence,
     };
-    Finding::found(case, claim, names)
+    TestedClaim::found(case, claim, names)
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::sphere::{Body, point};
+use super::sphere::{BodyOnSphere, point};
 use liouville::case::Case;
 use liouville::verdict::{JudgeError, Options};
 
@@ -20,7 +20,7 @@ const STEPS: usize = 48;
 
 /// Draws the curves for a body whose surface is defined on the whole sphere of normals.
 pub fn of(case: &Case, options: &Options) -> Result<Option<Wireframe>, JudgeError> {
-    let Some((body, _)) = Body::first(case, options)? else { return Ok(None) };
+    let Some((body, _)) = BodyOnSphere::first(case, options)? else { return Ok(None) };
     let at = |latitude: f64, longitude: f64| {
         let gamma = point(latitude, longitude);
         (body.contact(gamma), gamma.map(|x| -x))

@@ -2,13 +2,13 @@
 
 use serde::Serialize;
 
-use super::geometry::Fact;
+use super::geometry::GeometryFact;
 use liouville::case::Case;
-use liouville::mechanics::{Origin, System};
+use liouville::mechanics::{ParameterOrigin, System};
 
 /// A parameter of the case.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Given {
+pub struct GivenParameter {
     /// Name of the parameter.
     pub name: String,
     /// Value, or the formula for it; `None` for a free parameter.
@@ -17,7 +17,7 @@ pub struct Given {
 }
 
 /// Describes the system in one sentence, from its kind and the facts.
-pub fn sentence(case: &Case, facts: &[Fact]) -> String {
+pub fn sentence(case: &Case, facts: &[GeometryFact]) -> String {
     let has = |id: &str| facts.iter().any(|fact| fact.holds && fact.id == id);
     let about = || {
         let axis = facts.iter().find(|fact| fact.holds && fact.id.starts_with("revolution about"));
@@ -84,16 +84,16 @@ fn capital(text: &str) -> String {
 }
 
 /// Lists the parameters, fixed or free.
-pub fn parameters(case: &Case) -> Vec<Given> {
-    let given = case.model.parameters.iter().map(|parameter| Given {
+pub fn parameters(case: &Case) -> Vec<GivenParameter> {
+    let given = case.model.parameters.iter().map(|parameter| GivenParameter {
         name: parameter.name.clone(),
         value: match &parameter.origin {
-            Origin::Fixed(values) => {
+            ParameterOrigin::Fixed(values) => {
                 let values: Vec<String> = values.iter().map(ToString::to_string).collect();
                 Some(parameter.kind.listed(&values, ["(", ", ", ")"]))
             }
-            Origin::Formula(formula) => Some(formula.text().to_string()),
-            Origin::Free(_) => None,
+            ParameterOrigin::Formula(formula) => Some(formula.text().to_string()),
+            ParameterOrigin::Free(_) => None,
         },
     });
     // The coefficients of an arbitrary function are many and of no interest individually.

@@ -1,12 +1,12 @@
 //! Poisson brackets: found, excluded, mended.
 
 use liouville::verdict::Verdict;
-use liouville_search::{Effort, Hamiltonians, Report, search};
+use liouville_search::{Effort, Hamiltonians, SearchReport, search};
 
 use crate::{case, effort};
 
 /// Searches a field of two or more variables for brackets; returns the report and the brackets.
-fn bracketed(body: &str, hamiltonians: Hamiltonians) -> (Report, Vec<String>) {
+fn bracketed(body: &str, hamiltonians: Hamiltonians) -> (SearchReport, Vec<String>) {
     let wanted = Effort { poisson: Some(hamiltonians), ..effort(0) };
     let case = case(&format!("title = 'x'\nsystem = 'field'\ncheck-weights = false\n{body}"));
     let report = search(&case, &wanted, &mut |_| {}).expect("it can be searched");

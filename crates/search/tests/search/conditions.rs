@@ -3,14 +3,14 @@
 use std::path::Path;
 
 use liouville::case::Case;
-use liouville_search::{Wanted, search};
+use liouville_search::{ConditionTarget, search};
 
 use crate::{case, effort, searched};
 
 #[test]
 fn conditions_on_parameters_are_found() {
     let mut wanted = effort(0);
-    wanted.conditions = Some(Wanted::Existence);
+    wanted.conditions = Some(ConditionTarget::Existence);
     let ellipsoid = case(
         "title = 'x'\nsystem = 'rubber-plane'\n[parameters]\nm = '0.5..2'\nB = 'diag(1..3)'\n\
          I = 'inertia(0.5..5)'\n[body]\nshape = 'ellipsoid'\n",
@@ -47,7 +47,7 @@ fn conditions_on_parameters_are_found() {
 #[test]
 fn conditions_of_codimension_two_are_met_in_small_fields() {
     let mut wanted = effort(0);
-    wanted.conditions = Some(Wanted::Existence);
+    wanted.conditions = Some(ConditionTarget::Existence);
     let ellipsoid = case(
         "title = 'x'\nsystem = 'rubber-sphere'\n[parameters]\nm = '0.5..2'\nk = '0.1..0.3'\n\
          B = 'diag(1..3)'\nI = 'inertia(0.5..5)'\n[body]\nshape = 'ellipsoid'\n",
@@ -63,10 +63,10 @@ fn conditions_of_codimension_two_are_met_in_small_fields() {
 #[test]
 fn a_claim_that_fails_in_general_is_given_its_condition() {
     let mut wanted = effort(0);
-    wanted.conditions = Some(Wanted::Claim("F2 of κ = −1".to_string()));
+    wanted.conditions = Some(ConditionTarget::Claim("F2 of κ = −1".to_string()));
     let report = searched("sphere/balanced-ball", &wanted);
     assert_eq!(report.conditions[0].equations, ["2 + R*k = 0"]);
-    wanted.conditions = Some(Wanted::Claim("no such claim".to_string()));
+    wanted.conditions = Some(ConditionTarget::Claim("no such claim".to_string()));
     let path =
         Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/sphere/balanced-ball.toml"));
     let read = Case::read(path, &[]).1.expect("a case of the catalogue");

@@ -1,7 +1,7 @@
 //! Levels of the user's own: densities on them, and charts that are none.
 
 use liouville::scalar::Scalar;
-use liouville_testing::{Failure, Level, On, VectorField};
+use liouville_testing::{AssertionFailure, Level, On, VectorField};
 use liouville_testing::{field, quantity};
 
 /// The unit circle.
@@ -44,7 +44,7 @@ fn what_has_no_meaning_is_no_success() {
     let one = quantity!(|x: [_; 2]| (x[0] - x[0]).exp());
     let leaves = field!(|x: [_; 2]| x);
     let failure = leaves.conserves(&one).at(&on).expect_err("it leaves the circle");
-    assert!(matches!(failure, Failure::Premise(_)), "{failure}");
+    assert!(matches!(failure, AssertionFailure::Premise(_)), "{failure}");
     assert!(failure.to_string().contains("rate of a level function"), "{failure}");
 
     struct Ellipse;
@@ -73,11 +73,11 @@ fn what_has_no_meaning_is_no_success() {
     }
     let single = On { level: Point, coordinates: [0.375] };
     let failure = turns.conserves(&one).prove(&single).expect_err("one point is no circle");
-    assert!(matches!(failure, Failure::Chart(_)), "{failure}");
+    assert!(matches!(failure, AssertionFailure::Chart(_)), "{failure}");
 
     let magnitude = quantity!(|x: [_; 2]| num_traits::Signed::abs(&x[0]));
     let failure = turns.conserves(&magnitude).at(&on).expect_err("no magnitude");
-    assert!(matches!(failure, Failure::Recording(_)), "{failure}");
+    assert!(matches!(failure, AssertionFailure::Recording(_)), "{failure}");
     let failure = turns.conserves(&one).at(&[f64::NAN, 1.0]).expect_err("no number");
-    assert!(matches!(failure, Failure::Undefined { .. }), "{failure}");
+    assert!(matches!(failure, AssertionFailure::Undefined { .. }), "{failure}");
 }

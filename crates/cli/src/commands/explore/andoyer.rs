@@ -1,40 +1,45 @@
 //! Sections g = g₀ of rolling bodies, in the Andoyer-like variables.
 
-use crate::report::data::Data;
+use crate::parts::hash;
+use crate::report::data::DataTable;
 use crate::report::exponents;
 use crate::report::facts;
 use crate::report::section::SectionReport;
 use crate::report::section::drawing::{self, Colouring};
-use liouville::case::{Case, Direction, Expect, Line};
-use liouville::claim::motion::Motion;
-use liouville::number::pair::Pair;
+use liouville::case::{Case, Direction, Expect, FixedLine};
+use liouville::claim::motion::MotionKind;
+use liouville::number::double_double::DoubleDouble;
+use liouville::part::Part;
 use liouville_draw::{Plot, Text};
 use liouville_flow::{FlowError, Precision, SectionChoice, SectionOrbit, SectionRequest};
 
-use super::motion::{Subject, whole, wrong_choice};
+use super::motion::{MotionArgs, whole, wrong_choice};
 use super::progress::progress;
-use super::section::{Drawn, Section, Wish};
-use super::starts::Given;
+use super::section::{Drawn, SectionArgs, Unit, Wish};
+use super::starts::GivenStart;
 
 /// Number of points of a line whose images are drawn, and default number of images.
-const POINTS: usize = 800;
+const LINE_POINTS: usize = 800;
 const IMAGES: usize = 10;
 /// Word of --colour for one colour.
 const ONE: &str = "one";
 
-/// Section g = g₀ of one case.
-pub fn drawn(
+/// Follows the motions of a part through g = g₀.
+pub fn compute(
     case: &Case,
-    subject: &Subject,
-    options: &Section,
-    wish: Wish,
-) -> Result<Drawn, String> {
+    subject: &MotionArgs,
+    options: &SectionArgs,
+    (part, threads): (Part, usize),
+) -> Result<Vec<Unit>, String> {
     let told = |error: FlowError| subject.told(&error);
     if !liouville_flow::has_andoyer_section(&case.model) {
         return Err(told(FlowError::NoAndoyer));
     }
-    let request = request(case, options)?;
-    let threads = options.threads.count();
+    let whole = request(case, options, given(case, options)?)?;
+    let request = SectionRequest { starts: part.of(&whole.starts).to_vec(), ..whole };
+    if request.starts.is_empty() && part != Part::WHOLE {
+        return Ok(Vec::new());
+    }
     let follow = |request: &SectionRequest| {
         let bar = progress(request.starts.len() as u64, "orbits");
         let found = liouville_flow::section(case, request, threads, &|| bar.inc(1)).map_err(told);
@@ -42,10 +47,56 @@ pub fn drawn(
         found
     };
     let orbits = follow(&request)?;
-    let other = match options.both_ways {
-        true => Some(follow(&SectionRequest { backwards: !request.backwards, ..request.clone() })?),
-        false => None,
+    let mut others = match options.both_ways {
+        true => follow(&SectionRequest { backwards: !request.backwards, ..request.clone() })?,
+        false => Vec::new(),
+    }
+    .into_iter();
+    let mut classes = match options.classes {
+        None => Vec::new(),
+        Some(time) => classes(case, &request, time, threads).map_err(told)?,
+    }
+    .into_iter();
+    let unit = |orbit| {
+        let (other, class) = (others.next().map(Box::new), classes.next().map(Box::new));
+        Unit::Andoyer { orbit, other, class }
     };
+    Ok(orbits.into_iter().map(unit).collect())
+}
+
+/// Number of the motions, and what is asked for.
+pub fn request_text(case: &Case, options: &SectionArgs) -> Result<(usize, String), String> {
+    let request = request(case, options, given(case, options)?)?;
+    let starts = hash(&format!("{:?}", request.starts));
+    let count = request.starts.len();
+    let request = SectionRequest { starts: Vec::new(), ..request };
+    let (both_ways, classes) = (options.both_ways, options.classes);
+    let text = format!("{request:?} {both_ways} {classes:?} starts sha256:{starts}");
+    Ok((count, text))
+}
+
+/// Section g = g₀ of one case.
+pub fn drawn(
+    case: &Case,
+    subject: &MotionArgs,
+    options: &SectionArgs,
+    wish: Wish,
+    units: Vec<Unit>,
+) -> Result<Drawn, String> {
+    let told = |error: FlowError| subject.told(&error);
+    let threads = options.threads.count();
+    let (mut orbits, mut other, mut classes) = (Vec::new(), Vec::new(), Vec::new());
+    for unit in units {
+        if let Unit::Andoyer { orbit, other: back, class } = unit {
+            orbits.push(orbit);
+            other.extend(back.map(|own| *own));
+            classes.extend(class.map(|own| *own));
+        }
+    }
+    let other = options.both_ways.then_some(other);
+    let classes = options.classes.is_some().then_some(classes);
+    let starts = orbits.iter().map(|orbit| orbit.start).collect();
+    let request = SectionRequest { starts, ..request(case, options, Vec::new())? };
     let colour =
         options.colour.clone().or(case.section.as_ref().and_then(|plan| plan.colour.clone()));
     let colour = colour.filter(|_| !options.both_ways && !options.shade);
@@ -84,10 +135,6 @@ pub fn drawn(
         plot = Some(drawn);
     }
     let areas = liouville_flow::area_forms(case, &request).map_err(told)?;
-    let classes = match options.classes {
-        None => None,
-        Some(time) => Some(classes(case, &request, time, threads).map_err(told)?),
-    };
     // A picture without any crossing is a failure; single orbits may fail.
     let empty = orbits.iter().all(|orbit| orbit.crossings.is_empty());
     // Of several starts below the potential, the lowest potential shows how much energy is missing.
@@ -139,7 +186,7 @@ fn mark_claimed(plot: &mut Plot, case: &Case, request: &SectionRequest) -> Resul
         plan.g0.to_string() == request.g0.to_string() && plan.energy == request.energy
     });
     for claim in case.motions.iter().filter(|claim| is_own && claim.expect == Expect::Holds) {
-        let Motion::PeriodicPoint(point) = &claim.kind else { continue };
+        let MotionKind::PeriodicPoint(point) = &claim.kind else { continue };
         let Some(stability) = point.stability else { continue };
         let at = [point.at[0].value, point.at[1].value];
         let mut all = vec![at];
@@ -161,7 +208,7 @@ fn classes(
     request: &SectionRequest,
     time: f64,
     threads: usize,
-) -> Result<Vec<exponents::Row>, FlowError> {
+) -> Result<Vec<exponents::MotionRow>, FlowError> {
     let starts = liouville_flow::section_starts(
         case,
         &request.g0,
@@ -169,8 +216,7 @@ fn classes(
         &request.starts,
         request.seed,
     )?;
-    let parameters = starts.iter().flatten().next().map(|start| start.parameters.clone());
-    let parameters = parameters.unwrap_or_default();
+    let parameters = liouville_flow::fixed_parameters(case, request.seed, request.index)?;
     let motions = liouville_flow::Variational::all(&case.model, &parameters, &starts)?;
     let time = if request.backwards { -time } else { time };
     let bar = progress(2 * starts.len() as u64, "motions");
@@ -185,19 +231,19 @@ fn classes(
 fn images(
     case: &Case,
     request: &SectionRequest,
-    options: &Section,
+    options: &SectionArgs,
     threads: usize,
-) -> Result<Vec<(Line, Vec<SectionOrbit>)>, FlowError> {
+) -> Result<Vec<(FixedLine, Vec<SectionOrbit>)>, FlowError> {
     let plan = case.section.as_ref();
     let lines = match &options.lines[..] {
         [] => plan.map(|plan| plan.lines.clone()).unwrap_or_default(),
         given => given.to_vec(),
     };
     let crossings = options.images.or(plan.map(|plan| plan.images)).unwrap_or(IMAGES);
-    let image = |line: &Line| {
+    let image = |line: &FixedLine| {
         let mut both = Vec::new();
         for backwards in [false, true] {
-            let starts = line.points(POINTS);
+            let starts = line.points(LINE_POINTS);
             let (skip, direction) = (0, Direction::Both);
             let request =
                 SectionRequest { starts, crossings, skip, direction, backwards, ..request.clone() };
@@ -208,14 +254,18 @@ fn images(
     lines.iter().map(image).collect()
 }
 
-/// Request of the command line, completed from the case.
-fn request(case: &Case, options: &Section) -> Result<SectionRequest, String> {
+/// Request of the command line with these starts, completed from the case.
+fn request(
+    case: &Case,
+    options: &SectionArgs,
+    starts: Vec<[f64; 2]>,
+) -> Result<SectionRequest, String> {
     let choice = SectionChoice {
         direction: options.direction,
         orbits: options.orbits,
         crossings: options.crossings,
         skip: options.skip,
-        starts: given(case, options)?,
+        starts,
         backwards: options.backwards,
         seed: options.subject.seed,
         ..options.plane.choice()
@@ -224,9 +274,9 @@ fn request(case: &Case, options: &Section) -> Result<SectionRequest, String> {
 }
 
 /// Points (l, L/G) of the options.
-fn given(case: &Case, options: &Section) -> Result<Vec<[f64; 2]>, String> {
-    let point = |(name, given): (String, Given)| match given {
-        Given::Values(values) if values.len() == 2 => {
+fn given(case: &Case, options: &SectionArgs) -> Result<Vec<[f64; 2]>, String> {
+    let point = |(name, given): (String, GivenStart)| match given {
+        GivenStart::Values(values) if values.len() == 2 => {
             Ok([values[0].to_f64().0, values[1].to_f64().0])
         }
         _ => Err(format!(
@@ -239,15 +289,15 @@ fn given(case: &Case, options: &Section) -> Result<Vec<[f64; 2]>, String> {
 }
 
 /// Crossings as data.
-fn data(orbits: &[SectionOrbit]) -> Data {
+fn data(orbits: &[SectionOrbit]) -> DataTable {
     let rows = orbits.iter().enumerate().flat_map(|(index, orbit)| {
         orbit.crossings.iter().map(move |crossing| {
             let direction = if crossing.rising { 1.0 } else { -1.0 };
             let numbers = [direction, crossing.time, crossing.at[0], crossing.at[1]];
-            [&[whole(index)], &numbers.map(Pair::from_f64)[..]].concat()
+            [&[whole(index)], &numbers.map(DoubleDouble::from_f64)[..]].concat()
         })
     });
-    Data {
+    DataTable {
         columns: ["start", "direction", "t", "l", "L/G"].map(str::to_string).to_vec(),
         whole: 2,
         rows: rows.collect(),

@@ -5,15 +5,15 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use crate::report::bench::{self, BenchRun};
-use crate::report::{Failure, diagnostic, diagram, terminal};
+use crate::report::{FileFailure, diagnostic, diagram, terminal};
 use clap::Args;
-use liouville::verdict::LANES;
-use liouville_lab::bench::{Item, Measured, Options, measure_item, work_items};
+use liouville::verdict::TAPE_LANES;
+use liouville_lab::bench::{BenchItem, BenchOptions, ClaimMeasurements, measure_item, work_items};
 
-use super::{Answer, colour, files, source, width};
+use super::{CommandOutput, colour, files, source, width};
 
 #[derive(Debug, Args)]
-pub struct Bench {
+pub struct BenchArgs {
     /// Case files, or folders of them; by default three work items, W1 to W3
     pub paths: Vec<PathBuf>,
     /// Print JSON
@@ -33,10 +33,10 @@ pub struct Bench {
     pub rounds: u32,
 }
 
-pub fn run(options: &Bench) -> Result<Answer, String> {
-    let amount = Options {
+pub fn run(options: &BenchArgs) -> Result<CommandOutput, String> {
+    let amount = BenchOptions {
         seed: options.seed,
-        blocks: options.states.div_ceil(LANES as u64),
+        blocks: options.states.div_ceil(TAPE_LANES as u64),
         rounds: options.rounds as usize,
     };
     let mut run = BenchRun::new(amount);
@@ -71,13 +71,13 @@ pub fn run(options: &Bench) -> Result<Answer, String> {
             terminal::Style { detail: terminal::Detail::Claims, colour, width: width() },
         )
     };
-    Ok(Answer { text, code: if run.errors.is_empty() { 0 } else { 2 } })
+    Ok(CommandOutput { text, code: if run.errors.is_empty() { 0 } else { 2 } })
 }
 
-type Named = (String, Result<Item, Vec<Failure>>);
+type Named = (String, Result<BenchItem, Vec<FileFailure>>);
 
 /// Collects the work items, or the cases under the paths.
-fn items(options: &Bench) -> Result<Vec<Named>, String> {
+fn items(options: &BenchArgs) -> Result<Vec<Named>, String> {
     if options.paths.is_empty() {
         let items = work_items().map_err(|error| format!("error: {error}"))?;
         return Ok(items.into_iter().map(|item| (item.name.clone(), Ok(item))).collect());
@@ -91,7 +91,7 @@ fn items(options: &Bench) -> Result<Vec<Named>, String> {
         .collect())
 }
 
-fn item(path: &Path) -> Result<Item, Vec<Failure>> {
+fn item(path: &Path) -> Result<BenchItem, Vec<FileFailure>> {
     let shown = path.display().to_string();
     let (text, case) = source::read(path, &[]);
     match case {
@@ -99,12 +99,15 @@ fn item(path: &Path) -> Result<Item, Vec<Failure>> {
             let message = "the case is a map, and derivatives are timed along flows";
             Err(vec![files::plain(path, message, "give a case with a field")])
         }
-        Ok(case) => Ok(Item::new(shown, case)),
+        Ok(case) => Ok(BenchItem::new(shown, case)),
         Err(error) => Err(diagnostic::of_case(&shown, &text, &error, files::coloured())),
     }
 }
 
-fn measured(item: &Item, amount: &Options) -> Result<Vec<Measured>, Vec<Failure>> {
+fn measured(
+    item: &BenchItem,
+    amount: &BenchOptions,
+) -> Result<Vec<ClaimMeasurements>, Vec<FileFailure>> {
     measure_item(item, amount).map_err(|error| {
         vec![files::plain(Path::new(&item.name), &error.to_string(), error.help())]
     })

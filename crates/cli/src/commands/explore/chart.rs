@@ -1,24 +1,29 @@
 //! The command `liouville motion chart`.
 
-use crate::report::chart::{ChartReport, Colours};
+use crate::parts::{Form, Identity, Job, json_line, json_unit};
+use crate::report::chart::{self, ChartReport, Colours};
 use crate::report::facts;
 use clap::{Args, ValueEnum};
 use liouville::case::Case;
-use liouville::mechanics::Origin;
+use liouville::mechanics::ParameterOrigin;
+use liouville::part::Part;
 use liouville::verdict;
 use liouville_draw::{Text, math, plain};
-use liouville_flow::{Axis, Coordinate, Launch, PlaneRequest, SectionChoice};
+use liouville_flow::{
+    ChartAxis, Coordinate, Exponents, FlowError, Launch, PlaneRequest, SectionChoice,
+};
 
 use super::ink::Ink;
-use super::motion::{Plane, Subject, Threads, parse_start, wrong_choice};
-use super::output::Ending;
+use super::motion::{MotionArgs, Opened, SectionPlaneArgs, Threads, parse_start, wrong_choice};
+use super::output::{Ending, Output};
 use super::progress::progress;
-use super::{Answer, write};
+use super::share::{Share, Target, carry_out};
+use super::{CommandOutput, write};
 
-#[derive(Debug, Args)]
-pub struct Chart {
+#[derive(Clone, Debug, Args)]
+pub struct ChartArgs {
     #[command(flatten)]
-    pub subject: Subject,
+    pub subject: MotionArgs,
     /// Horizontal axis NAME=a..b, where NAME is a parameter (a_g), a component of one (c3, I12), or
     /// of the start on the section: l, L/G, energy
     #[arg(long, value_name = "NAME=A..B", allow_hyphen_values = true)]
@@ -33,7 +38,7 @@ pub struct Chart {
     #[arg(long, default_value = "200", allow_hyphen_values = true)]
     pub time: f64,
     #[command(flatten)]
-    pub plane: Plane,
+    pub plane: SectionPlaneArgs,
     /// Start l,L/G on the section; by default the first one of the case
     #[arg(long, value_name = "L,Z", value_parser = parse_start, allow_hyphen_values = true)]
     pub start: Option<[f64; 2]>,
@@ -45,6 +50,8 @@ pub struct Chart {
     pub colour: Colour,
     #[command(flatten)]
     pub ink: Ink,
+    #[command(flatten)]
+    pub share: Share,
     #[command(flatten)]
     pub threads: Threads,
 }
@@ -81,49 +88,135 @@ pub fn parse_size(text: &str) -> Result<[usize; 2], String> {
     size.ok_or(format!("write two numbers up to {MAX_SIZE}, such as 64x40"))
 }
 
-pub fn run(options: &Chart) -> Result<Answer, String> {
-    let subject = &options.subject;
-    let case = subject.open()?;
-    if options.time == 0.0 || !options.time.is_finite() {
-        return Err("error: --time: write a number that is not 0".to_string());
+pub fn run(options: &ChartArgs) -> Result<CommandOutput, String> {
+    let opened = options.subject.opened()?;
+    carry_out(&ChartJob::new(options.clone(), opened)?, &options.share, options.target())
+}
+
+/// Cell of a chart.
+pub type Cell = Result<Exponents, FlowError>;
+
+/// A chart with its case.
+#[derive(Debug)]
+pub struct ChartJob {
+    options: ChartArgs,
+    opened: Opened,
+    names: [String; 2],
+    request: PlaneRequest,
+    out: Option<Output>,
+}
+
+impl ChartArgs {
+    fn target(&self) -> Target<'_> {
+        Target { out: self.ink.out.as_deref(), threads: self.threads.count() }
     }
-    let out = options.ink.output(Ending::PICTURES, &[&options.subject.case])?;
-    let (x_name, x) = axis(&case, "--x", &options.x, options.size[0])?;
-    let (y_name, y) = axis(&case, "--y", &options.y, options.size[1])?;
-    if x.coordinate == y.coordinate {
-        return Err(format!("error: --y: `{y_name}` already varies along --x\nhelp: name another"));
+}
+
+impl ChartJob {
+    pub(in crate::commands) fn new(options: ChartArgs, opened: Opened) -> Result<Self, String> {
+        let case = &opened.case;
+        if options.time == 0.0 || !options.time.is_finite() {
+            return Err("error: --time: write a number that is not 0".to_string());
+        }
+        let out = match options.share.part {
+            Some(_) => None,
+            None => options.ink.output(Ending::CHARTS, &[&options.subject.case])?,
+        };
+        let (x_name, x) = axis(case, "--x", &options.x, options.size[0])?;
+        let (y_name, y) = axis(case, "--y", &options.y, options.size[1])?;
+        if x.coordinate == y.coordinate {
+            return Err(format!(
+                "error: --y: `{y_name}` already varies along --x\nhelp: name another"
+            ));
+        }
+        let axes = [x, y];
+        let launch = launch(case, &options, &axes)?;
+        let request = PlaneRequest { axes, launch, time: options.time, seed: options.subject.seed };
+        Ok(Self { options, opened, names: [x_name, y_name], request, out })
     }
-    let axes = [x, y];
-    let launch = launch(&case, options, &axes)?;
-    let request = PlaneRequest { axes, launch, time: options.time, seed: subject.seed };
-    let [across, up] = &request.axes;
-    let bar = progress((across.count * up.count) as u64, "motions");
-    let cells = liouville_flow::plane(&case, &request, options.threads.count(), &|| bar.inc(1))
-        .map_err(|error| subject.told(&error))?;
-    bar.finish_and_clear();
-    let report = ChartReport {
-        title: &case.title,
-        names: [&x_name, &y_name],
-        axes: &request.axes,
-        time: request.time,
-        cells: &cells,
-    };
-    if let Some(out) = &out {
-        let own = [own(&case, &request, 0), own(&case, &request, 1)];
-        let plot = report.plot(options.colour.of(), own);
-        let caption = caption(&case, &request, [&x_name, &y_name]);
-        let bytes =
-            options.ink.drawn((case.title.as_str(), vec![caption]), vec![plot], 1, out.ending)?;
-        write(&out.path, "--out", bytes)?;
+
+    /// Request of the plane.
+    pub fn request(&self) -> &PlaneRequest {
+        &self.request
     }
-    let text = match subject.json {
-        true => report.json().map_err(|error| format!("error: {error}"))? + "\n",
-        false => report.text(),
-    };
-    // A picture without any motion is a failure; single motions may fail.
-    match cells.iter().find_map(|found| found.as_ref().err()) {
-        Some(problem) if cells.iter().all(Result::is_err) => Err(subject.told(problem)),
-        _ => Ok(Answer { text, code: 0 }),
+
+    /// Names of the axes.
+    pub fn names(&self) -> &[String; 2] {
+        &self.names
+    }
+
+    fn count(&self) -> usize {
+        self.request.axes.iter().map(|axis| axis.count).product()
+    }
+}
+
+impl Job for ChartJob {
+    type Unit = Cell;
+
+    fn identity(&self) -> Result<Identity, String> {
+        let [x, y] = &self.names;
+        let request = format!("{x} {y} {:?}", self.request);
+        let (subject, share) = (&self.options.subject, &self.options.share);
+        Ok(subject.identity("chart", &self.opened.text, (self.count() as u64, request), share))
+    }
+
+    fn form(&self) -> Form {
+        Form::Csv(chart::titles(["x", "y"]))
+    }
+
+    fn compute(&self, part: Part, threads: usize) -> Result<Vec<Cell>, String> {
+        let range = part.range(self.count() as u64);
+        let bar = progress(range.end - range.start, "motions");
+        let (case, request) = (&self.opened.case, &self.request);
+        let cells = liouville_flow::plane_part(case, request, part, threads, &|| bar.inc(1));
+        bar.finish_and_clear();
+        cells.map_err(|error| self.options.subject.told(&error))
+    }
+
+    fn line(&self, place: u64, cell: &Cell) -> Result<String, String> {
+        let problem = match cell {
+            Ok(_) => String::new(),
+            Err(problem) => json_line(problem)?,
+        };
+        Ok(chart::row(&self.request.axes, place as usize, cell, &problem))
+    }
+
+    fn unit(&self, line: &str) -> Result<Cell, String> {
+        match chart::read_row(line, self.request.time) {
+            Some(Ok(found)) => Ok(Ok(found)),
+            Some(Err(problem)) => json_unit(&problem).map(Err),
+            None => Err(format!("error: a part has a wrong line: {line}")),
+        }
+    }
+
+    fn report(&self, cells: Vec<Cell>) -> Result<CommandOutput, String> {
+        let Self { options, opened: Opened { case, .. }, names, request, out } = self;
+        let subject = &options.subject;
+        let names = [names[0].as_str(), names[1].as_str()];
+        let (axes, time, cells) = (&request.axes, request.time, &cells[..]);
+        let report = ChartReport { title: &case.title, names, axes, time, cells };
+        let json =
+            || report.json().map(|text| text + "\n").map_err(|error| format!("error: {error}"));
+        if let Some(out) = out {
+            let bytes = match out.ending {
+                Ending::Csv => report.csv().into_bytes(),
+                Ending::Json => json()?.into_bytes(),
+                ending => {
+                    let own = [own(case, request, 0), own(case, request, 1)];
+                    let plot = report.plot(options.colour.of(), own);
+                    let caption = caption(case, request, names);
+                    let words = (case.title.as_str(), vec![caption]);
+                    options.ink.drawn(words, vec![plot], 1, ending)?
+                }
+            };
+            write(&out.path, "--out", bytes)?;
+        }
+        let text = if subject.json { json()? } else { report.text() };
+        // A picture without any motion is a failure; single motions may fail.
+        match cells.iter().find_map(|found| found.as_ref().err()) {
+            Some(problem) if cells.iter().all(Result::is_err) => Err(subject.told(problem)),
+            _ => Ok(CommandOutput { text, code: 0 }),
+        }
     }
 }
 
@@ -132,7 +225,9 @@ fn own(case: &Case, request: &PlaneRequest, place: usize) -> Option<f64> {
     match (&request.axes[place].coordinate, &request.launch) {
         (Coordinate::Parameter { index, component }, _) => {
             match &case.model.parameters.get(*index)?.origin {
-                Origin::Fixed(values) => values.get(*component).map(|value| value.to_f64().0),
+                ParameterOrigin::Fixed(values) => {
+                    values.get(*component).map(|value| value.to_f64().0)
+                }
                 _ => None,
             }
         }
@@ -166,14 +261,19 @@ fn caption(case: &Case, request: &PlaneRequest, names: [&str; 2]) -> Text {
 }
 
 /// Reads `NAME=a..b`.
-fn axis(case: &Case, option: &str, text: &str, count: usize) -> Result<(String, Axis), String> {
-    Axis::read(case, text, count).map_err(|mistake| {
+fn axis(
+    case: &Case,
+    option: &str,
+    text: &str,
+    count: usize,
+) -> Result<(String, ChartAxis), String> {
+    ChartAxis::read(case, text, count).map_err(|mistake| {
         format!("error: {option} {text}: {}\nhelp: {}", mistake.message, mistake.help)
     })
 }
 
 /// Launch of the motions: on the section, if the case or the command line defines one.
-fn launch(case: &Case, options: &Chart, axes: &[Axis; 2]) -> Result<Launch, String> {
+fn launch(case: &Case, options: &ChartArgs, axes: &[ChartAxis; 2]) -> Result<Launch, String> {
     let state = options.state.as_deref().map(|text| verdict::read_state(case, text));
     let state = state.transpose().map_err(|error| format!("error: --state: {error}"))?;
     let choice =

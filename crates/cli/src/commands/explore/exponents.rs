@@ -1,23 +1,29 @@
 //! The command `liouville motion exponents`.
 
-use crate::report::exponents;
+use std::path::PathBuf;
+
+use crate::parts::{Form, Identity, Job, hash, json_line, json_unit};
+use crate::report::exponents::{self, MotionRow};
 use clap::Args;
-use liouville::case::Case;
 use liouville::number::rational::Rational;
+use liouville::part::Part;
 use liouville::verdict;
-use liouville_flow::{Begin, FlowError, Launches, Start};
+use liouville_flow::{Begin, FlowError, Launches, Spectrum, Start};
+use serde::{Deserialize, Serialize};
 
-use super::Answer;
-use super::motion::{Plane, Subject, Threads};
+use super::motion::{MotionArgs, Opened, SectionPlaneArgs, Threads};
+use super::output::{Ending, Output};
 use super::progress::progress;
-use super::starts::{Given, Starts, misfit};
+use super::share::{Share, Target, carry_out};
+use super::starts::{GivenStart, Starts, misfit};
+use super::{CommandOutput, write};
 
-#[derive(Debug, Args)]
-pub struct Exponents {
+#[derive(Clone, Debug, Args)]
+pub struct ExponentsArgs {
     #[command(flatten)]
-    pub subject: Subject,
+    pub subject: MotionArgs,
     #[command(flatten)]
-    pub plane: Plane,
+    pub plane: SectionPlaneArgs,
     /// Time to follow each motion; negative: backwards. Transients last long: after a short time a
     /// regular motion may look chaotic
     #[arg(long, default_value = "2000", allow_hyphen_values = true)]
@@ -33,124 +39,225 @@ pub struct Exponents {
     /// Follow the motion in one direction of time only: half the work, and a coarser class
     #[arg(long)]
     pub one_way: bool,
+    /// Write the motions to this file as JSON; with --part the folder of the parts
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub share: Share,
     #[command(flatten)]
     pub threads: Threads,
 }
 
-pub fn run(options: &Exponents) -> Result<Answer, String> {
-    let subject = &options.subject;
-    let case = subject.open()?;
-    let told = |error: FlowError| subject.told(&error);
-    if options.time == 0.0 || !options.time.is_finite() {
-        return Err("error: --time: write a number that is not 0".to_string());
-    }
-    let (names, starts) = starts(&case, options)?;
-    let parameters = match starts.iter().flatten().next() {
-        Some(start) => start.parameters.clone(),
-        None => Vec::new(),
-    };
-    if case.model.system.has_arbitrary_function() {
-        return Err(told(FlowError::Arbitrary));
-    }
-    if options.spectrum {
-        return spectrum(&case, options, &names, &starts);
-    }
-    let ways = if options.one_way { 1 } else { 2 };
-    let bar = progress((ways * starts.len()) as u64, "motions");
-    let motions =
-        liouville_flow::Variational::all(&case.model, &parameters, &starts).map_err(told)?;
-    let follow = |time| motions.all_exponents(time, options.threads.count(), &|| bar.inc(1));
-    let forward = follow(options.time);
-    let backward = (!options.one_way).then(|| follow(-options.time));
-    bar.finish_and_clear();
-    // A single motion that fails is a failure; of several, the others are reported.
-    if let [Err(problem)] = &forward[..] {
-        return Err(subject.told(problem));
-    }
-    let rows = exponents::rows(names, forward, backward);
-    let text = match subject.json {
-        true => {
-            exponents::json(&case.title, &rows).map_err(|error| format!("error: {error}"))? + "\n"
-        }
-        false => exponents::text(&case.title, &rows),
-    };
-    Ok(Answer { text, code: 0 })
+pub fn run(options: &ExponentsArgs) -> Result<CommandOutput, String> {
+    let opened = options.subject.opened()?;
+    carry_out(&ExponentsJob::new(options.clone(), opened)?, &options.share, options.target())
 }
 
-/// Measures the spectra of the motions.
-fn spectrum(
-    case: &Case,
-    options: &Exponents,
-    names: &[String],
-    starts: &[Result<Start, FlowError>],
-) -> Result<Answer, String> {
-    let subject = &options.subject;
-    let bar = progress(starts.len() as u64, "motions");
-    let threads = options.threads.count();
-    let found = liouville_flow::spectra(&case.model, starts, options.time, threads, &|| bar.inc(1));
-    bar.finish_and_clear();
-    let found = found.map_err(|error| subject.told(&error))?;
-    if let [Err(problem)] = &found[..] {
-        return Err(subject.told(problem));
+impl ExponentsArgs {
+    fn target(&self) -> Target<'_> {
+        Target { out: self.out.as_deref(), threads: self.threads.count() }
     }
-    let text = match subject.json {
-        true => {
-            let json = exponents::spectra_json(&case.title, names, &found);
-            json.map_err(|error| format!("error: {error}"))? + "\n"
-        }
-        false => exponents::spectra_text(&case.title, names, &found),
-    };
-    Ok(Answer { text, code: 0 })
 }
 
-/// Names and starts of the motions requested.
-type Named = (Vec<String>, Vec<Result<Start, FlowError>>);
+/// A motion with its exponents.
+#[derive(Debug, Serialize, Deserialize)]
+pub enum Unit {
+    /// Largest exponents, in one direction of time or in both.
+    Largest(MotionRow),
+    /// All exponents.
+    Spectrum {
+        /// Name of the start.
+        start: String,
+        /// Exponents.
+        found: Result<Spectrum, FlowError>,
+    },
+}
 
-fn starts(case: &Case, options: &Exponents) -> Result<Named, String> {
-    let subject = &options.subject;
-    let told = |error: FlowError| subject.told(&error);
-    let mut given = options.starts.read(case)?;
-    if given.is_empty() && options.state.is_none() {
-        for at in case.section.iter().flat_map(|plan| &plan.starts) {
-            let [Some(l), Some(z)] = at.map(Rational::from_f64) else {
-                return Err("error: a start of [section] is not finite".to_string());
-            };
-            let name = format!("({}, {})", at[0], at[1]);
-            given.push((name, Given::Values(vec![l, z])));
+/// Exponents of motions of a case.
+#[derive(Debug)]
+pub struct ExponentsJob {
+    options: ExponentsArgs,
+    opened: Opened,
+    out: Option<Output>,
+}
+
+impl ExponentsJob {
+    pub(in crate::commands) fn new(options: ExponentsArgs, opened: Opened) -> Result<Self, String> {
+        if options.time == 0.0 || !options.time.is_finite() {
+            return Err("error: --time: write a number that is not 0".to_string());
         }
-    }
-    let launches = Launches { case, energy: None, pad: None, seed: subject.seed, index: 0 };
-    if given.is_empty() {
-        let begin = match &options.state {
-            None => Begin::Drawn(0),
-            Some(text) => Begin::State(
-                verdict::read_state(case, text)
-                    .map_err(|error| format!("error: --state: {error}"))?,
-            ),
+        if opened.case.model.system.has_arbitrary_function() {
+            return Err(options.subject.told(&FlowError::Arbitrary));
+        }
+        let inputs = [options.subject.case.as_path()].into_iter().chain(options.starts.inputs());
+        let inputs: Vec<_> = inputs.collect();
+        let out = match (&options.out, options.share.part) {
+            (Some(path), None) => Some(Output::new(path, Ending::TABLES, &inputs)?),
+            _ => None,
         };
-        let start = launches.start(&begin).map_err(told)?;
-        return Ok((vec!["state".to_string()], vec![Ok(start)]));
+        Ok(Self { options, opened, out })
     }
-    let (mut names, mut starts) = (Vec::new(), Vec::new());
-    for (name, given) in given {
-        let start = match given {
-            Given::State(state) => launches.start(&Begin::State(state)).map_err(told)?,
-            Given::Values(values) => {
-                let [l, z] = &values[..] else {
-                    return Err(misfit(case, values.len(), None));
+
+    /// Title of the case.
+    pub fn title(&self) -> &str {
+        &self.opened.case.title
+    }
+
+    /// Starts as they are given, with their names; `None` for one that is drawn.
+    fn given(&self) -> Result<Vec<(String, Option<GivenStart>)>, String> {
+        let (options, case) = (&self.options, &self.opened.case);
+        let mut given = options.starts.read(case)?;
+        if given.is_empty() && options.state.is_none() {
+            for at in case.section.iter().flat_map(|plan| &plan.starts) {
+                let [Some(l), Some(z)] = at.map(Rational::from_f64) else {
+                    return Err("error: a start of [section] is not finite".to_string());
                 };
-                if !liouville_flow::has_andoyer_section(&case.model) {
-                    return Err(misfit(case, values.len(), None));
-                }
-                let (g0, energy) = options.plane.of(case)?;
-                let at = [l.to_f64().0, z.to_f64().0];
-                let found = liouville_flow::section_starts(case, &g0, &energy, &[at], subject.seed);
-                let mut found = found.map_err(told)?;
-                found.pop().unwrap_or(Err(FlowError::NoStart)).map_err(told)?
+                let name = format!("({}, {})", at[0], at[1]);
+                given.push((name, GivenStart::Values(vec![l, z])));
             }
-        };
-        names.push(name);
-        starts.push(Ok(start));
+        }
+        if !given.is_empty() {
+            return Ok(given.into_iter().map(|(name, given)| (name, Some(given))).collect());
+        }
+        let state = options.state.as_deref().map(|text| verdict::read_state(case, text));
+        let state = state.transpose().map_err(|error| format!("error: --state: {error}"))?;
+        Ok(vec![("state".to_string(), state.map(GivenStart::State))])
     }
-    Ok((names, starts))
+
+    /// Start of a motion, or the reason why there is none.
+    fn start(&self, given: Option<&GivenStart>) -> Result<Result<Start, FlowError>, String> {
+        let Self { options, opened: Opened { case, .. }, .. } = self;
+        let seed = options.subject.seed;
+        let launches = Launches { case, energy: None, pad: None, seed, index: 0 };
+        let values = match given {
+            None => return Ok(launches.start(&Begin::Drawn(0))),
+            Some(GivenStart::State(state)) => {
+                return Ok(launches.start(&Begin::State(state.clone())));
+            }
+            Some(GivenStart::Values(values)) => values,
+        };
+        let [l, z] = &values[..] else {
+            return Err(misfit(case, values.len(), None));
+        };
+        if !liouville_flow::has_andoyer_section(&case.model) {
+            return Err(misfit(case, values.len(), None));
+        }
+        let (g0, energy) = options.plane.of(case)?;
+        let at = [l.to_f64().0, z.to_f64().0];
+        let found = liouville_flow::section_starts(case, &g0, &energy, &[at], seed);
+        let mut found = found.map_err(|error| options.subject.told(&error))?;
+        Ok(found.pop().unwrap_or(Err(FlowError::NoStart)))
+    }
+
+    /// Measures all exponents.
+    fn spectra(
+        &self,
+        names: Vec<String>,
+        starts: &[Result<Start, FlowError>],
+        threads: usize,
+    ) -> Result<Vec<Unit>, String> {
+        let bar = progress(starts.len() as u64, "motions");
+        let (model, time) = (&self.opened.case.model, self.options.time);
+        let found = liouville_flow::spectra(model, starts, time, threads, &|| bar.inc(1));
+        bar.finish_and_clear();
+        let found = found.map_err(|error| self.options.subject.told(&error))?;
+        let named = names.into_iter().zip(found);
+        Ok(named.map(|(start, found)| Unit::Spectrum { start, found }).collect())
+    }
+}
+
+impl Job for ExponentsJob {
+    type Unit = Unit;
+
+    fn identity(&self) -> Result<Identity, String> {
+        let ExponentsArgs { subject, plane, time, spectrum, one_way, share, .. } = &self.options;
+        let given = self.given()?;
+        let starts = hash(&format!("{given:?}"));
+        let request = format!(
+            "time {time:?} spectrum {spectrum} one way {one_way} {plane:?} starts sha256:{starts}"
+        );
+        Ok(subject.identity("exponents", &self.opened.text, (given.len() as u64, request), share))
+    }
+
+    fn form(&self) -> Form {
+        Form::Json
+    }
+
+    fn compute(&self, part: Part, threads: usize) -> Result<Vec<Unit>, String> {
+        let given = self.given()?;
+        let own = part.of(&given);
+        if own.is_empty() {
+            return Ok(Vec::new());
+        }
+        let starts = own.iter().map(|(_, given)| self.start(given.as_ref()));
+        let starts = starts.collect::<Result<Vec<_>, String>>()?;
+        let names: Vec<String> = own.iter().map(|(name, _)| name.clone()).collect();
+        if self.options.spectrum {
+            return self.spectra(names, &starts, threads);
+        }
+        let told = |error: FlowError| self.options.subject.told(&error);
+        let (case, seed) = (&self.opened.case, self.options.subject.seed);
+        let parameters = liouville_flow::fixed_parameters(case, seed, 0).map_err(told)?;
+        let (time, one_way) = (self.options.time, self.options.one_way);
+        let ways = if one_way { 1 } else { 2 };
+        let bar = progress((ways * starts.len()) as u64, "motions");
+        let motions =
+            liouville_flow::Variational::all(&case.model, &parameters, &starts).map_err(told)?;
+        let follow = |time| motions.all_exponents(time, threads, &|| bar.inc(1));
+        let forward = follow(time);
+        let backward = (!one_way).then(|| follow(-time));
+        bar.finish_and_clear();
+        Ok(exponents::rows(names, forward, backward).into_iter().map(Unit::Largest).collect())
+    }
+
+    fn line(&self, _: u64, unit: &Unit) -> Result<String, String> {
+        json_line(unit)
+    }
+
+    fn unit(&self, line: &str) -> Result<Unit, String> {
+        json_unit(line)
+    }
+
+    fn report(&self, units: Vec<Unit>) -> Result<CommandOutput, String> {
+        // Single motions may fail, but not all.
+        let problem = |unit: &Unit| match unit {
+            Unit::Largest(row) => row.forward.as_ref().err().cloned(),
+            Unit::Spectrum { found, .. } => found.as_ref().err().cloned(),
+        };
+        if let Some(first) = units.first().and_then(problem)
+            && units.iter().all(|unit| problem(unit).is_some())
+        {
+            return Err(self.options.subject.told(&first));
+        }
+        let (text, json) = self.written(units)?;
+        if let Some(out) = &self.out {
+            write(&out.path, "--out", &json)?;
+        }
+        Ok(CommandOutput { text: if self.options.subject.json { json } else { text }, code: 0 })
+    }
+}
+
+impl ExponentsJob {
+    /// Report as text, and as JSON.
+    pub fn written(&self, units: Vec<Unit>) -> Result<(String, String), String> {
+        let title = self.title();
+        let (mut rows, mut names, mut spectra) = (Vec::new(), Vec::new(), Vec::new());
+        for unit in units {
+            match unit {
+                Unit::Largest(row) => rows.push(row),
+                Unit::Spectrum { start, found } => {
+                    names.push(start);
+                    spectra.push(found);
+                }
+            }
+        }
+        let (text, json) = match self.options.spectrum {
+            true => (
+                exponents::spectra_text(title, &names, &spectra),
+                exponents::spectra_json(title, &names, &spectra),
+            ),
+            false => (exponents::text(title, &rows), exponents::json(title, &rows)),
+        };
+        Ok((text, json.map_err(|error| format!("error: {error}"))? + "\n"))
+    }
 }

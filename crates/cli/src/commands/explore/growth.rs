@@ -5,12 +5,14 @@ use std::time::Duration;
 
 use crate::report::growth;
 use clap::{Args, ValueEnum};
-use liouville_lab::growth::{FAMILIES, Family, Growth as Measured, Point, measure, measure_one};
+use liouville_lab::growth::{
+    CaseFamily, FAMILIES, FamilyGrowth as Measured, SizePoint, measure, measure_one,
+};
 
-use super::Answer;
+use super::CommandOutput;
 
 #[derive(Debug, Args)]
-pub struct Growth {
+pub struct GrowthArgs {
     /// Families of cases; all by default
     #[arg(value_name = "FAMILY", value_parser = families())]
     pub families: Vec<String>,
@@ -40,7 +42,7 @@ pub enum Format {
 }
 
 /// Measures one size in a process of its own, whose memory nothing else has used.
-fn apart(family: &Family, size: u64, options: &Growth) -> Result<Point, String> {
+fn apart(family: &CaseFamily, size: u64, options: &GrowthArgs) -> Result<SizePoint, String> {
     let program = std::env::current_exe().map_err(|error| error.to_string())?;
     let mut command = Command::new(program);
     command.args(["measure", "growth", family.name, "--format", "json"]);
@@ -49,7 +51,7 @@ fn apart(family: &Family, size: u64, options: &Growth) -> Result<Point, String> 
         command.args(["--threads", &threads.to_string()]);
     }
     let output = command.output().map_err(|error| error.to_string())?;
-    let told: Vec<One> = serde_json::from_slice(&output.stdout)
+    let told: Vec<PriorMember> = serde_json::from_slice(&output.stdout)
         .map_err(|_| String::from_utf8_lossy(&output.stderr).trim().to_string())?;
     let one = told.into_iter().next().ok_or("nothing was measured")?;
     match (one.points.first(), one.problem) {
@@ -64,8 +66,8 @@ fn apart(family: &Family, size: u64, options: &Growth) -> Result<Point, String> 
 
 /// Part of the JSON that is read back.
 #[derive(serde::Deserialize)]
-struct One {
-    points: Vec<Point>,
+struct PriorMember {
+    points: Vec<SizePoint>,
     problem: Option<String>,
 }
 
@@ -81,12 +83,12 @@ fn families() -> clap::builder::PossibleValuesParser {
     FAMILIES.map(|family| family.name).into()
 }
 
-pub fn run(options: &Growth) -> Result<Answer, String> {
+pub fn run(options: &GrowthArgs) -> Result<CommandOutput, String> {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(options.threads.unwrap_or(0))
         .build()
         .map_err(|error| format!("error: cannot start threads: {error}"))?;
-    let is_meant = |family: &&Family| {
+    let is_meant = |family: &&CaseFamily| {
         options.families.is_empty() || options.families.iter().any(|name| name == family.name)
     };
     let meant = FAMILIES.iter().filter(is_meant);
@@ -103,5 +105,5 @@ pub fn run(options: &Growth) -> Result<Answer, String> {
         Format::Csv => growth::csv(&measured),
     };
     let has_problem = measured.iter().any(|growth| growth.problem.is_some());
-    Ok(Answer { text, code: u8::from(has_problem) })
+    Ok(CommandOutput { text, code: u8::from(has_problem) })
 }

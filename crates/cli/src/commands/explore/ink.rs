@@ -15,10 +15,10 @@ const CELL: f64 = 0.3;
 const FRAME: f64 = 0.8;
 
 /// File and style of a picture.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct Ink {
-    /// Write to this file: a picture to .svg, .pdf or .png; of `orbit` and `section` also data to .csv,
-    /// .npy or .json
+    /// Write to this file: a picture to .svg, .pdf or .png; data to .csv or .json, of `orbit` and
+    /// `section` also to .npy. With --part the folder of the parts
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Width of the picture in millimetres; 120 by default, 180 for several plots

@@ -2,57 +2,67 @@
 
 mod andoyer;
 mod bench;
-mod chart;
-mod exponents;
+pub(super) mod chart;
+pub(super) mod exponents;
 mod growth;
 mod ink;
-mod motion;
+pub(super) mod motion;
 mod orbit;
 mod output;
 mod periodic;
 mod progress;
 mod report;
 mod search;
-mod section;
+pub(super) mod section;
+mod share;
 mod site;
 mod starts;
 mod stress;
 mod surface;
+pub(super) mod sweep;
 mod track;
+
+use std::ffi::OsString;
 
 use clap::Subcommand;
 
 use super::out::{self, write};
-use super::{Answer, Limits, Sampling, colour, eval, files, source, width};
+use super::{CommandOutput, LimitArgs, SamplingArgs, check, colour, eval, files, source, width};
 
 #[derive(Debug, Subcommand)]
-pub enum Command {
+pub enum ExploreCommand {
     /// Search for integrals and densities, and prove the results
     #[command(after_help = "Example:\n  liouville search plane/balanced-ball --blind")]
-    Search(search::Search),
+    Search(search::SearchArgs),
     /// List a system's invariants, each with a proof
     #[command(after_help = "Example:\n  liouville report plane/unbalanced-ball --out ball.html")]
-    Report(report::Report),
+    Report(report::ReportArgs),
     /// Write a page for each case of a folder, and an index of them by hierarchy and by folder
     #[command(after_help = "Example:\n  liouville site cases/plane --out public --within 60")]
     Site(site::Site),
+    /// Evaluate the residuals of claims at very many states in floating point: the largest, and where
+    #[command(after_help = "\
+Examples:
+  liouville sweep plane/balanced-ball --states 1e8
+  liouville sweep plane/balanced-ball --states 1e12 --part 3/40 --out parts/")]
+    Sweep(sweep::Sweep),
     /// Follow motions: orbits, sections, exponents, charts, periodic points
     Motion {
         #[command(subcommand)]
-        command: Box<Motion>,
+        command: Box<MotionCommand>,
     },
     /// Measure the program: run time against error, numerical stability, growth
     Measure {
         #[command(subcommand)]
-        command: Measure,
+        command: MeasureCommand,
     },
     #[command(flatten)]
-    Former(Former),
+    Former(FormerCommand),
 }
 
 /// Commands about motions.
 #[derive(Debug, Subcommand)]
-pub enum Motion {
+pub enum MotionCommand {
     /// Follow motions: final states, the drift of integrals, and samples as data or a picture
     #[command(after_help = "\
 Examples:
@@ -60,7 +70,7 @@ Examples:
   liouville motion orbit figures/fig-8 --start 3.4,0.3 --time 20 --every 0.01 --columns 't, γ, F2' --out orbit.csv
   liouville motion orbit spin/rattleback-reversal --state 'ω=[1/50,1/50,1] γ=[0,0,1]' --time 20 --plot 't, (ω,γ)' --out spin.png
   liouville motion orbit spin/rattleback-reversal --time 20 --track --out track.pdf")]
-    Orbit(orbit::Orbit),
+    Orbit(orbit::OrbitArgs),
     /// Draw a Poincaré section: of a rolling body in the Andoyer-like variables, of any system by a
     /// surface
     #[command(after_help = "\
@@ -69,18 +79,20 @@ Examples:
   liouville motion section figures/fig-8 --both-ways --opacity 0.4 --out attractor-and-repeller.png
   liouville motion section figures/fig-A4-a figures/fig-A4-b figures/fig-A4-c --panels 3x1 --out panels.pdf
   liouville motion section plane/unbalanced-ball --section 'γ3 = 0' --axes 'γ1, ω3' --out points.csv")]
-    Section(section::Section),
+    Section(section::SectionArgs),
     /// Measure Lyapunov exponents and the mean divergence along motions
     #[command(after_help = "\
 Examples:
   liouville motion exponents figures/fig-10
-  liouville motion exponents classical/flows/nose-hoover --spectrum")]
-    Exponents(exponents::Exponents),
+  liouville motion exponents classical/flows/nose-hoover --spectrum
+  liouville motion exponents figures/fig-10 --starts starts.csv --part 3/40 --out parts/")]
+    Exponents(exponents::ExponentsArgs),
     /// Draw a plane of motions, such as two parameters, each point coloured by its class
     #[command(after_help = "\
-Example:
-  liouville motion chart figures/fig-8 --x c1=0..2 --y c2=0..2 --colour exponent --out chart.pdf")]
-    Chart(chart::Chart),
+Examples:
+  liouville motion chart figures/fig-8 --x c1=0..2 --y c2=0..2 --colour exponent --out chart.pdf
+  liouville motion chart figures/fig-8 --x c1=0..2 --y c2=0..2 --part 3/40 --out parts/")]
+    Chart(chart::ChartArgs),
     /// Find closed orbits: periodic points of a section, with their multipliers and errors
     #[command(after_help = "\
 Examples:
@@ -91,57 +103,78 @@ Examples:
 
 /// Commands about the program itself.
 #[derive(Debug, Subcommand)]
-pub enum Measure {
+pub enum MeasureCommand {
     /// Compare methods of differentiation: run time against error
     #[command(after_help = "Example:\n  liouville measure bench --svg work-precision.svg")]
-    Bench(bench::Bench),
+    Bench(bench::BenchArgs),
     /// Sweep numerically hard cases: digits lost, and verdicts that must stay right
     #[command(after_help = "Example:\n  liouville measure stress --svg stress.svg")]
     Stress(stress::Stress),
     /// Judge families of cases of growing size: time, memory, and the exponents of growth
     #[command(after_help = "Example:\n  liouville measure growth chain toda --within 10")]
-    Growth(growth::Growth),
+    Growth(growth::GrowthArgs),
 }
 
 /// The same commands under their names of version 0.1.
 #[derive(Debug, Subcommand)]
-pub enum Former {
+pub enum FormerCommand {
     #[command(flatten)]
-    Motion(Box<Motion>),
+    Motion(Box<MotionCommand>),
     #[command(flatten)]
-    Measure(Measure),
+    Measure(MeasureCommand),
 }
 
-impl Command {
-    pub fn run(&self) -> Result<Answer, String> {
+impl ExploreCommand {
+    pub fn run(&self) -> Result<CommandOutput, String> {
         match self {
             Self::Search(options) => search::run(options),
             Self::Report(options) => report::run(options),
             Self::Site(options) => site::run(options),
+            Self::Sweep(options) => sweep::run(options),
             Self::Motion { command } => command.run(),
-            Self::Former(Former::Motion(command)) => command.run(),
-            Self::Measure { command } | Self::Former(Former::Measure(command)) => command.run(),
+            Self::Former(FormerCommand::Motion(command)) => command.run(),
+            Self::Measure { command } | Self::Former(FormerCommand::Measure(command)) => {
+                command.run()
+            }
         }
     }
 }
 
-impl Command {
+impl ExploreCommand {
+    /// Keeps the arguments with a job that may be done in parts.
+    pub fn keep(&mut self, arguments: &[OsString]) {
+        let share = match self {
+            Self::Sweep(options) => &mut options.share,
+            Self::Motion { command } | Self::Former(FormerCommand::Motion(command)) => {
+                match command.as_mut() {
+                    MotionCommand::Section(options) => &mut options.share,
+                    MotionCommand::Exponents(options) => &mut options.share,
+                    MotionCommand::Chart(options) => &mut options.share,
+                    MotionCommand::Orbit(_) | MotionCommand::Periodic(_) => return,
+                }
+            }
+            _ => return,
+        };
+        share.arguments = share::kept(arguments);
+    }
+
     /// Limits of a command that has nothing to show before its end; a search and a site have their own.
-    pub fn limits(&self) -> Limits {
+    pub fn limits(&self) -> LimitArgs {
         match self {
             Self::Report(options) => options.limits,
+            Self::Sweep(options) => options.subject.limits,
             Self::Motion { command } => command.limits(),
-            Self::Former(Former::Motion(command)) => command.limits(),
+            Self::Former(FormerCommand::Motion(command)) => command.limits(),
             Self::Search(_)
             | Self::Site(_)
             | Self::Measure { .. }
-            | Self::Former(Former::Measure(_)) => Limits::default(),
+            | Self::Former(FormerCommand::Measure(_)) => LimitArgs::default(),
         }
     }
 }
 
-impl Motion {
-    fn limits(&self) -> Limits {
+impl MotionCommand {
+    fn limits(&self) -> LimitArgs {
         match self {
             Self::Orbit(options) => options.subject.limits,
             Self::Section(options) => options.subject.limits,
@@ -151,7 +184,7 @@ impl Motion {
         }
     }
 
-    fn run(&self) -> Result<Answer, String> {
+    fn run(&self) -> Result<CommandOutput, String> {
         match self {
             Self::Orbit(options) => orbit::run(options),
             Self::Section(options) => section::run(options),
@@ -162,8 +195,8 @@ impl Motion {
     }
 }
 
-impl Measure {
-    fn run(&self) -> Result<Answer, String> {
+impl MeasureCommand {
+    fn run(&self) -> Result<CommandOutput, String> {
         match self {
             Self::Bench(options) => bench::run(options),
             Self::Stress(options) => stress::run(options),

@@ -3,23 +3,25 @@
 use std::io::IsTerminal;
 use std::path::PathBuf;
 
-use crate::report::data::Data;
+use crate::parts::Identity;
+use crate::report::data::DataTable;
 use crate::report::diagnostic;
 use clap::Args;
 use liouville::case::{Angle, Case};
-use liouville::number::pair::Pair;
+use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
 use liouville_flow::{ChoiceError, FlowError, FormulaMistake, SectionChoice, number_with_pi};
 
-use super::Limits;
+use super::LimitArgs;
 use super::colour;
-use super::eval::open;
+use super::eval::{open_text, read_text};
 use super::files::plain;
 use super::output::Ending;
+use super::share::Share;
 
 /// Case whose motion is followed, and format of the output.
 #[derive(Clone, Debug, Args)]
-pub struct Subject {
+pub struct MotionArgs {
     /// Case file
     pub case: PathBuf,
     /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'; others are drawn
@@ -32,12 +34,64 @@ pub struct Subject {
     #[arg(long)]
     pub json: bool,
     #[command(flatten)]
-    pub limits: Limits,
+    pub limits: LimitArgs,
 }
 
-impl Subject {
+/// A case with its text.
+#[derive(Debug)]
+pub struct Opened {
+    pub case: Case,
+    pub text: String,
+}
+
+impl MotionArgs {
     pub fn open(&self) -> Result<Case, String> {
-        let case = open(&self.case, &self.settings)?;
+        self.opened().map(|opened| opened.case)
+    }
+
+    /// Reads the case, and keeps its text.
+    pub fn opened(&self) -> Result<Opened, String> {
+        let (case, text) = open_text(&self.case, &self.settings)?;
+        let case = self.moving(case)?;
+        Ok(Opened { case, text })
+    }
+
+    /// Reads the case from its text.
+    pub fn read(&self, text: &str) -> Result<Opened, String> {
+        let Opened { case, text } = self.opened_any(text)?;
+        Ok(Opened { case: self.moving(case)?, text })
+    }
+
+    /// Reads the case from its text, whether it has motions or not.
+    pub fn opened_any(&self, text: &str) -> Result<Opened, String> {
+        let case = read_text(&self.case, text, &self.settings)?;
+        Ok(Opened { case, text: text.to_string() })
+    }
+
+    /// Identity of a job about the case.
+    pub fn identity(
+        &self,
+        job: &'static str,
+        text: &str,
+        (units, request): (u64, String),
+        share: &Share,
+    ) -> Identity {
+        let mut settings = self.settings.clone();
+        settings.sort();
+        Identity {
+            job,
+            units,
+            seed: self.seed,
+            request,
+            arguments: share.arguments.clone(),
+            name: self.case.display().to_string(),
+            settings,
+            case: text.to_string(),
+        }
+    }
+
+    /// The case, if it has motions.
+    fn moving(&self, case: Case) -> Result<Case, String> {
         match case.model.system.is_map() {
             true => Err(self.told(&FlowError::Discrete)),
             false => Ok(case),
@@ -51,8 +105,8 @@ impl Subject {
 }
 
 /// Poincaré section: that of the case, unless options override it.
-#[derive(Debug, Args)]
-pub struct Plane {
+#[derive(Clone, Debug, Args)]
+pub struct SectionPlaneArgs {
     /// Energy; by default that of the case's [section]
     #[arg(long)]
     pub energy: Option<Rational>,
@@ -61,7 +115,7 @@ pub struct Plane {
     pub g0: Option<Angle>,
 }
 
-impl Plane {
+impl SectionPlaneArgs {
     /// Choices of the options.
     pub fn choice(&self) -> SectionChoice {
         SectionChoice {
@@ -113,9 +167,9 @@ impl Threads {
 
 /// Reads a count of orbits, crossings or images.
 pub fn parse_count(text: &str) -> Result<usize, String> {
-    const MOST: usize = 1_000_000;
-    let count = text.parse().ok().filter(|count| *count <= MOST);
-    count.ok_or(format!("write a whole number up to {MOST}"))
+    const MOST_COUNT: usize = 1_000_000;
+    let count = text.parse().ok().filter(|count| *count <= MOST_COUNT);
+    count.ok_or(format!("write a whole number up to {MOST_COUNT}"))
 }
 
 /// Reads a point of a section.
@@ -130,7 +184,7 @@ pub fn parse_start(text: &str) -> Result<[f64; 2], String> {
 }
 
 /// Renders data by the ending of their file.
-pub fn rendered(data: &Data, ending: Ending) -> Vec<u8> {
+pub fn rendered(data: &DataTable, ending: Ending) -> Vec<u8> {
     match ending {
         Ending::Npy => data.npy(),
         Ending::Json => data.json().into_bytes(),
@@ -139,8 +193,8 @@ pub fn rendered(data: &Data, ending: Ending) -> Vec<u8> {
 }
 
 /// A whole number as a cell of data.
-pub fn whole(count: usize) -> Pair {
-    Pair::from_f64(count as f64)
+pub fn whole(count: usize) -> DoubleDouble {
+    DoubleDouble::from_f64(count as f64)
 }
 
 /// Message about a formula of an option, with its place.

@@ -1,6 +1,6 @@
 //! The command `liouville motion orbit`.
 
-use crate::report::data::Data;
+use crate::report::data::DataTable;
 use crate::report::facts;
 use crate::report::orbit;
 use clap::{Args, ValueEnum};
@@ -14,12 +14,12 @@ use liouville_flow::{
 
 use super::eval::wrong_state;
 use super::ink::Ink;
-use super::motion::{Subject, Threads, rendered, wrong_formula};
+use super::motion::{MotionArgs, Threads, rendered, wrong_formula};
 use super::output::{Ending, Output};
 use super::progress::progress;
-use super::starts::{Given, Named, Starts, misfit};
+use super::starts::{GivenStart, Named, Starts, misfit};
 use super::track;
-use super::{Answer, write};
+use super::{CommandOutput, write};
 
 /// Number of intervals between samples where no interval is given.
 const INTERVALS: i64 = 1000;
@@ -27,9 +27,9 @@ const INTERVALS: i64 = 1000;
 const MOST_NUMBERS: f64 = 3e7;
 
 #[derive(Debug, Args)]
-pub struct Orbit {
+pub struct OrbitArgs {
     #[command(flatten)]
-    pub subject: Subject,
+    pub subject: MotionArgs,
     /// Time to follow the motion; negative: backwards
     #[arg(long, default_value = "100", allow_hyphen_values = true)]
     pub time: Rational,
@@ -85,7 +85,7 @@ impl Digits {
     }
 }
 
-pub fn run(options: &Orbit) -> Result<Answer, String> {
+pub fn run(options: &OrbitArgs) -> Result<CommandOutput, String> {
     let subject = &options.subject;
     let case = subject.open()?;
     let told = |error: FlowError| subject.told(&error);
@@ -170,10 +170,10 @@ pub fn run(options: &Orbit) -> Result<Answer, String> {
             numbered(&titles, found.len()).join(", ")
         )
     });
-    Ok(Answer { text: text + &saved.unwrap_or_default(), code: 0 })
+    Ok(CommandOutput { text: text + &saved.unwrap_or_default(), code: 0 })
 }
 
-fn columns(case: &Case, options: &Orbit) -> Result<Columns, String> {
+fn columns(case: &Case, options: &OrbitArgs) -> Result<Columns, String> {
     let text = options.columns.as_deref();
     let read = match text {
         Some(text) => Columns::read(Lexicon::new(case), text),
@@ -183,7 +183,7 @@ fn columns(case: &Case, options: &Orbit) -> Result<Columns, String> {
 }
 
 /// Starts with their names.
-fn starts(case: &Case, options: &Orbit) -> Result<Named, String> {
+fn starts(case: &Case, options: &OrbitArgs) -> Result<Named, String> {
     let subject = &options.subject;
     let launches =
         Launches { case, energy: None, pad: None, seed: subject.seed, index: options.index };
@@ -196,9 +196,9 @@ fn starts(case: &Case, options: &Orbit) -> Result<Named, String> {
     if given.is_empty() {
         return Ok(vec![("drawn".to_string(), one(&Begin::Drawn(options.index)))]);
     }
-    let start = |(name, given): (String, Given)| match given {
-        Given::State(state) => Ok((name, one(&Begin::State(state)))),
-        Given::Values(values) => on_section(case, options, &values).map(|start| (name, start)),
+    let start = |(name, given): (String, GivenStart)| match given {
+        GivenStart::State(state) => Ok((name, one(&Begin::State(state)))),
+        GivenStart::Values(values) => on_section(case, options, &values).map(|start| (name, start)),
     };
     given.into_iter().map(start).collect()
 }
@@ -206,7 +206,7 @@ fn starts(case: &Case, options: &Orbit) -> Result<Named, String> {
 /// Start at a point (l, L/G) of the case's section.
 fn on_section(
     case: &Case,
-    options: &Orbit,
+    options: &OrbitArgs,
     values: &[Rational],
 ) -> Result<Result<Start, FlowError>, String> {
     let plan = case.section.as_ref();
@@ -222,7 +222,7 @@ fn on_section(
 }
 
 /// Interval between samples.
-fn interval(options: &Orbit, starts: usize, columns: usize) -> Result<Rational, String> {
+fn interval(options: &OrbitArgs, starts: usize, columns: usize) -> Result<Rational, String> {
     let size = options.time.abs();
     let every = match &options.every {
         Some(every) => every.clone(),
@@ -250,7 +250,7 @@ fn numbered(titles: &[String], count: usize) -> Vec<String> {
 
 fn save(
     case: &Case,
-    options: &Orbit,
+    options: &OrbitArgs,
     out: &Output,
     (titles, plot): (&[String], Option<Plot>),
     found: &[SampledOrbit],
@@ -271,7 +271,7 @@ fn save(
                     _ => [&[super::motion::whole(index)], &row[..]].concat(),
                 })
             });
-            let data = Data {
+            let data = DataTable {
                 columns: numbered(titles, found.len()),
                 whole: usize::from(found.len() > 1),
                 rows: rows.collect(),

@@ -18,6 +18,10 @@ pub enum Ending {
 impl Ending {
     /// Endings of pictures.
     pub const PICTURES: &'static [Self] = &[Self::Svg, Self::Pdf, Self::Png];
+    /// Endings of charts.
+    pub const CHARTS: &'static [Self] = &[Self::Svg, Self::Pdf, Self::Png, Self::Csv, Self::Json];
+    /// Endings of tables.
+    pub const TABLES: &'static [Self] = &[Self::Json];
     /// Endings of pictures and of data.
     pub const ALL: &'static [Self] =
         &[Self::Svg, Self::Pdf, Self::Png, Self::Csv, Self::Npy, Self::Json];
@@ -56,6 +60,7 @@ impl Output {
         else {
             let names: Vec<&str> = allowed.iter().map(|ending| ending.name()).collect();
             let message = match &names[..] {
+                [one] => format!("does not end in {one}"),
                 [a, b] => format!("is neither {a} nor {b}"),
                 _ => format!("is none of {}", names.join(", ")),
             };

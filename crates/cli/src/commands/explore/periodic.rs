@@ -1,25 +1,25 @@
 //! The command `liouville motion periodic`.
 
-use crate::report::cycle::{self, Found};
+use crate::report::cycle::{self, FoundOrbit};
 use clap::Args;
 use liouville::case::Case;
 use liouville::number::rational::Rational;
 use liouville_flow::{
-    Begin, FlowError, Launches, SectionMap, Surface, closed_orbit, crossing_time,
+    Begin, CrossingSurface, FlowError, Launches, SectionMap, closed_orbit, crossing_time,
 };
 use serde_json::json;
 
-use super::Answer;
-use super::motion::{Plane, Subject};
-use super::starts::{Given, Starts, misfit};
+use super::CommandOutput;
+use super::motion::{MotionArgs, SectionPlaneArgs};
+use super::starts::{GivenStart, Starts, misfit};
 use super::surface::read_surface;
 
 #[derive(Debug, Args)]
 pub struct Periodic {
     #[command(flatten)]
-    pub subject: Subject,
+    pub subject: MotionArgs,
     #[command(flatten)]
-    pub plane: Plane,
+    pub plane: SectionPlaneArgs,
     #[command(flatten)]
     pub starts: Starts,
     /// Surface whose crossings count, for a start by its state: --section 'z = 27'
@@ -36,7 +36,7 @@ pub struct Periodic {
     pub time: Option<Rational>,
 }
 
-pub fn run(options: &Periodic) -> Result<Answer, String> {
+pub fn run(options: &Periodic) -> Result<CommandOutput, String> {
     let case = options.subject.open()?;
     let told = |error: FlowError| options.subject.told(&error);
     if case.model.system.has_arbitrary_function() {
@@ -53,8 +53,8 @@ pub fn run(options: &Periodic) -> Result<Answer, String> {
     let mut found = Vec::new();
     for (_, given) in given {
         found.push(match given {
-            Given::State(state) => near_state(&case, options, surface.as_ref(), state)?,
-            Given::Values(values) => near_point(&case, options, &values)?,
+            GivenStart::State(state) => near_state(&case, options, surface.as_ref(), state)?,
+            GivenStart::Values(values) => near_point(&case, options, &values)?,
         });
     }
     let text = match options.subject.json {
@@ -65,11 +65,11 @@ pub fn run(options: &Periodic) -> Result<Answer, String> {
         }
         false => found.iter().map(|found| cycle::text(&case, found)).collect(),
     };
-    Ok(Answer { text, code: 0 })
+    Ok(CommandOutput { text, code: 0 })
 }
 
 /// Finds the orbit through a periodic point (l, L/G) of a rolling body.
-fn near_point(case: &Case, options: &Periodic, values: &[Rational]) -> Result<Found, String> {
+fn near_point(case: &Case, options: &Periodic, values: &[Rational]) -> Result<FoundOrbit, String> {
     let told = |error: FlowError| options.subject.told(&error);
     let (has_section, is_ours) =
         (liouville_flow::has_andoyer_section(&case.model), options.section.is_none());
@@ -84,16 +84,16 @@ fn near_point(case: &Case, options: &Periodic, values: &[Rational]) -> Result<Fo
     let map = SectionMap::new(case, &g0, &energy, options.subject.seed).map_err(told)?;
     let near = [l.to_f64().0, z.to_f64().0];
     let (point, cycle) = map.cycle(near, options.period as usize).map_err(told)?;
-    Ok(Found { point: Some(point), crossings: Some(point.period), cycle })
+    Ok(FoundOrbit { point: Some(point), crossings: Some(point.period), cycle })
 }
 
 /// Finds the orbit near a state.
 fn near_state(
     case: &Case,
     options: &Periodic,
-    surface: Option<&Surface>,
+    surface: Option<&CrossingSurface>,
     state: Vec<Rational>,
-) -> Result<Found, String> {
+) -> Result<FoundOrbit, String> {
     let told = |error: FlowError| options.subject.told(&error);
     let energy = options.plane.energy.as_ref();
     let seed = options.subject.seed;
@@ -117,5 +117,5 @@ fn near_state(
     };
     let surface = surface.filter(|_| crossings.is_some());
     let cycle = closed_orbit(case, &start, time, surface).map_err(told)?;
-    Ok(Found { point: None, crossings, cycle })
+    Ok(FoundOrbit { point: None, crossings, cycle })
 }

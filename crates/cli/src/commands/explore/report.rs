@@ -3,7 +3,7 @@
 use std::io::IsTerminal;
 use std::path::PathBuf;
 
-use crate::report::{Digest, diagnostic, survey as written};
+use crate::report::{CaseDigest, diagnostic, survey as written};
 use clap::{Args, ValueEnum};
 use liouville::case::Case;
 use liouville_search::survey::{self, Survey};
@@ -11,10 +11,10 @@ use liouville_search::survey::{self, Survey};
 use super::eval::open_signed;
 use super::motion::Threads;
 use super::progress::telling;
-use super::{Answer, Limits, Sampling, colour, out, width};
+use super::{CommandOutput, LimitArgs, SamplingArgs, colour, out, width};
 
 #[derive(Debug, Args)]
-pub struct Report {
+pub struct ReportArgs {
     /// Case file; claims are not needed
     pub case: PathBuf,
     /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'; others stay general
@@ -33,9 +33,9 @@ pub struct Report {
     #[arg(short, long)]
     pub verbose: bool,
     #[command(flatten)]
-    pub limits: Limits,
+    pub limits: LimitArgs,
     #[command(flatten)]
-    pub sampling: Sampling,
+    pub sampling: SamplingArgs,
 }
 
 /// Format of a report.
@@ -54,7 +54,7 @@ pub enum ReportFormat {
 /// Endings of files that imply a format.
 const ENDINGS: [&str; 7] = ["html", "htm", "md", "markdown", "tex", "json", "txt"];
 
-pub fn run(options: &Report) -> Result<Answer, String> {
+pub fn run(options: &ReportArgs) -> Result<CommandOutput, String> {
     if let Some(path) = &options.out {
         out::check(path, "--out", &[&options.case])?;
         if options.format.is_none() && !options.json {
@@ -69,47 +69,47 @@ pub fn run(options: &Report) -> Result<Answer, String> {
         diagnostic::of_file(&shown, &error.to_string(), error.help(), coloured).rendered
     })?;
     let text = match form(options) {
-        Form::Json => {
+        PageFormat::Json => {
             let json = written::json(&found).and_then(|json| digest.sign(&json));
             json.map_err(|error| format!("error: {error}"))? + "\n"
         }
-        Form::Readable(format) => readable(&case, &found, &digest, format, options),
+        PageFormat::Readable(format) => readable(&case, &found, &digest, format, options),
     };
     match &options.out {
-        None => Ok(Answer { text, code: 0 }),
+        None => Ok(CommandOutput { text, code: 0 }),
         Some(path) => {
             out::write(path, "--out", &text)?;
-            Ok(Answer { text: format!("{}\n", path.display()), code: 0 })
+            Ok(CommandOutput { text: format!("{}\n", path.display()), code: 0 })
         }
     }
 }
 
 /// Form of the output.
-enum Form {
+enum PageFormat {
     Json,
     Readable(ReportFormat),
 }
 
 /// Form requested, or implied by the name of the file.
-fn form(options: &Report) -> Form {
+fn form(options: &ReportArgs) -> PageFormat {
     let extension = options.out.as_deref().and_then(|path| path.extension()?.to_str());
     match (options.json, options.format, extension) {
-        (true, ..) => Form::Json,
-        (_, Some(format), _) => Form::Readable(format),
-        (_, None, Some("json")) => Form::Json,
-        (_, None, Some("html" | "htm")) => Form::Readable(ReportFormat::Html),
-        (_, None, Some("md" | "markdown")) => Form::Readable(ReportFormat::Markdown),
-        (_, None, Some("tex")) => Form::Readable(ReportFormat::Latex),
-        (_, None, _) => Form::Readable(ReportFormat::Text),
+        (true, ..) => PageFormat::Json,
+        (_, Some(format), _) => PageFormat::Readable(format),
+        (_, None, Some("json")) => PageFormat::Json,
+        (_, None, Some("html" | "htm")) => PageFormat::Readable(ReportFormat::Html),
+        (_, None, Some("md" | "markdown")) => PageFormat::Readable(ReportFormat::Markdown),
+        (_, None, Some("tex")) => PageFormat::Readable(ReportFormat::Latex),
+        (_, None, _) => PageFormat::Readable(ReportFormat::Text),
     }
 }
 
 fn readable(
     case: &Case,
     found: &Survey,
-    digest: &Digest,
+    digest: &CaseDigest,
     format: ReportFormat,
-    options: &Report,
+    options: &ReportArgs,
 ) -> String {
     let origin = &digest.line();
     match format {
@@ -118,7 +118,7 @@ fn readable(
             written::text(
                 found,
                 origin,
-                written::Style { verbose: options.verbose, colour, width: width() },
+                written::PageStyle { verbose: options.verbose, colour, width: width() },
             )
         }
         ReportFormat::Markdown => written::markdown(found, origin),

@@ -7,20 +7,20 @@ use std::time::Duration;
 
 use crate::report::{diagnostic, search as written};
 use clap::Args;
-use liouville_search::{Effort, Halt, Wanted};
+use liouville_search::{ConditionTarget, Effort, Halt};
 use signal_hook::consts::SIGINT;
 use signal_hook::flag;
 
 use super::super::limits::{STOPPED, parse_seconds};
 use super::eval::open_signed;
 use super::progress::telling;
-use super::{Answer, colour};
+use super::{CommandOutput, colour};
 
 /// Exit code of a program ended by Ctrl-C.
 const INTERRUPTED: i32 = 130;
 
 #[derive(Debug, Args)]
-pub struct Search {
+pub struct SearchArgs {
     /// Case file; claims are not needed
     pub case: PathBuf,
     /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'; others stay general
@@ -73,15 +73,15 @@ pub struct Search {
     pub json: bool,
 }
 
-pub fn run(options: &Search) -> Result<Answer, String> {
+pub fn run(options: &SearchArgs) -> Result<CommandOutput, String> {
     let (case, digest) = open_signed(&options.case, &options.settings)?;
     let effort = Effort {
         degree: options.degree,
         blind: options.blind,
         terms: options.terms.iter().map(|text| text.as_str().into()).collect(),
         conditions: options.conditions.as_ref().map(|name| match name.as_str() {
-            "" => Wanted::Existence,
-            name => Wanted::Claim(name.to_string()),
+            "" => ConditionTarget::Existence,
+            name => ConditionTarget::Claim(name.to_string()),
         }),
         seconds: options.seconds.as_secs_f64(),
         ansatz: liouville_search::Ansatz {
@@ -102,7 +102,7 @@ pub fn run(options: &Search) -> Result<Answer, String> {
         },
     };
     if let Some(plan) = liouville_search::plan(&case, &effort).filter(|plan| plan.seconds >= 1.0) {
-        let liouville_search::Plan { unknowns, seconds, megabytes } = plan;
+        let liouville_search::CountEstimate { unknowns, seconds, megabytes } = plan;
         eprintln!("up to {unknowns} unknowns: at least {seconds:.0} s, and at most {megabytes} MB");
     }
     // A second Ctrl-C exits immediately.
@@ -123,5 +123,5 @@ pub fn run(options: &Search) -> Result<Answer, String> {
         false => written::text(&case.title, &report),
     };
     let code = if report.unreached.is_empty() { 0 } else { STOPPED };
-    Ok(Answer { text: text + "\n", code })
+    Ok(CommandOutput { text: text + "\n", code })
 }

@@ -2,22 +2,30 @@
 
 use std::path::PathBuf;
 
-use crate::report::data::Data;
+use crate::parts::{Form, Identity, Job, json_line, json_unit};
+use crate::report::data::DataTable;
+use crate::report::exponents::MotionRow;
 use clap::Args;
-use liouville::case::{Case, Direction, Line};
+use liouville::case::{Case, Direction, FixedLine};
+use liouville::part::Part;
 use liouville_draw::{Plot, Text, plain};
+use liouville_flow::{SectionOrbit, SurfaceOrbit};
+use serde::{Deserialize, Serialize};
 
 use super::chart::parse_size;
 use super::ink::Ink;
-use super::motion::{Plane, Subject, Threads, parse_count, parse_start, rendered};
+use super::motion::{
+    MotionArgs, Opened, SectionPlaneArgs, Threads, parse_count, parse_start, rendered,
+};
 use super::output::{Ending, Output};
+use super::share::{Share, Target, carry_out};
 use super::starts::Starts;
-use super::{Answer, andoyer, surface, write};
+use super::{CommandOutput, andoyer, surface, write};
 
-#[derive(Debug, Args)]
-pub struct Section {
+#[derive(Clone, Debug, Args)]
+pub struct SectionArgs {
     #[command(flatten)]
-    pub subject: Subject,
+    pub subject: MotionArgs,
     /// Further cases: all are drawn as one picture, with letters
     #[arg(value_name = "CASE")]
     pub others: Vec<PathBuf>,
@@ -25,7 +33,7 @@ pub struct Section {
     #[arg(long, value_name = "NXxNY", value_parser = parse_size)]
     pub panels: Option<[usize; 2]>,
     #[command(flatten)]
-    pub plane: Plane,
+    pub plane: SectionPlaneArgs,
     /// Surface of the section, by formulas of the case: --section 'x = 0'. By default g = g₀ of a
     /// rolling body
     #[arg(long, value_name = "EQUATION", conflicts_with = "g0", allow_hyphen_values = true)]
@@ -67,7 +75,7 @@ pub struct Section {
     /// Draw the images of these lines of fixed points of reversors: L=0, l=0 (and π), l=π/2 (and
     /// 3π/2)
     #[arg(long, value_delimiter = ',')]
-    pub lines: Vec<Line>,
+    pub lines: Vec<FixedLine>,
     /// Number of images of the lines, forwards and backwards
     #[arg(long, value_parser = parse_count)]
     pub images: Option<usize>,
@@ -80,6 +88,8 @@ pub struct Section {
     pub classes: Option<f64>,
     #[command(flatten)]
     pub ink: Ink,
+    #[command(flatten)]
+    pub share: Share,
     #[command(flatten)]
     pub threads: Threads,
 }
@@ -104,7 +114,7 @@ pub struct Drawn {
     /// Report for the terminal, or JSON.
     pub text: String,
     pub plot: Option<Plot>,
-    pub data: Option<Data>,
+    pub data: Option<DataTable>,
 }
 
 /// Wish of a section: the file's ending, and the number of plots side by side.
@@ -124,64 +134,214 @@ impl Wish {
     }
 }
 
-pub fn run(options: &Section) -> Result<Answer, String> {
+/// A motion with its crossings.
+#[derive(Debug, Serialize, Deserialize)]
+pub enum Unit {
+    /// Motion through g = g₀.
+    Andoyer {
+        /// Motion.
+        orbit: SectionOrbit,
+        /// The same motion the other way in time, if that is drawn too.
+        other: Option<Box<SectionOrbit>>,
+        /// Its exponents, if it is classified.
+        class: Option<Box<MotionRow>>,
+    },
+    /// Motion through a surface.
+    Surface {
+        /// Name of the start.
+        start: String,
+        /// Motion.
+        orbit: SurfaceOrbit,
+    },
+}
+
+pub fn run(options: &SectionArgs) -> Result<CommandOutput, String> {
+    if options.share.part.is_some() {
+        if !options.others.is_empty() {
+            return Err("error: --part is for one case\n\
+                        help: compute the parts of each case, and merge each to data"
+                .to_string());
+        }
+        let job = SectionJob::new(options.clone(), options.subject.opened()?)?;
+        let threads = options.threads.count();
+        return carry_out(
+            &job,
+            &options.share,
+            Target { out: options.ink.out.as_deref(), threads },
+        );
+    }
     let first = &options.subject;
-    let others = options.others.iter().map(|case| Subject { case: case.clone(), ..first.clone() });
-    let subjects: Vec<Subject> = [first.clone()].into_iter().chain(others).collect();
-    let count = subjects.len();
-    let square = (1..).find(|side| side * side >= count).unwrap_or(1);
-    let [columns, rows] = options.panels.unwrap_or([square, count.div_ceil(square)]);
-    if columns * rows < count {
-        return Err(format!(
-            "error: --panels has room for {} of {count} cases\nhelp: write --panels {square}x{}",
-            columns * rows,
-            count.div_ceil(square)
-        ));
+    let others =
+        options.others.iter().map(|case| MotionArgs { case: case.clone(), ..first.clone() });
+    let subjects: Vec<MotionArgs> = [first.clone()].into_iter().chain(others).collect();
+    let cases: Vec<Case> = subjects.iter().map(MotionArgs::open).collect::<Result<_, _>>()?;
+    let layout = Layout::new(options, cases.len())?;
+    let all = subjects.iter().zip(&cases);
+    let drawn = all.map(|(subject, case)| {
+        let units =
+            compute(case, subject, options, layout.wish, Part::WHOLE, options.threads.count())?;
+        drawn(case, subject, options, layout.wish, units)
+    });
+    layout.finish(options, drawn.collect::<Result<_, _>>()?)
+}
+
+/// Follows the motions of a part.
+fn compute(
+    case: &Case,
+    subject: &MotionArgs,
+    options: &SectionArgs,
+    wish: Wish,
+    part: Part,
+    threads: usize,
+) -> Result<Vec<Unit>, String> {
+    match options.section.is_some() {
+        true => surface::compute(case, subject, options, wish, (part, threads)),
+        false => andoyer::compute(case, subject, options, (part, threads)),
     }
-    let cases: Vec<Case> = subjects.iter().map(Subject::open).collect::<Result<_, _>>()?;
-    let out = options.output()?;
-    let wish = Wish { ending: out.as_ref().map(|out| out.ending), columns };
-    if wish.is_data() && count > 1 {
-        return Err("error: several cases are one picture, and no data\n\
-                    help: end --out in .svg, .pdf or .png, or give one case"
-            .to_string());
+}
+
+/// Section of one case by its motions.
+fn drawn(
+    case: &Case,
+    subject: &MotionArgs,
+    options: &SectionArgs,
+    wish: Wish,
+    units: Vec<Unit>,
+) -> Result<Drawn, String> {
+    match options.section.is_some() {
+        true => surface::drawn(case, subject, options, wish, units),
+        false => andoyer::drawn(case, subject, options, wish, units),
     }
-    let mut drawn: Vec<Drawn> = cases
-        .iter()
-        .zip(&subjects)
-        .map(|(case, subject)| match options.section.is_some() {
-            true => surface::drawn(case, subject, options, wish),
-            false => andoyer::drawn(case, subject, options, wish),
-        })
-        .collect::<Result<_, _>>()?;
-    let mut saved = String::new();
-    if let Some(out) = &out {
-        let plots: Vec<Plot> = drawn.iter_mut().filter_map(|one| one.plot.take()).collect();
-        let bytes = match drawn.first().and_then(|one| one.data.as_ref()) {
-            Some(data) => {
-                if options.section.is_some() {
-                    let (rows, columns) = (data.rows.len(), data.columns.join(", "));
-                    saved = format!("{}: {rows} rows of {columns}\n", out.path.display());
-                }
-                rendered(data, out.ending)
-            }
-            None => options.ink.drawn(words(&drawn), plots, columns, out.ending)?,
+}
+
+/// Section of a case, which may be computed in parts.
+#[derive(Debug)]
+pub struct SectionJob {
+    options: SectionArgs,
+    opened: Opened,
+}
+
+impl SectionJob {
+    pub(in crate::commands) fn new(options: SectionArgs, opened: Opened) -> Result<Self, String> {
+        if options.share.part.is_none() {
+            Layout::new(&options, 1)?;
+        }
+        Ok(Self { options, opened })
+    }
+
+    /// Titles of the axes of a surface; `None` for g = g₀.
+    pub fn axes(&self) -> Result<Option<Vec<String>>, String> {
+        match self.options.section.is_some() {
+            true => surface::axes(&self.opened.case, &self.options).map(Some),
+            false => Ok(None),
+        }
+    }
+}
+
+impl Job for SectionJob {
+    type Unit = Unit;
+
+    fn identity(&self) -> Result<Identity, String> {
+        let (case, options) = (&self.opened.case, &self.options);
+        let (count, request) = match options.section.is_some() {
+            true => surface::request_text(case, options)?,
+            false => andoyer::request_text(case, options)?,
         };
-        write(&out.path, "--out", bytes)?;
+        let (text, share) = (&self.opened.text, &options.share);
+        Ok(options.subject.identity("section", text, (count as u64, request), share))
     }
-    let text = match (options.subject.json, &drawn[..]) {
-        (true, [one]) => one.text.clone() + "\n",
-        (true, all) => {
-            let all = all.iter().map(|one| serde_json::from_str::<serde_json::Value>(&one.text));
-            let all =
-                all.collect::<Result<Vec<_>, _>>().map_err(|error| format!("error: {error}"))?;
-            serde_json::json!({ "sections": all }).to_string() + "\n"
+
+    fn form(&self) -> Form {
+        Form::Json
+    }
+
+    fn compute(&self, part: Part, threads: usize) -> Result<Vec<Unit>, String> {
+        let Self { options, opened: Opened { case, .. } } = self;
+        compute(case, &options.subject, options, Wish { ending: None, columns: 1 }, part, threads)
+    }
+
+    fn line(&self, _: u64, unit: &Unit) -> Result<String, String> {
+        json_line(unit)
+    }
+
+    fn unit(&self, line: &str) -> Result<Unit, String> {
+        json_unit(line)
+    }
+
+    fn report(&self, units: Vec<Unit>) -> Result<CommandOutput, String> {
+        let Self { options, opened: Opened { case, .. } } = self;
+        let layout = Layout::new(options, 1)?;
+        let drawn = drawn(case, &options.subject, options, layout.wish, units)?;
+        layout.finish(options, vec![drawn])
+    }
+}
+
+/// File to write, and places of the plots in it.
+struct Layout {
+    out: Option<Output>,
+    columns: usize,
+    wish: Wish,
+}
+
+impl Layout {
+    /// Layout of this number of cases.
+    fn new(options: &SectionArgs, count: usize) -> Result<Self, String> {
+        let square = (1..).find(|side| side * side >= count).unwrap_or(1);
+        let [columns, rows] = options.panels.unwrap_or([square, count.div_ceil(square)]);
+        if columns * rows < count {
+            return Err(format!(
+                "error: --panels has room for {} of {count} cases\nhelp: write --panels {square}x{}",
+                columns * rows,
+                count.div_ceil(square)
+            ));
         }
-        (false, all) => {
-            all.iter().map(|one| one.text.as_str()).collect::<Vec<_>>().join("\n") + &saved
+        let out = options.output()?;
+        let wish = Wish { ending: out.as_ref().map(|out| out.ending), columns };
+        if wish.is_data() && count > 1 {
+            return Err("error: several cases are one picture, and no data\n\
+                        help: end --out in .svg, .pdf or .png, or give one case"
+                .to_string());
         }
-    };
-    Ok(Answer { text, code: 0 })
+        Ok(Self { out, columns, wish })
+    }
+
+    /// Writes the file, and reports.
+    fn finish(
+        &self,
+        options: &SectionArgs,
+        mut drawn: Vec<Drawn>,
+    ) -> Result<CommandOutput, String> {
+        let mut saved = String::new();
+        if let Some(out) = &self.out {
+            let plots: Vec<Plot> = drawn.iter_mut().filter_map(|one| one.plot.take()).collect();
+            let bytes = match drawn.first().and_then(|one| one.data.as_ref()) {
+                Some(data) => {
+                    if options.section.is_some() {
+                        let (rows, columns) = (data.rows.len(), data.columns.join(", "));
+                        saved = format!("{}: {rows} rows of {columns}\n", out.path.display());
+                    }
+                    rendered(data, out.ending)
+                }
+                None => options.ink.drawn(words(&drawn), plots, self.columns, out.ending)?,
+            };
+            write(&out.path, "--out", bytes)?;
+        }
+        let text = match (options.subject.json, &drawn[..]) {
+            (true, [one]) => one.text.clone() + "\n",
+            (true, all) => {
+                let all =
+                    all.iter().map(|one| serde_json::from_str::<serde_json::Value>(&one.text));
+                let all = all
+                    .collect::<Result<Vec<_>, _>>()
+                    .map_err(|error| format!("error: {error}"))?;
+                serde_json::json!({ "sections": all }).to_string() + "\n"
+            }
+            (false, all) => {
+                all.iter().map(|one| one.text.as_str()).collect::<Vec<_>>().join("\n") + &saved
+            }
+        };
+        Ok(CommandOutput { text, code: 0 })
+    }
 }
 
 /// Title and caption: of several plots the titles, with their letters.
@@ -196,7 +356,7 @@ fn words(drawn: &[Drawn]) -> (&str, Vec<Text>) {
     }
 }
 
-impl Section {
+impl SectionArgs {
     /// File to write.
     pub fn output(&self) -> Result<Option<Output>, String> {
         let inputs = [self.subject.case.as_path()].into_iter().chain(self.starts.inputs());

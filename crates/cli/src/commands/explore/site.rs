@@ -7,17 +7,17 @@ use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
-use crate::report::{Digest, Failure, VERSION, diagnostic, survey as written};
+use crate::report::{CaseDigest, FileFailure, VERSION, diagnostic, survey as written};
 use clap::Args;
 use liouville::case::Case;
 use liouville::verdict::{JudgeError, Options};
-use liouville_report::site::{Order, Outcome, Page, Standing, index, way_back};
+use liouville_report::site::{Page, SiteGroup, SiteOrder, SiteOutcome, index, way_back};
 use liouville_search::survey;
 use rayon::prelude::*;
 
 use super::super::files::{self, Found, plain};
 use super::super::limits::{STOPPED, signals};
-use super::{Answer, Limits, Sampling, out, source};
+use super::{CommandOutput, LimitArgs, SamplingArgs, out, source};
 
 /// Stack of each thread; formulas nest, and what follows them does.
 const STACK: usize = 16 << 20;
@@ -31,13 +31,13 @@ pub struct Site {
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     #[command(flatten)]
-    pub limits: Limits,
+    pub limits: LimitArgs,
     #[command(flatten)]
-    pub sampling: Sampling,
+    pub sampling: SamplingArgs,
 }
 
 /// A case of the site, and what is known of it.
-struct Task {
+struct SiteTask {
     path: PathBuf,
     /// File of its page in the folder of the site.
     file: String,
@@ -45,21 +45,21 @@ struct Task {
 }
 
 /// The site under way.
-struct Work {
-    tasks: Vec<Task>,
+struct SiteBuild {
+    tasks: Vec<SiteTask>,
     out: PathBuf,
     options: Options,
     /// Whether pages are still written; locked while one is.
     is_open: Mutex<bool>,
 }
 
-pub fn run(options: &Site) -> Result<Answer, String> {
+pub fn run(options: &Site) -> Result<CommandOutput, String> {
     options.limits.check()?;
     let started = Instant::now();
     std::fs::create_dir_all(&options.out)
         .map_err(|error| format!("error: cannot make {}: {error}", options.out.display()))?;
     let signal = signals()?;
-    let work = Arc::new(Work {
+    let work = Arc::new(SiteBuild {
         tasks: tasks(files::collect(std::slice::from_ref(&options.folder)), &options.folder),
         out: options.out.clone(),
         options: options.sampling.options(),
@@ -90,7 +90,7 @@ pub fn run(options: &Site) -> Result<Answer, String> {
     *locked(&work.is_open) = false;
     bar.finish_and_clear();
     let pages: Vec<Page> = work.tasks.iter().map(|task| locked(&task.page).clone()).collect();
-    for order in Order::ALL {
+    for order in SiteOrder::ALL {
         let text = index(&title(&options.folder), &format!("liouville {VERSION}"), &pages, order);
         out::write(&options.out.join(order.file()), "--out", text)?;
     }
@@ -105,13 +105,13 @@ fn locked<T>(own: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 /// Counts the pages; the exit code is 2 if a case has none, and 3 if some were not reached.
-fn answer(folder: &Path, pages: &[Page]) -> Answer {
-    let count = |is_meant: fn(&Outcome) -> bool| {
+fn answer(folder: &Path, pages: &[Page]) -> CommandOutput {
+    let count = |is_meant: fn(&SiteOutcome) -> bool| {
         pages.iter().filter(|page| is_meant(&page.outcome)).count()
     };
-    let failed = count(|outcome| matches!(outcome, Outcome::Failed(_)));
-    let unreached = count(|outcome| matches!(outcome, Outcome::Unreached));
-    let shown = folder.join(Order::Hierarchy.file());
+    let failed = count(|outcome| matches!(outcome, SiteOutcome::Failed(_)));
+    let unreached = count(|outcome| matches!(outcome, SiteOutcome::Unreached));
+    let shown = folder.join(SiteOrder::Hierarchy.file());
     let written = pages.len() - failed - unreached;
     let plural = if written == 1 { "" } else { "s" };
     let mut text = format!("{}\n{written} page{plural}", shown.display());
@@ -125,7 +125,7 @@ fn answer(folder: &Path, pages: &[Page]) -> Answer {
         (_, 0) => 2,
         _ => STOPPED,
     };
-    Answer { text: text + "\n", code }
+    CommandOutput { text: text + "\n", code }
 }
 
 /// Title of the site: the name of the folder.
@@ -138,13 +138,13 @@ fn title(folder: &Path) -> String {
 }
 
 /// Tasks for the files, each with a page of its own.
-fn tasks(found: Vec<Found>, folder: &Path) -> Vec<Task> {
+fn tasks(found: Vec<Found>, folder: &Path) -> Vec<SiteTask> {
     let mut taken: BTreeSet<String> =
-        Order::ALL.iter().map(|order| order.file().to_string()).collect();
+        SiteOrder::ALL.iter().map(|order| order.file().to_string()).collect();
     let each = found.into_iter().map(|found| {
         let (path, outcome) = match found {
-            Ok(path) => (path, Outcome::Unreached),
-            Err((path, failure)) => (path, Outcome::Failed(vec![failure])),
+            Ok(path) => (path, SiteOutcome::Unreached),
+            Err((path, failure)) => (path, SiteOutcome::Failed(vec![failure])),
         };
         let inside = inside(&path, folder);
         let mut file = inside.strip_suffix(".toml").unwrap_or(&inside).to_string() + ".html";
@@ -159,7 +159,7 @@ fn tasks(found: Vec<Found>, folder: &Path) -> Vec<Task> {
             source: String::new(),
             outcome,
         };
-        Task { path, file, page: Mutex::new(page) }
+        SiteTask { path, file, page: Mutex::new(page) }
     });
     each.collect()
 }
@@ -174,10 +174,11 @@ fn inside(path: &Path, folder: &Path) -> String {
     parts.collect::<Vec<_>>().join("/")
 }
 
-impl Work {
+impl SiteBuild {
     /// Makes the page of a case; a failure of any kind is its outcome.
-    fn report(&self, task: &Task) {
-        if !matches!(locked(&task.page).outcome, Outcome::Unreached) || !*locked(&self.is_open) {
+    fn report(&self, task: &SiteTask) {
+        if !matches!(locked(&task.page).outcome, SiteOutcome::Unreached) || !*locked(&self.is_open)
+        {
             return;
         }
         let found = catch_unwind(AssertUnwindSafe(|| self.made(task)));
@@ -203,19 +204,19 @@ impl Work {
         });
         let mut page = locked(&task.page);
         match written {
-            Err(failures) => page.outcome = Outcome::Failed(failures),
+            Err(failures) => page.outcome = SiteOutcome::Failed(failures),
             Ok(made) => {
                 (page.title, page.source, page.lead) = (made.title, made.source, made.lead);
-                page.outcome = Outcome::Report(task.file.clone(), made.standing);
+                page.outcome = SiteOutcome::Report(task.file.clone(), made.standing);
             }
         }
     }
 
-    fn made(&self, task: &Task) -> Result<Made, Vec<Failure>> {
+    fn made(&self, task: &SiteTask) -> Result<Made, Vec<FileFailure>> {
         let shown = task.path.display().to_string();
         let (text, case) = source::read(&task.path, &[]);
         let case = case.map_err(|error| diagnostic::of_case(&shown, &text, &error, false))?;
-        let origin = Digest::of(&text).line();
+        let origin = CaseDigest::of(&text).line();
         let found = self.document(&case, &origin);
         let (document, standing) =
             found.map_err(|error| vec![diagnostic::of_judging(&shown, &text, &error, false)])?;
@@ -233,17 +234,17 @@ impl Work {
         &self,
         case: &Case,
         origin: &str,
-    ) -> Result<(written::Document, Standing), JudgeError> {
+    ) -> Result<(written::Document, SiteGroup), JudgeError> {
         if case.model.system.is_map() {
             let report = liouville_search::judge(case, &self.options)?;
             let document = written::of_claims(case, &report, self.options.seed, origin);
-            return Ok((document, Standing::Claims));
+            return Ok((document, SiteGroup::Claims));
         }
         let found = survey::survey(case, &self.options, &mut |_| ())?;
         // one thread: the others have cases of their own
         let motion = liouville_flow::portrait(case, self.options.seed, 1);
         let document = written::with_motion(&found, origin, motion.as_ref());
-        Ok((document, Standing::Class(found.hierarchy.class)))
+        Ok((document, SiteGroup::Class(found.hierarchy.class)))
     }
 }
 
@@ -252,6 +253,6 @@ struct Made {
     title: String,
     source: String,
     lead: String,
-    standing: Standing,
+    standing: SiteGroup,
     html: String,
 }

@@ -10,7 +10,7 @@ use liouville::verdict;
 use liouville_flow::{FlowError, Start, number_with_pi};
 
 /// Starts of the motions.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct Starts {
     /// Start: 'x=1 y=1/2 z=0', or the components of the state in order, 1,1/2,0; on a section also
     /// the values of its two axes. May be repeated
@@ -19,6 +19,9 @@ pub struct Starts {
     /// Starts from a file, one a line; a first line may name the columns
     #[arg(long, value_name = "FILE.csv")]
     pub starts: Option<PathBuf>,
+    /// Text of that file, if it is at hand.
+    #[arg(skip)]
+    pub text: Option<String>,
 }
 
 /// Starts with their names, or the reasons why there are none.
@@ -26,7 +29,7 @@ pub type Named = Vec<(String, Result<Start, FlowError>)>;
 
 /// A start as a user gives it.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Given {
+pub enum GivenStart {
     /// All components of the state.
     State(Vec<Rational>),
     /// Values of something else, such as the axes of a section.
@@ -35,14 +38,19 @@ pub enum Given {
 
 impl Starts {
     /// Reads all starts, with their names for reports.
-    pub fn read(&self, case: &Case) -> Result<Vec<(String, Given)>, String> {
+    pub fn read(&self, case: &Case) -> Result<Vec<(String, GivenStart)>, String> {
         let mut found = Vec::new();
         for text in &self.start {
             let given = given(case, text).map_err(|error| format!("error: --start: {error}"))?;
             found.push((text.trim().to_string(), given));
         }
         if let Some(path) = &self.starts {
-            found.extend(from_file(case, path)?);
+            let text = match &self.text {
+                Some(text) => text.clone(),
+                None => std::fs::read_to_string(path)
+                    .map_err(|error| format!("error: cannot read {}: {error}", path.display()))?,
+            };
+            found.extend(from_text(case, path, &text)?);
         }
         Ok(found)
     }
@@ -53,10 +61,10 @@ impl Starts {
     }
 }
 
-fn given(case: &Case, text: &str) -> Result<Given, String> {
+fn given(case: &Case, text: &str) -> Result<GivenStart, String> {
     if text.contains('=') {
         let state = verdict::read_state(case, text).map_err(|error| error.to_string())?;
-        return Ok(Given::State(state));
+        return Ok(GivenStart::State(state));
     }
     let numbers: Option<Vec<Rational>> = text.split(',').map(number_with_pi).collect();
     let numbers = numbers.ok_or_else(|| {
@@ -66,10 +74,10 @@ fn given(case: &Case, text: &str) -> Result<Given, String> {
 }
 
 /// A whole state, where there are as many numbers as components.
-fn sorted(case: &Case, numbers: Vec<Rational>) -> Given {
+fn sorted(case: &Case, numbers: Vec<Rational>) -> GivenStart {
     match numbers.len() == case.model.dimension() {
-        true => Given::State(numbers),
-        false => Given::Values(numbers),
+        true => GivenStart::State(numbers),
+        false => GivenStart::Values(numbers),
     }
 }
 
@@ -94,10 +102,8 @@ pub fn misfit(case: &Case, found: usize, otherwise: Option<&str>) -> String {
     )
 }
 
-fn from_file(case: &Case, path: &Path) -> Result<Vec<(String, Given)>, String> {
+fn from_text(case: &Case, path: &Path, text: &str) -> Result<Vec<(String, GivenStart)>, String> {
     let shown = path.display();
-    let text = std::fs::read_to_string(path)
-        .map_err(|error| format!("error: cannot read {shown}: {error}"))?;
     let mut order: Option<Vec<usize>> = None;
     let mut found = Vec::new();
     let lines = text.lines().enumerate().map(|(index, line)| (index + 1, line.trim()));
@@ -124,7 +130,7 @@ fn from_file(case: &Case, path: &Path) -> Result<Vec<(String, Given)>, String> {
             Some(order) if order.len() == numbers.len() => {
                 let mut state = vec![Rational::from(0); order.len()];
                 order.iter().zip(numbers).for_each(|(place, x)| state[*place] = x);
-                Given::State(state)
+                GivenStart::State(state)
             }
             Some(order) => {
                 let (found, expected) = (numbers.len(), order.len());

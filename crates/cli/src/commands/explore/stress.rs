@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use crate::report::stress::{Point, StressReport, SweepReport};
+use crate::report::stress::{StressPoint, StressReport, SweepReport};
 use clap::Args;
 use liouville_lab::stress::{SCENARIOS, Scenario, StressError, Tally, digits_lost, verdicts};
 use rayon::prelude::*;
 
-use super::Answer;
+use super::CommandOutput;
 
 #[derive(Debug, Args)]
 pub struct Stress {
@@ -29,7 +29,7 @@ pub struct Stress {
     pub svg: Option<PathBuf>,
 }
 
-pub fn run(options: &Stress) -> Result<Answer, String> {
+pub fn run(options: &Stress) -> Result<CommandOutput, String> {
     if let Some(path) = &options.svg {
         super::out::check(path, "--svg", &[])?;
     }
@@ -51,18 +51,18 @@ pub fn run(options: &Stress) -> Result<Answer, String> {
         false => report.text(),
     };
     let problems = report.scenarios.iter().any(|scenario| !scenario.problems.is_empty());
-    Ok(Answer { text, code: u8::from(verdicts.wrong > 0 || problems) })
+    Ok(CommandOutput { text, code: u8::from(verdicts.wrong > 0 || problems) })
 }
 
 /// Runs one sweep: the digits lost at each power of ten, and verdicts for the requested number of
 /// bodies.
 fn sweep(scenario: &Scenario, options: &Stress) -> SweepReport {
     let exponents: Vec<i32> = (scenario.from..=scenario.to).collect();
-    let points: Vec<(Point, Option<StressError>)> = exponents
+    let points: Vec<(StressPoint, Option<StressError>)> = exponents
         .par_iter()
         .map(|exponent| match digits_lost(scenario, *exponent, options.seed) {
-            Ok(loss) => (Point { exponent: *exponent, loss: Some(loss) }, None),
-            Err(error) => (Point { exponent: *exponent, loss: None }, Some(error)),
+            Ok(loss) => (StressPoint { exponent: *exponent, loss: Some(loss) }, None),
+            Err(error) => (StressPoint { exponent: *exponent, loss: None }, Some(error)),
         })
         .collect();
     let bodies = if scenario.changes_case() { options.bodies } else { 0 };

@@ -2,17 +2,18 @@
 
 use liouville::case::Case;
 use liouville::mechanics::System;
-use liouville::number::pair::Pair;
+use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
 use liouville_flow::{
-    Columns, FlowError, Lexicon, Precision, Rolling, SampledOrbit, Sampling, Start, Track, track,
+    Columns, FlowError, Lexicon, Precision, RollingSamples, SampledOrbit, Sampling, Start, Track,
+    track,
 };
 
 /// Error of the carried normal below which a track is fine enough.
 const ERROR: f64 = 1e-7;
 /// Samples between two points of a track, at first and at most.
 const FEWEST: i64 = 4;
-const MOST: i64 = 256;
+const MOST_SAMPLES: i64 = 256;
 /// Values of a sample: ω, γ, r'.
 const COLUMNS: &str = "ω, γ, r'";
 
@@ -58,30 +59,30 @@ pub fn follow(
         let tracks: Vec<Track> = found
             .iter()
             .map(|one| {
-                let motion: Vec<Rolling> = one.rows.iter().map(|row| rolling(row)).collect();
+                let motion: Vec<RollingSamples> = one.rows.iter().map(|row| rolling(row)).collect();
                 let Track { points, error } = track(&motion, step);
                 Track { points: points.into_iter().step_by(stride).collect(), error }
             })
             .collect();
-        if between >= MOST || tracks.iter().all(|track| track.error < ERROR) {
+        if between >= MOST_SAMPLES || tracks.iter().all(|track| track.error < ERROR) {
             return Ok(Tracks { found, tracks });
         }
         between *= 4;
     }
 }
 
-fn rolling(row: &[Pair]) -> Rolling {
+fn rolling(row: &[DoubleDouble]) -> RollingSamples {
     let three = |from: usize| [0, 1, 2].map(|k| row.get(from + k).map_or(f64::NAN, |x| x.hi));
-    Rolling { turning: three(0), normal: three(3), velocity: three(6) }
+    RollingSamples { turning: three(0), normal: three(3), velocity: three(6) }
 }
 
 impl Tracks {
     /// Rows of t, X, Y for each motion.
-    pub fn rows(&self, time: &Rational, every: &Rational) -> Vec<Vec<Vec<Pair>>> {
+    pub fn rows(&self, time: &Rational, every: &Rational) -> Vec<Vec<Vec<DoubleDouble>>> {
         let sign = if time.to_f64().0 < 0.0 { -1.0 } else { 1.0 };
         let every = sign * every.to_f64().0;
         let row = |(place, [x, y]): (usize, &[f64; 2])| {
-            [place as f64 * every, *x, *y].map(Pair::from_f64).to_vec()
+            [place as f64 * every, *x, *y].map(DoubleDouble::from_f64).to_vec()
         };
         let rows = |track: &Track| track.points.iter().enumerate().map(row).collect();
         self.tracks.iter().map(rows).collect()

@@ -1,13 +1,13 @@
 //! Julia, in doubles.
 
-use liouville::number::Function;
+use liouville::number::UnaryFunction;
 use liouville::number::rational::Rational;
 
-use super::Export;
-use super::lines::Body;
-use super::names::Names;
+use super::ExportedCase;
+use super::lines::CodeLines;
+use super::names::ExportNames;
 use super::python::code_name;
-use super::target::{Rank, Target, Term, comments, double, usual};
+use super::target::{Rank, Target, TargetTerm, comments, double, usual};
 
 /// Julia.
 pub struct Julia;
@@ -80,16 +80,16 @@ impl Target for Julia {
         code_name(name)
     }
 
-    fn number(&self, value: &Rational) -> Term {
+    fn number(&self, value: &Rational) -> TargetTerm {
         double(value, ".0")
     }
 
-    fn call(&self, function: Function, argument: &Term) -> Term {
-        let name = if function == Function::Ln { "logarithm" } else { usual(function) };
-        Term::atom(format!("{name}({})", argument.text))
+    fn call(&self, function: UnaryFunction, argument: &TargetTerm) -> TargetTerm {
+        let name = if function == UnaryFunction::Ln { "logarithm" } else { usual(function) };
+        TargetTerm::atom(format!("{name}({})", argument.text))
     }
 
-    fn power(&self, base: &Term, exponent: &Rational) -> Term {
+    fn power(&self, base: &TargetTerm, exponent: &Rational) -> TargetTerm {
         let above = exponent.abs();
         let raised = match above.to_integer() {
             Some(n) => n.to_string(),
@@ -97,20 +97,20 @@ impl Target for Julia {
         };
         let text = format!("{}^{raised}", base.at_least(Rank::Atom));
         match exponent.is_negative() {
-            true => Term::atom(format!("reciprocal({text})")),
-            false => Term::of(text, Rank::Power),
+            true => TargetTerm::atom(format!("reciprocal({text})")),
+            false => TargetTerm::of(text, Rank::Power),
         }
     }
 
-    fn reciprocal(&self, a: &Term) -> Term {
-        Term::atom(format!("reciprocal({})", a.text))
+    fn reciprocal(&self, a: &TargetTerm) -> TargetTerm {
+        TargetTerm::atom(format!("reciprocal({})", a.text))
     }
 
-    fn quotient(&self, _: &Term, _: &Term) -> Option<Term> {
+    fn quotient(&self, _: &TargetTerm, _: &TargetTerm) -> Option<TargetTerm> {
         None
     }
 
-    fn file(&self, export: &Export<'_>, names: &Names, bodies: &[Body]) -> String {
+    fn file(&self, export: &ExportedCase<'_>, names: &ExportNames, bodies: &[CodeLines]) -> String {
         let mut text = comments(&export.heading(), "# ", "");
         text.push_str(&comments(&export.listed(names, 1), "# ", ""));
         text.push_str(HELPERS);

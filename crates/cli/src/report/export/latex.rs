@@ -1,14 +1,14 @@
 //! LaTeX with amsmath: a document with the field, the level equations and the claims.
 
 use liouville::formula::{Layout, Type};
-use liouville::number::Function;
+use liouville::number::UnaryFunction;
 use liouville::number::rational::Rational;
-use liouville::program::Part;
+use liouville::program::FunctionSubject;
 
-use super::Export;
-use super::lines::Body;
-use super::names::Names;
-use super::target::{Rank, Target, Term};
+use super::ExportedCase;
+use super::lines::CodeLines;
+use super::names::ExportNames;
+use super::target::{Rank, Target, TargetTerm};
 use crate::report::typeset::latex::{formula, prose};
 
 /// LaTeX.
@@ -63,64 +63,64 @@ impl Target for Latex {
         format!("t_{{{count}}}")
     }
 
-    fn number(&self, value: &Rational) -> Term {
+    fn number(&self, value: &Rational) -> TargetTerm {
         let (above, below) = value.parts();
         let sign = if value.is_negative() { "-" } else { "" };
         let rank = |own: Rank| if value.is_negative() { Rank::Sum } else { own };
         match below == 1.into() {
-            true => Term::of(above.to_string(), rank(Rank::Atom)),
+            true => TargetTerm::of(above.to_string(), rank(Rank::Atom)),
             false => {
                 let above = value.abs().parts().0;
-                Term::of(format!("{sign}\\tfrac{{{above}}}{{{below}}}"), rank(Rank::Product))
+                TargetTerm::of(format!("{sign}\\tfrac{{{above}}}{{{below}}}"), rank(Rank::Product))
             }
         }
     }
 
-    fn call(&self, function: Function, argument: &Term) -> Term {
+    fn call(&self, function: UnaryFunction, argument: &TargetTerm) -> TargetTerm {
         let text = &argument.text;
-        Term::atom(match function {
-            Function::Sqrt => format!("\\sqrt{{{text}}}"),
-            Function::Abs => format!("\\left\\lvert {text} \\right\\rvert"),
-            Function::Ln => format!("\\ln\\left({text}\\right)"),
-            Function::Atan => format!("\\arctan\\left({text}\\right)"),
+        TargetTerm::atom(match function {
+            UnaryFunction::Sqrt => format!("\\sqrt{{{text}}}"),
+            UnaryFunction::Abs => format!("\\left\\lvert {text} \\right\\rvert"),
+            UnaryFunction::Ln => format!("\\ln\\left({text}\\right)"),
+            UnaryFunction::Atan => format!("\\arctan\\left({text}\\right)"),
             other => format!("\\{}\\left({text}\\right)", super::target::usual(other)),
         })
     }
 
-    fn power(&self, base: &Term, exponent: &Rational) -> Term {
+    fn power(&self, base: &TargetTerm, exponent: &Rational) -> TargetTerm {
         let raised = self.number(exponent).text.replace("tfrac", "frac");
-        Term::of(format!("{{{}}}^{{{raised}}}", operand(base, Rank::Atom)), Rank::Power)
+        TargetTerm::of(format!("{{{}}}^{{{raised}}}", operand(base, Rank::Atom)), Rank::Power)
     }
 
-    fn power_of(&self, base: &Term, exponent: &Term) -> Term {
+    fn power_of(&self, base: &TargetTerm, exponent: &TargetTerm) -> TargetTerm {
         let text = format!("{{{}}}^{{{}}}", operand(base, Rank::Atom), exponent.text);
-        Term::of(text, Rank::Power)
+        TargetTerm::of(text, Rank::Power)
     }
 
-    fn negative(&self, a: &Term) -> Term {
-        Term::of(format!("-{}", operand(a, Rank::Product)), Rank::Sum)
+    fn negative(&self, a: &TargetTerm) -> TargetTerm {
+        TargetTerm::of(format!("-{}", operand(a, Rank::Product)), Rank::Sum)
     }
 
-    fn reciprocal(&self, a: &Term) -> Term {
-        Term::of(format!("\\frac{{1}}{{{}}}", a.text), Rank::Product)
+    fn reciprocal(&self, a: &TargetTerm) -> TargetTerm {
+        TargetTerm::of(format!("\\frac{{1}}{{{}}}", a.text), Rank::Product)
     }
 
-    fn quotient(&self, a: &Term, b: &Term) -> Option<Term> {
-        Some(Term::of(format!("\\frac{{{}}}{{{}}}", a.text, b.text), Rank::Product))
+    fn quotient(&self, a: &TargetTerm, b: &TargetTerm) -> Option<TargetTerm> {
+        Some(TargetTerm::of(format!("\\frac{{{}}}{{{}}}", a.text, b.text), Rank::Product))
     }
 
-    fn sum(&self, a: &Term, sign: &str, b: &Term) -> Term {
-        Term::of(format!("{} {sign} {}", a.text, operand(b, Rank::Product)), Rank::Sum)
+    fn sum(&self, a: &TargetTerm, sign: &str, b: &TargetTerm) -> TargetTerm {
+        TargetTerm::of(format!("{} {sign} {}", a.text, operand(b, Rank::Product)), Rank::Sum)
     }
 
-    fn product(&self, a: &Term, b: &Term) -> Term {
+    fn product(&self, a: &TargetTerm, b: &TargetTerm) -> TargetTerm {
         let (a, b) = (operand(a, Rank::Product), operand(b, Rank::Product));
         let is_number = b.starts_with(|c: char| c.is_ascii_digit());
         let sign = if is_number { "\\cdot" } else { "\\," };
-        Term::of(format!("{a} {sign} {b}"), Rank::Product)
+        TargetTerm::of(format!("{a} {sign} {b}"), Rank::Product)
     }
 
-    fn file(&self, export: &Export<'_>, names: &Names, bodies: &[Body]) -> String {
+    fn file(&self, export: &ExportedCase<'_>, names: &ExportNames, bodies: &[CodeLines]) -> String {
         let mut text = String::from(PREAMBLE);
         let mut heading = export.heading().into_iter();
         let title = heading.next().unwrap_or_default();
@@ -140,13 +140,15 @@ impl Target for Latex {
             text.push_str(&format!("\n\\subsection*{{{}}}\n", prose(&body.name.replace('_', " "))));
             subject.iter().for_each(|line| text.push_str(&format!("{}\\\\\n", prose(line))));
             let left = |index: usize| match body.part {
-                Part::Field if export.case.model.system.is_map() => {
+                FunctionSubject::Field if export.case.model.system.is_map() => {
                     format!("\\Phi\\left({}\\right)", names.inputs[state[index].0])
                 }
-                Part::Field => format!("\\frac{{d}}{{dt}} {}", names.inputs[state[index].0]),
-                Part::Level => format!("F_{{{}}}", index + 1),
-                Part::Value(_) => format!("V_{{{}}}", index + 1),
-                Part::Residual(_) => format!("R_{{{}}}", index + 1),
+                FunctionSubject::Field => {
+                    format!("\\frac{{d}}{{dt}} {}", names.inputs[state[index].0])
+                }
+                FunctionSubject::Level => format!("F_{{{}}}", index + 1),
+                FunctionSubject::Value(_) => format!("V_{{{}}}", index + 1),
+                FunctionSubject::Residual(_) => format!("R_{{{}}}", index + 1),
             };
             let outputs = body.outputs.iter().enumerate();
             let outputs = outputs.map(|(index, value)| (left(index), value.clone()));
@@ -167,7 +169,7 @@ impl Target for Latex {
 }
 
 /// An operand that has to bind at least as strongly as `rank`.
-fn operand(term: &Term, rank: Rank) -> String {
+fn operand(term: &TargetTerm, rank: Rank) -> String {
     match term.rank >= rank {
         true => term.text.clone(),
         false => format!("\\left({}\\right)", term.text),

@@ -2,17 +2,17 @@
 //! the others are written where they are used.
 
 use liouville::graph::{Graph, Step};
-use liouville::number::{Function as Unary, Operation};
-use liouville::program::{Function, Part};
+use liouville::number::{BinaryOperation, UnaryFunction as Unary};
+use liouville::program::{FunctionSubject, NamedFunction};
 
-use super::Export;
-use super::names::Names;
-use super::target::{Target, Term};
+use super::ExportedCase;
+use super::names::ExportNames;
+use super::target::{Target, TargetTerm};
 
 /// A function as lines of code.
-pub struct Body {
+pub struct CodeLines {
     /// Subject of the function.
-    pub part: Part,
+    pub part: FunctionSubject,
     /// Name of the function.
     pub name: String,
     /// Inputs that it uses, by their place among the components.
@@ -26,10 +26,10 @@ pub struct Body {
 /// Writes a function of the program.
 pub fn body(
     target: &dyn Target,
-    export: &Export<'_>,
-    names: &mut Names,
-    function: &Function,
-) -> Body {
+    export: &ExportedCase<'_>,
+    names: &mut ExportNames,
+    function: &NamedFunction,
+) -> CodeLines {
     let graph = &export.program.graph;
     let name = names.function(target, export, function.part);
     let reached = graph.reached(function.outputs.iter().copied());
@@ -41,13 +41,13 @@ pub fn body(
         uses[graph.place(*output)] += 1;
     }
     let (terms, has_line) = (vec![None; graph.len()], vec![false; graph.len()]);
-    let mut writer = Writer { target, graph, terms, has_line, uses };
+    let mut writer = LineWriter { target, graph, terms, has_line, uses };
     let (mut inputs, mut lines, mut count) = (Vec::new(), Vec::new(), 0);
     for place in (0..graph.len()).filter(|place| reached[*place]) {
         let mut term = match graph.step(place) {
             Step::Input(input) => {
                 inputs.push(input);
-                Term::atom(&names.inputs[input])
+                TargetTerm::atom(&names.inputs[input])
             }
             step => writer.term(step),
         };
@@ -57,7 +57,7 @@ pub fn body(
         if is_computed && (own.is_some() || is_shared) {
             let name = own.cloned().unwrap_or_else(|| names.temporary(target, &mut count));
             lines.push((name.clone(), term.text));
-            term = Term::atom(name);
+            term = TargetTerm::atom(name);
             writer.has_line[place] = true;
         }
         writer.terms[place] = Some(term);
@@ -66,34 +66,34 @@ pub fn body(
     let output =
         |place: usize| writer.terms[place].as_ref().map_or(String::new(), |t| t.text.clone());
     let outputs = function.outputs.iter().map(|value| output(graph.place(*value))).collect();
-    Body { part: function.part, name, inputs, lines, outputs }
+    CodeLines { part: function.part, name, inputs, lines, outputs }
 }
 
 /// The terms written so far.
-struct Writer<'w> {
+struct LineWriter<'w> {
     target: &'w dyn Target,
     graph: &'w Graph,
-    terms: Vec<Option<Term>>,
+    terms: Vec<Option<TargetTerm>>,
     /// Whether a value has a line, and is a name in the lines after it.
     has_line: Vec<bool>,
     uses: Vec<usize>,
 }
 
-impl Writer<'_> {
-    fn term(&self, step: Step<'_>) -> Term {
+impl LineWriter<'_> {
+    fn term(&self, step: Step<'_>) -> TargetTerm {
         let target = self.target;
         let weight: usize = step.arguments().map(|place| self.at(place).weight).sum();
         let mut term = match step {
             Step::Constant(value) => target.number(value),
-            Step::Input(_) => return Term::atom(""),
+            Step::Input(_) => return TargetTerm::atom(""),
             Step::Unary(Unary::Neg, a) => target.negative(&self.at(a)),
             Step::Unary(Unary::Recip, a) => target.reciprocal(&self.at(a)),
             Step::Unary(function, a) => target.call(function, &self.at(a)),
             Step::Power(a, exponent) => target.power(&self.at(a), exponent),
-            Step::Binary(Operation::Add, a, b) => target.sum(&self.at(a), "+", &self.at(b)),
-            Step::Binary(Operation::Sub, a, b) => target.sum(&self.at(a), "-", &self.at(b)),
-            Step::Binary(Operation::Pow, a, b) => target.power_of(&self.at(a), &self.at(b)),
-            Step::Binary(Operation::Mul, a, b) => self
+            Step::Binary(BinaryOperation::Add, a, b) => target.sum(&self.at(a), "+", &self.at(b)),
+            Step::Binary(BinaryOperation::Sub, a, b) => target.sum(&self.at(a), "-", &self.at(b)),
+            Step::Binary(BinaryOperation::Pow, a, b) => target.power_of(&self.at(a), &self.at(b)),
+            Step::Binary(BinaryOperation::Mul, a, b) => self
                 .quotient(a, b)
                 .or_else(|| self.quotient(b, a))
                 .unwrap_or_else(|| target.product(&self.at(a), &self.at(b))),
@@ -103,7 +103,7 @@ impl Writer<'_> {
     }
 
     /// a/c where b is 1/c and written nowhere else.
-    fn quotient(&self, a: usize, b: usize) -> Option<Term> {
+    fn quotient(&self, a: usize, b: usize) -> Option<TargetTerm> {
         match self.graph.step(b) {
             Step::Unary(Unary::Recip, c) if self.uses[b] == 1 && !self.has_line[b] => {
                 self.target.quotient(&self.at(a), &self.at(c))
@@ -112,7 +112,7 @@ impl Writer<'_> {
         }
     }
 
-    fn at(&self, place: usize) -> Term {
-        self.terms[place].clone().unwrap_or_else(|| Term::atom(""))
+    fn at(&self, place: usize) -> TargetTerm {
+        self.terms[place].clone().unwrap_or_else(|| TargetTerm::atom(""))
     }
 }

@@ -1,13 +1,13 @@
 //! Maple, exact.
 
-use liouville::number::Function;
+use liouville::number::UnaryFunction;
 use liouville::number::rational::Rational;
 
-use super::Export;
-use super::lines::Body;
-use super::names::Names;
+use super::ExportedCase;
+use super::lines::CodeLines;
+use super::names::ExportNames;
 use super::python::code_name;
-use super::target::{Target, Term, comments, exact, raised};
+use super::target::{Target, TargetTerm, comments, exact, raised};
 
 /// Maple.
 pub struct Maple;
@@ -106,24 +106,24 @@ impl Target for Maple {
         code_name(name)
     }
 
-    fn number(&self, value: &Rational) -> Term {
+    fn number(&self, value: &Rational) -> TargetTerm {
         exact(value)
     }
 
-    fn call(&self, function: Function, argument: &Term) -> Term {
+    fn call(&self, function: UnaryFunction, argument: &TargetTerm) -> TargetTerm {
         let name = match function {
-            Function::Ln => "ln",
-            Function::Atan => "arctan",
+            UnaryFunction::Ln => "ln",
+            UnaryFunction::Atan => "arctan",
             other => super::target::usual(other),
         };
-        Term::atom(format!("{name}({})", argument.text))
+        TargetTerm::atom(format!("{name}({})", argument.text))
     }
 
-    fn power(&self, base: &Term, exponent: &Rational) -> Term {
+    fn power(&self, base: &TargetTerm, exponent: &Rational) -> TargetTerm {
         raised(base, exponent)
     }
 
-    fn file(&self, export: &Export<'_>, names: &Names, bodies: &[Body]) -> String {
+    fn file(&self, export: &ExportedCase<'_>, names: &ExportNames, bodies: &[CodeLines]) -> String {
         let mut text = comments(&export.heading(), "# ", "");
         text.push_str(&comments(&export.listed(names, 1), "# ", ""));
         text.push_str("# Each function takes two lists, of numbers or of names.\n");

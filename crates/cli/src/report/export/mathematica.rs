@@ -1,13 +1,13 @@
 //! Mathematica, exact.
 
-use liouville::number::Function;
+use liouville::number::UnaryFunction;
 use liouville::number::rational::Rational;
 
-use super::Export;
-use super::lines::Body;
-use super::names::Names;
+use super::ExportedCase;
+use super::lines::CodeLines;
+use super::names::ExportNames;
 use super::python::code_name;
-use super::target::{Target, Term, comments, exact, raised};
+use super::target::{Target, TargetTerm, comments, exact, raised};
 
 /// Mathematica.
 pub struct Mathematica;
@@ -54,29 +54,29 @@ impl Target for Mathematica {
         format!("{name}$n{count}")
     }
 
-    fn number(&self, value: &Rational) -> Term {
+    fn number(&self, value: &Rational) -> TargetTerm {
         exact(value)
     }
 
-    fn call(&self, function: Function, argument: &Term) -> Term {
+    fn call(&self, function: UnaryFunction, argument: &TargetTerm) -> TargetTerm {
         let name = match function {
-            Function::Sqrt => "Sqrt",
-            Function::Abs => "Abs",
-            Function::Exp => "Exp",
-            Function::Ln => "Log",
-            Function::Sin => "Sin",
-            Function::Cos => "Cos",
-            Function::Atan => "ArcTan",
-            Function::Neg | Function::Recip => "Identity",
+            UnaryFunction::Sqrt => "Sqrt",
+            UnaryFunction::Abs => "Abs",
+            UnaryFunction::Exp => "Exp",
+            UnaryFunction::Ln => "Log",
+            UnaryFunction::Sin => "Sin",
+            UnaryFunction::Cos => "Cos",
+            UnaryFunction::Atan => "ArcTan",
+            UnaryFunction::Neg | UnaryFunction::Recip => "Identity",
         };
-        Term::atom(format!("{name}[{}]", argument.text))
+        TargetTerm::atom(format!("{name}[{}]", argument.text))
     }
 
-    fn power(&self, base: &Term, exponent: &Rational) -> Term {
+    fn power(&self, base: &TargetTerm, exponent: &Rational) -> TargetTerm {
         raised(base, exponent)
     }
 
-    fn file(&self, export: &Export<'_>, names: &Names, bodies: &[Body]) -> String {
+    fn file(&self, export: &ExportedCase<'_>, names: &ExportNames, bodies: &[CodeLines]) -> String {
         let mut text = comments(&export.heading(), "(* ", " *)");
         text.push_str(&comments(&export.listed(names, 1), "(* ", " *)"));
         text.push_str("(* Each function takes two lists, of numbers or of symbols. *)\n");

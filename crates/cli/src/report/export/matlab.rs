@@ -1,13 +1,13 @@
 //! MATLAB and Octave, in doubles: one file that returns handles of its functions.
 
-use liouville::number::Function;
+use liouville::number::UnaryFunction;
 use liouville::number::rational::Rational;
 
-use super::Export;
-use super::lines::Body;
-use super::names::Names;
+use super::ExportedCase;
+use super::lines::CodeLines;
+use super::names::ExportNames;
 use super::python::code_name;
-use super::target::{Rank, Target, Term, comments, double};
+use super::target::{Rank, Target, TargetTerm, comments, double};
 
 /// MATLAB.
 pub struct Matlab;
@@ -87,45 +87,45 @@ impl Target for Matlab {
         code_name(name)
     }
 
-    fn number(&self, value: &Rational) -> Term {
+    fn number(&self, value: &Rational) -> TargetTerm {
         double(value, "")
     }
 
-    fn call(&self, function: Function, argument: &Term) -> Term {
+    fn call(&self, function: UnaryFunction, argument: &TargetTerm) -> TargetTerm {
         // The real functions raise an error where the others are complex.
         let name = match function {
-            Function::Sqrt => "realsqrt",
-            Function::Ln => "logarithm",
+            UnaryFunction::Sqrt => "realsqrt",
+            UnaryFunction::Ln => "logarithm",
             other => super::target::usual(other),
         };
-        Term::atom(format!("{name}({})", argument.text))
+        TargetTerm::atom(format!("{name}({})", argument.text))
     }
 
-    fn power(&self, base: &Term, exponent: &Rational) -> Term {
+    fn power(&self, base: &TargetTerm, exponent: &Rational) -> TargetTerm {
         let above = self.number(&exponent.abs());
         let (text, rank) = match exponent.to_integer() {
             Some(_) => (format!("{}^{}", base.at_least(Rank::Atom), above.text), Rank::Power),
             None => (format!("realpow({}, {})", base.text, above.text), Rank::Atom),
         };
         match exponent.is_negative() {
-            true => Term::atom(format!("reciprocal({text})")),
-            false => Term::of(text, rank),
+            true => TargetTerm::atom(format!("reciprocal({text})")),
+            false => TargetTerm::of(text, rank),
         }
     }
 
-    fn power_of(&self, base: &Term, exponent: &Term) -> Term {
-        Term::atom(format!("realpow({}, {})", base.text, exponent.text))
+    fn power_of(&self, base: &TargetTerm, exponent: &TargetTerm) -> TargetTerm {
+        TargetTerm::atom(format!("realpow({}, {})", base.text, exponent.text))
     }
 
-    fn reciprocal(&self, a: &Term) -> Term {
-        Term::atom(format!("reciprocal({})", a.text))
+    fn reciprocal(&self, a: &TargetTerm) -> TargetTerm {
+        TargetTerm::atom(format!("reciprocal({})", a.text))
     }
 
-    fn quotient(&self, _: &Term, _: &Term) -> Option<Term> {
+    fn quotient(&self, _: &TargetTerm, _: &TargetTerm) -> Option<TargetTerm> {
         None
     }
 
-    fn file(&self, export: &Export<'_>, names: &Names, bodies: &[Body]) -> String {
+    fn file(&self, export: &ExportedCase<'_>, names: &ExportNames, bodies: &[CodeLines]) -> String {
         let module = export.module;
         let mut text = format!("function functions = {module}()\n");
         text.push_str(&comments(&export.heading(), "% ", ""));

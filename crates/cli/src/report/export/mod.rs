@@ -15,11 +15,11 @@ mod target;
 use liouville::case::Case;
 use liouville::formula::Type;
 use liouville::graph::Step;
-use liouville::mechanics::Origin;
-use liouville::program::{Part, Program, Role};
+use liouville::mechanics::ParameterOrigin;
+use liouville::program::{FunctionSubject, InputRole, Program};
 
-use lines::Body;
-use names::Names;
+use lines::CodeLines;
+use names::ExportNames;
 use target::Target;
 
 /// A language of the exported code.
@@ -46,7 +46,7 @@ pub enum Language {
 }
 
 /// A case ready to be written in another language.
-pub struct Export<'e> {
+pub struct ExportedCase<'e> {
     /// The case.
     pub case: &'e Case,
     /// Its program.
@@ -59,7 +59,7 @@ pub struct Export<'e> {
 
 /// Writes the program of a case in a language; fails if a constant is beyond the range of doubles
 /// in a language that has no other numbers.
-pub fn render(export: &Export<'_>, language: Language) -> Result<String, String> {
+pub fn render(export: &ExportedCase<'_>, language: Language) -> Result<String, String> {
     let target: &dyn Target = match language {
         Language::Python => &python::Python { is_symbolic: false },
         Language::Sympy => &python::Python { is_symbolic: true },
@@ -81,8 +81,8 @@ pub fn render(export: &Export<'_>, language: Language) -> Result<String, String>
     if !target.is_exact() && graph.steps().enumerate().any(is_beyond) {
         return Err("a number of the case is beyond the range of doubles".to_string());
     }
-    let mut names = Names::new(target, export);
-    let bodies: Vec<Body> = export
+    let mut names = ExportNames::new(target, export);
+    let bodies: Vec<CodeLines> = export
         .program
         .functions
         .iter()
@@ -91,7 +91,7 @@ pub fn render(export: &Export<'_>, language: Language) -> Result<String, String>
     Ok(target.file(export, &names, &bodies))
 }
 
-impl Export<'_> {
+impl ExportedCase<'_> {
     /// Lines that describe the case and its origin, for the head of a file.
     fn heading(&self) -> Vec<String> {
         let case = self.case;
@@ -108,9 +108,11 @@ impl Export<'_> {
         lines.extend(self.origin.iter().cloned());
         for parameter in &case.model.parameters {
             let values = match &parameter.origin {
-                Origin::Fixed(values) => values.iter().map(|x| x.to_string()).collect::<Vec<_>>(),
-                Origin::Formula(formula) => vec![formula.text().to_string()],
-                Origin::Free(_) => continue,
+                ParameterOrigin::Fixed(values) => {
+                    values.iter().map(|x| x.to_string()).collect::<Vec<_>>()
+                }
+                ParameterOrigin::Formula(formula) => vec![formula.text().to_string()],
+                ParameterOrigin::Free(_) => continue,
             };
             lines.push(format!("Built in: {} = {}.", parameter.name, values.join(", ")));
         }
@@ -119,26 +121,26 @@ impl Export<'_> {
     }
 
     /// Lines that describe a function.
-    fn subject(&self, part: Part) -> Vec<String> {
+    fn subject(&self, part: FunctionSubject) -> Vec<String> {
         let claims = &self.case.claims;
         let lines = match part {
-            Part::Field if self.case.model.system.is_map() => {
+            FunctionSubject::Field if self.case.model.system.is_map() => {
                 vec!["Image of the state under the map, component by component.".to_string()]
             }
-            Part::Field => {
+            FunctionSubject::Field => {
                 vec!["Time derivatives of the state, component by component.".to_string()]
             }
-            Part::Level => {
+            FunctionSubject::Level => {
                 let equations = self.case.model.level.iter().map(|own| own.text.clone());
                 let equations = equations.collect::<Vec<_>>().join("; ");
                 vec![format!("Left minus right sides of the level equations: {equations}.")]
             }
-            Part::Value(index) => {
+            FunctionSubject::Value(index) => {
                 let claim = &claims[index];
                 let formula = claim.kind.formula().map_or("", |formula| formula.text());
                 vec![format!("Value of claim `{}`: {formula}.", claim.name)]
             }
-            Part::Residual(index) => {
+            FunctionSubject::Residual(index) => {
                 let claim = &claims[index];
                 let text = claim.kind.text().map_or(String::new(), |text| format!(" {text}"));
                 let place = claim.place.name(&self.case.model);
@@ -158,12 +160,12 @@ impl Export<'_> {
     /// Components of the inputs of a role: place among the inputs of the program, and name.
     fn inputs(&self, is_state: bool) -> Vec<(usize, String)> {
         let all = self.program.components().into_iter().enumerate();
-        let own = all.filter(|(_, (_, role))| (*role == Role::State) == is_state);
+        let own = all.filter(|(_, (_, role))| (*role == InputRole::State) == is_state);
         own.map(|(place, (name, _))| (place, name)).collect()
     }
 
     /// Input components that a function uses: place in its list, and among all components.
-    fn used(&self, body: &Body, is_state: bool) -> Vec<(usize, usize)> {
+    fn used(&self, body: &CodeLines, is_state: bool) -> Vec<(usize, usize)> {
         let own = self.inputs(is_state).into_iter().enumerate();
         let own = own.map(|(index, (place, _))| (index, place));
         own.filter(|(_, place)| body.inputs.contains(place)).collect()
@@ -173,8 +175,8 @@ impl Export<'_> {
     /// the state; `line` writes one from the name of the list, the place in it and the own name.
     fn taken(
         &self,
-        body: &Body,
-        names: &Names,
+        body: &CodeLines,
+        names: &ExportNames,
         line: impl Fn(&str, usize, &str) -> String,
     ) -> String {
         let of_list = |(list, is_state)| {
@@ -186,14 +188,14 @@ impl Export<'_> {
     }
 
     /// Names of the input components and the intermediate values of a function.
-    fn locals<'n>(&self, body: &'n Body, names: &'n Names) -> Vec<&'n str> {
+    fn locals<'n>(&self, body: &'n CodeLines, names: &'n ExportNames) -> Vec<&'n str> {
         let used = self.used(body, false).into_iter().chain(self.used(body, true));
         let used = used.map(|(_, place)| names.inputs[place].as_str());
         used.chain(body.lines.iter().map(|(name, _)| name.as_str())).collect()
     }
 
     /// Lines on the order of the inputs: place in the list, name in the code, name in the case.
-    fn listed(&self, names: &Names, first: usize) -> Vec<String> {
+    fn listed(&self, names: &ExportNames, first: usize) -> Vec<String> {
         let mut lines = Vec::new();
         for (list, is_state) in [("state", true), ("parameters", false)] {
             for (index, (place, name)) in self.inputs(is_state).into_iter().enumerate() {

@@ -2,16 +2,16 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use liouville::program::Part;
+use liouville::program::FunctionSubject;
 
-use super::Export;
+use super::ExportedCase;
 use super::target::Target;
 
 /// Longest part of a claim's name in the name of a function.
 const LONGEST: usize = 40;
 
 /// Names of inputs, of intermediate values and of functions.
-pub struct Names {
+pub struct ExportNames {
     /// Names of the input components, in the order of the graph.
     pub inputs: Vec<String>,
     /// Names of steps that are values with a name in the case, by place.
@@ -19,9 +19,9 @@ pub struct Names {
     taken: BTreeSet<String>,
 }
 
-impl Names {
+impl ExportNames {
     /// Spells the names of all inputs and of all named values.
-    pub fn new(target: &dyn Target, export: &Export<'_>) -> Self {
+    pub fn new(target: &dyn Target, export: &ExportedCase<'_>) -> Self {
         let taken = target.reserved().iter().map(|word| word.to_string()).collect();
         let mut names = Self { inputs: Vec::new(), steps: BTreeMap::new(), taken };
         for (name, _) in export.program.components() {
@@ -60,7 +60,12 @@ impl Names {
     }
 
     /// Name of a function.
-    pub fn function(&mut self, target: &dyn Target, export: &Export<'_>, part: Part) -> String {
+    pub fn function(
+        &mut self,
+        target: &dyn Target,
+        export: &ExportedCase<'_>,
+        part: FunctionSubject,
+    ) -> String {
         let of_claim = |word: &str, index: usize| {
             let words = words(&export.case.claims[index].name);
             let mut all = vec![word];
@@ -68,11 +73,13 @@ impl Names {
             target.function_name(&all)
         };
         let name = match part {
-            Part::Field if export.case.model.system.is_map() => target.function_name(&["image"]),
-            Part::Field => target.function_name(&["field"]),
-            Part::Level => target.function_name(&["level"]),
-            Part::Value(index) => of_claim("value", index),
-            Part::Residual(index) => of_claim("residual", index),
+            FunctionSubject::Field if export.case.model.system.is_map() => {
+                target.function_name(&["image"])
+            }
+            FunctionSubject::Field => target.function_name(&["field"]),
+            FunctionSubject::Level => target.function_name(&["level"]),
+            FunctionSubject::Value(index) => of_claim("value", index),
+            FunctionSubject::Residual(index) => of_claim("residual", index),
         };
         self.fresh(target, name)
     }

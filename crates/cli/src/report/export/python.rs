@@ -1,13 +1,13 @@
 //! Python: with `math` in doubles, or with SymPy in exact numbers and symbols.
 
 use liouville::formula::ascii_name;
-use liouville::number::Function;
+use liouville::number::UnaryFunction;
 use liouville::number::rational::Rational;
 
-use super::Export;
-use super::lines::Body;
-use super::names::Names;
-use super::target::{Rank, Target, Term, comments, double, usual};
+use super::ExportedCase;
+use super::lines::CodeLines;
+use super::names::ExportNames;
+use super::target::{Rank, Target, TargetTerm, comments, double, usual};
 
 /// Python, numerical or symbolic.
 pub struct Python {
@@ -77,49 +77,53 @@ impl Target for Python {
         code_name(name)
     }
 
-    fn number(&self, value: &Rational) -> Term {
+    fn number(&self, value: &Rational) -> TargetTerm {
         let rank = |own: Rank| if value.is_negative() { Rank::Sum } else { own };
         match (self.is_symbolic, value.parts()) {
             (false, _) => double(value, ""),
             (true, (above, below)) if below == 1.into() => {
-                Term::of(above.to_string(), rank(Rank::Atom))
+                TargetTerm::of(above.to_string(), rank(Rank::Atom))
             }
-            (true, (above, below)) => Term::atom(format!("sympy.Rational({above}, {below})")),
+            (true, (above, below)) => TargetTerm::atom(format!("sympy.Rational({above}, {below})")),
         }
     }
 
-    fn call(&self, function: Function, argument: &Term) -> Term {
+    fn call(&self, function: UnaryFunction, argument: &TargetTerm) -> TargetTerm {
         let name = match (function, self.is_symbolic) {
-            (Function::Abs, false) => return Term::atom(format!("abs({})", argument.text)),
-            (Function::Abs, true) => "Abs",
+            (UnaryFunction::Abs, false) => {
+                return TargetTerm::atom(format!("abs({})", argument.text));
+            }
+            (UnaryFunction::Abs, true) => "Abs",
             (function, _) => usual(function),
         };
-        Term::atom(format!("{}.{name}({})", self.library(), argument.text))
+        TargetTerm::atom(format!("{}.{name}({})", self.library(), argument.text))
     }
 
-    fn power(&self, base: &Term, exponent: &Rational) -> Term {
+    fn power(&self, base: &TargetTerm, exponent: &Rational) -> TargetTerm {
         let raised = self.number(exponent).at_least(Rank::Atom);
         // A float to a fractional power would be complex where the base is negative.
         match exponent.to_integer().is_none() && !self.is_symbolic {
-            true => Term::atom(format!("math.pow({}, {})", base.text, self.number(exponent).text)),
+            true => {
+                TargetTerm::atom(format!("math.pow({}, {})", base.text, self.number(exponent).text))
+            }
             false => {
                 let text = format!("{}**{raised}", base.at_least(Rank::Atom));
-                Term::of(text, Rank::Power)
+                TargetTerm::of(text, Rank::Power)
             }
         }
     }
 
-    fn power_of(&self, base: &Term, exponent: &Term) -> Term {
+    fn power_of(&self, base: &TargetTerm, exponent: &TargetTerm) -> TargetTerm {
         match self.is_symbolic {
             true => {
                 let exponent = exponent.at_least(Rank::Atom);
-                Term::of(format!("{}**{exponent}", base.at_least(Rank::Atom)), Rank::Power)
+                TargetTerm::of(format!("{}**{exponent}", base.at_least(Rank::Atom)), Rank::Power)
             }
-            false => Term::atom(format!("math.pow({}, {})", base.text, exponent.text)),
+            false => TargetTerm::atom(format!("math.pow({}, {})", base.text, exponent.text)),
         }
     }
 
-    fn file(&self, export: &Export<'_>, names: &Names, bodies: &[Body]) -> String {
+    fn file(&self, export: &ExportedCase<'_>, names: &ExportNames, bodies: &[CodeLines]) -> String {
         let mut text = comments(&export.heading(), "# ", "");
         text.push_str(match self.is_symbolic {
             true => {

@@ -1,13 +1,13 @@
 //! Rust, in doubles.
 
-use liouville::number::Function;
+use liouville::number::UnaryFunction;
 use liouville::number::rational::Rational;
 
-use super::Export;
-use super::lines::Body;
-use super::names::Names;
+use super::ExportedCase;
+use super::lines::CodeLines;
+use super::names::ExportNames;
 use super::python::code_name;
-use super::target::{Target, Term, comments, double, usual};
+use super::target::{Target, TargetTerm, comments, double, usual};
 
 /// Rust.
 pub struct Rust;
@@ -98,38 +98,38 @@ impl Target for Rust {
         code_name(name)
     }
 
-    fn number(&self, value: &Rational) -> Term {
+    fn number(&self, value: &Rational) -> TargetTerm {
         double(value, ".0")
     }
 
-    fn call(&self, function: Function, argument: &Term) -> Term {
+    fn call(&self, function: UnaryFunction, argument: &TargetTerm) -> TargetTerm {
         match function {
-            Function::Ln => Term::atom(format!("logarithm({})", argument.text)),
-            other => Term::atom(format!("f64::{}({})", usual(other), argument.text)),
+            UnaryFunction::Ln => TargetTerm::atom(format!("logarithm({})", argument.text)),
+            other => TargetTerm::atom(format!("f64::{}({})", usual(other), argument.text)),
         }
     }
 
-    fn power(&self, base: &Term, exponent: &Rational) -> Term {
+    fn power(&self, base: &TargetTerm, exponent: &Rational) -> TargetTerm {
         let text = format!("f64::powf({}, {})", base.text, self.number(&exponent.abs()).text);
         match exponent.is_negative() {
-            true => Term::atom(format!("reciprocal({text})")),
-            false => Term::atom(text),
+            true => TargetTerm::atom(format!("reciprocal({text})")),
+            false => TargetTerm::atom(text),
         }
     }
 
-    fn power_of(&self, base: &Term, exponent: &Term) -> Term {
-        Term::atom(format!("f64::powf({}, {})", base.text, exponent.text))
+    fn power_of(&self, base: &TargetTerm, exponent: &TargetTerm) -> TargetTerm {
+        TargetTerm::atom(format!("f64::powf({}, {})", base.text, exponent.text))
     }
 
-    fn reciprocal(&self, a: &Term) -> Term {
-        Term::atom(format!("reciprocal({})", a.text))
+    fn reciprocal(&self, a: &TargetTerm) -> TargetTerm {
+        TargetTerm::atom(format!("reciprocal({})", a.text))
     }
 
-    fn quotient(&self, _: &Term, _: &Term) -> Option<Term> {
+    fn quotient(&self, _: &TargetTerm, _: &TargetTerm) -> Option<TargetTerm> {
         None
     }
 
-    fn file(&self, export: &Export<'_>, names: &Names, bodies: &[Body]) -> String {
+    fn file(&self, export: &ExportedCase<'_>, names: &ExportNames, bodies: &[CodeLines]) -> String {
         let (state, parameters) = (export.inputs(true).len(), export.inputs(false).len());
         let mut code = String::new();
         for body in bodies {

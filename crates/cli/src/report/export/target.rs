@@ -1,11 +1,11 @@
 //! The interface of a language: names, numbers, operations, and the frame of a file.
 
-use liouville::number::Function;
+use liouville::number::UnaryFunction;
 use liouville::number::rational::Rational;
 
-use super::Export;
-use super::lines::Body;
-use super::names::Names;
+use super::ExportedCase;
+use super::lines::CodeLines;
+use super::names::ExportNames;
 
 /// Binding strength of a term, from the weakest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -22,7 +22,7 @@ pub enum Rank {
 
 /// An expression as text.
 #[derive(Clone, Debug)]
-pub struct Term {
+pub struct TargetTerm {
     /// Text of the expression.
     pub text: String,
     /// Binding strength of its outermost operation.
@@ -31,7 +31,7 @@ pub struct Term {
     pub weight: usize,
 }
 
-impl Term {
+impl TargetTerm {
     /// Makes a term of one name, number or call.
     pub fn atom(text: impl Into<String>) -> Self {
         Self { text: text.into(), rank: Rank::Atom, weight: 1 }
@@ -86,45 +86,45 @@ pub trait Target {
     }
 
     /// Number.
-    fn number(&self, value: &Rational) -> Term;
+    fn number(&self, value: &Rational) -> TargetTerm;
 
     /// f(x), for functions other than the sign and the reciprocal.
-    fn call(&self, function: Function, argument: &Term) -> Term;
+    fn call(&self, function: UnaryFunction, argument: &TargetTerm) -> TargetTerm;
 
     /// x^q for a constant q.
-    fn power(&self, base: &Term, exponent: &Rational) -> Term;
+    fn power(&self, base: &TargetTerm, exponent: &Rational) -> TargetTerm;
 
     /// x^y.
-    fn power_of(&self, base: &Term, exponent: &Term) -> Term {
+    fn power_of(&self, base: &TargetTerm, exponent: &TargetTerm) -> TargetTerm {
         let text = format!("{}^{}", base.at_least(Rank::Atom), exponent.at_least(Rank::Atom));
-        Term::of(text, Rank::Power)
+        TargetTerm::of(text, Rank::Power)
     }
 
     /// −x
-    fn negative(&self, a: &Term) -> Term {
-        Term::of(format!("-{}", a.at_least(Rank::Product)), Rank::Sum)
+    fn negative(&self, a: &TargetTerm) -> TargetTerm {
+        TargetTerm::of(format!("-{}", a.at_least(Rank::Product)), Rank::Sum)
     }
 
     /// 1/x
-    fn reciprocal(&self, a: &Term) -> Term {
-        Term::of(format!("{}/{}", self.one(), a.at_least(Rank::Power)), Rank::Product)
+    fn reciprocal(&self, a: &TargetTerm) -> TargetTerm {
+        TargetTerm::of(format!("{}/{}", self.one(), a.at_least(Rank::Power)), Rank::Product)
     }
 
     /// a/b; `None` if quotients are written as products with reciprocals.
-    fn quotient(&self, a: &Term, b: &Term) -> Option<Term> {
+    fn quotient(&self, a: &TargetTerm, b: &TargetTerm) -> Option<TargetTerm> {
         let text = format!("{}/{}", a.at_least(Rank::Product), b.at_least(Rank::Power));
-        Some(Term::of(text, Rank::Product))
+        Some(TargetTerm::of(text, Rank::Product))
     }
 
     /// a + b, a − b
-    fn sum(&self, a: &Term, sign: &str, b: &Term) -> Term {
-        Term::of(format!("{} {sign} {}", a.text, b.at_least(Rank::Product)), Rank::Sum)
+    fn sum(&self, a: &TargetTerm, sign: &str, b: &TargetTerm) -> TargetTerm {
+        TargetTerm::of(format!("{} {sign} {}", a.text, b.at_least(Rank::Product)), Rank::Sum)
     }
 
     /// a b
-    fn product(&self, a: &Term, b: &Term) -> Term {
+    fn product(&self, a: &TargetTerm, b: &TargetTerm) -> TargetTerm {
         let text = format!("{}*{}", a.at_least(Rank::Product), b.at_least(Rank::Power));
-        Term::of(text, Rank::Product)
+        TargetTerm::of(text, Rank::Product)
     }
 
     /// The number 1.
@@ -133,60 +133,62 @@ pub trait Target {
     }
 
     /// Whole file.
-    fn file(&self, export: &Export<'_>, names: &Names, bodies: &[Body]) -> String;
+    fn file(&self, export: &ExportedCase<'_>, names: &ExportNames, bodies: &[CodeLines]) -> String;
 }
 
 /// A number in doubles: integers and short decimals as they are, others as a quotient of integers
 /// where both are doubles, or rounded. `point` is written after integers.
-pub fn double(value: &Rational, point: &str) -> Term {
+pub fn double(value: &Rational, point: &str) -> TargetTerm {
     let (nearest, _) = value.to_f64();
     let rank = |own: Rank| if value.is_negative() { Rank::Sum } else { own };
     const EXACT: i64 = 1 << 53;
     let is_exact = |n: i64| (-EXACT..=EXACT).contains(&n);
     match value.small_parts() {
         Some((above, 1)) if is_exact(above) => {
-            Term::of(format!("{above}{point}"), rank(Rank::Atom))
+            TargetTerm::of(format!("{above}{point}"), rank(Rank::Atom))
         }
         Some((above, below)) if is_exact(above) && is_exact(below) => {
             let decimal = format!("{nearest:?}");
             let is_decimal = decimal.len() < 9 && decimal.parse() == Ok(value.clone());
             match is_decimal {
-                true => Term::of(decimal, rank(Rank::Atom)),
-                false => Term::of(format!("{above}{point}/{below}{point}"), rank(Rank::Product)),
+                true => TargetTerm::of(decimal, rank(Rank::Atom)),
+                false => {
+                    TargetTerm::of(format!("{above}{point}/{below}{point}"), rank(Rank::Product))
+                }
             }
         }
-        _ => Term::of(format!("{nearest:?}"), rank(Rank::Atom)),
+        _ => TargetTerm::of(format!("{nearest:?}"), rank(Rank::Atom)),
     }
 }
 
 /// An exact number: an integer or a quotient of integers.
-pub fn exact(value: &Rational) -> Term {
+pub fn exact(value: &Rational) -> TargetTerm {
     let rank = |own: Rank| if value.is_negative() { Rank::Sum } else { own };
     let (above, below) = value.parts();
     match below == 1.into() {
-        true => Term::of(above.to_string(), rank(Rank::Atom)),
-        false => Term::of(format!("{above}/{below}"), rank(Rank::Product)),
+        true => TargetTerm::of(above.to_string(), rank(Rank::Atom)),
+        false => TargetTerm::of(format!("{above}/{below}"), rank(Rank::Product)),
     }
 }
 
 /// A power with an exact exponent, as x^q.
-pub fn raised(base: &Term, exponent: &Rational) -> Term {
+pub fn raised(base: &TargetTerm, exponent: &Rational) -> TargetTerm {
     let exponent = exact(exponent).at_least(Rank::Atom);
-    Term::of(format!("{}^{exponent}", base.at_least(Rank::Atom)), Rank::Power)
+    TargetTerm::of(format!("{}^{exponent}", base.at_least(Rank::Atom)), Rank::Power)
 }
 
 /// Name of a function as most languages have it.
-pub fn usual(function: Function) -> &'static str {
+pub fn usual(function: UnaryFunction) -> &'static str {
     match function {
-        Function::Sqrt => "sqrt",
-        Function::Abs => "abs",
-        Function::Exp => "exp",
-        Function::Ln => "log",
-        Function::Sin => "sin",
-        Function::Cos => "cos",
-        Function::Atan => "atan",
-        Function::Neg => "-",
-        Function::Recip => "1/",
+        UnaryFunction::Sqrt => "sqrt",
+        UnaryFunction::Abs => "abs",
+        UnaryFunction::Exp => "exp",
+        UnaryFunction::Ln => "log",
+        UnaryFunction::Sin => "sin",
+        UnaryFunction::Cos => "cos",
+        UnaryFunction::Atan => "atan",
+        UnaryFunction::Neg => "-",
+        UnaryFunction::Recip => "1/",
     }
 }
 

@@ -1,10 +1,11 @@
 //! Plot of a section: crossings, images of lines, separatrices, and the periodic points that the case
 //! claims.
 
-use liouville::case::Line;
+use liouville::case::FixedLine;
 use liouville::claim::motion::Stability;
 use liouville_draw::{
-    Axis, Bar, CATEGORIES, Density, Entry, Layer, Mark, Paint, Plot, Sign, gradient, math, plain,
+    Axis, Bar, CATEGORIES, CountGrid, Layer, LegendEntry, MarkShape, MarkedPoint, Paint, Plot,
+    gradient, math, plain,
 };
 use liouville_flow::{SectionOrbit, Separatrices};
 
@@ -28,8 +29,8 @@ fn points<'o>(orbits: impl IntoIterator<Item = &'o SectionOrbit>) -> Vec<[f64; 2
     orbits.into_iter().flat_map(|orbit| &orbit.crossings).map(|crossing| crossing.at).collect()
 }
 
-fn entry(mark: Mark, paint: Paint, words: &str) -> Entry {
-    Entry { mark, paint, text: plain(words) }
+fn entry(mark: MarkShape, paint: Paint, words: &str) -> LegendEntry {
+    LegendEntry { mark, paint, text: plain(words) }
 }
 
 /// Adds the crossings of orbits.
@@ -56,13 +57,13 @@ pub fn draw_both(plot: &mut Plot, forwards: &[SectionOrbit], backwards: &[Sectio
         (forwards, CATEGORIES[0], "forwards in time"),
     ] {
         plot.layers.push(Layer::Dots(points(orbits), paint));
-        plot.legend.insert(0, entry(Mark::Disc, paint, words));
+        plot.legend.insert(0, entry(MarkShape::Disc, paint, words));
     }
 }
 
 /// Shades the density of crossings.
 pub fn shade_density(plot: &mut Plot, orbits: &[SectionOrbit], cells: [usize; 2]) {
-    let density = Density::of(points(orbits).into_iter(), &plot.across, &plot.up, cells);
+    let density = CountGrid::of(points(orbits).into_iter(), &plot.across, &plot.up, cells);
     plot.bar = Some(density.bar());
     plot.layers.push(Layer::Density(density));
 }
@@ -73,22 +74,22 @@ pub fn shade(index: usize) -> f64 {
 }
 
 /// Adds the images of lines, a colour for each.
-pub fn draw_lines(plot: &mut Plot, lines: &[(Line, Vec<SectionOrbit>)]) {
+pub fn draw_lines(plot: &mut Plot, lines: &[(FixedLine, Vec<SectionOrbit>)]) {
     for (index, (line, orbits)) in lines.iter().enumerate() {
         let mut dots = points(orbits);
         dots.extend(orbits.iter().map(|orbit| orbit.start));
         let paint = CATEGORIES[index % CATEGORIES.len()];
         plot.layers.push(Layer::Dots(dots, paint));
         let text = plain("images of ").then(math(equation(*line)));
-        plot.legend.push(Entry { mark: Mark::Disc, paint, text });
+        plot.legend.push(LegendEntry { mark: MarkShape::Disc, paint, text });
     }
 }
 
-fn equation(line: Line) -> &'static str {
+fn equation(line: FixedLine) -> &'static str {
     match line {
-        Line::Equator => "L = 0",
-        Line::Meridian => "l = 0, π",
-        Line::QuarterMeridian => "l = π/2, 3π/2",
+        FixedLine::Equator => "L = 0",
+        FixedLine::Meridian => "l = 0, π",
+        FixedLine::QuarterMeridian => "l = π/2, 3π/2",
     }
 }
 
@@ -104,7 +105,7 @@ pub fn draw_separatrices(plot: &mut Plot, all: &[Separatrices]) {
     }
     plot.bar = None;
     for (paint, words) in [(CATEGORIES[0], "stable curves"), (CATEGORIES[1], "unstable curves")] {
-        plot.legend.push(entry(Mark::Disc, paint, words));
+        plot.legend.push(entry(MarkShape::Disc, paint, words));
     }
     for found in all {
         plot.layers.push(Layer::Dots(points(&found.stable), CATEGORIES[0]));
@@ -116,13 +117,18 @@ pub fn draw_separatrices(plot: &mut Plot, all: &[Separatrices]) {
 /// Marks the points of a periodic orbit by their stability.
 pub fn mark(plot: &mut Plot, stability: Stability, at: &[[f64; 2]]) {
     let (mark, words) = match stability {
-        Stability::Elliptic => (Mark::Ring, "elliptic point"),
-        Stability::Hyperbolic => (Mark::Cross, "hyperbolic point"),
-        Stability::Sink => (Mark::Down, "sink"),
-        Stability::Source => (Mark::Up, "source"),
+        Stability::Elliptic => (MarkShape::Ring, "elliptic point"),
+        Stability::Hyperbolic => (MarkShape::Cross, "hyperbolic point"),
+        Stability::Sink => (MarkShape::Down, "sink"),
+        Stability::Source => (MarkShape::Up, "source"),
     };
-    let sign =
-        |at: &[f64; 2]| Sign { at: *at, mark, paint: Paint::Ink, label: None, has_rim: true };
+    let sign = |at: &[f64; 2]| MarkedPoint {
+        at: *at,
+        mark,
+        paint: Paint::Ink,
+        label: None,
+        has_rim: true,
+    };
     plot.marks.extend(at.iter().map(sign));
     let entry = entry(mark, Paint::Ink, words);
     if !plot.legend.contains(&entry) {

@@ -7,10 +7,10 @@ use liouville_flow::{FlowError, Portrait};
 use liouville_search::survey::Survey;
 
 pub use liouville_report::survey::{Document, document, json, latex, markdown, of_claims};
-pub use terminal::Style;
+pub use terminal::PageStyle;
 
 /// Renders the survey for a terminal; `origin` names the program and the case in all formats.
-pub fn text(survey: &Survey, origin: &str, style: Style) -> String {
+pub fn text(survey: &Survey, origin: &str, style: PageStyle) -> String {
     terminal::render(&document(survey, origin), style)
 }
 

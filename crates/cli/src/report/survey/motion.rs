@@ -3,21 +3,21 @@
 use crate::report::section::drawing;
 use liouville_draw::{Figure, Size, inline_svg};
 use liouville_flow::{FlowError, Portrait};
-use liouville_report::survey::{Block, Picture, Section};
+use liouville_report::survey::{DocumentSection, Picture, SectionBlock};
 
 /// Size of the picture.
 const SIZE: Size = Size { width: 150.0, height: None, dot: 0.3, opacity: 1.0 };
 
 /// Section of a document about the motion.
-pub fn section(motion: Result<&Portrait, &FlowError>) -> Section {
+pub fn section(motion: Result<&Portrait, &FlowError>) -> DocumentSection {
     let blocks = match motion {
         Ok(portrait) => blocks(portrait),
-        Err(problem) => vec![Block::Text(format!("No section is drawn: {problem}."))],
+        Err(problem) => vec![SectionBlock::Text(format!("No section is drawn: {problem}."))],
     };
-    Section { title: "Its motion", blocks }
+    DocumentSection { title: "Its motion", blocks }
 }
 
-fn blocks(portrait: &Portrait) -> Vec<Block> {
+fn blocks(portrait: &Portrait) -> Vec<SectionBlock> {
     let (request, orbits) = (&portrait.request, &portrait.orbits);
     let mut plot = drawing::plane();
     drawing::draw_orbits(&mut plot, orbits, drawing::Colouring::Orbits);
@@ -36,11 +36,11 @@ fn blocks(portrait: &Portrait) -> Vec<Block> {
         request.energy,
         orbits.len()
     );
-    let mut found = vec![Block::Picture(Picture { svg: inline_svg(&scene), caption })];
+    let mut found = vec![SectionBlock::Picture(Picture { svg: inline_svg(&scene), caption })];
     if portrait.is_drawn {
         let words =
             "Free parameters have the values of the first draw; others give other pictures.";
-        found.push(Block::Text(words.to_string()));
+        found.push(SectionBlock::Text(words.to_string()));
     }
     let worst = orbits.iter().map(|orbit| orbit.drift).fold(0.0, f64::max);
     let lost = orbits.iter().filter(|orbit| orbit.problem.is_some()).count();
@@ -51,6 +51,6 @@ fn blocks(portrait: &Portrait) -> Vec<Block> {
     if lost > 0 {
         words.push_str(&format!(" {lost} orbits have no start or end early."));
     }
-    found.push(Block::Text(words));
+    found.push(SectionBlock::Text(words));
     found
 }

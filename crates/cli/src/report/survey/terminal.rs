@@ -2,11 +2,11 @@
 
 use comfy_table::{ContentArrangement, Table, presets};
 
-use liouville_report::survey::{Block, Cell, Document, Entry, Mark};
+use liouville_report::survey::{Document, JudgedClaim, SectionBlock, TableCell, VerdictMark};
 
 /// Style of the output.
 #[derive(Clone, Copy, Debug)]
-pub struct Style {
+pub struct PageStyle {
     /// Whether to show the grounds of each verdict.
     pub verbose: bool,
     /// Whether to use colours.
@@ -21,14 +21,14 @@ const YELLOW: &str = "\u{1b}[33m";
 const BOLD: &str = "\u{1b}[1m";
 const PLAIN: &str = "\u{1b}[0m";
 
-impl Style {
+impl PageStyle {
     fn painted(self, text: &str, colour: &str) -> String {
         if self.colour { format!("{colour}{text}{PLAIN}") } else { text.to_string() }
     }
 }
 
 /// Renders the whole document.
-pub fn render(document: &Document, style: Style) -> String {
+pub fn render(document: &Document, style: PageStyle) -> String {
     let mut out = format!("{}\n", style.painted(&document.title, BOLD));
     for section in &document.sections {
         out.push_str(&format!("\n{}\n", style.painted(section.title, BOLD)));
@@ -39,27 +39,27 @@ pub fn render(document: &Document, style: Style) -> String {
     out
 }
 
-fn set(block: &Block, style: Style) -> String {
+fn set(block: &SectionBlock, style: PageStyle) -> String {
     match block {
-        Block::Text(text) => wrapped(text, "  ", "  ", style.width),
-        Block::List(items) => {
+        SectionBlock::Text(text) => wrapped(text, "  ", "  ", style.width),
+        SectionBlock::List(items) => {
             items.iter().map(|item| wrapped(item, "  - ", "    ", style.width)).collect()
         }
-        Block::Folded(..) if !style.verbose => String::new(),
-        Block::Folded(_, lines) => {
+        SectionBlock::Folded(..) if !style.verbose => String::new(),
+        SectionBlock::Folded(_, lines) => {
             lines.iter().map(|line| wrapped(line, "  | ", "  | ", style.width)).collect()
         }
-        Block::Entry(entry) => self::entry(entry, style),
-        Block::Table { head, rows } => table(head, rows, style),
-        Block::Picture(_) => String::new(),
+        SectionBlock::Entry(entry) => self::entry(entry, style),
+        SectionBlock::Table { head, rows } => table(head, rows, style),
+        SectionBlock::Picture(_) => String::new(),
     }
 }
 
-fn entry(entry: &Entry, style: Style) -> String {
+fn entry(entry: &JudgedClaim, style: PageStyle) -> String {
     let colour = match entry.mark {
-        Mark::Holds => GREEN,
-        Mark::Fails => RED,
-        Mark::Open => YELLOW,
+        VerdictMark::Holds => GREEN,
+        VerdictMark::Fails => RED,
+        VerdictMark::Open => YELLOW,
     };
     let mark = style.painted(&format!("{} {:<9}", entry.mark.sign(), entry.verdict), colour);
     let mut out = format!("  {mark} {}", entry.name);
@@ -85,14 +85,14 @@ fn entry(entry: &Entry, style: Style) -> String {
     out
 }
 
-fn table(head: &[&str], rows: &[Vec<Cell>], style: Style) -> String {
+fn table(head: &[&str], rows: &[Vec<TableCell>], style: PageStyle) -> String {
     let mut table = Table::new();
     table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Dynamic);
     table.set_width(style.width.saturating_sub(4)).force_no_tty();
     table.set_header(head.to_vec());
     for row in rows {
         let cells = row.iter().map(|cell| match cell {
-            Cell::Text(text) | Cell::Formula(text, _) => text.clone(),
+            TableCell::Text(text) | TableCell::Formula(text, _) => text.clone(),
         });
         table.add_row(cells.collect::<Vec<_>>());
     }

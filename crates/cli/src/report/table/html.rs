@@ -1,6 +1,6 @@
 //! Tables of the papers as web pages.
 
-use super::{CellClaim, Filled, Regenerated, Stated, letter, target};
+use super::{CellClaim, Filled, Regenerated, StatedCell, letter, target};
 use crate::report::typeset::mathml::{escaped, formula};
 
 /// Style of the page.
@@ -57,8 +57,8 @@ fn filled(cell: &Filled) -> String {
 
 fn stated(claim: &CellClaim) -> String {
     let text = match claim.stated() {
-        Stated::Formula(layout, _) => formula(layout, false),
-        Stated::Words(words) => escaped(words),
+        StatedCell::Formula(layout, _) => formula(layout, false),
+        StatedCell::Words(words) => escaped(words),
     };
     let letter = claim.letter().map_or(String::new(), |letter| format!(" ({letter})"));
     let (mark, verdict) = (claim.mark(), claim.verdict());

@@ -1,6 +1,6 @@
 //! Tables of the papers as LaTeX documents, for any LaTeX with amsmath, colortbl and hyperref.
 
-use super::{CellClaim, Filled, Regenerated, Stated, letter, one_line, target};
+use super::{CellClaim, Filled, Regenerated, StatedCell, letter, one_line, target};
 use crate::report::typeset::latex::{formula, prose, widest};
 
 /// Width of a column of the table in millimetres.
@@ -79,12 +79,12 @@ fn filled(cell: &Filled, below: &mut Vec<String>) -> String {
 /// Sets a claim; a formula too wide for a cell goes below the table, where there is a place for it.
 fn stated(claim: &CellClaim, below: Option<&mut Vec<String>>) -> String {
     let text = match (claim.stated(), below) {
-        (Stated::Formula(layout, _), Some(below)) if widest(layout) > WIDEST => {
+        (StatedCell::Formula(layout, _), Some(below)) if widest(layout) > WIDEST => {
             below.push(format!("[{}] ${}$", below.len() + 1, formula(layout)));
             format!("{} [{}]", prose(&one_line(&claim.name)), below.len())
         }
-        (Stated::Formula(layout, _), _) => format!("${}$", formula(layout)),
-        (Stated::Words(words), _) => prose(&one_line(words)),
+        (StatedCell::Formula(layout, _), _) => format!("${}$", formula(layout)),
+        (StatedCell::Words(words), _) => prose(&one_line(words)),
     };
     let mark = match claim.mark() {
         "✓" => "$\\checkmark$",

@@ -1,6 +1,6 @@
 //! Tables of the papers as Markdown.
 
-use super::{CellClaim, Filled, Regenerated, Stated, letter, one_line, target};
+use super::{CellClaim, Filled, Regenerated, StatedCell, letter, one_line, target};
 use crate::report::typeset::latex::formula;
 
 /// Renders a Markdown table: rows as in the paper, verdicts as links.
@@ -35,8 +35,8 @@ fn filled(cell: &Filled) -> String {
 
 fn stated(claim: &CellClaim) -> String {
     let text = match claim.stated() {
-        Stated::Formula(layout, _) => format!("${}$", formula(layout).replace('|', "\\|")),
-        Stated::Words(words) => inline(words),
+        StatedCell::Formula(layout, _) => format!("${}$", formula(layout).replace('|', "\\|")),
+        StatedCell::Words(words) => inline(words),
     };
     let letter = claim.letter().map_or(String::new(), |letter| format!(" ({letter})"));
     let (mark, verdict) = (claim.mark(), claim.verdict());

@@ -2,7 +2,7 @@
 
 use comfy_table::{Cell, ContentArrangement, Table, presets};
 
-use super::{CellClaim, Filled, Regenerated, Stated, letter};
+use super::{CellClaim, Filled, Regenerated, StatedCell, letter};
 
 /// Renders the table; one with far more columns than rows is turned.
 pub fn render(table: &Regenerated, width: u16) -> String {
@@ -47,8 +47,8 @@ fn filled(cell: &Filled) -> String {
 
 fn stated(claim: &CellClaim) -> String {
     let text = match claim.stated() {
-        Stated::Formula(_, typed) => typed,
-        Stated::Words(words) => words,
+        StatedCell::Formula(_, typed) => typed,
+        StatedCell::Words(words) => words,
     };
     let letter = claim.letter().map_or(String::new(), |letter| format!(" ({letter})"));
     format!("{} {}: {text}{letter}", claim.mark(), claim.verdict())

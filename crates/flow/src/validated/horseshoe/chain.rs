@@ -5,7 +5,7 @@ use super::super::enclosure::Enclosure;
 use super::super::functions::{across, normalised};
 use super::super::motion::Boxed;
 use super::super::shooting::Shooting;
-use super::chart::Chart;
+use super::chart::SurfaceChart;
 use super::vectors::{dot, minus, moved, plus, split, unit};
 
 /// Nodes of a motion, the last of them where it ends, and the times between them.
@@ -26,12 +26,12 @@ pub struct Link {
 }
 
 /// Surface at a node with an orthonormal basis of its tangents.
-pub struct Plane {
+pub struct NodePlane {
     pub normal: Vec<f64>,
     pub basis: [Vec<f64>; 2],
 }
 
-impl Plane {
+impl NodePlane {
     /// Surface across the motion at a state. `None` unless the level of all conserved functions has
     /// dimension 3.
     pub fn new(shooting: &Shooting, state: &[f64], field: &[f64]) -> Option<Self> {
@@ -65,10 +65,10 @@ impl Plane {
     }
 
     /// Chart with these unit vectors as axes.
-    pub fn chart(&self, origin: &[f64], unstable: [f64; 2], stable: [f64; 2]) -> Chart {
+    pub fn chart(&self, origin: &[f64], unstable: [f64; 2], stable: [f64; 2]) -> SurfaceChart {
         let area = unstable[0] * stable[1] - unstable[1] * stable[0];
         let rows = [[stable[1], -stable[0]], [-unstable[1], unstable[0]]];
-        Chart {
+        SurfaceChart {
             origin: origin.to_vec(),
             normal: self.normal.clone(),
             axes: [self.vector(unstable), self.vector(stable)],
@@ -85,14 +85,14 @@ impl Chain {
     }
 
     /// Surfaces at all nodes; at the ends across `ends`, where given.
-    pub fn planes(&self, shooting: &Shooting, ends: Option<&[f64]>) -> Option<Vec<Plane>> {
+    pub fn planes(&self, shooting: &Shooting, ends: Option<&[f64]>) -> Option<Vec<NodePlane>> {
         let mut fields = self.fields(shooting);
         if let (Some(normal), [first, .., last]) = (ends, fields.as_mut_slice()) {
             *first = normal.to_vec();
             *last = normal.to_vec();
         }
         let nodes = self.states.iter().zip(&fields);
-        nodes.map(|(state, field)| Plane::new(shooting, state, field)).collect()
+        nodes.map(|(state, field)| NodePlane::new(shooting, state, field)).collect()
     }
 
     /// Links between the nodes, the gaps in double-double where asked. `None` where they are not
@@ -100,7 +100,7 @@ impl Chain {
     pub fn links(
         &self,
         shooting: &Shooting,
-        planes: &[Plane],
+        planes: &[NodePlane],
         is_sharp: bool,
     ) -> Option<Vec<Link>> {
         let starts = &self.states[..self.times.len()];
@@ -148,7 +148,7 @@ impl Chain {
     pub fn shift(
         &mut self,
         shooting: &Shooting,
-        planes: &[Plane],
+        planes: &[NodePlane],
         links: &[Link],
         steps: &[[f64; 2]],
     ) {

@@ -12,7 +12,7 @@ use super::vectors::{dot, minus};
 
 /// Surface across a motion, with coordinates.
 #[derive(Clone, Debug)]
-pub struct Chart {
+pub struct SurfaceChart {
     /// Point o of the plane.
     pub origin: Vec<f64>,
     /// Vector n across the plane.
@@ -23,7 +23,7 @@ pub struct Chart {
     pub rows: [Vec<f64>; 2],
 }
 
-impl Chart {
+impl SurfaceChart {
     /// Coordinates of a state.
     pub fn coordinates(&self, state: &[f64]) -> [f64; 2] {
         let off = minus(state, &self.origin);
@@ -57,7 +57,7 @@ impl Patch {
     /// all z of the rectangle at once.
     pub fn new(
         shooting: &Shooting,
-        chart: &Chart,
+        chart: &SurfaceChart,
         centre: &[f64],
         middle: [f64; 2],
         half: [f64; 2],
@@ -149,7 +149,7 @@ fn up(x: f64) -> f64 {
 }
 
 /// Encloses the derivative of the equations of a chart over a box, by rows.
-fn rows(shooting: &Shooting, chart: &Chart, states: &[Enclosure]) -> Vec<Boxed> {
+fn rows(shooting: &Shooting, chart: &SurfaceChart, states: &[Enclosure]) -> Vec<Boxed> {
     let known = [&chart.rows[0], &chart.rows[1], &chart.normal];
     let exact = |row: &Vec<f64>| -> Boxed { row.iter().map(|x| Enclosure::exact(*x)).collect() };
     let mut rows: Vec<Boxed> = known.into_iter().map(exact).collect();
@@ -158,7 +158,7 @@ fn rows(shooting: &Shooting, chart: &Chart, states: &[Enclosure]) -> Vec<Boxed> 
 }
 
 /// The same by columns. `None` where there are not as many equations as components.
-fn derivative(shooting: &Shooting, chart: &Chart, states: &[Enclosure]) -> Option<Columns> {
+fn derivative(shooting: &Shooting, chart: &SurfaceChart, states: &[Enclosure]) -> Option<Columns> {
     let (rows, n) = (rows(shooting, chart, states), states.len());
     (rows.len() == n).then(|| {
         let column = |column: usize| (0..n).map(|row| (row, rows[row][column])).collect();
@@ -170,7 +170,7 @@ fn derivative(shooting: &Shooting, chart: &Chart, states: &[Enclosure]) -> Optio
 /// the mean value theorem, where the derivative of the equations is regular over both.
 pub fn are_joined(
     shooting: &Shooting,
-    chart: &Chart,
+    chart: &SurfaceChart,
     ends: &[Enclosure],
     states: &[Enclosure],
 ) -> bool {

@@ -17,7 +17,7 @@ pub struct Rectangle {
 
 /// Map of a rectangle into the plane: image of its middle, and derivative over it.
 #[derive(Clone, Copy, Debug)]
-pub struct Map {
+pub struct PlaneMap {
     pub middle: [Enclosure; 2],
     /// Derivative, row by row.
     pub slopes: [[Enclosure; 2]; 2],
@@ -43,7 +43,7 @@ fn above(x: f64) -> f64 {
     raised(x, 4)
 }
 
-impl Map {
+impl PlaneMap {
     /// Bounds how far the unstable edges of a rectangle with these half sides go at least from the
     /// image of the middle. Not positive where nothing is known.
     pub fn reach(&self, half: [f64; 2]) -> f64 {
@@ -104,8 +104,8 @@ pub fn is_hyperbolic(slopes: &[[Enclosure; 2]; 2]) -> bool {
 mod tests {
     use super::*;
 
-    fn map(slopes: [[f64; 2]; 2], rad: f64, middle: [f64; 2]) -> Map {
-        Map {
+    fn map(slopes: [[f64; 2]; 2], rad: f64, middle: [f64; 2]) -> PlaneMap {
+        PlaneMap {
             middle: middle.map(Enclosure::exact),
             slopes: slopes.map(|row| row.map(|x| Enclosure::about(x, rad))),
         }

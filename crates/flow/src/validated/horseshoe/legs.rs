@@ -8,19 +8,22 @@
 use super::super::enclosure::{Enclosure, raised};
 use super::super::motion::Boxed;
 use super::super::shooting::{Shooting, combined};
-use super::chart::{Chart, Patch};
-use super::cover::{Map, Rectangle};
+use super::chart::{Patch, SurfaceChart};
+use super::cover::{PlaneMap, Rectangle};
+use rayon::prelude::*;
 
 /// Room for the time of the passage, against the time expected, and besides as a share of the time
 /// that the sides of the rectangle take.
 const ROOM: f64 = 1.5;
 const SHARE: f64 = 0.1;
 const LEAST: f64 = 1e-14;
+/// Number of legs enclosed on one thread; the tails of a leg begin with those of the leg before.
+const STRETCH: usize = 256;
 
 /// Leg of a motion from a surface to another.
 pub struct Leg<'l> {
     /// Chart and approximate point at the middle of the rectangle.
-    pub chart: &'l Chart,
+    pub chart: &'l SurfaceChart,
     pub centre: &'l [f64],
     pub rectangle: Rectangle,
     /// Time after which the centre meets the other surface, approximately.
@@ -29,13 +32,13 @@ pub struct Leg<'l> {
     pub late: [f64; 2],
     /// Speed at the centre, approximately.
     pub speed: f64,
-    pub next: &'l Chart,
+    pub next: &'l SurfaceChart,
 }
 
 /// Enclosed leg.
 #[derive(Clone, Debug)]
 pub struct Crossed {
-    pub map: Map,
+    pub map: PlaneMap,
     /// Times of all motions that start in the rectangle.
     pub time: Enclosure,
     /// Box of all states over the rectangle.
@@ -46,7 +49,7 @@ pub struct Crossed {
 
 /// Reason why a leg is not enclosed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Failure {
+pub enum LegFailure {
     /// The points of the surface are not enclosed, or are not met in time.
     Surface,
     /// The step is not proved.
@@ -54,12 +57,22 @@ pub enum Failure {
 }
 
 /// Encloses legs; the failure of the first that fails.
-pub fn crossed(shooting: &Shooting, legs: &[Leg<'_>]) -> Result<Vec<Crossed>, Failure> {
+pub fn crossed(shooting: &Shooting, legs: &[Leg<'_>]) -> Result<Vec<Crossed>, LegFailure> {
+    let stretches = legs.par_chunks(STRETCH).map(|legs| stretch(shooting, legs));
+    let stretches: Vec<Result<Vec<Crossed>, LegFailure>> = stretches.collect();
+    stretches.into_iter().try_fold(Vec::new(), |mut all, found| {
+        all.extend(found?);
+        Ok(all)
+    })
+}
+
+/// Encloses legs on one thread.
+fn stretch(shooting: &Shooting, legs: &[Leg<'_>]) -> Result<Vec<Crossed>, LegFailure> {
     let mut patches = Vec::new();
     for leg in legs {
         let Rectangle { middle, half } = leg.rectangle;
         let patch = Patch::new(shooting, leg.chart, leg.centre, middle, half);
-        patches.push(patch.ok_or(Failure::Surface)?);
+        patches.push(patch.ok_or(LegFailure::Surface)?);
     }
     let window = |leg: &Leg<'_>| {
         let half = leg.rectangle.half;
@@ -75,17 +88,17 @@ pub fn crossed(shooting: &Shooting, legs: &[Leg<'_>]) -> Result<Vec<Crossed>, Fa
     let gaps = shooting.motion.gaps(&centres, &middles, 1.0, &targets);
     let mut ends = Vec::new();
     for passage in &passages {
-        ends.push(passage.as_ref().ok_or(Failure::Step)?.end.clone());
+        ends.push(passage.as_ref().ok_or(LegFailure::Step)?.end.clone());
     }
     let fields = shooting.motion.field(&ends);
     let mut found = Vec::new();
     for (index, (leg, patch)) in legs.iter().zip(&patches).enumerate() {
         let (Some(passage), Some(gap)) = (&passages[index], &gaps[index]) else {
-            return Err(Failure::Step);
+            return Err(LegFailure::Step);
         };
         let flow = &passage.derivative;
         let map = mapped(leg, patch, flow, &fields[index], gap, times[index]);
-        let map = map.ok_or(Failure::Surface)?;
+        let map = map.ok_or(LegFailure::Surface)?;
         let (states, ends) = (patch.states.clone(), ends[index].clone());
         found.push(Crossed { map, time: times[index], states, ends });
     }
@@ -102,8 +115,8 @@ fn mapped(
     field: &Boxed,
     gap: &Boxed,
     time: Enclosure,
-) -> Option<Map> {
-    let Chart { normal, rows, .. } = leg.next;
+) -> Option<PlaneMap> {
+    let SurfaceChart { normal, rows, .. } = leg.next;
     let speed = combined(normal, field);
     if !speed.is_positive() {
         return None;
@@ -134,7 +147,7 @@ fn mapped(
         let late = combined(normal, vector) * per_speed;
         combined(row, vector) - combined(row, field) * late
     };
-    let map = Map {
+    let map = PlaneMap {
         middle: [turned(&middle, &rows[0]), turned(&middle, &rows[1])],
         slopes: [0, 1].map(|row: usize| [0, 1].map(|k: usize| turned(&axes[k], &rows[row]))),
     };

@@ -20,15 +20,14 @@ mod vectors;
 pub use cover::Margin;
 
 use super::enclosure::{Enclosure, raised};
-use super::functions::{Functions, norm};
+use super::functions::norm;
 use super::guess::Nodes;
-use super::motion::Motion;
 use super::request::moved;
 use super::shooting::{Shooting, combined};
-use super::{Obstacle, Request};
-use chart::{Chart, Patch, are_joined};
-use cover::{Map, Rectangle, is_hyperbolic, product};
-use legs::{Crossed, Failure, Leg, crossed};
+use super::{Obstacle, Request, prepared};
+use chart::{Patch, SurfaceChart, are_joined};
+use cover::{PlaneMap, Rectangle, is_hyperbolic, product};
+use legs::{Crossed, Leg, LegFailure, crossed};
 use path::{Path, joined};
 use saddle::Saddle;
 use seek::{Homoclinic, Seeker};
@@ -57,7 +56,7 @@ const END: f64 = 0.5;
 
 /// Horseshoe that is proved to exist.
 #[derive(Clone, Debug)]
-pub struct Horseshoe {
+pub struct ProvedHorseshoe {
     /// Box that contains the rectangle at the saddle.
     pub start: Vec<Enclosure>,
     /// Half sides of that rectangle.
@@ -82,20 +81,15 @@ pub struct Horseshoe {
 }
 
 /// Proves that there is a horseshoe at a closed orbit near a state, with enclosures.
-pub fn prove(request: &Request<'_>) -> Result<Horseshoe, Obstacle> {
+pub fn prove(request: &Request<'_>) -> Result<ProvedHorseshoe, Obstacle> {
     let Request { model, start, .. } = request;
     let state = request.state();
-    let mut functions = Functions::new(&request.laws())?;
-    let numbers = functions.choose(&state);
-    if functions.of_level_in_use() < functions.of_level {
-        return Err(Obstacle::Level);
+    let (mut shooting, _) = prepared(request, &state)?;
+    let kept = shooting.functions.len();
+    if state.len() != kept + 3 {
+        return Err(Obstacle::Dimension(state.len() - kept));
     }
-    if state.len() != functions.len() + 3 {
-        return Err(Obstacle::Dimension(state.len() - functions.len()));
-    }
-    let values = request.values(&functions, &numbers)?;
-    let motion = Motion { order: ORDER, ..Motion::new(&request.laws())? };
-    let shooting = Shooting { motion, functions, values };
+    shooting.motion.order = ORDER;
     let mut obstacle = Obstacle::NoOrbit;
     for kappa in KAPPAS {
         let nodes = Nodes::along(model, start, request.period, kappa, MOST_NODES)?;
@@ -113,8 +107,8 @@ pub fn prove(request: &Request<'_>) -> Result<Horseshoe, Obstacle> {
         if found.is_empty() {
             return Err(Obstacle::NoHomoclinic);
         }
-        let search = Search { request, shooting: &shooting, saddle: &saddle, kappa };
-        let mut last = Problem::Path;
+        let search = HorseshoeSearch { request, shooting: &shooting, saddle: &saddle, kappa };
+        let mut last = PathProblem::Path;
         for homoclinic in found.iter().take(MOST_PATHS) {
             let first = search.least_turns(homoclinic);
             for turns in first..first + MOST_SIZES {
@@ -128,7 +122,7 @@ pub fn prove(request: &Request<'_>) -> Result<Horseshoe, Obstacle> {
             }
         }
         obstacle = Obstacle::NoCovering(last.text());
-        if !matches!(last, Problem::Leg(Failure::Step)) {
+        if !matches!(last, PathProblem::Leg(LegFailure::Step)) {
             return Err(obstacle);
         }
     }
@@ -137,12 +131,12 @@ pub fn prove(request: &Request<'_>) -> Result<Horseshoe, Obstacle> {
 
 /// Reason why one homoclinic orbit proves nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Problem {
+enum PathProblem {
     /// The path is too long.
     Size,
     /// The nodes are not found.
     Path,
-    Leg(Failure),
+    Leg(LegFailure),
     /// No sizes of rectangles fit.
     Fit,
     /// The rectangle at the saddle is not apart from that of the homoclinic orbit.
@@ -152,29 +146,31 @@ enum Problem {
     Relation,
 }
 
-impl Problem {
+impl PathProblem {
     fn text(self) -> &'static str {
         match self {
-            Problem::Size => "it has too many nodes",
-            Problem::Path => "Newton's method does not converge to one",
-            Problem::Leg(Failure::Surface) => "a surface across it is not met in time",
-            Problem::Leg(Failure::Step) => "a step is not proved",
-            Problem::Fit => "no rectangles have room: the stable and the unstable curves may touch",
-            Problem::Apart => "the rectangles are not apart",
-            Problem::Cones => "the motion along the saddle is not proved hyperbolic",
-            Problem::Relation => "an image of a rectangle does not cover the next",
+            PathProblem::Size => "it has too many nodes",
+            PathProblem::Path => "Newton's method does not converge to one",
+            PathProblem::Leg(LegFailure::Surface) => "a surface across it is not met in time",
+            PathProblem::Leg(LegFailure::Step) => "a step is not proved",
+            PathProblem::Fit => {
+                "no rectangles have room: the stable and the unstable curves may touch"
+            }
+            PathProblem::Apart => "the rectangles are not apart",
+            PathProblem::Cones => "the motion along the saddle is not proved hyperbolic",
+            PathProblem::Relation => "an image of a rectangle does not cover the next",
         }
     }
 }
 
-struct Search<'s, 'r> {
+struct HorseshoeSearch<'s, 'r> {
     request: &'s Request<'r>,
     shooting: &'s Shooting,
     saddle: &'s Saddle,
     kappa: f64,
 }
 
-impl Search<'_, '_> {
+impl HorseshoeSearch<'_, '_> {
     /// Number of turns after which the path starts near enough to the saddle.
     fn least_turns(&self, homoclinic: &Homoclinic) -> usize {
         let most = LARGEST * norm(&self.saddle.home.origin);
@@ -189,7 +185,7 @@ impl Search<'_, '_> {
         seeker: &Seeker<'_>,
         homoclinic: &Homoclinic,
         turns: usize,
-    ) -> Result<Result<Horseshoe, Problem>, Obstacle> {
+    ) -> Result<Result<ProvedHorseshoe, PathProblem>, Obstacle> {
         let Self { request, shooting, saddle, kappa } = self;
         let [out, back] = saddle.multipliers;
         let distance = homoclinic.start / libm::pow(out.abs(), turns as f64)
@@ -205,18 +201,20 @@ impl Search<'_, '_> {
         start.state = seeker
             .start(homoclinic.start)
             .into_iter()
-            .map(liouville::number::pair::Pair::from_f64)
+            .map(liouville::number::double_double::DoubleDouble::from_f64)
             .collect();
         let most = MOST_NODES.saturating_sub((turns + arrivals) * saddle.len());
         let excursion = Nodes::along(request.model, &start, homoclinic.time, *kappa, most)?;
-        let Some(excursion) = excursion else { return Ok(Err(Problem::Size)) };
+        let Some(excursion) = excursion else { return Ok(Err(PathProblem::Size)) };
         let guess = joined(saddle, (distance, turns), &excursion, (homoclinic.end, arrivals));
-        let Some(path) = Path::new(shooting, saddle, guess) else { return Ok(Err(Problem::Path)) };
+        let Some(path) = Path::new(shooting, saddle, guess) else {
+            return Ok(Err(PathProblem::Path));
+        };
         Ok(self.proved(&path, side))
     }
 
     /// Proves the covering relations of both loops.
-    fn proved(&self, path: &Path, side: f64) -> Result<Horseshoe, Problem> {
+    fn proved(&self, path: &Path, side: f64) -> Result<ProvedHorseshoe, PathProblem> {
         let Self { shooting, saddle, .. } = self;
         let home = &saddle.home;
         let square = Rectangle { middle: [0.0, 0.0], half: [side, side] };
@@ -240,16 +238,16 @@ impl Search<'_, '_> {
         let guess = guessed(&saddle.directions, side, reach, 0.0);
         let (turn, mut halves) = ring.enclosed(shooting, guess, [side, side], &wanted)?;
         halves[0] = square.half;
-        let maps: Vec<Map> = turn.iter().map(|one| one.map).collect();
-        let closing = |map: &Map, half: [f64; 2], other: &Rectangle| {
-            map.covers(half, other).ok_or(Problem::Relation)
+        let maps: Vec<PlaneMap> = turn.iter().map(|one| one.map).collect();
+        let closing = |map: &PlaneMap, half: [f64; 2], other: &Rectangle| {
+            map.covers(half, other).ok_or(PathProblem::Relation)
         };
 
         // From the last node before the saddle's surface to the chart of the homoclinic orbit, on
         // the same plane, within times that are among those of the leg to the saddle: so each motion
         // meets the plane once, and coordinates decide to which of the two rectangles it goes.
         let (Some(last_map), Some(last_half)) = (maps.last(), halves.last()) else {
-            return Err(Problem::Path);
+            return Err(PathProblem::Path);
         };
         let place = halves.len() - 1;
         let known = Leg {
@@ -264,8 +262,8 @@ impl Search<'_, '_> {
             speed: ring.speeds[place],
             next: own,
         };
-        let turned = crossed(shooting, &[known]).map_err(Problem::Leg)?;
-        let [onto] = turned.as_slice() else { return Err(Problem::Path) };
+        let turned = crossed(shooting, &[known]).map_err(PathProblem::Leg)?;
+        let [onto] = turned.as_slice() else { return Err(PathProblem::Path) };
 
         // Along the homoclinic orbit.
         let strand = Strand {
@@ -284,13 +282,13 @@ impl Search<'_, '_> {
 
         // Coordinates tell the states apart.
         let (Some(corner), Some(outset)) = (turn.first(), away.first()) else {
-            return Err(Problem::Path);
+            return Err(PathProblem::Path);
         };
         let is_one = are_linked(shooting, &ring, &turn, &corner.states)
             && are_joined(shooting, own, &onto.ends, &outset.states)
             && are_linked(shooting, &strand, &away, &corner.states);
         if !is_one {
-            return Err(Problem::Leg(Failure::Surface));
+            return Err(PathProblem::Leg(LegFailure::Surface));
         }
 
         // All relations, over the final sizes.
@@ -299,25 +297,25 @@ impl Search<'_, '_> {
         let (inner, tail) = (&maps[..place], &halves[..place]);
         let next = Rectangle { middle: [0.0, 0.0], half: *last_half };
         if !inner.is_empty() {
-            chained(inner, tail, &next).ok_or(Problem::Relation)?;
+            chained(inner, tail, &next).ok_or(PathProblem::Relation)?;
         }
-        let outer: Vec<Map> = away.iter().map(|one| one.map).collect();
-        chained(&outer, &lengths, &square).ok_or(Problem::Relation)?;
+        let outer: Vec<PlaneMap> = away.iter().map(|one| one.map).collect();
+        chained(&outer, &lengths, &square).ok_or(PathProblem::Relation)?;
         let (Some(end_map), Some(end_half)) = (outer.last(), lengths.last()) else {
-            return Err(Problem::Path);
+            return Err(PathProblem::Path);
         };
         let arrival = closing(end_map, *end_half, &square)?;
 
         // The rectangle of the homoclinic orbit lies beyond that at the saddle.
         let patch = Patch::new(shooting, own, first, middle, target.half)
-            .ok_or(Problem::Leg(Failure::Surface))?;
+            .ok_or(PathProblem::Leg(LegFailure::Surface))?;
         if !is_beyond(home, first, &patch, target.half, side) {
-            return Err(Problem::Apart);
+            return Err(PathProblem::Apart);
         }
         let unit = [[1.0, 0.0], [0.0, 1.0]].map(|row| row.map(Enclosure::exact));
         let whole = maps.iter().fold(unit, |whole, map| product(&map.slopes, &whole));
         if !is_hyperbolic(&whole) {
-            return Err(Problem::Cones);
+            return Err(PathProblem::Cones);
         }
         let sum = |legs: &[Crossed]| legs.iter().fold(Enclosure::ZERO, |sum, leg| sum + leg.time);
         let short = sum(&turn);
@@ -326,7 +324,7 @@ impl Search<'_, '_> {
             let nodes = saddle.chain.states.iter();
             nodes.map(|other| chain::distance(state, other)).fold(f64::INFINITY, f64::min)
         };
-        Ok(Horseshoe {
+        Ok(ProvedHorseshoe {
             start: corner.states.clone(),
             half: square.half,
             times: [short, long],
@@ -345,13 +343,19 @@ impl Search<'_, '_> {
 }
 
 /// First unstable half side that a chain needs.
-fn lengths_needed(maps: &[Map], halves: &[[f64; 2]], last: &Rectangle) -> f64 {
+fn lengths_needed(maps: &[PlaneMap], halves: &[[f64; 2]], last: &Rectangle) -> f64 {
     let first = halves.first().map_or(0.0, |half| half[1]);
     fitted(maps, halves, first, last).first().map_or(f64::NAN, |half| half[0])
 }
 
 /// Whether a rectangle about a state lies beyond a side in the unstable coordinate of a chart.
-fn is_beyond(home: &Chart, centre: &[f64], patch: &Patch, half: [f64; 2], side: f64) -> bool {
+fn is_beyond(
+    home: &SurfaceChart,
+    centre: &[f64],
+    patch: &Patch,
+    half: [f64; 2],
+    side: f64,
+) -> bool {
     let [row, _] = &home.rows;
     let off: Vec<Enclosure> = centre
         .iter()

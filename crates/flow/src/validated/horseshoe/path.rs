@@ -2,8 +2,8 @@
 
 use super::super::guess::Nodes;
 use super::super::shooting::Shooting;
-use super::chain::{Chain, Directions, Link, Plane, settle};
-use super::chart::Chart;
+use super::chain::{Chain, Directions, Link, NodePlane, settle};
+use super::chart::SurfaceChart;
 use super::saddle::Saddle;
 use super::vectors::{dot, minus, plus};
 
@@ -21,7 +21,7 @@ pub struct Path {
     pub links: Vec<Link>,
     pub directions: Directions,
     /// Charts at all nodes but the last; the first has the origin of the saddle's surface.
-    pub charts: Vec<Chart>,
+    pub charts: Vec<SurfaceChart>,
 }
 
 impl Path {
@@ -59,8 +59,8 @@ impl Path {
     }
 
     fn charted(
-        home: &Chart,
-        planes: &[Plane],
+        home: &SurfaceChart,
+        planes: &[NodePlane],
         chain: Chain,
         links: Vec<Link>,
         directions: Directions,
@@ -78,8 +78,8 @@ impl Path {
 }
 
 /// Follows the saddle's directions from the ends of a path.
-fn directions(home: &Chart, planes: &[Plane], links: &[Link]) -> Option<Directions> {
-    let seen = |plane: &Plane, axis: &[f64]| {
+fn directions(home: &SurfaceChart, planes: &[NodePlane], links: &[Link]) -> Option<Directions> {
+    let seen = |plane: &NodePlane, axis: &[f64]| {
         let [x, y] = plane.coordinates(axis);
         let length = libm::hypot(x, y);
         [x / length, y / length]
@@ -89,7 +89,7 @@ fn directions(home: &Chart, planes: &[Plane], links: &[Link]) -> Option<Directio
 }
 
 /// Moves a state to the plane of a chart, and to the level.
-fn land(shooting: &Shooting, chart: &Chart, state: &mut Vec<f64>) {
+fn land(shooting: &Shooting, chart: &SurfaceChart, state: &mut Vec<f64>) {
     for _ in 0..4 {
         settle(shooting, state);
         let height = dot(&chart.normal, &minus(state, &chart.origin));

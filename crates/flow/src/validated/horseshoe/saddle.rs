@@ -3,8 +3,8 @@
 use super::super::Obstacle;
 use super::super::guess::Nodes;
 use super::super::shooting::Shooting;
-use super::chain::{Chain, Directions, Link, Plane, settle};
-use super::chart::Chart;
+use super::chain::{Chain, Directions, Link, NodePlane, settle};
+use super::chart::SurfaceChart;
 use super::vectors::{moved, plus, split, unit};
 
 /// Factor by which the multipliers have to lie off the unit circle.
@@ -21,15 +21,15 @@ const SHARP: f64 = 1e-8;
 pub struct Saddle {
     /// Nodes of one period; the last is the first.
     pub chain: Chain,
-    pub planes: Vec<Plane>,
+    pub planes: Vec<NodePlane>,
     pub links: Vec<Link>,
     pub directions: Directions,
     /// Multipliers: the unstable one, then the stable one.
     pub multipliers: [f64; 2],
     /// Chart at the first node, along the eigenvectors.
-    pub home: Chart,
+    pub home: SurfaceChart,
     /// Charts at the nodes, the first included.
-    pub charts: Vec<Chart>,
+    pub charts: Vec<SurfaceChart>,
 }
 
 impl Saddle {
@@ -63,13 +63,13 @@ impl Saddle {
         Err(Obstacle::NoOrbit)
     }
 
-    fn with(chain: Chain, planes: Vec<Plane>, links: Vec<Link>) -> Result<Self, Obstacle> {
+    fn with(chain: Chain, planes: Vec<NodePlane>, links: Vec<Link>) -> Result<Self, Obstacle> {
         let (multipliers, [first, last]) = eigen(&links).ok_or(Obstacle::NoSaddle)?;
         let directions = Directions::new(&links, first, last);
         let charts = chain.states.iter().zip(&planes).enumerate().map(|(k, (state, plane))| {
             plane.chart(state, directions.unstable[k], directions.stable[k])
         });
-        let mut charts: Vec<Chart> = charts.collect();
+        let mut charts: Vec<SurfaceChart> = charts.collect();
         charts.pop();
         // Directions come back with a sign; the chart keeps that of the first node.
         let home = planes[0].chart(&chain.states[0], first, last);

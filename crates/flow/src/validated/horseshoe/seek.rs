@@ -12,16 +12,16 @@ use super::super::shooting::Shooting;
 use super::chain::{distance, settle};
 use super::saddle::Saddle;
 use super::vectors::plus;
+use crate::batch::MOTION_LANES;
 use crate::event::{Event, Sides};
 use crate::lanes::Lanes;
 use crate::motion::program;
-use crate::program::Program;
+use crate::program::TaylorProgram;
 use crate::start::Start;
 use crate::stepper::{Accuracy, Stepper};
-use crate::swarm::LANES;
 use liouville::graph::Expr;
 use liouville::mechanics::Model;
-use liouville::number::pair::Pair;
+use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 
@@ -36,12 +36,12 @@ const PERIODS: f64 = 10.0;
 const ABREAST: f64 = 0.1;
 /// Share of a period between two crossings near the saddle beyond which a motion was away.
 const AWAY: f64 = 1.5;
-/// Number of rounds of refinement, by a factor of `LANES` + 1 each.
+/// Number of rounds of refinement, by a factor of `MOTION_LANES` + 1 each.
 const ROUNDS: usize = 14;
 
 /// Crossing of the saddle's surface near the saddle.
 #[derive(Clone, Debug)]
-struct Crossing {
+struct SaddleCrossing {
     time: f64,
     at: [f64; 2],
     /// Whether the motion was away before.
@@ -63,7 +63,7 @@ pub struct Homoclinic {
 pub struct Seeker<'s> {
     shooting: &'s Shooting,
     saddle: &'s Saddle,
-    program: Program,
+    program: TaylorProgram,
     near: f64,
 }
 
@@ -125,8 +125,12 @@ impl<'s> Seeker<'s> {
     }
 
     /// Crossing of another motion at about the same time.
-    fn partner<'c>(&self, crossing: &Crossing, others: &'c [Crossing]) -> Option<&'c Crossing> {
-        let late = |other: &Crossing| (other.time - crossing.time).abs();
+    fn partner<'c>(
+        &self,
+        crossing: &SaddleCrossing,
+        others: &'c [SaddleCrossing],
+    ) -> Option<&'c SaddleCrossing> {
+        let late = |other: &SaddleCrossing| (other.time - crossing.time).abs();
         let nearest = others.iter().min_by(|a, b| late(a).total_cmp(&late(b)))?;
         (nearest.returned && late(nearest) < ABREAST * self.saddle.period()).then_some(nearest)
     }
@@ -135,13 +139,14 @@ impl<'s> Seeker<'s> {
     fn refined(
         &self,
         ends: [f64; 2],
-        mut left: Crossing,
-        mut right: Crossing,
+        mut left: SaddleCrossing,
+        mut right: SaddleCrossing,
     ) -> Result<Option<Homoclinic>, Obstacle> {
         let [mut from, mut to] = ends;
         for _ in 0..ROUNDS {
-            let inner: Vec<f64> =
-                (1..=LANES).map(|k| from + (to - from) * k as f64 / (LANES + 1) as f64).collect();
+            let inner: Vec<f64> = (1..=MOTION_LANES)
+                .map(|k| from + (to - from) * k as f64 / (MOTION_LANES + 1) as f64)
+                .collect();
             let found = self.crossings(&inner)?;
             for (start, crossings) in inner.iter().zip(&found) {
                 let Some(crossing) = self.partner(&left, crossings) else { return Ok(None) };
@@ -161,23 +166,24 @@ impl<'s> Seeker<'s> {
 
     /// Follows motions from distances along the unstable direction, and returns their crossings
     /// near the saddle.
-    fn crossings(&self, starts: &[f64]) -> Result<Vec<Vec<Crossing>>, Obstacle> {
+    fn crossings(&self, starts: &[f64]) -> Result<Vec<Vec<SaddleCrossing>>, Obstacle> {
         let until = PERIODS * self.saddle.period();
-        let mut stepper = Stepper::<Lanes<LANES>>::new(&self.program, Accuracy::FLOAT);
+        let mut stepper = Stepper::<Lanes<MOTION_LANES>>::new(&self.program, Accuracy::FLOAT);
         let mut found = Vec::new();
-        for group in starts.chunks(LANES) {
-            for lane in 0..LANES {
+        for group in starts.chunks(MOTION_LANES) {
+            for lane in 0..MOTION_LANES {
                 let state = self.start(group[lane.min(group.len() - 1)]);
-                let state: Vec<Pair> = state.into_iter().map(Pair::from_f64).collect();
-                stepper.start(lane, &state, Pair::from_f64(until));
+                let state: Vec<DoubleDouble> =
+                    state.into_iter().map(DoubleDouble::from_f64).collect();
+                stepper.start(lane, &state, DoubleDouble::from_f64(until));
             }
-            let mut sides: Vec<Sides> = vec![Sides::default(); LANES];
-            let mut tracks: Vec<Vec<Crossing>> = vec![Vec::new(); LANES];
-            let mut lost = [false; LANES];
-            while (0..LANES).any(|lane| !lost[lane] && !stepper.is_done(lane)) {
+            let mut sides: Vec<Sides> = vec![Sides::default(); MOTION_LANES];
+            let mut tracks: Vec<Vec<SaddleCrossing>> = vec![Vec::new(); MOTION_LANES];
+            let mut lost = [false; MOTION_LANES];
+            while (0..MOTION_LANES).any(|lane| !lost[lane] && !stepper.is_done(lane)) {
                 stepper.expand();
                 let ends = stepper.ends(0);
-                for lane in 0..LANES {
+                for lane in 0..MOTION_LANES {
                     if lost[lane] || stepper.is_done(lane) {
                         continue;
                     }
@@ -204,10 +210,10 @@ impl<'s> Seeker<'s> {
     /// Records the crossings of a step.
     fn note(
         &self,
-        stepper: &Stepper<Lanes<LANES>>,
+        stepper: &Stepper<Lanes<MOTION_LANES>>,
         lane: usize,
         sides: &mut Sides,
-        track: &mut Vec<Crossing>,
+        track: &mut Vec<SaddleCrossing>,
     ) {
         let piece = stepper.piece(lane);
         for event in sides.events(&piece.output(0), piece.length()) {
@@ -221,7 +227,7 @@ impl<'s> Seeker<'s> {
             let gap = time - last.map_or(0.0, |last| last.time);
             let returned =
                 last.is_some_and(|last| last.returned) || gap > AWAY * self.saddle.period();
-            track.push(Crossing { time, at: self.saddle.home.coordinates(&state), returned });
+            track.push(SaddleCrossing { time, at: self.saddle.home.coordinates(&state), returned });
         }
     }
 }

@@ -3,14 +3,19 @@
 //! Stable sides are found from the first rectangle on, unstable ones from the last relation back.
 //! The maps are enclosed over larger rectangles, and hold for all inside.
 
-use super::cover::{Map, Margin, Rectangle};
+use super::cover::{Margin, PlaneMap, Rectangle};
 
 /// Room left in each relation.
 const ROOM: f64 = 1.0 + 1e-6;
 
 /// Half sides of the rectangles, about their middles, so that each is covered, given the first
 /// stable side, and the reach needed about a point of the surface after the last map.
-pub fn fitted(maps: &[Map], known: &[[f64; 2]], first: f64, last: &Rectangle) -> Vec<[f64; 2]> {
+pub fn fitted(
+    maps: &[PlaneMap],
+    known: &[[f64; 2]],
+    first: f64,
+    last: &Rectangle,
+) -> Vec<[f64; 2]> {
     let origin = [0.0, 0.0];
     let mut stable = vec![first];
     for (map, known) in maps.iter().zip(known).take(maps.len().saturating_sub(1)) {
@@ -34,7 +39,7 @@ pub fn fitted(maps: &[Map], known: &[[f64; 2]], first: f64, last: &Rectangle) ->
 
 /// Least room of the covering relations of consecutive rectangles under their maps; `middles` are
 /// those of all but the first. `None` where one is not proved.
-pub fn chained(maps: &[Map], halves: &[[f64; 2]], last: &Rectangle) -> Option<Margin> {
+pub fn chained(maps: &[PlaneMap], halves: &[[f64; 2]], last: &Rectangle) -> Option<Margin> {
     let mut least: Option<Margin> = None;
     for (index, (map, half)) in maps.iter().zip(halves).enumerate() {
         let next = match halves.get(index + 1) {

@@ -3,10 +3,10 @@
 use super::super::enclosure::Enclosure;
 use super::super::functions::norm;
 use super::super::shooting::Shooting;
-use super::Problem;
+use super::PathProblem;
 use super::chain::{Chain, Directions, Link};
-use super::chart::{Chart, are_joined};
-use super::cover::{Map, Rectangle};
+use super::chart::{SurfaceChart, are_joined};
+use super::cover::{PlaneMap, Rectangle};
 use super::legs::{Crossed, Leg, crossed};
 use super::saddle::Saddle;
 use super::sets::fitted;
@@ -21,7 +21,7 @@ const FIRST: f64 = 1.15;
 
 /// Legs of a chain with rectangles over which they are enclosed.
 pub struct Strand<'s> {
-    pub charts: Vec<&'s Chart>,
+    pub charts: Vec<&'s SurfaceChart>,
     pub centres: Vec<&'s [f64]>,
     /// Coordinates of the first centre.
     pub middle: [f64; 2],
@@ -29,7 +29,7 @@ pub struct Strand<'s> {
     pub late: Vec<[f64; 2]>,
     pub speeds: Vec<f64>,
     /// Chart after the last leg.
-    pub last: &'s Chart,
+    pub last: &'s SurfaceChart,
 }
 
 impl<'s> Strand<'s> {
@@ -58,15 +58,15 @@ impl<'s> Strand<'s> {
         guess: Vec<[f64; 2]>,
         first: [f64; 2],
         last: &Rectangle,
-    ) -> Result<(Vec<Crossed>, Vec<[f64; 2]>), Problem> {
+    ) -> Result<(Vec<Crossed>, Vec<[f64; 2]>), PathProblem> {
         let mut known = guess;
         for _ in 0..ENLARGED {
             known[0] = [known[0][0].max(first[0]), known[0][1].max(first[1])];
-            let found = crossed(shooting, &self.legs(&known)).map_err(Problem::Leg)?;
-            let maps: Vec<Map> = found.iter().map(|one| one.map).collect();
+            let found = crossed(shooting, &self.legs(&known)).map_err(PathProblem::Leg)?;
+            let maps: Vec<PlaneMap> = found.iter().map(|one| one.map).collect();
             let halves = fitted(&maps, &known, first[1], last);
             if !halves.iter().flatten().all(|x| x.is_finite() && *x > 0.0) {
-                return Err(Problem::Fit);
+                return Err(PathProblem::Fit);
             }
             let mut fits = true;
             for (known, half) in known.iter_mut().zip(&halves) {
@@ -81,7 +81,7 @@ impl<'s> Strand<'s> {
                 return Ok((found, halves));
             }
         }
-        Err(Problem::Fit)
+        Err(PathProblem::Fit)
     }
 }
 
@@ -136,8 +136,8 @@ pub fn guessed(directions: &Directions, stable: f64, unstable: f64, bend: f64) -
 }
 
 /// Largest change of a slope with the sides of the rectangles.
-pub fn bend(maps: &[Map], known: &[[f64; 2]]) -> f64 {
-    let of = |(map, half): (&Map, &[f64; 2])| {
+pub fn bend(maps: &[PlaneMap], known: &[[f64; 2]]) -> f64 {
+    let of = |(map, half): (&PlaneMap, &[f64; 2])| {
         let [[_, shear], [other, _]] = map.slopes;
         shear.rad.max(other.rad) / (half[0] + half[1])
     };

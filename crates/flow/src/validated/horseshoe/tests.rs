@@ -3,9 +3,9 @@
 use super::*;
 
 /// Maps that stretch by 3 and squeeze to a fourth, with images off the middle and entries that vary.
-fn saddles(count: usize, rad: f64) -> Vec<Map> {
+fn saddles(count: usize, rad: f64) -> Vec<PlaneMap> {
     let slopes = [[3.0, 0.01], [0.01, 0.25]].map(|row| row.map(|x| Enclosure::about(x, rad)));
-    vec![Map { middle: [1e-3, -1e-3].map(Enclosure::exact), slopes }; count]
+    vec![PlaneMap { middle: [1e-3, -1e-3].map(Enclosure::exact), slopes }; count]
 }
 
 const LAST: Rectangle = Rectangle { middle: [0.0, 0.0], half: [1.0, 1.0] };
@@ -31,7 +31,7 @@ fn fitted_rectangles_cover_one_another() {
 }
 
 /// Changes of a map, by name.
-type Spoilt = (&'static str, fn(&mut Map));
+type Spoilt = (&'static str, fn(&mut PlaneMap));
 
 #[test]
 fn one_broken_relation_breaks_the_chain() {

@@ -15,20 +15,20 @@ mod tests;
 
 use super::enclosure::Enclosure;
 use super::functions::Functions;
-use super::motion::Motion;
+use super::motion::EnclosedMotion;
 use super::request::moved;
 use super::{MOST_UNKNOWNS, Obstacle, ProvedOrbit, Request};
 use matrix::{Columns, combined};
 use number::Wide;
 use rayon::prelude::*;
-use segment::{Passage, Scripts};
+use segment::{ReplayedPassage, Scripts};
 
 /// Largest order of the series of a replay.
 const MOST_ORDER: usize = 60;
 
 /// Numbers of a proof: whatever they are, the replay decides whether they prove an orbit.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Data {
+pub struct ProofData {
     /// Order of the series.
     pub order: usize,
     /// Indices of the conserved functions in use: the level's, the energy, further integrals.
@@ -52,7 +52,7 @@ struct Segment {
     /// Left sides of its equations at the nodes.
     residual: Vec<Wide>,
     /// Passage from the box of its first node.
-    passage: Passage,
+    passage: ReplayedPassage,
     /// Field over the end of the passage.
     field: Vec<Wide>,
     /// Gradients of the conserved functions over the box.
@@ -63,7 +63,7 @@ struct Segment {
 
 /// Data with the equations that they are to solve.
 struct Replay<'r> {
-    data: &'r Data,
+    data: &'r ProofData,
     functions: Functions,
     values: Vec<Wide>,
     scripts: Scripts<'r>,
@@ -78,7 +78,7 @@ struct Replay<'r> {
 ///
 /// # Errors
 /// The data do not belong to the equations, or do not prove that there is an orbit.
-pub fn replay(request: &Request<'_>, data: &Data) -> Result<ProvedOrbit, Obstacle> {
+pub fn replay(request: &Request<'_>, data: &ProofData) -> Result<ProvedOrbit, Obstacle> {
     check(data, request.model.dimension())?;
     let functions = Functions::new(&request.laws())?
         .using(&data.functions)
@@ -90,7 +90,7 @@ pub fn replay(request: &Request<'_>, data: &Data) -> Result<ProvedOrbit, Obstacl
         return Err(Obstacle::Data("each conserved function has one value"));
     }
     let values = request.values(&functions, &data.values)?.iter().map(Wide::of).collect();
-    let motion = Motion::new(&request.laws())?;
+    let motion = EnclosedMotion::new(&request.laws())?;
     let (last, radii) = data.radii.split_last().ok_or(Obstacle::Data("there are no radii"))?;
     let n = motion.dimension;
     let boxed = |(node, radii): (&Vec<f64>, &[f64])| {
@@ -109,7 +109,7 @@ pub fn replay(request: &Request<'_>, data: &Data) -> Result<ProvedOrbit, Obstacl
 }
 
 /// Checks that numbers are finite and lists as long as they have to be.
-fn check(data: &Data, n: usize) -> Result<(), Obstacle> {
+fn check(data: &ProofData, n: usize) -> Result<(), Obstacle> {
     let count = data.nodes.len();
     let is_whole = count > 0
         && data.nodes.iter().all(|node| node.len() == n)
@@ -185,7 +185,7 @@ impl Replay<'_> {
     /// Derivatives of the left sides of a segment by a loose parameter.
     fn shift(
         &self,
-        moved: &Passage,
+        moved: &ReplayedPassage,
         gradients: &[Vec<Wide>],
         next: usize,
         parameter: usize,

@@ -2,7 +2,7 @@
 
 use super::matrix::{Columns, combined, inverse, norm, products};
 use super::number::Wide;
-use super::segment::Passage;
+use super::segment::ReplayedPassage;
 use crate::validated::enclosure::Enclosure;
 
 /// Encloses the sum of the multipliers without the 1 along the orbit. `None` where the system is not
@@ -10,7 +10,7 @@ use crate::validated::enclosure::Enclosure;
 pub fn sum(
     across: &[Vec<f64>],
     gradients: &[Vec<Wide>],
-    passages: &[&Passage],
+    passages: &[&ReplayedPassage],
 ) -> Option<Enclosure> {
     let (last, others) = passages.split_last()?;
     let n = last.end.len();

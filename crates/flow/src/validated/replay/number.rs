@@ -1,18 +1,18 @@
 //! Numbers in balls of many bits; an operation without a value gives an unknown number.
 
 use crate::validated::enclosure::{Enclosure, raised};
-use liouville::number::precise::{Approximation, Precise};
+use liouville::number::arb::{Approximation, ArbBall};
 use liouville::number::rational::Rational;
-use liouville::number::{Domain, Function, Operation};
+use liouville::number::{BinaryOperation, Domain, UnaryFunction};
 
 /// Bits of a midpoint.
-const BITS: u32 = 256;
+const REPLAY_BITS: u32 = 256;
 /// Bits of a bound, for which the size matters alone.
 const FEW: u32 = 64;
 
 /// Domain of the numbers.
-pub fn domain() -> Precise {
-    Precise::new(BITS)
+pub fn domain() -> ArbBall {
+    ArbBall::new(REPLAY_BITS)
 }
 
 /// Ball of 256 bits, or an unknown number.
@@ -42,7 +42,7 @@ impl Wide {
 
     /// Encloses all numbers within `rad` of an f64.
     pub fn about(mid: f64, rad: f64) -> Self {
-        Self(Approximation::from_twofold(mid, 0.0, rad).filter(|_| rad >= 0.0))
+        Self(Approximation::from_double_double(mid, 0.0, rad).filter(|_| rad >= 0.0))
     }
 
     /// Encloses all numbers whose magnitude is at most that of a bound.
@@ -62,39 +62,39 @@ impl Wide {
         Self(block)
     }
 
-    fn binary(&self, operation: Operation, other: &Self, bits: u32) -> Self {
+    fn binary(&self, operation: BinaryOperation, other: &Self, bits: u32) -> Self {
         let mut out = None;
-        Precise::new(bits).binary(operation, &self.0, &other.0, &mut out);
+        ArbBall::new(bits).binary(operation, &self.0, &other.0, &mut out);
         Self(out)
     }
 
     /// Encloses x + y.
     pub fn plus(&self, other: &Self) -> Self {
-        self.binary(Operation::Add, other, BITS)
+        self.binary(BinaryOperation::Add, other, REPLAY_BITS)
     }
 
     /// Encloses x - y.
     pub fn minus(&self, other: &Self) -> Self {
-        self.binary(Operation::Sub, other, BITS)
+        self.binary(BinaryOperation::Sub, other, REPLAY_BITS)
     }
 
     /// Encloses x y.
     pub fn times(&self, other: &Self) -> Self {
-        self.binary(Operation::Mul, other, BITS)
+        self.binary(BinaryOperation::Mul, other, REPLAY_BITS)
     }
 
     /// Encloses x + y of two bounds.
     pub fn add(&self, other: &Self) -> Self {
-        self.binary(Operation::Add, other, FEW)
+        self.binary(BinaryOperation::Add, other, FEW)
     }
 
     /// Encloses x y of two bounds.
     pub fn mul(&self, other: &Self) -> Self {
-        self.binary(Operation::Mul, other, FEW)
+        self.binary(BinaryOperation::Mul, other, FEW)
     }
 
     /// Encloses f(x).
-    pub fn apply(&self, function: Function) -> Self {
+    pub fn apply(&self, function: UnaryFunction) -> Self {
         let mut out = None;
         domain().unary(function, &self.0, &mut out);
         Self(out)
@@ -102,12 +102,12 @@ impl Wide {
 
     /// Encloses 1/x.
     pub fn recip(&self) -> Self {
-        self.apply(Function::Recip)
+        self.apply(UnaryFunction::Recip)
     }
 
     /// Encloses -x.
     pub fn neg(&self) -> Self {
-        self.apply(Function::Neg)
+        self.apply(UnaryFunction::Neg)
     }
 
     /// Encloses x^q.

@@ -4,18 +4,18 @@ use super::number::{Wide, domain};
 use super::series::Script;
 use super::tails::remainders;
 use crate::validated::functions::Functions;
-use crate::validated::motion::Motion;
+use crate::validated::motion::EnclosedMotion;
 
 /// Scripts of the equations of a motion.
 pub struct Scripts<'m> {
-    pub motion: &'m Motion,
+    pub motion: &'m EnclosedMotion,
     state: Script<'m>,
     wide: Script<'m>,
     full: Script<'m>,
 }
 
 /// End of a step from a box, with its derivative by the start and by the loose parameters.
-pub struct Passage {
+pub struct ReplayedPassage {
     pub end: Vec<Wide>,
     /// Derivative, row by row.
     pub derivative: Vec<Vec<Wide>>,
@@ -27,7 +27,7 @@ pub type Values = (Vec<Wide>, Vec<Vec<Wide>>);
 
 impl<'m> Scripts<'m> {
     /// Prepares the plans of a motion for series of this order.
-    pub fn new(motion: &'m Motion, order: usize) -> Self {
+    pub fn new(motion: &'m EnclosedMotion, order: usize) -> Self {
         let script = |plan| Script::new(plan, order);
         Self {
             motion,
@@ -48,7 +48,7 @@ impl<'m> Scripts<'m> {
     }
 
     /// Encloses the states after the time `h` from a box, for all values of the parameters.
-    pub fn passage(&self, start: &[Wide], h: &Wide, radius: f64) -> Option<Passage> {
+    pub fn passage(&self, start: &[Wide], h: &Wide, radius: f64) -> Option<ReplayedPassage> {
         let (n, loose) = (self.motion.dimension, self.motion.loose);
         let count = n * (n + loose);
         let unit = |i: usize, j: usize| Wide::exact(if i == j { 1.0 } else { 0.0 });
@@ -62,7 +62,7 @@ impl<'m> Scripts<'m> {
         let entry = |row: usize, column: usize| columns[column * n + row].clone();
         let derivative =
             (0..n).map(|row| (0..n + loose).map(|column| entry(row, column)).collect()).collect();
-        Some(Passage { end, derivative, volume: columns[count].clone() })
+        Some(ReplayedPassage { end, derivative, volume: columns[count].clone() })
     }
 
     /// Encloses the field over a box, for all values of the parameters.

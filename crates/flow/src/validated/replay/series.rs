@@ -2,8 +2,8 @@
 
 use super::number::Wide;
 use crate::form::Row;
-use crate::validated::plan::{Exponent, Operation, Plan};
-use liouville::number::Function;
+use crate::validated::plan::{Plan, PowerExponent, RowRule};
+use liouville::number::UnaryFunction;
 use liouville::number::rational::Rational;
 
 /// Sum of products with enclosed coefficients.
@@ -27,8 +27,8 @@ pub struct Script<'p> {
 impl<'p> Script<'p> {
     /// Prepares expansions to this order.
     pub fn new(plan: &'p Plan, order: usize) -> Self {
-        let weights = |(_, operation): &(Row, Operation)| match operation {
-            Operation::Sum(sum) => Weights {
+        let weights = |(_, operation): &(Row, RowRule)| match operation {
+            RowRule::Sum(sum) => Weights {
                 constant: sum.form.constant.as_ref().map(Wide::of),
                 linear: sum.form.linear.iter().map(|(c, x)| (Wide::of(c), *x)).collect(),
                 products: sum.form.products.iter().map(|(c, x, y)| (Wide::of(c), *x, *y)).collect(),
@@ -42,8 +42,8 @@ impl<'p> Script<'p> {
     }
 
     /// Computes all coefficients at a box of states.
-    pub fn expand(&self, state: &[Wide]) -> Series<'_, 'p> {
-        let mut series = Series { script: self, rows: vec![Vec::new(); self.plan.rows] };
+    pub fn expand(&self, state: &[Wide]) -> BallSeries<'_, 'p> {
+        let mut series = BallSeries { script: self, rows: vec![Vec::new(); self.plan.rows] };
         for (row, value) in state.iter().enumerate() {
             series.rows[row].push(value.clone());
         }
@@ -62,12 +62,12 @@ impl<'p> Script<'p> {
 }
 
 /// Coefficients of all rows, orders 0 to `order` of the state and to `order` - 1 of other rows.
-pub struct Series<'s, 'p> {
+pub struct BallSeries<'s, 'p> {
     pub script: &'s Script<'p>,
     pub rows: Vec<Vec<Wide>>,
 }
 
-impl Series<'_, '_> {
+impl BallSeries<'_, '_> {
     fn at(&self, row: Row, n: usize) -> &Wide {
         &self.rows[row][n]
     }
@@ -93,34 +93,34 @@ impl Series<'_, '_> {
     }
 
     /// Computes one coefficient of a row from those of lower orders and of rows before it.
-    fn coefficient(&self, out: Row, operation: &Operation, sum: &Weights, n: usize) -> Wide {
+    fn coefficient(&self, out: Row, operation: &RowRule, sum: &Weights, n: usize) -> Wide {
         let of = |function, x: &Row| self.at(*x, 0).apply(function);
         let number = &self.script.whole[n];
         let share = &self.script.shares[n];
         let per = |x: &Row| number.times(self.at(*x, 0)).recip();
         match operation {
-            Operation::Sum(_) => self.sum(sum, n),
-            Operation::Theta(x) => number.times(self.at(*x, n)),
-            Operation::Recip(x) if n == 0 => of(Function::Recip, x),
-            Operation::Recip(x) => self.at(out, 0).times(&self.convolved(*x, out, n, 1, n)).neg(),
-            Operation::Power { x, exponent, .. } if n == 0 => power(self.at(*x, 0), exponent),
-            Operation::Power { x, exponent, .. } => {
+            RowRule::Sum(_) => self.sum(sum, n),
+            RowRule::Theta(x) => number.times(self.at(*x, n)),
+            RowRule::Recip(x) if n == 0 => of(UnaryFunction::Recip, x),
+            RowRule::Recip(x) => self.at(out, 0).times(&self.convolved(*x, out, n, 1, n)).neg(),
+            RowRule::Power { x, exponent, .. } if n == 0 => power(self.at(*x, 0), exponent),
+            RowRule::Power { x, exponent, .. } => {
                 let moved = Wide::of(&exponent.exact).times(&self.weighted(*x, out, n, n));
                 moved.minus(&self.weighted(out, *x, n, n - 1)).times(&per(x))
             }
-            Operation::Exp(x) if n == 0 => of(Function::Exp, x),
-            Operation::Exp(x) => self.weighted(*x, out, n, n).times(share),
-            Operation::Ln { x, .. } if n == 0 => of(Function::Ln, x),
-            Operation::Ln { x, .. } => {
+            RowRule::Exp(x) if n == 0 => of(UnaryFunction::Exp, x),
+            RowRule::Exp(x) => self.weighted(*x, out, n, n).times(share),
+            RowRule::Ln { x, .. } if n == 0 => of(UnaryFunction::Ln, x),
+            RowRule::Ln { x, .. } => {
                 let own = self.weighted(out, *x, n, n - 1);
                 number.times(self.at(*x, n)).minus(&own).times(&per(x))
             }
-            Operation::Sin { x, .. } if n == 0 => of(Function::Sin, x),
-            Operation::Sin { x, cosine } => self.weighted(*x, *cosine, n, n).times(share),
-            Operation::Cos { x, .. } if n == 0 => of(Function::Cos, x),
-            Operation::Cos { x, sine } => self.weighted(*x, *sine, n, n).times(share).neg(),
-            Operation::Atan { x, .. } if n == 0 => of(Function::Atan, x),
-            Operation::Atan { x, square, .. } => {
+            RowRule::Sin { x, .. } if n == 0 => of(UnaryFunction::Sin, x),
+            RowRule::Sin { x, cosine } => self.weighted(*x, *cosine, n, n).times(share),
+            RowRule::Cos { x, .. } if n == 0 => of(UnaryFunction::Cos, x),
+            RowRule::Cos { x, sine } => self.weighted(*x, *sine, n, n).times(share).neg(),
+            RowRule::Atan { x, .. } if n == 0 => of(UnaryFunction::Atan, x),
+            RowRule::Atan { x, square, .. } => {
                 let own = self.weighted(out, *square, n, n - 1);
                 number.times(self.at(*x, n)).minus(&own).times(&per(square))
             }
@@ -148,9 +148,9 @@ impl Series<'_, '_> {
     }
 }
 
-fn power(x: &Wide, exponent: &Exponent) -> Wide {
+fn power(x: &Wide, exponent: &PowerExponent) -> Wide {
     match exponent.exact == Rational::new(1, 2) {
-        true => x.apply(Function::Sqrt),
+        true => x.apply(UnaryFunction::Sqrt),
         false => x.power(&exponent.exact),
     }
 }

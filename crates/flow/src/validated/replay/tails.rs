@@ -3,9 +3,9 @@
 //! The rules are those of docs/closed-orbits.md. An unknown bound bounds nothing.
 
 use super::number::Wide;
-use super::series::{Series, Weights};
+use super::series::{BallSeries, Weights};
 use crate::form::Row;
-use crate::validated::plan::Operation;
+use crate::validated::plan::RowRule;
 
 /// Rounds in which tails may settle.
 const ROUNDS: usize = 60;
@@ -15,7 +15,7 @@ const MOST_RADII: usize = 20;
 const LEAST: f64 = 1.5;
 
 /// Tails of an expansion.
-struct Tails<'s> {
+struct ReplayedTails<'s> {
     order: usize,
     /// |a_k| ρ^k of each row, their sums from k on, and those of k |a_k| ρ^k.
     terms: Vec<Vec<Wide>>,
@@ -23,7 +23,7 @@ struct Tails<'s> {
     weighted: Vec<Vec<Wide>>,
     /// Bounds of the tails.
     tails: Vec<Wide>,
-    series: &'s Series<'s, 's>,
+    series: &'s BallSeries<'s, 's>,
 }
 
 /// Encloses e^x - 1 from above for 0 ≤ x < 1.
@@ -43,7 +43,7 @@ fn over_rest(a: &Wide, x: &Wide) -> Wide {
     }
 }
 
-impl Tails<'_> {
+impl ReplayedTails<'_> {
     fn norm(&self, row: Row) -> &Wide {
         &self.sums[row][0]
     }
@@ -82,17 +82,17 @@ impl Tails<'_> {
     }
 
     /// Bounds the tail of a row from those of its arguments.
-    fn tail(&self, out: Row, operation: &Operation) -> Wide {
+    fn tail(&self, out: Row, operation: &RowRule) -> Wide {
         let share = Wide::exact(self.order as f64).recip();
         let tail = |row: &Row| &self.tails[*row];
         match operation {
-            Operation::Sum(_) | Operation::Theta(_) => Wide::unknown(),
-            Operation::Recip(x) => {
+            RowRule::Sum(_) | RowRule::Theta(_) => Wide::unknown(),
+            RowRule::Recip(x) => {
                 let norm = self.norm(out);
                 let defect = self.cross(out, *x).add(&norm.mul(tail(x)));
                 over_rest(&defect.mul(norm), &defect)
             }
-            Operation::Power { x, inverse, exponent } => {
+            RowRule::Power { x, inverse, exponent } => {
                 let q = Wide::of(&exponent.exact).magnitude();
                 let bound = self.reciprocal(*inverse, *x, &Wide::zero());
                 let rest = q.mul(&self.cross_weighted(out, *x)).add(&self.cross_weighted(*x, out));
@@ -102,25 +102,25 @@ impl Tails<'_> {
                 let moved = growth(&over_rest(&q.mul(&part), &part));
                 own.add(&self.norm(out).add(&own).mul(&moved))
             }
-            Operation::Exp(x) => {
+            RowRule::Exp(x) => {
                 let rest = self.cross_weighted(out, *x).mul(&share);
                 let own = over_rest(&rest, &self.weighted[*x][0].mul(&share));
                 own.add(&self.norm(out).add(&own).mul(&growth(tail(x))))
             }
-            Operation::Ln { x, inverse } => {
+            RowRule::Ln { x, inverse } => {
                 let bound = self.reciprocal(*inverse, *x, &Wide::zero());
                 let own = bound.mul(&self.cross_weighted(*x, out)).mul(&share);
                 let part = bound.mul(tail(x));
                 own.add(&over_rest(&part, &part))
             }
-            Operation::Sin { x, cosine: other } | Operation::Cos { x, sine: other } => {
+            RowRule::Sin { x, cosine: other } | RowRule::Cos { x, sine: other } => {
                 let both = self.cross_weighted(out, *x).larger(&self.cross_weighted(*other, *x));
                 let own = over_rest(&both.mul(&share), &self.weighted[*x][0].mul(&share));
                 let moved = growth(tail(x));
                 let size = self.norm(out).add(self.norm(*other)).add(&own).add(&own);
                 own.add(&size.mul(&moved))
             }
-            Operation::Atan { x, square, inverse } => {
+            RowRule::Atan { x, square, inverse } => {
                 let beyond = self.cross(*x, *x);
                 let bound = self.reciprocal(*inverse, *square, &beyond);
                 let rest =
@@ -139,7 +139,7 @@ impl Tails<'_> {
         let script = self.series.script;
         for (index, (out, operation)) in script.plan.operations.iter().enumerate() {
             self.tails[*out] = match operation {
-                Operation::Sum(_) => self.of_sum(&script.sums[index], &crosses[index]),
+                RowRule::Sum(_) => self.of_sum(&script.sums[index], &crosses[index]),
                 _ => self.tail(*out, operation),
             };
         }
@@ -149,7 +149,7 @@ impl Tails<'_> {
 /// Bounds the remainders of the components of the state after the time `h` ≥ 0, by tails that
 /// Picard's operator maps to themselves, in the norm of the radius given or of a smaller one. `None`
 /// where there are none.
-pub fn remainders(series: &Series<'_, '_>, h: &Wide, radius: f64) -> Option<Vec<Wide>> {
+pub fn remainders(series: &BallSeries<'_, '_>, h: &Wide, radius: f64) -> Option<Vec<Wide>> {
     let least = LEAST * h.magnitude().mid();
     let radii = std::iter::successors(Some(radius), |radius| Some(radius * SHRINK));
     let mut radii = radii.take_while(|own| *own == radius || *own >= least).take(MOST_RADII);
@@ -157,7 +157,7 @@ pub fn remainders(series: &Series<'_, '_>, h: &Wide, radius: f64) -> Option<Vec<
 }
 
 /// Bounds the remainders by tails in the norm of one radius.
-pub(super) fn settled(series: &Series<'_, '_>, h: &Wide, radius: f64) -> Option<Vec<Wide>> {
+pub(super) fn settled(series: &BallSeries<'_, '_>, h: &Wide, radius: f64) -> Option<Vec<Wide>> {
     let script = series.script;
     let (plan, order) = (script.plan, script.order);
     let (h, rho) = (h.magnitude(), Wide::exact(radius));
@@ -185,7 +185,7 @@ pub(super) fn settled(series: &Series<'_, '_>, h: &Wide, radius: f64) -> Option<
     for (tail, last) in tails.iter_mut().zip(&last) {
         *tail = last.mul(&Wide::exact(1.5));
     }
-    let mut own = Tails { order, terms, sums, weighted, tails, series };
+    let mut own = ReplayedTails { order, terms, sums, weighted, tails, series };
     let crosses: Vec<Vec<Wide>> = script
         .sums
         .iter()
@@ -204,8 +204,8 @@ pub(super) fn settled(series: &Series<'_, '_>, h: &Wide, radius: f64) -> Option<
             return None;
         }
         let holds = |(new, old): (&Wide, &Wide)| new.is_below(old) || new.is_zero();
-        let is_defined = |(row, operation): &(Row, Operation)| {
-            matches!(operation, Operation::Theta(_)) || own.tails[*row].is_known()
+        let is_defined = |(row, operation): &(Row, RowRule)| {
+            matches!(operation, RowRule::Theta(_)) || own.tails[*row].is_known()
         };
         if next.iter().zip(&own.tails).all(holds) && plan.operations.iter().all(is_defined) {
             let ratio = h.mul(&rho.recip());

@@ -7,7 +7,7 @@ use super::tails::{remainders, settled};
 use crate::validated::plan::Plan;
 use crate::validated::tests::{Random, plan};
 use liouville::graph::Expr;
-use liouville::number::Function;
+use liouville::number::UnaryFunction;
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 use num_dual::DualNum;
@@ -33,7 +33,7 @@ fn assert_inside(found: &Wide, truth: &Wide, what: &str) {
     assert!(gap.rad <= 1e-9, "{what}: wide, {gap:?}");
 }
 
-fn of(function: Function) -> impl Fn(&Wide) -> Wide {
+fn of(function: UnaryFunction) -> impl Fn(&Wide) -> Wide {
     move |x| x.apply(function)
 }
 
@@ -44,7 +44,8 @@ fn oscillators_are_enclosed() {
     for _ in 0..50 {
         let [x, y, h] = [(); 3].map(|()| random.between(0.1, 0.5));
         let found = end(&plan, &[x, y], h, 2.0).expect("entire");
-        let (cos, sin) = (of(Function::Cos)(&Wide::exact(h)), of(Function::Sin)(&Wide::exact(h)));
+        let (cos, sin) =
+            (of(UnaryFunction::Cos)(&Wide::exact(h)), of(UnaryFunction::Sin)(&Wide::exact(h)));
         let (x, y) = (Wide::exact(x), Wide::exact(y));
         let truth = x.times(&cos).plus(&y.times(&sin));
         assert_inside(&found[0], &truth, "position");
@@ -82,18 +83,18 @@ fn integrals_of_all_functions_are_enclosed() {
             |x: &Wide, exponent: &Rational| x.power(exponent).times(&Wide::of(exponent).recip());
         let truth = [
             stop.clone(),
-            change(&of(Function::Exp)),
-            change(&|x| x.times(&x.apply(Function::Ln)).minus(x)),
-            change(&|x| x.apply(Function::Cos).neg()),
-            change(&of(Function::Sin)),
+            change(&of(UnaryFunction::Exp)),
+            change(&|x| x.times(&x.apply(UnaryFunction::Ln)).minus(x)),
+            change(&|x| x.apply(UnaryFunction::Cos).neg()),
+            change(&of(UnaryFunction::Sin)),
             change(&|x| {
-                let rest = half.times(&one.plus(&x.times(x)).apply(Function::Ln));
-                x.times(&x.apply(Function::Atan)).minus(&rest)
+                let rest = half.times(&one.plus(&x.times(x)).apply(UnaryFunction::Ln));
+                x.times(&x.apply(UnaryFunction::Atan)).minus(&rest)
             }),
             change(&|x| power(x, &Rational::new(3, 2))),
             change(&|x| power(x, &Rational::new(4, 3))),
-            change(&of(Function::Ln)),
-            change(&of(Function::Atan)),
+            change(&of(UnaryFunction::Ln)),
+            change(&of(UnaryFunction::Atan)),
         ];
         let start: Vec<f64> = std::iter::once(a).chain([0.0; 9]).collect();
         let found = end(&plan, &start, h, 0.2).expect("within the radius of convergence");

@@ -4,13 +4,16 @@
 //! long as there are two loads for two instructions. A result is given a register; where none is
 //! free, the one whose next use is furthest goes to the frame, and is read from there.
 
-use super::super::program::{Program, Step, Sum, Value};
-use super::encode::{Area, Assembler, Assembly, Order, Pair, Place, Register, Signs, Width};
-use crate::number::{Function, Operation};
+use super::super::program::{ProgramStep, StepProgram, Sum, Value};
+use super::encode::{
+    Area, Assembler, Assembly, OperandOrder, PairInstruction, Register, SumSigns, VectorLocation,
+    Width,
+};
+use crate::number::{BinaryOperation, UnaryFunction};
 
 /// Assembles a program; also returns the constants at the beginning of its frame. `None` where the
 /// program has a function that is not an instruction.
-pub(super) fn assemble(program: &Program, width: Width) -> Option<(Assembly, Vec<f64>)> {
+pub(super) fn assemble(program: &StepProgram, width: Width) -> Option<(Assembly, Vec<f64>)> {
     let mut scan = Scan::new(program, width);
     for (index, step) in program.steps.iter().enumerate() {
         scan.step(index, step)?;
@@ -27,7 +30,7 @@ pub(super) fn assemble(program: &Program, width: Width) -> Option<(Assembly, Vec
 
 /// State of the scan.
 struct Scan<'p> {
-    program: &'p Program,
+    program: &'p StepProgram,
     assembler: Assembler,
     constants: Vec<f64>,
     /// Steps that read each result.
@@ -35,7 +38,7 @@ struct Scan<'p> {
     /// Outputs equal to each result.
     outputs: Vec<Vec<u32>>,
     /// Place of each result made so far.
-    places: Vec<Place>,
+    places: Vec<VectorLocation>,
     /// Result in each register.
     held: Vec<Option<u32>>,
     /// Next free vector of the frame.
@@ -49,7 +52,7 @@ const SIGN_BIT: f64 = -0.0;
 const ALL_BUT_SIGN: f64 = f64::from_bits(!(1 << 63));
 
 impl<'p> Scan<'p> {
-    fn new(program: &'p Program, width: Width) -> Self {
+    fn new(program: &'p StepProgram, width: Width) -> Self {
         let steps = program.steps.len();
         let mut outputs = vec![Vec::new(); steps];
         for (index, output) in program.outputs.iter().enumerate() {
@@ -65,41 +68,45 @@ impl<'p> Scan<'p> {
             constants,
             reads: program.reads(),
             outputs,
-            places: vec![Place::Register(0); steps],
+            places: vec![VectorLocation::Register(0); steps],
             held: vec![None; width.registers()],
             free_spills: Vec::new(),
         }
     }
 
-    fn step(&mut self, index: usize, step: &Step) -> Option<()> {
+    fn step(&mut self, index: usize, step: &ProgramStep) -> Option<()> {
         let extra = |number: usize| Value::Constant((self.program.constants.len() + number) as u32);
         let target = match *step {
-            Step::Unary(function, a) => match function {
-                Function::Neg => self.pair(index, Pair::Xor, a, extra(1)),
-                Function::Abs => self.pair(index, Pair::And, a, extra(2)),
-                Function::Recip => self.pair(index, Pair::Div, extra(0), a),
-                Function::Sqrt => {
+            ProgramStep::Unary(function, a) => match function {
+                UnaryFunction::Neg => self.pair(index, PairInstruction::Xor, a, extra(1)),
+                UnaryFunction::Abs => self.pair(index, PairInstruction::And, a, extra(2)),
+                UnaryFunction::Recip => self.pair(index, PairInstruction::Div, extra(0), a),
+                UnaryFunction::Sqrt => {
                     let source = self.place(a);
                     self.release(index, &[a]);
                     let target = self.take(index, &[]);
                     self.assembler.square_root(target, source);
                     target
                 }
-                Function::Exp | Function::Ln | Function::Sin | Function::Cos | Function::Atan => {
+                UnaryFunction::Exp
+                | UnaryFunction::Ln
+                | UnaryFunction::Sin
+                | UnaryFunction::Cos
+                | UnaryFunction::Atan => {
                     return None;
                 }
             },
-            Step::Binary(operation, a, b) => match operation {
-                Operation::Add => self.pair(index, Pair::Add, a, b),
-                Operation::Sub => self.pair(index, Pair::Sub, a, b),
-                Operation::Mul => self.pair(index, Pair::Mul, a, b),
-                Operation::Pow => return None,
+            ProgramStep::Binary(operation, a, b) => match operation {
+                BinaryOperation::Add => self.pair(index, PairInstruction::Add, a, b),
+                BinaryOperation::Sub => self.pair(index, PairInstruction::Sub, a, b),
+                BinaryOperation::Mul => self.pair(index, PairInstruction::Mul, a, b),
+                BinaryOperation::Pow => return None,
             },
-            Step::Fused(sum, arguments) => self.fused(index, sum, arguments),
+            ProgramStep::Fused(sum, arguments) => self.fused(index, sum, arguments),
         };
         // Not before the instruction: it may read a slot that would otherwise be reused.
         self.release_spills(index, step);
-        self.places[index] = Place::Register(target);
+        self.places[index] = VectorLocation::Register(target);
         for output in &self.outputs[index] {
             self.assembler.store(Area::Outputs, *output, target);
         }
@@ -108,13 +115,13 @@ impl<'p> Scan<'p> {
     }
 
     /// Emits `a op b` into a register.
-    fn pair(&mut self, index: usize, pair: Pair, a: Value, b: Value) -> Register {
+    fn pair(&mut self, index: usize, pair: PairInstruction, a: Value, b: Value) -> Register {
         let (mut x, mut y) = (self.place(a), self.place(b));
-        let commutes = !matches!(pair, Pair::Sub | Pair::Div);
-        if commutes && matches!((x, y), (Place::Memory(..), Place::Register(_))) {
+        let commutes = !matches!(pair, PairInstruction::Sub | PairInstruction::Div);
+        if commutes && matches!((x, y), (VectorLocation::Memory(..), VectorLocation::Register(_))) {
             (x, y) = (y, x);
         }
-        if let Place::Register(first) = x {
+        if let VectorLocation::Register(first) = x {
             self.release(index, &[a, b]);
             let target = self.take(index, &[]);
             self.assembler.pair(pair, target, first, y);
@@ -130,18 +137,18 @@ impl<'p> Scan<'p> {
     /// Emits `a b ± c` into a register, replacing one of its sources.
     fn fused(&mut self, index: usize, sum: Sum, arguments: [Value; 3]) -> Register {
         let signs = match sum {
-            Sum::Plus => Signs::Add,
-            Sum::Minus => Signs::Sub,
-            Sum::From => Signs::NegAdd,
+            Sum::Plus => SumSigns::Add,
+            Sum::Minus => SumSigns::Sub,
+            Sum::From => SumSigns::NegAdd,
         };
         let places = arguments.map(|argument| self.place(argument));
-        let in_memory = |k: &usize| matches!(places[*k], Place::Memory(..));
+        let in_memory = |k: &usize| matches!(places[*k], VectorLocation::Memory(..));
         // The source that the result replaces: one that is not read again; else one that must be
         // brought to a register anyway; else a copy of the third.
         let dying = (0..3).find(|k| !in_memory(k) && self.is_last_read(arguments[*k], index));
         let replaced = dying.or_else(|| (0..3).find(in_memory)).unwrap_or(2);
         let target = match places[replaced] {
-            Place::Register(register) if dying.is_some() => register,
+            VectorLocation::Register(register) if dying.is_some() => register,
             place => {
                 let target = self.take(index, &places);
                 self.assembler.load(target, place);
@@ -151,29 +158,29 @@ impl<'p> Scan<'p> {
         // Of the other two, one may be in memory.
         let [u, v] = if replaced == 2 { [0, 1] } else { [1 - replaced, 2] };
         let (second, third, is_swapped) = match (places[u], places[v]) {
-            (Place::Register(second), third) => (second, third, false),
-            (third, Place::Register(second)) => (second, third, true),
+            (VectorLocation::Register(second), third) => (second, third, false),
+            (third, VectorLocation::Register(second)) => (second, third, true),
             (first, third) => {
-                let taken = [places[replaced], Place::Register(target)];
+                let taken = [places[replaced], VectorLocation::Register(target)];
                 let second = self.take(index, &taken);
                 self.assembler.load(second, first);
                 (second, third, false)
             }
         };
         let order = match (replaced, is_swapped) {
-            (2, _) => Order::O231,
-            (_, false) => Order::O213,
-            (_, true) => Order::O132,
+            (2, _) => OperandOrder::O231,
+            (_, false) => OperandOrder::O213,
+            (_, true) => OperandOrder::O132,
         };
         self.assembler.fused(order, signs, target, second, third);
         self.release(index, &arguments);
         target
     }
 
-    fn place(&self, value: Value) -> Place {
+    fn place(&self, value: Value) -> VectorLocation {
         match value {
-            Value::Input(input) => Place::Memory(Area::Inputs, input),
-            Value::Constant(constant) => Place::Memory(Area::Frame, constant),
+            Value::Input(input) => VectorLocation::Memory(Area::Inputs, input),
+            Value::Constant(constant) => VectorLocation::Memory(Area::Frame, constant),
             Value::Step(step) => self.places[step as usize],
         }
     }
@@ -189,7 +196,7 @@ impl<'p> Scan<'p> {
     fn release(&mut self, index: usize, arguments: &[Value]) {
         for argument in arguments {
             if self.is_last_read(*argument, index)
-                && let Place::Register(register) = self.place(*argument)
+                && let VectorLocation::Register(register) = self.place(*argument)
             {
                 self.held[register as usize] = None;
             }
@@ -197,10 +204,10 @@ impl<'p> Scan<'p> {
     }
 
     /// Frees the vectors of the frame whose values were read for the last time.
-    fn release_spills(&mut self, index: usize, step: &Step) {
+    fn release_spills(&mut self, index: usize, step: &ProgramStep) {
         for argument in step.arguments() {
             if self.is_last_read(argument, index)
-                && let Place::Memory(_, spill) = self.place(argument)
+                && let VectorLocation::Memory(_, spill) = self.place(argument)
                 && !self.free_spills.contains(&spill)
             {
                 self.free_spills.push(spill);
@@ -209,8 +216,9 @@ impl<'p> Scan<'p> {
     }
 
     /// Allots a register for a result, none of those in `taken`.
-    fn take(&mut self, index: usize, taken: &[Place]) -> Register {
-        let may_be = |register: &usize| !taken.contains(&Place::Register(*register as Register));
+    fn take(&mut self, index: usize, taken: &[VectorLocation]) -> Register {
+        let may_be =
+            |register: &usize| !taken.contains(&VectorLocation::Register(*register as Register));
         let registers = || (0..self.held.len()).filter(may_be);
         if let Some(free) = registers().find(|register| self.held[*register].is_none()) {
             return free as Register;
@@ -227,7 +235,7 @@ impl<'p> Scan<'p> {
                 self.spills - 1
             });
             self.assembler.store(Area::Frame, spill, register);
-            self.places[step as usize] = Place::Memory(Area::Frame, spill);
+            self.places[step as usize] = VectorLocation::Memory(Area::Frame, spill);
         }
         register
     }

@@ -7,9 +7,9 @@
 
 use memmap2::{Mmap, MmapMut};
 
-use super::super::{LANES, Row};
-use super::encode::{Assembly, Extent, Width};
-use crate::graph::{Vectors, widest};
+use super::super::{ROW_STATES, RowBlock};
+use super::encode::{Assembly, MemoryExtent, Width};
+use crate::graph::{InstructionSet, widest};
 
 /// Signature of the code: inputs, frame, outputs, turns.
 #[cfg(target_arch = "x86_64")]
@@ -31,7 +31,7 @@ pub fn executable(bytes: &[u8]) -> Option<Mmap> {
 pub(super) struct Executable {
     memory: Mmap,
     width: Width,
-    extent: Extent,
+    extent: MemoryExtent,
 }
 
 impl Executable {
@@ -39,8 +39,8 @@ impl Executable {
     /// memory.
     pub(super) fn new(assembly: &Assembly) -> Option<Self> {
         let has = match assembly.width {
-            Width::Eight => widest() == Vectors::Avx512,
-            Width::Four => widest() != Vectors::Baseline,
+            Width::Eight => widest() == InstructionSet::Avx512,
+            Width::Four => widest() != InstructionSet::Baseline,
         };
         if !has {
             return None;
@@ -50,17 +50,22 @@ impl Executable {
     }
 
     /// Runs over all lanes of the rows. Panics where there are fewer rows than the code touches.
-    pub(super) fn run(&self, inputs: &[Row], frame: &mut [Row], outputs: &mut [Row]) {
+    pub(super) fn run(
+        &self,
+        inputs: &[RowBlock],
+        frame: &mut [RowBlock],
+        outputs: &mut [RowBlock],
+    ) {
         let enough = inputs.len() >= self.extent.inputs
             && outputs.len() >= self.extent.outputs
-            && frame.len() * LANES >= self.extent.frame * self.width.lanes();
+            && frame.len() * ROW_STATES >= self.extent.frame * self.width.lanes();
         assert!(enough, "machine code needs {:?}", self.extent);
         // SAFETY: an `Assembly` is made by the assembler alone, and its bytes are a function of this
-        // type that touches no more than its extent, in rows of `LANES` lanes; the processor has
-        // its instructions. `Row` is an array of f64, so a slice of rows is contiguous.
+        // type that touches no more than its extent, in rows of `ROW_STATES` states; the processor has
+        // its instructions. `RowBlock` is an array of f64, so a slice of rows is contiguous.
         unsafe {
             let entry: Entry = std::mem::transmute(self.memory.as_ptr());
-            let turns = LANES / self.width.lanes();
+            let turns = ROW_STATES / self.width.lanes();
             entry(
                 inputs.as_ptr().cast(),
                 frame.as_mut_ptr().cast(),

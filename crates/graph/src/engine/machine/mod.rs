@@ -11,9 +11,9 @@ mod allocate;
 mod encode;
 mod memory;
 
-use super::program::Program;
-use super::{LANES, Row};
-use crate::graph::Vectors;
+use super::program::StepProgram;
+use super::{ROW_STATES, RowBlock};
+use crate::graph::InstructionSet;
 use encode::Width;
 use memory::Executable;
 
@@ -21,7 +21,7 @@ pub use memory::executable;
 
 /// A program in machine code.
 #[derive(Debug)]
-pub(super) struct Code {
+pub(super) struct MachineProgram {
     executable: Executable,
     /// Initial content of the frame; spilled values follow.
     constants: Vec<f64>,
@@ -33,22 +33,22 @@ pub(super) struct Code {
 /// Memory of a run, apart from its inputs.
 #[derive(Debug)]
 pub(super) struct Memory {
-    frame: Vec<Row>,
-    outputs: Vec<Row>,
+    frame: Vec<RowBlock>,
+    outputs: Vec<RowBlock>,
 }
 
-impl Code {
+impl MachineProgram {
     /// Generates machine code with these vectors. `None` where the processor, the system or the
     /// program allows none.
-    pub(super) fn new(program: &Program, vectors: Vectors) -> Option<Self> {
+    pub(super) fn new(program: &StepProgram, vectors: InstructionSet) -> Option<Self> {
         let width = match vectors {
-            Vectors::Avx512 => Width::Eight,
-            Vectors::Avx2 => Width::Four,
-            Vectors::Baseline => return None,
+            InstructionSet::Avx512 => Width::Eight,
+            InstructionSet::Avx2 => Width::Four,
+            InstructionSet::Baseline => return None,
         };
         let (assembly, constants) = allocate::assemble(program, width)?;
         let lanes = width.lanes();
-        let frame_rows = assembly.extent.frame.max(constants.len()).div_ceil(LANES / lanes);
+        let frame_rows = assembly.extent.frame.max(constants.len()).div_ceil(ROW_STATES / lanes);
         let outputs = program.outputs.len();
         let executable = Executable::new(&assembly)?;
         Some(Self { executable, constants, frame_rows, lanes, outputs })
@@ -56,23 +56,23 @@ impl Code {
 
     /// Memory of a run, with the constants in place.
     pub(super) fn memory(&self) -> Memory {
-        let mut frame = vec![Row([0.0; LANES]); self.frame_rows];
+        let mut frame = vec![RowBlock([0.0; ROW_STATES]); self.frame_rows];
         let vectors = frame.iter_mut().flat_map(|row| row.0.chunks_exact_mut(self.lanes));
         for (vector, constant) in vectors.zip(&self.constants) {
             vector.fill(*constant);
         }
-        Memory { frame, outputs: vec![Row([0.0; LANES]); self.outputs] }
+        Memory { frame, outputs: vec![RowBlock([0.0; ROW_STATES]); self.outputs] }
     }
 
     /// Runs the program once over rows of inputs.
-    pub(super) fn run(&self, inputs: &[Row], memory: &mut Memory) {
+    pub(super) fn run(&self, inputs: &[RowBlock], memory: &mut Memory) {
         self.executable.run(inputs, &mut memory.frame, &mut memory.outputs);
     }
 }
 
 impl Memory {
     /// Row of an output.
-    pub(super) fn output(&self, index: usize) -> &Row {
+    pub(super) fn output(&self, index: usize) -> &RowBlock {
         &self.outputs[index]
     }
 }

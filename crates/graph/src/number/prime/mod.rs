@@ -20,7 +20,7 @@ pub use modulus::{Modulus, UNDEFINED};
 pub use primality::is_prime;
 
 use super::rational::Rational;
-use super::{Domain, Function, Operation};
+use super::{BinaryOperation, Domain, UnaryFunction};
 
 /// The domain of prime fields with `N` lanes, one field for each lane.
 #[derive(Clone, Debug)]
@@ -101,27 +101,31 @@ impl<const N: usize> Domain for Prime<N> {
     }
 
     #[inline(always)]
-    fn unary(&self, function: Function, x: &[u64; N], out: &mut [u64; N]) {
+    fn unary(&self, function: UnaryFunction, x: &[u64; N], out: &mut [u64; N]) {
         match function {
-            Function::Neg => self.map(x, out, |m, x| Some(m.sub(0, x))),
-            Function::Recip => self.reciprocals(x, out),
-            Function::Sqrt => self.map(x, out, Modulus::root),
-            Function::Abs => {
+            UnaryFunction::Neg => self.map(x, out, |m, x| Some(m.sub(0, x))),
+            UnaryFunction::Recip => self.reciprocals(x, out),
+            UnaryFunction::Sqrt => self.map(x, out, Modulus::root),
+            UnaryFunction::Abs => {
                 self.map(x, out, |m, x| Some(if m.is_square(x) { x } else { m.sub(0, x) }));
             }
-            Function::Exp | Function::Ln | Function::Sin | Function::Cos | Function::Atan => {
+            UnaryFunction::Exp
+            | UnaryFunction::Ln
+            | UnaryFunction::Sin
+            | UnaryFunction::Cos
+            | UnaryFunction::Atan => {
                 *out = [UNDEFINED; N];
             }
         }
     }
 
     #[inline(always)]
-    fn binary(&self, operation: Operation, x: &[u64; N], y: &[u64; N], out: &mut [u64; N]) {
+    fn binary(&self, operation: BinaryOperation, x: &[u64; N], y: &[u64; N], out: &mut [u64; N]) {
         match operation {
-            Operation::Add => self.zip(x, y, out, Modulus::add),
-            Operation::Sub => self.zip(x, y, out, Modulus::sub),
-            Operation::Mul => self.zip(x, y, out, Modulus::mul),
-            Operation::Pow => *out = [UNDEFINED; N],
+            BinaryOperation::Add => self.zip(x, y, out, Modulus::add),
+            BinaryOperation::Sub => self.zip(x, y, out, Modulus::sub),
+            BinaryOperation::Mul => self.zip(x, y, out, Modulus::mul),
+            BinaryOperation::Pow => *out = [UNDEFINED; N],
         }
     }
 

@@ -26,7 +26,7 @@ fn many_inverses_take_one_inversion() {
     let moduli = [3, 5, 7, 11].map(|n| Modulus::new((1u64 << 61) - if n > 5 { 1 } else { 31 }));
     let x = [12, UNDEFINED, 0, 5];
     let mut out = [0; 4];
-    Prime::new(moduli).unary(Function::Recip, &x, &mut out);
+    Prime::new(moduli).unary(UnaryFunction::Recip, &x, &mut out);
     assert_eq!(out[1..3], [UNDEFINED; 2], "of nothing, and of 0");
     for lane in [0, 3] {
         let product = moduli[lane].mul(x[lane], out[lane]);

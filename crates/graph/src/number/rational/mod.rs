@@ -20,11 +20,11 @@ use num_traits::{Pow, Signed, ToPrimitive};
 /// Numbers of the size people type are kept in machine words: thousands of them are drawn, folded
 /// and enclosed before the first state is reached.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct Rational(Form);
+pub struct Rational(Repr);
 
 /// In lowest terms with a positive denominator; `Small` whenever both parts fit.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-enum Form {
+enum Repr {
     Small(i64, i64),
     Big(Box<BigRational>),
 }
@@ -44,12 +44,12 @@ impl Rational {
             && d > i64::MIN
         {
             let common = n.gcd(&d) * d.signum();
-            return Self(Form::Small(n / common, d / common));
+            return Self(Repr::Small(n / common, d / common));
         }
         let common = n.gcd(&d) * d.signum();
         match (i64::try_from(n / common), i64::try_from(d / common)) {
-            (Ok(n), Ok(d)) => Self(Form::Small(n, d)),
-            _ => Self(Form::Big(Box::new(BigRational::new(n.into(), d.into())))),
+            (Ok(n), Ok(d)) => Self(Repr::Small(n, d)),
+            _ => Self(Repr::Big(Box::new(BigRational::new(n.into(), d.into())))),
         }
     }
 
@@ -61,15 +61,15 @@ impl Rational {
 
     fn from_big(value: BigRational) -> Self {
         match (value.numer().to_i64(), value.denom().to_i64()) {
-            (Some(n), Some(d)) => Self(Form::Small(n, d)),
-            _ => Self(Form::Big(Box::new(value))),
+            (Some(n), Some(d)) => Self(Repr::Small(n, d)),
+            _ => Self(Repr::Big(Box::new(value))),
         }
     }
 
     fn to_big(&self) -> BigRational {
         match &self.0 {
-            Form::Small(n, d) => BigRational::new_raw((*n).into(), (*d).into()),
-            Form::Big(value) => (**value).clone(),
+            Repr::Small(n, d) => BigRational::new_raw((*n).into(), (*d).into()),
+            Repr::Big(value) => (**value).clone(),
         }
     }
 
@@ -84,8 +84,8 @@ impl Rational {
             let odd = mantissa >> mantissa.trailing_zeros();
             let signed = if value < 0.0 { -odd } else { odd };
             return Some(Self(match power {
-                0.. => Form::Small(signed << power, 1),
-                _ => Form::Small(signed, 1 << -power),
+                0.. => Repr::Small(signed << power, 1),
+                _ => Repr::Small(signed, 1 << -power),
             }));
         }
         BigRational::from_float(value).map(Self::from_big)
@@ -96,7 +96,7 @@ impl Rational {
         const EXACT: u64 = 1 << f64::MANTISSA_DIGITS;
         match &self.0 {
             // Both parts are f64s, and division rounds correctly: exact only for powers of two.
-            Form::Small(n, d) if n.unsigned_abs() <= EXACT && d.unsigned_abs() <= EXACT => {
+            Repr::Small(n, d) if n.unsigned_abs() <= EXACT && d.unsigned_abs() <= EXACT => {
                 ((*n as f64) / (*d as f64), d.count_ones() == 1)
             }
             _ => {
@@ -111,7 +111,7 @@ impl Rational {
     /// Returns the number as a machine integer, if it is one.
     pub fn to_integer(&self) -> Option<i64> {
         match self.0 {
-            Form::Small(n, 1) => Some(n),
+            Repr::Small(n, 1) => Some(n),
             _ => None,
         }
     }
@@ -119,8 +119,8 @@ impl Rational {
     /// Returns numerator and denominator where both fit a machine word.
     pub fn small_parts(&self) -> Option<(i64, i64)> {
         match self.0 {
-            Form::Small(n, d) => Some((n, d)),
-            Form::Big(_) => None,
+            Repr::Small(n, d) => Some((n, d)),
+            Repr::Big(_) => None,
         }
     }
 
@@ -133,26 +133,26 @@ impl Rational {
     pub fn bits(&self) -> u64 {
         let bits = |x: i64| u64::from(64 - x.unsigned_abs().leading_zeros());
         match &self.0 {
-            Form::Small(n, d) => bits(*n) + bits(*d),
-            Form::Big(value) => value.numer().bits() + value.denom().bits(),
+            Repr::Small(n, d) => bits(*n) + bits(*d),
+            Repr::Big(value) => value.numer().bits() + value.denom().bits(),
         }
     }
 
     /// Whether the number is 0.
     pub fn is_zero(&self) -> bool {
-        matches!(self.0, Form::Small(0, _))
+        matches!(self.0, Repr::Small(0, _))
     }
 
     /// Whether the number is 1.
     pub fn is_one(&self) -> bool {
-        matches!(self.0, Form::Small(1, 1))
+        matches!(self.0, Repr::Small(1, 1))
     }
 
     /// Whether the number is below 0.
     pub fn is_negative(&self) -> bool {
         match &self.0 {
-            Form::Small(n, _) => *n < 0,
-            Form::Big(value) => value.is_negative(),
+            Repr::Small(n, _) => *n < 0,
+            Repr::Big(value) => value.is_negative(),
         }
     }
 
@@ -164,9 +164,9 @@ impl Rational {
     /// Computes `1/x`, or `None` for 0.
     pub fn recip(&self) -> Option<Self> {
         match &self.0 {
-            Form::Small(0, _) => None,
-            Form::Small(n, d) => Some(Self::reduced(i128::from(*d), i128::from(*n))),
-            Form::Big(value) => Some(Self::from_big(value.recip())),
+            Repr::Small(0, _) => None,
+            Repr::Small(n, d) => Some(Self::reduced(i128::from(*d), i128::from(*n))),
+            Repr::Big(value) => Some(Self::from_big(value.recip())),
         }
     }
 
@@ -179,6 +179,6 @@ impl Rational {
 
 impl From<i64> for Rational {
     fn from(value: i64) -> Self {
-        Self(Form::Small(value, 1))
+        Self(Repr::Small(value, 1))
     }
 }

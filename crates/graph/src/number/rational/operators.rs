@@ -2,14 +2,14 @@
 
 use std::cmp::Ordering;
 
-use super::{Form, Rational};
+use super::{Rational, Repr};
 
 macro_rules! operators {
     ($($trait:ident $method:ident $checked:expr;)*) => {$(
         impl std::ops::$trait for &Rational {
             type Output = Rational;
             fn $method(self, other: &Rational) -> Rational {
-                if let (Form::Small(a, b), Form::Small(c, d)) = (&self.0, &other.0) {
+                if let (Repr::Small(a, b), Repr::Small(c, d)) = (&self.0, &other.0) {
                     let [a, b, c, d] = [*a, *b, *c, *d].map(i128::from);
                     // Products of 64-bit parts fit 127 bits; only a sum of two may overflow.
                     if let Some((n, d)) = $checked(a, b, c, d) {
@@ -36,8 +36,8 @@ impl std::ops::Neg for &Rational {
     type Output = Rational;
     fn neg(self) -> Rational {
         match &self.0 {
-            Form::Small(n, d) => Rational::reduced(-i128::from(*n), i128::from(*d)),
-            Form::Big(value) => Rational::from_big(-&**value),
+            Repr::Small(n, d) => Rational::reduced(-i128::from(*n), i128::from(*d)),
+            Repr::Big(value) => Rational::from_big(-&**value),
         }
     }
 }
@@ -45,7 +45,7 @@ impl std::ops::Neg for &Rational {
 impl Ord for Rational {
     fn cmp(&self, other: &Self) -> Ordering {
         match (&self.0, &other.0) {
-            (Form::Small(a, b), Form::Small(c, d)) => {
+            (Repr::Small(a, b), Repr::Small(c, d)) => {
                 (i128::from(*a) * i128::from(*d)).cmp(&(i128::from(*c) * i128::from(*b)))
             }
             _ => self.to_big().cmp(&other.to_big()),

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
-use super::{Form, Rational};
+use super::{Rational, Repr};
 
 /// Largest power of ten in a literal; beyond it no f64 could hold the value.
 const MAX_EXPONENT: i64 = 1000;
@@ -88,9 +88,9 @@ impl fmt::Display for Rational {
     /// Prints a terminating decimal of up to six places as a decimal, anything else as a fraction.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (n, d) = match &self.0 {
-            Form::Small(n, d) => (i128::from(*n), *d),
-            Form::Big(value) if value.is_integer() => return write!(out, "{}", value.numer()),
-            Form::Big(value) => return write!(out, "{}/{}", value.numer(), value.denom()),
+            Repr::Small(n, d) => (i128::from(*n), *d),
+            Repr::Big(value) if value.is_integer() => return write!(out, "{}", value.numer()),
+            Repr::Big(value) => return write!(out, "{}/{}", value.numer(), value.denom()),
         };
         // n/d = (n 10^k/d)/10^k is a decimal of k places when d divides 10^k.
         match (0..=MAX_PLACES).find(|places| 10i64.pow(*places) % d == 0) {

@@ -3,9 +3,9 @@
 use rustc_hash::FxHashMap;
 
 use crate::graph::Step;
-use crate::number::{Function, Operation};
+use crate::number::{BinaryOperation, UnaryFunction};
 use crate::proof::extent::Extent;
-use crate::proof::fact::Fact;
+use crate::proof::fact::SignFact;
 
 use super::Region;
 
@@ -22,8 +22,8 @@ impl Region<'_> {
                 let bound = &mut bounds[*place];
                 *bound = bound.within(true);
                 let holds = match fact {
-                    Fact::Positive => bound.reaches_above_zero(),
-                    Fact::NotNegative => !bound.is_empty(),
+                    SignFact::Positive => bound.reaches_above_zero(),
+                    SignFact::NotNegative => !bound.is_empty(),
                 };
                 if !holds {
                     return None;
@@ -36,9 +36,9 @@ impl Region<'_> {
                 self.backward(reached, &mut bounds);
             }
         }
-        let is_contradicted = |(place, fact): &(usize, Fact)| match fact {
-            Fact::Positive => !bounds[*place].reaches_above_zero(),
-            Fact::NotNegative => bounds[*place].is_empty(),
+        let is_contradicted = |(place, fact): &(usize, SignFact)| match fact {
+            SignFact::Positive => !bounds[*place].reaches_above_zero(),
+            SignFact::NotNegative => bounds[*place].is_empty(),
         };
         (!self.facts.iter().any(is_contradicted)).then_some(bounds)
     }
@@ -54,11 +54,12 @@ impl Region<'_> {
                 Step::Input(input) => part[input],
                 Step::Unary(function, a) => bounds[a].unary(function),
                 Step::Power(a, exponent) => bounds[a].power(exponent),
-                Step::Binary(Operation::Add, a, b) => bounds[a].plus(bounds[b]),
-                Step::Binary(Operation::Sub, a, b) => bounds[a].plus(bounds[b].negated()),
-                Step::Binary(Operation::Mul, a, b) if a == b => bounds[a].square(),
-                Step::Binary(Operation::Mul, a, b) => bounds[a].times(bounds[b]),
-                Step::Binary(Operation::Pow, a, _) => match bounds[a].within(true).is_empty() {
+                Step::Binary(BinaryOperation::Add, a, b) => bounds[a].plus(bounds[b]),
+                Step::Binary(BinaryOperation::Sub, a, b) => bounds[a].plus(bounds[b].negated()),
+                Step::Binary(BinaryOperation::Mul, a, b) if a == b => bounds[a].square(),
+                Step::Binary(BinaryOperation::Mul, a, b) => bounds[a].times(bounds[b]),
+                Step::Binary(BinaryOperation::Pow, a, _) => match bounds[a].within(true).is_empty()
+                {
                     true => Extent::EMPTY,
                     false => Extent::POSITIVE,
                 },
@@ -114,28 +115,32 @@ impl Region<'_> {
             }
             let step = self.graph.step(*place);
             let found = match step {
-                Step::Unary(Function::Neg, a) => [Some((a, value.negated())), None],
-                Step::Unary(Function::Recip, a) => [Some((a, value.reciprocal())), None],
-                Step::Unary(Function::Sqrt, a) => [Some((a, value.within(true).square())), None],
-                Step::Unary(Function::Abs, a) => {
+                Step::Unary(UnaryFunction::Neg, a) => [Some((a, value.negated())), None],
+                Step::Unary(UnaryFunction::Recip, a) => [Some((a, value.reciprocal())), None],
+                Step::Unary(UnaryFunction::Sqrt, a) => {
+                    [Some((a, value.within(true).square())), None]
+                }
+                Step::Unary(UnaryFunction::Abs, a) => {
                     let size = value.within(true);
                     [Some((a, size.hull_with_opposite())), None]
                 }
-                Step::Unary(Function::Ln, a) => [Some((a, Extent::POSITIVE)), None],
+                Step::Unary(UnaryFunction::Ln, a) => [Some((a, Extent::POSITIVE)), None],
                 Step::Power(a, exponent) if exponent.to_integer().is_none() => {
                     [Some((a, Extent::POSITIVE)), None]
                 }
-                Step::Binary(Operation::Pow, a, _) => [Some((a, Extent::POSITIVE)), None],
-                Step::Binary(Operation::Add, a, b) if a != b => {
+                Step::Binary(BinaryOperation::Pow, a, _) => [Some((a, Extent::POSITIVE)), None],
+                Step::Binary(BinaryOperation::Add, a, b) if a != b => {
                     let (x, y) = (bounds[a], bounds[b]);
                     [Some((a, value.plus(y.negated()))), Some((b, value.plus(x.negated())))]
                 }
-                Step::Binary(Operation::Sub, a, b) if a != b => {
+                Step::Binary(BinaryOperation::Sub, a, b) if a != b => {
                     let (x, y) = (bounds[a], bounds[b]);
                     [Some((a, value.plus(y))), Some((b, x.plus(value.negated())))]
                 }
-                Step::Binary(Operation::Mul, a, b) if a == b => [Some((a, value.roots())), None],
-                Step::Binary(Operation::Mul, a, b) => {
+                Step::Binary(BinaryOperation::Mul, a, b) if a == b => {
+                    [Some((a, value.roots())), None]
+                }
+                Step::Binary(BinaryOperation::Mul, a, b) => {
                     [self.factor(value, bounds[b], b, a), self.factor(value, bounds[a], a, b)]
                 }
                 _ => [None, None],

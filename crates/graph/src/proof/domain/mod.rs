@@ -25,7 +25,7 @@ use crate::graph::{Graph, Step};
 
 use super::classes::Classes;
 use super::extent::Extent;
-use super::fact::Fact;
+use super::fact::SignFact;
 
 /// Largest number of parts of the box on which one value is bounded.
 const MOST_PARTS: usize = 64;
@@ -37,7 +37,7 @@ pub struct Region<'r> {
     /// Extents of the inputs in order; further inputs are unbounded.
     pub inputs: &'r [Extent],
     /// Places, and the signs of their values.
-    pub facts: &'r [(usize, Fact)],
+    pub facts: &'r [(usize, SignFact)],
     /// Equal and opposite values.
     pub classes: &'r Classes,
 }

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use crate::graph::{Expr, Graph, Step};
 use crate::proof::classes::Classes;
 use crate::proof::extent::Extent;
-use crate::proof::fact::Fact;
+use crate::proof::fact::SignFact;
 use crate::proof::rewrite::conditions;
 
 use super::Region;
@@ -18,7 +18,8 @@ const MOST_BOXES: usize = 1 << 12;
 /// Searches for a point inside the extents of some inputs at which some values are positive,
 /// whatever the others do; `None` if none is found.
 pub fn point(graph: &Graph, inputs: &[Extent], positive: &[usize]) -> Option<Vec<f64>> {
-    let facts: Vec<(usize, Fact)> = positive.iter().map(|place| (*place, Fact::Positive)).collect();
+    let facts: Vec<(usize, SignFact)> =
+        positive.iter().map(|place| (*place, SignFact::Positive)).collect();
     let classes = Classes::default();
     let region = Region { graph, inputs, facts: &facts, classes: &classes };
     let reached = region.reached(&[]);
@@ -48,8 +49,8 @@ pub fn is_nowhere_zero(
     values: &[Expr],
 ) -> bool {
     let classes = Classes::default();
-    let fact = |value: &Expr| (graph.place(*value), Fact::NotNegative);
-    let facts: Vec<(usize, Fact)> = not_negative.iter().map(fact).collect();
+    let fact = |value: &Expr| (graph.place(*value), SignFact::NotNegative);
+    let facts: Vec<(usize, SignFact)> = not_negative.iter().map(fact).collect();
     let region = Region { graph, inputs, facts: &facts, classes: &classes };
     let places: Vec<usize> = values.iter().map(|value| graph.place(*value)).collect();
     let reached = region.reached(&places);

@@ -16,8 +16,8 @@ fn sign_where(
     let end = |n: i64| Rational::from(n);
     let inputs: Vec<Extent> =
         ends.iter().map(|(low, high)| Extent::between(&end(*low), &end(*high))).collect();
-    let facts: Vec<(usize, Fact)> =
-        facts.into_iter().map(|fact| (graph.place(fact), Fact::NotNegative)).collect();
+    let facts: Vec<(usize, SignFact)> =
+        facts.into_iter().map(|fact| (graph.place(fact), SignFact::NotNegative)).collect();
     let classes = Classes::default();
     let region = Region { graph: &graph, inputs: &inputs, facts: &facts, classes: &classes };
     region.sign(graph.place(value))
@@ -82,7 +82,7 @@ fn a_product_says_nothing_of_a_factor_whose_other_may_vanish() {
 fn contradictions_are_seen() {
     let (graph, facts) = record(2, |x| [x[0] - x[1], x[1] - x[0] - 1.0]).expect("records");
     let inputs = [Extent::between(&Rational::from(0), &Rational::from(1)); 2];
-    let facts = facts.map(|fact| (graph.place(fact), Fact::Positive));
+    let facts = facts.map(|fact| (graph.place(fact), SignFact::Positive));
     let classes = Classes::default();
     let region = Region { graph: &graph, inputs: &inputs, facts: &facts, classes: &classes };
     assert!(region.is_empty(), "x > y and y > x + 1");

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use crate::number::Function;
+use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
 
 use super::Extent;
@@ -19,17 +19,17 @@ impl Extent {
     }
 
     /// Computes f(x).
-    pub fn unary(self, function: Function) -> Self {
+    pub fn unary(self, function: UnaryFunction) -> Self {
         match function {
-            Function::Neg => self.negated(),
-            Function::Abs => self.modulus(),
-            Function::Recip => self.reciprocal(),
-            Function::Sqrt => self.rising(0.0, f64::sqrt).within(true),
-            Function::Exp => self.rising(f64::NEG_INFINITY, libm::exp).within(true),
-            Function::Ln => self.rising(0.0, libm::log),
-            Function::Sin => self.sine(),
-            Function::Cos => self.plus(Self::outward(FRAC_PI_2, FRAC_PI_2)).sine(),
-            Function::Atan => self.rising(f64::NEG_INFINITY, libm::atan),
+            UnaryFunction::Neg => self.negated(),
+            UnaryFunction::Abs => self.modulus(),
+            UnaryFunction::Recip => self.reciprocal(),
+            UnaryFunction::Sqrt => self.rising(0.0, f64::sqrt).within(true),
+            UnaryFunction::Exp => self.rising(f64::NEG_INFINITY, libm::exp).within(true),
+            UnaryFunction::Ln => self.rising(0.0, libm::log),
+            UnaryFunction::Sin => self.sine(),
+            UnaryFunction::Cos => self.plus(Self::outward(FRAC_PI_2, FRAC_PI_2)).sine(),
+            UnaryFunction::Atan => self.rising(f64::NEG_INFINITY, libm::atan),
         }
     }
 
@@ -67,12 +67,12 @@ impl Extent {
     /// Computes x^q.
     pub fn power(self, exponent: &Rational) -> Self {
         /// Largest power that is multiplied out.
-        const MOST: u64 = 64;
+        const MOST_POWER: u64 = 64;
         match exponent.to_integer() {
             // Roots and powers of positive numbers are positive.
             None if self.high < 0.0 => Self::EMPTY,
             None => Self::POSITIVE,
-            Some(n) if n.unsigned_abs() <= MOST => {
+            Some(n) if n.unsigned_abs() <= MOST_POWER => {
                 let power = self.whole_power(n.unsigned_abs());
                 if n < 0 { power.reciprocal() } else { power }
             }

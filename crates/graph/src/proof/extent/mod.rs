@@ -11,7 +11,7 @@ mod rounding;
 #[cfg(test)]
 mod tests;
 
-use crate::number::Function;
+use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
 
 use rounding::{down, product, sum, up};
@@ -118,7 +118,7 @@ impl Extent {
 
     /// Encloses the square roots, of either sign, of all numbers that have one.
     pub fn roots(self) -> Self {
-        let root = self.unary(Function::Sqrt);
+        let root = self.unary(UnaryFunction::Sqrt);
         if root.is_empty() { root } else { Self { low: -root.high, high: root.high } }
     }
 

@@ -20,8 +20,8 @@ fn ends_are_rounded_outwards_and_only_where_they_are_rounded() {
 #[test]
 fn sines_and_powers_hold_their_values() {
     let modulus = crate::number::prime::Modulus::new((1 << 61) - 1);
-    let mut chance = crate::proof::chance::Chance::new(6, 0);
-    let mut share = || (chance.element(&modulus) >> 9) as f64 / (1u64 << 52) as f64;
+    let mut rng = crate::proof::rng::ProofRng::new(6, 0);
+    let mut share = || (rng.element(&modulus) >> 9) as f64 / (1u64 << 52) as f64;
     for round in 0..4000 {
         let low = 40.0 * share() - 20.0;
         let high = low + share() * if round % 2 == 0 { 0.5 } else { 8.0 };
@@ -30,16 +30,16 @@ fn sines_and_powers_hold_their_values() {
         let inside = |extent: Extent, value: f64| {
             extent.low <= value + 1e-12 * value.abs() && value <= extent.high + 1e-12 * value.abs()
         };
-        assert!(inside(extent.unary(Function::Sin), at.sin()), "sin {at} in {extent:?}");
-        assert!(inside(extent.unary(Function::Cos), at.cos()), "cos {at} in {extent:?}");
-        assert!(inside(extent.unary(Function::Atan), at.atan()), "atan {at} in {extent:?}");
+        assert!(inside(extent.unary(UnaryFunction::Sin), at.sin()), "sin {at} in {extent:?}");
+        assert!(inside(extent.unary(UnaryFunction::Cos), at.cos()), "cos {at} in {extent:?}");
+        assert!(inside(extent.unary(UnaryFunction::Atan), at.atan()), "atan {at} in {extent:?}");
         for n in [-3, -2, -1, 0, 1, 2, 3, 5, 8, 13] {
             let power = extent.power(&Rational::from(n));
             assert!(inside(power, at.powi(n as i32)), "{at}^{n} in {extent:?}: {power:?}");
         }
     }
     let narrow = Extent { low: 0.3, high: 1.0 };
-    assert!(narrow.unary(Function::Cos).low > 0.54, "cos is positive from 0.3 to 1");
+    assert!(narrow.unary(UnaryFunction::Cos).low > 0.54, "cos is positive from 0.3 to 1");
     let odd = Extent { low: -2.0, high: 3.0 }.power(&Rational::from(3));
     assert!(odd.low >= -8.0 - 1e-12 && odd.high <= 27.0 + 1e-12, "{odd:?}");
 }
@@ -48,9 +48,9 @@ fn sines_and_powers_hold_their_values() {
 fn random_results_lie_inside() {
     use crate::number::exact::square_root;
     let modulus = crate::number::prime::Modulus::new((1 << 61) - 1);
-    let mut chance = crate::proof::chance::Chance::new(5, 0);
+    let mut rng = crate::proof::rng::ProofRng::new(5, 0);
     let mut number = || {
-        let drawn = modulus.to_integer(chance.element(&modulus));
+        let drawn = modulus.to_integer(rng.element(&modulus));
         let (mantissa, exponent) = ((drawn >> 8) as i64 - (1 << 52), (drawn & 63) as i32 - 40);
         libm::scalbn(mantissa as f64, exponent)
     };
@@ -70,6 +70,6 @@ fn random_results_lie_inside() {
         let square = &exact(x) * &exact(x);
         let (root, (near, _)) = (square_root(&square), square.to_f64());
         let of = Extent { low: near.next_down(), high: near.next_up() };
-        assert!(inside(of.unary(Function::Sqrt), root.expect("a square")), "√{x}²");
+        assert!(inside(of.unary(UnaryFunction::Sqrt), root.expect("a square")), "√{x}²");
     }
 }

@@ -6,7 +6,7 @@ use crate::number::rational::Rational;
 const LONGEST_CHAIN: u32 = 24;
 
 /// An exponent in the form n + i/2^s + j/m with 0 ≤ i < 2^s and 0 ≤ j < m, m odd.
-pub struct Parts {
+pub struct ExponentParts {
     /// Integer part n.
     pub whole: i64,
     /// Numerator i.
@@ -19,7 +19,7 @@ pub struct Parts {
     pub j: i64,
 }
 
-impl Parts {
+impl ExponentParts {
     /// Takes an exponent apart; `None` if its parts are too large.
     pub fn of(exponent: &Rational) -> Option<Self> {
         let (above, below) = exponent.parts();

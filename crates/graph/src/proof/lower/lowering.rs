@@ -6,20 +6,20 @@ use rustc_hash::FxHashMap;
 
 use crate::graph::{Expr, Fault, Graph, Step, record};
 use crate::number::rational::Rational;
-use crate::number::{Function, Operation};
-use crate::proof::bounds::Source;
+use crate::number::{BinaryOperation, UnaryFunction};
+use crate::proof::bounds::InputDistribution;
 use crate::proof::numbers::Numbers;
-use crate::proof::symbols::{Form, Symbols};
+use crate::proof::symbols::{SymbolForm, Symbols};
 use crate::scalar::Scalar;
 
-use super::{Algebraic, Base, Held, Modulus};
+use super::{Algebraic, Base, Held, ModulusSign};
 
 impl Algebraic<'_> {
     /// Lowers the reached steps of `graph`, whose inputs are distributed as `sources`.
     pub fn of(
         graph: &Graph,
         reached: &[bool],
-        sources: &[Source],
+        sources: &[InputDistribution],
         symbols: &Symbols,
     ) -> Result<Algebraic<'static>, Fault> {
         Self::made(graph, reached, sources, symbols, false)
@@ -30,7 +30,7 @@ impl Algebraic<'_> {
     pub fn formal(
         graph: &Graph,
         reached: &[bool],
-        sources: &[Source],
+        sources: &[InputDistribution],
         symbols: &Symbols,
     ) -> Result<Algebraic<'static>, Fault> {
         Self::made(graph, reached, sources, symbols, true)
@@ -39,12 +39,12 @@ impl Algebraic<'_> {
     fn made(
         graph: &Graph,
         reached: &[bool],
-        sources: &[Source],
+        sources: &[InputDistribution],
         symbols: &Symbols,
         has_formal_numbers: bool,
     ) -> Result<Algebraic<'static>, Fault> {
         let constants = graph.steps().zip(reached).filter_map(|(step, reached)| match step {
-            Step::Unary(Function::Sqrt, a) | Step::Power(a, _) if *reached => Some(a),
+            Step::Unary(UnaryFunction::Sqrt, a) | Step::Power(a, _) if *reached => Some(a),
             _ => None,
         });
         let numbers = Numbers::of(constants.filter_map(|place| match graph.step(place) {
@@ -74,7 +74,8 @@ impl Algebraic<'_> {
         let integer =
             |(index, roots): (usize, Vec<Expr>)| (numbers.integer(index), roots.len() as u32);
         let numbers = number_roots.into_iter().map(integer).collect();
-        let signs = all.iter().enumerate().filter(|(_, source)| **source == Source::Sign);
+        let signs =
+            all.iter().enumerate().filter(|(_, source)| **source == InputDistribution::Sign);
         let bits = signs.zip(0..).map(|((input, _), bit)| (input, bit)).collect();
         let mut algebraic = Algebraic {
             graph: Held::Own(graph),
@@ -95,7 +96,7 @@ impl Algebraic<'_> {
 
 /// State of a lowering.
 pub(super) struct Lowering<'s> {
-    pub(super) sources: Vec<Source>,
+    pub(super) sources: Vec<InputDistribution>,
     pub(super) bases: Vec<Base>,
     /// Index of the base of a radicand.
     pub(super) base_of: FxHashMap<Expr, usize>,
@@ -107,7 +108,7 @@ pub(super) struct Lowering<'s> {
     pub(super) has_formal_numbers: bool,
     /// Place of the step under way.
     pub(super) place: usize,
-    moduli: Vec<Modulus>,
+    moduli: Vec<ModulusSign>,
     pub(super) odd: Vec<(Expr, u64)>,
     pub(super) numbers: Numbers,
     symbols: &'s Symbols,
@@ -115,7 +116,7 @@ pub(super) struct Lowering<'s> {
 }
 
 impl Lowering<'_> {
-    pub(super) fn input(&mut self, source: Source) -> Expr {
+    pub(super) fn input(&mut self, source: InputDistribution) -> Expr {
         self.sources.push(source);
         Expr::input()
     }
@@ -125,7 +126,7 @@ impl Lowering<'_> {
         if let Some(made) = self.made[number] {
             return made;
         }
-        let symbol = self.input(Source::Uniform);
+        let symbol = self.input(InputDistribution::Uniform);
         self.made[number] = Some(symbol);
         symbol
     }
@@ -141,21 +142,27 @@ impl Lowering<'_> {
     ) -> Option<Expr> {
         self.place = place;
         let made = match step {
-            Step::Unary(Function::Sqrt, a) => self.power(graph, a, &Rational::new(1, 2), values),
-            Step::Unary(Function::Abs, a) => values[a].map(|argument| {
+            Step::Unary(UnaryFunction::Sqrt, a) => {
+                self.power(graph, a, &Rational::new(1, 2), values)
+            }
+            Step::Unary(UnaryFunction::Abs, a) => values[a].map(|argument| {
                 let sign = self.sources.len();
-                let value = self.input(Source::Sign) * argument;
-                self.moduli.push(Modulus { place, argument, sign });
+                let value = self.input(InputDistribution::Sign) * argument;
+                self.moduli.push(ModulusSign { place, argument, sign });
                 value
             }),
             Step::Power(a, exponent) if exponent.to_integer().is_none() => {
                 self.power(graph, a, exponent, values)
             }
             Step::Unary(
-                Function::Exp | Function::Ln | Function::Sin | Function::Cos | Function::Atan,
+                UnaryFunction::Exp
+                | UnaryFunction::Ln
+                | UnaryFunction::Sin
+                | UnaryFunction::Cos
+                | UnaryFunction::Atan,
                 _,
             )
-            | Step::Binary(Operation::Pow, ..) => self.transcendental(graph, place, values),
+            | Step::Binary(BinaryOperation::Pow, ..) => self.transcendental(graph, place, values),
             _ => return None,
         };
         Some(made.unwrap_or_else(Expr::undefined))
@@ -169,8 +176,8 @@ impl Lowering<'_> {
     ) -> Option<Expr> {
         let symbols = self.symbols;
         match symbols.forms.get(&place)? {
-            Form::Opaque(number) => Some(self.symbol(*number)),
-            Form::Product { base, powers } => {
+            SymbolForm::Opaque(number) => Some(self.symbol(*number)),
+            SymbolForm::Product { base, powers } => {
                 let mut product = match base {
                     Some((base, exponent)) if exponent.to_integer().is_some() => {
                         values[*base]?.power(exponent)
@@ -184,13 +191,13 @@ impl Lowering<'_> {
                 }
                 Some(product)
             }
-            Form::Angle { multiples, turns, sine } => {
+            SymbolForm::Angle { multiples, turns, sine } => {
                 let one = Expr::rational(&Rational::from(1));
                 // (c + i s)^n of each, multiplied: cosine and sine of the sum.
                 let (mut cosine_of, mut sine_of) = (one, Expr::rational(&Rational::from(0)));
                 for (number, multiple) in multiples {
                     let t = self.symbol(*number);
-                    let length = (one + t * t).apply(Function::Recip);
+                    let length = (one + t * t).apply(UnaryFunction::Recip);
                     let (c, mut s) = ((one - t * t) * length, (t + t) * length);
                     if *multiple < 0 {
                         s = -s;

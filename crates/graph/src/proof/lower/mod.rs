@@ -26,7 +26,7 @@ use rustc_hash::FxHashMap;
 use crate::graph::{Expr, Fault, Graph, Step, record};
 use crate::number::rational::Rational;
 
-use super::bounds::Source;
+use super::bounds::InputDistribution;
 
 /// A radicand of roots of even index.
 #[derive(Clone, Debug)]
@@ -43,7 +43,7 @@ pub struct Base {
 
 /// A modulus |X|, with the input that is its sign.
 #[derive(Clone, Copy, Debug)]
-pub struct Modulus {
+pub struct ModulusSign {
     /// Place of the step in the original graph.
     pub place: usize,
     /// Argument X.
@@ -59,13 +59,13 @@ pub struct Algebraic<'g> {
     /// New value of each place of the original graph that was requested and exists.
     pub values: Vec<Option<Expr>>,
     /// Distribution of each input.
-    pub sources: Vec<Source>,
+    pub sources: Vec<InputDistribution>,
     /// Number of inputs of the original; symbols and signs follow.
     pub original_inputs: usize,
     /// Radicands of roots of even index, each after those it contains.
     pub bases: Vec<Base>,
     /// Moduli, each after those it contains.
-    pub moduli: Vec<Modulus>,
+    pub moduli: Vec<ModulusSign>,
     /// Radicands of roots of odd index, with the index.
     pub odd: Vec<(Expr, u64)>,
     /// Integers under roots, each with the length of the longest chain √n, √√n, … of its roots.
@@ -98,7 +98,7 @@ impl Deref for Held<'_> {
 
 impl<'g> Algebraic<'g> {
     /// Wraps a graph whose values of interest are already rational functions of its inputs.
-    pub fn plain(graph: &'g Graph, sources: &[Source]) -> Self {
+    pub fn plain(graph: &'g Graph, sources: &[InputDistribution]) -> Self {
         Self {
             graph: Held::Lent(graph),
             values: Vec::new(),
@@ -225,7 +225,7 @@ impl<'g> Algebraic<'g> {
             Step::Input(input) => {
                 reached[place]
                     && input >= self.original_inputs
-                    && self.sources[input] != Source::Sign
+                    && self.sources[input] != InputDistribution::Sign
             }
             _ => false,
         })

@@ -1,13 +1,13 @@
 //! Powers and roots in a lowering: chains of square roots, roots of integers, roots of odd index.
 
 use crate::graph::{Expr, Graph, Step};
-use crate::number::Function;
+use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
-use crate::proof::bounds::Source;
+use crate::proof::bounds::InputDistribution;
 use crate::scalar::Scalar;
 
 use super::Base;
-use super::exponent::Parts;
+use super::exponent::ExponentParts;
 use super::lowering::Lowering;
 
 impl Lowering<'_> {
@@ -51,7 +51,7 @@ impl Lowering<'_> {
     /// Computes n^q for an integer n, given by its index.
     fn number_root(&mut self, number: usize, exponent: &Rational) -> Option<Expr> {
         let radicand = Expr::rational(&self.numbers.integer(number));
-        let Parts { whole, part, length, odd, j } = Parts::of(exponent)?;
+        let ExponentParts { whole, part, length, odd, j } = ExponentParts::of(exponent)?;
         let mut value = radicand.power(&Rational::from(whole));
         if part != 0 {
             value *= self.number_link(number, length).power(&Rational::from(part));
@@ -66,8 +66,8 @@ impl Lowering<'_> {
             let radicand = Expr::rational(&self.numbers.integer(number));
             let last = roots.last().copied().unwrap_or(radicand);
             roots.push(match self.has_formal_numbers {
-                true => self.input(Source::Uniform),
-                false => last.apply(Function::Sqrt),
+                true => self.input(InputDistribution::Uniform),
+                false => last.apply(UnaryFunction::Sqrt),
             });
         }
         let value = roots[length as usize - 1];
@@ -89,7 +89,7 @@ impl Lowering<'_> {
     /// Computes X^q for a base X: X^n, times a power of a link, times a power of a root of odd
     /// index.
     fn root(&mut self, base: usize, exponent: &Rational) -> Option<Expr> {
-        let Parts { whole, part, length, odd, j } = Parts::of(exponent)?;
+        let ExponentParts { whole, part, length, odd, j } = ExponentParts::of(exponent)?;
         let radicand = self.bases[base].radicand;
         let mut value = radicand.power(&Rational::from(whole));
         if part != 0 {
@@ -104,7 +104,7 @@ impl Lowering<'_> {
             let Base { radicand, links, .. } = &self.bases[base];
             let last = links.last().map_or(*radicand, |(value, _)| *value);
             let sign = self.sources.len();
-            let value = self.input(Source::Sign) * last.apply(Function::Sqrt);
+            let value = self.input(InputDistribution::Sign) * last.apply(UnaryFunction::Sqrt);
             self.bases[base].links.push((value, sign));
             let length = self.bases[base].links.len() as u32;
             self.link_of.insert(value, (base, length));

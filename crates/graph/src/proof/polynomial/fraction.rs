@@ -2,7 +2,7 @@
 
 use crate::graph::{Expr, Graph, Step};
 use crate::number::rational::Rational;
-use crate::number::{Function, Operation};
+use crate::number::{BinaryOperation, UnaryFunction};
 
 use super::{MOST_WORK, Polynomial};
 
@@ -116,16 +116,16 @@ fn of_step(step: Step<'_>, values: &[Option<Fraction>], work: &mut usize) -> Opt
     match step {
         Step::Constant(value) => Some(Fraction::whole(Polynomial::constant(value))),
         Step::Input(_) => None,
-        Step::Unary(Function::Neg, a) => {
+        Step::Unary(UnaryFunction::Neg, a) => {
             let a = of(a)?;
             Some(Fraction { above: a.above.negated(), below: a.below.clone() })
         }
-        Step::Unary(Function::Recip, a) => of(a)?.inverse(),
+        Step::Unary(UnaryFunction::Recip, a) => of(a)?.inverse(),
         Step::Unary(..) => None,
-        Step::Binary(Operation::Mul, a, b) => of(a)?.times(of(b)?, work),
-        Step::Binary(Operation::Add, a, b) => of(a)?.sum(of(b)?, 1, work),
-        Step::Binary(Operation::Sub, a, b) => of(a)?.sum(of(b)?, -1, work),
-        Step::Binary(Operation::Pow, ..) => None,
+        Step::Binary(BinaryOperation::Mul, a, b) => of(a)?.times(of(b)?, work),
+        Step::Binary(BinaryOperation::Add, a, b) => of(a)?.sum(of(b)?, 1, work),
+        Step::Binary(BinaryOperation::Sub, a, b) => of(a)?.sum(of(b)?, -1, work),
+        Step::Binary(BinaryOperation::Pow, ..) => None,
         Step::Power(a, exponent) => of(a)?.power(exponent.to_integer()?, work),
     }
 }

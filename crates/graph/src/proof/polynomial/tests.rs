@@ -45,10 +45,10 @@ fn squares_are_found() {
 
 #[test]
 fn random_squares_are_found() {
-    use crate::proof::chance::Chance;
+    use crate::proof::rng::ProofRng;
     let modulus = crate::number::prime::Modulus::new((1 << 61) - 1);
-    let mut chance = Chance::new(7, 0);
-    let mut small = |size: u64| (modulus.to_integer(chance.element(&modulus)) % size) as i64;
+    let mut rng = ProofRng::new(7, 0);
+    let mut small = |size: u64| (modulus.to_integer(rng.element(&modulus)) % size) as i64;
     for _ in 0..200 {
         let mut root = Polynomial::default();
         for _ in 0..1 + small(5) {

@@ -2,7 +2,7 @@
 
 use crate::graph::Expr;
 
-use super::{Certificate, DRAWS, POINTS, PRIMES, Roots, TARGET, Trial};
+use super::{Certificate, DRAWS, PRIME_POINTS, PRIMES, Roots, TARGET, Trial};
 
 /// Log₂ of the number of primes p = 3 mod 4 between 2^60 and 2^61, rounded down.
 const POOL: f64 = 53.0;
@@ -66,7 +66,7 @@ impl Trial<'_> {
         let conditions = algebraic.odd_indices().len() + algebraic.numbers.len() + chains;
         let pool = POOL - conditions as f64;
         let unlucky_prime = height / 60.0 * (-pool).exp2();
-        let unlucky_points = (draws as f64 * degree * (-60f64).exp2()).powi(POINTS as i32);
+        let unlucky_points = (draws as f64 * degree * (-60f64).exp2()).powi(PRIME_POINTS as i32);
         // Union bound over the outputs: one nonzero output is enough.
         let error_log2 = PRIMES as f64 * (unlucky_prime + unlucky_points).log2();
         Certificate {

@@ -16,7 +16,7 @@ mod draw;
 mod residues;
 
 pub use certificate::{Certificate, both};
-pub use draw::{LANES, PRIMES, points, prime_of, suitable_moduli};
+pub use draw::{PRIMES, TRIAL_LANES, points, prime_of, suitable_moduli};
 pub use residues::Residues;
 
 use std::cell::OnceCell;
@@ -26,12 +26,12 @@ use crate::number::prime::{Modulus, Prime};
 use crate::number::quadratic::Quadratic;
 
 use super::bounds::Bounds;
-use super::chance::{Chance, Stream};
-use super::digest::Digest;
+use super::digest::SeedDigest;
 use super::lower::Algebraic;
+use super::rng::{ProofRng, ProofStream};
 
 /// Number of accepted points for each prime.
-const POINTS: usize = LANES / PRIMES;
+const PRIME_POINTS: usize = TRIAL_LANES / PRIMES;
 /// Largest number of draws for each prime, without nested roots, which refuse draws.
 const DRAWS: u64 = 64;
 /// Largest number of nested roots; more would refuse too many draws.
@@ -41,7 +41,7 @@ const TARGET: f64 = -100.0;
 
 /// The finding of a test.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Finding {
+pub enum TrialResult {
     /// Zero at all points.
     Zero(Certificate),
     /// Nonzero at an accepted point.
@@ -63,14 +63,14 @@ pub struct Roots<'r> {
 pub struct Trial<'a> {
     algebraic: &'a Algebraic<'a>,
     bounds: OnceCell<Bounds>,
-    moduli: [Modulus; LANES],
-    digest: Digest,
+    moduli: [Modulus; TRIAL_LANES],
+    digest: SeedDigest,
 }
 
 impl<'a> Trial<'a> {
     /// Draws primes; bounds are computed on first use.
-    pub fn new(algebraic: &'a Algebraic<'a>, digest: Digest) -> Self {
-        let moduli = suitable_moduli(digest, Stream::Primes, algebraic);
+    pub fn new(algebraic: &'a Algebraic<'a>, digest: SeedDigest) -> Self {
+        let moduli = suitable_moduli(digest, ProofStream::Primes, algebraic);
         Self { algebraic, bounds: OnceCell::new(), moduli, digest }
     }
 
@@ -82,7 +82,7 @@ impl<'a> Trial<'a> {
     }
 
     /// Returns the moduli of the lanes.
-    pub fn moduli(&self) -> &[Modulus; LANES] {
+    pub fn moduli(&self) -> &[Modulus; TRIAL_LANES] {
         &self.moduli
     }
 
@@ -90,7 +90,7 @@ impl<'a> Trial<'a> {
     ///
     /// All roots that the groups contain must be independent modulo the primes, or have their signs
     /// among the fixed ones; the signs of the others are random.
-    pub fn test(&self, groups: &[&[Expr]], roots: Roots<'_>) -> Vec<Finding> {
+    pub fn test(&self, groups: &[&[Expr]], roots: Roots<'_>) -> Vec<TrialResult> {
         let outputs: Vec<Expr> = groups.iter().flat_map(|group| group.iter().copied()).collect();
         match self.algebraic.mask_of(&outputs) {
             0 => self.test_in(Prime::new(self.moduli), groups, roots),
@@ -117,11 +117,11 @@ impl<'a> Trial<'a> {
     ) -> bool {
         let tape = Tape::new(&self.algebraic.graph, &[given, group].concat());
         let mut evaluator = Evaluator::new(&tape, field);
-        let mut chance = Chance::of(self.digest, Stream::Points);
+        let mut rng = ProofRng::of(self.digest, ProofStream::Points);
         let mut lacking = [0; PRIMES];
-        for _ in (0..DRAWS << roots.nested.min(MOST_NESTED)).step_by(POINTS) {
-            evaluator.run(&F::blocks(&self.points(roots.fixed, &mut chance)));
-            for lane in 0..LANES {
+        for _ in (0..DRAWS << roots.nested.min(MOST_NESTED)).step_by(PRIME_POINTS) {
+            evaluator.run(&F::blocks(&self.points(roots.fixed, &mut rng)));
+            for lane in 0..TRIAL_LANES {
                 let mut exists = evaluator.outputs().map(|block| F::is_zero(block, lane).is_some());
                 if exists.by_ref().take(given.len()).all(|exists| exists) {
                     if exists.all(|exists| exists) {
@@ -130,16 +130,21 @@ impl<'a> Trial<'a> {
                     lacking[prime_of(lane)] += 1;
                 }
             }
-            if lacking.iter().all(|count| *count >= POINTS) {
+            if lacking.iter().all(|count| *count >= PRIME_POINTS) {
                 return true;
             }
         }
         false
     }
 
-    fn test_in<F: Residues>(&self, field: F, groups: &[&[Expr]], roots: Roots<'_>) -> Vec<Finding> {
+    fn test_in<F: Residues>(
+        &self,
+        field: F,
+        groups: &[&[Expr]],
+        roots: Roots<'_>,
+    ) -> Vec<TrialResult> {
         let draws = DRAWS << roots.nested.min(MOST_NESTED);
-        let mut findings: Vec<Option<Finding>> = Vec::new();
+        let mut findings: Vec<Option<TrialResult>> = Vec::new();
         let mut certificates: Vec<Option<Certificate>> = Vec::new();
         for group in groups {
             let certificate = self.certificate(group, roots, draws);
@@ -151,10 +156,10 @@ impl<'a> Trial<'a> {
                     bound.degree, bound.height
                 )),
             };
-            findings.push(silence.map(Finding::Silent));
+            findings.push(silence.map(TrialResult::Silent));
             certificates.push(certificate);
         }
-        let mut chance = Chance::of(self.digest, Stream::Points);
+        let mut rng = ProofRng::of(self.digest, ProofStream::Points);
         let mut accepted = vec![[0usize; PRIMES]; groups.len()];
         let mut drawn = 0;
         while drawn < draws {
@@ -170,19 +175,19 @@ impl<'a> Trial<'a> {
             // Until a group is settled, the tape need not be laid out anew.
             let mut unsettled = true;
             while unsettled && drawn < draws {
-                let points = self.points(roots.fixed, &mut chance);
+                let points = self.points(roots.fixed, &mut rng);
                 evaluator.run(&F::blocks(&points));
-                drawn += POINTS as u64;
+                drawn += PRIME_POINTS as u64;
                 let mut values = evaluator.outputs();
                 for index in &open {
                     let own: Vec<&F::Block> = values.by_ref().take(groups[*index].len()).collect();
                     let finding = &mut findings[*index];
                     let accepted = &mut accepted[*index];
                     if is_nonzero::<F>(&own, accepted) {
-                        *finding = Some(Finding::NonZero);
-                    } else if accepted.iter().all(|count| *count >= POINTS) {
+                        *finding = Some(TrialResult::NonZero);
+                    } else if accepted.iter().all(|count| *count >= PRIME_POINTS) {
                         *finding = certificates[*index].map(|certificate| {
-                            Finding::Zero(Certificate {
+                            TrialResult::Zero(Certificate {
                                 points: accepted.iter().sum(),
                                 draws: drawn * PRIMES as u64,
                                 ..certificate
@@ -198,7 +203,7 @@ impl<'a> Trial<'a> {
             .zip(accepted)
             .map(|(finding, accepted)| {
                 finding.unwrap_or_else(|| {
-                    Finding::Silent(format!(
+                    TrialResult::Silent(format!(
                         "only {} of {} random points have a value: a denominator is always 0, or a \
                          root never exists",
                         accepted.iter().sum::<usize>(),
@@ -210,14 +215,14 @@ impl<'a> Trial<'a> {
     }
 
     /// Draws the inputs of one block of random points.
-    pub fn points(&self, fixed: &[(usize, bool)], chance: &mut Chance) -> Vec<[u64; LANES]> {
-        points(&self.moduli, &self.algebraic.sources, fixed, chance)
+    pub fn points(&self, fixed: &[(usize, bool)], rng: &mut ProofRng) -> Vec<[u64; TRIAL_LANES]> {
+        points(&self.moduli, &self.algebraic.sources, fixed, rng)
     }
 }
 
 /// Whether some value of a group is nonzero at an accepted point; counts the accepted ones.
 fn is_nonzero<F: Residues>(values: &[&F::Block], accepted: &mut [usize; PRIMES]) -> bool {
-    for lane in 0..LANES {
+    for lane in 0..TRIAL_LANES {
         let zeros = values.iter().map(|block| F::is_zero(block, lane));
         let Some(zeros) = zeros.collect::<Option<Vec<bool>>>() else { continue };
         if zeros.contains(&false) {

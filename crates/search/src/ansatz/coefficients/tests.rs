@@ -1,7 +1,9 @@
 //! Tests of reconstruction and of the text of coefficients.
 
+use super::numbers::fraction;
 use super::*;
 use liouville::case::Case;
+use num_traits::One;
 
 #[test]
 fn large_fractions_come_from_several_primes() {
@@ -26,7 +28,7 @@ fn coefficients_read_well() {
     let one = |a: [u32; 2], value: i64| (a.to_vec(), BigInt::from(value));
     let polynomials =
         vec![vec![one([1, 0], 2)], Vec::new(), vec![one([0, 0], -4), one([0, 2], -6)]];
-    let coefficients = Coefficients { names, polynomials }.reduced();
+    let coefficients = PrimitiveVector { names, polynomials }.reduced();
     let text = |functions: [Ratio; 3]| {
         let sum = coefficients.sum(&[0, 1, 2], &functions).expect("scalars");
         sum.expect("it is not empty").to_string()

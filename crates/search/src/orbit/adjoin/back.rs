@@ -4,12 +4,12 @@
 
 use num_integer::Integer;
 
-use super::ring::{Atom, Ring};
-use super::write::{Names, written};
+use super::ring::{AdjoinedRing, Atom};
+use super::write::{RingNames, written};
 
 /// A function by its name in the extended case.
 #[derive(Clone, Debug)]
-struct Entry {
+struct AdjoinedFunction {
     name: String,
     text: String,
     /// Base and order of an inverse b^(−1/n).
@@ -21,12 +21,12 @@ struct Entry {
 /// The names of all functions.
 #[derive(Clone, Debug)]
 pub struct Back {
-    entries: Vec<Entry>,
+    entries: Vec<AdjoinedFunction>,
 }
 
 impl Back {
     /// Takes the functions of a ring.
-    pub fn of(ring: &Ring, names: &Names) -> Self {
+    pub fn of(ring: &AdjoinedRing, names: &RingNames) -> Self {
         let entry = |(place, atom): (usize, &Atom)| {
             let inverse = match atom {
                 Atom::Inverse(base, order) => Some((written(base, &names.original), *order)),
@@ -36,7 +36,7 @@ impl Back {
                 Atom::Root(base, order) => Some((written(base, &names.original), *order)),
                 _ => None,
             };
-            Entry {
+            AdjoinedFunction {
                 name: names.extended[place].clone(),
                 text: names.original[place].clone(),
                 inverse,
@@ -303,7 +303,7 @@ mod tests {
 
     #[test]
     fn functions_are_written_as_a_person_writes_them() {
-        let entry = |name: &str, text: &str, inverse: Option<(&str, u32)>| Entry {
+        let entry = |name: &str, text: &str, inverse: Option<(&str, u32)>| AdjoinedFunction {
             name: name.to_string(),
             text: text.to_string(),
             inverse: inverse.map(|(base, order)| (base.to_string(), order)),

@@ -6,6 +6,7 @@
 //! rates        rates of the functions, and monomials that relations make superfluous
 //! read         recorded formulas as polynomials of the ring
 //! absence      the polynomials that a theorem of absence covers
+//! implied      relations between these that known integrals imply
 //! write        the extended field as a case, with the functions' relations as a level set
 //! back         formulas of the extended case in the names of the case itself
 //! ```
@@ -17,6 +18,7 @@
 
 pub mod absence;
 mod back;
+mod implied;
 mod polynomial;
 mod rates;
 mod read;
@@ -25,17 +27,19 @@ mod write;
 
 use liouville::case::Case;
 use liouville::formula::{Formula, Type};
+use liouville::graph::Step;
 use liouville::mechanics::Chart;
+use liouville::number::UnaryFunction;
+use liouville::number::rational::Rational;
 
-use self::absence::Class;
+use self::absence::AdjoinedPolynomials;
 use self::back::Back;
-use self::polynomial::{Monomial, Polynomial};
-use self::read::Reader;
-use self::ring::{Atom, Divided, Ring};
-use self::write::Names;
-use super::super::ask::proved_energy;
+use self::polynomial::{Monomial, RingPolynomial};
+use self::read::StepReader;
+use self::ring::{AdjoinedRing, Atom, Divided, Of};
+use self::write::RingNames;
 use super::super::terms::recorded;
-use super::super::{Effort, Report, SearchError, Term};
+use super::super::{Effort, FurtherTerm, SearchError};
 
 /// Largest number of variables.
 const VARIABLES: usize = 18;
@@ -53,13 +57,16 @@ pub struct Extension {
     /// Integrals that are known.
     pub known: Vec<Formula>,
     /// Polynomials that a theorem of absence covers.
-    pub class: Option<Class>,
+    pub class: Option<AdjoinedPolynomials>,
+    /// The known integrals as polynomials of the ring, by their places among those given.
+    read: Vec<(usize, RingPolynomial)>,
+    ring: AdjoinedRing,
     /// Functions whose powers may be factors of densities and integrals.
     pub factors: Vec<Formula>,
     back: Back,
     exponentials: Vec<String>,
     /// Arguments of sines and cosines.
-    angles: Vec<Polynomial>,
+    angles: Vec<RingPolynomial>,
     /// Monomials of the extended state that relations between the functions write in others.
     leading: Vec<Monomial>,
 }
@@ -73,6 +80,15 @@ impl Extension {
     /// Writes an integral in the names of the case itself, up to a factor or as its inverse.
     pub fn back_integral(&self, formula: &Formula) -> String {
         self.back.integral(formula.text())
+    }
+
+    /// Describes the polynomials of a class up to a degree; `terms` are the components of the extended
+    /// state.
+    pub fn words(&self, terms: &[Formula], class: &AdjoinedPolynomials, degree: u32) -> String {
+        let own = class.variables().into_iter().filter_map(|place| terms.get(place));
+        let names: Vec<String> = own.map(|term| self.back(term)).collect();
+        let addition = if class.is_linear { ", linear in each root" } else { "" };
+        format!("polynomials in {} of degree at most {degree}{addition}", names.join(", "))
     }
 
     /// Whether no relation between the functions writes a monomial in others of its degree.
@@ -97,35 +113,62 @@ impl Extension {
 
 /// Polynomials that are read from one recording.
 struct Read {
-    ring: Ring,
-    field: Vec<Polynomial>,
-    divergence: Polynomial,
-    known: Vec<Polynomial>,
+    ring: AdjoinedRing,
+    field: Vec<RingPolynomial>,
+    divergence: RingPolynomial,
+    known: Vec<(usize, RingPolynomial)>,
+}
+
+/// Adjoins the functions of a field and of known integrals, if there are any; `None` if the field
+/// contains functions whose rates are not polynomials in them.
+pub fn always_extended(
+    case: &Case,
+    effort: &Effort,
+    known: &[Formula],
+) -> Result<Option<Extension>, SearchError> {
+    match read(case, effort, known, Vec::new())? {
+        Some(made) => written(case, made, effort.options.seed),
+        None => Ok(None),
+    }
 }
 
 /// Adjoins the functions of a field; `None` if it is polynomial, or contains functions whose rates are
-/// not polynomials in them.
+/// not polynomials in them. Functions in the integrals `known` are adjoined as well.
 pub fn extended(
     case: &Case,
     effort: &Effort,
-    report: &Report,
-    mut divided: Vec<Divided>,
+    known: &[Formula],
+    divided: Vec<Divided>,
 ) -> Result<Option<Extension>, SearchError> {
+    let Some(made) = read(case, effort, known, divided)? else { return Ok(None) };
+    match functions(&made.ring) > 0 || names_are_foreign(case) {
+        true => written(case, made, effort.options.seed),
+        false => Ok(None),
+    }
+}
+
+/// Reads the field and known integrals as polynomials.
+fn read(
+    case: &Case,
+    effort: &Effort,
+    known: &[Formula],
+    mut divided: Vec<Divided>,
+) -> Result<Option<Read>, SearchError> {
     let model = &case.model;
     if !model.level.is_empty() || !matches!(case.chart, Chart::Free) {
         return Ok(None);
     }
-    let mut known: Vec<Formula> = proved_energy(case, effort)?.into_iter().collect();
-    known.extend(report.functions("integral").cloned());
-    known.retain(|formula| formula.value_type() == Type::Scalar);
+    let known: Vec<(usize, &Formula)> =
+        known.iter().enumerate().filter(|(_, own)| own.value_type() == Type::Scalar).collect();
     let typed: Vec<Formula> = effort
         .terms
         .iter()
-        .filter_map(|term: &Term| term.read(model).ok())
+        .filter_map(|term: &FurtherTerm| term.read(model).ok())
         .filter(|formula| formula.value_type() == Type::Scalar)
         .collect();
     let (graph, (field, divergence, known, typed)) = recorded(case, |jet| {
-        let known: Vec<_> = known.iter().map(|own| jet.phase.scalar(own)).collect();
+        let known: Vec<_> =
+            known.iter().map(|(place, own)| (*place, jet.phase.scalar(own))).collect();
         let typed: Vec<_> = typed.iter().map(|own| jet.phase.scalar(own)).collect();
         (jet.phase.field().to_vec(), jet.divergence(), known, typed)
     })?;
@@ -134,20 +177,23 @@ pub fn extended(
         return Ok(None);
     }
     let place = |own: &_| graph.place(*own);
-    let read = |ring: &mut Ring| -> Option<(Vec<Polynomial>, Polynomial, Vec<Polynomial>)> {
-        let mut reader = Reader::new(&graph);
-        let field: Option<Vec<Polynomial>> =
+    let read = |ring: &mut AdjoinedRing| -> Option<(Vec<RingPolynomial>, RingPolynomial, Vec<_>)> {
+        let mut reader = StepReader::new(&graph);
+        let field: Option<Vec<RingPolynomial>> =
             field.iter().map(|own| reader.read(place(own), ring)).collect();
         let (field, divergence) = (field?, reader.read(place(&divergence), ring)?);
         for own in &typed {
             reader.read(place(own), ring);
         }
-        let known = known.iter().filter_map(|own| reader.read(place(own), ring)).collect();
+        let known = known.iter();
+        let known =
+            known.filter_map(|(k, own)| Some((*k, reader.read(place(own), ring)?))).collect();
         Some((field, divergence, known))
     };
     let mut made = None;
     for _ in 0..TRIES {
-        let mut ring = Ring::new(parameters, model.dimension(), std::mem::take(&mut divided));
+        let mut ring =
+            AdjoinedRing::new(parameters, model.dimension(), std::mem::take(&mut divided));
         let found = read(&mut ring);
         if ring.is_refined {
             divided = ring.divided;
@@ -156,26 +202,64 @@ pub fn extended(
         made = found.map(|(field, divergence, known)| Read { ring, field, divergence, known });
         break;
     }
-    let Some(made) = made else { return Ok(None) };
-    written(case, &made, effort.options.seed)
+    Ok(made)
 }
 
-fn written(case: &Case, read: &Read, seed: u64) -> Result<Option<Extension>, SearchError> {
-    let ring = &read.ring;
+/// Number of functions of the state that are adjoined.
+fn functions(ring: &AdjoinedRing) -> usize {
     let is_function =
         |atom: &&Atom| !matches!(atom, Atom::Parameter | Atom::State | Atom::Constant(_));
-    let functions = ring.atoms.iter().filter(is_function).count();
-    let is_needed = functions > 0 || names_are_foreign(case);
-    if !is_needed || functions + case.model.dimension() > VARIABLES {
+    ring.atoms.iter().filter(is_function).count()
+}
+
+/// Lists the square roots of functions of the parameters in a field, with the number under a root of a
+/// number.
+pub fn roots(case: &Case) -> Result<Vec<(Formula, Option<Rational>)>, SearchError> {
+    let parameters = case.model.free_components();
+    let (graph, field) = recorded(case, |jet| jet.phase.field().to_vec())?;
+    let reached = graph.reached(field);
+    let mut ring = AdjoinedRing::new(parameters, case.model.dimension(), Vec::new());
+    let mut reader = StepReader::new(&graph);
+    let mut varies = vec![false; graph.len()];
+    for (place, step) in graph.steps().enumerate() {
+        varies[place] = match step {
+            Step::Input(input) => input >= parameters,
+            _ => step.arguments().any(|argument| varies[argument]),
+        };
+        let is_root = match step {
+            Step::Unary(function, _) => function == UnaryFunction::Sqrt,
+            Step::Power(_, exponent) => exponent.parts().1 == 2.into(),
+            _ => false,
+        };
+        if is_root && reached[place] && !varies[place] {
+            reader.read(place, &mut ring);
+        }
+    }
+    let names = RingNames::of(case, &ring);
+    let mut found = Vec::new();
+    for (atom, name) in ring.atoms.iter().zip(&names.original) {
+        if let Atom::Constant(Of::Root(base)) = atom
+            && let Ok(formula) = case.formula(name)
+        {
+            found.push((formula, base.value()));
+        }
+    }
+    Ok(found)
+}
+
+fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, SearchError> {
+    let ring = &read.ring;
+    if functions(ring) + case.model.dimension() > VARIABLES {
         return Ok(None);
     }
-    let names = Names::of(case, ring);
+    let names = RingNames::of(case, ring);
     let Some(rates) = ring.rates(&read.field) else { return Ok(None) };
     let Some(text) = write::case(case, ring, &rates, &names) else { return Ok(None) };
     let Ok(extended) = Case::parse(&text, &[]) else { return Ok(None) };
-    let formula = |own: &Polynomial| extended.formula(&write::written(own, &names.extended)).ok();
+    let formula =
+        |own: &RingPolynomial| extended.formula(&write::written(own, &names.extended)).ok();
     let Some(divergence) = formula(&read.divergence) else { return Ok(None) };
-    let known = read.known.iter().filter_map(formula).collect();
+    let known = read.known.iter().filter_map(|(_, own)| formula(own)).collect();
     let exponentials = ring
         .atoms
         .iter()
@@ -185,13 +269,15 @@ fn written(case: &Case, read: &Read, seed: u64) -> Result<Option<Extension>, Sea
     Ok(Some(Extension {
         divergence,
         known,
-        class: Class::of(&case.model, ring, seed),
+        class: AdjoinedPolynomials::of(&case.model, ring, seed),
         factors: factors(ring, &names, formula),
         angles: angles(ring),
         leading: ring.leading(),
         back: Back::of(ring, &names),
         exponentials: exponentials.collect(),
         case: extended,
+        read: read.known,
+        ring: read.ring,
     }))
 }
 
@@ -203,7 +289,7 @@ fn names_are_foreign(case: &Case) -> bool {
 }
 
 /// Arguments of sines and cosines.
-fn angles(ring: &Ring) -> Vec<Polynomial> {
+fn angles(ring: &AdjoinedRing) -> Vec<RingPolynomial> {
     let argument = |atom: &Atom| match atom {
         Atom::Sine(argument) => Some(argument.clone()),
         _ => None,
@@ -213,19 +299,19 @@ fn angles(ring: &Ring) -> Vec<Polynomial> {
 
 /// Bases of denominators and roots, sines and cosines, and the sums of a root and a variable.
 fn factors(
-    ring: &Ring,
-    names: &Names,
-    formula: impl Fn(&Polynomial) -> Option<Formula>,
+    ring: &AdjoinedRing,
+    names: &RingNames,
+    formula: impl Fn(&RingPolynomial) -> Option<Formula>,
 ) -> Vec<Formula> {
-    let mut all: Vec<Polynomial> = Vec::new();
+    let mut all: Vec<RingPolynomial> = Vec::new();
     let state = (0..ring.atoms.len()).filter(|k| matches!(ring.atoms[*k], Atom::State));
     let state: Vec<usize> = state.collect();
     for (place, atom) in ring.atoms.iter().enumerate() {
-        let this = Polynomial::variable(place, 1);
+        let this = RingPolynomial::variable(place, 1);
         match atom {
             Atom::Root(base, _) => {
                 all.push(base.clone());
-                let sum = |k: &usize| this.plus(&Polynomial::variable(*k, 1), &1.into());
+                let sum = |k: &usize| this.plus(&RingPolynomial::variable(*k, 1), &1.into());
                 all.extend(state.iter().filter_map(sum));
             }
             Atom::Inverse(base, 1) => all.push(base.clone()),

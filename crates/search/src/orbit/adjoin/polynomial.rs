@@ -2,19 +2,20 @@
 
 use std::collections::BTreeMap;
 
+use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
 
 /// Largest number of terms; longer polynomials are not made.
-const MOST: usize = 400;
+const MOST_TERMS: usize = 400;
 
 /// Powers of variables, by increasing variables, without powers 0.
 pub type Monomial = Vec<(usize, u32)>;
 
 /// A polynomial in numbered variables.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Polynomial(BTreeMap<Monomial, Rational>);
+pub struct RingPolynomial(BTreeMap<Monomial, Rational>);
 
-impl Polynomial {
+impl RingPolynomial {
     /// A constant.
     pub fn constant(value: Rational) -> Self {
         Self::term(Monomial::new(), value)
@@ -68,6 +69,18 @@ impl Polynomial {
         all
     }
 
+    /// Value modulo a prime; `None` if a coefficient has none.
+    pub fn residue(&self, m: &Modulus, point: &[u64]) -> Option<u64> {
+        let mut sum = 0;
+        for (monomial, factor) in &self.0 {
+            let own = monomial.iter().fold(m.rational(factor)?, |product, (variable, power)| {
+                m.mul(product, m.power(point[*variable], u64::from(*power)))
+            });
+            sum = m.add(sum, own);
+        }
+        Some(sum)
+    }
+
     /// Sum with a multiple of another polynomial.
     pub fn plus(&self, other: &Self, factor: &Rational) -> Option<Self> {
         let mut terms = self.0.clone();
@@ -90,7 +103,7 @@ impl Polynomial {
             for (b, y) in &other.0 {
                 add(&mut terms, product(a, b), &(x * y));
             }
-            if terms.len() > MOST {
+            if terms.len() > MOST_TERMS {
                 return None;
             }
         }
@@ -141,8 +154,8 @@ impl Polynomial {
     }
 }
 
-fn limited(terms: BTreeMap<Monomial, Rational>) -> Option<Polynomial> {
-    (terms.len() <= MOST).then_some(Polynomial(terms))
+fn limited(terms: BTreeMap<Monomial, Rational>) -> Option<RingPolynomial> {
+    (terms.len() <= MOST_TERMS).then_some(RingPolynomial(terms))
 }
 
 fn add(terms: &mut BTreeMap<Monomial, Rational>, own: Monomial, value: &Rational) {
@@ -170,13 +183,13 @@ fn quotient(a: &Monomial, b: &Monomial) -> Monomial {
 }
 
 /// Rational coefficients q with a = Σ q_j b_j.
-pub fn combination(a: &Polynomial, basis: &[Polynomial]) -> Option<Vec<Rational>> {
+pub fn combination(a: &RingPolynomial, basis: &[RingPolynomial]) -> Option<Vec<Rational>> {
     // Rows of monomials, columns of the basis, with `a` as the last.
-    let all: Vec<&Polynomial> = basis.iter().chain([a]).collect();
+    let all: Vec<&RingPolynomial> = basis.iter().chain([a]).collect();
     let mut monomials: Vec<&Monomial> = all.iter().flat_map(|own| own.0.keys()).collect();
     monomials.sort();
     monomials.dedup();
-    let entry = |own: &Polynomial, monomial: &Monomial| {
+    let entry = |own: &RingPolynomial, monomial: &Monomial| {
         own.0.get(monomial).cloned().unwrap_or_else(|| Rational::from(0))
     };
     let mut rows: Vec<Vec<Rational>> = monomials
@@ -216,8 +229,8 @@ pub fn combination(a: &Polynomial, basis: &[Polynomial]) -> Option<Vec<Rational>
 mod tests {
     use super::*;
 
-    fn x(variable: usize) -> Polynomial {
-        Polynomial::variable(variable, 1)
+    fn x(variable: usize) -> RingPolynomial {
+        RingPolynomial::variable(variable, 1)
     }
 
     #[test]
@@ -226,7 +239,7 @@ mod tests {
         let sum = x(0).plus(&x(1), &one).expect("short");
         let difference = x(0).plus(&x(1), &minus).expect("short");
         let product = sum.times(&difference).expect("short");
-        let squares = Polynomial::variable(0, 2).plus(&Polynomial::variable(1, 2), &minus);
+        let squares = RingPolynomial::variable(0, 2).plus(&RingPolynomial::variable(1, 2), &minus);
         assert_eq!(Some(product), squares, "(x + y)(x − y) = x² − y²");
         assert!(sum.plus(&sum, &minus).expect("short").is_zero(), "x − x");
         let own = x(2).times(&difference).expect("short").times_number(&Rational::from(3));
@@ -235,9 +248,9 @@ mod tests {
         // x' = y, y' = 1: (x y)' = y² + x
         let rate = x(0).times(&x(1)).expect("short").rate(|k| match k {
             0 => Some(x(1)),
-            _ => Some(Polynomial::constant(Rational::from(1))),
+            _ => Some(RingPolynomial::constant(Rational::from(1))),
         });
-        assert_eq!(rate, Polynomial::variable(1, 2).plus(&x(0), &one));
+        assert_eq!(rate, RingPolynomial::variable(1, 2).plus(&x(0), &one));
     }
 
     #[test]

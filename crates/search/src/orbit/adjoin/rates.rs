@@ -2,10 +2,10 @@
 
 use liouville::number::rational::Rational;
 
-use super::polynomial::{Monomial, Polynomial};
-use super::ring::{Atom, Ring};
+use super::polynomial::{Monomial, RingPolynomial};
+use super::ring::{AdjoinedRing, Atom};
 
-impl Ring {
+impl AdjoinedRing {
     /// Monomials that a relation between functions writes in others of at most its degree; their
     /// variables are counted without parameters and functions of these.
     pub fn leading(&self) -> Vec<Monomial> {
@@ -42,23 +42,23 @@ impl Ring {
     }
 
     /// Rates of all variables along a motion, `state` those of the state's components.
-    pub fn rates(&self, state: &[Polynomial]) -> Option<Vec<Polynomial>> {
-        let mut rates: Vec<Polynomial> = Vec::with_capacity(self.atoms.len());
+    pub fn rates(&self, state: &[RingPolynomial]) -> Option<Vec<RingPolynomial>> {
+        let mut rates: Vec<RingPolynomial> = Vec::with_capacity(self.atoms.len());
         let mut own = state.iter();
         for (place, atom) in self.atoms.iter().enumerate() {
-            let slope = |of: &Polynomial| of.rate(|k| rates.get(k).cloned());
-            let this = |power| Polynomial::variable(place, power);
+            let slope = |of: &RingPolynomial| of.rate(|k| rates.get(k).cloned());
+            let this = |power| RingPolynomial::variable(place, power);
             let rate = match atom {
-                Atom::Parameter | Atom::Constant(_) => Polynomial::default(),
+                Atom::Parameter | Atom::Constant(_) => RingPolynomial::default(),
                 Atom::State => own.next()?.clone(),
                 Atom::Exponential(u) | Atom::ExponentialOf(u, _) => slope(u)?.times(&this(1))?,
-                Atom::Sine(u) => slope(u)?.times(&Polynomial::variable(place + 1, 1))?,
+                Atom::Sine(u) => slope(u)?.times(&RingPolynomial::variable(place + 1, 1))?,
                 Atom::Cosine(u) => {
-                    let sine = Polynomial::variable(place - 1, 1);
+                    let sine = RingPolynomial::variable(place - 1, 1);
                     slope(u)?.times(&sine)?.times_number(&Rational::from(-1))
                 }
                 Atom::Root(base, order) => slope(base)?
-                    .times(&Polynomial::variable(place + 1, order - 1))?
+                    .times(&RingPolynomial::variable(place + 1, order - 1))?
                     .times_number(&Rational::new(1, i64::from(*order))),
                 Atom::Inverse(base, order) => slope(base)?
                     .times(&this(order + 1))?

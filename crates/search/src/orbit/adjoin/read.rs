@@ -2,25 +2,25 @@
 
 use liouville::graph::{Graph, Step};
 use liouville::number::rational::Rational;
-use liouville::number::{Function, Operation};
+use liouville::number::{BinaryOperation, UnaryFunction};
 
-use super::polynomial::Polynomial;
-use super::ring::Ring;
+use super::polynomial::RingPolynomial;
+use super::ring::AdjoinedRing;
 
 /// Steps of a recording as polynomials.
-pub struct Reader<'g> {
+pub struct StepReader<'g> {
     graph: &'g Graph,
-    values: Vec<Option<Polynomial>>,
+    values: Vec<Option<RingPolynomial>>,
 }
 
-impl<'g> Reader<'g> {
+impl<'g> StepReader<'g> {
     /// Starts with nothing read.
     pub fn new(graph: &'g Graph) -> Self {
         Self { graph, values: vec![None; graph.len()] }
     }
 
     /// The value of a step; `None` if it is not a polynomial in functions that can be adjoined.
-    pub fn read(&mut self, place: usize, ring: &mut Ring) -> Option<Polynomial> {
+    pub fn read(&mut self, place: usize, ring: &mut AdjoinedRing) -> Option<RingPolynomial> {
         let reached = self.graph.reached_from(&[place]);
         for own in (0..=place).filter(|own| reached[*own]) {
             if self.values[own].is_none() {
@@ -38,12 +38,12 @@ impl<'g> Reader<'g> {
     }
 
     /// The inverse of a step, factor by factor: a product that is written out has lost its factors.
-    fn inverse(&self, place: usize, ring: &mut Ring) -> Option<Polynomial> {
+    fn inverse(&self, place: usize, ring: &mut AdjoinedRing) -> Option<RingPolynomial> {
         match self.graph.step(place) {
-            Step::Unary(Function::Neg, a) => {
+            Step::Unary(UnaryFunction::Neg, a) => {
                 Some(self.inverse(a, ring)?.times_number(&Rational::from(-1)))
             }
-            Step::Binary(Operation::Mul, a, b) => {
+            Step::Binary(BinaryOperation::Mul, a, b) => {
                 self.inverse(a, ring)?.times(&self.inverse(b, ring)?)
             }
             Step::Power(a, exponent) => ring.power(self.values[a].as_ref()?, &-exponent),
@@ -51,33 +51,33 @@ impl<'g> Reader<'g> {
         }
     }
 
-    fn step(&self, place: usize, ring: &mut Ring) -> Option<Polynomial> {
+    fn step(&self, place: usize, ring: &mut AdjoinedRing) -> Option<RingPolynomial> {
         let of = |place: usize| self.values[place].as_ref();
         let (one, minus) = (Rational::from(1), Rational::from(-1));
         match self.graph.step(place) {
-            Step::Constant(value) => Some(Polynomial::constant(value.clone())),
-            Step::Input(input) => Some(Polynomial::variable(input, 1)),
+            Step::Constant(value) => Some(RingPolynomial::constant(value.clone())),
+            Step::Input(input) => Some(RingPolynomial::variable(input, 1)),
             Step::Unary(function, a) => {
                 let a = of(a)?;
                 match function {
-                    Function::Neg => Some(a.times_number(&minus)),
-                    Function::Recip => self.inverse(self.argument(place)?, ring),
-                    Function::Sqrt => ring.power(a, &Rational::new(1, 2)),
-                    Function::Exp => ring.exponential(a),
-                    Function::Ln => ring.logarithm(a),
-                    Function::Sin => ring.circular(a).map(|[_, sine]| sine),
-                    Function::Cos => ring.circular(a).map(|[cosine, _]| cosine),
-                    Function::Atan => ring.arctangent(a),
-                    Function::Abs => None,
+                    UnaryFunction::Neg => Some(a.times_number(&minus)),
+                    UnaryFunction::Recip => self.inverse(self.argument(place)?, ring),
+                    UnaryFunction::Sqrt => ring.power(a, &Rational::new(1, 2)),
+                    UnaryFunction::Exp => ring.exponential(a),
+                    UnaryFunction::Ln => ring.logarithm(a),
+                    UnaryFunction::Sin => ring.circular(a).map(|[_, sine]| sine),
+                    UnaryFunction::Cos => ring.circular(a).map(|[cosine, _]| cosine),
+                    UnaryFunction::Atan => ring.arctangent(a),
+                    UnaryFunction::Abs => None,
                 }
             }
             Step::Binary(operation, a, b) => {
                 let (a, b) = (of(a)?, of(b)?);
                 match operation {
-                    Operation::Add => a.plus(b, &one),
-                    Operation::Sub => a.plus(b, &minus),
-                    Operation::Mul => a.times(b),
-                    Operation::Pow => ring.general_power(a, b),
+                    BinaryOperation::Add => a.plus(b, &one),
+                    BinaryOperation::Sub => a.plus(b, &minus),
+                    BinaryOperation::Mul => a.times(b),
+                    BinaryOperation::Pow => ring.general_power(a, b),
                 }
             }
             Step::Power(a, exponent) => ring.power(of(a)?, exponent),

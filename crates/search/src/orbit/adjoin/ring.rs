@@ -6,7 +6,7 @@
 
 use liouville::number::rational::Rational;
 
-use super::polynomial::{Monomial, Polynomial, combination};
+use super::polynomial::{Monomial, RingPolynomial, combination};
 
 /// Largest power of a function that is written out.
 const HIGHEST: i64 = 24;
@@ -21,50 +21,50 @@ pub enum Atom {
     /// Function of the parameters alone.
     Constant(Of),
     /// e^u with u independent of other arguments.
-    Exponential(Polynomial),
+    Exponential(RingPolynomial),
     /// e^u as a product of powers of other exponentials, some negative.
-    ExponentialOf(Polynomial, Vec<(usize, i64)>),
+    ExponentialOf(RingPolynomial, Vec<(usize, i64)>),
     /// sin u, where the next variable is cos u.
-    Sine(Polynomial),
+    Sine(RingPolynomial),
     /// cos u, where the variable before is sin u.
-    Cosine(Polynomial),
+    Cosine(RingPolynomial),
     /// b^(1/n), where the next variable is its inverse.
-    Root(Polynomial, u32),
+    Root(RingPolynomial, u32),
     /// b^(−1/n), where the variable before is its inverse, if n > 1.
-    Inverse(Polynomial, u32),
+    Inverse(RingPolynomial, u32),
     /// ln b, with 1/b.
-    Logarithm(Polynomial, Polynomial),
+    Logarithm(RingPolynomial, RingPolynomial),
     /// atan u, with 1/(1 + u²).
-    Arctangent(Polynomial, Polynomial),
+    Arctangent(RingPolynomial, RingPolynomial),
     /// b^e with a constant e, with 1/b.
-    Power(Polynomial, Polynomial, Polynomial),
+    Power(RingPolynomial, RingPolynomial, RingPolynomial),
 }
 
 /// A function of the parameters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Of {
     /// 1/b.
-    Inverse(Polynomial),
+    Inverse(RingPolynomial),
     /// √b.
-    Root(Polynomial),
+    Root(RingPolynomial),
 }
 
 /// A reason to begin anew: an argument has to be divided.
 #[derive(Clone, Debug)]
 pub struct Divided {
     /// Argument that was taken first.
-    pub argument: Polynomial,
+    pub argument: RingPolynomial,
     /// Divisor that makes later arguments whole multiples.
     pub by: i64,
 }
 
 /// The ring of polynomials in the variables so far.
 #[derive(Clone, Debug, Default)]
-pub struct Ring {
+pub struct AdjoinedRing {
     /// Variables in the order in which they were adjoined.
     pub atoms: Vec<Atom>,
     /// Arguments of exponentials, and of sines and cosines, with the variable of each.
-    arguments: [Vec<(Polynomial, usize)>; 2],
+    arguments: [Vec<(RingPolynomial, usize)>; 2],
     /// Arguments to be divided.
     pub divided: Vec<Divided>,
     /// Whether reading failed as an argument has to be divided.
@@ -72,9 +72,9 @@ pub struct Ring {
 }
 
 /// A quotient in which the functions are adjoined; `None` where this is impossible.
-type Made = Option<Polynomial>;
+type Made = Option<RingPolynomial>;
 
-impl Ring {
+impl AdjoinedRing {
     /// Starts with the components of parameters and state; `divided` are arguments to be divided.
     pub fn new(parameters: usize, state: usize, divided: Vec<Divided>) -> Self {
         let parameters = vec![Atom::Parameter; parameters];
@@ -89,20 +89,20 @@ impl Ring {
     }
 
     /// Whether a polynomial depends on parameters only.
-    pub fn is_constant(&self, polynomial: &Polynomial) -> bool {
+    pub fn is_constant(&self, polynomial: &RingPolynomial) -> bool {
         let is_constant = |k: &usize| matches!(self.atoms[*k], Atom::Parameter | Atom::Constant(_));
         polynomial.variables().iter().all(is_constant)
     }
 
-    fn constant(&mut self, own: Of) -> Polynomial {
+    fn constant(&mut self, own: Of) -> RingPolynomial {
         let same = |atom: &Atom| matches!(atom, Atom::Constant(of) if *of == own);
         let place = self.atoms.iter().position(same);
         let place = place.unwrap_or_else(|| self.push(Atom::Constant(own)));
-        Polynomial::variable(place, 1)
+        RingPolynomial::variable(place, 1)
     }
 
     /// Power with a rational exponent.
-    pub fn power(&mut self, base: &Polynomial, exponent: &Rational) -> Made {
+    pub fn power(&mut self, base: &RingPolynomial, exponent: &Rational) -> Made {
         let (above, below) = exponent.small_parts()?;
         if above.abs() > HIGHEST || !(1..=HIGHEST).contains(&below) {
             return None;
@@ -115,9 +115,9 @@ impl Ring {
     }
 
     /// 1/p, factor by factor.
-    pub fn inverse(&mut self, own: &Polynomial) -> Made {
+    pub fn inverse(&mut self, own: &RingPolynomial) -> Made {
         let (value, monomial, rest) = own.split()?;
-        let mut made = Polynomial::constant(value.recip()?);
+        let mut made = RingPolynomial::constant(value.recip()?);
         for (variable, power) in monomial {
             made = made.times(&self.inverse_of_atom(variable)?.raised(power)?)?;
         }
@@ -133,16 +133,16 @@ impl Ring {
             Atom::Exponential(argument) | Atom::ExponentialOf(argument, _) => {
                 self.exponential(&argument.times_number(&minus))
             }
-            Atom::Root(..) => Some(Polynomial::variable(variable + 1, 1)),
+            Atom::Root(..) => Some(RingPolynomial::variable(variable + 1, 1)),
             Atom::Inverse(base, 1) => Some(base),
-            Atom::Inverse(..) => Some(Polynomial::variable(variable - 1, 1)),
+            Atom::Inverse(..) => Some(RingPolynomial::variable(variable - 1, 1)),
             Atom::Constant(Of::Inverse(base)) => Some(base),
-            _ => self.inverse_of_sum(&Polynomial::variable(variable, 1)),
+            _ => self.inverse_of_sum(&RingPolynomial::variable(variable, 1)),
         }
     }
 
     /// 1/b as a variable, or as a power of 1/b^(1/n).
-    fn inverse_of_sum(&mut self, base: &Polynomial) -> Made {
+    fn inverse_of_sum(&mut self, base: &RingPolynomial) -> Made {
         if self.is_constant(base) {
             return Some(self.constant(Of::Inverse(base.clone())));
         }
@@ -150,15 +150,15 @@ impl Ring {
             let Atom::Inverse(own, order) = atom else { continue };
             let Some((value, ..)) = own.split() else { continue };
             if base.times_number(&value) == *own {
-                return Some(Polynomial::variable(place, *order).times_number(&value));
+                return Some(RingPolynomial::variable(place, *order).times_number(&value));
             }
         }
         let place = self.push(Atom::Inverse(base.clone(), 1));
-        Some(Polynomial::variable(place, 1))
+        Some(RingPolynomial::variable(place, 1))
     }
 
     /// b^(above/order) with order > 1.
-    fn root(&mut self, base: &Polynomial, above: i64, order: u32) -> Made {
+    fn root(&mut self, base: &RingPolynomial, above: i64, order: u32) -> Made {
         if self.is_constant(base) {
             if order != 2 {
                 return None;
@@ -177,8 +177,8 @@ impl Ring {
         };
         let (whole, rest) = (above / i64::from(order), above % i64::from(order));
         match above {
-            0.. => base.raised(whole as u32)?.times(&Polynomial::variable(place, rest as u32)),
-            _ => Some(Polynomial::variable(place + 1, above.unsigned_abs() as u32)),
+            0.. => base.raised(whole as u32)?.times(&RingPolynomial::variable(place, rest as u32)),
+            _ => Some(RingPolynomial::variable(place + 1, above.unsigned_abs() as u32)),
         }
     }
 
@@ -187,10 +187,10 @@ impl Ring {
     fn multiples(
         &mut self,
         kind: usize,
-        argument: &Polynomial,
-        add: fn(&mut Self, &Polynomial) -> usize,
+        argument: &RingPolynomial,
+        add: fn(&mut Self, &RingPolynomial) -> usize,
     ) -> Option<Vec<(usize, i64)>> {
-        let basis: Vec<Polynomial> =
+        let basis: Vec<RingPolynomial> =
             self.arguments[kind].iter().map(|(own, _)| own.clone()).collect();
         if let Some(found) = combination(argument, &basis) {
             let mut all = Vec::new();
@@ -220,14 +220,14 @@ impl Ring {
     }
 
     /// e^u.
-    pub fn exponential(&mut self, argument: &Polynomial) -> Made {
+    pub fn exponential(&mut self, argument: &RingPolynomial) -> Made {
         if argument.is_zero() {
-            return Some(Polynomial::constant(Rational::from(1)));
+            return Some(RingPolynomial::constant(Rational::from(1)));
         }
         if self.is_constant(argument) {
             return None;
         }
-        let add = |ring: &mut Self, own: &Polynomial| ring.push(Atom::Exponential(own.clone()));
+        let add = |ring: &mut Self, own: &RingPolynomial| ring.push(Atom::Exponential(own.clone()));
         let multiples = self.multiples(0, argument, add)?;
         if multiples.iter().any(|(_, power)| power.abs() > HIGHEST) {
             return None;
@@ -235,7 +235,7 @@ impl Ring {
         if multiples.iter().all(|(_, power)| *power > 0) {
             let powers: Monomial =
                 multiples.iter().map(|(variable, power)| (*variable, *power as u32)).collect();
-            return Some(Polynomial::term(powers, Rational::from(1)));
+            return Some(RingPolynomial::term(powers, Rational::from(1)));
         }
         let (own, power) = match multiples.as_slice() {
             [(variable, power)] => (vec![(*variable, -1)], power.unsigned_abs() as u32),
@@ -249,33 +249,33 @@ impl Ring {
                 self.push(Atom::ExponentialOf(argument.times_number(&share), own))
             }
         };
-        Some(Polynomial::variable(place, power))
+        Some(RingPolynomial::variable(place, power))
     }
 
     /// cos u and sin u.
-    pub fn circular(&mut self, argument: &Polynomial) -> Option<[Polynomial; 2]> {
-        let one = Polynomial::constant(Rational::from(1));
+    pub fn circular(&mut self, argument: &RingPolynomial) -> Option<[RingPolynomial; 2]> {
+        let one = RingPolynomial::constant(Rational::from(1));
         if argument.is_zero() {
-            return Some([one, Polynomial::default()]);
+            return Some([one, RingPolynomial::default()]);
         }
         if self.is_constant(argument) {
             return None;
         }
-        let add = |ring: &mut Self, own: &Polynomial| {
+        let add = |ring: &mut Self, own: &RingPolynomial| {
             let sine = ring.push(Atom::Sine(own.clone()));
             ring.push(Atom::Cosine(own.clone()));
             sine
         };
         let minus = Rational::from(-1);
-        let mut made = [one, Polynomial::default()];
+        let mut made = [one, RingPolynomial::default()];
         for (sine, power) in self.multiples(1, argument, add)? {
             if power.abs() > HIGHEST {
                 return None;
             }
             let sign = Rational::from(power.signum());
             let (c, s) = (
-                Polynomial::variable(sine + 1, 1),
-                Polynomial::variable(sine, 1).times_number(&sign),
+                RingPolynomial::variable(sine + 1, 1),
+                RingPolynomial::variable(sine, 1).times_number(&sign),
             );
             for _ in 0..power.abs() {
                 let [a, b] = &made;
@@ -289,7 +289,7 @@ impl Ring {
     }
 
     /// ln b.
-    pub fn logarithm(&mut self, own: &Polynomial) -> Made {
+    pub fn logarithm(&mut self, own: &RingPolynomial) -> Made {
         self.function(
             own,
             |atom| matches!(atom, Atom::Logarithm(base, _) if base == own),
@@ -298,12 +298,12 @@ impl Ring {
     }
 
     /// atan u.
-    pub fn arctangent(&mut self, own: &Polynomial) -> Made {
+    pub fn arctangent(&mut self, own: &RingPolynomial) -> Made {
         self.function(
             own,
             |atom| matches!(atom, Atom::Arctangent(base, _) if base == own),
             |ring| {
-                let one = Polynomial::constant(Rational::from(1));
+                let one = RingPolynomial::constant(Rational::from(1));
                 let below = one.plus(&own.times(own)?, &Rational::from(1))?;
                 Some(Atom::Arctangent(own.clone(), ring.inverse(&below)?))
             },
@@ -311,7 +311,7 @@ impl Ring {
     }
 
     /// b^e with an exponent made of parameters.
-    pub fn general_power(&mut self, base: &Polynomial, exponent: &Polynomial) -> Made {
+    pub fn general_power(&mut self, base: &RingPolynomial, exponent: &RingPolynomial) -> Made {
         if !self.is_constant(exponent) {
             return None;
         }
@@ -323,7 +323,7 @@ impl Ring {
             let less = exponent.plus(other, &Rational::from(-1))?;
             if let Some(step) = less.value().and_then(|value| value.to_integer()) {
                 let rest = self.power(base, &Rational::from(step))?;
-                return Polynomial::variable(place, 1).times(&rest);
+                return RingPolynomial::variable(place, 1).times(&rest);
             }
         }
         self.function(
@@ -335,7 +335,7 @@ impl Ring {
 
     fn function(
         &mut self,
-        of: &Polynomial,
+        of: &RingPolynomial,
         is_same: impl Fn(&Atom) -> bool,
         make: impl FnOnce(&mut Self) -> Option<Atom>,
     ) -> Made {
@@ -349,6 +349,6 @@ impl Ring {
                 self.push(atom)
             }
         };
-        Some(Polynomial::variable(place, 1))
+        Some(RingPolynomial::variable(place, 1))
     }
 }

@@ -3,12 +3,12 @@
 use std::fmt::Write;
 
 use liouville::case::Case;
-use liouville::mechanics::{Draw, Model, Recipe};
+use liouville::mechanics::{Draw, Model, SamplerSpec};
 use liouville::number::rational::Rational;
 
 use super::names_are_foreign;
-use super::polynomial::Polynomial;
-use super::ring::{Atom, Of, Ring};
+use super::polynomial::RingPolynomial;
+use super::ring::{AdjoinedRing, Atom, Of};
 
 /// Beginning of the names of adjoined functions.
 const PREFIX: &str = "aux";
@@ -16,16 +16,16 @@ const PREFIX: &str = "aux";
 const RANGE: &str = "0.25..0.75";
 
 /// Names of the variables of a ring.
-pub struct Names {
+pub struct RingNames {
     /// Names in the extended case; functions of the parameters are written out.
     pub extended: Vec<String>,
     /// Functions in the names of the case.
     pub original: Vec<String>,
 }
 
-impl Names {
+impl RingNames {
     /// Names all variables of a ring.
-    pub fn of(case: &Case, ring: &Ring) -> Self {
+    pub fn of(case: &Case, ring: &AdjoinedRing) -> Self {
         let model = &case.model;
         let parameters = model
             .free_parameters()
@@ -57,8 +57,8 @@ impl Names {
 
 /// Definition of a function by the names before it.
 fn defined(atom: &Atom, names: &[String]) -> String {
-    let text = |own: &Polynomial| written(own, names);
-    let inside = |own: &Polynomial| match own.single() {
+    let text = |own: &RingPolynomial| written(own, names);
+    let inside = |own: &RingPolynomial| match own.single() {
         Some((monomial, value)) if value.is_one() && monomial.len() == 1 => text(own),
         _ => format!("({})", text(own)),
     };
@@ -81,7 +81,7 @@ fn defined(atom: &Atom, names: &[String]) -> String {
 }
 
 /// Writes a polynomial.
-pub fn written(own: &Polynomial, names: &[String]) -> String {
+pub fn written(own: &RingPolynomial, names: &[String]) -> String {
     let mut text = String::new();
     for (monomial, value) in own.terms() {
         let sign = match (value.is_negative(), text.is_empty()) {
@@ -118,12 +118,17 @@ pub fn written(own: &Polynomial, names: &[String]) -> String {
 }
 
 /// Writes the case whose state has the adjoined functions, with their relations as a level set.
-pub fn case(case: &Case, ring: &Ring, rates: &[Polynomial], names: &Names) -> Option<String> {
+pub fn case(
+    case: &Case,
+    ring: &AdjoinedRing,
+    rates: &[RingPolynomial],
+    names: &RingNames,
+) -> Option<String> {
     let model = &case.model;
     let names = &names.extended;
     let mut text = "title = \"extended field\"\nsystem = \"field\"\n[parameters]\n".to_string();
     for own in model.free_parameters() {
-        let liouville::mechanics::Origin::Free(recipe) = &own.origin else { return None };
+        let liouville::mechanics::ParameterOrigin::Free(recipe) = &own.origin else { return None };
         line(&mut text, &own.name, &recipe.text());
     }
     text.push_str("[state]\n");
@@ -132,7 +137,8 @@ pub fn case(case: &Case, ring: &Ring, rates: &[Polynomial], names: &Names) -> Op
     let ranges = match is_foreign {
         true => {
             let own = names[first..].iter().zip(&case.free_draws);
-            own.map(|(name, draw)| (name.clone(), Recipe::Scalar(draw.clone()).text())).collect()
+            own.map(|(name, draw)| (name.clone(), SamplerSpec::Scalar(draw.clone()).text()))
+                .collect()
         }
         false => ranges(model, &case.free_draws)?,
     };
@@ -158,7 +164,7 @@ pub fn case(case: &Case, ring: &Ring, rates: &[Polynomial], names: &Names) -> Op
     for place in &own {
         line(&mut text, &format!("{}'", names[*place]), &written(&rates[*place], names));
     }
-    let mut level = Level::default();
+    let mut level = FunctionChart::default();
     own.iter().for_each(|place| level.add(*place, &ring.atoms[*place], names));
     if level.equations.is_empty() {
         return Some(text);
@@ -191,9 +197,9 @@ fn ranges(model: &Model, draws: &[Draw]) -> Option<Vec<(String, String)>> {
         });
         use liouville::formula::Type::{Matrix, Scalar, Vector};
         let recipe = match variable.kind {
-            Scalar => Recipe::Scalar(draw),
-            Vector(length) => Recipe::Vector(length, draw),
-            Matrix(rows, columns) => Recipe::Matrix(rows, columns, draw),
+            Scalar => SamplerSpec::Scalar(draw),
+            Vector(length) => SamplerSpec::Vector(length, draw),
+            Matrix(rows, columns) => SamplerSpec::Matrix(rows, columns, draw),
         };
         all.push((variable.name.clone(), recipe.text()));
     }
@@ -202,13 +208,13 @@ fn ranges(model: &Model, draws: &[Draw]) -> Option<Vec<(String, String)>> {
 
 /// Relations between the functions, and a chart that solves them.
 #[derive(Default)]
-struct Level {
+struct FunctionChart {
     equations: Vec<String>,
     inputs: Vec<String>,
     chart: Vec<(String, String)>,
 }
 
-impl Level {
+impl FunctionChart {
     fn add(&mut self, place: usize, atom: &Atom, names: &[String]) {
         let name = names[place].clone();
         let mut relation = |equation: String, value: String| {
@@ -243,9 +249,9 @@ impl Level {
             Atom::ExponentialOf(_, powers) => {
                 let part = |sign: i64| {
                     let own = powers.iter().filter(|(_, power)| power.signum() == sign);
-                    let one = Polynomial::constant(Rational::from(1));
+                    let one = RingPolynomial::constant(Rational::from(1));
                     let own = own.fold(one.clone(), |made, (variable, power)| {
-                        let next = Polynomial::variable(*variable, power.unsigned_abs() as u32);
+                        let next = RingPolynomial::variable(*variable, power.unsigned_abs() as u32);
                         made.times(&next).unwrap_or_default()
                     });
                     written(&own, names)

@@ -50,14 +50,14 @@ pub(super) enum Area {
 
 /// Location of a vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum VectorLocation {
     Register(Register),
     Memory(Area, u32),
 }
 
 /// Instructions with two sources.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Pair {
+pub(super) enum PairInstruction {
     Add,
     Sub,
     Mul,
@@ -66,15 +66,15 @@ pub(super) enum Pair {
     Xor,
 }
 
-impl Pair {
+impl PairInstruction {
     fn opcode(self) -> u8 {
         match self {
-            Pair::Add => 0x58,
-            Pair::Sub => 0x5c,
-            Pair::Mul => 0x59,
-            Pair::Div => 0x5e,
-            Pair::And => 0x54,
-            Pair::Xor => 0x57,
+            PairInstruction::Add => 0x58,
+            PairInstruction::Sub => 0x5c,
+            PairInstruction::Mul => 0x59,
+            PairInstruction::Div => 0x5e,
+            PairInstruction::And => 0x54,
+            PairInstruction::Xor => 0x57,
         }
     }
 }
@@ -82,7 +82,7 @@ impl Pair {
 /// Operand order of a fused sum, by the source that the result replaces (the first is the target,
 /// the third may be in memory).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Order {
+pub(super) enum OperandOrder {
     /// target · third ± second
     O132,
     /// second · target ± third
@@ -93,7 +93,7 @@ pub(super) enum Order {
 
 /// Signs of a fused sum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Signs {
+pub(super) enum SumSigns {
     /// x y + z
     Add,
     /// x y - z
@@ -112,19 +112,19 @@ const MAP_0F38: u8 = 2;
 /// Prefix 66 in compressed form: packed doubles.
 const PACKED_DOUBLE: u8 = 1;
 /// Bytes between the same lanes of two rows.
-const ROW_BYTES: i32 = 8 * crate::engine::LANES as i32;
+const ROW_BYTES: i32 = 8 * crate::engine::ROW_STATES as i32;
 
 /// Encoder of a loop under construction, with the extent of the memory it touches.
 #[derive(Debug)]
 pub(super) struct Assembler {
     width: Width,
     bytes: Vec<u8>,
-    extent: Extent,
+    extent: MemoryExtent,
 }
 
 /// Extent of the memory touched in each area.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Extent {
+pub(super) struct MemoryExtent {
     /// Number of rows of inputs.
     pub(super) inputs: usize,
     /// Number of rows of outputs.
@@ -139,52 +139,58 @@ pub(super) struct Extent {
 pub(super) struct Assembly {
     pub(super) bytes: Vec<u8>,
     pub(super) width: Width,
-    pub(super) extent: Extent,
+    pub(super) extent: MemoryExtent,
 }
 
 impl Assembler {
     pub(super) fn new(width: Width) -> Self {
-        Self { width, bytes: Vec::new(), extent: Extent::default() }
+        Self { width, bytes: Vec::new(), extent: MemoryExtent::default() }
     }
 
     /// Loads a register: `target = source`.
-    pub(super) fn load(&mut self, target: Register, source: Place) {
+    pub(super) fn load(&mut self, target: Register, source: VectorLocation) {
         self.vector(MAP_0F, LOAD, target, 0, source);
     }
 
     /// Stores a register to memory.
     pub(super) fn store(&mut self, area: Area, index: u32, source: Register) {
-        self.vector(MAP_0F, STORE, source, 0, Place::Memory(area, index));
+        self.vector(MAP_0F, STORE, source, 0, VectorLocation::Memory(area, index));
     }
 
     /// Emits `target = x op y`.
-    pub(super) fn pair(&mut self, pair: Pair, target: Register, x: Register, y: Place) {
+    pub(super) fn pair(
+        &mut self,
+        pair: PairInstruction,
+        target: Register,
+        x: Register,
+        y: VectorLocation,
+    ) {
         self.vector(MAP_0F, pair.opcode(), target, x, y);
     }
 
     /// Emits `target = √x`.
-    pub(super) fn square_root(&mut self, target: Register, x: Place) {
+    pub(super) fn square_root(&mut self, target: Register, x: VectorLocation) {
         self.vector(MAP_0F, SQUARE_ROOT, target, 0, x);
     }
 
     /// Emits a fused sum of target, second and third.
     pub(super) fn fused(
         &mut self,
-        order: Order,
-        signs: Signs,
+        order: OperandOrder,
+        signs: SumSigns,
         target: Register,
         second: Register,
-        third: Place,
+        third: VectorLocation,
     ) {
         let order = match order {
-            Order::O132 => 0x98,
-            Order::O213 => 0xa8,
-            Order::O231 => 0xb8,
+            OperandOrder::O132 => 0x98,
+            OperandOrder::O213 => 0xa8,
+            OperandOrder::O231 => 0xb8,
         };
         let signs = match signs {
-            Signs::Add => 0,
-            Signs::Sub => 2,
-            Signs::NegAdd => 4,
+            SumSigns::Add => 0,
+            SumSigns::Sub => 2,
+            SumSigns::NegAdd => 4,
         };
         self.vector(MAP_0F38, order + signs, target, second, third);
     }
@@ -203,11 +209,11 @@ impl Assembler {
 
     /// Encodes a vector instruction: `register` and `place` in the ModRM byte, `second` in the
     /// prefix.
-    fn vector(&mut self, map: u8, opcode: u8, register: u8, second: u8, place: Place) {
+    fn vector(&mut self, map: u8, opcode: u8, register: u8, second: u8, place: VectorLocation) {
         // Bits 3 and 4 of the register in the place.
         let (low, bit3, bit4) = match place {
-            Place::Register(r) => (r & 7, r >> 3 & 1, r >> 4 & 1),
-            Place::Memory(area, index) => {
+            VectorLocation::Register(r) => (r & 7, r >> 3 & 1, r >> 4 & 1),
+            VectorLocation::Memory(area, index) => {
                 self.touch(area, index);
                 (base(area), 0, 0)
             }
@@ -236,8 +242,8 @@ impl Assembler {
         self.bytes.push(opcode);
         let register = (register & 7) << 3;
         match place {
-            Place::Register(_) => self.bytes.push(0b11 << 6 | register | low),
-            Place::Memory(area, index) => self.memory(area, index, register | low),
+            VectorLocation::Register(_) => self.bytes.push(0b11 << 6 | register | low),
+            VectorLocation::Memory(area, index) => self.memory(area, index, register | low),
         }
     }
 

@@ -5,24 +5,24 @@ use iced_x86::{Decoder, DecoderOptions, Instruction, Mnemonic, OpKind, Register 
 use super::*;
 
 const WIDTHS: [Width; 2] = [Width::Four, Width::Eight];
-const PAIRS: [(Pair, Mnemonic); 6] = [
-    (Pair::Add, Mnemonic::Vaddpd),
-    (Pair::Sub, Mnemonic::Vsubpd),
-    (Pair::Mul, Mnemonic::Vmulpd),
-    (Pair::Div, Mnemonic::Vdivpd),
-    (Pair::And, Mnemonic::Vandpd),
-    (Pair::Xor, Mnemonic::Vxorpd),
+const PAIRS: [(PairInstruction, Mnemonic); 6] = [
+    (PairInstruction::Add, Mnemonic::Vaddpd),
+    (PairInstruction::Sub, Mnemonic::Vsubpd),
+    (PairInstruction::Mul, Mnemonic::Vmulpd),
+    (PairInstruction::Div, Mnemonic::Vdivpd),
+    (PairInstruction::And, Mnemonic::Vandpd),
+    (PairInstruction::Xor, Mnemonic::Vxorpd),
 ];
-const FUSED: [(Order, Signs, Mnemonic); 9] = [
-    (Order::O132, Signs::Add, Mnemonic::Vfmadd132pd),
-    (Order::O213, Signs::Add, Mnemonic::Vfmadd213pd),
-    (Order::O231, Signs::Add, Mnemonic::Vfmadd231pd),
-    (Order::O132, Signs::Sub, Mnemonic::Vfmsub132pd),
-    (Order::O213, Signs::Sub, Mnemonic::Vfmsub213pd),
-    (Order::O231, Signs::Sub, Mnemonic::Vfmsub231pd),
-    (Order::O132, Signs::NegAdd, Mnemonic::Vfnmadd132pd),
-    (Order::O213, Signs::NegAdd, Mnemonic::Vfnmadd213pd),
-    (Order::O231, Signs::NegAdd, Mnemonic::Vfnmadd231pd),
+const FUSED: [(OperandOrder, SumSigns, Mnemonic); 9] = [
+    (OperandOrder::O132, SumSigns::Add, Mnemonic::Vfmadd132pd),
+    (OperandOrder::O213, SumSigns::Add, Mnemonic::Vfmadd213pd),
+    (OperandOrder::O231, SumSigns::Add, Mnemonic::Vfmadd231pd),
+    (OperandOrder::O132, SumSigns::Sub, Mnemonic::Vfmsub132pd),
+    (OperandOrder::O213, SumSigns::Sub, Mnemonic::Vfmsub213pd),
+    (OperandOrder::O231, SumSigns::Sub, Mnemonic::Vfmsub231pd),
+    (OperandOrder::O132, SumSigns::NegAdd, Mnemonic::Vfnmadd132pd),
+    (OperandOrder::O213, SumSigns::NegAdd, Mnemonic::Vfnmadd213pd),
+    (OperandOrder::O231, SumSigns::NegAdd, Mnemonic::Vfnmadd231pd),
 ];
 
 fn decoded(bytes: &[u8]) -> Instruction {
@@ -41,20 +41,21 @@ fn vector(width: Width, register: Register) -> Iced {
     first + u32::from(register)
 }
 
-fn places(width: Width) -> Vec<Place> {
-    let registers = (0..width.registers() as u8).map(Place::Register);
+fn places(width: Width) -> Vec<VectorLocation> {
+    let registers = (0..width.registers() as u8).map(VectorLocation::Register);
     let indices = [0, 1, 3, 4, 15, 16, 17, 127, 128, 100_000];
     let areas = [Area::Inputs, Area::Outputs, Area::Frame];
-    let memory = areas.iter().flat_map(|area| indices.map(|index| Place::Memory(*area, index)));
+    let memory =
+        areas.iter().flat_map(|area| indices.map(|index| VectorLocation::Memory(*area, index)));
     registers.chain(memory).collect()
 }
 
-fn assert_operand(width: Width, found: &Instruction, operand: u32, place: Place) {
+fn assert_operand(width: Width, found: &Instruction, operand: u32, place: VectorLocation) {
     match place {
-        Place::Register(register) => {
+        VectorLocation::Register(register) => {
             assert_eq!(found.op_register(operand), vector(width, register), "{place:?}");
         }
-        Place::Memory(area, index) => {
+        VectorLocation::Memory(area, index) => {
             let (register, distance) = match area {
                 Area::Inputs => (Iced::RDI, 512),
                 Area::Outputs => (Iced::RDX, 512),
@@ -88,21 +89,21 @@ fn a_disassembler_reads_what_was_meant() {
             let second = (target * 7 + 5) % width.registers() as u8;
             let found = one(width, |to| to.load(target, place));
             assert_eq!(found.mnemonic(), Mnemonic::Vmovupd, "load");
-            assert_operand(width, &found, 0, Place::Register(target));
+            assert_operand(width, &found, 0, VectorLocation::Register(target));
             assert_operand(width, &found, 1, place);
             let found = one(width, |to| to.square_root(target, place));
             assert_eq!(found.mnemonic(), Mnemonic::Vsqrtpd, "square root");
-            assert_operand(width, &found, 0, Place::Register(target));
+            assert_operand(width, &found, 0, VectorLocation::Register(target));
             assert_operand(width, &found, 1, place);
-            if let Place::Memory(area, index) = place {
+            if let VectorLocation::Memory(area, index) = place {
                 let found = one(width, |to| to.store(area, index, target));
                 assert_eq!(found.mnemonic(), Mnemonic::Vmovupd, "store");
                 assert_operand(width, &found, 0, place);
-                assert_operand(width, &found, 1, Place::Register(target));
+                assert_operand(width, &found, 1, VectorLocation::Register(target));
             }
             let three = |found: &Instruction| {
-                assert_operand(width, found, 0, Place::Register(target));
-                assert_operand(width, found, 1, Place::Register(second));
+                assert_operand(width, found, 0, VectorLocation::Register(target));
+                assert_operand(width, found, 1, VectorLocation::Register(second));
                 assert_operand(width, found, 2, place);
             };
             for (pair, mnemonic) in PAIRS {
@@ -123,11 +124,11 @@ fn a_disassembler_reads_what_was_meant() {
 fn a_loop_ends_and_goes_back_to_its_beginning() {
     for width in WIDTHS {
         let mut assembler = Assembler::new(width);
-        assembler.load(3, Place::Memory(Area::Inputs, 4));
+        assembler.load(3, VectorLocation::Memory(Area::Inputs, 4));
         assembler.store(Area::Outputs, 2, 3);
-        assembler.pair(Pair::Add, 1, 3, Place::Memory(Area::Frame, 9));
+        assembler.pair(PairInstruction::Add, 1, 3, VectorLocation::Memory(Area::Frame, 9));
         let assembly = assembler.finish();
-        let extent = Extent { inputs: 5, outputs: 3, frame: 10 };
+        let extent = MemoryExtent { inputs: 5, outputs: 3, frame: 10 };
         assert_eq!(assembly.extent, extent, "all memory that is touched");
         let decoder = Decoder::with_ip(64, &assembly.bytes, 0, DecoderOptions::NONE);
         let found: Vec<Instruction> = decoder.into_iter().collect();

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use super::halt::Halt;
 
 /// Number of motions in the lanes of one thread.
-pub const LANES: usize = 8;
+pub const MOTION_LANES: usize = 8;
 /// Number of motions below which one at a time is faster.
 const FEW: usize = 3;
 
@@ -29,25 +29,25 @@ impl Queue {
 
 /// Number of motions that a thread follows at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Abreast {
+pub enum Lockstep {
     /// One motion.
     One,
-    /// `LANES` motions.
+    /// `MOTION_LANES` motions.
     Lanes,
 }
 
 /// Runs a worker on each thread until the queue is empty. Returns the results in the order of the
 /// motions.
-pub fn swarm<R: Send>(
+pub fn in_batches<R: Send>(
     count: usize,
     threads: usize,
-    worker: impl Fn(&Queue, Abreast) -> Vec<(usize, R)> + Sync,
+    worker: impl Fn(&Queue, Lockstep) -> Vec<(usize, R)> + Sync,
 ) -> Vec<R> {
-    let abreast = if count < FEW { Abreast::One } else { Abreast::Lanes };
-    let width = if abreast == Abreast::One { 1 } else { LANES };
+    let lockstep = if count < FEW { Lockstep::One } else { Lockstep::Lanes };
+    let width = if lockstep == Lockstep::One { 1 } else { MOTION_LANES };
     let queue = Queue { next: AtomicUsize::new(0), count };
     let most = count.div_ceil(width);
-    collected(threads.clamp(1, most.max(1)), &|| worker(&queue, abreast))
+    collected(threads.clamp(1, most.max(1)), &|| worker(&queue, lockstep))
 }
 
 /// Runs a job for each index, the next one on the first thread that is free. Returns the results in

@@ -6,13 +6,13 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::ToPrimitive;
 
-use super::digest::Digest;
+use super::digest::SeedDigest;
 use crate::number::prime::{Modulus, is_prime};
 use crate::number::rational::Rational;
 
 /// Purpose of the random numbers of a proof; each purpose has a separate stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stream {
+pub enum ProofStream {
     /// Primes for tests.
     Primes = 0,
     /// Points for tests.
@@ -34,11 +34,11 @@ pub enum Stream {
 }
 
 /// Random numbers for tests in fields, disjoint from all streams of states.
-pub struct Chance(ChaCha8Rng);
+pub struct ProofRng(ChaCha8Rng);
 
 /// Roots that a prime field must contain.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Wanted {
+pub struct RequiredRoots {
     /// Odd prime factors of the indices of unique roots: p ≠ 1 modulo each.
     pub odd: Vec<u64>,
     /// Integers that must be squares modulo p.
@@ -70,7 +70,7 @@ fn jacobi(integer: &Rational, odd: u64) -> i32 {
 /// Lower bound of the random primes.
 const LEAST: u64 = 1 << 60;
 
-impl Chance {
+impl ProofRng {
     /// Makes the random numbers of a seed; different values of `purpose` give independent streams.
     pub fn new(seed: u64, purpose: u64) -> Self {
         Self::in_stream(ChaCha8Rng::seed_from_u64(seed), purpose)
@@ -78,7 +78,7 @@ impl Chance {
 
     /// Makes the random numbers for a statement to be proved, so that nobody can choose the
     /// statement with regard to them.
-    pub fn of(digest: Digest, stream: Stream) -> Self {
+    pub fn of(digest: SeedDigest, stream: ProofStream) -> Self {
         Self::in_stream(ChaCha8Rng::from_seed(digest.0), stream as u64)
     }
 
@@ -91,7 +91,7 @@ impl Chance {
     /// all of `squares` squares modulo p.
     pub fn prime(&mut self, odd: &[u64], squares: &[u64]) -> Modulus {
         loop {
-            let wanted = Wanted { odd: odd.to_vec(), ..Wanted::default() };
+            let wanted = RequiredRoots { odd: odd.to_vec(), ..RequiredRoots::default() };
             let modulus = self.prime_with_roots(&wanted);
             if squares.iter().all(|n| modulus.is_square(modulus.integer(*n))) {
                 return modulus;
@@ -100,7 +100,7 @@ impl Chance {
     }
 
     /// Draws a random prime between 2^60 and 2^61 whose field contains the wanted roots.
-    pub fn prime_with_roots(&mut self, wanted: &Wanted) -> Modulus {
+    pub fn prime_with_roots(&mut self, wanted: &RequiredRoots) -> Modulus {
         let low = (1u64 << wanted.depth.max(2)) - 1;
         loop {
             let candidate = LEAST | (self.0.next_u64() >> 4) | low;
@@ -137,20 +137,24 @@ mod tests {
 
     #[test]
     fn primes_are_as_asked() {
-        let mut chance = Chance::new(1, 0);
-        let primes: Vec<u64> = (0..6).map(|_| chance.prime(&[3, 5], &[2, 3]).prime()).collect();
+        let mut rng = ProofRng::new(1, 0);
+        let primes: Vec<u64> = (0..6).map(|_| rng.prime(&[3, 5], &[2, 3]).prime()).collect();
         for p in &primes {
             assert!(is_prime(*p) && p % 4 == 3 && *p > LEAST && *p < 2 * LEAST, "{p}");
             assert!(p % 3 == 2 && p % 5 != 1, "cube and fifth roots are unique");
             let m = Modulus::new(*p);
             assert!(m.is_square(m.integer(2)) && m.is_square(m.integer(3)), "√2 and √3 exist");
         }
-        let again = Chance::new(1, 0).prime(&[3, 5], &[2, 3]).prime();
+        let again = ProofRng::new(1, 0).prime(&[3, 5], &[2, 3]).prime();
         assert_eq!(again, primes[0], "the same seed gives the same primes");
-        assert_ne!(Chance::new(2, 0).prime(&[3, 5], &[2, 3]).prime(), again, "another seed others");
+        assert_ne!(
+            ProofRng::new(2, 0).prime(&[3, 5], &[2, 3]).prime(),
+            again,
+            "another seed others"
+        );
         let squares: Vec<Rational> = [5, 6, 7, 11].map(Rational::from).to_vec();
-        let wanted = Wanted { squares, depth: 5, ..Wanted::default() };
-        let m = Chance::new(1, 0).prime_with_roots(&wanted);
+        let wanted = RequiredRoots { squares, depth: 5, ..RequiredRoots::default() };
+        let m = ProofRng::new(1, 0).prime_with_roots(&wanted);
         assert!(is_prime(m.prime()) && m.prime() % 32 == 31, "2^5 divides p + 1");
         assert!([5, 6, 7, 11].iter().all(|n| m.is_square(m.integer(*n))), "all are squares");
     }

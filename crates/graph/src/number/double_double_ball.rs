@@ -13,10 +13,10 @@
 //! fused multiply-add as long as it does not underflow; `TINY` restores what is lost then, divided
 //! by s for a root. Elementary functions are computed in [`precise`](super::precise) arithmetic.
 
-use super::pair::Pair;
-use super::precise::{Approximation, Precise};
+use super::arb::{Approximation, ArbBall};
+use super::double_double::DoubleDouble;
 use super::rational::Rational;
-use super::{Domain, Enclosing, Function, Operation};
+use super::{BinaryOperation, Domain, Enclosing, UnaryFunction};
 
 /// u², the unit of the error bounds.
 const UNIT: f64 = (f64::EPSILON / 2.0) * (f64::EPSILON / 2.0);
@@ -27,11 +27,11 @@ const ELEMENTARY_BITS: u32 = 140;
 
 /// The domain of double-double balls with `N` lanes.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct TwofoldBall<const N: usize>;
+pub struct DoubleDoubleBall<const N: usize>;
 
 /// `N` balls: midpoints hi + lo, and radii.
 #[derive(Clone, Debug)]
-pub struct Twofolds<const N: usize> {
+pub struct DoubleDoubleBalls<const N: usize> {
     /// The nearest f64 of each midpoint.
     pub hi: [f64; N],
     /// The remainder of each midpoint, at most half a unit in the last place of `hi`.
@@ -45,7 +45,7 @@ type Lane = (f64, f64, f64);
 
 const UNDEFINED: Lane = (f64::NAN, f64::NAN, f64::NAN);
 
-impl<const N: usize> Twofolds<N> {
+impl<const N: usize> DoubleDoubleBalls<N> {
     /// Whether the lane has a finite enclosure.
     pub fn is_defined(&self, lane: usize) -> bool {
         self.hi[lane].is_finite() && self.rad[lane].is_finite()
@@ -57,8 +57,8 @@ impl<const N: usize> Twofolds<N> {
 }
 
 #[inline(always)]
-fn pair(hi: f64, lo: f64) -> Pair {
-    Pair { hi, lo }
+fn pair(hi: f64, lo: f64) -> DoubleDouble {
+    DoubleDouble { hi, lo }
 }
 
 /// Restores what computing a bound in f64 may have lost.
@@ -101,23 +101,24 @@ fn square_root((a, al, ra): Lane) -> Lane {
 }
 
 /// Computes an elementary function by way of higher precision.
-fn elementary(lane: Lane, f: impl Fn(&Precise, &Approximation) -> Option<Approximation>) -> Lane {
-    let domain = Precise::new(ELEMENTARY_BITS);
-    Approximation::from_twofold(lane.0, lane.1, lane.2)
+fn elementary(lane: Lane, f: impl Fn(&ArbBall, &Approximation) -> Option<Approximation>) -> Lane {
+    let domain = ArbBall::new(ELEMENTARY_BITS);
+    Approximation::from_double_double(lane.0, lane.1, lane.2)
         .and_then(|x| f(&domain, &x))
-        .map_or(UNDEFINED, |z| z.to_twofold())
+        .map_or(UNDEFINED, |z| z.to_double_double())
 }
 
-impl<const N: usize> Domain for TwofoldBall<N> {
-    type Block = Twofolds<N>;
+impl<const N: usize> Domain for DoubleDoubleBall<N> {
+    type Block = DoubleDoubleBalls<N>;
 
-    fn constant(&self, value: &Rational) -> Twofolds<N> {
+    fn constant(&self, value: &Rational) -> DoubleDoubleBalls<N> {
         let (hi, lo, rad) = enclose(value);
-        Twofolds { hi: [hi; N], lo: [lo; N], rad: [rad; N] }
+        DoubleDoubleBalls { hi: [hi; N], lo: [lo; N], rad: [rad; N] }
     }
 
-    fn values(&self, values: &[Rational]) -> Twofolds<N> {
-        let mut block = Twofolds { hi: [f64::NAN; N], lo: [f64::NAN; N], rad: [f64::NAN; N] };
+    fn values(&self, values: &[Rational]) -> DoubleDoubleBalls<N> {
+        let mut block =
+            DoubleDoubleBalls { hi: [f64::NAN; N], lo: [f64::NAN; N], rad: [f64::NAN; N] };
         let mut last = UNDEFINED;
         for lane in 0..N {
             last = values.get(lane).map_or(last, enclose);
@@ -127,15 +128,24 @@ impl<const N: usize> Domain for TwofoldBall<N> {
     }
 
     #[inline(always)]
-    fn unary(&self, function: Function, x: &Twofolds<N>, out: &mut Twofolds<N>) {
+    fn unary(
+        &self,
+        function: UnaryFunction,
+        x: &DoubleDoubleBalls<N>,
+        out: &mut DoubleDoubleBalls<N>,
+    ) {
         match function {
-            Function::Neg => map(x, out, |(a, al, ra)| (-a, -al, ra)),
-            Function::Abs => {
+            UnaryFunction::Neg => map(x, out, |(a, al, ra)| (-a, -al, ra)),
+            UnaryFunction::Abs => {
                 map(x, out, |(a, al, ra)| if a < 0.0 { (-a, -al, ra) } else { (a, al, ra) });
             }
-            Function::Recip => map(x, out, reciprocal),
-            Function::Sqrt => map(x, out, square_root),
-            Function::Exp | Function::Ln | Function::Sin | Function::Cos | Function::Atan => {
+            UnaryFunction::Recip => map(x, out, reciprocal),
+            UnaryFunction::Sqrt => map(x, out, square_root),
+            UnaryFunction::Exp
+            | UnaryFunction::Ln
+            | UnaryFunction::Sin
+            | UnaryFunction::Cos
+            | UnaryFunction::Atan => {
                 map(x, out, |lane| elementary(lane, |domain, x| domain.function(function, x)));
             }
         }
@@ -144,37 +154,37 @@ impl<const N: usize> Domain for TwofoldBall<N> {
     #[inline(always)]
     fn binary(
         &self,
-        operation: Operation,
-        x: &Twofolds<N>,
-        y: &Twofolds<N>,
-        out: &mut Twofolds<N>,
+        operation: BinaryOperation,
+        x: &DoubleDoubleBalls<N>,
+        y: &DoubleDoubleBalls<N>,
+        out: &mut DoubleDoubleBalls<N>,
     ) {
         match operation {
-            Operation::Add => zip(x, y, out, add),
-            Operation::Sub => zip(x, y, out, |x, (b, bl, rb)| add(x, (-b, -bl, rb))),
-            Operation::Mul => zip(x, y, out, multiply),
-            Operation::Pow => zip(x, y, out, |x, y| {
-                let y = Approximation::from_twofold(y.0, y.1, y.2);
+            BinaryOperation::Add => zip(x, y, out, add),
+            BinaryOperation::Sub => zip(x, y, out, |x, (b, bl, rb)| add(x, (-b, -bl, rb))),
+            BinaryOperation::Mul => zip(x, y, out, multiply),
+            BinaryOperation::Pow => zip(x, y, out, |x, y| {
+                let y = Approximation::from_double_double(y.0, y.1, y.2);
                 elementary(x, |domain, x| domain.power_of(x, y.as_ref()?))
             }),
         }
     }
 
-    fn power(&self, x: &Twofolds<N>, exponent: &Rational, out: &mut Twofolds<N>) {
+    fn power(&self, x: &DoubleDoubleBalls<N>, exponent: &Rational, out: &mut DoubleDoubleBalls<N>) {
         map(x, out, |lane| elementary(lane, |domain, x| domain.rational_power(x, exponent)));
     }
 }
 
-impl<const N: usize> Enclosing for TwofoldBall<N> {
+impl<const N: usize> Enclosing for DoubleDoubleBall<N> {
     const LANES: usize = N;
 
-    fn enclosure(block: &Twofolds<N>, lane: usize) -> Option<(f64, f64)> {
+    fn enclosure(block: &DoubleDoubleBalls<N>, lane: usize) -> Option<(f64, f64)> {
         let (hi, lo, rad) = block.lane(lane);
         // The radius must cover the part of the midpoint that is left out.
         block.is_defined(lane).then(|| (hi, if lo == 0.0 { rad } else { widen(rad + lo.abs()) }))
     }
 
-    fn excludes_zero(block: &Twofolds<N>, lane: usize) -> bool {
+    fn excludes_zero(block: &DoubleDoubleBalls<N>, lane: usize) -> bool {
         let (hi, lo, rad) = block.lane(lane);
         block.is_defined(lane) && hi.abs() - lo.abs() > rad
     }
@@ -192,7 +202,11 @@ fn enclose(value: &Rational) -> Lane {
 }
 
 #[inline(always)]
-fn map<const N: usize>(x: &Twofolds<N>, out: &mut Twofolds<N>, f: impl Fn(Lane) -> Lane) {
+fn map<const N: usize>(
+    x: &DoubleDoubleBalls<N>,
+    out: &mut DoubleDoubleBalls<N>,
+    f: impl Fn(Lane) -> Lane,
+) {
     for lane in 0..N {
         (out.hi[lane], out.lo[lane], out.rad[lane]) = f((x.hi[lane], x.lo[lane], x.rad[lane]));
     }
@@ -200,9 +214,9 @@ fn map<const N: usize>(x: &Twofolds<N>, out: &mut Twofolds<N>, f: impl Fn(Lane) 
 
 #[inline(always)]
 fn zip<const N: usize>(
-    x: &Twofolds<N>,
-    y: &Twofolds<N>,
-    out: &mut Twofolds<N>,
+    x: &DoubleDoubleBalls<N>,
+    y: &DoubleDoubleBalls<N>,
+    out: &mut DoubleDoubleBalls<N>,
     f: impl Fn(Lane, Lane) -> Lane,
 ) {
     for lane in 0..N {

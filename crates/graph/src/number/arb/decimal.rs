@@ -88,12 +88,12 @@ fn placed(digits: &str, leading: i64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Precise;
+    use super::super::ArbBall;
     use super::*;
     use num_traits::Zero;
 
     fn shown(text: &str, digits: usize) -> Option<String> {
-        Precise::new(256).rational(&text.parse().expect("a number")).decimal(digits)
+        ArbBall::new(256).rational(&text.parse().expect("a number")).decimal(digits)
     }
 
     #[test]
@@ -110,7 +110,7 @@ mod tests {
 
     #[test]
     fn digits_that_are_not_known_are_not_shown() {
-        let third = Precise::new(64).rational(&"1/3".parse().expect("a number"));
+        let third = ArbBall::new(64).rational(&"1/3".parse().expect("a number"));
         assert!(third.decimal(18).is_some(), "64 bits are 19 digits");
         assert_eq!(third.decimal(25), None, "but not 25");
         let zero = third.add(&third.neg(), 64);
@@ -121,9 +121,9 @@ mod tests {
     #[test]
     fn numbers_of_any_size_are_shown() {
         let rough =
-            |text: &str| Precise::new(256).rational(&text.parse().expect("a number")).rough();
+            |text: &str| ArbBall::new(256).rational(&text.parse().expect("a number")).rough();
         assert_eq!(rough("-1.25e-400"), "-1.25e-400");
-        let (large, half) = (Precise::new(64), "1/2".parse().expect("a number"));
+        let (large, half) = (ArbBall::new(64), "1/2".parse().expect("a number"));
         let power = (0..40).fold(large.rational(&half), |x, _| x.mul(&x, 64));
         assert_eq!(power.rough(), "1.24e-330985980542", "2^(-2^40)");
     }

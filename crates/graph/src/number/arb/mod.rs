@@ -13,18 +13,18 @@ pub use approximation::Approximation;
 use num_bigint::BigInt;
 
 use super::rational::Rational;
-use super::{Domain, Enclosing, Function, Operation};
+use super::{BinaryOperation, Domain, Enclosing, UnaryFunction};
 
 /// Largest exponent of an integer power that is multiplied out.
 const LARGEST_POWER: i64 = 1 << 12;
 
 /// The domain of balls with a given precision, one lane.
 #[derive(Clone, Copy, Debug)]
-pub struct Precise {
+pub struct ArbBall {
     bits: u32,
 }
 
-impl Precise {
+impl ArbBall {
     /// Makes a domain of balls with midpoints of `bits` bits, at least 16.
     pub fn new(bits: u32) -> Self {
         Self { bits: bits.max(16) }
@@ -48,17 +48,17 @@ impl Precise {
     }
 
     /// Computes f(x); `None` where it is undefined or too large to be useful.
-    pub fn function(&self, function: Function, x: &Approximation) -> Option<Approximation> {
+    pub fn function(&self, function: UnaryFunction, x: &Approximation) -> Option<Approximation> {
         let value = match function {
-            Function::Neg => Some(x.neg()),
-            Function::Abs => Some(x.abs()),
-            Function::Recip => x.recip(self.bits),
-            Function::Sqrt => x.sqrt(self.bits),
-            Function::Exp => elementary::exp(x, self.bits),
-            Function::Ln => elementary::ln(x, self.bits),
-            Function::Sin => elementary::sin_cos(x, self.bits).map(|(sine, _)| sine),
-            Function::Cos => elementary::sin_cos(x, self.bits).map(|(_, cosine)| cosine),
-            Function::Atan => elementary::atan(x, self.bits),
+            UnaryFunction::Neg => Some(x.neg()),
+            UnaryFunction::Abs => Some(x.abs()),
+            UnaryFunction::Recip => x.recip(self.bits),
+            UnaryFunction::Sqrt => x.sqrt(self.bits),
+            UnaryFunction::Exp => elementary::exp(x, self.bits),
+            UnaryFunction::Ln => elementary::ln(x, self.bits),
+            UnaryFunction::Sin => elementary::sin_cos(x, self.bits).map(|(sine, _)| sine),
+            UnaryFunction::Cos => elementary::sin_cos(x, self.bits).map(|(_, cosine)| cosine),
+            UnaryFunction::Atan => elementary::atan(x, self.bits),
         };
         value?.in_range()
     }
@@ -85,12 +85,12 @@ impl Precise {
                 let power = power.in_range()?;
                 if n < 0 { power.recip(self.bits) } else { Some(power.rounded(self.bits)) }
             }
-            None => self.power_of(x, &Precise::new(self.bits + 48).rational(exponent)),
+            None => self.power_of(x, &ArbBall::new(self.bits + 48).rational(exponent)),
         }
     }
 }
 
-impl Domain for Precise {
+impl Domain for ArbBall {
     type Block = Option<Approximation>;
 
     fn constant(&self, value: &Rational) -> Option<Approximation> {
@@ -103,7 +103,7 @@ impl Domain for Precise {
 
     fn unary(
         &self,
-        function: Function,
+        function: UnaryFunction,
         x: &Option<Approximation>,
         out: &mut Option<Approximation>,
     ) {
@@ -112,17 +112,17 @@ impl Domain for Precise {
 
     fn binary(
         &self,
-        operation: Operation,
+        operation: BinaryOperation,
         x: &Option<Approximation>,
         y: &Option<Approximation>,
         out: &mut Option<Approximation>,
     ) {
         *out = x.as_ref().zip(y.as_ref()).and_then(|(x, y)| {
             let value = match operation {
-                Operation::Add => x.add(y, self.bits),
-                Operation::Sub => x.add(&y.neg(), self.bits),
-                Operation::Mul => x.mul(y, self.bits),
-                Operation::Pow => self.power_of(x, y)?,
+                BinaryOperation::Add => x.add(y, self.bits),
+                BinaryOperation::Sub => x.add(&y.neg(), self.bits),
+                BinaryOperation::Mul => x.mul(y, self.bits),
+                BinaryOperation::Pow => self.power_of(x, y)?,
             };
             value.in_range()
         });
@@ -138,7 +138,7 @@ impl Domain for Precise {
     }
 }
 
-impl Enclosing for Precise {
+impl Enclosing for ArbBall {
     const LANES: usize = 1;
 
     fn enclosure(block: &Option<Approximation>, _: usize) -> Option<(f64, f64)> {

@@ -2,7 +2,7 @@
 
 use num_traits::Zero;
 
-use super::equation::{Equation, Point};
+use super::equation::{Equation, PartialPoint};
 use super::quadric::Quadric;
 use crate::graph::{Expr, Graph, Step as Node, record};
 use crate::mechanics::Model;
@@ -25,7 +25,7 @@ pub fn members(set: Set) -> Vec<usize> {
 }
 
 /// An equation with the derivatives that the analysis needs.
-pub struct Look {
+pub struct EquationDerivatives {
     /// The equation.
     pub equation: Equation,
     /// Graph of its value and derivatives.
@@ -41,13 +41,13 @@ pub struct Look {
     pub parameter_slopes: Vec<(usize, Expr)>,
 }
 
-impl Look {
+impl EquationDerivatives {
     /// Differentiates an equation; `None` if it cannot be recorded.
     pub fn at(model: &Model, equation: Equation) -> Option<Self> {
         let (free, dimension) = (model.free_components(), model.dimension());
         let within = |inputs: &[Expr]| {
             let (parameters, state) = inputs.split_at(free);
-            Point { model, parameters: parameters.to_vec(), state: state.to_vec() }
+            PartialPoint { model, parameters: parameters.to_vec(), state: state.to_vec() }
         };
         let (plain, value) =
             record(free + dimension, |inputs| within(inputs).value(equation)).ok()?;

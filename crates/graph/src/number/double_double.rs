@@ -9,21 +9,21 @@
 //! √x      8u²          s + r/2s, s = fl(√hi),  r = x - s²
 //! ```
 //!
-//! as long as no product underflows. [`twofold`](super::twofold) adds radii that cover these
+//! as long as no product underflows. [`double_double_ball`](super::double_double_ball) adds radii that cover these
 //! errors.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use super::precise::{Approximation, Precise};
+use super::arb::{Approximation, ArbBall};
 use super::rational::Rational;
-use super::{Domain, Function, Operation};
+use super::{BinaryOperation, Domain, UnaryFunction};
 
 /// Precision in bits of elementary functions.
 const ELEMENTARY_BITS: u32 = 140;
 
 /// hi + lo, |lo| at most half a unit in the last place of hi; NaN where undefined.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Pair {
+pub struct DoubleDouble {
     /// The nearest f64.
     pub hi: f64,
     /// The remainder.
@@ -52,7 +52,7 @@ pub fn two_product(a: f64, b: f64) -> (f64, f64) {
     (p, a.mul_add(b, -p))
 }
 
-impl Pair {
+impl DoubleDouble {
     /// The undefined value.
     pub const NAN: Self = Self { hi: f64::NAN, lo: f64::NAN };
 
@@ -104,36 +104,36 @@ impl Pair {
     }
 
     /// Computes an elementary function by way of higher precision.
-    pub fn apply(self, function: Function) -> Self {
-        let domain = Precise::new(ELEMENTARY_BITS);
+    pub fn apply(self, function: UnaryFunction) -> Self {
+        let domain = ArbBall::new(ELEMENTARY_BITS);
         self.elementary(|x| domain.function(function, x))
     }
 
     /// Computes x^q.
     pub fn power(self, exponent: &Rational) -> Self {
-        let domain = Precise::new(ELEMENTARY_BITS);
+        let domain = ArbBall::new(ELEMENTARY_BITS);
         self.elementary(|x| domain.rational_power(x, exponent))
     }
 
     /// Computes x^y for x > 0.
     pub fn power_of(self, exponent: Self) -> Self {
-        let domain = Precise::new(ELEMENTARY_BITS);
-        let exponent = Approximation::from_twofold(exponent.hi, exponent.lo, 0.0);
+        let domain = ArbBall::new(ELEMENTARY_BITS);
+        let exponent = Approximation::from_double_double(exponent.hi, exponent.lo, 0.0);
         self.elementary(|x| domain.power_of(x, exponent.as_ref()?))
     }
 
     fn elementary(self, f: impl Fn(&Approximation) -> Option<Approximation>) -> Self {
-        Approximation::from_twofold(self.hi, self.lo, 0.0).and_then(|x| f(&x)).map_or(
+        Approximation::from_double_double(self.hi, self.lo, 0.0).and_then(|x| f(&x)).map_or(
             Self::NAN,
             |value| {
-                let (hi, lo, _) = value.to_twofold();
+                let (hi, lo, _) = value.to_double_double();
                 Self { hi, lo }
             },
         )
     }
 }
 
-impl Add for Pair {
+impl Add for DoubleDouble {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -145,7 +145,7 @@ impl Add for Pair {
     }
 }
 
-impl Neg for Pair {
+impl Neg for DoubleDouble {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -153,7 +153,7 @@ impl Neg for Pair {
     }
 }
 
-impl Sub for Pair {
+impl Sub for DoubleDouble {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -161,7 +161,7 @@ impl Sub for Pair {
     }
 }
 
-impl Mul for Pair {
+impl Mul for DoubleDouble {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
@@ -173,44 +173,52 @@ impl Mul for Pair {
 
 /// The double-double domain, one lane, without error bounds.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Pairs;
+pub struct DoubleDoubles;
 
-impl Domain for Pairs {
-    type Block = Pair;
+impl Domain for DoubleDoubles {
+    type Block = DoubleDouble;
 
-    fn constant(&self, value: &Rational) -> Pair {
-        Pair::from_rational(value)
+    fn constant(&self, value: &Rational) -> DoubleDouble {
+        DoubleDouble::from_rational(value)
     }
 
-    fn values(&self, values: &[Rational]) -> Pair {
-        values.first().map_or(Pair::NAN, Pair::from_rational)
+    fn values(&self, values: &[Rational]) -> DoubleDouble {
+        values.first().map_or(DoubleDouble::NAN, DoubleDouble::from_rational)
     }
 
     #[inline(always)]
-    fn unary(&self, function: Function, x: &Pair, out: &mut Pair) {
+    fn unary(&self, function: UnaryFunction, x: &DoubleDouble, out: &mut DoubleDouble) {
         *out = match function {
-            Function::Neg => -*x,
-            Function::Recip => x.recip(),
-            Function::Sqrt => x.sqrt(),
-            Function::Abs if x.hi < 0.0 => -*x,
-            Function::Abs => *x,
-            Function::Exp | Function::Ln | Function::Sin | Function::Cos | Function::Atan => {
-                x.apply(function)
-            }
+            UnaryFunction::Neg => -*x,
+            UnaryFunction::Recip => x.recip(),
+            UnaryFunction::Sqrt => x.sqrt(),
+            UnaryFunction::Abs if x.hi < 0.0 => -*x,
+            UnaryFunction::Abs => *x,
+            UnaryFunction::Exp
+            | UnaryFunction::Ln
+            | UnaryFunction::Sin
+            | UnaryFunction::Cos
+            | UnaryFunction::Atan => x.apply(function),
         };
     }
 
     #[inline(always)]
-    fn binary(&self, operation: Operation, x: &Pair, y: &Pair, out: &mut Pair) {
+    fn binary(
+        &self,
+        operation: BinaryOperation,
+        x: &DoubleDouble,
+        y: &DoubleDouble,
+        out: &mut DoubleDouble,
+    ) {
         *out = match operation {
-            Operation::Add => *x + *y,
-            Operation::Sub => *x - *y,
-            Operation::Mul => *x * *y,
-            Operation::Pow => x.power_of(*y),
+            BinaryOperation::Add => *x + *y,
+            BinaryOperation::Sub => *x - *y,
+            BinaryOperation::Mul => *x * *y,
+            BinaryOperation::Pow => x.power_of(*y),
         };
     }
 
-    fn power(&self, x: &Pair, exponent: &Rational, out: &mut Pair) {
+    fn power(&self, x: &DoubleDouble, exponent: &Rational, out: &mut DoubleDouble) {
         *out = x.power(exponent);
     }
 }
@@ -220,7 +228,7 @@ mod tests {
     use super::*;
 
     /// Returns the error of x ∘ y against exact arithmetic, relative and in units of u².
-    fn error(found: Pair, exact: &Rational) -> f64 {
+    fn error(found: DoubleDouble, exact: &Rational) -> f64 {
         let found = found.to_rational().expect("finite");
         let difference = (&found - exact).abs().to_f64().0;
         difference / exact.to_f64().0.abs() / (f64::EPSILON / 2.0).powi(2)
@@ -231,16 +239,16 @@ mod tests {
         let third = Rational::new(1, 3);
         for numerator in 1..200 {
             let (x, y) = (Rational::new(numerator, 7), Rational::new(-11, 3 * numerator + 1));
-            let (p, q) = (Pair::from_rational(&x), Pair::from_rational(&y));
+            let (p, q) = (DoubleDouble::from_rational(&x), DoubleDouble::from_rational(&y));
             let (x, y) = (p.to_rational().expect("finite"), q.to_rational().expect("finite"));
             assert!(error(p + q, &(&x + &y)) <= 3.1, "sum");
             assert!(error(p * q, &(&x * &y)) <= 5.0, "product");
             assert!(error(p.recip(), &x.recip().expect("not 0")) <= 18.0, "reciprocal");
             let root = p.sqrt().to_rational().expect("finite");
-            let square = Pair::from_rational(&(&root * &root));
+            let square = DoubleDouble::from_rational(&(&root * &root));
             assert!(error(square, &x) <= 18.0, "square of the root");
         }
-        let cube_root = Pair::from_rational(&third).power(&third);
+        let cube_root = DoubleDouble::from_rational(&third).power(&third);
         let cube = cube_root * cube_root * cube_root;
         assert!(error(cube, &third) <= 30.0, "power");
     }

@@ -9,28 +9,28 @@
 
 use std::ops::Range;
 
-use super::bench::Bench;
+use super::claim_state::{BlockResult, ClaimState};
 use super::evidence::{Method, Proof, Verdict};
-use super::field::{Answer, Field, Query};
-use super::finding::{Finding, Look};
+use super::field::{Answer, PrimeFieldStates, Query};
 use super::judge::{JudgeError, Trust};
-use super::recorded::{Recorded, Wider};
+use super::judging::Judging;
+use super::recorded::{RecordedClaim, Wider};
 use super::run::Doubles;
-use super::sampler::{LANES, Sampler};
-use crate::claim::Place;
+use super::sampler::{Sampler, TAPE_LANES};
+use crate::claim::LevelSubset;
 use crate::graph::{Expr, Step};
-use crate::number::Function;
+use crate::number::UnaryFunction;
 use crate::number::ball::Ball;
 
-impl Bench<'_> {
+impl Judging<'_> {
     /// Finds the wider places in which claims hold as well.
-    pub fn widen(
+    pub fn extend_domain(
         &self,
-        recorded: &[Recorded<'_>],
-        findings: &mut [Finding],
+        recorded: &[RecordedClaim<'_>],
+        findings: &mut [ClaimState],
     ) -> Result<(), JudgeError> {
         let model = &self.case.model;
-        let mut places: Vec<&Place> = Vec::new();
+        let mut places: Vec<&LevelSubset> = Vec::new();
         for place in recorded.iter().flat_map(|item| item.wider.iter().map(|wider| &wider.place)) {
             if !places.contains(&place) {
                 places.push(place);
@@ -64,9 +64,9 @@ impl Bench<'_> {
             if self.missed_part(&sampler)?.is_some() {
                 continue;
             }
-            let values = self.run(&outputs).at(&Ball::<LANES>, &sampler.balls(0));
+            let values = self.run(&outputs).at(&Ball::<TAPE_LANES>, &sampler.balls(0));
             let all = values.existing(std::slice::from_ref(&common));
-            if Look::at::<Doubles>(&values.range(rates), None, &all).excludes_zero() {
+            if BlockResult::at::<Doubles>(&values.range(rates), None, &all).excludes_zero() {
                 continue;
             }
             let mut open = Vec::new();
@@ -74,7 +74,7 @@ impl Bench<'_> {
                 let scale = values.range(scale).first().copied();
                 let existing = values.existing(&[common.clone(), own.clone()]);
                 let look = |range: Range<usize>, scale| {
-                    Look::at::<Doubles>(&values.range(range), scale, &existing)
+                    BlockResult::at::<Doubles>(&values.range(range), scale, &existing)
                 };
                 let sound = defects.is_empty() || look(defects.clone(), None).is_zero();
                 let look = look(residual.clone(), scale);
@@ -88,7 +88,11 @@ impl Bench<'_> {
             let queries: Vec<Query> = open.iter().map(|(_, _, query, ..)| query.clone()).collect();
             let answers = match self.options.trust {
                 Trust::Float => vec![None; queries.len()],
-                _ => Field::new(self, &sampler).test(&queries)?.into_iter().map(Some).collect(),
+                _ => PrimeFieldStates::new(self, &sampler)
+                    .test(&queries)?
+                    .into_iter()
+                    .map(Some)
+                    .collect(),
             };
             for ((claim, finding, query, is_zero, implies_own), answer) in
                 open.into_iter().zip(answers)
@@ -132,13 +136,13 @@ impl Bench<'_> {
     /// So it is if the wider place is all of space, the residual is the same, and all that counts
     /// has a value on an open set, where it is continuous. √(z x²) has one for z < 0 on the slice
     /// x = 0 alone, which no state of space comes near.
-    fn is_continued(&self, place: &Place, item: &Recorded<'_>, wider: &Wider) -> bool {
+    fn is_continued(&self, place: &LevelSubset, item: &RecordedClaim<'_>, wider: &Wider) -> bool {
         let is_space = place.kept.iter().all(|kept| !kept);
         let required = self.common.required_at(&item.claim.place.kept);
         let values = [&wider.residual[..], &wider.defects, &item.requirement, &required].concat();
         let reached = self.graph.reached(values);
         let is_root = |step: Step<'_>| match step {
-            Step::Unary(Function::Sqrt, _) => true,
+            Step::Unary(UnaryFunction::Sqrt, _) => true,
             Step::Power(_, exponent) => exponent.to_integer().is_none(),
             _ => false,
         };
@@ -150,7 +154,7 @@ impl Bench<'_> {
 }
 
 /// Settles a confirmed claim as proved, by a proof at a place that contains its own.
-fn prove(finding: &mut Finding, proof: Proof, place: String) {
+fn prove(finding: &mut ClaimState, proof: Proof, place: String) {
     finding.rung(Method::PrimeField, format!("{place}: {proof}"));
     finding.evidence.method = Method::PrimeField;
     finding.evidence.proof = Some(proof);

@@ -5,26 +5,26 @@ use std::cell::RefCell;
 
 use rustc_hash::FxHashMap;
 
-use super::field::{Answer, Field, Query};
-use super::finding::{Look, are_zero};
+use super::claim_state::{BlockResult, are_zero};
+use super::field::{Answer, PrimeFieldStates, Query};
 use super::judge::{JudgeError, Options};
-use super::ladder::{BITS, PRECISE_STATES};
+use super::ladder::{LADDER_BITS, PRECISE_STATES};
 use super::physics;
-use super::recorded::Common;
+use super::recorded::SharedTerms;
 use super::run::{Doubles, Run};
-use super::sampler::{LANES, Sampler};
+use super::sampler::{Sampler, TAPE_LANES};
 use crate::case::Case;
-use crate::claim::Place;
+use crate::claim::LevelSubset;
 use crate::graph::{Expr, Graph};
 use crate::level;
 use crate::number::ball::{Ball, Balls};
+use crate::number::double_double_ball::DoubleDoubleBall;
 use crate::number::mixed::{Mixed, Number};
-use crate::number::twofold::TwofoldBall;
 
 /// A case under judgement, with its graph and the evaluation of parts of it.
-pub struct Bench<'a> {
+pub struct Judging<'a> {
     pub case: &'a Case,
-    pub common: &'a Common,
+    pub common: &'a SharedTerms,
     pub options: &'a Options,
     pub graph: &'a Graph,
     pub inputs: usize,
@@ -32,11 +32,11 @@ pub struct Bench<'a> {
     pub(super) missed: RefCell<FxHashMap<Vec<bool>, Option<String>>>,
 }
 
-impl<'a> Bench<'a> {
+impl<'a> Judging<'a> {
     /// Puts a recorded case on the bench.
     pub fn new(
         case: &'a Case,
-        common: &'a Common,
+        common: &'a SharedTerms,
         options: &'a Options,
         graph: &'a Graph,
         inputs: usize,
@@ -45,7 +45,7 @@ impl<'a> Bench<'a> {
     }
 }
 
-impl Bench<'_> {
+impl Judging<'_> {
     pub(super) fn run(&self, outputs: &[Expr]) -> Run {
         Run::new(self.graph, outputs, self.inputs)
     }
@@ -55,15 +55,15 @@ impl Bench<'_> {
     pub fn check(&self) -> Result<Vec<String>, JudgeError> {
         let (model, common) = (&self.case.model, self.common);
         self.check_independence()?;
-        let level = Place::level(model);
+        let level = LevelSubset::level(model);
         let sampler = Sampler::new(self.case, &level, self.options.seed)?;
         let states = sampler.balls(0);
         let defined =
-            |blocks: &[&Balls<LANES>], lane: usize| blocks.iter().all(|b| b.is_defined(lane));
-        let drawn: Vec<&Balls<LANES>> = states.iter().collect();
-        let is_nowhere = (0..LANES).all(|lane| !defined(&drawn, lane));
+            |blocks: &[&Balls<TAPE_LANES>], lane: usize| blocks.iter().all(|b| b.is_defined(lane));
+        let drawn: Vec<&Balls<TAPE_LANES>> = states.iter().collect();
+        let is_nowhere = (0..TAPE_LANES).all(|lane| !defined(&drawn, lane));
         if is_nowhere && !self.has_field_with_more_digits(&sampler) {
-            let found = LANES as u64;
+            let found = TAPE_LANES as u64;
             return Err(match sampler.is_numerical() || sampler.solution().is_some() {
                 true => JudgeError::Unreachable(found),
                 false => JudgeError::Overflow(found),
@@ -73,7 +73,7 @@ impl Bench<'_> {
             [&common.field[..], &common.level, &common.level_rates, &common.physics].concat();
         let skew = outputs.len();
         outputs.extend(&common.symmetric);
-        let values = self.run(&outputs).at(&Ball::<LANES>, &states);
+        let values = self.run(&outputs).at(&Ball::<TAPE_LANES>, &states);
         let fields = common.field.len();
         let rates = fields + common.level.len();
         let physics = rates + common.level_rates.len();
@@ -81,24 +81,24 @@ impl Bench<'_> {
         if physics::is_asymmetric(&physical) {
             return Err(JudgeError::AsymmetricInertia);
         }
-        let is_off = |index: usize| (0..LANES).any(|k| values.output(index).excludes_zero(k));
+        let is_off = |index: usize| (0..TAPE_LANES).any(|k| values.output(index).excludes_zero(k));
         if (skew..outputs.len()).any(is_off) {
             return Err(JudgeError::NotSkew);
         }
         for (equation, index) in model.level.iter().zip(fields..rates) {
             let off = values.output(index);
-            if let Some(lane) = (0..LANES).find(|lane| off.excludes_zero(*lane)) {
+            if let Some(lane) = (0..TAPE_LANES).find(|lane| off.excludes_zero(*lane)) {
                 let (equation, by) = (equation.text.clone(), format!("{:e}", off.mid[lane]));
                 return Err(JudgeError::OffLevel { equation, by });
             }
         }
-        let undefined = (0..LANES).all(|lane| !defined(&values.range(0..fields), lane));
+        let undefined = (0..TAPE_LANES).all(|lane| !defined(&values.range(0..fields), lane));
         if undefined && !self.has_field_with_more_digits(&sampler) {
-            return Err(JudgeError::Singular(LANES as u64));
+            return Err(JudgeError::Singular(TAPE_LANES as u64));
         }
         for (equation, index) in model.level.iter().zip(rates..physics) {
             let rate = values.output(index);
-            if let Some(lane) = (0..LANES).find(|lane| rate.excludes_zero(*lane)) {
+            if let Some(lane) = (0..TAPE_LANES).find(|lane| rate.excludes_zero(*lane)) {
                 let (equation, rate) = (equation.text.clone(), format!("{:e}", rate.mid[lane]));
                 return Err(match model.system.is_map() {
                     true => JudgeError::NotMapped { equation, by: rate },
@@ -129,16 +129,16 @@ impl Bench<'_> {
         if open.is_empty() {
             return Ok(None);
         }
-        let everywhere = Place::everywhere(&self.case.model);
+        let everywhere = LevelSubset::everywhere(&self.case.model);
         let sampler = Sampler::new(self.case, &everywhere, self.options.seed)?;
         let queries: Vec<Query> =
             open.iter().map(|(_, defects)| Query::of(defects.clone())).collect();
-        let answers = Field::new(self, &sampler).test(&queries)?;
+        let answers = PrimeFieldStates::new(self, &sampler).test(&queries)?;
         let mut warning = None;
         for ((text, defects), answer) in open.into_iter().zip(answers) {
-            let values = self.run(defects).at(&Ball::<LANES>, &sampler.balls(0));
-            let all = [true; LANES];
-            let seen = Look::at::<Doubles>(&values.range(0..defects.len()), None, &all);
+            let values = self.run(defects).at(&Ball::<TAPE_LANES>, &sampler.balls(0));
+            let all = [true; TAPE_LANES];
+            let seen = BlockResult::at::<Doubles>(&values.range(0..defects.len()), None, &all);
             match answer {
                 Answer::Zero(_) => {}
                 Answer::Silent(_) | Answer::Void if !seen.excludes_zero() => {
@@ -162,14 +162,14 @@ impl Bench<'_> {
         if sampler.is_numerical() {
             return false;
         }
-        let domain = TwofoldBall::<LANES>;
-        let values = self.run(field).at(&domain, &sampler.states(&domain, LANES, 0));
+        let domain = DoubleDoubleBall::<TAPE_LANES>;
+        let values = self.run(field).at(&domain, &sampler.states(&domain, TAPE_LANES, 0));
         let blocks = values.range(0..field.len());
-        if (0..LANES).any(|lane| blocks.iter().all(|block| block.is_defined(lane))) {
+        if (0..TAPE_LANES).any(|lane| blocks.iter().all(|block| block.is_defined(lane))) {
             return true;
         }
         // Only exact arithmetic knows that √0 exists.
-        let domain = Mixed::new(BITS[0]);
+        let domain = Mixed::new(LADDER_BITS[0]);
         let run = self.run(field);
         (0..PRECISE_STATES).any(|index| {
             let states = sampler.states(&domain, 1, index);
@@ -184,15 +184,15 @@ impl Bench<'_> {
         if self.common.dependence.is_empty() {
             return Ok(());
         }
-        let everywhere = Place::everywhere(&self.case.model);
+        let everywhere = LevelSubset::everywhere(&self.case.model);
         let sampler = Sampler::new(self.case, &everywhere, self.options.seed)?;
         let values =
-            self.run(&self.common.dependence.concat()).at(&Ball::<LANES>, &sampler.balls(0));
+            self.run(&self.common.dependence.concat()).at(&Ball::<TAPE_LANES>, &sampler.balls(0));
         let width = self.case.model.dimension();
         let kept = vec![true; self.case.model.level.len()];
         for (index, equation) in self.case.model.level.iter().enumerate() {
             let left = values.range(index * width..(index + 1) * width);
-            let seen = Look::at::<Doubles>(&left, None, &[true; LANES]);
+            let seen = BlockResult::at::<Doubles>(&left, None, &[true; TAPE_LANES]);
             // A slope may be undefined where a solution exists, such as that of √(y + |y|) for y <
             // 0.
             let is_solved =
@@ -206,13 +206,13 @@ impl Bench<'_> {
 
     /// Returns the rates of the level functions that a place keeps, if it is a part of the level: a
     /// claim there is meaningful only if the motion stays.
-    pub(super) fn rates_at(&self, place: &Place) -> Vec<Expr> {
+    pub(super) fn rates_at(&self, place: &LevelSubset) -> Vec<Expr> {
         let all = place.kept.iter().all(|kept| *kept);
         let rates = self.common.level_rates.iter().zip(&place.kept);
         rates.filter(|(_, kept)| **kept && !all).map(|(rate, _)| *rate).collect()
     }
 
     pub(super) fn blocks(&self) -> u64 {
-        self.options.states.div_ceil(LANES as u64).max(1)
+        self.options.states.div_ceil(TAPE_LANES as u64).max(1)
     }
 }

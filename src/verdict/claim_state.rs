@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use super::evidence::{Evidence, Independence, Method, Rung, Verdict};
 use super::field::Where;
-use super::recorded::{Recorded, Span};
+use super::recorded::{RecordedClaim, Span};
 use super::run::Values;
-use super::sampler::LANES;
+use super::sampler::TAPE_LANES;
 use crate::graph::{Expr, Graph};
 use crate::number::Enclosing;
 
@@ -23,7 +23,7 @@ pub const NO_QUADRATURE: &str = "the integrand of an ∫ is not a function of it
 
 /// State of a claim on the ladder.
 #[derive(Default)]
-pub struct Finding {
+pub struct ClaimState {
     pub settled: Option<Verdict>,
     pub evidence: Evidence,
     /// Sets of states on which prime fields show that the residual is not an identity.
@@ -40,7 +40,7 @@ pub struct Finding {
     pub missing: Vec<usize>,
 }
 
-impl Finding {
+impl ClaimState {
     /// Records the result of a rung.
     pub fn rung(&mut self, rung: Method, found: String) {
         match self.evidence.climb.last_mut() {
@@ -61,7 +61,7 @@ impl Finding {
 }
 
 /// Decides a claim whose residual became a constant, without a state.
-pub fn fold(graph: &Graph, item: &Recorded<'_>, finding: &mut Finding) {
+pub fn fold(graph: &Graph, item: &RecordedClaim<'_>, finding: &mut ClaimState) {
     let constants: Option<Vec<_>> =
         item.residual.iter().map(|expr| graph.constant_value(*expr)).collect();
     if let Some(constants) = constants {
@@ -88,23 +88,23 @@ pub fn are_zero(graph: &Graph, values: &[Expr]) -> bool {
 /// Records the results of the first block other than the residual: whether the formula is defined,
 /// the quadratures are functions of their variables, the residual is resolved, and the integral is
 /// new.
-pub fn weigh<D: Enclosing>(
-    item: &Recorded<'_>,
+pub fn classify<D: Enclosing>(
+    item: &RecordedClaim<'_>,
     span: &Span,
     values: &Values<D>,
     existing: &[bool],
-    finding: &mut Finding,
+    finding: &mut ClaimState,
 ) {
     let look = |range: &Range<usize>, scale: &Range<usize>| {
         let scale = values.range(scale.clone()).first().copied();
-        Look::at::<D>(&values.range(range.clone()), scale, existing)
+        BlockResult::at::<D>(&values.range(range.clone()), scale, existing)
     };
     let (kind, none) = (item.claim.kind.name(), 0..0);
     finding.undefined = None;
     if look(&span.value, &none).defined == 0 {
         let hint = item.claim.kind.hint_when_undefined();
         finding.undefined =
-            Some(format!("the formula of this {kind} has no value at {LANES} states{hint}"));
+            Some(format!("the formula of this {kind} has no value at {TAPE_LANES} states{hint}"));
     }
     if !span.defects.is_empty() {
         let defects = look(&span.defects, &none);
@@ -137,14 +137,14 @@ pub fn weigh<D: Enclosing>(
     if residual.defined == 0 {
         let hint = item.claim.kind.hint_when_undefined();
         let reason =
-            format!("the residual is undefined at all {LANES} states that were drawn{hint}");
+            format!("the residual is undefined at all {TAPE_LANES} states that were drawn{hint}");
         finding.undefined.get_or_insert(reason);
     }
     finding.blurred = residual.blur(kind);
 }
 
 /// Result of a block of states for a residual.
-pub struct Look {
+pub struct BlockResult {
     /// Number of states examined.
     states: usize,
     /// Number of states at which all required values exist.
@@ -157,7 +157,7 @@ pub struct Look {
     excludes_zero: bool,
 }
 
-impl Look {
+impl BlockResult {
     /// Whether the residual is undefined at all states.
     pub fn is_nowhere_defined(&self) -> bool {
         self.defined == 0
@@ -233,7 +233,7 @@ impl Look {
 }
 
 /// Leaves a claim undecided, with a reason.
-pub fn undecide(finding: &mut Finding, reason: String) {
+pub fn undecide(finding: &mut ClaimState, reason: String) {
     finding.settled = Some(Verdict::Undecided);
     finding.evidence.reason = Some(reason);
 }

@@ -66,7 +66,7 @@ impl Approximation {
     }
 
     /// Makes the ball of radius `rad` around hi + lo.
-    pub fn from_twofold(hi: f64, lo: f64, rad: f64) -> Option<Self> {
+    pub fn from_double_double(hi: f64, lo: f64, rad: f64) -> Option<Self> {
         let mid = Self::from_f64(hi)?.add(&Self::from_f64(lo)?, u32::MAX);
         let rad = Self::from_f64(rad)?;
         // As an integer number of units that are no larger than either.
@@ -120,7 +120,7 @@ impl Approximation {
     }
 
     /// Returns hi, lo and radius.
-    pub fn to_twofold(&self) -> (f64, f64, f64) {
+    pub fn to_double_double(&self) -> (f64, f64, f64) {
         let hi = to_f64(&self.mantissa, self.exponent);
         let Some(nearest) = Self::from_f64(hi) else { return (hi, 0.0, f64::INFINITY) };
         let rest = self.add(&nearest.neg(), u32::MAX);

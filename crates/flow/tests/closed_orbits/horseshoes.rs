@@ -1,0 +1,102 @@
+//! Horseshoes: proved at the saddle of figure 8, and not where there is none.
+
+use std::path::Path;
+
+use liouville::case::Case;
+use liouville::verdict::{ClaimReport, Verdict};
+
+use super::of_kind;
+
+fn horseshoe(text: &str) -> ClaimReport {
+    let case = Case::parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    of_kind(case, "horseshoe").remove(0)
+}
+
+/// A pendulum's saddle and an oscillator that does not touch it: integrable, and the saddle's stable
+/// and unstable curves are one.
+const INTEGRABLE: &str = r#"
+title = "a saddle and an oscillator"
+[state]
+x = "-2..2"
+u = "-2..2"
+y = "-2..2"
+v = "-2..2"
+[field]
+"x'" = "u"
+"u'" = "x − x³"
+"y'" = "v"
+"v'" = "−y"
+[[claim]]
+horseshoe = 6.2831853072
+state = { x = "0", u = "0", y = "1", v = "0" }
+integrals = ["(u² + v² − x² + y²)/2 + x^4/4"]
+integral = "none"
+"#;
+
+fn of_figure(number: u32, saddle: &str) -> ClaimReport {
+    let cases = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/figures"));
+    let path = cases.join(format!("fig-{number}.toml"));
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{error}"));
+    let claimed = format!("{text}\n{saddle}");
+    let case = Case::parse(&claimed, &[]).unwrap_or_else(|error| panic!("{number}: {error}"));
+    of_kind(case, "horseshoe").remove(0)
+}
+
+#[test]
+fn the_saddles_of_figures_8_and_11_have_horseshoes() {
+    for (figure, least) in [(8, "entropy ≥ 0.0184"), (11, "entropy ≥ 0.0049")] {
+        let claim = of_figure(figure, "");
+        assert_eq!(claim.verdict, Verdict::Proved, "{figure}: {:?}", claim.evidence);
+        let theorem = claim.evidence.theorem.expect("stated");
+        assert!(theorem.contains("real-analytic integral"), "{figure}: {theorem}");
+        assert!(theorem.contains(least), "{figure}: {theorem}");
+    }
+}
+
+#[test]
+fn saddles_of_integrable_figures_have_none() {
+    for (figure, period) in [(3, "4.6597349369"), (4, "17.716785086")] {
+        let saddle =
+            format!("[[claim]]\nhorseshoe = {period}\nstart = [0, 0]\nintegral = \"none\"\n");
+        let claim = of_figure(figure, &saddle);
+        assert_eq!(claim.verdict, Verdict::Undecided, "{figure}: {:?}", claim.evidence);
+        let reason = claim.evidence.reason.expect("a reason");
+        assert!(reason.contains("returns to it"), "{figure}: {reason}");
+    }
+}
+
+#[test]
+fn no_horseshoe_is_proved_where_there_is_none() {
+    let with = |from: &str, to: &str| {
+        assert!(INTEGRABLE.contains(from), "{from}");
+        horseshoe(&INTEGRABLE.replace(from, to))
+    };
+    let both = "integrals = [\"(u² − x²)/2 + x^4/4\", \"v² + y²\"]";
+    let one = "integrals = [\"(u² + v² − x² + y²)/2 + x^4/4\"]";
+    for (name, claim, reason) in [
+        ("curves that are one", horseshoe(INTEGRABLE), "homoclinic orbit are not proved"),
+        ("a centre", with("x = \"0\"", "x = \"1\""), "no saddle"),
+        // the first is critical on the saddle, and is left out
+        ("both integrals known", with(one, both), "homoclinic orbit are not proved"),
+        ("no integral known", with(one, ""), "leave 3 dimensions, not 4"),
+        ("no integral", with("x^4/4", "x^4/5"), "not proved that the motion keeps"),
+        ("a rest", with("y = \"1\"", "y = \"0\""), "leave 3 dimensions, not 4"),
+    ] {
+        assert_eq!(claim.verdict, Verdict::Undecided, "{name}: {:?}", claim.evidence);
+        let found = claim.evidence.reason.clone().expect("a reason");
+        assert!(found.contains(reason), "{name}: {found}");
+    }
+}
+
+#[test]
+fn mistakes_in_horseshoes_have_a_place() {
+    for (from, to, expected) in [
+        ("6.2831853072", "-1", "does not have the period -1"),
+        ("integral = \"none\"", "integral = \"x\"", "cannot be claimed here"),
+        ("integrals = [", "density = \"none\"\nintegrals = [", "makes 2 statements"),
+    ] {
+        let text = INTEGRABLE.replace(from, to);
+        let error = Case::parse(&text, &[]).expect_err(to).to_string();
+        assert!(error.contains(expected), "{to}: {error}");
+    }
+}

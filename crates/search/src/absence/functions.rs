@@ -1,0 +1,78 @@
+//! Absence of fractions of polynomials in the state and in functions of it: exponentials, sines,
+//! cosines and roots that occur in the field.
+//!
+//! An integral P/Q gives a relation along each orbit. If the relations along the orbit of a random
+//! point modulo a prime are those that the known integrals imply, it is a function of these.
+
+use super::super::ask::independent;
+use super::super::orbit::{self, fractions};
+use super::super::{SearchError, SearchReport};
+use super::{AbsenceCase, AbsenceOutcome};
+use liouville::formula::Formula;
+use liouville::verdict::Verdict;
+
+/// Largest number of monomials that are compared: their relations take some seconds.
+const MONOMIALS: usize = 1500;
+
+/// Judges the claim that all integrals up to a degree are functions of the known ones.
+pub fn no_integral(asked: &AbsenceCase<'_>, degree: u32) -> Result<AbsenceOutcome, SearchError> {
+    let (case, effort) = (asked.case, &asked.effort);
+    let known = asked.known.formulas();
+    let compared = match fractions::compared(case, effort, known, degree, MONOMIALS)? {
+        Ok(compared) => compared,
+        Err(reason) => return Ok(AbsenceOutcome::Open(reason)),
+    };
+    let statement = compared.statement(known);
+    let fractions::Compared { class, monomials, relations, implied, .. } = compared;
+    if let Some(statement) = statement {
+        let counted = match relations {
+            0 => format!("no relation between {monomials} monomials along an orbit"),
+            _ => format!(
+                "{} between {monomials} monomials along an orbit, as known integrals imply",
+                several(relations)
+            ),
+        };
+        return Ok(AbsenceOutcome::Excluded { theorem: asked.theorem(&statement), counted });
+    }
+    if relations < implied {
+        return Ok(AbsenceOutcome::Open(format!(
+            "{} along an orbit, fewer than the {implied} that known integrals imply",
+            several(relations)
+        )));
+    }
+    let mut report = SearchReport::default();
+    match orbit::search(case, effort, false, &mut report, &mut |_| {}) {
+        Err(SearchError::Stopped) => {}
+        other => other?,
+    }
+    for found in &report.found {
+        let Some(function) = &found.function else { continue };
+        let own = found.kind == "integral" && found.with.is_empty();
+        if own
+            && found.verdict == Verdict::Proved
+            && fractions::is_within(case, effort, known, function, (&class, degree))?
+            && is_new(asked, function)?
+        {
+            return Ok(AbsenceOutcome::Exhibited(format!("integral, proved: {}", found.formula)));
+        }
+    }
+    Ok(AbsenceOutcome::Open(format!(
+        "{} between {monomials} monomials along an orbit, and known integrals imply {implied}; no other \
+         integral was found in closed form",
+        several(relations)
+    )))
+}
+
+/// Number of relations, in words.
+fn several(relations: usize) -> String {
+    match relations {
+        1 => "one relation".to_string(),
+        _ => format!("{relations} relations"),
+    }
+}
+
+/// Whether an integral is proved to be independent of the known ones.
+fn is_new(asked: &AbsenceCase<'_>, function: &Formula) -> Result<bool, SearchError> {
+    let known = asked.known.claimed();
+    Ok(independent(asked.case, &known, function, &asked.effort)?.is_some())
+}

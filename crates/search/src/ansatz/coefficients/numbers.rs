@@ -1,0 +1,180 @@
+//! Coefficients as numbers: fractions, and a + b √n with a root in the field.
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::{One, Signed, Zero};
+
+use super::super::Coordinates;
+use super::super::surd::surd;
+use super::super::system::PrimePoint;
+use super::{BARREN, PRIMES, PrimitiveVector, Vectors};
+use liouville::formula::Formula;
+
+/// A number a/d, or (a + b √n)/d with the place of the root among those of a field.
+#[derive(Clone, Debug)]
+pub struct Number {
+    above: BigInt,
+    below: BigInt,
+    root: Option<(usize, BigInt)>,
+}
+
+impl Number {
+    /// Makes a fraction.
+    pub fn fraction(above: BigInt, below: BigInt) -> Self {
+        Self { above, below, root: None }
+    }
+
+    /// Whether a number has this image.
+    fn has_image(&self, roots: &Roots, at: &PrimePoint, image: u64) -> bool {
+        let prime = BigInt::from(at.modulus.prime());
+        let value = BigInt::from(at.modulus.to_integer(image));
+        let mut rest = &self.above - &self.below * value;
+        if let Some((root, multiple)) = &self.root {
+            rest += multiple * roots.value(at, *root);
+        }
+        rest.mod_floor(&prime).is_zero()
+    }
+}
+
+/// Square roots of numbers and parameters among the coordinates.
+pub struct Roots {
+    places: Vec<usize>,
+    names: Vec<Formula>,
+}
+
+impl Roots {
+    /// Selects the roots among the coordinates.
+    pub fn of(names: &[Formula]) -> Self {
+        let is_root = |k: &usize| Coordinates::is_root(&names[*k]);
+        let places: Vec<usize> = (0..names.len()).filter(is_root).collect();
+        Self { names: places.iter().map(|k| names[*k].clone()).collect(), places }
+    }
+
+    fn value(&self, at: &PrimePoint, root: usize) -> BigInt {
+        BigInt::from(at.modulus.to_integer(at.coordinates[self.places[root]]))
+    }
+
+    /// Finds a number with these images modulo different primes.
+    pub fn number(&self, images: &[(&PrimePoint, u64)]) -> Option<Number> {
+        (0..self.places.len()).find_map(|root| {
+            let (mut residue, mut square) = (Residue::default(), Residue::default());
+            for (at, image) in images {
+                let prime = BigInt::from(at.modulus.prime());
+                residue.add(&BigInt::from(at.modulus.to_integer(*image)), &prime)?;
+                square.add(&self.value(at, root), &prime)?;
+            }
+            let [above, multiple, below] = surd(&residue.value, &square.value, &residue.modulus)?;
+            Some(Number { above, below, root: Some((root, multiple)) })
+        })
+    }
+
+    /// Coefficients over a common denominator.
+    pub fn coefficients(
+        &self,
+        mut names: Vec<Formula>,
+        numbers: &[Vec<(Vec<u32>, Number)>],
+    ) -> PrimitiveVector {
+        let all = || numbers.iter().flatten().map(|(_, own)| own);
+        let below = all().fold(BigInt::one(), |lcm, own| lcm.lcm(&own.below));
+        let is_used =
+            |root: &usize| all().any(|own| own.root.as_ref().is_some_and(|(used, _)| used == root));
+        let used: Vec<usize> = (0..self.names.len()).filter(is_used).collect();
+        names.extend(used.iter().map(|root| self.names[*root].clone()));
+        let part = |(monomial, own): &(Vec<u32>, Number)| {
+            let scale = &below / &own.below;
+            let powers = |of: Option<usize>| -> Vec<u32> {
+                let extra = used.iter().map(|root| u32::from(of == Some(*root)));
+                monomial.iter().copied().chain(extra).collect()
+            };
+            let mut terms = vec![(powers(None), &own.above * &scale)];
+            if let Some((root, multiple)) = &own.root {
+                terms.push((powers(Some(*root)), multiple * &scale));
+            }
+            terms.retain(|(_, value)| !value.is_zero());
+            terms
+        };
+        let polynomials = numbers.iter().map(|own| own.iter().flat_map(part).collect()).collect();
+        PrimitiveVector { names, polynomials }
+    }
+}
+
+/// A number modulo the product of some primes.
+struct Residue {
+    value: BigInt,
+    modulus: BigInt,
+}
+
+impl Default for Residue {
+    fn default() -> Self {
+        Self { value: BigInt::ZERO, modulus: BigInt::one() }
+    }
+}
+
+impl Residue {
+    /// Takes up the image modulo a further prime.
+    fn add(&mut self, image: &BigInt, prime: &BigInt) -> Option<()> {
+        let inverse = self.modulus.modinv(prime)?;
+        let missing = ((image - &self.value) * inverse).mod_floor(prime);
+        self.value += &self.modulus * missing;
+        self.modulus *= prime;
+        Some(())
+    }
+}
+
+/// Finds coefficients that are numbers, confirmed modulo one further prime.
+pub fn numbers(source: &dyn Vectors) -> Option<PrimitiveVector> {
+    let roots = Roots::of(source.names());
+    let mut seen: Vec<(PrimePoint, Vec<u64>)> = Vec::new();
+    for prime in 0..PRIMES {
+        let found = (0..BARREN).find_map(|index| source.image(prime, index));
+        let Some((at, vector)) = found else { continue };
+        if seen.iter().any(|(other, _)| other.modulus.prime() == at.modulus.prime()) {
+            continue;
+        }
+        if !seen.is_empty() {
+            let number = |column: usize| {
+                let images: Vec<(&PrimePoint, u64)> =
+                    seen.iter().map(|(at, own)| (at, own[column])).collect();
+                let agrees = |own: &Number| own.has_image(&roots, &at, vector[column]);
+                let plain = rational(&images).filter(agrees);
+                plain.or_else(|| roots.number(&images).filter(agrees))
+            };
+            let columns: Option<Vec<Number>> = (0..source.width()).map(number).collect();
+            if let Some(columns) = columns {
+                let polynomial = |own: Number| match own.above.is_zero() && own.root.is_none() {
+                    true => Vec::new(),
+                    false => vec![(Vec::new(), own)],
+                };
+                let numbers: Vec<Vec<_>> = columns.into_iter().map(polynomial).collect();
+                return Some(roots.coefficients(Vec::new(), &numbers).reduced());
+            }
+        }
+        seen.push((at, vector));
+    }
+    None
+}
+
+/// Finds the fraction with these images modulo different primes.
+fn rational(images: &[(&PrimePoint, u64)]) -> Option<Number> {
+    let mut residue = Residue::default();
+    for (at, image) in images {
+        let own = BigInt::from(at.modulus.to_integer(*image));
+        residue.add(&own, &BigInt::from(at.modulus.prime()))?;
+    }
+    let (above, below) = fraction(&residue.value, &residue.modulus)?;
+    Some(Number::fraction(above, below))
+}
+
+/// Finds the fraction with numerator and denominator below √(M/2) and this residue.
+pub fn fraction(residue: &BigInt, modulus: &BigInt) -> Option<(BigInt, BigInt)> {
+    let bound = (modulus / 2u32).sqrt();
+    let mut previous = (modulus.clone(), BigInt::ZERO);
+    let mut current = (residue.clone(), BigInt::one());
+    while current.0 > bound {
+        let quotient = &previous.0 / &current.0;
+        let next = (&previous.0 - &quotient * &current.0, &previous.1 - &quotient * &current.1);
+        (previous, current) = (current, next);
+    }
+    let (above, below) = if current.1.is_negative() { (-current.0, -current.1) } else { current };
+    (!below.is_zero() && below <= bound).then_some((above, below))
+}
