@@ -87,7 +87,8 @@ impl Judging<'_> {
         let mut outputs = self.common.required_at(sampler.kept());
         outputs.extend(item.requirement.iter().chain(values));
         let run = self.run(&outputs);
-        let all = std::slice::from_ref(&(0..outputs.len()));
+        let outputs = 0..outputs.len();
+        let all = std::slice::from_ref(&outputs);
         let has_state = |sampler: &Sampler| {
             let in_f64 = (0..self.blocks()).any(|block| {
                 let values = run.at(&Ball::<TAPE_LANES>, &sampler.balls(block * TAPE_LANES as u64));
