@@ -42,7 +42,7 @@ fn is_lone(scene: &Scene, claim: &Claim, point: &Point) -> bool {
     let fails = |(around, index): (f64, u64)| {
         let mut stream = Stream::new(0x10_4e, index);
         let beside = free.iter().fold(point.clone(), |point, place| {
-            point.moved(*place, around * (2.0 * stream.unit() - 1.0))
+            point.beside(*place, around * (2.0 * stream.unit() - 1.0))
         });
         matches!(claim.settled(scene, &|| scene.values(&beside)), Some(At::Off(_)))
     };
@@ -71,7 +71,9 @@ impl Survey {
         for point in std::mem::take(&mut self.kept).iter().rev().take(SHARPENED) {
             let values = || scene.values(point).map(|values| claim.at(scene, &values));
             if let Some(At::Off(_)) = with_bits(LADDER[1], values) {
-                (self.off, self.zero) = (self.off + 1, self.zero - 1);
+                let count =
+                    if is_lone(scene, claim, point) { &mut self.lone } else { &mut self.off };
+                (*count, self.zero) = (*count + 1, self.zero - 1);
             }
         }
     }

@@ -76,6 +76,15 @@ impl Point {
         point.cube[place] = (point.cube[place] + by).clamp(0.0, 1.0);
         point
     }
+
+    /// Returns the point with one coordinate changed by a step of this size, in the direction that
+    /// stays inside the range.
+    pub fn beside(&self, place: usize, by: f64) -> Self {
+        let mut point = self.clone();
+        let there = point.cube[place] + by;
+        point.cube[place] = if (0.0..=1.0).contains(&there) { there } else { there - 2.0 * by };
+        point
+    }
 }
 
 fn rough(n: &Number) -> f64 {
@@ -326,7 +335,11 @@ impl Scene {
         let place = Place { values, along: &[] };
         let rates = self.field.iter().map(|(_, rate)| place.value(rate));
         let parts = values.iter().cloned().chain(rates).map(|found| found.map(|_| ()));
-        parts.fold(Ok(()), |all, part| both(all, part).map(|_| ()))
+        let mut all = Ok(());
+        for part in parts {
+            all = both(all, part).map(|_| ());
+        }
+        all
     }
 
     /// Writes the case file with these claims, each the body of a table.

@@ -50,14 +50,14 @@ impl Drop for Former {
 /// use std::sync::Arc;
 /// use std::sync::atomic::AtomicBool;
 /// use liouville::case::Case;
-/// use liouville::number::double_double::Pair;
+/// use liouville::number::double_double::DoubleDouble;
 /// use liouville_flow::{FlowError, Precision, Start, orbit, stoppable};
 ///
 /// let case = Case::parse("title = 'a'\n[state]\nx = '-1..1'\n[field]\n\"x'\" = '1 - x'\n", &[])?;
 /// let start = Start::new(&case, None, 1, 0)?;
 /// let raised = Arc::new(AtomicBool::new(true));
 /// let found =
-///     stoppable(&raised, || orbit(&case, start, Pair::from_f64(1e9), Precision::Float));
+///     stoppable(&raised, || orbit(&case, start, DoubleDouble::from_f64(1e9), Precision::Float));
 /// assert!(matches!(found, Err(FlowError::Stopped)));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

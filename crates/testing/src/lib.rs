@@ -39,7 +39,7 @@
 //!
 //! ```
 //! use liouville::scalar::Scalar;
-//! use liouville_testing::{Body, Failure, On, Rolling, RollingLevel, VectorField, quantity};
+//! use liouville_testing::{AssertionFailure, Body, On, Rolling, RollingLevel, VectorField, quantity};
 //!
 //! /// Everything within `margin` of an ellipsoid with semi-axes a, ½, ½.
 //! struct Rounded {
@@ -67,7 +67,7 @@
 //! let first = quantity!(|x: [_; 6]| x[0] * x[0]);
 //! let failure = rolling.conserves(&first).at(&state).expect_err("ω₁² is no integral");
 //! assert!(failure.is_refutation());
-//! # Ok::<(), Failure>(())
+//! # Ok::<(), AssertionFailure>(())
 //! ```
 //!
 //! # Assertions

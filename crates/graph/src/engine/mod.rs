@@ -11,11 +11,11 @@
 //! numbers: they have no error bounds.
 //!
 //! ```
-//! use liouville_graph::engine::{Engine, Means};
+//! use liouville_graph::engine::{Backend, Engine};
 //! use liouville_graph::graph::{Tape, record};
 //!
 //! let (graph, norm) = record(2, |x| x[0] * x[0] + x[1] * x[1])?;
-//! let engine = Engine::new(&Tape::new(&graph, &[norm]), Means::Quickest);
+//! let engine = Engine::new(&Tape::new(&graph, &[norm]), Backend::Quickest);
 //! let mut runner = engine.runner();
 //! runner.inputs()[0].0 = std::array::from_fn(|lane| lane as f64);
 //! runner.inputs()[1].0 = [2.0; 64];

@@ -11,7 +11,7 @@
 //!
 //! and the radii are those of [`ball`](super::ball), in f64. The error of a product is exact by a
 //! fused multiply-add as long as it does not underflow; `TINY` restores what is lost then, divided
-//! by s for a root. Elementary functions are computed in [`precise`](super::precise) arithmetic.
+//! by s for a root. Elementary functions are computed in [`arb`](super::arb) arithmetic.
 
 use super::arb::{Approximation, ArbBall};
 use super::double_double::DoubleDouble;
