@@ -114,7 +114,7 @@ pub(super) fn read(root: &CaseTable<'_>) -> Option<SectionPlan> {
 
 fn plan(section: &CaseTable<'_>) -> Result<SectionPlan, Mistake> {
     let wrong = |text: &SpannedStr, message: String| {
-        let remedy = "docs/writing-a-case.md shows a [section]".to_string();
+        let remedy = "docs/claims.md shows a [section]".to_string();
         Mistake::at(text.span.clone(), Problem::Other { message, remedy })
     };
     let g0 = section.required("g0", "add g0 = \"π\", the angle of the section")?;

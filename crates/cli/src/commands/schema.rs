@@ -8,8 +8,12 @@ use serde_json::{Map, Value, json};
 
 use super::CommandOutput;
 
-/// The guide, whose tables explain keys.
-const GUIDE: &str = include_str!("../../../../docs/writing-a-case.md");
+/// The pages whose tables explain keys.
+const GUIDE: &str = concat!(
+    include_str!("../../../../docs/writing-a-case.md"),
+    include_str!("../../../../docs/claims.md"),
+    include_str!("../../../../docs/systems.md"),
+);
 
 /// A key that no table has.
 const UNKNOWN: &str = "schema-probe";
