@@ -27,7 +27,7 @@ pub fn solve(model: &Model, kept: &[bool]) -> Option<Solution> {
     if equations.is_empty() || equations.len() > MOST_EQUATIONS || dimension > MOST_COMPONENTS {
         return None;
     }
-    let looks = |is_squared: bool| {
+    let derivatives = |is_squared: bool| {
         let all: Option<Vec<EquationDerivatives>> = equations
             .iter()
             .map(|index| {
@@ -38,10 +38,11 @@ pub fn solve(model: &Model, kept: &[bool]) -> Option<Solution> {
         all
     };
     // √A = e is solved as A = e² where it cannot be solved as it stands.
-    let plain = looks(false).and_then(|looks| OrderSearch::of(model, looks).steps());
+    let plain =
+        derivatives(false).and_then(|derivatives| OrderSearch::of(model, derivatives).steps());
     let steps = plain.or_else(|| {
         let has_roots = equations.iter().any(|index| model.level[*index].root.is_some());
-        OrderSearch::of(model, looks(true).filter(|_| has_roots)?).steps()
+        OrderSearch::of(model, derivatives(true).filter(|_| has_roots)?).steps()
     })?;
     Some(Solution { steps })
 }
@@ -49,22 +50,22 @@ pub fn solve(model: &Model, kept: &[bool]) -> Option<Solution> {
 /// The search for an order of solution.
 struct OrderSearch<'m> {
     model: &'m Model,
-    looks: Vec<EquationDerivatives>,
+    derivatives: Vec<EquationDerivatives>,
 }
 
 impl<'m> OrderSearch<'m> {
-    fn of(model: &'m Model, looks: Vec<EquationDerivatives>) -> Self {
-        Self { model, looks }
+    fn of(model: &'m Model, derivatives: Vec<EquationDerivatives>) -> Self {
+        Self { model, derivatives }
     }
 
     fn steps(&self) -> Option<Vec<SolutionStep>> {
-        let mut left: Vec<usize> = (0..self.looks.len()).collect();
+        let mut left: Vec<usize> = (0..self.derivatives.len()).collect();
         // Components that are solved for, or free because an equation was solved for another
         // component.
         let (mut settled, mut solved): (Set, Set) = (0, 0);
         let mut steps = Vec::new();
         while !left.is_empty() {
-            let unknown = |index: &usize| self.looks[*index].contained() & !settled;
+            let unknown = |index: &usize| self.derivatives[*index].contained() & !settled;
             let mut blocks: Vec<Set> = left.iter().map(unknown).collect();
             blocks.sort_by_key(|set| (set.count_ones(), *set));
             blocks.dedup();
@@ -78,7 +79,7 @@ impl<'m> OrderSearch<'m> {
                 Some(found) => found,
                 None => {
                     let (index, component) = self.parameter(&left)?;
-                    let equation = self.looks[index].equation;
+                    let equation = self.derivatives[index].equation;
                     let block = unknown(&index);
                     (block, vec![index], SolutionStep::Parameter { equation, component })
                 }
@@ -120,7 +121,8 @@ impl<'m> OrderSearch<'m> {
             let set = chosen.iter().fold(0, |set, k| set | bit(*k));
             if let Some(cost) = self.linear_cost(block, &chosen, set, solved) {
                 let all = self.linear_together(block, set, unknown);
-                let equations = block.iter().map(|index| self.looks[*index].equation).collect();
+                let equations =
+                    block.iter().map(|index| self.derivatives[*index].equation).collect();
                 offer(cost, SolutionStep::Linear { equations, components: chosen, all });
             } else if let Some(step) = self.quadratic(block, chosen, set, unknown) {
                 offer(20, step);
@@ -136,32 +138,32 @@ impl<'m> OrderSearch<'m> {
     /// Rates solving a block that is jointly linear in the chosen unknowns; `None` if it cannot be
     /// solved for them. Constant divisors cost least.
     fn linear_cost(&self, block: &[usize], chosen: &[usize], set: Set, solved: Set) -> Option<u32> {
-        if !block.iter().all(|index| self.looks[*index].is_linear_in(set))
+        if !block.iter().all(|index| self.derivatives[*index].is_linear_in(set))
             || !self.is_regular(block, chosen)
         {
             return None;
         }
         let slopes = || {
             block.iter().flat_map(|index| {
-                let look = &self.looks[*index];
-                chosen.iter().map(move |k| (look, look.slopes[*k]))
+                let derivatives = &self.derivatives[*index];
+                chosen.iter().map(move |k| (derivatives, derivatives.slopes[*k]))
             })
         };
-        let is_number = |(look, slope): (&EquationDerivatives, Expr)| {
-            look.graph.constant_value(slope).is_some()
+        let is_number = |(derivatives, slope): (&EquationDerivatives, Expr)| {
+            derivatives.graph.constant_value(slope).is_some()
         };
         if slopes().all(is_number) {
             return Some(1);
         }
-        let over_solved = slopes().any(|(look, slope)| look.set(slope) & solved != 0);
+        let over_solved = slopes().any(|(derivatives, slope)| derivatives.set(slope) & solved != 0);
         Some(if over_solved { 3 } else { 2 })
     }
 
     /// Whether the square matrix of slopes of the equations is regular in general.
     fn is_regular(&self, block: &[usize], chosen: &[usize]) -> bool {
         let slope = |index: usize, k: usize| {
-            let look = &self.looks[index];
-            !look.is_zero(look.slopes[k])
+            let derivatives = &self.derivatives[index];
+            !derivatives.is_zero(derivatives.slopes[k])
         };
         // A pairing in which no slope is identically 0; points at which the matrix is regular are
         // drawn.
@@ -180,7 +182,7 @@ impl<'m> OrderSearch<'m> {
         let mut set = chosen;
         for component in members(unknown & !chosen) {
             let more = set | bit(component);
-            if block.iter().all(|index| self.looks[*index].is_linear_in(more)) {
+            if block.iter().all(|index| self.derivatives[*index].is_linear_in(more)) {
                 set = more;
             }
         }
@@ -195,10 +197,10 @@ impl<'m> OrderSearch<'m> {
         set: Set,
         unknown: Set,
     ) -> Option<SolutionStep> {
-        let is_linear = |index: &usize| self.looks[*index].is_linear_in(set);
+        let is_linear = |index: &usize| self.derivatives[*index].is_linear_in(set);
         let (linear, others): (Vec<usize>, Vec<usize>) = block.iter().partition(|k| is_linear(k));
         let [last] = others[..] else { return None };
-        if !self.looks[last].is_quadratic_in(set) {
+        if !self.derivatives[last].is_quadratic_in(set) {
             return None;
         }
         // The line may run along any of the components.
@@ -209,36 +211,37 @@ impl<'m> OrderSearch<'m> {
         components.push(line);
         // The divisor may be free of all unknowns of the block.
         let slopes = linear.iter().flat_map(|index| {
-            let look = &self.looks[*index];
-            chosen.iter().map(|k| look.set(look.slopes[*k]))
+            let derivatives = &self.derivatives[*index];
+            chosen.iter().map(|k| derivatives.set(derivatives.slopes[*k]))
         });
         let inside = |(i, j, _): &&(usize, usize, Expr)| set & bit(*i) != 0 && set & bit(*j) != 0;
-        let look = &self.looks[last];
-        let bends = look.bends.iter().filter(inside).map(|(_, _, bend)| look.set(*bend));
+        let derivatives = &self.derivatives[last];
+        let bends =
+            derivatives.bends.iter().filter(inside).map(|(_, _, bend)| derivatives.set(*bend));
         let pivots = slopes.chain(bends).fold(0, |all, own| all | own);
         let all = members(if pivots & unknown == 0 { unknown } else { set });
         let together = all.iter().fold(0, |set, k| set | bit(*k));
-        let is_of_degree_2 = look.is_quadratic_in(together)
-            && linear.iter().all(|index| self.looks[*index].is_linear_in(together));
-        let linear = linear.iter().map(|index| self.looks[*index].equation).collect();
-        let quadratic = look.equation;
+        let is_of_degree_2 = derivatives.is_quadratic_in(together)
+            && linear.iter().all(|index| self.derivatives[*index].is_linear_in(together));
+        let linear = linear.iter().map(|index| self.derivatives[*index].equation).collect();
+        let quadratic = derivatives.equation;
         Some(SolutionStep::Quadratic { linear, quadratic, components, all, is_of_degree_2 })
     }
 
     /// Finds a step for a quadric that has a rational point on an axis and unknown components only.
     fn quadric(&self, index: usize, unknown: Set, settled: Set) -> Option<SolutionStep> {
-        let look = &self.looks[index];
-        let contained = look.contained();
+        let derivatives = &self.derivatives[index];
+        let contained = derivatives.contained();
         if contained != unknown || contained & settled != 0 {
             return None;
         }
         let mut components = members(contained);
-        let quadric = look.quadric(&components).filter(Quadric::is_irreducible)?;
+        let quadric = derivatives.quadric(&components).filter(Quadric::is_irreducible)?;
         let found = (0..components.len()).rev().find_map(|k| Some((k, quadric.on_axis(k)?)));
         let (axis, point) = found?;
         let last = components.remove(axis);
         components.push(last);
-        Some(SolutionStep::Quadric { equation: look.equation, components, point })
+        Some(SolutionStep::Quadric { equation: derivatives.equation, components, point })
     }
 
     /// Finds a remaining equation with a scalar parameter that enters it linearly, with a constant
@@ -246,16 +249,19 @@ impl<'m> OrderSearch<'m> {
     fn parameter(&self, left: &[usize]) -> Option<(usize, usize)> {
         let is_scalar = scalar_components(self.model);
         left.iter().find_map(|index| {
-            let look = &self.looks[*index];
+            let derivatives = &self.derivatives[*index];
             let usable = |(k, slope): &&(usize, Expr)| {
                 let elsewhere = |other: &EquationDerivatives| {
-                    other.equation != look.equation && other.parameters.contains(k)
+                    other.equation != derivatives.equation && other.parameters.contains(k)
                 };
                 is_scalar.contains(k)
-                    && look.graph.constant_value(*slope).is_some_and(|slope| !slope.is_zero())
-                    && !self.looks.iter().any(elsewhere)
+                    && derivatives
+                        .graph
+                        .constant_value(*slope)
+                        .is_some_and(|slope| !slope.is_zero())
+                    && !self.derivatives.iter().any(elsewhere)
             };
-            let (component, _) = look.parameter_slopes.iter().find(usable)?;
+            let (component, _) = derivatives.parameter_slopes.iter().find(usable)?;
             Some((*index, *component))
         })
     }

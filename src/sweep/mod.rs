@@ -191,7 +191,7 @@ impl<'c> Sweep<'c> {
             let portions = (wave.end - wave.start).div_ceil(PORTION);
             let portion = |runner: &mut Runner, number: u64| {
                 let start = wave.start + number * PORTION;
-                self.look(runner, start..(start + PORTION).min(wave.end))
+                self.extremes(runner, start..(start + PORTION).min(wave.end))
             };
             let of_wave = (0..portions)
                 .into_par_iter()
@@ -232,7 +232,7 @@ impl<'c> Sweep<'c> {
     }
 
     /// Evaluates a few states, one row after the other.
-    fn look(&self, runner: &mut Runner, states: Range<u64>) -> Extremes {
+    fn extremes(&self, runner: &mut Runner, states: Range<u64>) -> Extremes {
         let mut found = Extremes::default();
         for start in states.clone().step_by(ROW_STATES) {
             self.generator.fill(start, runner.inputs());

@@ -61,21 +61,21 @@ impl ClaimState {
 }
 
 /// Decides a claim whose residual became a constant, without a state.
-pub fn fold(graph: &Graph, item: &RecordedClaim<'_>, finding: &mut ClaimState) {
+pub fn fold(graph: &Graph, item: &RecordedClaim<'_>, status: &mut ClaimState) {
     let constants: Option<Vec<_>> =
         item.residual.iter().map(|expr| graph.constant_value(*expr)).collect();
     if let Some(constants) = constants {
-        finding.evidence.method = Method::Folding;
-        finding.rung(Method::Folding, "the residual is a constant".to_string());
+        status.evidence.method = Method::Folding;
+        status.rung(Method::Folding, "the residual is a constant".to_string());
         let zero = constants.iter().all(|value| value.is_zero());
         if zero && !are_zero(graph, &item.context.quadrature_defects) {
             // The existence of such integrals is not yet decided.
             return;
         }
-        finding.settled = Some(if zero { Verdict::Proved } else { Verdict::Refuted });
+        status.settled = Some(if zero { Verdict::Proved } else { Verdict::Refuted });
         if !zero {
             let values: Vec<String> = constants.iter().map(|value| value.to_string()).collect();
-            finding.evidence.reason = Some(format!("the residual is {}", values.join(", ")));
+            status.evidence.reason = Some(format!("the residual is {}", values.join(", ")));
         }
     }
 }
@@ -93,32 +93,32 @@ pub fn classify<D: Enclosing>(
     span: &Span,
     values: &Values<D>,
     existing: &[bool],
-    finding: &mut ClaimState,
+    status: &mut ClaimState,
 ) {
-    let look = |range: &Range<usize>, scale: &Range<usize>| {
+    let result = |range: &Range<usize>, scale: &Range<usize>| {
         let scale = values.range(scale.clone()).first().copied();
         BlockResult::at::<D>(&values.range(range.clone()), scale, existing)
     };
     let (kind, none) = (item.claim.kind.name(), 0..0);
-    finding.undefined = None;
-    if look(&span.value, &none).defined == 0 {
+    status.undefined = None;
+    if result(&span.value, &none).defined == 0 {
         let hint = item.claim.kind.hint_when_undefined();
-        finding.undefined =
+        status.undefined =
             Some(format!("the formula of this {kind} has no value at {TAPE_LANES} states{hint}"));
     }
     if !span.defects.is_empty() {
-        let defects = look(&span.defects, &none);
+        let defects = result(&span.defects, &none);
         let reason = NO_QUADRATURE.to_string();
         match (defects.excludes_zero, defects.is_zero()) {
-            (true, _) => return undecide(finding, reason),
-            (_, false) => finding.undefined = Some(reason),
+            (true, _) => return undecide(status, reason),
+            (_, false) => status.undefined = Some(reason),
             _ => {}
         }
     }
     if !span.off_level.is_empty() {
         let (own, general) =
-            (look(&span.off_level, &span.slope), look(&span.off_general, &span.slope));
-        finding.evidence.independence = match (own.is_zero(), own.excludes_zero) {
+            (result(&span.off_level, &span.slope), result(&span.off_general, &span.slope));
+        status.evidence.independence = match (own.is_zero(), own.excludes_zero) {
             (true, _) => Some(Independence::Constant),
             (_, false) => None,
             _ if span.off_general.is_empty() || general.excludes_zero => {
@@ -127,20 +127,20 @@ pub fn classify<D: Enclosing>(
             _ => general.is_zero().then_some(Independence::General),
         };
     }
-    if finding.settled.is_some() {
-        if let Some(reason) = finding.undefined.take() {
-            undecide(finding, reason);
+    if status.settled.is_some() {
+        if let Some(reason) = status.undefined.take() {
+            undecide(status, reason);
         }
         return;
     }
-    let residual = look(&span.residual, &span.scale);
+    let residual = result(&span.residual, &span.scale);
     if residual.defined == 0 {
         let hint = item.claim.kind.hint_when_undefined();
         let reason =
             format!("the residual is undefined at all {TAPE_LANES} states that were drawn{hint}");
-        finding.undefined.get_or_insert(reason);
+        status.undefined.get_or_insert(reason);
     }
-    finding.blurred = residual.blur(kind);
+    status.blurred = residual.blur(kind);
 }
 
 /// Result of a block of states for a residual.
@@ -169,10 +169,10 @@ impl BlockResult {
         scale: Option<&D::Block>,
         existing: &[bool],
     ) -> Self {
-        let mut look =
+        let mut result =
             Self { states: D::LANES, existing: 0, defined: 0, resolved: 0, excludes_zero: false };
         for lane in (0..D::LANES).filter(|lane| existing[*lane]) {
-            look.existing += 1;
+            result.existing += 1;
             let enclosures = residuals.iter().map(|block| D::enclosure(block, lane));
             let Some(enclosures) = enclosures.collect::<Option<Vec<(f64, f64)>>>() else {
                 continue;
@@ -184,12 +184,12 @@ impl BlockResult {
                     2f64.powi(-RESOLVED_BITS) * (mid - rad).max(0.0).sqrt()
                 }
             };
-            look.defined += 1;
-            look.resolved +=
+            result.defined += 1;
+            result.resolved +=
                 usize::from(enclosures.iter().all(|(_, rad)| *rad <= blur || *rad == 0.0));
-            look.excludes_zero |= residuals.iter().any(|block| D::excludes_zero(block, lane));
+            result.excludes_zero |= residuals.iter().any(|block| D::excludes_zero(block, lane));
         }
-        look
+        result
     }
 
     /// Whether all enclosures contain 0, and enough of them are narrow.
@@ -233,7 +233,7 @@ impl BlockResult {
 }
 
 /// Leaves a claim undecided, with a reason.
-pub fn undecide(finding: &mut ClaimState, reason: String) {
-    finding.settled = Some(Verdict::Undecided);
-    finding.evidence.reason = Some(reason);
+pub fn undecide(status: &mut ClaimState, reason: String) {
+    status.settled = Some(Verdict::Undecided);
+    status.evidence.reason = Some(reason);
 }

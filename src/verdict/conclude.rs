@@ -11,12 +11,12 @@ use crate::claim::ClaimKind;
 pub fn report(
     case: &Case,
     item: &RecordedClaim<'_>,
-    finding: ClaimState,
+    status: ClaimState,
     options: &Options,
 ) -> ClaimReport {
     let claim = item.claim;
-    let mut verdict = finding.settled.unwrap_or(Verdict::Undecided);
-    let mut evidence = finding.evidence;
+    let mut verdict = status.settled.unwrap_or(Verdict::Undecided);
+    let mut evidence = status.evidence;
     if claim.kind.is_negated() {
         // The claim is that the residual does not vanish everywhere: one state proves it.
         verdict = match verdict {

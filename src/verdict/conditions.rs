@@ -21,7 +21,7 @@ impl Judging<'_> {
         sampler: &Sampler,
         holding: &mut Open<'_, '_>,
     ) -> Result<(), Fault> {
-        for (item, finding) in holding.iter_mut() {
+        for (item, status) in holding.iter_mut() {
             for condition in &item.conditions {
                 let failure = match (&condition.need, sampler.is_numerical()) {
                     (Need::NotZero { .. }, true) => Some(condition.otherwise.clone()),
@@ -30,9 +30,9 @@ impl Judging<'_> {
                 };
                 let Some(failure) = failure else { continue };
                 if !condition.is_essential {
-                    finding.evidence.remark = Some(failure);
+                    status.evidence.remark = Some(failure);
                 } else if !self.holds_of_all_values(item)? {
-                    undecide(finding, failure);
+                    undecide(status, failure);
                 }
             }
         }

@@ -28,10 +28,10 @@ impl Judging<'_> {
         span: &Span,
         seen: &BlockValues<'_, D>,
         bits: u32,
-        finding: &mut ClaimState,
+        status: &mut ClaimState,
     ) {
-        settle_method(sampler, finding);
-        if self.seek_witness(sampler, start, span.residual.clone(), seen, bits, finding) {
+        settle_method(sampler, status);
+        if self.seek_witness(sampler, start, span.residual.clone(), seen, bits, status) {
             return;
         }
         let residuals = seen.values.range(span.residual.clone());
@@ -48,7 +48,7 @@ impl Judging<'_> {
                 scaled = scaled.max(if mid == 0.0 { 0.0 } else { mid.abs() / rad });
             }
         }
-        let evidence = &mut finding.evidence;
+        let evidence = &mut status.evidence;
         if start > 0 || evidence.samples == 0 {
             evidence.samples += states;
         }
@@ -57,21 +57,21 @@ impl Judging<'_> {
         evidence.max_residual = Some(before(evidence.max_residual).max(largest));
         evidence.max_scaled_residual = Some(before(evidence.max_scaled_residual).max(scaled));
         let method = evidence.method;
-        finding.rung(method, enclosed(states, largest));
+        status.rung(method, enclosed(states, largest));
     }
 
     /// Adds to the evidence what further blocks of states show together, as [`Self::check_value`] does
     /// with one after another.
-    pub(super) fn add(&self, sampler: &Sampler, total: Option<Total>, finding: &mut ClaimState) {
+    pub(super) fn add(&self, sampler: &Sampler, total: Option<Total>, status: &mut ClaimState) {
         let Some(Total { all, last }) = total else { return };
-        settle_method(sampler, finding);
-        let evidence = &mut finding.evidence;
+        settle_method(sampler, status);
+        let evidence = &mut status.evidence;
         evidence.samples += all.states;
         let larger = |old: Option<f64>, new: f64| Some(old.unwrap_or(0.0).max(new));
         evidence.max_residual = larger(evidence.max_residual, all.largest);
         evidence.max_scaled_residual = larger(evidence.max_scaled_residual, all.scaled);
         let method = evidence.method;
-        finding.rung(method, enclosed(last.states, last.largest));
+        status.rung(method, enclosed(last.states, last.largest));
     }
 
     /// Refutes a claim by the first state whose enclosure excludes zero, if any.
@@ -82,7 +82,7 @@ impl Judging<'_> {
         residual: std::ops::Range<usize>,
         seen: &BlockValues<'_, D>,
         bits: u32,
-        finding: &mut ClaimState,
+        status: &mut ClaimState,
     ) -> bool {
         let residuals = seen.values.range(residual);
         for lane in (0..D::LANES).filter(|lane| seen.existing[*lane]) {
@@ -93,7 +93,7 @@ impl Judging<'_> {
             let digits = away.and_then(|block| D::beyond_f64(block, lane));
             if let Some((mid, rad)) = away.and_then(|block| D::enclosure(block, lane)) {
                 let index = start + lane as u64;
-                let evidence = &mut finding.evidence;
+                let evidence = &mut status.evidence;
                 evidence.samples = evidence.samples.max(lane + 1);
                 let found = match &digits {
                     Some(digits) => format!("{digits} at state {index}"),
@@ -104,9 +104,9 @@ impl Judging<'_> {
                 evidence.witness = Some(Witness { digits, ..witness });
                 evidence.max_residual = None;
                 evidence.max_scaled_residual = None;
-                finding.settled = Some(Verdict::Refuted);
-                let method = finding.evidence.method;
-                finding.rung(method, found);
+                status.settled = Some(Verdict::Refuted);
+                let method = status.evidence.method;
+                status.rung(method, found);
                 return true;
             }
         }
@@ -115,10 +115,10 @@ impl Judging<'_> {
 }
 
 /// Notes that balls are used, where nothing else was.
-fn settle_method(sampler: &Sampler, finding: &mut ClaimState) {
-    if finding.evidence.method == Method::Unsettled {
+fn settle_method(sampler: &Sampler, status: &mut ClaimState) {
+    if status.evidence.method == Method::Unsettled {
         let numerical = sampler.is_numerical();
-        finding.evidence.method = if numerical { Method::NumericalBall } else { Method::Ball };
+        status.evidence.method = if numerical { Method::NumericalBall } else { Method::Ball };
     }
 }
 
@@ -128,29 +128,29 @@ fn enclosed(states: usize, largest: f64) -> String {
 }
 
 /// Decides a claim that no state refuted.
-pub fn complete(item: &RecordedClaim<'_>, finding: &mut ClaimState) {
+pub fn complete(item: &RecordedClaim<'_>, status: &mut ClaimState) {
     let kind = item.claim.kind.name();
-    if let Some(reason) = finding.undefined.take() {
-        finding.evidence.proof = None;
-        undecide(finding, reason);
-    } else if finding.is_zero {
-        finding.settled = Some(Verdict::Proved);
-        finding.evidence.method = Method::PrimeField;
-    } else if finding.is_nonzero() && item.claim.kind.is_inequality() {
+    if let Some(reason) = status.undefined.take() {
+        status.evidence.proof = None;
+        undecide(status, reason);
+    } else if status.is_zero {
+        status.settled = Some(Verdict::Proved);
+        status.evidence.method = Method::PrimeField;
+    } else if status.is_nonzero() && item.claim.kind.is_inequality() {
         let reason = "no state is known at which the rate is positive, and it is not proved that there \
                       is none; write the rate under `equals` as a sum of terms that are never positive";
-        undecide(finding, reason.to_string());
-    } else if finding.is_nonzero() {
+        undecide(status, reason.to_string());
+    } else if status.is_nonzero() {
         undecide(
-            finding,
+            status,
             format!(
                 "modulo a prime the residual of this {kind} is not 0, but no state is known at which \
                  that matters"
             ),
         );
-    } else if let Some(reason) = finding.partial.take().or(finding.blurred.take()) {
-        undecide(finding, reason);
+    } else if let Some(reason) = status.partial.take().or(status.blurred.take()) {
+        undecide(status, reason);
     } else {
-        finding.settled = Some(Verdict::Confirmed);
+        status.settled = Some(Verdict::Confirmed);
     }
 }

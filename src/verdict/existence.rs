@@ -33,9 +33,9 @@ impl Judging<'_> {
         if sampler.is_numerical() {
             return;
         }
-        let unsettled = open.iter_mut().filter(|(_, finding)| finding.settled.is_none());
-        for (item, finding) in unsettled {
-            let missing = std::mem::take(&mut finding.missing);
+        let unsettled = open.iter_mut().filter(|(_, status)| status.settled.is_none());
+        for (item, status) in unsettled {
+            let missing = std::mem::take(&mut status.missing);
             if missing.is_empty() {
                 continue;
             }
@@ -58,17 +58,17 @@ impl Judging<'_> {
                     residual.clone(),
                     &seen,
                     LADDER_BITS[0],
-                    finding,
+                    status,
                 ) {
                     break;
                 }
                 let residual = values.existing(&[residual]);
                 if existing[0] && residual[0] {
-                    finding.undefined = None;
+                    status.undefined = None;
                 }
             }
-            if doubtful * missing.len() * MAX_DOUBTFUL >= looked * TAPE_LANES && !finding.is_zero {
-                finding.blurred.get_or_insert_with(|| {
+            if doubtful * missing.len() * MAX_DOUBTFUL >= looked * TAPE_LANES && !status.is_zero {
+                status.blurred.get_or_insert_with(|| {
                     format!(
                         "at {doubtful} of {looked} states it is not known whether the formula has a \
                          value"
@@ -85,15 +85,15 @@ impl Judging<'_> {
         sampler: &Sampler,
         open: &mut Open<'_, '_>,
     ) -> Result<(), Fault> {
-        let unsettled = open.iter_mut().filter(|(_, finding)| {
-            finding.settled.is_none() && finding.is_nonzero() && finding.undefined.is_none()
+        let unsettled = open.iter_mut().filter(|(_, status)| {
+            status.settled.is_none() && status.is_nonzero() && status.undefined.is_none()
         });
-        for (item, finding) in unsettled {
-            for found in std::mem::take(&mut finding.nonzero) {
-                if self.settle_at(item, sampler, &found, finding) {
+        for (item, status) in unsettled {
+            for found in std::mem::take(&mut status.nonzero) {
+                if self.settle_at(item, sampler, &found, status) {
                     break;
                 }
-                finding.nonzero.push(found);
+                status.nonzero.push(found);
             }
         }
         Ok(())
@@ -105,21 +105,21 @@ impl Judging<'_> {
         item: &RecordedClaim<'_>,
         sampler: &Sampler,
         found: &Where,
-        finding: &mut ClaimState,
+        status: &mut ClaimState,
     ) -> bool {
         let chosen = sampler.with(&found.fixed);
         let exists = match found.parts.proper() {
-            None => self.drawn_state(item, &chosen, None, finding),
+            None => self.drawn_state(item, &chosen, None, status),
             Some(parts) => {
-                parts.iter().any(|part| self.drawn_state(item, &chosen, Some(part), finding))
-                    || parts.iter().any(|part| self.state_inside(item, &chosen, part, finding))
+                parts.iter().any(|part| self.drawn_state(item, &chosen, Some(part), status))
+                    || parts.iter().any(|part| self.state_inside(item, &chosen, part, status))
             }
         };
-        if exists && finding.settled.is_none() {
+        if exists && status.settled.is_none() {
             let kind = item.claim.kind.name();
-            finding.settled = Some(Verdict::Refuted);
-            finding.evidence.method = Method::PrimeField;
-            finding.evidence.reason = Some(format!(
+            status.settled = Some(Verdict::Refuted);
+            status.evidence.method = Method::PrimeField;
+            status.evidence.reason = Some(format!(
                 "modulo a prime the residual of this {kind} is not 0, so it is not an identity"
             ));
         }
@@ -132,7 +132,7 @@ impl Judging<'_> {
         item: &RecordedClaim<'_>,
         sampler: &Sampler,
         part: Option<&InputRegion>,
-        finding: &mut ClaimState,
+        status: &mut ClaimState,
     ) -> bool {
         let (run, layout) = self.lay_out(sampler, std::iter::once(item), false);
         let span = &layout.spans[0];
@@ -160,13 +160,13 @@ impl Judging<'_> {
             existing[0]
         };
         let Some(index) = known.or_else(|| (0..PRECISE_STATES).find(exists)) else { return false };
-        finding.evidence.method = Method::PreciseBall;
+        status.evidence.method = Method::PreciseBall;
         for bits in LADDER_BITS {
             let domain = ArbBall::new(bits);
             let values = run.at(&domain, &sampler.states(&domain, 1, index));
             let existing = layout.existing(&values, span);
             let seen = BlockValues { values: &values, existing: &existing };
-            if self.seek_witness(sampler, index, span.residual.clone(), &seen, bits, finding) {
+            if self.seek_witness(sampler, index, span.residual.clone(), &seen, bits, status) {
                 break;
             }
         }
@@ -180,7 +180,7 @@ impl Judging<'_> {
         item: &RecordedClaim<'_>,
         sampler: &Sampler,
         part: &InputRegion,
-        finding: &mut ClaimState,
+        status: &mut ClaimState,
     ) -> bool {
         let mut all = signed_extents(sampler, part).into_iter();
         let Some(point) = all.find_map(|extents| part.point(&extents)) else { return false };
@@ -204,10 +204,10 @@ impl Judging<'_> {
             let printed = sampler.printed_from(&numbers, LADDER_BITS[0]);
             let witness = witness::witness(self.case, None, &printed, (mid, rad));
             let found = format!("{mid:.3e} ± {rad:.1e} at a state that was looked for");
-            finding.evidence.witness = Some(Witness { digits, ..witness });
-            finding.evidence.method = Method::PreciseBall;
-            finding.settled = Some(Verdict::Refuted);
-            finding.rung(Method::PreciseBall, found);
+            status.evidence.witness = Some(Witness { digits, ..witness });
+            status.evidence.method = Method::PreciseBall;
+            status.settled = Some(Verdict::Refuted);
+            status.rung(Method::PreciseBall, found);
         }
         true
     }

@@ -19,8 +19,8 @@ impl Judging<'_> {
         for blocks in waves(1..self.blocks(), MOST_PASSED) {
             let mut left: Vec<_> = open
                 .iter_mut()
-                .filter(|(_, finding)| {
-                    finding.settled.is_none() && !finding.is_nonzero() && !finding.is_zero
+                .filter(|(_, status)| {
+                    status.settled.is_none() && !status.is_nonzero() && !status.is_zero
                 })
                 .collect();
             if left.is_empty() {
@@ -32,17 +32,17 @@ impl Judging<'_> {
                 laid_out = Some((run, layout, left.len()));
             }
             let Some((run, layout, _)) = &laid_out else { return };
-            let mut findings: Vec<&mut ClaimState> =
-                left.iter_mut().map(|(_, finding)| &mut **finding).collect();
+            let mut statuses: Vec<&mut ClaimState> =
+                left.iter_mut().map(|(_, status)| &mut **status).collect();
             match run.pass(sampler, blocks.clone(), layout) {
                 Some(passed) => {
                     let passed = blocks.zip(passed);
-                    self.weigh_passed(sampler, (run, layout), passed, &mut findings);
+                    self.weigh_passed(sampler, (run, layout), passed, &mut statuses);
                 }
                 None => {
                     for start in blocks.clone().step_by(MOST_KEPT as usize) {
                         let some = start..blocks.end.min(start + MOST_KEPT);
-                        self.look_at(sampler, (run, layout), some, &mut findings);
+                        self.look_at(sampler, (run, layout), some, &mut statuses);
                     }
                 }
             }
@@ -56,17 +56,17 @@ impl Judging<'_> {
         sampler: &Sampler,
         laid_out: (&Run, &OutputLayout),
         passed: impl Iterator<Item = (u64, Vec<Passed>)>,
-        findings: &mut [&mut ClaimState],
+        statuses: &mut [&mut ClaimState],
     ) {
-        let mut totals: Vec<Option<Total>> = findings.iter().map(|_| None).collect();
+        let mut totals: Vec<Option<Total>> = statuses.iter().map(|_| None).collect();
         for (block, passed) in passed {
-            let is_open = |finding: &ClaimState| finding.settled.is_none();
+            let is_open = |status: &ClaimState| status.settled.is_none();
             let mut suspect = false;
-            for ((finding, total), own) in findings.iter_mut().zip(&mut totals).zip(&passed) {
-                if is_open(finding) && own.excludes_zero {
-                    self.add(sampler, total.take(), finding);
+            for ((status, total), own) in statuses.iter_mut().zip(&mut totals).zip(&passed) {
+                if is_open(status) && own.excludes_zero {
+                    self.add(sampler, total.take(), status);
                     suspect = true;
-                } else if is_open(finding) {
+                } else if is_open(status) {
                     total.get_or_insert_default().add(own);
                 }
             }
@@ -74,17 +74,17 @@ impl Judging<'_> {
                 let mut refuted: Vec<&mut ClaimState> = Vec::new();
                 let mut layout =
                     OutputLayout { common: laid_out.1.common.clone(), spans: Vec::new() };
-                let all = findings.iter_mut().zip(&laid_out.1.spans).zip(&passed);
-                for ((finding, span), _) in all.filter(|(_, own)| own.excludes_zero) {
-                    refuted.push(&mut **finding);
+                let all = statuses.iter_mut().zip(&laid_out.1.spans).zip(&passed);
+                for ((status, span), _) in all.filter(|(_, own)| own.excludes_zero) {
+                    refuted.push(&mut **status);
                     layout.spans.push(span.clone());
                 }
                 let one = block..block + 1;
                 self.look_at(sampler, (laid_out.0, &layout), one, &mut refuted);
             }
         }
-        for (finding, total) in findings.iter_mut().zip(totals) {
-            self.add(sampler, total, finding);
+        for (status, total) in statuses.iter_mut().zip(totals) {
+            self.add(sampler, total, status);
         }
     }
 
@@ -94,16 +94,16 @@ impl Judging<'_> {
         sampler: &Sampler,
         (run, layout): (&Run, &OutputLayout),
         blocks: Range<u64>,
-        findings: &mut [&mut ClaimState],
+        statuses: &mut [&mut ClaimState],
     ) {
         let values = run.at_blocks(sampler, blocks.clone(), |maker, at| maker.balls(at));
         for (block, values) in blocks.zip(values) {
             let start = block * TAPE_LANES as u64;
-            for (finding, span) in findings.iter_mut().zip(&layout.spans) {
-                if finding.settled.is_none() {
+            for (status, span) in statuses.iter_mut().zip(&layout.spans) {
+                if status.settled.is_none() {
                     let existing = layout.existing(&values, span);
                     let seen = BlockValues { values: &values, existing: &existing };
-                    self.check_value(sampler, start, span, &seen, f64::MANTISSA_DIGITS, finding);
+                    self.check_value(sampler, start, span, &seen, f64::MANTISSA_DIGITS, status);
                 }
             }
         }

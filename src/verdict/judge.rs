@@ -202,7 +202,7 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
     let inputs = model.free_components() + model.dimension();
     let (graph, (recorded, common)) = recording(case)?;
     let bench = Judging::new(case, &common, options, &graph, inputs);
-    let mut findings: Vec<ClaimState> = recorded.iter().map(|_| ClaimState::default()).collect();
+    let mut statuses: Vec<ClaimState> = recorded.iter().map(|_| ClaimState::default()).collect();
     let warnings = [case.warnings.clone(), bench.check()?].concat();
     let mut places: Vec<&LevelSubset> = Vec::new();
     for claim in &case.claims {
@@ -212,14 +212,14 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
     }
     for place in places {
         let at_place =
-            recorded.iter().zip(&mut findings).filter(|(item, _)| item.claim.place == *place);
+            recorded.iter().zip(&mut statuses).filter(|(item, _)| item.claim.place == *place);
         bench.climb(place, at_place.collect())?;
     }
-    bench.extend_domain(&recorded, &mut findings)?;
+    bench.extend_domain(&recorded, &mut statuses)?;
     let claims: Vec<ClaimReport> = recorded
         .iter()
-        .zip(findings)
-        .map(|(item, finding)| report(case, item, finding, options))
+        .zip(statuses)
+        .map(|(item, status)| report(case, item, status, options))
         .collect();
     let mutants = options.mutants.then(|| mutate(case, &claims, options)).transpose()?;
     let (motions_left, absences_left) = (case.motions.len(), case.absences.len());

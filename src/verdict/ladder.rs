@@ -55,10 +55,10 @@ impl Judging<'_> {
         let missed = self.missed_part(&sampler)?;
         self.decide(place, &sampler, missed.as_deref(), &mut open)?;
         let mut holding: Open<'_, '_> =
-            open.into_iter().filter(|(_, finding)| finding.holds()).collect();
+            open.into_iter().filter(|(_, status)| status.holds()).collect();
         self.settle_novelty(&sampler, &mut holding)?;
         self.settle_conditions(&sampler, &mut holding)?;
-        self.settle_signs(&sampler, holding.into_iter().filter(|(_, finding)| finding.holds()))?;
+        self.settle_signs(&sampler, holding.into_iter().filter(|(_, status)| status.holds()))?;
         Ok(())
     }
 
@@ -70,9 +70,9 @@ impl Judging<'_> {
         missed: Option<&str>,
         open: &mut Open<'_, '_>,
     ) -> Result<(), JudgeError> {
-        for (item, finding) in open.iter_mut() {
-            fold(self.graph, item, finding);
-            finding.evidence.operations = self.graph.operations(&item.residual);
+        for (item, status) in open.iter_mut() {
+            fold(self.graph, item, status);
+            status.evidence.operations = self.graph.operations(&item.residual);
         }
         self.first_states(sampler, open);
         if self.options.trust != Trust::Float {
@@ -86,14 +86,14 @@ impl Judging<'_> {
             self.missing_states(sampler, open);
             self.real_states(sampler, open)?;
         }
-        for (item, finding) in open.iter_mut() {
-            if finding.settled.is_none() {
-                complete(item, finding);
+        for (item, status) in open.iter_mut() {
+            if status.settled.is_none() {
+                complete(item, status);
             }
             // A claim that holds at the computed states need not hold on the part they miss.
-            if let (Some(reason), true) = (missed, finding.holds()) {
-                finding.evidence.proof = None;
-                undecide(finding, reason.to_string());
+            if let (Some(reason), true) = (missed, status.holds()) {
+                status.evidence.proof = None;
+                undecide(status, reason.to_string());
             }
         }
         self.second_opinion(sampler, open)?;
@@ -110,23 +110,23 @@ impl Judging<'_> {
         open: Open<'_, '_>,
     ) -> Result<(), JudgeError> {
         let Some(choices) = combinations(sampler.recipes()) else {
-            for (_, finding) in open {
-                undecide(finding, TOO_MANY_COMBINATIONS.to_string());
+            for (_, status) in open {
+                undecide(status, TOO_MANY_COMBINATIONS.to_string());
             }
             return Ok(());
         };
-        for (item, finding) in open {
+        for (item, status) in open {
             for fixed in &choices {
                 let mut one = ClaimState::default();
                 let chosen = sampler.with(fixed);
                 self.decide(place, &chosen, missed, &mut vec![(item, &mut one)])?;
                 let refuted = one.settled == Some(Verdict::Refuted);
-                if !refuted || finding.settled.is_none() {
-                    *finding = one;
+                if !refuted || status.settled.is_none() {
+                    *status = one;
                 }
                 if !refuted {
                     let listed = chosen.listed(self.case);
-                    let reason = finding.evidence.reason.get_or_insert_default();
+                    let reason = status.evidence.reason.get_or_insert_default();
                     let separator = if reason.is_empty() { "" } else { ": " };
                     *reason = format!("for {listed}{separator}{reason}");
                     break;
@@ -141,13 +141,13 @@ impl Judging<'_> {
     fn first_states(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
         let (run, layout) = self.lay_out(sampler, open.iter().map(|(item, _)| *item), true);
         let values = run.at(&Ball::<TAPE_LANES>, &sampler.balls(0));
-        for ((item, finding), span) in open.iter_mut().zip(&layout.spans) {
+        for ((item, status), span) in open.iter_mut().zip(&layout.spans) {
             let existing = layout.existing(&values, span);
-            finding.missing = (0..TAPE_LANES).filter(|lane| !existing[*lane]).collect();
-            classify(item, span, &values, &existing, finding);
-            if finding.settled.is_none() && finding.undefined.is_none() {
+            status.missing = (0..TAPE_LANES).filter(|lane| !existing[*lane]).collect();
+            classify(item, span, &values, &existing, status);
+            if status.settled.is_none() && status.undefined.is_none() {
                 let seen = BlockValues { values: &values, existing: &existing };
-                self.check_value(sampler, 0, span, &seen, f64::MANTISSA_DIGITS, finding);
+                self.check_value(sampler, 0, span, &seen, f64::MANTISSA_DIGITS, status);
             }
         }
     }
@@ -160,7 +160,7 @@ impl Judging<'_> {
         open: &mut Open<'_, '_>,
     ) -> Result<(), JudgeError> {
         let mut unsettled: Vec<_> =
-            open.iter_mut().filter(|(_, finding)| finding.settled.is_none()).collect();
+            open.iter_mut().filter(|(_, status)| status.settled.is_none()).collect();
         let ground = self.level_values(place);
         if unsettled.is_empty() && ground.is_empty() {
             return Ok(());
@@ -176,14 +176,14 @@ impl Judging<'_> {
         if ground.as_ref().is_some_and(Answer::is_nonzero) {
             self.name_the_error(place, sampler)?;
         }
-        for ((item, finding), answer) in unsettled.iter_mut().zip(answers) {
+        for ((item, status), answer) in unsettled.iter_mut().zip(answers) {
             let defects = &item.context.quadrature_defects;
             if answer.is_nonzero()
                 && !are_zero(self.graph, defects)
                 && field.test(&[Query::of(defects.clone())])?.iter().any(Answer::is_nonzero)
             {
-                finding.rung(Method::PrimeField, NO_QUADRATURE.to_string());
-                undecide(finding, NO_QUADRATURE.to_string());
+                status.rung(Method::PrimeField, NO_QUADRATURE.to_string());
+                undecide(status, NO_QUADRATURE.to_string());
                 continue;
             }
             let answer = match (&ground, answer) {
@@ -196,21 +196,21 @@ impl Judging<'_> {
             match answer {
                 Answer::Zero(certificate) => {
                     let proof = Proof::from(certificate);
-                    finding.rung(Method::PrimeField, proof.to_string());
-                    finding.evidence.proof = Some(proof);
-                    finding.is_zero = true;
-                    if finding.undefined.is_none() {
-                        finding.evidence.method = Method::PrimeField;
-                        finding.settled = Some(Verdict::Proved);
+                    status.rung(Method::PrimeField, proof.to_string());
+                    status.evidence.proof = Some(proof);
+                    status.is_zero = true;
+                    if status.undefined.is_none() {
+                        status.evidence.method = Method::PrimeField;
+                        status.settled = Some(Verdict::Proved);
                     }
                 }
                 Answer::NonZero(found) => {
-                    finding.rung(Method::PrimeField, "not 0, so no identity".to_string());
-                    finding.nonzero = found;
+                    status.rung(Method::PrimeField, "not 0, so no identity".to_string());
+                    status.nonzero = found;
                 }
                 Answer::Silent(reason) => {
-                    finding.rung(Method::PrimeField, format!("silent: {reason}"));
-                    finding.evidence.silence = Some(reason);
+                    status.rung(Method::PrimeField, format!("silent: {reason}"));
+                    status.evidence.silence = Some(reason);
                 }
                 Answer::Partial => {
                     let reason = format!(
@@ -218,14 +218,14 @@ impl Judging<'_> {
                          that is written has one",
                         item.claim.kind.name()
                     );
-                    finding.rung(Method::PrimeField, reason.clone());
-                    finding.partial = Some(reason);
+                    status.rung(Method::PrimeField, reason.clone());
+                    status.partial = Some(reason);
                 }
                 Answer::Void => {
                     let reason =
                         "there is no state at which all formulas of the claim have a value";
-                    finding.rung(Method::PrimeField, reason.to_string());
-                    finding.evidence.silence = Some(reason.to_string());
+                    status.rung(Method::PrimeField, reason.to_string());
+                    status.evidence.silence = Some(reason.to_string());
                 }
             }
         }
@@ -235,46 +235,46 @@ impl Judging<'_> {
     /// Evaluates balls in increasing precision, for claims that are still open.
     fn more_digits(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
         let mut left: Vec<_> =
-            open.iter_mut().filter(|(_, finding)| finding.settled.is_none()).collect();
+            open.iter_mut().filter(|(_, status)| status.settled.is_none()).collect();
         if left.is_empty() {
             return;
         }
         let (run, layout) = self.lay_out(sampler, left.iter().map(|(item, _)| *item), true);
         let domain = DoubleDoubleBall::<TAPE_LANES>;
         let values = run.at(&domain, &sampler.states(&domain, TAPE_LANES, 0));
-        for ((item, finding), span) in left.iter_mut().zip(&layout.spans) {
+        for ((item, status), span) in left.iter_mut().zip(&layout.spans) {
             let method = Method::DoubleDoubleBall;
-            finding.evidence.method = method;
+            status.evidence.method = method;
             let existing = layout.existing(&values, span);
-            classify(item, span, &values, &existing, finding);
-            if finding.undefined.is_some() && self.is_out_of_range(item, sampler) {
-                finding.undefined = None;
+            classify(item, span, &values, &existing, status);
+            if status.undefined.is_some() && self.is_out_of_range(item, sampler) {
+                status.undefined = None;
             }
-            if finding.settled.is_none() && finding.undefined.is_none() {
+            if status.settled.is_none() && status.undefined.is_none() {
                 let seen = BlockValues { values: &values, existing: &existing };
-                self.check_value(sampler, 0, span, &seen, 2 * f64::MANTISSA_DIGITS, finding);
+                self.check_value(sampler, 0, span, &seen, 2 * f64::MANTISSA_DIGITS, status);
             }
         }
-        let deserves = |finding: &ClaimState| {
-            finding.settled.is_none() && !finding.is_zero && finding.undefined.is_none()
+        let deserves = |status: &ClaimState| {
+            status.settled.is_none() && !status.is_zero && status.undefined.is_none()
         };
-        for (item, finding) in left.iter_mut().filter(|(_, finding)| deserves(finding)) {
+        for (item, status) in left.iter_mut().filter(|(_, status)| deserves(status)) {
             let (run, layout) = self.lay_out(sampler, std::iter::once(*item), false);
             let span = &layout.spans[0];
-            let before = finding.evidence.method;
+            let before = status.evidence.method;
             // Where the fields are silent a refutation may not exist.
-            let is_small = finding.evidence.operations <= FEW_OPERATIONS;
-            let (precisions, states) = match finding.is_nonzero() {
+            let is_small = status.evidence.operations <= FEW_OPERATIONS;
+            let (precisions, states) = match status.is_nonzero() {
                 true => (&LADDER_BITS[..], PRECISE_STATES),
                 false if is_small => (&LADDER_BITS[..1], CONFIRMING_STATES),
                 false => (&LADDER_BITS[..1], PRECISE_STATES),
             };
             for bits in precisions {
                 let domain = ArbBall::new(*bits);
-                finding.evidence.method = Method::PreciseBall;
+                status.evidence.method = Method::PreciseBall;
                 let mut count = 0;
                 for index in 0..states * PRECISE_TRIES {
-                    if finding.settled.is_some() || count >= states {
+                    if status.settled.is_some() || count >= states {
                         break;
                     }
                     let values = run.at(&domain, &sampler.states(&domain, 1, index));
@@ -282,11 +282,11 @@ impl Judging<'_> {
                     count += u64::from(existing[0]);
                     let seen = BlockValues { values: &values, existing: &existing };
                     let residual = span.residual.clone();
-                    self.seek_witness(sampler, index, residual, &seen, *bits, finding);
+                    self.seek_witness(sampler, index, residual, &seen, *bits, status);
                 }
             }
-            if finding.settled.is_none() && !finding.is_nonzero() {
-                finding.evidence.method = before;
+            if status.settled.is_none() && !status.is_nonzero() {
+                status.evidence.method = before;
             }
         }
     }

@@ -173,8 +173,8 @@ impl Judging<'_> {
         for candidate in candidates {
             let residual = values.range(start..start + candidate.residual.len());
             start += candidate.residual.len();
-            let look = BlockResult::at::<D>(&residual, None, &values.existing(&[]));
-            if look.has_value() && !look.excludes_zero() {
+            let result = BlockResult::at::<D>(&residual, None, &values.existing(&[]));
+            if result.has_value() && !result.excludes_zero() {
                 left.push(candidate);
             }
         }

@@ -26,9 +26,9 @@ impl Judging<'_> {
     ) -> Result<(), JudgeError> {
         let mut open: Vec<_> = holding
             .iter_mut()
-            .filter(|(item, finding)| {
-                let seen = finding.evidence.independence == Some(Independence::Independent);
-                finding.settled == Some(Verdict::Proved)
+            .filter(|(item, status)| {
+                let seen = status.evidence.independence == Some(Independence::Independent);
+                status.settled == Some(Verdict::Proved)
                     && !item.novelty.off_level.is_empty()
                     && !seen
             })
@@ -41,8 +41,8 @@ impl Judging<'_> {
         };
         let queries: Vec<Query> = open
             .iter()
-            .flat_map(|(item, finding)| {
-                let groups = asked(item, finding.evidence.independence).into_iter().flatten();
+            .flat_map(|(item, status)| {
+                let groups = asked(item, status.evidence.independence).into_iter().flatten();
                 groups.map(|outputs| Query { outputs, requirement: item.requirement.clone() })
             })
             .collect();
@@ -51,11 +51,11 @@ impl Judging<'_> {
             _ => PrimeFieldStates::new(self, sampler).test(&queries)?,
         }
         .into_iter();
-        for (item, finding) in &mut open {
-            let [level, general] = asked(item, finding.evidence.independence)
+        for (item, status) in &mut open {
+            let [level, general] = asked(item, status.evidence.independence)
                 .map(|group| group.and_then(|_| answers.next()));
             let novelty = &item.novelty;
-            finding.evidence.independence = match (level, general) {
+            status.evidence.independence = match (level, general) {
                 (Some(Answer::Zero(_)), _) => Some(Independence::Constant),
                 (_, Some(Answer::Zero(_))) => Some(Independence::General),
                 (_, Some(general))

@@ -58,8 +58,8 @@ impl Judging<'_> {
         if sampler.is_numerical() || (of_claims().is_empty() && of_states().is_empty()) {
             return Ok(());
         }
-        for (item, finding) in open.iter_mut() {
-            let is_proved = finding.settled == Some(Verdict::Proved) && finding.is_zero;
+        for (item, status) in open.iter_mut() {
+            let is_proved = status.settled == Some(Verdict::Proved) && status.is_zero;
             if !is_proved || !self.has_cells(sampler, item) {
                 continue;
             }
@@ -73,9 +73,9 @@ impl Judging<'_> {
                     .iter()
                     .map(|(name, value)| format!("{name}={value}"))
                     .collect();
-                finding.evidence.proof = None;
+                status.evidence.proof = None;
                 undecide(
-                    finding,
+                    status,
                     format!(
                         "internal error: a proof contradicts the residual {:.3e} ± {:.1e} at {} {}; \
                          please report this file",
@@ -152,7 +152,7 @@ impl SignSearch<'_> {
     fn run(&mut self, states: Vec<Numbers>) -> Option<Contradiction> {
         let mut first: Vec<(Numbers, Signs)> = Vec::new();
         for block in states.chunks(TAPE_LANES) {
-            match self.look(block) {
+            match self.signs_at(block) {
                 Ok(signs) => first.extend(block.iter().cloned().zip(signs)),
                 Err(contradiction) => return Some(contradiction),
             }
@@ -168,7 +168,7 @@ impl SignSearch<'_> {
             }
             let between: Vec<Numbers> =
                 taken.iter().map(|(a, b, _)| self.middle(&a.0, &b.0)).collect();
-            let found = match self.look(&between) {
+            let found = match self.signs_at(&between) {
                 Ok(signs) => signs,
                 Err(contradiction) => return Some(contradiction),
             };
@@ -186,7 +186,7 @@ impl SignSearch<'_> {
     }
 
     /// Returns the signs at a block of states; fails with a state that contradicts the proof.
-    fn look(&mut self, states: &[Numbers]) -> Result<Vec<Signs>, Contradiction> {
+    fn signs_at(&mut self, states: &[Numbers]) -> Result<Vec<Signs>, Contradiction> {
         let last = states.len() - 1;
         let width = states[0].len();
         let column = |k: usize| Balls::about(|lane| states[lane.min(last)][k]);

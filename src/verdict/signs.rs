@@ -47,7 +47,7 @@ impl Judging<'_> {
     ) -> Result<(), Fault> {
         let mut open: Vec<(Expr, &RecordedClaim<'_>, &mut ClaimState)> = items
             .filter(|(item, _)| matches!(item.claim.kind, ClaimKind::Density(_)))
-            .filter_map(|(item, finding)| Some((*item.context.value.first()?, item, finding)))
+            .filter_map(|(item, status)| Some((*item.context.value.first()?, item, status)))
             .collect();
         if open.is_empty() {
             return Ok(());
@@ -90,14 +90,14 @@ impl Judging<'_> {
                 self.look_closely(&run, &required, sampler, &mut seen);
             }
         }
-        for (((_, _, finding), seen), proved) in open.iter_mut().zip(&seen).zip(proved) {
-            finding.evidence.sign = sign(&seen.signs);
-            finding.evidence.sign_is_proved =
-                proved.is_some() || finding.evidence.sign == Some(DensitySign::Changes);
-            finding.evidence.sign_is_partial = seen.is_doubtful && !finding.evidence.sign_is_proved;
-            if finding.evidence.sign.is_none() {
-                finding.evidence.sign_is_proved = false;
-                undecide(finding, "the density is 0 at all states that were tried".to_string());
+        for (((_, _, status), seen), proved) in open.iter_mut().zip(&seen).zip(proved) {
+            status.evidence.sign = sign(&seen.signs);
+            status.evidence.sign_is_proved =
+                proved.is_some() || status.evidence.sign == Some(DensitySign::Changes);
+            status.evidence.sign_is_partial = seen.is_doubtful && !status.evidence.sign_is_proved;
+            if status.evidence.sign.is_none() {
+                status.evidence.sign_is_proved = false;
+                undecide(status, "the density is 0 at all states that were tried".to_string());
             }
         }
         Ok(())

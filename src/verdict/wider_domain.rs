@@ -27,7 +27,7 @@ impl Judging<'_> {
     pub fn extend_domain(
         &self,
         recorded: &[RecordedClaim<'_>],
-        findings: &mut [ClaimState],
+        statuses: &mut [ClaimState],
     ) -> Result<(), JudgeError> {
         let model = &self.case.model;
         let mut places: Vec<&LevelSubset> = Vec::new();
@@ -46,15 +46,15 @@ impl Judging<'_> {
             };
             let mut asked = Vec::new();
             let common = extend(&self.common.required_at(&place.kept));
-            for (item, finding) in recorded.iter().zip(findings.iter_mut()) {
+            for (item, status) in recorded.iter().zip(statuses.iter_mut()) {
                 let wider = item.wider.iter().find(|wider| wider.place == *place);
-                let covered = finding.evidence.holds.iter().any(|name| name == "everywhere");
-                if let (Some(wider), true, false) = (wider, finding.holds(), covered) {
+                let covered = status.evidence.holds.iter().any(|name| name == "everywhere");
+                if let (Some(wider), true, false) = (wider, status.holds(), covered) {
                     let residual = extend(&wider.residual);
                     let scale = extend(item.context.scale.as_slice());
                     let (defects, own) = (extend(&wider.defects), extend(&item.requirement));
                     let implies_own = self.is_continued(place, item, wider);
-                    asked.push((item.claim, finding, residual, scale, defects, own, implies_own));
+                    asked.push((item.claim, status, residual, scale, defects, own, implies_own));
                 }
             }
             if asked.is_empty() {
@@ -70,19 +70,19 @@ impl Judging<'_> {
                 continue;
             }
             let mut open = Vec::new();
-            for (claim, finding, residual, scale, defects, own, implies_own) in asked {
+            for (claim, status, residual, scale, defects, own, implies_own) in asked {
                 let scale = values.range(scale).first().copied();
                 let existing = values.existing(&[common.clone(), own.clone()]);
-                let look = |range: Range<usize>, scale| {
+                let result = |range: Range<usize>, scale| {
                     BlockResult::at::<Doubles>(&values.range(range), scale, &existing)
                 };
-                let sound = defects.is_empty() || look(defects.clone(), None).is_zero();
-                let look = look(residual.clone(), scale);
+                let sound = defects.is_empty() || result(defects.clone(), None).is_zero();
+                let result = result(residual.clone(), scale);
                 // Where nothing has a value nothing holds.
-                if sound && look.has_value() && !look.excludes_zero() {
+                if sound && result.has_value() && !result.excludes_zero() {
                     let group = [&outputs[residual], &outputs[defects]].concat();
                     let query = Query { outputs: group, requirement: outputs[own].to_vec() };
-                    open.push((claim, finding, query, look.is_zero(), implies_own));
+                    open.push((claim, status, query, result.is_zero(), implies_own));
                 }
             }
             let queries: Vec<Query> = open.iter().map(|(_, _, query, ..)| query.clone()).collect();
@@ -94,13 +94,13 @@ impl Judging<'_> {
                     .map(Some)
                     .collect(),
             };
-            for ((claim, finding, query, is_zero, implies_own), answer) in
+            for ((claim, status, query, is_zero, implies_own), answer) in
                 open.into_iter().zip(answers)
             {
                 let holds = match answer {
                     Some(Answer::Zero(certificate)) => {
-                        if implies_own && finding.settled == Some(Verdict::Confirmed) {
-                            prove(finding, Proof::from(certificate), place.name(model));
+                        if implies_own && status.settled == Some(Verdict::Confirmed) {
+                            prove(status, Proof::from(certificate), place.name(model));
                         }
                         true
                     }
@@ -109,23 +109,23 @@ impl Judging<'_> {
                         let constant = |expr: &Expr| self.graph.constant_value(*expr);
                         let folded =
                             query.outputs.iter().all(|x| constant(x).is_some_and(|x| x.is_zero()));
-                        let confirmed = finding.settled == Some(Verdict::Confirmed);
+                        let confirmed = status.settled == Some(Verdict::Confirmed);
                         if is_zero && claim.only_there && !folded {
                             let place = place.name(model);
                             let reason = format!("it is not known whether it also holds {place}");
-                            finding.evidence.reason = Some(reason);
+                            status.evidence.reason = Some(reason);
                         }
                         folded || (is_zero && confirmed && !claim.only_there)
                     }
                 };
                 if holds {
-                    finding.evidence.holds.push(place.name(model));
+                    status.evidence.holds.push(place.name(model));
                 }
             }
         }
-        for (item, finding) in recorded.iter().zip(findings) {
-            if finding.holds() && finding.evidence.holds.is_empty() {
-                finding.evidence.holds.push(item.claim.place.name(model));
+        for (item, status) in recorded.iter().zip(statuses) {
+            if status.holds() && status.evidence.holds.is_empty() {
+                status.evidence.holds.push(item.claim.place.name(model));
             }
         }
         Ok(())
@@ -154,10 +154,10 @@ impl Judging<'_> {
 }
 
 /// Settles a confirmed claim as proved, by a proof at a place that contains its own.
-fn prove(finding: &mut ClaimState, proof: Proof, place: String) {
-    finding.rung(Method::PrimeField, format!("{place}: {proof}"));
-    finding.evidence.method = Method::PrimeField;
-    finding.evidence.proof = Some(proof);
-    finding.evidence.silence = None;
-    finding.settled = Some(Verdict::Proved);
+fn prove(status: &mut ClaimState, proof: Proof, place: String) {
+    status.rung(Method::PrimeField, format!("{place}: {proof}"));
+    status.evidence.method = Method::PrimeField;
+    status.evidence.proof = Some(proof);
+    status.evidence.silence = None;
+    status.settled = Some(Verdict::Proved);
 }

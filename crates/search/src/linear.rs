@@ -128,9 +128,9 @@ impl SampledFunctions {
         }
     }
 
-    /// Passes the functions at random points, component by component, to `look` until it returns
+    /// Passes the functions at random points, component by component, to `is_done` until it returns
     /// `false`.
-    fn visit(&mut self, blocks: usize, look: &mut dyn FnMut(Vec<u64>) -> bool) {
+    fn visit(&mut self, blocks: usize, is_done: &mut dyn FnMut(Vec<u64>) -> bool) {
         let height = self.outputs.first().map_or(0, Vec::len);
         let tape = Tape::new(&self.graph, &self.outputs.concat());
         let mut evaluator = Evaluator::new(&tape, Prime::new([self.modulus; RELATION_LANES]));
@@ -142,7 +142,7 @@ impl SampledFunctions {
             for lane in 0..RELATION_LANES {
                 for component in 0..height {
                     let column = values.iter().skip(component).step_by(height);
-                    if !look(column.map(|block| block[lane]).collect()) {
+                    if !is_done(column.map(|block| block[lane]).collect()) {
                         return;
                     }
                 }

@@ -33,7 +33,7 @@ impl Prover<'_> {
         for leaf in self.explore(&asked, &[outputs], &bucket)?.leaves {
             let cell = &leaf.cell;
             let is_settled = matches!(
-                leaf.findings.first(),
+                leaf.results.first(),
                 Some(Some(TrialResult::Zero(_) | TrialResult::NonZero))
             );
             if !is_settled || cell.signs().next().is_some() {

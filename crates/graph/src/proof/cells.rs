@@ -39,7 +39,7 @@ pub struct Leaf {
     /// The cell.
     pub cell: Cell,
     /// Findings by group; `None` for a group that has no value on the cell.
-    pub findings: Vec<Option<TrialResult>>,
+    pub results: Vec<Option<TrialResult>>,
 }
 
 /// A change of a cell.

@@ -109,7 +109,7 @@ impl Explorer<'_> {
                         })?;
                     }
                 }
-                Next::Tested(findings) => explored.leaves.push(Leaf { cell, findings }),
+                Next::Tested(results) => explored.leaves.push(Leaf { cell, results }),
             }
         }
         Ok(explored)
@@ -319,7 +319,7 @@ impl Explorer<'_> {
                 _ => found.into_iter().zip(one).map(|(a, b)| for_both(a, b)).collect(),
             };
         }
-        let mut found = found.into_iter().zip(&asked).map(|(finding, group)| match finding {
+        let mut found = found.into_iter().zip(&asked).map(|(result, group)| match result {
             TrialResult::NonZero if !loose.is_empty() => TrialResult::Silent(
                 "it does not vanish for all choices of signs of dependent roots".to_string(),
             ),
@@ -330,14 +330,13 @@ impl Explorer<'_> {
             TrialResult::Zero(own) => {
                 TrialResult::Zero(cell.certificate.map_or(own, |before| own.and(before)))
             }
-            finding => finding,
+            result => result,
         });
-        let mut findings: Vec<Option<TrialResult>> =
+        let mut results: Vec<Option<TrialResult>> =
             all.iter().map(|group| if is_void(group) { None } else { found.next() }).collect();
-        let is_open = |finding: &TrialResult| {
-            matches!(finding, TrialResult::NonZero | TrialResult::Silent(_))
-        };
-        if findings.iter().flatten().any(is_open) {
+        let is_open =
+            |result: &TrialResult| matches!(result, TrialResult::NonZero | TrialResult::Silent(_));
+        if results.iter().flatten().any(is_open) {
             // x/x is recorded as 1, and is undefined on a cell where x is 0.
             let Some((literal, made)) = algebraic.with(|inputs, at| {
                 let special =
@@ -351,15 +350,15 @@ impl Explorer<'_> {
             let trial = Trial::new(&literal, self.digest);
             let roots = Roots { nested: tower.nested, fixed: &[] };
             let (made, special) = made.split_at(outputs.len());
-            for (finding, group) in findings.iter_mut().zip(self.by_group(made)) {
-                if finding.as_ref().is_some_and(is_open) && trial.is_void(group, special, roots) {
-                    *finding = None;
+            for (result, group) in results.iter_mut().zip(self.by_group(made)) {
+                if result.as_ref().is_some_and(is_open) && trial.is_void(group, special, roots) {
+                    *result = None;
                 }
             }
         }
         let is_zero =
-            |finding: &Option<TrialResult>| matches!(finding, None | Some(TrialResult::Zero(_)));
-        if cell.is_part() && !findings.iter().all(is_zero) {
+            |result: &Option<TrialResult>| matches!(result, None | Some(TrialResult::Zero(_)));
+        if cell.is_part() && !results.iter().all(is_zero) {
             // Find out first whether the cell is empty.
             let classes = Classes::of(algebraic, trial, tower, self.digest);
             let inputs = self.prover.extents;
@@ -368,7 +367,7 @@ impl Explorer<'_> {
                 return Ok(Next::Empty(classes.certificate));
             }
         }
-        Ok(Next::Tested(findings))
+        Ok(Next::Tested(results))
     }
 }
 

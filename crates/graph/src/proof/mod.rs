@@ -165,7 +165,7 @@ impl Prover<'_> {
             }
             None => Vec::new(),
         };
-        let is_missing = |leaf: &Leaf| matches!(&leaf.findings[..], [None, Some(_)]);
+        let is_missing = |leaf: &Leaf| matches!(&leaf.results[..], [None, Some(_)]);
         Ok(match leaves.iter().any(is_missing) {
             true => GroupOutcome::Partial,
             false => outcome,
@@ -182,11 +182,11 @@ impl Prover<'_> {
         let algebraic = Algebraic::plain(graph, sources);
         let trial = Trial::new(&algebraic, *digest);
         let is_void = |group: &&[Expr]| group.iter().any(|x| graph.is_nowhere_defined(*x));
-        let findings = trial.test(groups, Roots::default());
+        let results = trial.test(groups, Roots::default());
         groups
             .iter()
-            .zip(findings)
-            .map(|(group, finding)| match finding {
+            .zip(results)
+            .map(|(group, result)| match result {
                 _ if is_void(group) => (GroupOutcome::Void, true),
                 TrialResult::Zero(certificate) => (GroupOutcome::Zero(certificate), false),
                 TrialResult::NonZero => (GroupOutcome::NonZero(InputRegions::default()), false),
@@ -288,15 +288,15 @@ fn buckets(graph: &Graph, groups: &[Group], sources: &[InputDistribution]) -> Ve
 fn combined(explored: Explored, count: usize) -> Vec<(GroupOutcome, bool)> {
     let Explored { leaves, certificate } = explored;
     let of_group = |index: usize| {
-        let findings = || leaves.iter().filter_map(move |leaf| leaf.findings[index].as_ref());
+        let results = || leaves.iter().filter_map(move |leaf| leaf.results[index].as_ref());
         let is_nonzero =
-            |finding: &Option<TrialResult>| matches!(finding, Some(TrialResult::NonZero));
-        if leaves.iter().any(|leaf| is_nonzero(&leaf.findings[index])) {
+            |result: &Option<TrialResult>| matches!(result, Some(TrialResult::NonZero));
+        if leaves.iter().any(|leaf| is_nonzero(&leaf.results[index])) {
             return GroupOutcome::NonZero(InputRegions::default());
         }
         let mut all: Option<Certificate> = None;
-        for finding in findings() {
-            match finding {
+        for result in results() {
+            match result {
                 TrialResult::Zero(certificate) => all = trial::both(all, Some(*certificate)),
                 TrialResult::Silent(reason) => return GroupOutcome::Silent(reason.clone()),
                 TrialResult::NonZero => {}
@@ -311,7 +311,7 @@ fn combined(explored: Explored, count: usize) -> Vec<(GroupOutcome, bool)> {
     // A group that is not zero on the whole needs no parts; others keep those on which they are not
     // zero.
     let is_nonzero = |leaf: &Leaf, index: usize| {
-        leaf.cell.is_part() && matches!(leaf.findings[index], Some(TrialResult::NonZero))
+        leaf.cell.is_part() && matches!(leaf.results[index], Some(TrialResult::NonZero))
     };
     let of_group = |index: usize| {
         let numbers = (0..leaves.len()).filter(|number| is_nonzero(&leaves[*number], index));
@@ -319,7 +319,7 @@ fn combined(explored: Explored, count: usize) -> Vec<(GroupOutcome, bool)> {
     };
     let parts: Vec<Vec<usize>> = (0..count).map(of_group).collect();
     let is_partial: Vec<bool> =
-        (0..count).map(|index| leaves.iter().any(|leaf| leaf.findings[index].is_none())).collect();
+        (0..count).map(|index| leaves.iter().any(|leaf| leaf.results[index].is_none())).collect();
     let shared: Vec<Arc<InputRegion>> =
         leaves.into_iter().map(|leaf| Arc::new(part(leaf.cell))).collect();
     for (outcome, own) in outcomes.iter_mut().zip(parts) {

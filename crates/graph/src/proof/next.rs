@@ -27,15 +27,15 @@ impl Next {
     /// at any value.
     pub fn given(self, related: Option<Certificate>) -> Self {
         let Some(error) = related else { return self };
-        let zero = |finding| match finding {
+        let zero = |result| match result {
             TrialResult::Zero(own) => TrialResult::Zero(own.and(error)),
             other => other,
         };
         match self {
             Next::Rewrite(rewrites, own) => Next::Rewrite(rewrites, both(own, related)),
             Next::Empty(own) => Next::Empty(both(own, related)),
-            Next::Tested(findings) => {
-                Next::Tested(findings.into_iter().map(|finding| finding.map(zero)).collect())
+            Next::Tested(results) => {
+                Next::Tested(results.into_iter().map(|result| result.map(zero)).collect())
             }
             division => division,
         }

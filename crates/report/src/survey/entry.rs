@@ -6,28 +6,28 @@ use liouville::verdict::{ClaimReport, DensitySign, Evidence, Independence, Verdi
 use liouville_search::survey::TestedClaim;
 
 /// Findings as blocks, one after the other.
-pub fn blocks(findings: &[TestedClaim]) -> Vec<SectionBlock> {
-    findings.iter().map(|one| SectionBlock::Entry(Box::new(entry(one)))).collect()
+pub fn blocks(tested: &[TestedClaim]) -> Vec<SectionBlock> {
+    tested.iter().map(|one| SectionBlock::Entry(Box::new(entry(one)))).collect()
 }
 
 /// Entry of a finding.
-pub fn entry(finding: &TestedClaim) -> JudgedClaim {
-    let claim = &finding.claim;
+pub fn entry(tested: &TestedClaim) -> JudgedClaim {
+    let claim = &tested.claim;
     let evidence = &claim.evidence;
     let map =
         |one: &liouville_search::survey::Definition| format!("{} ↦ {}", one.name, one.formula);
-    let statement = match (claim.kind, finding.images.as_slice()) {
+    let statement = match (claim.kind, tested.images.as_slice()) {
         ("rate", [rate]) => Some(format!("d/dt {} = {}", rate.name, rate.formula)),
         (_, []) => claim.formula.clone(),
         (_, images) => Some(images.iter().map(map).collect::<Vec<_>>().join(", ")),
     };
-    let mut definitions: Vec<(String, Option<liouville::formula::Layout>)> = finding
+    let mut definitions: Vec<(String, Option<liouville::formula::Layout>)> = tested
         .definitions
         .iter()
         .map(|one| (format!("{} = {}", one.name, one.formula), None))
         .collect();
-    if definitions.len() == finding.shown.definitions.len() {
-        for (definition, layout) in definitions.iter_mut().zip(&finding.shown.definitions) {
+    if definitions.len() == tested.shown.definitions.len() {
+        for (definition, layout) in definitions.iter_mut().zip(&tested.shown.definitions) {
             definition.1 = Some(layout.clone());
         }
     }
@@ -36,9 +36,9 @@ pub fn entry(finding: &TestedClaim) -> JudgedClaim {
         verdict: claim.verdict.word(),
         name: claim.name.clone(),
         statement: statement.filter(|text| *text != claim.name),
-        layout: finding.shown.statement.clone(),
+        layout: tested.shown.statement.clone(),
         definitions,
-        remarks: remarks(finding),
+        remarks: remarks(tested),
         source: claim.source.clone(),
         evidence: grounds(evidence),
     }
@@ -68,10 +68,10 @@ pub fn independence(claim: &ClaimReport) -> SectionBlock {
 }
 
 /// Additional facts about the verdict on a finding.
-fn remarks(finding: &TestedClaim) -> Vec<String> {
-    let evidence = &finding.claim.evidence;
+fn remarks(tested: &TestedClaim) -> Vec<String> {
+    let evidence = &tested.claim.evidence;
     let mut remarks = Vec::new();
-    if finding.holds() {
+    if tested.holds() {
         remarks.extend(place(&evidence.holds));
         match evidence.sign {
             Some(DensitySign::Changes) => {
@@ -80,18 +80,18 @@ fn remarks(finding: &TestedClaim) -> Vec<String> {
             Some(DensitySign::Negative) => remarks.push("negative: take −ρ".to_string()),
             _ => {}
         }
-        if finding.is_quadrature() {
+        if tested.is_quadrature() {
             remarks.push("by quadrature".to_string());
         }
         if evidence.independence == Some(Independence::Constant) {
             remarks.push("constant on the level".to_string());
         }
     }
-    remarks.extend(finding.remark.clone());
-    if finding.claim.verdict == Verdict::Refuted {
+    remarks.extend(tested.remark.clone());
+    if tested.claim.verdict == Verdict::Refuted {
         remarks.extend(evidence.remark.clone());
     }
-    if finding.claim.verdict == Verdict::Undecided {
+    if tested.claim.verdict == Verdict::Undecided {
         remarks.extend(evidence.reason.clone());
     }
     remarks

@@ -68,7 +68,7 @@ pub fn complete(case: &Case, options: &Options, report: &mut CaseReport) -> Resu
             }
             Trust::Best | Trust::Proof => report.claims.clone(),
         };
-        let told = look(case, &reports, options);
+        let told = judged(case, &reports, options);
         report.claims.extend(told);
     }
     report.absences_left = 0;
@@ -76,7 +76,7 @@ pub fn complete(case: &Case, options: &Options, report: &mut CaseReport) -> Resu
 }
 
 /// Reports on all claims of absence; `judged` are the reports on the other claims.
-fn look(case: &Case, judged: &[ClaimReport], options: &Options) -> Vec<ClaimReport> {
+fn judged(case: &Case, judged: &[ClaimReport], options: &Options) -> Vec<ClaimReport> {
     let options = Options { trust: Trust::Best, mutants: false, ..*options };
     let ground = abbreviated(case).and_then(|case| {
         let effort = Effort { options, ..Effort::default() };
@@ -89,7 +89,7 @@ fn look(case: &Case, judged: &[ClaimReport], options: &Options) -> Vec<ClaimRepo
             Err(error) => return AbsenceOutcome::Open(error.to_string()),
         };
         let asked = AbsenceCase::new(case, known, options);
-        asked.look(&claim.kind).unwrap_or_else(|error| AbsenceOutcome::Open(error.to_string()))
+        asked.judge(&claim.kind).unwrap_or_else(|error| AbsenceOutcome::Open(error.to_string()))
     };
     case.absences.iter().map(|claim| report(claim, outcome(claim))).collect()
 }
@@ -115,18 +115,18 @@ impl<'a> AbsenceCase<'a> {
         Self { case, known, effort }
     }
 
-    fn look(&self, kind: &Absence) -> Result<AbsenceOutcome, SearchError> {
+    fn judge(&self, kind: &Absence) -> Result<AbsenceOutcome, SearchError> {
         let system = &self.case.model.system;
         if system.has_arbitrary_function() {
             let reason = "a function of the body is arbitrary, and a count needs a given one";
             return Ok(AbsenceOutcome::Open(reason.to_string()));
         }
         let outcome = if Coordinates::of(self.case).is_ok() {
-            velocities::look(self, kind)?
+            velocities::judge(self, kind)?
         } else {
             let own = AnsatzVariables::of(self.case).filter(|own| !own.have_velocities());
             match own {
-                Some(variables) => match (polynomials::look(self, &variables, kind)?, kind) {
+                Some(variables) => match (polynomials::judge(self, &variables, kind)?, kind) {
                     (Some(outcome), _) => outcome,
                     // Its theorem holds on all branches of roots, and moduli have no part in it.
                     (None, Absence::NoIntegral(claim)) => {

@@ -28,7 +28,7 @@ use liouville::verdict::Verdict;
 const STEPS: f64 = 5e8;
 
 /// Judges a claim by polynomials in all variables; `None` if the field has no value modulo a prime.
-pub fn look(
+pub fn judge(
     asked: &AbsenceCase<'_>,
     variables: &AnsatzVariables,
     kind: &Absence,

@@ -15,7 +15,7 @@ use liouville::number::rational::Rational;
 use liouville::verdict::Verdict;
 
 /// Judges a claim by Taylor coefficients.
-pub fn look(asked: &AbsenceCase<'_>, kind: &Absence) -> Result<AbsenceOutcome, SearchError> {
+pub fn judge(asked: &AbsenceCase<'_>, kind: &Absence) -> Result<AbsenceOutcome, SearchError> {
     match kind {
         Absence::NoIntegral(claim) => no_integral(asked, claim.degree),
         Absence::NoDensity(claim) => no_density(asked, claim.degree),

@@ -207,14 +207,14 @@ impl LinearSystem {
         None
     }
 
-    /// Passes the outputs at random states that have values to `look` until it has seen enough;
+    /// Passes the outputs at random states that have values to `is_done` until it has seen enough;
     /// `false` if it has not within the limit of blocks.
     fn visit(
         &self,
         at: &PrimePoint,
         stream: u64,
         blocks: usize,
-        look: &mut dyn FnMut(&[u64]) -> bool,
+        is_done: &mut dyn FnMut(&[u64]) -> bool,
     ) -> bool {
         let mut rng = SearchStream::Combinations.under(self.seed.wrapping_add(stream));
         let mut evaluator = Evaluator::new(&self.tape, Prime::new([at.modulus; SYSTEM_LANES]));
@@ -232,7 +232,7 @@ impl LinearSystem {
             let values: Vec<[u64; SYSTEM_LANES]> = evaluator.outputs().copied().collect();
             for lane in 0..SYSTEM_LANES {
                 let row: Vec<u64> = values.iter().map(|block| block[lane]).collect();
-                if !row.contains(&UNDEFINED) && !look(&row) {
+                if !row.contains(&UNDEFINED) && !is_done(&row) {
                     return true;
                 }
             }

@@ -32,15 +32,12 @@ pub fn define(name: &str, formula: &str) -> Definition {
 
 /// Merges the definitions and formulas of several findings; names with different meanings are
 /// renamed.
-pub fn merged(
-    bindings: &[Definition],
-    findings: &[&TestedClaim],
-) -> (Vec<Definition>, Vec<String>) {
+pub fn merged(bindings: &[Definition], tested: &[&TestedClaim]) -> (Vec<Definition>, Vec<String>) {
     let mut all = bindings.to_vec();
     let mut formulas = Vec::new();
-    for (number, finding) in findings.iter().enumerate() {
-        let mut own = finding.definitions.clone();
-        let mut formula = finding.formula().to_string();
+    for (number, tested) in tested.iter().enumerate() {
+        let mut own = tested.definitions.clone();
+        let mut formula = tested.formula().to_string();
         for index in 0..own.len() {
             let clash = all.iter().any(|one| one.name == own[index].name && *one != own[index]);
             if clash {

@@ -63,29 +63,29 @@ pub fn form(
         _ => "BMB 2013, (2.28)".to_string(),
     };
     let mut found = match &asked {
-        Some(asked) => question.findings(asked, options)?,
+        Some(asked) => question.tested(asked, options)?,
         None => Vec::new(),
     };
-    for finding in &mut found {
+    for tested in &mut found {
         // H is written in the new variables, so its text is not among the names of the case.
-        let text = match finding.claim.kind {
+        let text = match tested.claim.kind {
             "hamiltonian" => format!("{energy}{potential}"),
             _ => "1/N".to_string(),
         };
         // The measure follows H in the report, in the same names.
-        finding.definitions = match finding.claim.kind {
+        tested.definitions = match tested.claim.kind {
             "hamiltonian" => used_by(&[&text, "N", "M"], &names),
             _ => Vec::new(),
         };
         if let Some(asked) = &asked {
             let paper = Typesetter(&asked.model.vocabulary);
-            finding.shown.definitions = paper.definitions(&finding.definitions);
-            finding.shown.statement = asked.model.variables.as_ref().and_then(|variables| {
+            tested.shown.definitions = paper.definitions(&tested.definitions);
+            tested.shown.statement = asked.model.variables.as_ref().and_then(|variables| {
                 Typesetter(&variables.model.vocabulary)
-                    .definition(&define(&finding.claim.name, &text))
+                    .definition(&define(&tested.claim.name, &text))
             });
         }
-        finding.claim.formula = Some(text);
+        tested.claim.formula = Some(text);
     }
     Ok(found)
 }

@@ -93,9 +93,9 @@ fn independent(
     options: &Options,
     bindings: &[Definition],
     energy: bool,
-    findings: &[&TestedClaim],
+    tested: &[&TestedClaim],
 ) -> Result<Option<ClaimReport>, JudgeError> {
-    let (definitions, formulas) = merged(bindings, findings);
+    let (definitions, formulas) = merged(bindings, tested);
     let Some(named) = defined(case, &definitions) else { return Ok(None) };
     let energy = energy.then_some("energy");
     let texts = energy.into_iter().chain(formulas.iter().map(String::as_str));

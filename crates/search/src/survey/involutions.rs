@@ -36,8 +36,8 @@ pub fn find(case: &Case, options: &Options) -> Result<Vec<TestedClaim>, JudgeErr
     let claims = candidates.iter().map(claim).collect();
     let question = SurveyQuestion::plain("maps of the frame", &[], claims);
     let mut found = question.ask(case, options)?.unwrap_or_default();
-    for (finding, candidate) in found.iter_mut().zip(&candidates) {
-        finding.fixed_set = candidate.fixed_set;
+    for (tested, candidate) in found.iter_mut().zip(&candidates) {
+        tested.fixed_set = candidate.fixed_set;
     }
     found.retain(TestedClaim::holds);
     Ok(found)

@@ -142,18 +142,18 @@ pub fn survey(
         .partition::<Vec<TestedClaim>, _>(|found| found.is("reversor"));
     progress("further integrals");
     let mut search = SearchOutcome::of(case, options, progress);
-    all.append(&mut search.findings);
+    all.append(&mut search.tested);
     progress("classification");
     let mut sorted = Sorted::of(all);
     let candidates: Vec<&TestedClaim> = sorted.integrals.iter().collect();
     let independent =
         independence::count(case, options, &geometry.bindings, &candidates, &implied)?;
     let (mut integrals, mut dependent) = (Vec::new(), Vec::new());
-    for (index, finding) in std::mem::take(&mut sorted.integrals).into_iter().enumerate() {
-        match (finding.is_general, independent.kept.contains(&index)) {
-            (true, _) => sorted.general.push(finding),
-            (false, true) => integrals.push(finding),
-            (false, false) if finding.is_of_family() => dependent.push(finding),
+    for (index, tested) in std::mem::take(&mut sorted.integrals).into_iter().enumerate() {
+        match (tested.is_general, independent.kept.contains(&index)) {
+            (true, _) => sorted.general.push(tested),
+            (false, true) => integrals.push(tested),
+            (false, false) if tested.is_of_family() => dependent.push(tested),
             // Further integrals of the case or the search are functions of those reported.
             (false, false) => {}
         }
@@ -265,28 +265,28 @@ impl Sorted {
     fn of(all: Vec<TestedClaim>) -> Self {
         let mut sorted = Self::default();
         let mut told: Vec<(&'static str, String)> = Vec::new();
-        for finding in all {
-            let statement = (finding.claim.kind, finding.formula().to_string());
-            if told.contains(&statement) && finding.definitions.is_empty() {
+        for tested in all {
+            let statement = (tested.claim.kind, tested.formula().to_string());
+            if told.contains(&statement) && tested.definitions.is_empty() {
                 continue;
             }
             told.push(statement);
-            let place = match finding.claim.kind {
+            let place = match tested.claim.kind {
                 "position-density" | "analytic-density" | "smooth-density" => &mut sorted.criterion,
                 // Questions of the case are reported with the case's claims.
-                _ if !finding.is_of_family() && !finding.holds() => continue,
-                "integral" if !finding.is_of_family() && !finding.is_new_integral() => continue,
-                _ if finding.fails() => &mut sorted.fails,
+                _ if !tested.is_of_family() && !tested.holds() => continue,
+                "integral" if !tested.is_of_family() && !tested.is_new_integral() => continue,
+                _ if tested.fails() => &mut sorted.fails,
                 // What is only confirmed does not count.
-                _ if !finding.is_proved() => &mut sorted.undecided,
+                _ if !tested.is_proved() => &mut sorted.undecided,
                 "density" => &mut sorted.densities,
-                "integral" if finding.is_new_integral() => &mut sorted.integrals,
+                "integral" if tested.is_new_integral() => &mut sorted.integrals,
                 "integral" => &mut sorted.general,
                 "symmetry-field" => &mut sorted.fields,
                 "rate" => &mut sorted.rates,
                 _ => continue,
             };
-            place.push(finding);
+            place.push(tested);
         }
         // A smooth density is of interest where an analytic one is not decided.
         let is_open = |one: &TestedClaim| one.claim.verdict == Verdict::Undecided;

@@ -220,23 +220,19 @@ impl SurveyQuestion {
         options: &Options,
     ) -> Result<Option<Vec<TestedClaim>>, JudgeError> {
         match self.asked(case) {
-            Some(asked) => self.findings(&asked, options).map(Some),
+            Some(asked) => self.tested(&asked, options).map(Some),
             None => Ok(None),
         }
     }
 
     /// Judges the claims of a case as those of the question.
-    pub fn findings(
-        &self,
-        asked: &Case,
-        options: &Options,
-    ) -> Result<Vec<TestedClaim>, JudgeError> {
+    pub fn tested(&self, asked: &Case, options: &Options) -> Result<Vec<TestedClaim>, JudgeError> {
         let report = judge(asked, options)?;
         let tables = self.tables();
         let images = tables.into_iter().chain(std::iter::repeat(Vec::new()));
         let found = report.claims.into_iter().zip(images);
         let paper = Typesetter(&asked.model.vocabulary);
-        Ok(found.map(|(claim, images)| self.finding(claim, images, &paper)).collect())
+        Ok(found.map(|(claim, images)| self.tested_claim(claim, images, &paper)).collect())
     }
 
     /// Returns the tables of formulas in the claims, one for each claim.
@@ -255,7 +251,7 @@ impl SurveyQuestion {
         claims.iter().map(table).collect()
     }
 
-    fn finding(
+    fn tested_claim(
         &self,
         mut claim: ClaimReport,
         images: Vec<Definition>,

@@ -92,9 +92,9 @@ fn no_family_is_dead() {
                 let found = found
                     .unwrap_or_else(|| panic!("{} can be asked of {}", family.name, case.title));
                 // By place, since the name of an axis is part of the name of a claim.
-                for (number, finding) in found.iter().enumerate() {
+                for (number, tested) in found.iter().enumerate() {
                     let claim = format!("{number}");
-                    if finding.claim.verdict == Verdict::Proved && !proved.contains(&claim) {
+                    if tested.claim.verdict == Verdict::Proved && !proved.contains(&claim) {
                         proved.push(claim.clone());
                     }
                     if !stated.contains(&claim) {

@@ -27,7 +27,7 @@ pub struct SearchOutcome {
     pub remarks: Vec<String>,
     /// Invariants found, as claims with verdicts.
     #[serde(skip)]
-    pub findings: Vec<TestedClaim>,
+    pub tested: Vec<TestedClaim>,
 }
 
 impl SearchOutcome {
@@ -51,7 +51,7 @@ impl SearchOutcome {
                 counts: report.counts,
                 excluded: report.excluded,
                 remarks: report.remarks,
-                findings: report
+                tested: report
                     .found
                     .into_iter()
                     .filter(is_new)

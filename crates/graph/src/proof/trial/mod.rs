@@ -144,7 +144,7 @@ impl<'a> Trial<'a> {
         roots: Roots<'_>,
     ) -> Vec<TrialResult> {
         let draws = DRAWS << roots.nested.min(MOST_NESTED);
-        let mut findings: Vec<Option<TrialResult>> = Vec::new();
+        let mut results: Vec<Option<TrialResult>> = Vec::new();
         let mut certificates: Vec<Option<Certificate>> = Vec::new();
         for group in groups {
             let certificate = self.certificate(group, roots, draws);
@@ -156,7 +156,7 @@ impl<'a> Trial<'a> {
                     bound.degree, bound.height
                 )),
             };
-            findings.push(silence.map(TrialResult::Silent));
+            results.push(silence.map(TrialResult::Silent));
             certificates.push(certificate);
         }
         let mut rng = ProofRng::of(self.digest, ProofStream::Points);
@@ -164,7 +164,7 @@ impl<'a> Trial<'a> {
         let mut drawn = 0;
         while drawn < draws {
             let open: Vec<usize> =
-                (0..groups.len()).filter(|index| findings[*index].is_none()).collect();
+                (0..groups.len()).filter(|index| results[*index].is_none()).collect();
             if open.is_empty() {
                 break;
             }
@@ -181,12 +181,12 @@ impl<'a> Trial<'a> {
                 let mut values = evaluator.outputs();
                 for index in &open {
                     let own: Vec<&F::Block> = values.by_ref().take(groups[*index].len()).collect();
-                    let finding = &mut findings[*index];
+                    let result = &mut results[*index];
                     let accepted = &mut accepted[*index];
                     if is_nonzero::<F>(&own, accepted) {
-                        *finding = Some(TrialResult::NonZero);
+                        *result = Some(TrialResult::NonZero);
                     } else if accepted.iter().all(|count| *count >= PRIME_POINTS) {
-                        *finding = certificates[*index].map(|certificate| {
+                        *result = certificates[*index].map(|certificate| {
                             TrialResult::Zero(Certificate {
                                 points: accepted.iter().sum(),
                                 draws: drawn * PRIMES as u64,
@@ -194,15 +194,15 @@ impl<'a> Trial<'a> {
                             })
                         });
                     }
-                    unsettled &= finding.is_none();
+                    unsettled &= result.is_none();
                 }
             }
         }
-        findings
+        results
             .into_iter()
             .zip(accepted)
-            .map(|(finding, accepted)| {
-                finding.unwrap_or_else(|| {
+            .map(|(result, accepted)| {
+                result.unwrap_or_else(|| {
                     TrialResult::Silent(format!(
                         "only {} of {} random points have a value: a denominator is always 0, or a \
                          root never exists",
