@@ -42,7 +42,9 @@ fn is_lone(scene: &Scene, claim: &Claim, point: &Point) -> bool {
     let fails = |(around, index): (f64, u64)| {
         let mut stream = Stream::new(0x10_4e, index);
         let beside = free.iter().fold(point.clone(), |point, place| {
-            point.beside(*place, around * (2.0 * stream.unit() - 1.0))
+            // Steps of some length: a shorter one is lost in rounding, and ends where it began.
+            let share = 2.0 * stream.unit() - 1.0;
+            point.beside(*place, around * (share + share.signum()) / 2.0)
         });
         matches!(claim.settled(scene, &|| scene.values(&beside)), Some(At::Off(_)))
     };

@@ -3,6 +3,7 @@
 //! ```text
 //! ln X = (ln c + Σ n_j ln X_j)/n,  X^y = c^(y/n) Π X_j^(y n_j/n)  where X^n = c Π X_j^n_j
 //! e^E = e^R Π X_j^Y_j                                            where E = R + Σ Y_j ln X_j
+//! X^y = e^(y ln X)                                               where y contains logarithms
 //! ```
 //!
 //! The X_j are arguments of logarithms, bases of powers, powers or exponentials, so they are positive
@@ -167,9 +168,23 @@ impl Rules<'_> {
         arguments.dedup();
         let mut found = self.of_exponents(&exponents);
         if found.0.is_empty() {
+            found.0 = self.of_powers(&powers);
+        }
+        if found.0.is_empty() {
             found = self.of_arguments(&arguments, powers);
         }
         found
+    }
+
+    /// Makes exponentials of powers x^y whose exponents contain logarithms: z^(ln w) and
+    /// w^(ln z) are then the same.
+    fn of_powers(&self, powers: &[usize]) -> Vec<Rewrite> {
+        let is_logarithmic = |place: &usize| match self.graph.step(*place) {
+            Step::Binary(Pow, _, y) => !self.outer_logarithms(y).is_empty(),
+            _ => false,
+        };
+        let places: Vec<usize> = powers.iter().copied().filter(is_logarithmic).collect();
+        if places.is_empty() { Vec::new() } else { vec![Rewrite::Power { places }] }
     }
 
     /// Splits exponentials of sums with logarithms.

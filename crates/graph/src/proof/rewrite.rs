@@ -62,6 +62,11 @@ pub enum Rewrite {
         /// Its logarithm.
         logarithm: Logarithm,
     },
+    /// X^y = e^(y ln X).
+    Power {
+        /// Places of the X^y.
+        places: Vec<usize>,
+    },
     /// e^E = e^R Π X_j^Y_j, where E = R + Σ Y_j ln X_j.
     Exponential {
         /// Place of E.
@@ -148,13 +153,18 @@ impl Rewrite {
                 }
                 _ => None,
             },
+            (Rewrite::Power { places }, Step::Binary(BinaryOperation::Pow, a, y)) => {
+                let logarithm = values[a].filter(|_| places.contains(&place))?;
+                let exponent = values[y]? * logarithm.apply(UnaryFunction::Ln);
+                Some(exponent.apply(UnaryFunction::Exp))
+            }
             (Rewrite::Exponential { argument, logarithms }, step) => match step {
                 Step::Unary(UnaryFunction::Exp, a) if a == *argument => {
                     split_exponential(graph, a, logarithms, values)
                 }
                 _ => None,
             },
-            (Rewrite::Signed { .. }, _) => None,
+            (Rewrite::Signed { .. } | Rewrite::Power { .. }, _) => None,
         }
     }
 }
