@@ -6,6 +6,7 @@ use liouville::verdict::{ClaimReport, DensitySign, Independence, Verdict};
 
 use super::claim::{At, Claim};
 use super::draw::Made;
+use super::expr::{Expr, Function};
 use super::oracle::{Survey, evenly, in_cells, searched, signs, thin_signs, visibly};
 use super::random::Stream;
 use super::real::Lack;
@@ -123,6 +124,7 @@ pub fn weighed(
         // One state decides, however thin the set of such states is.
         (_, Some(Shown::At(At::Off(_)))) if claim.is_negated() => Truth::Holds,
         (_, Some(Shown::At(At::Off(_)))) => Truth::Fails,
+        (Truth::Void, _) if may_be_flat(&scene, claim) => Truth::Unsure,
         (truth, _) => truth,
     };
     if made.vanishes && survey.off > 0 {
@@ -139,6 +141,16 @@ pub fn weighed(
         _ => None,
     };
     (truth, wrong)
+}
+
+/// Whether a rate may exist where the derivatives of its formula do not: |X| is 0 along a level on
+/// which X vanishes, and has a corner there.
+fn may_be_flat(scene: &Scene, claim: &Claim) -> bool {
+    let is_modulus = |node: &Expr| matches!(node, Expr::Of(Function::Modulus, _));
+    let mut trees = claim.trees().into_iter();
+    scene.level.is_some()
+        && !matches!(claim, Claim::Identity(..))
+        && trees.any(|tree| tree.any(&mut |node| is_modulus(node)))
 }
 
 /// Examines a claim as thoroughly as the verdict requires.
