@@ -12,6 +12,7 @@ use super::classes::Classes;
 use super::digest::SeedDigest;
 use super::domain::Region;
 use super::fact::SignFact;
+use super::free_roots::zeros_for_free_roots;
 use super::logarithms::Rules;
 use super::lower::Algebraic;
 use super::next::{Next, for_both, silent};
@@ -128,6 +129,16 @@ impl Explorer<'_> {
         Ok(self.on_lowered(cell, &algebraic, &region, &known)?.given(related))
     }
 
+    /// Tests the groups with free symbols in the place of roots, too many to be told apart.
+    fn on_free_roots(&self, reason: &str) -> Result<Next, Fault> {
+        let Question { graph, groups, special } = self.question;
+        let zeros = zeros_for_free_roots(graph, groups, special, self.sources, self.digest)?;
+        let silent = || TrialResult::Silent(reason.to_string());
+        let results =
+            zeros.into_iter().map(|zero| Some(zero.map_or_else(silent, TrialResult::Zero)));
+        Ok(Next::Tested(results.collect()))
+    }
+
     /// Finds the next action on a cell from its algebraic computation.
     fn on_lowered(
         &self,
@@ -138,8 +149,7 @@ impl Explorer<'_> {
     ) -> Result<Next, Fault> {
         let graph = &cell.graph;
         if !algebraic.has_few_signs() {
-            let reason = "it contains too many roots";
-            return Ok(Next::Tested(silent(self.question.groups.len(), reason)));
+            return self.on_free_roots("it contains too many roots");
         }
         let trial = Trial::new(algebraic, self.digest);
         let tower = Tower::of(graph, algebraic, &trial, self.digest);
@@ -279,7 +289,8 @@ impl Explorer<'_> {
             return all_silent("a root never exists at random points, or is reached too rarely");
         }
         if loose.len() > MOST_CHOICES {
-            return all_silent(&format!("{} roots or moduli depend on others", loose.len()));
+            let reason = format!("{} roots or moduli depend on others", loose.len());
+            return self.on_free_roots(&reason);
         }
         let is_lost = |value: &Expr| {
             let lowered = algebraic.values[cell.graph.place(*value)];

@@ -10,10 +10,11 @@
 //! | `lower`, `numbers` | functions that fields lack are replaced by signs and symbols |
 //! | `symbols`, `relations` | one symbol for each element of a basis of arguments |
 //! | `bounds`, `plain` | degree and height on the graph, denominators kept in factors |
-//! | `chance`, `digest` | random primes and points, drawn from the seed and the statement |
+//! | `rng`, `digest` | random primes and points, drawn from the seed and the statement |
 //! | `trial` | the test of Theorem 1 |
 //! | `tower`, `characters` | certificates of independence for roots |
 //! | `roots`, `squares`, `nested`, `polynomial` | dependent roots and their expressions |
+//! | `free_roots` | symbols in the place of very many roots |
 //! | `explore`, `next`, `cells`, `rewrite` | the cells of signs, and proofs on each |
 //! | `domain`, `fact`, `classes`, `extent` | signs of values over the ranges of the inputs |
 //! | `elimination`, `rank`, `reconstruct`, `coprime` | linear algebra and polynomials modulo a prime |
@@ -30,6 +31,7 @@ mod elimination;
 mod explore;
 mod extent;
 mod fact;
+mod free_roots;
 mod logarithms;
 mod lower;
 mod nested;

@@ -1,0 +1,208 @@
+//! Roots as independent symbols, for values with more roots than can be told apart.
+//!
+//! What is zero for symbols in the place of the roots is zero for the roots, however they depend on
+//! each other. docs/soundness.md, "Many roots".
+
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use crate::graph::{Expr, Fault, Graph, Step, record};
+use crate::number::rational::Rational;
+use crate::number::{BinaryOperation, UnaryFunction};
+use crate::scalar::Scalar;
+
+use super::bounds::InputDistribution;
+use super::digest::SeedDigest;
+use super::lower::Algebraic;
+use super::trial::{Certificate, Roots, Trial, TrialResult};
+
+/// Values with square roots of rational functions as their only non-rational parts.
+struct FreeRoots<'g> {
+    graph: &'g Graph,
+    /// Steps that the values need.
+    reached: Vec<bool>,
+    /// Whether a step contains a root, by place.
+    has_root: Vec<bool>,
+    /// Places of the radicands, each once.
+    radicands: Vec<usize>,
+}
+
+/// Proves that groups of values are zero with a symbol in the place of each root; `None` for a group
+/// for which this does not succeed.
+///
+/// `special` are the places of all roots, moduli, signs and functions of the groups. Only square
+/// roots of rational functions are treated, and no denominator that is a sum with roots.
+pub fn zeros_for_free_roots(
+    graph: &Graph,
+    groups: &[&[Expr]],
+    special: &[usize],
+    sources: &[InputDistribution],
+    digest: SeedDigest,
+) -> Result<Vec<Option<Certificate>>, Fault> {
+    let none = vec![None; groups.len()];
+    let Some(free) = FreeRoots::of(graph, groups, special) else { return Ok(none) };
+    let count = sources.len();
+    let (made, values) =
+        record(count + free.radicands.len(), |inputs| free.replay(groups, inputs))?;
+    let Some(values) = values else { return Ok(none) };
+    if values.iter().flatten().any(|value| made.is_nowhere_defined(*value)) {
+        return Ok(none);
+    }
+    let mut all = sources.to_vec();
+    all.resize(count + free.radicands.len(), InputDistribution::Uniform);
+    let algebraic = Algebraic::plain(&made, &all);
+    let trial = Trial::new(&algebraic, digest);
+    let values: Vec<&[Expr]> = values.iter().map(Vec::as_slice).collect();
+    let mut results = trial.test(&values, Roots::default());
+    // A root of 0 is no free symbol: 1/√A has no value.
+    let are_radicands_nonzero =
+        results.split_off(groups.len()).iter().all(|result| matches!(result, TrialResult::NonZero));
+    let zeros = results.into_iter().map(|result| match result {
+        TrialResult::Zero(certificate) => Some(certificate),
+        _ => None,
+    });
+    Ok(if are_radicands_nonzero { zeros.collect() } else { none })
+}
+
+impl<'g> FreeRoots<'g> {
+    fn of(graph: &'g Graph, groups: &[&[Expr]], special: &[usize]) -> Option<Self> {
+        let reached = graph.reached(groups.concat());
+        let mut is_special = vec![false; graph.len()];
+        special.iter().for_each(|place| is_special[*place] = true);
+        let mut known = FxHashSet::default();
+        let mut free =
+            Self { graph, has_root: vec![false; graph.len()], radicands: Vec::new(), reached };
+        for place in (0..graph.len()).filter(|place| free.reached[*place]) {
+            let step = graph.step(place);
+            free.has_root[place] = step.arguments().any(|argument| free.has_root[argument]);
+            if is_special[place] {
+                let (radicand, _) = half_power(step)?;
+                if free.has_root[radicand] || matches!(graph.step(radicand), Step::Constant(_)) {
+                    return None;
+                }
+                free.has_root[place] = true;
+                if known.insert(radicand) {
+                    free.radicands.push(radicand);
+                }
+            }
+        }
+        let mut denominators = (0..graph.len()).filter_map(|place| match graph.step(place) {
+            _ if !free.reached[place] => None,
+            Step::Unary(UnaryFunction::Recip, a) => Some(a),
+            Step::Power(a, exponent) => (*exponent < Rational::from(0)).then_some(a),
+            _ => None,
+        });
+        let are_products = denominators.all(|place| free.is_product(place));
+        are_products.then_some(free)
+    }
+
+    /// Whether a value is a product of roots and a rational function.
+    fn is_product(&self, place: usize) -> bool {
+        let mut open = vec![place];
+        while let Some(place) = open.pop() {
+            match self.graph.step(place) {
+                _ if !self.has_root[place] => {}
+                Step::Unary(UnaryFunction::Neg | UnaryFunction::Recip, a) => open.push(a),
+                Step::Binary(BinaryOperation::Mul, a, b) => open.extend([a, b]),
+                Step::Power(a, exponent) if exponent.to_integer().is_some() => open.push(a),
+                step => {
+                    if half_power(step).is_none() {
+                        return false;
+                    }
+                }
+            }
+        }
+        true
+    }
+
+    /// Records the groups with the last inputs in the place of the roots, and each radicand as a
+    /// group of its own.
+    fn replay(&self, groups: &[&[Expr]], inputs: &[Expr]) -> Option<Vec<Vec<Expr>>> {
+        let symbols = &inputs[inputs.len() - self.radicands.len()..];
+        let by_radicand: FxHashMap<usize, Expr> =
+            self.radicands.iter().copied().zip(symbols.iter().copied()).collect();
+        let root = |_, step: Step<'_>, _: &[Option<Expr>]| {
+            let (radicand, power) = half_power(step)?;
+            Some(by_radicand.get(&radicand)?.power(&power))
+        };
+        let values = self.graph.replay(&self.reached, inputs, root);
+        let at = |expr: &Expr| values[self.graph.place(*expr)];
+        let groups = groups.iter().map(|group| group.iter().map(at).collect());
+        let radicands = self.radicands.iter().map(|place| values[*place].map(|value| vec![value]));
+        groups.chain(radicands).collect()
+    }
+}
+
+/// Returns the argument of a root, or of an odd power of one, and that power.
+fn half_power(step: Step<'_>) -> Option<(usize, Rational)> {
+    match step {
+        Step::Unary(UnaryFunction::Sqrt, a) => Some((a, Rational::from(1))),
+        Step::Power(a, exponent) if exponent.to_integer().is_none() => {
+            let power = exponent * &Rational::from(2);
+            power.to_integer().is_some().then_some((a, power))
+        }
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use num_dual::DualNum;
+
+    use super::*;
+
+    /// Whether a function of two inputs is proved to be zero.
+    fn is_zero(build: impl FnOnce(&[Expr]) -> Expr) -> bool {
+        let (graph, value) = record(2, build).expect("records");
+        let special: Vec<usize> =
+            (0..graph.len()).filter(|place| half_power(graph.step(*place)).is_some()).collect();
+        let sources = [InputDistribution::Uniform; 2];
+        let digest = SeedDigest::of(1, &graph, &[vec![value]]);
+        let found = zeros_for_free_roots(&graph, &[&[value]], &special, &sources, digest);
+        matches!(found.expect("records")[..], [Some(_)])
+    }
+
+    #[test]
+    fn zeros_need_no_relation_of_roots() {
+        let cancels = |x: &[Expr]| {
+            let (a, b) = ((x[0] * x[0] + x[1]).sqrt(), (x[1] + x[0]).sqrt());
+            (a + b) * x[0] / b - a * (x[0] / b) - x[0]
+        };
+        assert!(is_zero(cancels), "(a + b) x/b = a x/b + x");
+        let squares = |x: &[Expr]| {
+            let (a, b) = ((x[0] * x[0] + x[1]).sqrt(), (x[1] + x[0]).sqrt());
+            (a + b) * (a - b) - a * a + b * b
+        };
+        assert!(!is_zero(squares), "a² is not known to be what is under the root");
+        let depends = |x: &[Expr]| x[0].sqrt() * x[1].sqrt() - (x[0] * x[1]).sqrt();
+        assert!(!is_zero(depends), "√x √y = √(xy) needs a relation");
+        let near = |x: &[Expr]| {
+            let a = (x[0] * x[0] + x[1]).sqrt();
+            (a + x[0]) * (a - x[0]) - a * a + x[0] * x[0] * x[1].sqrt()
+        };
+        assert!(!is_zero(near), "x² is not x² √y");
+    }
+
+    #[test]
+    fn what_may_have_no_value_is_left_out() {
+        let divides = |x: &[Expr]| {
+            let gap = x[0].sqrt() * x[1].sqrt() - (x[0] * x[1]).sqrt();
+            (x[0] + x[1]) * gap.recip() - x[0] * gap.recip() - x[1] * gap.recip()
+        };
+        assert!(!is_zero(divides), "1/(√x √y − √(xy)) has no value for x, y > 0");
+        let zero = |x: &[Expr]| {
+            let a = ((x[0] + x[1]) * (x[0] - x[1]) - x[0] * x[0] + x[1] * x[1]).sqrt();
+            (x[0] + x[1]) * a.recip() - x[0] * a.recip() - x[1] * a.recip()
+        };
+        assert!(!is_zero(zero), "1/√0");
+        let nested = |x: &[Expr]| {
+            let a = (x[0].sqrt() + x[1]).sqrt();
+            (a + x[0]) * (a - x[0]) - a * a + x[0] * x[0]
+        };
+        assert!(!is_zero(nested), "a root within a root");
+        let products = |x: &[Expr]| {
+            let a = (x[0] * x[0] + x[1]).sqrt();
+            (a * x[0]).recip() * (x[0] + x[1]) - a.recip() - (a * x[0]).recip() * x[1]
+        };
+        assert!(is_zero(products), "(x + y)/(a x) = 1/a + y/(a x)");
+    }
+}
