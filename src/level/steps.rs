@@ -61,6 +61,8 @@ pub enum SolutionStep {
 pub struct Pivot {
     /// Indices of the equations.
     pub equations: Vec<usize>,
+    /// What the step divides by.
+    pub divisor: Expr,
     /// Gram determinant of the equations' slopes along all unknowns that the divisor does not
     /// depend on.
     pub slope: Expr,
@@ -133,7 +135,7 @@ impl SolutionStep {
             }
             SolutionStep::Quadratic { linear, quadratic, components, all, .. } => {
                 let equations: Vec<Equation> = linear.iter().copied().chain([*quadratic]).collect();
-                let whole = quadratic_step(point, linear, *quadratic, components, sign);
+                let (divisor, whole) = quadratic_step(point, linear, *quadratic, components, sign);
                 // Where the equations are independent, there are nearby points with a nonzero
                 // pivot.
                 let rows: Vec<Vec<Expr>> =
@@ -141,6 +143,7 @@ impl SolutionStep {
                 let slope = gram_determinant(&rows);
                 Some(Pivot {
                     equations: equations.iter().map(|equation| equation.index).collect(),
+                    divisor,
                     slope,
                     minors: Vec::new(),
                     whole,
@@ -289,6 +292,7 @@ fn linear(
     }
     Pivot {
         equations: equations.iter().map(|equation| equation.index).collect(),
+        divisor: determinant(&rows),
         slope,
         minors,
         whole,
@@ -303,10 +307,10 @@ fn quadratic_step(
     quadratic: Equation,
     components: &[usize],
     sign: Option<Expr>,
-) -> Expr {
+) -> (Expr, Expr) {
     let (mut direction, mut determinants) = (Vec::new(), Expr::one());
     let Some((last, others)) = components.split_last() else {
-        return Expr::one();
+        return (Expr::one(), Expr::one());
     };
     point.state[*last] = Expr::zero();
     if !others.is_empty() {
@@ -331,5 +335,5 @@ fn quadratic_step(
         let base = point.state[component];
         point.state[component] = base + length * slope;
     }
-    (a * a + b * b + c * c) * determinants
+    (a * determinants, (a * a + b * b + c * c) * determinants)
 }

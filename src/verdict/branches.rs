@@ -13,7 +13,9 @@ use crate::mechanics::{Draw, Phase};
 use crate::number::Enclosing;
 use crate::number::mixed::{Mixed, Number};
 use crate::number::rational::Rational;
-use crate::proof::{Extent, Group, Prover, are_coprime, are_polynomials, is_nowhere_zero};
+use crate::proof::{
+    Extent, Group, Prover, are_coprime, are_polynomials, is_nowhere_zero, is_single_valued,
+};
 use crate::scalar::Scalar;
 
 impl Judging<'_> {
@@ -34,17 +36,24 @@ impl Judging<'_> {
         sampler: &Sampler,
         solution: &Solution,
     ) -> Result<Option<String>, Fault> {
+        if sampler.pivots().is_empty() {
+            return Ok(None);
+        }
+        let space = PivotSpace::of(self.case, sampler, solution)?;
         let mut open = Vec::new();
         for (index, pivot) in sampler.pivots().iter().enumerate() {
-            if !self.is_number(sampler, pivot.slope)? && !self.is_number(sampler, pivot.whole)? {
+            let own = &space.pivots[index];
+            let is_whole = space.is_thin(own.divisor)
+                && (self.is_number(sampler, pivot.slope)?
+                    || self.is_number(sampler, pivot.whole)?
+                    || space.is_definite(own));
+            if !is_whole {
                 open.push(index);
             }
         }
         if open.is_empty() {
             return Ok(None);
         }
-        let space = PivotSpace::of(self.case, sampler, solution)?;
-        open.retain(|index| !space.is_definite(&space.pivots[*index]));
         // Factors of a single remaining equation do no harm if they have no common factor.
         if let [index] = open[..]
             && self.has_no_factor(sampler, &space, solution, index)
@@ -165,18 +174,26 @@ impl PivotSpace {
         Ok(Self { graph, pivots, level, extents })
     }
 
+    /// Whether a divisor is known to vanish on no open set unless it vanishes everywhere: z + |z|
+    /// does for z < 0.
+    fn is_thin(&self, divisor: Expr) -> bool {
+        is_single_valued(&self.graph, &[divisor]) || self.have_no_zero(&[divisor])
+    }
+
     /// Whether a pivot is known to vanish at no real point of the level.
     fn is_definite(&self, pivot: &Pivot) -> bool {
         let slopes = [&pivot.minors[..], &[pivot.slope]].concat();
-        [&slopes[..], &[pivot.whole]].into_iter().any(|values| {
-            // Equations among the dependencies of the pivot first.
-            let inputs: Vec<usize> = values.iter().flat_map(|x| self.inputs_of(*x)).collect();
-            let is_near = |x: &&Expr| self.inputs_of(**x).iter().all(|k| inputs.contains(k));
-            let near: Vec<Expr> = self.level.iter().filter(is_near).copied().collect();
-            let is_definite =
-                |level: &[Expr]| is_nowhere_zero(&self.graph, &self.extents, level, values);
-            is_definite(&near) || (near.len() < self.level.len() && is_definite(&self.level))
-        })
+        self.have_no_zero(&slopes) || self.have_no_zero(&[pivot.whole])
+    }
+
+    /// Whether values are known to have no common zero at any real point of the level.
+    fn have_no_zero(&self, values: &[Expr]) -> bool {
+        // Equations among the dependencies of the values first.
+        let inputs: Vec<usize> = values.iter().flat_map(|x| self.inputs_of(*x)).collect();
+        let is_near = |x: &&Expr| self.inputs_of(**x).iter().all(|k| inputs.contains(k));
+        let near: Vec<Expr> = self.level.iter().filter(is_near).copied().collect();
+        let have_none = |level: &[Expr]| is_nowhere_zero(&self.graph, &self.extents, level, values);
+        have_none(&near) || (near.len() < self.level.len() && have_none(&self.level))
     }
 
     fn inputs_of(&self, value: Expr) -> Vec<usize> {

@@ -28,6 +28,23 @@ pub fn are_polynomials(graph: &Graph, values: &[Expr]) -> bool {
     })
 }
 
+/// Whether the values are meromorphic functions of all complex inputs as they stand, so that one
+/// that vanishes on an open set vanishes everywhere. Roots, moduli, logarithms and arcs may not.
+pub fn is_single_valued(graph: &Graph, values: &[Expr]) -> bool {
+    consist_of(graph, values, |step| match step {
+        Step::Unary(function, _) => matches!(
+            function,
+            UnaryFunction::Neg
+                | UnaryFunction::Recip
+                | UnaryFunction::Exp
+                | UnaryFunction::Sin
+                | UnaryFunction::Cos
+        ),
+        Step::Power(_, exponent) => exponent.to_integer().is_some(),
+        _ => true,
+    })
+}
+
 fn consist_of(graph: &Graph, values: &[Expr], of: impl Fn(Step<'_>) -> bool) -> bool {
     let reached = graph.reached(values.iter().copied());
     let mut steps = graph.steps().zip(&reached).filter(|(_, reached)| **reached);

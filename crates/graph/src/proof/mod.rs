@@ -58,7 +58,7 @@ mod tests;
 use std::sync::Arc;
 
 pub use bounds::InputDistribution;
-pub use coprime::{are_coprime, are_polynomials};
+pub use coprime::{are_coprime, are_polynomials, is_single_valued};
 pub use domain::{is_nowhere_zero, sign};
 pub use elimination::reduce;
 pub use extent::Extent;
