@@ -24,6 +24,8 @@ use liouville::number::UnaryFunction;
 use patch::ReplayedPatch;
 use rayon::prelude::*;
 
+/// Number of sets or relations in the works at once.
+const AT_ONCE: usize = 128;
 /// Share by which the entropy found in f64 is lowered before it is tested.
 const LOWERED: f64 = 1e-9;
 
@@ -72,9 +74,9 @@ pub fn replay_horseshoe(
 impl HorseshoeReplay<'_> {
     fn covering(&self, index: usize) -> Result<Covering, Obstacle> {
         let set = &self.data.sets[index];
-        let patch = set.patch(&self.functions, &self.values).ok_or_else(|| {
-            about_set(index, "half", "spans a rectangle whose points are not enclosed")
-        })?;
+        let patch = set
+            .patch(&self.functions, &self.values)
+            .ok_or_else(|| about_set(index, "", "is a rectangle whose points are not enclosed"))?;
         let leg = ReplayedLeg::new(&self.scripts, index, set, &patch)?;
         Ok(Covering { patch, leg })
     }
@@ -86,7 +88,7 @@ impl HorseshoeReplay<'_> {
         let refused = |problem| complaint(format!("proof.relations[{index}]"), problem);
         let leg = &all[from].leg;
         let map = leg.map(target).ok_or_else(|| {
-            about_set(from, "time", "is a window in which the next surface is not met once")
+            about_set(from, "time", "is no window in which the next surface is met once")
         })?;
         if !target.joins(&self.functions, &leg.end, &all[to].patch.states) {
             return Err(refused("leads to points that are not proved to be those of the set"));
@@ -124,15 +126,9 @@ impl HorseshoeReplay<'_> {
     fn prove(&self, request: &Request<'_>) -> Result<ProvedHorseshoe, Obstacle> {
         let data = self.data;
         let loops = data.loops()?;
-        let found: Vec<Result<Covering, Obstacle>> =
-            (0..data.sets.len()).into_par_iter().map(|index| self.covering(index)).collect();
-        let all = found.into_iter().collect::<Result<Vec<Covering>, Obstacle>>()?;
-        let maps: Vec<Result<ReplayedMap, Obstacle>> = (0..data.relations.len())
-            .into_par_iter()
-            .map(|index| self.relation(index, &all))
-            .collect();
-        let maps = maps.into_iter().collect::<Result<Vec<ReplayedMap>, Obstacle>>()?;
+        let all = each(data.sets.len(), &|index| self.covering(index))?;
         self.are_apart(loops.branch, &all)?;
+        let maps = each(data.relations.len(), &|index| self.relation(index, &all))?;
         let unit = [[1.0, 0.0], [0.0, 1.0]].map(|row| row.map(Wide::exact));
         let whole = loops.short.iter().enumerate().fold(unit, |whole, (place, from)| {
             let to = loops.short.get(place + 1).copied().unwrap_or(0);
@@ -166,6 +162,22 @@ impl HorseshoeReplay<'_> {
             data: data.clone(),
         })
     }
+}
+
+/// Runs a job for each index; the first complaint, some jobs after which none is begun.
+fn each<T: Send>(
+    count: usize,
+    job: &(dyn Fn(usize) -> Result<T, Obstacle> + Sync),
+) -> Result<Vec<T>, Obstacle> {
+    let mut all = Vec::with_capacity(count);
+    for first in (0..count).step_by(AT_ONCE) {
+        let last = count.min(first + AT_ONCE);
+        let found: Vec<Result<T, Obstacle>> = (first..last).into_par_iter().map(job).collect();
+        for one in found {
+            all.push(one?);
+        }
+    }
+    Ok(all)
 }
 
 /// Lower bound of the number h > 0 with e^(-h a) + e^(-h b) = 1, tested in many bits.
