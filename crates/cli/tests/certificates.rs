@@ -365,7 +365,7 @@ fn horseshoes_with_other_numbers_are_refused_with_the_place() {
         ("/statement/horseshoe/entropy".into(), Box::new(times(1.01)), "entropy".into()),
         // relations that are not those of the numbers
         (set(1, "rows"), Box::new(|own| vec![own[1].clone(), own[0].clone()].into()), related(0)),
-        (set(1, "half/0"), Box::new(times(1.5)), related(0)),
+        (set(2, "half/0"), Box::new(times(1.5)), related(1)),
         (set(1, "half/1"), Box::new(times(0.5)), related(0)),
         (set(1, "middle/0"), Box::new(move |_| number(side)), "`proof.relations[".into()),
         (set(branch + 2, "half/1"), Box::new(times(0.5)), related(branch + 1)),
