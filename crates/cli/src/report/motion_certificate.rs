@@ -131,6 +131,11 @@ pub fn verify(
     let name = about.text("name")?;
     let claim = case.motions.iter().find(|own| own.name == name);
     let claim = claim.ok_or_else(|| format!("the case has no claim `{name}` about motion"))?;
+    for (part, own) in [("kind", claim.kind.name()), ("formula", &claim.kind.text())] {
+        if about.text(part)? != own {
+            return about.at(part)?.complaint("is not that of the case");
+        }
+    }
     let report = match key {
         "orbit" => {
             let (report, found) = observe::verify(&case, claim, &data(&proof)?, options)?;

@@ -23,6 +23,7 @@ use leg::ReplayedLeg;
 use liouville::number::UnaryFunction;
 use patch::ReplayedPatch;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 
 /// Number of sets or relations in the works at once.
 const AT_ONCE: usize = 128;
@@ -123,17 +124,42 @@ impl HorseshoeReplay<'_> {
         }
     }
 
+    /// Proves all relations, each as soon as its two sets are enclosed; the maps by the indices of
+    /// the relations.
+    fn relations(
+        &self,
+        branch: usize,
+    ) -> Result<(Vec<Covering>, BTreeMap<usize, ReplayedMap>), Obstacle> {
+        let data = self.data;
+        let (mut all, mut maps) = (Vec::new(), BTreeMap::new());
+        while all.len() < data.sets.len() {
+            let known = all.len();
+            let last = data.sets.len().min(known + AT_ONCE);
+            let new: Vec<usize> = (known..last).collect();
+            all.extend(each(&new, |index| self.covering(index))?);
+            if new.contains(&branch) {
+                self.are_apart(branch, &all)?;
+            }
+            let is_new = |index: &usize| {
+                let [from, to] = data.relations[*index];
+                new.contains(&from.max(to))
+            };
+            let ready: Vec<usize> = (0..data.relations.len()).filter(is_new).collect();
+            let found = each(&ready, |index| self.relation(index, &all))?;
+            maps.extend(ready.into_iter().zip(found));
+        }
+        Ok((all, maps))
+    }
+
     fn prove(&self, request: &Request<'_>) -> Result<ProvedHorseshoe, Obstacle> {
         let data = self.data;
         let loops = data.loops()?;
-        let all = each(data.sets.len(), &|index| self.covering(index))?;
-        self.are_apart(loops.branch, &all)?;
-        let maps = each(data.relations.len(), &|index| self.relation(index, &all))?;
+        let (all, maps) = self.relations(loops.branch)?;
         let unit = [[1.0, 0.0], [0.0, 1.0]].map(|row| row.map(Wide::exact));
         let whole = loops.short.iter().enumerate().fold(unit, |whole, (place, from)| {
             let to = loops.short.get(place + 1).copied().unwrap_or(0);
             let index = data.relations.iter().position(|own| own == &[*from, to]);
-            index.map_or(whole.clone(), |index| product(&maps[index].slopes, &whole))
+            index.map_or(whole.clone(), |index| product(&maps[&index].slopes, &whole))
         });
         if !is_hyperbolic(&whole) {
             let problem = "have a short loop that is not proved hyperbolic";
@@ -164,20 +190,13 @@ impl HorseshoeReplay<'_> {
     }
 }
 
-/// Runs a job for each index; the first complaint, some jobs after which none is begun.
+/// Runs a job for each of some indices; the first complaint.
 fn each<T: Send>(
-    count: usize,
-    job: &(dyn Fn(usize) -> Result<T, Obstacle> + Sync),
+    indices: &[usize],
+    job: impl Fn(usize) -> Result<T, Obstacle> + Sync,
 ) -> Result<Vec<T>, Obstacle> {
-    let mut all = Vec::with_capacity(count);
-    for first in (0..count).step_by(AT_ONCE) {
-        let last = count.min(first + AT_ONCE);
-        let found: Vec<Result<T, Obstacle>> = (first..last).into_par_iter().map(job).collect();
-        for one in found {
-            all.push(one?);
-        }
-    }
-    Ok(all)
+    let found: Vec<Result<T, Obstacle>> = indices.par_iter().map(|index| job(*index)).collect();
+    found.into_iter().collect()
 }
 
 /// Lower bound of the number h > 0 with e^(-h a) + e^(-h b) = 1, tested in many bits.
