@@ -131,7 +131,8 @@ pub fn verify(
     let name = about.text("name")?;
     let claim = case.motions.iter().find(|own| own.name == name);
     let claim = claim.ok_or_else(|| format!("the case has no claim `{name}` about motion"))?;
-    for (part, own) in [("kind", claim.kind.name()), ("formula", &claim.kind.text())] {
+    let (kind, formula) = (claim.kind.name(), claim.kind.text());
+    for (part, own) in [("kind", kind), ("formula", formula.as_str())] {
         if about.text(part)? != own {
             return about.at(part)?.complaint("is not that of the case");
         }
