@@ -10,8 +10,9 @@ use super::certificate_part::{CertificatePart, list, wider};
 use super::hexadecimal::written;
 use super::horseshoe_certificate;
 
-/// Names and versions of the formats, for closed orbits and for horseshoes.
+/// Name and version of the format for closed orbits.
 pub const ORBITS: &str = "liouville motion certificate 1";
+/// Name and version of the format for horseshoes.
 pub const HORSESHOES: &str = "liouville horseshoe certificate 1";
 
 /// Makes the certificate of a claim about a closed orbit that is proved.
