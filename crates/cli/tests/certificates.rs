@@ -8,6 +8,9 @@ use liouville::verdict::{ClaimReport, Options};
 use liouville_cli::report::motion_certificate::{sealed, verify};
 use serde_json::Value;
 
+#[path = "certificates/horseshoes.rs"]
+mod horseshoes;
+
 const TOP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 
 fn scratch(name: &str) -> PathBuf {

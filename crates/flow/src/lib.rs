@@ -87,7 +87,8 @@ pub use surface::{
 };
 pub use track::{RollingSamples, Track, track};
 pub use validated::{
-    Enclosure, Margin, Obstacle, ProofData, ProvedHorseshoe, ProvedOrbit, Reached, Request, follow,
-    prove, prove_horseshoe, replay,
+    CoveringSet, Enclosure, HorseshoeData, HorseshoeTrace, Margin, Obstacle, ProofData,
+    ProvedHorseshoe, ProvedOrbit, Reached, Request, follow, prove, prove_horseshoe, replay,
+    replay_horseshoe,
 };
 pub use variational::Variational;

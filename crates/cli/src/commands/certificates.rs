@@ -1,13 +1,14 @@
-//! The option `--certificate` of `liouville check`: one file for each proof by points, and for each
-//! closed orbit that is proved.
+//! The option `--certificate` of `liouville check`: one file for each proof by points, for each
+//! closed orbit and each horseshoe that is proved.
 
 use std::collections::BTreeSet;
 use std::path::Path;
 
 use crate::report::certificate::{CaseOrigin, Missing, certificate};
-use crate::report::motion_certificate::motion_certificate;
+use crate::report::motion_certificate::{horseshoe_certificate, motion_certificate};
 use crate::report::{FileOutcome, RunReport};
 use liouville::case::{Case, MotionClaim};
+use liouville::claim::motion::MotionKind;
 use liouville::verdict::{ClaimReport, Method, Verdict, statements};
 use liouville_flow::observe;
 use rayon::prelude::*;
@@ -92,7 +93,7 @@ fn of_case(outcome: &FileOutcome, options: &CheckArgs) -> Result<Made, String> {
         .collect())
 }
 
-/// Makes the certificates of the closed orbits that are proved.
+/// Makes the certificates of the closed orbits and horseshoes that are proved.
 fn of_motion(
     case: &Case,
     claims: &[ClaimReport],
@@ -109,8 +110,16 @@ fn of_motion(
     };
     let settings = options.sampling.options();
     let made = |claim: &MotionClaim| {
-        let (report, found) = observe::proof(case, claim, &settings)?;
-        let json = motion_certificate(claim, origin, &report, &found);
+        let json = match &claim.kind {
+            MotionKind::Horseshoe(_) => {
+                let (report, found) = observe::proof_of_horseshoe(case, claim, &settings)?;
+                horseshoe_certificate(claim, origin, &report, &found)
+            }
+            _ => {
+                let (report, found) = observe::proof(case, claim, &settings)?;
+                motion_certificate(claim, origin, &report, &found)
+            }
+        };
         Some((claim.name.clone(), Ok(format!("{json:#}\n"))))
     };
     case.motions.iter().filter(is_proved).filter_map(made).collect()

@@ -3,6 +3,7 @@
 
 pub mod bench;
 pub mod certificate;
+mod certificate_part;
 pub mod chart;
 pub mod cycle;
 pub mod data;
@@ -12,6 +13,7 @@ pub mod export;
 pub mod facts;
 pub mod growth;
 mod hexadecimal;
+mod horseshoe_certificate;
 pub mod motion_certificate;
 pub mod orbit;
 pub mod point;

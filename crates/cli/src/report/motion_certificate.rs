@@ -2,17 +2,18 @@
 
 use liouville::case::{Case, MotionClaim, Setting};
 use liouville::verdict::{ClaimReport, Options};
-use liouville_flow::{Enclosure, ProofData, ProvedOrbit, observe};
+use liouville_flow::{ProofData, ProvedHorseshoe, ProvedOrbit, observe};
 use serde_json::{Value, json};
 
 use super::certificate::{CaseOrigin, canonical, hex};
-use super::hexadecimal::{read, written};
+use super::certificate_part::{CertificatePart, list, wider};
+use super::hexadecimal::written;
+use super::horseshoe_certificate;
 
-/// Name and version of the format.
-pub const FORMAT: &str = "liouville motion certificate 1";
-/// Factor by which the enclosures stated are wider than those of the first proof: in other
-/// arithmetic they come out somewhat different.
-const MARGIN: f64 = 1.0625;
+/// Name and version of the format for closed orbits.
+pub const ORBITS: &str = "liouville motion certificate 1";
+/// Name and version of the format for horseshoes.
+pub const HORSESHOES: &str = "liouville horseshoe certificate 1";
 
 /// Makes the certificate of a claim about a closed orbit that is proved.
 pub fn motion_certificate(
@@ -21,17 +22,11 @@ pub fn motion_certificate(
     report: &ClaimReport,
     found: &ProvedOrbit,
 ) -> Value {
-    let wider = |x: Enclosure| ball(Enclosure { rad: x.rad * MARGIN, ..x });
-    let statement = json!({
-        "case": { "path": origin.path, "sha256": hex(origin.text), "text": origin.text },
-        "settings": origin.settings,
-        "claim": stated(claim, report),
-        "orbit": {
-            "start": found.start.iter().copied().map(wider).collect::<Vec<_>>(),
-            "period": wider(found.period),
-            "volume": wider(found.volume),
-            "multipliers": found.sum.map(wider),
-        },
+    let orbit = json!({
+        "start": found.start.iter().copied().map(wider).collect::<Vec<_>>(),
+        "period": wider(found.period),
+        "volume": wider(found.volume),
+        "multipliers": found.sum.map(wider),
     });
     let data = &found.data;
     let proof = json!({
@@ -44,13 +39,41 @@ pub fn motion_certificate(
         "radii": list(&data.radii),
         "tails": list(&data.tails),
     });
-    sealed(statement, proof)
+    sealed(statement(claim, origin, report, "orbit", orbit), proof)
+}
+
+/// Makes the certificate of a claim about a horseshoe that is proved.
+pub fn horseshoe_certificate(
+    claim: &MotionClaim,
+    origin: &CaseOrigin<'_>,
+    report: &ClaimReport,
+    found: &ProvedHorseshoe,
+) -> Value {
+    let horseshoe = horseshoe_certificate::stated(found);
+    let proof = horseshoe_certificate::proof(&found.data);
+    sealed(statement(claim, origin, report, "horseshoe", horseshoe), proof)
+}
+
+fn statement(
+    claim: &MotionClaim,
+    origin: &CaseOrigin<'_>,
+    report: &ClaimReport,
+    key: &str,
+    found: Value,
+) -> Value {
+    json!({
+        "case": { "path": origin.path, "sha256": hex(origin.text), "text": origin.text },
+        "settings": origin.settings,
+        "claim": stated(claim, report),
+        key: found,
+    })
 }
 
 /// Puts a statement and a proof together with their digest.
 pub fn sealed(statement: Value, proof: Value) -> Value {
     let digest = digest(&statement, &proof);
-    json!({ "format": FORMAT, "statement": statement, "proof": proof, "digest": digest })
+    let format = if statement.get("horseshoe").is_some() { HORSESHOES } else { ORBITS };
+    json!({ "format": format, "statement": statement, "proof": proof, "digest": digest })
 }
 
 fn stated(claim: &MotionClaim, report: &ClaimReport) -> Value {
@@ -61,14 +84,6 @@ fn stated(claim: &MotionClaim, report: &ClaimReport) -> Value {
         "where": report.place,
         "verdict": report.verdict.word(),
     })
-}
-
-fn list(numbers: &[f64]) -> Vec<String> {
-    numbers.iter().copied().map(written).collect()
-}
-
-fn ball(x: Enclosure) -> [String; 2] {
-    [written(x.mid), written(x.rad)]
 }
 
 fn digest(statement: &Value, proof: &Value) -> String {
@@ -92,14 +107,16 @@ pub fn verify(
         serde_json::from_str(text).map_err(|error| format!("it is not JSON: {error}"))?;
     let own = CertificatePart { value: &whole, path: String::new() };
     own.only(&["format", "statement", "proof", "digest"])?;
-    if own.text("format")? != FORMAT {
-        return Err(format!("its format is not `{FORMAT}`"));
-    }
+    let key = match own.text("format")? {
+        ORBITS => "orbit",
+        HORSESHOES => "horseshoe",
+        _ => return Err(format!("its format is neither `{ORBITS}` nor `{HORSESHOES}`")),
+    };
     let (statement, proof) = (own.at("statement")?, own.at("proof")?);
     if own.text("digest")? != digest(statement.value, proof.value) {
         return Err("the digest does not fit the statement and the proof".to_string());
     }
-    statement.only(&["case", "settings", "claim", "orbit"])?;
+    statement.only(&["case", "settings", "claim", key])?;
     let source = statement.at("case")?;
     source.only(&["path", "sha256", "text"])?;
     let text = source.text("text")?;
@@ -115,29 +132,43 @@ pub fn verify(
     let name = about.text("name")?;
     let claim = case.motions.iter().find(|own| own.name == name);
     let claim = claim.ok_or_else(|| format!("the case has no claim `{name}` about motion"))?;
-    let data = data(&proof)?;
-    let (report, found) = observe::verify(&case, claim, &data, options)?;
-    if *about.value != stated(claim, &report) {
-        return Err("the claim of the case is another".to_string());
+    let (kind, formula) = (claim.kind.name(), claim.kind.text());
+    for (part, own) in [("kind", kind), ("formula", formula.as_str())] {
+        if about.text(part)? != own {
+            return about.at(part)?.complaint("is not that of the case");
+        }
     }
-    let orbit = statement.at("orbit")?;
+    let report = match key {
+        "orbit" => {
+            let (report, found) = observe::verify(&case, claim, &data(&proof)?, options)?;
+            contains(&statement.at(key)?, &found)?;
+            report
+        }
+        _ => {
+            let data = horseshoe_certificate::read(&proof)?;
+            let (report, found) = observe::verify_horseshoe(&case, claim, &data, options)?;
+            horseshoe_certificate::contains(&statement.at(key)?, &found)?;
+            report
+        }
+    };
+    match *about.value == stated(claim, &report) {
+        true => Ok(report),
+        false => Err("the claim of the case is another".to_string()),
+    }
+}
+
+/// Checks that what is stated of an orbit contains what was found.
+fn contains(orbit: &CertificatePart<'_>, found: &ProvedOrbit) -> Result<(), String> {
     orbit.only(&["start", "period", "volume", "multipliers"])?;
-    let start = orbit.at("start")?.all()?;
-    if start.len() != found.start.len() {
-        return Err("the start has other components".to_string());
-    }
-    for (own, x) in start.iter().zip(&found.start) {
-        own.contains(*x)?;
-    }
+    orbit.at("start")?.contain(&found.start)?;
     orbit.at("period")?.contains(found.period)?;
     orbit.at("volume")?.contains(found.volume)?;
     let multipliers = orbit.at("multipliers")?;
     match (multipliers.value.is_null(), found.sum) {
-        (true, None) => {}
-        (false, Some(sum)) => multipliers.contains(sum)?,
-        _ => return Err("the multipliers are stated otherwise".to_string()),
+        (true, None) => Ok(()),
+        (false, Some(sum)) => multipliers.contains(sum),
+        _ => Err("the multipliers are stated otherwise".to_string()),
     }
-    Ok(report)
 }
 
 fn data(proof: &CertificatePart<'_>) -> Result<ProofData, String> {
@@ -155,84 +186,4 @@ fn data(proof: &CertificatePart<'_>) -> Result<ProofData, String> {
         radii: proof.at("radii")?.numbers()?,
         tails: proof.at("tails")?.numbers()?,
     })
-}
-
-/// Part of a certificate, with its path for complaints.
-struct CertificatePart<'v> {
-    value: &'v Value,
-    path: String,
-}
-
-impl<'v> CertificatePart<'v> {
-    fn complaint<T>(&self, what: &str) -> Result<T, String> {
-        let path = match self.path.trim_start_matches('.') {
-            "" => "the certificate".to_string(),
-            path => format!("`{path}`"),
-        };
-        Err(format!("{path} {what}"))
-    }
-
-    fn at(&self, key: &str) -> Result<CertificatePart<'v>, String> {
-        let path = format!("{}.{key}", self.path);
-        match self.value.get(key) {
-            Some(value) => Ok(CertificatePart { value, path }),
-            None => CertificatePart { value: self.value, path }.complaint("is missing"),
-        }
-    }
-
-    /// Checks that there are no other keys.
-    fn only(&self, keys: &[&str]) -> Result<(), String> {
-        let Some(table) = self.value.as_object() else { return self.complaint("is not a table") };
-        match table.keys().find(|key| !keys.contains(&key.as_str())) {
-            Some(other) => self.complaint(&format!("has no key `{other}`")),
-            None => Ok(()),
-        }
-    }
-
-    fn all(&self) -> Result<Vec<CertificatePart<'v>>, String> {
-        let Some(all) = self.value.as_array() else { return self.complaint("is not a list") };
-        let one =
-            |(index, value)| CertificatePart { value, path: format!("{}[{index}]", self.path) };
-        Ok(all.iter().enumerate().map(one).collect())
-    }
-
-    fn as_text(&self) -> Result<&'v str, String> {
-        match self.value.as_str() {
-            Some(text) => Ok(text),
-            None => self.complaint("is not a text"),
-        }
-    }
-
-    fn text(&self, key: &str) -> Result<&'v str, String> {
-        self.at(key)?.as_text()
-    }
-
-    fn whole(&self) -> Result<usize, String> {
-        match self.value.as_u64().and_then(|n| usize::try_from(n).ok()) {
-            Some(number) => Ok(number),
-            None => self.complaint("is not a whole number"),
-        }
-    }
-
-    fn number(&self) -> Result<f64, String> {
-        match read(self.as_text()?) {
-            Some(number) => Ok(number),
-            None => self.complaint("is not a number in hexadecimal"),
-        }
-    }
-
-    fn numbers(&self) -> Result<Vec<f64>, String> {
-        self.all()?.iter().map(CertificatePart::number).collect()
-    }
-
-    /// Checks that an enclosure lies in the one stated here.
-    fn contains(&self, x: Enclosure) -> Result<(), String> {
-        let numbers = self.numbers()?;
-        let [mid, rad] = numbers.as_slice() else { return self.complaint("is not a ball") };
-        let reach = ((x.mid - mid).abs() + x.rad) * (1.0 + 8.0 * f64::EPSILON);
-        match reach <= *rad {
-            true => Ok(()),
-            false => self.complaint("does not contain what the proof encloses"),
-        }
-    }
 }

@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 
 use super::scene::FollowedCase;
-use crate::{Enclosure, FlowError, Loose, Obstacle, ProvedOrbit, Request, Start};
+use crate::{Enclosure, FlowError, Loose, Obstacle, ProvedHorseshoe, ProvedOrbit, Request, Start};
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::claim::motion::{Beginning, ClosedOrbit, Horseshoe, Neighbourhood};
@@ -130,8 +130,11 @@ impl<'g> Ground<'g> {
     }
 
     /// The same with the horseshoe at the orbit.
-    pub fn chaotic(&self) -> Result<crate::ProvedHorseshoe, String> {
-        let found = self.asked_of(crate::prove_horseshoe)?;
+    pub fn chaotic(
+        &self,
+        proof: impl FnOnce(&Request<'_>) -> Result<ProvedHorseshoe, Obstacle>,
+    ) -> Result<ProvedHorseshoe, String> {
+        let found = self.asked_of(proof)?;
         self.checked(found.kept, &found.start)?;
         Ok(found)
     }

@@ -4,7 +4,9 @@ use super::closed_orbit::NEAR;
 use super::finding::MotionFinding;
 use super::ground::Ground;
 use super::scene::FollowedCase;
-use crate::{FlowError, MeasuredNumber, ProvedHorseshoe};
+use crate::{
+    FlowError, HorseshoeTrace, MeasuredNumber, Obstacle, ProvedHorseshoe, Request, prove_horseshoe,
+};
 use liouville::claim::motion::Horseshoe as Claim;
 use liouville::verdict::Options;
 
@@ -14,16 +16,26 @@ pub fn look(
     scene: &FollowedCase<'_>,
     options: &Options,
 ) -> Result<MotionFinding, FlowError> {
+    by(claim, scene, options, prove_horseshoe).map(|(finding, _)| finding)
+}
+
+/// Judges a claim by a horseshoe that `proof` encloses; returns the horseshoe too.
+pub fn by(
+    claim: &Claim,
+    scene: &FollowedCase<'_>,
+    options: &Options,
+    proof: impl FnOnce(&Request<'_>) -> Result<ProvedHorseshoe, Obstacle>,
+) -> Result<(MotionFinding, Option<ProvedHorseshoe>), FlowError> {
     let mut finding = MotionFinding::default();
     let found = match Ground::of(claim.into(), scene, options)? {
-        Ok(ground) => ground.chaotic(),
+        Ok(ground) => ground.chaotic(proof),
         Err(reason) => Err(reason),
     };
-    match found {
-        Ok(found) => judge(claim, &found, &mut finding),
-        Err(reason) => finding.leave_open(reason),
+    match &found {
+        Ok(found) => judge(claim, found, &mut finding),
+        Err(reason) => finding.leave_open(reason.clone()),
     }
-    Ok(finding)
+    Ok((finding, found.ok()))
 }
 
 /// Compares a horseshoe with the claim.
@@ -50,14 +62,16 @@ fn theorem(found: &ProvedHorseshoe, excludes_integral: bool) -> String {
     let [short, long] = found.times.map(|time| time.mid);
     // Printed bounds are rounded down.
     let down = |x: f64, unit: f64| libm::floor(x * unit) / unit;
+    let room = found.trace.map_or(String::new(), |HorseshoeTrace { margin, .. }| {
+        let [unstable, stable] = [margin.unstable, margin.stable].map(|x| down(x, 100.0));
+        format!(", room {unstable} and {stable}")
+    });
     let horseshoe = format!(
         "near the saddle of period {short:.6} two loops of covering relations, of times {short:.3} and \
          {long:.3}, start from one rectangle of half sides {:.1e}, the second along a homoclinic orbit \
-         ({} relations, room {} and {}); so the flow has a horseshoe, of entropy ≥ {} per unit of time",
+         ({} relations{room}); so the flow has a horseshoe, of entropy ≥ {} per unit of time",
         found.half[0],
         found.relations,
-        down(found.margin.unstable, 100.0),
-        down(found.margin.stable, 100.0),
         down(found.entropy, 1e4),
     );
     if !excludes_integral {

@@ -22,8 +22,8 @@ mod reaches;
 mod scene;
 mod section;
 
-use crate::FlowError;
-use crate::{Obstacle, ProofData, ProvedOrbit, Request, replay};
+use crate::{FlowError, Obstacle, Request};
+use crate::{HorseshoeData, ProofData, ProvedHorseshoe, ProvedOrbit, replay, replay_horseshoe};
 use liouville::case::{Case, Expect, MotionClaim};
 use liouville::claim::motion::MotionKind;
 use liouville::verdict::{
@@ -65,7 +65,16 @@ pub fn proof(
     claim: &MotionClaim,
     options: &Options,
 ) -> Option<(ClaimReport, ProvedOrbit)> {
-    by(case, claim, options, crate::prove).ok()
+    orbit(case, claim, options, crate::prove).ok()
+}
+
+/// The same for a claim about a horseshoe.
+pub fn proof_of_horseshoe(
+    case: &Case,
+    claim: &MotionClaim,
+    options: &Options,
+) -> Option<(ClaimReport, ProvedHorseshoe)> {
+    chaos(case, claim, options, crate::prove_horseshoe).ok()
 }
 
 /// Judges a claim about a closed orbit by the data of a proof, replayed in balls of 256 bits.
@@ -78,10 +87,23 @@ pub fn verify(
     data: &ProofData,
     options: &Options,
 ) -> Result<(ClaimReport, ProvedOrbit), String> {
-    by(case, claim, options, |request| replay(request, data))
+    orbit(case, claim, options, |request| replay(request, data))
 }
 
-fn by(
+/// Judges a claim about a horseshoe by the data of a proof, replayed in balls of 256 bits.
+///
+/// # Errors
+/// The reason why the data do not prove the claim.
+pub fn verify_horseshoe(
+    case: &Case,
+    claim: &MotionClaim,
+    data: &HorseshoeData,
+    options: &Options,
+) -> Result<(ClaimReport, ProvedHorseshoe), String> {
+    chaos(case, claim, options, |request| replay_horseshoe(request, data))
+}
+
+fn orbit(
     case: &Case,
     claim: &MotionClaim,
     options: &Options,
@@ -91,8 +113,29 @@ fn by(
         return Err("the claim is not about a closed orbit".to_string());
     };
     let scene = FollowedCase::new(case, options.seed);
-    let (finding, found) = closed_orbit::by(kind, &scene, options, proof)
-        .map_err(|problem| format!("{problem}: {}", problem.help()))?;
+    concluded(claim, closed_orbit::by(kind, &scene, options, proof), options)
+}
+
+fn chaos(
+    case: &Case,
+    claim: &MotionClaim,
+    options: &Options,
+    proof: impl FnOnce(&Request<'_>) -> Result<ProvedHorseshoe, Obstacle>,
+) -> Result<(ClaimReport, ProvedHorseshoe), String> {
+    let MotionKind::Horseshoe(kind) = &claim.kind else {
+        return Err("the claim is not about a horseshoe".to_string());
+    };
+    let scene = FollowedCase::new(case, options.seed);
+    concluded(claim, horseshoe::by(kind, &scene, options, proof), options)
+}
+
+/// Report on a claim that is proved, with what was found.
+fn concluded<T>(
+    claim: &MotionClaim,
+    found: Result<(MotionFinding, Option<T>), FlowError>,
+    options: &Options,
+) -> Result<(ClaimReport, T), String> {
+    let (finding, found) = found.map_err(|problem| format!("{problem}: {}", problem.help()))?;
     let report = report(claim, Ok(finding), options);
     match (report.verdict, found) {
         (Verdict::Proved, Some(found)) => Ok((report, found)),

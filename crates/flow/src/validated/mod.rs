@@ -30,9 +30,9 @@ mod tests;
 
 pub use enclosure::Enclosure;
 pub use forward::{Reached, follow};
-pub use horseshoe::{Margin, ProvedHorseshoe, prove as prove_horseshoe};
+pub use horseshoe::{HorseshoeTrace, Margin, ProvedHorseshoe, prove as prove_horseshoe};
 pub use obstacle::Obstacle;
-pub use replay::{ProofData, replay};
+pub use replay::{CoveringSet, HorseshoeData, ProofData, replay, replay_horseshoe};
 pub use request::Request;
 
 use functions::Functions;

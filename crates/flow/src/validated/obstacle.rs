@@ -45,6 +45,14 @@ pub enum Obstacle {
     /// The data of a proof do not fit the equations.
     #[error("the data do not fit the equations: {0}")]
     Data(&'static str),
+    /// A part of a certificate does not hold what it has to.
+    #[error("`{place}` {problem}")]
+    Part {
+        /// Path of the part.
+        place: String,
+        /// What is wrong with it.
+        problem: &'static str,
+    },
     /// The gradients of the conserved functions are not proved independent.
     #[error("the gradients of the functions kept are not proved independent along the orbit")]
     Gradients,

@@ -41,6 +41,8 @@ pub struct Crossed {
     pub map: PlaneMap,
     /// Times of all motions that start in the rectangle.
     pub time: Enclosure,
+    /// Radius ρ of the norm in which the tails are bounded.
+    pub tail: f64,
     /// Box of all states over the rectangle.
     pub states: Boxed,
     /// Box of all states at the ends.
@@ -100,7 +102,8 @@ fn stretch(shooting: &Shooting, legs: &[Leg<'_>]) -> Result<Vec<Crossed>, LegFai
         let map = mapped(leg, patch, flow, &fields[index], gap, times[index]);
         let map = map.ok_or(LegFailure::Surface)?;
         let (states, ends) = (patch.states.clone(), ends[index].clone());
-        found.push(Crossed { map, time: times[index], states, ends });
+        let tail = passage.radius;
+        found.push(Crossed { map, time: times[index], tail, states, ends });
     }
     Ok(found)
 }

@@ -11,6 +11,7 @@ mod chart;
 mod cover;
 mod legs;
 mod path;
+mod proved;
 mod saddle;
 mod seek;
 mod sets;
@@ -18,10 +19,13 @@ mod strand;
 mod vectors;
 
 pub use cover::Margin;
+pub use proved::{HorseshoeTrace, ProvedHorseshoe};
+pub(super) use proved::{entropy, upper};
 
 use super::enclosure::{Enclosure, raised};
 use super::functions::norm;
 use super::guess::Nodes;
+use super::replay::HorseshoeData;
 use super::request::moved;
 use super::shooting::{Shooting, combined};
 use super::{Obstacle, Request, prepared};
@@ -29,6 +33,7 @@ use chart::{Patch, SurfaceChart, are_joined};
 use cover::{PlaneMap, Rectangle, is_hyperbolic, product};
 use legs::{Crossed, Leg, LegFailure, crossed};
 use path::{Path, joined};
+use proved::relations;
 use saddle::Saddle;
 use seek::{Homoclinic, Seeker};
 use sets::{chained, fitted};
@@ -38,6 +43,8 @@ use strand::{Strand, are_linked, bend, guessed, late, speeds};
 /// order lose less.
 const KAPPAS: [f64; 2] = [4.0, 4.6];
 const ORDER: usize = 10;
+/// Order of the series from points in a replay.
+const REPLAY_ORDER: usize = 20;
 /// Number of homoclinic orbits tried, and of sizes for each.
 const MOST_PATHS: usize = 2;
 const MOST_SIZES: usize = 2;
@@ -54,37 +61,11 @@ const BEYOND: f64 = 0.2;
 /// Largest share of the side at which a path ends.
 const END: f64 = 0.5;
 
-/// Horseshoe that is proved to exist.
-#[derive(Clone, Debug)]
-pub struct ProvedHorseshoe {
-    /// Box that contains the rectangle at the saddle.
-    pub start: Vec<Enclosure>,
-    /// Half sides of that rectangle.
-    pub half: [f64; 2],
-    /// Times of the two loops, over all motions that follow them.
-    pub times: [Enclosure; 2],
-    /// Lower bound of the topological entropy of the flow, per unit of time.
-    pub entropy: f64,
-    /// Number of covering relations.
-    pub relations: usize,
-    /// Side of the rectangle over that from which the first loop reaches far enough, and over the
-    /// stable extent of the images of both loops.
-    pub margin: Margin,
-    /// Approximate multipliers of the closed orbit.
-    pub multipliers: [f64; 2],
-    /// Greatest distance of the homoclinic orbit from the saddle's orbit, approximately.
-    pub away: f64,
-    /// Number of conserved functions, the level's among them.
-    pub kept: usize,
-    /// Distance between the state given and the closed orbit's node, relative to the state.
-    pub moved: f64,
-}
-
 /// Proves that there is a horseshoe at a closed orbit near a state, with enclosures.
 pub fn prove(request: &Request<'_>) -> Result<ProvedHorseshoe, Obstacle> {
     let Request { model, start, .. } = request;
     let state = request.state();
-    let (mut shooting, _) = prepared(request, &state)?;
+    let (mut shooting, numbers) = prepared(request, &state)?;
     let kept = shooting.functions.len();
     if state.len() != kept + 3 {
         return Err(Obstacle::Dimension(state.len() - kept));
@@ -107,7 +88,13 @@ pub fn prove(request: &Request<'_>) -> Result<ProvedHorseshoe, Obstacle> {
         if found.is_empty() {
             return Err(Obstacle::NoHomoclinic);
         }
-        let search = HorseshoeSearch { request, shooting: &shooting, saddle: &saddle, kappa };
+        let search = HorseshoeSearch {
+            request,
+            shooting: &shooting,
+            numbers: &numbers,
+            saddle: &saddle,
+            kappa,
+        };
         let mut last = PathProblem::Path;
         for homoclinic in found.iter().take(MOST_PATHS) {
             let first = search.least_turns(homoclinic);
@@ -166,6 +153,8 @@ impl PathProblem {
 struct HorseshoeSearch<'s, 'r> {
     request: &'s Request<'r>,
     shooting: &'s Shooting,
+    /// Values of the conserved functions.
+    numbers: &'s [f64],
     saddle: &'s Saddle,
     kappa: f64,
 }
@@ -186,7 +175,7 @@ impl HorseshoeSearch<'_, '_> {
         homoclinic: &Homoclinic,
         turns: usize,
     ) -> Result<Result<ProvedHorseshoe, PathProblem>, Obstacle> {
-        let Self { request, shooting, saddle, kappa } = self;
+        let Self { request, shooting, saddle, kappa, .. } = self;
         let [out, back] = saddle.multipliers;
         let distance = homoclinic.start / libm::pow(out.abs(), turns as f64)
             * if turns.is_multiple_of(2) { 1.0 } else { out.signum() };
@@ -330,14 +319,23 @@ impl HorseshoeSearch<'_, '_> {
             times: [short, long],
             entropy: entropy([upper(short), upper(long)]),
             relations: maps.len() + 1 + outer.len(),
-            margin: Margin {
-                unstable: side / lengths_needed(&maps, &halves, &wanted),
-                stable: back.stable.min(arrival.stable),
-            },
-            multipliers: saddle.multipliers,
-            away: path.chain.states.iter().map(node).fold(0.0, f64::max),
             kept: shooting.functions.len(),
             moved: 0.0,
+            trace: Some(HorseshoeTrace {
+                margin: Margin {
+                    unstable: side / lengths_needed(&maps, &halves, &wanted),
+                    stable: back.stable.min(arrival.stable),
+                },
+                multipliers: saddle.multipliers,
+                away: path.chain.states.iter().map(node).fold(0.0, f64::max),
+            }),
+            data: HorseshoeData {
+                orders: [REPLAY_ORDER, ORDER],
+                functions: shooting.functions.used().to_vec(),
+                values: self.numbers.to_vec(),
+                relations: relations(maps.len(), outer.len()),
+                sets: [ring.sets(&turn, &halves), strand.sets(&away, &lengths)].concat(),
+            },
         })
     }
 }
@@ -371,21 +369,6 @@ fn is_beyond(
     let reach = raised(spread[0] + spread[1] + at.rad, 4);
     let least = at.mid.abs() * (1.0 - 2.0 * f64::EPSILON);
     at.is_finite() && reach.is_finite() && least > raised(side + reach, 2)
-}
-
-fn upper(x: Enclosure) -> f64 {
-    raised(x.mid.abs() + x.rad, 2)
-}
-
-/// Lower bound of the number h > 0 with e^(-h a) + e^(-h b) = 1.
-fn entropy(times: [f64; 2]) -> f64 {
-    let excess = |h: f64| times.iter().map(|t| libm::exp(-h * t)).sum::<f64>() - 1.0;
-    let (mut low, mut high) = (0.0, 1.0 / times[0].min(times[1]));
-    for _ in 0..60 {
-        let middle = (low + high) / 2.0;
-        if excess(middle) > 1e-12 { low = middle } else { high = middle }
-    }
-    low
 }
 
 #[cfg(test)]

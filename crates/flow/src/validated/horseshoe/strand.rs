@@ -2,6 +2,7 @@
 
 use super::super::enclosure::Enclosure;
 use super::super::functions::norm;
+use super::super::replay::CoveringSet;
 use super::super::shooting::Shooting;
 use super::PathProblem;
 use super::chain::{Chain, Directions, Link};
@@ -82,6 +83,26 @@ impl<'s> Strand<'s> {
             }
         }
         Err(PathProblem::Fit)
+    }
+}
+
+impl Strand<'_> {
+    /// Numbers of a proof by enclosed legs, over rectangles with these half sides.
+    pub fn sets(&self, found: &[Crossed], halves: &[[f64; 2]]) -> Vec<CoveringSet> {
+        let set = |(k, (leg, half)): (usize, (&Crossed, &[f64; 2]))| {
+            let chart = self.charts[k];
+            CoveringSet {
+                origin: chart.origin.clone(),
+                normal: chart.normal.clone(),
+                rows: chart.rows.clone(),
+                centre: self.centres[k].to_vec(),
+                middle: if k == 0 { self.middle } else { [0.0, 0.0] },
+                half: *half,
+                time: [leg.time.mid, leg.time.rad],
+                tail: leg.tail,
+            }
+        };
+        found.iter().zip(halves).enumerate().map(set).collect()
     }
 }
 

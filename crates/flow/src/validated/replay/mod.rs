@@ -1,9 +1,11 @@
-//! Proofs of closed orbits replayed in balls of 256 bits from the numbers of a first proof.
+//! Proofs of closed orbits and of horseshoes replayed in balls of 256 bits from the numbers of a
+//! first proof.
 //!
 //! Nodes, boxes, step sizes and radii of tails are those recorded; all that is proved about them is
 //! computed anew. Shared with the first proof are the recorded equations, as plans, and an
 //! approximate inverse in f64, about which nothing is assumed.
 
+mod horseshoe;
 mod matrix;
 mod multipliers;
 mod number;
@@ -12,6 +14,8 @@ mod series;
 mod tails;
 #[cfg(test)]
 mod tests;
+
+pub use horseshoe::{CoveringSet, HorseshoeData, replay_horseshoe};
 
 use super::enclosure::Enclosure;
 use super::functions::Functions;
@@ -100,7 +104,7 @@ pub fn replay(request: &Request<'_>, data: &ProofData) -> Result<ProvedOrbit, Ob
         across: data.nodes.iter().map(|node| functions.complement(node)).collect(),
         boxes: data.nodes.iter().zip(radii.chunks(n)).map(boxed).collect(),
         period: Wide::about(data.period, *last),
-        scripts: Scripts::new(&motion, data.order),
+        scripts: Scripts::new(&motion, data.order, data.order),
         data,
         functions,
         values,

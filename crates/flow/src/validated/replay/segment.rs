@@ -26,14 +26,13 @@ pub struct ReplayedPassage {
 pub type Values = (Vec<Wide>, Vec<Vec<Wide>>);
 
 impl<'m> Scripts<'m> {
-    /// Prepares the plans of a motion for series of this order.
-    pub fn new(motion: &'m EnclosedMotion, order: usize) -> Self {
-        let script = |plan| Script::new(plan, order);
+    /// Prepares the plans of a motion for series of these orders, from points and from boxes.
+    pub fn new(motion: &'m EnclosedMotion, points: usize, boxes: usize) -> Self {
         Self {
             motion,
-            state: script(&motion.state),
+            state: Script::new(&motion.state, points),
             wide: Script::new(&motion.wide, 1),
-            full: script(&motion.full),
+            full: Script::new(&motion.full, boxes),
         }
     }
 
