@@ -193,6 +193,9 @@ fn missing_doubled_foreign_and_damaged_parts_are_named() {
     part("1", "4/5");
     fails("3 of 5 parts are missing: 2-3, 5");
     fails("liouville sweep flow.toml --states 1000 --seed 1 --part 2/5 --out parts");
+    fs::rename(home.join("flow.toml"), home.join("flow.away")).expect("a file");
+    fails("flow.toml is not here: run the command where the first parts were computed");
+    fs::rename(home.join("flow.away"), home.join("flow.toml")).expect("a file");
     for index in ["2/5", "3/5", "5/5"] {
         part("1", index);
     }
