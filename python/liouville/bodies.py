@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -138,7 +139,7 @@ def _counted(verdicts: Mapping[str, str]) -> list[str]:
 
 def written(table: BodyTable) -> tuple[str, str]:
     """Name and text of a table as CSV."""
-    if _values.is_text(table):
+    if isinstance(table, str) and "\n" in table:
         return "bodies.csv", table
     if isinstance(table, (str, Path)):
         return str(table), Path(table).read_text(encoding="utf-8")
@@ -163,6 +164,6 @@ def written(table: BodyTable) -> tuple[str, str]:
 def _cell(value: Any) -> str:
     """A value as text; one that is missing is empty, which is a mistake of its row."""
     is_missing = value is None or type(value).__name__ in ("NAType", "NaTType")
-    if is_missing or (isinstance(value, float) and value != value):
+    if is_missing or (isinstance(value, float) and math.isnan(value)):
         return ""
     return _values.setting(value)

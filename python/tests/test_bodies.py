@@ -79,8 +79,11 @@ def test_bodies_in_parts(tmp_path, command):
 def test_bodies_on_a_cluster():
     distributed = pytest.importorskip("distributed")
     table = [{"k": f"{k}/7", "d": 0} for k in range(1, 30)]
-    with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
-    ) as cluster, distributed.Client(cluster) as client:
+    with (
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
         found = lv.check(SPRING, settings=table, client=client, parts=5)
     assert found.outcome == lv.check(SPRING, settings=table).outcome
