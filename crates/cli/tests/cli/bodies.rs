@@ -80,7 +80,7 @@ fn each_row_is_judged_as_set_does() {
 
 #[test]
 fn a_wrong_row_leaves_the_others() {
-    let rows = "k,d\n1,0\nx,0\n0,0\n\n1\n1,\n\"[1,2]\",0\n# the last\n2,1/2\n";
+    let rows = "k,d\n1,0\nx,0\n1/0,0\n\n1\n1,\n\"[1,2]\",0\n# the last\n2,1/2\n";
     let home = home("wrong-rows", rows);
     let told = run(&home, "check spring.toml --settings bodies.csv --json", 2);
     let told: Value = serde_json::from_str(&told).expect("JSON");
