@@ -156,11 +156,8 @@ fn a_motion_whose_steps_shrink_without_end_is_given_up() {
     let text = "title = 'Lorenz'\n[state]\nx = '-2..2'\ny = '-2..2'\nz = '20..24'\n[field]\n\
                 \"x'\" = '10*(y - x)'\n\"y'\" = '28*x - y - x*z'\n\"z'\" = 'x*y - 8/3*z'\n";
     let case = parse(text);
-    for time in [-2000.0, -30.0] {
-        let motion =
-            Variational::new(&case.model, &start(&case, "x=1 y=2 z=20")).expect("a motion");
-        let found = motion.exponents(time);
-        let Err(FlowError::Shrinking { time, step, .. }) = found else { panic!("{found:?}") };
-        assert!(time < -0.5 && step.abs() < 1e-6, "given up at t = {time}, step {step:e}");
-    }
+    let motion = Variational::new(&case.model, &start(&case, "x=1 y=2 z=20")).expect("a motion");
+    let found = motion.exponents(-2000.0);
+    let Err(FlowError::Shrinking { time, step, .. }) = found else { panic!("{found:?}") };
+    assert!(time < -0.5 && step.abs() < 1e-6, "given up at t = {time}, step {step:e}");
 }
