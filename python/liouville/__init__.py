@@ -6,6 +6,7 @@ True
 """
 
 from ._liouville import VERSION as __version__
+from .bodies import Bodies, Body
 from .case import Case
 from .errors import (
     CaseError,
@@ -36,6 +37,8 @@ from .symbolic import from_lagrangian, from_sympy, to_sympy
 
 __all__ = [
     "CLASSES",
+    "Bodies",
+    "Body",
     "Case",
     "CaseError",
     "Chart",

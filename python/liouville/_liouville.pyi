@@ -47,7 +47,7 @@ class Function:
 @final
 class Job:
     def __new__(
-        cls, case: Case, settings: list[str], arguments: list[str], starts: str | None
+        cls, case: Case, settings: list[str], arguments: list[str], table: str | None
     ) -> Job: ...
     @property
     def key(self) -> str: ...

@@ -6,12 +6,14 @@ import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, overload
 
 import numpy as np
 
 from . import _liouville as native
 from . import _values
+from .bodies import Bodies, BodyTable
+from .described import Described
 from .found import Search
 from .function import Field, Function
 from .motion import Chart, Exponents, Orbit, Section, Spectra
@@ -22,11 +24,14 @@ from .residuals import Sweep
 Start = str | Mapping[str, Any] | Sequence[Any] | np.ndarray | None
 """A state by names or in order, a point (l, L/G) of a section, or `None` for one that is drawn."""
 
+Trust = Literal["best", "proof", "float"]
+"""Evidence that a claim needs."""
+
 MOST_NUMBERS = 30_000_000
 """Limit on the numbers of an orbit."""
 
 
-class Case:
+class Case(Described):
     """A system with claims about it. Cases do not change, and may be shared by threads."""
 
     def __init__(self, handle: native.Case, settings: dict[str, str], symbols=None):
@@ -40,70 +45,64 @@ class Case:
 
         return restored, (self.text, self.name, self._settings, self.symbols)
 
-    @property
-    def title(self) -> str:
-        """Title of the case."""
-        return self._native.title
-
-    @property
-    def name(self) -> str:
-        """Path of the file, or another name for messages."""
-        return self._native.name
-
-    @property
-    def text(self) -> str:
-        """Text of the case, as in a file."""
-        return self._native.text
-
-    @property
-    def system(self) -> str:
-        """Kind of the system, such as `field` or `rubber-plane`."""
-        return self._native.system
-
-    @property
-    def source(self) -> str:
-        """Publication that the case is taken from."""
-        return self._native.source
-
-    @property
-    def digest(self) -> str:
-        """SHA-256 of the text."""
-        return self._native.digest
-
-    @property
-    def remarks(self) -> list[str]:
-        """Warnings, and remarks on what may be a slip."""
-        return self._native.remarks
-
-    @property
-    def state(self) -> list[str]:
-        """Names of the components of the state."""
-        return self._native.state
-
-    @property
-    def parameters(self) -> dict[str, str]:
-        """Names of the parameters: `fixed`, `drawn` for every state, or `computed` from others."""
-        return dict(self._native.parameters)
-
-    @property
-    def claims(self) -> dict[str, str | None]:
-        """Names of the claims, with their formulas."""
-        return {name: formula for name, _, formula in self._native.claims}
-
     def __repr__(self) -> str:
         return f"<Case {self.title}: {self.system}, {len(self._native.claims)} claims>"
 
+    @overload
     def check(
         self,
         *,
+        settings: None = None,
         seed: int = 1,
         states: int = 256,
-        trust: Literal["best", "proof", "float"] = "best",
+        trust: Trust = "best",
         mutants: bool = False,
         motion: bool = False,
         threads: int | None = None,
-    ) -> Report:
-        """Judges all claims; with `motion` those about motion too, which may take minutes."""
+    ) -> Report: ...
+    @overload
+    def check(
+        self,
+        *,
+        settings: BodyTable,
+        seed: int = 1,
+        states: int = 256,
+        trust: Trust = "best",
+        motion: bool = False,
+        threads: int | None = None,
+        client: Any = None,
+        parts: int | None = None,
+        out: str | Path | None = None,
+    ) -> Bodies: ...
+    def check(
+        self,
+        *,
+        settings=None,
+        seed=1,
+        states=256,
+        trust="best",
+        mutants=False,
+        motion=False,
+        threads=None,
+        client=None,
+        parts=None,
+        out=None,
+    ):
+        """Judges all claims; with `motion` those about motion too, which may take minutes.
+
+        With `settings` each row of a table is a body of its own: a path of a CSV file, a
+        DataFrame, or dictionaries, by the names of parameters. A wrong row leaves the others.
+        `client`, `parts` and `out` are those of `chart`.
+        """
+        share = Share(client, parts, out, threads)
+        if settings is not None:
+            if mutants:
+                raise ValueError("mutants are those of one body: leave out settings")
+            options = {"seed": seed, "states": states, "motion": motion, "json": True}
+            wanted = options | {"trust": None if trust == "best" else trust}
+            return Bodies(share.check(self, settings, wanted))
+        if share:
+            raise ValueError("client, parts and out are for a table of bodies: give settings")
         sampling = (seed, states, trust)
         return Report(json.loads(native.check(self._native, sampling, mutants, motion, threads)))
 

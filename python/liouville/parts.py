@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _liouville as native
+from .bodies import BodyTable, written
 
 if TYPE_CHECKING:
     from .case import Case
@@ -20,6 +21,8 @@ MOTIONS = 8
 """Motions of a part where their number is not given: as many as one thread follows at once."""
 STATES = 1 << 24
 """States of a part of a sweep where their number is not given."""
+BODIES = 200
+"""Bodies of a part where their number is not given: a second or two."""
 RETRIES = 3
 """How often a part is tried again after an error on a worker."""
 
@@ -32,13 +35,13 @@ class Recipe:
     name: str
     settings: tuple[tuple[str, str], ...]
     arguments: tuple[str, ...]
-    starts: str | None = None
+    table: str | None = None
 
     def job(self) -> native.Job:
         """The job, ready to compute."""
         case = native.Case(self.text, self.name, list(self.settings))
         settings = [f"{name}={value}" for name, value in self.settings]
-        return native.Job(case, settings, list(self.arguments), self.starts)
+        return native.Job(case, settings, list(self.arguments), self.table)
 
 
 @dataclass(frozen=True)
@@ -61,17 +64,18 @@ class Share:
         options: dict[str, Any],
         *,
         words: Iterable[str] = (),
-        starts: str | None = None,
+        table: str | None = None,
         units: int = MOTIONS,
     ) -> tuple[native.Job, list[str]]:
         """Computes a job about a case; returns it with the texts of its parts.
 
-        `units` is the number of units of a part where the number of parts is not given.
+        `table` is the text of the file that the words name, `units` the number of units of a part
+        where the number of parts is not given.
         """
         settings = tuple(case._settings.items())
         given = [f"--set={name}={value}" for name, value in settings]
         arguments = (*command, case.name, *given, *words, *_options(options))
-        recipe = Recipe(case.text, case.name, settings, arguments, starts)
+        recipe = Recipe(case.text, case.name, settings, arguments, table)
         return _run(recipe, self, units)
 
     def section(
@@ -79,18 +83,26 @@ class Share:
     ) -> tuple[native.Job, list[str]]:
         """Follows motions through a section."""
         words, text = _starts(given)
-        return self.run(case, ("motion", "section"), options, words=words, starts=text)
+        return self.run(case, ("motion", "section"), options, words=words, table=text)
 
     def exponents(
         self, case: Case, given: list[Any], names: list[str], options: dict[str, Any]
     ) -> dict[str, Any]:
         """Exponents of motions with these names."""
         words, text = _starts(given)
-        job, texts = self.run(case, ("motion", "exponents"), options, words=words, starts=text)
+        job, texts = self.run(case, ("motion", "exponents"), options, words=words, table=text)
         found = json.loads(job.exponents(texts))
         for name, motion in zip(names, found["motions"], strict=True):
             motion["start"] = name
         return found
+
+    def check(self, case: Case, table: BodyTable, options: dict[str, Any]) -> dict[str, Any]:
+        """Verdicts on a table of bodies."""
+        name, text = written(table)
+        share = self if self else Share(None, 1, None, self.threads)
+        words = [f"--settings={name}"]
+        job, texts = share.run(case, ("check",), options, words=words, table=text, units=BODIES)
+        return json.loads(job.report(texts))
 
     def sweep(self, case: Case, claims: Iterable[str], options: dict[str, Any]) -> dict[str, Any]:
         """Residuals of claims; in one part if none are asked for."""

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, overload
 
 from . import _liouville as native
 from . import _values
+from .bodies import Bodies, BodyTable
 from .case import Case
 from .found import Search
 from .motion import Chart, Exponents, Section, Spectra
@@ -44,8 +45,12 @@ def parse(
     return Case(native.Case.open(Path(source), pairs), given, symbols)
 
 
-def check(case: Case | str | Path, **options: Any) -> Report:
-    """Judges all claims of a case; see `Case.check`."""
+@overload
+def check(case: Case | str | Path, *, settings: None = None, **options: Any) -> Report: ...
+@overload
+def check(case: Case | str | Path, *, settings: BodyTable, **options: Any) -> Bodies: ...
+def check(case, **options):
+    """Judges all claims of a case, for each row of a table with `settings`; see `Case.check`."""
     return _case(case).check(**options)
 
 

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from . import _liouville as native
 from . import _values
 from .case import Case
 from .reading import parse
-
-if TYPE_CHECKING:
-    pass
 
 STATE_RANGE = "-2..2"
 PARAMETER_RANGE = "0.5..2"

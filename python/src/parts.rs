@@ -39,19 +39,19 @@ fn set(texts: Vec<String>) -> PyResult<Set> {
 
 #[pymethods]
 impl Job {
-    /// Reads a job about a case. `starts` is the text of the file of `--starts`.
+    /// Reads a job about a case. `table` is the text of the file of `--starts` or `--settings`.
     #[new]
     fn new(
         py: Python<'_>,
         case: &Case,
         settings: Vec<String>,
         arguments: Vec<String>,
-        starts: Option<String>,
+        table: Option<String>,
     ) -> PyResult<Self> {
         let (name, text) = (case.name.clone(), case.text.clone());
         let read = move || {
-            let starts = starts.as_deref();
-            let given = Given { name: &name, text: &text, settings: &settings, starts };
+            let table = table.as_deref();
+            let given = Given { name: &name, text: &text, settings: &settings, table };
             AnyJob::read(&arguments, given, None)
         };
         let inner = Work::on(Some(1)).alone(py, read)?.map_err(wrong)?;

@@ -4,6 +4,8 @@ use liouville::graph::Fault;
 use liouville::number::UnaryFunction;
 use serde::{Deserialize, Serialize};
 
+use super::stepper::ENDLESS;
+
 /// Reason why a motion cannot be computed.
 ///
 /// Those of single motions can be written to a record and read back; the motion that was stopped
@@ -23,6 +25,19 @@ pub enum FlowError {
         /// Time of the last state.
         #[serde(with = "super::record")]
         time: f64,
+        /// Last state.
+        #[serde(with = "super::record")]
+        state: Vec<f64>,
+    },
+    /// The steps have shrunk, and become so many that the end is out of reach.
+    #[error("{}", shrinking(*time, *step, state))]
+    Shrinking {
+        /// Time of the last state.
+        #[serde(with = "super::record")]
+        time: f64,
+        /// Last step.
+        #[serde(with = "super::record")]
+        step: f64,
         /// Last state.
         #[serde(with = "super::record")]
         state: Vec<f64>,
@@ -165,6 +180,16 @@ pub enum FlowError {
     Recording(#[from] Fault),
 }
 
+fn shrinking(time: f64, step: f64, state: &[f64]) -> String {
+    let state: Vec<String> = state.iter().map(|x| format!("{x:.3e}")).collect();
+    format!(
+        "the motion runs away, or turns ever faster: at t = {time}, near the state [{}], a step is \
+         {:.1e}, and the rest of the time would take more than {ENDLESS:e} of them",
+        state.join(", "),
+        step.abs()
+    )
+}
+
 fn singular(time: f64, state: &[f64]) -> String {
     let state: Vec<String> = state.iter().map(|x| format!("{x:.6}")).collect();
     let state = state.join(", ");
@@ -195,7 +220,9 @@ impl FlowError {
             FlowError::Singular { time: 0.0, .. } => {
                 "choose another start; if all are singular, the parameters are"
             }
-            FlowError::Singular { .. } => "choose another start, or a shorter time",
+            FlowError::Singular { .. } | FlowError::Shrinking { .. } => {
+                "choose another start, or a shorter time"
+            }
             FlowError::NoAndoyer => {
                 "for other systems give a surface, such as --section 'x = 0', and starts by states"
             }

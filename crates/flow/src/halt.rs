@@ -64,3 +64,19 @@ impl Drop for Former {
 pub fn stoppable<R>(flag: &Arc<AtomicBool>, work: impl FnOnce() -> R) -> R {
     Halt(Some(Arc::clone(flag))).over(work)
 }
+
+/// Question whether the work of this thread is to end, for the threads that share it.
+///
+/// ```
+/// use std::sync::Arc;
+/// use std::sync::atomic::AtomicBool;
+/// use liouville_flow::{stop_request, stoppable};
+///
+/// let raised = Arc::new(AtomicBool::new(true));
+/// assert!(stoppable(&raised, || stop_request()()));
+/// assert!(!stop_request()());
+/// ```
+pub fn stop_request() -> impl Fn() -> bool + Send + Sync {
+    let halt = Halt::current();
+    move || halt.is_raised()
+}

@@ -62,7 +62,7 @@ pub use closed::{ComputedClosedOrbit, MeasuredNumber};
 pub use columns::Columns;
 pub use cycle::Cycle;
 pub use error::FlowError;
-pub use halt::stoppable;
+pub use halt::{stop_request, stoppable};
 pub use launch::{Begin, Launches, Launchpad};
 pub use lexicon::{FormulaMistake, Lexicon};
 pub use lyapunov::{Alignment, Character, Estimate, Exponents};

@@ -34,6 +34,13 @@ impl Accuracy {
     pub const PAIR: Self = Self { order: 34, kappa: 2.15 };
 }
 
+/// Number of steps after which the pace of a motion is looked at.
+const STRIDE: u64 = 1 << 18;
+/// Ratio of a motion's longest step to the present ones, above which these count as shrinking.
+const SHRUNK: f64 = 1e6;
+/// Number of such steps that nobody waits for.
+pub(super) const ENDLESS: f64 = 1e9;
+
 /// Motions in lockstep, one in each lane.
 pub struct Stepper<T: SeriesNumber> {
     series: Series<T>,
@@ -64,6 +71,31 @@ struct Lane<One> {
     /// Step from the present expansion.
     step: One,
     steps: u64,
+    pace: Pace,
+}
+
+/// Progress of a motion, by which one whose steps shrink without end is found.
+#[derive(Clone, Copy, Default)]
+struct Pace {
+    /// Longest step so far.
+    longest: f64,
+    /// Time at the last look.
+    before: f64,
+    /// Whether the end is out of reach.
+    is_lost: bool,
+}
+
+impl Pace {
+    /// Keeps a step; looks at the pace after so many of them, with the times that have gone by and
+    /// that are left.
+    fn keep(&mut self, step: f64, steps: u64, now: f64, left: f64) {
+        self.longest = self.longest.max(step.abs());
+        if steps % STRIDE == 0 {
+            let mean = (now - self.before).abs() / STRIDE as f64;
+            self.is_lost = mean * SHRUNK < self.longest && left.abs() > mean * ENDLESS;
+            self.before = now;
+        }
+    }
 }
 
 impl<T: SeriesNumber> Stepper<T> {
@@ -74,6 +106,7 @@ impl<T: SeriesNumber> Stepper<T> {
             until: DoubleDouble::default(),
             step: T::One::ZERO,
             steps: 0,
+            pace: Pace::default(),
         };
         let state = vec![T::ZERO; program.dimension()];
         Self {
@@ -93,8 +126,13 @@ impl<T: SeriesNumber> Stepper<T> {
             self.series.clear();
         }
         self.place(lane, state);
-        self.lanes[lane] =
-            Lane { time: DoubleDouble::default(), until, step: T::One::ZERO, steps: 0 };
+        self.lanes[lane] = Lane {
+            time: DoubleDouble::default(),
+            until,
+            step: T::One::ZERO,
+            steps: 0,
+            pace: Pace::default(),
+        };
     }
 
     /// Moves a motion to another state, at the same time.
@@ -161,8 +199,8 @@ impl<T: SeriesNumber> Stepper<T> {
         self.lanes[lane].step
     }
 
-    /// Checks the present expansion of a motion; fails where the motion runs into a singularity, and
-    /// once it is stopped.
+    /// Checks the present expansion of a motion; fails where the motion runs into a singularity,
+    /// where its steps shrink without end, and once it is stopped.
     pub fn check(&self, lane: usize) -> Result<(), FlowError> {
         if self.halt.is_raised() {
             return Err(FlowError::Stopped);
@@ -172,12 +210,14 @@ impl<T: SeriesNumber> Stepper<T> {
         let finite = self.sizes.soundness.lane(lane).leading() == 0.0;
         let at_end = (motion.until - motion.time).hi == 0.0;
         let advances = at_end || motion.time.hi + step != motion.time.hi || motion.time.hi == 0.0;
+        let time = motion.time.hi;
+        let state = || self.pairs(lane).iter().map(|x| x.hi).collect();
         match finite && advances && step.is_finite() {
+            true if motion.pace.is_lost && !at_end => {
+                Err(FlowError::Shrinking { time, step, state: state() })
+            }
             true => Ok(()),
-            false => Err(FlowError::Singular {
-                time: motion.time.hi,
-                state: self.pairs(lane).iter().map(|x| x.hi).collect(),
-            }),
+            false => Err(FlowError::Singular { time, state: state() }),
         }
     }
 
@@ -200,6 +240,8 @@ impl<T: SeriesNumber> Stepper<T> {
             if lane.step.leading() != 0.0 {
                 lane.time = lane.time + lane.step.pair();
                 lane.steps += 1;
+                let (now, left) = (lane.time.hi, (lane.until - lane.time).hi);
+                lane.pace.keep(lane.step.leading(), lane.steps, now, left);
             }
         }
     }

@@ -5,20 +5,25 @@ use std::io::IsTerminal;
 use crate::report::terminal::{Detail, Style};
 use crate::report::{diagnostic, json, records, terminal};
 use liouville::case::{Case, Column, is_labelled, labels, matches};
-use liouville::verdict::Options;
+use liouville::verdict::{ClaimReport, Options};
 
 use super::eval::read_settings;
 use super::judging::{JudgingJob, judge};
-use super::{CheckArgs, CheckFormat, CommandOutput, certificates, colour, width};
+use super::{CheckArgs, CheckFormat, CommandOutput, bodies, certificates, colour, width};
 
 /// Claims that were asked for, by name or source and by label.
-#[derive(Clone)]
-struct RequestedClaims {
+#[derive(Clone, Debug)]
+pub(super) struct RequestedClaims {
     claims: Vec<String>,
     sources: Vec<String>,
 }
 
 impl RequestedClaims {
+    /// Claims that the options ask for.
+    pub fn of(options: &CheckArgs) -> Self {
+        Self { claims: options.claims.clone(), sources: options.sources.clone() }
+    }
+
     fn is_everything(&self) -> bool {
         self.claims.is_empty() && self.sources.is_empty()
     }
@@ -34,9 +39,16 @@ impl RequestedClaims {
         is_named && (self.sources.is_empty() || self.sources.iter().any(is_wanted))
     }
 
+    /// Whether a claim of a case is meant.
+    pub fn takes_claim(&self, claim: &ClaimReport, case: &Case) -> bool {
+        let cell = claim.cell.as_deref();
+        let own = RequestedClaim { name: &claim.name, source: &claim.source, cell };
+        self.takes(&own, &case.source, case.column.as_ref())
+    }
+
     /// Removes what need not be judged: other claims of a case may matter to those that are meant,
     /// but motions take minutes and do not.
-    fn prepare(&self, case: &mut Case) {
+    pub fn prepare(&self, case: &mut Case) {
         let (whole, column) = (case.source.clone(), case.column.clone());
         let takes = |name: &str, source: &str, cell: Option<&str>| {
             self.takes(&RequestedClaim { name, source, cell }, &whole, column.as_ref())
@@ -61,9 +73,26 @@ struct RequestedClaim<'c> {
     cell: Option<&'c str>,
 }
 
+impl CheckArgs {
+    /// Message where no claim is meant.
+    pub(super) fn no_claim(&self) -> String {
+        let all = [self.claims.as_slice(), &self.sources].concat().join("` or `");
+        match all.is_empty() {
+            true => "error: the case has no claim\nhelp: add [[claim]]".to_string(),
+            false => format!(
+                "error: no claim has a name or source like `{all}`\n\
+                 help: `liouville check -v` shows the names"
+            ),
+        }
+    }
+}
+
 pub fn run(options: &CheckArgs) -> Result<CommandOutput, String> {
-    let wanted =
-        RequestedClaims { claims: options.claims.clone(), sources: options.sources.clone() };
+    if options.bodies.settings.is_some() {
+        return bodies::check(options);
+    }
+    bodies::refuse(&options.share, (options.format == CheckFormat::Jsonl).then_some("jsonl"))?;
+    let wanted = RequestedClaims::of(options);
     let of_case = wanted.clone();
     let mut run = judge(JudgingJob {
         paths: options.paths.clone(),
@@ -86,11 +115,7 @@ pub fn run(options: &CheckArgs) -> Result<CommandOutput, String> {
             wanted.takes(&own, &heading.source, heading.column.as_ref())
         });
         if run.claims().next().is_none() && run.summary().errors == 0 {
-            let all = [wanted.claims, wanted.sources].concat().join("` or `");
-            return Err(format!(
-                "error: no claim has a name or source like `{all}`\n\
-                 help: `liouville check -v` shows the names"
-            ));
+            return Err(options.no_claim());
         }
     }
     if let Some(folder) = &options.certificate {
@@ -99,7 +124,9 @@ pub fn run(options: &CheckArgs) -> Result<CommandOutput, String> {
     }
     let format = if options.json { CheckFormat::Json } else { options.format };
     let text = match format {
-        CheckFormat::Json => json::render(&run).map_err(|error| format!("error: {error}"))? + "\n",
+        CheckFormat::Json | CheckFormat::Jsonl => {
+            json::render(&run).map_err(|error| format!("error: {error}"))? + "\n"
+        }
         CheckFormat::Csv => records::csv(&run),
         CheckFormat::Junit => records::junit(&run),
         CheckFormat::Text => {

@@ -5,10 +5,13 @@ use std::path::Path;
 use clap::FromArgMatches;
 use liouville::part::Part;
 
+use super::explore::motion::Opened;
+use super::explore::report::ReportArgs;
 use super::explore::{self, MotionCommand};
-use super::{Arguments, Command, CommandOutput};
+use super::{Arguments, CheckArgs, Command, CommandOutput, eval};
 use crate::parts::{Header, Identity, Job, PartFile, Set};
 
+pub use super::bodies::BodiesJob;
 pub use super::explore::chart::{Cell, ChartJob};
 pub use super::explore::exponents::{ExponentsJob, Unit as ExponentsUnit};
 pub use super::explore::section::{SectionJob, Unit as SectionUnit};
@@ -17,6 +20,8 @@ pub use super::explore::sweep::SweepJob;
 /// A job that may be done in parts.
 #[derive(Debug)]
 pub enum AnyJob {
+    /// Table of bodies.
+    Bodies(Box<BodiesJob>),
     /// Plane of motions.
     Chart(Box<ChartJob>),
     /// Exponents of motions.
@@ -36,8 +41,16 @@ pub struct Given<'g> {
     pub text: &'g str,
     /// Values of parameters, `NAME=VALUE`.
     pub settings: &'g [String],
-    /// Text of the file of `--starts`, if it is at hand.
-    pub starts: Option<&'g str>,
+    /// Text of the file of `--starts` or `--settings`, if it is at hand.
+    pub table: Option<&'g str>,
+}
+
+impl Given<'_> {
+    /// The case, read from its text.
+    fn opened(&self) -> Result<Opened, String> {
+        let case = eval::read_text(Path::new(self.name), self.text, self.settings)?;
+        Ok(Opened { case, text: self.text.to_string() })
+    }
 }
 
 impl AnyJob {
@@ -53,8 +66,17 @@ impl AnyJob {
             .try_get_matches_from_mut(arguments)
             .and_then(|matches| Arguments::from_arg_matches(&matches));
         let parsed = matches.map_err(|error| error.to_string())?;
-        let Command::Explore(command) = parsed.command else { return Err(no_job(arguments)) };
+        let command = match parsed.command {
+            Command::Explore(command) => command,
+            Command::Check(options) if options.bodies.settings.is_some() => {
+                return Self::check(options, arguments, given, out);
+            }
+            _ => return Err(no_job(arguments)),
+        };
         let motion = match *command {
+            explore::ExploreCommand::Report(options) if options.bodies.settings.is_some() => {
+                return Self::survey(options, arguments, given, out);
+            }
             explore::ExploreCommand::Sweep(mut options) => {
                 set(&mut options.subject, given);
                 options.share.arguments = arguments.to_vec();
@@ -78,7 +100,7 @@ impl AnyJob {
             MotionCommand::Exponents(mut options) => {
                 set(&mut options.subject, given);
                 options.share.arguments = arguments.to_vec();
-                options.starts.text = given.starts.map(str::to_string);
+                options.starts.text = given.table.map(str::to_string);
                 options.out = out;
                 let opened = options.subject.read(given.text)?;
                 Ok(Self::Exponents(Box::new(ExponentsJob::new(options, opened)?)))
@@ -86,7 +108,7 @@ impl AnyJob {
             MotionCommand::Section(mut options) => {
                 set(&mut options.subject, given);
                 options.share.arguments = arguments.to_vec();
-                options.starts.text = given.starts.map(str::to_string);
+                options.starts.text = given.table.map(str::to_string);
                 options.ink.out = out;
                 let opened = options.subject.read(given.text)?;
                 Ok(Self::Section(Box::new(SectionJob::new(options, opened)?)))
@@ -95,15 +117,46 @@ impl AnyJob {
         }
     }
 
+    /// Verdicts on a table of bodies.
+    fn check(
+        mut options: CheckArgs,
+        arguments: &[String],
+        given: Given<'_>,
+        out: Option<&Path>,
+    ) -> Result<Self, String> {
+        options.paths = vec![given.name.into()];
+        options.settings = given.settings.to_vec();
+        options.share.arguments = arguments.to_vec();
+        options.bodies.text = given.table.map(str::to_string);
+        options.out = out.map(Path::to_path_buf);
+        Ok(Self::Bodies(Box::new(BodiesJob::of_check(&options, given.opened()?)?)))
+    }
+
+    /// Invariants of a table of bodies.
+    fn survey(
+        mut options: ReportArgs,
+        arguments: &[String],
+        given: Given<'_>,
+        out: Option<&Path>,
+    ) -> Result<Self, String> {
+        options.case = given.name.into();
+        options.settings = given.settings.to_vec();
+        options.share.arguments = arguments.to_vec();
+        options.bodies.text = given.table.map(str::to_string);
+        options.out = out.map(Path::to_path_buf);
+        Ok(Self::Bodies(Box::new(BodiesJob::of_report(&options, given.opened()?)?)))
+    }
+
     /// Reads the job of a part.
     pub fn of(header: &Header, out: Option<&Path>) -> Result<Self, String> {
         let Header { arguments, name, case, settings, .. } = header;
-        Self::read(arguments, Given { name, text: case, settings, starts: None }, out)
+        Self::read(arguments, Given { name, text: case, settings, table: None }, out)
     }
 
     /// Identity of the job.
     pub fn identity(&self) -> Result<Identity, String> {
         match self {
+            Self::Bodies(job) => job.identity(),
             Self::Chart(job) => job.identity(),
             Self::Exponents(job) => job.identity(),
             Self::Section(job) => job.identity(),
@@ -114,6 +167,7 @@ impl AnyJob {
     /// Name of the file of a part.
     pub fn file_name(&self, part: Part) -> Result<String, String> {
         let form = match self {
+            Self::Bodies(job) => job.form(),
             Self::Chart(job) => job.form(),
             Self::Exponents(job) => job.form(),
             Self::Section(job) => job.form(),
@@ -125,6 +179,7 @@ impl AnyJob {
     /// Computes a part as a file.
     pub fn file(&self, part: Part, threads: usize) -> Result<PartFile, String> {
         match self {
+            Self::Bodies(job) => job.file(part, threads),
             Self::Chart(job) => job.file(part, threads),
             Self::Exponents(job) => job.file(part, threads),
             Self::Section(job) => job.file(part, threads),
@@ -135,6 +190,7 @@ impl AnyJob {
     /// Reports the units of all parts, and writes the file of the whole job.
     pub fn report(&self, set: &Set) -> Result<CommandOutput, String> {
         match self {
+            Self::Bodies(job) => job.report(job.units(set)?),
             Self::Chart(job) => job.report(job.units(set)?),
             Self::Exponents(job) => job.report(job.units(set)?),
             Self::Section(job) => job.report(job.units(set)?),

@@ -17,7 +17,7 @@ use super::limits::{LimitArgs, Stop, signals};
 use super::source;
 
 /// Stack of each thread; formulas nest, and what follows them does.
-const STACK: usize = 16 << 20;
+pub(super) const STACK: usize = 16 << 20;
 
 /// Change of a case before it is judged.
 pub type Prepare = Box<dyn Fn(&mut Case) + Send + Sync>;
@@ -203,7 +203,8 @@ fn decide(slot: &Mutex<Slot>, work: &JudgingJob) {
         (slot.path.clone(), std::mem::take(&mut slot.text), case)
     };
     let keep = |report: &CaseReport| locked(slot).partial = Some(report.clone());
-    let found = catch_unwind(AssertUnwindSafe(|| verdicts(&case, work, &keep)));
+    let found =
+        catch_unwind(AssertUnwindSafe(|| verdicts(&case, &work.options, work.motions, &keep)));
     let shown = path.display().to_string();
     let result = match found {
         Err(panic) => Err(vec![fault(&path, panic.as_ref())]),
@@ -215,18 +216,18 @@ fn decide(slot: &Mutex<Slot>, work: &JudgingJob) {
 }
 
 /// Judges the claims of a case in stages, and hands over what each stage reached.
-fn verdicts(
+pub(super) fn verdicts(
     case: &Case,
-    work: &JudgingJob,
+    options: &Options,
+    motions: bool,
     keep: &dyn Fn(&CaseReport),
 ) -> Result<CaseReport, JudgeError> {
-    let options = &work.options;
     let mut report = verdict::judge(case, options)?;
     if !case.absences.is_empty() {
         keep(&report);
     }
     liouville_search::complete(case, options, &mut report)?;
-    if work.motions {
+    if motions {
         if !case.motions.is_empty() {
             keep(&report);
         }
@@ -240,7 +241,7 @@ fn verdicts(
 }
 
 /// Lists the claims of a case without verdicts.
-fn stated(case: &Case, motions: bool) -> Vec<ClaimReport> {
+pub(super) fn stated(case: &Case, motions: bool) -> Vec<ClaimReport> {
     let open = |name: &str, kind: &'static str, source: &str, expect: Expect| ClaimReport {
         name: name.to_string(),
         formula: None,

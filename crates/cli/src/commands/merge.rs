@@ -22,7 +22,7 @@ pub struct Merge {
 }
 
 /// Options of a job that change its report alone.
-const STYLES: [&str; 13] = [
+const STYLES: [&str; 15] = [
     "--colour",
     "--width",
     "--height",
@@ -35,6 +35,8 @@ const STYLES: [&str; 13] = [
     "--shade",
     "--no-marks",
     "--json",
+    "--format",
+    "--quiet",
     "--lines",
 ];
 

@@ -1,5 +1,6 @@
 //! Commands and their options.
 
+pub mod bodies;
 pub mod cases;
 mod certificates;
 pub mod check;
@@ -56,6 +57,8 @@ Examples:
   liouville check cases/plane --claim F2
   liouville check --source '(3.19)' --source 'Table 1, row 4'
   liouville check - < body.toml
+  liouville check body.toml --settings bodies.csv --out verdicts.csv
+  liouville check body.toml --settings bodies.csv --part 3/40 --out parts/
   liouville check body.toml --certificate proofs; python3 docs/certificates/check.py proofs/*")]
     Check(CheckArgs),
     /// Evaluate the field, the divergence, the criterion and all claims of a case at one state
@@ -183,6 +186,8 @@ pub struct CheckArgs {
     /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'
     #[arg(long = "set", value_name = "NAME=VALUE")]
     pub settings: Vec<String>,
+    #[command(flatten)]
+    pub bodies: bodies::BodiesArgs,
     /// Show only claims whose name or source contains this text, or matches it if it has `*` or
     /// `?`
     #[arg(long = "claim", value_name = "TEXT")]
@@ -197,18 +202,24 @@ pub struct CheckArgs {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
+    /// Write the results of --settings to this file, .csv, .json or .jsonl; with --part the folder
+    /// of the parts
+    #[arg(long, value_name = "FILE", requires = "bodies_table")]
+    pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub share: explore::share::Share,
     /// Perturb every true formula, and refute each mutant that is not equivalent
-    #[arg(long)]
+    #[arg(long, conflicts_with = "bodies_table")]
     pub mutants: bool,
     /// Write a certificate of each proof by points of prime fields to this folder, for the checker
     /// in docs/certificates; with --motion also of each closed orbit, for `liouville verify`
-    #[arg(long, value_name = "FOLDER")]
+    #[arg(long, value_name = "FOLDER", conflicts_with = "bodies_table")]
     pub certificate: Option<PathBuf>,
     /// Also check claims about motion (slow: minutes for cases/figures)
     #[arg(long)]
     pub motion: bool,
     /// Show each claim of each case, with witnesses and evidence
-    #[arg(short, long)]
+    #[arg(short, long, conflicts_with = "bodies_table")]
     pub verbose: bool,
     /// Print the summary alone
     #[arg(short, long, conflicts_with = "verbose")]
@@ -226,7 +237,9 @@ pub enum CheckFormat {
     Text,
     /// JSON, one document
     Json,
-    /// One line for each claim, with a header
+    /// JSON, one line for each body of --settings
+    Jsonl,
+    /// One line for each claim, with a header; for each body with --settings
     Csv,
     /// JUnit's XML, for continuous integration
     Junit,

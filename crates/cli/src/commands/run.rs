@@ -10,8 +10,11 @@ use super::{Arguments, Command, CommandOutput, LimitArgs, STOPPED, finish};
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     let mut command = Arguments::read(arguments.clone()).command;
-    if let Command::Explore(command) = &mut command {
-        command.keep(arguments.get(1..).unwrap_or_default());
+    let own = arguments.get(1..).unwrap_or_default();
+    match &mut command {
+        Command::Check(options) => options.share.keep(own),
+        Command::Explore(command) => command.keep(own),
+        _ => {}
     }
     let limits = limits(&command);
     if let Err(problem) = limits.check() {
@@ -29,6 +32,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 /// Limits of a command that has nothing to show before its end.
 fn limits(command: &Command) -> LimitArgs {
     match command {
+        Command::Check(options) if options.bodies.settings.is_some() => options.limits,
         Command::Eval(options) => options.limits,
         Command::Verify(options) => options.limits,
         Command::Explore(command) => command.limits(),

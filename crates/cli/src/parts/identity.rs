@@ -117,7 +117,26 @@ impl Identity {
     }
 }
 
+/// Options that name a file which the command reads.
+const TABLES: [&str; 2] = ["--starts", "--settings"];
+
 impl Header {
+    /// Files that the command reads: the case, and tables of starts or of bodies.
+    pub fn inputs(&self) -> Vec<String> {
+        let mut found = vec![self.name.clone()];
+        let mut words = self.arguments.iter();
+        while let Some(word) = words.next() {
+            let (option, value) = match word.split_once('=') {
+                Some((option, value)) => (option, Some(value.to_string())),
+                None => (word.as_str(), None),
+            };
+            if TABLES.contains(&option) {
+                found.extend(value.or_else(|| words.next().cloned()));
+            }
+        }
+        found
+    }
+
     /// Command that computes a part.
     pub fn command(&self, part: u64, folder: &str) -> String {
         let arguments = self.arguments.iter().map(|argument| shell_quoted(argument));

@@ -4,8 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
+use liouville_catalogue::inside;
+
 use super::file::{PartFile, is_part};
 use super::identity::{Header, program};
+use crate::source::is_standard_input;
 
 /// Parts by their numbers, each with the name of its file, its header and its lines.
 type Parts<'f> = BTreeMap<u64, (&'f str, Header, Vec<String>)>;
@@ -101,8 +104,9 @@ impl Set {
             let (count, of) = (missing.len(), header.of);
             let are = if count == 1 { "is" } else { "are" };
             let others = if count == 1 { "" } else { "\nand so on" };
+            let away = away(&header.inputs());
             return Err(format!(
-                "error: {count} of {of} parts {are} missing: {}\nhelp: {}{others}",
+                "error: {count} of {of} parts {are} missing: {}\nhelp: {}{others}{away}",
                 ranges(&missing),
                 header.command(*first, folder)
             ));
@@ -110,6 +114,25 @@ impl Set {
         let lines = parts.into_values().flat_map(|(_, _, lines)| lines).collect();
         Ok(Self { header, lines })
     }
+}
+
+/// Remark on the files that a command reads and that are not here, where there are any.
+fn away(inputs: &[String]) -> String {
+    let is_here = |name: &String| {
+        let path = Path::new(name);
+        path.exists() || is_standard_input(path) || !inside(path).is_empty()
+    };
+    let away: Vec<&str> = inputs.iter().filter(|name| !is_here(name)).map(String::as_str).collect();
+    let are = match away.len() {
+        0 => return String::new(),
+        1 => "is",
+        _ => "are",
+    };
+    format!(
+        "\n{} {are} not here: run the command where the first parts were computed; for parts of a \
+         call in Python repeat the call, with the same `out` and number of parts",
+        away.join(" and ")
+    )
 }
 
 /// Message about parts of several jobs.

@@ -2,6 +2,7 @@
 //! languages. What needs no terminal is in `liouville-report`.
 
 pub mod bench;
+pub mod bodies;
 pub mod certificate;
 mod certificate_part;
 pub mod chart;

@@ -37,7 +37,7 @@ expect = "fails"
 "#;
 
 /// Jobs with the ending of their data, and the largest number of parts to try.
-const JOBS: [(&str, &str, u64); 6] = [
+const JOBS: [(&str, &str, u64); 8] = [
     ("motion chart flow.toml --x a=1..3/2 --y b=0..1 --size 5x3 --time 4", "csv", 17),
     (
         "motion exponents figures/fig-3 --start 1,0.2 --start 1,0.3 --start 1,1.5 --start 2,0.3 --time 20",
@@ -48,12 +48,15 @@ const JOBS: [(&str, &str, u64); 6] = [
     ("motion section flow.toml --section z=25 --orbits 5 --crossings 6 --set a=1", "csv", 7),
     ("motion section figures/fig-3 --orbits 5 --crossings 4 --both-ways --classes=5", "json", 6),
     ("sweep flow.toml --states 70000", "json", 5),
+    ("check flow.toml --settings bodies.csv --states 64", "csv", 8),
+    ("report flow.toml --settings bodies.csv --set b=0", "jsonl", 3),
 ];
 
 /// Folder with the case and starts.
 fn home(name: &str) -> PathBuf {
     let starts = "z,x,y\n20,1,2\n21,1,1\n22,-1,2\n";
-    folder(name, &[("flow.toml", FLOW), ("starts.csv", starts)])
+    let bodies = "a\n1\n3/2\n\n2\n5/4\n7\n1/3\n";
+    folder(name, &[("flow.toml", FLOW), ("starts.csv", starts), ("bodies.csv", bodies)])
 }
 
 fn words(arguments: &str) -> Vec<String> {
@@ -78,7 +81,7 @@ fn job(arguments: &[String], home: &Path, out: Option<&Path>) -> AnyJob {
     };
     let sets = arguments.windows(2).filter(|two| two[0] == "--set").map(|two| two[1].clone());
     let settings: Vec<String> = sets.collect();
-    let given = Given { name, text: &text, settings: &settings, starts: None };
+    let given = Given { name, text: &text, settings: &settings, table: None };
     AnyJob::read(arguments, given, out).expect("a job")
 }
 
@@ -93,10 +96,12 @@ fn any_number_of_parts_in_any_order_gives_the_bytes_of_one_run() {
         );
         let whole = fs::read(whole).expect("data");
         assert!(whole.len() > 100, "{arguments} has data");
-        let starts = text(&home.join("starts.csv")).to_string();
         let arguments: Vec<String> = words(arguments)
             .into_iter()
-            .map(|word| if word == "starts.csv" { starts.clone() } else { word })
+            .map(|word| match word.ends_with("s.csv") {
+                true => text(&home.join(word)).to_string(),
+                false => word,
+            })
             .collect();
         let own = job(&arguments, &home, None);
         for count in 1..=*most {
@@ -188,6 +193,9 @@ fn missing_doubled_foreign_and_damaged_parts_are_named() {
     part("1", "4/5");
     fails("3 of 5 parts are missing: 2-3, 5");
     fails("liouville sweep flow.toml --states 1000 --seed 1 --part 2/5 --out parts");
+    fs::rename(home.join("flow.toml"), home.join("flow.away")).expect("a file");
+    fails("flow.toml is not here: run the command where the first parts were computed");
+    fs::rename(home.join("flow.away"), home.join("flow.toml")).expect("a file");
     for index in ["2/5", "3/5", "5/5"] {
         part("1", index);
     }

@@ -4,10 +4,11 @@ use liouville::case::{Case, Setting};
 use liouville::number::rational::Rational;
 use liouville::verdict::{evaluate, read_state};
 use liouville_flow::{
-    Character, ChartAxis, Coordinate, Launch, PlaneRequest, Variational, plane, section_starts,
+    Character, ChartAxis, Coordinate, FlowError, Launch, PlaneRequest, Variational, plane,
+    section_starts,
 };
 
-use crate::catalogue;
+use crate::{catalogue, parse, start};
 
 #[test]
 fn exponents_tell_regular_motion_from_chaos() {
@@ -147,4 +148,16 @@ fn a_chart_of_parameters_has_the_motions_of_its_points() {
         }
     }
     assert!(found[2].is_err() || found[3].is_err(), "22·m·|c| is above the energy somewhere");
+}
+
+#[test]
+fn a_motion_whose_steps_shrink_without_end_is_given_up() {
+    // backwards it grows like e^(10 t), and turns about the x axis as fast as it is large
+    let text = "title = 'Lorenz'\n[state]\nx = '-2..2'\ny = '-2..2'\nz = '20..24'\n[field]\n\
+                \"x'\" = '10*(y - x)'\n\"y'\" = '28*x - y - x*z'\n\"z'\" = 'x*y - 8/3*z'\n";
+    let case = parse(text);
+    let motion = Variational::new(&case.model, &start(&case, "x=1 y=2 z=20")).expect("a motion");
+    let found = motion.exponents(-2000.0);
+    let Err(FlowError::Shrinking { time, step, .. }) = found else { panic!("{found:?}") };
+    assert!(time < -0.5 && step.abs() < 1e-6, "given up at t = {time}, step {step:e}");
 }

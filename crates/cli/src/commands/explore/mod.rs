@@ -8,13 +8,13 @@ mod growth;
 mod ink;
 pub(super) mod motion;
 mod orbit;
-mod output;
+pub(super) mod output;
 mod periodic;
-mod progress;
-mod report;
+pub(super) mod progress;
+pub(super) mod report;
 mod search;
 pub(super) mod section;
-mod share;
+pub(super) mod share;
 mod site;
 mod starts;
 mod stress;
@@ -27,7 +27,9 @@ use std::ffi::OsString;
 use clap::Subcommand;
 
 use super::out::{self, write};
-use super::{CommandOutput, LimitArgs, SamplingArgs, check, colour, eval, files, source, width};
+use super::{
+    CommandOutput, LimitArgs, SamplingArgs, bodies, check, colour, eval, files, source, width,
+};
 
 #[derive(Debug, Subcommand)]
 pub enum ExploreCommand {
@@ -35,7 +37,10 @@ pub enum ExploreCommand {
     #[command(after_help = "Example:\n  liouville search plane/balanced-ball --blind")]
     Search(search::SearchArgs),
     /// List a system's invariants, each with a proof
-    #[command(after_help = "Example:\n  liouville report plane/unbalanced-ball --out ball.html")]
+    #[command(after_help = "\
+Examples:
+  liouville report plane/unbalanced-ball --out ball.html
+  liouville report plane/unbalanced-ball --settings bodies.csv --out classes.csv")]
     Report(report::ReportArgs),
     /// Write a page for each case of a folder, and an index of them by hierarchy and by folder
     #[command(after_help = "Example:\n  liouville site cases/plane --out public --within 60")]
@@ -144,6 +149,7 @@ impl ExploreCommand {
     /// Keeps the arguments with a job that may be done in parts.
     pub fn keep(&mut self, arguments: &[OsString]) {
         let share = match self {
+            Self::Report(options) => &mut options.share,
             Self::Sweep(options) => &mut options.share,
             Self::Motion { command } | Self::Former(FormerCommand::Motion(command)) => {
                 match command.as_mut() {
@@ -155,7 +161,7 @@ impl ExploreCommand {
             }
             _ => return,
         };
-        share.arguments = share::kept(arguments);
+        share.keep(arguments);
     }
 
     /// Limits of a command that has nothing to show before its end; a search and a site have their own.

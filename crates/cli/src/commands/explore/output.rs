@@ -13,6 +13,7 @@ pub enum Ending {
     Csv,
     Npy,
     Json,
+    Jsonl,
 }
 
 impl Ending {
@@ -22,6 +23,8 @@ impl Ending {
     pub const CHARTS: &'static [Self] = &[Self::Svg, Self::Pdf, Self::Png, Self::Csv, Self::Json];
     /// Endings of tables.
     pub const TABLES: &'static [Self] = &[Self::Json];
+    /// Endings of rows.
+    pub const ROWS: &'static [Self] = &[Self::Csv, Self::Json, Self::Jsonl];
     /// Endings of pictures and of data.
     pub const ALL: &'static [Self] =
         &[Self::Svg, Self::Pdf, Self::Png, Self::Csv, Self::Npy, Self::Json];
@@ -34,6 +37,7 @@ impl Ending {
             Self::Csv => ".csv",
             Self::Npy => ".npy",
             Self::Json => ".json",
+            Self::Jsonl => ".jsonl",
         }
     }
 

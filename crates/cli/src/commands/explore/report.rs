@@ -8,9 +8,11 @@ use clap::{Args, ValueEnum};
 use liouville::case::Case;
 use liouville_search::survey::{self, Survey};
 
+use super::bodies::{self, BodiesArgs};
 use super::eval::open_signed;
 use super::motion::Threads;
 use super::progress::telling;
+use super::share::Share;
 use super::{CommandOutput, LimitArgs, SamplingArgs, colour, out, width};
 
 #[derive(Debug, Args)]
@@ -20,17 +22,22 @@ pub struct ReportArgs {
     /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'; others stay general
     #[arg(long = "set", value_name = "NAME=VALUE")]
     pub settings: Vec<String>,
+    #[command(flatten)]
+    pub bodies: BodiesArgs,
     /// Output format; text for a terminal, unless --out implies another
     #[arg(long, value_enum)]
     pub format: Option<ReportFormat>,
     /// Print JSON
     #[arg(long, conflicts_with = "format")]
     pub json: bool,
-    /// Write to this file in place of standard output; .html, .md, .tex and .json set the format
+    /// Write to this file in place of standard output; .html, .md, .tex and .json set the format.
+    /// With --settings the results, as .csv, .json or .jsonl; with --part the folder of the parts
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub share: Share,
     /// Show evidence and witnesses in text
-    #[arg(short, long)]
+    #[arg(short, long, conflicts_with = "bodies_table")]
     pub verbose: bool,
     #[command(flatten)]
     pub limits: LimitArgs,
@@ -49,12 +56,25 @@ pub enum ReportFormat {
     Latex,
     /// One self-contained page
     Html,
+    /// One row for each body of --settings
+    Csv,
+    /// JSON, one line for each body of --settings
+    Jsonl,
 }
 
 /// Endings of files that imply a format.
 const ENDINGS: [&str; 7] = ["html", "htm", "md", "markdown", "tex", "json", "txt"];
 
 pub fn run(options: &ReportArgs) -> Result<CommandOutput, String> {
+    if options.bodies.settings.is_some() {
+        return bodies::report(options);
+    }
+    let of_bodies = match options.format {
+        Some(ReportFormat::Csv) => Some("csv"),
+        Some(ReportFormat::Jsonl) => Some("jsonl"),
+        _ => None,
+    };
+    bodies::refuse(&options.share, of_bodies)?;
     if let Some(path) = &options.out {
         out::check(path, "--out", &[&options.case])?;
         if options.format.is_none() && !options.json {
@@ -113,7 +133,7 @@ fn readable(
 ) -> String {
     let origin = &digest.line();
     match format {
-        ReportFormat::Text => {
+        ReportFormat::Text | ReportFormat::Csv | ReportFormat::Jsonl => {
             let colour = options.out.is_none() && colour(std::io::stdout().is_terminal());
             written::text(
                 found,

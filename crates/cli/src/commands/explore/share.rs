@@ -25,12 +25,19 @@ pub struct Share {
     pub arguments: Vec<String>,
 }
 
+impl Share {
+    /// Keeps the arguments of the program after its name.
+    pub fn keep(&mut self, arguments: &[OsString]) {
+        self.arguments = kept(arguments);
+    }
+}
+
 /// Options that do not change the numbers, and differ from part to part.
 const VALUES: [&str; 5] = ["--part", "--out", "--threads", "--within", "--megabytes"];
 const FLAGS: [&str; 1] = ["--force"];
 
 /// Arguments of the program after its name, without those that differ from part to part.
-pub fn kept(arguments: &[OsString]) -> Vec<String> {
+fn kept(arguments: &[OsString]) -> Vec<String> {
     let mut kept = Vec::new();
     let mut all = arguments.iter().map(|argument| argument.to_string_lossy().into_owned());
     while let Some(argument) = all.next() {
