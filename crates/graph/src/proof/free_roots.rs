@@ -183,6 +183,20 @@ mod tests {
     }
 
     #[test]
+    fn hundreds_of_roots_are_no_obstacle() {
+        let sum = |x: &[Expr]| {
+            let terms = (1..=300).map(|k| {
+                let radicand = x[0] * x[0] + x[1] * Expr::rational(&Rational::from(k));
+                x[0] * (radicand.sqrt() / radicand)
+            });
+            let terms: Vec<Expr> = terms.collect();
+            let sum = |by: Expr| terms.iter().fold(by, |sum, term| sum + *term * by);
+            sum(x[1] + x[0]) - sum(x[1]) - sum(x[0])
+        };
+        assert!(is_zero(sum), "(x + y)(1 + Σ) = x(1 + Σ) + y(1 + Σ)");
+    }
+
+    #[test]
     fn what_may_have_no_value_is_left_out() {
         let divides = |x: &[Expr]| {
             let gap = x[0].sqrt() * x[1].sqrt() - (x[0] * x[1]).sqrt();
