@@ -90,7 +90,7 @@ impl Pace {
     /// that are left.
     fn keep(&mut self, step: f64, steps: u64, now: f64, left: f64) {
         self.longest = self.longest.max(step.abs());
-        if steps % STRIDE == 0 {
+        if steps.is_multiple_of(STRIDE) {
             let mean = (now - self.before).abs() / STRIDE as f64;
             self.is_lost = mean * SHRUNK < self.longest && left.abs() > mean * ENDLESS;
             self.before = now;
