@@ -43,6 +43,8 @@ mod limits;
 mod oracle;
 #[path = "attack/own.rs"]
 mod own;
+#[path = "attack/point.rs"]
+mod point;
 #[path = "attack/print.rs"]
 mod print;
 #[path = "attack/random.rs"]

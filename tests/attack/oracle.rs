@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use super::claim::{At, Claim};
 use super::expr::Tree;
 use super::jet::Place;
+use super::point::Point;
 use super::random::Stream;
 use super::real::{self, LADDER, Lack, with_bits};
-use super::scene::{Origin, Point, Scene};
+use super::scene::{Origin, Scene};
 use super::scout::{self, Sight};
 use super::seek;
 

@@ -2,8 +2,9 @@
 //! where their parts have either sign. Found points are examined in full precision by the survey.
 
 use super::expr::{Expr, Function, Tree};
+use super::point::Point;
 use super::random::Stream;
-use super::scene::{Origin, Point, Scene};
+use super::scene::{Origin, Scene};
 
 /// Factor of a step after a failure.
 const FRACTION: f64 = 0.3;

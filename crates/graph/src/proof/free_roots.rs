@@ -13,6 +13,7 @@ use crate::scalar::Scalar;
 use super::bounds::InputDistribution;
 use super::digest::SeedDigest;
 use super::lower::Algebraic;
+use super::rewrite::power;
 use super::trial::{Certificate, Roots, Trial, TrialResult};
 
 /// Values with square roots of rational functions as their only non-rational parts.
@@ -134,14 +135,9 @@ impl<'g> FreeRoots<'g> {
 
 /// Returns the argument of a root, or of an odd power of one, and that power.
 fn half_power(step: Step<'_>) -> Option<(usize, Rational)> {
-    match step {
-        Step::Unary(UnaryFunction::Sqrt, a) => Some((a, Rational::from(1))),
-        Step::Power(a, exponent) if exponent.to_integer().is_none() => {
-            let power = exponent * &Rational::from(2);
-            power.to_integer().is_some().then_some((a, power))
-        }
-        _ => None,
-    }
+    let (argument, exponent) = power(step)?;
+    let power = &exponent * &Rational::from(2);
+    power.to_integer().is_some().then_some((argument, power))
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@
 //! | `trial` | the test of Theorem 1 |
 //! | `tower`, `characters` | certificates of independence for roots |
 //! | `roots`, `squares`, `nested`, `polynomial` | dependent roots and their expressions |
+//! | `logarithms`, `powers` | rules of logarithms, powers and exponentials |
 //! | `free_roots` | symbols in the place of very many roots |
 //! | `explore`, `next`, `cells`, `rewrite` | the cells of signs, and proofs on each |
 //! | `domain`, `fact`, `classes`, `extent` | signs of values over the ranges of the inputs |
@@ -40,6 +41,7 @@ mod numbers;
 mod outcome;
 mod plain;
 mod polynomial;
+mod powers;
 mod rank;
 mod reconstruct;
 mod refusals;

@@ -8,8 +8,8 @@ use crate::number::{BinaryOperation, UnaryFunction};
 use crate::scalar::Scalar;
 
 use super::fact::SignFact;
-use super::logarithms::{Logarithm, split_exponential};
 use super::nested::DenestedRoot;
+use super::powers::{Logarithm, split_exponential};
 use super::squares::Square;
 
 /// The root of a product of radicands.
@@ -170,7 +170,7 @@ impl Rewrite {
 }
 
 /// Returns argument and exponent of a non-integer power.
-fn power(step: Step<'_>) -> Option<(usize, Rational)> {
+pub fn power(step: Step<'_>) -> Option<(usize, Rational)> {
     match step {
         Step::Unary(UnaryFunction::Sqrt, a) => Some((a, Rational::new(1, 2))),
         Step::Power(a, exponent) if exponent.to_integer().is_none() => Some((a, exponent.clone())),
