@@ -4,6 +4,7 @@
 //! For example, x (y² + z² − 1) = 0 is solved by x = 0 where y² + z² ≠ 1, and the cylinder is
 //! another part.
 
+use super::field::combinations;
 use super::judging::Judging;
 use super::sampler::{Sampler, extent};
 use crate::case::Case;
@@ -17,6 +18,41 @@ use crate::proof::{
     Extent, Group, Prover, are_coprime, are_polynomials, is_nowhere_zero, is_single_valued,
 };
 use crate::scalar::Scalar;
+
+/// Number of states at which a divisor is tried.
+const STATES: u64 = 16;
+
+/// Values of the listed numbers and of the signs of roots, by draw.
+type Choice = Vec<Option<Rational>>;
+
+/// Lists all choices of listed numbers and signs; `None` if there are too many.
+fn choices(recipes: &[Draw]) -> Option<Vec<Choice>> {
+    let listed = |draw: &Draw| match draw {
+        Draw::Sign => Draw::OneOf(vec![Rational::from(-1), Rational::from(1)]),
+        draw => draw.clone(),
+    };
+    combinations(&recipes.iter().map(listed).collect::<Vec<Draw>>())
+}
+
+/// Records values anew with some inputs fixed; no values if one of them has none.
+fn fixed(
+    graph: &Graph,
+    values: &[Expr],
+    choice: &[Option<Rational>],
+) -> Result<(Graph, Vec<Expr>), Fault> {
+    let reached = graph.reached(values.iter().copied());
+    let (graph, made) = record(graph.inputs(), |inputs| {
+        let mut inputs = inputs.to_vec();
+        for (input, value) in inputs.iter_mut().zip(choice) {
+            if let Some(value) = value {
+                *input = Expr::rational(value);
+            }
+        }
+        let made = graph.replay(&reached, &inputs, |_, _, _| None);
+        values.iter().map(|value| made[graph.place(*value)]).collect::<Option<Vec<Expr>>>()
+    })?;
+    Ok((graph, made.unwrap_or_default()))
+}
 
 impl Judging<'_> {
     /// Returns the reason why states may miss a part of their place, if they may.
@@ -40,25 +76,34 @@ impl Judging<'_> {
             return Ok(None);
         }
         let space = PivotSpace::of(self.case, sampler, solution)?;
-        let mut open = Vec::new();
-        for (index, pivot) in sampler.pivots().iter().enumerate() {
-            let own = &space.pivots[index];
-            let is_whole = space.is_thin(own.divisor)
-                && (self.is_number(sampler, pivot.slope)?
-                    || self.is_number(sampler, pivot.whole)?
-                    || space.is_definite(own));
-            if !is_whole {
-                open.push(index);
+        let count = space.pivots.len();
+        let mut open: Vec<usize> = (0..count).collect();
+        // Each choice of listed values, and of signs of roots, has a level of its own.
+        if let Some(choices) = choices(sampler.recipes()) {
+            let mut is_complete = true;
+            open.clear();
+            for index in 0..count {
+                let pivot = &sampler.pivots()[index];
+                let own = &space.pivots[index];
+                let has_no_zero = space.have_no_zero(&[own.divisor]);
+                let is_thin = has_no_zero || self.is_thin(sampler, pivot.divisor, &choices)?;
+                let is_strong =
+                    has_no_zero || (is_thin && self.is_number(sampler, pivot.divisor)?);
+                // Factors do no harm if they have no common factor, as functions on a level of
+                // which the steps before miss nothing.
+                let is_whole = is_strong
+                    || (is_thin
+                        && (self.is_number(sampler, pivot.slope)?
+                            || self.is_number(sampler, pivot.whole)?
+                            || space.is_definite(own)
+                            || (is_complete
+                                && self
+                                    .has_no_factor(sampler, &space, solution, index, &choices)?)));
+                if !is_whole {
+                    open.push(index);
+                }
+                is_complete &= is_strong;
             }
-        }
-        if open.is_empty() {
-            return Ok(None);
-        }
-        // Factors of a single remaining equation do no harm if they have no common factor.
-        if let [index] = open[..]
-            && self.has_no_factor(sampler, &space, solution, index)
-        {
-            return Ok(None);
         }
         let texts: Vec<String> = open
             .iter()
@@ -75,19 +120,61 @@ impl Judging<'_> {
         }))
     }
 
+    /// Whether a divisor is known to vanish on no open set of states, for each choice: z + |z| does
+    /// for z < 0, and x − y on a branch of x² = y².
+    fn is_thin(&self, sampler: &Sampler, divisor: Expr, choices: &[Choice]) -> Result<bool, Fault> {
+        let graph = sampler.graph();
+        let reached = graph.reached([divisor]);
+        let recipes = sampler.recipes();
+        let has_sign = graph.steps().zip(&reached).any(|(step, reached)| match step {
+            Step::Input(input) => *reached && matches!(recipes.get(input), Some(Draw::Sign)),
+            _ => false,
+        });
+        let (extents, sources) = (sampler.extents(), sampler.sources());
+        let prover = Prover { sources: &sources, extents: &extents, seed: self.options.seed };
+        for choice in choices {
+            let is_nonzero = match !has_sign && is_single_valued(graph, &[divisor]) {
+                true => self.is_nonzero_somewhere(&sampler.with(choice), divisor),
+                false => {
+                    let (graph, values) = fixed(graph, &[divisor], choice)?;
+                    match values[..] {
+                        [divisor] => prover.is_nonzero_on_all_cells(&graph, divisor)?,
+                        _ => false,
+                    }
+                }
+            };
+            if !is_nonzero {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// Whether a value is proved not to be 0 at a state.
+    fn is_nonzero_somewhere(&self, sampler: &Sampler, value: Expr) -> bool {
+        let domain = Mixed::new(256);
+        let tape = Tape::new(sampler.graph(), &[value]);
+        let mut evaluator = Evaluator::new(&tape, domain);
+        (0..STATES).any(|index| {
+            evaluator.run(&sampler.drawn(&domain, 1, index));
+            Mixed::excludes_zero(evaluator.output(0), 0)
+        })
+    }
+
     /// Whether the slopes and the constant term of a linear equation are known to have no common
-    /// factor, as functions of free coordinates.
+    /// factor, as functions of free coordinates, for each choice.
     fn has_no_factor(
         &self,
         sampler: &Sampler,
         space: &PivotSpace,
         solution: &Solution,
         index: usize,
-    ) -> bool {
+        choices: &[Choice],
+    ) -> Result<bool, Fault> {
         let (seed, drawn) = (self.options.seed, &sampler.pivots()[index].entries);
         let own = &space.pivots[index];
         if own.entries.is_empty() {
-            return false;
+            return Ok(false);
         }
         let first = sampler.parameter_draws();
         let reached = space.graph.reached(own.entries.iter().copied());
@@ -98,12 +185,20 @@ impl Judging<'_> {
             }
             _ => false,
         };
-        match reached.iter().enumerate().any(is_made) {
-            false => are_coprime(&space.graph, &own.entries, seed),
-            true => {
-                are_polynomials(sampler.graph(), drawn) && are_coprime(sampler.graph(), drawn, seed)
+        let has_made = reached.iter().enumerate().any(is_made);
+        for choice in choices {
+            let (graph, entries) = match has_made {
+                false => fixed(&space.graph, &own.entries, &choice[..first])?,
+                true => fixed(sampler.graph(), drawn, choice)?,
+            };
+            let is_known = entries.len() == own.entries.len()
+                && (!has_made || are_polynomials(&graph, &entries))
+                && are_coprime(&graph, &entries, seed);
+            if !is_known {
+                return Ok(false);
             }
         }
+        Ok(true)
     }
 
     /// Whether a value is the same nonzero number at all states, as |γ|² is on the sphere; by
@@ -172,12 +267,6 @@ impl PivotSpace {
             }
         }
         Ok(Self { graph, pivots, level, extents })
-    }
-
-    /// Whether a divisor is known to vanish on no open set unless it vanishes everywhere: z + |z|
-    /// does for z < 0.
-    fn is_thin(&self, divisor: Expr) -> bool {
-        is_single_valued(&self.graph, &[divisor]) || self.have_no_zero(&[divisor])
     }
 
     /// Whether a pivot is known to vanish at no real point of the level.

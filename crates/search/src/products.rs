@@ -12,6 +12,7 @@ use liouville::formula::Formula;
 use liouville::graph::{Evaluator, Expr, Tape, record};
 use liouville::mechanics::Phase;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
+use liouville::proof::statement_seed;
 
 /// Highest degree that is recognised.
 const MOST_DEGREE: usize = 16;
@@ -134,7 +135,8 @@ pub fn degree(case: &Case, formula: &Formula, seed: u64) -> Result<Option<u32>, 
     if moving.iter().any(|rate| !graph.constant_value(*rate).is_some_and(|rate| rate.is_zero())) {
         return Ok(None);
     }
-    let mut rng = SearchStream::Products.under(seed);
+    // No constant of the formula can be chosen to vanish modulo the prime.
+    let mut rng = SearchStream::Products.under(statement_seed(seed, &graph, &[slope]));
     let modulus = rng.prime(&[3, 5], &[2, 3]);
     let tape = Tape::new(&graph, &[slope]);
     let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; SLOPE_POINTS]));

@@ -1,8 +1,9 @@
 //! Common factors of polynomials, tested on a random line.
 //!
 //! A common factor h of positive degree restricts to a common factor on a line z₀ + t u, of
-//! positive degree unless the leading form of h vanishes at u. Restrictions without a common factor
-//! therefore prove that there is none. Quotients are first brought over one denominator: its
+//! positive degree unless the leading form of h vanishes at u modulo the prime. Four primes and
+//! lines, drawn from the values, would all have to be so unlucky: the chance is below 2⁻¹⁶⁰ for
+//! degrees up to 400 and coefficients of up to 4000 bits. Quotients are first brought over one denominator: its
 //! factors vanish nowhere where the quotients have values.
 
 use crate::graph::{Evaluator, Expr, Graph, Step, Tape};
@@ -10,12 +11,12 @@ use crate::number::prime::{Modulus, Prime, UNDEFINED};
 use crate::number::{BinaryOperation, UnaryFunction};
 
 use super::bounds::{Bounds, InputDistribution};
-use super::rng::ProofRng;
+use super::digest::SeedDigest;
+use super::rng::{ProofRng, ProofStream};
+use super::trial::PRIMES;
 
 /// Largest degree that is tried.
 const LARGEST_DEGREE: f64 = 400.0;
-/// Random stream for lines, separate from those of proofs.
-const LINES: u64 = 30;
 /// Number of points of the line at which an interpolated quotient is checked.
 const CHECKS: usize = 4;
 
@@ -71,14 +72,21 @@ pub fn are_coprime(graph: &Graph, values: &[Expr], seed: u64) -> bool {
     if degree > LARGEST_DEGREE {
         return false;
     }
-    let mut rng = ProofRng::new(seed, LINES);
+    let mut rng =
+        ProofRng::of(SeedDigest::of(seed, graph, &[values.to_vec()]), ProofStream::Factors);
+    (0..PRIMES).all(|_| are_coprime_on_line(graph, values, degree as usize, &mut rng))
+}
+
+/// Whether the restrictions of the values to a random line, modulo a random prime, have no common
+/// factor other than factors of their denominators.
+fn are_coprime_on_line(graph: &Graph, values: &[Expr], degree: usize, rng: &mut ProofRng) -> bool {
     let modulus = rng.prime(&[], &[]);
     let m = &modulus;
     let [start, along] =
         [(); 2].map(|()| (0..graph.inputs()).map(|_| rng.element(m)).collect::<Vec<u64>>());
     let tape = Tape::new(graph, values);
     let mut evaluator = Evaluator::new(&tape, Prime::new([modulus]));
-    let (degree, polynomial) = (degree as usize, are_polynomials(graph, values));
+    let polynomial = are_polynomials(graph, values);
     let count = if polynomial { degree + 1 } else { 2 * degree + 2 + CHECKS };
     let points: Vec<u64> = (0..count as u64).map(|t| m.integer(t)).collect();
     let mut columns: Vec<Vec<u64>> = vec![Vec::new(); values.len()];

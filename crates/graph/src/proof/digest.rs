@@ -34,6 +34,13 @@ impl SeedDigest {
     }
 }
 
+/// Seed of random numbers that depend on the values for which they are used, so that no constant in
+/// these can be chosen to suit them.
+pub fn statement_seed(seed: u64, graph: &Graph, values: &[Expr]) -> u64 {
+    let SeedDigest([a, b, c, d, e, f, g, h, ..]) = SeedDigest::of(seed, graph, &[values.to_vec()]);
+    u64::from_le_bytes([a, b, c, d, e, f, g, h])
+}
+
 /// The hash of what was written of a statement so far.
 struct StatementHash(Sha256);
 

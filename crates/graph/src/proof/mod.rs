@@ -61,6 +61,7 @@ use std::sync::Arc;
 
 pub use bounds::InputDistribution;
 pub use coprime::{are_coprime, are_polynomials, is_single_valued};
+pub use digest::statement_seed;
 pub use domain::{is_nowhere_zero, sign};
 pub use elimination::reduce;
 pub use extent::Extent;
@@ -134,6 +135,27 @@ impl Prover<'_> {
             }
         }
         Ok(outcomes.into_iter().flatten().collect())
+    }
+
+    /// Whether a value is proved to be not identically zero on every cell of signs that may contain
+    /// inputs.
+    pub fn is_nonzero_on_all_cells(&self, graph: &Graph, value: Expr) -> Result<bool, Fault> {
+        let outputs = vec![value];
+        let digest = SeedDigest::of(self.seed, graph, std::slice::from_ref(&outputs));
+        let question = QuestionData { graph, sources: self.sources_of(graph), digest };
+        let groups = [Group::of(outputs)];
+        let Some(bucket) = buckets(graph, &groups, &question.sources).pop() else {
+            return Ok(false);
+        };
+        let asked = [groups[0].outputs.as_slice()];
+        if bucket.special.is_empty() {
+            let found = self.prove_plain(&question, &asked);
+            return Ok(found.iter().all(|(outcome, _)| outcome.is_nonzero()));
+        }
+        let leaves = self.explore(&question, &asked, &bucket)?.leaves;
+        let is_nonzero =
+            |leaf: &Leaf| matches!(leaf.results.first(), Some(Some(TrialResult::NonZero)));
+        Ok(!leaves.is_empty() && leaves.iter().all(is_nonzero))
     }
 
     fn explore(

@@ -31,6 +31,8 @@ pub enum ProofStream {
     Classes = 8,
     /// Points for the search for products of powers.
     Logarithms = 9,
+    /// Primes and lines for common factors.
+    Factors = 10,
 }
 
 /// Random numbers for tests in fields, disjoint from all streams of states.

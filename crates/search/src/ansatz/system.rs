@@ -20,6 +20,7 @@ use liouville::mechanics::calculus::DualPoint;
 use liouville::mechanics::{Draw, Phase};
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
 use liouville::number::rational::Rational;
+use liouville::proof::statement_seed;
 use liouville::scalar::Scalar;
 use liouville::verdict::Sampler;
 
@@ -160,9 +161,12 @@ impl LinearSystem {
         }
         let fixed = vec![None; sampler.recipes().len()];
         let (graph, outputs) = sampler.compose(&graph, &[recording.outputs], &fixed)?;
+        let outputs = outputs.concat();
+        // No constant of the system can be chosen to vanish modulo a prime.
+        let seed = statement_seed(seed, &graph, &outputs);
         Ok(Self {
             columns: Vec::new(),
-            tape: Tape::new(&graph, &outputs.concat()),
+            tape: Tape::new(&graph, &outputs),
             inputs: graph.inputs(),
             parameters: case.model.parameter_draws(),
             draws: sampler.recipes().to_vec(),
