@@ -133,18 +133,13 @@ impl SolutionStep {
             SolutionStep::Linear { equations, components, all } => {
                 Some(linear(point, equations, components, all))
             }
-            SolutionStep::Quadratic { linear, quadratic, components, all, .. } => {
-                let equations: Vec<Equation> = linear.iter().copied().chain([*quadratic]).collect();
+            SolutionStep::Quadratic { linear, quadratic, components, .. } => {
                 let (divisor, whole) = quadratic_step(point, linear, *quadratic, components, sign);
-                // Where the equations are independent, there are nearby points with a nonzero
-                // pivot.
-                let rows: Vec<Vec<Expr>> =
-                    equations.iter().map(|equation| point.slopes(*equation, all)).collect();
-                let slope = gram_determinant(&rows);
+                // Slopes at the results say nothing of points that the step misses.
                 Some(Pivot {
-                    equations: equations.iter().map(|equation| equation.index).collect(),
+                    equations: self.equations().iter().map(|equation| equation.index).collect(),
                     divisor,
-                    slope,
+                    slope: whole,
                     minors: Vec::new(),
                     whole,
                     entries: Vec::new(),

@@ -20,6 +20,9 @@ const MOST_DEGREE: usize = 16;
 const SLOPE_POINTS: usize = 2 * MOST_DEGREE + 8;
 /// Number of lines to try, since roots exist on some only.
 const TRIALS: usize = 64;
+/// Number of primes that must agree on a degree: one alone sees a smaller degree with a chance below
+/// 2⁻⁵⁰.
+pub const DEGREE_PRIMES: u64 = 3;
 
 /// Independent integrals with their degrees in the velocities.
 #[derive(Clone, Debug, Default)]
@@ -137,21 +140,22 @@ pub fn degree(case: &Case, formula: &Formula, seed: u64) -> Result<Option<u32>, 
     }
     // No constant of the formula can be chosen to vanish modulo the prime.
     let mut rng = SearchStream::Products.under(statement_seed(seed, &graph, &[slope]));
-    let modulus = rng.prime(&[3, 5], &[2, 3]);
     let tape = Tape::new(&graph, &[slope]);
-    let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; SLOPE_POINTS]));
-    for _ in 0..TRIALS {
-        let mut values: Vec<[u64; SLOPE_POINTS]> =
-            (1..inputs).map(|_| [rng.element(&modulus); SLOPE_POINTS]).collect();
-        values.push(std::array::from_fn(|s| modulus.integer(s as u64)));
-        values.resize(graph.inputs(), [modulus.one(); SLOPE_POINTS]);
-        evaluator.run(&values);
-        let slopes = evaluator.output(0);
-        if !slopes.contains(&UNDEFINED) {
-            return Ok(polynomial_degree(slopes, &modulus));
-        }
-    }
-    Ok(None)
+    let mut degrees = (0..DEGREE_PRIMES).map(|_| {
+        let modulus = rng.prime(&[3, 5], &[2, 3]);
+        let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; SLOPE_POINTS]));
+        (0..TRIALS).find_map(|_| {
+            let mut values: Vec<[u64; SLOPE_POINTS]> =
+                (1..inputs).map(|_| [rng.element(&modulus); SLOPE_POINTS]).collect();
+            values.push(std::array::from_fn(|s| modulus.integer(s as u64)));
+            values.resize(graph.inputs(), [modulus.one(); SLOPE_POINTS]);
+            evaluator.run(&values);
+            let slopes = evaluator.output(0);
+            (!slopes.contains(&UNDEFINED)).then(|| polynomial_degree(slopes, &modulus))
+        })?
+    });
+    let first = degrees.next().flatten();
+    Ok(first.filter(|degree| degrees.all(|other| other == Some(*degree))))
 }
 
 /// Finds the degree of a polynomial whose logarithm has these slopes at 0, 1, 2, …, if there is

@@ -11,7 +11,7 @@ use super::super::ansatz::subspace::complement;
 use super::super::ansatz::system::{Column, LinearSystem, PrimePoint, Recording};
 use super::super::ask::judged_alone;
 use super::super::multipliers::WEIGHTS;
-use super::super::products::Generators;
+use super::super::products::{DEGREE_PRIMES, Generators};
 use super::super::terms::{is_one, numeric_exponent};
 use super::known::{contains_integrals, has_lists, rank};
 use super::{AbsenceCase, AbsenceOutcome, generated};
@@ -153,14 +153,27 @@ impl<'a> Counting<'a> {
         (start..start + count).collect()
     }
 
-    /// Returns the degrees of the known integrals; `None` for one that is not a polynomial of the
-    /// class.
+    /// Returns the degrees of the known integrals, on which all primes agree; `None` for one that is
+    /// not a polynomial of the class.
     fn degrees(&self) -> Result<Option<Vec<Option<u32>>>, SearchError> {
+        let Some(mut degrees) = self.degrees_at(&self.at)? else { return Ok(None) };
+        for number in 1..DEGREE_PRIMES {
+            let Some(at) = self.system.at(number, 0) else { return Ok(None) };
+            let Some(others) = self.degrees_at(&at)? else { return Ok(None) };
+            for (degree, other) in degrees.iter_mut().zip(others) {
+                *degree = degree.filter(|degree| other == Some(*degree));
+            }
+        }
+        Ok(Some(degrees))
+    }
+
+    /// Returns the degrees of the known integrals modulo a prime.
+    fn degrees_at(&self, at: &PrimePoint) -> Result<Option<Vec<Option<u32>>>, SearchError> {
         let count = self.monomials.len();
         let first = 1 + (1 + self.weighted.len()) * count;
         let given: Vec<usize> = (first..first + self.known.len()).collect();
         let columns = [self.columns(0), given].concat();
-        let Some(relations) = self.system.dependences(&self.at, &columns)? else {
+        let Some(relations) = self.system.dependences(at, &columns)? else {
             return Ok(None);
         };
         Ok(Some(
