@@ -17,6 +17,8 @@ use std::process::ExitCode;
 
 use libtest_mimic::{Arguments, Failed, Trial};
 
+#[path = "attack/branching.rs"]
+mod branching;
 #[path = "attack/claim.rs"]
 mod claim;
 #[path = "attack/derive.rs"]

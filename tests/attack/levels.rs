@@ -2,6 +2,7 @@
 
 use std::rc::Rc;
 
+use super::branching::branching;
 use super::claim::Claim;
 use super::draw::Made;
 use super::expr::{
@@ -15,11 +16,12 @@ use super::rewrite::{Rewritten, rewritten};
 use super::scene::{Level, Origin, Scene, Symbol};
 use super::spoil::{spoilt, unsigned};
 
-const X: usize = 0;
-const Y: usize = 1;
-const Z: usize = 2;
+pub const X: usize = 0;
+pub const Y: usize = 1;
+pub const Z: usize = 2;
 
-fn wide(n: i64) -> Origin {
+/// A range of a state variable, symmetric about 0.
+pub fn wide(n: i64) -> Origin {
     Origin::State(Number { top: -n, bottom: 1, tens: 0 }, Number { top: n, bottom: 1, tens: 0 })
 }
 
@@ -38,12 +40,13 @@ pub fn on_a_level(stream: &mut Stream) -> (Scene, Vec<Made>) {
         };
         scene.symbols.push(own(name, origin));
     }
-    let (level, round) = match stream.below(10) {
+    let (level, round) = match stream.below(12) {
         0..=2 => (graph(&mut scene, stream), false),
         3..=4 => (product(&mut scene, stream), false),
         5 => (sphere(stream), true),
         6..=7 => charted(&mut scene, stream),
         8 => (lines(stream), false),
+        9..=10 => (branching(&mut scene, stream), false),
         _ => (empty(stream), false),
     };
     // A rotation preserves the circles about the z axis and the spheres.

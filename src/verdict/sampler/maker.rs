@@ -22,6 +22,9 @@ impl Sampler {
     }
 }
 
+/// Number of draws from which a point of a numerical level inside the ranges is looked for.
+const NUMERICAL_ATTEMPTS: u32 = 8;
+
 /// A source of blocks of balls with its working memory.
 pub struct Maker<'s> {
     sampler: &'s Sampler,
@@ -55,6 +58,39 @@ impl Maker<'_> {
     fn made(&mut self, start: u64, sets: Option<usize>) -> Vec<Balls<TAPE_LANES>> {
         let sampler = self.sampler;
         let attempts = sampler.attempts(start, TAPE_LANES, sets);
+        let Some(numerical) = &sampler.newton else { return self.tried(start, &attempts, sets) };
+        let mut values = self.tried(start, &attempts, sets);
+        numerical.project(&mut values);
+        for attempt in 1..NUMERICAL_ATTEMPTS {
+            let is_open = |lane: usize| values.iter().any(|block| !block.mid[lane].is_finite());
+            let open: [bool; TAPE_LANES] = std::array::from_fn(is_open);
+            if !open.contains(&true) {
+                break;
+            }
+            let mut others = self.tried(start, &[attempt; TAPE_LANES], sets);
+            for block in &mut others {
+                for lane in (0..TAPE_LANES).filter(|lane| !open[*lane]) {
+                    (block.mid[lane], block.rad[lane]) = (f64::NAN, f64::NAN);
+                }
+            }
+            numerical.project(&mut others);
+            for (block, other) in values.iter_mut().zip(&others) {
+                for lane in (0..TAPE_LANES).filter(|lane| open[*lane]) {
+                    (block.mid[lane], block.rad[lane]) = (other.mid[lane], other.rad[lane]);
+                }
+            }
+        }
+        values
+    }
+
+    /// Computes the values at one attempt for each lane.
+    fn tried(
+        &mut self,
+        start: u64,
+        attempts: &[u32],
+        sets: Option<usize>,
+    ) -> Vec<Balls<TAPE_LANES>> {
+        let sampler = self.sampler;
         if sets.is_none() && attempts.iter().all(|attempt| *attempt == 0) {
             sampler.draws.fill(sampler.seed, start, &mut self.columns);
         } else {
@@ -66,10 +102,6 @@ impl Maker<'_> {
             }
         }
         self.evaluator.run(&self.columns);
-        let mut values: Vec<Balls<TAPE_LANES>> = self.evaluator.outputs().cloned().collect();
-        if let Some(newton) = &self.sampler.newton {
-            newton.project(&mut values);
-        }
-        values
+        self.evaluator.outputs().cloned().collect()
     }
 }

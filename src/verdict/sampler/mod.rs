@@ -5,6 +5,7 @@ mod attempts;
 mod compose;
 mod draw;
 mod maker;
+mod numerical;
 mod print;
 mod ranges;
 
@@ -16,7 +17,7 @@ use std::sync::Arc;
 use crate::case::Case;
 use crate::claim::LevelSubset;
 use crate::graph::{Expr, Fault, Graph, Step, Tape, literally, record};
-use crate::level::{self, Newton, Pivot, Solution};
+use crate::level::{self, Pivot, Solution};
 use crate::mechanics::{Chart, Draw, DrawSource};
 use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
@@ -24,6 +25,7 @@ use crate::proof::{Extent, InputDistribution};
 
 use super::{JudgeError, coverage};
 
+use numerical::NumericalLevel;
 use ranges::{guarded, ranges};
 
 /// Number of states in one run of a tape.
@@ -54,7 +56,7 @@ pub struct Sampler {
     is_guarded: bool,
     /// Whether the states are made with moduli.
     has_moduli: bool,
-    newton: Option<Newton>,
+    newton: Option<NumericalLevel>,
 }
 
 impl Sampler {
@@ -73,7 +75,7 @@ impl Sampler {
             false => level::solve(model, kept),
         };
         let newton = (some && !is_charted && solution.is_none())
-            .then(|| Newton::new(model, kept))
+            .then(|| NumericalLevel::new(case, kept))
             .transpose()?;
         let mut draws = model.parameter_draws();
         let parameter_draws = draws.len();

@@ -41,6 +41,23 @@ pub fn ranges(case: &Case, solution: &Solution, made: &[Expr]) -> Vec<Expr> {
     ends.flatten().collect()
 }
 
+/// Returns the numbers of a range in f64, none of them outside of it; `None` for a whole line.
+pub fn inside(draw: &Draw) -> Option<(f64, f64)> {
+    let above = |end: &Rational| match end.to_f64() {
+        (value, true) => value,
+        (value, false) => value.next_up(),
+    };
+    let below = |end: &Rational| match end.to_f64() {
+        (value, true) => value,
+        (value, false) => value.next_down(),
+    };
+    match draw {
+        Draw::Within(range) => Some((above(&range.low), below(&range.high))),
+        Draw::Of(NumberLine::Positive, _) => Some((f64::MIN_POSITIVE, f64::INFINITY)),
+        Draw::Of(NumberLine::All, _) | Draw::OneOf(_) | Draw::Sign => None,
+    }
+}
+
 /// Makes parameters and state undefined where some values are negative: √x is undefined for x < 0.
 pub fn guarded(made: &[Expr], facts: impl Iterator<Item = Expr>) -> Vec<Expr> {
     let mut guarded = made.to_vec();

@@ -25,6 +25,8 @@ struct FreeRoots<'g> {
     has_root: Vec<bool>,
     /// Places of the radicands, each once.
     radicands: Vec<usize>,
+    /// Places of the rational factors of denominators.
+    divisors: Vec<usize>,
 }
 
 /// Proves that groups of values are zero with a symbol in the place of each root; `None` for a group
@@ -41,27 +43,16 @@ pub fn zeros_for_free_roots(
 ) -> Result<Vec<Option<Certificate>>, Fault> {
     let none = vec![None; groups.len()];
     let Some(free) = FreeRoots::of(graph, groups, special) else { return Ok(none) };
-    let count = sources.len();
-    let (made, values) =
-        record(count + free.radicands.len(), |inputs| free.replay(groups, inputs))?;
-    let Some(values) = values else { return Ok(none) };
-    if values.iter().flatten().any(|value| made.is_nowhere_defined(*value)) {
+    if !free.is_defined(sources, digest)? {
         return Ok(none);
     }
-    let mut all = sources.to_vec();
-    all.resize(count + free.radicands.len(), InputDistribution::Uniform);
-    let algebraic = Algebraic::plain(&made, &all);
-    let trial = Trial::new(&algebraic, digest);
-    let values: Vec<&[Expr]> = values.iter().map(Vec::as_slice).collect();
-    let mut results = trial.test(&values, Roots::default());
-    // A root of 0 is no free symbol: 1/√A has no value.
-    let are_radicands_nonzero =
-        results.split_off(groups.len()).iter().all(|result| matches!(result, TrialResult::NonZero));
-    let zeros = results.into_iter().map(|result| match result {
-        TrialResult::Zero(certificate) => Some(certificate),
-        _ => None,
-    });
-    Ok(if are_radicands_nonzero { zeros.collect() } else { none })
+    // A radicand outside of its root may have to be the square of the symbol, or what it is.
+    let mut found = free.zeros(groups, sources, digest, false)?;
+    if found.iter().any(Option::is_none) {
+        let others = free.zeros(groups, sources, digest, true)?;
+        found.iter_mut().zip(others).for_each(|(own, other)| *own = own.take().or(other));
+    }
+    Ok(found)
 }
 
 impl<'g> FreeRoots<'g> {
@@ -70,8 +61,13 @@ impl<'g> FreeRoots<'g> {
         let mut is_special = vec![false; graph.len()];
         special.iter().for_each(|place| is_special[*place] = true);
         let mut known = FxHashSet::default();
-        let mut free =
-            Self { graph, has_root: vec![false; graph.len()], radicands: Vec::new(), reached };
+        let mut free = Self {
+            graph,
+            has_root: vec![false; graph.len()],
+            radicands: Vec::new(),
+            divisors: Vec::new(),
+            reached,
+        };
         for place in (0..graph.len()).filter(|place| free.reached[*place]) {
             let step = graph.step(place);
             free.has_root[place] = step.arguments().any(|argument| free.has_root[argument]);
@@ -86,50 +82,96 @@ impl<'g> FreeRoots<'g> {
                 }
             }
         }
-        let mut denominators = (0..graph.len()).filter_map(|place| match graph.step(place) {
+        let denominators = (0..graph.len()).filter_map(|place| match graph.step(place) {
             _ if !free.reached[place] => None,
             Step::Unary(UnaryFunction::Recip, a) => Some(a),
             Step::Power(a, exponent) => (*exponent < Rational::from(0)).then_some(a),
             _ => None,
         });
-        let are_products = denominators.all(|place| free.is_product(place));
-        are_products.then_some(free)
+        let divisors = free.factors(denominators.collect())?;
+        Some(Self { divisors, ..free })
     }
 
-    /// Whether a value is a product of roots and a rational function.
-    fn is_product(&self, place: usize) -> bool {
-        let mut open = vec![place];
+    /// Returns the rational factors of values that are products of roots and of rational functions;
+    /// `None` if one is not.
+    fn factors(&self, mut open: Vec<usize>) -> Option<Vec<usize>> {
+        let mut rational = FxHashSet::default();
         while let Some(place) = open.pop() {
             match self.graph.step(place) {
-                _ if !self.has_root[place] => {}
+                _ if !self.has_root[place] => {
+                    rational.insert(place);
+                }
                 Step::Unary(UnaryFunction::Neg | UnaryFunction::Recip, a) => open.push(a),
                 Step::Binary(BinaryOperation::Mul, a, b) => open.extend([a, b]),
                 Step::Power(a, exponent) if exponent.to_integer().is_some() => open.push(a),
                 step => {
-                    if half_power(step).is_none() {
-                        return false;
-                    }
+                    half_power(step)?;
                 }
             }
         }
-        true
+        let mut rational: Vec<usize> = rational.into_iter().collect();
+        rational.sort_unstable();
+        Some(rational)
     }
 
-    /// Records the groups with the last inputs in the place of the roots, and each radicand as a
-    /// group of its own.
-    fn replay(&self, groups: &[&[Expr]], inputs: &[Expr]) -> Option<Vec<Vec<Expr>>> {
+    /// Whether no radicand and no rational divisor is zero: a root of 0 is no free symbol.
+    fn is_defined(&self, sources: &[InputDistribution], digest: SeedDigest) -> Result<bool, Fault> {
+        let places: Vec<usize> = self.radicands.iter().chain(&self.divisors).copied().collect();
+        let (made, values) = record(sources.len(), |inputs| {
+            let mut reached = self.reached.clone();
+            reached.iter_mut().zip(&self.has_root).for_each(|(own, has)| *own &= !has);
+            let values = self.graph.replay(&reached, inputs, |_, _, _| None);
+            places.iter().map(|place| Some(vec![values[*place]?])).collect::<Option<Vec<_>>>()
+        })?;
+        let Some(values) = values else { return Ok(false) };
+        let algebraic = Algebraic::plain(&made, sources);
+        let values: Vec<&[Expr]> = values.iter().map(Vec::as_slice).collect();
+        let results = Trial::new(&algebraic, digest).test(&values, Roots::default());
+        Ok(results.iter().all(|result| matches!(result, TrialResult::NonZero)))
+    }
+
+    /// Proves groups to be zero for free symbols; with `squares`, each radicand is the square of
+    /// its symbol wherever it occurs.
+    fn zeros(
+        &self,
+        groups: &[&[Expr]],
+        sources: &[InputDistribution],
+        digest: SeedDigest,
+        squares: bool,
+    ) -> Result<Vec<Option<Certificate>>, Fault> {
+        let none = vec![None; groups.len()];
+        let mut all = sources.to_vec();
+        all.resize(sources.len() + self.radicands.len(), InputDistribution::Uniform);
+        let (made, values) = record(all.len(), |inputs| self.replay(groups, inputs, squares))?;
+        let Some(values) = values else { return Ok(none) };
+        if values.iter().flatten().any(|value| made.is_nowhere_defined(*value)) {
+            return Ok(none);
+        }
+        let algebraic = Algebraic::plain(&made, &all);
+        let values: Vec<&[Expr]> = values.iter().map(Vec::as_slice).collect();
+        let results = Trial::new(&algebraic, digest).test(&values, Roots::default());
+        let zeros = results.into_iter().map(|result| match result {
+            TrialResult::Zero(certificate) => Some(certificate),
+            _ => None,
+        });
+        Ok(zeros.collect())
+    }
+
+    /// Records the groups with the last inputs in the place of the roots.
+    fn replay(&self, groups: &[&[Expr]], inputs: &[Expr], squares: bool) -> Option<Vec<Vec<Expr>>> {
         let symbols = &inputs[inputs.len() - self.radicands.len()..];
         let by_radicand: FxHashMap<usize, Expr> =
             self.radicands.iter().copied().zip(symbols.iter().copied()).collect();
-        let root = |_, step: Step<'_>, _: &[Option<Expr>]| {
+        let root = |place: usize, step: Step<'_>, _: &[Option<Expr>]| {
+            if let Some(root) = by_radicand.get(&place).filter(|_| squares) {
+                return Some(*root * *root);
+            }
             let (radicand, power) = half_power(step)?;
             Some(by_radicand.get(&radicand)?.power(&power))
         };
         let values = self.graph.replay(&self.reached, inputs, root);
         let at = |expr: &Expr| values[self.graph.place(*expr)];
-        let groups = groups.iter().map(|group| group.iter().map(at).collect());
-        let radicands = self.radicands.iter().map(|place| values[*place].map(|value| vec![value]));
-        groups.chain(radicands).collect()
+        groups.iter().map(|group| group.iter().map(at).collect()).collect()
     }
 }
 
@@ -164,11 +206,6 @@ mod tests {
             (a + b) * x[0] / b - a * (x[0] / b) - x[0]
         };
         assert!(is_zero(cancels), "(a + b) x/b = a x/b + x");
-        let squares = |x: &[Expr]| {
-            let (a, b) = ((x[0] * x[0] + x[1]).sqrt(), (x[1] + x[0]).sqrt());
-            (a + b) * (a - b) - a * a + b * b
-        };
-        assert!(!is_zero(squares), "a² is not known to be what is under the root");
         let depends = |x: &[Expr]| x[0].sqrt() * x[1].sqrt() - (x[0] * x[1]).sqrt();
         assert!(!is_zero(depends), "√x √y = √(xy) needs a relation");
         let near = |x: &[Expr]| {
@@ -176,6 +213,35 @@ mod tests {
             (a + x[0]) * (a - x[0]) - a * a + x[0] * x[0] * x[1].sqrt()
         };
         assert!(!is_zero(near), "x² is not x² √y");
+    }
+
+    #[test]
+    fn a_radicand_is_the_square_of_its_root() {
+        let radicand = |x: &[Expr]| x[0] * x[0] + x[1];
+        let squares = |x: &[Expr]| {
+            let (a, b) = (radicand(x).sqrt(), (x[1] + x[0]).sqrt());
+            (a + b) * (a - b) - radicand(x) + (x[1] + x[0])
+        };
+        assert!(is_zero(squares), "(a + b)(a − b) = A − B");
+        let powers = |x: &[Expr]| {
+            let a = radicand(x);
+            (x[0] + x[1]) * a.power(&Rational::new(-1, 2))
+                - (x[0] * (a.sqrt() / a) + x[1] / a.sqrt())
+        };
+        assert!(is_zero(powers), "(x + y) A^(−1/2) = x √A/A + y/√A");
+        let opened = |x: &[Expr]| {
+            let a = radicand(x);
+            a.sqrt() * a.sqrt() - x[0] * x[0] - x[1] + (x[0] - x[0] * x[1].sqrt())
+        };
+        assert!(!is_zero(opened), "x is not x √y");
+        // Without the root's relation the divisor is not zero.
+        let hidden = |x: &[Expr]| {
+            let a = radicand(x);
+            let gap = a - x[0] * x[0] - x[1];
+            (x[0] + x[1]) * gap.recip() - x[0] * gap.recip() - x[1] * gap.recip() + a.sqrt()
+                - a.sqrt()
+        };
+        assert!(!is_zero(hidden), "1/(A − x² − y)");
     }
 
     #[test]
