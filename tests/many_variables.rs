@@ -168,3 +168,38 @@ fn twenty_functions_are_compared() {
         "dependent"
     );
 }
+
+/// n bodies on a line with the potentials √(1 + (qᵢ − qⱼ)²), and their energy with a factor.
+fn springs(bodies: usize, factor: &str) -> String {
+    let all = 0..bodies;
+    let root = |i: usize, j: usize| format!("√(1 + (q{i} - q{j})^2)");
+    let mut text = String::from("title = 'springs'\n[state]\n");
+    for i in all.clone() {
+        text += &format!("q{i} = '-2..2'\np{i} = '-2..2'\n");
+    }
+    text += "[field]\n";
+    for i in all.clone() {
+        let forces = all.clone().filter(|j| *j != i);
+        let forces: Vec<String> = forces.map(|j| format!("(q{i} - q{j})/{}", root(i, j))).collect();
+        text += &format!("\"q{i}'\" = 'p{i}'\n\"p{i}'\" = '-({})'\n", forces.join(" + "));
+    }
+    let kinetic: Vec<String> = all.clone().map(|i| format!("p{i}^2/2")).collect();
+    let pairs = all.clone().flat_map(|i| (0..i).map(move |j| (i, j)));
+    let potential: Vec<String> = pairs.map(|(i, j)| root(i, j)).collect();
+    text + &format!(
+        "[[claim]]\nintegral = '{} + {factor}*({})'\n",
+        kinetic.join(" + "),
+        potential.join(" + ")
+    )
+}
+
+#[test]
+fn the_energy_of_many_bodies_with_roots_is_proved() {
+    let verdict = |text: &str| {
+        let report = judge(&case(text), &Options::default()).expect("it is judged");
+        report.claims[0].verdict
+    };
+    // 120 roots: more than can be told apart.
+    assert_eq!(verdict(&springs(16, "1")), Verdict::Proved);
+    assert_eq!(verdict(&springs(16, "1.000001")), Verdict::Refuted);
+}

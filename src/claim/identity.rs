@@ -26,8 +26,10 @@ pub struct Rate {
 /// L_vF = κF, or F∘Φ = κF, so that F = 0 is invariant.
 #[derive(Clone, Debug)]
 pub struct Relation {
-    function: Formula,
-    cofactor: Formula,
+    /// F.
+    pub function: Formula,
+    /// κ.
+    pub cofactor: Formula,
 }
 
 impl Statement for Identity {

@@ -5,6 +5,8 @@
 mod common;
 #[path = "absence/functions.rs"]
 mod functions;
+#[path = "absence/relations.rs"]
+mod relations;
 
 use assert_cmd::Command;
 use common::case;

@@ -1,14 +1,16 @@
-//! Claims of absence: no integral, or no density, of a class exists.
+//! Claims of absence: no integral, density or invariant relation of a class exists.
 //!
 //! These claims have no residual; the counts of `search` decide them. Each kind is one file.
 
 mod no_density;
 mod no_integral;
+mod no_invariant_relation;
 
 use super::Reader;
 
 pub use no_density::NoDensity;
 pub use no_integral::NoIntegral;
+pub use no_invariant_relation::NoInvariantRelation;
 
 /// A kind of claim of absence.
 pub trait Absent: Clone {
@@ -48,10 +50,12 @@ pub enum Absence {
     NoIntegral(NoIntegral),
     /// Absence of a density.
     NoDensity(NoDensity),
+    /// Absence of further invariant relations.
+    NoInvariantRelation(NoInvariantRelation),
 }
 
 /// Keys of the statements that a claim of absence can make.
-pub const ABSENCES: &[&str] = &[NoIntegral::NAME, NoDensity::NAME];
+pub const ABSENCES: &[&str] = &[NoIntegral::NAME, NoDensity::NAME, NoInvariantRelation::NAME];
 
 impl Absence {
     /// Reads the statement of `key`, one of [`ABSENCES`].
@@ -59,6 +63,9 @@ impl Absence {
         match key {
             NoIntegral::NAME => Some(NoIntegral::read(from).map(Absence::NoIntegral)),
             NoDensity::NAME => Some(NoDensity::read(from).map(Absence::NoDensity)),
+            NoInvariantRelation::NAME => {
+                Some(NoInvariantRelation::read(from).map(Absence::NoInvariantRelation))
+            }
             _ => None,
         }
     }
@@ -68,6 +75,7 @@ impl Absence {
         match self {
             Absence::NoIntegral(_) => NoIntegral::NAME,
             Absence::NoDensity(_) => NoDensity::NAME,
+            Absence::NoInvariantRelation(_) => NoInvariantRelation::NAME,
         }
     }
 
@@ -76,6 +84,7 @@ impl Absence {
         match self {
             Absence::NoIntegral(claim) => claim.text(),
             Absence::NoDensity(claim) => claim.text(),
+            Absence::NoInvariantRelation(claim) => claim.text(),
         }
     }
 }

@@ -19,7 +19,7 @@ const GUIDE: &str = concat!(
 const UNKNOWN: &str = "schema-probe";
 
 /// Keys whose values are tables.
-const TABLES: [&str; 16] = [
+const TABLES: [&str; 17] = [
     "symmetry",
     "reversor",
     "map",
@@ -32,6 +32,7 @@ const TABLES: [&str; 16] = [
     "form",
     "no-integral",
     "no-density",
+    "no-invariant-relation",
     "forces",
     "chart",
     "inputs",

@@ -82,21 +82,24 @@ impl Bounds {
     /// Bounds the degrees of the numerator and of the denominator of the value at a place, with all
     /// factors multiplied out.
     pub fn expanded_degree(&self, place: usize) -> Option<f64> {
-        let bound = self.at(place)?;
-        let factors = bound.factors.iter();
-        let degrees = factors.map(|(f, e)| e.abs() * self.factors[*f as usize].degree);
-        Some(bound.degree + degrees.sum::<f64>())
+        Some(self.expanded(self.at(place)?).0)
+    }
+
+    /// Bounds degree and height of the numerator times the denominator of the value at a place.
+    pub fn multiplied_out(&self, place: usize) -> Option<(f64, f64)> {
+        Some(self.expanded(self.at(place)?))
+    }
+
+    fn expanded(&self, bound: &Bound) -> (f64, f64) {
+        bound.factors.iter().fold((bound.degree, bound.height), |(degree, height), (f, e)| {
+            let FactorBound { degree: d, height: h } = self.factors[*f as usize];
+            (degree + e.abs() * d, height + e.abs() * h)
+        })
     }
 
     /// Bounds degree and height of the numerator of the difference of any two values.
     pub fn of_differences(&self) -> (f64, f64) {
-        let expanded = |bound: &Bound| {
-            bound.factors.iter().fold((bound.degree, bound.height), |(degree, height), (f, e)| {
-                let FactorBound { degree: d, height: h } = self.factors[*f as usize];
-                (degree + e.abs() * d, height + e.abs() * h)
-            })
-        };
-        let all = self.bounds.iter().flatten().map(expanded);
+        let all = self.bounds.iter().flatten().map(|bound| self.expanded(bound));
         let largest = all.fold((0f64, 0f64), |(d, h), (e, i)| (d.max(e), h.max(i)));
         (2.0 * largest.0, 2.0 * largest.1 + 1.0)
     }

@@ -5,6 +5,7 @@
 //! velocities   polynomials in the velocities with any smooth coefficients, by Taylor coefficients
 //! polynomials  polynomials in all variables of a field, by random states
 //! functions    fractions of polynomials in the state and functions of it, along an orbit
+//! relations    Darboux polynomials of a field, on random lines
 //! ```
 //!
 //! A count bounds the number of integrals or densities from above; the known ones bound it from
@@ -14,6 +15,7 @@
 mod functions;
 mod known;
 mod polynomials;
+mod relations;
 mod velocities;
 
 use std::time::Duration;
@@ -35,16 +37,23 @@ const SECONDS: f64 = 20.0;
 /// Limit on the time for a claim.
 const MOST_TIME: Duration = Duration::from_secs(60);
 
+/// What is counted.
+#[derive(Clone, Copy)]
+enum Counted {
+    Integrals,
+    Densities,
+}
+
 /// The outcome of a claim of absence.
 enum AbsenceOutcome {
-    /// No such integral or density exists.
+    /// No such integral, density or relation exists.
     Excluded {
         /// Theorem with its hypotheses.
         theorem: String,
         /// The count, in a few words.
         counted: String,
     },
-    /// A proved integral or density that contradicts the claim.
+    /// What is proved and contradicts the claim.
     Exhibited(String),
     /// Undecided, for this reason.
     Open(String),
@@ -88,7 +97,7 @@ fn judged(case: &Case, judged: &[ClaimReport], options: &Options) -> Vec<ClaimRe
             Ok((case, known)) => (case, known),
             Err(error) => return AbsenceOutcome::Open(error.to_string()),
         };
-        let asked = AbsenceCase::new(case, known, options);
+        let asked = AbsenceCase::new(case, known, judged, options);
         asked.judge(&claim.kind).unwrap_or_else(|error| AbsenceOutcome::Open(error.to_string()))
     };
     case.absences.iter().map(|claim| report(claim, outcome(claim))).collect()
@@ -98,11 +107,18 @@ fn judged(case: &Case, judged: &[ClaimReport], options: &Options) -> Vec<ClaimRe
 struct AbsenceCase<'a> {
     case: &'a Case,
     known: &'a ProvedIntegrals,
+    /// Reports on the claims of the case.
+    reports: &'a [ClaimReport],
     effort: Effort,
 }
 
 impl<'a> AbsenceCase<'a> {
-    fn new(case: &'a Case, known: &'a ProvedIntegrals, options: Options) -> Self {
+    fn new(
+        case: &'a Case,
+        known: &'a ProvedIntegrals,
+        reports: &'a [ClaimReport],
+        options: Options,
+    ) -> Self {
         let effort = Effort {
             seconds: SECONDS,
             // Roots in known integrals must have the right branch as well.
@@ -112,7 +128,7 @@ impl<'a> AbsenceCase<'a> {
             options,
             ..Effort::default()
         };
-        Self { case, known, effort }
+        Self { case, known, reports, effort }
     }
 
     fn judge(&self, kind: &Absence) -> Result<AbsenceOutcome, SearchError> {
@@ -121,19 +137,26 @@ impl<'a> AbsenceCase<'a> {
             let reason = "a function of the body is arbitrary, and a count needs a given one";
             return Ok(AbsenceOutcome::Open(reason.to_string()));
         }
+        let (counted, degree) = match kind {
+            Absence::NoIntegral(claim) => (Counted::Integrals, claim.degree),
+            Absence::NoDensity(claim) => (Counted::Densities, claim.degree),
+            Absence::NoInvariantRelation(claim) => {
+                return relations::no_invariant_relation(self, claim.degree);
+            }
+        };
         let outcome = if Coordinates::of(self.case).is_ok() {
-            velocities::judge(self, kind)?
+            velocities::judge(self, counted, degree)?
         } else {
             let own = AnsatzVariables::of(self.case).filter(|own| !own.have_velocities());
             match own {
-                Some(variables) => match (polynomials::judge(self, &variables, kind)?, kind) {
-                    (Some(outcome), _) => outcome,
-                    // Its theorem holds on all branches of roots, and moduli have no part in it.
-                    (None, Absence::NoIntegral(claim)) => {
-                        return functions::no_integral(self, claim.degree);
+                Some(variables) => {
+                    match (polynomials::judge(self, &variables, counted, degree)?, counted) {
+                        (Some(outcome), _) => outcome,
+                        // Its theorem holds on all branches of roots, and moduli have no part in it.
+                        (None, Counted::Integrals) => return functions::no_integral(self, degree),
+                        (None, Counted::Densities) => polynomials::nothing(),
                     }
-                    (None, Absence::NoDensity(_)) => polynomials::nothing(),
-                },
+                }
                 None => AbsenceOutcome::Open(
                     "velocities are not known apart, and polynomials in all variables are counted \
                      without a level set only"

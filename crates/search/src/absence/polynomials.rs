@@ -14,9 +14,8 @@ use super::super::multipliers::WEIGHTS;
 use super::super::products::{DEGREE_PRIMES, Generators};
 use super::super::terms::{is_one, numeric_exponent};
 use super::known::{contains_integrals, has_lists, rank};
-use super::{AbsenceCase, AbsenceOutcome, generated};
+use super::{AbsenceCase, AbsenceOutcome, Counted, generated};
 use liouville::claim::Claim;
-use liouville::claim::absence::Absence;
 use liouville::formula::{Formula, FormulaError};
 use liouville::graph::Expr;
 use liouville::mechanics::calculus::DualPoint;
@@ -31,7 +30,8 @@ const STEPS: f64 = 5e8;
 pub fn judge(
     asked: &AbsenceCase<'_>,
     variables: &AnsatzVariables,
-    kind: &Absence,
+    counted: Counted,
+    degree: u32,
 ) -> Result<Option<AbsenceOutcome>, SearchError> {
     let open = |reason: String| Ok(Some(AbsenceOutcome::Open(reason)));
     if has_lists(asked.case) {
@@ -41,15 +41,12 @@ pub fn judge(
     if contains_integrals(asked.case)? {
         return open("the field contains ∫".to_string());
     }
-    let degree = match kind {
-        Absence::NoIntegral(claim) => claim.degree,
-        Absence::NoDensity(claim) => claim.degree,
-    };
     let mut monomials = variables.monomials(0, 0..=degree);
     monomials.sort_by_key(|own| own.iter().sum::<u32>());
-    let (unknowns, systems) = match kind {
-        Absence::NoIntegral(_) => (monomials.len() as f64, 2.0),
-        Absence::NoDensity(_) => (monomials.len() as f64, WEIGHTS.len() as f64 + 2.0),
+    let unknowns = monomials.len() as f64;
+    let systems = match counted {
+        Counted::Integrals => 2.0,
+        Counted::Densities => WEIGHTS.len() as f64 + 2.0,
     };
     let seconds = systems * unknowns.powi(3) / STEPS;
     if seconds > asked.effort.seconds {
@@ -59,9 +56,9 @@ pub fn judge(
     }
     let counting = Counting::new(asked, variables, degree, monomials)?;
     let Some(counting) = counting else { return Ok(None) };
-    match kind {
-        Absence::NoIntegral(_) => counting.no_integral().map(Some),
-        Absence::NoDensity(_) => counting.no_density().map(Some),
+    match counted {
+        Counted::Integrals => counting.no_integral().map(Some),
+        Counted::Densities => counting.no_density().map(Some),
     }
 }
 

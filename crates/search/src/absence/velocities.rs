@@ -8,17 +8,20 @@ use super::super::terms::numeric_exponent;
 use super::super::{
     Effort, Found, SearchError, SearchReport, ansatz, densities, integrals, multipliers,
 };
-use super::{AbsenceCase, AbsenceOutcome, generated};
-use liouville::claim::absence::Absence;
+use super::{AbsenceCase, AbsenceOutcome, Counted, generated};
 use liouville::formula::Formula;
 use liouville::number::rational::Rational;
 use liouville::verdict::Verdict;
 
 /// Judges a claim by Taylor coefficients.
-pub fn judge(asked: &AbsenceCase<'_>, kind: &Absence) -> Result<AbsenceOutcome, SearchError> {
-    match kind {
-        Absence::NoIntegral(claim) => no_integral(asked, claim.degree),
-        Absence::NoDensity(claim) => no_density(asked, claim.degree),
+pub fn judge(
+    asked: &AbsenceCase<'_>,
+    counted: Counted,
+    degree: u32,
+) -> Result<AbsenceOutcome, SearchError> {
+    match counted {
+        Counted::Integrals => no_integral(asked, degree),
+        Counted::Densities => no_density(asked, degree),
     }
 }
 

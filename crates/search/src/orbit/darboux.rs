@@ -92,10 +92,11 @@ impl DarbouxSearch<'_, '_> {
         let Some(line) = RandomLine::draw(self.setting, at, 0) else {
             return Ok((Vec::new(), true));
         };
-        let (special, is_whole) = line.special(all, self.degree, factors)?;
+        let special = line.special(all, self.degree, factors)?;
+        let is_whole = special.is_whole;
         let mut vectors: Vec<Vec<u64>> = Vec::new();
         let mut open = Vec::new();
-        for own in special {
+        for own in special.all {
             let mut relations = own.echelon.null_space();
             match relations.len() == own.excess {
                 true => vectors.push(relations.swap_remove(0)),
@@ -107,7 +108,7 @@ impl DarbouxSearch<'_, '_> {
             let Some(other) = RandomLine::draw(self.setting, at, 1) else {
                 return Ok((vec![], true));
             };
-            let others = other.special(all, self.degree, factors)?.0;
+            let others = other.special(all, self.degree, factors)?.all;
             for (one, two) in open.iter().flat_map(|one| others.iter().map(move |two| (one, two))) {
                 self.setting.effort.halt.check()?;
                 let mut both = Echelon::new(all.len(), at.modulus);

@@ -29,6 +29,17 @@ pub struct RandomLine<'s, 'c> {
     direction: Vec<u64>,
 }
 
+/// The special places of a line.
+#[derive(Default)]
+pub struct SpecialPlaces {
+    /// Those in the prime field, without the zeros of known polynomials.
+    pub all: Vec<Special>,
+    /// Whether there are no others in any extension of the field.
+    pub is_whole: bool,
+    /// Whether other orbits have no relation.
+    pub is_full: bool,
+}
+
 /// Relations along the orbit of a special point.
 pub struct Special {
     /// Rows of Taylor coefficients, reduced.
@@ -112,17 +123,16 @@ impl<'s, 'c> RandomLine<'s, 'c> {
             .map(Some)
     }
 
-    /// Finds the special places on the line for polynomials in these monomials, `without` the zeros
-    /// of known polynomials; `degree` is that of the field. The flag says whether all of them lie
-    /// in the prime field.
+    /// Finds the special places on the line for polynomials in these monomials, without the zeros of
+    /// known polynomials; `degree` is that of the field.
     pub fn special(
         &self,
         monomials: &[Vec<u32>],
         degree: usize,
         known: &[RatedPolynomial],
-    ) -> Result<(Vec<Special>, bool), SearchError> {
+    ) -> Result<SpecialPlaces, SearchError> {
         let (m, halt) = (self.at.modulus, &self.setting.effort.halt);
-        let none = (Vec::new(), true);
+        let none = SpecialPlaces { is_whole: true, ..SpecialPlaces::default() };
         let Some(generic) = self.reduced(m.integer(1 << 40), monomials)? else { return Ok(none) };
         let columns: Vec<usize> =
             (0..monomials.len()).filter(|column| generic.has_pivot(*column)).collect();
@@ -144,6 +154,7 @@ impl<'s, 'c> RandomLine<'s, 'c> {
         }
         let first = interpolated(&m, &first, halt)?;
         let second = interpolated(&m, &second, halt)?;
+        let is_full = rank == monomials.len() && !first.is_empty();
         let mut rest = gcd(&m, &first, &second, halt)?;
         for factor in known {
             if let Some(own) = self.restricted(factor)? {
@@ -161,7 +172,7 @@ impl<'s, 'c> RandomLine<'s, 'c> {
                 found.push(Special { echelon, excess });
             }
         }
-        Ok((found, rest.len() <= 1))
+        Ok(SpecialPlaces { all: found, is_whole: rest.len() <= 1, is_full })
     }
 
     /// Taylor coefficients of the monomials at a place, reduced.

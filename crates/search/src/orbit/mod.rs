@@ -8,6 +8,7 @@
 //! rational     rational ones, as P and Q of the relations P − c Q
 //! line         points of a line whose orbits satisfy an additional relation
 //! darboux      Darboux polynomials: the relations at these points
+//! no_others    theorem that the Darboux polynomials found are all
 //! exponents    densities, and integrals with powers, logarithms and exponentials, from cofactors
 //! adjoin       functions of the state as further variables
 //! part         all of these in the variables of a part of the field
@@ -29,6 +30,7 @@ mod images;
 mod known;
 mod line;
 mod monomials;
+pub mod no_others;
 mod part;
 mod polynomials;
 mod primes;
@@ -189,30 +191,8 @@ fn along_orbits(
     };
     let part = |variables| VariableSet::new(variables, degree);
     let mut parts: Vec<VariableSet> = blocks::closed(setting.case)?.into_iter().map(part).collect();
-    let mut run = |limits: RoundLimits, report: &mut SearchReport| -> Result<(), SearchError> {
-        for place in 0..parts.len() {
-            let (before, rest) = parts.split_at_mut(place);
-            let Some(part) = rest.first_mut() else { continue };
-            part.inherit(before);
-            part.round(setting, limits, &mut known, report, progress)?;
-        }
-        Ok(())
-    };
     let limits = if setting.origin.is_some() { EXTENDED } else { MODEST };
-    let outcome = run(limits, report).and_then(|()| {
-        if setting.origin.is_none() && !setting.is_on_level() {
-            let known = found(setting.case, setting.effort, report)?;
-            fractions::conclude(setting.case, setting.effort, &known, false, report)?;
-        }
-        for limits in FURTHER.iter().filter(|_| further) {
-            match run(*limits, report) {
-                // The time limit of the user is reached.
-                Err(SearchError::Stopped) => break,
-                other => other?,
-            }
-        }
-        Ok(())
-    });
+    let outcome = rounds(setting, &mut parts, limits, further, &mut known, report, progress);
     if let Some(whole) = parts.last() {
         whole.conclude(setting, report);
     }
@@ -223,6 +203,43 @@ fn along_orbits(
         }
         other => other,
     }
+}
+
+/// Searches all parts within limits; if `further`, within growing ones until the time is spent.
+fn rounds(
+    setting: &OrbitSetting<'_>,
+    parts: &mut [VariableSet],
+    limits: RoundLimits,
+    further: bool,
+    known: &mut IndependentIntegrals,
+    report: &mut SearchReport,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(), SearchError> {
+    let mut run = |parts: &mut [VariableSet], limits: RoundLimits, report: &mut SearchReport| {
+        for place in 0..parts.len() {
+            let (before, rest) = parts.split_at_mut(place);
+            let Some(part) = rest.first_mut() else { continue };
+            part.inherit(before);
+            part.round(setting, limits, known, report, progress)?;
+        }
+        match parts.last() {
+            Some(whole) => whole.conclude_factors(setting, limits.steps, report),
+            None => Ok(()),
+        }
+    };
+    run(parts, limits, report)?;
+    if setting.origin.is_none() && !setting.is_on_level() {
+        let known = found(setting.case, setting.effort, report)?;
+        fractions::conclude(setting.case, setting.effort, &known, false, report)?;
+    }
+    for limits in FURTHER.iter().filter(|_| further) {
+        match run(parts, *limits, report) {
+            // The time limit of the user is reached.
+            Err(SearchError::Stopped) => break,
+            other => other?,
+        }
+    }
+    Ok(())
 }
 
 /// Degree of a field in the state; `None` if it is not a polynomial of low degree.

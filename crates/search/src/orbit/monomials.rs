@@ -24,6 +24,14 @@ pub fn count(variables: usize, degree: u32) -> usize {
     (1..=variables).fold(1usize, |product, i| product.saturating_mul(degree as usize + i) / i)
 }
 
+/// Number of steps of the eliminations on a line, for monomials up to a degree along a field of
+/// degree `field`.
+pub fn steps(variables: usize, degree: u32, field: usize) -> f64 {
+    let count = count(variables, degree) as f64;
+    let places = f64::from(degree) * count + field.saturating_sub(1) as f64 * count * count / 2.0;
+    places * count * count * (count / 3.0 + 4.0)
+}
+
 /// Series of monomials along an orbit, made on demand.
 pub struct MonomialSeries<'o> {
     modulus: Modulus,

@@ -7,10 +7,13 @@ use super::factor::RatedPolynomial;
 use super::known::IndependentIntegrals;
 use super::rational::RationalSearch;
 use super::setting::{ExtendedCase, OrbitSetting};
-use super::{OrbitReport, RoundLimits, fractions, monomials, polynomials, relations};
+use super::{OrbitReport, RoundLimits, fractions, monomials, no_others, polynomials, relations};
+use liouville::formula::Formula;
 
 /// Largest degree of a Darboux polynomial.
 const DARBOUX: u32 = 12;
+/// Family of the theorem on Darboux polynomials, before the degree.
+const DARBOUX_THEOREM: &str = "Darboux polynomials of degree up to";
 /// Bound above the degrees of the relations.
 const MOST_DEGREE: u32 = 64;
 
@@ -91,7 +94,7 @@ impl VariableSet {
         };
         let search = Darboux { setting, variables, degree };
         while self.next_darboux <= DARBOUX
-            && steps(count, self.next_darboux, degree) <= limits.steps
+            && monomials::steps(count, self.next_darboux, degree) <= limits.steps
         {
             progress(&format!("Darboux polynomials of degree {}", self.next_darboux));
             search.of_degree(self.next_darboux, &mut self.factors, report)?;
@@ -150,6 +153,39 @@ impl VariableSet {
         Ok(())
     }
 
+    /// States that the Darboux polynomials found are all up to the highest degree for which this is
+    /// shown.
+    pub fn conclude_factors(
+        &self,
+        setting: &OrbitSetting<'_>,
+        most_steps: f64,
+        report: &mut SearchReport,
+    ) -> Result<(), SearchError> {
+        if self.degree.is_none() || setting.origin.is_some() || setting.is_on_level() {
+            return Ok(());
+        }
+        let known: Vec<Formula> = self.factors.iter().map(|own| own.formula.clone()).collect();
+        for degree in (1..self.next_darboux).rev() {
+            let (case, effort) = (setting.case, setting.effort);
+            let Ok(shown) = no_others::shown(case, effort, &known, degree, most_steps)? else {
+                continue;
+            };
+            let names: Vec<String> = setting.terms.iter().map(ToString::to_string).collect();
+            let statement = no_others::statement(&names.join(", "), degree, &known);
+            // The theorem of a shorter search.
+            report.excluded.retain(|own| !own.ansatz.starts_with(DARBOUX_THEOREM));
+            report.excluded.push(Excluded {
+                ansatz: format!("{DARBOUX_THEOREM} {degree}"),
+                dimension: known.len(),
+                known: known.len(),
+                error_log2: Some(shown.error_log2),
+                theorem: fractions::sentence(case, &statement),
+            });
+            break;
+        }
+        Ok(())
+    }
+
     /// Reports the degree reached and the theorem of absence.
     pub fn conclude(&self, setting: &OrbitSetting<'_>, report: &mut SearchReport) {
         report.orbits.extend(self.done.iter().cloned());
@@ -187,13 +223,6 @@ fn is_complete(setting: &OrbitSetting<'_>, known: &IndependentIntegrals) -> bool
     let is_full =
         |origin: ExtendedCase<'_>| known.formulas().count() + 1 >= origin.case.model.dimension();
     setting.origin.is_some_and(is_full)
-}
-
-/// Number of steps of the eliminations on a line.
-fn steps(variables: usize, degree: u32, field: usize) -> f64 {
-    let count = monomials::count(variables, degree) as f64;
-    let places = f64::from(degree) * count + field.saturating_sub(1) as f64 * count * count / 2.0;
-    places * count * count * (count / 3.0 + 4.0)
 }
 
 /// Searches for densities and integrals from cofactors, if there are more of them than at the last
