@@ -250,41 +250,52 @@ fn trees<'t>(scene: &'t Scene, claim: &'t Claim) -> Vec<&'t Tree> {
     own.chain(field).chain(parameters).chain(level.flat_map(|(a, b)| [a, b])).collect()
 }
 
-/// Number of states at which an expression is certainly positive, and negative.
+/// Numbers of states at which an expression is certainly positive, certainly negative, and of a sign
+/// that is not decided.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Signs {
+    pub positive: usize,
+    pub negative: usize,
+    pub undecided: usize,
+}
+
+/// Counts the signs of an expression at random states.
 pub fn signs(
     scene: &Scene,
     tree: &Tree,
     stream: &mut Stream,
     states: usize,
     near_ends: bool,
-) -> (usize, usize) {
+) -> Signs {
     let points = (0..states).map(|_| scene.point(stream, near_ends)).collect::<Vec<_>>();
     signs_at(scene, tree, &points)
 }
 
-/// Number of states, found by descents from so many points, at which an expression is certainly
-/// positive, and negative; enough if there are both.
+/// Counts the signs of an expression at states found by descents from so many points; enough if there
+/// are both.
 pub fn thin_signs(
     scene: &Scene,
     tree: &Tree,
     stream: &mut Stream,
     (starts, steps): (usize, usize),
-) -> (usize, usize) {
-    let (mut positive, mut negative) = (0, 0);
+) -> Signs {
+    let mut all = Signs::default();
     for start in 0..starts {
         let from = scene.point(stream, start % 3 == 2);
         let points = seek::of_each_sign(scene, tree, from, steps);
-        let (above, below) = signs_at(scene, tree, &points);
-        (positive, negative) = (positive + above, negative + below);
-        if positive.min(negative) > 0 {
+        let found = signs_at(scene, tree, &points);
+        all.positive += found.positive;
+        all.negative += found.negative;
+        all.undecided += found.undecided;
+        if all.positive.min(all.negative) > 0 {
             break;
         }
     }
-    (positive, negative)
+    all
 }
 
-fn signs_at(scene: &Scene, tree: &Tree, points: &[Point]) -> (usize, usize) {
-    let (mut positive, mut negative) = (0, 0);
+fn signs_at(scene: &Scene, tree: &Tree, points: &[Point]) -> Signs {
+    let mut all = Signs::default();
     for point in points {
         let Some(values) = scene.values(point) else { continue };
         let value = (Place { values: &values, along: &[] }).value(tree);
@@ -292,10 +303,11 @@ fn signs_at(scene: &Scene, tree: &Tree, points: &[Point]) -> (usize, usize) {
             continue;
         }
         match value.and_then(|value| real::sure_sign(&value)) {
-            Ok(1) => positive += 1,
-            Ok(-1) => negative += 1,
+            Ok(1) => all.positive += 1,
+            Ok(-1) => all.negative += 1,
+            Err(Lack::Decision) => all.undecided += 1,
             _ => {}
         }
     }
-    (positive, negative)
+    all
 }

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use liouville::verdict::{ClaimReport, DensitySign, Independence, Verdict};
+use liouville::verdict::{ClaimReport, DensitySign, Independence, Method, Verdict};
 
 use super::claim::{At, Claim};
 use super::draw::Made;
@@ -85,6 +85,8 @@ pub enum Truth {
 /// Largest shares of the range on which a confirmed claim may fail by more than the rounding of so
 /// many bits: thousands of states are tried in f64, and 32 states in 256 bits.
 const CONFIRMED: [(usize, f64); 2] = [(256, 0.25), (64, 0.02)];
+/// The same where the states are enclosures in f64.
+const CONFIRMED_NEARBY: [(usize, f64); 1] = [(40, 0.02)];
 
 /// Number and length of descents to states at which a density has the other sign, to contradict a
 /// proof, and to find both signs before a verdict counts as wrong.
@@ -211,7 +213,11 @@ fn against(
                 let (valued, off) = visibly(scene, claim, stream, 150, bits);
                 off >= 6 && off as f64 > share * valued as f64
             };
-            CONFIRMED.into_iter().any(is_large).then_some(Wrong::ConfirmedFalse)
+            let bounds: &[(usize, f64)] = match report.evidence.method {
+                Method::NumericalBall => &CONFIRMED_NEARBY,
+                _ => &CONFIRMED,
+            };
+            bounds.iter().copied().any(is_large).then_some(Wrong::ConfirmedFalse)
         }
         _ => None,
     }
@@ -240,19 +246,26 @@ fn beside(
         (Claim::Density(density), Some(sign), _)
             if !scene.has_parameter(density) && !evidence.sign_is_partial =>
         {
-            let (positive, negative) = signs(scene, density, stream, 200, false);
+            let seen = signs(scene, density, stream, 200, false);
+            let (positive, negative) = (seen.positive, seen.negative);
             let share = |count: usize| count as f64 / (positive + negative).max(1) as f64;
             let mut thin = |effort| thin_signs(scene, density, stream, effort);
             let wrong = match sign {
-                DensitySign::Positive if evidence.sign_is_proved => negative > 0 || thin(FEW).1 > 0,
-                DensitySign::Negative if evidence.sign_is_proved => positive > 0 || thin(FEW).0 > 0,
+                DensitySign::Positive if evidence.sign_is_proved => {
+                    negative > 0 || thin(FEW).negative > 0
+                }
+                DensitySign::Negative if evidence.sign_is_proved => {
+                    positive > 0 || thin(FEW).positive > 0
+                }
                 // The verifier tries 256 states; where few of the states drawn have a value, it
                 // has seen few signs.
                 DensitySign::Positive => positive + negative > 150 && share(negative) > 0.05,
                 DensitySign::Negative => positive + negative > 150 && share(positive) > 0.05,
-                DensitySign::Changes if positive.min(negative) == 0 => {
-                    let (above, below) = thin(MANY);
-                    (above + positive).min(below + negative) == 0
+                // The other sign may be that of states at which the oracle knows no sign.
+                DensitySign::Changes if positive.min(negative) == 0 && seen.undecided == 0 => {
+                    let found = thin(MANY);
+                    let (above, below) = (found.positive + positive, found.negative + negative);
+                    found.undecided == 0 && above.min(below) == 0
                 }
                 DensitySign::Changes => false,
             };

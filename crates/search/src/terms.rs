@@ -54,7 +54,7 @@ fn cleared(coefficients: &[Rational]) -> (Vec<BigInt>, BigInt) {
 }
 
 /// Multiples without a common factor, the first that is not 0 positive.
-fn primitive(coefficients: &[Rational]) -> Vec<BigInt> {
+pub fn primitive(coefficients: &[Rational]) -> Vec<BigInt> {
     let (mut multiples, _) = cleared(coefficients);
     let common = multiples.iter().fold(BigInt::ZERO, |gcd, a| gcd.gcd(a));
     if !common.is_zero() {

@@ -92,6 +92,48 @@ fn cofactors_give_logarithms_and_densities() {
 }
 
 #[test]
+fn conjugate_factors_give_angles() {
+    let fields = [
+        // ln(x² + y²) − 2a atan(y/x)
+        ("a = '0.5..2'", ["a*x - y", "x + a*y"], "atan("),
+        // A damped oscillator: c² − 1 under the root, of either sign.
+        ("c = '0.5..0.9'", ["y", "-x - 2*c*y"], "atan("),
+        ("c = '1.5..2'", ["y", "-x - 2*c*y"], "ln(|"),
+        // A saddle with eigenvalues (1 ± √13)/2.
+        ("", ["x + y", "3*x"], "ln(|"),
+        // The normal form of Hopf's bifurcation.
+        ("m = '0.5..2'", ["m*x - y - x*(x² + y²)", "x + m*y - y*(x² + y²)"], "atan("),
+    ];
+    for (parameters, rates, form) in fields {
+        let report = searched(&field(parameters, &rates), &Effort::default());
+        let integrals: Vec<&str> = report.formulas("integral").collect();
+        assert!(matches!(integrals[..], [own] if own.contains(form)), "{rates:?}: {integrals:?}");
+    }
+}
+
+#[test]
+fn factors_of_the_whole_field_are_found() {
+    // Susceptible and infected: where no one is infected, all is at rest.
+    let report =
+        searched(&field("b = '1..3'\ng = '1..3'", &["-b*x*y", "b*x*y - g*y"]), &Effort::default());
+    assert_eq!(cofactor(&report, "y"), Some("−g + b*x"), "{:?}", report.found);
+    assert_eq!(report.formulas("integral").count(), 1, "x + y − (g/b) ln x");
+    // A circle of points of rest, and two lines of them.
+    let circle = searched(
+        &field("", &["(x² + y² − 1)*(x*y + 2)", "(x² + y² − 1)*(x − y² + 3)"]),
+        &Effort::default(),
+    );
+    assert!(cofactor(&circle, "1 − x² − y²").is_some(), "{:?}", circle.found);
+    let lines = searched(
+        &field("", &["(x − 2*y)*(x + y − 1)*(y² + 2)", "(x − 2*y)*(x + y − 1)*(x − 3)"]),
+        &Effort::default(),
+    );
+    for line in ["x − 2*y", "1 − x − y"] {
+        assert!(cofactor(&lines, line).is_some(), "{line}: {:?}", lines.found);
+    }
+}
+
+#[test]
 fn rational_integrals_are_written_out() {
     let dipole = searched(&field("", &["2*x*y", "y² - x²"]), &Effort::default());
     assert_eq!(dipole.formulas("integral").count(), 1, "circles through the origin");

@@ -14,18 +14,21 @@ use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
 use super::super::terms::sum;
 use super::super::{SearchError, SearchReport};
+use super::angle::ConjugatePair;
 use super::claims::{self, OrbitStatement};
 use super::factor::RatedPolynomial;
 use super::images::{self, Images};
 use super::line::RandomLine;
-use super::monomials;
-use super::setting::{ExtendedCase, OrbitSetting};
+use super::monomials::{self, value};
+use super::setting::{ExtendedCase, OrbitSetting, PrimePhasePoint, SPARE_ORDERS};
 
 /// Number of primes tried until all special places of a line lie in the field, for polynomials of
 /// degree up to 2, and of higher degree.
 const PRIMES: [u64; 2] = [4, 2];
 /// Largest number of conjugate factors that are multiplied.
 const CONJUGATES: usize = 4;
+/// Largest number of ways to choose points of rest, one on each line.
+const MOST_WAYS: f64 = 4096.0;
 /// Largest number of candidates of one degree.
 const MOST_CANDIDATES: usize = 40;
 
@@ -47,6 +50,7 @@ impl DarbouxSearch<'_, '_> {
         &self,
         degree: u32,
         factors: &mut Vec<RatedPolynomial>,
+        pairs: &mut Vec<ConjugatePair>,
         report: &mut SearchReport,
     ) -> Result<(), SearchError> {
         let all = monomials::up_to(self.variables, self.setting.dimension(), degree);
@@ -72,7 +76,11 @@ impl DarbouxSearch<'_, '_> {
                 if count <= CONJUGATES
                     && let Some(formula) = self.conjugates(&support, count, factors)?
                 {
+                    let before = factors.clone();
                     self.tell(&formula, degree * count as u32, factors, report)?;
+                    if count == 2 && factors.len() > before.len() {
+                        pairs.extend(self.pair(&support, degree, &before)?);
+                    }
                 }
             }
             if is_whole {
@@ -95,13 +103,21 @@ impl DarbouxSearch<'_, '_> {
         let special = line.special(all, self.degree, factors)?;
         let is_whole = special.is_whole;
         let mut vectors: Vec<Vec<u64>> = Vec::new();
-        let mut open = Vec::new();
+        let (mut open, mut is_at_rest) = (Vec::new(), false);
         for own in special.all {
+            // The orbit of a point of rest is this point, and its relations say no more.
+            if own.is_at_rest && own.excess > 1 {
+                is_at_rest = true;
+                continue;
+            }
             let mut relations = own.echelon.null_space();
             match relations.len() == own.excess {
                 true => vectors.push(relations.swap_remove(0)),
                 false => open.push(own),
             }
+        }
+        if is_at_rest {
+            vectors.extend(self.rests(at, all, factors)?);
         }
         if !open.is_empty() && open.len() <= MOST_CANDIDATES {
             // f vanishes along the orbits of all its points, the relations P − c Q differ.
@@ -126,6 +142,63 @@ impl DarbouxSearch<'_, '_> {
             own.collect::<Terms>()
         };
         Ok((vectors.into_iter().map(terms).collect(), is_whole))
+    }
+
+    /// Polynomials in these monomials on whose zeros the variables do not change, if they are unique.
+    fn rests(
+        &self,
+        at: &PrimePoint,
+        all: &[Vec<u32>],
+        factors: &[RatedPolynomial],
+    ) -> Result<Vec<Vec<u64>>, SearchError> {
+        let m = at.modulus;
+        let mut lines: Vec<Vec<Vec<u64>>> = Vec::new();
+        for number in 0..(all.len() + SPARE_ORDERS) as u64 {
+            let Some(line) = RandomLine::draw(self.setting, at, number) else { break };
+            let places = line.rests(self.variables, self.degree, factors)?;
+            let row = |point: &PrimePhasePoint| {
+                all.iter().map(|own| value(&m, &point.state, own)).collect::<Vec<u64>>()
+            };
+            lines.push(places.iter().map(row).collect());
+        }
+        lines.retain(|rows| !rows.is_empty());
+        if lines.len() < all.len() {
+            return Ok(Vec::new());
+        }
+        // One point of each line, in all ways if there are few.
+        let (chosen, others) = lines.split_at(all.len() - 1);
+        let ways: f64 = chosen.iter().map(|rows| rows.len() as f64).product();
+        let mut found: Vec<Vec<u64>> = Vec::new();
+        let mut take = |rows: &mut dyn Iterator<Item = &Vec<u64>>| {
+            let mut echelon = Echelon::new(all.len(), m);
+            rows.for_each(|row| {
+                echelon.push(row.clone());
+            });
+            let vanishes = |vector: &[u64], row: &[u64]| {
+                let terms = vector.iter().zip(row).map(|(a, b)| m.mul(*a, *b));
+                terms.fold(0, |sum, term| m.add(sum, term)) == 0
+            };
+            if let [vector] = &echelon.null_space()[..]
+                && others.iter().all(|rows| rows.iter().any(|row| vanishes(vector, row)))
+                && !found.contains(vector)
+            {
+                found.push(vector.clone());
+            }
+        };
+        if ways > MOST_WAYS {
+            take(&mut lines.iter().flatten());
+            return Ok(found);
+        }
+        for way in 0..ways as usize {
+            self.setting.effort.halt.check()?;
+            let mut rest = way;
+            take(&mut chosen.iter().map(|rows| {
+                let row = &rows[rest % rows.len()];
+                rest /= rows.len();
+                row
+            }));
+        }
+        Ok(found)
     }
 
     /// Polynomial whose coefficients are small fractions.
@@ -177,6 +250,21 @@ impl DarbouxSearch<'_, '_> {
             .map(|own| power_product(&self.setting.terms, own).map(Ratio::of))
             .collect::<Result<_, _>>()?;
         Ok(coefficients.sum(&(0..monomials.len()).collect::<Vec<_>>(), &functions)?)
+    }
+
+    /// The two candidates with this support, as conjugates.
+    fn pair(
+        &self,
+        support: &[Vec<u32>],
+        degree: u32,
+        factors: &[RatedPolynomial],
+    ) -> Result<Option<ConjugatePair>, SearchError> {
+        ConjugatePair::of(self.setting, support, degree, |at| {
+            let candidates = self.candidates(at, support, factors).ok()?.0;
+            let own = candidates.into_iter().filter(|own| own.len() == support.len());
+            let own = own.map(|own| own.into_iter().map(|(_, entry)| entry).collect());
+            own.collect::<Vec<Vec<u64>>>().try_into().ok()
+        })
     }
 
     /// Judges a polynomial together with its cofactor. One whose cofactor is 0, an integral, is kept

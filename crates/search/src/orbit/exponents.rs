@@ -1,6 +1,6 @@
 //! Densities and integrals Π f^α e^g from factors with known cofactors.
 //!
-//! v(ln Π f^α e^g) = Σ α K + v(g) is linear in the exponents α and the coefficients of g. With
+//! v(ln Π f^α e^g) = Σ α K + v(g), with angles of conjugate factors among g, is linear in the exponents α and the coefficients of g. With
 //! β div v and a constant λ added, one linear system has densities (β = 1), integrals with powers,
 //! logarithms and exponentials, and functions of constant rate λ as its null vectors.
 
@@ -10,6 +10,7 @@ use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
 use super::super::terms::recorded;
 use super::super::{SearchError, SearchReport};
+use super::angle::{AngleForm, ConjugatePair};
 use super::claims::{self, OrbitStatement};
 use super::factor::RatedPolynomial;
 use super::images::{self, Images};
@@ -32,10 +33,21 @@ pub enum RateTerm {
     Monomial(Vec<u32>),
     /// Cofactor of a factor.
     Factor(usize),
+    /// Rate of the angle of conjugate factors.
+    Angle(usize),
     /// Constant rate.
     Constant,
     /// Divergence of the field.
     Divergence,
+}
+
+/// A way to write a function.
+#[derive(Clone, Copy, Debug)]
+pub struct Style {
+    /// Whether logarithms and roots are those of moduli.
+    pub has_moduli: bool,
+    /// Form of the angles.
+    pub angle: AngleForm,
 }
 
 /// The linear system for some factors.
@@ -45,6 +57,8 @@ pub struct ExponentSystem<'s, 'c> {
     variables: &'s [usize],
     /// Factors with known cofactors.
     pub factors: &'s [RatedPolynomial],
+    /// Conjugate factors.
+    pub pairs: &'s [ConjugatePair],
     /// Terms of the logarithmic rate.
     pub columns: Vec<RateTerm>,
     divergence: Tape,
@@ -56,6 +70,7 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         setting: &'s OrbitSetting<'c>,
         variables: &'s [usize],
         factors: &'s [RatedPolynomial],
+        pairs: &'s [ConjugatePair],
     ) -> Result<Self, SearchError> {
         let own = setting.origin.map(|origin| &origin.extension.divergence);
         let (graph, divergence) = recorded(setting.case, |jet| {
@@ -66,10 +81,11 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         let all = monomials::up_to(variables, setting.dimension(), degree);
         let monomials = all.into_iter().skip(1).map(RateTerm::Monomial);
         let own = (0..factors.len()).map(RateTerm::Factor);
-        let columns =
-            monomials.chain(own).chain([RateTerm::Constant, RateTerm::Divergence]).collect();
+        let angles = (0..pairs.len()).map(RateTerm::Angle);
+        let last = [RateTerm::Constant, RateTerm::Divergence];
+        let columns = monomials.chain(own).chain(angles).chain(last).collect();
         let divergence = Tape::new(&graph, &[divergence]);
-        Ok(Self { setting, variables, factors, columns, divergence })
+        Ok(Self { setting, variables, factors, pairs, columns, divergence })
     }
 
     /// Null vectors on some columns, each with its last nonzero entry, 1, in a different column.
@@ -111,6 +127,7 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
                 let (own, rate) = self.factors[*place].at(at, &point)?;
                 (own != 0).then(|| m.mul(rate, m.inverse(own)))
             }
+            RateTerm::Angle(place) => self.pairs[*place].rate(at, &point),
             RateTerm::Constant => Some(m.one()),
             RateTerm::Divergence => run(&self.divergence, m, &inputs).map(|values| values[0]),
         };
@@ -132,7 +149,9 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
             match self.columns[*last] {
                 // A polynomial integral, which the search for these has found.
                 RateTerm::Monomial(_) => {}
-                RateTerm::Factor(_) => self.integral(&support, known, report)?,
+                RateTerm::Factor(_) | RateTerm::Angle(_) => {
+                    self.integral(&support, known, report)?;
+                }
                 // Others differ from the first by integrals.
                 RateTerm::Constant if report.formulas(CONSTANT_RATE).next().is_none() => {
                     self.rate(&support, report)?;
@@ -152,6 +171,19 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         images::vector(&images)
     }
 
+    /// Ways to write a function, which differ in their domains.
+    fn styles(&self, support: &[usize]) -> Vec<Style> {
+        let has_angle =
+            support.iter().any(|column| matches!(self.columns[*column], RateTerm::Angle(_)));
+        let forms: &[AngleForm] = match has_angle {
+            true => &[AngleForm::Circular, AngleForm::Hyperbolic],
+            false => &[AngleForm::Circular],
+        };
+        let with =
+            |angle: &AngleForm| [false, true].map(|has_moduli| Style { has_moduli, angle: *angle });
+        forms.iter().flat_map(with).collect()
+    }
+
     fn integral(
         &self,
         support: &[usize],
@@ -159,14 +191,15 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         report: &mut SearchReport,
     ) -> Result<(), SearchError> {
         let Some(vector) = self.vector(support)? else { return Ok(()) };
-        let has_exponential =
-            support.iter().any(|column| matches!(self.columns[*column], RateTerm::Monomial(_)));
-        let is_product = !has_exponential && (0..support.len()).all(|k| vector.is_number(k));
-        let formula = |moduli: bool| match is_product {
-            true => self.product(support, &vector, moduli),
-            false => self.logarithm(support, &vector, moduli),
-        };
-        for formula in [formula(false)?, formula(true)?] {
+        let is_power = |column: &usize| matches!(self.columns[*column], RateTerm::Factor(_));
+        let is_product =
+            support.iter().all(is_power) && (0..support.len()).all(|k| vector.is_number(k));
+        for style in self.styles(support) {
+            let formula = match is_product {
+                true => self.product(support, &vector, style)?,
+                false => self.logarithm(support, &vector, style)?,
+            };
+            let Some(formula) = formula else { continue };
             if claims::integral(self.setting, &formula, report)? {
                 known.add(formula, None, self.variables);
                 break;
@@ -178,8 +211,8 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
     fn rate(&self, support: &[usize], report: &mut SearchReport) -> Result<(), SearchError> {
         let Some(vector) = self.vector(support)? else { return Ok(()) };
         let rate = vector.minus(support.len() - 1)?;
-        for moduli in [false, true] {
-            let function = self.logarithm(support, &vector, moduli)?;
+        for style in self.styles(support) {
+            let Some(function) = self.logarithm(support, &vector, style)? else { continue };
             let statement = OrbitStatement::Rate { function: function.clone(), rate: rate.clone() };
             let with = vec![("rate", &rate)];
             if claims::other(self.setting, CONSTANT_RATE, &function, &statement, with, report)? {
@@ -194,8 +227,8 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
             return Ok(());
         }
         let Some(vector) = self.vector(support)? else { return Ok(()) };
-        for moduli in [false, true] {
-            let formula = self.product(support, &vector, moduli)?;
+        for style in self.styles(support) {
+            let Some(formula) = self.product(support, &vector, style)? else { continue };
             let statement = OrbitStatement::Density(formula.clone());
             let (setting, none) = (self.setting, Vec::new());
             if claims::other(setting, "density", &formula, &statement, none, report)? {

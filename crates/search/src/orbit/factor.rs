@@ -84,7 +84,7 @@ impl RatedPolynomial {
         let below = coefficients.formula(all.len())?;
         match is_one(&below) {
             true => Ok(Some(above)),
-            false => Ok(Some((above.bracketed() / &below.bracketed())?)),
+            false => Ok(Some((above / &below)?)),
         }
     }
 }

@@ -49,7 +49,7 @@ impl RationalSearch<'_, '_> {
         }
         let formula = match is_one(&below) {
             true => above.clone(),
-            false => (above.bracketed() / &below.bracketed())?,
+            false => (&above / &below)?,
         };
         let is_new = claims::integral(self.setting, &formula, report)?;
         if is_new {

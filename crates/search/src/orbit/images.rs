@@ -128,13 +128,13 @@ impl ParametricVector {
         let (above, below) = (self.coefficients.formula(place)?, self.below()?);
         match is_one(&below) {
             true => Ok(above),
-            false => above.bracketed() / &below.bracketed(),
+            false => above / &below,
         }
     }
 
     /// Entry with the other sign, without the denominator.
     pub fn minus(&self, place: usize) -> FormulaResult {
-        Ok(-self.coefficients.formula(place)?.bracketed())
+        Ok(-self.coefficients.formula(place)?)
     }
 
     /// Whether an entry is a number.
@@ -147,8 +147,16 @@ impl ParametricVector {
         self.number(place).is_some_and(|value| value.parts().1 == 1.into())
     }
 
-    /// The ratio of two multiples of one polynomial.
-    fn number(&self, place: usize) -> Option<Rational> {
+    /// Entry that is a number, 0 among them.
+    pub fn entry(&self, place: usize) -> Option<Rational> {
+        match self.coefficients.polynomials[place].is_empty() {
+            true => Some(Rational::from(0)),
+            false => self.number(place),
+        }
+    }
+
+    /// Entry that is a number other than 0: the ratio of two multiples of one polynomial.
+    pub fn number(&self, place: usize) -> Option<Rational> {
         let all = &self.coefficients.polynomials;
         let (above, below) = (&all[place], &all[self.width]);
         let ((_, first), (_, last)) = (above.first()?, below.first()?);

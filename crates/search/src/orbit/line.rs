@@ -46,6 +46,8 @@ pub struct Special {
     pub echelon: Echelon,
     /// Number of relations beyond those of all orbits.
     pub excess: usize,
+    /// Whether no monomial changes along the orbit.
+    pub is_at_rest: bool,
 }
 
 impl<'s, 'c> RandomLine<'s, 'c> {
@@ -94,19 +96,44 @@ impl<'s, 'c> RandomLine<'s, 'c> {
 
     /// Degree of the field in the state; `None` if it is not a polynomial of low degree.
     pub fn degree(&self) -> Result<Option<usize>, SearchError> {
+        let Some(rates) = self.rates(DEGREE + SPARE_ORDERS)? else { return Ok(None) };
+        let degree = rates.iter().map(|own| own.len().saturating_sub(1)).max();
+        Ok(degree.filter(|degree| *degree <= DEGREE))
+    }
+
+    /// Components of the field on the line, as polynomials with at most `count` coefficients.
+    fn rates(&self, count: usize) -> Result<Option<Vec<Vec<u64>>>, SearchError> {
         let m = &self.at.modulus;
         let mut rates = vec![Vec::new(); self.direction.len()];
-        for t in 0..(DEGREE + SPARE_ORDERS) as u64 {
+        for t in 0..count as u64 {
             let point = self.point(m.integer(t));
             let Some(orbit) = self.setting.along(self.at, &point, 2)? else { return Ok(None) };
             rates.iter_mut().zip(orbit).for_each(|(own, series)| own.push(series[1]));
         }
-        let mut degree = None;
-        for own in &rates {
-            let own = interpolated(m, own, &self.setting.effort.halt)?;
-            degree = degree.max(Some(own.len().saturating_sub(1)));
+        let halt = &self.setting.effort.halt;
+        rates.iter().map(|own| interpolated(m, own, halt)).collect::<Result<_, _>>().map(Some)
+    }
+
+    /// Points of the line at which some variables of a field of this degree do not change, without the
+    /// zeros of known polynomials.
+    pub fn rests(
+        &self,
+        variables: &[usize],
+        degree: usize,
+        known: &[RatedPolynomial],
+    ) -> Result<Vec<PrimePhasePoint>, SearchError> {
+        let (m, halt) = (&self.at.modulus, &self.setting.effort.halt);
+        let Some(rates) = self.rates(degree + 1)? else { return Ok(Vec::new()) };
+        let mut common = Vec::new();
+        for own in variables {
+            common = gcd(m, &common, &rates[*own], halt)?;
         }
-        Ok(degree.filter(|degree| *degree <= DEGREE))
+        for factor in known {
+            if let Some(own) = self.restricted(factor)? {
+                common = self.without(common, &own)?;
+            }
+        }
+        Ok(roots(m, &common, halt)?.into_iter().map(|place| self.point(place)).collect())
     }
 
     fn rows(
@@ -169,7 +196,9 @@ impl<'s, 'c> RandomLine<'s, 'c> {
             let pivots = (0..monomials.len()).filter(|column| echelon.has_pivot(*column)).count();
             let excess = rank.saturating_sub(pivots);
             if excess > 0 {
-                found.push(Special { echelon, excess });
+                let first = self.rows(place, monomials, 2)?;
+                let is_at_rest = first.is_some_and(|rows| rows[1].iter().all(|entry| *entry == 0));
+                found.push(Special { echelon, excess, is_at_rest });
             }
         }
         Ok(SpecialPlaces { all: found, is_whole: rest.len() <= 1, is_full })

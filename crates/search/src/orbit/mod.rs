@@ -8,6 +8,7 @@
 //! rational     rational ones, as P and Q of the relations P − c Q
 //! line         points of a line whose orbits satisfy an additional relation
 //! darboux      Darboux polynomials: the relations at these points
+//! angle        angles between conjugate Darboux polynomials
 //! no_others    theorem that the Darboux polynomials found are all
 //! exponents    densities, and integrals with powers, logarithms and exponentials, from cofactors
 //! adjoin       functions of the state as further variables
@@ -19,6 +20,7 @@
 //! The degree grows as the number of monomials allows, and further while there is time.
 
 mod adjoin;
+mod angle;
 mod blocks;
 mod claims;
 mod darboux;

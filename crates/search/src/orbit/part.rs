@@ -1,6 +1,7 @@
 //! Separate search of a set of variables, and the theorem about all variables.
 
 use super::super::{Excluded, SearchError, SearchReport};
+use super::angle::ConjugatePair;
 use super::darboux::DarbouxSearch as Darboux;
 use super::exponents::ExponentSystem;
 use super::factor::RatedPolynomial;
@@ -27,8 +28,11 @@ pub struct VariableSet {
     /// Degree of the field, where it is a polynomial.
     degree: Option<usize>,
     factors: Vec<RatedPolynomial>,
+    pairs: Vec<ConjugatePair>,
     /// Number of factors at the last search for exponents.
     combined: Option<usize>,
+    /// Numbers of factors and of pairs at the last search with angles.
+    with_angles: Option<(usize, usize)>,
     /// Relations of each degree that has been searched.
     done: Vec<OrbitReport>,
 }
@@ -42,7 +46,9 @@ impl VariableSet {
             next_darboux: 1,
             degree,
             factors: Vec::new(),
+            pairs: Vec::new(),
             combined: None,
+            with_angles: None,
             done: Vec::new(),
         }
     }
@@ -56,6 +62,11 @@ impl VariableSet {
         for factor in all {
             if self.factors.iter().all(|own| own.formula.text() != factor.formula.text()) {
                 self.factors.push(factor);
+            }
+        }
+        for pair in parts.iter().filter(inside).flat_map(|part| &part.pairs) {
+            if !self.pairs.iter().any(|own| own.is_same(pair)) {
+                self.pairs.push(pair.clone());
             }
         }
     }
@@ -97,13 +108,20 @@ impl VariableSet {
             && monomials::steps(count, self.next_darboux, degree) <= limits.steps
         {
             progress(&format!("Darboux polynomials of degree {}", self.next_darboux));
-            search.of_degree(self.next_darboux, &mut self.factors, report)?;
+            search.of_degree(self.next_darboux, &mut self.factors, &mut self.pairs, report)?;
             self.next_darboux += 1;
             self.combined =
                 combine(setting, variables, &self.factors, self.combined, known, report)?;
         }
         search.parts(&known.parts, &mut self.factors, report)?;
         self.combined = combine(setting, variables, &self.factors, self.combined, known, report)?;
+        // Angles jump by π, so what can be written without them is.
+        let counts = (self.factors.len(), self.pairs.len());
+        if !self.pairs.is_empty() && self.with_angles != Some(counts) {
+            let system = ExponentSystem::of(setting, variables, &self.factors, &self.pairs)?;
+            system.search(known, report)?;
+            self.with_angles = Some(counts);
+        }
         Ok(())
     }
 
@@ -236,7 +254,7 @@ fn combine(
     report: &mut SearchReport,
 ) -> Result<Option<usize>, SearchError> {
     if last != Some(factors.len()) {
-        ExponentSystem::of(setting, variables, factors)?.search(known, report)?;
+        ExponentSystem::of(setting, variables, factors, &[])?.search(known, report)?;
     }
     Ok(Some(factors.len()))
 }

@@ -1,46 +1,50 @@
 //! Π f^α e^g and its logarithm, as formulas.
 
-use liouville::formula::{Formula, FormulaResult};
+use liouville::formula::{Formula, FormulaError};
 
 use super::super::ansatz::coefficients::Ratio;
 use super::super::ansatz::monomials::power_product;
 use super::super::terms::{is_one, one};
-use super::exponents::{ExponentSystem, RateTerm};
+use super::exponents::{ExponentSystem, RateTerm, Style};
 use super::images;
 
 impl ExponentSystem<'_, '_> {
-    /// Makes the logarithm Σ α ln f + g.
+    /// Makes the logarithm Σ α ln f + g; `None` if an angle is not real.
     pub fn logarithm(
         &self,
         support: &[usize],
         vector: &images::ParametricVector,
-        has_moduli: bool,
-    ) -> FormulaResult {
+        style: Style,
+    ) -> Result<Option<Formula>, FormulaError> {
         let mut functions = Vec::new();
         let mut places = Vec::new();
         for (place, column) in support.iter().enumerate() {
             let function = match &self.columns[*column] {
                 RateTerm::Monomial(own) => power_product(&self.setting.terms, own)?,
-                RateTerm::Factor(own) if has_moduli => {
+                RateTerm::Factor(own) if style.has_moduli => {
                     Formula::call("ln", &[&self.factors[*own].formula.modulus()?])?
                 }
                 RateTerm::Factor(own) => Formula::call("ln", &[&self.factors[*own].formula])?,
+                RateTerm::Angle(own) => match self.pairs[*own].formula(style.angle)? {
+                    Some(angle) => angle,
+                    None => return Ok(None),
+                },
                 RateTerm::Constant | RateTerm::Divergence => continue,
             };
             functions.push(Ratio::of(function));
             places.push(place);
         }
         let sum = vector.coefficients.sum(&places, &functions)?;
-        Ok(sum.unwrap_or_else(|| Formula::number(0)))
+        Ok(Some(sum.unwrap_or_else(|| Formula::number(0))))
     }
 
-    /// Makes Π f^α e^g.
+    /// Makes Π f^α e^g; `None` if an angle is not real.
     pub fn product(
         &self,
         support: &[usize],
         vector: &images::ParametricVector,
-        has_moduli: bool,
-    ) -> FormulaResult {
+        style: Style,
+    ) -> Result<Option<Formula>, FormulaError> {
         let mut powers: Vec<Formula> = Vec::new();
         let mut exponent = (Vec::new(), Vec::new());
         for (place, column) in support.iter().enumerate() {
@@ -51,15 +55,22 @@ impl ExponentSystem<'_, '_> {
                 }
                 RateTerm::Factor(own) => {
                     let formula = &self.factors[*own].formula;
-                    let base = match has_moduli && !vector.is_whole(place) {
+                    let base = match style.has_moduli && !vector.is_whole(place) {
                         true => formula.modulus()?,
-                        false => formula.bracketed(),
+                        false => formula.clone(),
                     };
                     let power = vector.exponent(place)?;
                     powers.push(match is_one(&power) {
                         true => base,
-                        false => base.power(&power.bracketed())?,
+                        false => base.power(&power)?,
                     });
+                }
+                RateTerm::Angle(own) => {
+                    let Some(angle) = self.pairs[*own].formula(style.angle)? else {
+                        return Ok(None);
+                    };
+                    exponent.0.push(place);
+                    exponent.1.push(Ratio::of(angle));
                 }
                 RateTerm::Constant | RateTerm::Divergence => {}
             }
@@ -70,13 +81,14 @@ impl ExponentSystem<'_, '_> {
             let below = vector.below()?;
             let whole = match is_one(&below) {
                 true => above,
-                false => (above.bracketed() / &below.bracketed())?,
+                false => (above / &below)?,
             };
             powers.push(Formula::call("exp", &[&whole])?);
         }
-        match powers.split_first() {
-            None => Ok(one()),
-            Some((first, others)) => others.iter().try_fold(first.clone(), |all, own| all * own),
-        }
+        let product = match powers.split_first() {
+            None => one(),
+            Some((first, others)) => others.iter().try_fold(first.clone(), |all, own| all * own)?,
+        };
+        Ok(Some(product))
     }
 }

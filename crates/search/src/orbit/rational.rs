@@ -132,11 +132,14 @@ impl LeadingRelations<'_, '_, '_> {
         report: &mut SearchReport,
     ) -> Result<bool, SearchError> {
         let used = |row: &Vec<u64>| (0..row.len()).filter(|k| row[*k] != 0).collect::<Vec<_>>();
-        let (above, below) = (used(&span[0]), used(&span[1]));
+        // The shorter polynomial is the denominator.
+        let (upper, lower) =
+            if used(&span[0]).len() < used(&span[1]).len() { (1, 0) } else { (0, 1) };
+        let (above, below) = (used(&span[upper]), used(&span[lower]));
         let make = |at: &PrimePoint| {
             let span = self.span(at).ok().filter(|span| span.len() == 2)?;
-            let own = above.iter().map(|k| span[0][*k]);
-            Some(own.chain(below.iter().map(|k| span[1][*k])).collect())
+            let own = above.iter().map(|k| span[upper][*k]);
+            Some(own.chain(below.iter().map(|k| span[lower][*k])).collect())
         };
         let width = above.len() + below.len();
         let images = Images { setting: self.of.setting, width, is_split: false, make };

@@ -76,11 +76,9 @@ impl Back {
     fn rewritten_terms(&self, text: &str) -> Vec<(bool, String)> {
         let all = terms(text);
         if let [(is_negative, only)] = all.as_slice()
-            && let Some((above, below)) =
-                only.strip_prefix('(').and_then(|own| own.split_once(")/("))
-            && let Some(below) = below.strip_suffix(')')
-            && closes(&format!("({above})"))
-            && closes(&format!("({below})"))
+            && let [(false, above), (true, below)] = factors(only)[..]
+            && let Some(above) = inside(above)
+            && let below = inside(below).unwrap_or(below)
             && terms(below).len() == 1
         {
             // A fraction whose denominator is a product is divided term by term.
@@ -248,6 +246,12 @@ fn closes(text: &str) -> bool {
         }
     }
     false
+}
+
+/// Text inside of brackets that enclose all of it.
+fn inside(text: &str) -> Option<&str> {
+    let own = text.strip_prefix('(')?.strip_suffix(')')?;
+    closes(text).then_some(own)
 }
 
 /// Places outside of brackets at which a letter of a set stands.
