@@ -64,6 +64,7 @@ pub fn polynomial_bounds(graph: &Graph, values: &[Expr], first: usize) -> Option
 #[cfg(test)]
 mod tests {
     use num_dual::DualNum;
+    use num_traits::Signed;
 
     use super::*;
     use crate::graph::record;
