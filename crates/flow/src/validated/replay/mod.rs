@@ -11,6 +11,7 @@ mod multipliers;
 mod number;
 mod segment;
 mod series;
+mod short;
 mod tails;
 #[cfg(test)]
 mod tests;
@@ -23,7 +24,7 @@ use super::motion::EnclosedMotion;
 use super::request::moved;
 use super::{MOST_UNKNOWNS, Obstacle, ProvedOrbit, Request};
 use matrix::{Columns, combined};
-use number::Wide;
+use number::{ReplayNumber, Wide};
 use rayon::prelude::*;
 use segment::{ReplayedPassage, Scripts};
 

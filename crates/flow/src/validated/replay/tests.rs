@@ -1,7 +1,7 @@
 //! Steps in many bits against known solutions: the ends are so accurate that they miss the truth
 //! unless what the series leave out is bounded.
 
-use super::number::Wide;
+use super::number::{ReplayNumber, Wide};
 use super::series::Script;
 use super::tails::{remainders, settled};
 use crate::validated::plan::Plan;

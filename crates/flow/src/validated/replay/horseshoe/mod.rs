@@ -9,7 +9,7 @@ mod patch;
 pub use data::{CoveringSet, HorseshoeData};
 
 use super::matrix::combined;
-use super::number::Wide;
+use super::number::{ReplayNumber, Wide};
 use super::segment::Scripts;
 use crate::validated::enclosure::Enclosure;
 use crate::validated::functions::Functions;
