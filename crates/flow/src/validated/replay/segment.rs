@@ -1,4 +1,4 @@
-//! One segment of an orbit: from points in balls of many bits, from boxes in balls of short integers.
+//! One segment of an orbit: many bits from points, short integers from boxes.
 
 use super::number::{ReplayNumber, Wide, domain};
 use super::series::Script;

@@ -1,7 +1,7 @@
 //! Balls of short integers: (m ± r) 2^e with 62 bits of m and 40 bits of r.
 //!
-//! Over a box the width leaves no more digits than these. No operation calls f64, and each rounds
-//! the radius up.
+//! Over a box the width leaves no more digits than these. No operation rounds in f64; each rounds the
+//! radius up.
 
 use super::number::{ReplayNumber, Wide};
 use liouville::number::UnaryFunction;
@@ -127,7 +127,14 @@ impl Short {
 
 impl ReplayNumber for Short {
     fn exact(x: f64) -> Self {
-        Self::of_wide(&Wide::exact(x))
+        let (written, hidden) = (x.to_bits(), 1_u64 << 52);
+        let exponent = i64::try_from(written >> 52 & 0x7ff).unwrap_or(0);
+        let digits = i128::from(written & (hidden - 1) | if exponent > 0 { hidden } else { 0 });
+        let m = if x.is_sign_negative() { -digits } else { digits };
+        match x.is_finite() {
+            true => rounded(m, 0, exponent.max(1) - 1075),
+            false => Self(None),
+        }
     }
 
     fn of(value: &Rational) -> Self {
@@ -259,8 +266,11 @@ mod tests {
         assert_fits(&short.neg(), &[third.neg()], "a third");
         let root = Short::exact(2.0).apply(UnaryFunction::Sqrt);
         assert_fits(&root, &[Wide::exact(2.0).apply(UnaryFunction::Sqrt)], "√2");
-        assert_fits(&Short::exact(0.1), &[Wide::exact(0.1)], "an f64");
-        assert_eq!(Short::exact(0.1), Short::of_wide(&Wide::exact(0.1)));
+        for x in [0.1, -0.1, 1.0, -3e200, f64::MIN_POSITIVE, -f64::from_bits(3), f64::MAX] {
+            let [least, most] = ends(&Short::exact(x));
+            assert!(least.minus(&Wide::exact(x)).is_zero() && most.minus(&least).is_zero(), "{x}");
+        }
+        assert!(Short::exact(-0.0).is_zero(), "both zeros");
     }
 
     #[test]
@@ -270,6 +280,7 @@ mod tests {
             assert!(!x.is_known() && !x.is_positive() && !x.is_below(&one), "{x:?}");
         }
         assert!(!Short::zero().recip().is_known() && !Short::exact(f64::NAN).is_known());
+        assert!(!Short::exact(f64::NEG_INFINITY).is_known());
         assert!(!one.neg().apply(UnaryFunction::Sqrt).is_known(), "no root");
         let mut huge = Short::exact(2.0);
         for _ in 0..60 {
