@@ -46,12 +46,18 @@ fn one_window_is_enough_for_both_rectangles_on_the_saddles_surface() {
     let report = verified(&whole).unwrap_or_else(|refusal| panic!("{refusal}"));
     let theorem = report.evidence.theorem.expect("stated");
     assert!(theorem.contains("two loops of covering relations"), "{theorem}");
-    let relations = whole["proof"]["relations"].as_array().expect("a list");
-    let back = relations.iter().position(|own| own[1] == 0).expect("the end of the short loop");
-    let window = format!("/proof/sets/{back}/time/1");
+    let last = last_of_the_short_loop(&whole);
+    let window = format!("/proof/sets/{last}/time/1");
     let wider = changed(&whole, &window, &|own| number(valued(own) * 1.2));
     let refusal = verified(&wider).expect_err("a window that is wider than the room allows");
-    assert!(refusal.contains(&format!("`proof.relations[{back}]`")), "{refusal}");
+    assert!(refusal.contains(&format!("`proof.relations[{last}]`")), "{refusal}");
+}
+
+/// The last set of the short loop, which covers the first set.
+fn last_of_the_short_loop(certificate: &Value) -> usize {
+    let relations = certificate["proof"]["relations"].as_array().expect("a list").iter();
+    let back = relations.filter(|own| own[1] == 0).filter_map(|own| own[0].as_u64());
+    back.min().expect("a last set") as usize
 }
 
 /// Number in hexadecimal.
@@ -84,9 +90,7 @@ fn horseshoes_with_other_numbers_are_refused_with_the_place() {
         serde_json::from_str(&fs::read_to_string(file).expect("a file")).expect("JSON");
     let list = |part: &str| whole["proof"][part].as_array().expect("a list").clone();
     let (sets, relations) = (list("sets"), list("relations"));
-    let is_back = |own: &Value| own[1] == 0;
-    let ends = relations.iter().filter(|own| is_back(own)).map(|own| own[0].as_u64());
-    let last = ends.flatten().min().expect("a last set of the short loop") as usize;
+    let last = last_of_the_short_loop(&whole);
     let set = |index: usize, part: &str| format!("/proof/sets/{index}/{part}");
     let plus = |x: f64| move |own: &Value| number(valued(own) + x);
     let times = |x: f64| move |own: &Value| number(valued(own) * x);

@@ -1,4 +1,4 @@
-//! Proofs of closed orbits and of horseshoes replayed in balls of 256 bits from the numbers of a
+//! Proofs of closed orbits and of horseshoes replayed in balls of integers from the numbers of a
 //! first proof.
 //!
 //! Nodes, boxes, step sizes and radii of tails are those recorded; all that is proved about them is

@@ -1,4 +1,4 @@
-//! Proofs of horseshoes replayed in balls of 256 bits: covering relations of rectangles along a
+//! Proofs of horseshoes replayed in balls of integers: covering relations of rectangles along a
 //! closed orbit and along a homoclinic orbit, both of which begin and end at the first rectangle.
 
 mod cover;
