@@ -55,20 +55,3 @@ fn one_broken_relation_breaks_the_chain() {
     assert!(chained(&turned, &halves, &LAST).is_some(), "edges may change sides");
     assert_eq!(chained(&maps, &halves[..5], &LAST), None, "a rectangle is missing");
 }
-
-#[test]
-#[ignore = "measures"]
-fn measured() {
-    let name = std::env::var("FIGURE").expect("a figure");
-    let path = format!("{}/../../cases/figures/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-    let text = std::fs::read_to_string(path).expect("a file");
-    let case = liouville::case::Case::parse(&text, &[]).expect("a case");
-    let options = liouville::verdict::Options::default();
-    let claim = case.motions.iter().find(|own| own.kind.name() == "horseshoe").expect("a claim");
-    let began = std::time::Instant::now();
-    let (_, found) = crate::observe::proof_of_horseshoe(&case, claim, &options).expect("proved");
-    println!("{name}: {} relations, proved in {:?}", found.relations, began.elapsed());
-    let began = std::time::Instant::now();
-    let again = crate::observe::verify_horseshoe(&case, claim, &found.data, &options);
-    println!("{name}: {:?} in {:?}", again.map(|own| own.1.entropy), began.elapsed());
-}
