@@ -262,7 +262,7 @@ mod tests {
     fn long_numbers_are_held() {
         let third = Wide::of(&Rational::new(-1, 3));
         let short = Short::of_wide(&third);
-        assert_fits(&short, &[third.clone()], "a third");
+        assert_fits(&short, std::slice::from_ref(&third), "a third");
         assert_fits(&short.neg(), &[third.neg()], "a third");
         let root = Short::exact(2.0).apply(UnaryFunction::Sqrt);
         assert_fits(&root, &[Wide::exact(2.0).apply(UnaryFunction::Sqrt)], "√2");
