@@ -267,7 +267,7 @@ fn replayed(
     liouville_flow::observe::verify(case, &case.motions[0], data, &options).map(|found| found.1)
 }
 
-/// Asserts that an enclosure in 256 bits agrees with one in f64, and is no wider.
+/// Asserts that an enclosure of a replay agrees with one in f64, and is no wider.
 fn assert_same(a: liouville_flow::Enclosure, b: liouville_flow::Enclosure, what: &str) {
     assert!((a.mid - b.mid).abs() <= b.rad, "{what}: {a:?} and {b:?}");
     assert!(a.rad <= 1.05 * b.rad, "{what}: {a:?} is wider than {b:?}");

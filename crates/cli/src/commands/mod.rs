@@ -75,7 +75,7 @@ Examples:
   liouville merge parts --out chart.png
   liouville merge parts --out chart.pdf -- --colour exponent --width 85")]
     Merge(merge::Merge),
-    /// Replay proofs about motion from their certificates, in balls of 256 bits
+    /// Replay proofs about motion from their certificates, in balls of integers
     #[command(after_help = "\
 Example:
   liouville check figures/fig-8 --motion --claim 'no density' --certificate proofs

@@ -6,6 +6,7 @@ use crate::report::motion_certificate::{HORSESHOES, ORBITS, verify};
 use clap::Args;
 
 use super::eval::read_settings;
+use super::explore::progress::telling;
 use super::{CommandOutput, LimitArgs, SamplingArgs};
 
 /// Words by which a certificate of a proof by points is known.
@@ -29,7 +30,11 @@ pub fn run(options: &Verify) -> Result<CommandOutput, String> {
         .map_err(|error| format!("error: cannot start threads: {error}"))?;
     let (mut text, mut refused) = (String::new(), 0);
     for path in &options.certificates {
-        match pool.install(|| one(path, options))? {
+        let told = telling(|tell| {
+            tell(&format!("replaying {}", path.display()));
+            pool.install(|| one(path, options))
+        });
+        match told? {
             Ok(told) => text.push_str(&told),
             Err(reason) => {
                 refused += 1;

@@ -93,7 +93,7 @@ fn digest(statement: &Value, proof: &Value) -> String {
 /// Reader of values given to parameters, as `--set` takes them.
 pub type Settings<'s> = dyn Fn(&[String]) -> Result<Vec<Setting>, String> + Sync + 's;
 
-/// Checks a certificate by replaying its proof in balls of 256 bits; returns the report on the
+/// Checks a certificate by replaying its proof in balls of integers; returns the report on the
 /// claim.
 ///
 /// # Errors

@@ -6,12 +6,12 @@ use super::{ball, is_there, run, scratch, text, verified};
 use liouville_cli::report::motion_certificate::sealed;
 use serde_json::Value;
 
-/// Writes the certificate of a horseshoe.
-fn of_a_horseshoe(folder: &str) -> String {
+/// Writes the certificate of a horseshoe of a case.
+fn of_a_horseshoe(folder: &str, case: &str) -> String {
     let path = scratch(folder);
     let shown = path.display().to_string();
-    let case = "crates/cli/tests/certificates/duffing.toml";
-    let arguments = ["check", "-q", "--motion", "--certificate", &shown, case];
+    let case = format!("crates/cli/tests/certificates/{case}.toml");
+    let arguments = ["check", "-q", "--motion", "--certificate", &shown, &case];
     let output = run(env!("CARGO_BIN_EXE_liouville"), &arguments);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let mut entries = fs::read_dir(&path).expect("a folder").flatten();
@@ -20,7 +20,7 @@ fn of_a_horseshoe(folder: &str) -> String {
 
 #[test]
 fn horseshoes_are_proved_again_from_their_certificates() {
-    let file = of_a_horseshoe("horseshoe");
+    let file = of_a_horseshoe("horseshoe", "duffing");
     let output = run(env!("CARGO_BIN_EXE_liouville"), &["verify", &file]);
     let told = text(&output.stdout);
     assert!(output.status.success(), "{told}{}", text(&output.stderr));
@@ -34,6 +34,30 @@ fn horseshoes_are_proved_again_from_their_certificates() {
         let told = text(&output.stdout);
         assert!(!output.status.success() && told.contains("format"), "{told}");
     }
+}
+
+/// The last set of the short loop is wide against the set that it has to cover first: nearly all of
+/// the image's extent comes from the width of the enclosure, so that the window counts.
+#[test]
+fn one_window_is_enough_for_both_rectangles_on_the_saddles_surface() {
+    let file = of_a_horseshoe("horseshoe-slow", "duffing-slow");
+    let whole: Value =
+        serde_json::from_str(&fs::read_to_string(file).expect("a file")).expect("JSON");
+    let report = verified(&whole).unwrap_or_else(|refusal| panic!("{refusal}"));
+    let theorem = report.evidence.theorem.expect("stated");
+    assert!(theorem.contains("two loops of covering relations"), "{theorem}");
+    let last = last_of_the_short_loop(&whole);
+    let window = format!("/proof/sets/{last}/time/1");
+    let wider = changed(&whole, &window, &|own| number(valued(own) * 1.2));
+    let refusal = verified(&wider).expect_err("a window that is wider than the room allows");
+    assert!(refusal.contains(&format!("`proof.relations[{last}]`")), "{refusal}");
+}
+
+/// The last set of the short loop, which covers the first set.
+fn last_of_the_short_loop(certificate: &Value) -> usize {
+    let relations = certificate["proof"]["relations"].as_array().expect("a list").iter();
+    let back = relations.filter(|own| own[1] == 0).filter_map(|own| own[0].as_u64());
+    back.min().expect("a last set") as usize
 }
 
 /// Number in hexadecimal.
@@ -61,14 +85,12 @@ fn changed(whole: &Value, pointer: &str, change: &dyn Fn(&Value) -> Value) -> Va
 
 #[test]
 fn horseshoes_with_other_numbers_are_refused_with_the_place() {
-    let file = of_a_horseshoe("horseshoe-tampered");
+    let file = of_a_horseshoe("horseshoe-tampered", "duffing");
     let whole: Value =
         serde_json::from_str(&fs::read_to_string(file).expect("a file")).expect("JSON");
     let list = |part: &str| whole["proof"][part].as_array().expect("a list").clone();
     let (sets, relations) = (list("sets"), list("relations"));
-    let is_back = |own: &Value| own[1] == 0;
-    let ends = relations.iter().filter(|own| is_back(own)).map(|own| own[0].as_u64());
-    let last = ends.flatten().min().expect("a last set of the short loop") as usize;
+    let last = last_of_the_short_loop(&whole);
     let set = |index: usize, part: &str| format!("/proof/sets/{index}/{part}");
     let plus = |x: f64| move |own: &Value| number(valued(own) + x);
     let times = |x: f64| move |own: &Value| number(valued(own) * x);

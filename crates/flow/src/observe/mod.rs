@@ -77,7 +77,7 @@ pub fn proof_of_horseshoe(
     chaos(case, claim, options, crate::prove_horseshoe).ok()
 }
 
-/// Judges a claim about a closed orbit by the data of a proof, replayed in balls of 256 bits.
+/// Judges a claim about a closed orbit by the data of a proof, replayed in balls of integers.
 ///
 /// # Errors
 /// The reason why the data do not prove the claim.
@@ -90,7 +90,7 @@ pub fn verify(
     orbit(case, claim, options, |request| replay(request, data))
 }
 
-/// Judges a claim about a horseshoe by the data of a proof, replayed in balls of 256 bits.
+/// Judges a claim about a horseshoe by the data of a proof, replayed in balls of integers.
 ///
 /// # Errors
 /// The reason why the data do not prove the claim.

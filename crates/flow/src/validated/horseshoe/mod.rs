@@ -225,34 +225,30 @@ impl HorseshoeSearch<'_, '_> {
         let reach = distance * libm::pow(saddle.multipliers[0].abs(), BEYOND);
         let wanted = Rectangle { middle: [0.0, 0.0], half: [reach, f64::INFINITY] };
         let guess = guessed(&saddle.directions, side, reach, 0.0);
-        let (turn, mut halves) = ring.enclosed(shooting, guess, [side, side], &wanted)?;
+        let (mut turn, mut halves) = ring.enclosed(shooting, guess, [side, side], &wanted)?;
         halves[0] = square.half;
+        let Some(last_half) = halves.last() else { return Err(PathProblem::Path) };
+        let place = halves.len() - 1;
+
+        // One leg from the last set, over its final rectangle and within one window of times, leads
+        // to the saddle's surface, on which the first set of the homoclinic orbit lies too: each
+        // motion meets the plane once, and coordinates decide to which of the two it goes.
+        let last_leg = |next| Leg {
+            chart: ring.charts[place],
+            centre: ring.centres[place],
+            rectangle: Rectangle { middle: [0.0, 0.0], half: *last_half },
+            time: ring.times[place],
+            late: ring.late[place],
+            speed: ring.speeds[place],
+            next,
+        };
+        let both = crossed(shooting, &[last_leg(home), last_leg(own)]).map_err(PathProblem::Leg)?;
+        let [back, onto] = both.as_slice() else { return Err(PathProblem::Path) };
+        turn[place] = back.clone();
         let maps: Vec<PlaneMap> = turn.iter().map(|one| one.map).collect();
         let closing = |map: &PlaneMap, half: [f64; 2], other: &Rectangle| {
             map.covers(half, other).ok_or(PathProblem::Relation)
         };
-
-        // From the last node before the saddle's surface to the chart of the homoclinic orbit, on
-        // the same plane, within times that are among those of the leg to the saddle: so each motion
-        // meets the plane once, and coordinates decide to which of the two rectangles it goes.
-        let (Some(last_map), Some(last_half)) = (maps.last(), halves.last()) else {
-            return Err(PathProblem::Path);
-        };
-        let place = halves.len() - 1;
-        let known = Leg {
-            chart: ring.charts[place],
-            centre: ring.centres[place],
-            rectangle: Rectangle {
-                middle: [0.0, 0.0],
-                half: if place == 0 { square.half } else { *last_half },
-            },
-            time: ring.times[place],
-            late: ring.late[place],
-            speed: ring.speeds[place],
-            next: own,
-        };
-        let turned = crossed(shooting, &[known]).map_err(PathProblem::Leg)?;
-        let [onto] = turned.as_slice() else { return Err(PathProblem::Path) };
 
         // Along the homoclinic orbit.
         let strand = Strand {
@@ -281,7 +277,7 @@ impl HorseshoeSearch<'_, '_> {
         }
 
         // All relations, over the final sizes.
-        let back = closing(last_map, *last_half, &square)?;
+        let returning = closing(&back.map, *last_half, &square)?;
         closing(&onto.map, *last_half, &target)?;
         let (inner, tail) = (&maps[..place], &halves[..place]);
         let next = Rectangle { middle: [0.0, 0.0], half: *last_half };
@@ -324,7 +320,7 @@ impl HorseshoeSearch<'_, '_> {
             trace: Some(HorseshoeTrace {
                 margin: Margin {
                     unstable: side / lengths_needed(&maps, &halves, &wanted),
-                    stable: back.stable.min(arrival.stable),
+                    stable: returning.stable.min(arrival.stable),
                 },
                 multipliers: saddle.multipliers,
                 away: path.chain.states.iter().map(node).fold(0.0, f64::max),

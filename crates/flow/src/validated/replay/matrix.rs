@@ -1,6 +1,6 @@
 //! Matrices of balls, with approximate inverses about which nothing is assumed.
 
-use super::number::Wide;
+use super::number::{ReplayNumber, Wide};
 use crate::validated::enclosure::Enclosure;
 use crate::validated::krawczyk::Inverse;
 use rayon::prelude::*;

@@ -1,4 +1,4 @@
-//! Proofs of closed orbits and of horseshoes replayed in balls of 256 bits from the numbers of a
+//! Proofs of closed orbits and of horseshoes replayed in balls of integers from the numbers of a
 //! first proof.
 //!
 //! Nodes, boxes, step sizes and radii of tails are those recorded; all that is proved about them is
@@ -11,6 +11,7 @@ mod multipliers;
 mod number;
 mod segment;
 mod series;
+mod short;
 mod tails;
 #[cfg(test)]
 mod tests;
@@ -23,7 +24,7 @@ use super::motion::EnclosedMotion;
 use super::request::moved;
 use super::{MOST_UNKNOWNS, Obstacle, ProvedOrbit, Request};
 use matrix::{Columns, combined};
-use number::Wide;
+use number::{ReplayNumber, Wide};
 use rayon::prelude::*;
 use segment::{ReplayedPassage, Scripts};
 

@@ -1,7 +1,7 @@
 //! Sum of the multipliers of a closed orbit, by one linear system for the whole orbit.
 
 use super::matrix::{Columns, combined, inverse, norm, products};
-use super::number::Wide;
+use super::number::{ReplayNumber, Wide};
 use super::segment::ReplayedPassage;
 use crate::validated::enclosure::Enclosure;
 

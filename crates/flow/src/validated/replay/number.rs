@@ -15,41 +15,82 @@ pub fn domain() -> ArbBall {
     ArbBall::new(REPLAY_BITS)
 }
 
+/// Numbers of a replay: balls, or unknown numbers.
+pub trait ReplayNumber: Clone + Send + Sync {
+    /// Number of an f64.
+    fn exact(x: f64) -> Self;
+    /// Encloses an exact number.
+    fn of(value: &Rational) -> Self;
+    /// A number that is not known.
+    fn unknown() -> Self;
+    /// Encloses x + y.
+    fn plus(&self, other: &Self) -> Self;
+    /// Encloses x y.
+    fn times(&self, other: &Self) -> Self;
+    /// Encloses -x.
+    fn neg(&self) -> Self;
+    /// Encloses 1/x.
+    fn recip(&self) -> Self;
+    /// Encloses f(x).
+    fn apply(&self, function: UnaryFunction) -> Self;
+    /// Encloses x^q.
+    fn power(&self, exponent: &Rational) -> Self;
+    /// Whether the number is exactly 0.
+    fn is_zero(&self) -> bool;
+    /// Whether the number is known.
+    fn is_known(&self) -> bool;
+    /// Whether all numbers of the ball are positive.
+    fn is_positive(&self) -> bool;
+    /// Largest magnitude of the ball, as an exact number or one slightly above.
+    fn magnitude(&self) -> Self;
+    /// Encloses all numbers whose magnitude is at most that of a bound.
+    fn within(bound: &Self) -> Self;
+    /// Midpoint, near enough for what is not proved.
+    fn mid(&self) -> f64;
+
+    /// The number 0.
+    fn zero() -> Self {
+        Self::exact(0.0)
+    }
+
+    /// Encloses x - y.
+    fn minus(&self, other: &Self) -> Self {
+        self.plus(&other.neg())
+    }
+
+    /// Encloses x + y of two bounds.
+    fn add(&self, other: &Self) -> Self {
+        self.plus(other)
+    }
+
+    /// Encloses x y of two bounds.
+    fn mul(&self, other: &Self) -> Self {
+        self.times(other)
+    }
+
+    /// Whether x < y for all numbers of both balls.
+    fn is_below(&self, other: &Self) -> bool {
+        other.minus(self).is_positive()
+    }
+
+    /// Bounds both of two bounds.
+    fn larger(&self, other: &Self) -> Self {
+        match (self.is_below(other), other.is_below(self)) {
+            (true, _) => other.clone(),
+            (_, true) => self.clone(),
+            _ => self.magnitude().add(&other.minus(self).magnitude()),
+        }
+    }
+}
+
 /// Ball of 256 bits, or an unknown number.
 #[derive(Clone, Debug)]
 pub struct Wide(Option<Approximation>);
 
 impl Wide {
-    /// The number 0.
-    pub fn zero() -> Self {
-        Self::exact(0.0)
-    }
-
-    /// A number that is not known.
-    pub fn unknown() -> Self {
-        Self(None)
-    }
-
-    /// Number of an f64.
-    pub fn exact(x: f64) -> Self {
-        Self(Approximation::from_f64(x))
-    }
-
-    /// Encloses an exact number.
-    pub fn of(value: &Rational) -> Self {
-        Self(domain().constant(value))
-    }
-
     /// Encloses all numbers within `rad` of an f64.
     pub fn about(mid: f64, rad: f64) -> Self {
         Self(Approximation::from_double_double(mid, 0.0, rad).filter(|_| rad >= 0.0))
-    }
-
-    /// Encloses all numbers whose magnitude is at most that of a bound.
-    pub fn within(bound: &Self) -> Self {
-        let Some(size) = bound.magnitude().0 else { return Self(None) };
-        let (mid, rad) = size.enclosure();
-        Self::about(0.0, raised(mid + rad, 2))
     }
 
     /// Block of the domain.
@@ -68,102 +109,10 @@ impl Wide {
         Self(out)
     }
 
-    /// Encloses x + y.
-    pub fn plus(&self, other: &Self) -> Self {
-        self.binary(BinaryOperation::Add, other, REPLAY_BITS)
-    }
-
-    /// Encloses x - y.
-    pub fn minus(&self, other: &Self) -> Self {
-        self.binary(BinaryOperation::Sub, other, REPLAY_BITS)
-    }
-
-    /// Encloses x y.
-    pub fn times(&self, other: &Self) -> Self {
-        self.binary(BinaryOperation::Mul, other, REPLAY_BITS)
-    }
-
-    /// Encloses x + y of two bounds.
-    pub fn add(&self, other: &Self) -> Self {
-        self.binary(BinaryOperation::Add, other, FEW)
-    }
-
-    /// Encloses x y of two bounds.
-    pub fn mul(&self, other: &Self) -> Self {
-        self.binary(BinaryOperation::Mul, other, FEW)
-    }
-
-    /// Encloses f(x).
-    pub fn apply(&self, function: UnaryFunction) -> Self {
-        let mut out = None;
-        domain().unary(function, &self.0, &mut out);
-        Self(out)
-    }
-
-    /// Encloses 1/x.
-    pub fn recip(&self) -> Self {
-        self.apply(UnaryFunction::Recip)
-    }
-
-    /// Encloses -x.
-    pub fn neg(&self) -> Self {
-        self.apply(UnaryFunction::Neg)
-    }
-
-    /// Encloses x^q.
-    pub fn power(&self, exponent: &Rational) -> Self {
-        let mut out = None;
-        domain().power(&self.0, exponent, &mut out);
-        Self(out)
-    }
-
-    /// Whether the number is exactly 0.
-    pub fn is_zero(&self) -> bool {
-        self.0.as_ref().is_some_and(Approximation::is_zero)
-    }
-
-    /// Whether the number is known.
-    pub fn is_known(&self) -> bool {
-        self.0.is_some()
-    }
-
-    /// Whether all numbers of the ball are positive.
-    pub fn is_positive(&self) -> bool {
-        self.0.as_ref().is_some_and(Approximation::is_positive)
-    }
-
-    /// Whether x < y for all numbers of both balls.
-    pub fn is_below(&self, other: &Self) -> bool {
-        other.minus(self).is_positive()
-    }
-
-    /// Largest magnitude of the ball, as an exact number or one slightly above.
-    pub fn magnitude(&self) -> Self {
-        let Some(value) = &self.0 else { return Self(None) };
-        let (mantissa, exponent, radius) = value.parts();
-        let size = Approximation::exact(mantissa.magnitude().clone().into(), exponent);
-        let radius = Approximation::exact(radius.into(), exponent);
-        Self(Some(size.add(&radius, FEW)))
-    }
-
-    /// Bounds both of two bounds.
-    pub fn larger(&self, other: &Self) -> Self {
-        match (self.is_below(other), other.is_below(self)) {
-            (true, _) => other.clone(),
-            (_, true) => self.clone(),
-            _ => self.hull(other).magnitude(),
-        }
-    }
-
     /// Encloses the numbers of both balls.
     pub fn hull(&self, other: &Self) -> Self {
         // The smaller ball is within |x - y| and its radius of the other midpoint.
         self.plus(&Self::within(&other.minus(self)))
-    }
-
-    /// Midpoint, near enough for what is not proved.
-    pub fn mid(&self) -> f64 {
-        self.0.as_ref().map_or(f64::NAN, |value| value.enclosure().0)
     }
 
     /// Enclosure in f64.
@@ -171,6 +120,90 @@ impl Wide {
         let unknown = (f64::NAN, f64::NAN);
         let (mid, rad) = self.0.as_ref().map_or(unknown, Approximation::enclosure);
         Enclosure { mid, rad }
+    }
+}
+
+impl ReplayNumber for Wide {
+    fn exact(x: f64) -> Self {
+        Self(Approximation::from_f64(x))
+    }
+
+    fn of(value: &Rational) -> Self {
+        Self(domain().constant(value))
+    }
+
+    fn unknown() -> Self {
+        Self(None)
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        self.binary(BinaryOperation::Add, other, REPLAY_BITS)
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        self.binary(BinaryOperation::Mul, other, REPLAY_BITS)
+    }
+
+    fn neg(&self) -> Self {
+        self.apply(UnaryFunction::Neg)
+    }
+
+    fn recip(&self) -> Self {
+        self.apply(UnaryFunction::Recip)
+    }
+
+    fn apply(&self, function: UnaryFunction) -> Self {
+        let mut out = None;
+        domain().unary(function, &self.0, &mut out);
+        Self(out)
+    }
+
+    fn power(&self, exponent: &Rational) -> Self {
+        let mut out = None;
+        domain().power(&self.0, exponent, &mut out);
+        Self(out)
+    }
+
+    fn is_zero(&self) -> bool {
+        self.0.as_ref().is_some_and(Approximation::is_zero)
+    }
+
+    fn is_known(&self) -> bool {
+        self.0.is_some()
+    }
+
+    fn is_positive(&self) -> bool {
+        self.0.as_ref().is_some_and(Approximation::is_positive)
+    }
+
+    fn magnitude(&self) -> Self {
+        let Some(value) = &self.0 else { return Self(None) };
+        let (mantissa, exponent, radius) = value.parts();
+        let size = Approximation::exact(mantissa.magnitude().clone().into(), exponent);
+        let radius = Approximation::exact(radius.into(), exponent);
+        Self(Some(size.add(&radius, FEW)))
+    }
+
+    fn within(bound: &Self) -> Self {
+        let Some(size) = bound.magnitude().0 else { return Self(None) };
+        let (mid, rad) = size.enclosure();
+        Self::about(0.0, raised(mid + rad, 2))
+    }
+
+    fn mid(&self) -> f64 {
+        self.0.as_ref().map_or(f64::NAN, |value| value.enclosure().0)
+    }
+
+    fn minus(&self, other: &Self) -> Self {
+        self.binary(BinaryOperation::Sub, other, REPLAY_BITS)
+    }
+
+    fn add(&self, other: &Self) -> Self {
+        self.binary(BinaryOperation::Add, other, FEW)
+    }
+
+    fn mul(&self, other: &Self) -> Self {
+        self.binary(BinaryOperation::Mul, other, FEW)
     }
 }
 

@@ -1,7 +1,8 @@
-//! One segment of an orbit, in balls of many bits.
+//! One segment of an orbit: many bits from points, short integers from boxes.
 
-use super::number::{Wide, domain};
+use super::number::{ReplayNumber, Wide, domain};
 use super::series::Script;
+use super::short::Short;
 use super::tails::remainders;
 use crate::validated::functions::Functions;
 use crate::validated::motion::EnclosedMotion;
@@ -9,9 +10,9 @@ use crate::validated::motion::EnclosedMotion;
 /// Scripts of the equations of a motion.
 pub struct Scripts<'m> {
     pub motion: &'m EnclosedMotion,
-    state: Script<'m>,
-    wide: Script<'m>,
-    full: Script<'m>,
+    state: Script<'m, Wide>,
+    wide: Script<'m, Wide>,
+    full: Script<'m, Short>,
 }
 
 /// End of a step from a box, with its derivative by the start and by the loose parameters.
@@ -50,13 +51,15 @@ impl<'m> Scripts<'m> {
     pub fn passage(&self, start: &[Wide], h: &Wide, radius: f64) -> Option<ReplayedPassage> {
         let (n, loose) = (self.motion.dimension, self.motion.loose);
         let count = n * (n + loose);
-        let unit = |i: usize, j: usize| Wide::exact(if i == j { 1.0 } else { 0.0 });
+        let unit = |i: usize, j: usize| Short::exact(if i == j { 1.0 } else { 0.0 });
         let vectors = (0..n + loose).flat_map(|i| (0..n).map(move |j| unit(i, j)));
         let others = self.motion.full.dimension - n - loose - count;
-        let zeros = std::iter::repeat_n(Wide::zero(), others);
-        let all: Vec<Wide> =
-            start.iter().cloned().chain(self.ranges()).chain(vectors).chain(zeros).collect();
-        let mut end = ends(&self.full, &all, h, radius)?;
+        let zeros = std::iter::repeat_n(Short::zero(), others);
+        let ranges = self.ranges();
+        let boxes = start.iter().chain(&ranges).map(Short::of_wide);
+        let all: Vec<Short> = boxes.chain(vectors).chain(zeros).collect();
+        let found = ends(&self.full, &all, &Short::of_wide(h), radius)?;
+        let mut end: Vec<Wide> = found.iter().map(Short::wide).collect();
         let columns = end.split_off(n).split_off(loose);
         let entry = |row: usize, column: usize| columns[column * n + row].clone();
         let derivative =
@@ -73,12 +76,17 @@ impl<'m> Scripts<'m> {
     }
 }
 
-fn ends(script: &Script<'_>, start: &[Wide], h: &Wide, radius: f64) -> Option<Vec<Wide>> {
+fn ends<X: ReplayNumber>(
+    script: &Script<'_, X>,
+    start: &[X],
+    h: &X,
+    radius: f64,
+) -> Option<Vec<X>> {
     let series = script.expand(start);
     let rests = remainders(&series, h, radius)?;
-    let end = |(row, rest): (usize, &Wide)| series.polynomial(row, h).plus(&Wide::within(rest));
-    let found: Vec<Wide> = rests.iter().enumerate().map(end).collect();
-    found.iter().all(Wide::is_known).then_some(found)
+    let end = |(row, rest): (usize, &X)| series.polynomial(row, h).plus(&X::within(rest));
+    let found: Vec<X> = rests.iter().enumerate().map(end).collect();
+    found.iter().all(X::is_known).then_some(found)
 }
 
 /// Encloses the conserved functions and their gradients over a box, for all values of the parameters

@@ -1,48 +1,48 @@
-//! Taylor coefficients of a plan in balls of many bits, one box at a time.
+//! Taylor coefficients of a plan in balls, one box at a time.
 
-use super::number::Wide;
+use super::number::ReplayNumber;
 use crate::form::Row;
 use crate::validated::plan::{Plan, PowerExponent, RowRule};
 use liouville::number::UnaryFunction;
 use liouville::number::rational::Rational;
 
 /// Sum of products with enclosed coefficients.
-pub struct Weights {
-    pub constant: Option<Wide>,
-    pub linear: Vec<(Wide, Row)>,
-    pub products: Vec<(Wide, Row, Row)>,
+pub struct Weights<X> {
+    pub constant: Option<X>,
+    pub linear: Vec<(X, Row)>,
+    pub products: Vec<(X, Row, Row)>,
 }
 
-/// Plan with its coefficients in many bits.
-pub struct Script<'p> {
+/// Plan with its coefficients as balls.
+pub struct Script<'p, X> {
     pub plan: &'p Plan,
     /// Sums of the operations, one for each; empty where the operation is none.
-    pub sums: Vec<Weights>,
+    pub sums: Vec<Weights<X>>,
     pub order: usize,
     /// The numbers n and 1/n.
-    whole: Vec<Wide>,
-    shares: Vec<Wide>,
+    whole: Vec<X>,
+    shares: Vec<X>,
 }
 
-impl<'p> Script<'p> {
+impl<'p, X: ReplayNumber> Script<'p, X> {
     /// Prepares expansions to this order.
     pub fn new(plan: &'p Plan, order: usize) -> Self {
         let weights = |(_, operation): &(Row, RowRule)| match operation {
             RowRule::Sum(sum) => Weights {
-                constant: sum.form.constant.as_ref().map(Wide::of),
-                linear: sum.form.linear.iter().map(|(c, x)| (Wide::of(c), *x)).collect(),
-                products: sum.form.products.iter().map(|(c, x, y)| (Wide::of(c), *x, *y)).collect(),
+                constant: sum.form.constant.as_ref().map(X::of),
+                linear: sum.form.linear.iter().map(|(c, x)| (X::of(c), *x)).collect(),
+                products: sum.form.products.iter().map(|(c, x, y)| (X::of(c), *x, *y)).collect(),
             },
             _ => Weights { constant: None, linear: Vec::new(), products: Vec::new() },
         };
         let sums = plan.operations.iter().map(weights).collect();
-        let whole: Vec<Wide> = (0..=order + 1).map(|n| Wide::exact(n as f64)).collect();
-        let shares = whole.iter().map(Wide::recip).collect();
+        let whole: Vec<X> = (0..=order + 1).map(|n| X::exact(n as f64)).collect();
+        let shares = whole.iter().map(X::recip).collect();
         Self { plan, sums, order, whole, shares }
     }
 
     /// Computes all coefficients at a box of states.
-    pub fn expand(&self, state: &[Wide]) -> BallSeries<'_, 'p> {
+    pub fn expand(&self, state: &[X]) -> BallSeries<'_, 'p, X> {
         let mut series = BallSeries { script: self, rows: vec![Vec::new(); self.plan.rows] };
         for (row, value) in state.iter().enumerate() {
             series.rows[row].push(value.clone());
@@ -62,19 +62,19 @@ impl<'p> Script<'p> {
 }
 
 /// Coefficients of all rows, orders 0 to `order` of the state and to `order` - 1 of other rows.
-pub struct BallSeries<'s, 'p> {
-    pub script: &'s Script<'p>,
-    pub rows: Vec<Vec<Wide>>,
+pub struct BallSeries<'s, 'p, X> {
+    pub script: &'s Script<'p, X>,
+    pub rows: Vec<Vec<X>>,
 }
 
-impl BallSeries<'_, '_> {
-    fn at(&self, row: Row, n: usize) -> &Wide {
+impl<X: ReplayNumber> BallSeries<'_, '_, X> {
+    fn at(&self, row: Row, n: usize) -> &X {
         &self.rows[row][n]
     }
 
     /// Encloses Σ x_k y_{n-k} over k from `first` to `last`.
-    fn convolved(&self, x: Row, y: Row, n: usize, first: usize, last: usize) -> Wide {
-        let mut sum = Wide::zero();
+    fn convolved(&self, x: Row, y: Row, n: usize, first: usize, last: usize) -> X {
+        let mut sum = X::zero();
         for k in first..=last {
             let (a, b) = (self.at(x, k), self.at(y, n - k));
             if !(a.is_zero() && b.is_known() || b.is_zero() && a.is_known()) {
@@ -85,15 +85,15 @@ impl BallSeries<'_, '_> {
     }
 
     /// Encloses Σ k x_k y_{n-k} over k from 1 to `last`.
-    fn weighted(&self, x: Row, y: Row, n: usize, last: usize) -> Wide {
-        (1..=last).fold(Wide::zero(), |sum, k| {
+    fn weighted(&self, x: Row, y: Row, n: usize, last: usize) -> X {
+        (1..=last).fold(X::zero(), |sum, k| {
             let product = self.at(x, k).times(self.at(y, n - k));
             sum.plus(&self.script.whole[k].times(&product))
         })
     }
 
     /// Computes one coefficient of a row from those of lower orders and of rows before it.
-    fn coefficient(&self, out: Row, operation: &RowRule, sum: &Weights, n: usize) -> Wide {
+    fn coefficient(&self, out: Row, operation: &RowRule, sum: &Weights<X>, n: usize) -> X {
         let of = |function, x: &Row| self.at(*x, 0).apply(function);
         let number = &self.script.whole[n];
         let share = &self.script.shares[n];
@@ -105,7 +105,7 @@ impl BallSeries<'_, '_> {
             RowRule::Recip(x) => self.at(out, 0).times(&self.convolved(*x, out, n, 1, n)).neg(),
             RowRule::Power { x, exponent, .. } if n == 0 => power(self.at(*x, 0), exponent),
             RowRule::Power { x, exponent, .. } => {
-                let moved = Wide::of(&exponent.exact).times(&self.weighted(*x, out, n, n));
+                let moved = X::of(&exponent.exact).times(&self.weighted(*x, out, n, n));
                 moved.minus(&self.weighted(out, *x, n, n - 1)).times(&per(x))
             }
             RowRule::Exp(x) if n == 0 => of(UnaryFunction::Exp, x),
@@ -127,10 +127,10 @@ impl BallSeries<'_, '_> {
         }
     }
 
-    fn sum(&self, sum: &Weights, n: usize) -> Wide {
+    fn sum(&self, sum: &Weights<X>, n: usize) -> X {
         let mut total = match &sum.constant {
             Some(value) if n == 0 => value.clone(),
-            _ => Wide::zero(),
+            _ => X::zero(),
         };
         for (weight, x) in &sum.linear {
             total = total.plus(&weight.times(self.at(*x, n)));
@@ -142,13 +142,13 @@ impl BallSeries<'_, '_> {
     }
 
     /// Encloses Σ x_k h^k of a component of the state, k from 0 to `order`.
-    pub fn polynomial(&self, component: usize, h: &Wide) -> Wide {
+    pub fn polynomial(&self, component: usize, h: &X) -> X {
         let own = &self.rows[component];
-        own.iter().rev().fold(Wide::zero(), |sum, coefficient| sum.times(h).plus(coefficient))
+        own.iter().rev().fold(X::zero(), |sum, coefficient| sum.times(h).plus(coefficient))
     }
 }
 
-fn power(x: &Wide, exponent: &PowerExponent) -> Wide {
+fn power<X: ReplayNumber>(x: &X, exponent: &PowerExponent) -> X {
     match exponent.exact == Rational::new(1, 2) {
         true => x.apply(UnaryFunction::Sqrt),
         false => x.power(&exponent.exact),

@@ -1,8 +1,9 @@
 //! Steps in many bits against known solutions: the ends are so accurate that they miss the truth
 //! unless what the series leave out is bounded.
 
-use super::number::Wide;
+use super::number::{ReplayNumber, Wide};
 use super::series::Script;
+use super::short::Short;
 use super::tails::{remainders, settled};
 use crate::validated::plan::Plan;
 use crate::validated::tests::{Random, plan};
@@ -14,15 +15,23 @@ use num_dual::DualNum;
 
 const ORDER: usize = 16;
 
-/// Encloses the end of a step with tails of radius `rho`.
-fn end(plan: &Plan, start: &[f64], h: f64, rho: f64) -> Option<Vec<Wide>> {
+/// Encloses the end of a step with tails of radius `rho`, in numbers of one kind.
+fn end_in<X: ReplayNumber>(plan: &Plan, start: &[f64], h: f64, rho: f64) -> Option<Vec<X>> {
     let script = Script::new(plan, ORDER);
-    let start: Vec<Wide> = start.iter().map(|x| Wide::exact(*x)).collect();
+    let start: Vec<X> = start.iter().map(|x| X::exact(*x)).collect();
     let series = script.expand(&start);
-    let h = Wide::exact(h);
+    let h = X::exact(h);
     let rests = settled(&series, &h, rho)?;
     let ends = rests.iter().enumerate();
-    Some(ends.map(|(row, rest)| series.polynomial(row, &h).plus(&Wide::within(rest))).collect())
+    Some(ends.map(|(row, rest)| series.polynomial(row, &h).plus(&X::within(rest))).collect())
+}
+
+/// Ends in balls of many bits, and in those of short integers.
+fn end(plan: &Plan, start: &[f64], h: f64, rho: f64) -> Option<[Vec<Wide>; 2]> {
+    let many = end_in::<Wide>(plan, start, h, rho);
+    let short = end_in::<Short>(plan, start, h, rho);
+    assert_eq!(many.is_some(), short.is_some(), "both or none");
+    Some([many?, short?.iter().map(Short::wide).collect()])
 }
 
 /// Asserts that a number lies in an enclosure that is narrow, and outside of one that is somewhat
@@ -48,8 +57,10 @@ fn oscillators_are_enclosed() {
             (of(UnaryFunction::Cos)(&Wide::exact(h)), of(UnaryFunction::Sin)(&Wide::exact(h)));
         let (x, y) = (Wide::exact(x), Wide::exact(y));
         let truth = x.times(&cos).plus(&y.times(&sin));
-        assert_inside(&found[0], &truth, "position");
-        assert_inside(&found[1], &y.times(&cos).minus(&x.times(&sin)), "velocity");
+        for found in found {
+            assert_inside(&found[0], &truth, "position");
+            assert_inside(&found[1], &y.times(&cos).minus(&x.times(&sin)), "velocity");
+        }
     }
 }
 
@@ -98,8 +109,10 @@ fn integrals_of_all_functions_are_enclosed() {
         ];
         let start: Vec<f64> = std::iter::once(a).chain([0.0; 9]).collect();
         let found = end(&plan, &start, h, 0.2).expect("within the radius of convergence");
-        for (row, (found, truth)) in found.iter().zip(&truth).enumerate() {
-            assert_inside(found, truth, &format!("trial {trial}, row {row}"));
+        for found in found {
+            for (row, (found, truth)) in found.iter().zip(&truth).enumerate() {
+                assert_inside(found, truth, &format!("trial {trial}, row {row}"));
+            }
         }
     }
 }
@@ -113,9 +126,11 @@ fn no_tail_reaches_beyond_a_pole() {
     }
     let found = end(&plan, &[1.0], 0.1, 0.4).expect("well inside");
     let truth = Wide::exact(1.0).minus(&Wide::exact(0.1)).recip();
-    assert_inside(&found[0], &truth, "the geometric series");
-    // The remainder is t^17/(1 - t).
-    assert!(found[0].enclosure().rad >= 0.1f64.powi(17), "no bound is below what is left out");
+    for found in found {
+        assert_inside(&found[0], &truth, "the geometric series");
+        // The remainder is t^17/(1 - t).
+        assert!(found[0].enclosure().rad >= 0.1f64.powi(17), "no bound is below what is left out");
+    }
     // A radius that is too large is made smaller, down to the step.
     let script = Script::new(&plan, ORDER);
     let series = script.expand(&[Wide::exact(1.0)]);

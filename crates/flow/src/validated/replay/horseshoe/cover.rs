@@ -1,6 +1,6 @@
 //! Covering relations in balls of many bits.
 
-use crate::validated::replay::number::Wide;
+use crate::validated::replay::number::{ReplayNumber, Wide};
 
 /// Map of a rectangle into the plane: image of its middle, and derivative over it.
 pub struct ReplayedMap {

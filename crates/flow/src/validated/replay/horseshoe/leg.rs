@@ -10,7 +10,7 @@ use super::data::{CoveringSet, about_set};
 use super::patch::ReplayedPatch;
 use crate::validated::Obstacle;
 use crate::validated::replay::matrix::combined;
-use crate::validated::replay::number::Wide;
+use crate::validated::replay::number::{ReplayNumber, Wide};
 use crate::validated::replay::segment::Scripts;
 
 /// Motions from the points of a set over all times of its window.

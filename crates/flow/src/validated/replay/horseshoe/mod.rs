@@ -1,4 +1,4 @@
-//! Proofs of horseshoes replayed in balls of 256 bits: covering relations of rectangles along a
+//! Proofs of horseshoes replayed in balls of integers: covering relations of rectangles along a
 //! closed orbit and along a homoclinic orbit, both of which begin and end at the first rectangle.
 
 mod cover;
@@ -9,7 +9,7 @@ mod patch;
 pub use data::{CoveringSet, HorseshoeData};
 
 use super::matrix::combined;
-use super::number::Wide;
+use super::number::{ReplayNumber, Wide};
 use super::segment::Scripts;
 use crate::validated::enclosure::Enclosure;
 use crate::validated::functions::Functions;

@@ -7,7 +7,7 @@ use super::data::CoveringSet;
 use crate::validated::functions::Functions;
 use crate::validated::krawczyk::Inverse;
 use crate::validated::replay::matrix::{self, Columns, combined};
-use crate::validated::replay::number::Wide;
+use crate::validated::replay::number::{ReplayNumber, Wide};
 use crate::validated::replay::segment;
 
 /// Limit on the boxes tried, and the growth from one to the next.
