@@ -15,7 +15,7 @@ from . import _values
 from ._table import Table, html
 
 BodyTable = str | Path | Iterable[Mapping[str, Any]] | Any
-"""A path of a CSV file, dictionaries by the names of parameters, or a DataFrame or Arrow table."""
+"""A path of a CSV file, dictionaries by the names of parameters, a DataFrame, an Arrow table."""
 WANTED = "settings is a path, a DataFrame, or a list of dictionaries, one a body"
 
 SHOWN = 100

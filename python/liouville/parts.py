@@ -113,7 +113,9 @@ class Share:
         job, texts = share.run(case, (command,), wanted, words=words, table=text, units=units)
         return json.loads(job.report(texts))
 
-    def sweep(self, case: Described, claims: Iterable[str], options: dict[str, Any]) -> dict[str, Any]:
+    def sweep(
+        self, case: Described, claims: Iterable[str], options: dict[str, Any]
+    ) -> dict[str, Any]:
         """Residuals of claims; in one part if none are asked for."""
         share = self if self else Share(None, 1, None, self.threads)
         words = [f"--claim={claim}" for claim in claims]

@@ -96,7 +96,8 @@ def test_values_that_are_no_numbers_are_mistakes_of_their_rows():
 
 
 def test_reports_on_bodies(tmp_path, command):
-    table = [{"m": 1, "c": [0, 0, "1/3"], "I": [1, 1, 2]}, {"m": "x", "c": [0, 0, 0], "I": [1, 2, 3]}]
+    first = {"m": 1, "c": [0, 0, "1/3"], "I": [1, 1, 2]}
+    table = [first, first | {"m": "x"}]
     case = "plane/unbalanced-ball"
     bodies = lv.report(case, settings=table)
     assert bodies[0].invariants["class"] and bodies[0].invariants["integrals"] is not None
@@ -104,7 +105,8 @@ def test_reports_on_bodies(tmp_path, command):
     frame = bodies.to_pandas()
     assert isinstance(frame["class"][0], str) and "densities" in frame and len(frame) == 2
     path = tmp_path / "bodies.csv"
-    path.write_text('m,c,I\n1,"[0, 0, 1/3]","[1, 1, 2]"\nx,"[0, 0, 0]","[1, 2, 3]"\n', encoding="utf-8")
+    values = '"[0, 0, 1/3]","[1, 1, 2]"'
+    path.write_text(f"m,c,I\n1,{values}\nx,{values}\n", encoding="utf-8")
     told = json.loads(command("report", case, "--settings", str(path), "--json", code=2))
     assert bodies.outcome == told
     assert lv.report(case, settings=table, parts=2).outcome == told

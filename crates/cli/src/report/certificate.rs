@@ -9,6 +9,8 @@ use liouville::verdict::{ClaimReport, Composed, Residuals};
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 
+use super::sha256;
+
 /// Name and version of the format.
 const FORMAT: &str = "liouville certificate 1";
 /// Numbers of the test: primes, points for each, draws for each.

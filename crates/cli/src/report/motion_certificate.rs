@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::certificate::{CaseOrigin, canonical};
 use super::certificate_part::{CertificatePart, list, wider};
 use super::hexadecimal::written;
-use super::horseshoe_certificate;
+use super::{horseshoe_certificate, sha256};
 
 /// Name and version of the format for closed orbits.
 pub const ORBITS: &str = "liouville motion certificate 1";
