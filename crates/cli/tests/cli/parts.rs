@@ -305,7 +305,7 @@ fn merge_takes_options_of_the_report_of_its_job() {
     fails("merge bodies -- --colour class", "--colour is no option of the report");
     fails("merge bodies -- --format", "--format has no value");
     // the parts were computed with --json
-    let merged = liouville(&["merge", "bodies", "--", "--format", "csv"]);
+    let mut merged = liouville(&["merge", "bodies", "--", "--format", "csv"]);
     let merged = merged.current_dir(&home).assert().code(1).get_output().stdout.clone();
     assert!(merged.starts_with(b"row,line,a,proved,"), "{}", String::from_utf8_lossy(&merged));
 }
