@@ -27,13 +27,14 @@ from .reading import (
     exponents,
     parse,
     read,
+    report,
     search,
     section,
     sweep,
 )
-from .report import Claim, Report
 from .residuals import Sweep
 from .symbolic import from_lagrangian, from_sympy, to_sympy
+from .verdicts import Claim, Report
 
 __all__ = [
     "CLASSES",
@@ -68,6 +69,7 @@ __all__ = [
     "from_sympy",
     "parse",
     "read",
+    "report",
     "search",
     "section",
     "sweep",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-import math
+import numbers
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,11 +15,14 @@ from . import _values
 from ._table import Table, html
 
 BodyTable = str | Path | Iterable[Mapping[str, Any]] | Any
-"""A path of a CSV file, dictionaries by the names of parameters, or a DataFrame."""
+"""A path of a CSV file, dictionaries by the names of parameters, a DataFrame, an Arrow table."""
+WANTED = "settings is a path, a DataFrame, or a list of dictionaries, one a body"
 
 SHOWN = 100
 """Rows of a table in a notebook."""
 COUNTS = ("proved", "confirmed", "refuted", "undecided")
+LISTS = ("integrals", "densities", "fields", "reversors", "symmetries")
+INVARIANTS = ("class", "measure", *LISTS)
 
 
 @dataclass(frozen=True)
@@ -50,6 +53,11 @@ class Body:
         return self.entry.get("verdicts", {})
 
     @property
+    def invariants(self) -> dict[str, Any]:
+        """Of `report`: class, measure, and the names of the invariants."""
+        return {name: self.entry[name] for name in INVARIANTS if name in self.entry}
+
+    @property
     def disagreements(self) -> list[str]:
         """Names of the claims whose verdicts are not as expected."""
         return self.entry.get("disagreements", [])
@@ -76,7 +84,7 @@ class Bodies(Table[Body]):
 
     def __init__(self, outcome: dict[str, Any]):
         self.outcome = outcome
-        """The results as `liouville check --settings --json` prints them."""
+        """The results as `liouville check` or `report --settings --json` prints them."""
 
     @property
     def title(self) -> str:
@@ -105,8 +113,9 @@ class Bodies(Table[Body]):
         return all(self.bodies)
 
     def to_dicts(self) -> list[dict[str, Any]]:
-        """One row a body, with the columns of `liouville check --settings --format csv`."""
+        """One row a body, with the columns of `--settings --format csv`."""
         rows = []
+        told = any(body.invariants for body in self.bodies)
         for body in self.bodies:
             found = list(body.verdicts.values())
             counts: dict[str, Any] = {word: found.count(word) for word in COUNTS}
@@ -116,7 +125,8 @@ class Bodies(Table[Body]):
             verdicts = {f"claim {name}": body.verdicts.get(name) for name in self.claims}
             error = body.errors[0]["message"] if body.errors else None
             place = {"row": body.row, "line": body.line}
-            rows.append(place | body.settings | counts | verdicts | {"error": error})
+            named = _texts(body.invariants) if told else {}
+            rows.append(place | body.settings | counts | verdicts | named | {"error": error})
         return rows
 
     def __repr__(self) -> str:
@@ -132,6 +142,12 @@ class Bodies(Table[Body]):
         return html(repr(self), rows)
 
 
+def _texts(invariants: Mapping[str, Any]) -> dict[str, str | None]:
+    """Invariants as texts, with `;` between names."""
+    lists = {name: "; ".join(invariants[name]) for name in LISTS if name in invariants}
+    return dict.fromkeys(INVARIANTS) | dict(invariants) | lists
+
+
 def _counted(verdicts: Mapping[str, str]) -> list[str]:
     found = list(verdicts.values())
     return [f"{found.count(word)} {word}" for word in COUNTS if word in found]
@@ -143,16 +159,9 @@ def written(table: BodyTable) -> tuple[str, str]:
         return "bodies.csv", table
     if isinstance(table, (str, Path)):
         return str(table), Path(table).read_text(encoding="utf-8")
-    if isinstance(table, Mapping):
-        raise TypeError("settings is a path, a DataFrame, or a list of dictionaries, one a body")
-    if hasattr(table, "to_dict"):  # of pandas
-        rows = table.to_dict("records")
-    elif hasattr(table, "to_dicts"):  # of polars
-        rows = table.to_dicts()
-    else:
-        rows = list(table)
+    rows = _rows(table)
     if not all(isinstance(row, Mapping) for row in rows):
-        raise TypeError("settings is a path, a DataFrame, or a list of dictionaries, one a body")
+        raise TypeError(WANTED)
     names = list(dict.fromkeys(name for row in rows for name in row))
     out = io.StringIO()
     lines = csv.writer(out, lineterminator="\n")
@@ -161,9 +170,26 @@ def written(table: BodyTable) -> tuple[str, str]:
     return "bodies.csv", out.getvalue() if names else ""
 
 
+def _rows(table: Any) -> list[Any]:
+    """Rows of a table: dictionaries, if it is one."""
+    if isinstance(table, Mapping) or getattr(table, "ndim", 2) != 2:  # one body; a Series
+        return [None]
+    if hasattr(table, "to_dicts"):  # of polars, which has `to_dict` too, for columns
+        return table.to_dicts()
+    if hasattr(table, "to_pylist"):  # of Arrow
+        return table.to_pylist()
+    if hasattr(table, "to_dict"):  # of pandas
+        return table.to_dict("records")
+    return list(table) if isinstance(table, Iterable) else [None]
+
+
 def _cell(value: Any) -> str:
-    """A value as text; one that is missing is empty, which is a mistake of its row."""
-    is_missing = value is None or type(value).__name__ in ("NAType", "NaTType")
-    if is_missing or (isinstance(value, float) and math.isnan(value)):
+    """A value as text; one that is missing or no number is a mistake of its row alone."""
+    if value is None or type(value).__name__ in ("NAType", "NaTType"):
         return ""
-    return _values.setting(value)
+    if isinstance(value, numbers.Number) and value != value:  # NaN of any type
+        return ""
+    try:
+        return _values.setting(value)
+    except ValueError:
+        return str(value)

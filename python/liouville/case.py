@@ -6,32 +6,26 @@ import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Literal, overload
+from typing import Any, Literal
 
 import numpy as np
 
 from . import _liouville as native
 from . import _values
-from .bodies import Bodies, BodyTable
-from .described import Described
-from .found import Search
 from .function import Field, Function
+from .judged import Judged
 from .motion import Chart, Exponents, Orbit, Section, Spectra
 from .parts import Share
-from .report import Report
 from .residuals import Sweep
 
 Start = str | Mapping[str, Any] | Sequence[Any] | np.ndarray | None
 """A state by names or in order, a point (l, L/G) of a section, or `None` for one that is drawn."""
 
-Trust = Literal["best", "proof", "float"]
-"""Evidence that a claim needs."""
-
 MOST_NUMBERS = 30_000_000
 """Limit on the numbers of an orbit."""
 
 
-class Case(Described):
+class Case(Judged):
     """A system with claims about it. Cases do not change, and may be shared by threads."""
 
     def __init__(self, handle: native.Case, settings: dict[str, str], symbols=None):
@@ -47,119 +41,6 @@ class Case(Described):
 
     def __repr__(self) -> str:
         return f"<Case {self.title}: {self.system}, {len(self._native.claims)} claims>"
-
-    @overload
-    def check(
-        self,
-        *,
-        settings: None = None,
-        seed: int = 1,
-        states: int = 256,
-        trust: Trust = "best",
-        mutants: bool = False,
-        motion: bool = False,
-        threads: int | None = None,
-    ) -> Report: ...
-    @overload
-    def check(
-        self,
-        *,
-        settings: BodyTable,
-        seed: int = 1,
-        states: int = 256,
-        trust: Trust = "best",
-        motion: bool = False,
-        threads: int | None = None,
-        client: Any = None,
-        parts: int | None = None,
-        out: str | Path | None = None,
-    ) -> Bodies: ...
-    def check(
-        self,
-        *,
-        settings=None,
-        seed=1,
-        states=256,
-        trust="best",
-        mutants=False,
-        motion=False,
-        threads=None,
-        client=None,
-        parts=None,
-        out=None,
-    ):
-        """Judges all claims; with `motion` those about motion too, which may take minutes.
-
-        With `settings` each row of a table is a body of its own: a path of a CSV file, a
-        DataFrame, or dictionaries, by the names of parameters. A wrong row leaves the others.
-        `client`, `parts` and `out` are those of `chart`.
-        """
-        share = Share(client, parts, out, threads)
-        if settings is not None:
-            if mutants:
-                raise ValueError("mutants are those of one body: leave out settings")
-            options = {"seed": seed, "states": states, "motion": motion, "json": True}
-            wanted = options | {"trust": None if trust == "best" else trust}
-            return Bodies(share.check(self, settings, wanted))
-        if share:
-            raise ValueError("client, parts and out are for a table of bodies: give settings")
-        sampling = (seed, states, trust)
-        return Report(json.loads(native.check(self._native, sampling, mutants, motion, threads)))
-
-    def search(
-        self,
-        *,
-        degree: int = 4,
-        within: float | None = None,
-        blind: bool = False,
-        terms: Iterable[str] = (),
-        conditions: str | bool = False,
-        ansatz: int | None = None,
-        potentials: bool = False,
-        gyrostats: bool = False,
-        poisson: str | bool = False,
-        seconds: float = 60,
-        megabytes: int = 500,
-        seed: int = 1,
-        threads: int | None = None,
-    ) -> Search:
-        """Searches for integrals, densities, brackets and symmetries, and proves the results.
-
-        `within` ends the search after that many seconds with what was found. The other arguments
-        are the options of `liouville search`.
-        """
-
-        def wanted(value: str | bool) -> str | None:
-            return value if isinstance(value, str) else ("" if value else None)
-
-        outcome = native.search(
-            self._native,
-            (degree, seed, blind),
-            [str(term) for term in terms],
-            wanted(conditions),
-            ansatz,
-            (potentials, gyrostats),
-            wanted(poisson),
-            (within, float(seconds), megabytes),
-            threads,
-        )
-        return Search(self, json.loads(outcome))
-
-    def report(
-        self,
-        format: Literal["html", "markdown", "latex", "text", "json"] = "text",
-        *,
-        seed: int = 1,
-        threads: int | None = None,
-    ) -> str:
-        """All known invariants of the system, each with a proof, as one document."""
-        if format not in ("html", "markdown", "latex", "text", "json"):
-            raise ValueError('format is "html", "markdown", "latex", "text" or "json"')
-        return native.report(self._native, format, seed, threads)
-
-    def report_html(self, *, seed: int = 1, threads: int | None = None) -> str:
-        """All known invariants of the system as one self-contained page."""
-        return self.report("html", seed=seed, threads=threads)
 
     @property
     def field(self) -> Field:
@@ -305,7 +186,7 @@ class Case(Described):
 
         With a `distributed.Client` the workers of a Dask cluster compute it in many `parts`, and
         the result is the same bit for bit. Parts are kept as files in the folder `out`, and not
-        computed again; what a worker that dies has not finished is computed by another.
+        computed again; what a lost worker has not finished is computed by another.
         """
         if not 0 < abs(time) < math.inf:
             raise ValueError("time is a number that is not 0")

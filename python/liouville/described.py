@@ -1,4 +1,4 @@
-"""What a case says of itself."""
+"""Descriptions of a case: its title, its text, its names."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ class Described:
     """Title, text and names of a case."""
 
     _native: native.Case
+    _settings: dict[str, str]
 
     @property
     def title(self) -> str:

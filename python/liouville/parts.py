@@ -7,13 +7,11 @@ import json
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from . import _liouville as native
 from .bodies import BodyTable, written
-
-if TYPE_CHECKING:
-    from .case import Case
+from .described import Described
 
 MOST_PARTS = 1000
 """Largest number of parts that is chosen where none is given."""
@@ -22,9 +20,11 @@ MOTIONS = 8
 STATES = 1 << 24
 """States of a part of a sweep where their number is not given."""
 BODIES = 200
-"""Bodies of a part where their number is not given: a second or two."""
+"""Bodies of a part of `check` where their number is not given: a second or two."""
+REPORTS = 10
+"""Bodies of a part of `report` where their number is not given: some seconds."""
 RETRIES = 3
-"""How often a part is tried again after an error on a worker."""
+"""Number of further attempts at a part after an error on a worker."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class Recipe:
 
 @dataclass(frozen=True)
 class Share:
-    """How a job is shared: among the workers of a client, in parts, with files in a folder."""
+    """Ways to share a job: the workers of a client, a number of parts, a folder for their files."""
 
     client: Any
     parts: int | None
@@ -57,9 +57,14 @@ class Share:
         """Whether a job in parts is asked for."""
         return (self.client, self.parts, self.out) != (None, None, None)
 
+    def refuse(self) -> None:
+        """Refuses what belongs to a table of bodies where there is none."""
+        if self:
+            raise ValueError("client, parts and out are for a table of bodies: give settings")
+
     def run(
         self,
-        case: Case,
+        case: Described,
         command: tuple[str, ...],
         options: dict[str, Any],
         *,
@@ -79,14 +84,14 @@ class Share:
         return _run(recipe, self, units)
 
     def section(
-        self, case: Case, given: list[Any], options: dict[str, Any]
+        self, case: Described, given: list[Any], options: dict[str, Any]
     ) -> tuple[native.Job, list[str]]:
         """Follows motions through a section."""
         words, text = _starts(given)
         return self.run(case, ("motion", "section"), options, words=words, table=text)
 
     def exponents(
-        self, case: Case, given: list[Any], names: list[str], options: dict[str, Any]
+        self, case: Described, given: list[Any], names: list[str], options: dict[str, Any]
     ) -> dict[str, Any]:
         """Exponents of motions with these names."""
         words, text = _starts(given)
@@ -96,15 +101,21 @@ class Share:
             motion["start"] = name
         return found
 
-    def check(self, case: Case, table: BodyTable, options: dict[str, Any]) -> dict[str, Any]:
-        """Verdicts on a table of bodies."""
+    def bodies(
+        self, case: Described, command: str, table: BodyTable, options: dict[str, Any]
+    ) -> dict[str, Any]:
+        """Answers of `check` or `report` about a table of bodies."""
         name, text = written(table)
         share = self if self else Share(None, 1, None, self.threads)
         words = [f"--settings={name}"]
-        job, texts = share.run(case, ("check",), options, words=words, table=text, units=BODIES)
+        units = BODIES if command == "check" else REPORTS
+        wanted = options | {"json": True}
+        job, texts = share.run(case, (command,), wanted, words=words, table=text, units=units)
         return json.loads(job.report(texts))
 
-    def sweep(self, case: Case, claims: Iterable[str], options: dict[str, Any]) -> dict[str, Any]:
+    def sweep(
+        self, case: Described, claims: Iterable[str], options: dict[str, Any]
+    ) -> dict[str, Any]:
         """Residuals of claims; in one part if none are asked for."""
         share = self if self else Share(None, 1, None, self.threads)
         words = [f"--claim={claim}" for claim in claims]
@@ -117,21 +128,27 @@ def _job(recipe: Recipe) -> native.Job:
     return recipe.job()
 
 
-def _known(path: Path) -> str | None:
-    """Text of a part that is there and whole."""
+def _known(job: native.Job, index: int, count: int, path: Path) -> str | None:
+    """Text of a part that is there and whole; a file of something else does not count as there."""
     try:
         text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError):
+    except (FileNotFoundError, UnicodeDecodeError):
         return None
-    return text if native.is_whole(text) else None
+    return text if job.is_part(index, count, text) else None
+
+
+def _same(recipe: Recipe) -> Recipe:
+    """The recipe as a result of its own, which tasks refer to in place of holding it."""
+    return recipe
 
 
 def _compute(recipe: Recipe, index: int, count: int, folder: str | None, name: str) -> str:
     """A part on a worker, which keeps it in the folder if it sees the folder."""
+    job = _job(recipe)
     shared = Path(folder) if folder and Path(folder).is_dir() else None
-    if shared and (text := _known(shared / name)) is not None:
+    if shared and (text := _known(job, index, count, shared / name)) is not None:
         return text
-    text = _job(recipe).part(index, count, 1)
+    text = job.part(index, count, 1)
     if shared:
         native.save(shared, name, text)
     return text
@@ -155,7 +172,7 @@ def _run(recipe: Recipe, share: Share, units: int) -> tuple[native.Job, list[str
     if out is not None:
         folder = Path(out).expanduser().absolute()
         folder.mkdir(parents=True, exist_ok=True)
-        known = ((index, _known(folder / name)) for index, name in names.items())
+        known = ((k, _known(job, k, count, folder / name)) for k, name in names.items())
         texts = {index: text for index, text in known if text is not None}
     missing = [index for index in names if index not in texts]
     found: Iterable[tuple[int, str]]
@@ -165,7 +182,7 @@ def _run(recipe: Recipe, share: Share, units: int) -> tuple[native.Job, list[str
         found = _on(client, recipe, job.key, missing, count, folder, names)
     for index, text in found:
         texts[index] = text
-        if folder and _known(folder / names[index]) is None:
+        if folder and _known(job, index, count, folder / names[index]) is None:
             native.save(folder, names[index], text)
     return job, [texts[index] for index in sorted(texts)]
 
@@ -179,23 +196,26 @@ def _on(
     folder: Path | None,
     names: dict[int, str],
 ) -> Iterable[tuple[int, str]]:
-    """Parts as workers finish them. Those of a worker that dies are computed by another."""
+    """Parts as workers finish them. Those of a worker that is lost are computed by another.
+
+    The recipe is a task too: it is sent once, and made again if the worker that holds it is lost.
+    """
     from distributed import as_completed
 
     if getattr(client, "asynchronous", False):
         raise TypeError("client is a synchronous client: Client(...), without asynchronous=True")
     place = None if folder is None else str(folder)
+    shared = client.submit(_same, recipe, retries=RETRIES)
     futures = {
         client.submit(
             _compute,
-            recipe,
+            shared,
             index,
             count,
             place,
             names[index],
             key=f"liouville-{key}-{index:04}-of-{count:04}",
             retries=RETRIES,
-            pure=False,
         ): index
         for index in missing
     }
@@ -204,8 +224,7 @@ def _on(
             yield futures.pop(future), text
             future.release()
     finally:
-        if futures:
-            client.cancel(list(futures))
+        client.cancel([*futures, shared])
 
 
 def _starts(given: list[str | list[str] | None]) -> tuple[list[str], str | None]:

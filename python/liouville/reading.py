@@ -11,9 +11,10 @@ from . import _values
 from .bodies import Bodies, BodyTable
 from .case import Case
 from .found import Search
+from .judged import Format
 from .motion import Chart, Exponents, Section, Spectra
-from .report import Report
 from .residuals import Sweep
+from .verdicts import Report
 
 
 def restored(text: str, name: str, settings: dict[str, str], symbols) -> Case:
@@ -52,6 +53,19 @@ def check(case: Case | str | Path, *, settings: BodyTable, **options: Any) -> Bo
 def check(case, **options):
     """Judges all claims of a case, for each row of a table with `settings`; see `Case.check`."""
     return _case(case).check(**options)
+
+
+@overload
+def report(
+    case: Case | str | Path, format: Format | None = None, *, settings: None = None, **options: Any
+) -> str: ...
+@overload
+def report(
+    case: Case | str | Path, format: None = None, *, settings: BodyTable, **options: Any
+) -> Bodies: ...
+def report(case, format=None, **options):
+    """Invariants of a case, for each row of a table with `settings`; see `Case.report`."""
+    return _case(case).report(format, **options)
 
 
 def search(case: Case | str | Path, **options: Any) -> Search:

@@ -32,7 +32,7 @@ mod _liouville {
     #[pymodule_export]
     use super::motion::{chart, exponents, orbits, section, surface};
     #[pymodule_export]
-    use super::parts::{Job, is_whole, save};
+    use super::parts::{Job, save};
     #[pymodule_export]
     use super::program::program;
     #[pymodule_export]

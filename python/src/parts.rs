@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use liouville::part::Part;
 use liouville_cli::jobs::{AnyJob, Given, SectionUnit};
-use liouville_cli::parts::{Job as _, PartFile, Set};
+use liouville_cli::parts::{Identity, Job as _, PartFile, Set, check};
 use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
@@ -17,6 +17,7 @@ use super::work::Work;
 #[pyclass(frozen, module = "liouville._liouville")]
 pub struct Job {
     inner: Arc<AnyJob>,
+    identity: Identity,
 }
 
 /// Error about a job, without the marks of the terminal.
@@ -52,25 +53,31 @@ impl Job {
         let read = move || {
             let table = table.as_deref();
             let given = Given { name: &name, text: &text, settings: &settings, table };
-            AnyJob::read(&arguments, given, None)
+            let job = AnyJob::read(&arguments, given, None)?;
+            job.identity().map(|identity| (job, identity))
         };
-        let inner = Work::on(Some(1)).alone(py, read)?.map_err(wrong)?;
-        Ok(Self { inner: Arc::new(inner) })
+        let (inner, identity) = Work::on(Some(1)).alone(py, read)?.map_err(wrong)?;
+        Ok(Self { inner: Arc::new(inner), identity })
     }
 
     #[getter]
-    fn key(&self) -> PyResult<String> {
-        self.inner.identity().map(|identity| identity.key()).map_err(wrong)
+    fn key(&self) -> String {
+        self.identity.key()
     }
 
     #[getter]
-    fn units(&self) -> PyResult<u64> {
-        self.inner.identity().map(|identity| identity.units).map_err(wrong)
+    fn units(&self) -> u64 {
+        self.identity.units
     }
 
     /// Name of the file of a part.
     fn file_name(&self, index: u64, count: u64) -> PyResult<String> {
-        self.inner.file_name(part(index, count)?).map_err(wrong)
+        Ok(self.identity.file_name(part(index, count)?, self.inner.form().ending()))
+    }
+
+    /// Whether a text is that of a part of this job, and whole.
+    fn is_part(&self, index: u64, count: u64, text: &str) -> PyResult<bool> {
+        Ok(check(text, &self.identity, part(index, count)?, &self.inner.form()).is_ok())
     }
 
     /// Computes a part; returns the text of its file.
@@ -131,12 +138,6 @@ impl Job {
         let units = job.units(&set(texts)?).map_err(wrong)?;
         job.written(units).map(|(_, json)| json).map_err(wrong)
     }
-}
-
-/// Whether a text is that of a whole part.
-#[pyfunction]
-pub fn is_whole(text: &str) -> bool {
-    PartFile::read(text).is_ok()
 }
 
 /// Writes the file of a part whole or not at all.

@@ -2,7 +2,9 @@
 
 import json
 
+import numpy as np
 import pandas
+import pyarrow
 import pytest
 
 import liouville as lv
@@ -59,6 +61,60 @@ def test_each_row_is_a_body(tmp_path, command):
         lv.check(SPRING, settings=table, mutants=True)
     with pytest.raises(ValueError, match="give settings"):
         lv.check(SPRING, parts=2)
+
+
+class Polars:
+    """A frame with the methods of polars: `to_dict` is of columns."""
+
+    def to_dict(self, *, as_series=True):
+        return {"k": [1, 1.5], "d": [0, 0]}
+
+    def to_dicts(self):
+        return [{"k": 1, "d": 0}, {"k": 1.5, "d": 0}]
+
+
+def test_tables_of_any_library():
+    expected = [{"k": "1", "d": "0"}, {"k": "1.5", "d": "0"}]
+    arrow = pyarrow.Table.from_pylist([{"k": 1.0, "d": 0}, {"k": 1.5, "d": 0}])
+    assert [body.settings for body in lv.check(SPRING, settings=Polars())] == expected
+    assert [body["circle"] for body in lv.check(SPRING, settings=arrow)] == ["proved", "refuted"]
+    for wrong in (pandas.Series([1, 2]), 7, [1, 2], {"k": 1}):
+        with pytest.raises(TypeError, match="one a body"):
+            lv.check(SPRING, settings=wrong)
+
+
+def test_values_that_are_no_numbers_are_mistakes_of_their_rows():
+    nan, infinite = float("nan"), float("inf")
+    values = [np.float32("nan"), np.float64("nan"), nan, pandas.NA, None]
+    table = [{"k": k, "d": 0} for k in [*values, infinite, [1, nan], 1]]
+    bodies = lv.check(SPRING, settings=table)
+    assert [bool(body) for body in bodies] == [False] * 7 + [True]
+    for body in bodies[:5]:
+        assert body.errors[0]["message"] == "`k` has no value"
+    frame = pandas.DataFrame({"k": np.array([1, np.nan], dtype=np.float32), "d": [0, 0]})
+    assert [bool(body) for body in lv.check(SPRING, settings=frame)] == [True, False]
+
+
+def test_reports_on_bodies(tmp_path, command):
+    first = {"m": 1, "c": [0, 0, "1/3"], "I": [1, 1, 2]}
+    table = [first, first | {"m": "x"}]
+    case = "plane/unbalanced-ball"
+    bodies = lv.report(case, settings=table)
+    assert bodies[0].invariants["class"] and bodies[0].invariants["integrals"] is not None
+    assert bodies[1].errors and not bodies[1].invariants
+    frame = bodies.to_pandas()
+    assert isinstance(frame["class"][0], str) and "densities" in frame and len(frame) == 2
+    path = tmp_path / "bodies.csv"
+    values = '"[0, 0, 1/3]","[1, 1, 2]"'
+    path.write_text(f"m,c,I\n1,{values}\nx,{values}\n", encoding="utf-8")
+    told = json.loads(command("report", case, "--settings", str(path), "--json", code=2))
+    assert bodies.outcome == told
+    assert lv.report(case, settings=table, parts=2).outcome == told
+    with pytest.raises(ValueError, match="no format"):
+        lv.report(case, "html", settings=table)
+    with pytest.raises(ValueError, match="give settings"):
+        lv.report(case, parts=2)
+    assert "<html" in lv.report(case, "html")
 
 
 def test_bodies_in_parts(tmp_path, command):

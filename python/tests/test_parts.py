@@ -1,4 +1,4 @@
-"""Jobs in parts: the same bits by any number of parts and workers, whoever dies."""
+"""Jobs in parts: the same bits by any number of parts and workers, also where some are lost."""
 
 import os
 import signal
@@ -74,6 +74,23 @@ def test_charts_in_parts_are_those_of_one_run(tmp_path, whole, command):
     assert (tmp_path / "merged.csv").read_bytes() == (tmp_path / "whole.csv").read_bytes()
 
 
+def test_other_files_under_the_name_of_a_part_do_not_count(tmp_path, whole):
+    chart = {"parts": 4, "out": tmp_path}
+    assert same(lv.chart(BODY, **PLANE, **chart), whole)
+    files = parts(tmp_path)
+    texts = [path.read_bytes() for path in files]
+    files[0].write_bytes(texts[1])
+    files[2].write_bytes(b"\xff\xfe")
+    lv.chart(BODY, **(PLANE | {"time": 10}), parts=4, out=tmp_path / "others")
+    files[3].write_bytes(parts(tmp_path / "others")[3].read_bytes())
+    assert same(lv.chart(BODY, **PLANE, **chart), whole)
+    assert [path.read_bytes() for path in files] == texts
+    files[0].unlink()
+    files[0].mkdir()
+    with pytest.raises(OSError, match="directory"):
+        lv.chart(BODY, **PLANE, **chart)
+
+
 def test_sections_and_exponents_in_parts():
     case = lv.parse(FLOW)
     starts = [[1, 2, 20], [1, 1, 21], [-1, 2, 22], [2, 2, 22], [0.1, 2, 22]]
@@ -132,7 +149,31 @@ def test_a_cluster_without_a_shared_folder(cluster, whole):
         assert states.outcome == case.sweep(states=100_000).outcome
 
 
-def test_a_worker_dies(cluster, whole, tmp_path):
+def test_tasks_refer_to_the_case_and_do_not_hold_it(cluster, whole, monkeypatch):
+    from distributed import Client, Future
+
+    from liouville.parts import Recipe
+
+    with Client(cluster) as client:
+        given = []
+        submit = client.submit
+
+        def record(function, *arguments, **options):
+            given.append(arguments)
+            return submit(function, *arguments, **options)
+
+        monkeypatch.setattr(client, "submit", record)
+        assert same(lv.chart(BODY, **PLANE, client=client, parts=10), whole)
+    holding = [one for one in given if any(isinstance(own, Recipe) for own in one)]
+    referring = [one for one in given if any(isinstance(own, Future) for own in one)]
+    assert (len(holding), len(referring)) == (1, 10)
+
+
+LONG = PLANE | {"time": 400}
+"""Motions so long that a worker is lost before all parts are done."""
+
+
+def test_a_worker_is_lost(cluster, tmp_path):
     from distributed import Client
 
     with Client(cluster) as client:
@@ -140,16 +181,21 @@ def test_a_worker_dies(cluster, whole, tmp_path):
         killed = []
 
         def kill() -> None:
-            wait_for(tmp_path, 3)
-            killed.append(next(iter(pids.values())))
-            os.kill(killed[0], signal.SIGKILL)
+            done = wait_for(tmp_path, 3)
+            pid = next(iter(pids.values()))
+            os.kill(pid, signal.SIGKILL)
+            killed.append((pid, done, len(parts(tmp_path))))
 
         killer = threading.Thread(target=kill)
         killer.start()
-        chart = lv.chart(BODY, **PLANE, client=client, parts=40, out=tmp_path)
+        chart = lv.chart(BODY, **LONG, client=client, parts=40, out=tmp_path)
         killer.join()
-    assert killed and same(chart, whole)
+        left = client.run(os.getpid).values()
+    ((pid, done, after),) = killed
+    assert 3 <= done <= after < 40, "a worker was lost on the way"
+    assert pid not in left
     assert len(parts(tmp_path)) == 40
+    assert same(chart, lv.chart(BODY, **LONG))
 
 
 RUN = """
@@ -165,7 +211,7 @@ if __name__ == "__main__":
 """
 
 
-def test_a_worker_the_client_and_the_scheduler_die(whole, tmp_path):
+def test_a_worker_the_client_and_the_scheduler_are_lost(whole, tmp_path):
     pytest.importorskip("distributed")
     script, folder = tmp_path / "run.py", tmp_path / "parts"
     script.write_text(RUN.format(plane=PLANE, body=BODY), encoding="utf-8")

@@ -9,6 +9,16 @@ use sha2::{Digest as _, Sha256};
 /// Version of the program.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
+/// SHA-256 of a text in hexadecimal digits.
+pub fn sha256(text: &str) -> String {
+    let mut digits = String::new();
+    for byte in Sha256::digest(text.as_bytes()) {
+        // a `String` takes all that is written to it
+        _ = write!(digits, "{byte:02x}");
+    }
+    digits
+}
+
 /// SHA-256 of the text of a case, in hexadecimal digits.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct CaseDigest(String);
@@ -16,12 +26,7 @@ pub struct CaseDigest(String);
 impl CaseDigest {
     /// Digest of a text.
     pub fn of(text: &str) -> Self {
-        let mut digits = String::from("sha256:");
-        for byte in Sha256::digest(text.as_bytes()) {
-            // a `String` takes all that is written to it
-            _ = write!(digits, "{byte:02x}");
-        }
-        Self(digits)
+        Self(format!("sha256:{}", sha256(text)))
     }
 
     /// One line with the version and the digest.

@@ -12,7 +12,7 @@ pub mod site;
 pub mod survey;
 pub mod typeset;
 
-pub use digest::{CaseDigest, VERSION};
+pub use digest::{CaseDigest, VERSION, sha256};
 
 use std::collections::BTreeMap;
 use std::time::Duration;

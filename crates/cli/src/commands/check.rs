@@ -76,14 +76,19 @@ struct RequestedClaim<'c> {
 impl CheckArgs {
     /// Message where no claim is meant.
     pub(super) fn no_claim(&self) -> String {
-        let all = [self.claims.as_slice(), &self.sources].concat().join("` or `");
-        match all.is_empty() {
-            true => "error: the case has no claim\nhelp: add [[claim]]".to_string(),
-            false => format!(
-                "error: no claim has a name or source like `{all}`\n\
-                 help: `liouville check -v` shows the names"
-            ),
-        }
+        no_claim(&[self.claims.as_slice(), &self.sources].concat())
+    }
+}
+
+/// Message where no claim is one of those wanted; where none is named, the case has no claim.
+pub(super) fn no_claim(wanted: &[String]) -> String {
+    let all = wanted.join("` or `");
+    match all.is_empty() {
+        true => "error: the case has no claim\nhelp: add [[claim]]".to_string(),
+        false => format!(
+            "error: no claim has a name or source like `{all}`\n\
+             help: `liouville check -v` shows the names"
+        ),
     }
 }
 

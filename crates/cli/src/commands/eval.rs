@@ -41,18 +41,25 @@ pub(super) fn wrong_state(error: &verdict::StateError) -> String {
     )
 }
 
+/// A case with its text.
+#[derive(Debug)]
+pub struct Opened {
+    pub case: Case,
+    pub text: String,
+}
+
 /// Reads a case with the values given by `--set`.
 pub(super) fn open(path: &Path, settings: &[String]) -> Result<Case, String> {
-    open_signed(path, settings).map(|(case, _)| case)
+    open_text(path, settings).map(|opened| opened.case)
 }
 
 /// Reads a case with the values given by `--set`, and the digest of its text.
 pub(super) fn open_signed(path: &Path, settings: &[String]) -> Result<(Case, CaseDigest), String> {
-    open_text(path, settings).map(|(case, text)| (case, CaseDigest::of(&text)))
+    open_text(path, settings).map(|Opened { case, text }| (case, CaseDigest::of(&text)))
 }
 
-/// Reads a case with the values given by `--set`, and its text.
-pub(super) fn open_text(path: &Path, settings: &[String]) -> Result<(Case, String), String> {
+/// Reads a case with the values given by `--set`, and keeps its text.
+pub(super) fn open_text(path: &Path, settings: &[String]) -> Result<Opened, String> {
     let settings = read_settings(settings)?;
     let shown = path.display().to_string();
     let coloured = colour(std::io::stderr().is_terminal());
@@ -60,16 +67,17 @@ pub(super) fn open_text(path: &Path, settings: &[String]) -> Result<(Case, Strin
     let case = case.map_err(|error| {
         diagnostic::rendered(&diagnostic::of_case(&shown, &text, &error, coloured))
     })?;
-    Ok((case, text))
+    Ok(Opened { case, text })
 }
 
 /// Reads a case from its text, with the values given by `--set`.
-pub(super) fn read_text(path: &Path, text: &str, settings: &[String]) -> Result<Case, String> {
+pub(super) fn read_text(path: &Path, text: &str, settings: &[String]) -> Result<Opened, String> {
     let coloured = colour(std::io::stderr().is_terminal());
-    Case::parse(text, &read_settings(settings)?).map_err(|error| {
+    let case = Case::parse(text, &read_settings(settings)?).map_err(|error| {
         let shown = path.display().to_string();
         diagnostic::rendered(&diagnostic::of_case(&shown, text, &error, coloured))
-    })
+    })?;
+    Ok(Opened { case, text: text.to_string() })
 }
 
 /// Reads the values of `--set`.

@@ -3,9 +3,8 @@
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
-use crate::report::certificate::hex;
-use crate::report::diagnostic;
 use crate::report::export::{self, Language};
+use crate::report::{diagnostic, sha256};
 use clap::{Args, ValueEnum};
 use liouville::case::Case;
 use liouville::program::Program;
@@ -94,7 +93,7 @@ pub fn run(options: &ExportArgs) -> Result<CommandOutput, String> {
     let mut origin = vec![format!(
         "Written by liouville {} from {shown}, SHA-256 {}.",
         env!("CARGO_PKG_VERSION"),
-        hex(&text)
+        sha256(&text)
     )];
     origin.extend(options.settings.iter().map(|setting| format!("Given by --set: {setting}.")));
     let module = module(options.out.as_deref(), &options.case);

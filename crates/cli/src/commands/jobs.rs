@@ -5,11 +5,13 @@ use std::path::Path;
 use clap::FromArgMatches;
 use liouville::part::Part;
 
-use super::explore::motion::Opened;
+use super::eval::{self, Opened};
+use super::explore::motion::MotionArgs;
 use super::explore::report::ReportArgs;
+use super::explore::share::Share;
 use super::explore::{self, MotionCommand};
-use super::{Arguments, CheckArgs, Command, CommandOutput, eval};
-use crate::parts::{Header, Identity, Job, PartFile, Set};
+use super::{Arguments, CheckArgs, Command, CommandOutput};
+use crate::parts::{Form, Header, Identity, Job, PartFile, Set};
 
 pub use super::bodies::BodiesJob;
 pub use super::explore::chart::{Cell, ChartJob};
@@ -32,6 +34,19 @@ pub enum AnyJob {
     Sweep(Box<SweepJob>),
 }
 
+/// Does the same with a job of any kind.
+macro_rules! of_any {
+    ($own:expr, $job:ident => $body:expr) => {
+        match $own {
+            AnyJob::Bodies($job) => $body,
+            AnyJob::Chart($job) => $body,
+            AnyJob::Exponents($job) => $body,
+            AnyJob::Section($job) => $body,
+            AnyJob::Sweep($job) => $body,
+        }
+    };
+}
+
 /// Case at hand: its name, its text, and the values given by `--set`.
 #[derive(Clone, Copy, Debug)]
 pub struct Given<'g> {
@@ -46,10 +61,16 @@ pub struct Given<'g> {
 }
 
 impl Given<'_> {
+    /// Puts the case in place of the file, with all arguments of the command.
+    fn put(&self, subject: &mut MotionArgs, share: &mut Share, arguments: &[String]) {
+        subject.case = self.name.into();
+        subject.settings = self.settings.to_vec();
+        share.arguments = arguments.to_vec();
+    }
+
     /// The case, read from its text.
     fn opened(&self) -> Result<Opened, String> {
-        let case = eval::read_text(Path::new(self.name), self.text, self.settings)?;
-        Ok(Opened { case, text: self.text.to_string() })
+        eval::read_text(Path::new(self.name), self.text, self.settings)
     }
 }
 
@@ -78,11 +99,9 @@ impl AnyJob {
                 return Self::survey(options, arguments, given, out);
             }
             explore::ExploreCommand::Sweep(mut options) => {
-                set(&mut options.subject, given);
-                options.share.arguments = arguments.to_vec();
+                given.put(&mut options.subject, &mut options.share, arguments);
                 options.out = out.map(Path::to_path_buf);
-                let opened = options.subject.opened_any(given.text)?;
-                return Ok(Self::Sweep(Box::new(SweepJob::new(options, opened)?)));
+                return Ok(Self::Sweep(Box::new(SweepJob::new(options, given.opened()?)?)));
             }
             explore::ExploreCommand::Motion { command }
             | explore::ExploreCommand::Former(explore::FormerCommand::Motion(command)) => *command,
@@ -91,23 +110,20 @@ impl AnyJob {
         let out = out.map(Path::to_path_buf);
         match motion {
             MotionCommand::Chart(mut options) => {
-                set(&mut options.subject, given);
-                options.share.arguments = arguments.to_vec();
+                given.put(&mut options.subject, &mut options.share, arguments);
                 options.ink.out = out;
                 let opened = options.subject.read(given.text)?;
                 Ok(Self::Chart(Box::new(ChartJob::new(options, opened)?)))
             }
             MotionCommand::Exponents(mut options) => {
-                set(&mut options.subject, given);
-                options.share.arguments = arguments.to_vec();
+                given.put(&mut options.subject, &mut options.share, arguments);
                 options.starts.text = given.table.map(str::to_string);
                 options.out = out;
                 let opened = options.subject.read(given.text)?;
                 Ok(Self::Exponents(Box::new(ExponentsJob::new(options, opened)?)))
             }
             MotionCommand::Section(mut options) => {
-                set(&mut options.subject, given);
-                options.share.arguments = arguments.to_vec();
+                given.put(&mut options.subject, &mut options.share, arguments);
                 options.starts.text = given.table.map(str::to_string);
                 options.ink.out = out;
                 let opened = options.subject.read(given.text)?;
@@ -155,54 +171,23 @@ impl AnyJob {
 
     /// Identity of the job.
     pub fn identity(&self) -> Result<Identity, String> {
-        match self {
-            Self::Bodies(job) => job.identity(),
-            Self::Chart(job) => job.identity(),
-            Self::Exponents(job) => job.identity(),
-            Self::Section(job) => job.identity(),
-            Self::Sweep(job) => job.identity(),
-        }
+        of_any!(self, job => job.identity())
     }
 
-    /// Name of the file of a part.
-    pub fn file_name(&self, part: Part) -> Result<String, String> {
-        let form = match self {
-            Self::Bodies(job) => job.form(),
-            Self::Chart(job) => job.form(),
-            Self::Exponents(job) => job.form(),
-            Self::Section(job) => job.form(),
-            Self::Sweep(job) => job.form(),
-        };
-        Ok(self.identity()?.file_name(part, form.ending()))
+    /// Form of the files of parts.
+    pub fn form(&self) -> Form {
+        of_any!(self, job => job.form())
     }
 
     /// Computes a part as a file.
     pub fn file(&self, part: Part, threads: usize) -> Result<PartFile, String> {
-        match self {
-            Self::Bodies(job) => job.file(part, threads),
-            Self::Chart(job) => job.file(part, threads),
-            Self::Exponents(job) => job.file(part, threads),
-            Self::Section(job) => job.file(part, threads),
-            Self::Sweep(job) => job.file(part, threads),
-        }
+        of_any!(self, job => job.file(part, threads))
     }
 
     /// Reports the units of all parts, and writes the file of the whole job.
     pub fn report(&self, set: &Set) -> Result<CommandOutput, String> {
-        match self {
-            Self::Bodies(job) => job.report(job.units(set)?),
-            Self::Chart(job) => job.report(job.units(set)?),
-            Self::Exponents(job) => job.report(job.units(set)?),
-            Self::Section(job) => job.report(job.units(set)?),
-            Self::Sweep(job) => job.report(job.units(set)?),
-        }
+        of_any!(self, job => job.report(job.units(set)?))
     }
-}
-
-/// Puts the case at hand in place of the file.
-fn set(subject: &mut explore::motion::MotionArgs, given: Given<'_>) {
-    subject.case = given.name.into();
-    subject.settings = given.settings.to_vec();
 }
 
 fn no_job(arguments: &[String]) -> String {

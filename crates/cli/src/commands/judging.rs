@@ -15,9 +15,7 @@ use rayon::prelude::*;
 use super::files::{self, Found, coloured, plain};
 use super::limits::{LimitArgs, Stop, signals};
 use super::source;
-
-/// Stack of each thread; formulas nest, and what follows them does.
-pub(super) const STACK: usize = 16 << 20;
+use super::threads::pool;
 
 /// Change of a case before it is judged.
 pub type Prepare = Box<dyn Fn(&mut Case) + Send + Sync>;
@@ -71,11 +69,7 @@ pub fn judge(work: JudgingJob) -> Result<RunReport, String> {
     let files = files::collect(&work.paths);
     let slots: Arc<Vec<Mutex<Slot>>> = Arc::new(files.into_iter().map(Slot::new).collect());
     let threads = work.threads.unwrap_or(0).min(slots.len().max(1));
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .stack_size(STACK)
-        .build()
-        .map_err(|error| format!("error: cannot start threads: {error}"))?;
+    let pool = pool(threads)?;
     let bar = files::bar(slots.len() as u64);
     let (sender, receiver) = channel();
     let (own, shown) = (Arc::clone(&slots), bar.clone());

@@ -19,13 +19,16 @@ pub mod new;
 mod out;
 mod run;
 pub mod schema;
+mod styles;
 pub mod table;
+mod threads;
 pub mod verify;
 
 use std::ffi::OsString;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
+pub use crate::answer::CommandOutput;
 pub use limits::{LimitArgs, STOPPED};
 pub use run::run;
 
@@ -317,12 +320,6 @@ pub enum TableFormat {
     Latex,
     /// A web page
     Html,
-}
-
-/// Result of a command: text for standard output, and the exit code.
-pub struct CommandOutput {
-    pub text: String,
-    pub code: u8,
 }
 
 /// Prints the answer, or the problem, and returns the exit code; invalid input exits with 2.

@@ -3,6 +3,7 @@
 use std::ffi::OsString;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use super::explore::share::Share;
 use super::{Arguments, Command, CommandOutput, LimitArgs, STOPPED, finish};
 
 /// Runs the program with these arguments, the first of which is its name, and returns its exit
@@ -11,10 +12,10 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     let mut command = Arguments::read(arguments.clone()).command;
     let own = arguments.get(1..).unwrap_or_default();
-    match &mut command {
-        Command::Check(options) => options.share.keep(own),
-        Command::Explore(command) => command.keep(own),
-        _ => {}
+    let mut remedy = "allow more, or ask for less".to_string();
+    if let Some(share) = share(&mut command) {
+        share.keep(own);
+        remedy = share.remedy();
     }
     let limits = limits(&command);
     if let Err(problem) = limits.check() {
@@ -23,9 +24,18 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     match limits.run(move || whole(&command)) {
         Ok(answer) => finish(answer),
         Err(stop) => {
-            anstream::eprintln!("error: not finished: {stop}\nhelp: allow more, or ask for less");
+            anstream::eprintln!("error: not finished: {stop}\nhelp: {remedy}");
             STOPPED
         }
+    }
+}
+
+/// Part of a job that may be done in parts.
+fn share(command: &mut Command) -> Option<&mut Share> {
+    match command {
+        Command::Check(options) if options.bodies.settings.is_some() => Some(&mut options.share),
+        Command::Explore(command) => command.share(),
+        _ => None,
     }
 }
 

@@ -7,6 +7,7 @@ use clap::Args;
 
 use super::eval::read_settings;
 use super::explore::progress::telling;
+use super::threads::pool;
 use super::{CommandOutput, LimitArgs, SamplingArgs};
 
 /// Words by which a certificate of a proof by points is known.
@@ -24,10 +25,7 @@ pub struct Verify {
 }
 
 pub fn run(options: &Verify) -> Result<CommandOutput, String> {
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(options.sampling.threads.unwrap_or(0))
-        .build()
-        .map_err(|error| format!("error: cannot start threads: {error}"))?;
+    let pool = pool(options.sampling.threads.unwrap_or(0))?;
     let (mut text, mut refused) = (String::new(), 0);
     for path in &options.certificates {
         let told = telling(|tell| {

@@ -8,7 +8,8 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use liouville::part::Part;
 use serde_json::{Map, Value};
 
-use super::identity::{Header, Identity, hash};
+use super::identity::{Header, Identity};
+use crate::report::sha256;
 
 /// Beginnings of the two forms of files.
 const CSV: &str = "# program: \"liouville ";
@@ -54,7 +55,7 @@ impl PartFile {
         lines: &[String],
     ) -> Result<Self, String> {
         let mut header = identity.header(part);
-        header.digest = digest(&header, lines)?;
+        header.digest = digest(&header, form, lines)?;
         let text = match form {
             Form::Csv(titles) => {
                 let mut out = String::new();
@@ -73,10 +74,23 @@ impl PartFile {
         };
         Ok(Self { name: identity.file_name(part, form.ending()), text })
     }
+}
 
-    /// Reads the header and the lines of a file, and checks that it is whole.
-    pub fn read(text: &str) -> Result<(Header, Vec<String>), String> {
-        let (header, lines) = match text.starts_with(JSON) {
+/// Contents of a file that is whole.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contents {
+    /// First lines.
+    pub header: Header,
+    /// Form, with the titles of the file.
+    pub form: Form,
+    /// Lines of the units.
+    pub lines: Vec<String>,
+}
+
+impl Contents {
+    /// Reads a file, and checks that it is whole.
+    pub fn read(text: &str) -> Result<Self, String> {
+        let (header, form, lines) = match text.starts_with(JSON) {
             true => from_json(text),
             false => from_csv(text),
         }
@@ -84,12 +98,24 @@ impl PartFile {
         let header: Header =
             serde_json::from_value(Value::Object(header)).map_err(|error| error.to_string())?;
         let lines: Vec<String> = lines.into_iter().map(str::to_string).collect();
-        match digest(&header, &lines)? == header.digest {
-            true => Ok((header, lines)),
+        match digest(&header, &form, &lines)? == header.digest {
+            true => Ok(Self { header, form, lines }),
             false => Err("its contents do not fit its digest".to_string()),
         }
     }
 }
+
+/// Checks that a text is the whole file of a part of a job; otherwise returns the reason.
+pub fn check(text: &str, identity: &Identity, part: Part, form: &Form) -> Result<(), String> {
+    let found = Contents::read(text)?;
+    match found.header.is_of(identity, part) && found.form == *form {
+        true => Ok(()),
+        false => Err("it is of another job, or another part".to_string()),
+    }
+}
+
+/// Header, form and lines of a text.
+type Raw<'t> = (Map<String, Value>, Form, Vec<&'t str>);
 
 fn object(header: &Header) -> Result<Map<String, Value>, String> {
     match serde_json::to_value(header) {
@@ -99,7 +125,7 @@ fn object(header: &Header) -> Result<Map<String, Value>, String> {
     }
 }
 
-fn from_csv(text: &str) -> Option<(Map<String, Value>, Vec<&str>)> {
+fn from_csv(text: &str) -> Option<Raw<'_>> {
     let mut header = Map::new();
     // the last line ends too
     let mut lines = text.strip_suffix('\n')?.split('\n').peekable();
@@ -107,26 +133,29 @@ fn from_csv(text: &str) -> Option<(Map<String, Value>, Vec<&str>)> {
         let (key, value) = line.strip_prefix("# ")?.split_once(": ")?;
         header.insert(key.to_string(), serde_json::from_str(value).ok()?);
     }
-    // the titles
-    lines.next()?;
-    Some((header, lines.collect()))
+    let form = Form::Csv(lines.next()?.to_string());
+    Some((header, form, lines.collect()))
 }
 
-fn from_json(text: &str) -> Option<(Map<String, Value>, Vec<&str>)> {
+fn from_json(text: &str) -> Option<Raw<'_>> {
     let mut lines = text.strip_suffix('\n')?.split('\n');
     let header = lines.next()?.strip_prefix(JSON)?.strip_suffix(',')?;
     let header = serde_json::from_str(header).ok()?;
     let is_framed = lines.next() == Some(UNITS) && lines.next_back() == Some(END);
     let lines: Vec<&str> = lines.collect();
     let units = lines.into_iter().map(|line| line.strip_suffix(',').unwrap_or(line));
-    is_framed.then(|| (header, units.filter(|line| !line.is_empty()).collect()))
+    is_framed.then(|| (header, Form::Json, units.filter(|line| !line.is_empty()).collect()))
 }
 
-/// Digest of a header, but for the digest in it, and of all lines.
-fn digest(header: &Header, lines: &[String]) -> Result<String, String> {
+/// Digest of a header, but for the digest in it, of the titles, and of all lines.
+fn digest(header: &Header, form: &Form, lines: &[String]) -> Result<String, String> {
     let header = Header { digest: String::new(), ..header.clone() };
     let header = Value::Object(object(&header)?).to_string();
-    Ok(format!("sha256:{}", hash(&[header, lines.join("\n")].join("\n"))))
+    let titles = match form {
+        Form::Csv(titles) => titles,
+        Form::Json => "",
+    };
+    Ok(format!("sha256:{}", sha256(&[&header, titles, &lines.join("\n")].join("\n"))))
 }
 
 /// Whether a text is that of a part, whole or not.
@@ -190,7 +219,7 @@ mod tests {
     #[test]
     fn files_are_read_as_they_were_written() {
         for file in files() {
-            let (header, lines) = PartFile::read(&file.text).expect("it is whole");
+            let Contents { header, lines, .. } = Contents::read(&file.text).expect("it is whole");
             assert_eq!((header.case.as_str(), header.part), (identity().case.as_str(), 1));
             assert_eq!(lines, ["{\"a\":1}", "{\"a\":[2,3]}"]);
             assert!(
@@ -199,8 +228,9 @@ mod tests {
             );
         }
         for form in [Form::Csv("a,b".to_string()), Form::Json] {
-            let (_, lines) = PartFile::read(&file(&form, &[]).text).expect("it is whole");
-            assert!(lines.is_empty(), "a part may have no units");
+            let whole = Contents::read(&file(&form, &[]).text).expect("it is whole");
+            assert!(whole.lines.is_empty(), "a part may have no units");
+            assert_eq!(whole.form, form);
         }
     }
 
@@ -208,12 +238,28 @@ mod tests {
     fn what_is_cut_off_or_changed_is_no_part() {
         for PartFile { text, .. } in files() {
             for end in (0..text.len()).filter(|end| text.is_char_boundary(*end)) {
-                assert!(PartFile::read(&text[..end]).is_err(), "{}", &text[..end]);
+                assert!(Contents::read(&text[..end]).is_err(), "{}", &text[..end]);
             }
             for (old, new) in [("[2,3]", "[2,4]"), ("from 0", "from 1"), ("a.toml", "b.toml")] {
-                assert!(PartFile::read(&text.replace(old, new)).is_err(), "{old}");
+                assert!(Contents::read(&text.replace(old, new)).is_err(), "{old}");
             }
         }
+        let file = file(&Form::Csv("a,b".to_string()), &["1,2".to_string()]);
+        assert!(Contents::read(&file.text.replace("a,b", "b,a")).is_err(), "other titles");
+    }
+
+    #[test]
+    fn headers_belong_to_one_part_of_one_job() {
+        let part = |index, count| Part::new(index, count).expect("a part");
+        let header = identity().header(part(2, 3));
+        assert!(header.is_of(&identity(), part(2, 3)));
+        assert!(!header.is_of(&identity(), part(1, 3)), "another part");
+        assert!(!header.is_of(&identity(), part(2, 4)), "another number of parts");
+        assert!(!header.is_of(&Identity { seed: 2, ..identity() }, part(2, 3)), "another job");
+        let arguments = vec!["--dark".to_string()];
+        assert!(header.is_of(&Identity { arguments, ..identity() }, part(2, 3)), "style aside");
+        let forged = Header { seed: 2, ..header };
+        assert!(!forged.is_of(&identity(), part(2, 3)), "a key alone is not enough");
     }
 
     #[test]

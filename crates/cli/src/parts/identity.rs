@@ -1,13 +1,10 @@
 //! Identity of a job: everything that its numbers depend on, with a key made of it.
 
-use std::fmt::Write;
-
 use liouville::part::Part;
 use liouville_report::evidence::shell_quoted;
 use serde::{Deserialize, Serialize};
-use sha2::{Digest as _, Sha256};
 
-use crate::report::VERSION;
+use crate::report::{VERSION, sha256};
 
 /// Number of hexadecimal digits of a key.
 const DIGITS: usize = 16;
@@ -21,7 +18,7 @@ pub struct Identity {
     pub units: u64,
     /// Seed of all random draws.
     pub seed: u64,
-    /// What is asked for, without the case and the seed.
+    /// Request, without the case and the seed.
     pub request: String,
     /// Arguments of the command, without those that differ from part to part.
     pub arguments: Vec<String>,
@@ -50,7 +47,7 @@ pub struct Header {
     pub units: u64,
     /// Seed of all random draws.
     pub seed: u64,
-    /// What is asked for.
+    /// Request, without the case and the seed.
     pub request: String,
     /// Arguments of the command.
     pub arguments: Vec<String>,
@@ -69,16 +66,6 @@ pub(super) fn program() -> String {
     format!("liouville {VERSION}")
 }
 
-/// SHA-256 of a text in hexadecimal digits.
-pub fn hash(text: &str) -> String {
-    let mut digits = String::new();
-    for byte in Sha256::digest(text.as_bytes()) {
-        // a `String` takes all that is written to it
-        _ = write!(digits, "{byte:02x}");
-    }
-    digits
-}
-
 impl Identity {
     /// Key: the first digits of a digest over version, job, case, settings, request and seed.
     pub fn key(&self) -> String {
@@ -88,7 +75,7 @@ impl Identity {
         let parts: Vec<&str> = first.into_iter().chain(settings).collect();
         // lengths in front, so that no two lists of texts look the same
         let whole: String = parts.iter().map(|part| format!("{} {part}\n", part.len())).collect();
-        hash(&whole).chars().take(DIGITS).collect()
+        sha256(&whole).chars().take(DIGITS).collect()
     }
 
     /// Name of a part's file.
@@ -121,6 +108,12 @@ impl Identity {
 const TABLES: [&str; 2] = ["--starts", "--settings"];
 
 impl Header {
+    /// Whether this is the header of a part of a job, style aside.
+    pub fn is_of(&self, identity: &Identity, part: Part) -> bool {
+        let Self { arguments, name, digest, .. } = self.clone();
+        Self { arguments, name, digest, ..identity.header(part) } == *self
+    }
+
     /// Files that the command reads: the case, and tables of starts or of bodies.
     pub fn inputs(&self) -> Vec<String> {
         let mut found = vec![self.name.clone()];

@@ -9,13 +9,13 @@ mod file;
 mod identity;
 mod set;
 
-pub use file::{Form, PartFile, is_part, save};
-pub use identity::{Header, Identity, hash};
+pub use file::{Contents, Form, PartFile, check, is_part, save};
+pub use identity::{Header, Identity};
 pub use set::{Set, from_folder};
 
 use liouville::part::Part;
 
-use crate::commands::CommandOutput;
+use crate::answer::CommandOutput;
 
 /// Work that can be done in parts.
 pub trait Job {
@@ -52,6 +52,11 @@ pub trait Job {
 
     /// Reads the units of all parts.
     fn units(&self, set: &Set) -> Result<Vec<Self::Unit>, String> {
+        if set.form != self.form() {
+            return Err("error: the parts have other columns than the job\n\
+                        help: compute them again with --force"
+                .to_string());
+        }
         set.lines.iter().map(|line| self.unit(line)).collect()
     }
 }

@@ -6,12 +6,12 @@ use std::path::Path;
 
 use liouville_catalogue::inside;
 
-use super::file::{PartFile, is_part};
+use super::file::{Contents, Form, PartFile, is_part};
 use super::identity::{Header, program};
 use crate::source::is_standard_input;
 
-/// Parts by their numbers, each with the name of its file, its header and its lines.
-type Parts<'f> = BTreeMap<u64, (&'f str, Header, Vec<String>)>;
+/// Parts by their numbers, each with the name of its file and its contents.
+type Parts<'f> = BTreeMap<u64, (&'f str, Contents)>;
 /// Parts by the key of their job and the number of its parts.
 type Jobs<'f> = BTreeMap<(String, u64), Parts<'f>>;
 
@@ -20,6 +20,8 @@ type Jobs<'f> = BTreeMap<(String, u64), Parts<'f>>;
 pub struct Set {
     /// Header of the first part.
     pub header: Header,
+    /// Form of the files.
+    pub form: Form,
     /// Lines of all parts.
     pub lines: Vec<String>,
 }
@@ -66,12 +68,13 @@ impl Set {
     pub fn new(files: &[PartFile], folder: &str) -> Result<Self, String> {
         let mut jobs: Jobs<'_> = BTreeMap::new();
         for PartFile { name, text } in files {
-            let (header, lines) = PartFile::read(text).map_err(|reason| {
+            let contents = Contents::read(text).map_err(|reason| {
                 format!(
                     "error: {name} is damaged: {reason}\n\
                      help: remove it, and compute its part again"
                 )
             })?;
+            let header = &contents.header;
             if header.program != program() {
                 return Err(format!(
                     "error: {name} is of {}, and this is {}\n\
@@ -82,7 +85,7 @@ impl Set {
             }
             let own = jobs.entry((header.key.clone(), header.of)).or_default();
             let part = header.part;
-            if let Some((other, _, _)) = own.insert(part, (name, header, lines)) {
+            if let Some((other, _)) = own.insert(part, (name, contents)) {
                 return Err(format!(
                     "error: part {part} is there twice: {other} and {name}\nhelp: remove one of them"
                 ));
@@ -94,10 +97,15 @@ impl Set {
         let Some((_, parts)) = jobs.into_iter().next() else {
             return Err("error: there are no parts".to_string());
         };
-        let Some((_, header, _)) = parts.values().next() else {
+        let Some((first, Contents { header, form, .. })) = parts.values().next().cloned() else {
             return Err("error: there are no parts".to_string());
         };
-        let header = header.clone();
+        if let Some((other, _)) = parts.values().find(|(_, own)| own.form != form) {
+            return Err(format!(
+                "error: {other} has other columns than {first}\n\
+                 help: remove it, and compute its part again"
+            ));
+        }
         let missing: BTreeSet<u64> =
             (1..=header.of).filter(|part| !parts.contains_key(part)).collect();
         if let Some(first) = missing.first() {
@@ -111,8 +119,8 @@ impl Set {
                 header.command(*first, folder)
             ));
         }
-        let lines = parts.into_values().flat_map(|(_, _, lines)| lines).collect();
-        Ok(Self { header, lines })
+        let lines = parts.into_values().flat_map(|(_, own)| own.lines).collect();
+        Ok(Self { header, form, lines })
     }
 }
 
@@ -139,7 +147,7 @@ fn away(inputs: &[String]) -> String {
 fn foreign(jobs: &Jobs<'_>) -> String {
     let mut out = "error: the parts are not of one job".to_string();
     for ((key, of), parts) in jobs {
-        let names = parts.values().next().map(|(name, header, _)| (*name, header.job.as_str()));
+        let names = parts.values().next().map(|(name, own)| (*name, own.header.job.as_str()));
         let (name, job) = names.unwrap_or_default();
         let count = parts.len();
         out.push_str(&format!("\n  {count} of {of} of {job} {key}, such as {name}"));

@@ -37,7 +37,7 @@ pub struct Body {
     pub found: Result<Finding, Vec<RowMistake>>,
 }
 
-/// What was found about a body.
+/// Verdicts and invariants of a body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Finding {
     /// Verdicts on the claims of the case, in their order.
@@ -49,7 +49,7 @@ pub struct Finding {
 }
 
 /// Invariants of a body, by name.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Invariants {
     /// Class of the hierarchy.
     pub class: String,
@@ -68,16 +68,21 @@ pub struct Invariants {
 }
 
 impl Invariants {
-    /// Titles of the values.
-    const TITLES: [&str; 7] =
-        ["class", "measure", "integrals", "densities", "fields", "reversors", "symmetries"];
+    /// Columns of a table for a terminal; files have all.
+    const SHOWN: [&str; 4] = ["class", "measure", "integrals", "densities"];
 
-    /// Values as texts.
-    fn texts(&self) -> [String; 7] {
-        let lists =
-            [&self.integrals, &self.densities, &self.fields, &self.reversors, &self.symmetries];
-        let [a, b, c, d, e] = lists.map(|names| names.join("; "));
-        [self.class.clone(), self.measure.clone(), a, b, c, d, e]
+    /// Values as texts, with their titles.
+    fn named(&self) -> [(&'static str, String); 7] {
+        let listed = |names: &[String]| names.join("; ");
+        [
+            ("class", self.class.clone()),
+            ("measure", self.measure.clone()),
+            ("integrals", listed(&self.integrals)),
+            ("densities", listed(&self.densities)),
+            ("fields", listed(&self.fields)),
+            ("reversors", listed(&self.reversors)),
+            ("symmetries", listed(&self.symmetries)),
+        ]
     }
 }
 
@@ -94,10 +99,6 @@ pub struct StatedClaim {
     /// Expected outcome.
     pub expect: &'static str,
 }
-
-/// Verdicts by which claims are counted, in the order of reports.
-const VERDICTS: [Verdict; 4] =
-    [Verdict::Proved, Verdict::Confirmed, Verdict::Refuted, Verdict::Undecided];
 
 /// All bodies of a table with the case that they are bodies of.
 pub struct BodiesReport<'r> {
@@ -141,17 +142,26 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// Titles of the numbers.
-    const TITLES: [&str; 5] = ["proved", "confirmed", "refuted", "undecided", "disagreements"];
-
     fn of(found: &Finding) -> Self {
-        let [proved, confirmed, refuted, undecided] =
-            VERDICTS.map(|own| found.verdicts.iter().filter(|verdict| **verdict == own).count());
-        Self { proved, confirmed, refuted, undecided, disagreements: found.against.len() }
+        let count = |own| found.verdicts.iter().filter(|verdict| **verdict == own).count();
+        Self {
+            proved: count(Verdict::Proved),
+            confirmed: count(Verdict::Confirmed),
+            refuted: count(Verdict::Refuted),
+            undecided: count(Verdict::Undecided),
+            disagreements: found.against.len(),
+        }
     }
 
-    fn numbers(self) -> [usize; 5] {
-        [self.proved, self.confirmed, self.refuted, self.undecided, self.disagreements]
+    /// Numbers with their titles.
+    fn named(self) -> [(&'static str, usize); 5] {
+        [
+            ("proved", self.proved),
+            ("confirmed", self.confirmed),
+            ("refuted", self.refuted),
+            ("undecided", self.undecided),
+            ("disagreements", self.disagreements),
+        ]
     }
 
     fn and(self, other: Self) -> Self {
@@ -198,10 +208,10 @@ impl BodiesReport<'_> {
         let names = self.names();
         let mut titles = vec!["row".to_string(), "line".to_string()];
         titles.extend(names.iter().cloned());
-        titles.extend(Counts::TITLES.map(String::from));
+        titles.extend(titles_of(&Counts::default().named()));
         titles.extend(self.claims.iter().map(|claim| format!("claim {}", claim.name)));
         if self.has_invariants {
-            titles.extend(Invariants::TITLES.map(String::from));
+            titles.extend(titles_of(&Invariants::default().named()));
         }
         titles.push("error".to_string());
         let width = titles.len();
@@ -212,9 +222,11 @@ impl BodiesReport<'_> {
             fields.extend(values.chain(std::iter::repeat(String::new())).take(names.len()));
             match &body.found {
                 Ok(found) => {
-                    fields.extend(Counts::of(found).numbers().map(|count| count.to_string()));
+                    let counts = Counts::of(found).named();
+                    fields.extend(counts.map(|(_, count)| count.to_string()));
                     fields.extend(found.verdicts.iter().map(|verdict| verdict.word().to_string()));
-                    fields.extend(found.invariants.iter().flat_map(Invariants::texts));
+                    let texts = found.invariants.iter().flat_map(Invariants::named);
+                    fields.extend(texts.map(|(_, text)| text));
                     fields.push(String::new());
                 }
                 Err(mistakes) => {
@@ -278,7 +290,7 @@ impl BodiesReport<'_> {
     /// Renders the summary as a line.
     pub fn summary_line(&self) -> String {
         let BodiesSummary { bodies, counts, errors } = self.summary();
-        let [proved, confirmed, refuted, undecided, disagreements] = counts.numbers();
+        let Counts { proved, confirmed, refuted, undecided, disagreements } = counts;
         let confirmed = match confirmed {
             0 => String::new(),
             _ => format!("{confirmed} confirmed, "),
@@ -299,13 +311,14 @@ impl BodiesReport<'_> {
     /// Renders a table for a terminal, and below it the mistakes of rows.
     pub fn text(&self) -> String {
         let has_confirmed = self.summary().counts.confirmed > 0;
-        let counted = |place: &usize| *place != 1 || has_confirmed;
+        let is_counted = |title: &str| title != "confirmed" || has_confirmed;
         let mut titles = vec!["row".to_string()];
         titles.extend(self.names());
         let columns = titles.len();
-        titles.extend((0..5).filter(counted).map(|k| Counts::TITLES[k].to_string()));
+        let counts = titles_of(&Counts::default().named()).into_iter();
+        titles.extend(counts.filter(|title| is_counted(title)));
         if self.has_invariants {
-            titles.extend(Invariants::TITLES[..4].iter().map(ToString::to_string));
+            titles.extend(Invariants::SHOWN.map(String::from));
         }
         let width = titles.len();
         let mut lines = vec![titles];
@@ -316,10 +329,12 @@ impl BodiesReport<'_> {
             cells.resize(columns, String::new());
             match &body.found {
                 Ok(found) => {
-                    let numbers = Counts::of(found).numbers();
-                    cells.extend((0..5).filter(counted).map(|k| numbers[k].to_string()));
-                    let texts = found.invariants.as_ref().map(Invariants::texts);
-                    cells.extend(texts.into_iter().flatten().take(4));
+                    let counts = Counts::of(found).named().into_iter();
+                    let counts = counts.filter(|(title, _)| is_counted(title));
+                    cells.extend(counts.map(|(_, count)| count.to_string()));
+                    let texts = found.invariants.iter().flat_map(Invariants::named);
+                    let texts = texts.filter(|(title, _)| Invariants::SHOWN.contains(title));
+                    cells.extend(texts.map(|(_, text)| text));
                 }
                 Err(reasons) => {
                     cells.push("–".to_string());
@@ -335,6 +350,11 @@ impl BodiesReport<'_> {
         }
         format!("{}\n{}{}{mistakes}", self.title, aligned(&lines), self.summary_line())
     }
+}
+
+/// Titles of values.
+fn titles_of<T>(named: &[(&'static str, T)]) -> Vec<String> {
+    named.iter().map(|(title, _)| title.to_string()).collect()
 }
 
 /// Line of CSV.

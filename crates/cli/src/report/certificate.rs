@@ -9,6 +9,8 @@ use liouville::verdict::{ClaimReport, Composed, Residuals};
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 
+use super::sha256;
+
 /// Name and version of the format.
 const FORMAT: &str = "liouville certificate 1";
 /// Numbers of the test: primes, points for each, draws for each.
@@ -72,7 +74,7 @@ pub fn certificate(
         Expect::Open => "open",
     };
     let statement = json!({
-        "case": { "path": origin.path, "sha256": hex(origin.text), "text": origin.text },
+        "case": { "path": origin.path, "sha256": sha256(origin.text), "text": origin.text },
         "settings": origin.settings,
         "claim": {
             "name": claim.name,
@@ -170,7 +172,7 @@ fn step(graph: &Graph, place: usize, places: &[usize]) -> Value {
 
 /// Evidence that the checker derives again; `None` if it would refuse.
 fn evidence(statement: &Value, bounds: &[(f64, f64)]) -> Option<Value> {
-    let digest = hex(&canonical(statement));
+    let digest = sha256(&canonical(statement));
     let is_small = |(degree, height): &(f64, f64)| *degree < MOST_STATED && *height < MOST_STATED;
     if !bounds.iter().all(is_small) {
         return None;
@@ -226,11 +228,6 @@ pub(super) fn canonical(value: &Value) -> String {
         }
         other => other.to_string(),
     }
-}
-
-/// SHA-256 of a text in hexadecimal.
-pub fn hex(text: &str) -> String {
-    Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use super::hexadecimal::written;
 /// Share by which the entropy stated is below that of the first proof.
 const LOWERED: f64 = 1e-6;
 
-/// What is stated of a horseshoe.
+/// Statement about a horseshoe.
 pub fn stated(found: &ProvedHorseshoe) -> Value {
     json!({
         "start": found.start.iter().copied().map(wider).collect::<Vec<_>>(),

@@ -28,6 +28,6 @@ pub mod terminal;
 
 pub use liouville_report::{
     CaseDigest, FileFailure, FileOutcome, Heading, RunReport, Summary, VERSION, diagnostic, json,
-    names, records, search,
+    names, records, search, sha256,
 };
 use liouville_report::{evidence, typeset};

@@ -5,10 +5,10 @@ use liouville::verdict::{ClaimReport, Options};
 use liouville_flow::{ProofData, ProvedHorseshoe, ProvedOrbit, observe};
 use serde_json::{Value, json};
 
-use super::certificate::{CaseOrigin, canonical, hex};
+use super::certificate::{CaseOrigin, canonical};
 use super::certificate_part::{CertificatePart, list, wider};
 use super::hexadecimal::written;
-use super::horseshoe_certificate;
+use super::{horseshoe_certificate, sha256};
 
 /// Name and version of the format for closed orbits.
 pub const ORBITS: &str = "liouville motion certificate 1";
@@ -62,7 +62,7 @@ fn statement(
     found: Value,
 ) -> Value {
     json!({
-        "case": { "path": origin.path, "sha256": hex(origin.text), "text": origin.text },
+        "case": { "path": origin.path, "sha256": sha256(origin.text), "text": origin.text },
         "settings": origin.settings,
         "claim": stated(claim, report),
         key: found,
@@ -87,7 +87,7 @@ fn stated(claim: &MotionClaim, report: &ClaimReport) -> Value {
 }
 
 fn digest(statement: &Value, proof: &Value) -> String {
-    hex(&canonical(&json!({ "statement": statement, "proof": proof })))
+    sha256(&canonical(&json!({ "statement": statement, "proof": proof })))
 }
 
 /// Reader of values given to parameters, as `--set` takes them.
@@ -120,7 +120,7 @@ pub fn verify(
     let source = statement.at("case")?;
     source.only(&["path", "sha256", "text"])?;
     let text = source.text("text")?;
-    if source.text("sha256")? != hex(text) {
+    if source.text("sha256")? != sha256(text) {
         return Err("the digest of the case does not fit its text".to_string());
     }
     let given = statement.at("settings")?.all()?;

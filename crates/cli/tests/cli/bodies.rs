@@ -198,3 +198,20 @@ fn reports_on_bodies_name_their_invariants() {
         assert!(body["integrals"].is_array() && body["densities"].is_array());
     }
 }
+
+#[cfg(unix)]
+#[test]
+fn a_table_is_read_once() {
+    let home = home("once", "k\n1\n3/2\n");
+    let check = "check spring.toml --settings /dev/stdin --claim energy";
+    for more in ["--quiet", "--part 1/1 --out parts"] {
+        let arguments = format!("{check} {more}");
+        let words: Vec<&str> = arguments.split(' ').collect();
+        // a pipe gives its contents once
+        let done = liouville(&words).current_dir(&home).write_stdin("k\n1\n3/2\n").assert();
+        done.success();
+    }
+    let from_file = run(&home, "check spring.toml --settings bodies.csv --claim energy --json", 0);
+    let merged = run(&home, "merge parts -- --json", 0);
+    assert_eq!(merged, from_file);
+}

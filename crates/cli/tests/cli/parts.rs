@@ -2,12 +2,11 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command as Process, Stdio};
-use std::time::{Duration, Instant};
+use std::process::Command as Process;
 
 use liouville::part::Part;
 use liouville_cli::jobs::{AnyJob, Given};
-use liouville_cli::parts::{PartFile, Set};
+use liouville_cli::parts::{Form, PartFile, Set};
 use predicates::prelude::PredicateBooleanExt;
 use predicates::str::contains;
 
@@ -228,24 +227,99 @@ fn missing_doubled_foreign_and_damaged_parts_are_named() {
 }
 
 #[test]
-fn a_killed_worker_leaves_no_part() {
-    let home = home("parts-killed");
-    let arguments = "motion chart flow.toml --x a=1..3/2 --y b=0..1 --size 400x400 --time 1000 --part 1/2 --out parts";
-    let mut worker = Process::new(env!("CARGO_BIN_EXE_liouville"))
-        .args(arguments.split(' '))
-        .current_dir(&home)
-        .stdout(Stdio::null())
-        .spawn()
-        .expect("it starts");
-    let started = Instant::now();
-    while !home.join("parts").exists() && started.elapsed() < Duration::from_secs(60) {
-        std::thread::sleep(Duration::from_millis(20));
+fn other_files_under_the_name_of_a_part_do_not_count_as_it() {
+    let home = home("parts-names");
+    let chart = "motion chart flow.toml --x a=1..3/2 --y b=0..1 --size 3x2 --time 1 --out parts";
+    let words: Vec<&str> = chart.split(' ').collect();
+    let part = |more: &[&str]| {
+        let done = liouville(&[&words[..], more].concat()).current_dir(&home).assert().success();
+        let output = done.get_output().clone();
+        let [told, warned] =
+            [output.stdout, output.stderr].map(|text| String::from_utf8(text).expect("UTF-8"));
+        let name = told.split(':').next().expect("a name");
+        (home.join("parts").join(name), told, warned)
+    };
+    let (own, ..) = part(&["--part", "1/2"]);
+    let (second, ..) = part(&["--part", "2/2"]);
+    let (foreign, ..) = part(&["--part", "1/2", "--seed", "2"]);
+    let whole = fs::read(&own).expect("a part");
+    let titles = String::from_utf8_lossy(&whole).replace("\ni,j,x,y,", "\ni,j,y,x,").into_bytes();
+    assert!(titles != whole, "other titles");
+    let others = [
+        (fs::read(&second).expect("a part"), "it is of another job, or another part"),
+        (fs::read(&foreign).expect("a part"), "it is of another job, or another part"),
+        (titles, "its contents do not fit its digest"),
+        (whole[..whole.len() / 2].to_vec(), "it is cut off"),
+        (vec![0xff, 0xfe], "it is no text"),
+    ];
+    fs::remove_file(foreign).expect("a file");
+    for (bytes, reason) in others {
+        fs::write(&own, bytes).expect("a file");
+        let (_, told, warned) = part(&["--part", "1/2"]);
+        assert!(told.ends_with(": 3 of 6 units\n"), "{told}");
+        assert!(warned.contains(&format!("is computed again: {reason}")), "{warned}");
+        assert!(fs::read(&own).expect("a part") == whole, "{reason}");
     }
-    std::thread::sleep(Duration::from_millis(100));
-    worker.kill().expect("it still runs");
-    worker.wait().expect("it ends");
-    let left = fs::read_dir(home.join("parts")).expect("a folder").count();
-    assert_eq!(left, 0, "no part, and nothing half written");
+    let (_, told, warned) = part(&["--part", "1/2"]);
+    assert!(told.ends_with(": there\n") && warned.is_empty(), "{told}{warned}");
+    run(&home, &["merge", "parts", "--out", "all.csv"]);
+    fs::remove_file(&own).expect("a file");
+    fs::create_dir(&own).expect("a folder of that name");
+    let arguments = [&words[..], &["--part", "1/2"]].concat();
+    let done = liouville(&arguments).current_dir(&home).assert().code(2);
+    done.stderr(contains("cannot read").and(contains("help: remove it")));
+}
+
+#[test]
+fn parts_have_the_titles_of_their_job() {
+    let home = home("parts-titles");
+    let arguments = words("motion chart flow.toml --x a=1..2 --y b=0..1 --size 1x2 --time 1");
+    let own = job(&arguments, &home, None);
+    let identity = own.identity().expect("a job");
+    let file = |number: u64, titles: &str| {
+        let part = Part::new(number, 2).expect("a part");
+        let form = Form::Csv(titles.to_string());
+        PartFile::new(&identity, part, &form, &["1,2".to_string()]).expect("a file")
+    };
+    let told = Set::new(&[file(1, "a,b"), file(2, "b,a")], "parts").expect_err("other titles");
+    assert!(told.contains("has other columns than"), "{told}");
+    let set = Set::new(&[file(1, "a,b"), file(2, "a,b")], "parts").expect("one table");
+    let told = own.report(&set).err().expect("titles of another job");
+    assert!(told.contains("the parts have other columns than the job"), "{told}");
+}
+
+#[test]
+fn merge_takes_options_of_the_report_of_its_job() {
+    let home = home("parts-styles");
+    run(&home, &["sweep", "flow.toml", "--states", "100", "--part", "1/1", "--out", "states"]);
+    let bodies = "check flow.toml --settings bodies.csv --states 64 --json --part 1/1 --out bodies";
+    run(&home, &bodies.split(' ').collect::<Vec<_>>());
+    let fails = |arguments: &str, message: &str| {
+        let arguments: Vec<&str> = arguments.split(' ').collect();
+        let done = liouville(&arguments).current_dir(&home).assert().code(2);
+        done.stderr(contains(message.to_string()).and(contains("help: ")));
+    };
+    fails("merge states -- extra.toml", "extra.toml is no option of the report");
+    fails("merge states -- --json extra.toml", "extra.toml is no option of the report");
+    fails("merge states -- --dark", "--dark is no option of the report");
+    fails("merge bodies -- --colour class", "--colour is no option of the report");
+    fails("merge bodies -- --format", "--format has no value");
+    // the parts were computed with --json
+    let mut merged = liouville(&["merge", "bodies", "--", "--format", "csv"]);
+    let merged = merged.current_dir(&home).assert().success().get_output().stdout.clone();
+    assert!(merged.starts_with(b"row,line,a,proved,"), "{}", String::from_utf8_lossy(&merged));
+}
+
+#[test]
+fn a_job_that_is_stopped_says_how_to_keep_what_is_reached() {
+    let home = home("parts-within");
+    let stopped = |arguments: &str, help: &'static str| {
+        let arguments: Vec<&str> = arguments.split(' ').collect();
+        liouville(&arguments).current_dir(&home).assert().code(3).stderr(contains(help));
+    };
+    let sweep = "sweep flow.toml --states 1e15 --within 0.3";
+    stopped(sweep, "in parts, which are kept: --part 1/100 --out parts/");
+    stopped(&format!("{sweep} --part 1/2 --out parts"), "compute more parts than 2");
 }
 
 #[test]

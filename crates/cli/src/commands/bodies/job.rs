@@ -1,5 +1,6 @@
 //! Tables of bodies as jobs: a row is a unit.
 
+use std::borrow::Cow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -8,25 +9,25 @@ use liouville::case::{Case, Expect, Setting};
 use liouville::part::Part;
 use liouville::verdict::{ClaimReport, JudgeError, Options};
 use liouville_search::survey::{self, Survey, TestedClaim};
-use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 
 use super::table::{TableMistake, ValueRow, ValueTable};
 use super::{BodiesArgs, RowFormat};
 use crate::commands::check::RequestedClaims;
-use crate::commands::explore::motion::Opened;
+use crate::commands::eval::Opened;
 use crate::commands::explore::output::{Ending, Output};
 use crate::commands::explore::progress::progress;
 use crate::commands::explore::report::ReportArgs;
 use crate::commands::explore::share::Share;
-use crate::commands::judging::{STACK, stated, verdicts};
+use crate::commands::judging::{stated, verdicts};
 use crate::commands::out::write;
+use crate::commands::threads::pool;
 use crate::commands::{CheckArgs, CommandOutput, eval};
-use crate::parts::{Form, Identity, Job, hash, json_line, json_unit};
-use crate::report::CaseDigest;
+use crate::parts::{Form, Identity, Job, json_line, json_unit};
 use crate::report::bodies::{BodiesReport, Body, Finding, Invariants, RowMistake, StatedClaim};
+use crate::report::{CaseDigest, sha256};
 
-/// What is asked about each body.
+/// Question about each body.
 #[derive(Clone, Debug)]
 enum Question {
     /// Verdicts on claims.
@@ -74,10 +75,17 @@ pub struct BodiesJob {
     claims: Vec<StatedClaim>,
     bodies: BodiesArgs,
     /// Table, once it has been read: results are merged without it.
-    table: OnceLock<ValueTable>,
+    table: OnceLock<SignedTable>,
     share: Share,
     format: RowFormat,
     out: Option<Output>,
+}
+
+/// A table, with the digest of its text.
+#[derive(Debug)]
+struct SignedTable {
+    table: ValueTable,
+    digest: String,
 }
 
 impl BodiesJob {
@@ -135,33 +143,27 @@ impl BodiesJob {
         matches!(self.question, Question::Invariants)
     }
 
-    /// Text of the table.
-    fn table_text(&self) -> Result<(String, String), String> {
+    /// Table, whose columns are parameters of the case. The file is read once.
+    fn table(&self) -> Result<&SignedTable, String> {
+        if let Some(table) = self.table.get() {
+            return Ok(table);
+        }
         let path = self.bodies.settings.as_deref().unwrap_or(Path::new("bodies.csv"));
-        let shown = path.display().to_string();
+        let shown = path.display();
         let text = match &self.bodies.text {
-            Some(text) => text.clone(),
-            None => std::fs::read_to_string(path).map_err(|error| {
+            Some(text) => Cow::Borrowed(text.as_str()),
+            None => std::fs::read_to_string(path).map(Cow::Owned).map_err(|error| {
                 format!(
                     "error: cannot read {shown}: {error}\n\
                      help: give --settings a CSV file: names of parameters, and a row for each body"
                 )
             })?,
         };
-        Ok((shown, text))
-    }
-
-    /// Table, whose columns are parameters of the case.
-    fn table(&self) -> Result<&ValueTable, String> {
-        if let Some(table) = self.table.get() {
-            return Ok(table);
-        }
-        let (shown, text) = self.table_text()?;
         let told =
             |mistake: TableMistake| format!("error: {shown}: {mistake}\nhelp: {}", mistake.help());
         let table = ValueTable::read(&text).map_err(told)?;
         table.check(&self.opened.case, &self.given()?).map_err(told)?;
-        Ok(self.table.get_or_init(|| table))
+        Ok(self.table.get_or_init(|| SignedTable { table, digest: sha256(&text) }))
     }
 
     /// Values of `--set`.
@@ -266,16 +268,16 @@ impl Job for BodiesJob {
     type Unit = Body;
 
     fn identity(&self) -> Result<Identity, String> {
-        let (_, text) = self.table_text()?;
+        let SignedTable { table, digest } = self.table()?;
         let Options { states, trust, .. } = self.options;
         let mut settings = self.set.clone();
         settings.sort();
         let question = &self.question;
         let request =
-            format!("{question:?} states {states} trust {trust:?} bodies sha256:{}", hash(&text));
+            format!("{question:?} states {states} trust {trust:?} bodies sha256:{digest}");
         Ok(Identity {
             job: if self.is_report() { "report" } else { "check" },
-            units: self.table()?.rows.len() as u64,
+            units: table.rows.len() as u64,
             seed: self.options.seed,
             request,
             arguments: self.share.arguments.clone(),
@@ -290,14 +292,10 @@ impl Job for BodiesJob {
     }
 
     fn compute(&self, part: Part, threads: usize) -> Result<Vec<Body>, String> {
-        let (table, given) = (self.table()?, self.given()?);
+        let (SignedTable { table, .. }, given) = (self.table()?, self.given()?);
         let range = part.range(table.rows.len() as u64);
         let rows = part.of(&table.rows);
-        let pool = ThreadPoolBuilder::new()
-            .num_threads(threads.min(rows.len().max(1)))
-            .stack_size(STACK)
-            .build()
-            .map_err(|error| format!("error: cannot start threads: {error}"))?;
+        let pool = pool(threads.min(rows.len().max(1)))?;
         let bar = progress(rows.len() as u64, "bodies");
         let is_stopped = liouville_flow::stop_request();
         let bodies: Option<Vec<Body>> = pool.install(|| {

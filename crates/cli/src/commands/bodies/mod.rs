@@ -3,14 +3,14 @@
 mod job;
 mod table;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use liouville_catalogue::inside;
 
 use super::explore::share::{Share, Target, carry_out};
 use super::{CheckArgs, CheckFormat, CommandOutput, eval};
-use crate::commands::explore::motion::{Opened, Threads};
+use crate::commands::explore::motion::Threads;
 use crate::commands::explore::report::{ReportArgs, ReportFormat};
 
 pub use job::BodiesJob;
@@ -102,7 +102,7 @@ pub fn check(options: &CheckArgs) -> Result<CommandOutput, String> {
             "error: --settings is for one case, and {shown} is a folder of them\nhelp: give one file"
         ));
     }
-    let opened = opened(path, &options.settings)?;
+    let opened = eval::open_text(path, &options.settings)?;
     let job = BodiesJob::of_check(options, opened)?;
     let threads = Threads { threads: options.sampling.threads }.count();
     carry_out(&job, &options.share, Target { out: options.out.as_deref(), threads })
@@ -110,12 +110,8 @@ pub fn check(options: &CheckArgs) -> Result<CommandOutput, String> {
 
 /// Reports on a case for each row of a table.
 pub fn report(options: &ReportArgs) -> Result<CommandOutput, String> {
-    let job = BodiesJob::of_report(options, opened(&options.case, &options.settings)?)?;
+    let opened = eval::open_text(&options.case, &options.settings)?;
+    let job = BodiesJob::of_report(options, opened)?;
     let threads = Threads { threads: options.sampling.threads }.count();
     carry_out(&job, &options.share, Target { out: options.out.as_deref(), threads })
-}
-
-fn opened(path: &Path, settings: &[String]) -> Result<Opened, String> {
-    let (case, text) = eval::open_text(path, settings)?;
-    Ok(Opened { case, text })
 }

@@ -1,11 +1,11 @@
 //! Sections g = g₀ of rolling bodies, in the Andoyer-like variables.
 
-use crate::parts::hash;
 use crate::report::data::DataTable;
 use crate::report::exponents;
 use crate::report::facts;
 use crate::report::section::SectionReport;
 use crate::report::section::drawing::{self, Colouring};
+use crate::report::sha256;
 use liouville::case::{Case, Direction, Expect, FixedLine};
 use liouville::claim::motion::MotionKind;
 use liouville::number::double_double::DoubleDouble;
@@ -67,7 +67,7 @@ pub fn compute(
 /// Number of the motions, and what is asked for.
 pub fn request_text(case: &Case, options: &SectionArgs) -> Result<(usize, String), String> {
     let request = request(case, options, given(case, options)?)?;
-    let starts = hash(&format!("{:?}", request.starts));
+    let starts = sha256(&format!("{:?}", request.starts));
     let count = request.starts.len();
     let request = SectionRequest { starts: Vec::new(), ..request };
     let (both_ways, classes) = (options.both_ways, options.classes);

@@ -13,8 +13,9 @@ use liouville_flow::{
     ChartAxis, Coordinate, Exponents, FlowError, Launch, PlaneRequest, SectionChoice,
 };
 
+use super::eval::Opened;
 use super::ink::Ink;
-use super::motion::{MotionArgs, Opened, SectionPlaneArgs, Threads, parse_start, wrong_choice};
+use super::motion::{MotionArgs, SectionPlaneArgs, Threads, parse_start, wrong_choice};
 use super::output::{Ending, Output};
 use super::progress::progress;
 use super::share::{Share, Target, carry_out};

@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
-use crate::parts::{Form, Identity, Job, hash, json_line, json_unit};
+use crate::parts::{Form, Identity, Job, json_line, json_unit};
 use crate::report::exponents::{self, MotionRow};
+use crate::report::sha256;
 use clap::Args;
 use liouville::number::rational::Rational;
 use liouville::part::Part;
@@ -11,7 +12,8 @@ use liouville::verdict;
 use liouville_flow::{Begin, FlowError, Launches, Spectrum, Start};
 use serde::{Deserialize, Serialize};
 
-use super::motion::{MotionArgs, Opened, SectionPlaneArgs, Threads};
+use super::eval::Opened;
+use super::motion::{MotionArgs, SectionPlaneArgs, Threads};
 use super::output::{Ending, Output};
 use super::progress::progress;
 use super::share::{Share, Target, carry_out};
@@ -172,7 +174,7 @@ impl Job for ExponentsJob {
     fn identity(&self) -> Result<Identity, String> {
         let ExponentsArgs { subject, plane, time, spectrum, one_way, share, .. } = &self.options;
         let given = self.given()?;
-        let starts = hash(&format!("{given:?}"));
+        let starts = sha256(&format!("{given:?}"));
         let request = format!(
             "time {time:?} spectrum {spectrum} one way {one_way} {plane:?} starts sha256:{starts}"
         );

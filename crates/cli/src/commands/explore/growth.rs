@@ -9,7 +9,7 @@ use liouville_lab::growth::{
     CaseFamily, FAMILIES, FamilyGrowth as Measured, SizePoint, measure, measure_one,
 };
 
-use super::CommandOutput;
+use super::{CommandOutput, pool};
 
 #[derive(Debug, Args)]
 pub struct GrowthArgs {
@@ -84,10 +84,7 @@ fn families() -> clap::builder::PossibleValuesParser {
 }
 
 pub fn run(options: &GrowthArgs) -> Result<CommandOutput, String> {
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(options.threads.unwrap_or(0))
-        .build()
-        .map_err(|error| format!("error: cannot start threads: {error}"))?;
+    let pool = pool(options.threads.unwrap_or(0))?;
     let is_meant = |family: &&CaseFamily| {
         options.families.is_empty() || options.families.iter().any(|name| name == family.name)
     };

@@ -65,6 +65,12 @@ fn parse_opacity(text: &str) -> Result<f64, String> {
 }
 
 impl Ink {
+    /// Options of the style with a value.
+    pub const VALUED: &'static [&'static str] =
+        &["--width", "--height", "--dpi", "--point-size", "--opacity", "--title", "--caption"];
+    /// Options of the style without one.
+    pub const FLAGS: &'static [&'static str] = &["--dark"];
+
     /// Returns the file with its format, so that errors are found before any long computation.
     pub fn output(&self, allowed: &[Ending], inputs: &[&Path]) -> Result<Option<Output>, String> {
         self.out.as_deref().map(|path| Output::new(path, allowed, inputs)).transpose()

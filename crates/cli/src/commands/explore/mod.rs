@@ -5,7 +5,7 @@ mod bench;
 pub(super) mod chart;
 pub(super) mod exponents;
 mod growth;
-mod ink;
+pub(super) mod ink;
 pub(super) mod motion;
 mod orbit;
 pub(super) mod output;
@@ -22,14 +22,14 @@ mod surface;
 pub(super) mod sweep;
 mod track;
 
-use std::ffi::OsString;
-
 use clap::Subcommand;
 
 use super::out::{self, write};
+use super::threads::pool;
 use super::{
     CommandOutput, LimitArgs, SamplingArgs, bodies, check, colour, eval, files, source, width,
 };
+use share::Share;
 
 #[derive(Debug, Subcommand)]
 pub enum ExploreCommand {
@@ -146,22 +146,21 @@ impl ExploreCommand {
 }
 
 impl ExploreCommand {
-    /// Keeps the arguments with a job that may be done in parts.
-    pub fn keep(&mut self, arguments: &[OsString]) {
-        let share = match self {
-            Self::Report(options) => &mut options.share,
-            Self::Sweep(options) => &mut options.share,
+    /// Part of a job that may be done in parts.
+    pub fn share(&mut self) -> Option<&mut Share> {
+        match self {
+            Self::Report(options) if options.bodies.settings.is_some() => Some(&mut options.share),
+            Self::Sweep(options) => Some(&mut options.share),
             Self::Motion { command } | Self::Former(FormerCommand::Motion(command)) => {
                 match command.as_mut() {
-                    MotionCommand::Section(options) => &mut options.share,
-                    MotionCommand::Exponents(options) => &mut options.share,
-                    MotionCommand::Chart(options) => &mut options.share,
-                    MotionCommand::Orbit(_) | MotionCommand::Periodic(_) => return,
+                    MotionCommand::Section(options) => Some(&mut options.share),
+                    MotionCommand::Exponents(options) => Some(&mut options.share),
+                    MotionCommand::Chart(options) => Some(&mut options.share),
+                    MotionCommand::Orbit(_) | MotionCommand::Periodic(_) => None,
                 }
             }
-            _ => return,
-        };
-        share.keep(arguments);
+            _ => None,
+        }
     }
 
     /// Limits of a command that has nothing to show before its end; a search and a site have their own.

@@ -14,7 +14,7 @@ use liouville_flow::{ChoiceError, FlowError, FormulaMistake, SectionChoice, numb
 
 use super::LimitArgs;
 use super::colour;
-use super::eval::{open_text, read_text};
+use super::eval::{Opened, open_text, read_text};
 use super::files::plain;
 use super::output::Ending;
 use super::share::Share;
@@ -37,13 +37,6 @@ pub struct MotionArgs {
     pub limits: LimitArgs,
 }
 
-/// A case with its text.
-#[derive(Debug)]
-pub struct Opened {
-    pub case: Case,
-    pub text: String,
-}
-
 impl MotionArgs {
     pub fn open(&self) -> Result<Case, String> {
         self.opened().map(|opened| opened.case)
@@ -51,21 +44,12 @@ impl MotionArgs {
 
     /// Reads the case, and keeps its text.
     pub fn opened(&self) -> Result<Opened, String> {
-        let (case, text) = open_text(&self.case, &self.settings)?;
-        let case = self.moving(case)?;
-        Ok(Opened { case, text })
+        self.moving(open_text(&self.case, &self.settings)?)
     }
 
     /// Reads the case from its text.
     pub fn read(&self, text: &str) -> Result<Opened, String> {
-        let Opened { case, text } = self.opened_any(text)?;
-        Ok(Opened { case: self.moving(case)?, text })
-    }
-
-    /// Reads the case from its text, whether it has motions or not.
-    pub fn opened_any(&self, text: &str) -> Result<Opened, String> {
-        let case = read_text(&self.case, text, &self.settings)?;
-        Ok(Opened { case, text: text.to_string() })
+        self.moving(read_text(&self.case, text, &self.settings)?)
     }
 
     /// Identity of a job about the case.
@@ -91,10 +75,10 @@ impl MotionArgs {
     }
 
     /// The case, if it has motions.
-    fn moving(&self, case: Case) -> Result<Case, String> {
-        match case.model.system.is_map() {
+    fn moving(&self, opened: Opened) -> Result<Opened, String> {
+        match opened.case.model.system.is_map() {
             true => Err(self.told(&FlowError::Discrete)),
-            false => Ok(case),
+            false => Ok(opened),
         }
     }
 

@@ -13,10 +13,9 @@ use liouville_flow::{SectionOrbit, SurfaceOrbit};
 use serde::{Deserialize, Serialize};
 
 use super::chart::parse_size;
+use super::eval::Opened;
 use super::ink::Ink;
-use super::motion::{
-    MotionArgs, Opened, SectionPlaneArgs, Threads, parse_count, parse_start, rendered,
-};
+use super::motion::{MotionArgs, SectionPlaneArgs, Threads, parse_count, parse_start, rendered};
 use super::output::{Ending, Output};
 use super::share::{Share, Target, carry_out};
 use super::starts::Starts;

@@ -2,13 +2,14 @@
 
 use std::ffi::OsString;
 use std::fs;
+use std::io::ErrorKind;
 use std::path::Path;
 
 use clap::Args;
 use liouville::part::Part;
 
 use super::CommandOutput;
-use crate::parts::{Job, PartFile, save};
+use crate::parts::{Form, Identity, Job, check, save};
 
 /// Part of a job.
 #[derive(Clone, Debug, Default, Args)]
@@ -29,6 +30,20 @@ impl Share {
     /// Keeps the arguments of the program after its name.
     pub fn keep(&mut self, arguments: &[OsString]) {
         self.arguments = kept(arguments);
+    }
+
+    /// Remedy where the job was stopped: what was reached is kept in parts alone.
+    pub fn remedy(&self) -> String {
+        match self.part {
+            None => {
+                "allow more, or compute it in parts, which are kept: --part 1/100 --out parts/ \
+                     up to --part 100/100, then `liouville merge parts`"
+                    .to_string()
+            }
+            Some(part) => {
+                format!("allow more, or compute more parts than {}: each takes less", part.count())
+            }
+        }
     }
 }
 
@@ -87,16 +102,52 @@ fn write_part<J: Job>(
         format!("error: cannot write to {shown}: {error}\nhelp: give --out a folder of your own")
     };
     fs::create_dir_all(folder).map_err(wrong)?;
-    let name = identity.file_name(part, job.form().ending());
-    let known = fs::read_to_string(folder.join(&name));
-    if !force && known.is_ok_and(|text| PartFile::read(&text).is_ok()) {
-        return Ok(CommandOutput { text: format!("{name}: there\n"), code: 0 });
+    let form = job.form();
+    let name = identity.file_name(part, form.ending());
+    if !force {
+        match known(&folder.join(&name), &identity, part, &form)? {
+            Known::Missing => {}
+            Known::Whole => {
+                return Ok(CommandOutput { text: format!("{name}: there\n"), code: 0 });
+            }
+            Known::Other(reason) => {
+                anstream::eprintln!("warning: {name} is computed again: {reason}");
+            }
+        }
     }
     let file = job.file(part, threads)?;
     save(folder, &file).map_err(wrong)?;
     let (range, units) = (part.range(identity.units), identity.units);
     let count = range.end - range.start;
     Ok(CommandOutput { text: format!("{name}: {count} of {units} units\n"), code: 0 })
+}
+
+/// Contents of a file under the name of a part.
+enum Known {
+    /// Nothing.
+    Missing,
+    /// The part.
+    Whole,
+    /// Something else, for this reason.
+    Other(String),
+}
+
+/// Looks whether a part is there.
+fn known(path: &Path, identity: &Identity, part: Part, form: &Form) -> Result<Known, String> {
+    match fs::read_to_string(path) {
+        Ok(text) => {
+            let own = check(&text, identity, part, form);
+            Ok(own.map_or_else(Known::Other, |()| Known::Whole))
+        }
+        Err(error) => match error.kind() {
+            ErrorKind::NotFound => Ok(Known::Missing),
+            ErrorKind::InvalidData => Ok(Known::Other("it is no text".to_string())),
+            _ => {
+                let shown = path.display();
+                Err(format!("error: cannot read {shown}: {error}\nhelp: remove it"))
+            }
+        },
+    }
 }
 
 #[cfg(test)]

@@ -17,10 +17,7 @@ use rayon::prelude::*;
 
 use super::super::files::{self, Found, plain};
 use super::super::limits::{STOPPED, signals};
-use super::{CommandOutput, LimitArgs, SamplingArgs, out, source};
-
-/// Stack of each thread; formulas nest, and what follows them does.
-const STACK: usize = 16 << 20;
+use super::{CommandOutput, LimitArgs, SamplingArgs, out, pool, source};
 
 #[derive(Debug, Args)]
 pub struct Site {
@@ -65,11 +62,7 @@ pub fn run(options: &Site) -> Result<CommandOutput, String> {
         options: options.sampling.options(),
         is_open: Mutex::new(true),
     });
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(options.sampling.threads.unwrap_or(0).min(work.tasks.len().max(1)))
-        .stack_size(STACK)
-        .build()
-        .map_err(|error| format!("error: cannot start threads: {error}"))?;
+    let pool = pool(options.sampling.threads.unwrap_or(0).min(work.tasks.len().max(1)))?;
     let bar = files::bar(work.tasks.len() as u64);
     let (sender, receiver) = channel();
     let (own, shown) = (Arc::clone(&work), bar.clone());

@@ -8,7 +8,7 @@ use clap::Args;
 use liouville_lab::stress::{SCENARIOS, Scenario, StressError, Tally, digits_lost, verdicts};
 use rayon::prelude::*;
 
-use super::CommandOutput;
+use super::{CommandOutput, pool};
 
 #[derive(Debug, Args)]
 pub struct Stress {
@@ -34,10 +34,7 @@ pub fn run(options: &Stress) -> Result<CommandOutput, String> {
         super::out::check(path, "--svg", &[])?;
     }
     let started = Instant::now();
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(options.threads.unwrap_or(0))
-        .build()
-        .map_err(|error| format!("error: cannot start threads: {error}"))?;
+    let pool = pool(options.threads.unwrap_or(0))?;
     let scenarios: Vec<SweepReport> =
         pool.install(|| SCENARIOS.iter().map(|scenario| sweep(scenario, options)).collect());
     let verdicts = scenarios.iter().map(|s| s.verdicts).fold(Tally::default(), Tally::and);

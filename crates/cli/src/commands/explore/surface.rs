@@ -1,8 +1,8 @@
 //! The command `liouville motion section --section`: crossings of a surface by any system.
 
-use crate::parts::hash;
 use crate::report::data::DataTable;
 use crate::report::facts;
+use crate::report::sha256;
 use crate::report::surface::{SurfaceReport, plot};
 use liouville::case::{Case, Direction};
 use liouville::number::double_double::DoubleDouble;
@@ -110,7 +110,7 @@ pub fn request_text(case: &Case, options: &SectionArgs) -> Result<(usize, String
     let begins = plan.begins(case, options)?;
     let SurfaceRequest { direction, crossings, skip, backwards, .. } = plan.request(options);
     let (surface, axes) = (plan.surface.text(), plan.axes.titles());
-    let starts = hash(&format!("{begins:?}"));
+    let starts = sha256(&format!("{begins:?}"));
     let request = format!(
         "surface {surface:?} axes {axes:?} {direction:?} crossings {crossings} skip {skip} \
          backwards {backwards} {:?} starts sha256:{starts}",

@@ -7,17 +7,17 @@ use liouville::formula::Type;
 use liouville::part::Part;
 use liouville::sweep::{Extremes, Peak, Sweep as States};
 use liouville::verdict::NamedValue;
-use rayon::ThreadPoolBuilder;
 use serde::{Deserialize, Serialize};
 
 use crate::parts::{Form, Identity, Job, json_line, json_unit};
 use crate::report::sweep::{Found, SweepReport};
 
-use super::motion::{MotionArgs, Opened, Threads};
+use super::eval::Opened;
+use super::motion::{MotionArgs, Threads};
 use super::output::{Ending, Output};
 use super::progress::progress;
 use super::share::{Share, Target, carry_out};
-use super::{CommandOutput, check, eval, write};
+use super::{CommandOutput, check, eval, pool, write};
 
 /// Largest number of states.
 const MOST: f64 = 1e18;
@@ -56,8 +56,8 @@ fn parse_states(text: &str) -> Result<u64, String> {
 }
 
 pub fn run(options: &Sweep) -> Result<CommandOutput, String> {
-    let (case, text) = eval::open_text(&options.subject.case, &options.subject.settings)?;
-    let job = SweepJob::new(options.clone(), Opened { case, text })?;
+    let opened = eval::open_text(&options.subject.case, &options.subject.settings)?;
+    let job = SweepJob::new(options.clone(), opened)?;
     let target = Target { out: options.out.as_deref(), threads: options.threads.count() };
     carry_out(&job, &options.share, target)
 }
@@ -98,14 +98,7 @@ impl SweepJob {
         });
         let claims: Vec<usize> = claims.map(|(place, _)| place).collect();
         if claims.is_empty() {
-            let all = options.claims.join("` or `");
-            return Err(match options.claims.is_empty() {
-                true => "error: the case has no claim\nhelp: add [[claim]]".to_string(),
-                false => format!(
-                    "error: no claim has a name or source like `{all}`\n\
-                     help: `liouville check -v` shows the names"
-                ),
-            });
+            return Err(check::no_claim(&options.claims));
         }
         Ok(Self { options, opened, claims, out })
     }
@@ -176,10 +169,7 @@ impl Job for SweepJob {
 
     fn compute(&self, part: Part, threads: usize) -> Result<Vec<Unit>, String> {
         let range = part.range(self.options.states);
-        let pool = ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .map_err(|error| format!("error: cannot start threads: {error}"))?;
+        let pool = pool(threads)?;
         let bar = progress((range.end - range.start) * self.claims.len() as u64, "states");
         let tick = |count| bar.inc(count);
         let units = pool
