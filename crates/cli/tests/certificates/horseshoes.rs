@@ -88,8 +88,7 @@ fn horseshoes_with_other_numbers_are_refused_with_the_place() {
     let file = of_a_horseshoe("horseshoe-tampered", "duffing");
     let whole: Value =
         serde_json::from_str(&fs::read_to_string(file).expect("a file")).expect("JSON");
-    let list = |part: &str| whole["proof"][part].as_array().expect("a list").clone();
-    let sets = list("sets");
+    let sets = whole["proof"]["sets"].as_array().expect("a list").clone();
     let last = last_of_the_short_loop(&whole);
     let set = |index: usize, part: &str| format!("/proof/sets/{index}/{part}");
     let plus = |x: f64| move |own: &Value| number(valued(own) + x);
