@@ -1,7 +1,7 @@
 //! Synonyms of keys.
 
 /// Alternative names of keys.
-const SYNONYMS: [(&str, &[&str]); 21] = [
+const SYNONYMS: [(&str, &[&str]); 22] = [
     ("parameters", &["params", "param", "parameter", "constants", "constant"]),
     ("state", &["states", "vars", "phase", "coordinates", "unknowns"]),
     ("field", &["equations", "rates", "ode", "dynamics", "motion", "vector-field"]),
@@ -12,6 +12,7 @@ const SYNONYMS: [(&str, &[&str]); 21] = [
     ("density", &["measure", "invariant-measure", "jacobian-multiplier"]),
     ("identity", &["equation", "equality"]),
     ("invariant-relation", &["invariant-manifold", "darboux", "darboux-polynomial"]),
+    ("no-invariant-relation", &["no-darboux", "no-darboux-polynomial", "no-invariant-manifold"]),
     ("expect", &["expected", "verdict", "result"]),
     ("where", &["place", "domain", "on"]),
     ("body", &["bodies", "rigid-body", "solid"]),

@@ -14,8 +14,8 @@ use super::witness;
 use crate::graph::{Evaluator, Fault, Tape};
 use crate::mechanics::Draw;
 use crate::number::Enclosing;
-use crate::number::arb::ArbBall;
-use crate::number::ball::Ball;
+use crate::number::arb::{Approximation, ArbBall};
+use crate::number::ball::{Ball, Balls};
 use crate::number::mixed::{Mixed, Number};
 use crate::number::rational::Rational;
 use crate::proof::{Extent, InputRegion};
@@ -30,12 +30,14 @@ const MAX_DOUBTFUL: usize = 4;
 impl Judging<'_> {
     /// Examines states of the first block at which a required value is undefined in f64: √0 exists.
     pub(super) fn missing_states(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
-        if sampler.is_numerical() {
-            return;
-        }
+        let found = sampler.is_numerical().then(|| sampler.balls(0));
         let unsettled = open.iter_mut().filter(|(_, status)| status.settled.is_none());
         for (item, status) in unsettled {
-            let missing = std::mem::take(&mut status.missing);
+            let mut missing = std::mem::take(&mut status.missing);
+            // Where Newton's method fails there is no state.
+            if let Some(found) = &found {
+                missing.retain(|lane| found.iter().all(|block| block.is_defined(*lane)));
+            }
             if missing.is_empty() {
                 continue;
             }
@@ -45,11 +47,18 @@ impl Judging<'_> {
             let mut doubtful = 0;
             for lane in &missing[..looked] {
                 let index = *lane as u64;
-                let values = run.at(&domain, &sampler.states(&domain, 1, index));
+                let state = match &found {
+                    Some(found) => found.iter().map(|block| number(block, *lane)).collect(),
+                    None => sampler.states(&domain, 1, index),
+                };
+                let values = run.at(&domain, &state);
                 let existing = layout.existing(&values, span);
                 let required = [layout.common.clone(), span.requirement.clone()];
                 let mut required = required.into_iter().flat_map(|range| values.range(range));
                 doubtful += usize::from(required.any(|value| *value == Number::Doubtful));
+                if found.is_some() {
+                    continue;
+                }
                 let seen = BlockValues { values: &values, existing: &existing };
                 let residual = span.residual.clone();
                 if self.seek_witness(
@@ -211,6 +220,12 @@ impl Judging<'_> {
         }
         true
     }
+}
+
+/// Number enclosed by a ball in f64.
+fn number<const N: usize>(block: &Balls<N>, lane: usize) -> Number {
+    Approximation::from_double_double(block.mid[lane], 0.0, block.rad[lane])
+        .map_or(Number::Doubtful, Number::Ball)
 }
 
 /// Returns the ranges of the draws in a part of the states, with each choice of the signs that the

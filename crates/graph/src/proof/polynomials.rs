@@ -64,7 +64,6 @@ pub fn polynomial_bounds(graph: &Graph, values: &[Expr], first: usize) -> Option
 #[cfg(test)]
 mod tests {
     use num_dual::DualNum;
-    use num_traits::Signed;
 
     use super::*;
     use crate::graph::record;
@@ -89,6 +88,6 @@ mod tests {
         assert_eq!(bounds(|x| vec![x[1] / x[2] * x[2]]), None, "y/z z");
         assert_eq!(bounds(|x| vec![x[1].powi(-2)]), None, "y⁻²");
         assert_eq!(bounds(|x| vec![x[0].sqrt() * x[1]]), None, "√a y");
-        assert_eq!(bounds(|x| vec![x[1].abs()]), None, "|y|");
+        assert_eq!(bounds(|x| vec![x[1].sin()]), None, "sin y");
     }
 }
