@@ -165,6 +165,8 @@ def threads_at_work():
 @pytest.mark.skipif(not os.path.exists("/proc/self/task"), reason="no /proc here")
 @pytest.mark.parametrize("long", ["orbit", "chart", "search"])
 def test_an_interrupt_ends_long_calls(long):
+    # A shell starts what runs in the background with interrupts ignored.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     case = lv.read("figures/fig-8")
     before = threads_at_work()
     calls = {
