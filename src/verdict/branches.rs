@@ -91,14 +91,13 @@ impl Judging<'_> {
                     has_no_zero || (is_thin && self.is_number(sampler, pivot.divisor)?);
                 // Factors do no harm if they have no common factor, as functions on a level of
                 // which the steps before miss nothing.
+                let is_coprime = || self.has_no_factor(sampler, &space, solution, index, &choices);
                 let is_whole = is_strong
                     || (is_thin
                         && (self.is_number(sampler, pivot.slope)?
                             || self.is_number(sampler, pivot.whole)?
                             || space.is_definite(own)
-                            || (is_complete
-                                && self
-                                    .has_no_factor(sampler, &space, solution, index, &choices)?)));
+                            || (is_complete && is_coprime()?)));
                 if !is_whole {
                     open.push(index);
                 }

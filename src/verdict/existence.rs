@@ -30,6 +30,10 @@ const MAX_DOUBTFUL: usize = 4;
 impl Judging<'_> {
     /// Examines states of the first block at which a required value is undefined in f64: √0 exists.
     pub(super) fn missing_states(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
+        let is_asked = |status: &ClaimState| status.settled.is_none() && !status.missing.is_empty();
+        if !open.iter().any(|(_, status)| is_asked(status)) {
+            return;
+        }
         let found = sampler.is_numerical().then(|| sampler.balls(0));
         let unsettled = open.iter_mut().filter(|(_, status)| status.settled.is_none());
         for (item, status) in unsettled {

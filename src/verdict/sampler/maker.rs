@@ -58,8 +58,8 @@ impl Maker<'_> {
     fn made(&mut self, start: u64, sets: Option<usize>) -> Vec<Balls<TAPE_LANES>> {
         let sampler = self.sampler;
         let attempts = sampler.attempts(start, TAPE_LANES, sets);
-        let Some(numerical) = &sampler.newton else { return self.tried(start, &attempts, sets) };
         let mut values = self.tried(start, &attempts, sets);
+        let Some(numerical) = &sampler.newton else { return values };
         numerical.project(&mut values);
         for attempt in 1..NUMERICAL_ATTEMPTS {
             let is_open = |lane: usize| values.iter().any(|block| !block.mid[lane].is_finite());

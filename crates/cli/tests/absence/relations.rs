@@ -2,7 +2,7 @@
 
 use super::{Dice, Polynomial, Verdict, field, only};
 
-const THIRD: &str = "[[claim]]\nno-invariant-relation = { degree = 3 }\n";
+pub const THIRD: &str = "[[claim]]\nno-invariant-relation = { degree = 3 }\n";
 
 fn relation(formula: &str, cofactor: &str) -> String {
     format!("[[claim]]\ninvariant-relation = '{formula}'\ncofactor = '{cofactor}'\n")
@@ -21,7 +21,7 @@ fn planted(f: &Polynomial, dice: &mut Dice) -> ([String; 3], String) {
 #[test]
 fn planted_relations_are_never_excluded() {
     let mut dice = Dice(7);
-    let (mut refuted, mut proved, mut others) = (0, 0, Vec::new());
+    let (mut refuted, mut proved, mut others) = (0, 0, 0);
     for plant in 0..24 {
         let degree = 1 + (plant % 2) as u32;
         let f = Polynomial::random(&mut dice, degree).plus(&Polynomial(vec![(1, [0, 0, 0])]));
@@ -33,27 +33,15 @@ fn planted_relations_are_never_excluded() {
         refuted += usize::from(report.verdict == Verdict::Refuted);
         // There may be others by chance.
         let report = only(&field(rates, &(relation(&f.text(), &cofactor) + &claim)));
+        let reason = report.evidence.reason.unwrap_or_default();
         match report.verdict {
             Verdict::Proved => proved += 1,
-            _ => others.push((f.text(), report.evidence.reason, report.evidence.exhibit)),
+            Verdict::Refuted => others += 1,
+            _ => assert!(reason.contains("related along each orbit"), "{what}: {reason}"),
         }
     }
     assert!(refuted >= 20, "{refuted} of 24 claims are refuted");
-    assert!(proved >= 16, "{proved} of 24 claims with the relation are proved: {others:#?}");
-}
-
-#[test]
-fn a_factor_with_the_primes_of_a_seed_is_not_lost() {
-    // Modulo these numbers, which seed 1 drew whatever the field was, 1 + p x is a constant.
-    for prime in ["1786240337854321847", "1633856596546501343", "1504571051129808743"] {
-        let rates = [
-            format!("(1 + {prime}*x)*(y + 2)"),
-            "x*z + y^2 - 3".to_string(),
-            "x*y - z^2 + x".to_string(),
-        ];
-        let report = only(&field(rates, THIRD));
-        assert_ne!(report.verdict, Verdict::Proved, "{prime}: {:?}", report.evidence);
-    }
+    assert!(proved >= 16, "{proved} of 24 claims with the relation are proved, {others} refuted");
 }
 
 #[test]

@@ -79,13 +79,8 @@ impl Bounds {
         }))
     }
 
-    /// Bounds the degrees of the numerator and of the denominator of the value at a place, with all
-    /// factors multiplied out.
-    pub fn expanded_degree(&self, place: usize) -> Option<f64> {
-        Some(self.expanded(self.at(place)?).0)
-    }
-
-    /// Bounds degree and height of the numerator times the denominator of the value at a place.
+    /// Bounds degree and height of the numerator, and of the denominator, of the value at a place,
+    /// with all factors multiplied out.
     pub fn multiplied_out(&self, place: usize) -> Option<(f64, f64)> {
         Some(self.expanded(self.at(place)?))
     }

@@ -2,9 +2,9 @@
 //!
 //! A common factor h of positive degree restricts to a common factor on a line z₀ + t u, of
 //! positive degree unless the leading form of h vanishes at u modulo the prime. Four primes and
-//! lines, drawn from the values, would all have to be so unlucky: the chance is below 2⁻¹⁶⁰ for
-//! degrees up to 400 and coefficients of up to 4000 bits. Quotients are first brought over one denominator: its
-//! factors vanish nowhere where the quotients have values.
+//! lines, drawn from the values, would all have to be so unlucky: the chance is below 2⁻¹⁶⁰ within
+//! the limits on degree and height. Quotients are first brought over one denominator: its factors
+//! vanish nowhere where the quotients have values.
 
 use crate::graph::{Evaluator, Expr, Graph, Step, Tape};
 use crate::number::prime::{Modulus, Prime, UNDEFINED};
@@ -17,6 +17,8 @@ use super::trial::PRIMES;
 
 /// Largest degree that is tried.
 const LARGEST_DEGREE: f64 = 400.0;
+/// Largest height that is tried: bits of the sum of the absolute coefficients.
+const LARGEST_HEIGHT: f64 = 4000.0;
 /// Number of points of the line at which an interpolated quotient is checked.
 const CHECKS: usize = 4;
 
@@ -66,10 +68,11 @@ pub fn are_coprime(graph: &Graph, values: &[Expr], seed: u64) -> bool {
     let reached = graph.reached(values.iter().copied());
     let sources = vec![InputDistribution::Uniform; graph.inputs()];
     let bounds = Bounds::of(graph, &reached, &sources);
-    let degrees = values.iter().map(|value| bounds.expanded_degree(graph.place(*value)));
-    let Some(degrees) = degrees.collect::<Option<Vec<f64>>>() else { return false };
-    let degree = degrees.into_iter().fold(0.0, f64::max);
-    if degree > LARGEST_DEGREE {
+    let expanded = values.iter().map(|value| bounds.multiplied_out(graph.place(*value)));
+    let Some(expanded) = expanded.collect::<Option<Vec<(f64, f64)>>>() else { return false };
+    let largest = |(d, h): (f64, f64), (e, i): (f64, f64)| (d.max(e), h.max(i));
+    let (degree, height) = expanded.into_iter().fold((0.0, 0.0), largest);
+    if degree > LARGEST_DEGREE || height > LARGEST_HEIGHT {
         return false;
     }
     let mut rng =

@@ -37,7 +37,7 @@ const SECONDS: f64 = 20.0;
 /// Limit on the time for a claim.
 const MOST_TIME: Duration = Duration::from_secs(60);
 
-/// What is counted.
+/// The invariants that are counted.
 #[derive(Clone, Copy)]
 enum Counted {
     Integrals,
@@ -53,7 +53,7 @@ enum AbsenceOutcome {
         /// The count, in a few words.
         counted: String,
     },
-    /// What is proved and contradicts the claim.
+    /// A proved invariant that contradicts the claim.
     Exhibited(String),
     /// Undecided, for this reason.
     Open(String),

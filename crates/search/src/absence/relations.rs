@@ -23,7 +23,7 @@ pub fn no_invariant_relation(
             known.push(own.function.clone());
         }
     }
-    let reason = match no_others::shown(case, effort, &known, degree, STEPS)? {
+    let reason = match no_others::shown(case, effort, &known, [degree], STEPS)? {
         Ok(shown) => {
             let names: Vec<String> = (0..case.model.dimension())
                 .map(|component| case.model.component_name(component))

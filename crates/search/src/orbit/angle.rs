@@ -6,6 +6,7 @@
 
 use liouville::formula::{Formula, FormulaError};
 use liouville::graph::Tape;
+use liouville::number::exact::square_root;
 use liouville::number::rational::Rational;
 use num_bigint::BigInt;
 use num_traits::Zero;
@@ -22,7 +23,7 @@ use super::setting::{OrbitSetting, PrimePhasePoint, run};
 /// Number of choices of the parameters tried until √D exists.
 const TRIES: u64 = 16;
 /// Bound above the numbers whose squares are taken out of a root.
-const MOST_PRIME: i64 = 1000;
+const LARGEST_ROOT: i64 = 1000;
 
 /// Form of an angle: that of a circle for D < 0, hyperbolic for D > 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -138,7 +139,7 @@ impl ConjugatePair {
             if own.is_negative() || own.is_zero() {
                 return Ok(None);
             }
-            if let Some(root) = rational_root(&own) {
+            if let Some(root) = square_root(&own) {
                 return Ok(Some(Formula::number(root)));
             }
         }
@@ -185,24 +186,17 @@ fn of_functions(vector: &ParametricVector, monomials: &[Formula]) -> Result<Part
     Ok(even.zip(odd).map(|(even, odd)| (even, odd, square)))
 }
 
-/// Writes a number as k² s, without square factors of small primes in s.
+/// Writes a number as k² s, without small square factors in s.
 fn without_squares(number: BigInt) -> (BigInt, BigInt) {
     let (mut root, mut rest) = (BigInt::from(1), number);
-    for prime in 2..MOST_PRIME {
-        let square = BigInt::from(prime * prime);
+    for factor in 2..LARGEST_ROOT {
+        let square = BigInt::from(factor * factor);
         while !rest.is_zero() && (&rest % &square).is_zero() {
             rest /= &square;
-            root *= prime;
+            root *= factor;
         }
     }
     (root, rest)
-}
-
-/// Root of a positive number, if it is rational.
-fn rational_root(value: &Rational) -> Option<Rational> {
-    let (above, below) = value.parts();
-    let root = Rational::from_parts(above.sqrt(), below.sqrt());
-    (&root * &root == *value).then_some(root)
 }
 
 #[cfg(test)]
@@ -210,9 +204,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn roots_of_squares_are_rational() {
-        assert_eq!(rational_root(&Rational::new(9, 4)), Some(Rational::new(3, 2)));
-        assert_eq!(rational_root(&Rational::new(8, 4)), None);
+    fn squares_are_taken_out() {
         let whole = |n: i64| BigInt::from(n);
         assert_eq!(without_squares(whole(-72)), (whole(6), whole(-2)), "−72 = 6² · −2");
         assert_eq!(without_squares(whole(0)), (whole(1), whole(0)));

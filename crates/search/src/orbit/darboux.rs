@@ -76,10 +76,10 @@ impl DarbouxSearch<'_, '_> {
                 if count <= CONJUGATES
                     && let Some(formula) = self.conjugates(&support, count, factors)?
                 {
-                    let before = factors.clone();
+                    let before = factors.len();
                     self.tell(&formula, degree * count as u32, factors, report)?;
-                    if count == 2 && factors.len() > before.len() {
-                        pairs.extend(self.pair(&support, degree, &before)?);
+                    if count == 2 && factors.len() > before {
+                        pairs.extend(self.pair(&support, degree, &factors[..before])?);
                     }
                 }
             }

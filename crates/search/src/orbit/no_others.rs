@@ -27,6 +27,8 @@ const POOL: f64 = 50.0;
 
 /// The theorem for a degree.
 pub struct NoOthers {
+    /// Highest degree of the polynomials.
+    pub degree: u32,
     /// Log₂ of its error probability.
     pub error_log2: f64,
     /// Number of monomials.
@@ -130,6 +132,52 @@ impl Sizes {
         Ok(factors)
     }
 
+    /// The theorem for a degree, or the reason why it is not shown.
+    fn shown_for(
+        &self,
+        degree: u32,
+        setting: &OrbitSetting<'_>,
+        factors: &[RatedPolynomial],
+        most_steps: f64,
+    ) -> Result<Result<NoOthers, String>, SearchError> {
+        let none = |reason: &str| Ok(Err(reason.to_string()));
+        let (field, dimension) = (self.field.degree as usize, setting.dimension());
+        let monomials = monomials::count(dimension, degree);
+        let each = self.error_log2(degree, monomials);
+        let needed = (TARGET / each).ceil();
+        if !(each < 0.0 && needed <= PRIMES as f64) {
+            return none("the formulas have too large degrees");
+        }
+        if needed * monomials::steps(dimension, degree, field) > most_steps {
+            return Ok(Err(format!(
+                "degree {degree} has {monomials} unknowns: ask for a lower one"
+            )));
+        }
+        let variables: Vec<usize> = (0..dimension).collect();
+        let all = monomials::up_to(&variables, dimension, degree);
+        let primes = needed as u64;
+        for prime in 0..primes {
+            let Some(at) = setting.at(prime, prime) else {
+                return none("no orbit has a series modulo a prime");
+            };
+            let Some(line) = RandomLine::draw(setting, &at, prime) else {
+                return none("no orbit has a series modulo a prime");
+            };
+            let special = line.special(&all, field, factors)?;
+            if !special.is_full {
+                return Ok(Err(format!(
+                    "polynomials of degree {degree} are related along each orbit, as integrals make them"
+                )));
+            }
+            if !special.is_whole || !special.all.is_empty() {
+                return Ok(Err(format!(
+                    "there may be other Darboux polynomials of degree {degree} or less"
+                )));
+            }
+        }
+        Ok(Ok(NoOthers { degree, error_log2: each * needed, monomials, primes }))
+    }
+
     /// Log₂ of the probability that one prime and one line hide a Darboux polynomial: that a number
     /// made of the determinant without the factors of known polynomials, its leading coefficient times
     /// its resultants with these, is 0 modulo the prime.
@@ -161,13 +209,13 @@ impl Sizes {
 }
 
 /// Shows that each irreducible Darboux polynomial of at most a degree, with complex coefficients,
-/// divides one of the known polynomials, for generic parameters, within a number of steps; the text
-/// is the reason why this is not shown.
+/// divides one of the known polynomials, for generic parameters, within a number of steps; the first
+/// of the degrees for which that succeeds counts. The text is the reason why it does for none.
 pub fn shown(
     case: &Case,
     effort: &Effort,
     known: &[Formula],
-    degree: u32,
+    degrees: impl IntoIterator<Item = u32>,
     most_steps: f64,
 ) -> Result<Result<NoOthers, String>, SearchError> {
     let none = |reason: &str| Ok(Err(reason.to_string()));
@@ -178,17 +226,6 @@ pub fn shown(
         Ok(sizes) => sizes,
         Err(reason) => return Ok(Err(reason)),
     };
-    let field = sizes.field.degree as usize;
-    let variables: Vec<usize> = (0..case.model.dimension()).collect();
-    let count = monomials::count(variables.len(), degree);
-    let each = sizes.error_log2(degree, count);
-    let needed = (TARGET / each).ceil();
-    if !(each < 0.0 && needed <= PRIMES as f64) {
-        return none("the formulas have too large degrees");
-    }
-    if needed * monomials::steps(variables.len(), degree, field) > most_steps {
-        return Ok(Err(format!("degree {degree} has {count} unknowns: ask for a lower one")));
-    }
     let effort = sizes.effort(effort);
     let setting = match OrbitSetting::of(case, &effort)? {
         Ok(setting) => setting,
@@ -198,28 +235,14 @@ pub fn shown(
         return none("the field contains roots of the parameters");
     }
     let factors = sizes.factors(&setting, known)?;
-    let all = monomials::up_to(&variables, setting.dimension(), degree);
-    let primes = needed as u64;
-    for prime in 0..primes {
-        let Some(at) = setting.at(prime, prime) else {
-            return none("no orbit has a series modulo a prime");
-        };
-        let Some(line) = RandomLine::draw(&setting, &at, prime) else {
-            return none("no orbit has a series modulo a prime");
-        };
-        let special = line.special(&all, field, &factors)?;
-        if !special.is_full {
-            return Ok(Err(format!(
-                "polynomials of degree {degree} are related along each orbit, as integrals make them"
-            )));
-        }
-        if !special.is_whole || !special.all.is_empty() {
-            return Ok(Err(format!(
-                "there may be other Darboux polynomials of degree {degree} or less"
-            )));
+    let mut outcome = Err("no degree is asked for".to_string());
+    for degree in degrees {
+        outcome = sizes.shown_for(degree, &setting, &factors, most_steps)?;
+        if outcome.is_ok() {
+            break;
         }
     }
-    Ok(Ok(NoOthers { error_log2: each * primes as f64, monomials: count, primes }))
+    Ok(outcome)
 }
 
 /// Whether a function is a polynomial of at most a degree with a factor that no known one has.

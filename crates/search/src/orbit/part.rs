@@ -183,24 +183,22 @@ impl VariableSet {
             return Ok(());
         }
         let known: Vec<Formula> = self.factors.iter().map(|own| own.formula.clone()).collect();
-        for degree in (1..self.next_darboux).rev() {
-            let (case, effort) = (setting.case, setting.effort);
-            let Ok(shown) = no_others::shown(case, effort, &known, degree, most_steps)? else {
-                continue;
-            };
-            let names: Vec<String> = setting.terms.iter().map(ToString::to_string).collect();
-            let statement = no_others::statement(&names.join(", "), degree, &known);
-            // The theorem of a shorter search.
-            report.excluded.retain(|own| !own.ansatz.starts_with(DARBOUX_THEOREM));
-            report.excluded.push(Excluded {
-                ansatz: format!("{DARBOUX_THEOREM} {degree}"),
-                dimension: known.len(),
-                known: known.len(),
-                error_log2: Some(shown.error_log2),
-                theorem: fractions::sentence(case, &statement),
-            });
-            break;
-        }
+        let (case, effort) = (setting.case, setting.effort);
+        let degrees = (1..self.next_darboux).rev();
+        let Ok(shown) = no_others::shown(case, effort, &known, degrees, most_steps)? else {
+            return Ok(());
+        };
+        let names: Vec<String> = setting.terms.iter().map(ToString::to_string).collect();
+        let statement = no_others::statement(&names.join(", "), shown.degree, &known);
+        // The theorem of a shorter search.
+        report.excluded.retain(|own| !own.ansatz.starts_with(DARBOUX_THEOREM));
+        report.excluded.push(Excluded {
+            ansatz: format!("{DARBOUX_THEOREM} {}", shown.degree),
+            dimension: known.len(),
+            known: known.len(),
+            error_log2: Some(shown.error_log2),
+            theorem: fractions::sentence(case, &statement),
+        });
         Ok(())
     }
 

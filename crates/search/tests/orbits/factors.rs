@@ -1,0 +1,89 @@
+//! Darboux polynomials, and what follows from their cofactors.
+
+use liouville_search::{Effort, SearchReport};
+
+use super::{excluded, field, searched};
+
+fn cofactor<'r>(report: &'r SearchReport, formula: &str) -> Option<&'r str> {
+    let own = report
+        .found
+        .iter()
+        .find(|found| found.kind == "darboux-polynomial" && found.formula == formula)?;
+    own.with.iter().find(|(what, _)| *what == "cofactor").map(|(_, text)| text.as_str())
+}
+
+#[test]
+fn darboux_polynomials_of_lorenz_are_found_at_their_parameters() {
+    let parametric = [
+        (
+            "s = '0.5..2'\nr = '0.5..2'",
+            ["s*(y - x)", "r*x - y - x*z", "x*y - 2*s*z"],
+            ("−2*s*z + x²", "−2*s"),
+        ),
+        ("s = '0.5..2'", ["s*(y - x)", "-y - x*z", "x*y - z"], ("y² + z²", "−2")),
+    ];
+    for (parameters, rates, (formula, own)) in parametric {
+        let report = searched(&field(parameters, &rates), &Effort::default());
+        assert_eq!(cofactor(&report, formula), Some(own), "{:?}", report.found);
+        assert!(excluded(&report).is_some(), "no rational integral");
+    }
+    // b = 4σ, r = 2σ: one of degree 4, with the cofactor −4.
+    let report = searched(&field("", &["y - x", "2*x - y - x*z", "x*y - 4*z"]), &Effort::default());
+    let formula = "16*z − 8*x² + 8*x*y − 4*y² − 4*x²*z + x^4";
+    assert_eq!(cofactor(&report, formula), Some("−4"), "{:?}", report.found);
+    assert!(excluded(&report).is_some(), "no rational integral");
+}
+
+#[test]
+fn cofactors_give_logarithms_and_densities() {
+    let parameters = "a = '0.5..2'\nb = '0.5..2'\nc = '0.5..2'\nd = '0.5..2'";
+    let report = searched(&field(parameters, &["x*(a - b*y)", "y*(c*x - d)"]), &Effort::default());
+    assert_eq!(cofactor(&report, "x"), Some("a − b*y"), "x' = (a − b y) x");
+    assert_eq!(cofactor(&report, "y"), Some("−d + c*x"), "y' = (c x − d) y");
+    let integrals: Vec<&str> = report.formulas("integral").collect();
+    assert!(integrals.len() == 1 && integrals[0].contains("ln(x)"), "{integrals:?}");
+    assert_eq!(report.formulas("density").count(), 1, "Π f^α e^g");
+    assert!(excluded(&report).is_some_and(|degree| degree >= 8), "no rational integral");
+}
+
+#[test]
+fn conjugate_factors_give_angles() {
+    let fields = [
+        // ln(x² + y²) − 2a atan(y/x)
+        ("a = '0.5..2'", ["a*x - y", "x + a*y"], "atan("),
+        // A damped oscillator: c² − 1 under the root, of either sign.
+        ("c = '0.5..0.9'", ["y", "-x - 2*c*y"], "atan("),
+        ("c = '1.5..2'", ["y", "-x - 2*c*y"], "ln(|"),
+        // A saddle with eigenvalues (1 ± √13)/2.
+        ("", ["x + y", "3*x"], "ln(|"),
+        // The normal form of Hopf's bifurcation.
+        ("m = '0.5..2'", ["m*x - y - x*(x² + y²)", "x + m*y - y*(x² + y²)"], "atan("),
+    ];
+    for (parameters, rates, form) in fields {
+        let report = searched(&field(parameters, &rates), &Effort::default());
+        let integrals: Vec<&str> = report.formulas("integral").collect();
+        assert!(matches!(integrals[..], [own] if own.contains(form)), "{rates:?}: {integrals:?}");
+    }
+}
+
+#[test]
+fn factors_of_the_whole_field_are_found() {
+    // Susceptible and infected: where no one is infected, all is at rest.
+    let report =
+        searched(&field("b = '1..3'\ng = '1..3'", &["-b*x*y", "b*x*y - g*y"]), &Effort::default());
+    assert_eq!(cofactor(&report, "y"), Some("−g + b*x"), "{:?}", report.found);
+    assert_eq!(report.formulas("integral").count(), 1, "x + y − (g/b) ln x");
+    // A circle of points of rest, and two lines of them.
+    let circle = searched(
+        &field("", &["(x² + y² − 1)*(x*y + 2)", "(x² + y² − 1)*(x − y² + 3)"]),
+        &Effort::default(),
+    );
+    assert!(cofactor(&circle, "1 − x² − y²").is_some(), "{:?}", circle.found);
+    let lines = searched(
+        &field("", &["(x − 2*y)*(x + y − 1)*(y² + 2)", "(x − 2*y)*(x + y − 1)*(x − 3)"]),
+        &Effort::default(),
+    );
+    for line in ["x − 2*y", "1 − x − y"] {
+        assert!(cofactor(&lines, line).is_some(), "{line}: {:?}", lines.found);
+    }
+}
