@@ -81,6 +81,29 @@ fn blocks_and_pairs_stand_together() {
 }
 
 #[test]
+fn a_structure_may_stand_beside_the_function() {
+    let head = |structure: &str| {
+        format!(
+            "title = 'top'\n[parameters]\na = '0.5..2'\n[state]\nM = 'vector(-2..2)'\nγ = 'vector(-1..1)'\n\
+             [hamiltonian]\nfunction = 'M²/2 + a*M3² + γ1'\n{structure}"
+        )
+        .replace("\nγ", "\n\"γ\"")
+    };
+    for structure in ["structure = 'e(3)'", "bracket = { structure = 'e(3)' }"] {
+        check(
+            &head(structure),
+            &[
+                (Proved, "identity = \"γ' = γ × (M + 2*a*[0, 0, M3])\""),
+                (Refuted, "identity = \"γ' = (M + 2*a*[0, 0, M3]) × γ\""),
+                (Proved, "casimir = '(M,γ)'"),
+            ],
+        );
+    }
+    let read = Case::parse(&head("structure = 'e(4)'"), &[]);
+    assert!(read.is_err_and(|error| error.to_string().contains("is not a bracket of these")));
+}
+
+#[test]
 fn tops_are_given_by_a_bracket_alone() {
     let head = "title = 'top'\n[parameters]\nI = 'inertia(0.5..5)'\nc = 'vector(-1..1)'\n[state]\nM = 'vector(-2..2)'\n\
         'γ' = 'vector(-1..1)'\n[level]\nequations = ['(γ,γ) = 1']\n[hamiltonian]\n\

@@ -9,7 +9,7 @@ use super::order::Stage;
 use super::section::CaseTable;
 use super::state::TIME;
 use super::systems::Reading;
-use super::variables::{Blocks, BracketNames, blocks};
+use super::variables::{Blocks, BracketNames, blocks, structure};
 use crate::formula::{Type, canonical_name};
 use crate::mechanics::{
     BracketBlock, Chart, Dependence, HamiltonianSystem, System, Variable, of_hamiltonian,
@@ -62,6 +62,7 @@ fn read(reading: &Reading<'_, '_>, section: &CaseTable<'_>) -> Option<System> {
         None => None,
     };
     let blocks = blocks.and_then(|mut blocks| {
+        section.keep(structure(section, &names, &mut blocks))?;
         section.keep(pairs(section, state, &mut blocks))?;
         section.keep(all_move(section, state, &blocks))?;
         Some(blocks)
@@ -123,8 +124,8 @@ fn all_move(section: &CaseTable<'_>, state: &[Variable], blocks: &Blocks) -> Res
         Some((_, variable)) => Err(section.complaint(Problem::Other {
             message: format!("`{}` has no bracket with any variable", variable.name),
             remedy: format!(
-                "name it in pairs = [[\"q\",\"p\"]], or give bracket = {{ \"{0},{0}\" = \"…\" }}; what \
-                 never moves is a parameter",
+                "name it in pairs = [[\"q\",\"p\"]], or give bracket = {{ \"{0},{0}\" = \"…\" }} or \
+                 structure = \"e(3)\"; what never moves is a parameter",
                 variable.name
             ),
         })),

@@ -89,7 +89,13 @@ impl<'r, 's> Reading<'r, 's> {
         let text = self.kind()?;
         let Some((_, reader)) = kinds::SYSTEMS.iter().find(|(name, _)| *name == text.value) else {
             let message = format!("unknown system `{}`", text.value);
-            let remedy = format!("write {}", kinds::names());
+            let remedy = match text.value.as_str() {
+                "hamiltonian" => "remove this line: the table [hamiltonian] is enough".to_string(),
+                "lagrangian" => {
+                    "write nonholonomic, with or without constraints, or vakonomic".to_string()
+                }
+                _ => format!("write {}", kinds::names()),
+            };
             self.mistakes().add(Mistake::at(text.span, Problem::Other { message, remedy }));
             return None;
         };

@@ -209,7 +209,7 @@ pub fn blocks(section: &CaseTable<'_>, target: &BracketNames<'_>) -> Option<Bloc
 }
 
 /// Reads `structure = "e(3)"`.
-fn structure(
+pub fn structure(
     section: &CaseTable<'_>,
     target: &BracketNames<'_>,
     blocks: &mut Blocks,

@@ -6,9 +6,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::graph::{Evaluator, Expr, Fault, Graph, Tape, record};
+use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{LevelFunction, Model, Phase};
+use crate::number::UnaryFunction;
 use crate::number::ball::{Ball, Balls};
 use crate::number::float::Float;
 
@@ -27,6 +28,7 @@ pub struct Newton {
     parameters: usize,
     dimension: usize,
     equations: usize,
+    has_corners: bool,
 }
 
 impl Newton {
@@ -56,7 +58,15 @@ impl Newton {
         let tape = Tape::new(graph, &[values, slopes].concat());
         let equations = values.len();
         let dimension = slopes.len().checked_div(equations).unwrap_or_default();
-        Self { tape, parameters, dimension, equations }
+        let reached = graph.reached(values.iter().copied());
+        let is_modulus = |step: Step<'_>| matches!(step, Step::Unary(UnaryFunction::Abs, _));
+        let has_corners = (0..reached.len()).any(|k| reached[k] && is_modulus(graph.step(k)));
+        Self { tape, parameters, dimension, equations, has_corners }
+    }
+
+    /// Whether some equation contains a modulus.
+    pub fn has_corners(&self) -> bool {
+        self.has_corners
     }
 
     /// Encloses a point of the level near `start`, in a box.

@@ -96,6 +96,15 @@ impl Judging<'_> {
                 undecide(status, reason.to_string());
             }
         }
+        let mut confirmed =
+            open.iter_mut().filter(|(_, status)| status.settled == Some(Verdict::Confirmed));
+        if let Some(first) = confirmed.next() {
+            if let Some(reason) = sampler.unreached() {
+                for (_, status) in std::iter::once(first).chain(confirmed) {
+                    undecide(status, reason.to_string());
+                }
+            }
+        }
         self.second_opinion(sampler, open)?;
         Ok(())
     }

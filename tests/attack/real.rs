@@ -124,6 +124,9 @@ fn tall(x: &Float) -> isize {
 }
 
 fn plus(a: &Real, b: &Real) -> Real {
+    if [a, b].iter().all(|own| is_zero(own) && own.error == EXACT) {
+        return whole(0);
+    }
     Real::rounded(&a.value + &b.value, a.error.max(b.error) + 1)
 }
 
@@ -141,6 +144,9 @@ fn times(a: &Real, b: &Real) -> Real {
 
 /// Computes a/b for b that is certainly not 0.
 fn over(a: &Real, b: &Real) -> Real {
+    if is_zero(a) && a.error == EXACT {
+        return whole(0);
+    }
     // |b| is above 2^(height - 2) within its error.
     let down = height(b) - 2;
     let error = (a.error - down).max(height(a) + b.error - 2 * down).max(EXACT);

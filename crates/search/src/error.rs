@@ -48,9 +48,6 @@ pub enum SearchError {
         /// Limit that was reached.
         megabytes: u64,
     },
-    /// The system is a map.
-    #[error("the case is a map, and a search needs a flow")]
-    Discrete,
     /// The time limit was reached, or the search was stopped. Not an error; recorded in the report.
     #[error("the search was stopped")]
     Stopped,
@@ -90,7 +87,6 @@ impl SearchError {
             SearchError::NoChart => "give [level.chart], or level equations that can be solved",
             SearchError::NoClaim(_) => "name a claim as `liouville check` prints it",
             SearchError::Unsettled(_) => "ask for a lower --degree",
-            SearchError::Discrete => "claim the invariants of a map, and let `check` judge them",
             SearchError::NoTerm(_) => "write a scalar; `liouville names` lists the names of a case",
             SearchError::NoSeries | SearchError::NoPoints => {
                 "make such functions state variables, as in s' = c*φ', c' = −s*φ' for the sine and \

@@ -310,7 +310,7 @@ impl SearchReport {
     }
 }
 
-/// Searches a case for integrals, densities and symmetries.
+/// Searches a case for integrals, densities and symmetries; a map for integrals.
 ///
 /// `progress` is called with a description of the next part and its size. A search that is stopped
 /// reports the results reached so far, and the parts not reached.
@@ -319,12 +319,15 @@ pub fn search(
     effort: &Effort,
     progress: &mut dyn FnMut(&str),
 ) -> Result<SearchReport, SearchError> {
-    if case.model.system.is_map() {
-        return Err(SearchError::Discrete);
-    }
     let mut report = SearchReport::default();
     let case = &abbreviated(case)?;
     report.claimed = ask::claimed(case, effort)?;
+    if case.model.system.is_map() {
+        report.stage("relations along an orbit", effort, |report| {
+            orbit::search_map(case, effort, effort.halt.is_timed(), report, progress)
+        })?;
+        return Ok(report);
+    }
     report.stage("the number of integrals", effort, |report| {
         counts::count(case, effort, report, progress)
     })?;

@@ -3,6 +3,8 @@
 
 #[path = "orbits/factors.rs"]
 mod factors;
+#[path = "orbits/maps.rs"]
+mod maps;
 
 use std::time::{Duration, Instant};
 

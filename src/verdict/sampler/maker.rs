@@ -20,6 +20,25 @@ impl Sampler {
             columns: vec![blank; self.draws.len()],
         }
     }
+
+    /// Returns the reason why the states may leave out a part of a level without parametrisation, if
+    /// one is known.
+    pub(in crate::verdict) fn unreached(&self) -> Option<&'static str> {
+        let numerical = self.newton.as_ref()?;
+        if numerical.has_corners() {
+            return Some(
+                "the states are found numerically, and an equation of the level contains |·| or the \
+                 like: parts of the level may be missed; give a case to each sign",
+            );
+        }
+        let mut maker = self.maker();
+        let mut meets_ends =
+            |attempt| numerical.meets_ends(maker.tried(0, &[attempt; TAPE_LANES], None));
+        (0..NUMERICAL_ATTEMPTS).any(&mut meets_ends).then_some(
+            "the states are found numerically, and some lie at the end of a range, up to rounding: \
+             they are left out; make the range larger",
+        )
+    }
 }
 
 /// Number of draws from which a point of a numerical level inside the ranges is looked for.

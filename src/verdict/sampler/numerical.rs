@@ -28,19 +28,48 @@ impl NumericalLevel {
     /// Moves states to the level; lanes where that fails, or that may leave a range, become undefined.
     pub(super) fn project<const N: usize>(&self, values: &mut [Balls<N>]) {
         self.newton.project(values);
-        let state = &mut values[self.parameters..];
         for lane in 0..N {
-            let is_inside = |block: &Balls<N>, range: &Option<(f64, f64)>| {
-                let (mid, rad) = (block.mid[lane], block.rad[lane]);
-                range.is_none_or(|(low, high)| {
-                    (mid - rad).next_down() >= low && (mid + rad).next_up() <= high
-                })
-            };
-            if !state.iter().zip(&self.ranges).all(|(block, range)| is_inside(block, range)) {
-                for block in &mut *state {
+            if self.position(values, lane) != Position::Inside {
+                for block in &mut values[self.parameters..] {
                     (block.mid[lane], block.rad[lane]) = (f64::NAN, f64::NAN);
                 }
             }
         }
     }
+
+    /// Whether one of these states moves to a point that may be an end of a range.
+    pub(super) fn meets_ends<const N: usize>(&self, mut values: Vec<Balls<N>>) -> bool {
+        self.newton.project(&mut values);
+        (0..N).any(|lane| self.position(&values, lane) == Position::AtEnd)
+    }
+
+    /// Whether an equation of the level has corners, between which Newton's method rarely changes.
+    pub(super) fn has_corners(&self) -> bool {
+        self.newton.has_corners()
+    }
+
+    /// Compares the box of a state with the ranges.
+    fn position<const N: usize>(&self, values: &[Balls<N>], lane: usize) -> Position {
+        let of_state = values[self.parameters..].iter().zip(&self.ranges);
+        of_state.fold(Position::Inside, |position, (block, range)| {
+            let (mid, rad) = (block.mid[lane], block.rad[lane]);
+            let (from, to) = ((mid - rad).next_down(), (mid + rad).next_up());
+            let (low, high) = range.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+            match position {
+                Position::Outside => Position::Outside,
+                _ if !(to >= low && from <= high) => Position::Outside,
+                Position::Inside if !(from >= low && to <= high) => Position::AtEnd,
+                position => position,
+            }
+        })
+    }
+}
+
+/// Position of a box with respect to the ranges of all coordinates.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Position {
+    Inside,
+    /// Some ends of ranges lie in it.
+    AtEnd,
+    Outside,
 }

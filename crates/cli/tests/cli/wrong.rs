@@ -34,6 +34,12 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
         ("no-system", "title = 'x'\n".into(), "has no `system`", "rubber-plane"),
         ("system", "title = 'x'\nsystem = 'rubber-plain'".into(), "unknown system", "rubber-plane"),
         (
+            "system-hamiltonian",
+            "title = 'x'\nsystem = 'hamiltonian'".into(),
+            "unknown system",
+            "the table [hamiltonian] is enough",
+        ),
+        (
             "key",
             format!("titel = 'x'\n{head}{body}"),
             "unknown key `titel`",

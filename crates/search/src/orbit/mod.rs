@@ -1,7 +1,7 @@
-//! Search for any field by orbits modulo a prime.
+//! Search for any field, and any map, by orbits modulo a prime.
 //!
 //! ```text
-//! taylor       series of the orbit of a random point
+//! taylor       series of the orbit of a random point, or points of that of a map
 //! setting      points, orbits, and the relations between monomials along them
 //! relations    number of algebraic integrals; none is a theorem
 //! polynomials  polynomial integrals
@@ -83,6 +83,9 @@ const FURTHER: [RoundLimits; 4] = [
     RoundLimits { monomials: 3200, degree: 24, steps: 2e11 },
 ];
 
+/// Number of these for functions as further variables, before the field is searched without them.
+const WITH_FUNCTIONS: usize = 2;
+
 /// Relations between monomials of at most a degree along one orbit.
 #[derive(Clone, Debug, Serialize)]
 pub struct OrbitReport {
@@ -115,6 +118,7 @@ pub fn search(
     let is_done =
         |report: &SearchReport| report.functions("integral").count() + 1 >= case.model.dimension();
     let before = report.orbits.len();
+    let next: &[RoundLimits] = if further { &FURTHER } else { &[] };
     // At last with half of each angle.
     for _ in 0..2 {
         let known = found(case, effort, report)?;
@@ -123,7 +127,7 @@ pub fn search(
         is_extended = true;
         report.without_points.clear();
         report.orbits.truncate(before);
-        along_orbits(&setting, false, report, progress)?;
+        along_orbits(&setting, &[], report, progress)?;
         divided = extension.halves();
         if is_done(report) || divided.is_empty() {
             break;
@@ -142,24 +146,60 @@ pub fn search(
     };
     match plain {
         Ok(setting) => {
+            if is_extended && further {
+                with_functions(case, effort, &FURTHER[..WITH_FUNCTIONS], report, progress)?;
+                let known = found(case, effort, report)?;
+                fractions::conclude(case, effort, &known, true, report)?;
+            }
             report.orbits.truncate(before);
-            along_orbits(&setting, further, report, progress)
+            along_orbits(&setting, next, report, progress)
         }
         Err(reason) if is_field && !is_extended => {
             report.remark(format!("no relations along orbits: {reason}"));
             Ok(())
         }
         Err(_) if is_extended && further => {
-            let known = found(case, effort, report)?;
-            let Some(extension) = adjoin::extended(case, effort, &known, Vec::new())? else {
-                return Ok(());
-            };
-            let Ok(setting) = OrbitSetting::extended(case, &extension, effort)? else {
-                return Ok(());
-            };
             report.orbits.truncate(before);
-            along_orbits(&setting, true, report, progress)
+            with_functions(case, effort, &FURTHER, report, progress)
         }
+        Err(_) => Ok(()),
+    }
+}
+
+/// Searches a map for integrals; proved ones go into the report. If `further`, the limits grow while
+/// there is time.
+pub fn search_map(
+    case: &Case,
+    effort: &Effort,
+    further: bool,
+    report: &mut SearchReport,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(), SearchError> {
+    match OrbitSetting::of(case, effort)? {
+        Ok(setting) => {
+            along_orbits(&setting, if further { &FURTHER } else { &[] }, report, progress)
+        }
+        Err(reason) => {
+            report.remark(format!("no relations along orbits: {reason}"));
+            Ok(())
+        }
+    }
+}
+
+/// Searches with functions of the state as further variables, within growing limits.
+fn with_functions(
+    case: &Case,
+    effort: &Effort,
+    next: &[RoundLimits],
+    report: &mut SearchReport,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(), SearchError> {
+    let known = found(case, effort, report)?;
+    let Some(extension) = adjoin::extended(case, effort, &known, Vec::new())? else {
+        return Ok(());
+    };
+    match OrbitSetting::extended(case, &extension, effort)? {
+        Ok(setting) => along_orbits(&setting, next, report, progress),
         Err(_) => Ok(()),
     }
 }
@@ -179,24 +219,25 @@ fn found(case: &Case, effort: &Effort, report: &SearchReport) -> Result<Vec<Form
     Ok(energy.chain(own.filter_map(|found| found.function.clone())).collect())
 }
 
-/// Searches the parts of a field; if `further`, within growing limits.
+/// Searches the parts of a field, within growing limits: at last those in `next`.
 fn along_orbits(
     setting: &OrbitSetting<'_>,
-    further: bool,
+    next: &[RoundLimits],
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
     let mut known = IndependentIntegrals::of(setting, report)?;
-    let degree = match setting.is_on_level() || !setting.flow.is_rational {
-        true => None,
-        false => degree_of_field(setting)?,
+    let has_line = !setting.is_on_level() && setting.flow.is_rational && !setting.flow.is_map;
+    let degree = match has_line {
+        true => degree_of_field(setting)?,
+        false => None,
     };
     let part = |variables| VariableSet::new(variables, degree);
     let mut parts: Vec<VariableSet> = blocks::closed(setting.case)?.into_iter().map(part).collect();
     let limits = if setting.origin.is_some() { EXTENDED } else { MODEST };
-    let outcome = rounds(setting, &mut parts, limits, further, &mut known, report, progress);
+    let outcome = rounds(setting, &mut parts, (limits, next), &mut known, report, progress);
     if let Some(whole) = parts.last() {
-        whole.conclude(setting, report);
+        whole.conclude(setting, report)?;
     }
     match outcome {
         Err(error) if error.is_of_count() => {
@@ -207,12 +248,11 @@ fn along_orbits(
     }
 }
 
-/// Searches all parts within limits; if `further`, within growing ones until the time is spent.
+/// Searches all parts within limits, and then within each of the next ones until the time is spent.
 fn rounds(
     setting: &OrbitSetting<'_>,
     parts: &mut [VariableSet],
-    limits: RoundLimits,
-    further: bool,
+    (limits, next): (RoundLimits, &[RoundLimits]),
     known: &mut IndependentIntegrals,
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
@@ -230,11 +270,11 @@ fn rounds(
         }
     };
     run(parts, limits, report)?;
-    if setting.origin.is_none() && !setting.is_on_level() {
+    if setting.origin.is_none() && !setting.is_on_level() && !setting.flow.is_map {
         let known = found(setting.case, setting.effort, report)?;
         fractions::conclude(setting.case, setting.effort, &known, false, report)?;
     }
-    for limits in FURTHER.iter().filter(|_| further) {
+    for limits in next {
         match run(parts, *limits, report) {
             // The time limit of the user is reached.
             Err(SearchError::Stopped) => break,

@@ -32,6 +32,25 @@ pub fn steps(variables: usize, degree: u32, field: usize) -> f64 {
     places * count * count * (count / 3.0 + 4.0)
 }
 
+/// Returns the values of monomials at the points of an orbit: one row for each point, one column for
+/// each monomial.
+pub fn at_points(
+    m: &Modulus,
+    orbit: &[Vec<u64>],
+    monomials: &[Vec<u32>],
+    halt: &Halt,
+) -> Result<Vec<Vec<u64>>, SearchError> {
+    let mut rows = Vec::new();
+    for place in 0..orbit.first().map_or(0, Vec::len) {
+        if place % 16 == 15 {
+            halt.check()?;
+        }
+        let point: Vec<u64> = orbit.iter().map(|variable| variable[place]).collect();
+        rows.push(monomials.iter().map(|own| value(m, &point, own)).collect());
+    }
+    Ok(rows)
+}
+
 /// Series of monomials along an orbit, made on demand.
 pub struct MonomialSeries<'o> {
     modulus: Modulus,

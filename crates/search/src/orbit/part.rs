@@ -161,7 +161,8 @@ impl VariableSet {
             integrals: step.integrals,
         });
         let variables = &self.variables;
-        if step.integrals > known.within(variables) {
+        // Of a map a polynomial integral is found as a fraction with denominator 1.
+        if step.integrals > known.within(variables) && !setting.flow.is_map {
             polynomials::polynomials(setting, variables, monomials, degree, known, report)?;
         }
         if step.integrals > known.within(variables) {
@@ -203,13 +204,22 @@ impl VariableSet {
     }
 
     /// Reports the degree reached and the theorem of absence.
-    pub fn conclude(&self, setting: &OrbitSetting<'_>, report: &mut SearchReport) {
+    pub fn conclude(
+        &self,
+        setting: &OrbitSetting<'_>,
+        report: &mut SearchReport,
+    ) -> Result<(), SearchError> {
         report.orbits.extend(self.done.iter().cloned());
-        if !setting.flow.is_rational || setting.has_lists() || setting.is_on_level() {
-            return;
+        // With functions as variables the theorem is stated elsewhere, with their formulas.
+        let is_plain = setting.origin.is_none() && !setting.is_on_level();
+        if !setting.flow.is_rational || setting.has_lists() || !is_plain {
+            return Ok(());
         }
         let none = self.done.iter().rfind(|own| own.relations == 0);
-        let Some(degree) = none.map(|own| own.degree) else { return };
+        let Some(degree) = none.map(|own| own.degree) else { return Ok(()) };
+        if setting.flow.is_map && !setting.fills_space()? {
+            return Ok(());
+        }
         let names: Vec<String> = setting.terms.iter().map(ToString::to_string).collect();
         let names = names.join(", ");
         let statement = |degree: u32| {
@@ -221,7 +231,7 @@ impl VariableSet {
             degrees.map(statement).any(|other| other == own.theorem)
         };
         if report.excluded.iter().any(|own| is_stated(own, degree..MOST_DEGREE)) {
-            return;
+            return Ok(());
         }
         report.excluded.retain(|own| !is_stated(own, 1..degree));
         report.excluded.push(Excluded {
@@ -231,6 +241,7 @@ impl VariableSet {
             error_log2: None,
             theorem: statement(degree),
         });
+        Ok(())
     }
 }
 

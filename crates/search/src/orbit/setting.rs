@@ -18,7 +18,7 @@ use super::super::streams::SearchStream;
 use super::super::terms::{read, recorded};
 use super::super::{Effort, SearchError};
 use super::adjoin::Extension;
-use super::monomials::MonomialSeries;
+use super::monomials::{self, MonomialSeries};
 use super::primes;
 use super::taylor::Flow;
 use liouville::formula::Formula;
@@ -99,8 +99,8 @@ impl<'c> OrbitSetting<'c> {
         let model = &case.model;
         let Some(flow) = Flow::of(case)? else {
             return Ok(Err(
-                "the field has no Taylor series modulo a prime: it contains |x|, exp, \
-                           ln, sin, cos, atan or x^y"
+                "the field or map has no values modulo a prime: it contains |x|, exp, ln, sin, \
+                           cos, atan or x^y"
                     .to_string(),
             ));
         };
@@ -245,18 +245,31 @@ impl<'c> OrbitSetting<'c> {
         self.flow.orbit(&at.modulus, parameters, state, orders, &self.effort.halt)
     }
 
+    /// Whether the images of a map fill the space: det DΦ is not 0 at a random point.
+    pub fn fills_space(&self) -> Result<bool, SearchError> {
+        let (graph, factor) = recorded(self.case, |jet| jet.expansion(&[]))?;
+        let Some(at) = self.at(0, 0) else { return Ok(false) };
+        let Some(point) = self.point(&at, 0) else { return Ok(false) };
+        let inputs = [point.parameters, point.state].concat();
+        let found = run(&Tape::new(&graph, &[factor]), at.modulus, &inputs);
+        Ok(found.is_some_and(|values| values != [0]))
+    }
+
     /// Finds the relations between monomials along the orbit of this number, in reduced form: each
     /// has coefficient 1 at its last monomial, which occurs in no other relation.
     pub fn relations(
         &self,
         at: &PrimePoint,
         number: u64,
-        monomials: &[Vec<u32>],
+        all: &[Vec<u32>],
     ) -> Result<Option<OrbitRelations>, SearchError> {
-        let orders = monomials.len() + SPARE_ORDERS;
+        let orders = all.len() + SPARE_ORDERS;
         let Some((point, orbit)) = self.orbit(at, number, orders)? else { return Ok(None) };
-        let rows = MonomialSeries::new(at.modulus, &orbit).rows(monomials, &self.effort.halt)?;
-        let mut echelon = Echelon::new(monomials.len(), at.modulus);
+        let rows = match self.flow.is_map {
+            true => monomials::at_points(&at.modulus, &orbit, all, &self.effort.halt)?,
+            false => MonomialSeries::new(at.modulus, &orbit).rows(all, &self.effort.halt)?,
+        };
+        let mut echelon = Echelon::new(all.len(), at.modulus);
         let mut dependent = 0;
         for row in rows {
             self.effort.halt.check()?;

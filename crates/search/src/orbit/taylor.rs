@@ -1,4 +1,4 @@
-//! Taylor series of orbits modulo a prime, coefficient by coefficient.
+//! Orbits modulo a prime: Taylor series of a field, coefficient by coefficient, and points of a map.
 //!
 //! x' = f(x) with f made of + − × ÷ and powers. Coefficient k + 1 of x follows from coefficient k of
 //! f(x), and this from those of x up to k, operation by operation: a run to order n takes n²/2
@@ -27,11 +27,13 @@ enum Rule {
     Power(usize, Rational),
 }
 
-/// A field whose orbits have Taylor series modulo a prime.
+/// A field whose orbits have Taylor series modulo a prime, or a map whose orbits have points there.
 #[derive(Clone, Debug)]
 pub struct Flow {
     steps: Vec<Rule>,
     rates: Vec<usize>,
+    /// Whether it is a map: the rates are the components of the image.
+    pub is_map: bool,
     /// Whether the field is a rational function of the state and the parameters.
     pub is_rational: bool,
     /// Whether it is one of the state, with roots of parameters as coefficients.
@@ -48,7 +50,8 @@ impl Flow {
         }
         let reached = graph.reached(rates.iter().copied());
         let places = rates.iter().map(|rate| graph.place(*rate)).collect();
-        Ok(Self::read(&graph, &reached, places, model.free_components()))
+        let read = Self::read(&graph, &reached, places, model.free_components());
+        Ok(read.map(|own| Self { is_map: model.system.is_map(), ..own }))
     }
 
     fn read(
@@ -92,12 +95,63 @@ impl Flow {
             steps.push(own);
         }
         let rates = places.into_iter().map(|place| at[place]).collect();
-        Some(Self { steps, rates, is_rational, is_rational_in_state })
+        Some(Self { steps, rates, is_map: false, is_rational, is_rational_in_state })
     }
 
-    /// Computes the coefficients of order below `orders` of the orbit from a state; `None` where
-    /// the field has no value or no series.
+    /// Computes the coefficients of order below `orders` of the orbit from a state, or as many points
+    /// of the orbit of a map; `None` where there is no value or no series.
     pub fn orbit(
+        &self,
+        m: &Modulus,
+        parameters: &[u64],
+        state: &[u64],
+        orders: usize,
+        halt: &Halt,
+    ) -> Result<Option<Vec<Vec<u64>>>, SearchError> {
+        match self.is_map {
+            true => self.points(m, parameters, state, orders, halt),
+            false => self.series(m, parameters, state, orders, halt),
+        }
+    }
+
+    /// Computes points of the orbit of a map, component by component.
+    fn points(
+        &self,
+        m: &Modulus,
+        parameters: &[u64],
+        state: &[u64],
+        count: usize,
+        halt: &Halt,
+    ) -> Result<Option<Vec<Vec<u64>>>, SearchError> {
+        let Some(constants) = self.constants(m, parameters) else { return Ok(None) };
+        let mut orbit: Vec<Vec<u64>> = state.iter().map(|x| vec![*x]).collect();
+        let mut values = vec![0; self.steps.len()];
+        for k in 0..count.saturating_sub(1) {
+            if k % 64 == 63 {
+                halt.check()?;
+            }
+            for (place, step) in self.steps.iter().enumerate() {
+                let value = match step {
+                    Rule::Constant(_) | Rule::Parameter(_) => Some(constants[place]),
+                    Rule::Variable(i) => Some(orbit[*i][k]),
+                    Rule::Minus(a) => Some(m.sub(0, values[*a])),
+                    Rule::Sum(a, b) => Some(m.add(values[*a], values[*b])),
+                    Rule::Difference(a, b) => Some(m.sub(values[*a], values[*b])),
+                    Rule::Product(a, b) => Some(m.mul(values[*a], values[*b])),
+                    Rule::Inverse(a) => (values[*a] != 0).then(|| m.inverse(values[*a])),
+                    Rule::Power(a, exponent) => power(m, values[*a], exponent),
+                };
+                let Some(value) = value else { return Ok(None) };
+                values[place] = value;
+            }
+            for (variable, image) in orbit.iter_mut().zip(&self.rates) {
+                variable.push(values[*image]);
+            }
+        }
+        Ok(Some(orbit))
+    }
+
+    fn series(
         &self,
         m: &Modulus,
         parameters: &[u64],
@@ -203,6 +257,24 @@ mod tests {
         let text = format!("title='x'\nsystem='field'\n[state]\n{state}\n[field]\n{field}\n");
         let case = Case::parse(&text, &[]).expect("a case");
         Flow::of(&case).expect("recorded").expect("it has series")
+    }
+
+    #[test]
+    fn orbits_of_a_map_are_its_points() {
+        let text =
+            "title='x'\nsystem='map'\n[state]\nx='1..2'\ny='1..2'\n[map]\nx='y'\ny='(1 + y)/x'\n";
+        let case = Case::parse(text, &[]).expect("a case");
+        let map = Flow::of(&case).expect("recorded").expect("it has points");
+        assert!(map.is_map && map.is_rational);
+        let m = Modulus::new(2_305_843_009_213_693_951);
+        let [three, seven] = [3, 7].map(|n| m.integer(n));
+        let orbit = map.orbit(&m, &[], &[three, seven], 6, &Halt::default()).expect("no halt");
+        let orbit = orbit.expect("points");
+        let eight_thirds = m.mul(m.integer(8), m.inverse(three));
+        assert_eq!(orbit[1][..2], [seven, eight_thirds]);
+        assert_eq!((orbit[0][5], orbit[1][5]), (three, seven), "Gauss: the period is 5");
+        let none = map.orbit(&m, &[], &[0, seven], 6, &Halt::default());
+        assert_eq!(none.expect("no halt"), None, "1/0");
     }
 
     #[test]

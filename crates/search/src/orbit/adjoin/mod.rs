@@ -27,7 +27,7 @@ mod write;
 
 use liouville::case::Case;
 use liouville::formula::{Formula, Type};
-use liouville::graph::Step;
+use liouville::graph::{Expr, Step};
 use liouville::mechanics::Chart;
 use liouville::number::UnaryFunction;
 use liouville::number::rational::Rational;
@@ -111,21 +111,31 @@ impl Extension {
     }
 }
 
-/// Polynomials that are read from one recording.
+/// A ring with the polynomials that are read from one recording.
 struct Read {
     ring: AdjoinedRing,
+    parts: ReadParts,
+}
+
+/// Polynomials that are read from one recording.
+struct ReadParts {
     field: Vec<RingPolynomial>,
     divergence: RingPolynomial,
     known: Vec<(usize, RingPolynomial)>,
+    /// Functions that are 0 on the level set of the case.
+    level: Vec<RingPolynomial>,
 }
 
 /// Adjoins the functions of a field and of known integrals, if there are any; `None` if the field
-/// contains functions whose rates are not polynomials in them.
+/// contains functions whose rates are not polynomials in them, or has a level set.
 pub fn always_extended(
     case: &Case,
     effort: &Effort,
     known: &[Formula],
 ) -> Result<Option<Extension>, SearchError> {
+    if !case.model.level.is_empty() {
+        return Ok(None);
+    }
     match read(case, effort, known, Vec::new())? {
         Some(made) => written(case, made, effort.options.seed),
         None => Ok(None),
@@ -155,7 +165,7 @@ fn read(
     mut divided: Vec<Divided>,
 ) -> Result<Option<Read>, SearchError> {
     let model = &case.model;
-    if !model.level.is_empty() || !matches!(case.chart, Chart::Free) {
+    if !matches!(case.chart, Chart::Free | Chart::Equations) {
         return Ok(None);
     }
     let known: Vec<(usize, &Formula)> =
@@ -166,29 +176,33 @@ fn read(
         .filter_map(|term: &FurtherTerm| term.read(model).ok())
         .filter(|formula| formula.value_type() == Type::Scalar)
         .collect();
-    let (graph, (field, divergence, known, typed)) = recorded(case, |jet| {
+    let (graph, (field, divergence, (known, typed, level))) = recorded(case, |jet| {
         let known: Vec<_> =
             known.iter().map(|(place, own)| (*place, jet.phase.scalar(own))).collect();
         let typed: Vec<_> = typed.iter().map(|own| jet.phase.scalar(own)).collect();
-        (jet.phase.field().to_vec(), jet.divergence(), known, typed)
+        let level = model.level.iter().map(|own| jet.phase.level_function(&own.function));
+        let level: Vec<_> = level.collect();
+        (jet.phase.field().to_vec(), jet.divergence(), (known, typed, level))
     })?;
     let parameters = model.free_components();
     if graph.inputs() > parameters + model.dimension() {
         return Ok(None);
     }
     let place = |own: &_| graph.place(*own);
-    let read = |ring: &mut AdjoinedRing| -> Option<(Vec<RingPolynomial>, RingPolynomial, Vec<_>)> {
+    let read = |ring: &mut AdjoinedRing| -> Option<ReadParts> {
         let mut reader = StepReader::new(&graph);
-        let field: Option<Vec<RingPolynomial>> =
-            field.iter().map(|own| reader.read(place(own), ring)).collect();
-        let (field, divergence) = (field?, reader.read(place(&divergence), ring)?);
+        let mut all = |own: &[Expr], ring: &mut AdjoinedRing| -> Option<Vec<RingPolynomial>> {
+            own.iter().map(|own| reader.read(place(own), ring)).collect()
+        };
+        let (field, level) = (all(&field, ring)?, all(&level, ring)?);
+        let divergence = reader.read(place(&divergence), ring)?;
         for own in &typed {
             reader.read(place(own), ring);
         }
         let known = known.iter();
         let known =
             known.filter_map(|(k, own)| Some((*k, reader.read(place(own), ring)?))).collect();
-        Some((field, divergence, known))
+        Some(ReadParts { field, divergence, known, level })
     };
     let mut made = None;
     for _ in 0..TRIES {
@@ -199,7 +213,7 @@ fn read(
             divided = ring.divided;
             continue;
         }
-        made = found.map(|(field, divergence, known)| Read { ring, field, divergence, known });
+        made = found.map(|parts| Read { ring, parts });
         break;
     }
     Ok(made)
@@ -253,13 +267,14 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
         return Ok(None);
     }
     let names = RingNames::of(case, ring);
-    let Some(rates) = ring.rates(&read.field) else { return Ok(None) };
-    let Some(text) = write::case(case, ring, &rates, &names) else { return Ok(None) };
+    let ReadParts { field, divergence, known, level } = read.parts;
+    let Some(rates) = ring.rates(&field) else { return Ok(None) };
+    let Some(text) = write::case(case, ring, (&rates, &level), &names) else { return Ok(None) };
     let Ok(extended) = Case::parse(&text, &[]) else { return Ok(None) };
     let formula =
         |own: &RingPolynomial| extended.formula(&write::written(own, &names.extended)).ok();
-    let Some(divergence) = formula(&read.divergence) else { return Ok(None) };
-    let known = read.known.iter().filter_map(|(_, own)| formula(own)).collect();
+    let Some(divergence) = formula(&divergence) else { return Ok(None) };
+    let written = known.iter().filter_map(|(_, own)| formula(own)).collect();
     let exponentials = ring
         .atoms
         .iter()
@@ -268,7 +283,7 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
         .map(|(_, name)| name.clone());
     Ok(Some(Extension {
         divergence,
-        known,
+        known: written,
         class: AdjoinedPolynomials::of(&case.model, ring, seed),
         factors: factors(ring, &names, formula),
         angles: angles(ring),
@@ -276,7 +291,7 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
         back: Back::of(ring, &names),
         exponentials: exponentials.collect(),
         case: extended,
-        read: read.known,
+        read: known,
         ring: read.ring,
     }))
 }

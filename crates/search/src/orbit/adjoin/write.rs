@@ -117,11 +117,12 @@ pub fn written(own: &RingPolynomial, names: &[String]) -> String {
     }
 }
 
-/// Writes the case whose state has the adjoined functions, with their relations as a level set.
+/// Writes the case whose state has the adjoined functions, with their relations as a level set; that
+/// of the case comes before these, and then no chart is written.
 pub fn case(
     case: &Case,
     ring: &AdjoinedRing,
-    rates: &[RingPolynomial],
+    (rates, own_level): (&[RingPolynomial], &[RingPolynomial]),
     names: &RingNames,
 ) -> Option<String> {
     let model = &case.model;
@@ -166,10 +167,12 @@ pub fn case(
     }
     let mut level = FunctionChart::default();
     own.iter().for_each(|place| level.add(*place, &ring.atoms[*place], names));
-    if level.equations.is_empty() {
+    let of_case = own_level.iter().map(|own| format!("{} = 0", written(own, names)));
+    let equations: Vec<String> =
+        of_case.chain(level.equations.iter().cloned()).map(|own| format!("\"{own}\"")).collect();
+    if equations.is_empty() {
         return Some(text);
     }
-    let equations: Vec<String> = level.equations.iter().map(|own| format!("\"{own}\"")).collect();
     let free = level.inputs.iter().map(|name| (name.clone(), RANGE.to_string()));
     let inputs: Vec<String> = ranges
         .into_iter()
@@ -177,6 +180,9 @@ pub fn case(
         .map(|(name, own)| format!("\"{name}\" = \"{own}\""))
         .collect();
     let _ = writeln!(text, "[level]\nequations = [{}]", equations.join(", "));
+    if !own_level.is_empty() {
+        return Some(text);
+    }
     let _ = writeln!(text, "[level.chart]\ninputs = {{ {} }}", inputs.join(", "));
     level.chart.iter().for_each(|(name, own)| line(&mut text, name, own));
     Some(text)

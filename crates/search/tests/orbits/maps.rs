@@ -1,0 +1,63 @@
+//! Searches of maps: integrals written out, and theorems that exclude no planted one.
+
+use liouville_search::Effort;
+
+use super::{excluded, searched};
+
+/// A map in as many of x, y, z as there are images.
+fn map(parameters: &str, images: &[&str]) -> String {
+    let names = ["x", "y", "z"];
+    let each = |line: &dyn Fn(&str, &str) -> String| -> String {
+        names.iter().zip(images).map(|(name, image)| line(name, image)).collect()
+    };
+    let state = each(&|name, _| format!("{name} = '0.5..2'\n"));
+    let images = each(&|name, image| format!("{name} = '{image}'\n"));
+    format!("title = 'x'\n[parameters]\n{parameters}\n[state]\n{state}[map]\n{images}")
+}
+
+#[test]
+fn integrals_of_known_maps_are_written_out() {
+    let cases = [
+        ("Lyness", map("a = '0.5..2'", &["y", "(a + y)/x"]), 1),
+        ("Lyness, of third order", map("a = '0.5..2'", &["y", "z", "(a + y + z)/x"]), 2),
+        ("McMillan", map("a = '0.5..2'", &["y", "-x + 2*a*y/(1 + y²)"]), 1),
+        ("a rotation by 3-4-5", map("", &["3/5*x - 4/5*y", "4/5*x + 3/5*y"]), 1),
+        ("a shear", map("", &["x + y", "y"]), 1),
+    ];
+    for (name, text, count) in cases {
+        let report = searched(&text, &Effort::default());
+        assert_eq!(report.formulas("integral").count(), count, "{name}: {:?}", report.found);
+    }
+}
+
+#[test]
+fn a_chaotic_map_has_no_rational_integral() {
+    let henon =
+        searched(&map("a = '0.5..2'\nb = '0.5..2'", &["y", "1 - a*y² + b*x"]), &Effort::default());
+    assert_eq!(excluded(&henon), Some(8), "{:?}", henon.excluded);
+    assert_eq!(henon.formulas("integral").count(), 0);
+}
+
+#[test]
+fn maps_onto_a_curve_exclude_nothing() {
+    // All images are on the x-axis, on which x² takes its place.
+    let flat = searched(&map("", &["x²", "0*x"]), &Effort::default());
+    assert_eq!(excluded(&flat), None, "{:?}", flat.excluded);
+}
+
+#[test]
+fn planted_integrals_of_maps_are_not_excluded() {
+    for (own, kept) in [("y", 1), ("y + k*x²", 2), ("x*y", 2)] {
+        let images = match own {
+            "y" => ["x + y²/(1 + y²)", "y"],
+            // With w = y + k x² kept and x ↦ x + w.
+            "y + k*x²" => ["x + y + k*x²", "y + k*x² - k*(x + y + k*x²)²"],
+            // With w = x y kept and x ↦ x (1 + w).
+            _ => ["x*(1 + x*y)", "y/(1 + x*y)"],
+        };
+        let report = searched(&map("k = '0.5..2'", &images), &Effort::default());
+        let degree = excluded(&report).unwrap_or(0);
+        assert!(degree < kept, "{own} is an integral of degree {kept}: {:?}", report.excluded);
+        assert_eq!(report.formulas("integral").count(), 1, "{own}: {:?}", report.found);
+    }
+}
