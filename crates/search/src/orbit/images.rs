@@ -1,6 +1,6 @@
 //! Vectors that are computed anew for each choice of the parameters, within limits.
 
-use std::cell::Cell;
+use std::cell::RefCell;
 
 use liouville::formula::{Formula, FormulaResult};
 use liouville::number::rational::Rational;
@@ -14,6 +14,8 @@ use super::setting::OrbitSetting;
 
 /// Largest number of choices of the parameters for one vector.
 const MOST_CHOICES: usize = 96;
+/// Number of entries of a vector that are tried as 1.
+const MOST_UNITS: usize = 4;
 /// Number of choices of the parameters tried until one has the vector.
 const TRIES: u64 = 8;
 
@@ -53,12 +55,34 @@ impl<F: Fn(&PrimePoint) -> Option<Vec<u64>>> Vectors for Images<'_, '_, F> {
     }
 }
 
-/// The entries of a vector that are not 0; its images end with the time of the search, or after a
-/// number.
+/// The entries of a vector that are not 0, one of them 1; its images end with the time of the search,
+/// or after a number.
 struct Limited<'v> {
     source: &'v dyn Vectors,
     support: Vec<usize>,
-    left: Cell<usize>,
+    /// Place in the support of the entry that is 1.
+    unit: usize,
+    images: &'v RefCell<Vec<Image>>,
+}
+
+/// Prime and number of a choice of the parameters, and the vector there if there is one.
+type Image = ((u64, u64), Option<(PrimePoint, Vec<u64>)>);
+
+impl Limited<'_> {
+    /// Computes an image, or takes a known one; `None` after the last.
+    fn own(&self, prime: u64, index: u64) -> Option<(PrimePoint, Vec<u64>)> {
+        let mut images = self.images.borrow_mut();
+        if let Some((_, known)) = images.iter().find(|(own, _)| *own == (prime, index)) {
+            return known.clone();
+        }
+        if images.len() == MOST_CHOICES {
+            return None;
+        }
+        self.halt().check().ok()?;
+        let made = self.source.image(prime, index);
+        images.push(((prime, index), made.clone()));
+        made
+    }
 }
 
 impl Vectors for Limited<'_> {
@@ -75,15 +99,17 @@ impl Vectors for Limited<'_> {
     }
 
     fn image(&self, prime: u64, index: u64) -> Option<(PrimePoint, Vec<u64>)> {
-        self.left.set(self.left.get().checked_sub(1)?);
-        self.halt().check().ok()?;
-        let (at, vector) = self.source.image(prime, index)?;
-        Some((at, self.support.iter().map(|k| vector[*k]).collect()))
+        let (at, vector) = self.own(prime, index)?;
+        let m = at.modulus;
+        let unit = vector[self.support[self.unit]];
+        let scale = (unit != 0).then(|| m.inverse(unit))?;
+        let scaled = self.support.iter().map(|k| m.mul(vector[*k], scale)).collect();
+        Some((at, scaled))
     }
 }
 
 /// Finds the vector for all values of the parameters; `None` if its entries are not fractions of low
-/// degree in them.
+/// degree in them, whichever of them is 1.
 pub fn coefficients(source: &dyn Vectors) -> Result<Option<PrimitiveVector>, SearchError> {
     let mut first = (0..TRIES).filter(|_| source.halt().check().is_ok());
     let Some((_, vector)) = first.find_map(|index| source.image(0, index)) else {
@@ -91,12 +117,18 @@ pub fn coefficients(source: &dyn Vectors) -> Result<Option<PrimitiveVector>, Sea
         return Ok(None);
     };
     let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
-    let limited = Limited { source, support: support.clone(), left: Cell::new(MOST_CHOICES) };
-    let Some(mut found) = PrimitiveVector::through(&limited)? else { return Ok(None) };
-    let mut own = support.into_iter().zip(std::mem::take(&mut found.polynomials)).peekable();
-    let next = |k| own.next_if(|(place, _)| *place == k).map(|(_, one)| one).unwrap_or_default();
-    found.polynomials = (0..vector.len()).map(next).collect();
-    Ok(Some(found))
+    let images = RefCell::default();
+    // A common factor with the entry that is 1 lowers the degrees of the others.
+    for unit in (0..support.len()).rev().take(MOST_UNITS) {
+        let limited = Limited { source, support: support.clone(), unit, images: &images };
+        let Some(mut found) = PrimitiveVector::through(&limited)? else { continue };
+        let mut own = support.into_iter().zip(std::mem::take(&mut found.polynomials)).peekable();
+        let next =
+            |k| own.next_if(|(place, _)| *place == k).map(|(_, one)| one).unwrap_or_default();
+        found.polynomials = (0..vector.len()).map(next).collect();
+        return Ok(Some(found));
+    }
+    Ok(None)
 }
 
 /// A vector found for all values of the parameters, over a common denominator.
