@@ -361,6 +361,11 @@ pub fn search(
     report.stage("relations along an orbit", effort, |report| {
         orbit::search(case, effort, effort.halt.is_timed(), report, progress)
     })?;
+    if effort.conditions == Some(ConditionTarget::Existence) {
+        report.stage("values of parameters", effort, |report| {
+            conditions::values::conditions(case, effort, report, progress)
+        })?;
+    }
     if !report.orbits.is_empty() {
         // The search along orbits has these as well.
         report.remarks.retain(|remark| !remark.ends_with(integrals::IRRATIONAL));

@@ -5,6 +5,8 @@
 mod factors;
 #[path = "orbits/maps.rs"]
 mod maps;
+#[path = "orbits/parameters.rs"]
+mod parameters;
 
 use std::time::{Duration, Instant};
 

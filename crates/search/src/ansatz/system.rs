@@ -298,6 +298,26 @@ impl LinearSystem {
         })
     }
 
+    /// Computes rows of some columns at `count` random states of a stream, the same states for all
+    /// parameters; `None` if too few of them have values.
+    pub fn rows(
+        &self,
+        at: &PrimePoint,
+        stream: u64,
+        columns: &[usize],
+        count: usize,
+    ) -> Option<Vec<Vec<u64>>> {
+        let m = &at.modulus;
+        let mut rows = Vec::with_capacity(count);
+        let enough = self.visit(at, stream, 1 + count, &mut |values| {
+            rows.extend(
+                self.row(m, values, columns, &|column, powers| powers.derivative(m, column)),
+            );
+            rows.len() < count
+        });
+        enough.then_some(rows)
+    }
+
     fn relations(
         &self,
         at: &PrimePoint,

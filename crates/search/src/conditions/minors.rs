@@ -11,7 +11,7 @@ use crate::expansion::Taylor;
 use crate::jets::{Equations, RowKey, VelocityPolynomials};
 use crate::local::Local;
 use crate::streams::SearchStream;
-use crate::{Effort, SearchError};
+use crate::{Effort, Halt, SearchError};
 use liouville::case::Case;
 use liouville::mechanics::{Draw, ParameterOrigin, SamplerSpec};
 use liouville::number::prime::Modulus;
@@ -61,18 +61,31 @@ pub fn relations(
             return Ok(Vec::new());
         }
     }
-    let spelled = |round: usize| -> Vec<String> {
-        let (values, parameters, modulus) = &rounds[round];
-        let m = modulus;
+    Ok(spelled(name, *draw, &others, &rounds))
+}
+
+/// Values of one parameter, the values of all parameters with which they were found, and the prime.
+pub type Round = (Vec<u64>, Vec<u64>, Modulus);
+
+/// Writes special values as numbers, or as relations to one other parameter, that hold in all rounds.
+pub fn spelled(
+    name: &str,
+    draw: usize,
+    others: &[(String, usize)],
+    rounds: &[Round],
+) -> Vec<String> {
+    let spelled = |(values, parameters, m): &Round| -> Vec<String> {
         let mut texts = Vec::new();
         for value in values {
+            if let Some(rational) = reconstruct(*value, m).filter(is_short) {
+                texts.push(format!("{name} = {rational}"));
+            }
             let mut add = |image: u64, text: &dyn Fn(String) -> String| {
                 if let Some(rational) = reconstruct(image, m).filter(is_simple) {
                     texts.push(text(rational.to_string()));
                 }
             };
-            add(*value, &|rational| format!("{name} = {rational}"));
-            for (other, place) in others.iter().filter(|(_, place)| place != draw && *value != 0) {
+            for (other, place) in others.iter().filter(|(_, place)| *place != draw && *value != 0) {
                 let y = parameters[*place];
                 add(m.mul(*value, y), &|rational| format!("{name}*{other} = {rational}"));
                 add(m.mul(*value, m.inverse(y)), &|rational| {
@@ -82,19 +95,61 @@ pub fn relations(
                 add(m.add(*value, y), &|rational| format!("{name} + {other} = {rational}"));
             }
         }
+        if others.len() == 1 {
+            texts.extend(equation(name, values, m));
+        }
         texts
     };
-    let again: Vec<Vec<String>> = (1..rounds.len()).map(spelled).collect();
-    let mut found: Vec<String> = spelled(0);
+    let Some((first, rest)) = rounds.split_first() else { return Vec::new() };
+    let again: Vec<Vec<String>> = rest.iter().map(spelled).collect();
+    let mut found: Vec<String> = spelled(first);
     found.retain(|text| again.iter().all(|texts| texts.contains(text)));
     found.dedup();
     if found.is_empty() {
-        let count = rounds[0].0.len();
+        let count = first.0.len();
         found.push(format!(
             "{count} values of {name}, in no simple relation to one other parameter"
         ));
     }
-    Ok(found)
+    found
+}
+
+/// Writes the equation of the values that are not rational, if its coefficients are.
+fn equation(name: &str, values: &[u64], m: &Modulus) -> Option<String> {
+    let ring = PrimePolynomials(*m);
+    let is_other = |value: &&u64| reconstruct(**value, m).filter(is_short).is_none();
+    let others: Vec<u64> = values.iter().filter(is_other).copied().collect();
+    let factors = others.iter().map(|value| vec![m.sub(0, *value), m.one()]);
+    let product = factors.fold(vec![m.one()], |all, own| ring.product(&all, &own));
+    let mut text = String::new();
+    for (power, image) in product.iter().enumerate().rev().filter(|(_, image)| **image != 0) {
+        let value = reconstruct(*image, m).filter(is_short)?;
+        let (sign, size) = match (value.is_negative(), text.is_empty()) {
+            (true, true) => ("−", value.abs()),
+            (true, false) => (" − ", value.abs()),
+            (false, true) => ("", value),
+            (false, false) => (" + ", value),
+        };
+        let base = match power {
+            0 => String::new(),
+            1 => name.to_string(),
+            2 => format!("{name}²"),
+            3 => format!("{name}³"),
+            n => format!("{name}^{n}"),
+        };
+        text.push_str(sign);
+        text.push_str(&match (size.is_one(), base.is_empty()) {
+            (_, true) => size.to_string(),
+            (true, false) => base,
+            (false, false) => format!("{size}*{base}"),
+        });
+    }
+    (!others.is_empty()).then(|| format!("{text} = 0"))
+}
+
+/// Whether a number is short enough to be no accident modulo a prime of 61 bits.
+fn is_short(value: &Rational) -> bool {
+    value.small_parts().is_some_and(|(n, d)| n.abs() <= 4096 && d <= 4096)
 }
 
 /// Whether a number is small enough to be the constant of a relation rather than an accident.
@@ -224,8 +279,7 @@ impl<'l> Minors<'l> {
         rows: &[RowKey],
         columns: &[usize],
     ) -> Result<u64, SearchError> {
-        let m = self.modulus;
-        let mut matrix: Vec<Vec<u64>> = equations
+        let matrix: Vec<Vec<u64>> = equations
             .rows()
             .filter(|(key, _)| rows.contains(key))
             .map(|(_, row)| columns.iter().map(|column| row[*column]).collect())
@@ -233,27 +287,36 @@ impl<'l> Minors<'l> {
         if matrix.len() < columns.len() {
             return Ok(0);
         }
-        let mut determinant = m.one();
-        for k in 0..columns.len() {
-            self.effort.halt.check()?;
-            let Some(pivot) = (k..matrix.len()).find(|row| matrix[*row][k] != 0) else {
-                return Ok(0);
-            };
-            if pivot != k {
-                matrix.swap(pivot, k);
-                determinant = m.sub(0, determinant);
-            }
-            let (above, below) = matrix.split_at_mut(k + 1);
-            let row = &above[k];
-            determinant = m.mul(determinant, row[k]);
-            let inverse = m.inverse(row[k]);
-            for other in below.iter_mut().filter(|other| other[k] != 0) {
-                let factor = m.mul(other[k], inverse);
-                for (entry, pivot) in other[k..].iter_mut().zip(&row[k..]) {
-                    *entry = m.sub(*entry, m.mul(factor, *pivot));
-                }
+        determinant(&self.modulus, matrix, &self.effort.halt)
+    }
+}
+
+/// Computes the determinant of a square matrix.
+pub fn determinant(
+    m: &Modulus,
+    mut matrix: Vec<Vec<u64>>,
+    halt: &Halt,
+) -> Result<u64, SearchError> {
+    let mut determinant = m.one();
+    for k in 0..matrix.len() {
+        halt.check()?;
+        let Some(pivot) = (k..matrix.len()).find(|row| matrix[*row][k] != 0) else {
+            return Ok(0);
+        };
+        if pivot != k {
+            matrix.swap(pivot, k);
+            determinant = m.sub(0, determinant);
+        }
+        let (above, below) = matrix.split_at_mut(k + 1);
+        let row = &above[k];
+        determinant = m.mul(determinant, row[k]);
+        let inverse = m.inverse(row[k]);
+        for other in below.iter_mut().filter(|other| other[k] != 0) {
+            let factor = m.mul(other[k], inverse);
+            for (entry, pivot) in other[k..].iter_mut().zip(&row[k..]) {
+                *entry = m.sub(*entry, m.mul(factor, *pivot));
             }
         }
-        Ok(determinant)
     }
+    Ok(determinant)
 }

@@ -5,6 +5,7 @@
 //! variety   the equations of least degree at the points found on many lines
 //! small     conditions of codimension two, by random sampling in small fields
 //! minors    values of one parameter for which there are more integrals
+//! values    the same for polynomial integrals of a field
 //! ```
 //!
 //! A condition of codimension one meets almost every line (over the closure of the field), so that
@@ -17,6 +18,7 @@ mod minors;
 mod polynomial;
 mod residual;
 mod small;
+pub mod values;
 mod variety;
 
 use serde::Serialize;

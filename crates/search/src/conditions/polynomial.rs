@@ -84,6 +84,13 @@ impl PrimePolynomials {
         (found, node)
     }
 
+    /// Finds the polynomial with these values, if the last points confirm it.
+    pub fn polynomial(&self, points: &[(u64, u64)]) -> Option<Polynomial> {
+        let (given, checks) = points.split_at(points.len().checked_sub(CHECKS)?);
+        let (found, _) = self.through(given);
+        checks.iter().all(|(x, y)| self.evaluate(&found, *x) == *y).then_some(found)
+    }
+
     /// Finds numerator and monic denominator of the fraction of low degree with these values, if
     /// the last points confirm it.
     pub fn fraction(&self, points: &[(u64, u64)]) -> Option<(Polynomial, Polynomial)> {

@@ -31,7 +31,7 @@ pub mod fractions;
 mod images;
 mod known;
 mod line;
-mod monomials;
+pub mod monomials;
 pub mod no_others;
 mod part;
 mod polynomials;

@@ -1,0 +1,297 @@
+//! Values of one parameter for which a field has more polynomial integrals than in general.
+//!
+//! The rates of the monomials at random states are a matrix whose null vectors are integrals. A value
+//! with more of them lowers its rank, so it is a root of every maximal minor; minors of other states
+//! and of other columns have no further root in common. What is left of the common divisor without
+//! these values is reported.
+
+use liouville::case::Case;
+use liouville::formula::{Formula, Type};
+use liouville::mechanics::{Draw, ParameterOrigin, SamplerSpec, System};
+use liouville::number::rational::Rational;
+use liouville::proof::ProofRng;
+
+use super::ParameterCondition;
+use super::minors::{Round, determinant, scalars, spelled};
+use super::polynomial::{Polynomial, PrimePolynomials};
+use crate::ansatz::system::{Column, LinearSystem, PrimePoint};
+use crate::echelon::Echelon;
+use crate::orbit::{self, monomials};
+use crate::streams::SearchStream;
+use crate::terms::{one, read};
+use crate::{Effort, SearchError, SearchReport};
+
+/// Largest number of unknowns.
+const UNKNOWNS: usize = 220;
+/// Number of minors that are compared, and the largest number if some roots are not explained.
+const MINORS: (u64, u64) = (2, 4);
+/// Smallest number of values of a minor, followed by the largest.
+const VALUES: (usize, usize) = (32, 2048);
+/// Number of rows beyond the unknowns.
+const SPARE: usize = 8;
+/// Number of primes tried until one has all special values.
+const PRIMES: u64 = 6;
+/// First stream of states for minors.
+const STREAM: u64 = 1000;
+
+/// Finds the values of single parameters of a field for which there are more polynomial integrals of at
+/// most the degree of the search, and the integrals there.
+pub fn conditions(
+    case: &Case,
+    effort: &Effort,
+    report: &mut SearchReport,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(), SearchError> {
+    if !matches!(case.model.system, System::Field(_) | System::Hamiltonian(_)) {
+        return Ok(());
+    }
+    let all = scalars(case);
+    let mut told: Vec<String> = Vec::new();
+    for degree in 1..=effort.degree {
+        for (name, draw) in &all {
+            progress(&format!("values of {name} with more integrals of degree {degree}"));
+            let Some(search) = Values::new(case, degree, *draw, effort)? else { return Ok(()) };
+            let rounds = if all.len() > 1 { 2 } else { 1 };
+            let Some((found, left)) = search.rounds(rounds)? else { continue };
+            let mut equations = match found.is_empty() {
+                true => Vec::new(),
+                false => spelled(name, *draw, &all, &found),
+            };
+            equations.retain(|own| !told.contains(own));
+            if equations.is_empty() && left == 0 {
+                continue;
+            }
+            told.extend(equations.iter().cloned());
+            for equation in &equations {
+                let value = equation.strip_prefix(&format!("{name} = "));
+                if let Some(value) = value.and_then(|text| text.parse().ok()) {
+                    integrals_at(case, name, &value, effort, report)?;
+                }
+            }
+            let rest = match left {
+                0 => "modulo a prime of 61 bits no other value has more".to_string(),
+                n => format!("up to {n} further values, none of them rational, may have more"),
+            };
+            report.conditions.push(ParameterCondition {
+                of: format!("more polynomial integrals of degree at most {degree}, by {name}"),
+                equations,
+                grounds: format!("minors of the equations for the coefficients; {rest}"),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Searches a case with a value of one parameter for integrals besides those in general.
+fn integrals_at(
+    case: &Case,
+    name: &str,
+    value: &Rational,
+    effort: &Effort,
+    report: &mut SearchReport,
+) -> Result<(), SearchError> {
+    let mut fixed = case.clone();
+    for parameter in fixed.model.parameters.iter_mut().filter(|own| own.name == name) {
+        let draw = Draw::OneOf(vec![value.clone()]);
+        parameter.origin = ParameterOrigin::Free(SamplerSpec::Scalar(draw));
+    }
+    let known = report.found.iter().filter(|own| own.kind == "integral" && own.with.is_empty());
+    let mut own = SearchReport { found: known.cloned().collect(), ..SearchReport::default() };
+    let before = own.found.len();
+    orbit::search(&fixed, effort, false, &mut own, &mut |_| {})?;
+    for mut found in own.found.into_iter().skip(before).filter(|own| own.kind == "integral") {
+        found.with.push(("value", format!("{name} = {value}")));
+        report.found.push(found);
+    }
+    Ok(())
+}
+
+/// Equations for the coefficients of polynomial integrals, as functions of one parameter.
+struct Values<'e> {
+    system: LinearSystem,
+    columns: Vec<usize>,
+    draw: usize,
+    effort: &'e Effort,
+    is_on_level: bool,
+}
+
+impl<'e> Values<'e> {
+    /// Sets up the equations; `None` if there are too many.
+    fn new(
+        case: &Case,
+        degree: u32,
+        draw: usize,
+        effort: &'e Effort,
+    ) -> Result<Option<Self>, SearchError> {
+        let model = &case.model;
+        let dimension = model.dimension();
+        let names: Vec<String> = (0..dimension).map(|k| model.component_name(k)).collect();
+        let terms: Vec<Formula> = read(names.iter().map(String::as_str), &model.vocabulary);
+        let is_scalar = |own: &Formula| own.value_type() == Type::Scalar;
+        let count = monomials::count(dimension, degree);
+        if terms.len() < dimension || !terms.iter().all(is_scalar) || count > UNKNOWNS {
+            return Ok(None);
+        }
+        let mut system = LinearSystem::record(case, effort, |jet, recording| {
+            recording.derive(jet.along_field(), &terms, &[one()]);
+        })?;
+        let variables: Vec<usize> = (0..dimension).collect();
+        let product = |exponents| Column::Product { derivation: 0, factor: 0, exponents };
+        let all = monomials::up_to(&variables, dimension, degree);
+        // The constant is the first.
+        system.columns = all.into_iter().skip(1).map(product).collect();
+        let columns = (0..system.columns.len()).collect();
+        let is_on_level = !model.level.is_empty();
+        Ok(Some(Self { system, columns, draw, effort, is_on_level }))
+    }
+
+    /// Finds the special values for some choices of the other parameters, and the number of roots that
+    /// are left of the first; no rounds where one has no value, `None` if there is no choice of the
+    /// parameters, or no fraction.
+    fn rounds(&self, count: u64) -> Result<Option<(Vec<Round>, usize)>, SearchError> {
+        let mut rounds = Vec::new();
+        let mut left = 0;
+        for round in 0..count {
+            let mut found = None;
+            // Some primes have all roots of an equation.
+            for prime in 0..PRIMES {
+                let Some(base) = self.system.at(round * PRIMES + prime, round) else {
+                    return Ok(None);
+                };
+                let Some((values, rest)) = self.special(&base, round)? else { return Ok(None) };
+                let is_whole = rest == 0;
+                left = rest;
+                found = Some((values, base.parameters, base.modulus));
+                if is_whole {
+                    break;
+                }
+            }
+            let Some(round) = found.filter(|(values, ..)| !values.is_empty()) else {
+                return Ok(Some((Vec::new(), left)));
+            };
+            rounds.push(round);
+        }
+        Ok(Some((rounds, left)))
+    }
+
+    fn with(&self, base: &PrimePoint, value: u64) -> PrimePoint {
+        let mut at = base.clone();
+        at.parameters[self.draw] = value;
+        at
+    }
+
+    /// Number of independent integrals; `None` if too few states have values.
+    fn nullity(&self, at: &PrimePoint) -> Result<Option<usize>, SearchError> {
+        let columns = match self.is_on_level {
+            true => self.system.distinct(at, &self.columns)?,
+            false => Some(self.columns.clone()),
+        };
+        let Some(columns) = columns else { return Ok(None) };
+        Ok(self.system.null_space(at, &columns)?.map(|vectors| vectors.len()))
+    }
+
+    /// Finds the values with more integrals than in general, and the number of further roots.
+    fn special(
+        &self,
+        base: &PrimePoint,
+        round: u64,
+    ) -> Result<Option<(Vec<u64>, usize)>, SearchError> {
+        let ring = PrimePolynomials(base.modulus);
+        let mut rng = SearchStream::Minors.under(self.effort.options.seed + 100 + round);
+        let Some(general) = self.nullity(base)? else { return Ok(None) };
+        let columns = match self.is_on_level {
+            true => match self.system.distinct(base, &self.columns)? {
+                Some(columns) => columns,
+                None => return Ok(None),
+            },
+            false => self.columns.clone(),
+        };
+        let mut common: Polynomial = Vec::new();
+        let mut found = Vec::new();
+        for number in 0..MINORS.1 {
+            let Some(own) = self.minor(base, number, &columns, &mut rng)? else { return Ok(None) };
+            common = ring.common(&common, &own);
+            if number + 1 < MINORS.0 {
+                continue;
+            }
+            found.clear();
+            let mut rest = common.clone();
+            for value in ring.roots(&common, &mut rng) {
+                self.effort.halt.check()?;
+                if self.nullity(&self.with(base, value))?.is_none_or(|own| own > general) {
+                    found.push(value);
+                    let factor = [base.modulus.sub(0, value), base.modulus.one()];
+                    loop {
+                        let (quotient, remainder) = ring.divided(&rest, &factor);
+                        if !remainder.is_empty() {
+                            break;
+                        }
+                        rest = quotient;
+                    }
+                }
+            }
+            common = rest.clone();
+            let explained = found.iter().fold(rest, |all, value| {
+                ring.product(&all, &[base.modulus.sub(0, *value), base.modulus.one()])
+            });
+            if common.len() < 2 {
+                return Ok(Some((found, 0)));
+            }
+            common = explained;
+        }
+        let left = common.len().saturating_sub(1 + found.len());
+        Ok(Some((found, left)))
+    }
+
+    /// Finds the numerator of a maximal minor at other states and with other columns.
+    fn minor(
+        &self,
+        base: &PrimePoint,
+        number: u64,
+        columns: &[usize],
+        rng: &mut ProofRng,
+    ) -> Result<Option<Polynomial>, SearchError> {
+        let m = base.modulus;
+        let ring = PrimePolynomials(m);
+        let stream = STREAM + number;
+        let mut order = columns.to_vec();
+        for k in (1..order.len()).rev() {
+            order.swap(k, (m.to_integer(rng.element(&m)) % (k as u64 + 1)) as usize);
+        }
+        let count = order.len() + SPARE;
+        let at = self.with(base, rng.element(&m));
+        let Some(rows) = self.system.rows(&at, stream, &order, count) else { return Ok(None) };
+        let mut echelon = Echelon::new(order.len(), m);
+        let mut kept = Vec::new();
+        for (place, row) in rows.into_iter().enumerate() {
+            self.effort.halt.check()?;
+            if echelon.push(row) {
+                kept.push(place);
+            }
+        }
+        let pivots: Vec<usize> =
+            (0..order.len()).filter(|k| echelon.has_pivot(*k)).map(|k| order[k]).collect();
+        let mut values = Vec::new();
+        let mut wanted = VALUES.0;
+        while wanted <= VALUES.1 {
+            while values.len() < wanted {
+                self.effort.halt.check()?;
+                let value = rng.element(&m);
+                let at = self.with(base, value);
+                let Some(rows) = self.system.rows(&at, stream, &pivots, count) else {
+                    return Ok(None);
+                };
+                let matrix = kept.iter().map(|place| rows[*place].clone()).collect();
+                values.push((value, determinant(&m, matrix, &self.effort.halt)?));
+            }
+            if let Some(found) = ring.polynomial(&values) {
+                return Ok(Some(found));
+            }
+            if let Some((numerator, _)) = ring.fraction(&values) {
+                return Ok(Some(numerator));
+            }
+            wanted += wanted.div_ceil(2);
+        }
+        Ok(None)
+    }
+}
