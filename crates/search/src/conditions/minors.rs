@@ -61,7 +61,8 @@ pub fn relations(
             return Ok(Vec::new());
         }
     }
-    Ok(spelled(name, *draw, &others, &rounds))
+    let found = spelled(name, *draw, &others, &rounds);
+    Ok(if found.is_empty() { vec![unnamed(name, &rounds)] } else { found })
 }
 
 /// Values of one parameter, the values of all parameters with which they were found, and the prime.
@@ -95,9 +96,6 @@ pub fn spelled(
                 add(m.add(*value, y), &|rational| format!("{name} + {other} = {rational}"));
             }
         }
-        if others.len() == 1 {
-            texts.extend(equation(name, values, m));
-        }
         texts
     };
     let Some((first, rest)) = rounds.split_first() else { return Vec::new() };
@@ -105,22 +103,25 @@ pub fn spelled(
     let mut found: Vec<String> = spelled(first);
     found.retain(|text| again.iter().all(|texts| texts.contains(text)));
     found.dedup();
-    if found.is_empty() {
-        let count = first.0.len();
-        found.push(format!(
-            "{count} values of {name}, in no simple relation to one other parameter"
-        ));
-    }
     found
 }
 
-/// Writes the equation of the values that are not rational, if its coefficients are.
-fn equation(name: &str, values: &[u64], m: &Modulus) -> Option<String> {
+/// Says how many values there are that no relation describes.
+pub fn unnamed(name: &str, rounds: &[Round]) -> String {
+    let count = rounds.first().map_or(0, |(values, ..)| values.len());
+    format!("{count} values of {name}, in no simple relation to one other parameter")
+}
+
+/// Writes the equation of the values that are not rational, and of the roots of a further factor, if
+/// its coefficients are; `None` too if there are none.
+pub fn equation(name: &str, values: &[u64], further: &[u64], m: &Modulus) -> Option<String> {
     let ring = PrimePolynomials(*m);
     let is_other = |value: &&u64| reconstruct(**value, m).filter(is_short).is_none();
-    let others: Vec<u64> = values.iter().filter(is_other).copied().collect();
-    let factors = others.iter().map(|value| vec![m.sub(0, *value), m.one()]);
-    let product = factors.fold(vec![m.one()], |all, own| ring.product(&all, &own));
+    let factors = values.iter().filter(is_other).map(|value| vec![m.sub(0, *value), m.one()]);
+    let product = factors.fold(further.to_vec(), |all, own| ring.product(&all, &own));
+    if product.len() < 2 {
+        return None;
+    }
     let mut text = String::new();
     for (power, image) in product.iter().enumerate().rev().filter(|(_, image)| **image != 0) {
         let value = reconstruct(*image, m).filter(is_short)?;
@@ -144,7 +145,7 @@ fn equation(name: &str, values: &[u64], m: &Modulus) -> Option<String> {
             (false, false) => format!("{size}*{base}"),
         });
     }
-    (!others.is_empty()).then(|| format!("{text} = 0"))
+    Some(format!("{text} = 0"))
 }
 
 /// Whether a number is short enough to be no accident modulo a prime of 61 bits.

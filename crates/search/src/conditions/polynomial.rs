@@ -69,6 +69,14 @@ impl PrimePolynomials {
         self.monic(&a)
     }
 
+    /// Removes repeated factors.
+    pub fn square_free(&self, a: &[u64]) -> Polynomial {
+        let slope = |(k, c): (usize, &u64)| self.0.mul(self.0.integer(k as u64), *c);
+        let slopes = a.iter().enumerate().skip(1).map(slope).collect();
+        let repeated = self.common(a, &Self::trimmed(slopes));
+        if repeated.len() < 2 { a.to_vec() } else { self.divided(a, &repeated).0 }
+    }
+
     /// Finds the polynomial through some points, and the product of x - x_i.
     fn through(&self, points: &[(u64, u64)]) -> (Polynomial, Polynomial) {
         let mut found: Polynomial = Vec::new();

@@ -12,7 +12,7 @@ use liouville::number::rational::Rational;
 use liouville::proof::ProofRng;
 
 use super::ParameterCondition;
-use super::minors::{Round, determinant, scalars, spelled};
+use super::minors::{Round, determinant, equation, scalars, spelled, unnamed};
 use super::polynomial::{Polynomial, PrimePolynomials};
 use crate::ansatz::system::{Column, LinearSystem, PrimePoint};
 use crate::echelon::Echelon;
@@ -29,8 +29,6 @@ const MINORS: (u64, u64) = (2, 4);
 const VALUES: (usize, usize) = (32, 2048);
 /// Number of rows beyond the unknowns.
 const SPARE: usize = 8;
-/// Number of primes tried until one has all special values.
-const PRIMES: u64 = 6;
 /// First stream of states for minors.
 const STREAM: u64 = 1000;
 
@@ -52,11 +50,17 @@ pub fn conditions(
             progress(&format!("values of {name} with more integrals of degree {degree}"));
             let Some(search) = Values::new(case, degree, *draw, effort)? else { return Ok(()) };
             let rounds = if all.len() > 1 { 2 } else { 1 };
-            let Some((found, left)) = search.rounds(rounds)? else { continue };
-            let mut equations = match found.is_empty() {
-                true => Vec::new(),
-                false => spelled(name, *draw, &all, &found),
-            };
+            let Some(found) = search.rounds(rounds)? else { continue };
+            let mut equations = spelled(name, *draw, &all, &found.rounds);
+            let first = found.rounds.first().filter(|_| all.len() == 1);
+            let others = first.and_then(|(values, _, m)| equation(name, values, &found.rest, m));
+            let is_whole = found.rest.len() < 2 || others.is_some();
+            equations.extend(others);
+            let has_values = found.rounds.first().is_some_and(|(values, ..)| !values.is_empty());
+            if equations.is_empty() && has_values {
+                equations.push(unnamed(name, &found.rounds));
+            }
+            let left = if is_whole { 0 } else { found.rest.len() - 1 };
             equations.retain(|own| !told.contains(own));
             if equations.is_empty() && left == 0 {
                 continue;
@@ -106,6 +110,15 @@ fn integrals_at(
     Ok(())
 }
 
+/// Special values of a parameter.
+#[derive(Default)]
+struct SpecialValues {
+    /// Values in the prime field, for each choice of the other parameters.
+    rounds: Vec<Round>,
+    /// Polynomial of the last round whose roots are not in the field.
+    rest: Polynomial,
+}
+
 /// Equations for the coefficients of polynomial integrals, as functions of one parameter.
 struct Values<'e> {
     system: LinearSystem,
@@ -145,33 +158,17 @@ impl<'e> Values<'e> {
         Ok(Some(Self { system, columns, draw, effort, is_on_level }))
     }
 
-    /// Finds the special values for some choices of the other parameters, and the number of roots that
-    /// are left of the first; no rounds where one has no value, `None` if there is no choice of the
-    /// parameters, or no fraction.
-    fn rounds(&self, count: u64) -> Result<Option<(Vec<Round>, usize)>, SearchError> {
-        let mut rounds = Vec::new();
-        let mut left = 0;
+    /// Finds the special values for some choices of the other parameters; `None` if there is no choice of
+    /// the parameters, or no fraction.
+    fn rounds(&self, count: u64) -> Result<Option<SpecialValues>, SearchError> {
+        let mut found = SpecialValues::default();
         for round in 0..count {
-            let mut found = None;
-            // Some primes have all roots of an equation.
-            for prime in 0..PRIMES {
-                let Some(base) = self.system.at(round * PRIMES + prime, round) else {
-                    return Ok(None);
-                };
-                let Some((values, rest)) = self.special(&base, round)? else { return Ok(None) };
-                let is_whole = rest == 0;
-                left = rest;
-                found = Some((values, base.parameters, base.modulus));
-                if is_whole {
-                    break;
-                }
-            }
-            let Some(round) = found.filter(|(values, ..)| !values.is_empty()) else {
-                return Ok(Some((Vec::new(), left)));
-            };
-            rounds.push(round);
+            let Some(base) = self.system.at(round, round) else { return Ok(None) };
+            let Some((values, rest)) = self.special(&base, round)? else { return Ok(None) };
+            found.rounds.push((values, base.parameters, base.modulus));
+            found.rest = rest;
         }
-        Ok(Some((rounds, left)))
+        Ok(Some(found))
     }
 
     fn with(&self, base: &PrimePoint, value: u64) -> PrimePoint {
@@ -190,13 +187,15 @@ impl<'e> Values<'e> {
         Ok(self.system.null_space(at, &columns)?.map(|vectors| vectors.len()))
     }
 
-    /// Finds the values with more integrals than in general, and the number of further roots.
+    /// Finds the values with more integrals than in general, and a polynomial with the other roots that
+    /// some minors have in common.
     fn special(
         &self,
         base: &PrimePoint,
         round: u64,
-    ) -> Result<Option<(Vec<u64>, usize)>, SearchError> {
-        let ring = PrimePolynomials(base.modulus);
+    ) -> Result<Option<(Vec<u64>, Polynomial)>, SearchError> {
+        let m = &base.modulus;
+        let ring = PrimePolynomials(*m);
         let mut rng = SearchStream::Minors.under(self.effort.options.seed + 100 + round);
         let Some(general) = self.nullity(base)? else { return Ok(None) };
         let columns = match self.is_on_level {
@@ -207,40 +206,27 @@ impl<'e> Values<'e> {
             false => self.columns.clone(),
         };
         let mut common: Polynomial = Vec::new();
-        let mut found = Vec::new();
+        let (mut found, mut rest) = (Vec::new(), Vec::new());
         for number in 0..MINORS.1 {
             let Some(own) = self.minor(base, number, &columns, &mut rng)? else { return Ok(None) };
-            common = ring.common(&common, &own);
+            common = ring.square_free(&ring.common(&common, &own));
             if number + 1 < MINORS.0 {
                 continue;
             }
             found.clear();
-            let mut rest = common.clone();
+            rest.clone_from(&common);
             for value in ring.roots(&common, &mut rng) {
                 self.effort.halt.check()?;
                 if self.nullity(&self.with(base, value))?.is_none_or(|own| own > general) {
                     found.push(value);
-                    let factor = [base.modulus.sub(0, value), base.modulus.one()];
-                    loop {
-                        let (quotient, remainder) = ring.divided(&rest, &factor);
-                        if !remainder.is_empty() {
-                            break;
-                        }
-                        rest = quotient;
-                    }
+                    rest = ring.divided(&rest, &[m.sub(0, value), m.one()]).0;
                 }
             }
-            common = rest.clone();
-            let explained = found.iter().fold(rest, |all, value| {
-                ring.product(&all, &[base.modulus.sub(0, *value), base.modulus.one()])
-            });
-            if common.len() < 2 {
-                return Ok(Some((found, 0)));
+            if rest.len() < 2 {
+                break;
             }
-            common = explained;
         }
-        let left = common.len().saturating_sub(1 + found.len());
-        Ok(Some((found, left)))
+        Ok(Some((found, rest)))
     }
 
     /// Finds the numerator of a maximal minor at other states and with other columns.
