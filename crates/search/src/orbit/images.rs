@@ -13,7 +13,7 @@ use super::super::{Halt, SearchError};
 use super::setting::OrbitSetting;
 
 /// Largest number of choices of the parameters for one vector.
-const MOST_CHOICES: usize = 96;
+const MOST_CHOICES: usize = 160;
 /// Number of entries of a vector that are tried as 1.
 const MOST_UNITS: usize = 4;
 /// Number of choices of the parameters tried until one has the vector.

@@ -8,6 +8,7 @@
 
 use liouville::proof::reduce;
 
+use super::super::ansatz::note_unwritten;
 use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
 use super::super::{SearchError, SearchReport};
@@ -145,7 +146,12 @@ impl LeadingRelations<'_, '_, '_> {
         let images = Images { setting: self.of.setting, width, is_split: false, make };
         let picked = |own: &[usize]| own.iter().map(|k| self.support[*k].clone()).collect();
         let fraction = MonomialFraction { above: picked(&above), below: picked(&below) };
-        self.of.tell(&fraction, images::coefficients(&images)?, known, report)
+        let coefficients = images::coefficients(&images)?;
+        if coefficients.is_none() {
+            let what = format!("a rational integral of degree {}", self.of.degree);
+            note_unwritten(self.of.setting.case, &what, report);
+        }
+        self.of.tell(&fraction, coefficients, known, report)
     }
 
     /// A coefficient of the relation as a function of the point.
