@@ -248,6 +248,15 @@ impl VectorSamples<'_> {
         'again: loop {
             let mut found = Vec::new();
             for column in 0..self.source.width() {
+                // A polynomial has a lower degree without the denominators.
+                if !denominators.is_empty()
+                    && let Some((above, below)) = self.fraction(kept, column, &[])
+                    && below.degree == 0
+                {
+                    let own = above.scaled(m, m.inverse(below.images[0].1));
+                    found.push(denominators.iter().fold(own, |all, one| all.times(m, one)));
+                    continue;
+                }
                 let (above, below) = self.fraction(kept, column, &denominators)?;
                 if below.degree > 0 {
                     denominators.push(below);
@@ -347,6 +356,22 @@ impl Fitted {
     fn evaluate(&self, m: &Modulus, point: &[u64]) -> u64 {
         let terms = self.images.iter().map(|(a, image)| m.mul(*image, evaluate(m, point, a)));
         terms.fold(0, |sum, term| m.add(sum, term))
+    }
+
+    fn times(&self, m: &Modulus, other: &Self) -> Self {
+        let mut images: Vec<(Vec<u32>, u64)> = Vec::new();
+        for (a, x) in &self.images {
+            for (b, y) in &other.images {
+                let exponents: Vec<u32> = a.iter().zip(b).map(|(a, b)| a + b).collect();
+                let product = m.mul(*x, *y);
+                match images.iter_mut().find(|(own, _)| *own == exponents) {
+                    Some((_, image)) => *image = m.add(*image, product),
+                    None => images.push((exponents, product)),
+                }
+            }
+        }
+        images.retain(|(_, image)| *image != 0);
+        Self { images, degree: self.degree + other.degree }
     }
 
     fn scaled(mut self, m: &Modulus, factor: u64) -> Self {
