@@ -279,6 +279,21 @@ fn planted_integrals_with_functions_are_never_excluded() {
 }
 
 #[test]
+fn coefficients_contain_any_parameter() {
+    // A sleigh: J is a number here, and s occurs nowhere.
+    let own = "m = '0.5..2'\nJ = '0.5..2'\na = '0.5..1'\ns = '1..2'";
+    let sleigh = searched(&field(own, &["a*y²", "-m*a/(J + m*a²)*x*y"]), &Effort::default());
+    let found: Vec<&str> = sleigh.formulas("integral").collect();
+    assert_eq!(found, ["m*x² + (J + m*a²)*y²"]);
+    // Brun's body: a common denominator would raise the degree of the third coefficient.
+    let brun = "title = 'x'\nsystem = 'field'\n[parameters]\nI = 'inertia(0.5..5)'\ne = '0.3..1'\nc = '0.5..1'\n\
+                [state]\nM = 'vector(-2..2)'\nn = 'vector(-1..1)'\n[let]\nw = 'I⁻¹*M'\n\
+                [field]\n\"M'\" = 'M × w + e*(n × I*n)'\n\"n'\" = 'n × w'\n\
+                [level]\nequations = ['(n,n) = 1', '(M,n) = c']";
+    assert_eq!(searched(brun, &Effort::default()).formulas("integral").count(), 2);
+}
+
+#[test]
 fn coefficients_contain_the_roots_of_the_field() {
     // ∇F × (y, 1, x) keeps F = x² + s y + z.
     let kept = |s: &str| [format!("({s})*x − 1"), "y − 2*x²".into(), format!("2*x − ({s})*y")];

@@ -13,9 +13,9 @@ use super::super::echelon::Echelon;
 use super::super::series::exponents;
 use super::super::terms::{TermSum, combined, is_one};
 use super::super::{Halt, SearchError};
-use super::Coordinates;
 use super::monomials::power_product;
 use super::system::{LinearSystem, PrimePoint};
+use super::{Coordinates, TENSOR};
 use liouville::formula::{Formula, FormulaError, FormulaResult};
 use liouville::number::prime::Modulus;
 use liouville::proof::reconstruct;
@@ -82,7 +82,7 @@ impl PrimitiveVector {
         }
         // Few coordinates are tried first: often J replaces I, m and R.
         let names = source.names();
-        let tensor = |k: &usize| names[*k].text().starts_with('J');
+        let tensor = |k: &usize| TENSOR.contains(&names[*k].text());
         let instead = |k: usize| {
             let entry = names[k].text().strip_prefix('I').map(|entry| format!("J{entry}"));
             entry.and_then(|entry| names.iter().position(|name| name.text() == entry)).unwrap_or(k)
@@ -90,7 +90,9 @@ impl PrimitiveVector {
         let plain: Vec<usize> = varying.iter().copied().filter(|k| !tensor(k)).collect();
         let mixed = plain.iter().map(|k| instead(*k)).collect();
         let tensors: Vec<usize> = varying.iter().copied().filter(tensor).collect();
-        [tensors, mixed, plain].into_iter().find_map(|kept| samples.fitted(&kept))
+        // A parameter of the case may have the name of an entry of J.
+        let all = if tensors.is_empty() { Vec::new() } else { varying };
+        [tensors, mixed, plain, all].into_iter().find_map(|kept| samples.fitted(&kept))
     }
 
     /// Coefficient of a column; `None` where it is 0.

@@ -85,6 +85,9 @@ pub fn search(
     Ok(())
 }
 
+/// Components of J = I + mR²E, in which coefficients are often short.
+pub const TENSOR: [&str; 6] = ["J1", "J2", "J3", "J12", "J13", "J23"];
+
 /// Functions of the parameters in which coefficients are written.
 pub struct Coordinates {
     /// Components of the parameters, of J if there is one, and square roots in the field.
@@ -96,7 +99,7 @@ pub struct Coordinates {
 impl Coordinates {
     /// Lists the coordinates of a case.
     pub fn of(case: &Case) -> Result<Self, SearchError> {
-        let tensor = read(["J1", "J2", "J3", "J12", "J13", "J23"], &case.model.vocabulary);
+        let tensor = read(TENSOR, &case.model.vocabulary);
         let mut own = Self { names: [components(case), tensor].concat(), radicands: Vec::new() };
         for (root, number) in roots(case)? {
             own.names.push(root);
