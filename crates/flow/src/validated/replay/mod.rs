@@ -22,7 +22,7 @@ use super::enclosure::Enclosure;
 use super::functions::Functions;
 use super::motion::EnclosedMotion;
 use super::request::moved;
-use super::{MOST_UNKNOWNS, Obstacle, ProvedOrbit, Request};
+use super::{Doubt, MOST_UNKNOWNS, Obstacle, ProvedOrbit, Request};
 use matrix::{Columns, combined};
 use number::{ReplayNumber, Wide};
 use rayon::prelude::*;
@@ -300,6 +300,7 @@ impl Replay<'_> {
             moved: moved(&start, &request.state()),
             start,
             period: share.times(&period).enclosure(),
+            turns: Err(Doubt::Start),
             volume: sum(&|index| segments[index].passage.volume.clone()).enclosure(),
             multipliers: others,
             sum: match request.wants_multipliers && others == 2 {
