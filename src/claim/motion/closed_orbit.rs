@@ -89,6 +89,8 @@ impl Motional for ClosedOrbit {
             true => String::new(),
             false => format!(", for {}", varied.join(", ")),
         };
-        format!("{kind}closed orbit of {least}period {period} near {start}{volume}{density}{varied}")
+        format!(
+            "{kind}closed orbit of {least}period {period} near {start}{volume}{density}{varied}"
+        )
     }
 }

@@ -117,7 +117,8 @@ impl Followed for Course<'_> {
         let speed: f64 = self.search.frames.phase.iter().map(|x| x * x).sum();
         let late = ROOM * self.height(&state).magnitude() / speed + f64::EPSILON * nodes.period;
         // Times that differ by less than the least possible period.
-        if !(late * part as f64 * ROOM <= early * nodes.period) {
+        let is_early = late * part as f64 * ROOM <= early * nodes.period;
+        if !is_early {
             return false;
         }
         // Before the time the phase is not reached, and after it is passed.

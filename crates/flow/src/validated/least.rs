@@ -143,8 +143,12 @@ mod tests {
     #[test]
     fn turns_are_counted() {
         for count in 1..=60 {
-            let mut orbit =
-                Circle { shares: vec![1.0 / 64.0; 64], turns: count, leaves: (1, 1.0), closes: true };
+            let mut orbit = Circle {
+                shares: vec![1.0 / 64.0; 64],
+                turns: count,
+                leaves: (1, 1.0),
+                closes: true,
+            };
             assert_eq!(turns(&orbit), Ok(count), "run through {count} times");
             orbit.closes = false;
             let least = (2..=count).find(|k| count.is_multiple_of(*k));
@@ -154,8 +158,7 @@ mod tests {
 
     #[test]
     fn without_a_begin_nothing_is_known() {
-        let mut orbit =
-            Circle { shares: vec![0.25; 4], turns: 1, leaves: (0, 1.0), closes: true };
+        let mut orbit = Circle { shares: vec![0.25; 4], turns: 1, leaves: (0, 1.0), closes: true };
         assert_eq!(turns(&orbit), Err(Doubt::Start), "it never leaves");
         orbit.leaves = (3, 1e-3);
         assert_eq!(turns(&orbit), Ok(1), "in a shorter window");
@@ -171,9 +174,16 @@ mod tests {
     #[test]
     fn times_have_their_segments() {
         let shares = [0.25, 0.5, 0.25];
-        for (after, segment) in
-            [(1e-9, 0), (0.1, 0), (0.25, 0), (0.25 + 1e-9, 0), (0.26, 1), (0.75, 1), (0.9, 2), (1.0, 2)]
-        {
+        for (after, segment) in [
+            (1e-9, 0),
+            (0.1, 0),
+            (0.25, 0),
+            (0.25 + 1e-9, 0),
+            (0.26, 1),
+            (0.75, 1),
+            (0.9, 2),
+            (1.0, 2),
+        ] {
             assert_eq!(place(&shares, after), segment, "{after}");
         }
         assert_eq!(primes(20).collect::<Vec<_>>(), [2, 3, 5, 7, 11, 13, 17, 19]);

@@ -32,8 +32,8 @@ mod tests;
 
 pub use enclosure::Enclosure;
 pub use forward::{Reached, follow};
-pub use least::Doubt;
 pub use horseshoe::{HorseshoeTrace, Margin, ProvedHorseshoe, prove as prove_horseshoe};
+pub use least::Doubt;
 pub use obstacle::Obstacle;
 pub use replay::{CoveringSet, HorseshoeData, ProofData, replay, replay_horseshoe};
 pub use request::Request;
