@@ -157,7 +157,12 @@ fn orbits_of_the_catalogue_have_their_least_periods() {
                 true => "2 times the least",
                 false => "with least period",
             };
-            assert!(theorem(&claim).contains(should), "{path}: {}: {:?}", claim.name, claim.evidence);
+            assert!(
+                theorem(&claim).contains(should),
+                "{path}: {}: {:?}",
+                claim.name,
+                claim.evidence
+            );
         }
     }
 }
