@@ -6,9 +6,9 @@ use super::motion::Boxed;
 use super::shooting::{boxes, combined};
 use super::{OrbitSearch, passages};
 
-/// Factors by which boxes with one orbit alone are wider than those that hold it; the first of them
+/// Radii of boxes with one orbit alone, against the largest of those that hold it; the first of them
 /// for which Krawczyk's test holds is used.
-const WIDER: [f64; 3] = [1e5, 1e3, 30.0];
+const WIDER: [f64; 4] = [1e5, 1e3, 30.0, 5.0];
 /// Room about a time at which the phase is met, against that expected.
 const ROOM: f64 = 4.0;
 
@@ -58,8 +58,10 @@ impl Course<'_> {
     /// Boxes in which Krawczyk's test proves that there is one orbit alone.
     fn unique(&self) -> Option<Vec<f64>> {
         let OrbitSearch { shooting, nodes, frames, inverse } = self.search;
+        let largest = self.radii.iter().copied().fold(0.0, f64::max);
         WIDER.iter().find_map(|wider| {
-            let radii: Vec<f64> = self.radii.iter().map(|radius| wider * radius).collect();
+            // along a direction in which the orbit is known best, a return is known less
+            let radii = vec![wider * largest; self.radii.len()];
             let starts = boxes(nodes, Some(&radii));
             let period = Enclosure::about(nodes.period, radii[radii.len() - 1]);
             let passages = passages(shooting, nodes, &starts, period).ok()?;

