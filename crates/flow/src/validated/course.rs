@@ -6,8 +6,8 @@ use super::motion::Boxed;
 use super::shooting::{boxes, combined};
 use super::{OrbitSearch, passages};
 
-/// Radii of boxes with one orbit alone, against the largest of those that hold it; the first of them
-/// for which Krawczyk's test holds is used.
+/// Radii of boxes with one orbit alone, against the largest of the same component in those that hold
+/// it; the first of them for which Krawczyk's test holds is used.
 const WIDER: [f64; 4] = [1e5, 1e3, 30.0, 5.0];
 /// Room about a time at which the phase is met, against that expected.
 const ROOM: f64 = 4.0;
@@ -58,10 +58,14 @@ impl Course<'_> {
     /// Boxes in which Krawczyk's test proves that there is one orbit alone.
     fn unique(&self) -> Option<Vec<f64>> {
         let OrbitSearch { shooting, nodes, frames, inverse } = self.search;
-        let largest = self.radii.iter().copied().fold(0.0, f64::max);
+        let (period, of_nodes) = self.radii.split_last()?;
+        let n = shooting.motion.dimension;
+        // at a node where a component is known best, it is known less after a return
+        let largest = |k: usize| of_nodes.iter().skip(k).step_by(n).copied().fold(0.0, f64::max);
+        let components: Vec<f64> = (0..n).map(largest).collect();
         WIDER.iter().find_map(|wider| {
-            // along a direction in which the orbit is known best, a return is known less
-            let radii = vec![wider * largest; self.radii.len()];
+            let each = components.iter().cycle().take(of_nodes.len()).chain([period]);
+            let radii: Vec<f64> = each.map(|radius| wider * radius).collect();
             let starts = boxes(nodes, Some(&radii));
             let period = Enclosure::about(nodes.period, radii[radii.len() - 1]);
             let passages = passages(shooting, nodes, &starts, period).ok()?;
