@@ -6,9 +6,8 @@ use super::motion::Boxed;
 use super::shooting::{boxes, combined};
 use super::{OrbitSearch, passages};
 
-/// Radii of boxes with one orbit alone, against the largest of the same component in those that hold
-/// it; the first of them for which Krawczyk's test holds is used.
-const WIDER: [f64; 4] = [1e5, 1e3, 30.0, 5.0];
+/// Factors by which boxes with one orbit alone are wider than those that hold it.
+const WIDER: [f64; 4] = [5.0, 30.0, 1e3, 1e5];
 /// Room about a time at which the phase is met, against that expected.
 const ROOM: f64 = 4.0;
 
@@ -55,25 +54,31 @@ impl Course<'_> {
         self.search.shooting.motion.ends(&starts, &times)
     }
 
-    /// Boxes in which Krawczyk's test proves that there is one orbit alone.
-    fn unique(&self) -> Option<Vec<f64>> {
+    /// Radii of boxes to be tried, from narrow to wide: a state that is known best somewhere is
+    /// known less after a return, so they are alike for all unknowns, or for all nodes.
+    fn wider(&self) -> Vec<Vec<f64>> {
+        let n = self.search.shooting.motion.dimension;
+        let largest = |radii: &mut dyn Iterator<Item = &f64>| radii.copied().fold(0.0, f64::max);
+        let alike = vec![largest(&mut self.radii.iter()); self.radii.len()];
+        let last = self.radii.len().saturating_sub(1);
+        let mut each = self.radii.to_vec();
+        for (index, radius) in each[..last].iter_mut().enumerate() {
+            *radius = largest(&mut self.radii[..last].iter().skip(index % n).step_by(n));
+        }
+        let times = |radii: &[f64], wider: f64| radii.iter().map(|r| wider * r).collect();
+        WIDER.iter().flat_map(|wider| [times(&each, *wider), times(&alike, *wider)]).collect()
+    }
+
+    /// Whether Krawczyk's test proves that there is one orbit alone in wider boxes.
+    fn is_unique(&self, radii: &[f64]) -> bool {
         let OrbitSearch { shooting, nodes, frames, inverse } = self.search;
-        let (period, of_nodes) = self.radii.split_last()?;
-        let n = shooting.motion.dimension;
-        // at a node where a component is known best, it is known less after a return
-        let largest = |k: usize| of_nodes.iter().skip(k).step_by(n).copied().fold(0.0, f64::max);
-        let components: Vec<f64> = (0..n).map(largest).collect();
-        WIDER.iter().find_map(|wider| {
-            let each = components.iter().cycle().take(of_nodes.len()).chain([period]);
-            let radii: Vec<f64> = each.map(|radius| wider * radius).collect();
-            let starts = boxes(nodes, Some(&radii));
-            let period = Enclosure::about(nodes.period, radii[radii.len() - 1]);
-            let passages = passages(shooting, nodes, &starts, period).ok()?;
-            let columns = shooting.derivative(nodes, frames, &starts, &passages);
-            let (moved, _) = inverse.defects(&columns, &radii);
-            let images = self.offsets.iter().zip(&moved).map(|(z, d)| raised(z + d, 1));
-            images.zip(&radii).all(|(image, radius)| image < *radius).then_some(radii)
-        })
+        let starts = boxes(nodes, Some(radii));
+        let period = Enclosure::about(nodes.period, radii[radii.len() - 1]);
+        let Ok(passages) = passages(shooting, nodes, &starts, period) else { return false };
+        let columns = shooting.derivative(nodes, frames, &starts, &passages);
+        let (moved, _) = inverse.defects(&columns, radii);
+        let images = self.offsets.iter().zip(&moved).map(|(z, d)| raised(z + d, 1));
+        images.zip(radii).all(|(image, radius)| image < *radius)
     }
 
     /// Height (v̂, x - x̂₀) of a box over the surface of the phase.
@@ -135,8 +140,6 @@ impl Followed for Course<'_> {
         if !(-self.height(before)).is_positive() || !self.height(behind).is_positive() {
             return false;
         }
-        let Some(radii) = self.unique() else { return false };
-        let own = boxes(nodes, Some(&radii));
         let shares: Vec<_> = (0..nodes.shares.len())
             .map(|index| {
                 let share = self.elapsed(index) + turn;
@@ -145,8 +148,11 @@ impl Followed for Course<'_> {
             })
             .collect();
         let found = self.after(&shares);
-        found.iter().zip(&own).all(|(state, own)| {
-            state.as_ref().is_some_and(|state| state.iter().zip(own).all(|(x, y)| x.is_within(*y)))
-        })
+        let Some(found) = found.into_iter().collect::<Option<Vec<Boxed>>>() else { return false };
+        let holds = |radii: &Vec<f64>| {
+            let own = boxes(nodes, Some(radii));
+            found.iter().flatten().zip(own.iter().flatten()).all(|(x, y)| x.is_within(*y))
+        };
+        self.wider().iter().any(|radii| holds(radii) && self.is_unique(radii))
     }
 }
