@@ -333,9 +333,52 @@ def prove(motion, proof):
             image += up(size(entry), exact(radii[j])[1])
         require(image < exact(radii[i])[0], "the boxes are not mapped into themselves")
         images.append(image)
-    middles = [exact(x) for x in nodes[0]] + [exact(period)]
-    found = [(x[0] - r, x[1] + r) for x, r in zip(middles, images[:n] + images[-1:])]
-    return found[:n], mul(total, found[n]), volume
+    middles = [exact(x) for node in nodes for x in node] + [exact(period)]
+    found = [(x[0] - r, x[1] + r) for x, r in zip(middles, images)]
+    boxes = [found[n * i:n * i + n] for i in range(m)]
+    slopes = [columns[k][count - 1] for k in range(n)]
+
+    def is_least():
+        return least(motion, boxes, shares, found[-1], tails, order, slopes)
+
+    return boxes[0], mul(total, found[-1]), volume, is_least
+
+
+# --- least periods ------------------------------------------------------------------------------------------
+
+WINDOWS, BEGINS, MOST_PARTS = 8, 3, 20000
+
+
+def least(motion, boxes, shares, turn, tails, order, slopes):
+    """Whether it is proved that no part of the period is one: docs/closed-orbits.md, least periods."""
+    shares = [Fraction(share) for share in shares]
+    whole, window, early = sum(shares), shares[0], 0
+
+    def after(i, low, high):
+        time = mul((exact(low)[0], exact(high)[1]), turn)
+        return motion.step(motion.start(boxes[i], True), time, order, tails[i])[:motion.n]
+
+    def rises(k):
+        field = motion.field(after(0, k * window, (k + 1) * window), True)
+        return sum(mul(a, b)[0] for a, b in zip(slopes, field)) > 0
+
+    for _ in range(BEGINS):
+        window /= WINDOWS
+        early = next((k for k in range(WINDOWS) if not rises(k)), WINDOWS) * window
+        if early:
+            break
+    if not early or whole / early > MOST_PARTS:
+        return False
+    for part in range(2, int(whole / early) + 1):
+        if any(part % d == 0 for d in range(2, part)):
+            continue
+        i, rest = 0, whole / part
+        while i + 1 < len(shares) and rest > shares[i]:
+            i, rest = i + 1, rest - shares[i]
+        state = after(i, rest, rest)
+        if not any(x[1] < y[0] or y[1] < x[0] for x, y in zip(state, boxes[0])):
+            return False
+    return True
 
 
 # --- the certificate ----------------------------------------------------------------------------------------
@@ -372,13 +415,17 @@ def check(certificate):
             varied[spelled(name)] = Fraction(half.split("±")[1].strip())
             require(varied[spelled(name)] > 0, "a range is empty")
         motion = Motion(case, varied)
-        start, period, volume = prove(motion, proof)
+        start, period, volume, is_least = prove(motion, proof)
         orbit = statement["orbit"]
         require(len(orbit["start"]) == motion.n, "the start has other components")
         for found, stated in zip(start, orbit["start"]):
             inside(found, stated, "start")
         inside(period, orbit["period"], "period")
         inside(volume, orbit["volume"], "integral of the divergence")
+        stated = orbit.get("least", False)
+        require(stated is False or stated is True and is_least(), "the least period is another")
+        require("period" not in own or own["period"] == "least" and stated,
+                "the period is not stated to be the least")
         digits = str(own["closed-orbit"])
         unit = Fraction(1, 10 ** len(digits.partition(".")[2]))
         gap = max(abs(Fraction(x, ONE) - Fraction(digits)) for x in period)
@@ -391,7 +438,8 @@ def check(certificate):
             if motion.n != 2:
                 raise Unread("more than one multiplier is beyond this script")
             require({"sink": -1, "source": 1}.get(own["stability"]) == sign, "the kind is another")
-        return f"period {middle(period):.12f}, volume {middle(volume):.12f}"
+        word = "least period" if stated else "period"
+        return f"{word} {middle(period):.12f}, volume {middle(volume):.12f}"
     except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError) as error:
         raise Refused(f"the certificate is malformed: {error!r}") from error
 

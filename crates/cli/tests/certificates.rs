@@ -265,3 +265,57 @@ fn orbits_with_other_numbers_are_refused() {
         assert!(verified(&sealed).is_err(), "{path} was changed, with a new digest");
     }
 }
+
+/// The unit circle, with a claim about twice its least period.
+const TWICE: &str = "title = \"circle\"\n[state]\nx = \"-2..2\"\ny = \"-2..2\"\n[field]\n\
+    \"x'\" = \"y + x*(1 − x² − y²)\"\n\"y'\" = \"−x + y*(1 − x² − y²)\"\n[[claim]]\n\
+    name = \"twice\"\nclosed-orbit = 12.5663706144\nstate = { x = \"1\", y = \"0\" }\n";
+
+#[test]
+fn least_periods_are_stated_only_where_they_are_proved_again() {
+    let of_least = |file: &str, stated: Value| {
+        let text = fs::read_to_string(file).expect("a certificate");
+        let mut whole: Value = serde_json::from_str(&text).expect("JSON");
+        let orbit = whole["statement"]["orbit"].as_object_mut().expect("a table");
+        let own = orbit.remove("least").expect("stated");
+        if !stated.is_null() {
+            orbit.insert("least".to_string(), stated);
+        }
+        (own, sealed(whole["statement"].clone(), whole["proof"].clone()))
+    };
+    let cycle = of_the_limit_cycle("least");
+    let cycle = cycle.iter().find(|file| !file.contains("for-all")).expect("at one value");
+    let (own, again) = of_least(cycle, true.into());
+    assert_eq!(own, Value::Bool(true), "proved");
+    let theorem = verified(&again).expect("proved again").evidence.theorem.unwrap_or_default();
+    assert!(theorem.contains("with least period"), "{theorem}");
+    assert!(verified(&of_least(cycle, Value::Null).1).is_ok(), "a file that does not state it");
+    assert!(verified(&of_least(cycle, 1.into()).1).is_err(), "neither true nor false");
+
+    let path = scratch("twice");
+    fs::create_dir_all(&path).expect("a folder");
+    let (case, shown) = (path.join("case.toml"), path.display().to_string());
+    fs::write(&case, TWICE).expect("written");
+    let arguments =
+        ["check", "-q", "--motion", "--certificate", &shown, &case.display().to_string()];
+    let output = run(env!("CARGO_BIN_EXE_liouville"), &arguments);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let mut files = fs::read_dir(&path).expect("a folder").flatten().map(|own| own.path());
+    let twice = files.find(|own| own.extension().is_some_and(|end| end == "json"));
+    let twice = twice.expect("a certificate").display().to_string();
+    let (own, again) = of_least(&twice, false.into());
+    assert_eq!(own, Value::Bool(false), "a period, and not the least");
+    let theorem = verified(&again).expect("proved again").evidence.theorem.unwrap_or_default();
+    assert!(!theorem.contains("least"), "returns are not replayed: {theorem}");
+    let (_, wrong) = of_least(&twice, true.into());
+    let refused = verified(&wrong).expect_err("stated, and wrong");
+    assert!(refused.contains("not proved to be the least"), "{refused}");
+    if is_there() {
+        let other = path.join("wrong.json");
+        fs::write(&other, wrong.to_string()).expect("written");
+        let arguments = ["docs/certificates/orbit.py", &twice, &other.display().to_string()];
+        let told = text(&run("python3", &arguments).stdout);
+        assert!(told.contains("REFUSED") && told.contains("the least period is another"), "{told}");
+        assert!(told.ends_with("2 certificates: 1 proved, 1 refused\n"), "{told}");
+    }
+}

@@ -87,7 +87,7 @@ pub use surface::{
 };
 pub use track::{RollingSamples, Track, track};
 pub use validated::{
-    CoveringSet, Enclosure, HorseshoeData, HorseshoeTrace, Margin, Obstacle, ProofData,
+    CoveringSet, Doubt, Enclosure, HorseshoeData, HorseshoeTrace, Margin, Obstacle, ProofData,
     ProvedHorseshoe, ProvedOrbit, Reached, Request, follow, prove, prove_horseshoe, replay,
     replay_horseshoe,
 };

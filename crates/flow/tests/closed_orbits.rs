@@ -3,6 +3,8 @@
 
 #[path = "closed_orbits/horseshoes.rs"]
 mod horseshoes;
+#[path = "closed_orbits/least.rs"]
+mod least;
 
 use std::path::Path;
 

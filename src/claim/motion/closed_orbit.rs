@@ -20,6 +20,8 @@ pub enum Change {
 pub struct ClosedOrbit {
     /// Period.
     pub period: Stated,
+    /// Whether it is to be the least one.
+    pub is_least: bool,
     /// State near the orbit.
     pub beginning: Beginning,
     /// Change of volume along the orbit.
@@ -36,8 +38,16 @@ pub struct ClosedOrbit {
 
 impl Motional for ClosedOrbit {
     const NAME: &'static str = "closed-orbit";
-    const COMPANIONS: &'static [&'static str] =
-        &["start", "state", "divergence", "stability", "density", "integrals", "parameters"];
+    const COMPANIONS: &'static [&'static str] = &[
+        "start",
+        "state",
+        "period",
+        "divergence",
+        "stability",
+        "density",
+        "integrals",
+        "parameters",
+    ];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let changes = [
@@ -47,6 +57,7 @@ impl Motional for ClosedOrbit {
         ];
         Ok(Self {
             period: period(from, Self::NAME, "write its period, above 0")?,
+            is_least: word(from, "period", &[("least", ())])?.is_some(),
             beginning: Beginning::read(from)?,
             divergence: word(from, "divergence", &changes)?,
             stability: word(from, "stability", &Stability::ALL)?,
@@ -71,12 +82,15 @@ impl Motional for ClosedOrbit {
         let kind =
             self.stability.and_then(named).map_or(String::new(), |(name, _)| format!("{name}, "));
         let density = if self.excludes_density { ", no density" } else { "" };
+        let least = if self.is_least { "least " } else { "" };
         let (period, start) = (&self.period.text, self.beginning.text());
         let varied: Vec<String> = self.parameters.iter().map(Neighbourhood::text).collect();
         let varied = match varied.is_empty() {
             true => String::new(),
             false => format!(", for {}", varied.join(", ")),
         };
-        format!("{kind}closed orbit of period {period} near {start}{volume}{density}{varied}")
+        format!(
+            "{kind}closed orbit of {least}period {period} near {start}{volume}{density}{varied}"
+        )
     }
 }

@@ -25,6 +25,7 @@ pub fn motion_certificate(
     let orbit = json!({
         "start": found.start.iter().copied().map(wider).collect::<Vec<_>>(),
         "period": wider(found.period),
+        "least": found.turns == Ok(1),
         "volume": wider(found.volume),
         "multipliers": found.sum.map(wider),
     });
@@ -159,9 +160,16 @@ pub fn verify(
 
 /// Checks that what is stated of an orbit contains what was found.
 fn contains(orbit: &CertificatePart<'_>, found: &ProvedOrbit) -> Result<(), String> {
-    orbit.only(&["start", "period", "volume", "multipliers"])?;
+    orbit.only(&["start", "period", "least", "volume", "multipliers"])?;
     orbit.at("start")?.contain(&found.start)?;
     orbit.at("period")?.contains(found.period)?;
+    // Files without the key do not state it.
+    match orbit.at("least").ok().map(|least| least.value.as_bool().ok_or(least)) {
+        None | Some(Ok(false)) => {}
+        Some(Ok(true)) if found.turns == Ok(1) => {}
+        Some(Ok(true)) => return Err("the period is not proved to be the least".to_string()),
+        Some(Err(least)) => return least.complaint("is neither true nor false"),
+    }
     orbit.at("volume")?.contains(found.volume)?;
     let multipliers = orbit.at("multipliers")?;
     match (multipliers.value.is_null(), found.sum) {

@@ -71,6 +71,21 @@ fn judge(claim: &ClosedOrbit, found: &ProvedOrbit, finding: &mut MotionFinding) 
     finding.note("period", measured(found.period), Some(&claim.period));
     finding.note("∮ div v dt", measured(found.volume), None);
     compare_period(&claim.period, found.period, finding);
+    if claim.is_least {
+        match &found.turns {
+            Ok(1) => {}
+            Ok(turns) => {
+                let share = Enclosure::exact(*turns as f64).recip();
+                let least = printed(found.period * share);
+                finding.refute(format!(
+                    "the orbit is run through {turns} times in it, and its least period is {least}"
+                ));
+            }
+            Err(doubt) => {
+                finding.leave_open(format!("the period is not proved to be the least: {doubt}"));
+            }
+        }
+    }
     let negative = (-found.volume).is_positive();
     let changes = found.volume.is_positive() || negative;
     if !changes && (claim.divergence.is_some() || claim.excludes_density) {
@@ -178,6 +193,11 @@ fn theorem(
     let wide = printed_bound(wide + 0.51 * libm::pow(10.0, -(DECIMALS as f64)));
     let kind = seen.map_or(String::new(), |seen| format!("; it is of kind {}", name(seen)));
     let (period, volume) = (printed(found.period), printed(found.volume));
+    let period = match &found.turns {
+        Ok(1) => format!("least period {period}"),
+        Ok(turns) => format!("period {period}, {turns} times the least,"),
+        Err(_) => format!("period {period}"),
+    };
     let contraction = printed_bound(found.contraction);
     let varied: Vec<String> = varied.iter().map(Neighbourhood::text).collect();
     let varied = varied.join(", ");
@@ -186,7 +206,7 @@ fn theorem(
         varied => format!("for all parameters with {varied}, "),
     };
     let orbit = format!(
-        "{each}a closed orbit goes through ({}) ± {wide}, with period {period} and ∮ div v dt = {volume} \
+        "{each}a closed orbit goes through ({}) ± {wide}, with {period} and ∮ div v dt = {volume} \
          ({} segments, ‖1 − CG'‖ ≤ {contraction}){kind}",
         state.join(", "),
         found.segments,

@@ -59,6 +59,12 @@ impl Enclosure {
         self.is_finite() && self.mid > self.rad
     }
 
+    /// Whether all numbers of the enclosure lie in another.
+    pub fn is_within(self, other: Self) -> bool {
+        let gap = raised((self.mid - other.mid).abs() + self.rad, 4);
+        gap <= other.rad || (self.mid == other.mid && self.rad <= other.rad)
+    }
+
     /// Encloses the union of two enclosures.
     pub fn hull(self, other: Self) -> Self {
         if !self.is_finite() || !other.is_finite() {

@@ -142,10 +142,7 @@ fn gaps(
 
 /// Whether a box lies in another.
 fn is_inside(inner: &[Enclosure], outer: &[Enclosure]) -> bool {
-    let holds = |(x, y): (&Enclosure, &Enclosure)| {
-        raised((x.mid - y.mid).abs() + x.rad, 4) <= y.rad || (x.mid == y.mid && x.rad <= y.rad)
-    };
-    inner.iter().zip(outer).all(holds)
+    inner.iter().zip(outer).all(|(x, y)| x.is_within(*y))
 }
 
 /// The set of points p + Q w with |w| ≤ r, component by component.

@@ -9,6 +9,7 @@
 
 mod band;
 mod coefficients;
+mod course;
 mod enclosure;
 mod forward;
 mod functions;
@@ -16,6 +17,7 @@ mod guess;
 mod horseshoe;
 mod krawczyk;
 mod laws;
+mod least;
 mod motion;
 mod multipliers;
 mod obstacle;
@@ -31,10 +33,12 @@ mod tests;
 pub use enclosure::Enclosure;
 pub use forward::{Reached, follow};
 pub use horseshoe::{HorseshoeTrace, Margin, ProvedHorseshoe, prove as prove_horseshoe};
+pub use least::Doubt;
 pub use obstacle::Obstacle;
 pub use replay::{CoveringSet, HorseshoeData, ProofData, replay, replay_horseshoe};
 pub use request::Request;
 
+use course::Course;
 use functions::Functions;
 use guess::Nodes;
 use krawczyk::{Inverse, is_regular};
@@ -62,6 +66,8 @@ pub struct ProvedOrbit {
     pub start: Vec<Enclosure>,
     /// Time after which the orbit closes.
     pub period: Enclosure,
+    /// Number of times that the orbit is run through in the period; 1 if that is the least one.
+    pub turns: Result<usize, Doubt>,
     /// Integral of the divergence on the level along it.
     pub volume: Enclosure,
     /// Number of multipliers on the level of all conserved functions.
@@ -193,6 +199,8 @@ impl<'s> OrbitSearch<'s> {
             if images.iter().zip(&radii).all(|(image, radius)| image < radius) {
                 let mut found = self.proved(&starts, &passages, &images, norm)?;
                 found.data.radii = radii;
+                let course = Course { search: &self, offsets: &offsets, radii: &images };
+                found.turns = least::turns(&course);
                 if wants_multipliers && found.multipliers == 2 {
                     found.sum = multipliers::sum(shooting, frames, &starts, &passages);
                 }
@@ -239,6 +247,7 @@ impl<'s> OrbitSearch<'s> {
         Ok(ProvedOrbit {
             start: boxes(nodes, Some(radii)).swap_remove(0),
             period: share * period,
+            turns: Err(Doubt::Start),
             volume: volumes.fold(Enclosure::ZERO, |sum, volume| sum + volume),
             multipliers: shooting.motion.dimension.saturating_sub(shooting.functions.len() + 1),
             sum: None,

@@ -162,6 +162,20 @@ impl EnclosedMotion {
         steps(&self.full, self.order, &starts, h).into_iter().map(|end| end.map(passage)).collect()
     }
 
+    /// Encloses the states after the steps `h`, without derivatives, for all values of the loose
+    /// parameters. `None` where a step is not proved, or does not lead forwards.
+    pub fn ends(&self, starts: &[Boxed], h: &[Enclosure]) -> Vec<Option<Boxed>> {
+        let whole = |state: &Boxed| state.iter().copied().chain(self.ranges()).collect();
+        let starts: Vec<Boxed> = starts.iter().map(whole).collect();
+        let found = steps(&self.wide, self.order, &starts, h).into_iter();
+        let state = |(end, h): (Option<End>, &Enclosure)| {
+            let mut state = end.filter(|_| h.mid >= 0.0)?.state;
+            state.truncate(self.dimension);
+            Some(state)
+        };
+        found.zip(h).map(state).collect()
+    }
+
     /// Encloses the field at states, for all values of the loose parameters.
     pub fn field(&self, states: &[Boxed]) -> Vec<Boxed> {
         let mut coefficients = Coefficients::new(&self.wide, 1);

@@ -5,6 +5,7 @@
 //! computed anew. Shared with the first proof are the recorded equations, as plans, and an
 //! approximate inverse in f64, about which nothing is assumed.
 
+mod course;
 mod horseshoe;
 mod matrix;
 mod multipliers;
@@ -20,9 +21,11 @@ pub use horseshoe::{CoveringSet, HorseshoeData, replay_horseshoe};
 
 use super::enclosure::Enclosure;
 use super::functions::Functions;
+use super::least;
 use super::motion::EnclosedMotion;
 use super::request::moved;
 use super::{MOST_UNKNOWNS, Obstacle, ProvedOrbit, Request};
+use course::ReplayedCourse;
 use matrix::{Columns, combined};
 use number::{ReplayNumber, Wide};
 use rayon::prelude::*;
@@ -289,17 +292,27 @@ impl Replay<'_> {
         let radius = |image: &Wide| image.enclosure().magnitude();
         let around = |(x, image): (&f64, &Wide)| Enclosure::about(*x, radius(image));
         let start: Vec<Enclosure> = data.nodes[0].iter().zip(&images).map(around).collect();
+        let hold = |(node, images): (&Vec<f64>, &[Wide])| {
+            node.iter().zip(images).map(|(x, image)| Wide::about(*x, radius(image))).collect()
+        };
         let sum = |parts: &dyn Fn(usize) -> Wide| {
             (0..count).fold(Wide::zero(), |sum, index| sum.plus(&parts(index)))
         };
         let share = sum(&|index| Wide::exact(data.shares[index]));
         let period = Wide::exact(data.period).plus(&Wide::within(&images[n * count]));
+        let course = ReplayedCourse {
+            replay: self,
+            phase: &phase,
+            states: data.nodes.iter().zip(images.chunks(n)).map(hold).collect(),
+            period: period.clone(),
+        };
         let others = n.saturating_sub(self.functions.len() + 1);
         let passages = segments.iter().map(|segment| &segment.passage).collect::<Vec<_>>();
         Ok(ProvedOrbit {
             moved: moved(&start, &request.state()),
             start,
             period: share.times(&period).enclosure(),
+            turns: least::turns(&course),
             volume: sum(&|index| segments[index].passage.volume.clone()).enclosure(),
             multipliers: others,
             sum: match request.wants_multipliers && others == 2 {

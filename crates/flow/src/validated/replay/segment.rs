@@ -12,6 +12,7 @@ pub struct Scripts<'m> {
     pub motion: &'m EnclosedMotion,
     state: Script<'m, Wide>,
     wide: Script<'m, Wide>,
+    moved: Script<'m, Short>,
     full: Script<'m, Short>,
 }
 
@@ -33,6 +34,7 @@ impl<'m> Scripts<'m> {
             motion,
             state: Script::new(&motion.state, points),
             wide: Script::new(&motion.wide, 1),
+            moved: Script::new(&motion.wide, boxes),
             full: Script::new(&motion.full, boxes),
         }
     }
@@ -65,6 +67,15 @@ impl<'m> Scripts<'m> {
         let derivative =
             (0..n).map(|row| (0..n + loose).map(|column| entry(row, column)).collect()).collect();
         Some(ReplayedPassage { end, derivative, volume: columns[count].clone() })
+    }
+
+    /// Encloses the states after the time `h` from a box, without derivatives, for all values of the
+    /// parameters.
+    pub fn states(&self, start: &[Wide], h: &Wide, radius: f64) -> Option<Vec<Wide>> {
+        let ranges = self.ranges();
+        let all: Vec<Short> = start.iter().chain(&ranges).map(Short::of_wide).collect();
+        let found = ends(&self.moved, &all, &Short::of_wide(h), radius)?;
+        Some(found[..self.motion.dimension].iter().map(Short::wide).collect())
     }
 
     /// Encloses the field over a box, for all values of the parameters.
