@@ -65,6 +65,7 @@ pub use closed::{ComputedClosedOrbit, MeasuredNumber};
 pub use columns::Columns;
 pub use continuation::{
     Bifurcation, Branch, BranchEnd, BranchPoint, BranchRequest, BranchSection, branch,
+    declared_range,
 };
 pub use cycle::Cycle;
 pub use error::FlowError;

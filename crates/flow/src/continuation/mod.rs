@@ -15,7 +15,9 @@ mod request;
 mod solve;
 mod walk;
 
-pub use request::{Bifurcation, Branch, BranchEnd, BranchPoint, BranchRequest, BranchSection};
+pub use request::{
+    Bifurcation, Branch, BranchEnd, BranchPoint, BranchRequest, BranchSection, declared_range,
+};
 
 use family::{Family, KeptEnergy, Place, norm};
 use linear::Plane;
@@ -25,8 +27,8 @@ use walk::{Half, Walk};
 
 use super::cycle::keeps_energy;
 use super::error::FlowError;
-use super::plane::Coordinate;
 use super::start::LevelFunctions;
+use liouville::mechanics::{ParameterOrigin, components};
 use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
 
@@ -78,19 +80,38 @@ fn kept(request: &BranchRequest<'_>) -> Result<(KeptEnergy, Rational), FlowError
     let is_kept = functions.len() > place
         && keeps_energy(model, start, request.time, &functions, place)?;
     let own = || functions.at(&start.state).0[place];
-    if request.varied != Coordinate::Energy {
+    if let Some(value) = own_value(request) {
         let energy = if is_kept { KeptEnergy::Fixed(own()) } else { KeptEnergy::None };
-        return Ok((energy, request.value.clone().ok_or(FlowError::NoStart)?));
+        return Ok((energy, value));
     }
     match (functions.len() > place, is_kept) {
         (false, _) => Err(FlowError::NoEnergy),
         (_, false) => Err(FlowError::EnergyChanges),
         _ => {
             let own = Rational::from_f64(own().hi);
-            let value = request.value.clone().or(own).ok_or(FlowError::NoStart)?;
+            let value = request.energy.clone().or(own).ok_or(FlowError::NoStart)?;
             Ok((KeptEnergy::Varied, value))
         }
     }
+}
+
+/// Value of the component of a parameter that varies, at the start.
+fn own_value(request: &BranchRequest<'_>) -> Option<Rational> {
+    let (varied, component) = request.varied.parameter()?;
+    let parameters = &request.case.model.parameters;
+    let mut drawn = request.start.parameters.iter();
+    for (index, parameter) in parameters.iter().enumerate() {
+        let is_it = index == varied;
+        match &parameter.origin {
+            ParameterOrigin::Fixed(values) if is_it => return values.get(component).cloned(),
+            ParameterOrigin::Free(_) if is_it => return drawn.nth(component).cloned(),
+            ParameterOrigin::Free(_) => {
+                drawn.by_ref().take(components(parameter.kind)).for_each(drop);
+            }
+            _ => {}
+        }
+    }
+    None
 }
 
 /// The node at the start.

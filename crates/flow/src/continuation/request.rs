@@ -8,6 +8,7 @@ use crate::plane::Coordinate;
 use crate::start::Start;
 use crate::surface::CrossingSurface;
 use liouville::case::{Angle, Case};
+use liouville::mechanics::{Draw, ParameterOrigin, SamplerSpec};
 use liouville::number::rational::Rational;
 
 /// Section through which the orbits of a branch go.
@@ -31,8 +32,8 @@ pub struct BranchRequest<'r> {
     pub varied: Coordinate,
     /// Ends of its range, the lower one first.
     pub range: [Rational; 2],
-    /// Its value at the start; of the energy that of the start if it is not given.
-    pub value: Option<Rational>,
+    /// Energy of the start, where it is known exactly.
+    pub energy: Option<Rational>,
     /// Point of a closed orbit on the section.
     pub start: Start,
     /// Time after which it closes.
@@ -132,4 +133,24 @@ pub struct Branch {
     pub ends: [BranchEnd; 2],
     /// Whether the product of the multipliers is 1 at all points, up to its error.
     pub keeps_area: bool,
+}
+
+/// Range that a case declares for what varies, the lower end first.
+pub fn declared_range(case: &Case, varied: Coordinate) -> Option<[Rational; 2]> {
+    let parameter = case.model.parameters.get(varied.parameter()?.0)?;
+    let ParameterOrigin::Free(recipe) = &parameter.origin else { return None };
+    let draw = match recipe {
+        SamplerSpec::Scalar(draw)
+        | SamplerSpec::Vector(_, draw)
+        | SamplerSpec::Matrix(_, _, draw)
+        | SamplerSpec::Symmetric(_, draw)
+        | SamplerSpec::Skew(_, draw)
+        | SamplerSpec::Diagonal(_, draw)
+        | SamplerSpec::Spherical(_, draw) => draw,
+        _ => return None,
+    };
+    match draw {
+        Draw::Within(range) => Some([range.low.clone(), range.high.clone()]),
+        _ => None,
+    }
 }
