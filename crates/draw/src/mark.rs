@@ -103,10 +103,8 @@ impl MarkShape {
             stroke: None,
             opacity: 0.85,
         };
-        let is_plain = matches!(
-            self,
-            MarkShape::Dot | MarkShape::Line | MarkShape::Dashes | MarkShape::Box
-        );
+        let is_plain =
+            matches!(self, MarkShape::Dot | MarkShape::Line | MarkShape::Dashes | MarkShape::Box);
         (!is_plain).then_some(circle)
     }
 }

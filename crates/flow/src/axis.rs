@@ -50,9 +50,8 @@ impl Coordinate {
         known: &str,
     ) -> Result<(String, Self), AxisMistake> {
         let name = canonical_name(name).unwrap_or_else(|| name.to_string());
-        let coordinate = Coordinate::of(case, &name).ok_or_else(|| {
-            AxisMistake::new(&format!("there is no `{name}` to vary"), known)
-        })?;
+        let coordinate = Coordinate::of(case, &name)
+            .ok_or_else(|| AxisMistake::new(&format!("there is no `{name}` to vary"), known))?;
         let Some((index, _)) = coordinate.parameter() else { return Ok((name, coordinate)) };
         if matches!(case.model.parameters[index].origin, ParameterOrigin::Formula(_)) {
             let message = format!("`{name}` is computed from other parameters");

@@ -38,11 +38,7 @@ impl Loose {
 }
 
 /// Returns the parameters, with loose ones replaced by functions of their inputs x.
-pub(super) fn filled<T: Scalar>(
-    parameters: &[Rational],
-    loose: &[Loose],
-    inputs: &[T],
-) -> Vec<T> {
+pub(super) fn filled<T: Scalar>(parameters: &[Rational], loose: &[Loose], inputs: &[T]) -> Vec<T> {
     let mut filled: Vec<T> = parameters.iter().map(T::rational).collect();
     for (one, x) in loose.iter().zip(inputs) {
         filled[one.component] = T::rational(&one.centre) + T::rational(&one.half) * *x;

@@ -178,7 +178,12 @@ fn scanned(
 }
 
 /// Value on a line whose zeros are points of a period, from the images of a point.
-fn value(line: FixedLine, period: usize, at: [f64; 2], image: impl Fn(usize) -> Option<[f64; 2]>) -> Option<f64> {
+fn value(
+    line: FixedLine,
+    period: usize,
+    at: [f64; 2],
+    image: impl Fn(usize) -> Option<[f64; 2]>,
+) -> Option<f64> {
     let image = |count: usize| if count == 0 { Some(at) } else { image(count) };
     let last = beside(line, image(images(period))?);
     match period.is_multiple_of(2) {
@@ -212,7 +217,8 @@ impl Search<'_> {
         if (first > 0.0) == (last > 0.0) || first.abs().max(last.abs()) < ZERO {
             return Ok(());
         }
-        let Some(at) = self.zero(line, period, ends.map(|orbit| orbit.start), [first, last])? else {
+        let Some(at) = self.zero(line, period, ends.map(|orbit| orbit.start), [first, last])?
+        else {
             return Ok(());
         };
         if self.is_known(at) {
@@ -304,7 +310,8 @@ impl SectionMap<'_> {
         let mut tried = 0;
         let mut problem = None;
         for at in spread(TRIALS) {
-            let back = self.image(at, 1).and_then(|(image, _)| self.image(mirrored(line, image), 1));
+            let back =
+                self.image(at, 1).and_then(|(image, _)| self.image(mirrored(line, image), 1));
             match back {
                 Err(FlowError::Stopped) => return Err(FlowError::Stopped),
                 Err(error) => problem = Some(error),

@@ -145,7 +145,9 @@ impl BranchReport<'_> {
             ));
         }
         for point in points {
-            let (Some(kind), Some(error)) = (point.bifurcation, point.value_error) else { continue };
+            let (Some(kind), Some(error)) = (point.bifurcation, point.value_error) else {
+                continue;
+            };
             let value = shown(MeasuredNumber { value: point.value, error });
             let period = shown(point.period);
             out.push_str(&format!("{}: {} = {value}, period {period}\n", kind.name(), self.name));
@@ -200,13 +202,16 @@ impl BranchReport<'_> {
     pub fn csv(&self) -> String {
         let mut titles = vec![quoted(self.name)];
         titles.extend(self.titles.iter().map(|title| quoted(title)));
-        let others = ["period", "trace", "product", "largest_modulus", "kind", "bifurcation", "error"];
+        let others =
+            ["period", "trace", "product", "largest_modulus", "kind", "bifurcation", "error"];
         titles.extend(others.map(str::to_string));
         let mut out = titles.join(",") + "\n";
         for point in &self.branch.points {
             let mut cells = vec![format!("{:?}", point.value)];
             cells.extend(point.at.iter().map(|x| format!("{x:?}")));
-            cells.extend([&point.period, &point.trace, &point.product].map(|x| format!("{:?}", x.value)));
+            cells.extend(
+                [&point.period, &point.trace, &point.product].map(|x| format!("{:?}", x.value)),
+            );
             let largest = point.multipliers.iter().map(Multiplier::modulus).reduce(f64::max);
             cells.push(largest.map_or(String::new(), |x| format!("{x:?}")));
             cells.push(kind(point.kind).to_string());
@@ -235,8 +240,10 @@ impl BranchReport<'_> {
             Some(surface) => format!("section {}", surface.replace('-', "−")),
             None => "section g = g₀".to_string(),
         };
-        let crossings = format!("{} crossing{}", self.period, if self.period == 1 { "" } else { "s" });
-        let mut found = vec![plain(&facts::unbroken(&section)), plain(&facts::unbroken(&crossings))];
+        let crossings =
+            format!("{} crossing{}", self.period, if self.period == 1 { "" } else { "s" });
+        let mut found =
+            vec![plain(&facts::unbroken(&section)), plain(&facts::unbroken(&crossings))];
         found.extend(facts::parameters(self.case, &[self.name]));
         facts::listed(found)
     }

@@ -287,7 +287,8 @@ impl Layout {
 
 /// Cuts a line into dashes.
 fn dashes(line: &[Point]) -> Vec<Vec<Point>> {
-    let mut found: Vec<Vec<Point>> = line.first().map(|first| vec![vec![*first]]).unwrap_or_default();
+    let mut found: Vec<Vec<Point>> =
+        line.first().map(|first| vec![vec![*first]]).unwrap_or_default();
     let (mut draws, mut left) = (true, DASH[0]);
     for (from, to) in line.iter().zip(line.iter().skip(1)) {
         let length = libm::hypot(to[0] - from[0], to[1] - from[1]);

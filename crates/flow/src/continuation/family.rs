@@ -13,6 +13,7 @@ use crate::andoyer::{applies, coordinates, section_functions};
 use crate::columns::Columns;
 use crate::error::FlowError;
 use crate::motion::{Loose, extended_program, filled};
+use crate::number::SeriesNumber;
 use crate::open::OpenModel;
 use crate::program::TaylorProgram;
 use crate::start::complement;
@@ -70,8 +71,6 @@ enum Gauge {
 /// Family of systems over a range of one quantity.
 pub struct Family {
     model: Model,
-    parameters: Vec<Rational>,
-    varies: Option<Loose>,
     /// Midpoint of the range, and half its length.
     range: [Rational; 2],
     flow: TaylorProgram,
@@ -149,18 +148,7 @@ impl Family {
         let (graph, field) =
             record(dimension + 1, |inputs| rates(&inputs[dimension], &inputs[..dimension]))?;
         let field = Tape::new(&graph, &field);
-        Ok(Self {
-            model,
-            parameters,
-            varies,
-            range,
-            flow,
-            bundle,
-            functions,
-            field,
-            gauge,
-            equations,
-        })
+        Ok(Self { model, range, flow, bundle, functions, field, gauge, equations })
     }
 
     /// Dimension of the state.
@@ -198,15 +186,6 @@ impl Family {
     pub fn lambda(&self, value: &Rational) -> DoubleDouble {
         let [centre, half] = self.range.each_ref().map(DoubleDouble::from_rational);
         (DoubleDouble::from_rational(value) - centre) * half.recip()
-    }
-
-    /// Components of the free parameters at λ.
-    pub fn parameters(&self, lambda: DoubleDouble) -> Vec<Rational> {
-        let mut all = self.parameters.clone();
-        if let (Some(loose), Some(value)) = (&self.varies, Rational::from_f64(self.value(lambda))) {
-            all[loose.component] = value;
-        }
-        all
     }
 
     /// Values of G, and its gradients by the state and λ.

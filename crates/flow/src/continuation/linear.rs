@@ -88,7 +88,11 @@ impl Arrival {
     }
 
     /// Time to the section along the flow for a vector, and the vector on the section.
-    fn taken(&self, vector: &[DoubleDouble], more: DoubleDouble) -> (DoubleDouble, Vec<DoubleDouble>) {
+    fn taken(
+        &self,
+        vector: &[DoubleDouble],
+        more: DoubleDouble,
+    ) -> (DoubleDouble, Vec<DoubleDouble>) {
         let zero = DoubleDouble::default();
         let time = (zero - dot(&self.slope, vector) - more) * self.rate.recip();
         let moved = vector.iter().zip(&self.velocity).map(|(x, v)| *x + *v * time);
@@ -140,7 +144,8 @@ impl Family {
         }
         let more = arrival.slope.get(dimension).copied().unwrap_or(zero);
         let (time, moved) = arrival.taken(vectors.get(count).copied().unwrap_or_default(), more);
-        let by_lambda = DVector::from_iterator(count, frame.basis.iter().map(|e| dot(e, &moved).hi));
+        let by_lambda =
+            DVector::from_iterator(count, frame.basis.iter().map(|e| dot(e, &moved).hi));
         Ok(Linear {
             map,
             by_lambda,
@@ -194,9 +199,8 @@ impl Plane {
         let row = place.row();
         let apart = row.iter().zip(&self.through).map(|(x, y)| *x - *y);
         let zero = DoubleDouble::default();
-        let sum = apart
-            .zip(&self.normal)
-            .fold(zero, |sum, (d, n)| sum + d * DoubleDouble::from_f64(*n));
+        let sum =
+            apart.zip(&self.normal).fold(zero, |sum, (d, n)| sum + d * DoubleDouble::from_f64(*n));
         sum.hi
     }
 

@@ -75,8 +75,7 @@ impl Solver<'_> {
         let guess = between(first, last, (share - a) / (b - a));
         let plane = self.plane(&from.place, &from.tangent, share * distance);
         let solved = self.point(guess, &plane)?;
-        let (tests, _) =
-            tests(self, &solved, &solved.linear, &plane).ok_or(Trouble::Singular)?;
+        let (tests, _) = tests(self, &solved, &solved.linear, &plane).ok_or(Trouble::Singular)?;
         Ok((solved, tests))
     }
 

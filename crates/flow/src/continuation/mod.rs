@@ -56,10 +56,13 @@ pub fn branch(
     })?;
     progress(&first.point);
     // The whole range is 2 long.
-    let walk = Walk { solver: &solver, longest: 2.0 * request.longest, count: request.count, progress };
+    let walk =
+        Walk { solver: &solver, longest: 2.0 * request.longest, count: request.count, progress };
     let forward = walk.follow(&first, first.tangent.clone());
     let backward = match forward.end {
-        BranchEnd::Closed | BranchEnd::Stopped => Half { nodes: Vec::new(), end: forward.end.clone() },
+        BranchEnd::Closed | BranchEnd::Stopped => {
+            Half { nodes: Vec::new(), end: forward.end.clone() }
+        }
         _ => walk.follow(&first, first.tangent.reversed()),
     };
     let start = backward.nodes.len();
@@ -67,7 +70,12 @@ pub fn branch(
     let nodes: Vec<Node> =
         backward.nodes.into_iter().rev().chain([first]).chain(forward.nodes).collect();
     let keeps_area = family.count() == 2 && nodes.iter().all(Node::keeps_area);
-    Ok(Branch { points: nodes.into_iter().map(|node| node.point).collect(), start, ends, keeps_area })
+    Ok(Branch {
+        points: nodes.into_iter().map(|node| node.point).collect(),
+        start,
+        ends,
+        keeps_area,
+    })
 }
 
 /// The energy that is kept, and the value of what varies at the start.
@@ -77,8 +85,8 @@ fn kept(request: &BranchRequest<'_>) -> Result<(KeptEnergy, Rational), FlowError
         model.system.energy(phase).into_iter().collect()
     })?;
     let place = model.level.len();
-    let is_kept = functions.len() > place
-        && keeps_energy(model, start, request.time, &functions, place)?;
+    let is_kept =
+        functions.len() > place && keeps_energy(model, start, request.time, &functions, place)?;
     let own = || functions.at(&start.state).0[place];
     if let Some(value) = own_value(request) {
         let energy = if is_kept { KeptEnergy::Fixed(own()) } else { KeptEnergy::None };
@@ -129,8 +137,7 @@ fn first(
     };
     let plane = Plane::of_lambda(family.dimension(), lambda);
     let solved = solver.point(guess, &plane)?;
-    let tangent =
-        solver.first_tangent(&solved.frame, &solved.linear).ok_or(Trouble::Singular)?;
+    let tangent = solver.first_tangent(&solved.frame, &solved.linear).ok_or(Trouble::Singular)?;
     let across = solver.plane(&solved.place, &tangent, 0.0);
     let is_steep = tangent.lambda() < STEEP;
     solver.node(solved, if is_steep { &across } else { &plane })

@@ -50,7 +50,12 @@ impl Node {
 }
 
 /// Functions that vanish at bifurcations, with the direction of the branch.
-pub fn tests(solver: &Solver<'_>, solved: &Solved, linear: &Linear, plane: &Plane) -> Option<(Tests, Tangent)> {
+pub fn tests(
+    solver: &Solver<'_>,
+    solved: &Solved,
+    linear: &Linear,
+    plane: &Plane,
+) -> Option<(Tests, Tangent)> {
     let tangent = solver.tangent(&solved.frame, linear, plane)?;
     let own = solver.plane(&solved.place, &tangent, 0.0);
     let row = own.row(&solved.frame);
@@ -85,7 +90,16 @@ impl Solver<'_> {
         let (turns, velocity, rate) = (pair.turns(), pair.velocity, pair.rate);
         let tests = [0.0, tangent.lambda(), 0.0, 0.0];
         let tangent = tangent.clone();
-        Ok(Node { place: solved.place, tangent, tests, blur: [LEAST; 4], turns, velocity, rate, point })
+        Ok(Node {
+            place: solved.place,
+            tangent,
+            tests,
+            blur: [LEAST; 4],
+            turns,
+            velocity,
+            rate,
+            point,
+        })
     }
 
     /// The map in both precisions.

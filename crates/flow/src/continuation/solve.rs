@@ -225,7 +225,8 @@ pub fn between(a: &Place, b: &Place, share: f64) -> Place {
 /// Step of Newton's method in the coordinates of a frame, λ last.
 fn step(linear: &Linear, row: &[f64], off: f64) -> Option<DVector<f64>> {
     let count = linear.defect.len();
-    let right = DVector::from_fn(count + 1, |k, _| if k < count { -linear.defect[k] } else { -off });
+    let right =
+        DVector::from_fn(count + 1, |k, _| if k < count { -linear.defect[k] } else { -off });
     solved(linear.bordered(row), &right)
 }
 

@@ -1,9 +1,9 @@
 //! Steps along a branch.
 
+use super::family::Place;
 use super::linear::Plane;
 use super::node::Node;
 use super::request::{BranchEnd, BranchPoint};
-use super::family::Place;
 use super::solve::{Solver, Tangent, Trouble, ahead, between};
 use crate::error::FlowError;
 use liouville::number::double_double::DoubleDouble;
@@ -131,11 +131,7 @@ impl Walk<'_> {
     }
 
     /// Node in a plane near a guess.
-    fn node(
-        &self,
-        guess: &Place,
-        plane: &Plane,
-    ) -> Result<(Node, usize), Step> {
+    fn node(&self, guess: &Place, plane: &Plane) -> Result<(Node, usize), Step> {
         let found = self.solver.point(guess.clone(), plane);
         let found = found.and_then(|solved| {
             let iterations = solved.iterations;

@@ -65,16 +65,19 @@ pub fn run(options: &ContinueArgs) -> Result<CommandOutput, String> {
     if case.model.system.has_arbitrary_function() {
         return Err(told(FlowError::Arbitrary));
     }
-    let (name, varied) = Coordinate::of_branch(case, options.parameter.trim()).map_err(
-        |mistake| format!("error: --parameter: {}\nhelp: {}", mistake.message, mistake.help),
-    )?;
+    let (name, varied) =
+        Coordinate::of_branch(case, options.parameter.trim()).map_err(|mistake| {
+            format!("error: --parameter: {}\nhelp: {}", mistake.message, mistake.help)
+        })?;
     let range = options.range(&opened, &name, varied)?;
     let surface = options.search.section.as_deref();
     let surface = surface.map(|text| read_surface(case, text)).transpose()?;
     let mut columns = options.columns(case, surface.as_ref())?;
     let (titles, watch) = (columns.as_ref().map(Columns::titles), Watch::new(subject.limits)?);
     let titles = titles.map_or_else(|| vec!["l".to_string(), "L/G".to_string()], <[_]>::to_vec);
-    let found = stoppable(&watch.raised, || options.follow(case, varied, &range, surface.as_ref(), columns.take()));
+    let found = stoppable(&watch.raised, || {
+        options.follow(case, varied, &range, surface.as_ref(), columns.take())
+    });
     let (raised, stop) = (Arc::clone(&watch.raised), watch.end());
     let stopped = |stop: Option<Stop>| {
         let words = stop.map_or("stopped".to_string(), |stop| stop.to_string());
@@ -90,7 +93,15 @@ pub fn run(options: &ContinueArgs) -> Result<CommandOutput, String> {
     };
     let period = options.search.period;
     let surface = surface.as_ref().map(CrossingSurface::text);
-    let report = BranchReport { case, name: &name, range: &range, titles: &titles, surface, period, branch: &found };
+    let report = BranchReport {
+        case,
+        name: &name,
+        range: &range,
+        titles: &titles,
+        surface,
+        period,
+        branch: &found,
+    };
     if let Some(out) = &out {
         let bytes = match out.ending {
             Ending::Csv => report.csv().into_bytes(),
@@ -120,7 +131,9 @@ impl ContinueArgs {
         let declared = declared(self, opened, varied);
         let end = |option: &str, text: Option<&String>, place: usize| match (text, &declared) {
             (Some(text), _) => number_with_pi(text).ok_or_else(|| {
-                format!("error: {option}: `{text}` is no number\nhelp: write one, such as 3/2 or 0.25")
+                format!(
+                    "error: {option}: `{text}` is no number\nhelp: write one, such as 3/2 or 0.25"
+                )
             }),
             (None, Some(declared)) => Ok(declared[place].clone()),
             (None, None) => Err(format!(
