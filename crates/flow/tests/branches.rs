@@ -86,13 +86,8 @@ y = "x + y*(μ - x² - y²)"
 
 #[test]
 fn a_circle_has_its_radius_its_period_and_its_multiplier() {
-    let wish = Wish {
-        surface: "y = 0",
-        axes: "x",
-        start: "x=1 y=0",
-        varied: "μ",
-        range: ["-1/2", "2"],
-    };
+    let wish =
+        Wish { surface: "y = 0", axes: "x", start: "x=1 y=0", varied: "μ", range: ["-1/2", "2"] };
     let found = follow(&parse(CIRCLE), &wish).expect("a branch");
     assert!(marked(&found).is_empty(), "{:?}", marked(&found));
     assert_eq!(found.ends, [BranchEnd::Rest, BranchEnd::Range], "it begins at μ = 0");
@@ -160,18 +155,21 @@ z = "{z}"
     )
 }
 
-const TUBE: Wish<'_> =
-    Wish { surface: "y = 0", axes: "x, z", start: "x=1 y=0 z=0", varied: "μ", range: ["-1/4", "1/4"] };
+const TUBE: Wish<'_> = Wish {
+    surface: "y = 0",
+    axes: "x, z",
+    start: "x=1 y=0 z=0",
+    varied: "μ",
+    range: ["-1/4", "1/4"],
+};
 
 #[test]
 fn a_flip_is_placed() {
     // Normals that turn by half a turn: n = (cos θ/2, sin θ/2) and m across it, with rates μ and -1/5
     // along them. The multipliers are -e^(2πμ) and -e^(-2π/5).
     let (p, q) = ("(μ - 1/5)/2", "(μ + 1/5)/2");
-    let text = tube(
-        &format!("{p}*u + {q}*(c*u + s*z) - z/2"),
-        &format!("{p}*z + {q}*(s*u - c*z) + u/2"),
-    );
+    let text =
+        tube(&format!("{p}*u + {q}*(c*u + s*z) - z/2"), &format!("{p}*z + {q}*(s*u - c*z) + u/2"));
     let found = follow(&parse(&text), &TUBE).expect("a branch");
     let [(Bifurcation::Flip, flip)] = marked(&found)[..] else { panic!("{:?}", marked(&found)) };
     assert_at(flip, 0.0, 1e-12);
@@ -271,7 +269,10 @@ fn what_cannot_be_followed_is_refused() {
     assert_eq!(follow(&case, &energy).err(), Some(FlowError::NoEnergy));
     for (name, wrong) in [("nu", "there is no `nu` to vary"), ("l", "`l` is a coordinate")] {
         let mistake = Coordinate::of_branch(&case, name).expect_err(name);
-        assert!(mistake.message.starts_with(wrong) && mistake.help.contains("vary μ"), "{mistake:?}");
+        assert!(
+            mistake.message.starts_with(wrong) && mistake.help.contains("vary μ"),
+            "{mistake:?}"
+        );
     }
     let ranged = Case::parse(CIRCLE, &[Setting { name: "μ".into(), value: "2".into() }]);
     let ranged = follow(&ranged.expect("a case"), &Wish { start: "x=1.4 y=0", ..wish });

@@ -56,7 +56,11 @@ fn a_branch_over_the_energy_goes_through_the_points_at_single_energies() {
     }
 }
 
-fn symmetric(name: &str, lines: &[FixedLine], longest: usize) -> Result<SymmetricOrbits, FlowError> {
+fn symmetric(
+    name: &str,
+    lines: &[FixedLine],
+    longest: usize,
+) -> Result<SymmetricOrbits, FlowError> {
     let case = figure(name);
     let plan = case.section.as_ref().expect("a section");
     symmetric_orbits(&SymmetricRequest {
@@ -77,7 +81,9 @@ fn symmetric_points_of_an_ellipsoid_are_those_of_its_symmetries() {
     let found = symmetric("fig-A2", &lines, 1).expect("the ellipsoid has these reversors");
     assert_eq!((found.unconfirmed, found.lost), (0, 0));
     // Rolling about an axis in a plane of symmetry: (l, L/G) at the middle of each arc.
-    for (l, multiplier) in [(0.0, None), (PI, None), (PI / 2.0, Some(2.451_348)), (1.5 * PI, Some(2.451_348))] {
+    for (l, multiplier) in
+        [(0.0, None), (PI, None), (PI / 2.0, Some(2.451_348)), (1.5 * PI, Some(2.451_348))]
+    {
         let near = |at: [f64; 2]| libm::hypot(libm::sin((at[0] - l) / 2.0), at[1]) < 1e-9;
         let orbit = found.orbits.iter().find(|orbit| near(orbit.point.at)).expect("there");
         assert_eq!(orbit.point.period, 1);
