@@ -25,6 +25,8 @@ const ZERO: f64 = 1e-12;
 const MOST_STEPS: usize = 80;
 /// Distance between points of the section that are the same.
 const SAME: f64 = 1e-6;
+/// Distance of mirror images that may be one point, before Newton's method.
+const CLOSE: f64 = 1e-3;
 
 /// Request for symmetric periodic orbits.
 pub struct SymmetricRequest<'r> {
@@ -221,7 +223,7 @@ impl Search<'_> {
         else {
             return Ok(());
         };
-        if self.is_known(at) {
+        if self.is_known(at) || !self.is_mirrored(line, period, at)? {
             return Ok(());
         }
         let point = match self.map.periodic(at, period) {
@@ -254,6 +256,19 @@ impl Search<'_> {
             Err(_) => self.found.unconfirmed += 1,
         }
         Ok(())
+    }
+
+    /// Whether the reversor takes Φᵏx to Φᵏ⁺¹x, for the period 2k + 1; one coordinate was solved for.
+    fn is_mirrored(&self, line: FixedLine, period: usize, at: [f64; 2]) -> Result<bool, FlowError> {
+        if period.is_multiple_of(2) {
+            return Ok(true);
+        }
+        let before = match period / 2 {
+            0 => at,
+            count => self.map.image(at, count)?.0,
+        };
+        let behind = self.map.image(at, images(period))?.0;
+        Ok(distance(mirrored(line, before), behind) < CLOSE)
     }
 
     fn is_known(&self, at: [f64; 2]) -> bool {

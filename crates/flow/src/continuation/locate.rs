@@ -31,17 +31,26 @@ struct Zero {
 }
 
 impl Solver<'_> {
-    /// Finds the bifurcations between two nodes, in their order.
+    /// Finds the bifurcations between two nodes, in their order; `signs` are the last ones that the
+    /// functions had.
     pub fn bifurcations(
         &self,
         from: &Node,
         to: &Node,
         distance: f64,
+        signs: &[Option<bool>; 4],
     ) -> Result<Vec<Node>, FlowError> {
         let mut found: Vec<(f64, Node)> = Vec::new();
         for (test, kind) in KINDS.iter().enumerate() {
-            let (Some(before), Some(behind)) = (from.sign(test), to.sign(test)) else { continue };
+            let (Some(before), Some(behind)) = (signs[test], to.sign(test)) else { continue };
             if before == behind {
+                continue;
+            }
+            if from.sign(test).is_none() {
+                // The first point is that of the bifurcation, up to the error of the function.
+                if *kind != Bifurcation::NeimarkSacker || from.turns {
+                    found.push((0.0, self.marked(from, test, to.tests[test], distance)));
+                }
                 continue;
             }
             let Some(zero) = self.zero(from, to, distance, test)? else { continue };
@@ -61,6 +70,16 @@ impl Solver<'_> {
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         Ok(found.into_iter().map(|(_, node)| node).collect())
+    }
+
+    /// A node that is itself a bifurcation.
+    fn marked(&self, node: &Node, test: usize, change: f64, distance: f64) -> Node {
+        let mut node = node.clone();
+        let shift = 2.0 * (node.blur[test] / change).abs() * distance;
+        let error = shift * node.tangent.lambda().abs() * self.family.half();
+        node.point.value_error = Some(error + 2.0 * f64::EPSILON * node.point.value.abs());
+        node.point.bifurcation = Some(KINDS[test]);
+        node
     }
 
     /// Point of the branch at a share of the step, with the values of the functions.
@@ -162,8 +181,9 @@ impl Solver<'_> {
             Err(Trouble::Flow(FlowError::Stopped)) => return Err(FlowError::Stopped),
             Err(_) => return Ok(None),
         };
-        // By the value that is left in double-double, the slope, and the width.
-        let left = if is_branch { 0.0 } else { (node.tests[test] / zero.slope).abs() };
+        // By the value that is left in double-double, the width, and the slope, which at the zero may
+        // be half the mean one.
+        let left = if is_branch { 0.0 } else { 2.0 * (node.tests[test] / zero.slope).abs() };
         let shift = (left + zero.width) * distance;
         let turn = (to.tangent.lambda() - from.tangent.lambda()).abs();
         let change = node.tangent.lambda().abs() * shift + turn * (left + zero.width) * shift;

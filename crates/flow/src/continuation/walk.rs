@@ -60,6 +60,7 @@ impl Walk<'_> {
         if last.place.lambda.hi * last.tangent.lambda().signum() >= 1.0 {
             return Half { nodes, end: BranchEnd::Range };
         }
+        let mut signs: [Option<bool>; 4] = std::array::from_fn(|test| last.sign(test));
         let (mut step, mut taken) = (self.longest * FIRST, 0);
         let end = loop {
             if taken + 1 >= self.count {
@@ -67,9 +68,12 @@ impl Walk<'_> {
             }
             let reason = match self.step(&begin, &last, step, taken) {
                 Step::Taken(node, iterations) => {
-                    match self.solver.bifurcations(&last, &node, step) {
+                    match self.solver.bifurcations(&last, &node, step, &signs) {
                         Ok(found) => nodes.extend(found),
                         Err(_) => break BranchEnd::Stopped,
+                    }
+                    for (test, sign) in signs.iter_mut().enumerate() {
+                        *sign = node.sign(test).or(*sign);
                     }
                     (self.progress)(&node.point);
                     nodes.push((*node).clone());
