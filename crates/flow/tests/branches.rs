@@ -267,7 +267,7 @@ fn what_cannot_be_followed_is_refused() {
     assert_eq!(follow(&case, &wish).err(), Some(outside));
     let energy = Wish { varied: "energy", ..wish };
     assert_eq!(follow(&case, &energy).err(), Some(FlowError::NoEnergy));
-    for (name, wrong) in [("nu", "there is no `nu` to vary"), ("l", "`l` is a coordinate")] {
+    for (name, wrong) in [("q", "there is no `q` to vary"), ("l", "`l` is a coordinate")] {
         let mistake = Coordinate::of_branch(&case, name).expect_err(name);
         assert!(
             mistake.message.starts_with(wrong) && mistake.help.contains("vary μ"),

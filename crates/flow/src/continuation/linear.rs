@@ -263,8 +263,10 @@ impl Linear {
 
     /// Whether the pair of multipliers whose product is nearest to 1 is complex.
     pub fn turns(&self) -> bool {
-        if self.map.nrows() == 2 {
-            return self.trace() * self.trace() < 4.0 * self.product();
+        match self.map.nrows() {
+            0 | 1 => return false,
+            2 => return self.trace() * self.trace() < 4.0 * self.product(),
+            _ => {}
         }
         let all = self.map.complex_eigenvalues();
         let pairs = (0..all.len()).flat_map(|i| (0..i).map(move |j| (i, j)));

@@ -181,9 +181,11 @@ impl Solver<'_> {
             Err(Trouble::Flow(FlowError::Stopped)) => return Err(FlowError::Stopped),
             Err(_) => return Ok(None),
         };
-        // By the value that is left in double-double, the width, and the slope, which at the zero may
-        // be half the mean one.
-        let left = if is_branch { 0.0 } else { 2.0 * (node.tests[test] / zero.slope).abs() };
+        // By the value that is left in double-double, its rounding, the width, and the slope, which at
+        // the zero may be half the mean one.
+        let size = 1.0 + node.point.trace.value.abs() + node.point.product.value.abs();
+        let value = node.tests[test].abs() + 4.0 * f64::EPSILON * size;
+        let left = if is_branch { 0.0 } else { 2.0 * value / zero.slope.abs() };
         let shift = (left + zero.width) * distance;
         let turn = (to.tangent.lambda() - from.tangent.lambda()).abs();
         let change = node.tangent.lambda().abs() * shift + turn * (left + zero.width) * shift;

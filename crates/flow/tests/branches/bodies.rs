@@ -6,11 +6,11 @@ use std::path::Path;
 use liouville::case::{Case, FixedLine};
 use liouville::number::rational::Rational;
 use liouville_flow::{
-    Branch, BranchRequest, BranchSection, Coordinate, FlowError, SectionMap, SymmetricOrbits,
-    SymmetricRequest, branch, symmetric_orbits,
+    Bifurcation, Branch, BranchRequest, BranchSection, Coordinate, FlowError, SectionMap,
+    SymmetricOrbits, SymmetricRequest, branch, symmetric_orbits,
 };
 
-use crate::number;
+use crate::{marked, number};
 
 fn figure(name: &str) -> Case {
     let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/figures"));
@@ -44,7 +44,13 @@ fn a_branch_over_the_energy_goes_through_the_points_at_single_energies() {
     let found = follow(&case, [PI / 2.0, 0.366], "energy", ["90", "110"]);
     assert!(found.keeps_area, "the case has a density");
     assert!(found.points.len() > 10);
-    for point in found.points.iter().step_by(4) {
+    // The mirror image in l of an asymmetric pair joins it where its trace is 2.
+    let [(Bifurcation::BranchPoint, point)] = marked(&found)[..] else {
+        panic!("{:?}", marked(&found))
+    };
+    assert!((point.trace.value - 2.0).abs() < 1e-6 && point.value_error < Some(1e-6), "{point:?}");
+    let ordinary = found.points.iter().filter(|point| point.bifurcation.is_none());
+    for point in ordinary.step_by(4) {
         let energy = Rational::from_f64(point.value).expect("a number");
         let map = SectionMap::new(&case, &plan.g0, &energy, 1).expect("a map");
         let single = map.closed([point.at[0], point.at[1]], 1).expect("a periodic point");
