@@ -289,7 +289,7 @@ impl Search<'_> {
         let (mut low, mut high, mut side) = (0.0, 1.0, 0i32);
         let mut best = (f64::INFINITY, 0.0);
         for _ in 0..MOST_STEPS {
-            if high - low < f64::EPSILON {
+            if (high - low).abs() < f64::EPSILON {
                 break;
             }
             let mut share: f64 = (low * above - high * below) / (above - below);

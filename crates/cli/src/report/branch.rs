@@ -225,11 +225,12 @@ impl BranchReport<'_> {
 
     /// Plots of the quantities over what varies.
     pub fn plots(&self) -> Vec<Plot> {
-        let is_turn = |title: &str| self.surface.is_none() && title == "l";
+        let has_angle =
+            self.surface.is_none() && self.titles.first().is_some_and(|first| first == "l");
         let titles = self.titles.iter().enumerate();
         titles
             .map(|(place, title)| {
-                drawing::plot(self.branch, (self.name, self.range), (place, title), is_turn(title))
+                drawing::plot(self.branch, (self.name, self.range), (place, title), has_angle)
             })
             .collect()
     }

@@ -65,10 +65,12 @@ pub fn branch(
         }
         _ => walk.follow(&first, first.tangent.reversed()),
     };
+    let is_closed = forward.end == BranchEnd::Closed;
     let start = backward.nodes.len();
     let ends = [backward.end, forward.end];
-    let nodes: Vec<Node> =
-        backward.nodes.into_iter().rev().chain([first]).chain(forward.nodes).collect();
+    let again = is_closed.then(|| first.clone());
+    let nodes = backward.nodes.into_iter().rev().chain([first]);
+    let nodes: Vec<Node> = nodes.chain(forward.nodes).chain(again).collect();
     let keeps_area = family.count() == 2 && nodes.iter().all(Node::keeps_area);
     Ok(Branch {
         points: nodes.into_iter().map(|node| node.point).collect(),

@@ -1,6 +1,6 @@
 //! Plot of a branch: stable orbits as lines, unstable ones dashed, and signs at bifurcations.
 
-use std::f64::consts::PI;
+use std::f64::consts::FRAC_PI_2;
 
 use liouville::number::rational::Rational;
 use liouville_draw::{
@@ -8,13 +8,14 @@ use liouville_draw::{
 };
 use liouville_flow::{Bifurcation, Branch};
 
-/// Draws a quantity over what varies; `is_turn` for an angle, which is taken modulo 2π.
+/// Draws a quantity over what varies; `has_angle` where the first one is an angle, taken modulo 2π.
 pub fn plot(
     branch: &Branch,
     (name, range): (&str, &[Rational; 2]),
     (place, title): (usize, &str),
-    is_turn: bool,
+    has_angle: bool,
 ) -> Plot {
+    let is_turn = has_angle && place == 0;
     let values: Vec<[f64; 2]> = branch
         .points
         .iter()
@@ -39,7 +40,9 @@ pub fn plot(
         let paint = CATEGORIES[usize::from(!is_stable)];
         let own: Vec<&Run> = runs.iter().filter(|run| run.is_stable == is_stable).collect();
         for run in &own {
-            let line = broken(&values[run.first..=run.last], is_turn);
+            let angle = |index: usize| branch.points[index].at.first().copied();
+            let angles = (run.first..=run.last).map(|index| angle(index).filter(|_| has_angle));
+            let line = broken(&values[run.first..=run.last], angles);
             plot.layers.push(match is_stable {
                 true => Layer::Line(line, paint),
                 false => Layer::Dashes(line, paint),
@@ -101,17 +104,19 @@ fn runs(branch: &Branch) -> Vec<Run> {
     found
 }
 
-/// Breaks a line of angles where it jumps by a turn.
-fn broken(line: &[[f64; 2]], is_turn: bool) -> Vec<[f64; 2]> {
+/// Breaks a line where an angle jumps, by a turn or by half of one: there the velocity vanishes, and
+/// the branch goes on with the motion in the other direction.
+fn broken(line: &[[f64; 2]], angles: impl Iterator<Item = Option<f64>>) -> Vec<[f64; 2]> {
     let mut out: Vec<[f64; 2]> = Vec::new();
-    for at in line {
-        if let Some(last) = out.last()
-            && is_turn
-            && (at[1] - last[1]).abs() > PI
+    let mut last = None;
+    for (at, angle) in line.iter().zip(angles) {
+        if let (Some(last), Some(angle)) = (last, angle)
+            && f64::abs(angle - last) > FRAC_PI_2
         {
             out.push([f64::NAN; 2]);
         }
         out.push(*at);
+        last = angle;
     }
     out
 }
