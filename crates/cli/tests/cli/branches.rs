@@ -32,13 +32,17 @@ fn place(name: &str) -> (std::path::PathBuf, String) {
     (folder, case)
 }
 
+fn own<'a>(case: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    [&["motion", "continue", case][..], &BRANCH, more].concat()
+}
+
 #[test]
 fn a_branch_with_a_fold_is_reported_drawn_and_written() {
     let (folder, case) = place("branch");
     let file = |name: &str| folder.join(name).to_str().expect("UTF-8").to_string();
     let (svg, csv) = (file("branch.svg"), file("branch.csv"));
-    let own = |more: &[&str]| [&["motion", "continue", &case][..], &BRANCH, more].concat();
-    let found = json(&own(&["--to", "1", "--axes", "x, x² + y²", "--json", "--out", &svg]), 0);
+    let found =
+        json(&own(&case, &["--to", "1", "--axes", "x, x² + y²", "--json", "--out", &svg]), 0);
     let points = found["points"].as_array().expect("points");
     let marked: Vec<&Value> = points.iter().filter(|one| !one["bifurcation"].is_null()).collect();
     assert_eq!(marked.len(), 1, "{marked:?}");
@@ -58,7 +62,7 @@ fn a_branch_with_a_fold_is_reported_drawn_and_written() {
     for words in ["stable", "unstable", "fold"] {
         assert!(drawn.contains(&format!(">{words}</text>")), "{words} is in the legend");
     }
-    liouville(&own(&["--to", "1", "--count", "4", "--out", &csv]))
+    liouville(&own(&case, &["--to", "1", "--count", "4", "--out", &csv]))
         .assert()
         .success()
         .stdout(contains("begins: as many points as asked for"))
