@@ -286,7 +286,7 @@ impl Search<'_> {
     ) -> Result<Option<[f64; 2]>, FlowError> {
         let at = |share: f64| [0, 1].map(|k| first[k] + share * (last[k] - first[k]));
         let size = below.abs().max(above.abs());
-        let (mut low, mut high, mut side) = (0.0, 1.0, 0i32);
+        let (mut low, mut high, mut side) = (0.0f64, 1.0f64, 0i32);
         let mut best = (f64::INFINITY, 0.0);
         for _ in 0..MOST_STEPS {
             if (high - low).abs() < f64::EPSILON {
