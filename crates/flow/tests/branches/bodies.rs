@@ -44,11 +44,15 @@ fn a_branch_over_the_energy_goes_through_the_points_at_single_energies() {
     let found = follow(&case, [PI / 2.0, 0.366], "energy", ["90", "110"]);
     assert!(found.keeps_area, "the case has a density");
     assert!(found.points.len() > 10);
-    // The mirror image in l of an asymmetric pair joins it where its trace is 2.
-    let [(Bifurcation::BranchPoint, point)] = marked(&found)[..] else {
-        panic!("{:?}", marked(&found))
-    };
-    assert!((point.trace.value - 2.0).abs() < 1e-6 && point.value_error < Some(1e-6), "{point:?}");
+    // Pairs that collide at 1, at the same energies for the mirror images in L = 0, where it turns.
+    let marks = marked(&found);
+    for (kind, point) in &marks {
+        assert_eq!(*kind, Bifurcation::BranchPoint, "{point:?}");
+        assert!((point.trace.value - 2.0).abs() < 1e-6, "{point:?}");
+        let known = [98.76599, 99.264364, 106.369674].iter().map(|x| (x - point.value).abs());
+        assert!(known.fold(1.0, f64::min) < 2e-6 && point.value_error < Some(2e-6), "{point:?}");
+    }
+    assert!(marks.iter().any(|(_, point)| point.at[1].abs() < 1e-6), "it turns at L = 0");
     let ordinary = found.points.iter().filter(|point| point.bifurcation.is_none());
     for point in ordinary.step_by(4) {
         let energy = Rational::from_f64(point.value).expect("a number");
