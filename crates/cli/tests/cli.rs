@@ -2,6 +2,8 @@
 
 #[path = "cli/bodies.rs"]
 mod bodies;
+#[path = "cli/branches.rs"]
+mod branches;
 #[path = "cli/limits.rs"]
 mod limits;
 #[path = "cli/motion.rs"]

@@ -26,6 +26,8 @@ pub enum MarkShape {
     Box,
     /// Piece of a line.
     Line,
+    /// Piece of a dashed line.
+    Dashes,
     /// Dot of the size of a section's.
     Dot,
 }
@@ -79,6 +81,10 @@ impl MarkShape {
             MarkShape::Diamond => filled(&[(0.0, -1.2), (1.2, 0.0), (0.0, 1.2), (-1.2, 0.0)]),
             MarkShape::Needle => filled(&[(0.0, -1.2), (0.6, 0.0), (0.0, 1.2), (-0.6, 0.0)]),
             MarkShape::Box => filled(&[(-1.2, -1.0), (1.2, -1.0), (1.2, 1.0), (-1.2, 1.0)]),
+            MarkShape::Dashes => {
+                let dash = |from: f64| vec![[x + from * size, y], [x + (from + 0.8) * size, y]];
+                vec![lines([-1.6, -0.4, 0.8].map(dash).to_vec(), paint, 0.35 * size)]
+            }
             MarkShape::Line => {
                 vec![lines(
                     vec![vec![[x - 1.5 * size, y], [x + 1.5 * size, y]]],
@@ -97,6 +103,8 @@ impl MarkShape {
             stroke: None,
             opacity: 0.85,
         };
-        (!matches!(self, MarkShape::Dot | MarkShape::Line | MarkShape::Box)).then_some(circle)
+        let is_plain =
+            matches!(self, MarkShape::Dot | MarkShape::Line | MarkShape::Dashes | MarkShape::Box);
+        (!is_plain).then_some(circle)
     }
 }

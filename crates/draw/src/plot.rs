@@ -36,6 +36,8 @@ pub enum Layer {
     Dots(Vec<[f64; 2]>, Paint),
     /// Line through points, broken where one is undefined.
     Line(Vec<[f64; 2]>, Paint),
+    /// Dashed line through points, broken where one is undefined.
+    Dashes(Vec<[f64; 2]>, Paint),
     /// Cells that fill the frame: the number of columns, and colours row by row from above.
     Cells(usize, Vec<Option<Paint>>),
     /// Shaded density of points.

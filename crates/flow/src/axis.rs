@@ -36,27 +36,50 @@ impl ChartAxis {
         if from == to {
             return Err(wrong("the range is empty"));
         }
-        let name = canonical_name(name.trim()).unwrap_or_else(|| name.trim().to_string());
-        let coordinate = Coordinate::of(case, &name).ok_or_else(|| {
-            AxisMistake::new(&format!("there is no `{name}` to vary"), &known(case))
-        })?;
-        if let Coordinate::Parameter { index, .. } = coordinate
-            && matches!(case.model.parameters[index].origin, ParameterOrigin::Formula(_))
-        {
-            let message = format!("`{name}` is computed from other parameters");
-            return Err(AxisMistake::new(&message, "vary those that it is computed from"));
-        }
-        if let Coordinate::Parameter { index, .. } = coordinate
-            && case.model.is_rigid(index, &[])
-        {
-            let message = format!("`{name}` is a size, or stands in an index");
-            return Err(AxisMistake::new(&message, "vary another parameter"));
-        }
+        let (name, coordinate) = Coordinate::varying(case, name.trim(), &known(case))?;
         Ok((name, Self { coordinate, from, to, count }))
     }
 }
 
 impl Coordinate {
+    /// Coordinate of a name, if it may vary; also returns the canonical name. `known` is the help
+    /// where there is none.
+    pub(super) fn varying(
+        case: &Case,
+        name: &str,
+        known: &str,
+    ) -> Result<(String, Self), AxisMistake> {
+        let name = canonical_name(name).unwrap_or_else(|| name.to_string());
+        let coordinate = Coordinate::of(case, &name)
+            .ok_or_else(|| AxisMistake::new(&format!("there is no `{name}` to vary"), known))?;
+        let Some((index, _)) = coordinate.parameter() else { return Ok((name, coordinate)) };
+        if matches!(case.model.parameters[index].origin, ParameterOrigin::Formula(_)) {
+            let message = format!("`{name}` is computed from other parameters");
+            return Err(AxisMistake::new(&message, "vary those that it is computed from"));
+        }
+        if case.model.is_rigid(index, &[]) {
+            let message = format!("`{name}` is a size, or stands in an index");
+            return Err(AxisMistake::new(&message, "vary another parameter"));
+        }
+        Ok((name, coordinate))
+    }
+
+    /// Coordinate of a name that varies along a branch of closed orbits: a parameter, a component of
+    /// one, or the energy; also returns the canonical name.
+    pub fn of_branch(case: &Case, name: &str) -> Result<(String, Self), AxisMistake> {
+        let help = match parameters(case).as_slice() {
+            [] => "vary energy: the case has no parameters".to_string(),
+            names => format!("vary {}, or energy", names.join(", ")),
+        };
+        match Self::varying(case, name, &help)? {
+            (name, Coordinate::L | Coordinate::Z) => {
+                let message = format!("`{name}` is a coordinate of the section");
+                Err(AxisMistake::new(&message, &help))
+            }
+            found => Ok(found),
+        }
+    }
+
     /// Coordinate of a name: a parameter, a component of one, or a coordinate of the start.
     pub fn of(case: &Case, name: &str) -> Option<Self> {
         let find = |name: &str| case.model.parameters.iter().position(|known| known.name == name);
@@ -91,12 +114,16 @@ impl Coordinate {
 
 /// Help that lists the possible axes of a case.
 fn known(case: &Case) -> String {
+    format!("vary {}, or l, L/G, energy of the start on a section", parameters(case).join(", "))
+}
+
+/// Names of the parameters of a case, and of components of them.
+fn parameters(case: &Case) -> Vec<String> {
     let names = case.model.parameters.iter().map(|parameter| match parameter.kind {
         Type::Scalar => parameter.name.clone(),
         _ => format!("{0}1, {0}2, {0}3", parameter.name),
     });
-    let names: Vec<String> = names.collect();
-    format!("vary {}, or l, L/G, energy of the start on a section", names.join(", "))
+    names.collect()
 }
 
 /// Reads a number, which may be a multiple of π: `3/2`, `2pi`, `π/2`.

@@ -5,7 +5,7 @@ use super::lexicon::{FormulaMistake, Lexicon, listed};
 use super::motion::point;
 use liouville::formula::{Formula, Type};
 use liouville::graph::{Evaluator, Tape, record};
-use liouville::mechanics::Phase;
+use liouville::mechanics::{Model, Phase};
 use liouville::number::double_double::{DoubleDouble, DoubleDoubles};
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
@@ -58,6 +58,10 @@ impl Columns {
     /// Titles, one for each column.
     pub fn titles(&self) -> &[String] {
         &self.titles
+    }
+
+    pub(super) fn model(&self) -> &Model {
+        self.lexicon.model()
     }
 
     /// Values of the formulas at a point; the time is left out.

@@ -150,6 +150,38 @@ pub enum FlowError {
         "the closed orbit near t = {0} is degenerate: it is one of a family, such as those of a further integral"
     )]
     Degenerate(#[serde(with = "super::record")] f64),
+    /// A line is not that of a reversor.
+    #[error(
+        "{line} is no line of a reversor of this section: mirrored about it, the image of (l, L/G) = ({l:.4}, {z:.4}) comes back {by:.1e} away"
+    )]
+    #[serde(skip)]
+    NoReversor {
+        /// Name of the line.
+        #[serde(skip)]
+        line: &'static str,
+        /// Coordinate l.
+        l: f64,
+        /// Coordinate L/G.
+        z: f64,
+        /// Distance.
+        by: f64,
+    },
+    /// What varies along a branch of closed orbits begins outside its range.
+    #[error("what varies is {value} at the start, outside the range from {from} to {to}")]
+    OutsideRange {
+        /// Value at the start.
+        #[serde(with = "super::record")]
+        value: f64,
+        /// Lower end.
+        #[serde(with = "super::record")]
+        from: f64,
+        /// Upper end.
+        #[serde(with = "super::record")]
+        to: f64,
+    },
+    /// The energy changes along the motion.
+    #[error("the energy changes along the motion, so that closed orbits have no energy to vary")]
+    EnergyChanges,
     /// The point has no separatrices.
     #[error("the periodic point ({l:.6}, {z:.6}) is not hyperbolic but of kind: {kind}")]
     #[serde(skip)]
@@ -256,6 +288,13 @@ impl FlowError {
             FlowError::Degenerate(_) => {
                 "where a further integral is kept, closed orbits come in families, and have no multipliers"
             }
+            FlowError::NoReversor { .. } => {
+                "name another of L=0, l=0, l=π/2, or another section (--g0); `liouville report` lists the reversors of a body"
+            }
+            FlowError::OutsideRange { .. } => {
+                "give it a value within by --set or --energy, or another --from or --to"
+            }
+            FlowError::EnergyChanges => "vary a parameter: --parameter NAME",
             FlowError::NotHyperbolic { .. } => {
                 "`liouville motion periodic` tells what kind a point is; start near a hyperbolic one"
             }

@@ -16,6 +16,7 @@ mod closed;
 mod code;
 mod columns;
 mod compile;
+mod continuation;
 mod crossings;
 mod cycle;
 mod error;
@@ -34,6 +35,7 @@ mod multiplier;
 mod number;
 pub mod observe;
 mod one_sided;
+mod open;
 mod orbit;
 mod periodic;
 mod plane;
@@ -51,6 +53,7 @@ mod spectrum;
 mod start;
 mod stepper;
 mod surface;
+mod symmetric;
 mod track;
 mod validated;
 mod variational;
@@ -60,6 +63,10 @@ pub use area::{AreaForm, area_forms};
 pub use axis::{AxisMistake, number_with_pi};
 pub use closed::{ComputedClosedOrbit, MeasuredNumber};
 pub use columns::Columns;
+pub use continuation::{
+    Bifurcation, Branch, BranchEnd, BranchPoint, BranchRequest, BranchSection, branch,
+    declared_range,
+};
 pub use cycle::Cycle;
 pub use error::FlowError;
 pub use halt::{stop_request, stoppable};
@@ -84,6 +91,9 @@ pub use spectrum::{Spectrum, spectra};
 pub use start::{Start, fixed_parameters};
 pub use surface::{
     CrossingSurface, SurfaceCrossing, SurfaceOrbit, SurfaceRequest, surface_section,
+};
+pub use symmetric::{
+    SymmetricOrbit, SymmetricOrbits, SymmetricRequest, line_name, symmetric_orbits,
 };
 pub use track::{RollingSamples, Track, track};
 pub use validated::{

@@ -29,11 +29,19 @@ pub struct Loose {
     pub half: Rational,
 }
 
+impl Loose {
+    /// Component that varies between two values.
+    pub(super) fn within(component: usize, from: &Rational, to: &Rational) -> Self {
+        let half = Rational::new(1, 2);
+        Self { component, centre: &(from + to) * &half, half: &(to - from) * &half }
+    }
+}
+
 /// Returns the parameters, with loose ones replaced by functions of their inputs x.
-pub(super) fn filled(parameters: &[Rational], loose: &[Loose], inputs: &[Expr]) -> Vec<Expr> {
-    let mut filled: Vec<Expr> = parameters.iter().map(Expr::rational).collect();
+pub(super) fn filled<T: Scalar>(parameters: &[Rational], loose: &[Loose], inputs: &[T]) -> Vec<T> {
+    let mut filled: Vec<T> = parameters.iter().map(T::rational).collect();
     for (one, x) in loose.iter().zip(inputs) {
-        filled[one.component] = Expr::rational(&one.centre) + Expr::rational(&one.half) * *x;
+        filled[one.component] = T::rational(&one.centre) + T::rational(&one.half) * *x;
     }
     filled
 }

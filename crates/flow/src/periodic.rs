@@ -275,6 +275,6 @@ pub(super) fn newton_step([[a, b], [c, d]]: [[f64; 2]; 2], [dl, dz]: [f64; 2]) -
 }
 
 /// Reduces an angle difference to the interval from -π to π.
-fn short(angle: f64) -> f64 {
+pub(super) fn short(angle: f64) -> f64 {
     angle - 2.0 * PI * (angle / (2.0 * PI)).round()
 }

@@ -4,11 +4,11 @@ use super::andoyer::Sphere;
 use super::error::FlowError;
 use super::lyapunov::Exponents;
 use super::motion::Loose;
+use super::open::OpenModel;
 use super::shadow::{ShadowStart, Shadowed};
 use super::start::{LevelFunctions, Start, fixed_parameters};
 use liouville::case::{Angle, Case};
-use liouville::formula::Type;
-use liouville::mechanics::{Draw, Model, ParameterOrigin, Range, SamplerSpec, components};
+use liouville::mechanics::Model;
 use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
 use liouville::part::Part;
@@ -29,6 +29,16 @@ pub enum Coordinate {
     Z,
     /// Energy of the start on the section.
     Energy,
+}
+
+impl Coordinate {
+    /// Index of the parameter and of its component, if it is one.
+    pub(super) fn parameter(self) -> Option<(usize, usize)> {
+        match self {
+            Coordinate::Parameter { index, component } => Some((index, component)),
+            _ => None,
+        }
+    }
 }
 
 /// One axis of the plane.
@@ -53,13 +63,8 @@ impl ChartAxis {
     /// Component of the free parameters that varies along the axis, given the offset of each
     /// parameter.
     fn loose(&self, places: &[usize]) -> Option<Loose> {
-        let Coordinate::Parameter { index, component } = self.coordinate else { return None };
-        let half = Rational::new(1, 2);
-        Some(Loose {
-            component: places[index] + component,
-            centre: &(&self.from + &self.to) * &half,
-            half: &(&self.to - &self.from) * &half,
-        })
+        let (index, component) = self.coordinate.parameter()?;
+        Some(Loose::within(places[index] + component, &self.from, &self.to))
     }
 
     /// Value at a point of the axis.
@@ -118,7 +123,10 @@ pub fn plane_part(
     threads: usize,
     progress: &(dyn Fn() + Sync),
 ) -> Result<Vec<Result<Exponents, FlowError>>, FlowError> {
-    let Free { model, parameters, places } = Free::new(case, request)?;
+    let indices = request.axes.iter().filter_map(|axis| axis.coordinate.parameter());
+    let indices: Vec<usize> = indices.map(|(index, _)| index).collect();
+    let drawn = fixed_parameters(case, request.seed, 0)?;
+    let OpenModel { model, parameters, places } = OpenModel::new(&case.model, &drawn, &indices);
     let model = &model;
     let [across, up] = &request.axes;
     let loose: Vec<Loose> = request.axes.iter().filter_map(|axis| axis.loose(&places)).collect();
@@ -129,54 +137,6 @@ pub fn plane_part(
     let begins: Vec<Result<ShadowStart, FlowError>> =
         points.map(|at| launcher.begin(equations.level(), at)).collect();
     Ok(equations.follow(&begins, request.time, threads, progress))
-}
-
-/// Model in which the varied parameters are free.
-struct Free {
-    model: Model,
-    /// Components of all free parameters.
-    parameters: Vec<Rational>,
-    /// Offset of each parameter in the components.
-    places: Vec<usize>,
-}
-
-impl Free {
-    fn new(case: &Case, request: &PlaneRequest) -> Result<Self, FlowError> {
-        let drawn = fixed_parameters(case, request.seed, 0)?;
-        let mut drawn = drawn.as_slice();
-        let mut model = case.model.clone();
-        let varies = |wanted: usize| {
-            let is_it = |axis: &ChartAxis| matches!(axis.coordinate, Coordinate::Parameter { index, .. } if index == wanted);
-            request.axes.iter().any(is_it)
-        };
-        let (mut parameters, mut places) = (Vec::new(), Vec::new());
-        for (index, parameter) in model.parameters.iter_mut().enumerate() {
-            places.push(parameters.len());
-            match &parameter.origin {
-                ParameterOrigin::Free(_) => {
-                    let (own, others) = drawn.split_at(components(parameter.kind));
-                    parameters.extend_from_slice(own);
-                    drawn = others;
-                }
-                ParameterOrigin::Fixed(values) if varies(index) => {
-                    parameters.extend_from_slice(values);
-                    parameter.origin = ParameterOrigin::Free(open(parameter.kind));
-                }
-                ParameterOrigin::Fixed(_) | ParameterOrigin::Formula(_) => {}
-            }
-        }
-        Ok(Self { model, parameters, places })
-    }
-}
-
-/// Recipe that admits any value of a type; nothing is drawn from it.
-fn open(kind: Type) -> SamplerSpec {
-    let draw = Draw::Within(Range { low: Rational::from(-1), high: Rational::from(1) });
-    match kind {
-        Type::Scalar => SamplerSpec::Scalar(draw),
-        Type::Vector(length) => SamplerSpec::Vector(length, draw),
-        Type::Matrix(rows, columns) => SamplerSpec::Matrix(rows, columns, draw),
-    }
 }
 
 /// Source of the starts of a plane.

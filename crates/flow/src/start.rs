@@ -233,8 +233,7 @@ impl LevelFunctions {
     }
 }
 
-/// Orthonormal basis of the tangent space of the level set at a start, by the Gram–Schmidt method:
-/// the gradients first, then the axes, that with the longest remainder next.
+/// Orthonormal basis of the tangent space of the level set at a start.
 pub(super) fn level_basis(
     model: &Model,
     start: &Start,
@@ -244,10 +243,20 @@ pub(super) fn level_basis(
     evaluator.run(&start.state);
     let outputs: Vec<DoubleDouble> = evaluator.outputs().copied().collect();
     let dimension = model.dimension();
+    Ok(complement(outputs[level.equations..].chunks(dimension), dimension))
+}
+
+/// Orthonormal basis across independent vectors, by the Gram–Schmidt method: these first, then the
+/// axes, that with the longest remainder next.
+pub(super) fn complement<'v>(
+    vectors: impl Iterator<Item = &'v [DoubleDouble]>,
+    dimension: usize,
+) -> Vec<Vec<DoubleDouble>> {
     let mut unit: Vec<Vec<DoubleDouble>> = Vec::new();
-    for gradient in outputs[level.equations..].chunks(dimension) {
-        unit.push(normalised(across(gradient, &unit)));
+    for vector in vectors {
+        unit.push(normalised(across(vector, &unit)));
     }
+    let count = unit.len();
     let axis = |k: usize| {
         let mut axis = vec![DoubleDouble::default(); dimension];
         axis[k] = DoubleDouble::from_f64(1.0);
@@ -258,7 +267,7 @@ pub(super) fn level_basis(
         let longest = rests.max_by(|a, b| dot(a, a).hi.total_cmp(&dot(b, b).hi));
         unit.extend(longest.map(normalised));
     }
-    Ok(unit.split_off(level.equations))
+    unit.split_off(count.min(dimension))
 }
 
 fn dot(a: &[DoubleDouble], b: &[DoubleDouble]) -> DoubleDouble {

@@ -16,7 +16,7 @@ pub struct FoundOrbit {
 }
 
 /// Formats a number with its error: the digits that the error leaves, and one more.
-fn shown(x: MeasuredNumber) -> String {
+pub(super) fn shown(x: MeasuredNumber) -> String {
     let digits = libm::ceil(-libm::log10(x.error)) + 1.0;
     if !(x.error > 0.0 && digits.is_finite()) {
         return format!("{:?}", x.value);
@@ -30,7 +30,7 @@ fn shown(x: MeasuredNumber) -> String {
     format!("{:.digits$} ± {:.0e}", x.value, x.error)
 }
 
-fn kind(kind: Option<CycleKind>) -> &'static str {
+pub(super) fn kind(kind: Option<CycleKind>) -> &'static str {
     kind.map_or("undecided", CycleKind::name)
 }
 
@@ -98,18 +98,20 @@ fn product(volume: MeasuredNumber) -> MeasuredNumber {
     MeasuredNumber { value, error: value * (volume.error + f64::EPSILON) }
 }
 
+/// Renders a multiplier as JSON.
+pub(super) fn multiplier(one: &Multiplier) -> Value {
+    json!({
+        "re": one.re,
+        "im": one.im,
+        "error": one.error,
+        "modulus": one.modulus(),
+        "modulus_error": one.modulus_error,
+    })
+}
+
 /// Renders a closed orbit as JSON.
 pub fn entry(found: &FoundOrbit) -> Value {
     let cycle = &found.cycle;
-    let multiplier = |one: &Multiplier| {
-        json!({
-            "re": one.re,
-            "im": one.im,
-            "error": one.error,
-            "modulus": one.modulus(),
-            "modulus_error": one.modulus_error,
-        })
-    };
     let product = product(cycle.volume);
     json!({
         "at": found.point.map(|point| point.at),

@@ -3,6 +3,7 @@
 
 pub mod bench;
 pub mod bodies;
+pub mod branch;
 pub mod certificate;
 mod certificate_part;
 pub mod chart;

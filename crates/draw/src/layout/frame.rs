@@ -14,6 +14,8 @@ use crate::text::{Text, plain};
 /// Widths of lines in millimetres.
 const HAIR: f64 = 0.15;
 const STROKE: f64 = 0.28;
+/// Lengths of a dash and of the gap behind it, in millimetres.
+const DASH: [f64; 2] = [1.1, 0.8];
 
 fn lines(lines: Vec<Vec<Point>>, width: f64, paint: Paint) -> SceneItem {
     SceneItem::Lines { lines, width, paint, opacity: 1.0 }
@@ -126,10 +128,14 @@ impl Layout {
                 let at = points.iter().map(|point| at(*point)).filter(is_inside).collect();
                 out.push(SceneItem::Dots { at, diameter, paint: *paint, opacity });
             }
-            Layer::Line(points, paint) => {
+            Layer::Line(points, paint) | Layer::Dashes(points, paint) => {
                 let placed: Vec<Point> = points.iter().map(|point| at(*point)).collect();
                 let pieces = placed.split(|point| !is_inside(point));
-                let lines = pieces.filter(|piece| piece.len() > 1).map(<[Point]>::to_vec).collect();
+                let pieces = pieces.filter(|piece| piece.len() > 1);
+                let lines = match layer {
+                    Layer::Dashes(..) => pieces.flat_map(dashes).collect(),
+                    _ => pieces.map(<[Point]>::to_vec).collect(),
+                };
                 out.push(SceneItem::Lines { lines, width: STROKE, paint: *paint, opacity });
             }
             Layer::Cells(columns, paints) => {
@@ -279,6 +285,34 @@ impl Layout {
     }
 }
 
+/// Cuts a line into dashes.
+fn dashes(line: &[Point]) -> Vec<Vec<Point>> {
+    let mut found: Vec<Vec<Point>> =
+        line.first().map(|first| vec![vec![*first]]).unwrap_or_default();
+    let (mut draws, mut left) = (true, DASH[0]);
+    for (from, to) in line.iter().zip(line.iter().skip(1)) {
+        let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
+        let mut gone = 0.0;
+        while length - gone > left {
+            gone += left;
+            let share = gone / length;
+            let at = [0, 1].map(|k| from[k] + share * (to[k] - from[k]));
+            match draws {
+                true => found.last_mut().into_iter().for_each(|dash| dash.push(at)),
+                false => found.push(vec![at]),
+            }
+            draws = !draws;
+            left = DASH[usize::from(!draws)];
+        }
+        left -= length - gone;
+        if draws && let Some(dash) = found.last_mut() {
+            dash.push(*to);
+        }
+    }
+    found.retain(|dash| dash.len() > 1);
+    found
+}
+
 /// Smallest number of ticks from one label to the next at which labels keep apart.
 fn spacing(axis: &Axis, wide: f64, size: f64) -> usize {
     let fits = |every: &usize| {
@@ -328,4 +362,27 @@ fn cells(
         }
     }
     out.extend(found.into_iter().map(|(paint, boxes)| SceneItem::Boxes { boxes, paint }));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dashes_do_not_depend_on_the_points_of_a_line() {
+        let length = |dashes: &[Vec<Point>]| -> f64 {
+            let pieces = dashes.iter().flat_map(|dash| dash.windows(2));
+            pieces.map(|pair| libm::hypot(pair[1][0] - pair[0][0], pair[1][1] - pair[0][1])).sum()
+        };
+        // Ten dashes and gaps, in one piece and in many.
+        let total = 10.0 * (DASH[0] + DASH[1]);
+        let whole = dashes(&[[0.0, 0.0], [total, 0.0]]);
+        let cut: Vec<Point> = (0..=400).map(|k| [total * f64::from(k) / 400.0, 0.0]).collect();
+        let cut = dashes(&cut);
+        assert_eq!((whole.len(), cut.len()), (10, 10));
+        for found in [whole, cut] {
+            assert!((length(&found) - 10.0 * DASH[0]).abs() < 1e-9, "{found:?}");
+        }
+        assert!(dashes(&[]).is_empty() && dashes(&[[1.0, 1.0]]).is_empty(), "nothing to draw");
+    }
 }

@@ -2,6 +2,7 @@
 
 mod andoyer;
 mod bench;
+mod branch;
 pub(super) mod chart;
 pub(super) mod exponents;
 mod growth;
@@ -20,6 +21,7 @@ mod starts;
 mod stress;
 mod surface;
 pub(super) mod sweep;
+mod symmetric;
 mod track;
 
 use clap::Subcommand;
@@ -102,8 +104,16 @@ Examples:
     #[command(after_help = "\
 Examples:
   liouville motion periodic figures/fig-5 --start pi/2,0
-  liouville motion periodic classical/flows/van-der-pol-cycle --start 2,0 --section 'p = 0'")]
+  liouville motion periodic classical/flows/van-der-pol-cycle --start 2,0 --section 'p = 0'
+  liouville motion periodic figures/fig-A2 --symmetric L=0,l=0,l=pi/2 --period 4")]
     Periodic(periodic::Periodic),
+    /// Follow a closed orbit while a parameter or the energy varies, through folds, and find its
+    /// bifurcations
+    #[command(after_help = "\
+Examples:
+  liouville motion continue figures/fig-5 --start pi/2,0.366 --parameter energy --from 80 --to 200 --out branch.pdf
+  liouville motion continue classical/flows/van-der-pol-cycle --start 2,0 --section 'p = 0' --parameter μ --from 0.1 --to 3")]
+    Continue(branch::ContinueArgs),
 }
 
 /// Commands about the program itself.
@@ -156,7 +166,9 @@ impl ExploreCommand {
                     MotionCommand::Section(options) => Some(&mut options.share),
                     MotionCommand::Exponents(options) => Some(&mut options.share),
                     MotionCommand::Chart(options) => Some(&mut options.share),
-                    MotionCommand::Orbit(_) | MotionCommand::Periodic(_) => None,
+                    MotionCommand::Orbit(_)
+                    | MotionCommand::Periodic(_)
+                    | MotionCommand::Continue(_) => None,
                 }
             }
             _ => None,
@@ -185,7 +197,9 @@ impl MotionCommand {
             Self::Section(options) => options.subject.limits,
             Self::Exponents(options) => options.subject.limits,
             Self::Chart(options) => options.subject.limits,
-            Self::Periodic(options) => options.subject.limits,
+            Self::Periodic(options) => options.search.subject.limits,
+            // it reports what was reached
+            Self::Continue(_) => LimitArgs::default(),
         }
     }
 
@@ -196,6 +210,7 @@ impl MotionCommand {
             Self::Exponents(options) => exponents::run(options),
             Self::Chart(options) => chart::run(options),
             Self::Periodic(options) => periodic::run(options),
+            Self::Continue(options) => branch::run(options),
         }
     }
 }

@@ -2,20 +2,21 @@
 
 use crate::report::cycle::{self, FoundOrbit};
 use clap::Args;
-use liouville::case::Case;
+use liouville::case::{Case, FixedLine};
 use liouville::number::rational::Rational;
 use liouville_flow::{
     Begin, CrossingSurface, FlowError, Launches, SectionMap, closed_orbit, crossing_time,
 };
 use serde_json::json;
 
-use super::CommandOutput;
-use super::motion::{MotionArgs, SectionPlaneArgs};
+use super::motion::{MotionArgs, SectionPlaneArgs, Threads};
 use super::starts::{GivenStart, Starts, misfit};
 use super::surface::read_surface;
+use super::{CommandOutput, symmetric};
 
+/// Case, section and start of a closed orbit.
 #[derive(Debug, Args)]
-pub struct Periodic {
+pub struct OrbitSearch {
     #[command(flatten)]
     pub subject: MotionArgs,
     #[command(flatten)]
@@ -28,36 +29,45 @@ pub struct Periodic {
     /// Crossings of --section that count: up, down, both
     #[arg(long, requires = "section")]
     pub direction: Option<liouville::case::Direction>,
-    /// Period of the point, in crossings
+    /// Period of the point, in crossings; of symmetric points the longest
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub period: u32,
+}
+
+#[derive(Debug, Args)]
+pub struct Periodic {
+    #[command(flatten)]
+    pub search: OrbitSearch,
     /// Approximate period in time, for a start by its state, instead of counting crossings
     #[arg(long, value_name = "TIME", conflicts_with = "period")]
     pub time: Option<Rational>,
+    /// Find the symmetric orbits that meet these lines of fixed points of reversors, with periods up
+    /// to --period: L=0, l=0 (and π), l=π/2 (and 3π/2). No start is needed
+    #[arg(long, value_name = "LINES", value_delimiter = ',',
+        conflicts_with_all = ["start", "starts", "section", "time"])]
+    pub symmetric: Vec<FixedLine>,
+    /// Number of points tried along each line of --symmetric
+    #[arg(long, default_value_t = 400, requires = "symmetric",
+        value_parser = clap::value_parser!(u32).range(8..=1_000_000))]
+    pub points: u32,
+    #[command(flatten)]
+    pub threads: Threads,
 }
 
 pub fn run(options: &Periodic) -> Result<CommandOutput, String> {
-    let case = options.subject.open()?;
-    let told = |error: FlowError| options.subject.told(&error);
+    let search = &options.search;
+    let case = search.subject.open()?;
     if case.model.system.has_arbitrary_function() {
-        return Err(told(FlowError::Arbitrary));
+        return Err(search.subject.told(&FlowError::Arbitrary));
     }
-    let given = options.starts.read(&case)?;
-    if given.is_empty() {
-        return Err("error: there is no start\n\
-                    help: give --start with a state near the orbit, or with l,L/G on the section of \
-                    a rolling body"
-            .to_string());
+    if !options.symmetric.is_empty() {
+        return symmetric::run(options, &case);
     }
-    let surface = options.section.as_deref().map(|text| read_surface(&case, text)).transpose()?;
-    let mut found = Vec::new();
-    for (_, given) in given {
-        found.push(match given {
-            GivenStart::State(state) => near_state(&case, options, surface.as_ref(), state)?,
-            GivenStart::Values(values) => near_point(&case, options, &values)?,
-        });
-    }
-    let text = match options.subject.json {
+    let time = options.time.as_ref();
+    let found = search.starts(&case)?;
+    let found = found.into_iter().map(|given| search.orbit(&case, given, time));
+    let found: Vec<FoundOrbit> = found.collect::<Result<_, _>>()?;
+    let text = match search.subject.json {
         true => {
             let points: Vec<_> = found.iter().map(cycle::entry).collect();
             let root = json!({ "title": case.title, "points": points });
@@ -68,8 +78,41 @@ pub fn run(options: &Periodic) -> Result<CommandOutput, String> {
     Ok(CommandOutput { text, code: 0 })
 }
 
+impl OrbitSearch {
+    /// Reads the starts.
+    pub fn starts(&self, case: &Case) -> Result<Vec<GivenStart>, String> {
+        let given = self.starts.read(case)?;
+        if given.is_empty() {
+            return Err("error: there is no start\n\
+                        help: give --start with a state near the orbit, or with l,L/G on the section \
+                        of a rolling body"
+                .to_string());
+        }
+        Ok(given.into_iter().map(|(_, given)| given).collect())
+    }
+
+    /// Finds the orbit near a start.
+    pub fn orbit(
+        &self,
+        case: &Case,
+        given: GivenStart,
+        time: Option<&Rational>,
+    ) -> Result<FoundOrbit, String> {
+        let surface = self.section.as_deref().map(|text| read_surface(case, text)).transpose()?;
+        match given {
+            GivenStart::State(state) => near_state(case, self, time, surface.as_ref(), state),
+            GivenStart::Values(values) => near_point(case, self, time, &values),
+        }
+    }
+}
+
 /// Finds the orbit through a periodic point (l, L/G) of a rolling body.
-fn near_point(case: &Case, options: &Periodic, values: &[Rational]) -> Result<FoundOrbit, String> {
+fn near_point(
+    case: &Case,
+    options: &OrbitSearch,
+    time: Option<&Rational>,
+    values: &[Rational],
+) -> Result<FoundOrbit, String> {
     let told = |error: FlowError| options.subject.told(&error);
     let (has_section, is_ours) =
         (liouville_flow::has_andoyer_section(&case.model), options.section.is_none());
@@ -77,7 +120,7 @@ fn near_point(case: &Case, options: &Periodic, values: &[Rational]) -> Result<Fo
         let otherwise = has_section.then_some("l,L/G on the section");
         return Err(misfit(case, values.len(), otherwise));
     };
-    if !(has_section && is_ours && options.time.is_none()) {
+    if !(has_section && is_ours && time.is_none()) {
         return Err(misfit(case, values.len(), None));
     }
     let (g0, energy) = options.plane.of(case)?;
@@ -90,7 +133,8 @@ fn near_point(case: &Case, options: &Periodic, values: &[Rational]) -> Result<Fo
 /// Finds the orbit near a state.
 fn near_state(
     case: &Case,
-    options: &Periodic,
+    options: &OrbitSearch,
+    time: Option<&Rational>,
     surface: Option<&CrossingSurface>,
     state: Vec<Rational>,
 ) -> Result<FoundOrbit, String> {
@@ -100,7 +144,7 @@ fn near_state(
     let launches = Launches { case, energy, pad: None, seed, index: 0 };
     let start = launches.start(&Begin::State(state)).map_err(told)?;
     let count = options.period as usize;
-    let (start, time, crossings) = match (surface, &options.time) {
+    let (start, time, crossings) = match (surface, time) {
         (_, Some(time)) if time.to_f64().0 > 0.0 => (start, time.to_f64().0, None),
         (_, Some(_)) => return Err("error: --time: write a period above 0".to_string()),
         (Some(surface), None) => {

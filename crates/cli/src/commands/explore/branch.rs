@@ -1,0 +1,282 @@
+//! The command `liouville motion continue`.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::channel;
+
+use clap::Args;
+use liouville::case::{Angle, Case};
+use liouville::number::rational::Rational;
+use liouville_flow::{
+    Branch, BranchPoint, BranchRequest, BranchSection, Columns, Coordinate, CrossingSurface,
+    FlowError, Lexicon, branch, declared_range, number_with_pi, stoppable,
+};
+
+use super::super::limits::{STOPPED, Stop, signals};
+use super::eval::Opened;
+use super::ink::Ink;
+use super::motion::wrong_formula;
+use super::output::Ending;
+use super::periodic::OrbitSearch;
+use super::progress::telling;
+use super::surface::read_surface;
+use super::{CommandOutput, LimitArgs, write};
+use crate::report::branch::BranchReport;
+
+#[derive(Debug, Args)]
+pub struct ContinueArgs {
+    #[command(flatten)]
+    pub search: OrbitSearch,
+    /// What varies: a parameter (a_g), a component of one (c3, I12), or the energy
+    #[arg(long, value_name = "NAME")]
+    pub parameter: String,
+    /// Lower end of its range; by default that of the range in the case
+    #[arg(long, value_name = "A", allow_hyphen_values = true)]
+    pub from: Option<String>,
+    /// Upper end of its range
+    #[arg(long, value_name = "B", allow_hyphen_values = true)]
+    pub to: Option<String>,
+    /// Quantities reported and drawn, by formulas: --axes 'x, |γ|²'. By default l, L/G of a rolling
+    /// body, and otherwise the first component of the state that --section leaves free
+    #[arg(long, value_name = "FORMULAS", allow_hyphen_values = true)]
+    pub axes: Option<String>,
+    /// Largest number of points, each way from the start
+    #[arg(long, default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub count: u32,
+    /// Longest step along the branch, as a part of the range
+    #[arg(long, default_value = "0.02", value_parser = parse_step)]
+    pub step: f64,
+    #[command(flatten)]
+    pub ink: Ink,
+}
+
+fn parse_step(text: &str) -> Result<f64, String> {
+    let step = text.parse().ok().filter(|step| (1e-6..=0.5).contains(step));
+    step.ok_or("write a number from 1e-6 to 0.5".to_string())
+}
+
+pub fn run(options: &ContinueArgs) -> Result<CommandOutput, String> {
+    let subject = &options.search.subject;
+    subject.limits.check()?;
+    let out = options.ink.output(Ending::CHARTS, &[&subject.case])?;
+    let opened = subject.opened()?;
+    let case = &opened.case;
+    let told = |error: FlowError| subject.told(&error);
+    if case.model.system.has_arbitrary_function() {
+        return Err(told(FlowError::Arbitrary));
+    }
+    let (name, varied) =
+        Coordinate::of_branch(case, options.parameter.trim()).map_err(|mistake| {
+            format!("error: --parameter: {}\nhelp: {}", mistake.message, mistake.help)
+        })?;
+    let range = options.range(&opened, &name, varied)?;
+    let surface = options.search.section.as_deref();
+    let surface = surface.map(|text| read_surface(case, text)).transpose()?;
+    let mut columns = options.columns(case, surface.as_ref())?;
+    let (titles, watch) = (columns.as_ref().map(Columns::titles), Watch::new(subject.limits)?);
+    let titles = titles.map_or_else(|| vec!["l".to_string(), "L/G".to_string()], <[_]>::to_vec);
+    let found = stoppable(&watch.raised, || {
+        options.follow(case, varied, &range, surface.as_ref(), columns.take())
+    });
+    let (raised, stop) = (Arc::clone(&watch.raised), watch.end());
+    let stopped = |stop: Option<Stop>| {
+        let words = stop.map_or("stopped".to_string(), |stop| stop.to_string());
+        anstream::eprintln!("error: not finished: {words}\nhelp: allow more, or ask for less");
+        STOPPED
+    };
+    let found = match found {
+        // nothing was reached
+        Err(_) if raised.load(Ordering::Relaxed) => {
+            return Ok(CommandOutput { text: String::new(), code: stopped(stop) });
+        }
+        other => other?,
+    };
+    let period = options.search.period;
+    let surface = surface.as_ref().map(CrossingSurface::text);
+    let report = BranchReport {
+        case,
+        name: &name,
+        range: &range,
+        titles: &titles,
+        surface,
+        period,
+        branch: &found,
+    };
+    if let Some(out) = &out {
+        let bytes = match out.ending {
+            Ending::Csv => report.csv().into_bytes(),
+            Ending::Json => report.json()?.into_bytes(),
+            ending => {
+                let words = (case.title.as_str(), vec![report.caption()]);
+                let plots = report.plots();
+                let columns = plots.len().min(2);
+                options.ink.drawn(words, plots, columns, ending)?
+            }
+        };
+        write(&out.path, "--out", bytes)?;
+    }
+    let code = if report.is_stopped() { stopped(stop) } else { 0 };
+    let text = if subject.json { report.json()? } else { report.text() };
+    Ok(CommandOutput { text, code })
+}
+
+impl ContinueArgs {
+    /// Range of what varies, the lower end first.
+    fn range(
+        &self,
+        opened: &Opened,
+        name: &str,
+        varied: Coordinate,
+    ) -> Result<[Rational; 2], String> {
+        let declared = declared(self, opened, varied);
+        let end = |option: &str, text: Option<&String>, place: usize| match (text, &declared) {
+            (Some(text), _) => number_with_pi(text).ok_or_else(|| {
+                format!(
+                    "error: {option}: `{text}` is no number\nhelp: write one, such as 3/2 or 0.25"
+                )
+            }),
+            (None, Some(declared)) => Ok(declared[place].clone()),
+            (None, None) => Err(format!(
+                "error: the range of `{name}` is not known\nhelp: give --from and --to"
+            )),
+        };
+        let from = end("--from", self.from.as_ref(), 0)?;
+        let to = end("--to", self.to.as_ref(), 1)?;
+        if from >= to {
+            return Err(format!(
+                "error: --from {from} is not below --to {to}\nhelp: give the lower end by --from; the branch is followed both ways"
+            ));
+        }
+        if let Some([low, high]) = &declared {
+            for (option, value) in [("--from", &from), ("--to", &to)] {
+                if value < low || value > high {
+                    return Err(format!(
+                        "error: {option} {value} is outside {low}..{high}, the range of `{name}` in the case\n\
+                         help: stay within, or change the range in the case"
+                    ));
+                }
+            }
+        }
+        Ok([from, to])
+    }
+
+    /// Quantities of the options; `None` for those of a rolling body.
+    fn columns(
+        &self,
+        case: &Case,
+        surface: Option<&CrossingSurface>,
+    ) -> Result<Option<Columns>, String> {
+        let free = surface.map(CrossingSurface::default_axes);
+        let first = free.as_deref().and_then(|free| free.split(',').next());
+        let Some(text) = self.axes.as_deref().or(first) else { return Ok(None) };
+        let columns = Columns::read(Lexicon::new(case), text)
+            .map_err(|mistake| wrong_formula("--axes", text, &mistake))?;
+        match columns.titles().iter().any(|title| title == "t") && !case_has(case, "t") {
+            true => Err("error: --axes: a point of a branch has no time\n\
+                         help: leave `t` out: the period is always reported"
+                .to_string()),
+            false => Ok(Some(columns)),
+        }
+    }
+
+    /// Finds the closed orbit, and follows its branch.
+    fn follow(
+        &self,
+        case: &Case,
+        varied: Coordinate,
+        range: &[Rational; 2],
+        surface: Option<&CrossingSurface>,
+        columns: Option<Columns>,
+    ) -> Result<Branch, String> {
+        let search = &self.search;
+        let mut starts = search.starts(case)?;
+        let (Some(given), true) = (starts.pop(), starts.is_empty()) else {
+            return Err("error: a branch has one start\nhelp: give --start once".to_string());
+        };
+        let g0: Angle;
+        let mut energy = search.plane.energy.clone();
+        let section = match surface {
+            Some(surface) => BranchSection::Surface(surface),
+            None if liouville_flow::has_andoyer_section(&case.model) => {
+                let (angle, own) = search.plane.of(case)?;
+                (g0, energy) = (angle, Some(own));
+                BranchSection::Andoyer(&g0)
+            }
+            None => {
+                return Err("error: the section of the orbits is not known\n\
+                            help: give --section 'x = 0' with a surface that they cross"
+                    .to_string());
+            }
+        };
+        let orbit = search.orbit(case, given, None)?;
+        let request = BranchRequest {
+            case,
+            section,
+            columns,
+            varied,
+            range: range.clone(),
+            energy,
+            time: orbit.cycle.period.value,
+            start: orbit.cycle.start,
+            count: self.count as usize,
+            longest: self.step,
+        };
+        telling(|tell| {
+            let tell = std::cell::RefCell::new(tell);
+            let progress = |point: &BranchPoint| {
+                let words = format!("{} = {}", self.parameter, point.value);
+                (tell.borrow_mut())(&words);
+            };
+            branch(&request, &progress)
+        })
+        .map_err(|error| search.subject.told(&error))
+    }
+}
+
+fn case_has(case: &Case, name: &str) -> bool {
+    case.model.vocabulary.find(name).is_some()
+}
+
+/// Range of what varies in the case itself, without a value of `--set`.
+fn declared(options: &ContinueArgs, opened: &Opened, varied: Coordinate) -> Option<[Rational; 2]> {
+    let subject = &options.search.subject;
+    let Coordinate::Parameter { index, .. } = varied else { return None };
+    let own = &opened.case.model.parameters.get(index)?.name;
+    let is_other = |text: &&String| {
+        let name = text.split('=').next().unwrap_or_default().trim();
+        liouville::formula::canonical_name(name).as_deref().unwrap_or(name) != own
+    };
+    let settings: Vec<String> = subject.settings.iter().filter(is_other).cloned().collect();
+    let read = super::eval::read_text(&subject.case, &opened.text, &settings).ok()?;
+    declared_range(&read.case, varied)
+}
+
+/// Watch over limits and signals beside the work.
+struct Watch {
+    raised: Arc<AtomicBool>,
+    done: std::sync::mpsc::Sender<()>,
+    thread: std::thread::JoinHandle<Option<Stop>>,
+}
+
+impl Watch {
+    fn new(limits: LimitArgs) -> Result<Self, String> {
+        let (signal, raised) = (signals()?, Arc::new(AtomicBool::new(false)));
+        let (done, receiver) = channel();
+        let flag = Arc::clone(&raised);
+        let thread = std::thread::Builder::new()
+            .spawn(move || {
+                let stop = limits.wait(&receiver, &signal).err();
+                flag.store(stop.is_some(), Ordering::Relaxed);
+                stop
+            })
+            .map_err(|error| format!("error: cannot start a thread: {error}"))?;
+        Ok(Self { raised, done, thread })
+    }
+
+    /// Ends the watch; returns the reason for which it stopped the work.
+    fn end(self) -> Option<Stop> {
+        // nobody waits any more if this fails
+        _ = self.done.send(());
+        self.thread.join().ok().flatten()
+    }
+}
