@@ -60,18 +60,18 @@ pub(super) struct MotionCrossings<P> {
 }
 
 impl CrossingTask<'_> {
-    /// Follows all motions; `look` makes a function of the times and states of crossings,
+    /// Follows all motions; `observe` makes a function of the times and states of crossings,
     /// one for each thread. Calls `progress` after each motion.
     pub fn run<P: Send, L: FnMut(DoubleDouble, &[DoubleDouble]) -> P>(
         &self,
         threads: usize,
-        look: &(dyn Fn() -> L + Sync),
+        observe: &(dyn Fn() -> L + Sync),
         progress: &(dyn Fn() + Sync),
     ) -> Vec<MotionCrossings<P>> {
         in_batches(self.starts.len(), threads, |queue, lockstep| match lockstep {
-            Lockstep::One => Worker::<f64, P, L>::new(self, queue, look()).run(progress),
+            Lockstep::One => Worker::<f64, P, L>::new(self, queue, observe()).run(progress),
             Lockstep::Lanes => {
-                Worker::<Lanes<MOTION_LANES>, P, L>::new(self, queue, look()).run(progress)
+                Worker::<Lanes<MOTION_LANES>, P, L>::new(self, queue, observe()).run(progress)
             }
         })
     }
@@ -81,7 +81,7 @@ impl CrossingTask<'_> {
 struct Worker<'w, T: SeriesNumber<One = f64>, P, L> {
     task: &'w CrossingTask<'w>,
     queue: &'w Queue,
-    look: L,
+    observe: L,
     stepper: Stepper<T>,
     running: Vec<Option<Running<P>>>,
     done: Vec<(usize, MotionCrossings<P>)>,
@@ -101,10 +101,10 @@ struct Running<P> {
 impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDouble]) -> P>
     Worker<'w, T, P, L>
 {
-    fn new(task: &'w CrossingTask<'w>, queue: &'w Queue, look: L) -> Self {
+    fn new(task: &'w CrossingTask<'w>, queue: &'w Queue, observe: L) -> Self {
         let stepper = Stepper::new(task.program, Accuracy::FLOAT);
         let running = (0..T::LANES).map(|_| None).collect();
-        Self { task, queue, look, stepper, running, done: Vec::new() }
+        Self { task, queue, observe, stepper, running, done: Vec::new() }
     }
 
     fn run(mut self, progress: &(dyn Fn() + Sync)) -> Vec<(usize, MotionCrossings<P>)> {
@@ -120,7 +120,7 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
             self.stepper.expand();
             let ends = self.stepper.ends(0);
             for lane in 0..T::LANES {
-                if self.look(lane, &ends) {
+                if self.crosses(lane, &ends) {
                     self.finish(lane);
                     progress();
                 }
@@ -159,7 +159,7 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
     }
 
     /// Collects the crossings of the present piece. Returns whether the motion is done.
-    fn look(&mut self, lane: usize, ends: &Ends<T>) -> bool {
+    fn crosses(&mut self, lane: usize, ends: &Ends<T>) -> bool {
         let Some(running) = &mut self.running[lane] else { return false };
         if let Err(problem) = self.stepper.check(lane) {
             running.track.problem = Some(problem);
@@ -178,7 +178,7 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
                 return true;
             }
             for event in running.sides.events(&polynomial, piece.length()) {
-                if running.meet(event, &piece, self.task, steps, &mut self.look) {
+                if running.meet(event, &piece, self.task, steps, &mut self.observe) {
                     return true;
                 }
             }
@@ -210,7 +210,7 @@ impl<P> Running<P> {
         piece: &MotionPiece<'_, T>,
         task: &CrossingTask<'_>,
         steps: u64,
-        look: &mut impl FnMut(DoubleDouble, &[DoubleDouble]) -> P,
+        observe: &mut impl FnMut(DoubleDouble, &[DoubleDouble]) -> P,
     ) -> bool {
         let (after, rising) = match event {
             Event::Tangency { .. } => {
@@ -235,7 +235,7 @@ impl<P> Running<P> {
         self.last_met = (steps, self.track.others);
         if self.counted > task.skip {
             let time = piece.begin() + DoubleDouble::from_f64(after);
-            let at = look(time, &piece.state(after));
+            let at = observe(time, &piece.state(after));
             self.track.crossings.push(Met { at, time: time.hi, rising });
         }
         self.counted >= task.skip + task.crossings

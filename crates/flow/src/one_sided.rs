@@ -77,14 +77,14 @@ pub(super) struct OneSidedMotion {
     pub events: Vec<ContactEvent>,
 }
 
-/// Follows a motion from a start with r ≥ 0; `look` sees each piece, and the state after it.
+/// Follows a motion from a start with r ≥ 0; `watcher` sees each piece, and the state after it.
 pub(super) fn follow<T: SeriesNumber<One = T>>(
     case: &Case,
     rule: &OneSided,
     start: &Start,
     time: DoubleDouble,
     accuracy: Accuracy,
-    look: &mut impl Watcher<T>,
+    watcher: &mut impl Watcher<T>,
 ) -> Result<OneSidedMotion, FlowError> {
     if time.hi < 0.0 {
         return Err(FlowError::OneSidedBackwards);
@@ -101,7 +101,7 @@ pub(super) fn follow<T: SeriesNumber<One = T>>(
     };
     let mut touching = walk.begins_in_contact()?;
     for _ in 0..MAX_PHASES {
-        let ended = if touching { walk.touch(look)? } else { walk.fly(look)? };
+        let ended = if touching { walk.touch(watcher)? } else { walk.fly(watcher)? };
         if ended {
             return Ok(OneSidedMotion { end: walk.state, steps: walk.steps, events: walk.events });
         }
@@ -142,7 +142,7 @@ impl<T: SeriesNumber<One = T>> Walk<T> {
     }
 
     /// Follows a free phase. Returns whether the motion ends in it.
-    fn fly(&mut self, look: &mut impl Watcher<T>) -> Result<bool, FlowError> {
+    fn fly(&mut self, watcher: &mut impl Watcher<T>) -> Result<bool, FlowError> {
         self.free.start(0, &self.state, self.until - self.now);
         let mut sides = Sides::on(true);
         loop {
@@ -169,17 +169,17 @@ impl<T: SeriesNumber<One = T>> Walk<T> {
                 let (time, state) = (at(after), piece.state(after));
                 self.events.push(ContactEvent { kind, time, state: state.clone() });
                 if kind == Contact::Arrives {
-                    look.piece(self.now + piece.begin(), &piece, after);
+                    watcher.piece(self.now + piece.begin(), &piece, after);
                     self.steps += self.free.steps(0) + 1;
                     (self.now, self.state) = (time, state);
-                    look.state(self.now, &self.state);
+                    watcher.state(self.now, &self.state);
                     return Ok(false);
                 }
                 sides = Sides::on(true);
             }
-            look.piece(self.now + piece.begin(), &piece, piece.length());
+            watcher.piece(self.now + piece.begin(), &piece, piece.length());
             self.free.advance();
-            look.state(self.now + self.free.time(0), &self.free.pairs(0));
+            watcher.state(self.now + self.free.time(0), &self.free.pairs(0));
             if self.free.is_done(0) {
                 self.steps += self.free.steps(0);
                 (self.now, self.state) = (self.until, self.free.pairs(0));
@@ -189,7 +189,7 @@ impl<T: SeriesNumber<One = T>> Walk<T> {
     }
 
     /// Follows a phase of contact. Returns whether the motion ends in it.
-    fn touch(&mut self, look: &mut impl Watcher<T>) -> Result<bool, FlowError> {
+    fn touch(&mut self, watcher: &mut impl Watcher<T>) -> Result<bool, FlowError> {
         self.contact.start(0, &self.state, self.until - self.now);
         let mut sides = Sides::on(true);
         loop {
@@ -199,18 +199,18 @@ impl<T: SeriesNumber<One = T>> Walk<T> {
             let polynomial = piece.output(0);
             for event in sides.events(&polynomial, piece.length()) {
                 let Event::Crossing { after, rising: false } = event else { continue };
-                look.piece(self.now + piece.begin(), &piece, after);
+                watcher.piece(self.now + piece.begin(), &piece, after);
                 (self.now, self.state) =
                     (self.now + piece.begin() + after.pair(), piece.state(after));
                 let (time, state) = (self.now, self.state.clone());
                 self.events.push(ContactEvent { kind: Contact::Leaves, time, state });
                 self.steps += self.contact.steps(0) + 1;
-                look.state(self.now, &self.state);
+                watcher.state(self.now, &self.state);
                 return Ok(false);
             }
-            look.piece(self.now + piece.begin(), &piece, piece.length());
+            watcher.piece(self.now + piece.begin(), &piece, piece.length());
             self.contact.advance();
-            look.state(self.now + self.contact.time(0), &self.contact.pairs(0));
+            watcher.state(self.now + self.contact.time(0), &self.contact.pairs(0));
             if self.contact.is_done(0) {
                 self.steps += self.contact.steps(0);
                 (self.now, self.state) = (self.until, self.contact.pairs(0));

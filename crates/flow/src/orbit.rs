@@ -18,7 +18,7 @@ use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 
 /// Number of times at which the drift is measured.
-const LOOKS: u32 = 256;
+const MEASUREMENTS: u32 = 256;
 
 /// Arithmetic in which a motion is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,23 +114,23 @@ pub(super) trait Watcher<T: SeriesNumber> {
 }
 
 /// Observer of a single motion: its drift, and its samples.
-struct Looks<'l, 's> {
+struct DriftWatcher<'l, 's> {
     watch: Watch,
     samples: &'l mut Samples<'s>,
     time: DoubleDouble,
-    looks: u32,
+    measured: u32,
 }
 
-impl<T: SeriesNumber<One = T>> Watcher<T> for Looks<'_, '_> {
+impl<T: SeriesNumber<One = T>> Watcher<T> for DriftWatcher<'_, '_> {
     fn piece(&mut self, begin: DoubleDouble, piece: &MotionPiece<'_, T>, length: T) {
         self.samples.piece(begin, piece, length);
     }
 
     fn state(&mut self, now: DoubleDouble, state: &[DoubleDouble]) {
-        let passed = now.hi / self.time.hi * f64::from(LOOKS);
-        if passed >= f64::from(self.looks) {
-            self.looks = passed as u32 + 1;
-            self.watch.look(state);
+        let passed = now.hi / self.time.hi * f64::from(MEASUREMENTS);
+        if passed >= f64::from(self.measured) {
+            self.measured = passed as u32 + 1;
+            self.watch.measure(state);
         }
     }
 }
@@ -143,10 +143,10 @@ fn orbit_over<T: SeriesNumber<One = T>>(
     samples: &mut Samples<'_>,
 ) -> Result<Orbit, FlowError> {
     let watch = Watch::new(case, &start)?;
-    let mut looks = Looks { watch, samples, time, looks: 0 };
+    let mut watcher = DriftWatcher { watch, samples, time, measured: 0 };
     let (end, steps, events) = match &case.one_sided {
         Some(rule) => {
-            let found = follow::<T>(case, rule, &start, time, accuracy, &mut looks)?;
+            let found = follow::<T>(case, rule, &start, time, accuracy, &mut watcher)?;
             (found.end, found.steps, found.events)
         }
         None => {
@@ -157,16 +157,16 @@ fn orbit_over<T: SeriesNumber<One = T>>(
                 stepper.expand();
                 stepper.check(0)?;
                 let piece = stepper.piece(0);
-                Watcher::<T>::piece(&mut looks, piece.begin(), &piece, piece.length());
+                Watcher::<T>::piece(&mut watcher, piece.begin(), &piece, piece.length());
                 stepper.advance();
-                Watcher::<T>::state(&mut looks, stepper.time(0), &stepper.pairs(0));
+                Watcher::<T>::state(&mut watcher, stepper.time(0), &stepper.pairs(0));
             }
             (stepper.pairs(0), stepper.steps(0), Vec::new())
         }
     };
-    looks.watch.look(&end);
-    looks.samples.end(time, &end);
-    let (order, followed) = (accuracy.order, looks.watch.followed);
+    watcher.watch.measure(&end);
+    watcher.samples.end(time, &end);
+    let (order, followed) = (accuracy.order, watcher.watch.followed);
     Ok(Orbit { start, time, end, steps, order, followed, events })
 }
 
@@ -227,7 +227,7 @@ impl Watch {
         Ok(Self { tape, followed })
     }
 
-    fn look(&mut self, state: &[DoubleDouble]) {
+    fn measure(&mut self, state: &[DoubleDouble]) {
         let values = values(&self.tape, state);
         let mut rest = values.as_slice();
         for followed in &mut self.followed {

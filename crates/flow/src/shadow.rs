@@ -137,7 +137,7 @@ impl<'w> Worker<'w> {
             self.integrate_divergence();
             self.stepper.advance();
             for couple in 0..self.running.len() {
-                if self.look(couple) {
+                if self.measure(couple) {
                     self.finish(couple, None, progress);
                 }
             }
@@ -184,7 +184,7 @@ impl<'w> Worker<'w> {
     }
 
     /// Measures the distance of the shadow after a step. Returns whether the motion is done.
-    fn look(&mut self, couple: usize) -> bool {
+    fn measure(&mut self, couple: usize) -> bool {
         let Some(running) = &mut self.running[couple] else { return false };
         let (own, other) = (COUPLE * couple, COUPLE * couple + 1);
         let (state, shadow) = (self.stepper.pairs(own), self.stepper.pairs(other));

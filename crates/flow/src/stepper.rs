@@ -79,14 +79,14 @@ struct Lane<One> {
 struct Pace {
     /// Longest step so far.
     longest: f64,
-    /// Time at the last look.
+    /// Time at the last measurement of the pace.
     before: f64,
     /// Whether the end is out of reach.
     is_lost: bool,
 }
 
 impl Pace {
-    /// Keeps a step; looks at the pace after so many of them, with the times that have gone by and
+    /// Keeps a step; measures the pace after so many of them, with the times that have gone by and
     /// that are left.
     fn keep(&mut self, step: f64, steps: u64, now: f64, left: f64) {
         self.longest = self.longest.max(step.abs());

@@ -177,7 +177,7 @@ pub fn surface_section(
         backwards: request.backwards,
         has_side: false,
     };
-    let look = || {
+    let observe = || {
         let mut row = gauge.rows();
         move |time: DoubleDouble, state: &[DoubleDouble]| -> Vec<f64> {
             row(time, state).into_iter().map(|x| x.hi).collect()
@@ -201,5 +201,5 @@ pub fn surface_section(
             problem: track.problem,
         })
     };
-    task.run(threads, &look, progress).into_iter().zip(starts).map(orbit).collect()
+    task.run(threads, &observe, progress).into_iter().zip(starts).map(orbit).collect()
 }

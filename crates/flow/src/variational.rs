@@ -133,7 +133,7 @@ impl<'t, T: SeriesNumber<One = f64>> Worker<'t, T> {
             }
             self.stepper.advance();
             for lane in 0..T::LANES {
-                if self.look(lane) {
+                if self.measure(lane) {
                     self.finish(lane, None, progress);
                 }
             }
@@ -157,7 +157,7 @@ impl<'t, T: SeriesNumber<One = f64>> Worker<'t, T> {
     }
 
     /// Measures the vectors after a step. Returns whether the motion is done.
-    fn look(&mut self, lane: usize) -> bool {
+    fn measure(&mut self, lane: usize) -> bool {
         let Some((_, record)) = &mut self.running[lane] else { return false };
         let bundle = self.task.bundle;
         let state = self.stepper.pairs(lane);

@@ -1,7 +1,7 @@
 //! Closed orbits, proved by enclosures, and the densities that their ∮ div v excludes.
 
-use super::finding::MotionFinding;
 use super::ground::Ground;
+use super::judgement::MotionJudgement;
 use super::scene::FollowedCase;
 use crate::{Enclosure, FlowError, MeasuredNumber, Obstacle, ProvedOrbit, Request, Start, prove};
 use liouville::case::Case;
@@ -14,12 +14,12 @@ use liouville::verdict::Options;
 pub(super) const NEAR: f64 = 1e-2;
 
 /// Proves the closed orbit of a claim.
-pub fn look(
+pub fn judge(
     claim: &ClosedOrbit,
     scene: &FollowedCase<'_>,
     options: &Options,
-) -> Result<MotionFinding, FlowError> {
-    by(claim, scene, options, prove).map(|(finding, _)| finding)
+) -> Result<MotionJudgement, FlowError> {
+    by(claim, scene, options, prove).map(|(judgement, _)| judgement)
 }
 
 /// Judges a claim by an orbit that `proof` encloses; returns the orbit too.
@@ -28,17 +28,17 @@ pub fn by(
     scene: &FollowedCase<'_>,
     options: &Options,
     proof: impl FnOnce(&Request<'_>) -> Result<ProvedOrbit, Obstacle>,
-) -> Result<(MotionFinding, Option<ProvedOrbit>), FlowError> {
-    let mut finding = MotionFinding::default();
+) -> Result<(MotionJudgement, Option<ProvedOrbit>), FlowError> {
+    let mut judgement = MotionJudgement::default();
     let found = match Ground::of(claim.into(), scene, options)? {
         Ok(ground) => ground.enclosed(proof),
         Err(reason) => Err(reason),
     };
     match &found {
-        Ok(found) => judge(claim, found, &mut finding),
-        Err(reason) => finding.leave_open(reason.clone()),
+        Ok(found) => weigh(claim, found, &mut judgement),
+        Err(reason) => judgement.leave_open(reason.clone()),
     }
-    Ok((finding, found.ok()))
+    Ok((judgement, found.ok()))
 }
 
 /// Proves that no density is continuous and positive on the closed orbit near a start; `None` where
@@ -57,10 +57,10 @@ pub(super) fn exclusion(
 }
 
 /// Compares an orbit with the claim.
-fn judge(claim: &ClosedOrbit, found: &ProvedOrbit, finding: &mut MotionFinding) {
+fn weigh(claim: &ClosedOrbit, found: &ProvedOrbit, judgement: &mut MotionJudgement) {
     let shift = (found.period.mid - claim.period.value).abs() / claim.period.value;
     if !(found.moved <= NEAR && shift <= NEAR) {
-        finding.leave_open(format!(
+        judgement.leave_open(format!(
             "the closed orbit that is found has period {:.10}, and lies at a distance of {:.1e} \
              of the state: start nearer to it",
             found.period.mid, found.moved
@@ -68,50 +68,52 @@ fn judge(claim: &ClosedOrbit, found: &ProvedOrbit, finding: &mut MotionFinding) 
         return;
     }
     let measured = |x: Enclosure| MeasuredNumber { value: x.mid, error: x.rad };
-    finding.note("period", measured(found.period), Some(&claim.period));
-    finding.note("∮ div v dt", measured(found.volume), None);
-    compare_period(&claim.period, found.period, finding);
+    judgement.note("period", measured(found.period), Some(&claim.period));
+    judgement.note("∮ div v dt", measured(found.volume), None);
+    compare_period(&claim.period, found.period, judgement);
     if claim.is_least {
         match &found.turns {
             Ok(1) => {}
             Ok(turns) => {
                 let share = Enclosure::exact(*turns as f64).recip();
                 let least = printed(found.period * share);
-                finding.refute(format!(
+                judgement.refute(format!(
                     "the orbit is run through {turns} times in it, and its least period is {least}"
                 ));
             }
             Err(doubt) => {
-                finding.leave_open(format!("the period is not proved to be the least: {doubt}"));
+                judgement.leave_open(format!("the period is not proved to be the least: {doubt}"));
             }
         }
     }
     let negative = (-found.volume).is_positive();
     let changes = found.volume.is_positive() || negative;
     if !changes && (claim.divergence.is_some() || claim.excludes_density) {
-        finding.leave_open("∮ div v dt is not separated from 0".to_string());
+        judgement.leave_open("∮ div v dt is not separated from 0".to_string());
     }
     match claim.divergence {
         Some(Change::Negative) if found.volume.is_positive() => {
-            finding.refute("along the orbit volume grows".to_string());
+            judgement.refute("along the orbit volume grows".to_string());
         }
         Some(Change::Positive) if negative => {
-            finding.refute("along the orbit volume shrinks".to_string());
+            judgement.refute("along the orbit volume shrinks".to_string());
         }
         _ => {}
     }
     let seen = claim.stability.and_then(|_| stability(found));
     if let Some(claimed) = claim.stability {
         if let Some(sum) = found.sum {
-            finding.note("λ₁ + λ₂", measured(sum), None);
+            judgement.note("λ₁ + λ₂", measured(sum), None);
         }
         match seen {
             Some(seen) if seen == claimed => {}
-            Some(seen) => finding.refute(format!("the orbit is of another kind: {}", name(seen))),
-            None => finding.leave_open("its stability is not proved by the enclosures".to_string()),
+            Some(seen) => judgement.refute(format!("the orbit is of another kind: {}", name(seen))),
+            None => {
+                judgement.leave_open("its stability is not proved by the enclosures".to_string())
+            }
         }
     }
-    finding.theorem = Some(theorem(found, changes, seen, &claim.parameters));
+    judgement.theorem = Some(theorem(found, changes, seen, &claim.parameters));
 }
 
 /// Stability by the enclosed multipliers, one or two of them. That their moduli are 1 is not proved.
@@ -145,17 +147,17 @@ fn name(stability: Stability) -> &'static str {
 }
 
 /// Compares an enclosed period with the digits stated.
-fn compare_period(stated: &Stated, period: Enclosure, finding: &mut MotionFinding) {
+fn compare_period(stated: &Stated, period: Enclosure, judgement: &mut MotionJudgement) {
     let rounding = 4.0 * f64::EPSILON * (period.mid.abs() + stated.value.abs());
     let gap = (period.mid - stated.value).abs();
     let is_inside = gap + period.rad + rounding <= stated.unit;
     if gap > stated.unit + period.rad + rounding {
-        finding.refute(format!("the period is not {}", stated.text));
+        judgement.refute(format!("the period is not {}", stated.text));
     } else if stated.unit == 0.0 {
         let reason = "an enclosure does not prove that the period is exactly";
-        finding.leave_open(format!("{reason} {}: write a decimal", stated.text));
+        judgement.leave_open(format!("{reason} {}: write a decimal", stated.text));
     } else if !is_inside {
-        finding.leave_open("the enclosure of the period is wider than the digits".to_string());
+        judgement.leave_open("the enclosure of the period is wider than the digits".to_string());
     }
 }
 

@@ -1,13 +1,13 @@
 //! Times at which a motion meets a one-sided constraint, in f64 and in double-double.
 
-use super::finding::MotionFinding;
+use super::judgement::MotionJudgement;
 use super::scene::FollowedCase;
 use crate::{Contact, FlowError, MeasuredNumber, Precision, orbit};
 use liouville::claim::motion::{Contacts, Touch};
 use liouville::number::double_double::DoubleDouble;
 
 /// Compares the events at the constraint with the claim; grazing does not count.
-pub fn look(claim: &Contacts, scene: &FollowedCase<'_>) -> Result<MotionFinding, FlowError> {
+pub fn judge(claim: &Contacts, scene: &FollowedCase<'_>) -> Result<MotionJudgement, FlowError> {
     let start = scene.start(&claim.beginning)?;
     let events = |precision| {
         let found =
@@ -20,16 +20,16 @@ pub fn look(claim: &Contacts, scene: &FollowedCase<'_>) -> Result<MotionFinding,
         Ok::<Vec<(Touch, f64)>, FlowError>(touches.collect())
     };
     let (float, pair) = (events(Precision::Float)?, events(Precision::Pair)?);
-    let mut finding = MotionFinding::default();
+    let mut judgement = MotionJudgement::default();
     let kinds =
         |events: &[(Touch, f64)]| events.iter().map(|(touch, _)| *touch).collect::<Vec<_>>();
     if kinds(&float) != kinds(&pair) {
-        finding.leave_open("f64 and double-double see other events".to_string());
-        return Ok(finding);
+        judgement.leave_open("f64 and double-double see other events".to_string());
+        return Ok(judgement);
     }
     let stated: Vec<Touch> = claim.events.iter().map(|(touch, _)| *touch).collect();
     if kinds(&pair) != stated {
-        finding.refute("other events happen".to_string());
+        judgement.refute("other events happen".to_string());
     }
     for (index, ((touch, time), (_, rough))) in pair.iter().zip(&float).enumerate() {
         let quantity = match touch {
@@ -38,9 +38,9 @@ pub fn look(claim: &Contacts, scene: &FollowedCase<'_>) -> Result<MotionFinding,
         };
         let found = MeasuredNumber::twice(*rough, *time);
         match claim.events.get(index) {
-            Some((claimed, when)) if claimed == touch => finding.compare(quantity, found, when),
-            _ => finding.show(quantity, found),
+            Some((claimed, when)) if claimed == touch => judgement.compare(quantity, found, when),
+            _ => judgement.show(quantity, found),
         }
     }
-    Ok(finding)
+    Ok(judgement)
 }

@@ -3,7 +3,7 @@
 //! Ten blocks give the standard errors. A sign must also be that of the later five alone:
 //! transients look like chaos that disappears later. A regular motion shows (ln t)/t in place of 0.
 
-use super::finding::{ERRORS, MotionFinding};
+use super::judgement::{ERRORS, MotionJudgement};
 use super::scene::FollowedCase;
 use crate::{Estimate, FlowError, MeasuredNumber};
 use liouville::claim::motion::{Exponent, Growth, MeanDivergence, Tendency};
@@ -13,15 +13,15 @@ fn measured(estimate: Estimate) -> MeasuredNumber {
 }
 
 /// Compares the largest exponent with the claim.
-pub fn exponent(claim: &Exponent, scene: &FollowedCase<'_>) -> Result<MotionFinding, FlowError> {
+pub fn exponent(claim: &Exponent, scene: &FollowedCase<'_>) -> Result<MotionJudgement, FlowError> {
     let found = scene.exponents(&claim.beginning, claim.time)?.largest;
-    let mut finding = MotionFinding::default();
+    let mut judgement = MotionJudgement::default();
     match &claim.value {
-        Some(stated) => finding.compare_mean("exponent", measured(found), stated),
-        None => finding.show("exponent", measured(found)),
+        Some(stated) => judgement.compare_mean("exponent", measured(found), stated),
+        None => judgement.show("exponent", measured(found)),
     }
-    finding.expect(growth(found, claim.time), claim.growth, "sign of the exponent");
-    Ok(finding)
+    judgement.expect(growth(found, claim.time), claim.growth, "sign of the exponent");
+    Ok(judgement)
 }
 
 /// Growth of a motion. Zero: in the end not above that of a regular motion; positive: above it and
@@ -39,15 +39,15 @@ fn growth(found: Estimate, time: f64) -> Option<Growth> {
 pub fn mean_divergence(
     claim: &MeanDivergence,
     scene: &FollowedCase<'_>,
-) -> Result<MotionFinding, FlowError> {
+) -> Result<MotionJudgement, FlowError> {
     let found = scene.exponents(&claim.beginning, claim.time)?.divergence;
-    let mut finding = MotionFinding::default();
+    let mut judgement = MotionJudgement::default();
     match &claim.value {
-        Some(stated) => finding.compare_mean("mean divergence", measured(found), stated),
-        None => finding.show("mean divergence", measured(found)),
+        Some(stated) => judgement.compare_mean("mean divergence", measured(found), stated),
+        None => judgement.show("mean divergence", measured(found)),
     }
-    finding.expect(tendency(found), claim.tendency, "sign of the mean divergence");
-    Ok(finding)
+    judgement.expect(tendency(found), claim.tendency, "sign of the mean divergence");
+    Ok(judgement)
 }
 
 /// Sign of a mean divergence, if it is beyond three errors and the same in the later half.

@@ -1,8 +1,8 @@
 //! Horseshoes, proved by covering relations, and the integrals that they exclude.
 
 use super::closed_orbit::NEAR;
-use super::finding::MotionFinding;
 use super::ground::Ground;
+use super::judgement::MotionJudgement;
 use super::scene::FollowedCase;
 use crate::{
     FlowError, HorseshoeTrace, MeasuredNumber, Obstacle, ProvedHorseshoe, Request, prove_horseshoe,
@@ -11,12 +11,12 @@ use liouville::claim::motion::Horseshoe as Claim;
 use liouville::verdict::Options;
 
 /// Proves the horseshoe of a claim.
-pub fn look(
+pub fn judge(
     claim: &Claim,
     scene: &FollowedCase<'_>,
     options: &Options,
-) -> Result<MotionFinding, FlowError> {
-    by(claim, scene, options, prove_horseshoe).map(|(finding, _)| finding)
+) -> Result<MotionJudgement, FlowError> {
+    by(claim, scene, options, prove_horseshoe).map(|(judgement, _)| judgement)
 }
 
 /// Judges a claim by a horseshoe that `proof` encloses; returns the horseshoe too.
@@ -25,37 +25,37 @@ pub fn by(
     scene: &FollowedCase<'_>,
     options: &Options,
     proof: impl FnOnce(&Request<'_>) -> Result<ProvedHorseshoe, Obstacle>,
-) -> Result<(MotionFinding, Option<ProvedHorseshoe>), FlowError> {
-    let mut finding = MotionFinding::default();
+) -> Result<(MotionJudgement, Option<ProvedHorseshoe>), FlowError> {
+    let mut judgement = MotionJudgement::default();
     let found = match Ground::of(claim.into(), scene, options)? {
         Ok(ground) => ground.chaotic(proof),
         Err(reason) => Err(reason),
     };
     match &found {
-        Ok(found) => judge(claim, found, &mut finding),
-        Err(reason) => finding.leave_open(reason.clone()),
+        Ok(found) => weigh(claim, found, &mut judgement),
+        Err(reason) => judgement.leave_open(reason.clone()),
     }
-    Ok((finding, found.ok()))
+    Ok((judgement, found.ok()))
 }
 
 /// Compares a horseshoe with the claim.
-fn judge(claim: &Claim, found: &ProvedHorseshoe, finding: &mut MotionFinding) {
+fn weigh(claim: &Claim, found: &ProvedHorseshoe, judgement: &mut MotionJudgement) {
     let [short, _] = found.times;
     let shift = (short.mid - claim.period.value).abs() / claim.period.value;
     if !(found.moved <= NEAR && shift <= NEAR) {
-        finding.leave_open(format!(
+        judgement.leave_open(format!(
             "the saddle that is found has period {:.10}, and lies at a distance of {:.1e} of the \
              state: start nearer to it",
             short.mid, found.moved
         ));
         return;
     }
-    finding.note(
+    judgement.note(
         "period",
         MeasuredNumber { value: short.mid, error: short.rad },
         Some(&claim.period),
     );
-    finding.theorem = Some(theorem(found, claim.excludes_integral));
+    judgement.theorem = Some(theorem(found, claim.excludes_integral));
 }
 
 fn theorem(found: &ProvedHorseshoe, excludes_integral: bool) -> String {

@@ -1,6 +1,6 @@
 //! Limits of motions for a vanishing parameter, compared with the motion at 0.
 
-use super::finding::MotionFinding;
+use super::judgement::MotionJudgement;
 use super::scene::FollowedCase;
 use crate::{FlowError, MeasuredNumber, Precision, orbit, value_at};
 use liouville::claim::motion::{Beginning, LimitOfMotion};
@@ -14,12 +14,15 @@ const VALUES: i64 = 5;
 ///
 /// With an error C ε^order (1 + O(ε)) the quotients converge; their last difference is the error of
 /// C. If they grow, the order is lower than claimed; if C is not above its error, higher.
-pub fn look(claim: &LimitOfMotion, scene: &FollowedCase<'_>) -> Result<MotionFinding, FlowError> {
+pub fn judge(
+    claim: &LimitOfMotion,
+    scene: &FollowedCase<'_>,
+) -> Result<MotionJudgement, FlowError> {
     let Beginning::State(point) = &claim.beginning else { return Err(FlowError::NoStart) };
-    let mut finding = MotionFinding::default();
+    let mut judgement = MotionJudgement::default();
     let Some(component) = claim.component else {
-        finding.leave_open("the parameter has a fixed value: give it a range".to_string());
-        return Ok(finding);
+        judgement.leave_open("the parameter has a fixed value: give it a range".to_string());
+        return Ok(judgement);
     };
     let model = &scene.case.model;
     let drawn = scene.parameters()?;
@@ -47,15 +50,15 @@ pub fn look(claim: &LimitOfMotion, scene: &FollowedCase<'_>) -> Result<MotionFin
     let last = quotients.len() - 1;
     let found = MeasuredNumber { value: quotients[last], error: differences[last - 1] };
     match &claim.constant {
-        Some(stated) => finding.compare("constant", found, stated),
-        None => finding.show("constant", found),
+        Some(stated) => judgement.compare("constant", found, stated),
+        None => judgement.show("constant", found),
     }
     if differences[last - 1] >= differences[0] {
-        finding.refute("the quotients do not tend to a constant".to_string());
+        judgement.refute("the quotients do not tend to a constant".to_string());
     } else if found.value <= found.error {
-        finding.refute("the quotients tend to 0: the order is higher".to_string());
+        judgement.refute("the quotients tend to 0: the order is higher".to_string());
     } else if differences.windows(2).any(|pair| pair[1] >= pair[0]) {
-        finding.leave_open("the quotients do not settle steadily".to_string());
+        judgement.leave_open("the quotients do not settle steadily".to_string());
     }
-    Ok(finding)
+    Ok(judgement)
 }

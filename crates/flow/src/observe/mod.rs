@@ -13,9 +13,9 @@ mod closed_orbit;
 mod contacts;
 mod density;
 mod exponents;
-mod finding;
 mod ground;
 mod horseshoe;
+mod judgement;
 mod limit;
 mod periodic;
 mod reaches;
@@ -32,7 +32,7 @@ use liouville::verdict::{
 
 pub use density::evidence_against_density;
 
-use finding::MotionFinding;
+use judgement::MotionJudgement;
 use scene::FollowedCase;
 
 /// Judges all claims of a case, those about motion last.
@@ -54,7 +54,7 @@ pub fn observe(case: &Case, options: &Options) -> Vec<ClaimReport> {
 pub fn observe_each(case: &Case, options: &Options, keep: &mut dyn FnMut(ClaimReport)) {
     let scene = FollowedCase::new(case, options.seed);
     for claim in &case.motions {
-        keep(report(claim, look(claim, &scene, options), options));
+        keep(report(claim, judged(claim, &scene, options), options));
     }
 }
 
@@ -132,43 +132,43 @@ fn chaos(
 /// Report on a claim that is proved, with what was found.
 fn concluded<T>(
     claim: &MotionClaim,
-    found: Result<(MotionFinding, Option<T>), FlowError>,
+    found: Result<(MotionJudgement, Option<T>), FlowError>,
     options: &Options,
 ) -> Result<(ClaimReport, T), String> {
-    let (finding, found) = found.map_err(|problem| format!("{problem}: {}", problem.help()))?;
-    let report = report(claim, Ok(finding), options);
+    let (judgement, found) = found.map_err(|problem| format!("{problem}: {}", problem.help()))?;
+    let report = report(claim, Ok(judgement), options);
     match (report.verdict, found) {
         (Verdict::Proved, Some(found)) => Ok((report, found)),
         _ => Err(report.evidence.reason.unwrap_or_else(|| "the claim is not proved".to_string())),
     }
 }
 
-fn look(
+fn judged(
     claim: &MotionClaim,
     scene: &FollowedCase<'_>,
     options: &Options,
-) -> Result<MotionFinding, FlowError> {
+) -> Result<MotionJudgement, FlowError> {
     match &claim.kind {
         MotionKind::Exponent(claim) => exponents::exponent(claim, scene),
         MotionKind::MeanDivergence(claim) => exponents::mean_divergence(claim, scene),
-        MotionKind::PeriodicPoint(claim) => periodic::look(claim, scene),
+        MotionKind::PeriodicPoint(claim) => periodic::judge(claim, scene),
         MotionKind::LimitCycle(claim) => section::limit_cycle(claim, scene),
         MotionKind::Confined(claim) => section::confined(claim, scene),
-        MotionKind::LimitOfMotion(claim) => limit::look(claim, scene),
-        MotionKind::Contacts(claim) => contacts::look(claim, scene),
-        MotionKind::ClosedOrbit(claim) => closed_orbit::look(claim, scene, options),
-        MotionKind::Horseshoe(claim) => horseshoe::look(claim, scene, options),
-        MotionKind::Reaches(claim) => reaches::look(claim, scene),
+        MotionKind::LimitOfMotion(claim) => limit::judge(claim, scene),
+        MotionKind::Contacts(claim) => contacts::judge(claim, scene),
+        MotionKind::ClosedOrbit(claim) => closed_orbit::judge(claim, scene, options),
+        MotionKind::Horseshoe(claim) => horseshoe::judge(claim, scene, options),
+        MotionKind::Reaches(claim) => reaches::judge(claim, scene),
     }
 }
 
 fn report(
     claim: &MotionClaim,
-    found: Result<MotionFinding, FlowError>,
+    found: Result<MotionJudgement, FlowError>,
     options: &Options,
 ) -> ClaimReport {
     let (verdict, mut evidence) = match found {
-        Ok(finding) => finding.conclude(),
+        Ok(judgement) => judgement.conclude(),
         Err(problem) => {
             let reason = Some(format!("{problem}: {}", problem.help()));
             let method = Method::Motion;

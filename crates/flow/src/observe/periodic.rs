@@ -3,47 +3,50 @@
 use std::f64::consts::PI;
 
 use super::density::speaks_against;
-use super::finding::MotionFinding;
+use super::judgement::MotionJudgement;
 use super::scene::{FollowedCase, coordinates};
 use crate::{ComputedClosedOrbit, FlowError, MeasuredNumber, Multipliers, SectionMap};
 use liouville::claim::motion::{PeriodicPoint, Stability};
 
 /// Compares the periodic point found with the claim.
-pub fn look(claim: &PeriodicPoint, scene: &FollowedCase<'_>) -> Result<MotionFinding, FlowError> {
+pub fn judge(
+    claim: &PeriodicPoint,
+    scene: &FollowedCase<'_>,
+) -> Result<MotionJudgement, FlowError> {
     let map = scene.map()?;
     let orbit = map.closed(coordinates(&claim.at), claim.period)?;
-    let mut finding = MotionFinding::default();
+    let mut judgement = MotionJudgement::default();
     // The angle, on the turn for which it is stated.
     let turns = ((orbit.point().at[0] - claim.at[0].value) / (2.0 * PI)).round();
     let l = orbit.measure(|point| point.at[0] - 2.0 * PI * turns);
-    finding.compare("l", l, &claim.at[0]);
+    judgement.compare("l", l, &claim.at[0]);
     let z = orbit.measure(|point| point.at[1]);
-    finding.compare("L/G", z, &claim.at[1]);
+    judgement.compare("L/G", z, &claim.at[1]);
     match &claim.time {
-        Some(stated) => finding.compare("return time", orbit.measure(|p| p.time), stated),
-        None => finding.show("return time", orbit.measure(|p| p.time)),
+        Some(stated) => judgement.compare("return time", orbit.measure(|p| p.time), stated),
+        None => judgement.show("return time", orbit.measure(|p| p.time)),
     }
     let product = orbit.measure(|point| point.determinant);
     match &claim.product {
-        Some(stated) => finding.compare("product of the multipliers", product, stated),
-        None => finding.show("product of the multipliers", product),
+        Some(stated) => judgement.compare("product of the multipliers", product, stated),
+        None => judgement.show("product of the multipliers", product),
     }
-    compare_multipliers(claim, &orbit, &mut finding);
+    compare_multipliers(claim, &orbit, &mut judgement);
     if let Some(stability) = claim.stability {
-        finding.expect(stability_of(&orbit), stability, "kind of the point");
+        judgement.expect(stability_of(&orbit), stability, "kind of the point");
     }
     if let Some(shorter) = shorter_period(map, &orbit, libm::hypot(l.error, z.error))? {
-        finding.refute(format!("it comes back after {shorter} crossings"));
+        judgement.refute(format!("it comes back after {shorter} crossings"));
     }
-    finding.remark = speaks_against(product)
+    judgement.remark = speaks_against(product)
         .then(|| "evidence against a density: volumes change over the period".to_string());
-    Ok(finding)
+    Ok(judgement)
 }
 
 fn compare_multipliers(
     claim: &PeriodicPoint,
     orbit: &ComputedClosedOrbit,
-    finding: &mut MotionFinding,
+    judgement: &mut MotionJudgement,
 ) {
     let modulus = orbit.measure_multipliers(|multipliers| match multipliers {
         Multipliers::Complex { modulus, .. } => Some(modulus),
@@ -64,9 +67,9 @@ fn compare_multipliers(
     ];
     for (quantity, found, stated) in claims {
         match (found, stated) {
-            (Some(found), Some(stated)) => finding.compare(quantity, found, stated),
-            (Some(found), None) => finding.show(quantity, found),
-            (None, Some(_)) => finding.refute(format!("there is no {quantity}")),
+            (Some(found), Some(stated)) => judgement.compare(quantity, found, stated),
+            (Some(found), None) => judgement.show(quantity, found),
+            (None, Some(_)) => judgement.refute(format!("there is no {quantity}")),
             (None, None) => {}
         }
     }

@@ -1,6 +1,6 @@
 //! Values at a time of a motion, proved by an enclosure of the state there.
 
-use super::finding::MotionFinding;
+use super::judgement::MotionJudgement;
 use super::scene::FollowedCase;
 use crate::motion::{filled, point};
 use crate::{Enclosure, FlowError, MeasuredNumber, Obstacle, follow};
@@ -16,8 +16,8 @@ use liouville::number::rational::Rational;
 const TIME: f64 = 4.0 * f64::EPSILON;
 
 /// Encloses the state of a claim, and compares the function there with its bounds.
-pub fn look(claim: &Reaches, scene: &FollowedCase<'_>) -> Result<MotionFinding, FlowError> {
-    let mut finding = MotionFinding::default();
+pub fn judge(claim: &Reaches, scene: &FollowedCase<'_>) -> Result<MotionJudgement, FlowError> {
+    let mut judgement = MotionJudgement::default();
     let (case, model) = (scene.case, &scene.case.model);
     if model.system.has_arbitrary_function() {
         return Err(FlowError::Arbitrary);
@@ -33,33 +33,33 @@ pub fn look(claim: &Reaches, scene: &FollowedCase<'_>) -> Result<MotionFinding, 
         None
     };
     if let Some(reason) = reason {
-        finding.leave_open(reason.to_string());
-        return Ok(finding);
+        judgement.leave_open(reason.to_string());
+        return Ok(judgement);
     }
     let Beginning::State(state) = &claim.beginning else { return Err(FlowError::NoStart) };
     let parameters = scene.parameters()?;
     let start = match exact_start(model, &parameters, state)? {
         Ok(start) => start,
         Err(reason) => {
-            finding.leave_open(reason);
-            return Ok(finding);
+            judgement.leave_open(reason);
+            return Ok(judgement);
         }
     };
     let time = Enclosure::about(claim.time, TIME * claim.time);
     match follow(model, &parameters, &start, time) {
         Ok(reached) => {
-            judge(claim, model, &parameters, &reached.state, &mut finding)?;
+            weigh(claim, model, &parameters, &reached.state, &mut judgement)?;
             let steps = reached.steps;
             let digits = reached.state.iter().map(|x| x.rad).fold(0.0, f64::max);
-            finding.theorem = Some(format!(
+            judgement.theorem = Some(format!(
                 "the state at t = {} is enclosed within {digits:.1e} by {steps} Taylor steps",
                 claim.time
             ));
         }
         Err(Obstacle::Motion(problem)) => return Err(problem),
-        Err(obstacle) => finding.leave_open(obstacle.to_string()),
+        Err(obstacle) => judgement.leave_open(obstacle.to_string()),
     }
-    Ok(finding)
+    Ok(judgement)
 }
 
 /// Encloses the state of a claim, or returns the reason why it is not known to lie on the level.
@@ -101,12 +101,12 @@ fn exact_start(
 }
 
 /// Compares the function with its bounds over a box of states.
-fn judge(
+fn weigh(
     claim: &Reaches,
     model: &Model,
     parameters: &[Rational],
     state: &[Enclosure],
-    finding: &mut MotionFinding,
+    judgement: &mut MotionJudgement,
 ) -> Result<(), FlowError> {
     let bounds = [(&claim.above, "above"), (&claim.below, "below")];
     let (graph, outputs) = record(model.dimension(), |inputs| {
@@ -122,14 +122,14 @@ fn judge(
     evaluator.run(&state.iter().map(|x| x.block()).collect::<Vec<_>>());
     let values: Vec<Enclosure> = evaluator.outputs().map(Enclosure::first).collect();
     let found = MeasuredNumber { value: values[0].mid, error: values[0].rad };
-    finding.note(claim.function.text().trim(), found, None);
+    judgement.note(claim.function.text().trim(), found, None);
     let given = bounds.iter().filter_map(|(bound, side)| Some((bound.as_ref()?, side)));
     for ((bound, side), margin) in given.zip(&values[1..]) {
         let bound = bound.text().trim();
         if (-*margin).is_positive() {
-            finding.refute(format!("it is not {side} {bound}"));
+            judgement.refute(format!("it is not {side} {bound}"));
         } else if !margin.is_positive() {
-            finding.leave_open(format!("whether it is {side} {bound} is within the enclosure"));
+            judgement.leave_open(format!("whether it is {side} {bound} is within the enclosure"));
         }
     }
     Ok(())

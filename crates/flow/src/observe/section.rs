@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use super::finding::MotionFinding;
+use super::judgement::MotionJudgement;
 use super::scene::FollowedCase;
 use crate::{Crossing, FlowError, MeasuredNumber};
 use liouville::claim::motion::{Confined, LimitCycle, SectionCoordinate};
@@ -21,7 +21,7 @@ fn distance(a: &Crossing, b: &Crossing) -> f64 {
 pub fn limit_cycle(
     claim: &LimitCycle,
     scene: &FollowedCase<'_>,
-) -> Result<MotionFinding, FlowError> {
+) -> Result<MotionJudgement, FlowError> {
     let crossings = scene.crossings(&claim.beginning, 0, claim.crossings)?.crossings;
     let period = claim.period;
     let last = crossings.len() - 1;
@@ -33,24 +33,26 @@ pub fn limit_cycle(
     let quarter = last / 4;
     let falls = [2 * quarter, 3 * quarter, last].map(|end| displacement(end, period));
     let blur = scene.map()?.blur(crossings[last].at, period)?;
-    let mut finding = MotionFinding::default();
+    let mut judgement = MotionJudgement::default();
     let shown = |value: f64| MeasuredNumber { value, error: blur };
-    finding.show("displacement halfway", shown(falls[0]));
-    finding.show("displacement at the end", shown(falls[2]));
+    judgement.show("displacement halfway", shown(falls[0]));
+    judgement.show("displacement at the end", shown(falls[2]));
     // Accumulated rounding moves a cycle that is about to vanish by its square root.
     let floor = libm::sqrt(blur * (last / period) as f64);
     if falls[2] > blur && falls.windows(2).any(|pair| pair[1] > pair[0] / 2.0) {
         match falls[2] >= falls[0] && falls[2] > floor {
-            true => finding.refute("the crossings do not come to rest".to_string()),
-            false if falls[2] > floor => finding.leave_open("they come to rest slowly".to_string()),
-            false => finding.leave_open("they rest up to rounding: follow fewer".to_string()),
+            true => judgement.refute("the crossings do not come to rest".to_string()),
+            false if falls[2] > floor => {
+                judgement.leave_open("they come to rest slowly".to_string())
+            }
+            false => judgement.leave_open("they rest up to rounding: follow fewer".to_string()),
         }
-        return Ok(finding);
+        return Ok(judgement);
     }
     let left = remaining(falls, (quarter / period).max(1), blur);
     for divisor in (1..period).filter(|n| period.is_multiple_of(*n)) {
         if displacement(last, divisor) <= falls[2] + left {
-            finding.refute(format!("the period is {divisor}"));
+            judgement.refute(format!("the period is {divisor}"));
         }
     }
     if let Some(point) = &claim.point {
@@ -60,10 +62,10 @@ pub fn limit_cycle(
             .min_by(|a, b| distance(a, &stated).total_cmp(&distance(b, &stated)));
         for (axis, quantity) in ["l", "L/G"].into_iter().enumerate() {
             let value = nearest.map_or(f64::NAN, |crossing| crossing.at[axis]);
-            finding.compare(quantity, MeasuredNumber { value, error: left }, &point[axis]);
+            judgement.compare(quantity, MeasuredNumber { value, error: left }, &point[axis]);
         }
     }
-    Ok(finding)
+    Ok(judgement)
 }
 
 /// Remaining sum of a geometric decline: d r/(1 - r), where d is the last displacement, and r the
@@ -77,7 +79,7 @@ fn remaining([_, before, last]: [f64; 3], turns: usize, blur: f64) -> f64 {
 }
 
 /// Tests whether the crossings stay in a part of the section, or the stated number of them does.
-pub fn confined(claim: &Confined, scene: &FollowedCase<'_>) -> Result<MotionFinding, FlowError> {
+pub fn confined(claim: &Confined, scene: &FollowedCase<'_>) -> Result<MotionJudgement, FlowError> {
     let orbit = scene.crossings(&claim.beginning, claim.skip, claim.crossings)?;
     let axis = match claim.axis {
         SectionCoordinate::L => 0,
@@ -89,18 +91,18 @@ pub fn confined(claim: &Confined, scene: &FollowedCase<'_>) -> Result<MotionFind
     let beyond = values.clone().filter(is_beyond).count();
     let start = (f64::INFINITY, f64::NEG_INFINITY);
     let (low, high) = values.fold(start, |(low, high), x| (low.min(x), high.max(x)));
-    let mut finding = MotionFinding::default();
+    let mut judgement = MotionJudgement::default();
     let rounded = |value: f64| MeasuredNumber { value, error: f64::EPSILON * value.abs() };
-    finding.show("lowest", rounded(low));
-    finding.show("highest", rounded(high));
+    judgement.show("lowest", rounded(low));
+    judgement.show("highest", rounded(high));
     let all = orbit.crossings.len();
     let told = format!("{beyond} of {all} crossings are beyond");
     if beyond as f64 > (1.0 - claim.share) * all as f64 {
-        finding.refute(told);
+        judgement.refute(told);
     } else if beyond > 0 {
-        finding.remark = Some(told);
+        judgement.remark = Some(told);
     }
-    Ok(finding)
+    Ok(judgement)
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Findings on claims about motion: numbers, each compared with the one stated.
+//! Judgement of claims about motion: numbers, each compared with the one stated.
 
 use crate::MeasuredNumber;
 use liouville::claim::motion::Stated;
@@ -7,9 +7,9 @@ use liouville::verdict::{Evidence, Measurement, Method, Verdict};
 /// Number of standard errors within which means agree.
 pub const ERRORS: f64 = 3.0;
 
-/// Finding on a claim about motion.
+/// Judgement of a claim about motion.
 #[derive(Default)]
-pub struct MotionFinding {
+pub struct MotionJudgement {
     measured: Vec<Measurement>,
     /// Reasons against the claim.
     against: Vec<String>,
@@ -17,11 +17,11 @@ pub struct MotionFinding {
     open: Vec<String>,
     /// Further consequence.
     pub remark: Option<String>,
-    /// Theorem on which the finding rests, in place of numbers with estimated errors.
+    /// Theorem on which the judgement rests, in place of numbers with estimated errors.
     pub theorem: Option<String>,
 }
 
-impl MotionFinding {
+impl MotionJudgement {
     /// Notes a number.
     pub fn show(&mut self, quantity: &str, found: MeasuredNumber) {
         self.note(quantity, found, None);
@@ -106,9 +106,9 @@ mod tests {
 
     fn verdict(stated: &str, value: f64, error: f64) -> Verdict {
         let stated = Stated::parse(stated).expect("a number");
-        let mut finding = MotionFinding::default();
-        finding.compare("number", MeasuredNumber { value, error }, &stated);
-        finding.conclude().0
+        let mut judgement = MotionJudgement::default();
+        judgement.compare("number", MeasuredNumber { value, error }, &stated);
+        judgement.conclude().0
     }
 
     #[test]
@@ -124,10 +124,10 @@ mod tests {
     #[test]
     fn means_agree_within_three_errors_of_both() {
         let with = |value, error| {
-            let mut finding = MotionFinding::default();
+            let mut judgement = MotionJudgement::default();
             let stated = Stated::parse("0.035 ± 0.003").expect("a number");
-            finding.compare_mean("mean", MeasuredNumber { value, error }, &stated);
-            finding.conclude().0
+            judgement.compare_mean("mean", MeasuredNumber { value, error }, &stated);
+            judgement.conclude().0
         };
         assert_eq!(with(0.044, 0.001), Verdict::Confirmed, "within three errors");
         assert_eq!(with(0.047, 0.001), Verdict::Refuted, "beyond them and the last digit");
