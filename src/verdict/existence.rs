@@ -24,6 +24,8 @@ use crate::proof::{Extent, InputRegion};
 const MOST_MISSING: usize = 16;
 /// Largest number of choices of signs with which a state is sought.
 const MOST_SIGNS: usize = 16;
+/// Number of states at which a confirmed claim's residual must have a value, if its formulas have.
+const UNRATED_STATES: u64 = 32;
 /// Share of doubtful states above which a claim is not confirmed: one in this many.
 const MAX_DOUBTFUL: usize = 4;
 
@@ -89,6 +91,23 @@ impl Judging<'_> {
                 });
             }
         }
+    }
+
+    /// Returns the reason why a claim may fail where its formulas have values and its residual has none,
+    /// if there is such a state: where √X is 0 on an open set, its derivative is not X'/(2√X).
+    pub(super) fn unrated(&self, item: &RecordedClaim<'_>, sampler: &Sampler) -> Option<String> {
+        if sampler.is_numerical() {
+            return None;
+        }
+        let (run, layout) = self.lay_out(sampler, std::iter::once(item), false);
+        let (span, domain) = (&layout.spans[0], Mixed::new(LADDER_BITS[0]));
+        let is_unrated = |index: &u64| {
+            let values = run.at(&domain, &sampler.states(&domain, 1, *index));
+            let residual = values.existing(std::slice::from_ref(&span.residual));
+            layout.existing(&values, span)[0] && !residual[0]
+        };
+        let index = (0..UNRATED_STATES).find(is_unrated)?;
+        Some(format!("at state {index} the formulas have values, and what should vanish has none"))
     }
 
     /// Refutes claims that are not identities in prime fields, once a state is known at which they

@@ -96,12 +96,12 @@ impl Judging<'_> {
                 undecide(status, reason.to_string());
             }
         }
-        let mut confirmed =
-            open.iter_mut().filter(|(_, status)| status.settled == Some(Verdict::Confirmed));
-        if let Some(first) = confirmed.next() {
-            if let Some(reason) = sampler.unreached() {
-                for (_, status) in std::iter::once(first).chain(confirmed) {
-                    undecide(status, reason.to_string());
+        let is_confirmed = |status: &ClaimState| status.settled == Some(Verdict::Confirmed);
+        if open.iter().any(|(_, status)| is_confirmed(status)) {
+            let unreached = sampler.unreached().map(str::to_string);
+            for (item, status) in open.iter_mut().filter(|(_, status)| is_confirmed(status)) {
+                if let Some(reason) = unreached.clone().or_else(|| self.unrated(item, sampler)) {
+                    undecide(status, reason);
                 }
             }
         }
