@@ -266,14 +266,13 @@ fn commands_that_need_a_flow_refuse_a_map() {
         &["section", file, "--out", out],
         &["exponents", file, "--start", "1,0.1"],
         &["periodic", file, "--start", "1,0.1"],
-        &["search", file],
-        &["search", file, "--conditions"],
         &["report", file],
         &["bench", file],
         &["chart", file, "--x", "x=0..1", "--y", "y=0..1", "--out", out],
     ] {
         run(arguments).code(2).stderr(contains("is a map"));
     }
+    run(&["search", file]).code(0).stdout(contains("x² + y²"));
     run(&["eval", file, "--state", "x=3 y=5"])
         .code(0)
         .stdout(contains("image").and(contains("det DΦ")));
