@@ -21,6 +21,6 @@ mod solution;
 mod steps;
 
 pub use analysis::solve;
-pub use newton::Newton;
+pub use newton::{Newton, has_moduli};
 pub use solution::{Solution, Solved};
 pub use steps::Pivot;

@@ -58,10 +58,7 @@ impl Newton {
         let tape = Tape::new(graph, &[values, slopes].concat());
         let equations = values.len();
         let dimension = slopes.len().checked_div(equations).unwrap_or_default();
-        let reached = graph.reached(values.iter().copied());
-        let is_modulus = |step: Step<'_>| matches!(step, Step::Unary(UnaryFunction::Abs, _));
-        let has_corners = (0..reached.len()).any(|k| reached[k] && is_modulus(graph.step(k)));
-        Self { tape, parameters, dimension, equations, has_corners }
+        Self { tape, parameters, dimension, equations, has_corners: has_moduli(graph, values) }
     }
 
     /// Whether some equation contains a modulus.
@@ -193,6 +190,13 @@ impl Newton {
         }
         None
     }
+}
+
+/// Whether some value contains a modulus.
+pub fn has_moduli(graph: &Graph, values: &[Expr]) -> bool {
+    let reached = graph.reached(values.iter().copied());
+    let is_modulus = |step: Step<'_>| matches!(step, Step::Unary(UnaryFunction::Abs, _));
+    (0..reached.len()).any(|k| reached[k] && is_modulus(graph.step(k)))
 }
 
 /// Selects one column for each row, each the largest after elimination of the earlier ones.

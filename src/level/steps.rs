@@ -61,7 +61,7 @@ pub enum SolutionStep {
 pub struct Pivot {
     /// Indices of the equations.
     pub equations: Vec<usize>,
-    /// What the step divides by.
+    /// Divisor of the step.
     pub divisor: Expr,
     /// Gram determinant of the equations' slopes along all unknowns that the divisor does not
     /// depend on.

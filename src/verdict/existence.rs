@@ -24,8 +24,6 @@ use crate::proof::{Extent, InputRegion};
 const MOST_MISSING: usize = 16;
 /// Largest number of choices of signs with which a state is sought.
 const MOST_SIGNS: usize = 16;
-/// Number of states at which a confirmed claim's residual must have a value, if its formulas have.
-const UNRATED_STATES: u64 = 32;
 /// Share of doubtful states above which a claim is not confirmed: one in this many.
 const MAX_DOUBTFUL: usize = 4;
 
@@ -50,7 +48,7 @@ impl Judging<'_> {
             let (run, layout) = self.lay_out(sampler, std::iter::once(*item), false);
             let (span, domain) = (&layout.spans[0], Mixed::new(LADDER_BITS[0]));
             let looked = missing.len().min(MOST_MISSING);
-            let mut doubtful = 0;
+            let (mut doubtful, mut partial) = (0, None);
             for lane in &missing[..looked] {
                 let index = *lane as u64;
                 let state = match &found {
@@ -78,9 +76,19 @@ impl Judging<'_> {
                     break;
                 }
                 let residual = values.existing(&[residual]);
-                if existing[0] && residual[0] {
-                    status.undefined = None;
+                match (existing[0], residual[0]) {
+                    (true, true) => status.undefined = None,
+                    // Where √X is 0 on an open set, its derivative is not X'/(2√X).
+                    (true, false) => partial = partial.or(Some(index)),
+                    (false, _) => {}
                 }
+            }
+            if let Some(index) = partial.filter(|_| !status.is_zero) {
+                status.blurred.get_or_insert_with(|| {
+                    format!(
+                        "at state {index} all that is written has a value, but the residual has none"
+                    )
+                });
             }
             if doubtful * missing.len() * MAX_DOUBTFUL >= looked * TAPE_LANES && !status.is_zero {
                 status.blurred.get_or_insert_with(|| {
@@ -91,23 +99,6 @@ impl Judging<'_> {
                 });
             }
         }
-    }
-
-    /// Returns the reason why a claim may fail where its formulas have values and its residual has none,
-    /// if there is such a state: where √X is 0 on an open set, its derivative is not X'/(2√X).
-    pub(super) fn unrated(&self, item: &RecordedClaim<'_>, sampler: &Sampler) -> Option<String> {
-        if sampler.is_numerical() {
-            return None;
-        }
-        let (run, layout) = self.lay_out(sampler, std::iter::once(item), false);
-        let (span, domain) = (&layout.spans[0], Mixed::new(LADDER_BITS[0]));
-        let is_unrated = |index: &u64| {
-            let values = run.at(&domain, &sampler.states(&domain, 1, *index));
-            let residual = values.existing(std::slice::from_ref(&span.residual));
-            layout.existing(&values, span)[0] && !residual[0]
-        };
-        let index = (0..UNRATED_STATES).find(is_unrated)?;
-        Some(format!("at state {index} the formulas have values, and what should vanish has none"))
     }
 
     /// Refutes claims that are not identities in prime fields, once a state is known at which they

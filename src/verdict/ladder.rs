@@ -97,13 +97,11 @@ impl Judging<'_> {
             }
         }
         let is_confirmed = |status: &ClaimState| status.settled == Some(Verdict::Confirmed);
-        if open.iter().any(|(_, status)| is_confirmed(status)) {
-            let unreached = sampler.unreached().map(str::to_string);
-            for (item, status) in open.iter_mut().filter(|(_, status)| is_confirmed(status)) {
-                if let Some(reason) = unreached.clone().or_else(|| self.unrated(item, sampler)) {
-                    undecide(status, reason);
-                }
-            }
+        if open.iter().any(|(_, status)| is_confirmed(status))
+            && let Some(reason) = sampler.unreached()
+        {
+            let confirmed = open.iter_mut().filter(|(_, status)| is_confirmed(status));
+            confirmed.for_each(|(_, status)| undecide(status, reason.to_string()));
         }
         self.second_opinion(sampler, open)?;
         Ok(())

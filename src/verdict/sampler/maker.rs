@@ -27,16 +27,16 @@ impl Sampler {
         let numerical = self.newton.as_ref()?;
         if numerical.has_corners() {
             return Some(
-                "the states are found numerically, and an equation of the level contains |·| or the \
-                 like: parts of the level may be missed; give a case to each sign",
+                "the states are found numerically, and an equation of the level contains |·|, min or \
+                 max: parts of the level may be missed; write a case for each sign",
             );
         }
         let mut maker = self.maker();
-        let mut meets_ends =
+        let meets_ends =
             |attempt| numerical.meets_ends(maker.tried(0, &[attempt; TAPE_LANES], None));
-        (0..NUMERICAL_ATTEMPTS).any(&mut meets_ends).then_some(
-            "the states are found numerically, and some lie at the end of a range, up to rounding: \
-             they are left out; make the range larger",
+        (0..NUMERICAL_ATTEMPTS).any(meets_ends).then_some(
+            "the states are found numerically, and those at the end of a range, up to rounding, are \
+             left out; make the range larger",
         )
     }
 }

@@ -16,10 +16,9 @@ use std::sync::Arc;
 
 use crate::case::Case;
 use crate::claim::LevelSubset;
-use crate::graph::{Expr, Fault, Graph, Step, Tape, literally, record};
+use crate::graph::{Expr, Fault, Graph, Tape, literally, record};
 use crate::level::{self, Pivot, Solution};
 use crate::mechanics::{Chart, Draw, DrawSource};
-use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
 use crate::proof::{Extent, InputDistribution};
 
@@ -99,9 +98,7 @@ impl Sampler {
         })?;
         let (tape, unguarded) = (Tape::new(&graph, &guarded), Tape::new(&graph, &made));
         let is_guarded = solution.is_some();
-        let reached = graph.reached(guarded.iter().copied());
-        let is_modulus = |step: Step<'_>| matches!(step, Step::Unary(UnaryFunction::Abs, _));
-        let has_moduli = (0..reached.len()).any(|k| reached[k] && is_modulus(graph.step(k)));
+        let has_moduli = level::has_moduli(&graph, &guarded);
         let dimension = model.dimension();
         let (recipes, draws) = (draws.clone(), DrawSource::new(&draws));
         let (graph, pivots) = (Arc::new(graph), pivots.into());

@@ -51,22 +51,23 @@ impl NumericalLevel {
     /// Compares the box of a state with the ranges.
     fn position<const N: usize>(&self, values: &[Balls<N>], lane: usize) -> Position {
         let of_state = values[self.parameters..].iter().zip(&self.ranges);
-        of_state.fold(Position::Inside, |position, (block, range)| {
+        let of_coordinate = |(block, range): (&Balls<N>, &Option<(f64, f64)>)| {
             let (mid, rad) = (block.mid[lane], block.rad[lane]);
             let (from, to) = ((mid - rad).next_down(), (mid + rad).next_up());
             let (low, high) = range.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
-            match position {
-                Position::Outside => Position::Outside,
-                _ if !(to >= low && from <= high) => Position::Outside,
-                Position::Inside if !(from >= low && to <= high) => Position::AtEnd,
-                position => position,
+            match () {
+                () if from >= low && to <= high => Position::Inside,
+                () if to >= low && from <= high => Position::AtEnd,
+                // An undefined coordinate, too.
+                () => Position::Outside,
             }
-        })
+        };
+        of_state.map(of_coordinate).max().unwrap_or(Position::Inside)
     }
 }
 
-/// Position of a box with respect to the ranges of all coordinates.
-#[derive(Clone, Copy, PartialEq, Eq)]
+/// Position of a box with respect to ranges; the worst coordinate decides.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Position {
     Inside,
     /// Some ends of ranges lie in it.
