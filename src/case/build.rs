@@ -9,14 +9,13 @@ use super::error::{CaseError, Mistake, Problem};
 use super::mistakes::Mistakes;
 use super::parameters::{self, Setting};
 use super::section::CaseTable;
-use super::state::TIME;
 use super::systems::{ModelParts, Reading};
 use super::{
     AbsenceClaim, Case, Column, MotionClaim, PlacedClaim, TABLE_ROWS, absences, charts,
     homogeneous, lists, map, one_sided, poincare, remarks, shadows, toml_errors, variables,
     velocities, weights,
 };
-use crate::mechanics::{Chart, LevelFunction, Model, Surface, System};
+use crate::mechanics::{Chart, LevelFunction, Model, Surface, System, TIME};
 
 /// The keys of a case file.
 const KEYS: [&str; 21] = [

@@ -3,9 +3,11 @@
 use super::error::{Mistake, Problem};
 use super::formulas::formula;
 use super::section::CaseTable;
-use super::state::{self, State, TIME};
+use super::state::{self, State};
 use crate::formula::{Formula, Type, canonical_name};
-use crate::mechanics::{Chart, Dependence, Draw, GivenChart, Meaning, Model, Variable, Vocabulary};
+use crate::mechanics::{
+    Chart, Dependence, Draw, GivenChart, Meaning, Model, TIME, Variable, Vocabulary,
+};
 
 /// Reads the table: inputs with ranges, and a formula for each state variable; `None` where there
 /// is a mistake.

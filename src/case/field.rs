@@ -4,10 +4,9 @@ use super::error::{Mistake, Problem};
 use super::family::{Key, Rates, Unreadable};
 use super::formulas::formula;
 use super::section::{CaseTable, SpannedStr};
-use super::state::TIME;
 use crate::formula::{Formula, Type, excerpt};
 use crate::mechanics::{
-    Dependence, LevelEquation, LevelFunction, RootEquation, Variable, Vocabulary,
+    Dependence, LevelEquation, LevelFunction, RootEquation, TIME, Variable, Vocabulary,
 };
 
 /// Reads the formulas of each variable whose rate is given, under its name with or without a prime.

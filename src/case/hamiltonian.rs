@@ -7,12 +7,11 @@ use super::error::{Mistake, Problem};
 use super::formulas::formula;
 use super::order::Stage;
 use super::section::CaseTable;
-use super::state::TIME;
 use super::systems::Reading;
 use super::variables::{Blocks, BracketNames, blocks, structure};
 use crate::formula::{Type, canonical_name};
 use crate::mechanics::{
-    BracketBlock, Chart, Dependence, HamiltonianSystem, System, Variable, of_hamiltonian,
+    BracketBlock, Chart, Dependence, HamiltonianSystem, System, TIME, Variable, of_hamiltonian,
 };
 
 const PAIRS: &str = "write pairs = [[\"q\",\"p\"]], two state variables of one kind in each";

@@ -4,11 +4,10 @@ use super::error::{Mistake, Problem};
 use super::field::{self, GivenRate};
 use super::formulas::{formula, inside};
 use super::section::{CaseTable, SpannedStr};
-use super::state::TIME;
 use super::systems::Reading;
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{
-    Algebra, Dependence, Lagrangian, System, Variable, VariableRole, Vocabulary,
+    Algebra, Dependence, Lagrangian, System, TIME, Variable, VariableRole, Vocabulary,
 };
 
 fn other(text: &SpannedStr, message: String, remedy: &str) -> Mistake {

@@ -10,7 +10,7 @@ use super::parameters::named;
 use super::section::CaseTable;
 use super::shapes::{GivenValue, Refusal, given, state_draws};
 use crate::formula::Type;
-use crate::mechanics::{Dependence, Draw, Meaning, Range, Variable, Vocabulary};
+use crate::mechanics::{Dependence, Draw, Meaning, Range, TIME, Variable, Vocabulary};
 
 /// State variables with the draws of their components.
 #[derive(Clone, Debug)]
@@ -20,9 +20,6 @@ pub struct State {
     /// Draw of each component.
     pub draws: Vec<Draw>,
 }
-
-/// Name of time, where formulas use it and it has no other meaning.
-pub const TIME: &str = "t";
 
 /// Reads a table of names and ranges; `reach` is the dependence that the names stand for.
 pub fn state(section: &CaseTable<'_>, vocabulary: &mut Vocabulary, reach: Dependence) -> State {

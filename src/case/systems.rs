@@ -10,12 +10,12 @@ use super::mistakes::Mistakes;
 use super::order::{Stage, WaitingName};
 use super::parameters::Setting;
 use super::section::{CaseTable, SpannedStr};
-use super::state::{self, State, TIME};
+use super::state::{self, State};
 use super::{kinds, shadows};
 use crate::formula::{Formula, Scope, Symbol, Type, canonical_name, names_in};
 use crate::mechanics::{
-    Chart, Dependence, Draw, LevelEquation, Meaning, Model, Parameter, Quantity, System, Variable,
-    Vocabulary,
+    Chart, Dependence, Draw, LevelEquation, Meaning, Model, Parameter, Quantity, System, TIME,
+    Variable, Vocabulary,
 };
 
 /// A model with its chart and draws.

@@ -2,10 +2,13 @@
 
 use num_dual::Dual;
 
+use super::clock::never_rests;
 use super::components::Components;
 use super::point::read_point;
+use super::statement::Objection;
 use super::{ComplexFormula, Reader, Statement, difference};
 use crate::formula::{Formula, Type};
+use crate::mechanics::Model;
 use crate::mechanics::calculus::{DualPoint, characteristic_polynomial};
 use crate::scalar::Scalar;
 
@@ -42,6 +45,10 @@ impl Statement for FixedPoint {
             return Err(from.complaint("spectrum", message, "write the antiderivative out"));
         }
         Ok(Self { point, spectrum, polynomial: read_polynomial(from)? })
+    }
+
+    fn objection(&self, model: &Model) -> Option<Objection> {
+        never_rests(model, Self::NAME)
     }
 
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {

@@ -6,6 +6,7 @@
 pub mod absence;
 mod bracket;
 mod casimir;
+mod clock;
 mod commutator;
 mod compatible;
 mod components;

@@ -5,8 +5,10 @@
 //! excludes every ρ that is positive at x₀. On a level, div v refers to the level's volume. For a
 //! map the factor is det DΦ, which must be ±1.
 
+use super::clock::never_rests;
 use super::components::Components;
 use super::point::read_point;
+use super::statement::Objection;
 use super::{Condition, Need, Reader, ResidualContext, Statement, difference};
 use crate::graph::Expr;
 use crate::mechanics::Model;
@@ -45,6 +47,10 @@ impl Statement for NoDensityNear {
 
     fn text(&self) -> Option<String> {
         Some(format!("no density near ({})", self.0.text))
+    }
+
+    fn objection(&self, model: &Model) -> Option<Objection> {
+        never_rests(model, Self::NAME)
     }
 
     /// Computes the field at the point and the level functions there.

@@ -1,10 +1,11 @@
 //! Maps of phase space: symmetries, reversors, scalings, and maps to other systems.
 
+use super::clock::clock;
 use super::{Condition, Jets, Need, Reader, Statement, difference, quadrature_defects};
 use crate::formula::{Formula, Type};
 use crate::graph::{Expr, record};
 use crate::mechanics::calculus::DualPoint;
-use crate::mechanics::{Dependence, Meaning, Model, Phase, Variable};
+use crate::mechanics::{Dependence, Meaning, Model, Phase, TIME, Variable};
 use crate::scalar::Scalar;
 
 /// A map σ of phase space to itself, which may change parameters too.
@@ -67,6 +68,15 @@ impl Transformation {
             }
         }
         Ok(map)
+    }
+
+    /// Gives the variable t its image λt, if the map does not name it.
+    fn scale_clock(&mut self, model: &Model, factor: Option<&Formula>) {
+        let (Some(factor), Some(index)) = (factor, clock(model)) else { return };
+        let image = Formula::parse(TIME, &model.vocabulary).and_then(|time| factor * &time);
+        if let (None, Ok(image)) = (&self.state[index], image) {
+            self.state[index] = Some(image);
+        }
     }
 
     fn formulas(&self) -> Vec<&Formula> {
@@ -136,7 +146,7 @@ impl Statement for Symmetry {
     const OF_MAPS: bool = true;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
-        let map = Transformation::read(from, Self::NAME)?;
+        let mut map = Transformation::read(from, Self::NAME)?;
         let time = from.formula("time", Some(Type::Scalar))?;
         if time.is_some() && from.model().system.is_map() {
             let message = "a map has no time to scale".to_string();
@@ -157,6 +167,7 @@ impl Statement for Symmetry {
             let message = "`time` is 0, and t → 0 is not a change of time".to_string();
             return Err(from.complaint("time", message, "give λ with t → λt, not 0"));
         }
+        map.scale_clock(from.model(), time.as_ref());
         Ok(Self { map, time })
     }
 
@@ -205,7 +216,9 @@ impl Statement for Reversor {
     const OF_MAPS: bool = true;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
-        Transformation::read(from, Self::NAME).map(Self)
+        let mut map = Transformation::read(from, Self::NAME)?;
+        map.scale_clock(from.model(), Some(&Formula::number(-1)));
+        Ok(Self(map))
     }
 
     fn formulas(&self) -> Vec<&Formula> {

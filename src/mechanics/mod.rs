@@ -42,7 +42,7 @@ pub use flat_base::FlatBase;
 pub use hamiltonian::HamiltonianSystem;
 pub use lagrangian::{Algebra, Lagrangian, VariableRole};
 pub use model::{
-    LevelEquation, LevelFunction, Model, Parameter, ParameterOrigin, RootEquation, Variable,
+    LevelEquation, LevelFunction, Model, Parameter, ParameterOrigin, RootEquation, TIME, Variable,
     components,
 };
 pub use parts::EquationPart;

@@ -21,6 +21,9 @@ pub struct Parameter {
     pub origin: ParameterOrigin,
 }
 
+/// Name of time, where formulas use it and it has no other meaning.
+pub const TIME: &str = "t";
+
 /// The source of a parameter's value.
 #[derive(Clone, Debug)]
 pub enum ParameterOrigin {

@@ -6,6 +6,8 @@ mod bodies;
 mod branches;
 #[path = "cli/limits.rs"]
 mod limits;
+#[path = "cli/lines.rs"]
+mod lines;
 #[path = "cli/motion.rs"]
 mod motion;
 #[path = "cli/orbits.rs"]

@@ -3,15 +3,13 @@
 use super::error::FlowError;
 use super::lexicon::{FormulaMistake, Lexicon, listed};
 use super::motion::point;
+use liouville::case::Case;
 use liouville::formula::{Formula, Type};
 use liouville::graph::{Evaluator, Tape, record};
-use liouville::mechanics::{Model, Phase};
+use liouville::mechanics::{Model, Phase, TIME};
 use liouville::number::double_double::{DoubleDouble, DoubleDoubles};
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
-
-/// Name of the column of the time, where a case does not use it otherwise.
-const TIME: &str = "t";
 
 /// Columns requested: scalars are one column, vectors and matrices one for each component.
 pub struct Columns {
@@ -45,6 +43,12 @@ impl Columns {
             sources.push(ColumnSource::Formula(formula));
         }
         Ok(Self { lexicon, titles, sources })
+    }
+
+    /// The same columns for a case that differs in values of parameters alone.
+    pub(super) fn of(&self, case: &Case) -> Self {
+        let (titles, sources) = (self.titles.clone(), self.sources.clone());
+        Self { lexicon: Lexicon::new(case), titles, sources }
     }
 
     /// Time and all components of the state.

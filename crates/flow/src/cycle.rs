@@ -13,13 +13,14 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::carry::{MOST_STEPS, carried};
 use super::closed::MeasuredNumber;
 use super::error::FlowError;
 use super::motion::program;
 use super::multiplier::{self, CycleKind, Multiplier};
 use super::number::SeriesNumber;
 use super::program::TaylorProgram;
-use super::start::{LevelFunctions, Start, level_basis};
+use super::start::{LevelFunctions, Start, dot, level_basis};
 use super::stepper::{Accuracy, Stepper};
 use super::variational::variational_program;
 use liouville::mechanics::Model;
@@ -35,8 +36,6 @@ const CONVERGED: f64 = 1e-10;
 const DEGENERATE: f64 = 1e-11;
 /// Change of the energy along a motion that is rounding, relative to its size.
 const KEPT: f64 = 1e-10;
-/// Number of steps after which a motion is too long for a closed orbit.
-const MOST_STEPS: u64 = 1_000_000;
 
 /// Functions that fix one closed orbit of a family.
 pub(super) struct Pins {
@@ -343,26 +342,6 @@ pub(super) fn keeps_energy(
     Ok(true)
 }
 
-/// Follows a motion for a time.
-fn carried<T: SeriesNumber<One = T>>(
-    program: &TaylorProgram,
-    begin: &[DoubleDouble],
-    time: DoubleDouble,
-    accuracy: Accuracy,
-) -> Result<Vec<DoubleDouble>, FlowError> {
-    let mut stepper = Stepper::<T>::new(program, accuracy);
-    stepper.start(0, begin, time);
-    while !stepper.is_done(0) {
-        if stepper.steps(0) > MOST_STEPS {
-            return Err(FlowError::NoClosedOrbit(time.hi));
-        }
-        stepper.expand();
-        stepper.check(0)?;
-        stepper.advance();
-    }
-    Ok(stepper.pairs(0))
-}
-
 /// Least-squares solution; `None` where the equations are singular.
 fn solved(matrix: &DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
     if matrix.iter().chain(right.iter()).any(|x| !x.is_finite()) {
@@ -378,10 +357,6 @@ fn solved(matrix: &DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
 
 fn norm(parts: impl Iterator<Item = f64>) -> f64 {
     parts.map(|x| x * x).sum::<f64>().sqrt()
-}
-
-fn dot(a: &[DoubleDouble], b: &[DoubleDouble]) -> DoubleDouble {
-    a.iter().zip(b).fold(DoubleDouble::default(), |sum, (x, y)| sum + *x * *y)
 }
 
 fn differences(a: &[DoubleDouble], b: &[DoubleDouble]) -> Vec<DoubleDouble> {

@@ -166,7 +166,7 @@ pub enum FlowError {
         /// Distance.
         by: f64,
     },
-    /// What varies along a branch of closed orbits begins outside its range.
+    /// The quantity that varies along a branch of closed orbits begins outside its range.
     #[error("what varies is {value} at the start, outside the range from {from} to {to}")]
     OutsideRange {
         /// Value at the start.

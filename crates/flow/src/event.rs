@@ -54,6 +54,8 @@ pub struct Ends<T> {
     last: T,
     /// Derivatives at the ends.
     rates: [T; 2],
+    /// The last two terms of the polynomial.
+    tails: [T; 2],
 }
 
 impl<T: SeriesNumber> Ends<T> {
@@ -64,6 +66,7 @@ impl<T: SeriesNumber> Ends<T> {
         first: T::ZERO,
         last: T::ZERO,
         rates: [T::ZERO; 2],
+        tails: [T::ZERO; 2],
     };
 
     /// Evaluates polynomials at the ends of their pieces.
@@ -71,8 +74,10 @@ impl<T: SeriesNumber> Ends<T> {
     pub fn new(polynomial: &[T], length: T) -> Self {
         let size = T::ZERO.larger(length);
         let (mut power, mut largest) = (T::ONE, T::ZERO);
+        let mut tails = [T::ZERO; 2];
         for coefficient in polynomial {
-            largest = largest.larger(*coefficient * power);
+            let term = *coefficient * power;
+            (tails, largest) = ([tails[1], T::ZERO.larger(term)], largest.larger(term));
             power = power * size;
         }
         let (mut last, mut rate) = (T::ZERO, T::ZERO);
@@ -82,7 +87,20 @@ impl<T: SeriesNumber> Ends<T> {
                 rate = rate * length + T::float(n as f64) * *coefficient;
             }
         }
-        Self { length, largest, first: polynomial[0], last, rates: [polynomial[1], rate] }
+        Self { length, largest, first: polynomial[0], last, rates: [polynomial[1], rate], tails }
+    }
+
+    /// Part of a lane's piece after which the last two of its `count` terms are within their limits,
+    /// relative to the largest term; 1 if they are so now.
+    pub fn known_share(&self, lane: usize, count: usize, limits: [f64; 2]) -> f64 {
+        let at = |value: T| value.lane(lane).leading();
+        let largest = at(self.largest);
+        let tails = self.tails.map(at).into_iter().zip(limits).zip(count.saturating_sub(2)..);
+        let share = tails.map(|((tail, limit), n)| match tail > largest * limit && largest > 0.0 {
+            true => 0.95 * libm::pow(largest * limit / tail, 1.0 / n as f64),
+            false => 1.0,
+        });
+        share.filter(|share| share.is_finite()).fold(1.0, f64::min)
     }
 }
 

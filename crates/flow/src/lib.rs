@@ -12,6 +12,7 @@ mod andoyer;
 mod area;
 mod axis;
 mod batch;
+mod carry;
 mod closed;
 mod code;
 mod columns;
@@ -19,6 +20,7 @@ mod compile;
 mod continuation;
 mod crossings;
 mod cycle;
+mod diagram;
 mod error;
 mod event;
 mod expand;
@@ -44,11 +46,13 @@ mod program;
 mod record;
 mod request;
 mod returns;
+mod rotation;
 mod samples;
 mod section;
 mod separatrix;
 mod series;
 mod shadow;
+mod shorten;
 mod spectrum;
 mod start;
 mod stepper;
@@ -68,6 +72,7 @@ pub use continuation::{
     declared_range,
 };
 pub use cycle::Cycle;
+pub use diagram::{DiagramOrbit, DiagramRequest, DiagramSection, diagram};
 pub use error::FlowError;
 pub use halt::{stop_request, stoppable};
 pub use launch::{Begin, Launches, Launchpad};
@@ -82,6 +87,7 @@ pub use plane::{ChartAxis, Coordinate, Launch, PlaneRequest, plane, plane_part};
 pub use portrait::{Portrait, portrait};
 pub use request::{ChoiceError, SectionChoice};
 pub use returns::{closed_orbit, crossing_time};
+pub use rotation::RotationNumber;
 pub use samples::{SampledOrbit, Sampling, orbits};
 pub use section::{
     Crossing, SectionOrbit, SectionRequest, section, section_starts, values_at_starts,

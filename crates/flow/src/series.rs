@@ -1,7 +1,7 @@
 //! Taylor coefficients of a motion at a state.
 
 use super::batch::MOTION_LANES;
-use super::code::{BoundProgram, LINE};
+use super::code::{BoundProgram, LINE, Place, PlacedRule};
 use super::expand::Expansion;
 use super::lanes::Lanes;
 use super::machine::{LaneMachine, TaylorCode};
@@ -23,6 +23,8 @@ pub struct Series<T: SeriesNumber> {
     pub(super) partial: Vec<T::Partial>,
     pub(super) inner: Vec<T>,
     pub(super) memory: Vec<T>,
+    /// Places of the rows that are roots or powers, which are not negative.
+    roots: Vec<Place>,
     /// Number of expansions so far, up to where machine code pays.
     pub(super) expansions: u32,
     pub(super) machine: Option<Box<T::Machine>>,
@@ -37,6 +39,11 @@ impl<T: SeriesNumber> Series<T> {
         let aligned = memory.as_ptr().align_offset(LINE).min(line);
         let (code, _) = BoundProgram::new(program, order, aligned);
         let sums = (code.counts.len() + 1).next_multiple_of(BLOCK);
+        let placed = code.operations.iter().zip(&code.finishes);
+        let roots = placed.filter(|(operation, _)| {
+            matches!(operation.rule, PlacedRule::Sqrt(_) | PlacedRule::Power { .. })
+        });
+        let roots = roots.map(|(_, finish)| finish.place).collect();
         Self {
             order,
             orders: order.next_multiple_of(T::WIDTH),
@@ -47,6 +54,7 @@ impl<T: SeriesNumber> Series<T> {
             partial: vec![T::nothing(); sums],
             inner: vec![T::ZERO; sums],
             memory,
+            roots,
             expansions: 0,
             machine: None,
         }
@@ -124,6 +132,11 @@ impl<T: SeriesNumber> Series<T> {
     pub fn component(&self, index: usize) -> &[T] {
         let place = self.code.state[index].place as usize;
         &self.memory[place..=place + self.order]
+    }
+
+    /// Coefficients of the roots and powers, orders 0 to `order` - 1.
+    pub fn roots(&self) -> impl Iterator<Item = &[T]> {
+        self.roots.iter().map(|place| &self.memory[*place as usize..][..self.order])
     }
 
     /// Coefficients of a further function, orders 0 to `order` - 1.

@@ -135,12 +135,7 @@ impl LevelFunctions {
             };
             let columns: Vec<Vec<Dual<Expr>>> = (0..dimension).map(along).collect();
             equations = columns.first().map_or(0, Vec::len);
-            let mut outputs: Vec<Expr> =
-                columns.first().into_iter().flatten().map(|value| value.re).collect();
-            for row in 0..equations {
-                outputs.extend(columns.iter().map(|column| column[row].eps));
-            }
-            outputs
+            values_and_slopes(&columns)
         })?;
         Ok(Self { tape: Tape::new(&graph, &outputs), equations })
     }
@@ -270,7 +265,17 @@ pub(super) fn complement<'v>(
     unit.split_off(count.min(dimension))
 }
 
-fn dot(a: &[DoubleDouble], b: &[DoubleDouble]) -> DoubleDouble {
+/// Values of functions, then their gradients one after another, from their values over dual numbers
+/// along each variable.
+pub(super) fn values_and_slopes(columns: &[Vec<Dual<Expr>>]) -> Vec<Expr> {
+    let values = columns.first().into_iter().flatten().map(|value| value.re);
+    let count = columns.first().map_or(0, Vec::len);
+    let slopes = (0..count).flat_map(|row| columns.iter().map(move |column| column[row].eps));
+    values.chain(slopes).collect()
+}
+
+/// Scalar product.
+pub(super) fn dot(a: &[DoubleDouble], b: &[DoubleDouble]) -> DoubleDouble {
     a.iter().zip(b).fold(DoubleDouble::default(), |sum, (x, y)| sum + *x * *y)
 }
 

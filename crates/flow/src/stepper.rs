@@ -7,7 +7,6 @@
 use std::ops::Range;
 
 use super::error::FlowError;
-use super::event::Ends;
 use super::halt::Halt;
 use super::number::SeriesNumber;
 use super::program::TaylorProgram;
@@ -43,33 +42,33 @@ pub(super) const ENDLESS: f64 = 1e9;
 
 /// Motions in lockstep, one in each lane.
 pub struct Stepper<T: SeriesNumber> {
-    series: Series<T>,
-    kappa: f64,
+    pub(super) series: Series<T>,
+    pub(super) kappa: f64,
     /// State, and its rounding remainder.
     state: Vec<T>,
     rest: Vec<T>,
-    lanes: Vec<Lane<T::One>>,
-    sizes: Sizes<T>,
+    pub(super) lanes: Vec<Lane<T::One>>,
+    pub(super) sizes: Sizes<T>,
     halt: Halt,
 }
 
 /// Sizes of the present expansions.
 #[derive(Clone, Copy)]
-struct Sizes<T> {
+pub(super) struct Sizes<T> {
     /// Maximum norms of the state's coefficients of orders 0 and 1, and of the last two orders.
-    norms: [T; 4],
+    pub(super) norms: [T; 4],
     /// 0 where all coefficients of the last order are finite, or else NaN.
     soundness: T,
 }
 
 /// Time and step of one motion.
 #[derive(Clone, Copy)]
-struct Lane<One> {
+pub(super) struct Lane<One> {
     time: DoubleDouble,
     /// Final time; its sign relative to `time` is the direction.
     until: DoubleDouble,
     /// Step from the present expansion.
-    step: One,
+    pub(super) step: One,
     steps: u64,
     pace: Pace,
 }
@@ -173,6 +172,7 @@ impl<T: SeriesNumber> Stepper<T> {
                 T::One::split(left).0
             };
         }
+        self.keep_branches();
     }
 
     /// Makes neighbouring motions, in groups of `together`, take the same step.
@@ -284,13 +284,6 @@ impl<T: SeriesNumber> Stepper<T> {
         let radius = |n: usize, norm: f64| (size - libm::log(norm)) / (n - first) as f64;
         libm::exp(radius(order - 1, before_last).min(radius(order, last)) - self.kappa)
     }
-
-    /// Values that decide whether a further function can vanish on the present pieces.
-    pub fn ends(&self, output: usize) -> Ends<T> {
-        let mut ends = Ends::NONE;
-        with_widest_vectors(EndValues { stepper: self, output, ends: &mut ends });
-        ends
-    }
 }
 
 /// Work of measuring the present expansions.
@@ -310,22 +303,6 @@ impl<T: SeriesNumber> Kernel for ErrorMeasure<'_, T> {
             sizes.soundness = sizes.soundness + coefficients[order] * T::ZERO;
         }
         stepper.sizes = sizes;
-    }
-}
-
-/// Work of evaluating a further function at the ends of the present pieces.
-struct EndValues<'s, T: SeriesNumber> {
-    stepper: &'s Stepper<T>,
-    output: usize,
-    ends: &'s mut Ends<T>,
-}
-
-impl<T: SeriesNumber> Kernel for EndValues<'_, T> {
-    #[inline(always)]
-    fn run(self) {
-        let Self { stepper, output, ends } = self;
-        let length = T::from_lanes(|lane| stepper.lanes[lane].step);
-        *ends = Ends::new(stepper.series.output(output), length);
     }
 }
 

@@ -64,6 +64,12 @@ impl CrossingSurface {
         Ok(Self { lexicon, left, right, text })
     }
 
+    /// The same surface for a case that differs in values of parameters alone.
+    pub(super) fn of(&self, case: &Case) -> Self {
+        let (left, right) = (self.left.clone(), self.right.clone());
+        Self { lexicon: Lexicon::new(case), left, right, text: self.text.clone() }
+    }
+
     /// Equation of the surface.
     pub fn text(&self) -> &str {
         &self.text

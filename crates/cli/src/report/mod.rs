@@ -2,6 +2,7 @@
 //! languages. What needs no terminal is in `liouville-report`.
 
 pub mod bench;
+pub mod bifurcations;
 pub mod bodies;
 pub mod branch;
 pub mod certificate;
@@ -19,6 +20,7 @@ mod horseshoe_certificate;
 pub mod motion_certificate;
 pub mod orbit;
 pub mod point;
+pub mod rotation;
 pub mod section;
 pub mod stress;
 pub mod surface;

@@ -16,7 +16,7 @@ use crate::motion::{Loose, extended_program, filled};
 use crate::number::SeriesNumber;
 use crate::open::OpenModel;
 use crate::program::TaylorProgram;
-use crate::start::complement;
+use crate::start::{complement, values_and_slopes};
 use liouville::graph::{Evaluator, Expr, Tape, record};
 use liouville::mechanics::calculus::DualPoint;
 use liouville::mechanics::{Model, Phase};
@@ -329,12 +329,7 @@ impl Functions<'_> {
             };
             let columns: Vec<Vec<Dual<Expr>>> = (0..=dimension).map(along).collect();
             equations = columns.first().map_or(0, Vec::len);
-            let mut outputs: Vec<Expr> =
-                columns.first().into_iter().flatten().map(|value| value.re).collect();
-            for row in 0..equations {
-                outputs.extend(columns.iter().map(|column| column[row].eps));
-            }
-            outputs
+            values_and_slopes(&columns)
         })?;
         Ok((Tape::new(&graph, &outputs), equations))
     }

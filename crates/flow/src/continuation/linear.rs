@@ -11,14 +11,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::family::{Family, Frame, Place, norm};
+use crate::carry::carried;
 use crate::error::FlowError;
 use crate::number::SeriesNumber;
-use crate::program::TaylorProgram;
-use crate::stepper::{Accuracy, Stepper};
+use crate::start::dot;
+use crate::stepper::Accuracy;
 use liouville::number::double_double::DoubleDouble;
-
-/// Number of steps after which a motion is too long for a closed orbit.
-const MOST_STEPS: u64 = 1_000_000;
 
 /// The section map at a point.
 #[derive(Clone, Debug)]
@@ -40,30 +38,6 @@ pub struct Linear {
     pub rate: f64,
     /// Distance of the image.
     pub gap: f64,
-}
-
-/// Follows a motion for a time.
-fn carried<T: SeriesNumber<One = T>>(
-    program: &TaylorProgram,
-    begin: &[DoubleDouble],
-    time: DoubleDouble,
-    accuracy: Accuracy,
-) -> Result<Vec<DoubleDouble>, FlowError> {
-    let mut stepper = Stepper::<T>::new(program, accuracy);
-    stepper.start(0, begin, time);
-    while !stepper.is_done(0) {
-        if stepper.steps(0) > MOST_STEPS {
-            return Err(FlowError::NoClosedOrbit(time.hi));
-        }
-        stepper.expand();
-        stepper.check(0)?;
-        stepper.advance();
-    }
-    Ok(stepper.pairs(0))
-}
-
-fn dot(a: &[DoubleDouble], b: &[DoubleDouble]) -> DoubleDouble {
-    a.iter().zip(b).fold(DoubleDouble::default(), |sum, (x, y)| sum + *x * *y)
 }
 
 /// Image of a point with what takes vectors there to the section.

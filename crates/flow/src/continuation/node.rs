@@ -111,7 +111,7 @@ impl Solver<'_> {
         ])
     }
 
-    /// What is told of a point.
+    /// Properties of a point that are reported.
     fn told(&self, place: &Place, [float, pair]: [&Linear; 2]) -> BranchPoint {
         let family = self.family;
         let trace = MeasuredNumber::twice(float.trace(), pair.trace());

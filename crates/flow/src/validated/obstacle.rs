@@ -50,7 +50,7 @@ pub enum Obstacle {
     Part {
         /// Path of the part.
         place: String,
-        /// What is wrong with it.
+        /// Description of the fault.
         problem: &'static str,
     },
     /// The gradients of the conserved functions are not proved independent.

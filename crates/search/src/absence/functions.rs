@@ -74,5 +74,5 @@ fn several(relations: usize) -> String {
 /// Whether an integral is proved to be independent of the known ones.
 fn is_new(asked: &AbsenceCase<'_>, function: &Formula) -> Result<bool, SearchError> {
     let known = asked.known.claimed();
-    Ok(independent(asked.case, &known, function, &asked.effort)?.is_some())
+    Ok(independent(asked.case, known, function, &asked.effort)?.is_some())
 }

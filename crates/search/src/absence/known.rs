@@ -18,6 +18,8 @@ const MOST_PRODUCTS: usize = 2000;
 /// Integrals of a case, each proved, component by component.
 pub struct ProvedIntegrals {
     formulas: Vec<Formula>,
+    /// Whether the first of them is the energy; no other is written as `energy`.
+    has_energy: bool,
 }
 
 /// Space of the polynomials in known integrals up to a degree.
@@ -31,15 +33,18 @@ pub struct ProductSpace {
 impl ProvedIntegrals {
     /// Collects the proved integrals among the claims of a case, from the reports on them.
     pub fn of(case: &Case, reports: &[ClaimReport], effort: &Effort) -> Result<Self, SearchError> {
-        let mut formulas: Vec<Formula> = proved_energy(case, effort)?.into_iter().collect();
+        let energy = proved_energy(case, effort)?;
+        let has_energy = energy.is_some();
+        let mut formulas: Vec<Formula> = energy.into_iter().collect();
         for (claim, report) in case.claims.iter().zip(reports) {
             if let (ClaimKind::Integral(Integral(own)), Verdict::Proved) =
                 (&claim.kind, report.verdict)
             {
-                formulas.extend(components(own)?);
+                // A file may claim the energy by its name.
+                formulas.extend(components(own)?.into_iter().filter(|own| !is_energy(own)));
             }
         }
-        Ok(Self { formulas })
+        Ok(Self { formulas, has_energy })
     }
 
     /// Formulas of the integrals.
@@ -47,9 +52,14 @@ impl ProvedIntegrals {
         &self.formulas
     }
 
+    /// Formula of the energy, if it is an integral.
+    pub fn energy(&self) -> Option<&Formula> {
+        self.formulas.first().filter(|_| self.has_energy)
+    }
+
     /// Formulas of the integrals without the energy.
-    pub fn claimed(&self) -> Vec<Formula> {
-        self.formulas.iter().filter(|formula| !is_energy(formula)).cloned().collect()
+    pub fn claimed(&self) -> &[Formula] {
+        &self.formulas[usize::from(self.has_energy)..]
     }
 
     /// Returns the integrals that have values modulo a prime, as terms: those without exp, ln and
@@ -78,13 +88,21 @@ impl ProvedIntegrals {
         effort: &Effort,
     ) -> Result<ProductSpace, SearchError> {
         let seed = effort.options.seed;
+        let fitting = |formula: &Formula| -> Result<Option<u32>, SearchError> {
+            Ok(degree(case, formula, seed)?.filter(|degree| (1..=most).contains(degree)))
+        };
         let mut independents: Vec<(Formula, u32)> = Vec::new();
-        for formula in &self.formulas {
-            let known = degree(case, formula, seed)?.filter(|degree| *degree > 0);
-            let Some(degree) = known.filter(|degree| *degree <= most) else { continue };
-            let claimed = independents.iter().map(|(formula, _)| formula.clone());
-            let told: Vec<Formula> = claimed.filter(|one| !is_energy(one)).collect();
-            if is_energy(formula) || independent(case, &told, formula, effort)?.is_some() {
+        if let Some(energy) = self.energy()
+            && let Some(degree) = fitting(energy)?
+        {
+            independents.push((energy.clone(), degree));
+        }
+        let mut told: Vec<Formula> = Vec::new();
+        for formula in self.claimed() {
+            let Some(degree) = fitting(formula)? else { continue };
+            // The energy is among those that it is compared with.
+            if independent(case, &told, formula, effort)?.is_some() {
+                told.push(formula.clone());
                 independents.push((formula.clone(), degree));
             }
         }

@@ -4,6 +4,7 @@
 //! known        the integrals that the file claims and that are proved, with the energy
 //! velocities   polynomials in the velocities with any smooth coefficients, by Taylor coefficients
 //! polynomials  polynomials in all variables of a field, by random states
+//! leading      when products of known integrals cannot cancel
 //! functions    fractions of polynomials in the state and functions of it, along an orbit
 //! relations    Darboux polynomials of a field, on random lines
 //! ```
@@ -14,6 +15,7 @@
 
 mod functions;
 mod known;
+mod leading;
 mod polynomials;
 mod relations;
 mod velocities;

@@ -9,11 +9,12 @@ use super::super::ansatz::coefficients::{PrimitiveVector, Ratio};
 use super::super::ansatz::monomials::AnsatzVariables;
 use super::super::ansatz::subspace::complement;
 use super::super::ansatz::system::{Column, LinearSystem, PrimePoint, Recording};
-use super::super::ask::judged_alone;
+use super::super::ask::{independent, judged_alone};
 use super::super::multipliers::WEIGHTS;
 use super::super::products::{DEGREE_PRIMES, Generators};
 use super::super::terms::{is_one, numeric_exponent};
 use super::known::{contains_integrals, has_lists, rank};
+use super::leading;
 use super::{AbsenceCase, AbsenceOutcome, Counted, generated};
 use liouville::claim::Claim;
 use liouville::formula::{Formula, FormulaError};
@@ -244,11 +245,22 @@ impl<'a> Counting<'a> {
             })
             .collect();
         let new = complement(&self.system, &self.at, &padded, &space.products)?.unwrap_or_default();
+        let mut doubtful = None;
         for vector in &new {
             self.asked.effort.halt.check()?;
-            if let Some(formula) = self.integral(vector, &space)? {
-                return Ok(AbsenceOutcome::Exhibited(format!("integral, proved: {formula}")));
+            match self.integral(vector, &space)? {
+                Some((formula, true)) => {
+                    return Ok(AbsenceOutcome::Exhibited(format!("integral, proved: {formula}")));
+                }
+                Some((formula, false)) => doubtful = doubtful.or(Some(formula)),
+                None => {}
             }
+        }
+        if let Some(formula) = doubtful {
+            return Ok(AbsenceOutcome::Open(format!(
+                "{formula} is an integral, and is no sum of products of the known ones up to this degree; \
+                 products of a higher degree may cancel to it"
+            )));
         }
         Ok(AbsenceOutcome::Open(format!(
             "at most {dimension} independent integrals exist, constants included; {} are known, and no \
@@ -257,9 +269,13 @@ impl<'a> Counting<'a> {
         )))
     }
 
-    /// Returns the integral of a null vector if it is proved, and is not a polynomial in the known
-    /// integrals.
-    fn integral(&self, vector: &[u64], space: &Space) -> Result<Option<Formula>, SearchError> {
+    /// Returns the integral of a null vector if it is proved, and is no combination of the products; and
+    /// whether it is proved that it is not a polynomial in the known integrals either.
+    fn integral(
+        &self,
+        vector: &[u64],
+        space: &Space,
+    ) -> Result<Option<(Formula, bool)>, SearchError> {
         let Some(formula) = self.written(vector, 0)? else { return Ok(None) };
         let case = self.asked.case;
         if !self.holds(Claim::integral(&formula))? {
@@ -268,8 +284,14 @@ impl<'a> Counting<'a> {
         let own = [formula];
         let effort = &self.asked.effort;
         let with = rank(case, &space.terms, &space.exponents, &own, effort)?;
+        if with != Some(space.dimension + 1) {
+            return Ok(None);
+        }
         let [formula] = own;
-        Ok((with == Some(space.dimension + 1)).then_some(formula))
+        let known = self.asked.known;
+        let is_new = independent(case, known.claimed(), &formula, effort)?.is_some()
+            || leading::are_independent(case, known.formulas(), effort.options.seed)?;
+        Ok(Some((formula, is_new)))
     }
 
     /// Writes Σ c_a x^a for all values of the parameters, if its coefficients are fractions in

@@ -1,6 +1,6 @@
 //! Absence of polynomials in the velocities, with any smooth coefficients in the positions.
 
-use super::super::ask::{independent, is_energy};
+use super::super::ask::independent;
 use super::super::counts::{self, CountReport};
 use super::super::local::Local;
 use super::super::products::degree;
@@ -71,14 +71,13 @@ fn no_integral(asked: &AbsenceCase<'_>, most: u32) -> Result<AbsenceOutcome, Sea
         }
         Some(Bound::Leading) => {
             // If the energy is conserved, subtracting its powers lowers the degree.
-            let known = asked.known.formulas().iter();
-            let names: Vec<Formula> = known.filter(|one| is_energy(one)).cloned().collect();
-            return Ok(match names.is_empty() {
-                true => {
+            let energy = asked.known.energy();
+            return Ok(match energy {
+                None => {
                     AbsenceOutcome::Open("the energy is not known to be an integral".to_string())
                 }
-                false => AbsenceOutcome::Excluded {
-                    theorem: asked.theorem(&generated(&class, &names)),
+                Some(energy) => AbsenceOutcome::Excluded {
+                    theorem: asked.theorem(&generated(&class, std::slice::from_ref(energy))),
                     counted: "leading forms are powers of the energy".to_string(),
                 },
             });
@@ -134,7 +133,7 @@ fn witness(
         let low = degree(asked.case, function, asked.effort.options.seed)?;
         let known = asked.known.claimed();
         if low.is_some_and(|degree| degree <= most)
-            && independent(asked.case, &known, function, &asked.effort)?.is_some()
+            && independent(asked.case, known, function, &asked.effort)?.is_some()
         {
             return Ok(Some(shown("integral", found)));
         }

@@ -87,8 +87,14 @@ impl HierarchyClass {
 
 impl HierarchyPlace {
     /// Finds the standing of a system with these invariants; `reversors` is the number of reversors
-    /// found.
-    pub fn of(measure: MeasureStatus, integrals: Integrals, reversors: usize) -> Self {
+    /// found. `dimension` is that of the levels of the energy, if the system does not depend on time
+    /// and keeps an energy: nothing is typical of other systems.
+    pub fn of(
+        measure: MeasureStatus,
+        integrals: Integrals,
+        reversors: usize,
+        dimension: Option<usize>,
+    ) -> Self {
         let has_integral = matches!(integrals, Integrals::Enough | Integrals::Some);
         let class = match (measure, has_integral) {
             (MeasureStatus::ClosedForm | MeasureStatus::ByQuadrature, true) => {
@@ -112,7 +118,7 @@ impl HierarchyPlace {
         };
         let grounds = vec![grounds_of(measure).to_string(), integrals.grounds()];
         let mut typical: Vec<String> =
-            typical(class, integrals).iter().map(|line| line.to_string()).collect();
+            typical(class, integrals, dimension).iter().map(|line| line.to_string()).collect();
         if reversors > 0
             && matches!(
                 class,
@@ -172,7 +178,12 @@ impl Integrals {
     }
 }
 
-fn typical(class: HierarchyClass, integrals: Integrals) -> &'static [&'static str] {
+fn typical(
+    class: HierarchyClass,
+    integrals: Integrals,
+    dimension: Option<usize>,
+) -> &'static [&'static str] {
+    let Some(dimension) = dimension.filter(|dimension| *dimension >= 2) else { return &[] };
     match (class, integrals) {
         (HierarchyClass::IntegralAndMeasure, Integrals::Enough) => &[
             "integrable by quadratures (Euler, Jacobi): on compact regular joint levels without fixed \
@@ -180,13 +191,16 @@ fn typical(class: HierarchyClass, integrals: Integrals) -> &'static [&'static st
             "no attractors, no chaos",
         ],
         (HierarchyClass::IntegralAndMeasure, _) => &[
-            "motion on the joint levels preserves a measure: no attractors; one integral short of \
-             quadratures, chaos is possible and usually weak",
+            "motion on the joint levels preserves a measure: no attractors on compact ones; where one \
+             integral is missing to quadratures, chaos is possible and usually weak",
         ],
         (HierarchyClass::IntegralOnly, _) => &[
             "the phase space is foliated by the joint levels; on them there may be limit cycles, \
              towards which the motion settles, and rotation numbers may lock",
             "no chaos where the joint levels are two-dimensional",
+        ],
+        (HierarchyClass::MeasureOnly, _) if dimension != 3 => &[
+            "the flow preserves a measure on the levels of the energy: no attractors on compact ones",
         ],
         (HierarchyClass::MeasureOnly, _) => &[
             "the Poincaré map preserves an area: no attractors, islands in a chaotic sea as in a \

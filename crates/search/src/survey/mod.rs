@@ -35,7 +35,10 @@ mod tests;
 
 use serde::Serialize;
 
+use crate::Effort;
+use crate::ask::proved_energy;
 use liouville::case::{Case, Expect};
+use liouville::mechanics::TIME;
 use liouville::verdict::{JudgeError, Options, Verdict};
 use liouville_flow::observe::evidence_against_density;
 
@@ -181,7 +184,14 @@ pub fn survey(
         | MeasureStatus::ExcludedForConfiguration => sphere::criterion(case, options)?,
         MeasureStatus::Singular | MeasureStatus::NotKnown => None,
     };
-    let mut hierarchy = HierarchyPlace::of(measure, standing, reversors.len());
+    let model = &case.model;
+    let is_autonomous = model.state.iter().all(|variable| variable.name != TIME);
+    let effort = Effort { options: *options, ..Effort::default() };
+    let dimension = match proved_energy(case, &effort) {
+        Ok(Some(_)) if is_autonomous => model.dimension().checked_sub(model.level.len() + 1),
+        _ => None,
+    };
+    let mut hierarchy = HierarchyPlace::of(measure, standing, reversors.len(), dimension);
     if !matches!(measure, MeasureStatus::ClosedForm | MeasureStatus::ByQuadrature) {
         progress("closed orbits");
         hierarchy.grounds.extend(evidence_against_density(case, options));

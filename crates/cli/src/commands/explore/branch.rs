@@ -27,7 +27,7 @@ use crate::report::branch::BranchReport;
 pub struct ContinueArgs {
     #[command(flatten)]
     pub search: OrbitSearch,
-    /// What varies: a parameter (a_g), a component of one (c3, I12), or the energy
+    /// Quantity that varies: a parameter (a_g), a component of one (c3, I12), or the energy
     #[arg(long, value_name = "NAME")]
     pub parameter: String,
     /// Lower end of its range; by default that of the range in the case

@@ -4,6 +4,7 @@ mod andoyer;
 mod bench;
 mod branch;
 pub(super) mod chart;
+mod diagram;
 pub(super) mod exponents;
 mod growth;
 pub(super) mod ink;
@@ -13,6 +14,7 @@ pub(super) mod output;
 mod periodic;
 pub(super) mod progress;
 pub(super) mod report;
+mod rotation;
 mod search;
 pub(super) mod section;
 pub(super) mod share;
@@ -114,6 +116,18 @@ Examples:
   liouville motion continue figures/fig-5 --start pi/2,0.366 --parameter energy --from 80 --to 200 --out branch.pdf
   liouville motion continue classical/flows/van-der-pol-cycle --start 2,0 --section 'p = 0' --parameter μ --from 0.1 --to 3")]
     Continue(branch::ContinueArgs),
+    /// Draw a bifurcation diagram: crossings of a section over a parameter or the energy
+    #[command(after_help = "\
+Examples:
+  liouville motion diagram figures/fig-8 --over a_g=5..15 --out diagram.png
+  liouville motion diagram classical/flows/duffing-forced --set δ=1/4 --over f=0.2..0.4 --section 'sin(t) = 0' --direction up --axes x --start 1,0,0 --out diagram.pdf")]
+    Diagram(diagram::DiagramArgs),
+    /// Measure rotation numbers along a line of starts on a section, and mark resonances
+    #[command(after_help = "\
+Examples:
+  liouville motion rotation figures/fig-A2 --from 3.2,0 --to 4.4,0 --centre pi,0 --out rotation.pdf
+  liouville motion rotation classical/planar/henon-heiles-hamiltonian --set ε=1/2 --energy 1/10 --section 'x = 0' --axes 'y, py' --from 0,0 --to 0.4,0 --centre 0.2,0")]
+    Rotation(rotation::RotationArgs),
 }
 
 /// Commands about the program itself.
@@ -168,7 +182,9 @@ impl ExploreCommand {
                     MotionCommand::Chart(options) => Some(&mut options.share),
                     MotionCommand::Orbit(_)
                     | MotionCommand::Periodic(_)
-                    | MotionCommand::Continue(_) => None,
+                    | MotionCommand::Continue(_)
+                    | MotionCommand::Diagram(_)
+                    | MotionCommand::Rotation(_) => None,
                 }
             }
             _ => None,
@@ -198,6 +214,8 @@ impl MotionCommand {
             Self::Exponents(options) => options.subject.limits,
             Self::Chart(options) => options.subject.limits,
             Self::Periodic(options) => options.search.subject.limits,
+            Self::Diagram(options) => options.subject.limits,
+            Self::Rotation(options) => options.subject.limits,
             // it reports what was reached
             Self::Continue(_) => LimitArgs::default(),
         }
@@ -211,6 +229,8 @@ impl MotionCommand {
             Self::Chart(options) => chart::run(options),
             Self::Periodic(options) => periodic::run(options),
             Self::Continue(options) => branch::run(options),
+            Self::Diagram(options) => diagram::run(options),
+            Self::Rotation(options) => rotation::run(options),
         }
     }
 }

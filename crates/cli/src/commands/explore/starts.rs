@@ -61,7 +61,7 @@ impl Starts {
     }
 }
 
-fn given(case: &Case, text: &str) -> Result<GivenStart, String> {
+pub fn given(case: &Case, text: &str) -> Result<GivenStart, String> {
     if text.contains('=') {
         let state = verdict::read_state(case, text).map_err(|error| error.to_string())?;
         return Ok(GivenStart::State(state));
@@ -96,8 +96,9 @@ pub fn misfit(case: &Case, found: usize, otherwise: Option<&str>) -> String {
     let dimension = case.model.dimension();
     let otherwise = otherwise.map_or(String::new(), |other| format!(", or {other}"));
     format!(
-        "error: a start has {found} values, and the state has {dimension}\n\
+        "error: a start has {found} value{}, and the state has {dimension}\n\
          help: write {}, or its components in order{otherwise}",
+        if found == 1 { "" } else { "s" },
         example(case)
     )
 }

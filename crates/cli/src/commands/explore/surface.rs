@@ -193,7 +193,7 @@ pub fn read_surface(case: &Case, text: &str) -> Result<CrossingSurface, String> 
     read.map_err(|mistake| wrong_formula("--section", text, &mistake))
 }
 
-fn read_axes(
+pub fn read_axes(
     case: &Case,
     surface: &CrossingSurface,
     text: Option<&str>,
@@ -205,7 +205,7 @@ fn read_axes(
 }
 
 /// A whole state, or values of the axes.
-fn begin(case: &Case, axes: &Columns, given: GivenStart) -> Result<Begin, String> {
+pub fn begin(case: &Case, axes: &Columns, given: GivenStart) -> Result<Begin, String> {
     match given {
         GivenStart::State(state) => Ok(Begin::State(state)),
         GivenStart::Values(values) if values.len() == axes.titles().len() => {

@@ -21,7 +21,7 @@ pub struct ProvedHorseshoe {
     pub kept: usize,
     /// Distance between the state given and the closed orbit's node, relative to the state.
     pub moved: f64,
-    /// What the search found besides; a replay has no search.
+    /// Course of the search; `None` for a replay, which has none.
     pub trace: Option<HorseshoeTrace>,
     /// Numbers by which the proof can be replayed.
     pub data: HorseshoeData,

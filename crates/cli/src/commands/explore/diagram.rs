@@ -1,0 +1,221 @@
+//! The command `liouville motion diagram`.
+
+use clap::Args;
+use liouville::case::{Case, Direction};
+use liouville_flow::{
+    Begin, ChartAxis, Columns, Coordinate, CrossingSurface, DiagramRequest, DiagramSection,
+    FlowError, SectionChoice, SurfaceRequest, diagram,
+};
+
+use super::ink::Ink;
+use super::motion::{MotionArgs, SectionPlaneArgs, Threads, parse_count, wrong_choice};
+use super::output::Ending;
+use super::progress::progress;
+use super::starts::{GivenStart, Starts, misfit};
+use super::surface::{begin, read_axes, read_surface};
+use super::{CommandOutput, write};
+use crate::report::bifurcations::{DiagramReport, OrbitsAtValue};
+
+/// Largest number of crossings of a diagram.
+const MOST_CROSSINGS: usize = 20_000_000;
+/// Default number of crossings left out.
+const SKIP: usize = 300;
+
+#[derive(Clone, Debug, Args)]
+pub struct DiagramArgs {
+    #[command(flatten)]
+    pub subject: MotionArgs,
+    /// Quantity that varies, NAME=a..b: a parameter (a_g), a component of one (c3, I12), the energy,
+    /// or l, L/G of the start of a rolling body
+    #[arg(long, value_name = "NAME=A..B", allow_hyphen_values = true)]
+    pub over: String,
+    /// Number of values, each in the middle of its part of the range
+    #[arg(long, default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub count: u32,
+    #[command(flatten)]
+    pub plane: SectionPlaneArgs,
+    /// Surface of the section, by formulas of the case: --section 'x = 0'. By default g = g₀ of a
+    /// rolling body
+    #[arg(long, value_name = "EQUATION", conflicts_with = "g0", allow_hyphen_values = true)]
+    pub section: Option<String>,
+    /// Values recorded at crossings of --section, a plot each: --axes 'y, |γ|²'. By default the first
+    /// two components of the state that the surface leaves free
+    #[arg(long, value_name = "FORMULAS", requires = "section", allow_hyphen_values = true)]
+    pub axes: Option<String>,
+    #[command(flatten)]
+    pub starts: Starts,
+    /// Number of motions at each value, from starts spread over the sphere; with --section, from
+    /// states drawn. By default the first start of the case, or one drawn
+    #[arg(long, value_parser = parse_count)]
+    pub orbits: Option<usize>,
+    /// Number of crossings of each motion
+    #[arg(long, default_value = "100", value_parser = parse_count)]
+    pub crossings: usize,
+    /// Number of crossings left out at the beginning of each motion
+    #[arg(long, default_value_t = SKIP, value_parser = parse_count)]
+    pub skip: usize,
+    /// Crossings that count: up (g or the surface's left side less its right one grows), down, both
+    #[arg(long)]
+    pub direction: Option<Direction>,
+    /// Follow the motions backwards in time
+    #[arg(long)]
+    pub backwards: bool,
+    #[command(flatten)]
+    pub ink: Ink,
+    #[command(flatten)]
+    pub threads: Threads,
+}
+
+pub fn run(options: &DiagramArgs) -> Result<CommandOutput, String> {
+    let out = options.ink.output(Ending::CHARTS, &[&options.subject.case])?;
+    let case = options.subject.open()?;
+    if case.model.system.has_arbitrary_function() {
+        return Err(options.subject.told(&FlowError::Arbitrary));
+    }
+    let (name, axis) =
+        ChartAxis::read(&case, &options.over, options.count as usize).map_err(|mistake| {
+            format!("error: --over {}: {}\nhelp: {}", options.over, mistake.message, mistake.help)
+        })?;
+    let found = match options.section.as_deref() {
+        None => through_angle(options, &case, &axis)?,
+        Some(text) => through_surface(options, &case, &axis, text)?,
+    };
+    let report = DiagramReport {
+        case: &case,
+        name: &name,
+        axis: &axis,
+        surface: found.surface.as_deref(),
+        titles: &found.titles,
+        starts: &found.starts,
+        values: &found.values,
+    };
+    if report.is_empty()
+        && let Some(problem) = report.first_problem()
+    {
+        return Err(options.subject.told(problem));
+    }
+    if let Some(out) = &out {
+        let bytes = match out.ending {
+            Ending::Csv => report.csv().into_bytes(),
+            Ending::Json => report.json()?.into_bytes(),
+            ending => {
+                let plots = report.plots();
+                let columns = plots.len().min(2);
+                let words = (case.title.as_str(), vec![report.caption()]);
+                options.ink.drawn(words, plots, columns, ending)?
+            }
+        };
+        write(&out.path, "--out", bytes)?;
+    }
+    let text = if options.subject.json { report.json()? } else { report.text() };
+    Ok(CommandOutput { text, code: 0 })
+}
+
+/// Crossings at all values, with what they are crossings of.
+struct Found {
+    surface: Option<String>,
+    titles: Vec<String>,
+    starts: Vec<String>,
+    values: Vec<OrbitsAtValue>,
+}
+
+fn through_angle(options: &DiagramArgs, case: &Case, axis: &ChartAxis) -> Result<Found, String> {
+    let mut starts = Vec::new();
+    for (_, given) in options.starts.read(case)? {
+        match given {
+            GivenStart::Values(values) if values.len() == 2 => {
+                starts.push([0, 1].map(|place: usize| values[place].to_f64().0));
+            }
+            GivenStart::Values(values) | GivenStart::State(values) => {
+                return Err(misfit(case, values.len(), Some("l,L/G on the section")));
+            }
+        }
+    }
+    let is_given = !starts.is_empty() || options.orbits.is_some();
+    // The energy of the request is replaced where it varies.
+    let middle = axis.value(axis.count / 2);
+    let choice = SectionChoice {
+        energy: match axis.coordinate {
+            Coordinate::Energy => Some(middle),
+            _ => options.plane.energy.clone(),
+        },
+        direction: options.direction,
+        orbits: if is_given { options.orbits } else { Some(usize::from(!has_starts(case))) },
+        crossings: Some(options.crossings),
+        skip: Some(options.skip),
+        starts,
+        backwards: options.backwards,
+        seed: options.subject.seed,
+        ..options.plane.choice()
+    };
+    let mut request = choice.request(case).map_err(|error| wrong_choice(&error))?;
+    if !is_given {
+        request.starts.truncate(1);
+    }
+    let name = |at: &[f64; 2]| format!("{},{}", at[0], at[1]);
+    let starts = request.starts.iter().map(name).collect();
+    let values = follow(options, case, axis, DiagramSection::Andoyer(&request))?;
+    let titles = ["l", "L/G"].map(str::to_string).to_vec();
+    Ok(Found { surface: None, titles, starts, values })
+}
+
+fn has_starts(case: &Case) -> bool {
+    case.section.as_ref().is_some_and(|plan| !plan.starts.is_empty())
+}
+
+fn through_surface(
+    options: &DiagramArgs,
+    case: &Case,
+    axis: &ChartAxis,
+    text: &str,
+) -> Result<Found, String> {
+    if matches!(axis.coordinate, Coordinate::L | Coordinate::Z) {
+        return Err("error: --over: l and L/G are coordinates of the section g = g₀\n\
+                    help: leave out --section, or vary a parameter or the energy"
+            .to_string());
+    }
+    let surface: CrossingSurface = read_surface(case, text)?;
+    let axes: Columns = read_axes(case, &surface, options.axes.as_deref())?;
+    let mut starts = Vec::new();
+    for (name, given) in options.starts.read(case)? {
+        starts.push((name, begin(case, &axes, given)?));
+    }
+    let drawn = options.orbits.unwrap_or(usize::from(starts.is_empty())) as u64;
+    starts.extend((0..drawn).map(|index| (format!("drawn {index}"), Begin::Drawn(index))));
+    let (starts, begins): (Vec<String>, Vec<Begin>) = starts.into_iter().unzip();
+    let request = SurfaceRequest {
+        surface: &surface,
+        axes: &axes,
+        direction: options.direction.unwrap_or_default(),
+        crossings: options.crossings,
+        skip: options.skip,
+        backwards: options.backwards,
+    };
+    let energy = options.plane.energy.as_ref();
+    let section = DiagramSection::Surface { request: &request, begins: &begins, energy };
+    let values = follow(options, case, axis, section)?;
+    let (surface, titles) = (Some(surface.text().to_string()), axes.titles().to_vec());
+    Ok(Found { surface, titles, starts, values })
+}
+
+/// Follows the motions at all values.
+fn follow(
+    options: &DiagramArgs,
+    case: &Case,
+    axis: &ChartAxis,
+    section: DiagramSection<'_>,
+) -> Result<Vec<OrbitsAtValue>, String> {
+    let request = DiagramRequest { axis, section, seed: options.subject.seed };
+    let each = request.count().saturating_mul(options.crossings);
+    if each.saturating_mul(axis.count) > MOST_CROSSINGS {
+        return Err(format!(
+            "error: {} values of {each} crossings are more than {MOST_CROSSINGS}\n\
+             help: give a smaller --count, --orbits or --crossings",
+            axis.count
+        ));
+    }
+    let bar = progress(axis.count as u64, "values");
+    let found = diagram(case, &request, options.threads.count(), &|| bar.inc(1));
+    bar.finish_and_clear();
+    found.map_err(|error| options.subject.told(&error))
+}

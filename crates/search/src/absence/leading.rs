@@ -1,0 +1,144 @@
+//! Leading forms of polynomials in the variables of a field.
+//!
+//! If the leading forms of polynomials F₁, …, F_k of degrees d_i are algebraically independent, the
+//! leading form of a polynomial Σ c_a F^a is that of its products with the largest Σ a_i d_i: it does
+//! not cancel. So a polynomial of degree n in the variables is a polynomial in the F_i only if it is a
+//! combination of products with Σ a_i d_i ≤ n.
+
+use num_dual::Dual;
+
+use liouville::case::Case;
+use liouville::formula::Formula;
+use liouville::graph::{Evaluator, Expr, Tape, record};
+use liouville::mechanics::Phase;
+use liouville::number::prime::{Modulus, Prime, UNDEFINED};
+use liouville::proof::statement_seed;
+
+use super::super::SearchError;
+use super::super::products::DEGREE_PRIMES;
+use crate::echelon::Echelon;
+use crate::streams::SearchStream;
+
+/// Number of multiples of a point at which gradients are taken.
+const SCALES: usize = 32;
+/// Highest degree of a gradient that is recognised.
+const MOST_DEGREE: usize = SCALES - 8;
+/// Number of points to try.
+const TRIALS: usize = 16;
+
+/// Whether the leading forms of some formulas, as polynomials in the state, are proved algebraically
+/// independent for generic parameters.
+///
+/// The gradient of F at s x is a polynomial in s whose leading coefficient is the gradient of the leading
+/// form at x. If these are independent modulo primes that agree on the degrees, a minor of them is not 0.
+pub fn are_independent(case: &Case, formulas: &[Formula], seed: u64) -> Result<bool, SearchError> {
+    let (model, draws) = (&case.model, case.model.parameter_draws());
+    let dimension = model.dimension();
+    let inputs = draws.len() + dimension;
+    let (graph, slopes) = record(inputs, |inputs| {
+        let (given, state) = inputs.split_at(draws.len());
+        let (parameters, _) = model.make_parameters(given);
+        let parameters: Vec<Dual<Expr>> = parameters.iter().map(|p| Dual::from_re(*p)).collect();
+        let along = |place: usize| -> Vec<Expr> {
+            let mut state: Vec<Dual<Expr>> = state.iter().map(|x| Dual::from_re(*x)).collect();
+            state[place] = state[place].derivative();
+            let phase = Phase::new(model, &parameters, &state);
+            formulas.iter().map(|formula| phase.scalar(formula).eps).collect()
+        };
+        (0..dimension).map(along).collect::<Vec<_>>().concat()
+    })?;
+    let mut rng = SearchStream::Leading.under(statement_seed(seed, &graph, &slopes));
+    let tape = Tape::new(&graph, &slopes);
+    let mut degrees = None;
+    for _ in 0..DEGREE_PRIMES {
+        let modulus = rng.prime(&[3, 5], &[2, 3]);
+        let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; SCALES]));
+        let found = (0..TRIALS).find_map(|_| {
+            let mut values: Vec<[u64; SCALES]> =
+                (0..draws.len()).map(|_| [rng.element(&modulus); SCALES]).collect();
+            values.extend((0..dimension).map(|_| {
+                let x = rng.element(&modulus);
+                std::array::from_fn(|k| modulus.mul(modulus.integer(k as u64 + 1), x))
+            }));
+            values.resize(graph.inputs(), [modulus.one(); SCALES]);
+            evaluator.run(&values);
+            let slopes: Vec<[u64; SCALES]> = evaluator.outputs().copied().collect();
+            slopes.iter().all(|own| !own.contains(&UNDEFINED)).then_some(slopes)
+        });
+        let Some(slopes) = found else { return Ok(false) };
+        let Some(own) = leading(&slopes, (formulas.len(), dimension), &modulus) else {
+            return Ok(false);
+        };
+        if degrees.as_ref().is_some_and(|degrees| *degrees != own) {
+            return Ok(false);
+        }
+        degrees = Some(own);
+    }
+    Ok(true)
+}
+
+/// Degrees of the gradients, if they are polynomials whose leading coefficients are independent.
+/// `slopes` holds, for each variable, the derivatives of each of the `count` functions.
+fn leading(
+    slopes: &[[u64; SCALES]],
+    (count, dimension): (usize, usize),
+    m: &Modulus,
+) -> Option<Vec<usize>> {
+    let mut echelon = Echelon::new(dimension, *m);
+    let mut degrees = Vec::new();
+    for function in 0..count {
+        let along = (0..dimension).map(|place| coefficients(&slopes[place * count + function], m));
+        let along: Vec<Vec<u64>> = along.collect();
+        let degree = (0..SCALES).rev().find(|n| along.iter().any(|own| own[*n] != 0))?;
+        let is_new = echelon.push(along.iter().map(|own| own[degree]).collect());
+        if degree > MOST_DEGREE || !is_new {
+            return None;
+        }
+        degrees.push(degree);
+    }
+    Some(degrees)
+}
+
+/// Coefficients of the polynomial that has these values at 1, 2, 3, …, in Newton's form: the last that is
+/// not 0 is the leading one.
+fn coefficients(values: &[u64; SCALES], m: &Modulus) -> Vec<u64> {
+    let mut differences = values.to_vec();
+    for order in 1..SCALES {
+        let inverse = m.inverse(m.integer(order as u64));
+        for k in (order..SCALES).rev() {
+            differences[k] = m.mul(m.sub(differences[k], differences[k - 1]), inverse);
+        }
+    }
+    differences
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_independent_leading_forms_are_accepted() {
+        let case = Case::parse(
+            "title = 'a'\n[parameters]\na = '1..2'\n[state]\nx = '-1..1'\ny = '-1..1'\nz = '-1..1'\n\
+             [field]\n\"x'\" = 'a*y'\n\"y'\" = '-a*x'\n\"z'\" = '0'\n",
+            &[],
+        )
+        .expect("a case");
+        let holds = |texts: &[&str]| {
+            let formulas: Vec<Formula> = texts
+                .iter()
+                .map(|text| Formula::parse(text, &case.model.vocabulary).expect("a formula"))
+                .collect();
+            are_independent(&case, &formulas, 1).expect("an answer")
+        };
+        assert!(holds(&["x^2 + y^2"]));
+        assert!(holds(&["x^2 + y^2", "a*z + 1"]));
+        assert!(holds(&["x^2 + y^2", "(x^2 + y^2)*z + x"]));
+        assert!(!holds(&["x^2 + y^2", "(x^2 + y^2)^2 + z"]), "the square leads the second");
+        assert!(!holds(&["x^2 + y^2 + z", "x^2 + y^2"]));
+        assert!(!holds(&["x^2 + y^2", "a"]), "a constant");
+        assert!(!holds(&["1/x"]), "no polynomial");
+        assert!(!holds(&["z^30"]), "more than is recognised");
+        assert!(holds(&[]), "nothing cancels");
+    }
+}
