@@ -5,6 +5,8 @@
 mod common;
 #[path = "absence/functions.rs"]
 mod functions;
+#[path = "absence/known.rs"]
+mod known;
 #[path = "absence/primes.rs"]
 mod primes;
 #[path = "absence/relations.rs"]

@@ -26,8 +26,9 @@ pub fn withdraw(
     report.excluded.clear();
     report.conditions.clear();
     report.remark(
-        "nothing is counted or excluded: the formulas contain a modulus, or a root that depends on \
-         others; write what it is on the given ranges, as x for |x| or √(x²) where x > 0"
+        "nothing is counted or excluded: the formulas contain a modulus, a root that depends on \
+         others, or a function such as atan; write a modulus or a root as what it is on the given \
+         ranges, as x for |x| or √(x²) where x > 0"
             .to_string(),
     );
     Ok(())

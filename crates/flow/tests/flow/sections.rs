@@ -1,12 +1,13 @@
 //! Sections: orbits, fixed points, area forms, separatrices.
 
-use liouville::case::Case;
+use liouville::case::{Case, Direction};
 use liouville_flow::{
-    FlowError, Multipliers, SectionMap, SectionOrbit, SectionRequest, area_forms, section,
-    separatrices, spread, values_at_starts,
+    Columns, CrossingSurface, FlowError, Lexicon, Multipliers, SectionMap, SectionOrbit,
+    SectionRequest, SurfaceOrbit, SurfaceRequest, area_forms, section, separatrices, spread,
+    surface_section, values_at_starts,
 };
 
-use crate::{catalogue, parse};
+use crate::{catalogue, parse, start};
 
 fn request(case: &Case, starts: &[[f64; 2]], crossings: usize) -> SectionRequest {
     let plan = case.section.as_ref().expect("a [section]");
@@ -128,4 +129,65 @@ fn separatrices_of_an_integrable_case_are_level_lines_through_the_saddle() {
     }
     let elliptic = separatrices(&case, &request, [1.5, 0.02], 1, 2);
     assert!(matches!(elliptic, Err(FlowError::NotHyperbolic { .. })), "(π/2, 0) has none");
+}
+
+/// Crossings of a surface from a state, with the values of some columns.
+fn through(case: &Case, state: &str, surface: &str, axes: &str, crossings: usize) -> SurfaceOrbit {
+    let surface = CrossingSurface::read(Lexicon::new(case), surface).expect("a surface");
+    let axes = Columns::read(Lexicon::new(case), axes).expect("axes");
+    let direction = Direction::Both;
+    let request = SurfaceRequest {
+        surface: &surface,
+        axes: &axes,
+        direction,
+        crossings,
+        skip: 0,
+        backwards: false,
+    };
+    let starts = [Ok(start(case, state))];
+    let mut found = surface_section(case, &request, &starts, 1, &|| ()).expect("a section");
+    found.remove(0)
+}
+
+#[test]
+fn surfaces_that_vary_faster_than_the_motion_are_crossed_at_the_right_times() {
+    let turn = parse(
+        "title = 'a'\n[state]\nx = '-2..2'\nv = '-2..2'\n[field]\n\"x'\" = 'v'\n\"v'\" = '-x'\n",
+    );
+    // x = cos t
+    let power = through(&turn, "x=1 v=0", "x^9 = 0.001", "x^9", 6);
+    assert!((power.crossings[0].time - libm::acos(libm::pow(0.001, 1.0 / 9.0))).abs() < 1e-9);
+    assert!(power.crossings.iter().all(|met| (met.at[0] - 1e-3).abs() < 1e-12), "{power:?}");
+    let exponential = through(&turn, "x=1 v=0", "exp(5*x) = 2", "x", 4);
+    let first = libm::acos(libm::log(2.0) / 5.0);
+    assert!((exponential.crossings[0].time - first).abs() < 1e-12, "{exponential:?}");
+    let fast = through(&turn, "x=1 v=0", "sin(20*x) = 0", "x", 26);
+    // cos t = kπ/20 for k = 6, 5, …, -6 and back
+    for (place, met) in fast.crossings.iter().enumerate().take(13) {
+        let x = std::f64::consts::PI * (6.0 - place as f64) / 20.0;
+        assert!((met.time - libm::acos(x)).abs() < 1e-11, "{place}: {met:?}");
+    }
+    assert_eq!(fast.crossings.len(), 26);
+    let clock = parse("title = 'a'\n[state]\na = '-2..2'\n[field]\n\"a'\" = '1'\n");
+    let even = through(&clock, "a=0.1", "sin(7*a) = 0", "a", 60);
+    for (k, met) in even.crossings.iter().enumerate() {
+        let a = std::f64::consts::PI * (k as f64 + 1.0) / 7.0;
+        assert!((met.at[0] - a).abs() < 1e-12, "{k}: {met:?}");
+    }
+}
+
+#[test]
+fn motions_that_are_polynomials_of_time_cross_surfaces() {
+    let fall = parse(
+        "title = 'a'\n[state]\nx = '-2..2'\nv = '-2..2'\n[field]\n\"x'\" = 'v'\n\"v'\" = '-1'\n",
+    );
+    let ground = through(&fall, "x=-1 v=2", "x = 0", "x, v", 2);
+    let times: Vec<f64> = ground.crossings.iter().map(|met| met.time).collect();
+    assert_eq!(times.len(), 2, "{ground:?}");
+    assert!((times[0] - (2.0 - 2f64.sqrt())).abs() < 1e-12, "{times:?}");
+    assert!((times[1] - (2.0 + 2f64.sqrt())).abs() < 1e-12, "{times:?}");
+    for (surface, time) in [("v = 0", 2.0), ("x = -3", 2.0 + 8f64.sqrt())] {
+        let met = &through(&fall, "x=-1 v=2", surface, "x", 1).crossings[0];
+        assert!((met.time - time).abs() < 1e-12, "{surface}: {met:?}");
+    }
 }

@@ -24,12 +24,15 @@ use std::time::Duration;
 
 use super::ansatz::monomials::AnsatzVariables;
 use super::local::Coordinates;
+use super::terms::recorded;
 use super::{Ansatz, Effort, Halt, SearchError, abbreviated, branches};
 use known::ProvedIntegrals;
 use liouville::case::{AbsenceClaim, Case, Expect};
 use liouville::claim::absence::Absence;
 use liouville::formula::Formula;
+use liouville::graph::Step;
 use liouville::mechanics::Draw;
+use liouville::number::{BinaryOperation, UnaryFunction};
 use liouville::verdict::{
     self, CaseReport, ClaimReport, Evidence, JudgeError, Method, Options, Trust, Verdict,
 };
@@ -121,10 +124,12 @@ impl<'a> AbsenceCase<'a> {
         reports: &'a [ClaimReport],
         options: Options,
     ) -> Self {
+        let has_branches = |formula: &&Formula| has_branches(case, formula).unwrap_or(true);
+        let branching = known.formulas().iter().filter(has_branches);
         let effort = Effort {
             seconds: SECONDS,
-            // Roots in known integrals must have the right branch as well.
-            terms: known.formulas().iter().cloned().map(Into::into).collect(),
+            // Roots in known integrals must have the right branch as well; other functions have one.
+            terms: branching.cloned().map(Into::into).collect(),
             ansatz: Ansatz { wanted: true, ..Ansatz::default() },
             halt: Halt::within(MOST_TIME),
             options,
@@ -169,8 +174,8 @@ impl<'a> AbsenceCase<'a> {
         match outcome {
             AbsenceOutcome::Excluded { .. } if !branches::are_true(self.case, &self.effort)? => {
                 Ok(AbsenceOutcome::Open(
-                    "the formulas contain a modulus, or a root that depends on others: a count \
-                     modulo a prime says nothing about them"
+                    "the formulas contain a modulus, a root that depends on others, or a function such \
+                     as atan: a count modulo a prime says nothing about them"
                         .to_string(),
                 ))
             }
@@ -212,6 +217,19 @@ impl<'a> AbsenceCase<'a> {
             }
         }
     }
+}
+
+/// Whether a formula contains a root, a power or a modulus.
+fn has_branches(case: &Case, formula: &Formula) -> Result<bool, SearchError> {
+    let (graph, values) = recorded(case, |jet| jet.phase.evaluate(formula).components())?;
+    let reached = graph.reached(values.iter().copied());
+    let branches = |step: Step<'_>| match step {
+        Step::Unary(function, _) => matches!(function, UnaryFunction::Sqrt | UnaryFunction::Abs),
+        Step::Binary(operation, ..) => operation == BinaryOperation::Pow,
+        Step::Power(..) => true,
+        _ => false,
+    };
+    Ok((0..reached.len()).any(|place| reached[place] && branches(graph.step(place))))
 }
 
 /// States that all integrals of a class are polynomials in the given ones.
