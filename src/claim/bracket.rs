@@ -3,8 +3,8 @@
 use super::of_bracket::{CHOICE, OfBracket, bracket_of, turned, variables};
 use super::{Reader, difference};
 use crate::formula::{Formula, Type};
-use crate::mechanics::calculus::dot;
-use crate::mechanics::{NewVariables, Phase};
+use crate::mechanics::NewVariables;
+use crate::mechanics::calculus::{DualPoint, dot};
 use crate::scalar::Scalar;
 
 /// The claim (∂F/∂y, P ∂G/∂y) = K and P + Pᵀ = 0; for vectors, for every pair of components.
@@ -31,9 +31,11 @@ fn kind_of_bracket(first: Type, second: Type) -> Option<Type> {
 }
 
 /// Computes the gradients of the components of F with respect to the new variables.
-fn slopes<T: Scalar>(there: &Phase<'_, T>, function: &Formula) -> Vec<Vec<T>> {
-    let columns: Vec<Vec<T>> = (0..there.model().dimension())
-        .map(|i| there.lift_along(i).evaluate(function).components())
+fn slopes<T: Scalar>(there: &DualPoint<'_, T>, function: &Formula) -> Vec<Vec<T>> {
+    let columns: Vec<Vec<T>> = there
+        .along_axes()
+        .iter()
+        .map(|moved| moved.evaluate(function).components())
         .map(|moved| moved.into_iter().map(|x| x.eps).collect())
         .collect();
     let count = function.value_type().size();
@@ -69,8 +71,8 @@ impl OfBracket for Bracket {
         Some(format!("{{{first}, {second}}}{of} = {value}"))
     }
 
-    fn at<T: Scalar>(&self, variables: &NewVariables, there: &Phase<'_, T>) -> Vec<T> {
-        let tensor = variables.tensor(self.bracket, there);
+    fn at<T: Scalar>(&self, variables: &NewVariables, there: &DualPoint<'_, T>) -> Vec<T> {
+        let tensor = variables.tensor(self.bracket, &there.phase);
         let flows: Vec<Vec<T>> =
             slopes(there, &self.second).iter().map(|slope| turned(&tensor, slope)).collect();
         let found: Vec<T> = slopes(there, &self.first)
@@ -78,7 +80,7 @@ impl OfBracket for Bracket {
             .flat_map(|slope| flows.iter().map(|flow| dot(slope, flow)))
             .collect();
         let mut residual = match &self.value {
-            Some(value) => difference(found, there.evaluate(value).components()),
+            Some(value) => difference(found, there.phase.evaluate(value).components()),
             None => found,
         };
         residual.extend(variables.symmetric_part(&tensor));

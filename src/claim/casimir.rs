@@ -3,7 +3,8 @@
 use super::Reader;
 use super::of_bracket::{OfBracket, bracket_of, scalar_in, slope, turned};
 use crate::formula::Formula;
-use crate::mechanics::{NewVariables, Phase};
+use crate::mechanics::NewVariables;
+use crate::mechanics::calculus::DualPoint;
 use crate::scalar::Scalar;
 
 /// The claim P ∂C/∂y = 0 and P + Pᵀ = 0.
@@ -22,8 +23,8 @@ impl OfBracket for Casimir {
         Ok(Self { function: scalar_in(from, Self::NAME)?, bracket })
     }
 
-    fn at<T: Scalar>(&self, variables: &NewVariables, there: &Phase<'_, T>) -> Vec<T> {
-        let tensor = variables.tensor(self.bracket, there);
+    fn at<T: Scalar>(&self, variables: &NewVariables, there: &DualPoint<'_, T>) -> Vec<T> {
+        let tensor = variables.tensor(self.bracket, &there.phase);
         let mut residual = turned(&tensor, &slope(there, &self.function));
         residual.extend(variables.symmetric_part(&tensor));
         residual

@@ -2,7 +2,8 @@
 
 use super::Reader;
 use super::of_bracket::{OfBracket, named_bracket, tensor_slopes};
-use crate::mechanics::{NewVariables, Phase};
+use crate::mechanics::NewVariables;
+use crate::mechanics::calculus::DualPoint;
 use crate::scalar::Scalar;
 
 /// The claim Σ_l (P_il ∂_lQ_jk + Q_il ∂_lP_jk + cyclic in i, j, k) = 0, P + Pᵀ = 0 and Q + Qᵀ = 0.
@@ -36,10 +37,10 @@ impl OfBracket for Compatible {
         Some(self.text.clone())
     }
 
-    fn at<T: Scalar>(&self, variables: &NewVariables, there: &Phase<'_, T>) -> Vec<T> {
-        let tensors = self.brackets.map(|bracket| variables.tensor(bracket, there));
+    fn at<T: Scalar>(&self, variables: &NewVariables, there: &DualPoint<'_, T>) -> Vec<T> {
+        let tensors = self.brackets.map(|bracket| variables.tensor(bracket, &there.phase));
         let slopes = self.brackets.map(|bracket| tensor_slopes(variables, bracket, there));
-        let n = there.model().dimension();
+        let n = there.phase.model().dimension();
         let term = |i: usize, j: usize, k: usize| -> T {
             let along = |l: usize| {
                 tensors[0][i][l] * slopes[1][l][j][k] + tensors[1][i][l] * slopes[0][l][j][k]

@@ -4,7 +4,7 @@ use super::of_bracket::{defects, of, scalar_in, variables};
 use super::{Jets, Reader, Statement};
 use crate::formula::Formula;
 use crate::graph::Expr;
-use crate::mechanics::calculus::{DualPoint, trace_of_quotient};
+use crate::mechanics::calculus::DualPoint;
 use crate::scalar::Scalar;
 
 /// The claim that the measure ρ dy is invariant: v(ln ρ) + Σ ∂y'_i/∂y_i = 0.
@@ -31,17 +31,9 @@ impl Statement for DensityInVariables {
     /// Computes v(ln ρ∘φ) + tr(dφ⁻¹ d(L_vφ)): the divergence of the motion in the new variables.
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {
         let variables = of(jet.phase.model());
-        let moved = jet.phase.lift(jet.phase.field());
-        let along = variables.point(&moved);
+        let along = jet.in_variables_along_field(variables);
         let growth = self.0.logarithmic_derivative(&mut |symbol| along.value(symbol));
-        let mut columns = Vec::new();
-        let mut rates = Vec::new();
-        for beside in jet.along_axes() {
-            columns.push(variables.image(beside).iter().map(|y| y.eps).collect::<Vec<T>>());
-            let further = variables.image(&beside.lift(beside.field()));
-            rates.push(further.iter().map(|y| y.eps.eps).collect::<Vec<T>>());
-        }
-        vec![growth + trace_of_quotient(&columns, &rates) - jet.level_cofactor(kept)]
+        vec![growth + jet.divergence_in_variables(variables) - jet.level_cofactor(kept)]
     }
 
     fn quadrature_defects_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {

@@ -32,10 +32,10 @@ impl Statement for Hamiltonian {
 
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {
         let variables = of(jet.phase.model());
-        let there = variables.point(&jet.phase);
-        let multiplier = self.multiplier.as_ref().map_or_else(T::one, |n| there.scalar(n));
-        let gradient = slope(&there, &self.hamiltonian);
-        let tensor = variables.tensor(self.bracket, &there);
+        let there = jet.in_variables(variables);
+        let multiplier = self.multiplier.as_ref().map_or_else(T::one, |n| there.phase.scalar(n));
+        let gradient = slope(there, &self.hamiltonian);
+        let tensor = variables.tensor(self.bracket, &there.phase);
         let claimed = turned(&tensor, &gradient).into_iter().map(|x| x * multiplier).collect();
         let mut residual = difference(variables.rates(jet), claimed);
         residual.extend(variables.symmetric_part(&tensor));

@@ -2,7 +2,8 @@
 
 use super::Reader;
 use super::of_bracket::{OfBracket, bracket_of, tensor_slopes};
-use crate::mechanics::{NewVariables, Phase};
+use crate::mechanics::NewVariables;
+use crate::mechanics::calculus::DualPoint;
 use crate::scalar::Scalar;
 
 /// The claim Σ_l (P_il ∂_lP_jk + P_jl ∂_lP_ki + P_kl ∂_lP_ij) = 0 and P + Pᵀ = 0.
@@ -20,8 +21,8 @@ impl OfBracket for JacobiIdentity {
         from.word(Self::NAME, "holds").map(|()| Self { bracket })
     }
 
-    fn at<T: Scalar>(&self, variables: &NewVariables, there: &Phase<'_, T>) -> Vec<T> {
-        let tensor = variables.tensor(self.bracket, there);
+    fn at<T: Scalar>(&self, variables: &NewVariables, there: &DualPoint<'_, T>) -> Vec<T> {
+        let tensor = variables.tensor(self.bracket, &there.phase);
         let n = tensor.len();
         let slopes = tensor_slopes(variables, self.bracket, there);
         let term = |i: usize, j: usize, k: usize| -> T {

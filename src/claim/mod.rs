@@ -43,7 +43,7 @@ mod value;
 use crate::formula::Formula;
 use crate::graph::Expr;
 use crate::mechanics::calculus::{DualPoint, rejection};
-use crate::mechanics::{Model, NewVariables, Phase};
+use crate::mechanics::{Model, NewVariables};
 use crate::scalar::Scalar;
 
 pub use bracket::Bracket;
@@ -258,7 +258,7 @@ impl ClaimKind {
     pub fn residual_of_values(
         &self,
         variables: &NewVariables,
-        there: &Phase<'_, Expr>,
+        there: &DualPoint<'_, Expr>,
     ) -> Option<Vec<Expr>> {
         of_each!(self, statement => statement.residual_of_values(variables, there))
     }

@@ -1,5 +1,7 @@
 //! Statements about brackets of functions of new variables, and the parts they share.
 
+use num_dual::Dual;
+
 use super::{Condition, Need, Reader, Statement, quadrature_defects};
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
@@ -23,7 +25,7 @@ pub trait OfBracket: Clone {
     }
 
     /// Computes the scalars that vanish where the statement holds, at a point of the new variables.
-    fn at<T: Scalar>(&self, variables: &NewVariables, there: &Phase<'_, T>) -> Vec<T>;
+    fn at<T: Scalar>(&self, variables: &NewVariables, there: &DualPoint<'_, T>) -> Vec<T>;
 
     /// Returns the indices of the brackets.
     fn brackets(&self) -> Vec<usize>;
@@ -50,13 +52,13 @@ impl<S: OfBracket> Statement for S {
 
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {
         let variables = of(jet.phase.model());
-        self.at(variables, &variables.point(&jet.phase))
+        self.at(variables, jet.in_variables(variables))
     }
 
     fn residual_of_values(
         &self,
         variables: &NewVariables,
-        there: &Phase<'_, Expr>,
+        there: &DualPoint<'_, Expr>,
     ) -> Option<Vec<Expr>> {
         Some(self.at(variables, there))
     }
@@ -141,8 +143,8 @@ pub(super) fn of(model: &Model) -> &NewVariables {
 }
 
 /// Computes ∂F/∂y.
-pub(super) fn slope<T: Scalar>(there: &Phase<'_, T>, function: &Formula) -> Vec<T> {
-    (0..there.model().dimension()).map(|i| there.lift_along(i).scalar(function).eps).collect()
+pub(super) fn slope<T: Scalar>(there: &DualPoint<'_, T>, function: &Formula) -> Vec<T> {
+    there.gradient(|at| at.scalar(function))
 }
 
 /// Computes P u.
@@ -158,8 +160,8 @@ pub(super) fn defects<'f>(
     functions: impl Iterator<Item = &'f Formula>,
 ) -> Vec<Expr> {
     let variables = of(jet.phase.model());
-    let there = DualPoint::new(variables.point(&jet.phase));
-    let of_one = |formula: &Formula| quadrature_defects(&there, formula, &[]);
+    let there = jet.in_variables(variables);
+    let of_one = |formula: &Formula| quadrature_defects(there, formula, &[]);
     let brackets = brackets.iter().map(|bracket| &variables.brackets[*bracket]);
     let blocks = brackets.flat_map(Poisson::given_blocks);
     functions.flat_map(of_one).chain(blocks.flat_map(of_one)).collect()
@@ -182,11 +184,11 @@ pub(super) fn they_vary(
 pub(super) fn tensor_slopes<T: Scalar>(
     variables: &NewVariables,
     bracket: usize,
-    there: &Phase<'_, T>,
+    there: &DualPoint<'_, T>,
 ) -> Vec<Vec<Vec<T>>> {
-    let along = |l| {
-        let moved = variables.tensor(bracket, &there.lift_along(l));
+    let along = |moved: &Phase<'_, Dual<T>>| {
+        let moved = variables.tensor(bracket, moved);
         moved.iter().map(|row| row.iter().map(|p| p.eps).collect()).collect()
     };
-    (0..there.model().dimension()).map(along).collect()
+    there.along_axes().iter().map(along).collect()
 }

@@ -4,7 +4,7 @@ use super::{Condition, Novelty, Reader, ResidualContext};
 use crate::formula::Formula;
 use crate::graph::Expr;
 use crate::mechanics::calculus::DualPoint;
-use crate::mechanics::{Model, NewVariables, Phase};
+use crate::mechanics::{Model, NewVariables};
 use crate::scalar::Scalar;
 
 /// The derivatives of its formulas that a claim contains.
@@ -118,7 +118,7 @@ pub trait Statement: Clone {
     }
 
     /// Computes the residual at given values of the new variables, if it depends on nothing else.
-    fn residual_of_values(&self, _: &NewVariables, _: &Phase<'_, Expr>) -> Option<Vec<Expr>> {
+    fn residual_of_values(&self, _: &NewVariables, _: &DualPoint<'_, Expr>) -> Option<Vec<Expr>> {
         None
     }
 

@@ -80,11 +80,24 @@ impl SurfacePolynomial {
                 std::iter::successors(Some(T::one()), next).take(highest as usize + 1).collect()
             })
             .collect();
+        // Products x^i y^j, each of which is a factor of several monomials.
+        let mut pairs: Vec<Vec<Option<T>>> = vec![vec![None; powers[1].len()]; powers[0].len()];
+        let times = |a: T, factors: &[T], exponent: usize| match exponent {
+            0 => a,
+            _ => a * factors[exponent],
+        };
         let mut sum = T::zero();
         for (offset, exponents) in self.exponents.iter().enumerate() {
-            let monomial = powers.iter().zip(exponents).map(|(row, k)| row[*k as usize]);
-            let coefficient = scalar(at.parameter(self.first_parameter + offset));
-            sum += monomial.product::<T>() * coefficient;
+            let [i, j, k] = exponents.map(|exponent| exponent as usize);
+            let pair = pairs[i][j].get_or_insert_with(|| match i {
+                0 => powers[1][j],
+                _ => times(powers[0][i], &powers[1], j),
+            });
+            let monomial = match (i, j) {
+                (0, 0) => powers[2][k],
+                _ => times(*pair, &powers[2], k),
+            };
+            sum += monomial * scalar(at.parameter(self.first_parameter + offset));
         }
         sum
     }

@@ -7,6 +7,7 @@ use num_dual::Dual;
 
 use super::model::{LevelFunction, Model};
 use super::phase::Phase;
+use super::variables::VariablesJet;
 use crate::formula::Formula;
 use crate::scalar::Scalar;
 
@@ -25,6 +26,7 @@ pub struct DualPoint<'m, T> {
     divergence: OnceCell<T>,
     level_gradients: OnceCell<Vec<Vec<T>>>,
     energy_gradient: OnceCell<Option<Vec<T>>>,
+    pub(super) image: VariablesJet<'m, T>,
 }
 
 impl<'m, T: Scalar> DualPoint<'m, T> {
@@ -37,6 +39,7 @@ impl<'m, T: Scalar> DualPoint<'m, T> {
             divergence: OnceCell::new(),
             level_gradients: OnceCell::new(),
             energy_gradient: OnceCell::new(),
+            image: VariablesJet::default(),
         }
     }
 

@@ -7,6 +7,7 @@
 use std::cell::OnceCell;
 use std::rc::Rc;
 
+use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual;
 
 use super::ball::BallMotion;
@@ -16,7 +17,7 @@ use super::memo::Memo;
 use super::model::{LevelFunction, Model, Variable};
 use super::quantity::Quantity;
 use super::rolling::RollingTerms;
-use super::rubber::{angular_velocity, normal};
+use super::rubber::{NORMAL, angular_velocity, normal};
 use super::vocabulary::Meaning;
 use crate::formula::{Formula, Symbol, Value};
 use crate::scalar::Scalar;
@@ -28,6 +29,8 @@ pub struct Phase<'m, T> {
     known: Memo<T>,
     /// Values that are defined exactly where the written formulas are.
     literal: Memo<T>,
+    /// Contact vector of a rolling body and its derivative, where a lift takes them over.
+    contact: OnceCell<(Vector3<T>, Matrix3<T>)>,
     motion: OnceCell<Box<RollingTerms<T>>>,
     ball_motion: OnceCell<Box<BallMotion<T>>>,
     /// Rates of the system's variables, without those that a case adds.
@@ -56,6 +59,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
             configuration: Configuration::new(model, parameters, state),
             known: Memo::default(),
             literal: Memo::default(),
+            contact: OnceCell::new(),
             motion: OnceCell::new(),
             ball_motion: OnceCell::new(),
             own_field: OnceCell::new(),
@@ -143,6 +147,11 @@ impl<'m, T: Scalar> Phase<'m, T> {
         })
     }
 
+    /// Returns the contact vector of a rolling body and its derivative, if a lift took them over.
+    pub(super) fn contact(&self) -> Option<(Vector3<T>, Matrix3<T>)> {
+        self.contact.get().copied()
+    }
+
     /// Returns the intermediate results of a rolling body's equations.
     pub(super) fn motion(&self, make: impl FnOnce() -> RollingTerms<T>) -> &RollingTerms<T> {
         self.motion.get_or_init(|| Box::new(make()))
@@ -201,7 +210,14 @@ impl<'m, T: Scalar> Phase<'m, T> {
         let state: Vec<_> =
             self.state().into_iter().zip(direction).map(|(x, d)| Dual::new(x, *d)).collect();
         let parameters = lift_parameters(&self.configuration.parameters);
-        Phase::with_parameters(self.model(), parameters, &state)
+        let lifted = Phase::with_parameters(self.model(), parameters, &state);
+        // The contact depends on the normal, and not on the angular velocity before it.
+        let is_of_velocity = direction.iter().skip(3 * NORMAL).all(|slope| slope.is_absent());
+        if let (Some(terms), true) = (self.motion.get(), is_of_velocity) {
+            let (r, slope) = (terms.pose.r, terms.pose.slope);
+            lifted.contact.get_or_init(|| (r.map(Dual::from_re), slope.map(Dual::from_re)));
+        }
+        lifted
     }
 
     /// Lifts the point with a derivative part along coordinate `index`.

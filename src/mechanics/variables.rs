@@ -1,6 +1,10 @@
 //! New variables y = φ(x) with a bracket, in which Hamiltonian forms are written.
 
-use super::calculus::DualPoint;
+use std::cell::OnceCell;
+
+use num_dual::Dual;
+
+use super::calculus::{DualPoint, trace_of_quotient};
 use super::model::{Model, Variable};
 use super::phase::Phase;
 use crate::formula::Formula;
@@ -81,6 +85,46 @@ impl NewVariables {
     /// Returns the tensor P of a bracket at a point of the new variables, by rows.
     pub fn tensor<T: Scalar>(&self, bracket: usize, there: &Phase<'_, T>) -> Vec<Vec<T>> {
         tensor(&self.model.state, &self.brackets[bracket].blocks, there)
+    }
+}
+
+/// The new variables about a point of phase space, made once for all claims about them.
+pub(super) struct VariablesJet<'m, T> {
+    point: OnceCell<Box<DualPoint<'m, T>>>,
+    along_field: OnceCell<Phase<'m, Dual<T>>>,
+    divergence: OnceCell<T>,
+}
+
+impl<T> Default for VariablesJet<'_, T> {
+    fn default() -> Self {
+        let (point, along_field) = (OnceCell::new(), OnceCell::new());
+        Self { point, along_field, divergence: OnceCell::new() }
+    }
+}
+
+impl<'m, T: Scalar> DualPoint<'m, T> {
+    /// Returns the point φ(x) of new variables with its own lifts.
+    pub fn in_variables(&self, variables: &'m NewVariables) -> &DualPoint<'m, T> {
+        self.image.point.get_or_init(|| Box::new(DualPoint::new(variables.point(&self.phase))))
+    }
+
+    /// Returns the point φ(x) of new variables with L_vφ as its derivative part.
+    pub fn in_variables_along_field(&self, variables: &'m NewVariables) -> &Phase<'m, Dual<T>> {
+        self.image.along_field.get_or_init(|| variables.point(self.along_field()))
+    }
+
+    /// Computes tr(dφ⁻¹ d(L_vφ)), the divergence of the motion in new variables, as many as the old
+    /// ones.
+    pub fn divergence_in_variables(&self, variables: &NewVariables) -> T {
+        *self.image.divergence.get_or_init(|| {
+            let (mut columns, mut rates) = (Vec::new(), Vec::new());
+            for beside in self.along_axes() {
+                columns.push(variables.image(beside).iter().map(|y| y.eps).collect::<Vec<T>>());
+                let further = variables.image(&beside.lift(beside.field()));
+                rates.push(further.iter().map(|y| y.eps.eps).collect::<Vec<T>>());
+            }
+            trace_of_quotient(&columns, &rates)
+        })
     }
 }
 

@@ -4,6 +4,8 @@
 //! For example, x (y² + z² − 1) = 0 is solved by x = 0 where y² + z² ≠ 1, and the cylinder is
 //! another part.
 
+use std::cell::LazyCell;
+
 use super::field::combinations;
 use super::judging::Judging;
 use super::sampler::{Sampler, extent};
@@ -85,23 +87,24 @@ impl Judging<'_> {
             for index in 0..count {
                 let pivot = &sampler.pivots()[index];
                 let own = &space.pivots[index];
-                let has_no_zero = space.have_no_zero(&[own.divisor]);
-                let is_thin = has_no_zero || self.is_thin(sampler, pivot.divisor, &choices)?;
-                let is_strong =
-                    has_no_zero || (is_thin && self.is_number(sampler, pivot.divisor)?);
+                let is_thin = self.is_thin(sampler, pivot.divisor, &choices)?;
+                let is_number = is_thin && self.is_number(sampler, pivot.divisor)?;
+                // Bounds on boxes take the longest: they are asked for where nothing else tells.
+                let is_strong = LazyCell::new(|| is_number || space.have_no_zero(&[own.divisor]));
                 // Factors do no harm if they have no common factor, as functions on a level of
                 // which the steps before miss nothing.
                 let is_coprime = || self.has_no_factor(sampler, &space, solution, index, &choices);
-                let is_whole = is_strong
+                let is_whole = is_number
                     || (is_thin
                         && (self.is_number(sampler, pivot.slope)?
                             || self.is_number(sampler, pivot.whole)?
-                            || space.is_definite(own)
-                            || (is_complete && is_coprime()?)));
+                            || (is_complete && is_coprime()?)))
+                    || *is_strong
+                    || (is_thin && space.is_definite(own));
                 if !is_whole {
                     open.push(index);
                 }
-                is_complete &= is_strong;
+                is_complete = is_complete && (index + 1 == count || *is_strong);
             }
         }
         let texts: Vec<String> = open

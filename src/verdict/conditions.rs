@@ -9,6 +9,7 @@ use super::sampler::{Sampler, extent};
 use crate::claim::{Condition, Need};
 use crate::graph::{Expr, Fault, Graph, Step, record};
 use crate::mechanics::Phase;
+use crate::mechanics::calculus::DualPoint;
 use crate::number::{BinaryOperation, UnaryFunction};
 use crate::proof::{Extent, Group, GroupOutcome, Prover, are_coprime, is_nowhere_zero};
 use crate::scalar::Scalar;
@@ -99,7 +100,7 @@ impl Judging<'_> {
                 }
                 let (parameters, values) = model.make_parameters(&inputs);
                 let there = Phase::new(&variables.model, &parameters, values);
-                item.claim.kind.residual_of_values(variables, &there)
+                item.claim.kind.residual_of_values(variables, &DualPoint::new(there))
             })?;
             let Some(residual) = residual else { return Ok(false) };
             if !prover.prove(&graph, &[Group::of(residual)])?.iter().all(GroupOutcome::is_zero) {

@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use serde::Serialize;
 
 use super::budget::STEPS;
-use super::jets::{self, DimensionCount, VelocityPolynomials};
+use super::jets::{DimensionCount, MotionAtPoint, VelocityPolynomials};
 use super::local::Local;
 use super::products::Generators;
 use super::{Effort, Excluded, SearchError, SearchReport};
@@ -64,10 +64,21 @@ fn megabytes(unknowns: u64) -> u64 {
     unknowns * unknowns * 8 / 1_000_000
 }
 
+/// The degrees that are counted, up to that of the effort.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Degrees {
+    /// Every degree by itself.
+    Each,
+    /// Those that bound the number of integrals up to the last degree: a count of all degrees
+    /// together needs none of the lower ones.
+    Decisive,
+}
+
 /// Counts integrals degree by degree, within the effort; first those of the free motion, since the
 /// leading form of an integral is one of them.
 pub fn count(
     case: &Case,
+    degrees: Degrees,
     effort: &Effort,
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
@@ -75,7 +86,9 @@ pub fn count(
     let mixed = case.model.system.energy_is_inhomogeneous();
     let mut undecided = 1..=effort.degree;
     if let Some(free) = free_motion(case).filter(|_| mixed) {
-        let motion = CountedMotion::of(&free, false, true, effort)?;
+        let ends_at_excess = degrees == Degrees::Decisive;
+        let motion = CountedMotion::of(&free, false, effort)?;
+        let motion = CountedMotion { free: true, ends_at_excess, ..motion };
         motion.series(undecided.clone(), effort, report, progress)?;
         let excess = report.counts.iter().find(|count| count.dimension > count.known);
         match excess {
@@ -85,7 +98,10 @@ pub fn count(
             Some(excess) => undecided = excess.degree..=effort.degree,
         }
     }
-    CountedMotion::of(case, mixed, false, effort)?.series(undecided, effort, report, progress)
+    if mixed && degrees == Degrees::Decisive {
+        undecided = effort.degree.max(1)..=effort.degree;
+    }
+    CountedMotion::of(case, mixed, effort)?.series(undecided, effort, report, progress)
 }
 
 /// Makes the same body without potential and gyrostat, if these are known.
@@ -103,13 +119,16 @@ struct CountedMotion<'c> {
     mixed: bool,
     /// Whether potential and gyrostat are left out.
     free: bool,
+    /// Whether nothing is counted after a degree with more integrals than are known.
+    ends_at_excess: bool,
     /// Energy of the motion, a known integral.
     energy: Generators,
 }
 
 impl<'c> CountedMotion<'c> {
-    fn of(case: &'c Case, mixed: bool, free: bool, effort: &Effort) -> Result<Self, SearchError> {
-        Ok(Self { case, mixed, free, energy: Generators::energy(case, effort)? })
+    fn of(case: &'c Case, mixed: bool, effort: &Effort) -> Result<Self, SearchError> {
+        let energy = Generators::energy(case, effort)?;
+        Ok(Self { case, mixed, free: false, ends_at_excess: false, energy })
     }
 
     /// Counts degree by degree; a remark gives the reason for an early end.
@@ -122,6 +141,7 @@ impl<'c> CountedMotion<'c> {
     ) -> Result<(), SearchError> {
         let Some(locals) = locals(self.case, report)? else { return Ok(()) };
         let Some(first) = locals.first() else { return Ok(()) };
+        let mut motions: Vec<MotionAtPoint<'_>> = locals.iter().map(MotionAtPoint::new).collect();
         for degree in degrees {
             let (unknowns, seconds) = size(first, degree, self.mixed);
             let seconds = seconds * locals.len() as f64;
@@ -135,7 +155,7 @@ impl<'c> CountedMotion<'c> {
                 ));
                 return Ok(());
             }
-            match self.of_degree(&locals, degree, effort) {
+            match self.of_degree(&mut motions, degree, effort) {
                 // A bound below the number of known integrals would be a defect of the program:
                 // nothing is concluded.
                 Ok(count) if count.dimension < count.known => {
@@ -144,7 +164,12 @@ impl<'c> CountedMotion<'c> {
                     ));
                     return Ok(());
                 }
-                Ok(count) => report.counts.push(count),
+                Ok(count) => {
+                    report.counts.push(count);
+                    if self.ends_at_excess && count.dimension > count.known {
+                        return Ok(());
+                    }
+                }
                 Err(SearchError::Stopped) => {
                     report.unreached.push(format!("integrals of degree {degree} and more"));
                     return Ok(());
@@ -164,13 +189,13 @@ impl<'c> CountedMotion<'c> {
 
     fn of_degree(
         &self,
-        locals: &[Local],
+        motions: &mut [MotionAtPoint<'_>],
         degree: u32,
         effort: &Effort,
     ) -> Result<CountReport, SearchError> {
         let known = self.energy.products(degree, self.mixed);
         let asked = VelocityPolynomials { degree, mixed: self.mixed };
-        let found = largest(locals, asked, &Rational::from(0), known, effort)?;
+        let found = largest(motions, asked, &Rational::from(0), known, effort)?;
         let DimensionCount { dimension, size: (unknowns, equations) } = found;
         let (mixed, free) = (self.mixed, self.free);
         Ok(CountReport { degree, mixed, free, dimension, known, unknowns, equations })
@@ -200,14 +225,14 @@ pub fn locals(case: &Case, report: &mut SearchReport) -> Result<Option<Vec<Local
 
 /// Returns the largest count over the listed values: a theorem is about all of them.
 pub fn largest(
-    locals: &[Local],
+    motions: &mut [MotionAtPoint<'_>],
     asked: VelocityPolynomials,
     weight: &Rational,
     least: usize,
     effort: &Effort,
 ) -> Result<DimensionCount, SearchError> {
     let counts: Result<Vec<DimensionCount>, SearchError> =
-        locals.iter().map(|local| jets::count(local, asked, weight, least, effort)).collect();
+        motions.iter_mut().map(|motion| motion.count(asked, weight, least, effort)).collect();
     counts?.into_iter().max_by_key(|count| count.dimension).ok_or(SearchError::NoSeries)
 }
 

@@ -5,34 +5,41 @@ use liouville::number::prime::Modulus;
 /// A set of independent rows with distinct pivots.
 pub struct Echelon {
     modulus: Modulus,
-    /// Row by pivot column, with 1 at its pivot and 0 before it.
-    rows: Vec<Option<Vec<u64>>>,
-    /// Columns behind the pivot in which the row is not 0, by pivot column; rows stay sparse for
-    /// long.
-    others: Vec<Box<[u32]>>,
+    /// Row by pivot column.
+    rows: Vec<Option<SparseRow>>,
     /// Number of entries looked at so far.
     steps: u64,
-    /// Number of rows kept.
-    rank: usize,
+    /// Number of entries kept.
+    entries: usize,
+}
+
+/// A row with 1 at its pivot and 0 before it; rows stay sparse for long.
+#[derive(Clone)]
+struct SparseRow {
+    /// Columns behind the pivot in which the row is not 0.
+    columns: Box<[u32]>,
+    /// Entries in these columns.
+    values: Box<[u64]>,
+}
+
+impl SparseRow {
+    /// Iterates over the columns and values behind the pivot.
+    fn entries(&self) -> impl Iterator<Item = (usize, u64)> {
+        self.columns.iter().zip(&self.values).map(|(column, value)| (*column as usize, *value))
+    }
 }
 
 impl Echelon {
     /// Makes an echelon form without rows.
     pub fn new(columns: usize, modulus: Modulus) -> Self {
-        Self {
-            modulus,
-            rows: vec![None; columns],
-            others: vec![Box::default(); columns],
-            steps: 0,
-            rank: 0,
-        }
+        Self { modulus, rows: vec![None; columns], steps: 0, entries: 0 }
     }
 
     /// Adds a row; returns `false` if it depends on those before it.
     ///
     /// Entries are sums of products that are reduced when they are needed, or when a further product
     /// might not fit: that takes one multiplication a product instead of three.
-    pub fn push(&mut self, mut row: Vec<u64>) -> bool {
+    pub fn push(&mut self, row: Vec<u64>) -> bool {
         let m = self.modulus;
         let mut wide: Vec<u128> = row.iter().map(|entry| m.widened(*entry)).collect();
         let (mut pending, most) = (0, m.most_products());
@@ -45,42 +52,40 @@ impl Echelon {
             if entry == 0 {
                 continue;
             }
-            let others = &self.others[column];
-            self.steps += others.len() as u64 + 1;
-            match &self.rows[column] {
-                Some(pivot) => {
-                    if pending == most {
-                        let behind = wide[column..].iter_mut().filter(|entry| **entry != 0);
-                        behind.for_each(|entry| *entry = m.widened(m.reduced(*entry)));
-                        pending = 0;
-                    }
-                    pending += 1;
-                    let factor = u128::from(m.sub(0, entry));
-                    for other in others {
-                        let other = *other as usize;
-                        let product = factor.wrapping_mul(u128::from(pivot[other]));
-                        wide[other] = wide[other].wrapping_add(product);
-                    }
-                }
-                None => {
-                    let inverse = m.inverse(entry);
-                    let mut others = Vec::new();
-                    row[..column].fill(0);
-                    for (other, (entry, wide)) in row.iter_mut().zip(&wide).enumerate().skip(column)
-                    {
-                        *entry = m.mul(m.reduced(*wide), inverse);
-                        if *entry != 0 && other > column {
-                            others.push(other as u32);
-                        }
-                    }
-                    self.others[column] = others.into();
-                    self.rows[column] = Some(row);
-                    self.rank += 1;
-                    return true;
-                }
+            let Some(pivot) = &self.rows[column] else {
+                self.steps += 1;
+                self.rows[column] = Some(self.scaled(&wide, column, entry));
+                return true;
+            };
+            self.steps += pivot.columns.len() as u64 + 1;
+            if pending == most {
+                let behind = wide[column..].iter_mut().filter(|entry| **entry != 0);
+                behind.for_each(|entry| *entry = m.widened(m.reduced(*entry)));
+                pending = 0;
+            }
+            pending += 1;
+            let factor = u128::from(m.sub(0, entry));
+            for (other, value) in pivot.entries() {
+                wide[other] = wide[other].wrapping_add(factor.wrapping_mul(u128::from(value)));
             }
         }
         false
+    }
+
+    /// Makes a row with 1 at its pivot, where its entry is `entry`.
+    fn scaled(&mut self, wide: &[u128], pivot: usize, entry: u64) -> SparseRow {
+        let m = self.modulus;
+        let inverse = m.inverse(entry);
+        let (mut columns, mut values) = (Vec::new(), Vec::new());
+        for (column, sum) in wide.iter().enumerate().skip(pivot + 1) {
+            let value = if *sum == 0 { 0 } else { m.mul(m.reduced(*sum), inverse) };
+            if value != 0 {
+                columns.push(column as u32);
+                values.push(value);
+            }
+        }
+        self.entries += columns.len() + 1;
+        SparseRow { columns: columns.into(), values: values.into() }
     }
 
     /// Number of entries that were looked at while rows were added: the work of the elimination,
@@ -91,12 +96,18 @@ impl Echelon {
 
     /// Number of bytes that the rows take.
     pub fn bytes(&self) -> u64 {
-        (self.rank * self.rows.len() * (size_of::<u64>() + size_of::<u32>())) as u64
+        (self.entries * (size_of::<u64>() + size_of::<u32>())) as u64
     }
 
     /// Iterates over the independent rows, reduced by those before them.
-    pub fn rows(&self) -> impl Iterator<Item = &Vec<u64>> {
-        self.rows.iter().flatten()
+    pub fn rows(&self) -> impl Iterator<Item = Vec<u64>> {
+        let dense = |(pivot, row): (usize, &Option<SparseRow>)| {
+            let mut dense = vec![0; self.rows.len()];
+            dense[pivot] = self.modulus.one();
+            row.as_ref()?.entries().for_each(|(column, value)| dense[column] = value);
+            Some(dense)
+        };
+        self.rows.iter().enumerate().filter_map(dense)
     }
 
     /// Number of columns.
@@ -127,9 +138,9 @@ impl Echelon {
         vector[free] = m.one();
         for column in (0..free).rev() {
             if let Some(row) = &self.rows[column] {
-                let own = row[column + 1..=free].iter().zip(&vector[column + 1..=free]);
-                let used = own.filter(|(a, x)| **a != 0 && **x != 0);
-                let sum = used.fold(0, |sum, (a, x)| m.add(sum, m.mul(*a, *x)));
+                let own = row.entries().take_while(|(other, _)| *other <= free);
+                let used = own.filter(|(other, _)| vector[*other] != 0);
+                let sum = used.fold(0, |sum, (other, a)| m.add(sum, m.mul(a, vector[other])));
                 vector[column] = m.sub(0, sum);
             }
         }

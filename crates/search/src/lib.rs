@@ -23,6 +23,7 @@ mod error;
 mod expansion;
 mod halt;
 mod integrals;
+mod jet_equations;
 mod jets;
 mod library;
 mod linear;
@@ -329,7 +330,7 @@ pub fn search(
         return Ok(report);
     }
     report.stage("the number of integrals", effort, |report| {
-        counts::count(case, effort, report, progress)
+        counts::count(case, counts::Degrees::Each, effort, report, progress)
     })?;
     // Integrals of degree 1 come first: those of degree 2 may be functions of them.
     report.stage("products of factors", effort, |report| {

@@ -13,7 +13,7 @@ use serde::Serialize;
 use super::ask::{holds, judged_alone};
 use super::counts::{free_motion, largest, locals};
 use super::integrals::{over_denominators, terms};
-use super::jets::{DimensionCount, VelocityPolynomials};
+use super::jets::{DimensionCount, MotionAtPoint, VelocityPolynomials};
 use super::local::Local;
 use super::terms::{is_one, numeric_exponent};
 use super::{Effort, Excluded, Found, SearchError, SearchReport};
@@ -95,6 +95,7 @@ fn series(
     effort: &Effort,
 ) -> Result<Vec<MultiplierReport>, SearchError> {
     let none = Rational::from(1);
+    let mut motions: Vec<MotionAtPoint<'_>> = locals.iter().map(MotionAtPoint::new).collect();
     let mut counted = Vec::new();
     let configuration = (0, None, none);
     let others = (1..=effort.degree.min(MOST_DEGREE))
@@ -102,7 +103,7 @@ fn series(
     for (degree, alpha, weight) in std::iter::once(configuration).chain(others) {
         let asked = VelocityPolynomials { degree, mixed };
         let DimensionCount { dimension, size: (unknowns, equations) } =
-            largest(locals, asked, &weight, 0, effort)?;
+            largest(&mut motions, asked, &weight, 0, effort)?;
         counted.push(MultiplierReport {
             degree,
             alpha,

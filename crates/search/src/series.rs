@@ -5,6 +5,10 @@
 //! θ = Σ x_i ∂/∂x_i, powers follow from a θp = q p θa, so that every operation is one pass over the
 //! pairs of monomials.
 
+use std::sync::Arc;
+
+use rustc_hash::FxHashMap;
+
 use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
 use liouville::number::{BinaryOperation, Domain, UnaryFunction};
@@ -14,11 +18,71 @@ use liouville::number::{BinaryOperation, Domain, UnaryFunction};
 #[derive(Clone, Debug)]
 pub struct TruncatedSeries {
     modulus: Modulus,
+    monomials: Arc<MonomialTable>,
+    /// Number of products that may be added up before their sum is reduced.
+    most_products: u64,
+    /// The integers up to the degree, and their inverses.
+    integers: Vec<u64>,
+    inverses: Vec<u64>,
+}
+
+/// The monomials up to some degree, and their products.
+#[derive(Debug)]
+struct MonomialTable {
     /// Exponents of each monomial, by increasing degree.
-    monomials: Vec<Vec<u32>>,
+    exponents: Vec<Vec<u32>>,
+    degrees: Vec<u32>,
+    /// Number of monomials below each degree.
+    below: Vec<usize>,
+    /// Places of the products with each variable; those of too high a degree are left out.
+    raised: Vec<Vec<u32>>,
+    /// Places of the products of each monomial with all others whose degree leaves room.
+    products: Vec<Vec<u32>>,
     /// Pairs of monomials whose product each monomial is.
     pairs: Vec<Vec<(u32, u32)>>,
-    degrees: Vec<u64>,
+}
+
+impl MonomialTable {
+    fn new(variables: usize, degree: u32) -> Self {
+        let exponents: Vec<Vec<u32>> =
+            (0..=degree).flat_map(|total| exponents(variables, total)).collect();
+        let degrees: Vec<u32> = exponents.iter().map(|own| own.iter().sum()).collect();
+        let below: Vec<usize> =
+            (0..=degree + 1).map(|bound| degrees.partition_point(|own| *own < bound)).collect();
+        let place: FxHashMap<&[u32], u32> =
+            exponents.iter().enumerate().map(|(k, own)| (own.as_slice(), k as u32)).collect();
+        let raised_by = |variable: usize| -> Vec<u32> {
+            let of = |own: &Vec<u32>| {
+                let mut raised = own.clone();
+                raised[variable] += 1;
+                place[raised.as_slice()]
+            };
+            exponents[..below[degree as usize]].iter().map(of).collect()
+        };
+        let raised: Vec<Vec<u32>> = (0..variables).map(raised_by).collect();
+        let mut products: Vec<Vec<u32>> = Vec::with_capacity(exponents.len());
+        for (own, total) in exponents.iter().zip(&degrees) {
+            let others = below[(degree - total + 1) as usize];
+            let product = match own.iter().position(|exponent| *exponent > 0) {
+                None => (0..others as u32).collect(),
+                // x_v m n from m n, which is known already.
+                Some(variable) => {
+                    let mut lower = own.clone();
+                    lower[variable] -= 1;
+                    let known = &products[place[lower.as_slice()] as usize][..others];
+                    known.iter().map(|k| raised[variable][*k as usize]).collect()
+                }
+            };
+            products.push(product);
+        }
+        let mut pairs = vec![Vec::new(); exponents.len()];
+        for (i, row) in products.iter().enumerate() {
+            for (j, k) in row.iter().enumerate() {
+                pairs[*k as usize].push((i as u32, j as u32));
+            }
+        }
+        Self { exponents, degrees, below, raised, products, pairs }
+    }
 }
 
 /// Lists all exponents of `variables` variables with sum `total`.
@@ -47,31 +111,42 @@ pub fn exponents(variables: usize, total: u32) -> Vec<Vec<u32>> {
 impl TruncatedSeries {
     /// Makes the domain of series up to `degree`.
     pub fn new(modulus: Modulus, variables: usize, degree: u32) -> Self {
-        let monomials: Vec<Vec<u32>> =
-            (0..=degree).flat_map(|total| exponents(variables, total)).collect();
-        let place: rustc_hash::FxHashMap<&[u32], u32> =
-            monomials.iter().enumerate().map(|(k, m)| (m.as_slice(), k as u32)).collect();
-        let mut pairs = vec![Vec::new(); monomials.len()];
-        for (i, a) in monomials.iter().enumerate() {
-            for (j, b) in monomials.iter().enumerate() {
-                let sum: Vec<u32> = a.iter().zip(b).map(|(a, b)| a + b).collect();
-                if let Some(k) = place.get(sum.as_slice()) {
-                    pairs[*k as usize].push((i as u32, j as u32));
-                }
-            }
-        }
-        let degrees = monomials.iter().map(|m| m.iter().map(|e| u64::from(*e)).sum()).collect();
-        Self { modulus, monomials, pairs, degrees }
+        let monomials = Arc::new(MonomialTable::new(variables, degree));
+        let integers: Vec<u64> = (0..=u64::from(degree)).map(|n| modulus.integer(n)).collect();
+        let inverses = integers.iter().map(|n| modulus.inverse(*n)).collect();
+        let most_products = modulus.most_products();
+        Self { modulus, monomials, most_products, integers, inverses }
     }
 
     /// Returns the monomials, by increasing degree.
     pub fn monomials(&self) -> &[Vec<u32>] {
-        &self.monomials
+        &self.monomials.exponents
+    }
+
+    /// Number of monomials of a degree below `bound`; they come first.
+    pub fn count_below(&self, bound: u32) -> usize {
+        let below = &self.monomials.below;
+        below[(bound as usize).min(below.len() - 1)]
+    }
+
+    /// Returns the places of the products of the monomial at a place with those at the places 0, 1,
+    /// …, as long as their degree is within the domain's.
+    pub fn products_with(&self, place: usize) -> &[u32] {
+        &self.monomials.products[place]
+    }
+
+    /// Returns the place of each monomial over x_k; `None` where x_k is not a factor.
+    pub fn lowered(&self, k: usize) -> Vec<Option<usize>> {
+        let mut lowered = vec![None; self.monomials().len()];
+        for (place, raised) in self.monomials.raised[k].iter().enumerate() {
+            lowered[*raised as usize] = Some(place);
+        }
+        lowered
     }
 
     /// Makes a constant series from a residue.
     pub fn number(&self, value: u64) -> Vec<u64> {
-        let mut series = vec![0; self.monomials.len()];
+        let mut series = vec![0; self.monomials().len()];
         series[0] = value;
         series
     }
@@ -79,12 +154,8 @@ impl TruncatedSeries {
     /// Makes the series value + x_k.
     pub fn variable(&self, k: usize, value: u64) -> Vec<u64> {
         let mut series = self.number(value);
-        if let Some(place) = self
-            .monomials
-            .iter()
-            .position(|m| m.iter().enumerate().all(|(i, e)| *e == u32::from(i == k)))
-        {
-            series[place] = self.modulus.one();
+        if let Some(place) = self.monomials.raised[k].first() {
+            series[*place as usize] = self.modulus.one();
         }
         series
     }
@@ -92,15 +163,12 @@ impl TruncatedSeries {
     /// Differentiates with respect to x_k, without the terms of the highest degree.
     pub fn derivative(&self, k: usize, series: &[u64]) -> Vec<u64> {
         let m = &self.modulus;
-        let place: rustc_hash::FxHashMap<&[u32], usize> =
-            self.monomials.iter().enumerate().map(|(j, e)| (e.as_slice(), j)).collect();
-        let of = |monomial: &Vec<u32>| {
-            let mut raised = monomial.clone();
-            raised[k] += 1;
-            let from = place.get(raised.as_slice());
-            from.map_or(0, |j| m.mul(m.integer(u64::from(raised[k])), series[*j]))
-        };
-        self.monomials.iter().map(of).collect()
+        let mut slope = vec![0; series.len()];
+        for (place, raised) in self.monomials.raised[k].iter().enumerate() {
+            let exponent = self.monomials()[place][k] + 1;
+            slope[place] = m.mul(m.integer(u64::from(exponent)), series[*raised as usize]);
+        }
+        slope
     }
 
     /// Multiplies by an integer.
@@ -111,8 +179,22 @@ impl TruncatedSeries {
 
     fn product(&self, x: &[u64], y: &[u64]) -> Vec<u64> {
         let m = &self.modulus;
-        let term = |(i, j): &(u32, u32)| m.mul(x[*i as usize], y[*j as usize]);
-        self.pairs.iter().map(|pairs| pairs.iter().fold(0, |s, p| m.add(s, term(p)))).collect()
+        let present = |x: &[u64]| x.iter().filter(|entry| **entry != 0).count();
+        // Numbers and variables have one coefficient or two.
+        let (x, y) = if present(x) <= present(y) { (x, y) } else { (y, x) };
+        let mut wide = vec![0u128; x.len()];
+        let terms = x.iter().zip(&self.monomials.products).filter(|(x, _)| **x != 0);
+        for (count, (x, places)) in (1u64..).zip(terms) {
+            for (y, place) in y.iter().zip(places) {
+                let product = u128::from(*x).wrapping_mul(u128::from(*y));
+                let sum = &mut wide[*place as usize];
+                *sum = sum.wrapping_add(product);
+            }
+            if count.is_multiple_of(self.most_products) {
+                wide.iter_mut().for_each(|sum| *sum = m.widened(m.reduced(*sum)));
+            }
+        }
+        wide.into_iter().map(|sum| m.reduced(sum)).collect()
     }
 
     /// Computes x^q with the given constant term, by a θp = q p θa.
@@ -122,21 +204,21 @@ impl TruncatedSeries {
             return None;
         }
         let inverse = m.inverse(a[0]);
+        let MonomialTable { degrees, pairs, .. } = &*self.monomials;
         let mut p = self.number(first);
         for k in 1..p.len() {
+            let degree = degrees[k] as usize;
+            // The weight q deg i − deg j of a_i p_j depends on deg i alone.
+            let weights: Vec<u64> = (0..=degree)
+                .map(|n| m.sub(m.mul(exponent, self.integers[n]), self.integers[degree - n]))
+                .collect();
             let mut sum = 0;
-            for (i, j) in &self.pairs[k] {
-                if *i != 0 {
-                    let (i, j) = (*i as usize, *j as usize);
-                    let weight = m.sub(
-                        m.mul(exponent, m.integer(self.degrees[i])),
-                        m.integer(self.degrees[j]),
-                    );
-                    sum = m.add(sum, m.mul(weight, m.mul(a[i], p[j])));
+            for (i, j) in pairs[k].iter().map(|(i, j)| (*i as usize, *j as usize)) {
+                if i != 0 && a[i] != 0 {
+                    sum = m.add(sum, m.mul(weights[degrees[i] as usize], m.mul(a[i], p[j])));
                 }
             }
-            let degree = m.inverse(m.integer(self.degrees[k]));
-            p[k] = m.mul(m.mul(sum, inverse), degree);
+            p[k] = m.mul(m.mul(sum, inverse), self.inverses[degree]);
         }
         Some(p)
     }
@@ -246,7 +328,7 @@ mod tests {
         let mut one_minus = d.variable(0, m.sub(0, m.one()));
         one_minus.iter_mut().for_each(|x| *x = m.sub(0, *x));
         d.unary(UnaryFunction::Recip, &one_minus, &mut series);
-        for (monomial, coefficient) in d.monomials.iter().zip(&series) {
+        for (monomial, coefficient) in d.monomials().iter().zip(&series) {
             let expected = if monomial[1] == 0 { m.one() } else { 0 };
             assert_eq!(*coefficient, expected, "1/(1 - x) = Σ xⁿ");
         }

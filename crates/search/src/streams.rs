@@ -7,6 +7,8 @@ use liouville::proof::ProofRng;
 pub enum SearchStream {
     /// Points at which Taylor coefficients are taken.
     Jets = 40,
+    /// Combinations of the equations for Taylor coefficients.
+    JetCombinations = 50,
     /// Points for relations between terms.
     Relations = 41,
     /// Points and lines for products of known integrals.
@@ -32,7 +34,7 @@ pub enum SearchStream {
     /// Lines on which Darboux polynomials are looked for.
     OrbitLines = 49,
     /// Points for leading forms.
-    Leading = 50,
+    Leading = 51,
     /// Primes of an ansatz; each of its moduli has the next stream.
     Moduli = 60,
 }

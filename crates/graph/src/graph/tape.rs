@@ -60,7 +60,7 @@ impl Tape {
         };
         let used: Vec<usize> =
             (0..last_use.len()).filter(|index| last_use[*index] != UNUSED).collect();
-        let mut slot_of: Vec<Slot> = vec![0; graph.nodes.len()];
+        let mut slot_of: Vec<Slot> = vec![0; last_use.len()];
         for index in used.iter().copied() {
             if let Node::Constant(constant) = graph.nodes[index] {
                 slot_of[index] = (tape.inputs + tape.constants.len()) as Slot;
@@ -165,16 +165,16 @@ impl Node {
 
 const UNUSED: usize = usize::MAX;
 
-/// Finds the index of each node's last user: past the end for an output, `UNUSED` for a node
-/// without users.
+/// Finds the index of each node's last user, as far as the last root: past the end for an output,
+/// `UNUSED` for a node without users.
 fn last_uses(graph: &Graph, roots: &[usize]) -> Vec<usize> {
-    let end = graph.nodes.len();
-    let first_unused = roots.iter().filter(|root| **root < end).max().map_or(0, |last| last + 1);
+    let nodes = graph.nodes.len();
+    let end = roots.iter().filter(|root| **root < nodes).max().map_or(0, |last| last + 1);
     let mut last = vec![UNUSED; end];
-    for root in roots.iter().filter(|root| **root < end) {
+    for root in roots.iter().filter(|root| **root < nodes) {
         last[*root] = end;
     }
-    for index in (0..first_unused).rev() {
+    for index in (0..end).rev() {
         if last[index] == UNUSED {
             continue;
         }

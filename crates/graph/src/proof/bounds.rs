@@ -44,6 +44,8 @@ struct FactorBound {
 pub struct Bounds {
     bounds: Vec<Option<Bound>>,
     factors: Vec<FactorBound>,
+    /// The factors of a value without any.
+    none: Rc<[(u32, f64)]>,
     /// Factor that is the numerator of a step, by place.
     numerator_of: rustc_hash::FxHashMap<usize, u32>,
 }
@@ -54,6 +56,7 @@ impl Bounds {
         let mut all = Self {
             bounds: Vec::with_capacity(reached.len()),
             factors: Vec::new(),
+            none: Rc::new([]),
             numerator_of: Default::default(),
         };
         for (place, step) in graph.steps().enumerate() {
@@ -100,15 +103,15 @@ impl Bounds {
     }
 
     fn step(&mut self, step: Step<'_>, sources: &[InputDistribution]) -> Option<Bound> {
-        let plain = |degree: f64, height: f64| Bound { degree, height, factors: Rc::new([]) };
+        let plain =
+            |degree: f64, height: f64| Bound { degree, height, factors: Rc::clone(&self.none) };
         Some(match step {
             Step::Constant(value) => {
-                let (above, below) = value.parts();
-                let mut bound = plain(0.0, above.bits() as f64);
-                if below.bits() > 1 {
+                let [above, below] = value.part_bits();
+                let mut bound = plain(0.0, above as f64);
+                if below > 1 {
                     // A denominator is a factor of degree 0, so that sums share it.
-                    let factor =
-                        self.factor(FactorBound { degree: 0.0, height: below.bits() as f64 });
+                    let factor = self.factor(FactorBound { degree: 0.0, height: below as f64 });
                     bound.factors = Rc::new([(factor, -1.0)]);
                 }
                 bound
@@ -128,7 +131,11 @@ impl Bounds {
             Step::Binary(BinaryOperation::Mul, a, b) => {
                 let (x, y) = (self.at(a)?, self.at(b)?);
                 let (degree, height) = (x.degree + y.degree, x.height + y.height);
-                let factors = merged(&x.factors, &y.factors, |e, f| e + f);
+                let factors = match (x.factors.is_empty(), y.factors.is_empty()) {
+                    (true, _) => Rc::clone(&y.factors),
+                    (_, true) => Rc::clone(&x.factors),
+                    _ => merged(&x.factors, &y.factors, |e, f| e + f),
+                };
                 Bound { degree, height, factors }
             }
             Step::Binary(BinaryOperation::Add | BinaryOperation::Sub, a, b) => {

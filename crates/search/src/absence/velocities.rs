@@ -1,7 +1,7 @@
 //! Absence of polynomials in the velocities, with any smooth coefficients in the positions.
 
 use super::super::ask::independent;
-use super::super::counts::{self, CountReport};
+use super::super::counts::{self, CountReport, Degrees};
 use super::super::local::Local;
 use super::super::products::degree;
 use super::super::terms::numeric_exponent;
@@ -57,7 +57,7 @@ fn no_integral(asked: &AbsenceCase<'_>, most: u32) -> Result<AbsenceOutcome, Sea
     let case = asked.case;
     let effort = &Effort { degree: most, ..asked.effort.clone() };
     let mut report = SearchReport::default();
-    counts::count(case, effort, &mut report, &mut |_| {})?;
+    counts::count(case, Degrees::Decisive, effort, &mut report, &mut |_| {})?;
     let class = format!(
         "a polynomial of degree at most {most} in the velocities, with any smooth coefficients on any \
          open set of positions"

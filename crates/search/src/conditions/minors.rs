@@ -7,8 +7,9 @@
 
 use super::polynomial::{Polynomial, PrimePolynomials};
 use crate::budget::Budget;
-use crate::expansion::Taylor;
-use crate::jets::{Equations, RowKey, VelocityPolynomials};
+use crate::expansion::{FieldExpansion, Taylor};
+use crate::jet_equations::{Equations, RowKey};
+use crate::jets::VelocityPolynomials;
 use crate::local::Local;
 use crate::streams::SearchStream;
 use crate::{Effort, Halt, SearchError};
@@ -203,8 +204,9 @@ impl<'l> Minors<'l> {
         let mut parameters = self.parameters.clone();
         parameters[self.draw] = value;
         let expansion = self.taylor.at(&parameters, positions, &mut self.rng)?;
-        let halt = &self.effort.halt;
-        expansion.map(|e| Equations::of(&e, &self.taylor, self.asked, 0, halt)).transpose()
+        let (taylor, halt) = (&self.taylor, &self.effort.halt);
+        let made = |e: FieldExpansion| Equations::of(&e, taylor, taylor.order, self.asked, 0, halt);
+        expansion.map(made).transpose()
     }
 
     /// Finds the values at which there are more integrals.

@@ -129,7 +129,7 @@ impl DarbouxSearch<'_, '_> {
                 self.setting.effort.halt.check()?;
                 let mut both = Echelon::new(all.len(), at.modulus);
                 for row in one.echelon.rows().chain(two.echelon.rows()) {
-                    both.push(row.clone());
+                    both.push(row);
                 }
                 vectors.extend(both.null_space().into_iter().next());
             }

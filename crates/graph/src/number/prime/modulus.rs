@@ -187,8 +187,24 @@ impl Modulus {
     }
 
     /// Whether x is a nonzero square.
+    ///
+    /// By Jacobi's symbol, which takes half of the time of a power; that of x·2^64 is that of x.
     pub fn is_square(&self, x: u64) -> bool {
-        self.power(x, (self.prime - 1) / 2) == self.one
+        let (mut above, mut below) = (x % self.prime, self.prime);
+        let mut is_negative = false;
+        while above != 0 {
+            let twos = above.trailing_zeros();
+            above >>= twos;
+            // (2/n) is -1 for n = 3, 5 mod 8.
+            is_negative ^= twos & 1 == 1 && (below ^ (below >> 1)) & 2 != 0;
+            if above < below {
+                // Reciprocity: the sign changes if both are 3 mod 4.
+                is_negative ^= above & below & 2 != 0;
+                (above, below) = (below, above);
+            }
+            above -= below;
+        }
+        below == 1 && !is_negative
     }
 
     /// Computes x^(a/b) for x ≠ 0 and b prime to p - 1, hence odd: the root is unique.

@@ -131,10 +131,15 @@ impl Rational {
 
     /// Number of bits needed to write numerator and denominator.
     pub fn bits(&self) -> u64 {
+        self.part_bits().iter().sum()
+    }
+
+    /// Numbers of bits needed to write the numerator, and the denominator.
+    pub fn part_bits(&self) -> [u64; 2] {
         let bits = |x: i64| u64::from(64 - x.unsigned_abs().leading_zeros());
         match &self.0 {
-            Repr::Small(n, d) => bits(*n) + bits(*d),
-            Repr::Big(value) => value.numer().bits() + value.denom().bits(),
+            Repr::Small(n, d) => [bits(*n), bits(*d)],
+            Repr::Big(value) => [value.numer().bits(), value.denom().bits()],
         }
     }
 

@@ -157,13 +157,22 @@ impl Extent {
     /// Computes x y.
     pub fn times(self, other: Self) -> Self {
         let corners = [
-            product(self.low, other.low),
-            product(self.low, other.high),
-            product(self.high, other.low),
-            product(self.high, other.high),
+            (self.low, other.low),
+            (self.low, other.high),
+            (self.high, other.low),
+            (self.high, other.high),
         ];
-        let low = corners.into_iter().map(down).fold(f64::INFINITY, f64::min);
-        let high = corners.into_iter().map(up).fold(f64::NEG_INFINITY, f64::max);
+        // Rounding is monotone: an end comes from a corner whose rounded product is extreme.
+        let rounded = corners.map(|(a, b)| if a == 0.0 || b == 0.0 { 0.0 } else { a * b });
+        let least = rounded.into_iter().fold(f64::INFINITY, f64::min);
+        let most = rounded.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for ((a, b), rounded) in corners.into_iter().zip(rounded) {
+            if rounded == least || rounded == most {
+                let exact = product(a, b);
+                (low, high) = (low.min(down(exact)), high.max(up(exact)));
+            }
+        }
         let wide = Self { low, high };
         match (self.sign(), other.sign()) {
             (Some(a), Some(b)) => wide.within(a == b),
