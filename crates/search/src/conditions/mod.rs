@@ -5,6 +5,7 @@
 //! variety   the equations of least degree at the points found on many lines
 //! small     conditions of codimension two, by random sampling in small fields
 //! minors    values of one parameter for which there are more integrals
+//! relation  numbers that such values are, or their relations to one other parameter
 //! values    the same for polynomial integrals of a field
 //! ```
 //!
@@ -16,6 +17,7 @@ mod coordinates;
 mod line;
 mod minors;
 mod polynomial;
+mod relation;
 mod residual;
 mod small;
 pub mod values;
@@ -103,22 +105,23 @@ fn integrals(
     for degree in 1..=effort.degree.min(2) {
         for parameter in minors::scalars(case) {
             let of = format!("more integrals of degree {degree}");
-            progress(&format!("{of}, by {}", parameter.0));
-            let (equations, grounds) = match minors::relations(
-                case,
-                &local,
-                VelocityPolynomials { degree, mixed },
-                &parameter,
-                effort,
-            ) {
-                Ok(relations) if relations.is_empty() => continue,
-                Ok(relations) => {
-                    (relations, "minors of the equations for Taylor coefficients".to_string())
-                }
-                Err(error @ SearchError::NoFraction) => (Vec::new(), error.to_string()),
-                Err(error) => return Err(error),
-            };
-            let of = format!("{of}, by the value of {}", parameter.0);
+            progress(&format!("{of}, by {}", parameter.name));
+            let asked = VelocityPolynomials { degree, mixed };
+            let (equations, grounds) =
+                match minors::relations(case, &local, asked, &parameter, effort) {
+                    Ok(None) => continue,
+                    Ok(Some(found)) => {
+                        let grounds = "minors of the equations for Taylor coefficients".to_string();
+                        let grounds = match found.unexplained {
+                            0 => grounds,
+                            n => format!("{grounds}; {}", relation::unexplained(n, &parameter)),
+                        };
+                        (found.relations.iter().map(ToString::to_string).collect(), grounds)
+                    }
+                    Err(error @ SearchError::NoFraction) => (Vec::new(), error.to_string()),
+                    Err(error) => return Err(error),
+                };
+            let of = format!("{of}, by the value of {}", parameter.name);
             report.conditions.push(ParameterCondition { of, equations, grounds });
         }
     }

@@ -12,8 +12,9 @@ use liouville::number::rational::Rational;
 use liouville::proof::ProofRng;
 
 use super::ParameterCondition;
-use super::minors::{Round, determinant, equation, scalars, spelled, unnamed};
+use super::minors::{determinant, equation, scalars};
 use super::polynomial::{Polynomial, PrimePolynomials};
+use super::relation::{Relation, Round, ScalarParameter, explained, unexplained};
 use crate::ansatz::system::{Column, LinearSystem, PrimePoint};
 use crate::echelon::Echelon;
 use crate::orbit::{self, monomials};
@@ -46,44 +47,83 @@ pub fn conditions(
     let all = scalars(case);
     let mut told: Vec<String> = Vec::new();
     for degree in 1..=effort.degree {
-        for (name, draw) in &all {
+        for parameter in &all {
+            let name = &parameter.name;
             progress(&format!("values of {name} with more integrals of degree {degree}"));
-            let Some(search) = Values::new(case, degree, *draw, effort)? else { return Ok(()) };
+            let Some(search) = ParametricEquations::new(case, degree, parameter.draw, effort)?
+            else {
+                return Ok(());
+            };
             let rounds = if all.len() > 1 { 2 } else { 1 };
             let Some(found) = search.rounds(rounds)? else { continue };
-            let mut equations = spelled(name, *draw, &all, &found.rounds);
-            let first = found.rounds.first().filter(|_| all.len() == 1);
-            let others = first.and_then(|(values, _, m)| equation(name, values, &found.rest, m));
-            let is_whole = found.rest.len() < 2 || others.is_some();
-            equations.extend(others);
-            let has_values = found.rounds.first().is_some_and(|(values, ..)| !values.is_empty());
-            if equations.is_empty() && has_values {
-                equations.push(unnamed(name, &found.rounds));
+            let explained = explained(parameter, &all, &found.rounds);
+            let mut equations: Vec<String> = Vec::new();
+            for relation in &explained.relations {
+                let text = relation.to_string();
+                if told.contains(&text) {
+                    continue;
+                }
+                if let Relation::Value(_, value) = relation {
+                    integrals_at(case, name, value, effort, report)?;
+                }
+                equations.push(text);
             }
-            let left = if is_whole { 0 } else { found.rest.len() - 1 };
-            equations.retain(|own| !told.contains(own));
-            if equations.is_empty() && left == 0 {
+            let first = found.rounds.first().filter(|_| all.len() == 1);
+            let others = first.and_then(|own| equation(name, own, &found.rest));
+            let open = match others {
+                Some(_) => OpenValues::default(),
+                None => OpenValues {
+                    unexplained: explained.unexplained,
+                    roots: found.rest.len().saturating_sub(1),
+                },
+            };
+            equations.extend(others.filter(|own| !told.contains(own)));
+            if equations.is_empty() && open.count() == 0 {
                 continue;
             }
             told.extend(equations.iter().cloned());
-            for equation in &equations {
-                let value = equation.strip_prefix(&format!("{name} = "));
-                if let Some(value) = value.and_then(|text| text.parse().ok()) {
-                    integrals_at(case, name, &value, effort, report)?;
-                }
-            }
-            let rest = match left {
-                0 => "modulo a prime of 61 bits no other value has more".to_string(),
-                n => format!("up to {n} further values, none of them rational, may have more"),
-            };
             report.conditions.push(ParameterCondition {
                 of: format!("more polynomial integrals of degree at most {degree}, by {name}"),
                 equations,
-                grounds: format!("minors of the equations for the coefficients; {rest}"),
+                grounds: format!(
+                    "minors of the equations for the coefficients; {}",
+                    open.words(parameter)
+                ),
             });
         }
     }
     Ok(())
+}
+
+/// Numbers of values that are not written as relations.
+#[derive(Clone, Copy, Default)]
+struct OpenValues {
+    /// Values in the prime field with more integrals.
+    unexplained: usize,
+    /// Common roots of some minors that are not in the field.
+    roots: usize,
+}
+
+impl OpenValues {
+    fn count(self) -> usize {
+        self.unexplained + self.roots
+    }
+
+    /// Says how many values there may be besides those told.
+    fn words(self, parameter: &ScalarParameter) -> String {
+        let own = match self.unexplained {
+            0 => None,
+            n => Some(unexplained(n, parameter)),
+        };
+        let roots = match self.roots {
+            0 => None,
+            n => Some(format!("up to {n} further values, none of them rational, may have more")),
+        };
+        match (own, roots) {
+            (None, None) => "modulo a prime of 61 bits no other value has more".to_string(),
+            (own, roots) => own.into_iter().chain(roots).collect::<Vec<_>>().join("; "),
+        }
+    }
 }
 
 /// Searches a case with a value of one parameter for integrals besides those in general.
@@ -120,7 +160,7 @@ struct SpecialValues {
 }
 
 /// Equations for the coefficients of polynomial integrals, as functions of one parameter.
-struct Values<'e> {
+struct ParametricEquations<'e> {
     system: LinearSystem,
     columns: Vec<usize>,
     draw: usize,
@@ -128,7 +168,7 @@ struct Values<'e> {
     is_on_level: bool,
 }
 
-impl<'e> Values<'e> {
+impl<'e> ParametricEquations<'e> {
     /// Sets up the equations; `None` if there are too many.
     fn new(
         case: &Case,
@@ -165,7 +205,8 @@ impl<'e> Values<'e> {
         for round in 0..count {
             let Some(base) = self.system.at(round, round) else { return Ok(None) };
             let Some((values, rest)) = self.special(&base, round)? else { return Ok(None) };
-            found.rounds.push((values, base.parameters, base.modulus));
+            let (parameters, modulus) = (base.parameters, base.modulus);
+            found.rounds.push(Round { values, parameters, modulus });
             found.rest = rest;
         }
         Ok(Some(found))
@@ -217,10 +258,11 @@ impl<'e> Values<'e> {
             rest.clone_from(&common);
             for value in ring.roots(&common, &mut rng) {
                 self.effort.halt.check()?;
-                if self.nullity(&self.with(base, value))?.is_none_or(|own| own > general) {
+                // Without a state the field has no integrals there either.
+                if self.nullity(&self.with(base, value))?.is_some_and(|own| own > general) {
                     found.push(value);
-                    rest = ring.divided(&rest, &[m.sub(0, value), m.one()]).0;
                 }
+                rest = ring.divided(&rest, &[m.sub(0, value), m.one()]).0;
             }
             if rest.len() < 2 {
                 break;
