@@ -118,17 +118,12 @@ pub fn search(
     let is_done =
         |report: &SearchReport| report.functions("integral").count() + 1 >= case.model.dimension();
     let before = report.orbits.len();
-    let next: &[RoundLimits] = if further { &FURTHER } else { &[] };
     // At last with half of each angle.
     for _ in 0..2 {
-        let known = found(case, effort, report)?;
-        let Some(extension) = adjoin::extended(case, effort, &known, divided)? else { break };
-        let Ok(setting) = OrbitSetting::extended(case, &extension, effort)? else { break };
+        let scope = FunctionScope { divided, before, next: &[] };
+        let Some(halves) = with_functions(case, effort, scope, report, progress)? else { break };
         is_extended = true;
-        report.without_points.clear();
-        report.orbits.truncate(before);
-        along_orbits(&setting, &[], report, progress)?;
-        divided = extension.halves();
+        divided = halves;
         if is_done(report) || divided.is_empty() {
             break;
         }
@@ -147,20 +142,22 @@ pub fn search(
     match plain {
         Ok(setting) => {
             if is_extended && further {
-                with_functions(case, effort, &FURTHER[..WITH_FUNCTIONS], report, progress)?;
+                let (before, next) = (report.orbits.len(), &FURTHER[..WITH_FUNCTIONS]);
+                let scope = FunctionScope { divided: Vec::new(), before, next };
+                with_functions(case, effort, scope, report, progress)?;
                 let known = found(case, effort, report)?;
                 fractions::conclude(case, effort, &known, true, report)?;
             }
             report.orbits.truncate(before);
-            along_orbits(&setting, next, report, progress)
+            along_orbits(&setting, further_limits(further), report, progress)
         }
         Err(reason) if is_field && !is_extended => {
             report.remark(format!("no relations along orbits: {reason}"));
             Ok(())
         }
         Err(_) if is_extended && further => {
-            report.orbits.truncate(before);
-            with_functions(case, effort, &FURTHER, report, progress)
+            let scope = FunctionScope { divided: Vec::new(), before, next: &FURTHER };
+            with_functions(case, effort, scope, report, progress).map(|_| ())
         }
         Err(_) => Ok(()),
     }
@@ -176,9 +173,7 @@ pub fn search_map(
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
     match OrbitSetting::of(case, effort)? {
-        Ok(setting) => {
-            along_orbits(&setting, if further { &FURTHER } else { &[] }, report, progress)
-        }
+        Ok(setting) => along_orbits(&setting, further_limits(further), report, progress),
         Err(reason) => {
             report.remark(format!("no relations along orbits: {reason}"));
             Ok(())
@@ -186,22 +181,39 @@ pub fn search_map(
     }
 }
 
-/// Searches with functions of the state as further variables, within growing limits.
+/// Limits that follow the first ones: none, unless the time of a search is limited.
+fn further_limits(further: bool) -> &'static [RoundLimits] {
+    if further { &FURTHER } else { &[] }
+}
+
+/// Scope of a search with functions of the state as further variables.
+struct FunctionScope<'l> {
+    /// Arguments that are divided.
+    divided: Vec<adjoin::Divided>,
+    /// Number of reports on orbits that are kept.
+    before: usize,
+    /// Limits after the first ones.
+    next: &'l [RoundLimits],
+}
+
+/// Searches with functions of the state as further variables, within growing limits; returns half of
+/// each angle. `None` if there are no functions that can be adjoined.
 fn with_functions(
     case: &Case,
     effort: &Effort,
-    next: &[RoundLimits],
+    scope: FunctionScope<'_>,
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
-) -> Result<(), SearchError> {
+) -> Result<Option<Vec<adjoin::Divided>>, SearchError> {
     let known = found(case, effort, report)?;
-    let Some(extension) = adjoin::extended(case, effort, &known, Vec::new())? else {
-        return Ok(());
+    let Some(extension) = adjoin::extended(case, effort, &known, scope.divided)? else {
+        return Ok(None);
     };
-    match OrbitSetting::extended(case, &extension, effort)? {
-        Ok(setting) => along_orbits(&setting, next, report, progress),
-        Err(_) => Ok(()),
-    }
+    let Ok(setting) = OrbitSetting::extended(case, &extension, effort)? else { return Ok(None) };
+    report.without_points.clear();
+    report.orbits.truncate(scope.before);
+    along_orbits(&setting, scope.next, report, progress)?;
+    Ok(Some(extension.halves()))
 }
 
 /// Lists the square roots of parameters and numbers in a field, with the numbers.
