@@ -27,6 +27,7 @@ mod jets;
 mod library;
 mod linear;
 mod local;
+mod maps;
 mod multipliers;
 mod orbit;
 mod products;
@@ -326,6 +327,7 @@ pub fn search(
         report.stage("relations along an orbit", effort, |report| {
             orbit::search_map(case, effort, effort.halt.is_timed(), report, progress)
         })?;
+        maps::note_fields_only(effort, &mut report);
         return Ok(report);
     }
     report.stage("the number of integrals", effort, |report| {

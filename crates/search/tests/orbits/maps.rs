@@ -1,6 +1,6 @@
 //! Searches of maps: integrals written out, and theorems that exclude no planted one.
 
-use liouville_search::Effort;
+use liouville_search::{Ansatz, ConditionTarget, Effort, Hamiltonians};
 
 use super::{excluded, searched};
 
@@ -60,4 +60,20 @@ fn planted_integrals_of_maps_are_not_excluded() {
         assert!(degree < kept, "{own} is an integral of degree {kept}: {:?}", report.excluded);
         assert_eq!(report.formulas("integral").count(), 1, "{own}: {:?}", report.found);
     }
+}
+
+#[test]
+fn options_for_fields_are_noted() {
+    let asked = Effort {
+        conditions: Some(ConditionTarget::Existence),
+        poisson: Some(Hamiltonians::Known),
+        ansatz: Ansatz { wanted: true, ..Ansatz::default() },
+        ..Effort::default()
+    };
+    let shear = map("", &["x + y", "y"]);
+    let remarks = searched(&shear, &asked).remarks;
+    for option in ["--conditions", "--poisson", "--ansatz"] {
+        assert!(remarks.iter().any(|own| own.starts_with(option)), "{option}: {remarks:?}");
+    }
+    assert!(searched(&shear, &Effort::default()).remarks.is_empty(), "nothing was asked");
 }
