@@ -365,7 +365,7 @@ pub fn search(
     })?;
     if effort.conditions == Some(ConditionTarget::Existence) {
         report.stage("values of parameters", effort, |report| {
-            conditions::values::conditions(case, effort, report, progress)
+            conditions::several::conditions(case, effort, report, progress)
         })?;
     }
     if !report.orbits.is_empty() {

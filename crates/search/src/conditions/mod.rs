@@ -6,7 +6,19 @@
 //! small     conditions of codimension two, by random sampling in small fields
 //! minors    values of one parameter for which there are more integrals
 //! relation  numbers that such values are, or their relations to one other parameter
-//! values    the same for polynomial integrals of a field
+//! several   equations between the parameters of a field for which it has more polynomial integrals
+//! values    values of its only parameter
+//! ```
+//!
+//! For fields the minors are those of [`equations`] for the coefficients of a polynomial:
+//!
+//! ```text
+//! split           the free tensors of a case by scalars
+//! pencil          determinants of matrices of polynomials in one variable
+//! parameter_line  the special values on a line of parameters
+//! factors         factors of polynomials in two variables
+//! locus           the special parameters of codimension one, factor by factor
+//! hypersurface    a factor as an equation with rational coefficients
 //! ```
 //!
 //! A condition of codimension one meets almost every line (over the closure of the field), so that
@@ -14,13 +26,21 @@
 //! confirmed at more points than they have coefficients.
 
 mod coordinates;
+mod equations;
+mod factors;
+mod hypersurface;
 mod line;
+mod locus;
 mod minors;
+mod parameter_line;
+mod pencil;
 mod polynomial;
 mod relation;
 mod residual;
+pub mod several;
 mod small;
-pub mod values;
+mod split;
+mod values;
 mod variety;
 
 use serde::Serialize;
