@@ -8,6 +8,7 @@ use liouville::proof::reconstruct;
 
 use super::polynomial::{Polynomial, PrimePolynomials};
 use super::relation::ScalarParameter;
+use super::simple::{SimpleEquation, SimpleEquations};
 use super::variety::{monomial, power};
 use crate::terms;
 
@@ -81,6 +82,10 @@ impl Hypersurface {
                     true => name.to_string(),
                     false => format!("{number}*{name}"),
                 };
+                // b = 6 a is better than 6 a = b.
+                if let Some(inverse) = ratio.recip().filter(|own| own.to_integer() > Some(1)) {
+                    return format!("{second} = {}", multiple(inverse, &first));
+                }
                 let (above, below) = ratio.parts();
                 let one = || 1.into();
                 let above = Rational::from_parts(above, one());
@@ -132,19 +137,19 @@ impl Hypersurface {
         Some((place, value))
     }
 
-    /// The same polynomial where one parameter is 0, or equal to another, without this parameter;
-    /// `None` if it vanishes there.
-    pub fn restricted(&self, place: usize, other: Option<usize>) -> Option<Self> {
+    /// The same polynomial where simple equations hold, in the scalars that remain free; `None` if it
+    /// vanishes there.
+    pub fn under(&self, equations: &SimpleEquations) -> Option<Self> {
         let mut terms: Vec<(Vec<u32>, Rational)> = Vec::new();
-        for (exponents, value) in &self.terms {
-            let mut own = exponents.clone();
-            let moved = std::mem::take(&mut own[place]);
-            match other {
-                None if moved > 0 => continue,
-                None => {}
-                Some(other) => own[other] += moved,
+        'terms: for (exponents, value) in &self.terms {
+            let mut own = vec![0; exponents.len()];
+            for (power, first) in exponents.iter().zip(equations.first()) {
+                match first {
+                    Some(first) => own[*first] += power,
+                    None if *power > 0 => continue 'terms,
+                    None => {}
+                }
             }
-            own.remove(place);
             match terms.iter_mut().find(|(known, _)| *known == own) {
                 Some((_, sum)) => *sum = &*sum + value,
                 None => terms.push((own, value.clone())),
@@ -153,6 +158,63 @@ impl Hypersurface {
         terms.retain(|(_, value)| !value.is_zero());
         terms.sort_by(|(a, _), (b, _)| degree(b).cmp(&degree(a)).then_with(|| b.cmp(a)));
         (!terms.is_empty()).then_some(Self { terms })
+    }
+
+    /// The polynomial in some of the scalars, among which are all that occur.
+    pub fn among(&self, places: &[usize]) -> Self {
+        let own = |exponents: &Vec<u32>| places.iter().map(|place| exponents[*place]).collect();
+        Self {
+            terms: self
+                .terms
+                .iter()
+                .map(|(own_terms, value)| (own(own_terms), value.clone()))
+                .collect(),
+        }
+    }
+
+    /// The polynomial in some of the scalars as one in all of them.
+    pub fn spread(&self, places: &[usize], count: usize) -> Self {
+        let spread = |exponents: &Vec<u32>| {
+            let mut own = vec![0; count];
+            places.iter().zip(exponents).for_each(|(place, power)| own[*place] = *power);
+            own
+        };
+        Self { terms: self.terms.iter().map(|(own, value)| (spread(own), value.clone())).collect() }
+    }
+
+    /// The polynomial x or x − y of a simple equation between some number of scalars.
+    pub fn from(equation: SimpleEquation, count: usize) -> Self {
+        let unit = |place: usize| (0..count).map(|k| u32::from(k == place)).collect();
+        let one = Rational::from(1);
+        let terms = match equation {
+            SimpleEquation::Zero(x) => vec![(unit(x), one)],
+            SimpleEquation::Equal(x, y) => {
+                let (x, y) = (x.min(y), x.max(y));
+                vec![(unit(x), one), (unit(y), Rational::from(-1))]
+            }
+        };
+        Self { terms }
+    }
+
+    /// Whether it is a constant multiple of another.
+    pub fn is_multiple(&self, other: &Self) -> bool {
+        let scaled = |own: &Self| -> Option<Vec<(Vec<u32>, Rational)>> {
+            let inverse = own.terms.first()?.1.recip()?;
+            Some(own.terms.iter().map(|(a, value)| (a.clone(), value * &inverse)).collect())
+        };
+        scaled(self) == scaled(other)
+    }
+
+    /// The equation as a simple one, if it is x = 0 or x = y.
+    pub fn simple(&self) -> Option<SimpleEquation> {
+        let place = |own: &[u32]| own.iter().position(|power| *power > 0);
+        match self.terms.as_slice() {
+            [(x, _)] if degree(x) == 1 => Some(SimpleEquation::Zero(place(x)?)),
+            [(x, a), (y, b)] if degree(x) == 1 && degree(y) == 1 && (a + b).is_zero() => {
+                Some(SimpleEquation::Equal(place(x)?, place(y)?))
+            }
+            _ => None,
+        }
     }
 }
 
@@ -217,8 +279,12 @@ mod tests {
         }
         let squares = surface(&[(&[2, 0], (1, 1)), (&[0, 2], (-2, 1))]);
         assert_eq!(squares.solved(&names), None, "no parameter is linear");
-        assert_eq!(squares.restricted(0, Some(1)), Some(surface(&[(&[2], (-1, 1))])));
+        let equal = SimpleEquations::none(2).with(SimpleEquation::Equal(0, 1));
+        assert_eq!(squares.under(&equal), Some(surface(&[(&[2, 0], (-1, 1))])));
         let difference = surface(&[(&[1, 0], (1, 1)), (&[0, 1], (-1, 1))]);
-        assert_eq!(difference.restricted(0, Some(1)), None, "it vanishes where a = b");
+        assert_eq!(difference.under(&equal), None, "it vanishes where a = b");
+        assert_eq!(difference.simple(), Some(SimpleEquation::Equal(0, 1)));
+        assert_eq!(squares.simple(), None);
+        assert_eq!(squares.spread(&[2, 0], 3).among(&[2, 0]), squares);
     }
 }

@@ -19,6 +19,7 @@
 //! factors         factors of polynomials in two variables
 //! locus           the special parameters of codimension one, factor by factor
 //! hypersurface    a factor as an equation with rational coefficients
+//! simple          sets of equations x = 0, x = y, for conditions of several equations
 //! ```
 //!
 //! A condition of codimension one meets almost every line (over the closure of the field), so that
@@ -38,6 +39,7 @@ mod polynomial;
 mod relation;
 mod residual;
 pub mod several;
+mod simple;
 mod small;
 mod split;
 mod values;

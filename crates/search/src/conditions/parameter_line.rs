@@ -16,7 +16,7 @@ use crate::{Effort, SearchError};
 /// Number of minors that are compared.
 const MINORS: usize = 2;
 /// Numbers of values along a line from which the entries are read, one after the other.
-const VALUES: [usize; 2] = [6, 14];
+const VALUES: [usize; 3] = [6, 14, 30];
 /// First stream of states for minors on lines.
 const STREAM: u64 = 5000;
 /// Steps of one multiplication modulo a prime and what belongs to it.

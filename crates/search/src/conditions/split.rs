@@ -17,6 +17,9 @@ pub struct SplitCase {
     pub case: Case,
     /// Parameters drawn from ranges.
     pub scalars: Vec<ScalarParameter>,
+    /// For each scalar the place of the tensor that it is a component of; `None` for scalars of the
+    /// case.
+    pub tensors: Vec<Option<usize>>,
     /// Names of parameters with a list of values.
     pub listed: Vec<String>,
 }
@@ -25,16 +28,21 @@ impl SplitCase {
     /// Writes the free tensors of a case by scalars.
     pub fn of(case: &Case) -> Self {
         let mut case = case.clone();
+        let mut of_tensor: Vec<Option<usize>> = vec![None; case.model.parameters.len()];
         for index in 0..case.model.parameters.len() {
             divide(&mut case, index);
+            of_tensor.resize(case.model.parameters.len(), Some(index));
         }
         let (mut scalars, mut listed) = (Vec::new(), Vec::new());
         let mut draw = 0;
-        for Parameter { name, origin, .. } in &case.model.parameters {
+        let mut tensors = Vec::new();
+        for (Parameter { name, origin, .. }, tensor) in case.model.parameters.iter().zip(of_tensor)
+        {
             let ParameterOrigin::Free(recipe) = origin else { continue };
             match recipe {
                 SamplerSpec::Scalar(Draw::Within(_) | Draw::Of(..)) => {
                     scalars.push(ScalarParameter { name: name.clone(), draw });
+                    tensors.push(tensor);
                 }
                 recipe => {
                     let is_list = |own: &Draw| match own {
@@ -49,29 +57,23 @@ impl SplitCase {
             }
             draw += recipe.draws().len();
         }
-        Self { case, scalars, listed }
+        Self { case, scalars, tensors, listed }
     }
 }
 
 impl SplitCase {
-    /// Fixes a scalar as a formula of the others.
-    pub fn with(&self, name: &str, value: &str) -> Option<Self> {
+    /// Gives scalars values as formulas of the others, by their names.
+    pub fn with(&self, values: &[(String, String)]) -> Option<Self> {
         let mut case = self.case.clone();
-        let value = Formula::parse(value, &case.model.vocabulary).ok()?;
-        let own = case.model.parameters.iter_mut().find(|own| own.name == name)?;
-        own.origin = match value.constant() {
-            Some(number) => ParameterOrigin::Fixed(vec![number]),
-            None => ParameterOrigin::Formula(value),
-        };
+        for (name, value) in values {
+            let value = Formula::parse(value, &case.model.vocabulary).ok()?;
+            let own = case.model.parameters.iter_mut().find(|own| &own.name == name)?;
+            own.origin = match value.constant() {
+                Some(number) => ParameterOrigin::Fixed(vec![number]),
+                None => ParameterOrigin::Formula(value),
+            };
+        }
         Some(Self::of(&case))
-    }
-
-    /// Whether two scalars are components of one tensor of the case.
-    pub fn are_related(&self, one: &str, other: &str) -> bool {
-        self.case.model.parameters.iter().any(|own| match &own.origin {
-            ParameterOrigin::Formula(formula) => formula.uses(one) && formula.uses(other),
-            _ => false,
-        })
     }
 
     /// Says for which values of lists a statement is made; empty if there are none.
@@ -197,6 +199,9 @@ mod tests {
         let names: Vec<&str> = split.scalars.iter().map(|own| own.name.as_str()).collect();
         assert_eq!(names, ["b", "J1", "J2", "J3", "c1", "c2", "c3", "S12", "S13", "S23"]);
         assert_eq!(split.listed, ["a"]);
+        let tensors = &split.tensors;
+        assert_eq!(tensors[0], None);
+        assert!(tensors[1] == tensors[3] && tensors[1] != tensors[4] && tensors[1].is_some());
         let written = |name: &str| {
             let parameters = &split.case.model.parameters;
             let own = parameters.iter().find(|own| own.name == name).expect("a parameter");

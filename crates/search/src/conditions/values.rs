@@ -58,7 +58,7 @@ pub fn conditions(
                 }
                 if let Relation::Value(_, value) = relation {
                     let value = value.to_string();
-                    if let Some(fixed) = split.with(name, &value) {
+                    if let Some(fixed) = split.with(&[(name.clone(), value.clone())]) {
                         let with = ("value", format!("{name} = {value}"));
                         integrals_with(&fixed.case, with, effort, report)?;
                     }

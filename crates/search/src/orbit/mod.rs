@@ -10,6 +10,7 @@
 //! darboux      Darboux polynomials: the relations at these points
 //! angle        angles between conjugate Darboux polynomials
 //! no_others    theorem that the Darboux polynomials found are all
+//! map_densities  densities of maps, from discrete Darboux polynomials
 //! exponents    densities, and integrals with powers, logarithms and exponentials, from cofactors
 //! adjoin       functions of the state as further variables
 //! part         all of these in the variables of a part of the field
@@ -31,6 +32,7 @@ pub mod fractions;
 mod images;
 mod known;
 mod line;
+mod map_densities;
 pub mod monomials;
 pub mod no_others;
 mod part;
@@ -163,7 +165,7 @@ pub fn search(
     }
 }
 
-/// Searches a map for integrals; proved ones go into the report. If `further`, the limits grow while
+/// Searches a map for a density and for integrals; proved ones go into the report. If `further`, the limits grow while
 /// there is time.
 pub fn search_map(
     case: &Case,
@@ -173,7 +175,10 @@ pub fn search_map(
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
     match OrbitSetting::of(case, effort)? {
-        Ok(setting) => along_orbits(&setting, further_limits(further), report, progress),
+        Ok(setting) => {
+            map_densities::densities(&setting, report, progress)?;
+            along_orbits(&setting, further_limits(further), report, progress)
+        }
         Err(reason) => {
             report.remark(format!("no relations along orbits: {reason}"));
             Ok(())
