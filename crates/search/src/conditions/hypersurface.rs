@@ -243,7 +243,10 @@ mod tests {
         own.map(|(draw, name)| ScalarParameter { name: name.to_string(), draw }).collect()
     }
 
-    fn surface(terms: &[(&[u32], (i64, i64))]) -> Hypersurface {
+    /// Exponents and coefficients.
+    type Terms<'t> = &'t [(&'t [u32], (i64, i64))];
+
+    fn surface(terms: Terms<'_>) -> Hypersurface {
         let terms = terms.iter().map(|(own, (n, d))| (own.to_vec(), Rational::new(*n, *d)));
         Hypersurface { terms: terms.collect() }
     }
@@ -251,7 +254,7 @@ mod tests {
     #[test]
     fn equations_are_written_and_solved() {
         let names = named(&["a", "b"]);
-        let cases: [(&[(&[u32], (i64, i64))], &str, Option<(usize, &str)>); 5] = [
+        let cases: [(Terms<'_>, &str, Option<(usize, &str)>); 5] = [
             (
                 &[(&[1, 0], (1, 1)), (&[0, 1], (-1, 1))],
                 "a = b",

@@ -49,22 +49,33 @@ struct Component {
     planes: Vec<Bivariate>,
 }
 
+/// The reason why no conditions are found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoLocus {
+    /// The field has no values for these parameters.
+    NoValues,
+    /// The equations are not fractions of low degree on a line, or take too long.
+    NoFractions,
+}
+
 /// Finds the conditions on some draws of the parameters under which there are more integrals, besides
-/// `known` ones; `None` if the equations are not fractions of low degree, or take too long.
+/// `known` ones.
 pub fn special(
     equations: &ParametricEquations<'_>,
     draws: &[usize],
     known: &[Hypersurface],
-) -> Result<Option<SpecialLocus>, SearchError> {
-    let Some(lines) = ParameterLines::new(equations, draws.to_vec(), 0)? else { return Ok(None) };
+) -> Result<Result<SpecialLocus, NoLocus>, SearchError> {
+    let Some(lines) = ParameterLines::new(equations, draws.to_vec(), 0)? else {
+        return Ok(Err(NoLocus::NoValues));
+    };
     let mut planes = Planes::new(lines, known);
-    let Some(first) = planes.first()? else { return Ok(None) };
+    let Some(first) = planes.first()? else { return Ok(Err(NoLocus::NoFractions)) };
     let steps = planes.lines.steps();
     let mut found = SpecialLocus { surfaces: Vec::new(), unexplained: first.len() - 1, steps };
     if first.len() < 2 {
-        return Ok(Some(found));
+        return Ok(Ok(found));
     }
-    let Some(components) = planes.components(&first)? else { return Ok(Some(found)) };
+    let Some(components) = planes.components(&first)? else { return Ok(Ok(found)) };
     let images: Vec<PrimeTerms> =
         components.iter().filter_map(|own| planes.coefficients(own)).collect();
     let modulus = planes.lines.modulus();
@@ -80,7 +91,7 @@ pub fn special(
         }
     }
     found.surfaces.sort_by_key(Hypersurface::degree);
-    Ok(Some(found))
+    Ok(Ok(found))
 }
 
 /// Whether there are more integrals at a point of a hypersurface modulo another prime; `None` if no

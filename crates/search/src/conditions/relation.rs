@@ -114,8 +114,13 @@ fn of_value(
         if y != 0 {
             add(m.mul(value, m.inverse(y)), Relation::Quotient);
         }
-        add(m.sub(value, y), Relation::Difference);
-        add(m.add(value, y), Relation::Sum);
+        // x − y = 0 is x/y = 1.
+        if value != y {
+            add(m.sub(value, y), Relation::Difference);
+        }
+        if m.add(value, y) != 0 {
+            add(m.add(value, y), Relation::Sum);
+        }
     }
     found
 }

@@ -11,7 +11,7 @@ use liouville::mechanics::System;
 use super::ParameterCondition;
 use super::equations::ParametricEquations;
 use super::hypersurface::Hypersurface;
-use super::locus::{SpecialLocus, special};
+use super::locus::{NoLocus, SpecialLocus, special};
 use super::simple::{SimpleEquations, simple_equations};
 use super::split::SplitCase;
 use super::values::{self, integrals_with};
@@ -42,16 +42,53 @@ pub fn conditions(
         );
         return Ok(());
     }
+    if in_all(&whole, effort, report, progress)? {
+        return Ok(());
+    }
+    // A root of a parameter is no fraction: such parameters stay at random values.
+    let held = held(&whole, effort)?;
+    let whole = if held.len() < whole.scalars.len() { whole.holding(held) } else { whole };
+    if !whole.held.is_empty() && in_all(&whole, effort, report, progress)? {
+        return Ok(());
+    }
+    values::conditions(&whole, effort, report, progress)
+}
+
+/// Finds conditions on all scalars at once; `false` if the equations are not fractions of low degree in
+/// them, or if there is a single one.
+fn in_all(
+    whole: &SplitCase,
+    effort: &Effort,
+    report: &mut SearchReport,
+    progress: &mut dyn FnMut(&str),
+) -> Result<bool, SearchError> {
     if whole.scalars.len() == 1 {
-        return values::conditions(&whole, effort, report, progress);
+        return Ok(false);
     }
     let mut search =
-        ConditionSearch { whole: &whole, effort, report, progress, found: Vec::new(), steps: 0.0 };
+        ConditionSearch { whole, effort, report, progress, found: Vec::new(), steps: 0.0 };
     let none = SimpleEquations::none(whole.scalars.len());
-    match search.examined(&none, &whole)? {
-        true => search.several(&none),
-        false => values::conditions(&whole, effort, report, progress),
+    if !search.examined(&none, whole)? {
+        return Ok(false);
     }
+    if search.steps > 0.0 {
+        search.several(&none)?;
+    }
+    Ok(true)
+}
+
+/// Lists the scalars in which the equations are not fractions of low degree.
+fn held(whole: &SplitCase, effort: &Effort) -> Result<Vec<String>, SearchError> {
+    let Some(equations) = ParametricEquations::new(&whole.case, 1, effort)? else {
+        return Ok(Vec::new());
+    };
+    let mut held = Vec::new();
+    for scalar in &whole.scalars {
+        if special(&equations, &[scalar.draw], &[])?.is_err() {
+            held.push(scalar.name.clone());
+        }
+    }
+    Ok(held)
 }
 
 /// A condition: simple equations, and a further one in the scalars that remain free.
@@ -132,15 +169,18 @@ impl ConditionSearch<'_> {
                     .filter_map(|own| own.simple.addition(simple))
                     .map(|own| Hypersurface::from(own, simple.first().len()).among(&free)),
             );
-            let Some(own) = special(&equations, &draws, &known)? else {
-                if degree > 1 || !is_first {
+            let own = match special(&equations, &draws, &known)? {
+                Ok(own) => own,
+                Err(NoLocus::NoValues) => return Ok(true),
+                Err(NoLocus::NoFractions) if degree == 1 && is_first => return Ok(false),
+                Err(NoLocus::NoFractions) => {
                     self.report.remark(format!(
                         "conditions on {names} for more integrals of degree {degree} are not sought: \
                          the equations take longer than --seconds allows, or are not fractions of \
                          low degree"
                     ));
+                    return Ok(true);
                 }
-                return Ok(degree > 1);
             };
             last = degree;
             self.steps = self.steps.max(own.steps);

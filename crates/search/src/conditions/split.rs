@@ -22,6 +22,8 @@ pub struct SplitCase {
     pub tensors: Vec<Option<usize>>,
     /// Names of parameters with a list of values.
     pub listed: Vec<String>,
+    /// Names of scalars that do not vary, as the equations are no fractions in them.
+    pub held: Vec<String>,
 }
 
 impl SplitCase {
@@ -57,7 +59,7 @@ impl SplitCase {
             }
             draw += recipe.draws().len();
         }
-        Self { case, scalars, tensors, listed }
+        Self { case, scalars, tensors, listed, held: Vec::new() }
     }
 }
 
@@ -73,15 +75,29 @@ impl SplitCase {
                 None => ParameterOrigin::Formula(value),
             };
         }
-        Some(Self::of(&case))
+        Some(Self::of(&case).holding(self.held.clone()))
     }
 
-    /// Says for which values of lists a statement is made; empty if there are none.
+    /// The same case with some scalars at random values.
+    pub fn holding(mut self, held: Vec<String>) -> Self {
+        let kept: Vec<bool> = self.scalars.iter().map(|own| !held.contains(&own.name)).collect();
+        let mut places = kept.iter();
+        self.scalars.retain(|_| places.next() == Some(&true));
+        let mut places = kept.iter();
+        self.tensors.retain(|_| places.next() == Some(&true));
+        Self { held, ..self }
+    }
+
+    /// Says for which values of other parameters a statement is made; empty if there are none.
     pub fn reservation(&self) -> String {
-        match self.listed.as_slice() {
-            [] => String::new(),
-            names => format!("; with the first value of {}", names.join(", ")),
+        let mut text = String::new();
+        if !self.listed.is_empty() {
+            text.push_str(&format!("; with the first value of {}", self.listed.join(", ")));
         }
+        if !self.held.is_empty() {
+            text.push_str(&format!("; with random values of {}", self.held.join(", ")));
+        }
+        text
     }
 }
 
@@ -96,7 +112,10 @@ fn divide(case: &mut Case, index: usize) {
     let mut names: Vec<String> = Vec::new();
     for number in 0..draws.len() {
         let Some(place) = place_of(number) else { return };
-        let Some(own) = component_name(&name, kind, place, &model.vocabulary) else { return };
+        let is_diagonal = is_diagonal(kind, &entries);
+        let Some(own) = component_name((&name, kind), place, is_diagonal, &model.vocabulary) else {
+            return;
+        };
         names.push(own);
     }
     let texts: Vec<String> = entries
@@ -172,17 +191,29 @@ fn entries(recipe: &SamplerSpec) -> Option<(Vec<Entry>, Vec<Draw>)> {
 /// Largest number of draws of a tensor.
 const MOST_DRAWS: usize = 25;
 
+/// Whether all entries off the diagonal are 0.
+fn is_diagonal(kind: Type, entries: &[Entry]) -> bool {
+    let Type::Matrix(_, columns) = kind else { return false };
+    let is_off = |place: usize| place % columns != place / columns;
+    let mut others = entries.iter().enumerate().filter(|(place, _)| is_off(*place));
+    others.all(|(_, own)| *own == Entry::Zero)
+}
+
 /// Finds a name for a component that formulas read as this component, if they read it at all.
-fn component_name(name: &str, kind: Type, place: usize, vocabulary: &Vocabulary) -> Option<String> {
-    let names = match kind {
-        Type::Matrix(_, columns) => {
-            let (row, column) = (place / columns + 1, place % columns + 1);
-            let entry = format!("{name}{row}{column}");
-            if row == column { vec![format!("{name}{row}"), entry] } else { vec![entry] }
-        }
-        _ => vec![format!("{name}{}", place + 1)],
+fn component_name(
+    (name, kind): (&str, Type),
+    place: usize,
+    is_diagonal: bool,
+    vocabulary: &Vocabulary,
+) -> Option<String> {
+    let own = match kind {
+        Type::Matrix(_, columns) => match (place / columns + 1, place % columns + 1) {
+            (row, _) if is_diagonal => format!("{name}{row}"),
+            (row, column) => format!("{name}{row}{column}"),
+        },
+        _ => format!("{name}{}", place + 1),
     };
-    names.into_iter().find(|own| vocabulary.find(own).is_none())
+    vocabulary.find(&own).is_none().then_some(own)
 }
 
 #[cfg(test)]

@@ -48,7 +48,13 @@ pub fn conditions(
             };
             let search = OneParameter { equations, draw: parameter.draw };
             let rounds = if all.len() > 1 { 2 } else { 1 };
-            let Some(found) = search.rounds(rounds)? else { continue };
+            let Some(found) = search.rounds(rounds)? else {
+                report.remark(format!(
+                    "values of {name} with more integrals are not sought: the equations are not \
+                     fractions of low degree in it"
+                ));
+                continue;
+            };
             let explained = explained(parameter, all, &found.rounds);
             let mut equations: Vec<String> = Vec::new();
             for relation in &explained.relations {

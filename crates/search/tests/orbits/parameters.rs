@@ -137,3 +137,47 @@ fn equations_that_are_not_written_are_counted() {
         report.conditions
     );
 }
+
+#[test]
+fn components_of_tensors_are_parameters() {
+    // A heavy top with free J = I⁻¹ and its centre of mass in the plane of two axes.
+    let text = "title = 'x'\n[parameters]\nJ = 'diag(0.2..5)'\nx = '-1..1'\nz = '-1..1'\n[state]\n\
+                M = 'vector(-2..2)'\nn = 'vector(-1..1)'\n[field]\n\
+                \"M'\" = 'M × (J*M) + n × [x, 0, z]'\n\"n'\" = 'n × (J*M)'\n";
+    let report = conditions(text, 2);
+    let expected = [
+        "x = 0 and J1 = J2",
+        "z = 0 and J2 = J3",
+        "J1 = 0 and J2 = 0",
+        "J1 = 0 and J3 = 0",
+        "J2 = 0 and J3 = 0",
+        "J1 = J2 = J3",
+        "x = 0 and z = 0",
+    ];
+    assert_eq!(equations(&report), expected, "{:?}", report.conditions);
+    let special = special(&report);
+    let lagrange = special.iter().find(|(value, _)| value == expected[0]);
+    assert_eq!(lagrange.map(|(_, own)| own.as_str()), Some("M3"));
+    assert_eq!(special.len(), expected.len(), "{special:?}");
+    assert!(report.remarks.iter().any(|own| own.contains("only where one or two of these hold")));
+}
+
+#[test]
+fn roots_of_parameters_stay_at_random_values() {
+    let rates = ["x² + 3*y² + (a - √c*b)*x*(1 + √c)", "-2*x*y"];
+    let parameters = "a = '0.5..2'\nb = '0.5..2'\nc = '0.5..2'";
+    let report = conditions(&field(parameters, &rates), 3);
+    assert!(equations(&report).iter().all(|own| !own.contains("a = ")), "{:?}", report.conditions);
+    assert!(
+        report.conditions.iter().all(|own| own.grounds.contains("random values of c")),
+        "{:?}",
+        report.conditions
+    );
+    let rates = ["x² + 3*y² + (a - b)*x*(1 + √c)", "-2*x*y"];
+    let report = conditions(&field(parameters, &rates), 3);
+    assert_eq!(report.conditions[0].equations, ["a = b"], "{:?}", report.conditions);
+    let rates = ["x² + 3*y² + (a - b)*|x|", "-2*x*y"];
+    let report = conditions(&field("a = '0.5..2'\nb = '0.5..2'", &rates), 3);
+    assert!(report.conditions.is_empty(), "{:?}", report.conditions);
+    assert!(report.remarks.iter().any(|own| own.contains("contain a modulus")));
+}
