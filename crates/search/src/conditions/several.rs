@@ -150,6 +150,7 @@ impl ConditionSearch<'_> {
         let names = names.join(", ");
         let is_first = simple.count() == 0;
         let mut last = 0;
+        let before = self.report.conditions.len();
         for degree in 1..=self.effort.degree {
             (self.progress)(&format!(
                 "conditions on {names} for more integrals of degree {degree}"
@@ -186,7 +187,7 @@ impl ConditionSearch<'_> {
             self.steps = self.steps.max(own.steps);
             self.tell(simple, split, degree, own)?;
         }
-        if is_first && last > 0 && self.found.is_empty() {
+        if is_first && last > 0 && self.report.conditions.len() == before {
             self.report.conditions.push(ParameterCondition {
                 of: format!("more polynomial integrals of degree at most {last}, by {names}"),
                 equations: Vec::new(),
