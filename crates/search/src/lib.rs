@@ -311,7 +311,7 @@ impl SearchReport {
     }
 }
 
-/// Searches a case for integrals, densities and symmetries; a map for integrals.
+/// Searches a case for integrals, densities and symmetries; a map for integrals and a density.
 ///
 /// `progress` is called with a description of the next part and its size. A search that is stopped
 /// reports the results reached so far, and the parts not reached.

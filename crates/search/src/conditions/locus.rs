@@ -6,6 +6,8 @@
 //! hypersurface in an irreducible curve (Bertini). The factors on one line are then followed into
 //! further planes until these determine the coefficients of each factor of D.
 
+use std::ops::RangeInclusive;
+
 use liouville::number::prime::Modulus;
 
 use super::equations::ParametricEquations;
@@ -80,28 +82,32 @@ pub fn special(
         components.iter().filter_map(|own| planes.coefficients(own)).collect();
     let modulus = planes.lines.modulus();
     for own in joined(images, &modulus) {
-        match is_special(equations, draws, &own)? {
+        let is_told = match is_special(equations, draws, &own, 1..=PRIMES)? {
             Some(true) => {
-                found.unexplained = found.unexplained.saturating_sub(own.degree());
-                found.surfaces.push(own);
+                found.surfaces.push(own.clone());
+                true
             }
-            // The level or the field is another one there.
-            Some(false) => found.unexplained = found.unexplained.saturating_sub(own.degree()),
-            None => {}
+            // The level or the field is another one there, unless coefficients are short by accident.
+            Some(false) => is_special(equations, draws, &own, 0..=0)? == Some(false),
+            None => false,
+        };
+        if is_told {
+            found.unexplained = found.unexplained.saturating_sub(own.degree());
         }
     }
     found.surfaces.sort_by_key(Hypersurface::degree);
     Ok(Ok(found))
 }
 
-/// Whether there are more integrals at a point of a hypersurface modulo another prime; `None` if no
+/// Whether there are more integrals at a point of a hypersurface modulo one of some primes; `None` if no
 /// point was found.
 fn is_special(
     equations: &ParametricEquations<'_>,
     draws: &[usize],
     own: &Hypersurface,
+    primes: RangeInclusive<u64>,
 ) -> Result<Option<bool>, SearchError> {
-    for prime in 1..=PRIMES {
+    for prime in primes {
         let Some(mut lines) = ParameterLines::new(equations, draws.to_vec(), prime)? else {
             continue;
         };
@@ -201,14 +207,13 @@ impl<'p, 'l, 'e> Planes<'p, 'l, 'e> {
     /// Finds D on the first line; `None` if the equations are not fractions of low degree, or take too
     /// long.
     fn first(&mut self) -> Result<Option<Polynomial>, SearchError> {
-        let steps = |own: &Self| own.lines.steps();
-        let most = self.lines.effort().seconds * STEPS;
-        if steps(self) > most {
+        if !self.lines.is_affordable() {
             return Ok(None);
         }
         let origin = self.origin.clone();
         let found = self.special(&origin)?;
-        self.left = ((most / steps(self)) as usize).saturating_sub(1);
+        let most = self.lines.effort().seconds * STEPS / self.lines.steps().max(1.0);
+        self.left = (most as usize).saturating_sub(1);
         Ok(found)
     }
 

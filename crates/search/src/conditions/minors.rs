@@ -120,7 +120,7 @@ impl<'l> Minors<'l> {
         round: u64,
         effort: &'l Effort,
     ) -> Self {
-        let mut rng = SearchStream::Minors.under(effort.options.seed + round);
+        let mut rng = SearchStream::Minors.under(effort.options.seed.wrapping_add(round));
         let modulus = rng.prime(&[], &[]);
         let small = |rng: &mut ProofRng| 2 + modulus.to_integer(rng.element(&modulus)) % 97;
         let parameters = local.parameters(&modulus, &mut rng);

@@ -10,6 +10,7 @@ use super::equations::ParametricEquations;
 use super::pencil::{self, SquareMatrix};
 use super::polynomial::{Polynomial, PrimePolynomials};
 use crate::ansatz::system::PrimePoint;
+use crate::budget::STEPS;
 use crate::streams::SearchStream;
 use crate::{Effort, SearchError};
 
@@ -82,6 +83,11 @@ impl<'l, 'e> ParameterLines<'l, 'e> {
         MINORS as f64 * STEP * 5.0 * size * size * size
     }
 
+    /// Whether one line takes less than the time of a count.
+    pub fn is_affordable(&self) -> bool {
+        self.steps() <= self.equations.effort.seconds * STEPS
+    }
+
     /// Number of independent integrals at a point; `None` where the field has no states.
     pub fn nullity(&self, point: &[u64]) -> Result<Option<usize>, SearchError> {
         self.equations.nullity(&self.at(point))
@@ -96,7 +102,7 @@ impl<'l, 'e> ParameterLines<'l, 'e> {
     }
 
     /// Finds a monic polynomial without repeated factors whose roots t are the points origin + t slope
-    /// with more integrals; `None` if the equations are not fractions of low degree.
+    /// with more integrals; `None` if the equations are not fractions of low degree, or take too long.
     pub fn special(
         &mut self,
         origin: &[u64],
@@ -162,6 +168,9 @@ impl<'l, 'e> ParameterLines<'l, 'e> {
             }
             if let Some((matrices, poles)) = self.coefficients(&samples, &weights) {
                 self.degree = self.degree.max(matrices.len() - 1);
+                if !self.is_affordable() {
+                    return Ok(None);
+                }
                 let halt = &self.equations.effort.halt;
                 let minor = pencil::determinant(&m, &matrices, halt)?;
                 return Ok(minor.map(|minor| (minor, poles)));

@@ -199,7 +199,8 @@ impl OneParameter<'_> {
     ) -> Result<Option<(Vec<u64>, Polynomial)>, SearchError> {
         let m = &base.modulus;
         let ring = PrimePolynomials(*m);
-        let mut rng = SearchStream::Minors.under(self.equations.effort.options.seed + 100 + round);
+        let mut rng = SearchStream::Minors
+            .under(self.equations.effort.options.seed.wrapping_add(100 + round));
         let Some(general) = self.equations.nullity(base)? else { return Ok(None) };
         let Some(columns) = self.equations.columns(base)? else { return Ok(None) };
         let mut common: Polynomial = Vec::new();
