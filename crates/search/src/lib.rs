@@ -147,7 +147,8 @@ pub struct Found {
     #[serde(rename = "let", skip_serializing_if = "Vec::is_empty")]
     pub abbreviations: Vec<(&'static str, &'static str)>,
     /// Additional data under which it holds: a `potential` or `gyrostat` that the case does not
-    /// have; for a bracket its `Hamiltonian` and each known `Casimir`.
+    /// have, the `value` of a parameter or a `condition` on several; for a bracket its `Hamiltonian`
+    /// and each known `Casimir`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub with: Vec<(&'static str, String)>,
     /// Whether it is a function of the energy and the level. Such finds are not reported, so this
