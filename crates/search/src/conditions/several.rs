@@ -149,7 +149,7 @@ impl ConditionSearch<'_> {
         let names: Vec<&str> = split.scalars.iter().map(|own| own.name.as_str()).collect();
         let names = names.join(", ");
         let is_first = simple.count() == 0;
-        let mut last = 0;
+        let (mut last, mut told) = (0, 0);
         let before = self.report.conditions.len();
         for degree in 1..=self.effort.degree {
             (self.progress)(&format!(
@@ -185,9 +185,18 @@ impl ConditionSearch<'_> {
             };
             last = degree;
             self.steps = self.steps.max(own.steps);
+            let conditions = self.report.conditions.len();
             self.tell(simple, split, degree, own)?;
+            if self.report.conditions.len() > conditions {
+                told = degree;
+            }
         }
-        if is_first && last > 0 && self.report.conditions.len() == before {
+        if !is_first || last == told {
+            return Ok(true);
+        }
+        if let Some(own) = self.report.conditions[before..].last_mut() {
+            own.grounds.push_str(&format!("; none is added up to degree {last}"));
+        } else {
             self.report.conditions.push(ParameterCondition {
                 of: format!("more polynomial integrals of degree at most {last}, by {names}"),
                 equations: Vec::new(),

@@ -117,6 +117,9 @@ fn planted_equations_between_parameters_are_found() {
             );
         }
     }
+    let report = conditions(&field("a = '0.5..2'\nb = '0.5..2'", &["a*y - 2*b*y", "0"]), 3);
+    let grounds = &report.conditions[0].grounds;
+    assert!(grounds.ends_with("none is added up to degree 3"), "{:?}", report.conditions);
     let report = planted_in(&["a", "b"], "1 + 0*a*b");
     assert_eq!(equations(&report), [""; 0]);
     assert!(report.conditions[0].grounds.contains("no other equation"), "{:?}", report.conditions);
