@@ -28,6 +28,7 @@ mod jets;
 mod library;
 mod linear;
 mod local;
+mod maps;
 mod multipliers;
 mod orbit;
 mod products;
@@ -147,7 +148,8 @@ pub struct Found {
     #[serde(rename = "let", skip_serializing_if = "Vec::is_empty")]
     pub abbreviations: Vec<(&'static str, &'static str)>,
     /// Additional data under which it holds: a `potential` or `gyrostat` that the case does not
-    /// have; for a bracket its `Hamiltonian` and each known `Casimir`.
+    /// have, the `value` of a parameter or a `condition` on several; for a bracket its `Hamiltonian`
+    /// and each known `Casimir`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub with: Vec<(&'static str, String)>,
     /// Whether it is a function of the energy and the level. Such finds are not reported, so this
@@ -311,7 +313,7 @@ impl SearchReport {
     }
 }
 
-/// Searches a case for integrals, densities and symmetries; a map for integrals.
+/// Searches a case for integrals, densities and symmetries; a map for integrals and a density.
 ///
 /// `progress` is called with a description of the next part and its size. A search that is stopped
 /// reports the results reached so far, and the parts not reached.
@@ -327,6 +329,7 @@ pub fn search(
         report.stage("relations along an orbit", effort, |report| {
             orbit::search_map(case, effort, effort.halt.is_timed(), report, progress)
         })?;
+        maps::note_fields_only(effort, &mut report);
         return Ok(report);
     }
     report.stage("the number of integrals", effort, |report| {
@@ -364,7 +367,7 @@ pub fn search(
     })?;
     if effort.conditions == Some(ConditionTarget::Existence) {
         report.stage("values of parameters", effort, |report| {
-            conditions::values::conditions(case, effort, report, progress)
+            conditions::several::conditions(case, effort, report, progress)
         })?;
     }
     if !report.orbits.is_empty() {

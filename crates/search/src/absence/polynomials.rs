@@ -7,8 +7,9 @@
 use super::super::SearchError;
 use super::super::ansatz::coefficients::{PrimitiveVector, Ratio};
 use super::super::ansatz::monomials::AnsatzVariables;
+use super::super::ansatz::recording::Recording;
 use super::super::ansatz::subspace::complement;
-use super::super::ansatz::system::{Column, LinearSystem, PrimePoint, Recording};
+use super::super::ansatz::system::{Column, LinearSystem, PrimePoint};
 use super::super::ask::{independent, judged_alone};
 use super::super::multipliers::WEIGHTS;
 use super::super::products::{DEGREE_PRIMES, Generators};

@@ -16,8 +16,8 @@ use super::super::{Halt, SearchError};
 use super::monomials::power_product;
 use super::system::{LinearSystem, PrimePoint};
 use super::{Coordinates, TENSOR};
+use fitted::{Fitted, evaluate};
 use liouville::formula::{Formula, FormulaError, FormulaResult};
-use liouville::number::prime::Modulus;
 use liouville::proof::reconstruct;
 use numbers::{Number, Roots, numbers};
 
@@ -340,53 +340,6 @@ impl VectorSamples<'_> {
     }
 }
 
-/// A polynomial modulo the prime.
-#[derive(Clone, Debug)]
-struct Fitted {
-    images: Vec<(Vec<u32>, u64)>,
-    degree: u32,
-}
-
-impl Fitted {
-    fn new(monomials: &[Vec<u32>], images: &[u64]) -> Self {
-        let used = monomials.iter().zip(images).filter(|(_, image)| **image != 0);
-        let images: Vec<(Vec<u32>, u64)> = used.map(|(a, image)| (a.clone(), *image)).collect();
-        let degree = images.iter().map(|(a, _)| a.iter().sum()).max().unwrap_or(0);
-        Self { images, degree }
-    }
-
-    fn evaluate(&self, m: &Modulus, point: &[u64]) -> u64 {
-        let terms = self.images.iter().map(|(a, image)| m.mul(*image, evaluate(m, point, a)));
-        terms.fold(0, |sum, term| m.add(sum, term))
-    }
-
-    fn times(&self, m: &Modulus, other: &Self) -> Self {
-        let mut images: Vec<(Vec<u32>, u64)> = Vec::new();
-        for (a, x) in &self.images {
-            for (b, y) in &other.images {
-                let exponents: Vec<u32> = a.iter().zip(b).map(|(a, b)| a + b).collect();
-                let product = m.mul(*x, *y);
-                match images.iter_mut().find(|(own, _)| *own == exponents) {
-                    Some((_, image)) => *image = m.add(*image, product),
-                    None => images.push((exponents, product)),
-                }
-            }
-        }
-        images.retain(|(_, image)| *image != 0);
-        Self { images, degree: self.degree + other.degree }
-    }
-
-    fn scaled(mut self, m: &Modulus, factor: u64) -> Self {
-        self.images.iter_mut().for_each(|(_, image)| *image = m.mul(*image, factor));
-        self
-    }
-}
-
-fn evaluate(m: &Modulus, point: &[u64], exponents: &[u32]) -> u64 {
-    let powers = point.iter().zip(exponents).map(|(x, a)| m.power(*x, u64::from(*a)));
-    powers.fold(m.one(), |product, power| m.mul(product, power))
-}
-
 /// Number of monomials of at most this degree.
 fn count(variables: usize, degree: u32) -> usize {
     (1..=variables).fold(1, |product, i| product * (degree as usize + i) / i)
@@ -402,6 +355,7 @@ fn linear(plain: usize, roots: usize, degree: u32) -> usize {
         .sum()
 }
 
+mod fitted;
 mod numbers;
 #[cfg(test)]
 mod tests;

@@ -3,6 +3,7 @@
 //! ```text
 //! monomials     a basis of polynomials in velocities and positions on the level
 //! characters    sign changes that preserve the motion, and split the system into blocks
+//! recording     the functions and derivatives that a row needs
 //! system        one row for each random state, one column for each function; the null space
 //!               consists of the integrals
 //! subspace      the complement of functions of known integrals
@@ -24,6 +25,7 @@ mod integrals;
 pub mod monomials;
 mod poisson;
 mod potentials;
+pub mod recording;
 mod size;
 pub mod subspace;
 mod surd;

@@ -4,24 +4,22 @@
 //! d(W x^a) = x^a (W Σ a_i dx_i/x_i + dW): the tape computes x, dx, W and dW once for each state,
 //! and all columns follow from them.
 
-use crate::streams::SearchStream;
-use num_dual::Dual;
-
 use super::super::echelon::Echelon;
 use super::super::local::{random, sign};
 use super::super::terms::recorded;
 use super::super::{Effort, Halt, SearchError};
 use super::Coordinates;
+use super::recording::{Derivation, Recording};
+use crate::streams::SearchStream;
 use liouville::case::Case;
 use liouville::claim::LevelSubset;
 use liouville::formula::Formula;
 use liouville::graph::{Evaluator, Expr, Tape};
+use liouville::mechanics::Draw;
 use liouville::mechanics::calculus::DualPoint;
-use liouville::mechanics::{Draw, Phase};
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
 use liouville::number::rational::Rational;
 use liouville::proof::statement_seed;
-use liouville::scalar::Scalar;
 use liouville::verdict::Sampler;
 
 /// Number of lanes of the evaluation.
@@ -46,63 +44,6 @@ pub enum Column {
         /// One exponent for each variable.
         exponents: Vec<u32>,
     },
-}
-
-/// Position of x, dx, W and dW of one direction among the outputs.
-#[derive(Clone, Copy, Debug)]
-struct Derivation {
-    start: usize,
-    variables: usize,
-    factors: usize,
-}
-
-/// Values recorded at a state.
-#[derive(Default)]
-pub struct Recording {
-    outputs: Vec<Expr>,
-    derivations: Vec<Derivation>,
-}
-
-impl Recording {
-    /// Adds an output and returns its index.
-    pub fn give(&mut self, value: Expr) -> usize {
-        self.outputs.push(value);
-        self.outputs.len() - 1
-    }
-
-    /// Adds variables and factors with their derivatives along a direction; returns its index.
-    pub fn derive(
-        &mut self,
-        moved: &Phase<'_, Dual<Expr>>,
-        variables: &[Formula],
-        factors: &[Formula],
-    ) -> usize {
-        let start = self.outputs.len();
-        for terms in [variables, factors] {
-            let values: Vec<Dual<Expr>> = terms.iter().map(|term| moved.scalar(term)).collect();
-            self.outputs.extend(values.iter().map(|value| value.re));
-            self.outputs.extend(values.iter().map(|value| value.eps));
-        }
-        let (variables, factors) = (variables.len(), factors.len());
-        self.derivations.push(Derivation { start, variables, factors });
-        self.derivations.len() - 1
-    }
-}
-
-impl Recording {
-    /// Adds variables with an additional rate of growth `growth`; returns the direction's index. The
-    /// derivative of x^a is v(x^a) + growth·x^a.
-    pub fn derive_growing(
-        &mut self,
-        moved: &Phase<'_, Dual<Expr>>,
-        variables: &[Formula],
-        growth: Expr,
-    ) -> usize {
-        let direction = self.derive(moved, variables, &[]);
-        self.outputs.extend([Expr::rational(&Rational::from(1)), growth]);
-        self.derivations[direction].factors = 1;
-        direction
-    }
 }
 
 /// A prime, and values for the draws of the parameters.

@@ -6,6 +6,7 @@
 //! are found, including complex ones; those in the field are confirmed by a count.
 
 use super::polynomial::{Polynomial, PrimePolynomials};
+use super::relation::{Explained, Round, ScalarParameter, explained, is_short};
 use crate::budget::Budget;
 use crate::expansion::{FieldExpansion, Taylor};
 use crate::jet_equations::{Equations, RowKey};
@@ -16,7 +17,6 @@ use crate::{Effort, Halt, SearchError};
 use liouville::case::Case;
 use liouville::mechanics::{Draw, ParameterOrigin, SamplerSpec};
 use liouville::number::prime::Modulus;
-use liouville::number::rational::Rational;
 use liouville::proof::{ProofRng, reconstruct};
 
 /// Number of points whose minors are compared.
@@ -29,14 +29,14 @@ const DRAWS: usize = 64;
 /// Number of choices of the other parameters under which a relation must persist.
 const ROUNDS: u64 = 2;
 
-/// Lists the parameters drawn from a range: name, and index of the draw.
-pub fn scalars(case: &Case) -> Vec<(String, usize)> {
+/// Lists the scalar parameters drawn from a range.
+pub fn scalars(case: &Case) -> Vec<ScalarParameter> {
     let mut draw = 0;
     let mut found = Vec::new();
     for parameter in &case.model.parameters {
         let ParameterOrigin::Free(recipe) = &parameter.origin else { continue };
         if matches!(recipe, SamplerSpec::Scalar(Draw::Within(_) | Draw::Of(..))) {
-            found.push((parameter.name.clone(), draw));
+            found.push(ScalarParameter { name: parameter.name.clone(), draw });
         }
         draw += recipe.draws().len();
     }
@@ -44,78 +44,31 @@ pub fn scalars(case: &Case) -> Vec<(String, usize)> {
 }
 
 /// Finds the relations under which there are more integrals of a degree, for one parameter; the
-/// others are random small integers.
+/// others are random small integers. `None` if no value has more.
 pub fn relations(
     case: &Case,
     local: &Local,
     asked: VelocityPolynomials,
-    (name, draw): &(String, usize),
+    parameter: &ScalarParameter,
     effort: &Effort,
-) -> Result<Vec<String>, SearchError> {
-    let others = scalars(case);
-    let mut rounds = Vec::new();
+) -> Result<Option<Explained>, SearchError> {
+    let mut rounds: Vec<Round> = Vec::new();
     for round in 0..ROUNDS {
-        let mut search = Minors::new(local, asked, *draw, round, effort);
+        let mut search = Minors::new(local, asked, parameter.draw, round, effort);
         let values = search.special_values()?;
-        rounds.push((values, search.parameters.clone(), search.modulus));
-        if rounds[0].0.is_empty() {
-            return Ok(Vec::new());
+        if round == 0 && values.is_empty() {
+            return Ok(None);
         }
+        let (parameters, modulus) = (search.parameters.clone(), search.modulus);
+        rounds.push(Round { values, parameters, modulus });
     }
-    let found = spelled(name, *draw, &others, &rounds);
-    Ok(if found.is_empty() { vec![unnamed(name, &rounds)] } else { found })
-}
-
-/// Values of one parameter, the values of all parameters with which they were found, and the prime.
-pub type Round = (Vec<u64>, Vec<u64>, Modulus);
-
-/// Writes special values as numbers, or as relations to one other parameter, that hold in all rounds.
-pub fn spelled(
-    name: &str,
-    draw: usize,
-    others: &[(String, usize)],
-    rounds: &[Round],
-) -> Vec<String> {
-    let spelled = |(values, parameters, m): &Round| -> Vec<String> {
-        let mut texts = Vec::new();
-        for value in values {
-            if let Some(rational) = reconstruct(*value, m).filter(is_short) {
-                texts.push(format!("{name} = {rational}"));
-            }
-            let mut add = |image: u64, text: &dyn Fn(String) -> String| {
-                if let Some(rational) = reconstruct(image, m).filter(is_simple) {
-                    texts.push(text(rational.to_string()));
-                }
-            };
-            for (other, place) in others.iter().filter(|(_, place)| *place != draw && *value != 0) {
-                let y = parameters[*place];
-                add(m.mul(*value, y), &|rational| format!("{name}*{other} = {rational}"));
-                add(m.mul(*value, m.inverse(y)), &|rational| {
-                    format!("{name}/{other} = {rational}")
-                });
-                add(m.sub(*value, y), &|rational| format!("{name} − {other} = {rational}"));
-                add(m.add(*value, y), &|rational| format!("{name} + {other} = {rational}"));
-            }
-        }
-        texts
-    };
-    let Some((first, rest)) = rounds.split_first() else { return Vec::new() };
-    let again: Vec<Vec<String>> = rest.iter().map(spelled).collect();
-    let mut found: Vec<String> = spelled(first);
-    found.retain(|text| again.iter().all(|texts| texts.contains(text)));
-    found.dedup();
-    found
-}
-
-/// Says how many values there are that no relation describes.
-pub fn unnamed(name: &str, rounds: &[Round]) -> String {
-    let count = rounds.first().map_or(0, |(values, ..)| values.len());
-    format!("{count} values of {name}, in no simple relation to one other parameter")
+    Ok(Some(explained(parameter, &scalars(case), &rounds)))
 }
 
 /// Writes the equation of the values that are not rational, and of the roots of a further factor, if
 /// its coefficients are; `None` too if there are none.
-pub fn equation(name: &str, values: &[u64], further: &[u64], m: &Modulus) -> Option<String> {
+pub fn equation(name: &str, round: &Round, further: &[u64]) -> Option<String> {
+    let Round { values, modulus: m, .. } = round;
     let ring = PrimePolynomials(*m);
     let is_other = |value: &&u64| reconstruct(**value, m).filter(is_short).is_none();
     let factors = values.iter().filter(is_other).map(|value| vec![m.sub(0, *value), m.one()]);
@@ -149,16 +102,6 @@ pub fn equation(name: &str, values: &[u64], further: &[u64], m: &Modulus) -> Opt
     Some(format!("{text} = 0"))
 }
 
-/// Whether a number is short enough to be no accident modulo a prime of 61 bits.
-fn is_short(value: &Rational) -> bool {
-    value.small_parts().is_some_and(|(n, d)| n.abs() <= 4096 && d <= 4096)
-}
-
-/// Whether a number is small enough to be the constant of a relation rather than an accident.
-fn is_simple(value: &Rational) -> bool {
-    value.small_parts().is_some_and(|(n, d)| n.abs() <= 8 && d <= 8)
-}
-
 /// Minors as functions of one draw of the parameters.
 struct Minors<'l> {
     taylor: Taylor<'l>,
@@ -178,7 +121,7 @@ impl<'l> Minors<'l> {
         round: u64,
         effort: &'l Effort,
     ) -> Self {
-        let mut rng = SearchStream::Minors.under(effort.options.seed + round);
+        let mut rng = SearchStream::Minors.under(effort.options.seed.wrapping_add(round));
         let modulus = rng.prime(&[], &[]);
         let small = |rng: &mut ProofRng| 2 + modulus.to_integer(rng.element(&modulus)) % 97;
         let parameters = local.parameters(&modulus, &mut rng);

@@ -5,7 +5,21 @@
 //! variety   the equations of least degree at the points found on many lines
 //! small     conditions of codimension two, by random sampling in small fields
 //! minors    values of one parameter for which there are more integrals
-//! values    the same for polynomial integrals of a field
+//! relation  numbers that such values are, or their relations to one other parameter
+//! several   equations between the parameters of a field for which it has more polynomial integrals
+//! values    values of its only parameter
+//! ```
+//!
+//! For fields the minors are those of [`equations`] for the coefficients of a polynomial:
+//!
+//! ```text
+//! split           the free tensors of a case by scalars
+//! pencil          determinants of matrices of polynomials in one variable
+//! parameter_line  the special values on a line of parameters
+//! factors         factors of polynomials in two variables
+//! locus           the special parameters of codimension one, factor by factor
+//! hypersurface    a factor as an equation with rational coefficients
+//! simple          sets of equations x = 0, x = y, for conditions of several equations
 //! ```
 //!
 //! A condition of codimension one meets almost every line (over the closure of the field), so that
@@ -13,12 +27,22 @@
 //! confirmed at more points than they have coefficients.
 
 mod coordinates;
+mod equations;
+mod factors;
+mod hypersurface;
 mod line;
+mod locus;
 mod minors;
+mod parameter_line;
+mod pencil;
 mod polynomial;
+mod relation;
 mod residual;
+pub mod several;
+mod simple;
 mod small;
-pub mod values;
+mod split;
+mod values;
 mod variety;
 
 use serde::Serialize;
@@ -103,22 +127,23 @@ fn integrals(
     for degree in 1..=effort.degree.min(2) {
         for parameter in minors::scalars(case) {
             let of = format!("more integrals of degree {degree}");
-            progress(&format!("{of}, by {}", parameter.0));
-            let (equations, grounds) = match minors::relations(
-                case,
-                &local,
-                VelocityPolynomials { degree, mixed },
-                &parameter,
-                effort,
-            ) {
-                Ok(relations) if relations.is_empty() => continue,
-                Ok(relations) => {
-                    (relations, "minors of the equations for Taylor coefficients".to_string())
-                }
-                Err(error @ SearchError::NoFraction) => (Vec::new(), error.to_string()),
-                Err(error) => return Err(error),
-            };
-            let of = format!("{of}, by the value of {}", parameter.0);
+            progress(&format!("{of}, by {}", parameter.name));
+            let asked = VelocityPolynomials { degree, mixed };
+            let (equations, grounds) =
+                match minors::relations(case, &local, asked, &parameter, effort) {
+                    Ok(None) => continue,
+                    Ok(Some(found)) => {
+                        let grounds = "minors of the equations for Taylor coefficients".to_string();
+                        let grounds = match found.unexplained {
+                            0 => grounds,
+                            n => format!("{grounds}; {}", relation::unexplained(n, &parameter)),
+                        };
+                        (found.relations.iter().map(ToString::to_string).collect(), grounds)
+                    }
+                    Err(error @ SearchError::NoFraction) => (Vec::new(), error.to_string()),
+                    Err(error) => return Err(error),
+                };
+            let of = format!("{of}, by the value of {}", parameter.name);
             report.conditions.push(ParameterCondition { of, equations, grounds });
         }
     }

@@ -11,7 +11,8 @@ pub type Polynomial = Vec<u64>;
 pub struct PrimePolynomials(pub Modulus);
 
 impl PrimePolynomials {
-    fn trimmed(mut a: Polynomial) -> Polynomial {
+    /// Removes leading zeros.
+    pub fn trimmed(mut a: Polynomial) -> Polynomial {
         while a.last() == Some(&0) {
             a.pop();
         }
@@ -34,7 +35,8 @@ impl PrimePolynomials {
         Self::trimmed(product)
     }
 
-    fn difference(&self, a: &[u64], b: &[u64]) -> Polynomial {
+    /// Computes a − b.
+    pub fn difference(&self, a: &[u64], b: &[u64]) -> Polynomial {
         let at = |a: &[u64], i: usize| a.get(i).copied().unwrap_or(0);
         Self::trimmed((0..a.len().max(b.len())).map(|i| self.0.sub(at(a, i), at(b, i))).collect())
     }
@@ -54,7 +56,8 @@ impl PrimePolynomials {
         (Self::trimmed(quotient), Self::trimmed(rest))
     }
 
-    fn monic(&self, a: &[u64]) -> Polynomial {
+    /// Divides by the leading coefficient.
+    pub fn monic(&self, a: &[u64]) -> Polynomial {
         let inverse = a.last().map_or(0, |lead| self.0.inverse(*lead));
         a.iter().map(|c| self.0.mul(*c, inverse)).collect()
     }
@@ -78,7 +81,7 @@ impl PrimePolynomials {
     }
 
     /// Finds the polynomial through some points, and the product of x - x_i.
-    fn through(&self, points: &[(u64, u64)]) -> (Polynomial, Polynomial) {
+    pub fn through(&self, points: &[(u64, u64)]) -> (Polynomial, Polynomial) {
         let mut found: Polynomial = Vec::new();
         let mut node = vec![self.0.one()];
         for (x, y) in points {
@@ -157,7 +160,8 @@ impl PrimePolynomials {
         }
     }
 
-    fn power_modulo(&self, base: &[u64], exponent: u64, modulus: &[u64]) -> Polynomial {
+    /// Computes a power modulo a polynomial.
+    pub fn power_modulo(&self, base: &[u64], exponent: u64, modulus: &[u64]) -> Polynomial {
         let mut result = self.divided(&[self.0.one()], modulus).1;
         for bit in (0..64 - exponent.leading_zeros()).rev() {
             result = self.divided(&self.product(&result, &result), modulus).1;

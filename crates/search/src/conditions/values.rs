@@ -6,23 +6,20 @@
 //! these values is reported.
 
 use liouville::case::Case;
-use liouville::formula::{Formula, Type};
-use liouville::mechanics::{Draw, ParameterOrigin, SamplerSpec, System};
-use liouville::number::rational::Rational;
 use liouville::proof::ProofRng;
 
 use super::ParameterCondition;
-use super::minors::{Round, determinant, equation, scalars, spelled, unnamed};
+use super::equations::ParametricEquations;
+use super::minors::{determinant, equation};
 use super::polynomial::{Polynomial, PrimePolynomials};
-use crate::ansatz::system::{Column, LinearSystem, PrimePoint};
+use super::relation::{Relation, Round, ScalarParameter, explained, unexplained};
+use super::split::SplitCase;
+use crate::ansatz::system::PrimePoint;
 use crate::echelon::Echelon;
-use crate::orbit::{self, monomials};
+use crate::orbit;
 use crate::streams::SearchStream;
-use crate::terms::{one, read};
 use crate::{Effort, SearchError, SearchReport};
 
-/// Largest number of unknowns.
-const UNKNOWNS: usize = 220;
 /// Number of minors that are compared, and the largest number if some roots are not explained.
 const MINORS: (u64, u64) = (2, 4);
 /// Smallest number of values of a minor, followed by the largest.
@@ -35,76 +32,123 @@ const STREAM: u64 = 1000;
 /// Finds the values of single parameters of a field for which there are more polynomial integrals of at
 /// most the degree of the search, and the integrals there.
 pub fn conditions(
-    case: &Case,
+    split: &SplitCase,
     effort: &Effort,
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    if !matches!(case.model.system, System::Field(_) | System::Hamiltonian(_)) {
-        return Ok(());
-    }
-    let all = scalars(case);
+    let SplitCase { case, scalars: all, .. } = split;
     let mut told: Vec<String> = Vec::new();
     for degree in 1..=effort.degree {
-        for (name, draw) in &all {
+        for parameter in all {
+            let name = &parameter.name;
             progress(&format!("values of {name} with more integrals of degree {degree}"));
-            let Some(search) = Values::new(case, degree, *draw, effort)? else { return Ok(()) };
+            let Some(equations) = ParametricEquations::new(case, degree, effort)? else {
+                return Ok(());
+            };
+            let search = OneParameter { equations, draw: parameter.draw };
             let rounds = if all.len() > 1 { 2 } else { 1 };
-            let Some(found) = search.rounds(rounds)? else { continue };
-            let mut equations = spelled(name, *draw, &all, &found.rounds);
-            let first = found.rounds.first().filter(|_| all.len() == 1);
-            let others = first.and_then(|(values, _, m)| equation(name, values, &found.rest, m));
-            let is_whole = found.rest.len() < 2 || others.is_some();
-            equations.extend(others);
-            let has_values = found.rounds.first().is_some_and(|(values, ..)| !values.is_empty());
-            if equations.is_empty() && has_values {
-                equations.push(unnamed(name, &found.rounds));
+            let Some(found) = search.rounds(rounds)? else {
+                report.remark(format!(
+                    "values of {name} with more integrals are not sought: the equations are not \
+                     fractions of low degree in it"
+                ));
+                continue;
+            };
+            let explained = explained(parameter, all, &found.rounds);
+            let mut equations: Vec<String> = Vec::new();
+            for relation in &explained.relations {
+                let text = relation.to_string();
+                if told.contains(&text) {
+                    continue;
+                }
+                if let Relation::Value(_, value) = relation {
+                    let value = value.to_string();
+                    if let Some(fixed) = split.with(&[(name.clone(), value.clone())]) {
+                        let with = ("value", format!("{name} = {value}"));
+                        integrals_with(&fixed.case, with, effort, report)?;
+                    }
+                }
+                equations.push(text);
             }
-            let left = if is_whole { 0 } else { found.rest.len() - 1 };
-            equations.retain(|own| !told.contains(own));
-            if equations.is_empty() && left == 0 {
+            let first = found.rounds.first().filter(|_| all.len() == 1);
+            let others = first.and_then(|own| equation(name, own, &found.rest));
+            let open = match others {
+                Some(_) => OpenValues::default(),
+                None => OpenValues {
+                    unexplained: explained.unexplained,
+                    roots: found.rest.len().saturating_sub(1),
+                },
+            };
+            equations.extend(others.filter(|own| !told.contains(own)));
+            if equations.is_empty() && open.count() == 0 {
                 continue;
             }
             told.extend(equations.iter().cloned());
-            for equation in &equations {
-                let value = equation.strip_prefix(&format!("{name} = "));
-                if let Some(value) = value.and_then(|text| text.parse().ok()) {
-                    integrals_at(case, name, &value, effort, report)?;
-                }
-            }
-            let rest = match left {
-                0 => "modulo a prime of 61 bits no other value has more".to_string(),
-                n => format!("up to {n} further values, none of them rational, may have more"),
-            };
             report.conditions.push(ParameterCondition {
                 of: format!("more polynomial integrals of degree at most {degree}, by {name}"),
                 equations,
-                grounds: format!("minors of the equations for the coefficients; {rest}"),
+                grounds: format!(
+                    "minors of the equations for the coefficients; {}{}",
+                    open.words(parameter),
+                    split.reservation()
+                ),
             });
         }
     }
     Ok(())
 }
 
-/// Searches a case with a value of one parameter for integrals besides those in general.
-fn integrals_at(
-    case: &Case,
-    name: &str,
-    value: &Rational,
+/// Numbers of values that are not written as relations.
+#[derive(Clone, Copy, Default)]
+struct OpenValues {
+    /// Values in the prime field with more integrals.
+    unexplained: usize,
+    /// Common roots of some minors that are not in the field.
+    roots: usize,
+}
+
+impl OpenValues {
+    fn count(self) -> usize {
+        self.unexplained + self.roots
+    }
+
+    /// Says how many values there may be besides those told.
+    fn words(self, parameter: &ScalarParameter) -> String {
+        let own = match self.unexplained {
+            0 => None,
+            n => Some(unexplained(n, parameter)),
+        };
+        let roots = match self.roots {
+            0 => None,
+            n => Some(format!("up to {n} further values, none of them rational, may have more")),
+        };
+        match (own, roots) {
+            (None, None) => "modulo a prime of 61 bits no other value has more".to_string(),
+            (own, roots) => own.into_iter().chain(roots).collect::<Vec<_>>().join("; "),
+        }
+    }
+}
+
+/// Searches a case with a condition on its parameters for integrals besides those in general.
+pub fn integrals_with(
+    fixed: &Case,
+    condition: (&'static str, String),
     effort: &Effort,
     report: &mut SearchReport,
 ) -> Result<(), SearchError> {
-    let mut fixed = case.clone();
-    for parameter in fixed.model.parameters.iter_mut().filter(|own| own.name == name) {
-        let draw = Draw::OneOf(vec![value.clone()]);
-        parameter.origin = ParameterOrigin::Free(SamplerSpec::Scalar(draw));
-    }
     let known = report.found.iter().filter(|own| own.kind == "integral" && own.with.is_empty());
     let mut own = SearchReport { found: known.cloned().collect(), ..SearchReport::default() };
     let before = own.found.len();
-    orbit::search(&fixed, effort, false, &mut own, &mut |_| {})?;
+    match orbit::search(fixed, effort, false, &mut own, &mut |_| {}) {
+        Err(SearchError::Stopped) => return Err(SearchError::Stopped),
+        Err(error) => {
+            report.remark(format!("no integrals are sought with {}: {error}", condition.1));
+        }
+        Ok(()) => {}
+    }
     for mut found in own.found.into_iter().skip(before).filter(|own| own.kind == "integral") {
-        found.with.push(("value", format!("{name} = {value}")));
+        found.with.push(condition.clone());
         report.found.push(found);
     }
     Ok(())
@@ -120,52 +164,21 @@ struct SpecialValues {
 }
 
 /// Equations for the coefficients of polynomial integrals, as functions of one parameter.
-struct Values<'e> {
-    system: LinearSystem,
-    columns: Vec<usize>,
+struct OneParameter<'e> {
+    equations: ParametricEquations<'e>,
     draw: usize,
-    effort: &'e Effort,
-    is_on_level: bool,
 }
 
-impl<'e> Values<'e> {
-    /// Sets up the equations; `None` if there are too many.
-    fn new(
-        case: &Case,
-        degree: u32,
-        draw: usize,
-        effort: &'e Effort,
-    ) -> Result<Option<Self>, SearchError> {
-        let model = &case.model;
-        let dimension = model.dimension();
-        let names: Vec<String> = (0..dimension).map(|k| model.component_name(k)).collect();
-        let terms: Vec<Formula> = read(names.iter().map(String::as_str), &model.vocabulary);
-        let is_scalar = |own: &Formula| own.value_type() == Type::Scalar;
-        let count = monomials::count(dimension, degree);
-        if terms.len() < dimension || !terms.iter().all(is_scalar) || count > UNKNOWNS {
-            return Ok(None);
-        }
-        let mut system = LinearSystem::record(case, effort, |jet, recording| {
-            recording.derive(jet.along_field(), &terms, &[one()]);
-        })?;
-        let variables: Vec<usize> = (0..dimension).collect();
-        let product = |exponents| Column::Product { derivation: 0, factor: 0, exponents };
-        let all = monomials::up_to(&variables, dimension, degree);
-        // The constant is the first.
-        system.columns = all.into_iter().skip(1).map(product).collect();
-        let columns = (0..system.columns.len()).collect();
-        let is_on_level = !model.level.is_empty();
-        Ok(Some(Self { system, columns, draw, effort, is_on_level }))
-    }
-
+impl OneParameter<'_> {
     /// Finds the special values for some choices of the other parameters; `None` if there is no choice of
     /// the parameters, or no fraction.
     fn rounds(&self, count: u64) -> Result<Option<SpecialValues>, SearchError> {
         let mut found = SpecialValues::default();
         for round in 0..count {
-            let Some(base) = self.system.at(round, round) else { return Ok(None) };
+            let Some(base) = self.equations.system.at(round, round) else { return Ok(None) };
             let Some((values, rest)) = self.special(&base, round)? else { return Ok(None) };
-            found.rounds.push((values, base.parameters, base.modulus));
+            let (parameters, modulus) = (base.parameters, base.modulus);
+            found.rounds.push(Round { values, parameters, modulus });
             found.rest = rest;
         }
         Ok(Some(found))
@@ -177,16 +190,6 @@ impl<'e> Values<'e> {
         at
     }
 
-    /// Number of independent integrals; `None` if too few states have values.
-    fn nullity(&self, at: &PrimePoint) -> Result<Option<usize>, SearchError> {
-        let columns = match self.is_on_level {
-            true => self.system.distinct(at, &self.columns)?,
-            false => Some(self.columns.clone()),
-        };
-        let Some(columns) = columns else { return Ok(None) };
-        Ok(self.system.null_space(at, &columns)?.map(|vectors| vectors.len()))
-    }
-
     /// Finds the values with more integrals than in general, and a polynomial with the other roots that
     /// some minors have in common.
     fn special(
@@ -196,15 +199,10 @@ impl<'e> Values<'e> {
     ) -> Result<Option<(Vec<u64>, Polynomial)>, SearchError> {
         let m = &base.modulus;
         let ring = PrimePolynomials(*m);
-        let mut rng = SearchStream::Minors.under(self.effort.options.seed + 100 + round);
-        let Some(general) = self.nullity(base)? else { return Ok(None) };
-        let columns = match self.is_on_level {
-            true => match self.system.distinct(base, &self.columns)? {
-                Some(columns) => columns,
-                None => return Ok(None),
-            },
-            false => self.columns.clone(),
-        };
+        let mut rng = SearchStream::Minors
+            .under(self.equations.effort.options.seed.wrapping_add(100 + round));
+        let Some(general) = self.equations.nullity(base)? else { return Ok(None) };
+        let Some(columns) = self.equations.columns(base)? else { return Ok(None) };
         let mut common: Polynomial = Vec::new();
         let (mut found, mut rest) = (Vec::new(), Vec::new());
         for number in 0..MINORS.1 {
@@ -216,11 +214,13 @@ impl<'e> Values<'e> {
             found.clear();
             rest.clone_from(&common);
             for value in ring.roots(&common, &mut rng) {
-                self.effort.halt.check()?;
-                if self.nullity(&self.with(base, value))?.is_none_or(|own| own > general) {
+                self.equations.effort.halt.check()?;
+                // Without a state the field has no integrals there either.
+                if self.equations.nullity(&self.with(base, value))?.is_some_and(|own| own > general)
+                {
                     found.push(value);
-                    rest = ring.divided(&rest, &[m.sub(0, value), m.one()]).0;
                 }
+                rest = ring.divided(&rest, &[m.sub(0, value), m.one()]).0;
             }
             if rest.len() < 2 {
                 break;
@@ -246,11 +246,13 @@ impl<'e> Values<'e> {
         }
         let count = order.len() + SPARE;
         let at = self.with(base, rng.element(&m));
-        let Some(rows) = self.system.rows(&at, stream, &order, count) else { return Ok(None) };
+        let Some(rows) = self.equations.system.rows(&at, stream, &order, count) else {
+            return Ok(None);
+        };
         let mut echelon = Echelon::new(order.len(), m);
         let mut kept = Vec::new();
         for (place, row) in rows.into_iter().enumerate() {
-            self.effort.halt.check()?;
+            self.equations.effort.halt.check()?;
             if echelon.push(row) {
                 kept.push(place);
             }
@@ -261,14 +263,14 @@ impl<'e> Values<'e> {
         let mut wanted = VALUES.0;
         while wanted <= VALUES.1 {
             while values.len() < wanted {
-                self.effort.halt.check()?;
+                self.equations.effort.halt.check()?;
                 let value = rng.element(&m);
                 let at = self.with(base, value);
-                let Some(rows) = self.system.rows(&at, stream, &pivots, count) else {
+                let Some(rows) = self.equations.system.rows(&at, stream, &pivots, count) else {
                     return Ok(None);
                 };
                 let matrix = kept.iter().map(|place| rows[*place].clone()).collect();
-                values.push((value, determinant(&m, matrix, &self.effort.halt)?));
+                values.push((value, determinant(&m, matrix, &self.equations.effort.halt)?));
             }
             if let Some(found) = ring.polynomial(&values) {
                 return Ok(Some(found));

@@ -76,6 +76,8 @@ pub fn monomial(names: &[&str], exponents: &[u32]) -> String {
     let factors: Vec<String> = used
         .map(|(name, e)| match e {
             1 => name.to_string(),
+            2 => format!("{name}²"),
+            3 => format!("{name}³"),
             e => format!("{name}^{e}"),
         })
         .collect();

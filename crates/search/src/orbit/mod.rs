@@ -10,6 +10,7 @@
 //! darboux      Darboux polynomials: the relations at these points
 //! angle        angles between conjugate Darboux polynomials
 //! no_others    theorem that the Darboux polynomials found are all
+//! map_densities  densities of maps, from discrete Darboux polynomials
 //! exponents    densities, and integrals with powers, logarithms and exponentials, from cofactors
 //! adjoin       functions of the state as further variables
 //! part         all of these in the variables of a part of the field
@@ -31,6 +32,7 @@ pub mod fractions;
 mod images;
 mod known;
 mod line;
+mod map_densities;
 pub mod monomials;
 pub mod no_others;
 mod part;
@@ -118,17 +120,12 @@ pub fn search(
     let is_done =
         |report: &SearchReport| report.functions("integral").count() + 1 >= case.model.dimension();
     let before = report.orbits.len();
-    let next: &[RoundLimits] = if further { &FURTHER } else { &[] };
     // At last with half of each angle.
     for _ in 0..2 {
-        let known = found(case, effort, report)?;
-        let Some(extension) = adjoin::extended(case, effort, &known, divided)? else { break };
-        let Ok(setting) = OrbitSetting::extended(case, &extension, effort)? else { break };
+        let scope = FunctionScope { divided, before, next: &[] };
+        let Some(halves) = with_functions(case, effort, scope, report, progress)? else { break };
         is_extended = true;
-        report.without_points.clear();
-        report.orbits.truncate(before);
-        along_orbits(&setting, &[], report, progress)?;
-        divided = extension.halves();
+        divided = halves;
         if is_done(report) || divided.is_empty() {
             break;
         }
@@ -147,26 +144,28 @@ pub fn search(
     match plain {
         Ok(setting) => {
             if is_extended && further {
-                with_functions(case, effort, &FURTHER[..WITH_FUNCTIONS], report, progress)?;
+                let (before, next) = (report.orbits.len(), &FURTHER[..WITH_FUNCTIONS]);
+                let scope = FunctionScope { divided: Vec::new(), before, next };
+                with_functions(case, effort, scope, report, progress)?;
                 let known = found(case, effort, report)?;
                 fractions::conclude(case, effort, &known, true, report)?;
             }
             report.orbits.truncate(before);
-            along_orbits(&setting, next, report, progress)
+            along_orbits(&setting, further_limits(further), report, progress)
         }
         Err(reason) if is_field && !is_extended => {
             report.remark(format!("no relations along orbits: {reason}"));
             Ok(())
         }
         Err(_) if is_extended && further => {
-            report.orbits.truncate(before);
-            with_functions(case, effort, &FURTHER, report, progress)
+            let scope = FunctionScope { divided: Vec::new(), before, next: &FURTHER };
+            with_functions(case, effort, scope, report, progress).map(|_| ())
         }
         Err(_) => Ok(()),
     }
 }
 
-/// Searches a map for integrals; proved ones go into the report. If `further`, the limits grow while
+/// Searches a map for a density and for integrals; proved ones go into the report. If `further`, the limits grow while
 /// there is time.
 pub fn search_map(
     case: &Case,
@@ -177,7 +176,8 @@ pub fn search_map(
 ) -> Result<(), SearchError> {
     match OrbitSetting::of(case, effort)? {
         Ok(setting) => {
-            along_orbits(&setting, if further { &FURTHER } else { &[] }, report, progress)
+            map_densities::densities(&setting, report, progress)?;
+            along_orbits(&setting, further_limits(further), report, progress)
         }
         Err(reason) => {
             report.remark(format!("no relations along orbits: {reason}"));
@@ -186,22 +186,39 @@ pub fn search_map(
     }
 }
 
-/// Searches with functions of the state as further variables, within growing limits.
+/// Limits that follow the first ones: none, unless the time of a search is limited.
+fn further_limits(further: bool) -> &'static [RoundLimits] {
+    if further { &FURTHER } else { &[] }
+}
+
+/// Scope of a search with functions of the state as further variables.
+struct FunctionScope<'l> {
+    /// Arguments that are divided.
+    divided: Vec<adjoin::Divided>,
+    /// Number of reports on orbits that are kept.
+    before: usize,
+    /// Limits after the first ones.
+    next: &'l [RoundLimits],
+}
+
+/// Searches with functions of the state as further variables, within growing limits; returns half of
+/// each angle. `None` if there are no functions that can be adjoined.
 fn with_functions(
     case: &Case,
     effort: &Effort,
-    next: &[RoundLimits],
+    scope: FunctionScope<'_>,
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
-) -> Result<(), SearchError> {
+) -> Result<Option<Vec<adjoin::Divided>>, SearchError> {
     let known = found(case, effort, report)?;
-    let Some(extension) = adjoin::extended(case, effort, &known, Vec::new())? else {
-        return Ok(());
+    let Some(extension) = adjoin::extended(case, effort, &known, scope.divided)? else {
+        return Ok(None);
     };
-    match OrbitSetting::extended(case, &extension, effort)? {
-        Ok(setting) => along_orbits(&setting, next, report, progress),
-        Err(_) => Ok(()),
-    }
+    let Ok(setting) = OrbitSetting::extended(case, &extension, effort)? else { return Ok(None) };
+    report.without_points.clear();
+    report.orbits.truncate(scope.before);
+    along_orbits(&setting, scope.next, report, progress)?;
+    Ok(Some(extension.halves()))
 }
 
 /// Lists the square roots of parameters and numbers in a field, with the numbers.

@@ -1,6 +1,9 @@
 //! Searches of maps: integrals written out, and theorems that exclude no planted one.
 
-use liouville_search::Effort;
+use std::path::Path;
+
+use liouville::case::Case;
+use liouville_search::{Ansatz, ConditionTarget, Effort, Hamiltonians, SearchReport, search};
 
 use super::{excluded, searched};
 
@@ -60,4 +63,73 @@ fn planted_integrals_of_maps_are_not_excluded() {
         assert!(degree < kept, "{own} is an integral of degree {kept}: {:?}", report.excluded);
         assert_eq!(report.formulas("integral").count(), 1, "{own}: {:?}", report.found);
     }
+}
+
+#[test]
+fn options_for_fields_are_noted() {
+    let asked = Effort {
+        conditions: Some(ConditionTarget::Existence),
+        poisson: Some(Hamiltonians::Known),
+        ansatz: Ansatz { wanted: true, ..Ansatz::default() },
+        ..Effort::default()
+    };
+    let shear = map("", &["x + y", "y"]);
+    let remarks = searched(&shear, &asked).remarks;
+    for option in ["--conditions", "--poisson", "--ansatz"] {
+        assert!(remarks.iter().any(|own| own.starts_with(option)), "{option}: {remarks:?}");
+    }
+    assert!(searched(&shear, &Effort::default()).remarks.is_empty(), "nothing was asked");
+}
+
+/// Formulas of the densities that are found.
+fn densities(report: &SearchReport) -> Vec<&str> {
+    report.formulas("density").collect()
+}
+
+#[test]
+fn densities_of_the_maps_of_the_catalogue_are_found() {
+    let known = [
+        ("kahan-lotka-volterra", true),
+        ("kahan-nahm", true),
+        ("kahan-cubic", false),
+        ("kahan-euler", true),
+        ("lyness", true),
+        ("mcmillan", true),
+        ("henon-areas", true),
+    ];
+    for (name, is_written) in known {
+        let path = format!("{}/../../cases/classical/maps/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let case = Case::read(Path::new(&path), &[]).1.expect("a case of the catalogue");
+        let effort = Effort { blind: true, ..Effort::default() };
+        let report = search(&case, &effort, &mut |_| {}).expect("it can be searched");
+        assert_eq!(densities(&report).len(), usize::from(is_written), "{name}: {:?}", report.found);
+        let is_noted = report.remarks.iter().any(|own| own.contains("a density of degree"));
+        assert_eq!(is_noted, !is_written, "{name}: {:?}", report.remarks);
+    }
+}
+
+#[test]
+fn planted_densities_are_found_in_other_coordinates() {
+    // Kahan's map of x' = x(1 − y), y' = y(x − 1) in x = u + 2 v, y = 3 u − v.
+    let (x, y) = ("(x + 2*y)", "(3*x - y)");
+    let below = format!("(1 - h²/4 + h*(1 + h/2)*{y}/2 - h*(1 - h/2)*{x}/2)");
+    let first = format!("{x}*((1 + h/2)*(1 + h/2 - h*{x}/2) - h/2*(1 - h/2)*{y})/{below}");
+    let second = format!("{y}*((1 - h/2)*(1 - h/2 + h*{y}/2) + h/2*(1 + h/2)*{x})/{below}");
+    let images = [format!("({first} + 2*{second})/7"), format!("(3*{first} - {second})/7")];
+    let report = searched(&map("h = '0.1..0.5'", &[&images[0], &images[1]]), &Effort::default());
+    assert_eq!(densities(&report), ["1/(−3*x² − 5*x*y + 2*y²)"], "{:?}", report.remarks);
+    // X = x, Y = y (1 + x²)/k with a map of X, Y that keeps areas, and its inverse factor.
+    let forward = "(y*(1 + x²)/k)";
+    let images = [forward.to_string(), format!("k*(-x + {forward}²)/(1 + {forward}²)")];
+    let report = searched(&map("k = '0.5..2'", &[&images[0], &images[1]]), &Effort::default());
+    assert_eq!(densities(&report), ["1 + x²"]);
+    let forward = "(y*k/(1 + x²))";
+    let images = [forward.to_string(), format!("(-x + {forward}²)*(1 + {forward}²)/k")];
+    let report = searched(&map("k = '0.5..2'", &[&images[0], &images[1]]), &Effort::default());
+    assert_eq!(densities(&report), ["1/(1 + x²)"]);
+    // A reflection keeps the density with the other sign.
+    let report = searched(&map("", &["y", "x"]), &Effort::default());
+    assert_eq!(densities(&report), ["1"]);
+    let report = searched(&map("b = '0.5..0.9'", &["y", "1 - y² + b*x"]), &Effort::default());
+    assert_eq!(densities(&report), [""; 0], "it is dissipative");
 }

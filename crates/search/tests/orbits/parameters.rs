@@ -59,10 +59,131 @@ fn planted_values_are_found() {
         let report = planted(a, factor);
         assert_eq!(equations(&report), [expected], "{:?}", report.conditions);
     }
-    let report = planted("a = '0.5..2'\nb = '0.5..2'", "a - 3*b");
-    assert!(equations(&report).contains(&"a/b = 3"), "{:?}", report.conditions);
     let report = planted(a, "a² + 1");
     assert_eq!(special(&report), [], "no real value");
     let report = planted("a = '0.5..2'", "1 + 0*a");
     assert!(equations(&report).is_empty(), "{:?}", report.conditions);
+}
+
+/// A field with a further integral where a polynomial in the parameters vanishes, in linear coordinates
+/// of the state: with F = x² y + y³ the field (F_y + P x, −F_x) has F' = P x F_x.
+fn planted_in(parameters: &[&str], polynomial: &str) -> SearchReport {
+    let ranges: Vec<String> = parameters.iter().map(|name| format!("{name} = '0.5..2'")).collect();
+    // x = u + 2 v, y = 3 u − v; u = (x + 2 y)/7, v = (3 x − y)/7
+    let [x, y] = ["(u + 2*v)", "(3*u - v)"];
+    let (dx, dy) = (format!("{x}² + 3*{y}² + ({polynomial})*{x}"), format!("-2*{x}*{y}"));
+    let text = format!(
+        "title = 'x'\n[parameters]\n{}\n[state]\nu = '-1..1'\nv = '-1..1'\n[field]\n\
+         \"u'\" = '({dx} + 2*({dy}))/7'\n\"v'\" = '(3*({dx}) - ({dy}))/7'\n",
+        ranges.join("\n")
+    );
+    conditions(&text, 3)
+}
+
+#[test]
+fn planted_equations_between_parameters_are_found() {
+    let cases: [(&[&str], &str, &[&str]); 8] = [
+        (&["a", "b"], "a - 3*b", &["a = 3*b"]),
+        (&["a", "b"], "a*b - 1", &["a*b − 1 = 0"]),
+        (&["a", "b"], "(a - b² - 1)*(2*a + 3*b)", &["2*a + 3*b = 0", "b² − a + 1 = 0"]),
+        (&["a", "b"], "a² - 2*b²", &["a² − 2*b² = 0"]),
+        (&["a", "b"], "(a - 7)*(b² - 5)/(a + b)", &["a = 7", "b² − 5 = 0"]),
+        (&["a", "b", "c"], "(a - b)²*(a*b + c² - 3)", &["a = b", "a*b + c² − 3 = 0"]),
+        (&["a", "b", "c"], "b*(a² + b² + c² - 1)", &["b = 0", "a² + b² + c² − 1 = 0"]),
+        (
+            &["a", "b", "c", "d"],
+            "(a*d - b*c)*(a + b + c + d)",
+            &["a + b + c + d = 0", "a*d − b*c = 0"],
+        ),
+    ];
+    for (parameters, polynomial, expected) in cases {
+        let report = planted_in(parameters, polynomial);
+        let own: Vec<&str> = equations(&report);
+        assert_eq!(own, expected, "{polynomial}: {:?}", report.conditions);
+        assert!(
+            report.conditions.iter().all(|own| own.grounds.contains("no other")),
+            "{polynomial}: {:?}",
+            report.conditions
+        );
+        let proved: Vec<String> = special(&report).into_iter().map(|(value, _)| value).collect();
+        for equation in
+            expected.iter().filter(|own| !own.contains("² − 5") && !own.contains("− 2*b²"))
+        {
+            let is_linear = *equation != "a² + b² + c² − 1 = 0";
+            assert_eq!(
+                proved.iter().any(|own| own == equation),
+                is_linear,
+                "{equation}: {proved:?}"
+            );
+        }
+    }
+    let report = conditions(&field("a = '0.5..2'\nb = '0.5..2'", &["a*y - 2*b*y", "0"]), 3);
+    let grounds = &report.conditions[0].grounds;
+    assert!(grounds.ends_with("none is added up to degree 3"), "{:?}", report.conditions);
+    let report = planted_in(&["a", "b"], "1 + 0*a*b");
+    assert_eq!(equations(&report), [""; 0]);
+    assert!(report.conditions[0].grounds.contains("no other equation"), "{:?}", report.conditions);
+}
+
+#[test]
+fn equations_that_are_not_written_are_counted() {
+    // Coefficients too long to be told from accidents.
+    let report = planted_in(&["a", "b"], "(a - 12345678910111213*b)*(a + b - 1)");
+    assert_eq!(report.conditions[0].equations, ["a + b − 1 = 0"], "{:?}", report.conditions);
+    let grounds = &report.conditions[0].grounds;
+    assert!(grounds.contains("of degree 1 together") && !grounds.contains("no other"), "{grounds}");
+    // Of too high a degree along a line: one parameter at a time.
+    let report = planted_in(&["a", "b"], "a^9*b^9 + a^15 + b^17 + 7");
+    assert!(
+        report.conditions.iter().all(|own| !own.grounds.contains("no other")),
+        "{:?}",
+        report.conditions
+    );
+}
+
+#[test]
+fn components_of_tensors_are_parameters() {
+    // A heavy top with free J = I⁻¹ and its centre of mass in the plane of two axes.
+    let text = "title = 'x'\n[parameters]\nJ = 'diag(0.2..5)'\nx = '-1..1'\nz = '-1..1'\n[state]\n\
+                M = 'vector(-2..2)'\nn = 'vector(-1..1)'\n[field]\n\
+                \"M'\" = 'M × (J*M) + n × [x, 0, z]'\n\"n'\" = 'n × (J*M)'\n";
+    let report = conditions(text, 2);
+    let expected = [
+        "x = 0 and J1 = J2",
+        "z = 0 and J2 = J3",
+        "J1 = 0 and J2 = 0",
+        "J1 = 0 and J3 = 0",
+        "J2 = 0 and J3 = 0",
+        "J1 = J2 = J3",
+        "x = 0 and z = 0",
+    ];
+    assert_eq!(equations(&report), expected, "{:?}", report.conditions);
+    let special = special(&report);
+    let lagrange = special.iter().find(|(value, _)| value == expected[0]);
+    assert_eq!(lagrange.map(|(_, own)| own.as_str()), Some("M3"));
+    assert_eq!(special.len(), expected.len(), "{special:?}");
+    assert!(report.remarks.iter().any(|own| own.contains("only where one or two of these hold")));
+}
+
+#[test]
+fn roots_of_parameters_stay_at_random_values() {
+    let rates = ["x² + 3*y² + (a - √c*b)*x*(1 + √c)", "-2*x*y"];
+    let parameters = "a = '0.5..2'\nb = '0.5..2'\nc = '0.5..2'";
+    let report = conditions(&field(parameters, &rates), 3);
+    let first = &report.conditions[0];
+    assert!(first.equations.is_empty(), "it contains √c: {first:?}");
+    assert!(first.grounds.contains("of degree 1 together"), "{first:?}");
+    assert!(report.conditions.iter().all(|own| !own.grounds.contains("no other")));
+    assert!(
+        report.conditions.iter().all(|own| own.grounds.contains("random values of c")),
+        "{:?}",
+        report.conditions
+    );
+    let rates = ["x² + 3*y² + (a - b)*x*(1 + √c)", "-2*x*y"];
+    let report = conditions(&field(parameters, &rates), 3);
+    assert_eq!(report.conditions[0].equations, ["a = b"], "{:?}", report.conditions);
+    let rates = ["x² + 3*y² + (a - b)*|x|", "-2*x*y"];
+    let report = conditions(&field("a = '0.5..2'\nb = '0.5..2'", &rates), 3);
+    assert!(report.conditions.is_empty(), "{:?}", report.conditions);
+    assert!(report.remarks.iter().any(|own| own.contains("contain a modulus")));
 }

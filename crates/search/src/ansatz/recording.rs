@@ -1,0 +1,69 @@
+//! Values recorded at a state for a linear system: variables and factors with their derivatives.
+
+use num_dual::Dual;
+
+use liouville::formula::Formula;
+use liouville::graph::Expr;
+use liouville::mechanics::Phase;
+use liouville::number::rational::Rational;
+use liouville::scalar::Scalar;
+
+/// Position of x, dx, W and dW of one direction among the outputs.
+#[derive(Clone, Copy, Debug)]
+pub struct Derivation {
+    /// Place of the first.
+    pub start: usize,
+    /// Number of variables.
+    pub variables: usize,
+    /// Number of factors.
+    pub factors: usize,
+}
+
+/// Values recorded at a state.
+#[derive(Default)]
+pub struct Recording {
+    /// Recorded values.
+    pub outputs: Vec<Expr>,
+    /// Directions of derivatives, in order.
+    pub derivations: Vec<Derivation>,
+}
+
+impl Recording {
+    /// Adds an output and returns its index.
+    pub fn give(&mut self, value: Expr) -> usize {
+        self.outputs.push(value);
+        self.outputs.len() - 1
+    }
+
+    /// Adds variables and factors with their derivatives along a direction; returns its index.
+    pub fn derive(
+        &mut self,
+        moved: &Phase<'_, Dual<Expr>>,
+        variables: &[Formula],
+        factors: &[Formula],
+    ) -> usize {
+        let start = self.outputs.len();
+        for terms in [variables, factors] {
+            let values: Vec<Dual<Expr>> = terms.iter().map(|term| moved.scalar(term)).collect();
+            self.outputs.extend(values.iter().map(|value| value.re));
+            self.outputs.extend(values.iter().map(|value| value.eps));
+        }
+        let (variables, factors) = (variables.len(), factors.len());
+        self.derivations.push(Derivation { start, variables, factors });
+        self.derivations.len() - 1
+    }
+
+    /// Adds variables with an additional rate of growth `growth`; returns the direction's index. The
+    /// derivative of x^a is v(x^a) + growth·x^a.
+    pub fn derive_growing(
+        &mut self,
+        moved: &Phase<'_, Dual<Expr>>,
+        variables: &[Formula],
+        growth: Expr,
+    ) -> usize {
+        let direction = self.derive(moved, variables, &[]);
+        self.outputs.extend([Expr::rational(&Rational::from(1)), growth]);
+        self.derivations[direction].factors = 1;
+        direction
+    }
+}

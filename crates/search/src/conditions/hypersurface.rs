@@ -1,0 +1,284 @@
+//! Polynomials in the parameters with rational coefficients, whose zeros are a condition.
+
+use std::fmt::Write;
+
+use liouville::number::prime::Modulus;
+use liouville::number::rational::Rational;
+use liouville::proof::reconstruct;
+
+use super::polynomial::{Polynomial, PrimePolynomials};
+use super::relation::ScalarParameter;
+use super::simple::{SimpleEquation, SimpleEquations};
+use super::variety::{monomial, power};
+use crate::terms;
+
+/// Largest numerator and denominator of a coefficient, if one of them is 1.
+const MOST: i64 = 1 << 20;
+
+/// A polynomial modulo a prime: coefficients by exponents.
+pub type PrimeTerms = Vec<(Vec<u32>, u64)>;
+
+/// A condition of codimension one: the zeros of a polynomial in the parameters.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Hypersurface {
+    /// Coefficients that are not 0 by exponents; those of high degree come first.
+    terms: Vec<(Vec<u32>, Rational)>,
+}
+
+impl Hypersurface {
+    /// Reads rational coefficients off their images; `None` if they are not short, or all are 0.
+    pub fn of(images: &PrimeTerms, m: &Modulus) -> Option<Self> {
+        let used = images.iter().filter(|(_, image)| *image != 0);
+        let mut images: PrimeTerms = used.cloned().collect();
+        images.sort_by(|(a, _), (b, _)| {
+            let degree = |own: &[u32]| own.iter().sum::<u32>();
+            degree(b).cmp(&degree(a)).then_with(|| b.cmp(a))
+        });
+        let scale = m.inverse(images.first()?.1);
+        let number = |(exponents, image): &(Vec<u32>, u64)| {
+            let value = reconstruct(m.mul(*image, scale), m)?;
+            let (above, below) = value.small_parts()?;
+            (above.abs() <= MOST && below <= MOST).then(|| (exponents.clone(), value))
+        };
+        let terms = images.iter().map(number).collect::<Option<Vec<_>>>()?;
+        (terms[0].0.iter().sum::<u32>() > 0).then_some(Self { terms })
+    }
+
+    /// Degree of the polynomial.
+    pub fn degree(&self) -> usize {
+        self.terms.first().map_or(0, |(exponents, _)| exponents.iter().sum::<u32>() as usize)
+    }
+
+    /// Restricts the polynomial to a line; `None` if a denominator is 0 modulo the prime.
+    pub fn on_line(&self, m: &Modulus, origin: &[u64], slope: &[u64]) -> Option<Polynomial> {
+        let images: Vec<u64> =
+            self.terms.iter().map(|(_, value)| m.rational(value)).collect::<Option<_>>()?;
+        let value = |t: u64| {
+            let point: Vec<u64> =
+                origin.iter().zip(slope).map(|(a, b)| m.add(*a, m.mul(t, *b))).collect();
+            let terms = self.terms.iter().zip(&images);
+            terms.fold(0, |sum, ((exponents, _), image)| {
+                m.add(sum, m.mul(*image, power(&point, exponents, m)))
+            })
+        };
+        let points = (0..=self.degree() as u64).map(|t| m.integer(t)).map(|t| (t, value(t)));
+        Some(PrimePolynomials(*m).through(&points.collect::<Vec<_>>()).0)
+    }
+
+    /// Writes the equation: `A = 2*B`, `k = 6`, `a*b − c² = 0`.
+    pub fn equation(&self, parameters: &[ScalarParameter]) -> String {
+        let names: Vec<&str> = parameters.iter().map(|own| own.name.as_str()).collect();
+        match self.terms.as_slice() {
+            [(only, _)] => format!("{} = 0", monomial(&names, only)),
+            [(x, a), (y, b)] if degree(x) == 1 && degree(y) <= 1 => {
+                let inverse = a.recip().unwrap_or_else(|| Rational::from(0));
+                let ratio = &Rational::from(0) - &(b * &inverse);
+                let first = monomial(&names, x);
+                if degree(y) == 0 {
+                    return format!("{first} = {ratio}");
+                }
+                let second = monomial(&names, y);
+                let multiple = |number: Rational, name: &str| match number == Rational::from(1) {
+                    true => name.to_string(),
+                    false => format!("{number}*{name}"),
+                };
+                // b = 6 a is better than 6 a = b.
+                if let Some(inverse) = ratio.recip().filter(|own| own.to_integer() > Some(1)) {
+                    return format!("{second} = {}", multiple(inverse, &first));
+                }
+                let (above, below) = ratio.parts();
+                let one = || 1.into();
+                let above = Rational::from_parts(above, one());
+                let below = Rational::from_parts(below, one());
+                match above.is_negative() {
+                    // a + 2 b = 0
+                    true => self.sum(&names),
+                    false => format!("{} = {}", multiple(below, &first), multiple(above, &second)),
+                }
+            }
+            _ => self.sum(&names),
+        }
+    }
+
+    fn sum(&self, names: &[&str]) -> String {
+        let texts: Vec<String> = self.terms.iter().map(|(own, _)| monomial(names, own)).collect();
+        let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+        let numbers: Vec<Rational> = self.terms.iter().map(|(_, value)| value.clone()).collect();
+        terms::equation(&numbers, &texts)
+    }
+
+    /// Solves for a parameter that occurs linearly: its place, and its value as a formula. One with a
+    /// constant factor is preferred, then a late one. `None` if there is none.
+    pub fn solved(&self, parameters: &[ScalarParameter]) -> Option<(usize, String)> {
+        let names: Vec<&str> = parameters.iter().map(|own| own.name.as_str()).collect();
+        let linear = (0..names.len()).filter(|place| {
+            let highest = self.terms.iter().map(|(own, _)| own[*place]).max();
+            highest == Some(1)
+        });
+        let parts = |place: usize| -> (Vec<_>, Vec<_>) {
+            let (with, without): (Vec<_>, Vec<_>) =
+                self.terms.iter().cloned().partition(|(own, _)| own[place] == 1);
+            let divided = with.into_iter().map(|(mut own, value)| {
+                own[place] = 0;
+                (own, value)
+            });
+            (divided.collect(), without)
+        };
+        let weight = |place: &usize| {
+            let factor = parts(*place).0;
+            (factor.len(), factor.iter().map(|(own, _)| degree(own)).max(), usize::MAX - place)
+        };
+        let place = linear.min_by_key(weight)?;
+        let (factor, rest) = parts(place);
+        let value = match rest.is_empty() {
+            true => "0".to_string(),
+            false => format!("−({})/({})", written(&rest, &names), written(&factor, &names)),
+        };
+        Some((place, value))
+    }
+
+    /// The same polynomial where simple equations hold, in the scalars that remain free; `None` if it
+    /// vanishes there.
+    pub fn under(&self, equations: &SimpleEquations) -> Option<Self> {
+        let mut terms: Vec<(Vec<u32>, Rational)> = Vec::new();
+        'terms: for (exponents, value) in &self.terms {
+            let mut own = vec![0; exponents.len()];
+            for (power, first) in exponents.iter().zip(equations.first()) {
+                match first {
+                    Some(first) => own[*first] += power,
+                    None if *power > 0 => continue 'terms,
+                    None => {}
+                }
+            }
+            match terms.iter_mut().find(|(known, _)| *known == own) {
+                Some((_, sum)) => *sum = &*sum + value,
+                None => terms.push((own, value.clone())),
+            }
+        }
+        terms.retain(|(_, value)| !value.is_zero());
+        terms.sort_by(|(a, _), (b, _)| degree(b).cmp(&degree(a)).then_with(|| b.cmp(a)));
+        (!terms.is_empty()).then_some(Self { terms })
+    }
+
+    /// The polynomial in some of the scalars, among which are all that occur.
+    pub fn among(&self, places: &[usize]) -> Self {
+        let own = |exponents: &Vec<u32>| places.iter().map(|place| exponents[*place]).collect();
+        Self {
+            terms: self
+                .terms
+                .iter()
+                .map(|(own_terms, value)| (own(own_terms), value.clone()))
+                .collect(),
+        }
+    }
+
+    /// The polynomial in some of the scalars as one in all of them.
+    pub fn spread(&self, places: &[usize], count: usize) -> Self {
+        let spread = |exponents: &Vec<u32>| {
+            let mut own = vec![0; count];
+            places.iter().zip(exponents).for_each(|(place, power)| own[*place] = *power);
+            own
+        };
+        Self { terms: self.terms.iter().map(|(own, value)| (spread(own), value.clone())).collect() }
+    }
+
+    /// The polynomial x or x − y of a simple equation between some number of scalars.
+    pub fn from(equation: SimpleEquation, count: usize) -> Self {
+        let unit = |place: usize| (0..count).map(|k| u32::from(k == place)).collect();
+        let one = Rational::from(1);
+        let terms = match equation {
+            SimpleEquation::Zero(x) => vec![(unit(x), one)],
+            SimpleEquation::Equal(x, y) => {
+                let (x, y) = (x.min(y), x.max(y));
+                vec![(unit(x), one), (unit(y), Rational::from(-1))]
+            }
+        };
+        Self { terms }
+    }
+
+    /// Whether it is a constant multiple of another.
+    pub fn is_multiple(&self, other: &Self) -> bool {
+        let scaled = |own: &Self| -> Option<Vec<(Vec<u32>, Rational)>> {
+            let inverse = own.terms.first()?.1.recip()?;
+            Some(own.terms.iter().map(|(a, value)| (a.clone(), value * &inverse)).collect())
+        };
+        scaled(self) == scaled(other)
+    }
+
+    /// The equation as a simple one, if it is x = 0 or x = y.
+    pub fn simple(&self) -> Option<SimpleEquation> {
+        let place = |own: &[u32]| own.iter().position(|power| *power > 0);
+        match self.terms.as_slice() {
+            [(x, _)] if degree(x) == 1 => Some(SimpleEquation::Zero(place(x)?)),
+            [(x, a), (y, b)] if degree(x) == 1 && degree(y) == 1 && (a + b).is_zero() => {
+                Some(SimpleEquation::Equal(place(x)?, place(y)?))
+            }
+            _ => None,
+        }
+    }
+}
+
+fn degree(exponents: &[u32]) -> u32 {
+    exponents.iter().sum()
+}
+
+/// Writes a polynomial as a formula.
+fn written(terms: &[(Vec<u32>, Rational)], names: &[&str]) -> String {
+    let mut text = String::new();
+    for (exponents, value) in terms {
+        let sign = if value.is_negative() { "−" } else { "+" };
+        let (above, below) = value.abs().parts();
+        // The first sign is one of a number.
+        let _ = write!(text, " {sign} {above}/{below}*{}", monomial(names, exponents));
+    }
+    format!("0{text}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn named(names: &[&str]) -> Vec<ScalarParameter> {
+        let own = names.iter().enumerate();
+        own.map(|(draw, name)| ScalarParameter { name: name.to_string(), draw }).collect()
+    }
+
+    /// Exponents and coefficients.
+    type Terms<'t> = &'t [(&'t [u32], (i64, i64))];
+
+    fn surface(terms: Terms<'_>) -> Hypersurface {
+        let terms = terms.iter().map(|(own, (n, d))| (own.to_vec(), Rational::new(*n, *d)));
+        Hypersurface { terms: terms.collect() }
+    }
+
+    #[test]
+    fn equations_are_written_and_solved() {
+        let names = named(&["a", "b"]);
+        let written: [(Terms<'_>, &str); 5] = [
+            (&[(&[1, 0], (1, 1)), (&[0, 1], (-1, 1))], "a = b"),
+            (&[(&[1, 0], (1, 1)), (&[0, 1], (-2, 3))], "3*a = 2*b"),
+            (&[(&[0, 1], (1, 1)), (&[0, 0], (6, 1))], "b = -6"),
+            (&[(&[1, 1], (1, 1)), (&[0, 0], (-4, 1))], "a*b − 4 = 0"),
+            (&[(&[2, 0], (1, 1)), (&[0, 2], (-2, 1))], "a² − 2*b² = 0"),
+        ];
+        for (terms, text) in written {
+            assert_eq!(surface(terms).equation(&names), text);
+        }
+        let solved = |terms| surface(terms).solved(&names);
+        let difference = solved(&[(&[1, 0], (1, 1)), (&[0, 1], (-1, 1))]);
+        assert_eq!(difference, Some((1, "−(0 + 1/1*a)/(0 − 1/1*1)".to_string())));
+        let product = solved(&[(&[1, 1], (1, 1)), (&[0, 0], (-4, 1))]);
+        assert_eq!(product, Some((1, "−(0 − 4/1*1)/(0 + 1/1*a)".to_string())));
+        let parabola = solved(&[(&[2, 0], (1, 1)), (&[0, 1], (-1, 1))]);
+        assert_eq!(parabola, Some((1, "−(0 + 1/1*a²)/(0 − 1/1*1)".to_string())));
+        let squares = surface(&[(&[2, 0], (1, 1)), (&[0, 2], (-2, 1))]);
+        assert_eq!(squares.solved(&names), None, "no parameter is linear");
+        let equal = SimpleEquations::none(2).with(SimpleEquation::Equal(0, 1));
+        assert_eq!(squares.under(&equal), Some(surface(&[(&[2, 0], (-1, 1))])));
+        let difference = surface(&[(&[1, 0], (1, 1)), (&[0, 1], (-1, 1))]);
+        assert_eq!(difference.under(&equal), None, "it vanishes where a = b");
+        assert_eq!(difference.simple(), Some(SimpleEquation::Equal(0, 1)));
+        assert_eq!(squares.simple(), None);
+        assert_eq!(squares.spread(&[2, 0], 3).among(&[2, 0]), squares);
+    }
+}

@@ -1,0 +1,325 @@
+//! Equations between the parameters of a field under which it has more polynomial integrals.
+//!
+//! All conditions of codimension one are found ([`locus`](super::locus)), and those of higher
+//! codimension that become such conditions where one or two simple equations hold: a parameter is 0, or
+//! two components of a tensor are equal. Where a condition is linear in some parameter, this one is
+//! eliminated, and the integrals are sought and proved.
+
+use liouville::case::Case;
+use liouville::mechanics::System;
+
+use super::ParameterCondition;
+use super::equations::ParametricEquations;
+use super::hypersurface::Hypersurface;
+use super::locus::{NoLocus, SpecialLocus, special};
+use super::simple::{SimpleEquations, simple_equations};
+use super::split::SplitCase;
+use super::values::{self, integrals_with};
+use crate::branches;
+use crate::budget::STEPS;
+use crate::{Effort, SearchError, SearchReport};
+
+/// Finds the conditions on the parameters of a field under which there are more polynomial integrals of
+/// at most the degree of the search, and the integrals there.
+pub fn conditions(
+    case: &Case,
+    effort: &Effort,
+    report: &mut SearchReport,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(), SearchError> {
+    if !matches!(case.model.system, System::Field(_) | System::Hamiltonian(_)) {
+        return Ok(());
+    }
+    let whole = SplitCase::of(case);
+    if whole.scalars.is_empty() {
+        return Ok(());
+    }
+    if !branches::are_true(case, effort)? {
+        report.remark(
+            "no values of the parameters with more integrals are sought: the formulas contain a \
+             modulus, or a root that depends on others"
+                .to_string(),
+        );
+        return Ok(());
+    }
+    if in_all(&whole, effort, report, progress)? {
+        return Ok(());
+    }
+    // A root of a parameter is no fraction: such parameters stay at random values.
+    let held = held(&whole, effort)?;
+    let whole = if held.len() < whole.scalars.len() { whole.holding(held) } else { whole };
+    if !whole.held.is_empty() && in_all(&whole, effort, report, progress)? {
+        return Ok(());
+    }
+    values::conditions(&whole, effort, report, progress)
+}
+
+/// Finds conditions on all scalars at once; `false` if the equations are not fractions of low degree in
+/// them, or if there is a single one.
+fn in_all(
+    whole: &SplitCase,
+    effort: &Effort,
+    report: &mut SearchReport,
+    progress: &mut dyn FnMut(&str),
+) -> Result<bool, SearchError> {
+    if whole.scalars.len() == 1 {
+        return Ok(false);
+    }
+    let mut search =
+        ConditionSearch { whole, effort, report, progress, found: Vec::new(), steps: 0.0 };
+    let none = SimpleEquations::none(whole.scalars.len());
+    if !search.examined(&none, whole)? {
+        return Ok(false);
+    }
+    if search.steps > 0.0 {
+        search.several(&none)?;
+    }
+    Ok(true)
+}
+
+/// Lists the scalars in which the equations are not fractions of low degree.
+fn held(whole: &SplitCase, effort: &Effort) -> Result<Vec<String>, SearchError> {
+    let Some(equations) = ParametricEquations::new(&whole.case, 1, effort)? else {
+        return Ok(Vec::new());
+    };
+    let mut held = Vec::new();
+    for scalar in &whole.scalars {
+        if special(&equations, &[scalar.draw], &[])?.is_err() {
+            held.push(scalar.name.clone());
+        }
+    }
+    Ok(held)
+}
+
+/// A condition: simple equations, and a further one in the scalars that remain free.
+struct FoundCondition {
+    simple: SimpleEquations,
+    further: Option<Hypersurface>,
+}
+
+impl FoundCondition {
+    /// Makes a condition of equations; a further one that is simple is one of the simple ones.
+    fn of(simple: &SimpleEquations, further: Hypersurface) -> Self {
+        match further.simple() {
+            Some(own) => Self { simple: simple.with(own), further: None },
+            None => Self { simple: simple.clone(), further: Some(further) },
+        }
+    }
+
+    fn text(&self, whole: &SplitCase) -> String {
+        let mut texts = self.simple.texts(&whole.scalars);
+        texts.extend(self.further.iter().map(|own| own.equation(&whole.scalars)));
+        texts.join(" and ")
+    }
+
+    /// Whether it follows from another condition.
+    fn is_part_of(&self, other: &Self) -> bool {
+        if !self.simple.implies(&other.simple) {
+            return false;
+        }
+        let Some(further) = &other.further else { return true };
+        match further.under(&self.simple) {
+            None => true,
+            Some(own) => self.further.as_ref().is_some_and(|further| further.is_multiple(&own)),
+        }
+    }
+}
+
+/// A search with the conditions found so far.
+struct ConditionSearch<'s> {
+    whole: &'s SplitCase,
+    effort: &'s Effort,
+    report: &'s mut SearchReport,
+    progress: &'s mut dyn FnMut(&str),
+    found: Vec<FoundCondition>,
+    /// Number of steps for one line at the highest degree.
+    steps: f64,
+}
+
+impl ConditionSearch<'_> {
+    /// Finds the conditions of codimension one where some simple equations hold; `false` if the
+    /// equations are not fractions of low degree.
+    fn examined(
+        &mut self,
+        simple: &SimpleEquations,
+        split: &SplitCase,
+    ) -> Result<bool, SearchError> {
+        let draws: Vec<usize> = split.scalars.iter().map(|own| own.draw).collect();
+        let free = simple.free();
+        let names: Vec<&str> = split.scalars.iter().map(|own| own.name.as_str()).collect();
+        let names = names.join(", ");
+        let is_first = simple.count() == 0;
+        let (mut last, mut told) = (0, 0);
+        let before = self.report.conditions.len();
+        for degree in 1..=self.effort.degree {
+            (self.progress)(&format!(
+                "conditions on {names} for more integrals of degree {degree}"
+            ));
+            let Some(equations) = ParametricEquations::new(&split.case, degree, self.effort)?
+            else {
+                break;
+            };
+            let holds = |own: &&FoundCondition| simple.implies(&own.simple);
+            let known = self.found.iter().filter(holds).filter_map(|own| own.further.as_ref());
+            let known: Option<Vec<Hypersurface>> =
+                known.map(|own| Some(own.under(simple)?.among(&free))).collect();
+            let mut known = known.unwrap_or_default();
+            known.extend(
+                self.found
+                    .iter()
+                    .filter_map(|own| own.simple.addition(simple))
+                    .map(|own| Hypersurface::from(own, simple.first().len()).among(&free)),
+            );
+            let own = match special(&equations, &draws, &known)? {
+                Ok(own) => own,
+                Err(NoLocus::NoValues) => return Ok(true),
+                Err(NoLocus::NoFractions) if degree == 1 && is_first => return Ok(false),
+                Err(NoLocus::NoFractions) => {
+                    self.report.remark(format!(
+                        "conditions on {names} for more integrals of degree {degree} are not sought: \
+                         the equations take longer than --seconds allows, or are not fractions of \
+                         low degree"
+                    ));
+                    return Ok(true);
+                }
+            };
+            last = degree;
+            self.steps = self.steps.max(own.steps);
+            let conditions = self.report.conditions.len();
+            self.tell(simple, split, degree, own)?;
+            if self.report.conditions.len() > conditions {
+                told = degree;
+            }
+        }
+        if !is_first || last == told {
+            return Ok(true);
+        }
+        if let Some(own) = self.report.conditions[before..].last_mut() {
+            own.grounds.push_str(&format!("; none is added up to degree {last}"));
+        } else {
+            self.report.conditions.push(ParameterCondition {
+                of: format!("more polynomial integrals of degree at most {last}, by {names}"),
+                equations: Vec::new(),
+                grounds: format!("{GROUNDS}; {}{}", rest(0), split.reservation()),
+            });
+        }
+        Ok(true)
+    }
+
+    /// Reports conditions, and searches for the integrals where they hold.
+    fn tell(
+        &mut self,
+        simple: &SimpleEquations,
+        split: &SplitCase,
+        degree: u32,
+        locus: SpecialLocus,
+    ) -> Result<(), SearchError> {
+        let free = simple.free();
+        let mut equations = Vec::new();
+        for own in &locus.surfaces {
+            let spread = own.spread(&free, simple.first().len());
+            let condition = FoundCondition::of(simple, spread);
+            if self.found.iter().any(|known| condition.is_part_of(known)) {
+                continue;
+            }
+            let text = condition.text(self.whole);
+            self.found.push(condition);
+            let solved = own.solved(&split.scalars);
+            let fixed = solved.and_then(|(place, value)| {
+                split.with(&[(split.scalars[place].name.clone(), value)])
+            });
+            if let Some(fixed) = fixed {
+                let with = ("condition", text.clone());
+                integrals_with(&fixed.case, with, self.effort, self.report)?;
+            }
+            equations.push(text);
+        }
+        if equations.is_empty() && locus.unexplained == 0 {
+            return Ok(());
+        }
+        let reservation = split.reservation();
+        let of = format!("more polynomial integrals of degree at most {degree}");
+        if simple.count() == 0 {
+            let names: Vec<&str> = split.scalars.iter().map(|own| own.name.as_str()).collect();
+            self.report.conditions.push(ParameterCondition {
+                of: format!("{of}, by {}", names.join(", ")),
+                equations,
+                grounds: format!("{GROUNDS}; {}{reservation}", rest(locus.unexplained)),
+            });
+            return Ok(());
+        }
+        let of = format!("{of}, by several equations");
+        let more = match locus.unexplained {
+            0 => String::new(),
+            n => {
+                format!("; where {}, {}", simple.texts(&self.whole.scalars).join(" and "), rest(n))
+            }
+        };
+        match self.report.conditions.iter_mut().find(|own| own.of == of) {
+            Some(own) => {
+                own.equations.extend(equations);
+                own.grounds.push_str(&more);
+            }
+            None => {
+                let grounds = format!("{GROUNDS}{reservation}{more}");
+                self.report.conditions.push(ParameterCondition { of, equations, grounds });
+            }
+        }
+        Ok(())
+    }
+
+    /// Finds conditions where one or two simple equations hold.
+    fn several(&mut self, none: &SimpleEquations) -> Result<(), SearchError> {
+        let all = simple_equations(self.whole);
+        let mut sets: Vec<SimpleEquations> = all.iter().map(|own| none.with(*own)).collect();
+        for place in 0..all.len() {
+            for other in &all[..place] {
+                let own = none.with(*other).with(all[place]);
+                if own.count() == 2 && !sets.contains(&own) {
+                    sets.push(own);
+                }
+            }
+        }
+        let most = (self.effort.seconds * STEPS / self.steps.max(1.0)) as usize;
+        let admitted = sets.len().min(most);
+        for simple in &sets[..admitted] {
+            self.effort.halt.check()?;
+            // Where they hold there are more integrals already.
+            let is_special = |own: &FoundCondition| {
+                let further = own.further.as_ref().map(|further| further.under(simple));
+                simple.implies(&own.simple) && !matches!(further, Some(Some(_)))
+            };
+            if self.found.iter().any(is_special) {
+                continue;
+            }
+            if let Some(split) = simple.applied(self.whole) {
+                self.examined(simple, &split)?;
+            }
+        }
+        let scope = match (admitted == sets.len(), admitted >= all.len()) {
+            (true, _) => "one or two",
+            (false, true) => "one, and for some of them another,",
+            (false, false) => "some",
+        };
+        let texts: Vec<String> =
+            all.iter().flat_map(|own| none.with(*own).texts(&self.whole.scalars)).collect();
+        self.report.remark(format!(
+            "conditions of several equations are sought only where {scope} of these hold: {}",
+            texts.join(", ")
+        ));
+        Ok(())
+    }
+}
+
+const GROUNDS: &str =
+    "minors of the equations for the coefficients, on lines and planes of parameters";
+
+/// Says how many conditions there may be besides those told.
+fn rest(unexplained: usize) -> String {
+    match unexplained {
+        0 => "modulo a prime of 61 bits no other equation gives more".to_string(),
+        n => format!(
+            "further equations of degree {n} together, without short coefficients or too long to write, may give more"
+        ),
+    }
+}
