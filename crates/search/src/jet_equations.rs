@@ -305,9 +305,8 @@ mod tests {
                         let mut places: Vec<usize> =
                             (0..1 + below(4)).map(|_| below(columns)).collect();
                         places.sort_unstable();
-                        let value = |below: &mut dyn FnMut(usize) -> usize| {
-                            m.integer(1 + below(3) as u64)
-                        };
+                        let value =
+                            |below: &mut dyn FnMut(usize) -> usize| m.integer(1 + below(3) as u64);
                         places.into_iter().map(|place| (place, value(&mut below))).collect()
                     }
                 };
