@@ -1,5 +1,6 @@
 //! Axes of a plane of motions: quantities that vary, by their names in a case.
 
+use super::andoyer::applies;
 use super::plane::{ChartAxis, Coordinate};
 use liouville::case::Case;
 use liouville::formula::{Type, canonical_name};
@@ -114,7 +115,9 @@ impl Coordinate {
 
 /// Help that lists the possible axes of a case.
 fn known(case: &Case) -> String {
-    format!("vary {}, or l, L/G, energy of the start on a section", parameters(case).join(", "))
+    let own = if applies(&case.model) { &["l", "L/G", "energy"][..] } else { &["energy"] };
+    let names = parameters(case).into_iter().chain(own.iter().map(ToString::to_string));
+    format!("vary one of {}", names.collect::<Vec<_>>().join(", "))
 }
 
 /// Names of the parameters of a case, and of components of them.

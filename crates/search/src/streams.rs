@@ -33,8 +33,8 @@ pub enum SearchStream {
     OrbitPoints = 48,
     /// Lines on which Darboux polynomials are looked for.
     OrbitLines = 49,
-    /// Points for leading forms.
-    Leading = 51,
+    /// Points for gradients.
+    Gradients = 51,
     /// Primes of an ansatz; each of its moduli has the next stream.
     Moduli = 60,
 }

@@ -44,7 +44,7 @@ impl SweepReport<'_> {
                 (_, Some(reason)) => out.push_str(&format!("{claim}: no sweep: {reason}\n")),
                 (None, None) => out.push_str(&format!("{claim}: the residual has no value\n")),
                 (Some(peak), None) => {
-                    out.push_str(&format!("{claim}: at most {:.3e}", peak.ratio));
+                    out.push_str(&format!("{claim}: at most {:.3e} of its scale", peak.ratio));
                     let undefined = found.states - found.defined;
                     if undefined > 0 {
                         out.push_str(&format!(", without a value at {undefined} states"));

@@ -174,7 +174,11 @@ fn lines_that_cannot_be_followed_are_refused_with_a_remedy() {
     let diagram = ["motion", "diagram", &cycle, "--section", "y = 0", "--over"];
     let rotation = ["motion", "rotation", &cycle, "--section", "y = 0", "--from"];
     for (arguments, message, help) in [
-        ([&diagram[..], &["q=0..1"]].concat(), "there is no `q` to vary", "vary μ, v1, v2, v3"),
+        (
+            [&diagram[..], &["q=0..1"]].concat(),
+            "there is no `q` to vary",
+            "vary one of μ, v1, v2, v3, energy",
+        ),
         (
             [&diagram[..], &["L/G=0..1"]].concat(),
             "coordinates of the section g = g₀",

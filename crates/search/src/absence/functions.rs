@@ -4,11 +4,9 @@
 //! An integral P/Q gives a relation along each orbit. If the relations along the orbit of a random
 //! point modulo a prime are those that the known integrals imply, it is a function of these.
 
-use super::super::ask::independent;
 use super::super::orbit::{self, fractions};
 use super::super::{SearchError, SearchReport};
 use super::{AbsenceCase, AbsenceOutcome};
-use liouville::formula::Formula;
 use liouville::verdict::Verdict;
 
 /// Largest number of monomials that are compared: their relations take some seconds.
@@ -51,7 +49,7 @@ pub fn no_integral(asked: &AbsenceCase<'_>, degree: u32) -> Result<AbsenceOutcom
         if own
             && found.verdict == Verdict::Proved
             && fractions::is_within(case, effort, known, function, (&class, degree))?
-            && is_new(asked, function)?
+            && asked.is_new(function)?
         {
             return Ok(AbsenceOutcome::Exhibited(format!("integral, proved: {}", found.formula)));
         }
@@ -69,10 +67,4 @@ fn several(relations: usize) -> String {
         1 => "one relation".to_string(),
         _ => format!("{relations} relations"),
     }
-}
-
-/// Whether an integral is proved to be independent of the known ones.
-fn is_new(asked: &AbsenceCase<'_>, function: &Formula) -> Result<bool, SearchError> {
-    let known = asked.known.claimed();
-    Ok(independent(asked.case, known, function, &asked.effort)?.is_some())
 }

@@ -5,26 +5,17 @@
 //! not cancel. So a polynomial of degree n in the variables is a polynomial in the F_i only if it is a
 //! combination of products with Σ a_i d_i ≤ n.
 
-use num_dual::Dual;
-
 use liouville::case::Case;
 use liouville::formula::Formula;
-use liouville::graph::{Evaluator, Expr, Tape, record};
-use liouville::mechanics::Phase;
-use liouville::number::prime::{Modulus, Prime, UNDEFINED};
-use liouville::proof::statement_seed;
+use liouville::number::prime::Modulus;
 
 use super::super::SearchError;
 use super::super::products::DEGREE_PRIMES;
+use super::gradients::{Gradients, SCALES, Slopes};
 use crate::echelon::Echelon;
-use crate::streams::SearchStream;
 
-/// Number of multiples of a point at which gradients are taken.
-const SCALES: usize = 32;
 /// Highest degree of a gradient that is recognised.
 const MOST_DEGREE: usize = SCALES - 8;
-/// Number of points to try.
-const TRIALS: usize = 16;
 
 /// Whether the leading forms of some formulas, as polynomials in the state, are proved algebraically
 /// independent for generic parameters.
@@ -32,43 +23,11 @@ const TRIALS: usize = 16;
 /// The gradient of F at s x is a polynomial in s whose leading coefficient is the gradient of the leading
 /// form at x. If these are independent modulo primes that agree on the degrees, a minor of them is not 0.
 pub fn are_independent(case: &Case, formulas: &[Formula], seed: u64) -> Result<bool, SearchError> {
-    let (model, draws) = (&case.model, case.model.parameter_draws());
-    let dimension = model.dimension();
-    let inputs = draws.len() + dimension;
-    let (graph, slopes) = record(inputs, |inputs| {
-        let (given, state) = inputs.split_at(draws.len());
-        let (parameters, _) = model.make_parameters(given);
-        let parameters: Vec<Dual<Expr>> = parameters.iter().map(|p| Dual::from_re(*p)).collect();
-        let along = |place: usize| -> Vec<Expr> {
-            let mut state: Vec<Dual<Expr>> = state.iter().map(|x| Dual::from_re(*x)).collect();
-            state[place] = state[place].derivative();
-            let phase = Phase::new(model, &parameters, &state);
-            formulas.iter().map(|formula| phase.scalar(formula).eps).collect()
-        };
-        (0..dimension).map(along).collect::<Vec<_>>().concat()
-    })?;
-    let mut rng = SearchStream::Leading.under(statement_seed(seed, &graph, &slopes));
-    let tape = Tape::new(&graph, &slopes);
+    let Some(mut gradients) = Gradients::of(case, formulas, seed)? else { return Ok(false) };
     let mut degrees = None;
     for _ in 0..DEGREE_PRIMES {
-        let modulus = rng.prime(&[3, 5], &[2, 3]);
-        let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; SCALES]));
-        let found = (0..TRIALS).find_map(|_| {
-            let mut values: Vec<[u64; SCALES]> =
-                (0..draws.len()).map(|_| [rng.element(&modulus); SCALES]).collect();
-            values.extend((0..dimension).map(|_| {
-                let x = rng.element(&modulus);
-                std::array::from_fn(|k| modulus.mul(modulus.integer(k as u64 + 1), x))
-            }));
-            values.resize(graph.inputs(), [modulus.one(); SCALES]);
-            evaluator.run(&values);
-            let slopes: Vec<[u64; SCALES]> = evaluator.outputs().copied().collect();
-            slopes.iter().all(|own| !own.contains(&UNDEFINED)).then_some(slopes)
-        });
-        let Some(slopes) = found else { return Ok(false) };
-        let Some(own) = leading(&slopes, (formulas.len(), dimension), &modulus) else {
-            return Ok(false);
-        };
+        let Some((slopes, modulus)) = gradients.next() else { return Ok(false) };
+        let Some(own) = leading(&slopes, &modulus) else { return Ok(false) };
         if degrees.as_ref().is_some_and(|degrees| *degrees != own) {
             return Ok(false);
         }
@@ -78,17 +37,11 @@ pub fn are_independent(case: &Case, formulas: &[Formula], seed: u64) -> Result<b
 }
 
 /// Degrees of the gradients, if they are polynomials whose leading coefficients are independent.
-/// `slopes` holds, for each variable, the derivatives of each of the `count` functions.
-fn leading(
-    slopes: &[[u64; SCALES]],
-    (count, dimension): (usize, usize),
-    m: &Modulus,
-) -> Option<Vec<usize>> {
-    let mut echelon = Echelon::new(dimension, *m);
+fn leading(slopes: &Slopes, m: &Modulus) -> Option<Vec<usize>> {
+    let mut echelon = Echelon::new(slopes.first().map_or(0, Vec::len), *m);
     let mut degrees = Vec::new();
-    for function in 0..count {
-        let along = (0..dimension).map(|place| coefficients(&slopes[place * count + function], m));
-        let along: Vec<Vec<u64>> = along.collect();
+    for function in slopes {
+        let along: Vec<Vec<u64>> = function.iter().map(|own| coefficients(own, m)).collect();
         let degree = (0..SCALES).rev().find(|n| along.iter().any(|own| own[*n] != 0))?;
         let is_new = echelon.push(along.iter().map(|own| own[degree]).collect());
         if degree > MOST_DEGREE || !is_new {

@@ -4,6 +4,7 @@
 //! known        the integrals that the file claims and that are proved, with the energy
 //! velocities   polynomials in the velocities with any smooth coefficients, by Taylor coefficients
 //! polynomials  polynomials in all variables of a field, by random states
+//! gradients    whether an integral is no function of others
 //! leading      when products of known integrals cannot cancel
 //! functions    fractions of polynomials in the state and functions of it, along an orbit
 //! relations    Darboux polynomials of a field, on random lines
@@ -14,6 +15,7 @@
 //! proved: a witness that refutes the claim.
 
 mod functions;
+mod gradients;
 mod known;
 mod leading;
 mod polynomials;
@@ -23,6 +25,7 @@ mod velocities;
 use std::time::Duration;
 
 use super::ansatz::monomials::AnsatzVariables;
+use super::ask::independent;
 use super::local::Coordinates;
 use super::terms::recorded;
 use super::{Ansatz, Effort, Halt, SearchError, abbreviated, branches};
@@ -181,6 +184,21 @@ impl<'a> AbsenceCase<'a> {
             }
             outcome => Ok(outcome),
         }
+    }
+
+    /// Whether an integral is proved to be no function of the known ones.
+    fn is_new(&self, formula: &Formula) -> Result<bool, SearchError> {
+        let (case, known) = (self.case, self.known);
+        if independent(case, known.claimed(), formula, &self.effort)?.is_some() {
+            return Ok(true);
+        }
+        // The known ones may depend on each other. Roots have several branches modulo a prime.
+        for own in known.formulas().iter().chain([formula]) {
+            if has_branches(case, own)? {
+                return Ok(false);
+            }
+        }
+        gradients::is_new(case, known.formulas(), formula, self.effort.options.seed)
     }
 
     /// Returns the beginning of a sentence that names the parameters for which a count holds.

@@ -10,7 +10,7 @@ use super::super::ansatz::monomials::AnsatzVariables;
 use super::super::ansatz::recording::Recording;
 use super::super::ansatz::subspace::complement;
 use super::super::ansatz::system::{Column, LinearSystem, PrimePoint};
-use super::super::ask::{independent, judged_alone};
+use super::super::ask::judged_alone;
 use super::super::multipliers::WEIGHTS;
 use super::super::products::{DEGREE_PRIMES, Generators};
 use super::super::terms::{is_one, numeric_exponent};
@@ -289,9 +289,9 @@ impl<'a> Counting<'a> {
             return Ok(None);
         }
         let [formula] = own;
-        let known = self.asked.known;
-        let is_new = independent(case, known.claimed(), &formula, effort)?.is_some()
-            || leading::are_independent(case, known.formulas(), effort.options.seed)?;
+        let known = self.asked.known.formulas();
+        let is_new = self.asked.is_new(&formula)?
+            || leading::are_independent(case, known, effort.options.seed)?;
         Ok(Some((formula, is_new)))
     }
 

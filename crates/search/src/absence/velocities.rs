@@ -1,6 +1,5 @@
 //! Absence of polynomials in the velocities, with any smooth coefficients in the positions.
 
-use super::super::ask::independent;
 use super::super::counts::{self, CountReport, Degrees};
 use super::super::local::Local;
 use super::super::products::degree;
@@ -131,10 +130,7 @@ fn witness(
     for found in report.found.iter().filter(own) {
         let Some(function) = &found.function else { continue };
         let low = degree(asked.case, function, asked.effort.options.seed)?;
-        let known = asked.known.claimed();
-        if low.is_some_and(|degree| degree <= most)
-            && independent(asked.case, known, function, &asked.effort)?.is_some()
-        {
+        if low.is_some_and(|degree| degree <= most) && asked.is_new(function)? {
             return Ok(Some(shown("integral", found)));
         }
     }

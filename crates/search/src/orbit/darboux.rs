@@ -110,10 +110,10 @@ impl DarbouxSearch<'_, '_> {
                 is_at_rest = true;
                 continue;
             }
-            let mut relations = own.echelon.null_space();
-            match relations.len() == own.excess {
-                true => vectors.push(relations.swap_remove(0)),
-                false => open.push(own),
+            // Where the motion on f = 0 has integrals of its own, there are further relations.
+            match (own.excess, own.echelon.null_space().as_mut_slice()) {
+                (1, [only]) => vectors.push(std::mem::take(only)),
+                _ => open.push(own),
             }
         }
         if is_at_rest {

@@ -87,3 +87,17 @@ fn factors_of_the_whole_field_are_found() {
         assert!(cofactor(&lines, line).is_some(), "{line}: {:?}", lines.found);
     }
 }
+
+#[test]
+fn planes_on_which_the_motion_has_integrals_are_found() {
+    // On z = 0 of a homogeneous field of Lotka and Volterra x − c y is kept, a further relation.
+    for rates in
+        [["x*(c*y + z)", "y*(a*z + x)", "z*(b*x + y)"], ["x*(3*y)", "y*(5*z + x)", "z*(7*x + 2*y)"]]
+    {
+        let text = field("a = '0.5..2'\nb = '0.5..2'\nc = '0.5..2'\n", &rates);
+        let report = searched(&text, &Effort { degree: 2, ..Effort::default() });
+        for formula in ["x", "y", "z"] {
+            assert!(cofactor(&report, formula).is_some(), "{formula} of {rates:?}");
+        }
+    }
+}

@@ -33,6 +33,7 @@ use super::threads::pool;
 use super::{
     CommandOutput, LimitArgs, SamplingArgs, bodies, check, colour, eval, files, source, width,
 };
+use motion::MotionArgs;
 use share::Share;
 
 #[derive(Debug, Subcommand)]
@@ -49,7 +50,8 @@ Examples:
     /// Write a page for each case of a folder, and an index of them by hierarchy and by folder
     #[command(after_help = "Example:\n  liouville site cases/plane --out public --within 60")]
     Site(site::Site),
-    /// Evaluate the residuals of claims at very many states in floating point: the largest, and where
+    /// Evaluate the residuals of claims at very many states in floating point: the largest, relative to
+    /// the size of its terms, and where
     #[command(after_help = "\
 Examples:
   liouville sweep plane/balanced-ball --states 1e8
@@ -207,22 +209,40 @@ impl ExploreCommand {
 }
 
 impl MotionCommand {
+    fn subject(&self) -> &MotionArgs {
+        match self {
+            Self::Orbit(options) => &options.subject,
+            Self::Section(options) => &options.subject,
+            Self::Exponents(options) => &options.subject,
+            Self::Chart(options) => &options.subject,
+            Self::Periodic(options) => &options.search.subject,
+            Self::Continue(options) => &options.search.subject,
+            Self::Diagram(options) => &options.subject,
+            Self::Rotation(options) => &options.subject,
+        }
+    }
+
     fn limits(&self) -> LimitArgs {
         match self {
-            Self::Orbit(options) => options.subject.limits,
-            Self::Section(options) => options.subject.limits,
-            Self::Exponents(options) => options.subject.limits,
-            Self::Chart(options) => options.subject.limits,
-            Self::Periodic(options) => options.search.subject.limits,
-            Self::Diagram(options) => options.subject.limits,
-            Self::Rotation(options) => options.subject.limits,
             // it reports what was reached
             Self::Continue(_) => LimitArgs::default(),
+            _ => self.subject().limits,
+        }
+    }
+
+    /// Case whose free parameters are drawn once for all motions; `None` where some vary.
+    fn with_drawn_parameters(&self) -> Option<&MotionArgs> {
+        match self {
+            Self::Section(options) => options.others.is_empty().then_some(&options.subject),
+            Self::Orbit(_) | Self::Exponents(_) | Self::Periodic(_) | Self::Rotation(_) => {
+                Some(self.subject())
+            }
+            Self::Chart(_) | Self::Continue(_) | Self::Diagram(_) => None,
         }
     }
 
     fn run(&self) -> Result<CommandOutput, String> {
-        match self {
+        let mut output = match self {
             Self::Orbit(options) => orbit::run(options),
             Self::Section(options) => section::run(options),
             Self::Exponents(options) => exponents::run(options),
@@ -231,7 +251,11 @@ impl MotionCommand {
             Self::Continue(options) => branch::run(options),
             Self::Diagram(options) => diagram::run(options),
             Self::Rotation(options) => rotation::run(options),
+        }?;
+        if let Some(subject) = self.with_drawn_parameters().filter(|_| !output.text.is_empty()) {
+            output.text.push_str(&subject.drawn_parameters());
         }
+        Ok(output)
     }
 }
 

@@ -8,6 +8,7 @@ use crate::report::data::DataTable;
 use crate::report::diagnostic;
 use clap::Args;
 use liouville::case::{Angle, Case};
+use liouville::mechanics::components;
 use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
 use liouville_flow::{ChoiceError, FlowError, FormulaMistake, SectionChoice, number_with_pi};
@@ -79,6 +80,29 @@ impl MotionArgs {
         match opened.case.model.system.is_map() {
             true => Err(self.told(&FlowError::Discrete)),
             false => Ok(opened),
+        }
+    }
+
+    /// Line that names the drawn values of free parameters; empty where there are none, and in JSON.
+    pub fn drawn_parameters(&self) -> String {
+        let Some(case) = (!self.json).then(|| self.open().ok()).flatten() else {
+            return String::new();
+        };
+        let Ok(values) = liouville_flow::fixed_parameters(&case, self.seed, 0) else {
+            return String::new();
+        };
+        let mut values = values.iter().map(|value| value.to_f64().0.to_string());
+        let named = case.model.free_parameters().map(|parameter| {
+            let own: Vec<String> = values.by_ref().take(components(parameter.kind)).collect();
+            match own.as_slice() {
+                [one] => format!("{} = {one}", parameter.name),
+                all => format!("{} = [{}]", parameter.name, all.join(", ")),
+            }
+        });
+        let named: Vec<String> = named.collect();
+        match named.is_empty() {
+            true => String::new(),
+            false => format!("drawn with seed {}: {}\n", self.seed, named.join(", ")),
         }
     }
 

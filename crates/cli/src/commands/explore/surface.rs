@@ -165,7 +165,13 @@ impl Plan {
         let drawn = options.orbits.unwrap_or(if begins.is_empty() { ORBITS } else { 0 });
         let drawn = (0..drawn as u64).map(|index| (format!("drawn {index}"), Begin::Drawn(index)));
         begins.extend(drawn);
-        Ok(begins)
+        match begins.is_empty() {
+            true => Err(
+                "error: there is no motion to follow\nhelp: give --start, or --orbits 1 or more"
+                    .to_string(),
+            ),
+            false => Ok(begins),
+        }
     }
 }
 

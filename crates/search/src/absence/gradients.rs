@@ -1,0 +1,145 @@
+//! Gradients of integrals on the level, at random points modulo primes.
+
+use num_dual::Dual;
+
+use liouville::case::Case;
+use liouville::formula::Formula;
+use liouville::graph::{Evaluator, Expr, Tape, record};
+use liouville::mechanics::Phase;
+use liouville::number::prime::{Modulus, Prime, UNDEFINED};
+use liouville::proof::{ProofRng, statement_seed};
+
+use super::super::SearchError;
+use super::super::local::Coordinates;
+use super::super::products::DEGREE_PRIMES;
+use crate::echelon::Echelon;
+use crate::streams::SearchStream;
+
+/// Number of multiples of a point at which gradients are taken.
+pub const SCALES: usize = 32;
+/// Number of points to try.
+const TRIALS: usize = 16;
+
+/// Gradients of some formulas along coordinates of the level, or along the state where there is no level.
+pub struct Gradients {
+    tape: Tape,
+    inputs: usize,
+    draws: usize,
+    dimension: usize,
+    count: usize,
+    rng: ProofRng,
+}
+
+/// Derivatives of each formula along each coordinate, at the multiples 1, 2, 3, … of a point.
+pub type Slopes = Vec<Vec<[u64; SCALES]>>;
+
+impl Gradients {
+    /// Records the gradients; `None` on a level without coordinates.
+    pub fn of(case: &Case, formulas: &[Formula], seed: u64) -> Result<Option<Self>, SearchError> {
+        let (model, draws) = (&case.model, case.model.parameter_draws().len());
+        let coordinates = Coordinates::of(case).ok();
+        if coordinates.is_none() && !model.level.is_empty() {
+            return Ok(None);
+        }
+        let dimension = coordinates.as_ref().map_or(model.dimension(), |own| own.count());
+        let (graph, slopes) = record(draws + dimension, |inputs| {
+            let (given, place) = inputs.split_at(draws);
+            let (parameters, _) = model.make_parameters(given);
+            let parameters: Vec<Dual<Expr>> =
+                parameters.iter().map(|p| Dual::from_re(*p)).collect();
+            let along = |direction: usize| -> Vec<Expr> {
+                let mut place: Vec<Dual<Expr>> = place.iter().map(|x| Dual::from_re(*x)).collect();
+                place[direction] = place[direction].derivative();
+                let state = match &coordinates {
+                    Some(coordinates) => coordinates.state(&place),
+                    None => place,
+                };
+                let phase = Phase::new(model, &parameters, &state);
+                formulas.iter().map(|formula| phase.scalar(formula).eps).collect()
+            };
+            (0..dimension).map(along).collect::<Vec<_>>().concat()
+        })?;
+        let rng = SearchStream::Gradients.under(statement_seed(seed, &graph, &slopes));
+        let (tape, inputs) = (Tape::new(&graph, &slopes), graph.inputs());
+        Ok(Some(Self { tape, inputs, draws, dimension, count: formulas.len(), rng }))
+    }
+
+    /// Gradients at the multiples of a point modulo the next prime; `None` if no point has values.
+    pub fn next(&mut self) -> Option<(Slopes, Modulus)> {
+        let modulus = self.rng.prime(&[3, 5], &[2, 3]);
+        let mut evaluator = Evaluator::new(&self.tape, Prime::new([modulus; SCALES]));
+        for _ in 0..TRIALS {
+            let rng = &mut self.rng;
+            let mut values: Vec<[u64; SCALES]> =
+                (0..self.draws).map(|_| [rng.element(&modulus); SCALES]).collect();
+            values.extend((0..self.dimension).map(|_| {
+                let x = rng.element(&modulus);
+                std::array::from_fn(|k| modulus.mul(modulus.integer(k as u64 + 1), x))
+            }));
+            values.resize(self.inputs, [modulus.one(); SCALES]);
+            evaluator.run(&values);
+            let slopes: Vec<[u64; SCALES]> = evaluator.outputs().copied().collect();
+            if slopes.iter().all(|own| !own.contains(&UNDEFINED)) {
+                let of = |function: usize| {
+                    slopes.iter().skip(function).step_by(self.count.max(1)).copied().collect()
+                };
+                return Some(((0..self.count).map(of).collect(), modulus));
+            }
+        }
+        None
+    }
+}
+
+/// Whether a formula is no function of others: its gradient is independent of theirs.
+///
+/// The rank of all gradients at a point is a lower bound. That of the others at a random point is their
+/// rank almost everywhere, but with a probability below 2⁻⁵⁰ for each of the primes, which must agree.
+pub fn is_new(
+    case: &Case,
+    others: &[Formula],
+    formula: &Formula,
+    seed: u64,
+) -> Result<bool, SearchError> {
+    let all: Vec<Formula> = others.iter().chain([formula]).cloned().collect();
+    let Some(mut gradients) = Gradients::of(case, &all, seed)? else { return Ok(false) };
+    let mut ranks = Vec::new();
+    for _ in 0..DEGREE_PRIMES {
+        let Some((slopes, m)) = gradients.next() else { return Ok(false) };
+        let mut echelon = Echelon::new(gradients.dimension, m);
+        let is_kept: Vec<bool> = slopes
+            .iter()
+            .map(|own| echelon.push(own.iter().map(|values| values[0]).collect()))
+            .collect();
+        if is_kept.last() != Some(&true) {
+            return Ok(false);
+        }
+        ranks.push(is_kept.iter().filter(|kept| **kept).count());
+    }
+    Ok(ranks.windows(2).all(|pair| pair[0] == pair[1]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_function_of_others_is_not_new() {
+        let case = Case::parse(
+            "title = 'a'\n[parameters]\na = '1..2'\n[state]\nx = '-1..1'\ny = '-1..1'\nz = '-1..1'\n\
+             [field]\n\"x'\" = 'a*y'\n\"y'\" = '-a*x'\n\"z'\" = '0'\n",
+            &[],
+        )
+        .expect("a case");
+        let read = |text: &str| Formula::parse(text, &case.model.vocabulary).expect("a formula");
+        let new = |others: &[&str], own: &str| {
+            let others: Vec<Formula> = others.iter().map(|text| read(text)).collect();
+            is_new(&case, &others, &read(own), 1).expect("an answer")
+        };
+        assert!(new(&[], "x^2 + y^2"));
+        assert!(!new(&[], "a"), "a constant");
+        assert!(new(&["x^2 + y^2", "2*(x^2 + y^2)"], "z"), "the others may depend on each other");
+        assert!(!new(&["x^2 + y^2", "z"], "(x^2 + y^2)^2/(1 + a*z)"));
+        assert!(!new(&["x^2 + y^2 + z", "z"], "x^2 + y^2"));
+        assert!(!new(&[], "exp(z)"), "no value modulo a prime");
+    }
+}
