@@ -117,7 +117,10 @@ impl Coordinate {
 fn known(case: &Case) -> String {
     let own = if applies(&case.model) { &["l", "L/G", "energy"][..] } else { &["energy"] };
     let names = parameters(case).into_iter().chain(own.iter().map(ToString::to_string));
-    format!("vary one of {}", names.collect::<Vec<_>>().join(", "))
+    match names.collect::<Vec<_>>().as_slice() {
+        [only] => format!("vary {only}"),
+        names => format!("vary one of {}", names.join(", ")),
+    }
 }
 
 /// Names of the parameters of a case, and of components of them.

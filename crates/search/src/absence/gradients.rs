@@ -15,10 +15,10 @@ use super::super::products::DEGREE_PRIMES;
 use crate::echelon::Echelon;
 use crate::streams::SearchStream;
 
-/// Number of multiples of a point at which gradients are taken.
+/// Number of points at which gradients are taken.
 pub const SCALES: usize = 32;
-/// Number of points to try.
-const TRIALS: usize = 16;
+/// Number of points to try, since roots exist at some only.
+const TRIALS: usize = 64;
 
 /// Gradients of some formulas along coordinates of the level, or along the state where there is no level.
 pub struct Gradients {
@@ -30,7 +30,16 @@ pub struct Gradients {
     rng: ProofRng,
 }
 
-/// Derivatives of each formula along each coordinate, at the multiples 1, 2, 3, … of a point.
+/// Points at which gradients are taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Points {
+    /// One.
+    One,
+    /// The multiples 1, 2, 3, … of one.
+    Multiples,
+}
+
+/// Derivatives of each formula along each coordinate, at several points.
 pub type Slopes = Vec<Vec<[u64; SCALES]>>;
 
 impl Gradients {
@@ -64,8 +73,8 @@ impl Gradients {
         Ok(Some(Self { tape, inputs, draws, dimension, count: formulas.len(), rng }))
     }
 
-    /// Gradients at the multiples of a point modulo the next prime; `None` if no point has values.
-    pub fn next(&mut self) -> Option<(Slopes, Modulus)> {
+    /// Gradients at random points modulo the next prime; `None` if none has values.
+    pub fn next(&mut self, points: Points) -> Option<(Slopes, Modulus)> {
         let modulus = self.rng.prime(&[3, 5], &[2, 3]);
         let mut evaluator = Evaluator::new(&self.tape, Prime::new([modulus; SCALES]));
         for _ in 0..TRIALS {
@@ -74,7 +83,12 @@ impl Gradients {
                 (0..self.draws).map(|_| [rng.element(&modulus); SCALES]).collect();
             values.extend((0..self.dimension).map(|_| {
                 let x = rng.element(&modulus);
-                std::array::from_fn(|k| modulus.mul(modulus.integer(k as u64 + 1), x))
+                match points {
+                    Points::One => [x; SCALES],
+                    Points::Multiples => {
+                        std::array::from_fn(|k| modulus.mul(modulus.integer(k as u64 + 1), x))
+                    }
+                }
             }));
             values.resize(self.inputs, [modulus.one(); SCALES]);
             evaluator.run(&values);
@@ -104,7 +118,7 @@ pub fn is_new(
     let Some(mut gradients) = Gradients::of(case, &all, seed)? else { return Ok(false) };
     let mut ranks = Vec::new();
     for _ in 0..DEGREE_PRIMES {
-        let Some((slopes, m)) = gradients.next() else { return Ok(false) };
+        let Some((slopes, m)) = gradients.next(Points::One) else { return Ok(false) };
         let mut echelon = Echelon::new(gradients.dimension, m);
         let is_kept: Vec<bool> = slopes
             .iter()

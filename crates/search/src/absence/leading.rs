@@ -11,7 +11,7 @@ use liouville::number::prime::Modulus;
 
 use super::super::SearchError;
 use super::super::products::DEGREE_PRIMES;
-use super::gradients::{Gradients, SCALES, Slopes};
+use super::gradients::{Gradients, Points, SCALES, Slopes};
 use crate::echelon::Echelon;
 
 /// Highest degree of a gradient that is recognised.
@@ -26,7 +26,7 @@ pub fn are_independent(case: &Case, formulas: &[Formula], seed: u64) -> Result<b
     let Some(mut gradients) = Gradients::of(case, formulas, seed)? else { return Ok(false) };
     let mut degrees = None;
     for _ in 0..DEGREE_PRIMES {
-        let Some((slopes, modulus)) = gradients.next() else { return Ok(false) };
+        let Some((slopes, modulus)) = gradients.next(Points::Multiples) else { return Ok(false) };
         let Some(own) = leading(&slopes, &modulus) else { return Ok(false) };
         if degrees.as_ref().is_some_and(|degrees| *degrees != own) {
             return Ok(false);
