@@ -23,9 +23,7 @@ pub fn clock(model: &Model) -> Option<usize> {
 /// Objection to a claim that rests on the field being 0, where time is a variable.
 pub fn never_rests(model: &Model, name: &str) -> Option<Objection> {
     clock(model).map(|_| Objection {
-        message: format!(
-            "`{name}`: formulas of the file use `t`, a variable of rate 1, so nothing rests"
-        ),
-        remedy: "write the claims with `t` into a file of their own",
+        message: format!("`{name}`: `t` is a variable of rate 1 here, so that nothing rests"),
+        remedy: "if only claims use `t`, write these into a file of their own",
     })
 }

@@ -207,6 +207,10 @@ impl Relaxed {
             Expr::Div(a, b) => {
                 let (a, b) = (self.look(a), self.look(b));
                 self.parts.push(b);
+                // A descent to an infinite value would end there.
+                if b == 0.0 {
+                    self.strain += 1.0;
+                }
                 a / b
             }
             Expr::Power(a, top, 1) => {

@@ -19,8 +19,6 @@ const MAX_STEPS_BETWEEN: u64 = 100_000;
 const MAX_OTHERS: usize = 1000;
 /// Time limit, far later than any crossing.
 const NEVER: f64 = 1e15;
-/// Time after which a motion that cannot go on has left for good.
-const LATE: f64 = 1e12;
 
 /// Motions to follow. Output 0 of the program vanishes on the surface.
 pub(super) struct CrossingTask<'t> {
@@ -164,12 +162,7 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
     fn crosses(&mut self, lane: usize, ends: &Ends<T>) -> bool {
         let Some(running) = &mut self.running[lane] else { return false };
         if let Err(problem) = self.stepper.check(lane) {
-            let (time, crossings) = (self.stepper.time(lane).hi, running.counted);
-            let others = running.track.others - running.last_met.1;
-            // So late that no step is seen any more, as in free flight.
-            let is_late = time.abs() > LATE && problem != FlowError::Stopped;
-            let never = FlowError::NeverCrossed { time, crossings, others };
-            running.track.problem = Some(if is_late { never } else { problem });
+            running.track.problem = Some(problem);
             return true;
         }
         let steps = self.stepper.steps(lane);

@@ -208,7 +208,9 @@ impl<T: SeriesNumber> Stepper<T> {
         let motion = &self.lanes[lane];
         let step = motion.step.leading();
         let finite = self.sizes.soundness.lane(lane).leading() == 0.0;
-        let at_end = (motion.until - motion.time).hi == 0.0;
+        let left = (motion.until - motion.time).hi.abs();
+        // Less than the time's last place may be left of a very long run.
+        let at_end = left <= f64::EPSILON * motion.time.hi.abs();
         let advances = at_end || motion.time.hi + step != motion.time.hi || motion.time.hi == 0.0;
         let time = motion.time.hi;
         let state = || self.pairs(lane).iter().map(|x| x.hi).collect();

@@ -155,6 +155,17 @@ fn sections_by_a_surface_cross_it_to_rounding() {
 }
 
 #[test]
+fn a_motion_that_leaves_for_good_does_not_meet_the_section_again() {
+    let kepler = "title = 'Kepler'\n[state]\nx = '0.5..2'\ny = '-1..1'\nu = '-1..1'\nv = '-1..1'\n\
+                  [hamiltonian]\nfunction = '(u²+v²)/2 - 1/sqrt(x²+y²)'\n\
+                  pairs = [['x', 'u'], ['y', 'v']]\n";
+    let folder = folder("leaves", &[("kepler.toml", kepler)]);
+    let case = path(&folder, "kepler.toml");
+    let section = ["motion", "section", &case, "--section", "x = 0", "--start", "1,0,3,0.1"];
+    fails(&section, "not met again after 0 crossings, up to t = 1.0000e15");
+}
+
+#[test]
 fn sections_at_an_energy_start_from_their_axes() {
     let case = "classical/planar/henon-heiles-hamiltonian";
     let section = ["motion", "section", case, "--set", "ε=1/2", "--section", "x = 0"];

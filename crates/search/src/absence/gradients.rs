@@ -5,13 +5,14 @@ use num_dual::Dual;
 use liouville::case::Case;
 use liouville::formula::Formula;
 use liouville::graph::{Evaluator, Expr, Tape, record};
-use liouville::mechanics::Phase;
+use liouville::mechanics::{Draw, Phase};
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
 use liouville::proof::{ProofRng, statement_seed};
 
 use super::super::SearchError;
-use super::super::local::Coordinates;
+use super::super::local::{Coordinates, random};
 use super::super::products::DEGREE_PRIMES;
+use super::known::has_lists;
 use crate::echelon::Echelon;
 use crate::streams::SearchStream;
 
@@ -24,7 +25,7 @@ const TRIALS: usize = 64;
 pub struct Gradients {
     tape: Tape,
     inputs: usize,
-    draws: usize,
+    draws: Vec<Draw>,
     dimension: usize,
     count: usize,
     rng: ProofRng,
@@ -43,16 +44,18 @@ pub enum Points {
 pub type Slopes = Vec<Vec<[u64; SCALES]>>;
 
 impl Gradients {
-    /// Records the gradients; `None` on a level without coordinates.
+    /// Records the gradients; `None` on a level without coordinates, and with lists of parameters: what
+    /// depends for each value of a list may be independent for the first.
     pub fn of(case: &Case, formulas: &[Formula], seed: u64) -> Result<Option<Self>, SearchError> {
-        let (model, draws) = (&case.model, case.model.parameter_draws().len());
+        let (model, draws) = (&case.model, case.model.parameter_draws());
         let coordinates = Coordinates::of(case).ok();
-        if coordinates.is_none() && !model.level.is_empty() {
+        let has_signs = draws.iter().any(|draw| matches!(draw, Draw::Sign));
+        if has_lists(case) || has_signs || coordinates.is_none() && !model.level.is_empty() {
             return Ok(None);
         }
         let dimension = coordinates.as_ref().map_or(model.dimension(), |own| own.count());
-        let (graph, slopes) = record(draws + dimension, |inputs| {
-            let (given, place) = inputs.split_at(draws);
+        let (graph, slopes) = record(draws.len() + dimension, |inputs| {
+            let (given, place) = inputs.split_at(draws.len());
             let (parameters, _) = model.make_parameters(given);
             let parameters: Vec<Dual<Expr>> =
                 parameters.iter().map(|p| Dual::from_re(*p)).collect();
@@ -79,8 +82,8 @@ impl Gradients {
         let mut evaluator = Evaluator::new(&self.tape, Prime::new([modulus; SCALES]));
         for _ in 0..TRIALS {
             let rng = &mut self.rng;
-            let mut values: Vec<[u64; SCALES]> =
-                (0..self.draws).map(|_| [rng.element(&modulus); SCALES]).collect();
+            let given = random(&self.draws, &modulus, rng).into_iter();
+            let mut values: Vec<[u64; SCALES]> = given.map(|x| [x; SCALES]).collect();
             values.extend((0..self.dimension).map(|_| {
                 let x = rng.element(&modulus);
                 match points {
@@ -133,27 +136,47 @@ pub fn is_new(
 }
 
 #[cfg(test)]
-mod tests {
+pub mod tests {
     use super::*;
+
+    /// A turn of x and y with a parameter, and formulas in its names.
+    pub struct Turn(pub Case);
+
+    impl Turn {
+        /// The parameter as a file gives it.
+        pub fn with(parameter: &str) -> Self {
+            let text = format!(
+                "title = 'a'\n[parameters]\na = '{parameter}'\n[state]\nx = '-1..1'\ny = '-1..1'\n\
+                 z = '-1..1'\n[field]\n\"x'\" = 'a*y'\n\"y'\" = '-a*x'\n\"z'\" = '0'\n"
+            );
+            Self(Case::parse(&text, &[]).expect("a case"))
+        }
+
+        /// Reads formulas.
+        pub fn read(&self, texts: &[&str]) -> Vec<Formula> {
+            let read = |text: &&str| Formula::parse(text, &self.0.model.vocabulary);
+            texts.iter().map(|text| read(text).expect("a formula")).collect()
+        }
+    }
 
     #[test]
     fn a_function_of_others_is_not_new() {
-        let case = Case::parse(
-            "title = 'a'\n[parameters]\na = '1..2'\n[state]\nx = '-1..1'\ny = '-1..1'\nz = '-1..1'\n\
-             [field]\n\"x'\" = 'a*y'\n\"y'\" = '-a*x'\n\"z'\" = '0'\n",
-            &[],
-        )
-        .expect("a case");
-        let read = |text: &str| Formula::parse(text, &case.model.vocabulary).expect("a formula");
-        let new = |others: &[&str], own: &str| {
-            let others: Vec<Formula> = others.iter().map(|text| read(text)).collect();
-            is_new(&case, &others, &read(own), 1).expect("an answer")
+        let new = |parameter: &str, others: &[&str], own: &str| {
+            let turn = Turn::with(parameter);
+            let (others, own) = (turn.read(others), turn.read(&[own]));
+            is_new(&turn.0, &others, &own[0], 1).expect("an answer")
         };
-        assert!(new(&[], "x^2 + y^2"));
-        assert!(!new(&[], "a"), "a constant");
-        assert!(new(&["x^2 + y^2", "2*(x^2 + y^2)"], "z"), "the others may depend on each other");
-        assert!(!new(&["x^2 + y^2", "z"], "(x^2 + y^2)^2/(1 + a*z)"));
-        assert!(!new(&["x^2 + y^2 + z", "z"], "x^2 + y^2"));
-        assert!(!new(&[], "exp(z)"), "no value modulo a prime");
+        let range = "1..2";
+        assert!(new(range, &[], "x^2 + y^2"));
+        assert!(!new(range, &[], "a"), "a constant");
+        let twice = ["x^2 + y^2", "2*(x^2 + y^2)"];
+        assert!(new(range, &twice, "z"), "the others may depend on each other");
+        assert!(!new(range, &["x^2 + y^2", "z"], "(x^2 + y^2)^2/(1 + a*z)"));
+        assert!(!new(range, &["x^2 + y^2 + z", "z"], "x^2 + y^2"));
+        assert!(!new(range, &[], "exp(z)"), "no value modulo a prime");
+        let by_value = "x^2 + y^2 + (a - 1)*(a - 2)*z";
+        assert!(new(range, &["x^2 + y^2"], by_value));
+        assert!(!new("one of 1, 2", &["x^2 + y^2"], by_value), "a function at each value");
+        assert!(!new("one of 2", &["x^2 + y^2"], by_value), "a function at its only value");
     }
 }

@@ -67,23 +67,14 @@ fn coefficients(values: &[u64; SCALES], m: &Modulus) -> Vec<u64> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::gradients::tests::Turn;
     use super::*;
 
     #[test]
     fn only_independent_leading_forms_are_accepted() {
-        let case = Case::parse(
-            "title = 'a'\n[parameters]\na = '1..2'\n[state]\nx = '-1..1'\ny = '-1..1'\nz = '-1..1'\n\
-             [field]\n\"x'\" = 'a*y'\n\"y'\" = '-a*x'\n\"z'\" = '0'\n",
-            &[],
-        )
-        .expect("a case");
-        let holds = |texts: &[&str]| {
-            let formulas: Vec<Formula> = texts
-                .iter()
-                .map(|text| Formula::parse(text, &case.model.vocabulary).expect("a formula"))
-                .collect();
-            are_independent(&case, &formulas, 1).expect("an answer")
-        };
+        let turn = Turn::with("1..2");
+        let holds =
+            |texts: &[&str]| are_independent(&turn.0, &turn.read(texts), 1).expect("an answer");
         assert!(holds(&["x^2 + y^2"]));
         assert!(holds(&["x^2 + y^2", "a*z + 1"]));
         assert!(holds(&["x^2 + y^2", "(x^2 + y^2)*z + x"]));

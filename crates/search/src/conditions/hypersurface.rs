@@ -1,7 +1,8 @@
 //! Polynomials in the parameters with rational coefficients, whose zeros are a condition.
 
-use std::fmt::Write;
+use num_bigint::BigInt;
 
+use liouville::formula::{Formula, FormulaError, FormulaResult};
 use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
 use liouville::proof::reconstruct;
@@ -10,6 +11,7 @@ use super::polynomial::{Polynomial, PrimePolynomials};
 use super::relation::ScalarParameter;
 use super::simple::{SimpleEquation, SimpleEquations};
 use super::variety::{monomial, power};
+use crate::ansatz::monomials::power_product;
 use crate::terms;
 
 /// Largest numerator and denominator of a coefficient, if one of them is 1.
@@ -17,12 +19,14 @@ const MOST: i64 = 1 << 20;
 
 /// A polynomial modulo a prime: coefficients by exponents.
 pub type PrimeTerms = Vec<(Vec<u32>, u64)>;
+/// A polynomial: coefficients by exponents.
+type Terms = Vec<(Vec<u32>, Rational)>;
 
 /// A condition of codimension one: the zeros of a polynomial in the parameters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hypersurface {
     /// Coefficients that are not 0 by exponents; those of high degree come first.
-    terms: Vec<(Vec<u32>, Rational)>,
+    terms: Terms,
 }
 
 impl Hypersurface {
@@ -107,40 +111,32 @@ impl Hypersurface {
         terms::equation(&numbers, &texts)
     }
 
-    /// Solves for a parameter that occurs linearly: its place, and its value as a formula. One with a
-    /// constant factor is preferred, then a late one. `None` if there is none.
-    pub fn solved(&self, parameters: &[ScalarParameter]) -> Option<(usize, String)> {
-        let names: Vec<&str> = parameters.iter().map(|own| own.name.as_str()).collect();
-        let linear = (0..names.len()).filter(|place| {
-            let highest = self.terms.iter().map(|(own, _)| own[*place]).max();
-            highest == Some(1)
-        });
-        let parts = |place: usize| -> (Vec<_>, Vec<_>) {
-            let (with, without): (Vec<_>, Vec<_>) =
+    /// Solves for a parameter that occurs linearly: its place, and its value as a formula of the others.
+    /// One with a constant factor is preferred, then a late one. `None` if there is none.
+    pub fn solved(&self, letters: &[Formula]) -> Result<Option<(usize, Formula)>, FormulaError> {
+        let is_linear =
+            |place: &usize| self.terms.iter().map(|(own, _)| own[*place]).max() == Some(1);
+        let parts = |place: usize| -> (Terms, Terms) {
+            let (mut with, without): (Terms, Terms) =
                 self.terms.iter().cloned().partition(|(own, _)| own[place] == 1);
-            let divided = with.into_iter().map(|(mut own, value)| {
-                own[place] = 0;
-                (own, value)
-            });
-            (divided.collect(), without)
+            with.iter_mut().for_each(|(own, _)| own[place] = 0);
+            (with, without)
         };
         let weight = |place: &usize| {
             let factor = parts(*place).0;
             (factor.len(), factor.iter().map(|(own, _)| degree(own)).max(), usize::MAX - place)
         };
-        let place = linear.min_by_key(weight)?;
-        let (factor, rest) = parts(place);
-        let value = match rest.is_empty() {
-            true => "0".to_string(),
-            false => format!("−({})/({})", written(&rest, &names), written(&factor, &names)),
+        let Some(place) = (0..letters.len()).filter(is_linear).min_by_key(weight) else {
+            return Ok(None);
         };
-        Some((place, value))
+        let (factor, rest) = parts(place);
+        Ok(Some((place, negative_quotient(&rest, &factor, letters)?)))
     }
 
     /// The same polynomial where simple equations hold, in the scalars that remain free; `None` if it
     /// vanishes there.
     pub fn under(&self, equations: &SimpleEquations) -> Option<Self> {
-        let mut terms: Vec<(Vec<u32>, Rational)> = Vec::new();
+        let mut terms = Terms::new();
         'terms: for (exponents, value) in &self.terms {
             let mut own = vec![0; exponents.len()];
             for (power, first) in exponents.iter().zip(equations.first()) {
@@ -222,21 +218,32 @@ fn degree(exponents: &[u32]) -> u32 {
     exponents.iter().sum()
 }
 
-/// Writes a polynomial as a formula.
-fn written(terms: &[(Vec<u32>, Rational)], names: &[&str]) -> String {
-    let mut text = String::new();
-    for (exponents, value) in terms {
-        let sign = if value.is_negative() { "−" } else { "+" };
-        let (above, below) = value.abs().parts();
-        // The first sign is one of a number.
-        let _ = write!(text, " {sign} {above}/{below}*{}", monomial(names, exponents));
-    }
-    format!("0{text}")
+/// −a/b as a formula; 0 if a has no terms.
+fn negative_quotient(above: &Terms, below: &Terms, letters: &[Formula]) -> FormulaResult {
+    let turned = below.first().is_some_and(|(_, value)| value.is_negative());
+    let signed = |value: &Rational, turned: bool| if turned { -value } else { value.clone() };
+    let numbers: Vec<Rational> = above
+        .iter()
+        .map(|(_, value)| signed(value, !turned))
+        .chain(below.iter().map(|(_, value)| signed(value, turned)))
+        .collect();
+    // Both have one denominator.
+    let numbers = terms::integers(&numbers);
+    let (over, under) = numbers.split_at(above.len());
+    let made = |numbers: &[BigInt], own: &Terms| {
+        let products = own.iter().map(|(exponents, _)| power_product(letters, exponents));
+        terms::combined(numbers, &products.collect::<Result<Vec<_>, _>>()?)
+    };
+    let over = made(over, above)?.unwrap_or_else(|| Formula::number(0));
+    let under = made(under, below)?.unwrap_or_else(terms::one);
+    if terms::is_one(&under) { Ok(over) } else { over / &under }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::split::SplitCase;
     use super::*;
+    use liouville::case::Case;
 
     fn named(names: &[&str]) -> Vec<ScalarParameter> {
         let own = names.iter().enumerate();
@@ -244,9 +251,9 @@ mod tests {
     }
 
     /// Exponents and coefficients.
-    type Terms<'t> = &'t [(&'t [u32], (i64, i64))];
+    type Given<'t> = &'t [(&'t [u32], (i64, i64))];
 
-    fn surface(terms: Terms<'_>) -> Hypersurface {
+    fn surface(terms: Given<'_>) -> Hypersurface {
         let terms = terms.iter().map(|(own, (n, d))| (own.to_vec(), Rational::new(*n, *d)));
         Hypersurface { terms: terms.collect() }
     }
@@ -254,7 +261,7 @@ mod tests {
     #[test]
     fn equations_are_written_and_solved() {
         let names = named(&["a", "b"]);
-        let written: [(Terms<'_>, &str); 5] = [
+        let written: [(Given<'_>, &str); 5] = [
             (&[(&[1, 0], (1, 1)), (&[0, 1], (-1, 1))], "a = b"),
             (&[(&[1, 0], (1, 1)), (&[0, 1], (-2, 3))], "3*a = 2*b"),
             (&[(&[0, 1], (1, 1)), (&[0, 0], (6, 1))], "b = -6"),
@@ -264,15 +271,25 @@ mod tests {
         for (terms, text) in written {
             assert_eq!(surface(terms).equation(&names), text);
         }
-        let solved = |terms| surface(terms).solved(&names);
-        let difference = solved(&[(&[1, 0], (1, 1)), (&[0, 1], (-1, 1))]);
-        assert_eq!(difference, Some((1, "−(0 + 1/1*a)/(0 − 1/1*1)".to_string())));
-        let product = solved(&[(&[1, 1], (1, 1)), (&[0, 0], (-4, 1))]);
-        assert_eq!(product, Some((1, "−(0 − 4/1*1)/(0 + 1/1*a)".to_string())));
-        let parabola = solved(&[(&[2, 0], (1, 1)), (&[0, 1], (-1, 1))]);
-        assert_eq!(parabola, Some((1, "−(0 + 1/1*a²)/(0 − 1/1*1)".to_string())));
+        let case = Case::parse(
+            "title = 'a'\n[parameters]\na = '1..2'\nb = '1..2'\n[state]\nx = '-1..1'\n[field]\n\
+             \"x'\" = 'a*b*x'\n",
+            &[],
+        )
+        .expect("a case");
+        let letters = SplitCase::of(&case).letters().expect("names");
+        let solved = |terms| {
+            let found = surface(terms).solved(&letters).expect("a formula");
+            found.map(|(place, value)| (place, value.to_string()))
+        };
+        let by = |value: &str| Some((1, value.to_string()));
+        assert_eq!(solved(&[(&[1, 0], (1, 1)), (&[0, 1], (-1, 1))]), by("a"));
+        assert_eq!(solved(&[(&[1, 1], (1, 1)), (&[0, 0], (-4, 1))]), by("4/a"));
+        assert_eq!(solved(&[(&[1, 0], (3, 1)), (&[0, 1], (2, 1))]), by("−3*a/2"));
+        assert_eq!(solved(&[(&[2, 0], (1, 1)), (&[0, 1], (2, 3))]), by("−3*a²/2"));
+        assert_eq!(solved(&[(&[1, 1], (1, 1))]), by("0"), "a product");
         let squares = surface(&[(&[2, 0], (1, 1)), (&[0, 2], (-2, 1))]);
-        assert_eq!(squares.solved(&names), None, "no parameter is linear");
+        assert_eq!(solved(&[(&[2, 0], (1, 1)), (&[0, 2], (-2, 1))]), None, "none is linear");
         let equal = SimpleEquations::none(2).with(SimpleEquation::Equal(0, 1));
         assert_eq!(squares.under(&equal), Some(surface(&[(&[2, 0], (-1, 1))])));
         let difference = surface(&[(&[1, 0], (1, 1)), (&[0, 1], (-1, 1))]);

@@ -224,11 +224,8 @@ impl ConditionSearch<'_> {
             }
             let text = condition.text(self.whole);
             self.found.push(condition);
-            let solved = own.solved(&split.scalars);
-            let fixed = solved.and_then(|(place, value)| {
-                split.with(&[(split.scalars[place].name.clone(), value)])
-            });
-            if let Some(fixed) = fixed {
+            let solved = split.letters().and_then(|letters| own.solved(&letters)).ok().flatten();
+            if let Some(fixed) = solved.and_then(|value| split.with(vec![value])) {
                 let with = ("condition", text.clone());
                 integrals_with(&fixed.case, with, self.effort, self.report)?;
             }

@@ -1,5 +1,7 @@
 //! Sets of simple equations between scalars: some are 0, and some are equal.
 
+use liouville::formula::Formula;
+
 use super::relation::ScalarParameter;
 use super::split::SplitCase;
 
@@ -99,17 +101,13 @@ impl SimpleEquations {
 
     /// The case where the equations hold; `None` if it cannot be written.
     pub fn applied(&self, whole: &SplitCase) -> Option<SplitCase> {
-        let given: Vec<(String, String)> = self
-            .first
-            .iter()
-            .enumerate()
-            .filter(|(place, first)| **first != Some(*place))
-            .map(|(place, first)| {
-                let value = first.map_or("0".to_string(), |k| whole.scalars[k].name.clone());
-                (whole.scalars[place].name.clone(), value)
-            })
-            .collect();
-        let split = whole.with(&given)?;
+        let letters = whole.letters().ok()?;
+        let bound = self.first.iter().enumerate().filter(|(place, first)| **first != Some(*place));
+        let value = |first: &Option<usize>| match first {
+            Some(first) => letters[*first].clone(),
+            None => Formula::number(0),
+        };
+        let split = whole.with(bound.map(|(place, first)| (place, value(first))).collect())?;
         (!split.scalars.is_empty()).then_some(split)
     }
 }

@@ -4,7 +4,7 @@
 //! are those under which formulas read the components, so a formula means the same in both cases.
 
 use liouville::case::Case;
-use liouville::formula::{Formula, Type};
+use liouville::formula::{Formula, FormulaError, Type};
 use liouville::mechanics::{
     Dependence, Draw, Meaning, Parameter, ParameterOrigin, SamplerSpec, Vocabulary,
 };
@@ -64,11 +64,11 @@ impl SplitCase {
 }
 
 impl SplitCase {
-    /// Gives scalars values as formulas of the others, by their names.
-    pub fn with(&self, values: &[(String, String)]) -> Option<Self> {
+    /// Gives scalars, by their places, values as formulas of the others.
+    pub fn with(&self, values: Vec<(usize, Formula)>) -> Option<Self> {
         let mut case = self.case.clone();
-        for (name, value) in values {
-            let value = Formula::parse(value, &case.model.vocabulary).ok()?;
+        for (place, value) in values {
+            let name = &self.scalars[place].name;
             let own = case.model.parameters.iter_mut().find(|own| &own.name == name)?;
             own.origin = match value.constant() {
                 Some(number) => ParameterOrigin::Fixed(vec![number]),
@@ -76,6 +76,12 @@ impl SplitCase {
             };
         }
         Some(Self::of(&case).holding(self.held.clone()))
+    }
+
+    /// The scalars as formulas.
+    pub fn letters(&self) -> Result<Vec<Formula>, FormulaError> {
+        let vocabulary = &self.case.model.vocabulary;
+        self.scalars.iter().map(|own| Formula::name(&own.name, vocabulary)).collect()
     }
 
     /// The same case with some scalars at random values.

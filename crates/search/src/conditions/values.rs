@@ -6,6 +6,7 @@
 //! these values is reported.
 
 use liouville::case::Case;
+use liouville::formula::Formula;
 use liouville::proof::ProofRng;
 
 use super::ParameterCondition;
@@ -40,7 +41,7 @@ pub fn conditions(
     let SplitCase { case, scalars: all, .. } = split;
     let mut told: Vec<String> = Vec::new();
     for degree in 1..=effort.degree {
-        for parameter in all {
+        for (place, parameter) in all.iter().enumerate() {
             let name = &parameter.name;
             progress(&format!("values of {name} with more integrals of degree {degree}"));
             let Some(equations) = ParametricEquations::new(case, degree, effort)? else {
@@ -63,8 +64,8 @@ pub fn conditions(
                     continue;
                 }
                 if let Relation::Value(_, value) = relation {
-                    let value = value.to_string();
-                    if let Some(fixed) = split.with(&[(name.clone(), value.clone())]) {
+                    let number = Formula::number(value.clone());
+                    if let Some(fixed) = split.with(vec![(place, number)]) {
                         let with = ("value", format!("{name} = {value}"));
                         integrals_with(&fixed.case, with, effort, report)?;
                     }

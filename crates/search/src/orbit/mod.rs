@@ -165,8 +165,8 @@ pub fn search(
     }
 }
 
-/// Searches a map for a density and for integrals; proved ones go into the report. If `further`, the limits grow while
-/// there is time.
+/// Searches a map for a density and for integrals; proved ones go into the report. If `further`, the
+/// limits grow while there is time.
 pub fn search_map(
     case: &Case,
     effort: &Effort,

@@ -29,6 +29,8 @@ pub struct IndependentSelection {
     pub kept: Vec<usize>,
     /// Count of independent integrals.
     pub count: IntegralCount,
+    /// Whether the energy is proved to be one.
+    pub has_energy: bool,
 }
 
 /// Takes integrals in order if they are independent of those before them, general ones first;
@@ -41,18 +43,18 @@ pub fn count(
     implied: &[String],
 ) -> Result<IndependentSelection, JudgeError> {
     let dimension = case.model.dimension() - case.model.level.len();
-    let energy = has_energy(case, options)?;
+    let has_energy = has_energy(case, options)?;
     let mut kept: Vec<usize> = Vec::new();
     let mut proof = None;
     for index in 0..integrals.len() {
         let trial: Vec<&TestedClaim> = kept.iter().chain([&index]).map(|k| integrals[*k]).collect();
-        let claim = independent(case, options, bindings, energy, &trial)?;
+        let claim = independent(case, options, bindings, has_energy, &trial)?;
         if let Some(claim) = claim.filter(|claim| claim.verdict == Verdict::Proved) {
             kept.push(index);
             proof = Some(claim);
         }
     }
-    let energy = energy.then(|| "energy".to_string());
+    let energy = has_energy.then(|| "energy".to_string());
     let names = kept.iter().map(|k| integrals[*k].claim.name.clone());
     // Integrals with a formula may be functions of those without one, so they are not counted
     // twice.
@@ -64,7 +66,7 @@ pub fn count(
         independent: energy.into_iter().chain(names).chain(implied.iter().cloned()).collect(),
         claim: proof,
     };
-    Ok(IndependentSelection { kept, count })
+    Ok(IndependentSelection { kept, count, has_energy })
 }
 
 /// Whether the energy is proved to be conserved.

@@ -35,8 +35,6 @@ mod tests;
 
 use serde::Serialize;
 
-use crate::Effort;
-use crate::ask::proved_energy;
 use liouville::case::{Case, Expect};
 use liouville::mechanics::TIME;
 use liouville::verdict::{JudgeError, Options, Verdict};
@@ -186,11 +184,9 @@ pub fn survey(
     };
     let model = &case.model;
     let is_autonomous = model.state.iter().all(|variable| variable.name != TIME);
-    let effort = Effort { options: *options, ..Effort::default() };
-    let dimension = match proved_energy(case, &effort) {
-        Ok(Some(_)) if is_autonomous => model.dimension().checked_sub(model.level.len() + 1),
-        _ => None,
-    };
+    let dimension = (independent.has_energy && is_autonomous)
+        .then(|| model.dimension().checked_sub(model.level.len() + 1))
+        .flatten();
     let mut hierarchy = HierarchyPlace::of(measure, standing, reversors.len(), dimension);
     if !matches!(measure, MeasureStatus::ClosedForm | MeasureStatus::ByQuadrature) {
         progress("closed orbits");
