@@ -220,6 +220,9 @@ fn degree(exponents: &[u32]) -> u32 {
 
 /// −a/b as a formula; 0 if a has no terms.
 fn negative_quotient(above: &Terms, below: &Terms, letters: &[Formula]) -> FormulaResult {
+    if above.is_empty() {
+        return Ok(Formula::number(0));
+    }
     let turned = below.first().is_some_and(|(_, value)| value.is_negative());
     let signed = |value: &Rational, turned: bool| if turned { -value } else { value.clone() };
     let numbers: Vec<Rational> = above
