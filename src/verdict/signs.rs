@@ -19,10 +19,8 @@ use crate::proof::{self, Group};
 
 /// Number of parameter sets for which the sign of a density is observed.
 const PARAMETER_SETS: usize = 4;
-/// Number of states near the ends of ranges, and number of states in exact numbers, at which it is
-/// observed.
+/// Number of states near the ends of ranges at which it is observed.
 const EDGES: usize = 2 * TAPE_LANES;
-const EXACT_STATES: usize = 16;
 
 /// Observed signs of a density, negative and positive, by parameter set.
 type Signs = [[bool; 2]; PARAMETER_SETS];
@@ -126,7 +124,7 @@ impl Judging<'_> {
             return;
         }
         let domain = Mixed::new(f64::MANTISSA_DIGITS * 4);
-        for lane in (0..TAPE_LANES).step_by(TAPE_LANES / EXACT_STATES) {
+        for lane in 0..TAPE_LANES {
             let states = sampler.state_sharing_parameters(&domain, lane as u64, PARAMETER_SETS);
             let values = run.at(&domain, &states);
             for (index, (seen, required)) in seen.iter_mut().zip(required).enumerate() {

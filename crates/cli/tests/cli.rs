@@ -1,5 +1,7 @@
 //! The program from the user's side: commands, exit codes, JSON, wrong input.
 
+#[path = "cli/basins.rs"]
+mod basins;
 #[path = "cli/bodies.rs"]
 mod bodies;
 #[path = "cli/branches.rs"]

@@ -26,18 +26,24 @@ impl AxisMistake {
     }
 }
 
+/// Reads `NAME=a..b`.
+pub(super) fn range(text: &str) -> Result<(&str, Rational, Rational), AxisMistake> {
+    let wrong = |message: &str| AxisMistake::new(message, FORM);
+    let (name, range) = text.split_once('=').ok_or_else(|| wrong("there is no `=`"))?;
+    let (from, to) = range.split_once("..").ok_or_else(|| wrong("there is no `..`"))?;
+    let read = |part: &str| number_with_pi(part).ok_or_else(|| wrong("is no range"));
+    let (from, to) = (read(from)?, read(to)?);
+    if from == to {
+        return Err(wrong("the range is empty"));
+    }
+    Ok((name.trim(), from, to))
+}
+
 impl ChartAxis {
     /// Reads an axis `NAME=a..b` of `count` points; also returns its canonical name.
     pub fn read(case: &Case, text: &str, count: usize) -> Result<(String, Self), AxisMistake> {
-        let wrong = |message: &str| AxisMistake::new(message, FORM);
-        let (name, range) = text.split_once('=').ok_or_else(|| wrong("there is no `=`"))?;
-        let (from, to) = range.split_once("..").ok_or_else(|| wrong("there is no `..`"))?;
-        let read = |part: &str| number_with_pi(part).ok_or_else(|| wrong("is no range"));
-        let (from, to): (Rational, Rational) = (read(from)?, read(to)?);
-        if from == to {
-            return Err(wrong("the range is empty"));
-        }
-        let (name, coordinate) = Coordinate::varying(case, name.trim(), &known(case))?;
+        let (name, from, to) = range(text)?;
+        let (name, coordinate) = Coordinate::varying(case, name, &known(case))?;
         Ok((name, Self { coordinate, from, to, count }))
     }
 }

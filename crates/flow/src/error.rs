@@ -116,6 +116,9 @@ pub enum FlowError {
     /// A motion under a one-sided constraint does not determine its past.
     #[error("a motion with a one-sided constraint cannot be followed backwards")]
     OneSidedBackwards,
+    /// Motions under a one-sided constraint, where only the field is followed.
+    #[error("the case has a one-sided constraint, which single orbits keep alone")]
+    OneSided,
     /// The start violates the one-sided constraint.
     #[error("the start violates the one-sided constraint: its function is {by:e} there")]
     BehindConstraint {
@@ -276,6 +279,7 @@ impl FlowError {
                 "choose other values, another energy or direction, or give the whole state"
             }
             FlowError::NoSuchClaim(_) => "give the name of a claim of the case",
+            FlowError::OneSided => "follow an orbit by `motion orbit`, or leave out [one_sided]",
             FlowError::OneSidedBackwards => "give a positive --time",
             FlowError::BehindConstraint { .. } => {
                 "choose a start where the function is not negative"

@@ -79,6 +79,17 @@ impl Launches<'_> {
         moved(&conditions, parameters, &state)
     }
 
+    /// Returns the starts of many motions from states.
+    pub(super) fn starts(
+        &self,
+        states: Vec<Vec<Rational>>,
+    ) -> Result<Vec<Result<Start, FlowError>>, FlowError> {
+        let parameters = drawn(self.case, self.seed, self.index)?.0;
+        let conditions = self.conditions(&self.case.model, &parameters, &|_| Vec::new())?;
+        let start = |state: Vec<Rational>| moved(&conditions, parameters.clone(), &state);
+        Ok(states.into_iter().map(start).collect())
+    }
+
     /// Records the level, the energy if one is given, and further functions that vanish.
     fn conditions(
         &self,

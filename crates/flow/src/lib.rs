@@ -10,7 +10,9 @@
 
 mod andoyer;
 mod area;
+mod attractors;
 mod axis;
+mod basins;
 mod batch;
 mod carry;
 mod closed;
@@ -65,6 +67,7 @@ mod variational;
 pub use andoyer::{applies as has_andoyer_section, spread};
 pub use area::{AreaForm, area_forms};
 pub use axis::{AxisMistake, number_with_pi};
+pub use basins::{Attractor, BasinRequest, Basins, Destiny, StateAxis, basins};
 pub use closed::{ComputedClosedOrbit, MeasuredNumber};
 pub use columns::Columns;
 pub use continuation::{

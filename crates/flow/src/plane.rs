@@ -6,7 +6,7 @@ use super::lyapunov::Exponents;
 use super::motion::Loose;
 use super::open::OpenModel;
 use super::shadow::{ShadowStart, Shadowed};
-use super::start::{LevelFunctions, Start, fixed_parameters};
+use super::start::{LevelFunctions, Start, fixed_parameters, two_sided};
 use liouville::case::{Angle, Case};
 use liouville::mechanics::Model;
 use liouville::number::double_double::DoubleDouble;
@@ -123,6 +123,7 @@ pub fn plane_part(
     threads: usize,
     progress: &(dyn Fn() + Sync),
 ) -> Result<Vec<Result<Exponents, FlowError>>, FlowError> {
+    two_sided(case)?;
     let indices = request.axes.iter().filter_map(|axis| axis.coordinate.parameter());
     let indices: Vec<usize> = indices.map(|(index, _)| index).collect();
     let drawn = fixed_parameters(case, request.seed, 0)?;

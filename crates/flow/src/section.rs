@@ -7,7 +7,7 @@ use super::crossings::{CrossingTask, Met, MotionCrossings};
 use super::error::FlowError;
 use super::motion::{point, program};
 use super::orbit::energy_drift;
-use super::start::{Start, fixed_parameters};
+use super::start::{Start, fixed_parameters, two_sided};
 use liouville::case::{Angle, Case, Direction};
 use liouville::graph::{Evaluator, Tape, record};
 use liouville::number::double_double::{DoubleDouble, DoubleDoubles};
@@ -81,6 +81,7 @@ pub fn section(
     threads: usize,
     progress: &(dyn Fn() + Sync),
 ) -> Result<Vec<SectionOrbit>, FlowError> {
+    two_sided(case)?;
     if !applies(&case.model) {
         return Err(FlowError::NoAndoyer);
     }

@@ -18,6 +18,14 @@ use liouville::verdict::Sampler;
 /// Iteration limit; Newton's method converges in far fewer from a state near the level.
 const MAX_STEPS: usize = 60;
 
+/// Checks that the motions of a case are those of its field alone.
+pub(super) fn two_sided(case: &Case) -> Result<(), FlowError> {
+    match case.one_sided {
+        Some(_) => Err(FlowError::OneSided),
+        None => Ok(()),
+    }
+}
+
 /// State on the level set, with its parameters.
 #[derive(Clone, Debug)]
 pub struct Start {

@@ -9,7 +9,7 @@ use super::lexicon::{FormulaMistake, Lexicon};
 use super::motion::program;
 use super::orbit::energy_drift;
 use super::program::TaylorProgram;
-use super::start::Start;
+use super::start::{Start, two_sided};
 use liouville::case::{Case, Direction};
 use liouville::formula::{Formula, Type};
 use liouville::graph::Expr;
@@ -168,6 +168,7 @@ pub fn surface_section(
     threads: usize,
     progress: &(dyn Fn() + Sync),
 ) -> Result<Vec<SurfaceOrbit>, FlowError> {
+    two_sided(case)?;
     let Some(first) = starts.iter().flatten().next() else {
         return Err(starts.iter().find_map(|start| start.as_ref().err().cloned()))
             .map_err(|problem: Option<FlowError>| problem.unwrap_or(FlowError::NoStart));

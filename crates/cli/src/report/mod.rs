@@ -1,6 +1,7 @@
 //! Reports of the program: verdicts as a table, as the papers' tables, pictures, code in other
 //! languages. What needs no terminal is in `liouville-report`.
 
+pub mod basins;
 pub mod bench;
 pub mod bifurcations;
 pub mod bodies;

@@ -1,6 +1,7 @@
 //! Commands beyond the claims of a case: its further invariants, its motions, and benchmarks.
 
 mod andoyer;
+mod basins;
 mod bench;
 mod branch;
 pub(super) mod chart;
@@ -130,6 +131,12 @@ Examples:
   liouville motion rotation figures/fig-A2 --from 3.2,0 --to 4.4,0 --centre pi,0 --out rotation.pdf
   liouville motion rotation classical/planar/henon-heiles-hamiltonian --set ε=1/2 --energy 1/10 --section 'x = 0' --axes 'y, py' --from 0,0 --to 0.4,0 --centre 0.2,0")]
     Rotation(rotation::RotationArgs),
+    /// Draw basins of attraction: where the motions from a plane of starts end
+    #[command(after_help = "\
+Examples:
+  liouville motion basins classical/flows/duffing-forced --set δ=1/4 --set f=1/4 --x x=-2..2 --y v=-2..2 --start 0,0,0 --out basins.png
+  liouville motion basins classical/flows/lorenz --set ρ=20 --x x=-20..20 --y y=-20..20 --start 0,0,20")]
+    Basins(basins::BasinArgs),
 }
 
 /// Commands about the program itself.
@@ -186,7 +193,8 @@ impl ExploreCommand {
                     | MotionCommand::Periodic(_)
                     | MotionCommand::Continue(_)
                     | MotionCommand::Diagram(_)
-                    | MotionCommand::Rotation(_) => None,
+                    | MotionCommand::Rotation(_)
+                    | MotionCommand::Basins(_) => None,
                 }
             }
             _ => None,
@@ -219,6 +227,7 @@ impl MotionCommand {
             Self::Continue(options) => &options.search.subject,
             Self::Diagram(options) => &options.subject,
             Self::Rotation(options) => &options.subject,
+            Self::Basins(options) => &options.subject,
         }
     }
 
@@ -234,9 +243,11 @@ impl MotionCommand {
     fn with_drawn_parameters(&self) -> Option<&MotionArgs> {
         match self {
             Self::Section(options) => options.others.is_empty().then_some(&options.subject),
-            Self::Orbit(_) | Self::Exponents(_) | Self::Periodic(_) | Self::Rotation(_) => {
-                Some(self.subject())
-            }
+            Self::Orbit(_)
+            | Self::Exponents(_)
+            | Self::Periodic(_)
+            | Self::Rotation(_)
+            | Self::Basins(_) => Some(self.subject()),
             Self::Chart(_) | Self::Continue(_) | Self::Diagram(_) => None,
         }
     }
@@ -251,6 +262,7 @@ impl MotionCommand {
             Self::Continue(options) => branch::run(options),
             Self::Diagram(options) => diagram::run(options),
             Self::Rotation(options) => rotation::run(options),
+            Self::Basins(options) => basins::run(options),
         }?;
         if let Some(subject) = self.with_drawn_parameters().filter(|_| !output.text.is_empty()) {
             output.text.push_str(&subject.drawn_parameters());

@@ -1,0 +1,153 @@
+//! Sets to which motions keep at late times, told apart by distances between samples.
+//!
+//! Two motions keep to one set if the samples of each lie as near to those of the other as the later
+//! ones of a motion lie to its own earlier ones. So the distance that counts is that of the samples
+//! themselves: none for a point, the spacing along a cycle, that of points strewn over a strange
+//! attractor.
+
+/// Number of samples of a motion, at times that share no period with it.
+pub const SAMPLES: usize = 160;
+/// Distance, in spacings of samples, up to which samples lie in one set.
+const NEAR: f64 = 4.0;
+/// Distance that counts as none, as a share of the widths.
+const NONE: f64 = 1e-6;
+/// Largest number of sets.
+pub const MOST_SETS: usize = 32;
+
+/// Samples of a motion at late times, row by row.
+#[derive(Clone, Debug)]
+pub struct Tail {
+    rows: Vec<Vec<f64>>,
+    /// Distance of the later half of the samples from the earlier one.
+    spread: f64,
+    is_settled: bool,
+}
+
+impl Tail {
+    /// Measures samples, in the order of their times; `widths` are the units of their components.
+    pub fn new(samples: &[Vec<f64>], widths: &[f64]) -> Self {
+        let scaled = |row: &Vec<f64>| row.iter().zip(widths).map(|(x, width)| x / width).collect();
+        let rows: Vec<Vec<f64>> = samples.iter().map(scaled).collect();
+        let (early, late) = rows.split_at(rows.len() / 2);
+        let spread = distance(late, early, false).max(NONE);
+        let own = distance(early, early, true).max(NONE);
+        // What moves on leaves its earlier places behind, farther than they are from each other.
+        let is_settled = spread <= NEAR * own;
+        Self { rows, spread, is_settled }
+    }
+
+    /// Whether the motion returns to where it was.
+    pub fn is_settled(&self) -> bool {
+        self.is_settled
+    }
+
+    /// Whether all samples are one point.
+    pub fn is_point(&self) -> bool {
+        let Some(first) = self.rows.first() else { return false };
+        self.rows.iter().all(|row| squared(row, first) <= NONE * NONE)
+    }
+
+    /// Whether the samples lie in the same set as those of another motion.
+    pub fn is_with(&self, other: &Self) -> bool {
+        let reach = NEAR * self.spread.max(other.spread);
+        distance(&self.rows, &other.rows, false) <= reach
+            && distance(&other.rows, &self.rows, false) <= reach
+    }
+}
+
+fn squared(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| (x - y) * (x - y)).sum()
+}
+
+/// Median over some points of the distance from the nearest one of others; not from itself, if these
+/// are the same ones. Infinite if there are none.
+fn distance(from: &[Vec<f64>], to: &[Vec<f64>], are_same: bool) -> f64 {
+    let nearest = |(place, row): (usize, &Vec<f64>)| {
+        let others = to.iter().enumerate().filter(|(other, _)| !are_same || *other != place);
+        others.map(|(_, other)| squared(row, other)).fold(f64::INFINITY, f64::min)
+    };
+    let mut all: Vec<f64> = from.iter().enumerate().map(nearest).collect();
+    all.sort_by(f64::total_cmp);
+    all.get(all.len() / 2).map_or(f64::INFINITY, |middle| middle.sqrt())
+}
+
+/// Sets found so far, each by its first motion.
+#[derive(Debug, Default)]
+pub struct Sets {
+    tails: Vec<Tail>,
+}
+
+impl Sets {
+    /// Finds the set of a settled motion, which may be a new one; `None` where there are too many.
+    pub fn place(&mut self, tail: Tail) -> Option<usize> {
+        if let Some(place) = self.tails.iter().position(|known| known.is_with(&tail)) {
+            return Some(place);
+        }
+        (self.tails.len() < MOST_SETS).then(|| {
+            self.tails.push(tail);
+            self.tails.len() - 1
+        })
+    }
+
+    /// First motion of each set.
+    pub fn tails(&self) -> &[Tail] {
+        &self.tails
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Samples at the times of basins: k and a share of the golden section.
+    fn tail(at: impl Fn(f64) -> [f64; 2]) -> Tail {
+        let time = |k: usize| k as f64 + (k as f64 * 0.618_033_988_749_894_9).fract();
+        let rows: Vec<Vec<f64>> = (0..SAMPLES).map(|k| at(time(k)).to_vec()).collect();
+        Tail::new(&rows, &[1.0, 1.0])
+    }
+
+    fn circle(radius: f64, period: f64, phase: f64) -> Tail {
+        tail(|t| {
+            let angle = std::f64::consts::TAU * (t / period + phase);
+            [radius * angle.cos(), radius * angle.sin()]
+        })
+    }
+
+    #[test]
+    fn motions_on_one_cycle_are_together_at_any_phase_and_period() {
+        for period in [1.0, 2.0, 0.5, 3.7, 40.0, 79.0] {
+            let (own, other) = (circle(1.0, period, 0.0), circle(1.0, period, 0.37));
+            assert!(own.is_settled() && other.is_settled() && !own.is_point(), "{period}");
+            assert!(own.is_with(&other), "{period}");
+            assert!(!own.is_with(&circle(1.5, period, 0.0)), "another cycle, {period}");
+            assert!(!own.is_with(&tail(|_| [0.0; 2])), "the point inside, {period}");
+        }
+    }
+
+    #[test]
+    fn points_are_apart_unless_they_are_one() {
+        let at = |x: f64| tail(move |t| [x + 0.1 * (-t / 8.0).exp(), 0.0]);
+        assert!(at(0.0).is_settled());
+        assert!(at(0.0).is_with(&tail(|_| [0.0, 0.0])), "also where one has come less near");
+        assert!(!tail(|_| [0.0; 2]).is_with(&tail(|_| [1e-3, 0.0])));
+        assert!(tail(|_| [0.3, 0.0]).is_point());
+    }
+
+    #[test]
+    fn what_drifts_is_not_settled() {
+        assert!(!tail(|t| [t, 0.0]).is_settled(), "a line");
+        assert!(!tail(|t| [(t / 30.0).exp(), 0.0]).is_settled(), "growth");
+        assert!(!tail(|t| [(1.0 + t).ln(), t.sin()]).is_settled(), "a slow drift");
+        assert!(!circle(1.0, 1000.0, 0.0).is_settled(), "a part of a turn");
+    }
+
+    #[test]
+    fn there_are_no_more_sets_than_the_most() {
+        let mut sets = Sets::default();
+        for k in 0..MOST_SETS {
+            assert_eq!(sets.place(tail(|_| [k as f64, 0.0])), Some(k));
+        }
+        assert_eq!(sets.place(tail(|_| [0.5, 0.0])), None);
+        assert_eq!(sets.place(tail(|_| [3.0, 0.0])), Some(3));
+    }
+}
