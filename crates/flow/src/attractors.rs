@@ -71,30 +71,6 @@ fn distance(from: &[Vec<f64>], to: &[Vec<f64>], are_same: bool) -> f64 {
     all.get(all.len() / 2).map_or(f64::INFINITY, |middle| middle.sqrt())
 }
 
-/// Sets found so far, each by its first motion.
-#[derive(Debug, Default)]
-pub struct Sets {
-    tails: Vec<Tail>,
-}
-
-impl Sets {
-    /// Finds the set of a settled motion, which may be a new one; `None` where there are too many.
-    pub fn place(&mut self, tail: Tail) -> Option<usize> {
-        if let Some(place) = self.tails.iter().position(|known| known.is_with(&tail)) {
-            return Some(place);
-        }
-        (self.tails.len() < MOST_SETS).then(|| {
-            self.tails.push(tail);
-            self.tails.len() - 1
-        })
-    }
-
-    /// First motion of each set.
-    pub fn tails(&self) -> &[Tail] {
-        &self.tails
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -139,15 +115,5 @@ mod tests {
         assert!(!tail(|t| [(t / 30.0).exp(), 0.0]).is_settled(), "growth");
         assert!(!tail(|t| [(1.0 + t).ln(), t.sin()]).is_settled(), "a slow drift");
         assert!(!circle(1.0, 1000.0, 0.0).is_settled(), "a part of a turn");
-    }
-
-    #[test]
-    fn there_are_no_more_sets_than_the_most() {
-        let mut sets = Sets::default();
-        for k in 0..MOST_SETS {
-            assert_eq!(sets.place(tail(|_| [k as f64, 0.0])), Some(k));
-        }
-        assert_eq!(sets.place(tail(|_| [0.5, 0.0])), None);
-        assert_eq!(sets.place(tail(|_| [3.0, 0.0])), Some(3));
     }
 }

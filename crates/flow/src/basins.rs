@@ -1,18 +1,14 @@
 //! Basins of attraction: the set to which each motion of a grid of starts keeps at late times.
 
-use super::attractors::{SAMPLES, Sets, Tail};
+use super::attractors::{MOST_SETS, Tail};
 use super::axis::{AxisMistake, range};
-use super::batch::{MOTION_LANES, Queue, in_batches};
-use super::columns::{Columns, Gauge};
+use super::columns::Columns;
 use super::error::FlowError;
-use super::lanes::Lanes;
+use super::late::{GOLDEN, Late, LateMotions};
 use super::launch::Launches;
-use super::lyapunov::Exponents;
-use super::motion::program;
-use super::program::TaylorProgram;
+use super::lyapunov::{Estimate, Exponents};
 use super::shadow::{ShadowStart, Shadowed};
-use super::start::{Start, two_sided};
-use super::stepper::{Accuracy, Stepper};
+use super::start::{Start, fixed_parameters, two_sided};
 use liouville::case::Case;
 use liouville::formula::canonical_name;
 use liouville::number::double_double::DoubleDouble;
@@ -20,10 +16,8 @@ use liouville::number::rational::Rational;
 
 /// Number of motions whose samples are kept at once.
 const WAVE: usize = 4096;
-/// Share of the time after which samples are taken.
-const LATE: f64 = 0.5;
-/// Fraction of the golden section: the times of samples are in step with no period.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
+/// Logarithm of the contraction over the time from which on a motion tends to a point.
+const CONTRACTION: f64 = 3.0;
 
 /// Component of the state that varies over a grid.
 #[derive(Clone, Debug)]
@@ -97,7 +91,9 @@ pub struct Attractor {
     pub count: usize,
     /// Smallest and largest value of each column on its first motion.
     pub ranges: Vec<[f64; 2]>,
-    /// Whether it is a single point.
+    /// Values of the columns at the end of its first motion.
+    pub last: Vec<f64>,
+    /// Whether it is a single point, or its first motion tends to one.
     pub is_point: bool,
     /// State of its first motion at the end.
     pub state: Vec<f64>,
@@ -135,32 +131,27 @@ pub fn basins(
         }
         state
     };
+    let parameters = fixed_parameters(case, request.seed, 0)?;
+    let motions = LateMotions::new(case, request.columns, &parameters)?;
     let mut found = Found::new(count);
-    let mut equations = None;
     for wave in (0..count).step_by(WAVE) {
         let places: Vec<usize> =
             (wave..count.min(wave + WAVE)).map(|index| order.place(index)).collect();
         let starts = launches.starts(places.iter().map(|place| state(*place)).collect())?;
-        let equations = match &mut equations {
-            Some(known) => known,
-            none => {
-                let Some(first) = starts.iter().flatten().next() else {
-                    found.fail(&places, &starts);
-                    continue;
-                };
-                none.insert(Equations::of(case, request, first)?)
-            }
-        };
-        let tails = equations.follow(&starts, request.time, threads, progress);
+        let tails = motions.follow(&starts, request.time, threads, progress);
         if tails.iter().any(|tail| matches!(tail, Err(FlowError::Stopped))) {
             return Err(FlowError::Stopped);
         }
         found.add(&places, tails);
     }
-    match equations {
-        Some(equations) => found.told(case, &equations.parameters, request.time, threads),
-        None => Err(found.first_problem()),
+    if let Some(problem) = found.common_problem() {
+        return Err(problem);
     }
+    let later = motions.follow(&found.later(&parameters), request.time, threads, &|| {});
+    found.join(later);
+    let shadowed = Shadowed::new(&case.model, &parameters, &[])?;
+    let exponents = shadowed.follow(&found.begins(), request.time, threads, &|| {});
+    Ok(found.told(exponents))
 }
 
 /// Order of the motions: the first ones are spread over the grid.
@@ -186,44 +177,33 @@ fn common(a: usize, b: usize) -> usize {
     if b == 0 { a } else { common(b, a % b) }
 }
 
-/// Samples of a motion, with the state at its end.
-type Late = Result<(Vec<Vec<f64>>, Vec<DoubleDouble>), FlowError>;
-
 /// First motion of a set.
 struct First {
-    ranges: Vec<[f64; 2]>,
+    tail: Tail,
+    rows: Vec<Vec<f64>>,
     end: Vec<DoubleDouble>,
 }
 
 /// Ends found so far.
 struct Found {
     ends: Vec<Destiny>,
-    sets: Sets,
-    firsts: Vec<First>,
+    sets: Vec<First>,
     widths: Vec<f64>,
 }
 
 impl Found {
     fn new(count: usize) -> Self {
-        let ends = vec![Destiny::Unsettled; count];
-        Self { ends, sets: Sets::default(), firsts: Vec::new(), widths: Vec::new() }
+        Self { ends: vec![Destiny::Unsettled; count], sets: Vec::new(), widths: Vec::new() }
     }
 
-    /// Notes motions without a start.
-    fn fail(&mut self, places: &[usize], starts: &[Result<Start, FlowError>]) {
-        for (place, start) in places.iter().zip(starts) {
-            if let Err(problem) = start {
-                self.ends[*place] = Destiny::Ended(problem.clone());
-            }
-        }
-    }
-
-    fn first_problem(&self) -> FlowError {
-        let problem = self.ends.iter().find_map(|end| match end {
+    /// Problem of the first motion, if none was followed to its end.
+    fn common_problem(&self) -> Option<FlowError> {
+        let problem = |end: &Destiny| match end {
             Destiny::Ended(problem) => Some(problem.clone()),
             _ => None,
-        });
-        problem.unwrap_or(FlowError::NoStart)
+        };
+        let are_lost = self.ends.iter().all(|end| problem(end).is_some());
+        self.ends.first().filter(|_| are_lost).and_then(problem)
     }
 
     fn add(&mut self, places: &[usize], tails: Vec<Late>) {
@@ -231,43 +211,70 @@ impl Found {
             self.widths = widths(tails.iter().flatten().flat_map(|(rows, _)| rows));
         }
         for (place, late) in places.iter().zip(tails) {
-            let (rows, end) = match late {
-                Ok(late) => late,
-                Err(problem) => {
-                    self.ends[*place] = Destiny::Ended(problem);
-                    continue;
-                }
+            self.ends[*place] = match late {
+                Ok((rows, end)) => self.place(rows, end),
+                Err(problem) => Destiny::Ended(problem),
             };
-            let tail = Tail::new(&rows, &self.widths);
-            if !tail.is_settled() {
-                continue;
+        }
+    }
+
+    /// Finds the set of a motion, which may be a new one.
+    fn place(&mut self, rows: Vec<Vec<f64>>, end: Vec<DoubleDouble>) -> Destiny {
+        let tail = Tail::new(&rows, &self.widths);
+        if !tail.is_settled() {
+            return Destiny::Unsettled;
+        }
+        match self.sets.iter().position(|known| known.tail.is_with(&tail)) {
+            Some(place) => Destiny::Set(place),
+            None if self.sets.len() < MOST_SETS => {
+                self.sets.push(First { tail, rows, end });
+                Destiny::Set(self.sets.len() - 1)
             }
-            self.ends[*place] = match self.sets.place(tail) {
-                Some(index) => Destiny::Set(index),
-                None => Destiny::Further,
+            None => Destiny::Further,
+        }
+    }
+
+    /// Starts of the first motion of each set, from its end on.
+    fn later(&self, parameters: &[Rational]) -> Vec<Result<Start, FlowError>> {
+        let start = |first: &First| {
+            Ok(Start { parameters: parameters.to_vec(), state: first.end.clone(), moved: 0.0 })
+        };
+        self.sets.iter().map(start).collect()
+    }
+
+    /// Joins sets whose first motions come together later; a set that its first motion leaves is none.
+    fn join(&mut self, later: Vec<Late>) {
+        let firsts = std::mem::take(&mut self.sets);
+        let mut home = Vec::new();
+        for (first, late) in firsts.iter().zip(later) {
+            let after =
+                late.map(|(rows, end)| First { tail: Tail::new(&rows, &self.widths), rows, end });
+            let stays = |after: &First| after.tail.is_settled() && after.tail.is_with(&first.tail);
+            let Some(after) = after.ok().filter(stays) else {
+                home.push(Destiny::Unsettled);
+                continue;
             };
-            if self.firsts.len() < self.sets.tails().len() {
-                self.firsts.push(First { ranges: ranges(&rows), end });
+            let known = self.sets.iter().position(|known| known.tail.is_with(&after.tail));
+            home.push(Destiny::Set(known.unwrap_or(self.sets.len())));
+            if known.is_none() {
+                self.sets.push(after);
+            }
+        }
+        for end in &mut self.ends {
+            if let Destiny::Set(index) = *end {
+                *end = home[index].clone();
             }
         }
     }
 
-    /// Measures the sets, and brings them into the order of their sizes.
-    fn told(
-        self,
-        case: &Case,
-        parameters: &[Rational],
-        time: f64,
-        threads: usize,
-    ) -> Result<Basins, FlowError> {
-        let shadowed = Shadowed::new(&case.model, parameters, &[])?;
-        let begins: Vec<Result<ShadowStart, FlowError>> = self
-            .firsts
-            .iter()
-            .map(|first| Ok(ShadowStart { state: first.end.clone(), loose: Vec::new() }))
-            .collect();
-        let exponents = shadowed.follow(&begins, time, threads, &|| {});
-        let mut counts = vec![0; self.firsts.len()];
+    fn begins(&self) -> Vec<Result<ShadowStart, FlowError>> {
+        let begin = |first: &First| Ok(ShadowStart { state: first.end.clone(), loose: Vec::new() });
+        self.sets.iter().map(begin).collect()
+    }
+
+    /// Brings the sets into the order of their sizes.
+    fn told(self, exponents: Vec<Result<Exponents, FlowError>>) -> Basins {
+        let mut counts = vec![0; self.sets.len()];
         for end in &self.ends {
             if let Destiny::Set(index) = end {
                 counts[*index] += 1;
@@ -275,22 +282,34 @@ impl Found {
         }
         let mut order: Vec<usize> = (0..counts.len()).collect();
         order.sort_by_key(|index| std::cmp::Reverse(counts[*index]));
-        let attractor = |index: &usize| Attractor {
-            count: counts[*index],
-            ranges: self.firsts[*index].ranges.clone(),
-            is_point: self.sets.tails()[*index].is_point(),
-            state: self.firsts[*index].end.iter().map(|x| x.hi).collect(),
-            exponents: exponents[*index].clone(),
+        let attractor = |index: &usize| {
+            let (first, exponents) = (&self.sets[*index], exponents[*index].clone());
+            Attractor {
+                count: counts[*index],
+                ranges: ranges(&first.rows),
+                last: first.rows.last().cloned().unwrap_or_default(),
+                is_point: first.tail.is_point() || exponents.as_ref().is_ok_and(contracts),
+                state: first.end.iter().map(|x| x.hi).collect(),
+                exponents,
+            }
         };
         let attractors = order.iter().map(attractor).collect();
-        let renamed = |end: Destiny| match end {
+        let renamed = |end: &Destiny| match end {
             Destiny::Set(index) => {
-                Destiny::Set(order.iter().position(|own| *own == index).unwrap_or(index))
+                Destiny::Set(order.iter().position(|own| own == index).unwrap_or(*index))
             }
-            other => other,
+            other => other.clone(),
         };
-        Ok(Basins { ends: self.ends.iter().cloned().map(renamed).collect(), attractors })
+        Basins { ends: self.ends.iter().map(renamed).collect(), attractors }
     }
+}
+
+/// Whether neighbours come together, as around a point, and not along a cycle: on that they keep their
+/// distance on average.
+fn contracts(found: &Exponents) -> bool {
+    let Estimate { mean, error, later } = found.largest;
+    let least = CONTRACTION / found.time.abs();
+    mean < -3.0 * error - least && later < -least
 }
 
 /// Smallest and largest value of each component.
@@ -315,142 +334,6 @@ fn widths<'r>(rows: impl Iterator<Item = &'r Vec<f64>>) -> Vec<f64> {
     ranges(rows).iter().map(width).collect()
 }
 
-/// Equations of all motions.
-struct Equations {
-    program: TaylorProgram,
-    gauge: Gauge,
-    parameters: Vec<Rational>,
-}
-
-impl Equations {
-    fn of(case: &Case, request: &BasinRequest<'_>, first: &Start) -> Result<Self, FlowError> {
-        let parameters = first.parameters.clone();
-        let program = program(&case.model, &parameters, |_| Vec::new())?;
-        let gauge = request.columns.recorded(&parameters)?;
-        Ok(Self { program, gauge, parameters })
-    }
-
-    /// Follows motions, and takes samples of each at late times.
-    fn follow(
-        &self,
-        starts: &[Result<Start, FlowError>],
-        time: f64,
-        threads: usize,
-        progress: &(dyn Fn() + Sync),
-    ) -> Vec<Late> {
-        in_batches(starts.len(), threads, |queue, _| {
-            let stepper = Stepper::new(&self.program, Accuracy::FLOAT);
-            let running = (0..MOTION_LANES).map(|_| None).collect();
-            let done = Vec::new();
-            Worker { equations: self, starts, time, stepper, running, done }.run(queue, progress)
-        })
-    }
-}
-
-/// Motion in a lane.
-struct Running {
-    index: usize,
-    rows: Vec<Vec<f64>>,
-}
-
-/// Motions of one thread.
-struct Worker<'w> {
-    equations: &'w Equations,
-    starts: &'w [Result<Start, FlowError>],
-    time: f64,
-    stepper: Stepper<Lanes<MOTION_LANES>>,
-    running: Vec<Option<Running>>,
-    done: Vec<(usize, Late)>,
-}
-
-impl Worker<'_> {
-    fn run(mut self, queue: &Queue, progress: &(dyn Fn() + Sync)) -> Vec<(usize, Late)> {
-        let mut row = self.equations.gauge.rows();
-        let mut row = |time: DoubleDouble, state: &[DoubleDouble]| -> Vec<f64> {
-            row(time, state).into_iter().map(|x| x.hi).collect()
-        };
-        loop {
-            for lane in 0..MOTION_LANES {
-                while self.running[lane].is_none() {
-                    let Some(index) = queue.take() else { break };
-                    match &self.starts[index] {
-                        Ok(start) => {
-                            let until = DoubleDouble::from_f64(self.time);
-                            self.stepper.start(lane, &start.state, until);
-                            self.running[lane] = Some(Running { index, rows: Vec::new() });
-                        }
-                        Err(problem) => {
-                            self.done.push((index, Err(problem.clone())));
-                            progress();
-                        }
-                    }
-                }
-            }
-            if self.running.iter().all(Option::is_none) {
-                return self.done;
-            }
-            self.stepper.expand();
-            for lane in 0..MOTION_LANES {
-                let Some(running) = &mut self.running[lane] else { continue };
-                match self.stepper.check(lane) {
-                    Ok(()) => take(&self.stepper, lane, self.time, &mut running.rows, &mut row),
-                    Err(problem) => {
-                        self.done.push((running.index, Err(problem)));
-                        self.running[lane] = None;
-                        progress();
-                    }
-                }
-            }
-            self.stepper.advance();
-            for lane in 0..MOTION_LANES {
-                if !self.stepper.is_done(lane) {
-                    continue;
-                }
-                let Some(mut running) = self.running[lane].take() else { continue };
-                let end = self.stepper.pairs(lane);
-                // The last sample may have been due within rounding of the end.
-                running.rows.resize_with(SAMPLES, || row(self.stepper.time(lane), &end));
-                let values = running.rows.iter().flatten();
-                let late = match values.copied().all(f64::is_finite) {
-                    true => Ok((running.rows, end)),
-                    false => Err(FlowError::Singular {
-                        time: self.time,
-                        state: end.iter().map(|x| x.hi).collect(),
-                    }),
-                };
-                self.done.push((running.index, late));
-                progress();
-            }
-        }
-    }
-}
-
-/// Takes the samples that are due in the present step.
-fn take(
-    stepper: &Stepper<Lanes<MOTION_LANES>>,
-    lane: usize,
-    time: f64,
-    rows: &mut Vec<Vec<f64>>,
-    row: &mut dyn FnMut(DoubleDouble, &[DoubleDouble]) -> Vec<f64>,
-) {
-    let piece = stepper.piece(lane);
-    while rows.len() < SAMPLES {
-        let (now, due) = (piece.begin(), due(time, rows.len()));
-        let after = (DoubleDouble::from_f64(due) - now).hi;
-        if after.abs() > piece.length().abs() {
-            return;
-        }
-        let state = piece.state(after);
-        rows.push(row(DoubleDouble::from_f64(due), &state));
-    }
-}
-
-/// Time of a sample.
-fn due(time: f64, index: usize) -> f64 {
-    let part = (index as f64 + (index as f64 * GOLDEN).fract()) / SAMPLES as f64;
-    time * (LATE + (1.0 - LATE) * part)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -463,12 +346,5 @@ mod tests {
             places.sort_unstable();
             assert!(places.into_iter().eq(0..count), "{count}");
         }
-    }
-
-    #[test]
-    fn samples_are_due_in_order_in_the_later_half() {
-        let times: Vec<f64> = (0..SAMPLES).map(|k| due(-10.0, k)).collect();
-        assert_eq!(times[0], -5.0);
-        assert!(times.windows(2).all(|pair| pair[1] < pair[0]) && times[SAMPLES - 1] > -10.0);
     }
 }

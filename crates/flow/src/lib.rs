@@ -29,6 +29,7 @@ mod expand;
 mod form;
 mod halt;
 mod lanes;
+mod late;
 mod launch;
 mod lexicon;
 mod lyapunov;

@@ -14,6 +14,9 @@ use liouville_flow::{Attractor, BasinRequest, Basins, Character, Destiny, StateA
 const UNSETTLED: Paint = Paint::Same([0xd4, 0xd4, 0xd4]);
 const ENDED: Paint = Paint::Same([0x4d, 0x4d, 0x4d]);
 
+/// Largest number of attractors that the text lists.
+const MOST_LINES: usize = 12;
+
 /// Basins with their request.
 pub struct BasinReport<'r> {
     /// Case of the motions.
@@ -50,7 +53,7 @@ impl BasinReport<'_> {
             Self::axis_words(across),
             Self::axis_words(up)
         );
-        for (index, attractor) in self.found.attractors.iter().enumerate() {
+        for (index, attractor) in self.found.attractors.iter().enumerate().take(MOST_LINES) {
             let share = self.share(attractor.count);
             out.push_str(&format!("{share}  {}: {}\n", index + 1, self.words(attractor)));
         }
@@ -59,11 +62,14 @@ impl BasinReport<'_> {
                 out.push_str(&format!("{}  {words}\n", self.share(count)));
             }
         };
-        let further = format!(
-            "keep to further sets: more than {} were found, so that nothing seems to attract",
-            self.found.attractors.len()
+        let others: usize =
+            self.found.attractors.iter().skip(MOST_LINES).map(|attractor| attractor.count).sum();
+        let sets = self.found.attractors.len().saturating_sub(MOST_LINES);
+        rest(others, &format!("in {sets} smaller sets"));
+        rest(
+            self.count(|end| *end == Destiny::Further),
+            "in more sets than are kept apart: nothing seems to attract",
         );
-        rest(self.count(|end| *end == Destiny::Further), &further);
         rest(
             self.count(|end| *end == Destiny::Unsettled),
             "not settled: they drift, leave, or need a longer --time",
@@ -100,11 +106,13 @@ impl BasinReport<'_> {
 
     fn words(&self, attractor: &Attractor) -> String {
         let titles = self.request.columns.titles().iter();
-        let place = |(title, [from, to]): (&String, &[f64; 2])| match attractor.is_point {
-            true => format!("{title} = {}", short(*from)),
-            false => format!("{title} from {} to {}", short(*from), short(*to)),
-        };
-        let places: Vec<String> = titles.zip(&attractor.ranges).map(place).collect();
+        let ranges = attractor.ranges.iter().zip(&attractor.last);
+        let place =
+            |(title, ([from, to], last)): (&String, (&[f64; 2], &f64))| match attractor.is_point {
+                true => format!("{title} = {}", short(*last)),
+                false => format!("{title} from {} to {}", short(*from), short(*to)),
+            };
+        let places: Vec<String> = titles.zip(ranges).map(place).collect();
         format!("{}, {}", Self::kind(attractor), places.join(", "))
     }
 
