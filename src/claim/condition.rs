@@ -28,6 +28,11 @@ pub enum Need {
         /// The value.
         value: Expr,
     },
+    /// A value is above 0 at every state.
+    Positive {
+        /// The value.
+        value: Expr,
+    },
     /// A factor has a value at almost every zero of a function.
     ValueOnZeros {
         /// Function whose zeros are considered.

@@ -1,10 +1,12 @@
 //! Invariant measures in the variables of `[variables]`.
 
+use num_dual::DualNum;
+
 use super::of_bracket::{defects, of, scalar_in, variables};
 use super::{Jets, Reader, Statement};
 use crate::formula::Formula;
-use crate::graph::Expr;
-use crate::mechanics::calculus::DualPoint;
+use crate::graph::{Expr, literally};
+use crate::mechanics::calculus::{DualPoint, determinant};
 use crate::scalar::Scalar;
 
 /// The claim that the measure ρ dy is invariant: v(ln ρ) + Σ ∂y'_i/∂y_i = 0.
@@ -34,6 +36,12 @@ impl Statement for DensityInVariables {
         let along = jet.in_variables_along_field(variables);
         let growth = self.0.logarithmic_derivative(&mut |symbol| along.value(symbol));
         vec![growth + jet.divergence_in_variables(variables) - jet.level_cofactor(kept)]
+    }
+
+    /// 1/det dφ: dependent variables have no volume.
+    fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
+        let columns = jet.slopes_of_variables(of(jet.phase.model()));
+        vec![literally(|| determinant(&columns).recip())]
     }
 
     fn quadrature_defects_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {

@@ -8,6 +8,7 @@ use super::point::read_point;
 use super::statement::Objection;
 use super::{ComplexFormula, Reader, Statement, difference};
 use crate::formula::{Formula, Type};
+use crate::graph::Expr;
 use crate::mechanics::Model;
 use crate::mechanics::calculus::{DualPoint, characteristic_polynomial};
 use crate::scalar::Scalar;
@@ -51,6 +52,10 @@ impl Statement for FixedPoint {
         never_rests(model, Self::NAME)
     }
 
+    fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
+        system_at(jet, &self.point)
+    }
+
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {
         let state = self.point.at(&jet.phase);
         let at = jet.phase.with(&[], &state);
@@ -80,6 +85,14 @@ impl Statement for FixedPoint {
         }
         residual
     }
+}
+
+/// Formulas of the system as written, at a point: where they have no value the point is not in phase
+/// space.
+pub(super) fn system_at(jet: &DualPoint<'_, Expr>, point: &Components) -> Vec<Expr> {
+    let at = jet.phase.with(&[], &point.at(&jet.phase));
+    let functions = at.model().dynamics().into_iter();
+    functions.flat_map(|formula| at.evaluate_literally(formula).components()).collect()
 }
 
 /// Reads the coefficients of a characteristic polynomial, if they are given.

@@ -6,8 +6,8 @@ use num_traits::{One, Zero};
 use super::{Reader, ResidualContext, Statement, difference};
 use crate::formula::{Formula, Type, Value};
 use crate::graph::Expr;
-use crate::mechanics::Meaning;
 use crate::mechanics::calculus::DualPoint;
+use crate::mechanics::{Meaning, Model};
 use crate::scalar::Scalar;
 
 /// Reads the scalar parameter named by a key.
@@ -37,6 +37,17 @@ pub struct Limit {
     value: Formula,
     slope: Option<Formula>,
     parameter: usize,
+}
+
+/// Whether a formula contains quantities that the system defines, such as rates.
+fn has_quantities(model: &Model, formula: &Formula) -> bool {
+    formula.symbols().any(|symbol| match model.vocabulary.entry(symbol).meaning {
+        Meaning::Quantity(_) => true,
+        Meaning::Abbreviation(index) => {
+            model.abbreviations.get(index).is_some_and(|own| has_quantities(model, own))
+        }
+        Meaning::Parameter(_) | Meaning::State(_) => false,
+    })
 }
 
 impl Statement for Limit {
@@ -74,6 +85,17 @@ impl Statement for Limit {
 
     fn changes(&self) -> Vec<usize> {
         vec![self.parameter]
+    }
+
+    /// A as written at 0: with 0/(x + |x| + 0) it has no value for x < 0, where A is 1.
+    fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
+        let zero = [(self.parameter, Value::Scalar(Expr::zero()))];
+        let at = jet.phase.with(&zero, &jet.phase.state());
+        let model = at.model();
+        let uses_motion = has_quantities(model, &self.function);
+        let functions = if uses_motion { model.dynamics() } else { Vec::new() };
+        let all = functions.into_iter().chain([&self.function]);
+        all.flat_map(|formula| at.evaluate_literally(formula).components()).collect()
     }
 
     /// Adds A'' at 0 if a slope is given: ε^(3/2) has a slope there too, and is not O(ε²).

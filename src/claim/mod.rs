@@ -229,6 +229,11 @@ impl ClaimKind {
         of_each!(self, statement => statement.residual(jet, kept))
     }
 
+    /// Computes values, recorded literally, without which the claim has no meaning.
+    pub fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
+        of_each!(self, statement => statement.presence(jet))
+    }
+
     /// Computes auxiliary values, needed at a few states only.
     pub fn context(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> ResidualContext {
         let mut context = of_each!(self, statement => statement.context(jet, kept));

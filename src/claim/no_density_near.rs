@@ -2,11 +2,15 @@
 //!
 //! Where v(x₀) = 0, the derivative of the flow is exp(tA), with det exp(tA) = exp(t div v). A measure
 //! with a continuous density ρ is invariant only if ρ(x₀) = ρ(x₀) exp(t div v). So div v(x₀) ≠ 0
-//! excludes every ρ that is positive at x₀. On a level, div v refers to the level's volume. For a
-//! map the factor is det DΦ, which must be ±1.
+//! excludes every ρ that is positive at x₀. On a level, div v refers to the level's volume.
+//!
+//! A map Φ takes the density ρ to Σ ρ(x)/|det DΦ(x)| over all x with Φ(x) = y. At a fixed point y = x₀
+//! is one of them, and the others add nothing negative: ρ(x₀) ≥ ρ(x₀)/|det DΦ(x₀)|. So |det DΦ(x₀)| < 1
+//! excludes every ρ that is positive at x₀, also where Φ is not one-to-one; |det DΦ(x₀)| > 1 does not.
 
 use super::clock::never_rests;
 use super::components::Components;
+use super::fixed_point::system_at;
 use super::point::read_point;
 use super::statement::Objection;
 use super::{Condition, Need, Reader, ResidualContext, Statement, difference};
@@ -25,12 +29,12 @@ impl NoDensityNear {
         DualPoint::new(jet.phase.with(&[], &self.0.at(&jet.phase)))
     }
 
-    /// Computes the divergence at the point, or (det DΦ)² - 1 of a map.
+    /// Computes the divergence at the point, or 1 - (det DΦ)² of a map.
     fn growth(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> Expr {
         let at = self.jet(jet);
         if jet.phase.model().system.is_map() {
             let factor = at.expansion(kept);
-            return factor * factor - Expr::from(1.0);
+            return Expr::from(1.0) - factor * factor;
         }
         at.divergence() - at.level_cofactor(kept)
     }
@@ -64,22 +68,28 @@ impl Statement for NoDensityNear {
         residual
     }
 
+    fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
+        system_at(jet, &self.0)
+    }
+
     fn context(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> ResidualContext {
         ResidualContext { value: vec![self.growth(jet, kept)], ..ResidualContext::default() }
     }
 
     fn conditions(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> Vec<Condition> {
-        let otherwise = match jet.phase.model().system.is_map() {
-            true => "it is not known that |det DΦ| differs from 1 at the point for all parameters",
-            false => {
-                "it is not known that the divergence differs from 0 at the point for all parameters"
-            }
+        let value = self.growth(jet, kept);
+        let (need, otherwise) = match jet.phase.model().system.is_map() {
+            true => (
+                Need::Positive { value },
+                "it is not known that |det DΦ| is below 1 at the point for all parameters; above 1 it \
+                 excludes no density of a map that may not be one-to-one",
+            ),
+            false => (
+                Need::NotZero { value },
+                "it is not known that the divergence differs from 0 at the point for all parameters",
+            ),
         };
-        vec![Condition {
-            need: Need::NotZero { value: self.growth(jet, kept) },
-            otherwise: otherwise.to_string(),
-            is_essential: true,
-        }]
+        vec![Condition { need, otherwise: otherwise.to_string(), is_essential: true }]
     }
 
     fn remark(&self, _: &Model) -> Option<String> {

@@ -91,6 +91,12 @@ pub trait Statement: Clone {
         Vec::new()
     }
 
+    /// Computes values, recorded literally, without which the claim has no meaning although all that
+    /// is written has a value: at another point, for another parameter, or of a determinant's inverse.
+    fn presence(&self, _: &DualPoint<'_, Expr>) -> Vec<Expr> {
+        Vec::new()
+    }
+
     /// Computes auxiliary values, needed at a few states only.
     fn context(&self, _: &DualPoint<'_, Expr>, _: &[bool]) -> ResidualContext {
         ResidualContext::default()

@@ -113,6 +113,13 @@ impl<'m, T: Scalar> DualPoint<'m, T> {
         self.image.along_field.get_or_init(|| variables.point(self.along_field()))
     }
 
+    /// Computes dφ, by columns.
+    pub fn slopes_of_variables(&self, variables: &NewVariables) -> Vec<Vec<T>> {
+        let slope =
+            |beside: &Phase<'_, Dual<T>>| variables.image(beside).iter().map(|y| y.eps).collect();
+        self.along_axes().iter().map(slope).collect()
+    }
+
     /// Computes tr(dφ⁻¹ d(L_vφ)), the divergence of the motion in new variables, as many as the old
     /// ones.
     pub fn divergence_in_variables(&self, variables: &NewVariables) -> T {

@@ -11,7 +11,7 @@ use crate::graph::{Expr, Fault, Graph, Step, record};
 use crate::mechanics::Phase;
 use crate::mechanics::calculus::DualPoint;
 use crate::number::{BinaryOperation, UnaryFunction};
-use crate::proof::{Extent, Group, GroupOutcome, Prover, are_coprime, is_nowhere_zero};
+use crate::proof::{Extent, Group, GroupOutcome, Prover, are_coprime, is_nowhere_zero, sign};
 use crate::scalar::Scalar;
 
 impl Judging<'_> {
@@ -25,7 +25,9 @@ impl Judging<'_> {
         for (item, status) in holding.iter_mut() {
             for condition in &item.conditions {
                 let failure = match (&condition.need, sampler.is_numerical()) {
-                    (Need::NotZero { .. }, true) => Some(condition.otherwise.clone()),
+                    (Need::NotZero { .. } | Need::Positive { .. }, true) => {
+                        Some(condition.otherwise.clone())
+                    }
                     (_, true) => None,
                     (_, false) => self.failure(sampler, condition)?,
                 };
@@ -59,7 +61,19 @@ impl Judging<'_> {
                 })
             }
             Need::NotZero { value } => {
-                Ok((!self.is_never_zero(sampler, *value)?).then(|| otherwise.clone()))
+                let is_met =
+                    self.holds_at_all_states(sampler, *value, &|graph, extents, value| {
+                        is_nowhere_zero(graph, extents, &[], &[value])
+                    })?;
+                Ok((!is_met).then(|| otherwise.clone()))
+            }
+            Need::Positive { value } => {
+                let is_met =
+                    self.holds_at_all_states(sampler, *value, &|graph, extents, value| {
+                        sign(graph, extents, &[], value) == Some(true)
+                            && is_nowhere_zero(graph, extents, &[], &[value])
+                    })?;
+                Ok((!is_met).then(|| otherwise.clone()))
             }
             Need::ValueOnZeros { function, factor, inverse } => {
                 let is_met = self.has_value_on_zeros(sampler, *function, *factor, *inverse)?;
@@ -68,13 +82,18 @@ impl Judging<'_> {
         }
     }
 
-    /// Whether it is known that a value is 0 at no state.
-    fn is_never_zero(&self, sampler: &Sampler, value: Expr) -> Result<bool, Fault> {
+    /// Whether a test of a value by enclosures holds at all states, for each choice of listed values.
+    fn holds_at_all_states(
+        &self,
+        sampler: &Sampler,
+        value: Expr,
+        test: &dyn Fn(&Graph, &[Extent], Expr) -> bool,
+    ) -> Result<bool, Fault> {
         let Some(combinations) = combinations(sampler.recipes()) else { return Ok(false) };
         let extents = sampler.extents();
         for fixed in combinations {
             let (graph, groups) = sampler.compose(self.graph, &[vec![value]], &fixed)?;
-            if !is_nowhere_zero(&graph, &extents, &[], &groups.concat()) {
+            if !groups.concat().into_iter().all(|value| test(&graph, &extents, value)) {
                 return Ok(false);
             }
         }

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use num_dual::DualNum;
+use num_traits::Zero;
 
 use super::physics;
 use super::run::Values;
@@ -46,7 +47,15 @@ pub struct Wider {
 impl<'c> RecordedClaim<'c> {
     /// Records the residual of a claim, at its place and in wider ones, and its context.
     pub fn new(claim: &'c PlacedClaim, jet: &DualPoint<'_, Expr>) -> Self {
-        let residual = |place: &LevelSubset| claim.kind.residual(jet, &place.kept);
+        // 0 where the value exists, and undefined elsewhere.
+        let presence = claim.kind.presence(jet).into_iter().filter(|x| !x.is_always_defined());
+        let presence: Vec<Expr> =
+            presence.map(|value| literally(|| value * Expr::zero())).collect();
+        let residual = |place: &LevelSubset| {
+            let mut residual = claim.kind.residual(jet, &place.kept);
+            residual.extend(&presence);
+            residual
+        };
         let wider = match claim.kind.widens() && claim.expect != Expect::Fails {
             true => claim.place.wider(jet.phase.model()),
             false => Vec::new(),

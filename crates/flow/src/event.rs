@@ -1,8 +1,9 @@
 //! Events: zeros of a function of the state within a piece of a motion.
 //!
-//! The function is known as a polynomial on each piece. Its sign at the ends, and at the extremum
-//! between them if there is one, brackets each root; Newton's method finds it, guarded by bisection.
-//! An extremum whose value is 0 up to rounding is a tangency, not a crossing.
+//! The function is known as a polynomial on each piece. A piece on which bounds of its terms exclude
+//! zeros, turns or bends is simple; others are halved. On a simple piece the sign at the ends, and at
+//! the extremum between them if there is one, brackets each root; Newton's method finds it, guarded by
+//! bisection. An extremum whose value is 0 up to rounding is a tangency, not a crossing.
 
 use super::number::SeriesNumber;
 
@@ -10,6 +11,9 @@ use super::number::SeriesNumber;
 const MAX_STEPS: usize = 200;
 /// Values below this many roundings of the largest term count as 0.
 const ROUNDINGS: f64 = 256.0;
+
+/// Largest number of times that a piece is halved.
+const HALVINGS: usize = 12;
 
 /// A zero of a function within a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,6 +60,41 @@ pub struct Ends<T> {
     rates: [T; 2],
     /// The last two terms of the polynomial.
     tails: [T; 2],
+    /// Whether zeros, turns and bends are excluded.
+    shape: Shape<T>,
+}
+
+/// Bounds of terms t_k = |c_k| h^k of a polynomial Σ c_k τ^k for |τ| ≤ h.
+#[derive(Clone, Copy, Debug)]
+struct Shape<T> {
+    /// t_0, t_1, 2 t_2
+    first: [T; 3],
+    /// Sums of the terms beyond these of the function, h times its slope, h² times its bend.
+    further: [T; 3],
+}
+
+impl<T: SeriesNumber> Shape<T> {
+    const NONE: Self = Self { first: [T::ZERO; 3], further: [T::ZERO; 3] };
+
+    /// Adds the term of order n.
+    #[inline(always)]
+    fn add(&mut self, n: usize, term: T) {
+        for (k, weight) in [1, n, n * n.saturating_sub(1)].into_iter().enumerate() {
+            let weighted = T::float(weight as f64) * term;
+            match n {
+                _ if n == k => self.first[k] = weighted,
+                _ if n > k => self.further[k] = self.further[k] + weighted,
+                _ => {}
+            }
+        }
+    }
+
+    /// Whether a function has no zero, does not turn, or bends to one side alone.
+    fn is_simple(&self, lane: usize) -> bool {
+        let at = |value: T| value.lane(lane).leading();
+        let pairs = self.first.iter().zip(&self.further);
+        pairs.into_iter().any(|(first, further)| at(*first) > at(*further))
+    }
 }
 
 impl<T: SeriesNumber> Ends<T> {
@@ -67,6 +106,7 @@ impl<T: SeriesNumber> Ends<T> {
         last: T::ZERO,
         rates: [T::ZERO; 2],
         tails: [T::ZERO; 2],
+        shape: Shape::NONE,
     };
 
     /// Evaluates polynomials at the ends of their pieces.
@@ -74,10 +114,11 @@ impl<T: SeriesNumber> Ends<T> {
     pub fn new(polynomial: &[T], length: T) -> Self {
         let size = T::ZERO.larger(length);
         let (mut power, mut largest) = (T::ONE, T::ZERO);
-        let mut tails = [T::ZERO; 2];
-        for coefficient in polynomial {
-            let term = *coefficient * power;
-            (tails, largest) = ([tails[1], T::ZERO.larger(term)], largest.larger(term));
+        let (mut tails, mut shape) = ([T::ZERO; 2], Shape::NONE);
+        for (n, coefficient) in polynomial.iter().enumerate() {
+            let term = T::ZERO.larger(*coefficient * power);
+            (tails, largest) = ([tails[1], term], largest.larger(term));
+            shape.add(n, term);
             power = power * size;
         }
         let (mut last, mut rate) = (T::ZERO, T::ZERO);
@@ -87,7 +128,8 @@ impl<T: SeriesNumber> Ends<T> {
                 rate = rate * length + T::float(n as f64) * *coefficient;
             }
         }
-        Self { length, largest, first: polynomial[0], last, rates: [polynomial[1], rate], tails }
+        let rates = [polynomial[1], rate];
+        Self { length, largest, first: polynomial[0], last, rates, tails, shape }
     }
 
     /// Part of a lane's piece after which the last two of its `count` terms are within their limits,
@@ -127,7 +169,13 @@ impl Sides {
         let rounding = at(ends.largest) * ROUNDINGS * T::EPSILON;
         let known = first.abs() > rounding && last.is_finite() && last_rate.is_finite();
         let (begin, end) = (first > 0.0, last > 0.0);
-        if !known || length == 0.0 || begin != end || turns(first_rate, last_rate, length, begin) {
+        let simple = ends.shape.is_simple(lane);
+        if !simple
+            || !known
+            || length == 0.0
+            || begin != end
+            || turns(first_rate, last_rate, length, begin)
+        {
             return false;
         }
         self.positive = Some(end);
@@ -152,29 +200,74 @@ impl Sides {
         };
         let end = value(polynomial, length).0.leading() > 0.0;
         self.positive = Some(end);
-        between(polynomial, length, begin, end, rounding)
+        let leading: Vec<f64> = polynomial.iter().map(|own| own.leading()).collect();
+        let (mut from, mut side) = (T::ZERO, begin);
+        let mut events = Vec::new();
+        for to in simple_pieces(&leading, length.leading()) {
+            let is_last = to == length.leading();
+            let to = if is_last { length } else { T::float(to) };
+            let there = if is_last { end } else { value(polynomial, to).0.leading() > 0.0 };
+            events.extend(between(polynomial, [from, to], [side, there], rounding));
+            (from, side) = (to, there);
+        }
+        events
     }
 }
 
+/// Ends of simple pieces from 0 to `length`, in order.
+fn simple_pieces(polynomial: &[f64], length: f64) -> Vec<f64> {
+    let mut ends = Vec::new();
+    let mut open = vec![(0.0, length, 0)];
+    while let Some((from, to, halvings)) = open.pop() {
+        let middle = 0.5 * (from + to);
+        if halvings == HALVINGS || middle == from || middle == to || is_simple(polynomial, from, to)
+        {
+            ends.push(to);
+        } else {
+            open.push((middle, to, halvings + 1));
+            open.push((from, middle, halvings + 1));
+        }
+    }
+    ends
+}
+
+/// Whether bounds about the middle of a piece show that it is simple.
+fn is_simple(polynomial: &[f64], from: f64, to: f64) -> bool {
+    let (middle, half) = (0.5 * (from + to), 0.5 * (to - from).abs());
+    let mut about = polynomial.to_vec();
+    for k in 0..about.len() {
+        for n in (k..about.len() - 1).rev() {
+            about[n] += middle * about[n + 1];
+        }
+    }
+    let (mut shape, mut power) = (Shape::<f64>::NONE, 1.0);
+    for (n, coefficient) in about.iter().enumerate() {
+        shape.add(n, (coefficient * power).abs());
+        power *= half;
+    }
+    shape.is_simple(0)
+}
+
+/// Events on a simple piece, with the signs at its ends.
 fn between<T: SeriesNumber<One = T>>(
     polynomial: &[T],
-    length: T,
-    begin: bool,
-    end: bool,
+    [from, to]: [T; 2],
+    [begin, end]: [bool; 2],
     rounding: f64,
 ) -> Vec<Event<T>> {
-    let forward = length.leading() > 0.0;
+    let length = (to - from).leading();
+    let forward = length > 0.0;
     let crossing = |after: T, to: bool| Event::Crossing { after, rising: to == forward };
     if begin != end {
-        return vec![crossing(root(polynomial, T::ZERO, length, begin), end)];
+        return vec![crossing(root(polynomial, from, to, begin), end)];
     }
     // Between equal signs, the function can reach 0 only where its slope changes sign.
     let rate = slope(polynomial);
-    let (first, last) = (value(&rate, T::ZERO).0.leading(), value(&rate, length).0.leading());
-    if !turns(first, last, length.leading(), begin) {
+    let (first, last) = (value(&rate, from).0.leading(), value(&rate, to).0.leading());
+    if !turns(first, last, length, begin) {
         return Vec::new();
     }
-    let extremum = root(&rate, T::ZERO, length, first > 0.0);
+    let extremum = root(&rate, from, to, first > 0.0);
     let depth = value(polynomial, extremum).0.leading();
     if depth.abs() <= rounding {
         return vec![Event::Tangency { after: extremum }];
@@ -183,8 +276,8 @@ fn between<T: SeriesNumber<One = T>>(
         return Vec::new();
     }
     vec![
-        crossing(root(polynomial, T::ZERO, extremum, begin), !begin),
-        crossing(root(polynomial, extremum, length, !begin), begin),
+        crossing(root(polynomial, from, extremum, begin), !begin),
+        crossing(root(polynomial, extremum, to, !begin), begin),
     ]
 }
 

@@ -45,6 +45,7 @@ mod orbit;
 mod periodic;
 mod plane;
 mod portrait;
+mod presence;
 mod program;
 mod record;
 mod request;

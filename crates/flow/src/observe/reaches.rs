@@ -6,11 +6,12 @@ use crate::motion::{filled, point};
 use crate::{Enclosure, FlowError, MeasuredNumber, Obstacle, follow};
 use liouville::claim::Components;
 use liouville::claim::motion::{Beginning, Reaches};
-use liouville::graph::{Evaluator, Tape, record};
+use liouville::graph::{Evaluator, Expr, Tape, literally, record};
 use liouville::mechanics::{Model, Phase};
 use liouville::number::ball::{Ball, Balls};
 use liouville::number::exact::Exact;
 use liouville::number::rational::Rational;
+use liouville::scalar::Scalar;
 
 /// Relative distance within which the stated time lies from its f64.
 const TIME: f64 = 4.0 * f64::EPSILON;
@@ -112,7 +113,11 @@ fn weigh(
     let (graph, outputs) = record(model.dimension(), |inputs| {
         let at = point(model, parameters, inputs);
         let value = at.scalar(&claim.function);
-        let mut outputs = vec![value];
+        // As written √x·√x has no value for x < 0.
+        let written = at.evaluate_literally(&claim.function).components();
+        let zero = Expr::rational(&Rational::from(0));
+        let exists = literally(|| written.into_iter().fold(value, |sum, own| sum + zero * own));
+        let mut outputs = vec![exists];
         outputs.extend(claim.above.iter().map(|bound| value - at.scalar(bound)));
         outputs.extend(claim.below.iter().map(|bound| at.scalar(bound) - value));
         outputs
@@ -121,6 +126,11 @@ fn weigh(
     let mut evaluator = Evaluator::new(&tape, Ball::<1>);
     evaluator.run(&state.iter().map(|x| x.block()).collect::<Vec<_>>());
     let values: Vec<Enclosure> = evaluator.outputs().map(Enclosure::first).collect();
+    if !values[0].is_finite() {
+        let text = claim.function.text().trim();
+        judgement.leave_open(format!("`{text}` may have no value at the state reached"));
+        return Ok(());
+    }
     let found = MeasuredNumber { value: values[0].mid, error: values[0].rad };
     judgement.note(claim.function.text().trim(), found, None);
     let given = bounds.iter().filter_map(|(bound, side)| Some((bound.as_ref()?, side)));

@@ -7,6 +7,7 @@ use super::plan::Plan;
 use super::sharp;
 use super::tail::{self, End};
 use crate::error::FlowError;
+use crate::presence::{as_written, left_out};
 use crate::program::TaylorProgram;
 use liouville::graph::{Expr, record};
 use liouville::mechanics::Phase;
@@ -43,10 +44,11 @@ pub struct EnclosedMotion {
     pub loose: usize,
     /// Plan with all parameters at their centres.
     pub state: Plan,
-    /// Plan with the loose parameters as further components of the state.
+    /// Plan with the loose parameters as further components of the state, and with what was left out
+    /// of the field.
     pub wide: Plan,
-    /// Plan with the derivative and ∫ div v, and with ∫ L_vF of the conserved functions F: no step
-    /// is proved across a point where one of them is not analytic.
+    /// Plan with the derivative and ∫ div v, with ∫ L_vF of the conserved functions F, and with what
+    /// was left out of the field: no step is proved across a point where one of them is not analytic.
     pub full: Plan,
 }
 
@@ -56,11 +58,12 @@ impl EnclosedMotion {
     pub fn new(laws: &Laws<'_>) -> Result<Self, FlowError> {
         let Laws { model, energy, integrals, .. } = *laws;
         let (n, loose) = (model.dimension(), laws.loose.len());
-        let state = plan(&Laws { loose: &[], ..*laws }, 0, |phase, _, _| phase.field().to_vec())?;
-        let wide = plan(laws, 0, |phase, _, _| phase.field().to_vec())?;
+        let centre = Laws { loose: &[], ..*laws };
+        let state = plan(&centre, 0, false, |phase, _, _| phase.field().to_vec())?;
+        let wide = plan(laws, 0, true, |phase, _, _| phase.field().to_vec())?;
         let sizes = integrals.iter().map(|formula| formula.value_type().size());
         let kept = model.level.len() + usize::from(energy) + sizes.sum::<usize>();
-        let full = plan(laws, n * (n + loose) + 1 + kept, |phase, inputs, more| {
+        let full = plan(laws, n * (n + loose) + 1 + kept, true, |phase, inputs, more| {
             let jet = DualPoint::new(phase.with(&[], &phase.state()));
             let mut rates = jet.phase.field().to_vec();
             for (index, vector) in more[..n * (n + loose)].chunks(n).enumerate() {
@@ -162,11 +165,17 @@ impl EnclosedMotion {
         steps(&self.full, self.order, &starts, h).into_iter().map(|end| end.map(passage)).collect()
     }
 
+    /// State with the loose parameters and zeros, as the wide plan begins.
+    fn widened(&self, state: &Boxed) -> Boxed {
+        let others = self.wide.dimension - self.dimension - self.loose;
+        let zeros = std::iter::repeat_n(Enclosure::ZERO, others);
+        state.iter().copied().chain(self.ranges()).chain(zeros).collect()
+    }
+
     /// Encloses the states after the steps `h`, without derivatives, for all values of the loose
     /// parameters. `None` where a step is not proved, or does not lead forwards.
     pub fn ends(&self, starts: &[Boxed], h: &[Enclosure]) -> Vec<Option<Boxed>> {
-        let whole = |state: &Boxed| state.iter().copied().chain(self.ranges()).collect();
-        let starts: Vec<Boxed> = starts.iter().map(whole).collect();
+        let starts: Vec<Boxed> = starts.iter().map(|state| self.widened(state)).collect();
         let found = steps(&self.wide, self.order, &starts, h).into_iter();
         let state = |(end, h): (Option<End>, &Enclosure)| {
             let mut state = end.filter(|_| h.mid >= 0.0)?.state;
@@ -180,8 +189,7 @@ impl EnclosedMotion {
     pub fn field(&self, states: &[Boxed]) -> Vec<Boxed> {
         let mut coefficients = Coefficients::new(&self.wide, 1);
         let mut fields = Vec::new();
-        let whole = |state: &Boxed| state.iter().copied().chain(self.ranges()).collect();
-        let states: Vec<Boxed> = states.iter().map(whole).collect();
+        let states: Vec<Boxed> = states.iter().map(|state| self.widened(state)).collect();
         for group in states.chunks(BOXES) {
             coefficients.values(&blocks(group));
             for lane in 0..group.len() {
@@ -205,22 +213,27 @@ fn slopes(phase: &Phase<'_, Dual<Expr>>) -> Vec<Expr> {
 
 /// Compiles rates over the state, the loose parameters and `more` further variables, all constants
 /// enclosed. `build` receives a point, the loose parameters and the variables, and returns the rates
-/// of the state and of the variables.
+/// of the state and of the variables. `with_all` adds variables whose rates are the operations that
+/// were left out of the field.
 fn plan(
     laws: &Laws<'_>,
     more: usize,
+    with_all: bool,
     build: impl FnOnce(&Phase<'_, Expr>, &[Expr], &[Expr]) -> Vec<Expr>,
 ) -> Result<Plan, FlowError> {
     let (dimension, loose) = (laws.model.dimension(), laws.loose.len());
-    let (graph, rates) = record(dimension + loose + more, |inputs| {
+    let (graph, (mut rates, written)) = record(dimension + loose + more, |inputs| {
         let (state, rest) = inputs.split_at(dimension);
         let (free, more) = rest.split_at(loose);
-        let mut rates = build(&laws.point(state, free), free, more);
+        let phase = laws.point(state, free);
+        let mut rates = build(&phase, free, more);
         let rest = rates.split_off(dimension.min(rates.len()));
         rates.extend(free.iter().map(|_| Expr::rational(&Rational::from(0))));
         rates.extend(rest);
-        rates
+        (rates, if with_all { as_written(&phase) } else { Vec::new() })
     })?;
+    let left_out = left_out(&graph, &rates, &written);
+    rates.extend(left_out);
     if graph.inputs() > dimension + loose + more {
         return Err(FlowError::Antiderivative);
     }

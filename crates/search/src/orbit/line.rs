@@ -76,6 +76,10 @@ impl<'s, 'c> RandomLine<'s, 'c> {
 
     /// Removes all common factors with `other` from a polynomial on the line.
     fn without(&self, own: Vec<u64>, other: &[u64]) -> Result<Vec<u64>, SearchError> {
+        // Every place is a zero of 0, which has no factors.
+        if other.iter().all(|x| *x == 0) {
+            return Ok(own);
+        }
         without(&self.at.modulus, own, other, &self.setting.effort.halt)
     }
 

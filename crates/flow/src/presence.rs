@@ -1,0 +1,35 @@
+//! Operations that a system's formulas contain, and that its recorded field does without.
+//!
+//! 0·ln x is recorded as 0, and √x·√x as x; as written they have values for x > 0 alone. A proof about
+//! a motion includes the operations that were left out, so that it ends where one has no value.
+
+use liouville::graph::{Expr, Graph, Step};
+use liouville::mechanics::{ParameterOrigin, Phase};
+use liouville::number::{BinaryOperation, UnaryFunction};
+
+/// Formulas of the system and of its parameters, recorded as written; those that have a value
+/// everywhere are left out.
+pub fn as_written(phase: &Phase<'_, Expr>) -> Vec<Expr> {
+    let model = phase.model();
+    let parameters = model.parameters.iter().filter_map(|parameter| match &parameter.origin {
+        ParameterOrigin::Formula(formula) => Some(formula),
+        _ => None,
+    });
+    let formulas = parameters.chain(model.dynamics());
+    let values = formulas.flat_map(|formula| phase.evaluate_literally(formula).components());
+    values.filter(|value| !value.is_always_defined()).collect()
+}
+
+/// Operations without a value at some arguments that occur in what is written, and not in the field.
+pub fn left_out(graph: &Graph, field: &[Expr], written: &[Expr]) -> Vec<Expr> {
+    let kept = graph.reached(field.iter().copied());
+    let all = graph.reached(written.iter().copied());
+    let is_partial = |step: Step<'_>| match step {
+        Step::Unary(UnaryFunction::Recip | UnaryFunction::Sqrt | UnaryFunction::Ln, _) => true,
+        Step::Binary(BinaryOperation::Pow, ..) => true,
+        Step::Power(_, exponent) => exponent.is_negative() || exponent.to_integer().is_none(),
+        _ => false,
+    };
+    let lost = (0..graph.len()).filter(|place| all[*place] && !kept[*place]);
+    lost.filter(|place| is_partial(graph.step(*place))).map(|place| graph.at(place)).collect()
+}
