@@ -4,9 +4,9 @@
 //! with a continuous density ρ is invariant only if ρ(x₀) = ρ(x₀) exp(t div v). So div v(x₀) ≠ 0
 //! excludes every ρ that is positive at x₀. On a level, div v refers to the level's volume.
 //!
-//! A map Φ takes the density ρ to Σ ρ(x)/|det DΦ(x)| over all x with Φ(x) = y. At a fixed point y = x₀
-//! is one of them, and the others add nothing negative: ρ(x₀) ≥ ρ(x₀)/|det DΦ(x₀)|. So |det DΦ(x₀)| < 1
-//! excludes every ρ that is positive at x₀, also where Φ is not one-to-one; |det DΦ(x₀)| > 1 does not.
+//! Let Φ(x₀) = x₀ for a map Φ, B be a ball about x₀, and μ = ρ dx be invariant: μ(B) ≤ μ(Φ⁻¹(Φ(B))) =
+//! μ(Φ(B)), and Φ(B) has at most q times the volume of B, where q is near |det DΦ(x₀)|. So |det DΦ(x₀)| < 1
+//! excludes every ρ that is positive at x₀; |det DΦ(x₀)| > 1 does not, where Φ is not one-to-one.
 
 use super::clock::never_rests;
 use super::components::Components;

@@ -162,7 +162,14 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
     fn crosses(&mut self, lane: usize, ends: &Ends<T>) -> bool {
         let Some(running) = &mut self.running[lane] else { return false };
         if let Err(problem) = self.stepper.check(lane) {
-            running.track.problem = Some(problem);
+            let time = self.stepper.time(lane).hi;
+            running.track.problem = Some(match problem {
+                // The step is cut before a branch point, which the surface may have.
+                FlowError::Singular { .. } if self.stepper.is_regular(lane) => {
+                    FlowError::SectionEnds { time }
+                }
+                other => other,
+            });
             return true;
         }
         let steps = self.stepper.steps(lane);
@@ -173,6 +180,11 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
         if !running.sides.pass(ends, lane) {
             let piece = self.stepper.piece(lane);
             let polynomial = piece.output(0);
+            if !polynomial.iter().all(|coefficient| coefficient.is_finite()) {
+                let time = self.stepper.time(lane).hi;
+                running.track.problem = Some(FlowError::SectionEnds { time });
+                return true;
+            }
             if polynomial.iter().all(|coefficient| *coefficient == 0.0) {
                 running.track.problem = Some(FlowError::InSurface);
                 return true;

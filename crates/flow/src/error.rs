@@ -95,6 +95,15 @@ pub enum FlowError {
         /// Number of crossings in the direction that does not count.
         others: usize,
     },
+    /// A formula of the section has no value from some point of the motion on, or the motion ends there.
+    #[error(
+        "a formula of the section has no value beyond t = {time:.6} of the motion, or the motion ends there"
+    )]
+    SectionEnds {
+        /// Time of the last value.
+        #[serde(with = "super::record")]
+        time: f64,
+    },
     /// The level set is a point.
     #[error("the level set has dimension 0, so that nothing moves on it")]
     NoTangents,
@@ -270,6 +279,9 @@ impl FlowError {
             FlowError::BelowPotential { .. } => "choose a higher energy, or another start",
             FlowError::NeverCrossed { .. } => {
                 "choose another start, another surface (--section or --g0), or another direction"
+            }
+            FlowError::SectionEnds { .. } => {
+                "write the surface without roots, logarithms and quotients: y + 0.7 = 1/4, not sqrt(y + 0.7) = 1/2"
             }
             FlowError::NoTangents => "leave out an equation of [level]",
             FlowError::AtRest => "choose another start",

@@ -394,6 +394,30 @@ mod tests {
     }
 
     #[test]
+    fn all_roots_within_a_piece_are_found() {
+        for turn in 0..500u32 {
+            let count = 1 + turn % 6;
+            let at = |k: u32| (f64::from(turn * 7 + k * 29).sin() * 43758.5).abs().fract();
+            let mut roots: Vec<f64> = (0..count).map(at).collect();
+            roots.sort_by(f64::total_cmp);
+            let gap = roots.windows(2).map(|pair| pair[1] - pair[0]).fold(1.0, f64::min);
+            if gap < 3e-3 || roots[0] < 1e-3 || roots[count as usize - 1] > 0.999 {
+                continue;
+            }
+            let length = if turn.is_multiple_of(2) { 1.0 } else { -1.0 };
+            let signed: Vec<f64> = roots.iter().map(|root| root * length).collect();
+            let polynomial = with_roots(&signed);
+            assert!(!Sides::default().pass(&Ends::new(&polynomial, length), 0), "{roots:?}");
+            let found = times(&events(&polynomial, length));
+            assert_eq!(found.len(), roots.len(), "{roots:?} {found:?}");
+            for ((after, _), root) in found.iter().zip(&signed) {
+                assert!((after - root).abs() < 1e-9, "{roots:?} {found:?}");
+            }
+            assert!(found.windows(2).all(|pair| pair[0].1 != pair[1].1), "directions alternate");
+        }
+    }
+
+    #[test]
     fn a_root_between_two_pieces_is_found_once() {
         // The first piece ends just before or behind the root; the next one disagrees by rounding.
         for (end, begin) in [(1e-17, -1e-17), (-1e-17, 1e-17), (1e-17, 1e-17), (-1e-17, -1e-17)] {

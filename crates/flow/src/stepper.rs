@@ -207,7 +207,7 @@ impl<T: SeriesNumber> Stepper<T> {
         }
         let motion = &self.lanes[lane];
         let step = motion.step.leading();
-        let finite = self.sizes.soundness.lane(lane).leading() == 0.0;
+        let finite = self.is_regular(lane);
         let left = (motion.until - motion.time).hi.abs();
         // Less than the time's last place may be left of a very long run.
         let at_end = left <= f64::EPSILON * motion.time.hi.abs();
@@ -221,6 +221,11 @@ impl<T: SeriesNumber> Stepper<T> {
             true => Ok(()),
             false => Err(FlowError::Singular { time, state: state() }),
         }
+    }
+
+    /// Whether the present expansion of a motion is finite.
+    pub fn is_regular(&self, lane: usize) -> bool {
+        self.sizes.soundness.lane(lane).leading() == 0.0
     }
 
     /// Velocity of a motion at its present state.

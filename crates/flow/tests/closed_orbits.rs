@@ -341,3 +341,20 @@ fn data_that_prove_nothing_are_refused() {
     refused("an order without end", &|data| data.order = 1 << 40);
     refused("nothing at all", &|data| *data = liouville_flow::ProofData::default());
 }
+
+#[test]
+fn no_orbit_is_closed_across_points_where_the_field_has_no_value() {
+    let ring = |more: &str| {
+        judged(&format!(
+            "title = \"t\"\n[parameters]\nb = \"0\"\n[state]\nx = \"-3..3\"\ny = \"-3..3\"\n[field]\n\
+             \"x'\" = \"−y + x*(1 − x² − y²) {more}\"\n\"y'\" = \"x + y*(1 − x² − y²)\"\n[[claim]]\n\
+             closed-orbit = 6.283185307\nstate = {{ x = \"1\", y = \"0\" }}\n"
+        ))
+    };
+    assert_eq!(ring("").verdict, Verdict::Proved);
+    assert_eq!(ring("+ b*log(2 + x)").verdict, Verdict::Proved, "{:?}", ring("").evidence);
+    for more in ["+ 0*log(x)", "+ b/x", "+ b*log(x)", "+ atan2(0*y, x)", "+ sqrt(x) − sqrt(x)"] {
+        let found = ring(more);
+        assert_eq!(found.verdict, Verdict::Undecided, "{more}: {:?}", found.evidence);
+    }
+}

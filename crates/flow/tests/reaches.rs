@@ -164,3 +164,44 @@ fn the_rattleback_turns_back_one_way() {
         println!("{}: {:?}", claim.name, claim.evidence.measured);
     }
 }
+
+#[test]
+fn no_motion_goes_on_where_the_field_as_written_has_no_value() {
+    let fields = [
+        "1 + 0*log(2 − x)",
+        "1 + 0/(x − 2)",
+        "1 + (x − x)*log(2 − x)",
+        "cos(x)/cos(x)",
+        "[1, sqrt(2 − x)][1]",
+        "1 + asin(x/2) − asin(x/2)",
+        "sqrt(2 − x)/sqrt(2 − x)",
+        "1/(1/(x − 2))*(1/(x − 2))",
+    ];
+    for field in fields {
+        let text = format!("[state]\nx = \"0..4\"\n[field]\n\"x'\" = \"{field}\"");
+        for (time, is_reached) in [("1", true), ("3", false)] {
+            let found = claim(
+                &text,
+                &format!(
+                    "reaches = \"x\"\nstate = {{ x = \"1/2\" }}\ntime = {time}\nabove = \"{time}\""
+                ),
+            );
+            let expected = if is_reached { Verdict::Proved } else { Verdict::Undecided };
+            assert_eq!(found.verdict, expected, "{field}, t = {time}: {:?}", found.evidence);
+        }
+    }
+}
+
+#[test]
+fn a_function_without_a_value_at_the_end_is_not_reached() {
+    for function in
+        ["sqrt(−x)^2 + 9", "exp(log(−x)) + 9", "0*log(−x) + 9", "9 + sqrt(−x) − sqrt(−x)"]
+    {
+        let rest =
+            format!("reaches = \"{function}\"\nstate = {{ x = \"1\" }}\ntime = 1\nabove = \"0\"");
+        let found = claim(GROWTH, &rest);
+        assert_eq!(found.verdict, Verdict::Undecided, "{function}: {:?}", found.evidence);
+        let there = rest.replace("x = \"1\"", "x = \"−1\"");
+        assert_eq!(claim(GROWTH, &there).verdict, Verdict::Proved, "{function}");
+    }
+}
