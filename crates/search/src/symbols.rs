@@ -4,7 +4,7 @@
 //! random numbers; others are missed. Sine and cosine of one argument are a point of a circle. A find is
 //! judged with the functions themselves.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use liouville::graph::{Expr, Graph, Step, record};
 use liouville::number::rational::Rational;
@@ -17,7 +17,7 @@ use num_traits::ToPrimitive;
 const ROOTS: usize = 6;
 
 /// What a number stands for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Symbol {
     /// The function at a place.
     Function(usize),
@@ -32,8 +32,8 @@ enum Symbol {
 pub fn symbolised(graph: &Graph, outputs: &[Vec<Expr>]) -> Option<(Graph, Vec<Vec<Expr>>)> {
     let reached = graph.reached(outputs.iter().flatten().copied());
     let places = || (0..graph.len()).filter(|place| reached[*place]);
-    let mut symbols: HashMap<usize, Symbol> = HashMap::new();
-    let mut roots: HashMap<usize, Symbol> = HashMap::new();
+    let mut symbols: BTreeMap<usize, Symbol> = BTreeMap::new();
+    let mut roots: BTreeMap<usize, Symbol> = BTreeMap::new();
     for place in places() {
         match graph.step(place) {
             Step::Unary(UnaryFunction::Sin | UnaryFunction::Cos, argument) => {
@@ -70,7 +70,7 @@ pub fn symbolised(graph: &Graph, outputs: &[Vec<Expr>]) -> Option<(Graph, Vec<Ve
         false if symbols.is_empty() => return None,
         false => {}
     }
-    let mut inputs: HashMap<Symbol, usize> = HashMap::new();
+    let mut inputs: BTreeMap<Symbol, usize> = BTreeMap::new();
     for place in places() {
         if let Some(own) = symbols.get(&place) {
             let next = graph.inputs() + inputs.len();

@@ -279,7 +279,7 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
     let formula =
         |own: &RingPolynomial| extended.formula(&write::written(own, &names.extended)).ok();
     let Some(divergence) = formula(&divergence) else { return Ok(None) };
-    let Some(axes) = axes(ring, case.model.dimension(), &formula) else { return Ok(None) };
+    let Some(axes) = axes(ring, case.model.dimension(), formula) else { return Ok(None) };
     let written = known.iter().filter_map(|(_, own)| formula(own)).collect();
     let exponentials =
         ring.atoms.iter().zip(&names.extended).filter_map(|(atom, name)| match atom {
