@@ -77,3 +77,27 @@ fn a_density_off_the_level_refutes_nothing_on_it() {
                 [[claim]]\nno-density = { degree = 0 }\nexpect = 'open'\n";
     assert_ne!(only(text).verdict, Verdict::Refuted);
 }
+
+#[test]
+fn the_determinant_of_the_masses_is_a_density_without_constraints() {
+    let lagrangian = |kinetic: &str, rest: &str| {
+        only(&format!(
+            "title = 't'\nsystem = 'nonholonomic'\n[state]\nr = '1..2'\ns = '0.5..1'\n\"r'\" = '-1..1'\n\
+             \"s'\" = '0.5..1'\n[lagrangian]\nkinetic = \"{kinetic}\"\n{rest}\
+             [[claim]]\nno-density = {{ degree = 0 }}\nexpect = 'open'\n"
+        ))
+    };
+    for kinetic in ["(r'² + r²*s'²)/2", "(2 + s)*r'² + r'*s' + r*s'²", "√(1 + r'²) + r*s'²"]
+    {
+        let found = lagrangian(kinetic, "potential = 'r²*s'\n");
+        let exhibit = found.evidence.exhibit.clone().unwrap_or_default();
+        let is_linear = !kinetic.contains('√');
+        if is_linear {
+            assert_eq!(found.verdict, Verdict::Refuted, "{kinetic}: {:?}", found.evidence);
+        }
+        assert_eq!(exhibit.contains("det(["), is_linear, "{kinetic}: {exhibit}");
+    }
+    // Friction that depends on the velocity leaves none.
+    let damped = lagrangian("(r'² + r²*s'²)/2", "forces = { r = \"-r'\" }\n");
+    assert_eq!(damped.verdict, Verdict::Proved, "{:?}", damped.evidence);
+}
