@@ -3,6 +3,8 @@
 
 #[path = "../../../tests/common/mod.rs"]
 mod common;
+#[path = "absence/densities.rs"]
+mod densities;
 #[path = "absence/functions.rs"]
 mod functions;
 #[path = "absence/known.rs"]

@@ -55,14 +55,24 @@ pub fn independent(
     formula: &Formula,
     effort: &Effort,
 ) -> Result<Option<Evidence>, SearchError> {
-    let all = known.iter().cloned().chain(energy(case)).chain([formula.clone()]);
-    let all: Vec<Formula> = all.collect();
+    let report = compared(case, known, formula, effort)?;
+    let proved = report.filter(|report| report.verdict == Verdict::Proved);
+    Ok(proved.map(|report| report.evidence))
+}
+
+/// Judges whether a formula, others, the energy and the level functions are independent; `None` if there
+/// are too many.
+pub fn compared(
+    case: &Case,
+    known: &[Formula],
+    formula: &Formula,
+    effort: &Effort,
+) -> Result<Option<ClaimReport>, SearchError> {
     if !are_comparable(case, known) {
         return Ok(None);
     }
-    let report = judged_alone(case, Claim::independent(all), effort)?;
-    let proved = report.filter(|report| report.verdict == Verdict::Proved);
-    Ok(proved.map(|report| report.evidence))
+    let all = known.iter().cloned().chain(energy(case)).chain([formula.clone()]);
+    judged_alone(case, Claim::independent(all.collect()), effort)
 }
 
 /// Whether another function can be compared with these, the energy and the level functions.

@@ -18,7 +18,9 @@ pub enum SearchError {
     #[error("integrals cannot be counted: the rates of the positions do not take all directions")]
     NotSpanned,
     /// The field has functions that prime fields lack, or is defined nowhere.
-    #[error("the field has no Taylor series modulo a prime: it contains exp, ln, sin, cos or x^y")]
+    #[error(
+        "the field has no Taylor series modulo a prime: it contains exp, ln, sin, cos, x^y, or many roots"
+    )]
     NoSeries,
     /// A minor is not a fraction of low degree in a parameter.
     #[error("the equations are not fractions of low degree in the parameter")]
@@ -55,7 +57,9 @@ pub enum SearchError {
     #[error("the level set has no parametrisation")]
     NoChart,
     /// No point at which all terms have a value was found.
-    #[error("the terms have no common value modulo a prime: they contain exp, ln, sin, cos or x^y")]
+    #[error(
+        "the terms have no common value modulo a prime: they contain exp, ln, sin, cos, x^y, or many roots"
+    )]
     NoPoints,
     /// Recording failed.
     #[error(transparent)]

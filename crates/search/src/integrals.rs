@@ -87,6 +87,9 @@ pub fn terms(
     let model = &case.model;
     let own: Result<Vec<Formula>, SearchError> =
         effort.terms.iter().map(|term| term.read(model)).collect();
+    if let Some(count) = library::without_squares(model) {
+        report.remark(format!("products of the {count} variables are not among the terms"));
+    }
     let (own, offered) = (own?, library::integrals(model));
     distinct(case, [own, offered].concat(), effort, report)
 }
@@ -120,10 +123,12 @@ pub fn over_denominators(
             terms.iter().map(|term| vec![rate(term)]).collect::<Vec<_>>()
         })?;
         let seed = effort.options.seed;
-        let mut functions = SampledFunctions::new(case, &graph, &rates, effort)?;
+        let mut functions = SampledFunctions::with_symbols(case, &graph, &rates, effort)?;
         let (vectors, irrational) = functions.relations()?.rational()?;
         let dimension = vectors.len() + irrational;
-        report.opinions.extend(second_opinion(&functions, denominator.text(), dimension, seed));
+        if !functions.has_symbols {
+            report.opinions.extend(second_opinion(&functions, denominator.text(), dimension, seed));
+        }
         if irrational > 0 {
             report.remark(format!("{irrational} {IRRATIONAL}"));
         }
@@ -147,7 +152,7 @@ fn distinct(
     let (graph, values) = recorded(case, |jet| {
         terms.iter().map(|term| vec![jet.phase.scalar(term)]).collect::<Vec<_>>()
     })?;
-    let mut functions = SampledFunctions::new(case, &graph, &values, effort)?;
+    let mut functions = SampledFunctions::with_symbols(case, &graph, &values, effort)?;
     let defined = functions.defined();
     functions.restrict(&defined);
     let kept = match functions.relations() {

@@ -36,6 +36,7 @@ mod second_opinion;
 mod series;
 mod streams;
 pub mod survey;
+mod symbols;
 mod symmetries;
 mod terms;
 

@@ -8,6 +8,9 @@ use super::terms::{is_one, one};
 use liouville::formula::{Formula, FormulaResult, Type};
 use liouville::mechanics::{Meaning, Model, System};
 
+/// Largest number of linear forms whose products are offered.
+const SQUARED: usize = 48;
+
 fn has(model: &Model, name: &str, kind: Type) -> bool {
     let own = |meaning| !matches!(meaning, Meaning::Abbreviation(_));
     model.vocabulary.find(name).is_some_and(|entry| entry.kind == kind && own(entry.meaning))
@@ -216,7 +219,10 @@ fn pieces(model: &Model) -> Pieces {
                     Type::Vector(length) => {
                         pieces.forms.extend(kept((1..=length).map(|i| own.component(&[i]))));
                     }
-                    Type::Matrix(..) => {}
+                    Type::Matrix(..) => {
+                        let places = variable.kind.places();
+                        pieces.forms.extend(kept(places.iter().map(|at| own.component(at))));
+                    }
                 }
             }
         }
@@ -224,10 +230,8 @@ fn pieces(model: &Model) -> Pieces {
     pieces
 }
 
-/// Lists terms of degree 1 and 2 in the velocities, simple ones first, together with those that a
-/// potential adds.
-pub fn integrals(model: &Model) -> Vec<Formula> {
-    let pieces = pieces(model);
+/// Lists scalars linear in the velocities, or in the state.
+fn linear_forms(model: &Model, pieces: &Pieces) -> Vec<Formula> {
     let mut forms = pieces.forms.clone();
     if let Some(normal) = &pieces.normal {
         forms.extend(kept(pieces.linear.iter().map(|vector| vector.dot(normal))));
@@ -240,11 +244,25 @@ pub fn integrals(model: &Model) -> Vec<Formula> {
             forms.extend(kept((1..=3).map(|k| vector.component(&[k]))));
         }
     }
+    forms
+}
+
+/// Number of linear forms, if there are so many that their products are not offered.
+pub fn without_squares(model: &Model) -> Option<usize> {
+    Some(linear_forms(model, &pieces(model)).len()).filter(|count| *count > SQUARED)
+}
+
+/// Lists terms of degree 1 and 2 in the velocities, simple ones first, together with those that a
+/// potential adds.
+pub fn integrals(model: &Model) -> Vec<Formula> {
+    let pieces = pieces(model);
+    let forms = linear_forms(model, &pieces);
     let mut squares = Vec::new();
     for (i, a) in pieces.linear.iter().enumerate() {
         squares.extend(kept(pieces.linear[i..].iter().map(|b| a.dot(b))));
     }
-    for (i, a) in forms.iter().enumerate() {
+    let of_squares = if forms.len() > SQUARED { &[] } else { &forms[..] };
+    for (i, a) in of_squares.iter().enumerate() {
         let own = forms[i..].iter().map(|b| if a.text() == b.text() { a.raised(2) } else { a * b });
         squares.extend(kept(own));
     }

@@ -3,6 +3,7 @@
 
 use super::echelon::Echelon;
 use super::local::sign;
+use super::symbols::symbolised;
 use super::{Effort, Halt, SearchError};
 use crate::streams::SearchStream;
 use liouville::case::Case;
@@ -33,6 +34,8 @@ pub struct SampledFunctions {
     modulus: Modulus,
     rng: ProofRng,
     halt: Halt,
+    /// Whether numbers stand for functions.
+    pub has_symbols: bool,
 }
 
 impl SampledFunctions {
@@ -53,7 +56,22 @@ impl SampledFunctions {
         let mut rng = SearchStream::Relations.under(seed);
         let modulus = rng.prime(&[3, 5], &[2, 3]);
         let (draws, halt) = (sampler.recipes().to_vec(), effort.halt.clone());
-        Ok(Self { graph, outputs, draws, modulus, rng, halt })
+        Ok(Self { graph, outputs, draws, modulus, rng, halt, has_symbols: false })
+    }
+
+    /// Prepares functions as [`new`](Self::new) does, with numbers in place of functions that have no
+    /// values modulo a prime.
+    pub fn with_symbols(
+        case: &Case,
+        graph: &Graph,
+        functions: &[Vec<Expr>],
+        effort: &Effort,
+    ) -> Result<Self, SearchError> {
+        let plain = Self::new(case, graph, functions, effort)?;
+        Ok(match symbolised(&plain.graph, &plain.outputs) {
+            Some((graph, outputs)) => Self { graph, outputs, has_symbols: true, ..plain },
+            None => plain,
+        })
     }
 
     /// Returns the functions that have a value somewhere.

@@ -70,6 +70,13 @@ impl Coordinates {
         }
     }
 
+    /// All components of the state as velocities, for a case without a level.
+    pub fn all_moving(case: &Case) -> Self {
+        let velocities = case.model.dimension();
+        let kind = LocalKind::Components((0..velocities).collect());
+        Self { kind, positions: 0, velocities }
+    }
+
     /// Returns the state at a point of these coordinates.
     pub fn state<T: Scalar>(&self, coordinates: &[T]) -> Vec<T> {
         let (one, two) = (T::one(), T::from(2.0));

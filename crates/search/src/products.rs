@@ -58,9 +58,14 @@ impl Generators {
         Ok(generators)
     }
 
-    /// Adds an integral if its degree can be determined.
+    /// Adds an integral if its degree can be determined: that in the velocities, or in all variables of
+    /// a field without a level.
     fn add(&mut self, case: &Case, formula: &Formula, seed: u64) -> Result<(), SearchError> {
-        if let Some(degree) = degree(case, formula, seed)?.filter(|degree| *degree > 0) {
+        let degree = match Coordinates::of(case) {
+            Err(_) if case.model.level.is_empty() => degree_in_state(case, formula, seed)?,
+            _ => degree(case, formula, seed)?,
+        };
+        if let Some(degree) = degree.filter(|degree| *degree > 0) {
             self.0.push((formula.clone(), degree));
         }
         Ok(())
@@ -113,8 +118,42 @@ impl Generators {
 /// are linear equations for the coefficients of P. The logarithm's slope is a rational function
 /// where F has factors that fields lack, such as exponentials of the positions.
 pub fn degree(case: &Case, formula: &Formula, seed: u64) -> Result<Option<u32>, SearchError> {
-    let model = &case.model;
     let Ok(coordinates) = Coordinates::of(case) else { return Ok(None) };
+    on_lines(case, formula, &coordinates, seed, polynomial_degree)
+}
+
+/// Finds the degree of a formula in all variables of a state without a level, as [`degree`] does in the
+/// velocities.
+pub fn degree_in_state(
+    case: &Case,
+    formula: &Formula,
+    seed: u64,
+) -> Result<Option<u32>, SearchError> {
+    on_lines(case, formula, &Coordinates::all_moving(case), seed, polynomial_degree)
+}
+
+/// Finds the degree of P in all variables of a state without a level, if a formula is exp P up to a
+/// factor.
+///
+/// P is a polynomial exactly if the slope of the logarithm is one on random lines.
+pub fn exponent_degree_in_state(
+    case: &Case,
+    formula: &Formula,
+    seed: u64,
+) -> Result<Option<u32>, SearchError> {
+    on_lines(case, formula, &Coordinates::all_moving(case), seed, exponent_degree)
+}
+
+/// Reads a degree from the slopes of a formula's logarithm at the points 0, 1, 2, … of a random line in
+/// the velocities; `None` if the lines disagree, or if there are no values.
+fn on_lines(
+    case: &Case,
+    formula: &Formula,
+    coordinates: &Coordinates,
+    seed: u64,
+    read: fn(&[u64], &Modulus) -> Option<u32>,
+) -> Result<Option<u32>, SearchError> {
+    let model = &case.model;
     let all = model.vocabulary.with_abbreviations(formula, &model.abbreviations);
     let draws = model.parameter_draws();
     let inputs = draws.len() + coordinates.count() + coordinates.velocities + 1;
@@ -151,7 +190,7 @@ pub fn degree(case: &Case, formula: &Formula, seed: u64) -> Result<Option<u32>, 
             values.resize(graph.inputs(), [modulus.one(); SLOPE_POINTS]);
             evaluator.run(&values);
             let slopes = evaluator.output(0);
-            (!slopes.contains(&UNDEFINED)).then(|| polynomial_degree(slopes, &modulus))
+            (!slopes.contains(&UNDEFINED)).then(|| read(slopes, &modulus))
         })?
     });
     let first = degrees.next().flatten();
@@ -178,6 +217,18 @@ fn polynomial_degree(slopes: &[u64], m: &Modulus) -> Option<u32> {
         [only] => only.iter().rev().rposition(|entry| *entry != 0).map(|degree| degree as u32),
         _ => None,
     }
+}
+
+/// Finds the degree of a polynomial that has these slopes at 0, 1, 2, …, if there is one.
+fn exponent_degree(slopes: &[u64], m: &Modulus) -> Option<u32> {
+    let mut differences = slopes.to_vec();
+    for degree in 0..=MOST_DEGREE as u32 {
+        if differences.iter().all(|own| *own == 0) {
+            return Some(degree);
+        }
+        differences = differences.windows(2).map(|pair| m.sub(pair[1], pair[0])).collect();
+    }
+    None
 }
 
 #[cfg(test)]
@@ -216,5 +267,19 @@ mod tests {
         assert_eq!(of(&|s| m.sub(0, over(m.one(), s))), None, "1/s");
         assert_eq!(of(&|s| m.sub(twice(s), over(m.one(), s))), None, "(s³ + 5)²/s");
         assert_eq!(of(&|_| m.one()), None, "exp s");
+    }
+    #[test]
+    fn exponents_come_from_slopes() {
+        let m = SearchStream::Products.under(1).prime(&[3, 5], &[2, 3]);
+        let of = |slope: &dyn Fn(u64) -> u64| {
+            let slopes: Vec<u64> =
+                (0..SLOPE_POINTS as u64).map(|s| slope(m.integer(s + 5))).collect();
+            exponent_degree(&slopes, &m)
+        };
+        assert_eq!(of(&|_| 0), Some(0), "a constant");
+        assert_eq!(of(&|_| m.one()), Some(1), "s");
+        assert_eq!(of(&|s| m.mul(s, m.mul(s, s))), Some(4), "s⁴/4");
+        assert_eq!(of(&|s| m.inverse(s)), None, "ln s");
+        assert_eq!(of(&|s| m.power(s, 20)), None, "of a high degree");
     }
 }

@@ -1,17 +1,19 @@
 //! Search for symmetry fields that are linear in the state: u = Σ a_ij x_i ∂/∂x_j + Σ b_j ∂/∂x_j
 //! with [u,v] = c v.
+//!
+//! On a level such fields may be 0, or the same: of those that are equal there one is kept.
 
 use num_bigint::BigInt;
 use num_traits::Zero;
 
 use super::ask::{holds, judged_alone};
-use super::linear::SampledFunctions;
+use super::linear::{FunctionRelations, SampledFunctions};
 use super::terms::{combined, integers, one, recorded, whole};
 use super::{Effort, Found, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::claim::{Claim, LevelSubset};
 use liouville::formula::{Formula, FormulaError, Type};
-use liouville::graph::Expr;
+use liouville::graph::{Expr, Graph};
 use liouville::mechanics::calculus::dot;
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
@@ -33,8 +35,8 @@ pub fn symmetries(
     let kept = LevelSubset::level(model).kept;
     // Fields x_i ∂/∂x_j and ∂/∂x_j, as pairs (i, j); followed by c.
     let sources = (0..dimension).map(Some).chain([None]);
-    let fields: Vec<(Option<usize>, usize)> =
-        sources.flat_map(|i| (0..dimension).map(move |j| (i, j))).collect();
+    let all: Vec<LinearField> = sources.flat_map(|i| (0..dimension).map(move |j| (i, j))).collect();
+    let Some(fields) = distinct(case, all, effort)? else { return Ok(()) };
     let (graph, columns) = recorded(case, |jet| {
         let (state, field) = (jet.phase.state().to_vec(), jet.phase.field().to_vec());
         let axes = jet.along_axes().iter();
@@ -60,16 +62,14 @@ pub fn symmetries(
         columns.push(weight.collect());
         columns
     })?;
-    let relations = match SampledFunctions::new(case, &graph, &columns, effort) {
-        Err(SearchError::NoChart) => return Ok(()),
-        functions => match functions?.relations() {
-            Err(SearchError::NoPoints) => return Ok(()),
-            relations => relations?,
-        },
-    };
+    let Some(relations) = relations(case, &graph, &columns, effort)? else { return Ok(()) };
     for vector in relations.rational()?.0 {
         effort.halt.check()?;
         let (shown, entries, claim) = spelled(case, &fields, &integers(&vector))?;
+        // 0 is a multiple of a field that vanishes.
+        if entries.is_empty() {
+            continue;
+        }
         if let Some(found) = judged_alone(case, claim, effort)?.filter(holds) {
             let parts: Vec<&Formula> = entries.iter().map(|(_, value)| value).collect();
             report.found.push(Found::of_several("symmetry-field", shown, &parts, found, model));
@@ -78,9 +78,55 @@ pub fn symmetries(
     Ok(())
 }
 
+/// Relations between columns; `None` if no states are known, or have values.
+fn relations(
+    case: &Case,
+    graph: &Graph,
+    columns: &[Vec<Expr>],
+    effort: &Effort,
+) -> Result<Option<FunctionRelations>, SearchError> {
+    match SampledFunctions::with_symbols(case, graph, columns, effort) {
+        Err(SearchError::NoChart) => Ok(None),
+        functions => match functions?.relations() {
+            Err(SearchError::NoPoints) => Ok(None),
+            relations => relations.map(Some),
+        },
+    }
+}
+
+/// Keeps the fields that are no combination of others on the level, constant fields first.
+fn distinct(
+    case: &Case,
+    fields: Vec<LinearField>,
+    effort: &Effort,
+) -> Result<Option<Vec<LinearField>>, SearchError> {
+    let model = &case.model;
+    if model.level.is_empty() {
+        return Ok(Some(fields));
+    }
+    let (constant, mut ordered): (Vec<LinearField>, Vec<LinearField>) =
+        fields.iter().partition(|(source, _)| source.is_none());
+    ordered.splice(0..0, constant);
+    let (graph, columns) = recorded(case, |jet| {
+        let state = jet.phase.state();
+        let of = |(i, j): &LinearField| {
+            let mut value = vec![zero(); model.dimension()];
+            value[*j] = i.map_or(Expr::rational(&Rational::from(1)), |i| state[i]);
+            value
+        };
+        ordered.iter().map(of).collect::<Vec<_>>()
+    })?;
+    let Some(relations) = relations(case, &graph, &columns, effort)? else { return Ok(None) };
+    let kept: Vec<LinearField> = relations.independent().into_iter().map(|k| ordered[k]).collect();
+    Ok(Some(fields.into_iter().filter(|own| kept.contains(own)).collect()))
+}
+
 fn zero() -> Expr {
     Expr::rational(&Rational::from(0))
 }
+
+/// The field x_i ∂/∂x_j, or ∂/∂x_j.
+type LinearField = (Option<usize>, usize);
 
 /// Components of a field by variable.
 type Components = Vec<(String, Formula)>;
@@ -89,7 +135,7 @@ type Components = Vec<(String, Formula)>;
 /// multiple is the weight.
 fn spelled(
     case: &Case,
-    fields: &[(Option<usize>, usize)],
+    fields: &[LinearField],
     multiples: &[BigInt],
 ) -> Result<(String, Components, Claim), SearchError> {
     let names = component_names(case)?;

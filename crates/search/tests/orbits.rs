@@ -3,6 +3,8 @@
 
 #[path = "orbits/factors.rs"]
 mod factors;
+#[path = "orbits/functions.rs"]
+mod functions;
 #[path = "orbits/maps.rs"]
 mod maps;
 #[path = "orbits/parameters.rs"]

@@ -5,6 +5,8 @@
 mod brackets;
 #[path = "search/conditions.rs"]
 mod conditions;
+#[path = "search/levels.rs"]
+mod levels;
 
 use std::path::Path;
 

@@ -1,13 +1,15 @@
 //! Known integrals: those that the file claims and that are proved, and the energy.
 
 use super::super::ansatz::system::LinearSystem;
-use super::super::ask::{components, independent, is_energy, proved_energy};
+use super::super::ask::{
+    compared, components, energy, independent, is_energy, judged_alone, proved_energy,
+};
 use super::super::linear::SampledFunctions;
 use super::super::products::{Generators, degree};
 use super::super::terms::recorded;
 use super::super::{Effort, SearchError};
 use liouville::case::Case;
-use liouville::claim::{ClaimKind, Integral};
+use liouville::claim::{Claim, ClaimKind, Integral};
 use liouville::formula::{Formula, Type};
 use liouville::mechanics::Draw;
 use liouville::verdict::{ClaimReport, Verdict};
@@ -60,6 +62,32 @@ impl ProvedIntegrals {
     /// Formulas of the integrals without the energy.
     pub fn claimed(&self) -> &[Formula] {
         &self.formulas[usize::from(self.has_energy)..]
+    }
+
+    /// Returns integrals that are independent of each other and of the energy, such that the others are
+    /// proved to be functions of these, short ones first; `None` where neither is proved of one.
+    pub fn basis(&self, case: &Case, effort: &Effort) -> Result<Option<Vec<Formula>>, SearchError> {
+        let mut basis = Vec::new();
+        // That functions are dependent says something of the last if the others are independent.
+        let mut is_independent = match energy(case) {
+            None => true,
+            Some(energy) => judged_alone(case, Claim::independent(vec![energy]), effort)?
+                .is_some_and(|report| report.verdict == Verdict::Proved),
+        };
+        let mut claimed: Vec<&Formula> = self.claimed().iter().collect();
+        claimed.sort_by_key(|own| own.text().chars().count());
+        for own in claimed {
+            match compared(case, &basis, own, effort)?.map(|report| report.verdict) {
+                Some(Verdict::Proved) => {
+                    basis.push(own.clone());
+                    is_independent = true;
+                }
+                // With a list of values dependence for one of them is enough.
+                Some(Verdict::Refuted) if is_independent && !has_lists(case) => {}
+                _ => return Ok(None),
+            }
+        }
+        Ok(Some(basis))
     }
 
     /// Returns the integrals that have values modulo a prime, as terms: those without exp, ln and

@@ -8,12 +8,14 @@
 //! leading      when products of known integrals cannot cancel
 //! functions    fractions of polynomials in the state and functions of it, along an orbit
 //! relations    Darboux polynomials of a field, on random lines
+//! claimed_densities  densities of the file, and 1, that refute a claim
 //! ```
 //!
 //! A count bounds the number of integrals or densities from above; the known ones bound it from
 //! below. If both bounds agree, there are no others. Otherwise one of the others is sought and
 //! proved: a witness that refutes the claim.
 
+mod claimed_densities;
 mod functions;
 mod gradients;
 mod known;
@@ -147,6 +149,10 @@ impl<'a> AbsenceCase<'a> {
             let reason = "a function of the body is arbitrary, and a count needs a given one";
             return Ok(AbsenceOutcome::Open(reason.to_string()));
         }
+        if system.is_map() {
+            let reason = "this is a map, and such claims are judged for fields: `search` says what it excludes";
+            return Ok(AbsenceOutcome::Open(reason.to_string()));
+        }
         let (counted, degree) = match kind {
             Absence::NoIntegral(claim) => (Counted::Integrals, claim.degree),
             Absence::NoDensity(claim) => (Counted::Densities, claim.degree),
@@ -154,6 +160,11 @@ impl<'a> AbsenceCase<'a> {
                 return relations::no_invariant_relation(self, claim.degree);
             }
         };
+        if matches!(counted, Counted::Densities)
+            && let Some(density) = claimed_densities::witness(self, degree)?
+        {
+            return Ok(AbsenceOutcome::Exhibited(format!("density, proved: {density}")));
+        }
         let outcome = if Coordinates::of(self.case).is_ok() {
             velocities::judge(self, counted, degree)?
         } else {
@@ -192,7 +203,13 @@ impl<'a> AbsenceCase<'a> {
         if independent(case, known.claimed(), formula, &self.effort)?.is_some() {
             return Ok(true);
         }
-        // The known ones may depend on each other. Roots have several branches modulo a prime.
+        // The known ones may depend on each other.
+        if let Some(basis) = known.basis(case, &self.effort)?
+            && independent(case, &basis, formula, &self.effort)?.is_some()
+        {
+            return Ok(true);
+        }
+        // Roots have several branches modulo a prime.
         for own in known.formulas().iter().chain([formula]) {
             if has_branches(case, own)? {
                 return Ok(false);

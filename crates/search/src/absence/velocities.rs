@@ -3,13 +3,10 @@
 use super::super::counts::{self, CountReport, Degrees};
 use super::super::local::Local;
 use super::super::products::degree;
-use super::super::terms::numeric_exponent;
 use super::super::{
     Effort, Found, SearchError, SearchReport, ansatz, densities, integrals, multipliers,
 };
-use super::{AbsenceCase, AbsenceOutcome, Counted, generated};
-use liouville::formula::Formula;
-use liouville::number::rational::Rational;
+use super::{AbsenceCase, AbsenceOutcome, Counted, claimed_densities, generated};
 use liouville::verdict::Verdict;
 
 /// Judges a claim by Taylor coefficients.
@@ -181,25 +178,13 @@ fn no_density(asked: &AbsenceCase<'_>, most: u32) -> Result<AbsenceOutcome, Sear
             continue;
         }
         let Some(function) = &found.function else { continue };
-        if is_of_class(asked, function, most)? {
+        if claimed_densities::is_in_velocities(asked, function, most)? {
             return Ok(AbsenceOutcome::Exhibited(shown("density", found)));
         }
     }
     Ok(AbsenceOutcome::Open(
         "the count allows a density, but none was found in closed form".to_string(),
     ))
-}
-
-/// Whether a density is a function of the positions alone, or P^(1/α) with P up to this degree.
-fn is_of_class(asked: &AbsenceCase<'_>, formula: &Formula, most: u32) -> Result<bool, SearchError> {
-    for alpha in multipliers::WEIGHTS {
-        let power = numeric_exponent(Rational::from(alpha))?;
-        let polynomial = formula.bracketed().power(&power)?;
-        if degree(asked.case, &polynomial, asked.effort.options.seed)?.is_some_and(|n| n <= most) {
-            return Ok(true);
-        }
-    }
-    Ok(false)
 }
 
 fn reasons(report: &SearchReport, otherwise: &str) -> String {

@@ -12,6 +12,7 @@ use super::monomials::AnsatzVariables;
 use super::size::SystemSize;
 use super::subspace::complement;
 use super::system::{Column, LinearSystem};
+use super::theorem::{Outcome, theorem};
 use super::{factors, note_unwritten};
 use liouville::case::Case;
 use liouville::claim::Claim;
@@ -21,17 +22,6 @@ use liouville::verdict::Verdict;
 
 /// Increment of the degree in the positions.
 const STEP: u32 = 4;
-
-/// The outcome for a null vector.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Outcome {
-    /// Proved and reported.
-    Told,
-    /// Proved, but not shown to be independent of the known integrals.
-    Dependent,
-    /// Not written, or not proved; a remark gives the reason.
-    Open,
-}
 
 /// Searches for integrals of the degrees at which the counts leave some, and where nothing was
 /// counted.
@@ -182,8 +172,9 @@ impl IntegralSearch<'_> {
             }));
         }
         found.sort_by_key(|vector| vector.iter().rposition(|entry| *entry != 0));
+        let (degree, mixed) = self.exponents(positions);
         let products: Vec<Vec<usize>> = generators
-            .exponents(self.degree, self.mixed)
+            .exponents(degree, mixed)
             .into_iter()
             .map(|powers| {
                 let own = powers.iter().zip(&outputs);
@@ -198,7 +189,7 @@ impl IntegralSearch<'_> {
             outcomes.push(self.tell(&system, vector, report)?);
         }
         if is_last || outcomes.contains(&Outcome::Told) {
-            self.exclude(&what, dimension, &outcomes, report);
+            self.exclude(positions, dimension, &outcomes, report);
         }
         Ok(true)
     }
@@ -261,11 +252,25 @@ impl IntegralSearch<'_> {
         }
     }
 
+    /// Degree of the products of known integrals that belong to the ansatz, and whether lower degrees do:
+    /// that in the velocities, or in all variables if none is known to be one.
+    fn exponents(&self, positions: u32) -> (u32, bool) {
+        match self.variables.have_velocities() {
+            true => (self.degree, self.mixed),
+            false => (positions, true),
+        }
+    }
+
     fn words(&self, positions: u32) -> String {
         let below = match is_one(&self.below) {
             true => String::new(),
             false => format!(" over {}", self.below),
         };
+        if !self.variables.have_velocities() {
+            return format!(
+                "polynomials of degree at most {positions} in the variables of the state{below}"
+            );
+        }
         let degree = if self.mixed { "at most " } else { "" };
         format!(
             "polynomials of degree {degree}{} in the velocities and at most {positions} in the positions{below}",
@@ -274,36 +279,22 @@ impl IntegralSearch<'_> {
     }
 
     /// States a theorem: an upper bound on the integrals that the ansatz contains.
-    fn exclude(&self, what: &str, dimension: usize, found: &[Outcome], report: &mut SearchReport) {
-        let many = |outcome| found.iter().filter(|own| **own == outcome).count();
-        let (open, dependent) = (many(Outcome::Open), many(Outcome::Dependent));
-        let generic =
-            "For generic values of the free parameters, and the given values of the fixed ones,";
-        let mut theorem = match dimension {
-            0 => format!("{generic} no integrals are {what}, constants aside."),
-            _ => format!(
-                "{generic} at most {dimension} integrals, independent over the numbers, are {what}: {} of them are products of known integrals",
-                dimension - found.len()
-            ),
-        };
-        for (count, words) in [
-            (many(Outcome::Told), "are listed here"),
-            (dependent, "are not shown to be independent functions of these"),
-            (open, "are not known"),
-        ] {
-            if count > 0 {
-                theorem.push_str(&format!(", {count} {words}"));
-            }
-        }
-        if dimension > 0 {
-            theorem.push('.');
-        }
+    fn exclude(
+        &self,
+        positions: u32,
+        dimension: usize,
+        found: &[Outcome],
+        report: &mut SearchReport,
+    ) {
+        let what = self.words(positions);
+        let has_constants = matches!(self.exponents(positions), (0, _) | (_, true));
+        let open = found.iter().filter(|own| **own == Outcome::Open).count();
         report.excluded.push(Excluded {
-            ansatz: what.to_string(),
+            theorem: theorem(&what, has_constants, dimension, found),
+            ansatz: what,
             dimension,
             known: dimension - open,
             error_log2: None,
-            theorem,
         });
     }
 }

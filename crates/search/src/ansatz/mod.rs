@@ -9,6 +9,7 @@
 //! subspace      the complement of functions of known integrals
 //! coefficients  numbers, or functions of the parameters, by interpolation
 //! surd          numbers a + b √n
+//! theorem       what an ansatz shows, in words
 //! verdict       each find is judged as a claim like any other
 //! ```
 //!
@@ -30,6 +31,7 @@ mod size;
 pub mod subspace;
 mod surd;
 pub mod system;
+mod theorem;
 
 use super::conditions::components;
 use super::orbit::roots;

@@ -134,18 +134,19 @@ impl ConjugatePair {
 
     fn root(&self, form: AngleForm) -> Result<Option<Formula>, FormulaError> {
         let (formula, number) = &self.square;
-        if let Some(number) = number {
-            let own = if form == AngleForm::Circular { -number } else { number.clone() };
-            if own.is_negative() || own.is_zero() {
-                return Ok(None);
+        let own = match (number, form) {
+            (Some(number), _) => {
+                let own = if form == AngleForm::Circular { -number } else { number.clone() };
+                if own.is_negative() || own.is_zero() {
+                    return Ok(None);
+                }
+                if let Some(root) = square_root(&own) {
+                    return Ok(Some(Formula::number(root)));
+                }
+                Formula::number(own)
             }
-            if let Some(root) = square_root(&own) {
-                return Ok(Some(Formula::number(root)));
-            }
-        }
-        let own = match form {
-            AngleForm::Circular => -formula,
-            AngleForm::Hyperbolic => formula.clone(),
+            (None, AngleForm::Circular) => -formula,
+            (None, AngleForm::Hyperbolic) => formula.clone(),
         };
         Formula::call("sqrt", &[&own]).map(Some)
     }

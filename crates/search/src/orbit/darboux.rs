@@ -294,7 +294,8 @@ impl DarbouxSearch<'_, '_> {
         if !cofactor.constant().is_some_and(|value| value.is_zero()) {
             let rate = (cofactor.bracketed() * &formula.bracketed())?;
             let statement = OrbitStatement::Rate { function: formula.clone(), rate };
-            let is_adjoined = |origin: ExtendedCase<'_>| origin.extension.is_exponential(formula);
+            let is_adjoined =
+                |origin: ExtendedCase<'_>| origin.extension.exponent(formula).is_some();
             let with = vec![("cofactor", &cofactor)];
             let kind = "darboux-polynomial";
             if !self.setting.origin.is_some_and(is_adjoined)

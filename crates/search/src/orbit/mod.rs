@@ -4,12 +4,14 @@
 //! taylor       series of the orbit of a random point, or points of that of a map
 //! setting      points, orbits, and the relations between monomials along them
 //! relations    number of algebraic integrals; none is a theorem
+//! tangents     directions of the state itself, where its functions are variables
 //! polynomials  polynomial integrals
 //! rational     rational ones, as P and Q of the relations P − c Q
 //! line         points of a line whose orbits satisfy an additional relation
 //! darboux      Darboux polynomials: the relations at these points
 //! angle        angles between conjugate Darboux polynomials
 //! no_others    theorem that the Darboux polynomials found are all
+//! finite_order   maps with Φⁿ = id, and sums over their orbits
 //! map_densities  densities of maps, from discrete Darboux polynomials
 //! exponents    densities, and integrals with powers, logarithms and exponentials, from cofactors
 //! adjoin       functions of the state as further variables
@@ -27,6 +29,7 @@ mod claims;
 mod darboux;
 mod exponents;
 mod factor;
+mod finite_order;
 mod fraction;
 pub mod fractions;
 mod images;
@@ -42,6 +45,7 @@ mod products;
 mod rational;
 mod relations;
 mod setting;
+mod tangents;
 mod taylor;
 mod univariate;
 
@@ -177,6 +181,7 @@ pub fn search_map(
     match OrbitSetting::of(case, effort)? {
         Ok(setting) => {
             map_densities::densities(&setting, report, progress)?;
+            finite_order::finite_order(&setting, report)?;
             along_orbits(&setting, further_limits(further), report, progress)
         }
         Err(reason) => {

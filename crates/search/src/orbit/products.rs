@@ -9,6 +9,12 @@ use super::exponents::{ExponentSystem, RateTerm, Style};
 use super::images;
 
 impl ExponentSystem<'_, '_> {
+    /// Argument of a factor that is an exponential.
+    fn exponent(&self, factor: usize) -> Option<&Formula> {
+        let origin = self.setting.origin?;
+        origin.extension.exponent(&self.factors[factor].formula)
+    }
+
     /// Makes the logarithm Σ α ln f + g; `None` if an angle is not real.
     pub fn logarithm(
         &self,
@@ -21,10 +27,13 @@ impl ExponentSystem<'_, '_> {
         for (place, column) in support.iter().enumerate() {
             let function = match &self.columns[*column] {
                 RateTerm::Monomial(own) => power_product(&self.setting.terms, own)?,
-                RateTerm::Factor(own) if style.has_moduli => {
-                    Formula::call("ln", &[&self.factors[*own].formula.modulus()?])?
-                }
-                RateTerm::Factor(own) => Formula::call("ln", &[&self.factors[*own].formula])?,
+                RateTerm::Factor(own) => match self.exponent(*own) {
+                    Some(argument) => argument.clone(),
+                    None if style.has_moduli => {
+                        Formula::call("ln", &[&self.factors[*own].formula.modulus()?])?
+                    }
+                    None => Formula::call("ln", &[&self.factors[*own].formula])?,
+                },
                 RateTerm::Angle(own) => match self.pairs[*own].formula(style.angle)? {
                     Some(angle) => angle,
                     None => return Ok(None),
@@ -54,6 +63,11 @@ impl ExponentSystem<'_, '_> {
                     exponent.1.push(Ratio::of(power_product(&self.setting.terms, own)?));
                 }
                 RateTerm::Factor(own) => {
+                    if let Some(argument) = self.exponent(*own) {
+                        exponent.0.push(place);
+                        exponent.1.push(Ratio::of(argument.clone()));
+                        continue;
+                    }
                     let formula = &self.factors[*own].formula;
                     let base = match style.has_moduli && !vector.is_whole(place) {
                         true => formula.modulus()?,

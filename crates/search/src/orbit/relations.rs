@@ -5,13 +5,14 @@ use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
 use super::monomials::value;
 use super::setting::{OrbitRelations, OrbitSetting, PrimePhasePoint, SPARE_ORDERS};
+use super::tangents::LocalGradients;
 
 /// Relations of one degree along one orbit.
 pub struct RelationStep {
     /// Relations in reduced form.
     pub relations: OrbitRelations,
-    /// Number of independent algebraic integrals: that of the relations' gradients, without the
-    /// level's own.
+    /// Number of independent algebraic integrals: that of the relations' gradients along the state and
+    /// the level.
     pub integrals: usize,
 }
 
@@ -23,15 +24,14 @@ pub fn step(
 ) -> Result<Option<RelationStep>, SearchError> {
     let Some(relations) = setting.relations(at, 0, monomials)? else { return Ok(None) };
     let point = &relations.point;
-    let all = rank(setting, at, monomials, &relations.vectors, point)?;
-    let own = match setting.is_on_level() && all > 0 {
-        true => {
-            let vanishing = on_level(setting, at, monomials)?;
-            rank(setting, at, monomials, &vanishing, point)?
-        }
-        false => 0,
-    };
-    Ok(Some(RelationStep { integrals: all.saturating_sub(own), relations }))
+    let Some(mut gradients) = setting.tangents.at(at, point) else { return Ok(None) };
+    if setting.is_on_level() && !relations.vectors.is_empty() {
+        // The gradient of a level function may have no value, or be 0, as that of a square.
+        let vanishing = on_level(setting, at, monomials)?;
+        count(setting, at, monomials, &vanishing, point, &mut gradients)?;
+    }
+    let integrals = count(setting, at, monomials, &relations.vectors, point, &mut gradients)?;
+    Ok(Some(RelationStep { integrals, relations }))
 }
 
 /// Combinations of the monomials that vanish on the level.
@@ -55,33 +55,29 @@ fn on_level(
     Ok(echelon.null_space())
 }
 
-/// Rank of the gradients of polynomials at a point.
-fn rank(
+/// Number of polynomials whose gradients at a point are independent of the given ones and of each other.
+fn count(
     setting: &OrbitSetting<'_>,
     at: &PrimePoint,
     monomials: &[Vec<u32>],
     vectors: &[Vec<u64>],
     point: &PrimePhasePoint,
+    gradients: &mut LocalGradients,
 ) -> Result<usize, SearchError> {
     let m = at.modulus;
-    let dimension = setting.dimension();
     let slopes: Vec<Vec<u64>> = monomials.iter().map(|own| gradient(at, own, point)).collect();
-    let mut echelon = Echelon::new(dimension, m);
-    let mut rank = 0;
+    let mut found = 0;
     for vector in vectors {
-        if rank == dimension {
-            break;
-        }
         setting.effort.halt.check()?;
-        let mut row = vec![0; dimension];
+        let mut row = vec![0; setting.dimension()];
         for (factor, slope) in vector.iter().zip(&slopes).filter(|(factor, _)| **factor != 0) {
             for (entry, slope) in row.iter_mut().zip(slope) {
                 *entry = m.add(*entry, m.mul(*factor, *slope));
             }
         }
-        rank += usize::from(echelon.push(row));
+        found += usize::from(gradients.push(at, row));
     }
-    Ok(rank)
+    Ok(found)
 }
 
 /// Gradient of a monomial at a point.

@@ -20,6 +20,7 @@ use super::super::{Effort, SearchError};
 use super::adjoin::Extension;
 use super::monomials::{self, MonomialSeries};
 use super::primes;
+use super::tangents::Tangents;
 use super::taylor::Flow;
 use liouville::formula::Formula;
 
@@ -51,6 +52,8 @@ pub struct OrbitSetting<'c> {
     pub effort: &'c Effort,
     /// Field of the case.
     pub flow: Flow,
+    /// Directions of the state and the level.
+    pub tangents: Tangents,
     /// Components of the state as terms.
     pub terms: Vec<Formula>,
     points: Points,
@@ -91,7 +94,9 @@ impl<'c> OrbitSetting<'c> {
         effort: &'c Effort,
     ) -> Result<Result<Self, String>, SearchError> {
         let made = Self::of(&extension.case, effort)?;
-        Ok(made.map(|own| Self { origin: Some(ExtendedCase { case, extension }), ..own }))
+        let tangents = Tangents::of(&extension.case, &extension.axes)?;
+        let origin = Some(ExtendedCase { case, extension });
+        Ok(made.map(|own| Self { origin, tangents, ..own }))
     }
 
     /// Records a case; the text is the reason why it has no orbits modulo primes.
@@ -134,6 +139,7 @@ impl<'c> OrbitSetting<'c> {
             origin: None,
             effort,
             flow,
+            tangents: Tangents::of(case, &[])?,
             terms,
             points,
             coordinates: named,

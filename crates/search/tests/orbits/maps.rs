@@ -133,3 +133,29 @@ fn planted_densities_are_found_in_other_coordinates() {
     let report = searched(&map("b = '0.5..0.9'", &["y", "1 - y² + b*x"]), &Effort::default());
     assert_eq!(densities(&report), [""; 0], "it is dissipative");
 }
+
+#[test]
+fn the_order_of_a_map_is_told_with_sums_over_its_orbits() {
+    let cases = [
+        ("the identity", map("", &["x", "y"]), Some("the map is the identity, proved"), 2),
+        ("an inversion", map("a = '0.5..2'", &["a/x", "y"]), Some("Φ^2 = id, proved"), 2),
+        ("a cycle", map("", &["y", "z", "x"]), Some("Φ^3 = id, proved"), 3),
+        ("Lyness with a = 1", map("", &["y", "(1 + y)/x"]), Some("Φ^5 = id, proved"), 2),
+        ("a rotation by a quarter", map("", &["-y", "x"]), Some("Φ^4 = id, proved"), 2),
+        ("Lyness", map("a = '0.5..2'", &["y", "(a + y)/x"]), None, 1),
+        ("a shear", map("", &["x + y", "y"]), None, 1),
+    ];
+    for (name, text, order, count) in cases {
+        let report = searched(&text, &Effort::default());
+        let own = report.remarks.iter().find(|own| own.starts_with("the map "));
+        match (own, order) {
+            (Some(own), Some(order)) => assert!(own.contains(order), "{name}: {own}"),
+            (own, order) => assert_eq!(own.map(String::as_str), order, "{name}"),
+        }
+        assert_eq!(report.formulas("integral").count(), count, "{name}: {:?}", report.found);
+    }
+    let level = "title = 'x'\nsystem = 'map'\n[state]\nx = '0.5..2'\ny = '0.5..2'\nz = '0.5..2'\n[level]\n\
+                 equations = ['x*y*z = 1']\n[map]\nx = 'y'\ny = 'z'\nz = 'x'\n";
+    let report = searched(level, &Effort::default());
+    assert_eq!(report.formulas("integral").count(), 2, "{:?}", report.found);
+}

@@ -53,6 +53,8 @@ const TRIES: usize = 8;
 pub struct Extension {
     /// Extended case.
     pub case: Case,
+    /// Rates of all variables along each component of the state of the case itself.
+    pub axes: Vec<Vec<Formula>>,
     /// Divergence of the field of the case itself.
     pub divergence: Formula,
     /// Integrals that are known.
@@ -65,7 +67,8 @@ pub struct Extension {
     /// Functions whose powers may be factors of densities and integrals.
     pub factors: Vec<Formula>,
     back: Back,
-    exponentials: Vec<String>,
+    /// Exponentials by their names, with their arguments.
+    exponentials: Vec<(String, Formula)>,
     /// Arguments of sines and cosines.
     angles: Vec<RingPolynomial>,
     /// Monomials of the extended state that relations between the functions write in others.
@@ -106,9 +109,10 @@ impl Extension {
         angles.map(|argument| Divided { argument: argument.clone(), by: 2 }).collect()
     }
 
-    /// Whether a formula is an adjoined exponential.
-    pub fn is_exponential(&self, formula: &Formula) -> bool {
-        self.exponentials.iter().any(|name| name == formula.text())
+    /// Argument of an adjoined exponential; `None` of another formula.
+    pub fn exponent(&self, formula: &Formula) -> Option<&Formula> {
+        let own = self.exponentials.iter().find(|(name, _)| name == formula.text());
+        own.map(|(_, argument)| argument)
     }
 }
 
@@ -275,14 +279,15 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
     let formula =
         |own: &RingPolynomial| extended.formula(&write::written(own, &names.extended)).ok();
     let Some(divergence) = formula(&divergence) else { return Ok(None) };
+    let Some(axes) = axes(ring, case.model.dimension(), formula) else { return Ok(None) };
     let written = known.iter().filter_map(|(_, own)| formula(own)).collect();
-    let exponentials = ring
-        .atoms
-        .iter()
-        .zip(&names.extended)
-        .filter(|(atom, _)| matches!(atom, Atom::Exponential(_)))
-        .map(|(_, name)| name.clone());
+    let exponentials =
+        ring.atoms.iter().zip(&names.extended).filter_map(|(atom, name)| match atom {
+            Atom::Exponential(argument) => Some((name.clone(), formula(argument)?)),
+            _ => None,
+        });
     Ok(Some(Extension {
+        axes,
         divergence,
         known: written,
         class: AdjoinedPolynomials::of(&case.model, ring, seed),
@@ -295,6 +300,26 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
         read: known,
         ring: read.ring,
     }))
+}
+
+/// Rates of the variables of the extended state along each component of the state itself.
+fn axes(
+    ring: &AdjoinedRing,
+    dimension: usize,
+    formula: impl Fn(&RingPolynomial) -> Option<Formula>,
+) -> Option<Vec<Vec<Formula>>> {
+    let along = |axis: usize| -> Option<Vec<Formula>> {
+        let unit = |k| RingPolynomial::constant(Rational::from(i64::from(k == axis)));
+        let rates = ring.rates(&(0..dimension).map(unit).collect::<Vec<_>>())?;
+        let of_state = rates.iter().zip(&ring.atoms).filter(|(_, atom)| !is_constant(atom));
+        of_state.map(|(rate, _)| formula(rate)).collect()
+    };
+    (0..dimension).map(along).collect()
+}
+
+/// Whether a variable of a ring is constant along every motion.
+fn is_constant(atom: &Atom) -> bool {
+    matches!(atom, Atom::Parameter | Atom::Constant(_))
 }
 
 /// Whether some component of the state has a name that a variable of a field cannot have, as x'.

@@ -1,0 +1,77 @@
+//! What an ansatz shows, in words.
+
+/// The outcome for a null vector.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// Proved and reported.
+    Told,
+    /// Proved, but not shown to be independent of the known integrals.
+    Dependent,
+    /// Not written, or not proved; a remark gives the reason.
+    Open,
+}
+
+/// Writes the theorem that bounds the integrals of an ansatz, given the outcomes for the null vectors that
+/// are no products of known integrals; constants are among these products or not.
+pub fn theorem(what: &str, has_constants: bool, dimension: usize, found: &[Outcome]) -> String {
+    let generic =
+        "For generic values of the free parameters, and the given values of the fixed ones,";
+    if dimension == 0 {
+        return format!("{generic} no integrals are {what}, constants aside.");
+    }
+    let constants = if has_constants { "constants and " } else { "" };
+    let spanned = match dimension - found.len() {
+        0 => "nothing of it".to_string(),
+        all if all == dimension => "all of it".to_string(),
+        part => format!("a subspace of dimension {part}"),
+    };
+    let mut parts = vec![format!(
+        "{generic} the integrals that are {what} form a space of dimension at most {dimension}; {constants}\
+         products of known integrals span {spanned}"
+    )];
+    for (outcome, one, several) in [
+        (Outcome::Told, "is listed here", "are listed here"),
+        (
+            Outcome::Dependent,
+            "is not shown to be independent of these",
+            "are not shown to be independent of these",
+        ),
+        (Outcome::Open, "is not known", "are not known"),
+    ] {
+        match found.iter().filter(|own| **own == outcome).count() {
+            0 => {}
+            1 => parts.push(format!("1 further integral {one}")),
+            count => parts.push(format!("{count} further integrals {several}")),
+        }
+    }
+    format!("{}.", parts.join("; "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_agree_with_their_words() {
+        let says = |has_constants, dimension, found: &[Outcome], end: &str| {
+            let own = theorem("quartics", has_constants, dimension, found);
+            assert!(own.ends_with(end), "{own}");
+        };
+        says(true, 0, &[], "no integrals are quartics, constants aside.");
+        says(
+            true,
+            2,
+            &[],
+            "dimension at most 2; constants and products of known integrals span all of it.",
+        );
+        says(false, 1, &[Outcome::Told], "span nothing of it; 1 further integral is listed here.");
+        let open = [Outcome::Open, Outcome::Open, Outcome::Dependent];
+        says(
+            true,
+            4,
+            &open,
+            "a subspace of dimension 1; 1 further integral is not shown to be independent of these; 2 \
+             further integrals are not known.",
+        );
+    }
+}

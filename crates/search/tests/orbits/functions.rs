@@ -1,0 +1,57 @@
+//! Fields with functions: how many independent integrals are counted where functions are variables.
+
+use liouville_search::{Effort, search};
+
+use super::{field, searched};
+
+#[test]
+fn functions_of_the_state_add_no_integrals() {
+    // Each field has at most one integral in two dimensions, and two in three.
+    let fields = [
+        ("roots", field("", &["√(1 + x²)", "√(1 + y²)"]), 1),
+        ("roots of different orders", field("", &["(1 + x)^(1/3)", "√(1 + y)"]), 1),
+        ("the same exponential of both", field("", &["exp(x)", "exp(x)"]), 1),
+        ("exponentials of both", field("", &["exp(x + y)", "exp(x + y) + 0*exp(y)"]), 1),
+        ("a root of high degree", field("", &["z", "z", "√((y - x)^4*(x² + 1))"]), 2),
+        ("a pendulum and its copy", field("", &["y", "-sin(x)", "y"]), 2),
+        ("inverses", field("", &["1/x", "1/(y + x)", "0"]), 2),
+    ];
+    for (name, text, most) in fields {
+        let report = searched(&text, &Effort::default());
+        let counted = report.orbits.last().map_or(0, |own| own.integrals);
+        assert!(counted <= most, "{name}: {counted} are counted");
+        let found = report.formulas("integral").count();
+        assert!(found <= most, "{name}: {found} are found");
+    }
+}
+
+#[test]
+fn planted_integrals_are_counted() {
+    // x − y and exp(x) − z are integrals.
+    let text = field("", &["y*z", "y*z", "y*z*exp(x)"]);
+    let report = searched(&text, &Effort::default());
+    assert_eq!(report.formulas("integral").count(), 2, "{:?}", report.found);
+    // y√(1 + x²) − x√(1 + y²), that is sinh(arsinh y − arsinh x).
+    let text = field("", &["√(1 + x²)", "√(1 + y²)"]);
+    let report = searched(&text, &Effort::default());
+    assert_eq!(report.orbits.last().map(|own| own.integrals), Some(1), "{:?}", report.orbits);
+    assert_eq!(report.formulas("integral").count(), 1, "{:?}", report.found);
+}
+
+#[test]
+fn roots_and_exponentials_are_written_simply() {
+    let two = "title = 'x'\n[state]\nx = '0.5..2'\ny = '0.5..2'\nu = '0.5..2'\nv = '0.5..2'\n[field]\n\
+               \"x'\" = 'u'\n\"u'\" = '-x'\n\"y'\" = 'v'\n\"v'\" = '-2*y'\n";
+    let texts =
+        [two.to_string(), field("", &["exp(y)", "x*exp(y)"]), field("", &["exp(y)*y", "1"])];
+    for text in texts {
+        let case = liouville::case::Case::parse(&text, &[]).expect("a case");
+        let report = search(&case, &Effort::default(), &mut |_| {}).expect("it can be searched");
+        for found in &report.found {
+            let own = &found.formula;
+            assert!(!own.contains("−−"), "{own}");
+            assert!(!own.contains("ln(exp"), "{own}");
+            assert!(!own.contains("ln(|exp"), "{own}");
+        }
+    }
+}
