@@ -66,7 +66,7 @@ mod tests {
 
     #[test]
     fn overflow_is_told_from_what_has_no_value() {
-        use crate::scalar::Scalar;
+        use num_dual::DualNum;
         let squared = |x: Expr| (0..12).fold(x, |x, _| x * x);
         assert!(cause(squared, 3.0), "3^4096");
         assert!(cause(|x| x.exp(), 1000.0), "e^1000");
