@@ -69,7 +69,7 @@ class ClosedOrbits(_Answer):
                 "time": one["time"],
                 "error": one["time_error"],
                 "state": one["state"],
-                "multipliers": [complex(value) for value in _multipliers(one)],
+                "moduli": [value["modulus"] for value in one["multipliers"]],
             }
             for one in self
         ]

@@ -89,12 +89,12 @@ class Followed(Described):
         `range` is by default that of the parameter in the case; `axes` are the quantities that are
         reported. The start is that of `periodic`.
         """
-        low, high = (None, None) if range is None else map(_values.exact, range)
+        ends = [None, None] if range is None else [_values.exact(one) for one in range]
         wanted = {
             "parameter": parameter,
             "section": surface,
-            "from": low,
-            "to": high,
+            "from": ends[0],
+            "to": ends[1],
             "period": int(period),
             "axes": _values.listed(axes),
             "direction": direction,

@@ -23,6 +23,7 @@ def test_closed_orbits_are_those_of_the_command(command):
     orbits = lv.read(CYCLE).periodic([2, 0], "p = 0")
     assert orbits.outcome == asked and len(orbits) == 1
     assert orbits.to_pandas()["kind"].tolist() == ["sink"]
+    assert orbits.to_arrow().num_rows == 1
     assert orbits.states.shape == (1, 2) and orbits.periods[0] > 6
     assert [len(one) for one in orbits.multipliers] == [1]
     timed = lv.periodic(CYCLE, {"x": 2, "p": 0}, time=orbits.periods[0])
