@@ -174,7 +174,7 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
             "no state on the level set",
             "may not all vanish",
         ),
-        ("no-level", turning("[level]\nequations = ['1 = 0']"), "on no state variable", "remove"),
+        ("no-level", turning("[level]\nequations = ['1 = 0']"), "contains no state variable", "leave it out"),
         (
             "open-level",
             turning("[level]\nequations = ['y = ∫(x, x)']"),
@@ -249,7 +249,10 @@ fn eval_refuses_what_it_does_not_understand() {
 fn files_that_are_not_utf_8_have_a_place() {
     let place = folder(
         "latin",
-        &[("good.toml", "title = 'a'\n[state]\nx = '1..2'\n[field]\n\"x'\" = 'x'\n")],
+        &[(
+            "good.toml",
+            "title = 'a'\n[state]\nx = '1..2'\n[field]\n\"x'\" = 'x'\n[[claim]]\nintegral = '1'\n",
+        )],
     );
     let file = |name: &str| place.join(name).to_str().expect("UTF-8").to_string();
     let (good, bad, table) = (file("good.toml"), file("bad.toml"), file("bad.csv"));
