@@ -48,7 +48,8 @@ class Found:
     @property
     def given(self) -> list[tuple[str, str]]:
         """Pairs of a word and a formula: the `value` of a parameter or the `condition` on several
-        with which it is one, the potential or gyrostat that it needs; Casimirs of a bracket."""
+        with which it is one, the potential or gyrostat that it needs, the cofactor of a Darboux
+        polynomial, the rate of a function, the Hamiltonian and the Casimirs of a bracket."""
         return [(word, formula) for word, formula in self.entry.get("with", [])]
 
     def to_sympy(self, symbols: dict[str, Any] | None = None):
