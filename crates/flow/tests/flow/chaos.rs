@@ -180,8 +180,8 @@ fn a_time_of_too_many_steps_is_given_up() {
     let text =
         "title = 'a'\n[state]\nx = '1..2'\ny = '0..1'\n[field]\n\"x'\" = 'y/x'\n\"y'\" = '1'\n";
     let case = parse(text);
-    let time = DoubleDouble::from_f64(1e100);
+    let time = DoubleDouble::from_f64(1e15);
     let found = orbit(&case, start(&case, "x=1 y=0"), time, Precision::Float);
     let end = found.expect("a motion").end[0].hi;
-    assert!((end / 1e100 - 1.0).abs() < 1e-9, "x = √(1 + t²), not {end}");
+    assert!((end / 1e15 - 1.0).abs() < 1e-9, "x = √(1 + t²), not {end}");
 }
