@@ -77,7 +77,7 @@ fn blocks_and_pairs_stand_together() {
     );
     let case = |bracket| Case::parse(&head(bracket), &[]).expect("a case");
     let judged = judge(&case("'p,p' = 'B⊗B'"), &Options::default());
-    assert!(matches!(judged, Err(JudgeError::NotSkew)), "a symmetric matrix is no bracket");
+    assert!(matches!(judged, Err(JudgeError::NotSkew(_))), "a symmetric matrix is no bracket");
 }
 
 #[test]

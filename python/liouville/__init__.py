@@ -7,6 +7,7 @@ True
 
 from ._liouville import VERSION as __version__
 from .bodies import Bodies, Body
+from .branches import Branch, ClosedOrbits, Diagram, Rotation
 from .case import Case
 from .errors import (
     CaseError,
@@ -21,13 +22,17 @@ from .found import Found, Search
 from .function import Field, Function
 from .motion import CLASSES, Chart, Exponents, Orbit, Section, Spectra
 from .reading import (
+    branch,
     catalogue,
     chart,
     check,
+    diagram,
     exponents,
     parse,
+    periodic,
     read,
     report,
+    rotation,
     search,
     section,
     sweep,
@@ -40,10 +45,13 @@ __all__ = [
     "CLASSES",
     "Bodies",
     "Body",
+    "Branch",
     "Case",
     "CaseError",
     "Chart",
     "Claim",
+    "ClosedOrbits",
+    "Diagram",
     "Exponents",
     "Field",
     "FormulaError",
@@ -55,21 +63,26 @@ __all__ = [
     "MotionWarning",
     "Orbit",
     "Report",
+    "Rotation",
     "Search",
     "SearchError",
     "Section",
     "Spectra",
     "Sweep",
     "__version__",
+    "branch",
     "catalogue",
     "chart",
     "check",
+    "diagram",
     "exponents",
     "from_lagrangian",
     "from_sympy",
     "parse",
+    "periodic",
     "read",
     "report",
+    "rotation",
     "search",
     "section",
     "sweep",

@@ -12,6 +12,7 @@ import numpy as np
 
 from . import _liouville as native
 from . import _values
+from .followed import Followed
 from .function import Field, Function
 from .judged import Judged
 from .motion import Chart, Exponents, Orbit, Section, Spectra
@@ -25,7 +26,7 @@ MOST_NUMBERS = 30_000_000
 """Limit on the numbers of an orbit."""
 
 
-class Case(Judged):
+class Case(Judged, Followed):
     """A system with claims about it. Cases do not change, and may be shared by threads."""
 
     def __init__(self, handle: native.Case, settings: dict[str, str], symbols=None):

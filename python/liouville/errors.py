@@ -62,7 +62,7 @@ class _Helped(LiouvilleError, RuntimeError):
         self.help = help
 
     def __str__(self) -> str:
-        return f"{self.message}\nhelp: {self.help}"
+        return f"{self.message}\nhelp: {self.help}" if self.help else self.message
 
 
 class MotionError(_Helped):

@@ -45,6 +45,13 @@ class Found:
         """Name of the claim of the case from which it follows."""
         return self.entry.get("known")
 
+    @property
+    def given(self) -> list[tuple[str, str]]:
+        """Pairs of a word and a formula: the `value` of a parameter or the `condition` on several
+        with which it is one, the potential or gyrostat that it needs, the cofactor of a Darboux
+        polynomial, the rate of a function, the Hamiltonian and the Casimirs of a bracket."""
+        return [(word, formula) for word, formula in self.entry.get("with", [])]
+
     def to_sympy(self, symbols: dict[str, Any] | None = None):
         """Formula as an expression of SymPy in the components of the state."""
         from .symbolic import to_sympy
@@ -85,6 +92,11 @@ class Search(Table[Found]):
     def theorems(self) -> list[str]:
         """Theorems that there is nothing else of some form, with their hypotheses."""
         return [one["theorem"] for one in self.outcome["excluded"]]
+
+    @property
+    def conditions(self) -> list[dict[str, Any]]:
+        """Equations for the parameters, each sufficient for what `of` names."""
+        return self.outcome["conditions"]
 
     @property
     def unreached(self) -> list[str]:

@@ -79,7 +79,7 @@ class Share:
         """
         settings = tuple(case._settings.items())
         given = [f"--set={name}={value}" for name, value in settings]
-        arguments = (*command, case.name, *given, *words, *_options(options))
+        arguments = (*command, case.name, *given, *words, *worded(options))
         recipe = Recipe(case.text, case.name, settings, arguments, table)
         return _run(recipe, self, units)
 
@@ -87,14 +87,14 @@ class Share:
         self, case: Described, given: list[Any], options: dict[str, Any]
     ) -> tuple[native.Job, list[str]]:
         """Follows motions through a section."""
-        words, text = _starts(given)
+        words, text = begun(given)
         return self.run(case, ("motion", "section"), options, words=words, table=text)
 
     def exponents(
         self, case: Described, given: list[Any], names: list[str], options: dict[str, Any]
     ) -> dict[str, Any]:
         """Exponents of motions with these names."""
-        words, text = _starts(given)
+        words, text = begun(given)
         job, texts = self.run(case, ("motion", "exponents"), options, words=words, table=text)
         found = json.loads(job.exponents(texts))
         for name, motion in zip(names, found["motions"], strict=True):
@@ -227,10 +227,10 @@ def _on(
         client.cancel([*futures, shared])
 
 
-def _starts(given: list[str | list[str] | None]) -> tuple[list[str], str | None]:
+def begun(given: list[str | list[str] | None]) -> tuple[list[str], str | None]:
     """Arguments for the starts of motions, and the text of the file that they name."""
     if None in given:
-        raise ValueError("give the starts of a job in parts: a drawn state has no name")
+        raise ValueError("give the starts: a drawn state has no name")
     if given and all(isinstance(one, list) for one in given):
         lines = [",".join(one) for one in given if isinstance(one, list)]
         return ["--starts=starts.csv"], "\n".join(lines) + "\n"
@@ -238,7 +238,7 @@ def _starts(given: list[str | list[str] | None]) -> tuple[list[str], str | None]
     return [f"--start={word}" for word in words], None
 
 
-def _options(values: dict[str, Any]) -> list[str]:
+def worded(values: dict[str, Any]) -> list[str]:
     """Arguments of a command, without those that are not given."""
     found = []
     for name, value in values.items():

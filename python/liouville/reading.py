@@ -9,6 +9,7 @@ from typing import Any, overload
 from . import _liouville as native
 from . import _values
 from .bodies import Bodies, BodyTable
+from .branches import Branch, ClosedOrbits, Diagram, Rotation
 from .case import Case
 from .found import Search
 from .judged import Format
@@ -81,6 +82,32 @@ def chart(case: Case | str | Path, *axes: Any, **options: Any) -> Chart:
 def section(case: Case | str | Path, surface: str | None = None, **options: Any) -> Section:
     """Poincaré section of a case; see `Case.section`."""
     return _case(case).section(surface, **options)
+
+
+def periodic(
+    case: Case | str | Path, starts: Any = None, *section: Any, **options: Any
+) -> ClosedOrbits:
+    """Closed orbits near starts; see `Case.periodic`."""
+    return _case(case).periodic(starts, *section, **options)
+
+
+def branch(
+    case: Case | str | Path, start: Any, parameter: str, *section: Any, **options: Any
+) -> Branch:
+    """Follows a closed orbit while a parameter varies; see `Case.branch`."""
+    return _case(case).branch(start, parameter, *section, **options)
+
+
+def diagram(case: Case | str | Path, over: Any, *section: Any, **options: Any) -> Diagram:
+    """Bifurcation diagram; see `Case.diagram`."""
+    return _case(case).diagram(over, *section, **options)
+
+
+def rotation(
+    case: Case | str | Path, first: Any, last: Any, *section: Any, **options: Any
+) -> Rotation:
+    """Rotation numbers along a line of starts; see `Case.rotation`."""
+    return _case(case).rotation(first, last, *section, **options)
 
 
 def exponents(case: Case | str | Path, starts: Any = None, **options: Any) -> Exponents | Spectra:

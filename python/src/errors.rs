@@ -99,6 +99,18 @@ pub fn of_search(py: Python<'_>, error: &SearchError) -> PyErr {
     exception(py, "SearchError", (error.to_string(), in_python(error.help())))
 }
 
+/// Exception about a command on motions, by the message that the command prints.
+pub fn of_answer(py: Python<'_>, message: &str) -> PyErr {
+    let message = message.strip_prefix("error: ").unwrap_or(message);
+    let (message, help) = message.rsplit_once("help: ").unwrap_or((message, ""));
+    // the marks of a terminal around the message
+    let lines = message.lines().filter(|line| !line.trim().is_empty() && line.trim() != "|");
+    let lines: Vec<&str> = lines.filter(|line| !line.trim().starts_with("= note: in ")).collect();
+    let message = lines.join("\n");
+    let message = message.trim_end_matches([' ', '=', '\n']);
+    exception(py, "MotionError", (message.to_string(), in_python(help.trim_end())))
+}
+
 /// Exception about output that cannot be written.
 pub fn of_output(error: &dyn std::error::Error) -> PyErr {
     PyRuntimeError::new_err(error.to_string())
@@ -108,6 +120,7 @@ pub fn of_output(error: &dyn std::error::Error) -> PyErr {
 fn in_python(help: &str) -> String {
     help.replace("--section", "surface=")
         .replace("--state", "start=")
+        .replace("--from and --to", "range=")
         .replace("--ansatz=4", "ansatz=4")
         .replace("--", "")
 }

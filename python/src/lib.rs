@@ -2,6 +2,7 @@
 //!
 //! It hands over text, JSON and bytes; `liouville/*.py` makes objects and arrays of them.
 
+mod answers;
 mod case;
 mod errors;
 mod function;
@@ -19,6 +20,8 @@ use pyo3::prelude::*;
 /// The module `liouville._liouville`.
 #[pymodule]
 mod _liouville {
+    #[pymodule_export]
+    use super::answers::answer;
     #[pymodule_export]
     use super::canonical;
     #[pymodule_export]

@@ -313,9 +313,9 @@ pub fn of_chart<'py>(
             let class = class.map_or(f64::NAN, |class| class as f64);
             [class, found.largest.mean, found.largest.error, found.divergence.mean]
         }
-        Err(FlowError::Singular { .. } | FlowError::Shrinking { .. }) => {
-            [BROKEN, f64::NAN, f64::NAN, f64::NAN]
-        }
+        Err(
+            FlowError::Singular { .. } | FlowError::Shrinking { .. } | FlowError::Endless { .. },
+        ) => [BROKEN, f64::NAN, f64::NAN, f64::NAN],
         Err(_) => [NO_START, f64::NAN, f64::NAN, f64::NAN],
     });
     let numbers = bytes(py, numbers);

@@ -110,8 +110,27 @@ def test_search_finds_the_integral():
     assert [one.verdict for one in found.integrals] == ["proved"]
     assert not found.unreached and "integral" in repr(found)
     assert found.to_pandas()["kind"].tolist().count("integral") == 1
-    with pytest.raises(lv.SearchError, match="map"):
-        lv.search("title = 'a'\nsystem = 'map'\n[state]\nx = '1..2'\n[map]\nx = '2*x'\n")
+    with pytest.raises(lv.SearchError, match="nothing"):
+        lv.search(text, terms=["nothing"])
+
+
+def test_search_takes_maps():
+    found = lv.search(
+        "title = 'Lyness'\n[state]\nx = '1..2'\ny = '1..2'\n[map]\nx = 'y'\ny = '(2 + y)/x'\n"
+    )
+    assert {one.kind: one.verdict for one in found} == {"density": "proved", "integral": "proved"}
+
+
+def test_search_finds_conditions_on_several_parameters():
+    text = (
+        "title = 'a focus'\n[parameters]\na = '0.5..2'\nb = '0.5..2'\n"
+        "[state]\nx = '1..2'\ny = '1..2'\n"
+        "[field]\n\"x'\" = 'y'\n\"y'\" = '-x + (a - 2*b)*y'\n"
+    )
+    found = lv.search(text, conditions=True, degree=2)
+    assert [one["equations"] for one in found.conditions] == [["a = 2*b"]]
+    (darboux,) = [one for one in found if one.kind == "darboux-polynomial"]
+    assert darboux.given == [("cofactor", "(a − 2*b)")]
 
 
 def test_report_as_a_page():

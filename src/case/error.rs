@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::utf8::NotUtf8;
 use crate::formula::{FormulaError, Type};
 
 /// Mistakes of a case file, at least one, in the order of the file.
@@ -42,6 +43,9 @@ pub enum Problem {
     /// The file cannot be read.
     #[error("cannot read the file: {0}")]
     Io(std::io::Error),
+    /// The file is not UTF-8.
+    #[error("{0}")]
+    NotUtf8(NotUtf8),
     /// The path is a folder, a pipe or a device.
     #[error("this is not a regular file")]
     NotAFile,
@@ -244,6 +248,7 @@ impl Mistake {
             Problem::Io(_) | Problem::NotAFile => {
                 Some("give a case file: TOML in UTF-8; `liouville new` writes one".to_string())
             }
+            Problem::NotUtf8(_) => Some(NotUtf8::HELP.to_string()),
             Problem::WrongType { remedy, .. } => Some(remedy.clone()),
             Problem::WrongKind { expected, found, .. } => Some(of_kind(*expected, *found)),
             Problem::Reach { name, .. } if name == "r" => {

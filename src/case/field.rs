@@ -4,7 +4,7 @@ use super::error::{Mistake, Problem};
 use super::family::{Key, Rates, Unreadable};
 use super::formulas::formula;
 use super::section::{CaseTable, SpannedStr};
-use crate::formula::{Formula, Type, excerpt};
+use crate::formula::{Formula, Type, excerpt, look_alike, skeleton};
 use crate::mechanics::{
     Dependence, LevelEquation, LevelFunction, RootEquation, TIME, Variable, Vocabulary,
 };
@@ -23,6 +23,12 @@ pub fn given_rates(
             Ok(found) => found,
             Err(Unreadable::Unknown(name)) if section.mistakes().has_failed(&name) => continue,
             Err(unreadable) => {
+                // the rate of a name that looks like this one is not missing too
+                if let Unreadable::Unknown(name) = &unreadable {
+                    let mut own = variables.iter().map(|own| skeleton(&own.name));
+                    let place = own.position(|own| own == skeleton(name));
+                    place.into_iter().for_each(|place| broken[place] = true);
+                }
                 let problem = unknown_rate(key.get_ref(), unreadable, variables);
                 section.mistakes().add(Mistake::at(key.span(), problem));
                 continue;
@@ -66,9 +72,11 @@ pub enum GivenRate {
 fn unknown_rate(key: &str, unreadable: Unreadable, variables: &[Variable]) -> Problem {
     let (message, remedy) = match unreadable {
         Unreadable::Message(message, remedy) => (message, remedy.to_string()),
-        Unreadable::Unknown(_) => {
+        Unreadable::Unknown(name) => {
+            let meant = look_alike(&name, variables.iter().map(|own| own.name.as_str()));
             let names: Vec<&str> = variables.iter().map(|v| v.name.as_str()).collect();
             let remedy = match names.as_slice() {
+                _ if meant.is_some() => meant.unwrap_or_default(),
                 [] => "declare the variable in [state] first".to_string(),
                 _ => format!("[state] has {}; write \"x'\" = \"…\"", names.join(", ")),
             };

@@ -41,13 +41,14 @@ mod state;
 mod synonyms;
 mod systems;
 mod toml_errors;
+mod utf8;
 mod value;
 mod values;
 mod variables;
 mod velocities;
 mod weights;
 
-use std::io::{self, Read};
+use std::io::Read;
 use std::path::Path;
 
 use crate::claim::absence::Absence;
@@ -66,6 +67,7 @@ pub use lines::FixedLine;
 pub use one_sided::OneSided;
 pub use parameters::Setting;
 pub use poincare::{Angle, Direction, SectionPlan};
+pub use utf8::{NotUtf8, utf8};
 pub use value::{FormulaSource, ValueSpec};
 
 /// Name of the list of papers in a folder of cases, which is not a case itself.
@@ -221,32 +223,37 @@ impl Case {
         if size > MAX_BYTES {
             return (String::new(), Err(CaseError::whole(Problem::TooLarge(size, MAX_BYTES))));
         }
-        match std::fs::read_to_string(path) {
+        match std::fs::read(path) {
+            Ok(bytes) => Self::from_bytes(bytes, settings),
+            Err(error) => (String::new(), Err(io(error))),
+        }
+    }
+
+    /// Reads a case from the bytes of a file; also returns its text.
+    fn from_bytes(bytes: Vec<u8>, settings: &[Setting]) -> (String, Result<Self, CaseError>) {
+        match utf8(bytes) {
             Ok(text) => {
                 let case = Self::parse(&text, settings);
                 (text, case)
             }
-            Err(error) => (String::new(), Err(io(error))),
+            Err(error) => {
+                let text = error.lossy.clone();
+                let mistake = Mistake::at(error.span.clone(), Problem::NotUtf8(error));
+                let error = CaseError::new(vec![mistake], &text);
+                (text, Err(error))
+            }
         }
     }
 
     /// Reads a case from a stream, such as standard input; also returns its text.
     pub fn read_from(input: impl Read, settings: &[Setting]) -> (String, Result<Self, CaseError>) {
         let mut bytes = Vec::new();
-        let read = input.take(MAX_BYTES + 1).read_to_end(&mut bytes);
-        let text = read.and_then(|_| {
-            String::from_utf8(bytes)
-                .map_err(|_| io::Error::new(io::ErrorKind::InvalidData, "the text is not UTF-8"))
-        });
-        match text {
-            Ok(text) if text.len() as u64 > MAX_BYTES => {
-                let size = Problem::TooLarge(text.len() as u64, MAX_BYTES);
+        match input.take(MAX_BYTES + 1).read_to_end(&mut bytes) {
+            Ok(size) if size as u64 > MAX_BYTES => {
+                let size = Problem::TooLarge(size as u64, MAX_BYTES);
                 (String::new(), Err(CaseError::whole(size)))
             }
-            Ok(text) => {
-                let case = Self::parse(&text, settings);
-                (text, case)
-            }
+            Ok(_) => Self::from_bytes(bytes, settings),
             Err(error) => (String::new(), Err(CaseError::whole(Problem::Io(error)))),
         }
     }

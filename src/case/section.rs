@@ -162,7 +162,7 @@ impl<'a> CaseTable<'a> {
             _ if expected.starts_with("an array of tables") => {
                 format!("write [[{key}]] above its entries")
             }
-            "a table" => format!("write {key} = {{ x = \"…\" }}"),
+            "a table" => table_of(key),
             "a string" if key == "expect" => "write \"holds\", \"fails\" or \"open\"".to_string(),
             "a string" if !plain.contains('\n') => format!("write {key} = \"{plain}\""),
             "a string" => format!("write {key} = \"…\""),
@@ -327,4 +327,20 @@ pub fn numbers(array: &DeArray<'_>) -> Option<Vec<String>> {
             _ => None,
         })
         .collect()
+}
+
+/// Way to write a table with this key.
+fn table_of(key: &str) -> String {
+    let lines = match key {
+        "state" => "x = \"-2..2\" for each variable",
+        "parameters" => "m = \"0.5..2\" for each parameter",
+        "field" => "\"x'\" = \"…\" for each variable of [state]",
+        "map" => "x = \"…\" for each variable of [state]",
+        "let" => "name = \"formula\" for each abbreviation",
+        "level" => "equations = [\"x² + y² = 1\"]",
+        "hamiltonian" => "function = \"…\" and pairs = [[\"q\", \"p\"]]",
+        "lagrangian" => "kinetic = \"…\" and potential = \"…\"",
+        _ => return format!("write {key} = {{ x = \"…\" }}"),
+    };
+    format!("write a line [{key}], and below it {lines}")
 }

@@ -91,9 +91,11 @@ impl<'r, 's> Reading<'r, 's> {
             let message = format!("unknown system `{}`", text.value);
             let remedy = match text.value.as_str() {
                 "hamiltonian" => "remove this line: the table [hamiltonian] is enough".to_string(),
-                "lagrangian" => {
-                    "write nonholonomic, with or without constraints, or vakonomic".to_string()
+                "lagrangian" if self.is_free() => {
+                    "remove this line: a table [lagrangian] without constraints is enough"
+                        .to_string()
                 }
+                "lagrangian" => "write nonholonomic or vakonomic".to_string(),
                 _ => format!("write {}", kinds::names()),
             };
             self.mistakes().add(Mistake::at(text.span, Problem::Other { message, remedy }));
@@ -140,6 +142,13 @@ impl<'r, 's> Reading<'r, 's> {
         names.filter_map(whole).collect()
     }
 
+    /// Whether there is a Lagrangian, and no constraint.
+    fn is_free(&self) -> bool {
+        let value = self.root.value("lagrangian").map(|value| value.get_ref());
+        let Some(DeValue::Table(table)) = value else { return false };
+        !table.contains_key("constraints") && !table.contains_key("multipliers")
+    }
+
     fn kind(&self) -> Option<SpannedStr> {
         match self.root.keep(self.root.text("system"))? {
             Some(text) => Some(text),
@@ -147,6 +156,8 @@ impl<'r, 's> Reading<'r, 's> {
                 Some(SpannedStr::made("field".to_string(), 0..0))
             }
             None if self.root.has("map") => Some(SpannedStr::made("map".to_string(), 0..0)),
+            // Without constraints both kinds are Lagrange's equations.
+            None if self.is_free() => Some(SpannedStr::made("nonholonomic".to_string(), 0..0)),
             None if self.root.value("lagrangian").is_some() => {
                 let remedy = "add system = \"nonholonomic\" or \"vakonomic\"";
                 self.mistakes().add(self.root.missing("system", remedy));

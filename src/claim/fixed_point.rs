@@ -35,7 +35,9 @@ impl Statement for FixedPoint {
         let spectrum = from.complex_list("spectrum")?;
         let count = |(_, imaginary): &ComplexFormula| if imaginary.is_some() { 2 } else { 1 };
         let eigenvalues: usize = spectrum.iter().flatten().map(count).sum();
-        if eigenvalues > model.dimension() {
+        // Where time is a variable nothing rests, which is the mistake to tell.
+        let has_rests = never_rests(model, Self::NAME).is_none();
+        if eigenvalues > model.dimension() && has_rests {
             let message = format!("{eigenvalues} eigenvalues are too many");
             let remedy = "list the nonzero eigenvalues, each with its multiplicity";
             return Err(from.complaint("spectrum", message, remedy));
@@ -45,7 +47,7 @@ impl Statement for FixedPoint {
             let message = "an eigenvalue cannot contain ∫, whose constant is open".to_string();
             return Err(from.complaint("spectrum", message, "write the antiderivative out"));
         }
-        Ok(Self { point, spectrum, polynomial: read_polynomial(from)? })
+        Ok(Self { point, spectrum, polynomial: read_polynomial(from, has_rests)? })
     }
 
     fn objection(&self, model: &Model) -> Option<Objection> {
@@ -95,13 +97,17 @@ pub(super) fn system_at(jet: &DualPoint<'_, Expr>, point: &Components) -> Vec<Ex
     functions.flat_map(|formula| at.evaluate_literally(formula).components()).collect()
 }
 
-/// Reads the coefficients of a characteristic polynomial, if they are given.
-fn read_polynomial<R: Reader>(from: &R) -> Result<Option<Vec<Formula>>, R::Error> {
+/// Reads the coefficients of a characteristic polynomial, if they are given; `is_counted`: there has to
+/// be one for each dimension.
+fn read_polynomial<R: Reader>(
+    from: &R,
+    is_counted: bool,
+) -> Result<Option<Vec<Formula>>, R::Error> {
     let key = "characteristic-polynomial";
     let model = from.model();
     let Some(polynomial) = from.list(key)? else { return Ok(None) };
     let dimension = model.dimension();
-    if polynomial.len() != dimension {
+    if polynomial.len() != dimension && is_counted {
         let message = format!(
             "{} coefficients are given, but λ^{dimension} + … needs {dimension}",
             polynomial.len()

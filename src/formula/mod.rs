@@ -93,7 +93,7 @@ pub use kind::{MAX_COMPONENTS, Type};
 pub use layout::Layout;
 pub use mutation::Mutant;
 pub use names::{ascii_name, canonical_name};
-pub(crate) use names::{names_in, skeleton};
+pub(crate) use names::{look_alike, names_in, skeleton};
 pub use scope::{Scope, Symbol, SymbolOrigin};
 pub use spelling::nearest;
 pub use value::{MatrixEntries, Value};

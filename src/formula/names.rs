@@ -211,6 +211,22 @@ pub(crate) fn skeleton(name: &str) -> String {
     name.chars().map(plain).collect()
 }
 
+/// Advice where a name is not known and looks like one that is: the letters in which they differ.
+pub(crate) fn look_alike<'n>(
+    name: &str,
+    mut known: impl Iterator<Item = &'n str>,
+) -> Option<String> {
+    let name = canonical_name(name)?;
+    let other = known.find(|own| *own != name && skeleton(own) == skeleton(&name))?;
+    let (here, there) = name.chars().zip(other.chars()).find(|(a, b)| a != b)?;
+    Some(format!(
+        "`{name}` here has the letter U+{:04X}, and `{other}` the letter U+{:04X}, which looks the \
+         same: write both with one of them",
+        u32::from(here),
+        u32::from(there)
+    ))
+}
+
 fn alike(c: char) -> char {
     ALIKE.iter().find(|(_, all)| all.contains(c)).map_or(c, |(own, _)| *own)
 }
@@ -315,6 +331,9 @@ mod tests {
         for (a, b) in [("ν", "v"), ("ρ", "p"), ("ω", "w"), ("γ", "y"), ("m", "M")] {
             assert_ne!(skeleton(a), skeleton(b), "`{a}` and `{b}` are told apart");
         }
+        let advice = look_alike("x1", ["y", "х1"].into_iter()).expect("they look alike");
+        assert!(advice.contains("U+0078") && advice.contains("U+0445"), "{advice}");
+        assert_eq!(look_alike("x1", ["x1", "y1"].into_iter()), None, "one name, and another");
         assert_eq!(canonical_name("e\u{301}"), canonical_name("é"), "composed or not, one name");
     }
 

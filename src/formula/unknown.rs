@@ -2,7 +2,7 @@
 
 use super::error::{FormulaError, Span, excerpt};
 use super::lexer::TokenKind;
-use super::names::{canonical_name, spelled_names};
+use super::names::{canonical_name, look_alike, spelled_names};
 use super::parser::Parser;
 use super::scope::resolve;
 use super::spelling::{nearest, split};
@@ -97,6 +97,9 @@ impl Parser<'_> {
         }
         let mut names = self.scope.names();
         names.sort();
+        if let Some(help) = look_alike(name, names.iter().map(String::as_str)) {
+            return Some(help);
+        }
         let canonical = canonical_name(name).unwrap_or_default();
         let own =
             if called { functions::names().chain(binders::names()).collect() } else { vec![] };
@@ -126,7 +129,11 @@ fn listed(names: Vec<String>) -> Option<String> {
     let shown: Vec<String> = names.into_iter().take(MOST_LISTED).collect();
     let rest = count - shown.len();
     match (count, rest) {
-        (0, _) => Some("write a number, a range \"0.5..2\", or declare the name".to_string()),
+        (0, _) => Some(
+            "write a number, or declare the name in [parameters]; a range \"0.5..2\" has its place in \
+             [parameters] and [state]"
+                .to_string(),
+        ),
         (_, 0) => Some(format!("the names here are {}; {OWN}", shown.join(", "))),
         _ => Some(format!("the names here are {} and {rest} more; {OWN}", shown.join(", "))),
     }

@@ -91,7 +91,7 @@ pub enum JudgeError {
         dimension: usize,
     },
     /// The level equations are not independent.
-    #[error("the level equation `{0}` depends on those before it, or on no state variable")]
+    #[error("`{0}` follows from the equations before it, or contains no state variable")]
     Dependent(String),
     /// An ∫ of the equations of motion or of `[variables]` is not a function of its variable.
     #[error("an ∫ in `{0}` has an integrand that depends on more than its variable")]
@@ -100,11 +100,16 @@ pub enum JudgeError {
     #[error("the inertia tensor is not symmetric")]
     AsymmetricInertia,
     /// The bracket of Hamilton's equations is not skew.
-    #[error("the bracket of [hamiltonian] is not skew")]
-    NotSkew,
+    #[error("the bracket of [hamiltonian] is not skew in its block \"{0},{0}\"")]
+    NotSkew(String),
     /// The field is defined nowhere.
     #[error("the equations of motion are undefined at all {0} states that were drawn")]
     Singular(u64),
+    /// The numbers of the field are beyond the range of f64.
+    #[error(
+        "the equations of motion are beyond the range of f64 at all {0} states that were drawn"
+    )]
+    FieldOverflow(u64),
     /// A report on a map.
     #[error("the case is a map, and a report needs a flow")]
     Discrete,
@@ -132,15 +137,19 @@ impl JudgeError {
         match self {
             JudgeError::Fault(_) => "write the formula with operations that hold for every number",
             JudgeError::Overflow(_) => "check the ranges of [parameters] and [state]",
+            JudgeError::FieldOverflow(_) => {
+                "give [parameters] and [state] ranges of smaller numbers, or write formulas that do \
+                 not grow as fast"
+            }
             JudgeError::OffLevel { .. } => "correct the formulas of [level.chart]",
             JudgeError::PartialChart { .. } => {
                 "a claim would be tested on a part of the level only: give [level.chart] more inputs"
             }
-            JudgeError::Dependent(_) => "remove the equation from [level]",
+            JudgeError::Dependent(_) => "leave it out: it adds nothing to the others",
             JudgeError::Quadrature(_) => {
                 "∫(f, x) is a function of x with derivative f: f may contain x and the parameters"
             }
-            JudgeError::NotSkew => {
+            JudgeError::NotSkew(_) => {
                 "a block \"M,M\" has to be a skew matrix, as hat(M) is, and \"x,x\" of a scalar is 0"
             }
             JudgeError::AsymmetricInertia => "write a symmetric matrix for the inertia tensor",

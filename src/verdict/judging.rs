@@ -9,6 +9,7 @@ use super::claim_state::{BlockResult, are_zero};
 use super::field::{Answer, PrimeFieldStates, Query};
 use super::judge::{JudgeError, Options};
 use super::ladder::{LADDER_BITS, PRECISE_STATES};
+use super::overflow;
 use super::physics;
 use super::recorded::SharedTerms;
 use super::run::{Doubles, Run};
@@ -17,6 +18,7 @@ use crate::case::Case;
 use crate::claim::LevelSubset;
 use crate::graph::{Expr, Graph};
 use crate::level;
+use crate::mechanics::Variable;
 use crate::number::ball::{Ball, Balls};
 use crate::number::double_double_ball::DoubleDoubleBall;
 use crate::number::mixed::{Mixed, Number};
@@ -82,8 +84,8 @@ impl Judging<'_> {
             return Err(JudgeError::AsymmetricInertia);
         }
         let is_off = |index: usize| (0..TAPE_LANES).any(|k| values.output(index).excludes_zero(k));
-        if (skew..outputs.len()).any(is_off) {
-            return Err(JudgeError::NotSkew);
+        if let Some(place) = (skew..outputs.len()).find(|index| is_off(*index)) {
+            return Err(JudgeError::NotSkew(block_of(&model.state, place - skew)));
         }
         for (equation, index) in model.level.iter().zip(fields..rates) {
             let off = values.output(index);
@@ -94,7 +96,15 @@ impl Judging<'_> {
         }
         let undefined = (0..TAPE_LANES).all(|lane| !defined(&values.range(0..fields), lane));
         if undefined && !self.has_field_with_more_digits(&sampler) {
-            return Err(JudgeError::Singular(TAPE_LANES as u64));
+            let all = TAPE_LANES as u64;
+            let overflows = |lane: usize| {
+                let at: Vec<f64> = states.iter().map(|block| block.mid[lane]).collect();
+                overflow::is_cause(self.graph, &common.field, &at)
+            };
+            return Err(match (0..TAPE_LANES).all(overflows) {
+                true => JudgeError::FieldOverflow(all),
+                false => JudgeError::Singular(all),
+            });
         }
         for (equation, index) in model.level.iter().zip(rates..physics) {
             let rate = values.output(index);
@@ -215,4 +225,16 @@ impl Judging<'_> {
     pub(super) fn blocks(&self) -> u64 {
         self.options.states.div_ceil(TAPE_LANES as u64).max(1)
     }
+}
+
+/// Name of the variable whose block holds an entry of P + Pᵀ, in the order of the variables.
+fn block_of(state: &[Variable], entry: usize) -> String {
+    let mut before = 0;
+    for variable in state {
+        before += variable.len() * (variable.len() + 1) / 2;
+        if entry < before {
+            return variable.name.clone();
+        }
+    }
+    String::new()
 }

@@ -22,6 +22,7 @@ mod judging;
 mod ladder;
 mod mutants;
 mod novelty;
+mod overflow;
 mod pass;
 mod physics;
 mod point;

@@ -7,4 +7,4 @@ pub mod parts;
 pub mod report;
 pub mod source;
 
-pub use commands::{jobs, run};
+pub use commands::{answers, jobs, run};

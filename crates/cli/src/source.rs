@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use liouville::case::{Case, CaseError, Setting};
+use liouville::case::{Case, CaseError, NotUtf8, Setting, utf8};
 use liouville_catalogue::inside;
 
 /// Path that stands for standard input.
@@ -23,4 +23,12 @@ pub fn read(path: &Path, settings: &[Setting]) -> (String, Result<Case, CaseErro
         [(_, text)] if !path.exists() => (text.to_string(), Case::parse(text, settings)),
         _ => Case::read(path, settings),
     }
+}
+
+/// Reads a file that an option names, with `help` where it cannot be read.
+pub fn text(path: &Path, help: &str) -> Result<String, String> {
+    let shown = path.display();
+    let bytes = std::fs::read(path)
+        .map_err(|error| format!("error: cannot read {shown}: {error}\nhelp: {help}"))?;
+    utf8(bytes).map_err(|error| format!("error: {shown}: {error}\nhelp: {}", NotUtf8::HELP))
 }

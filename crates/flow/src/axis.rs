@@ -57,8 +57,14 @@ impl Coordinate {
         known: &str,
     ) -> Result<(String, Self), AxisMistake> {
         let name = canonical_name(name).unwrap_or_else(|| name.to_string());
-        let coordinate = Coordinate::of(case, &name)
-            .ok_or_else(|| AxisMistake::new(&format!("there is no `{name}` to vary"), known))?;
+        let is_of_state =
+            (0..case.model.dimension()).any(|place| case.model.component_name(place) == name);
+        let none = || match is_of_state {
+            true => format!("`{name}` is of the state, which moves"),
+            false => format!("there is no `{name}` to vary"),
+        };
+        let coordinate =
+            Coordinate::of(case, &name).ok_or_else(|| AxisMistake::new(&none(), known))?;
         let Some((index, _)) = coordinate.parameter() else { return Ok((name, coordinate)) };
         if matches!(case.model.parameters[index].origin, ParameterOrigin::Formula(_)) {
             let message = format!("`{name}` is computed from other parameters");
@@ -75,8 +81,14 @@ impl Coordinate {
     /// one, or the energy; also returns the canonical name.
     pub fn of_branch(case: &Case, name: &str) -> Result<(String, Self), AxisMistake> {
         let help = match parameters(case).as_slice() {
-            [] => "vary energy: the case has no parameters".to_string(),
-            names => format!("vary {}, or energy", names.join(", ")),
+            [] if case.model.system.has_energy() => {
+                "vary energy: the case has no parameters".to_string()
+            }
+            [] => "declare what varies in [parameters], as a = \"0.5..2\"".to_string(),
+            names if case.model.system.has_energy() => {
+                format!("vary {}, or energy", names.join(", "))
+            }
+            names => format!("vary {}", names.join(", ")),
         };
         match Self::varying(case, name, &help)? {
             (name, Coordinate::L | Coordinate::Z) => {
@@ -121,9 +133,14 @@ impl Coordinate {
 
 /// Help that lists the possible axes of a case.
 fn known(case: &Case) -> String {
-    let own = if applies(&case.model) { &["l", "L/G", "energy"][..] } else { &["energy"] };
+    let own = match () {
+        () if applies(&case.model) => &["l", "L/G", "energy"][..],
+        () if case.model.system.has_energy() => &["energy"],
+        () => &[],
+    };
     let names = parameters(case).into_iter().chain(own.iter().map(ToString::to_string));
     match names.collect::<Vec<_>>().as_slice() {
+        [] => "declare what varies in [parameters], as a = \"0.5..2\"".to_string(),
         [only] => format!("vary {only}"),
         names => format!("vary one of {}", names.join(", ")),
     }

@@ -17,8 +17,6 @@ use liouville::number::double_double::DoubleDouble;
 const MAX_STEPS_BETWEEN: u64 = 100_000;
 /// Number of crossings in the other direction alone after which a motion counts as lost.
 const MAX_OTHERS: usize = 1000;
-/// Time limit, far later than any crossing.
-const NEVER: f64 = 1e15;
 
 /// Motions to follow. Output 0 of the program vanishes on the surface.
 pub(super) struct CrossingTask<'t> {
@@ -142,8 +140,7 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
             };
             match &self.task.starts[index] {
                 Ok(start) => {
-                    let until = if self.task.backwards { -NEVER } else { NEVER };
-                    self.stepper.start(lane, &start.state, DoubleDouble::from_f64(until));
+                    self.stepper.start_open(lane, &start.state, self.task.backwards);
                     let sides = Sides::default();
                     self.running[lane] =
                         Some(Running { index, track, sides, counted: 0, last_met: (0, 0) });

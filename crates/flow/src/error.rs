@@ -4,7 +4,7 @@ use liouville::graph::Fault;
 use liouville::number::UnaryFunction;
 use serde::{Deserialize, Serialize};
 
-use super::stepper::ENDLESS;
+use super::stepper::{ENDLESS, MOST_STEPS};
 
 /// Reason why a motion cannot be computed.
 ///
@@ -41,6 +41,19 @@ pub enum FlowError {
         /// Last state.
         #[serde(with = "super::record")]
         state: Vec<f64>,
+    },
+    /// The time takes too many steps.
+    #[error("{}", endless(*time, *step, *until))]
+    Endless {
+        /// Time of the last state.
+        #[serde(with = "super::record")]
+        time: f64,
+        /// Last step.
+        #[serde(with = "super::record")]
+        step: f64,
+        /// Time at which the motion would end.
+        #[serde(with = "super::record")]
+        until: f64,
     },
     /// The section uses variables that this system does not have.
     #[error(
@@ -234,6 +247,14 @@ fn shrinking(time: f64, step: f64, state: &[f64]) -> String {
     )
 }
 
+fn endless(time: f64, step: f64, until: f64) -> String {
+    format!(
+        "the time is too long: at t = {time:.4e} a step is {:.1e}, and up to t = {until:e} there would \
+         be more than {MOST_STEPS:e} of them",
+        step.abs()
+    )
+}
+
 fn singular(time: f64, state: &[f64]) -> String {
     let state: Vec<String> = state.iter().map(|x| format!("{x:.6}")).collect();
     let state = state.join(", ");
@@ -267,6 +288,7 @@ impl FlowError {
             FlowError::Singular { .. } | FlowError::Shrinking { .. } => {
                 "choose another start, or a shorter time"
             }
+            FlowError::Endless { .. } => "give a shorter time",
             FlowError::NoAndoyer => {
                 "for other systems give a surface, such as --section 'x = 0', and starts by states"
             }
@@ -302,7 +324,9 @@ impl FlowError {
                 "start nearer to the orbit, or give its period by --time or another --period"
             }
             FlowError::Degenerate(_) => {
-                "where a further integral is kept, closed orbits come in families, and have no multipliers"
+                "where a further integral is kept, closed orbits come in families, and have no \
+                 multipliers; write a system with an energy as [hamiltonian] or [lagrangian], where \
+                 the energy is held"
             }
             FlowError::NoReversor { .. } => {
                 "name another of L=0, l=0, l=π/2, or another section (--g0); `liouville report` lists the reversors of a body"

@@ -164,6 +164,10 @@ fn orbit_over<T: SeriesNumber<One = T>>(
             (stepper.pairs(0), stepper.steps(0), Vec::new())
         }
     };
+    if !end.iter().all(|x| x.is_finite()) {
+        let state = end.iter().map(|x| x.hi).collect();
+        return Err(FlowError::Singular { time: time.hi, state });
+    }
     watcher.watch.measure(&end);
     watcher.samples.end(time, &end);
     let (order, followed) = (accuracy.order, watcher.watch.followed);

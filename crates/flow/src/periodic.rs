@@ -18,8 +18,6 @@ use liouville::number::rational::Rational;
 const MAX_STEPS: usize = 40;
 /// Number of steps after which a motion counts as never returning.
 const MAX_STEPS_BETWEEN: u64 = 100_000;
-/// Time limit, far later than any return.
-const NEVER: f64 = 1e15;
 /// Half the distance of central differences; a second difference removes errors of order four.
 const DISTANCE: f64 = 1e-3;
 /// Residual below which only rounding is left.
@@ -164,7 +162,7 @@ impl<'c> SectionMap<'c> {
     ) -> Result<Passage, FlowError> {
         let mut departure = None;
         let mut stepper = Stepper::<T>::new(&self.program, accuracy);
-        stepper.start(0, &start.state, DoubleDouble::from_f64(NEVER));
+        stepper.start_open(0, &start.state, false);
         let (mut sides, mut met) = (Sides::default(), 0);
         while stepper.steps(0) < MAX_STEPS_BETWEEN * crossings as u64 {
             stepper.expand();

@@ -39,6 +39,16 @@ const STRIDE: u64 = 1 << 18;
 const SHRUNK: f64 = 1e6;
 /// Number of such steps that nobody waits for.
 pub(super) const ENDLESS: f64 = 1e9;
+/// Number of steps that no motion takes, whatever their size.
+pub(super) const MOST_STEPS: f64 = 1e10;
+/// Time that stands for no end.
+const NEVER: f64 = 1e15;
+/// Numbers of steps at which the pace is looked at before, for ends that are out of any reach.
+const EARLY: [u64; 2] = [1 << 11, 1 << 12];
+/// Multiple of [`MOST_STEPS`] that counts as out of any reach.
+const HOPELESS: f64 = 1e6;
+/// Ratio of the longest steps at two looks, below which steps do not grow.
+const GROWTH: f64 = 1.1;
 
 /// Motions in lockstep, one in each lane.
 pub struct Stepper<T: SeriesNumber> {
@@ -71,17 +81,30 @@ pub(super) struct Lane<One> {
     pub(super) step: One,
     steps: u64,
     pace: Pace,
+    /// Whether the final time is a stand-in for none.
+    is_open: bool,
 }
 
-/// Progress of a motion, by which one whose steps shrink without end is found.
+/// Progress of a motion, by which one whose end is out of reach is found.
 #[derive(Clone, Copy, Default)]
 struct Pace {
-    /// Longest step so far.
+    /// Longest step so far, and at the last look.
     longest: f64,
-    /// Time at the last measurement of the pace.
+    former: f64,
+    /// Time and number of steps at the last look.
     before: f64,
-    /// Whether the end is out of reach.
-    is_lost: bool,
+    counted: u64,
+    /// Why the end is out of reach, if it is.
+    lost: Option<Lost>,
+}
+
+/// Reason why the end of a motion is out of reach.
+#[derive(Clone, Copy)]
+enum Lost {
+    /// Its steps have shrunk.
+    Shrinking,
+    /// Its time takes too many steps of its usual size.
+    Endless,
 }
 
 impl Pace {
@@ -89,11 +112,21 @@ impl Pace {
     /// that are left.
     fn keep(&mut self, step: f64, steps: u64, now: f64, left: f64) {
         self.longest = self.longest.max(step.abs());
-        if steps.is_multiple_of(STRIDE) {
-            let mean = (now - self.before).abs() / STRIDE as f64;
-            self.is_lost = mean * SHRUNK < self.longest && left.abs() > mean * ENDLESS;
-            self.before = now;
+        let is_early = EARLY.contains(&steps);
+        if !is_early && !steps.is_multiple_of(STRIDE) {
+            return;
         }
+        let mean = (now - self.before).abs() / (steps - self.counted) as f64;
+        let most = MOST_STEPS * if is_early { HOPELESS } else { 1.0 };
+        let is_shrunk = mean * SHRUNK < self.longest && left.abs() > mean * ENDLESS;
+        // Steps that grow, as on the way to infinity, may still arrive.
+        let is_steady = self.former > 0.0 && self.longest < GROWTH * self.former;
+        self.lost = match () {
+            () if is_shrunk && !is_early => Some(Lost::Shrinking),
+            () if is_steady && left.abs() > mean * most => Some(Lost::Endless),
+            () => None,
+        };
+        (self.former, self.before, self.counted) = (self.longest, now, steps);
     }
 }
 
@@ -106,6 +139,7 @@ impl<T: SeriesNumber> Stepper<T> {
             step: T::One::ZERO,
             steps: 0,
             pace: Pace::default(),
+            is_open: false,
         };
         let state = vec![T::ZERO; program.dimension()];
         Self {
@@ -131,7 +165,15 @@ impl<T: SeriesNumber> Stepper<T> {
             step: T::One::ZERO,
             steps: 0,
             pace: Pace::default(),
+            is_open: false,
         };
+    }
+
+    /// Starts a motion at time 0 that somebody else ends, after a number of steps.
+    pub fn start_open(&mut self, lane: usize, state: &[DoubleDouble], backwards: bool) {
+        let until = if backwards { -NEVER } else { NEVER };
+        self.start(lane, state, DoubleDouble::from_f64(until));
+        self.lanes[lane].is_open = true;
     }
 
     /// Moves a motion to another state, at the same time.
@@ -200,7 +242,7 @@ impl<T: SeriesNumber> Stepper<T> {
     }
 
     /// Checks the present expansion of a motion; fails where the motion runs into a singularity,
-    /// where its steps shrink without end, and once it is stopped.
+    /// where its end is out of reach, and once it is stopped.
     pub fn check(&self, lane: usize) -> Result<(), FlowError> {
         if self.halt.is_raised() {
             return Err(FlowError::Stopped);
@@ -215,10 +257,14 @@ impl<T: SeriesNumber> Stepper<T> {
         let time = motion.time.hi;
         let state = || self.pairs(lane).iter().map(|x| x.hi).collect();
         match finite && advances && step.is_finite() {
-            true if motion.pace.is_lost && !at_end => {
-                Err(FlowError::Shrinking { time, step, state: state() })
-            }
-            true => Ok(()),
+            true => match motion.pace.lost.filter(|_| !at_end) {
+                None => Ok(()),
+                Some(Lost::Shrinking) => Err(FlowError::Shrinking { time, step, state: state() }),
+                Some(Lost::Endless) if motion.is_open => Ok(()),
+                Some(Lost::Endless) => {
+                    Err(FlowError::Endless { time, step, until: motion.until.hi })
+                }
+            },
             false => Err(FlowError::Singular { time, state: state() }),
         }
     }

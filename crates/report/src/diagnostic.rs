@@ -36,9 +36,20 @@ pub fn of_judging(path: &str, source: &str, error: &JudgeError, colour: bool) ->
         JudgeError::OffLevel { equation, .. } => place("[level.chart]").or_else(|| place(equation)),
         JudgeError::PartialChart { .. } => place("[level.chart]"),
         JudgeError::Unreachable(_) => place("[level]").or_else(|| place("[level.chart]")),
+        JudgeError::NotSkew(block) => key(source, &format!("\"{block},{block}\""))
+            .or_else(|| key(source, "bracket"))
+            .or_else(|| place("bracket")),
         _ => None,
     };
     at(path, source, span, error.to_string(), Some(error.help().to_string()), colour)
+}
+
+/// Place of a key, with spaces or without: that of its first letters before a `=`.
+fn key(source: &str, key: &str) -> Option<Range<usize>> {
+    let is_key = |end: usize| source[end..].trim_start().starts_with('=');
+    let found = source.match_indices(key).map(|(start, _)| start..start + key.len());
+    let mut found = found.filter(|place| is_key(place.end));
+    found.next()
 }
 
 /// Failure at a place, or in the file as a whole.

@@ -19,7 +19,8 @@ pub enum SearchError {
     NotSpanned,
     /// The field has functions that prime fields lack, or is defined nowhere.
     #[error(
-        "the field has no Taylor series modulo a prime: it contains exp, ln, sin, cos, x^y, or many roots"
+        "no Taylor series of the field modulo a prime was found: it contains exp, ln, sin, cos or x^y, \
+         or many roots, which few points have all"
     )]
     NoSeries,
     /// A minor is not a fraction of low degree in a parameter.
@@ -58,7 +59,8 @@ pub enum SearchError {
     NoChart,
     /// No point at which all terms have a value was found.
     #[error(
-        "the terms have no common value modulo a prime: they contain exp, ln, sin, cos, x^y, or many roots"
+        "no point modulo a prime was found at which all terms have values: they contain exp, ln, sin, \
+         cos or x^y, or many roots, which few points have all"
     )]
     NoPoints,
     /// Recording failed.
@@ -94,7 +96,7 @@ impl SearchError {
             SearchError::NoTerm(_) => "write a scalar; `liouville names` lists the names of a case",
             SearchError::NoSeries | SearchError::NoPoints => {
                 "make such functions state variables, as in s' = c*φ', c' = −s*φ' for the sine and \
-                 the cosine of φ"
+                 the cosine of φ, and r' = (x*x' + y*y')/r for r = √(x² + y²)"
             }
             SearchError::Unsplit(_) | SearchError::NotQuadratic | SearchError::NotSpanned => {
                 "search with --ansatz=4, which needs no velocities"

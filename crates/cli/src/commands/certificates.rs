@@ -14,7 +14,7 @@ use liouville_flow::observe;
 use rayon::prelude::*;
 
 use super::eval::read_settings;
-use super::{CheckArgs, source, write};
+use super::{CheckArgs, out, source};
 
 /// Certificates of a case: name of the claim, and text or the reason why there is none.
 type Made = Vec<(String, Result<String, Missing>)>;
@@ -32,6 +32,7 @@ pub fn write_all(folder: &Path, run: &RunReport, options: &CheckArgs) -> Result<
         .par_iter()
         .map(|outcome| Ok((outcome, of_case(outcome, options)?)))
         .collect::<Result<_, String>>()?;
+    let inputs: Vec<&Path> = run.outcomes.iter().map(|outcome| Path::new(&outcome.path)).collect();
     let mut taken: BTreeSet<String> = BTreeSet::new();
     let mut written = 0;
     let mut missing: Vec<Missing> = Vec::new();
@@ -40,7 +41,9 @@ pub fn write_all(folder: &Path, run: &RunReport, options: &CheckArgs) -> Result<
             match text {
                 Ok(text) => {
                     let name = fresh(&mut taken, &outcome.path, claim);
-                    write(&folder.join(format!("{name}.json")), "--certificate", text)?;
+                    let path = folder.join(format!("{name}.json"));
+                    out::check(&path, "--certificate", &inputs)?;
+                    out::write(&path, "--certificate", text)?;
                     written += 1;
                 }
                 Err(reason) => missing.push(*reason),

@@ -11,7 +11,7 @@ use liouville::program::Program;
 
 use super::check::is_meant;
 use super::eval::read_settings;
-use super::{CommandOutput, colour, source};
+use super::{CommandOutput, colour, out, source};
 
 #[derive(Debug, Args)]
 pub struct ExportArgs {
@@ -72,6 +72,9 @@ impl From<To> for Language {
 }
 
 pub fn run(options: &ExportArgs) -> Result<CommandOutput, String> {
+    if let Some(path) = &options.out {
+        out::check(path, "--out", &[&options.case])?;
+    }
     let shown = options.case.display().to_string();
     let (text, case) = source::read(&options.case, &read_settings(&options.settings)?);
     let coloured = colour(std::io::stderr().is_terminal());
@@ -106,7 +109,7 @@ pub fn run(options: &ExportArgs) -> Result<CommandOutput, String> {
     match &options.out {
         None => Ok(CommandOutput { text: code, code: 0 }),
         Some(path) => {
-            super::write(path, "--out", &code)?;
+            out::write(path, "--out", &code)?;
             Ok(CommandOutput { text: format!("{}\n", path.display()), code: 0 })
         }
     }

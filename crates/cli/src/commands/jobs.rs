@@ -10,7 +10,7 @@ use super::explore::motion::MotionArgs;
 use super::explore::report::ReportArgs;
 use super::explore::share::Share;
 use super::explore::{self, MotionCommand};
-use super::{Arguments, CheckArgs, Command, CommandOutput};
+use super::{Arguments, CheckArgs, Command, CommandOutput, in_our_words};
 use crate::parts::{Form, Header, Identity, Job, PartFile, Set};
 
 pub use super::bodies::BodiesJob;
@@ -82,12 +82,7 @@ impl AnyJob {
         given: Given<'_>,
         out: Option<&Path>,
     ) -> Result<Self, String> {
-        let mut command = Arguments::described().no_binary_name(true).args_override_self(true);
-        let matches = command
-            .try_get_matches_from_mut(arguments)
-            .and_then(|matches| Arguments::from_arg_matches(&matches));
-        let parsed = matches.map_err(|error| error.to_string())?;
-        let command = match parsed.command {
+        let command = match parsed(arguments)? {
             Command::Explore(command) => command,
             Command::Check(options) if options.bodies.settings.is_some() => {
                 return Self::check(options, arguments, given, out);
@@ -188,6 +183,15 @@ impl AnyJob {
     pub fn report(&self, set: &Set) -> Result<CommandOutput, String> {
         of_any!(self, job => job.report(job.units(set)?))
     }
+}
+
+/// Reads the arguments of a command, without the name of the program.
+pub(super) fn parsed(arguments: &[String]) -> Result<Command, String> {
+    let mut command = Arguments::described().no_binary_name(true).args_override_self(true);
+    let matches = command
+        .try_get_matches_from_mut(arguments)
+        .and_then(|matches| Arguments::from_arg_matches(&matches));
+    matches.map(|arguments| arguments.command).map_err(|error| in_our_words(&error.to_string()))
 }
 
 fn no_job(arguments: &[String]) -> String {

@@ -1,12 +1,12 @@
 //! The command `liouville merge`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::CommandOutput;
 use super::jobs::AnyJob;
 use super::styles::Styles;
+use super::{CommandOutput, out};
 use crate::parts::{Set, from_folder};
 
 #[derive(Debug, Args)]
@@ -25,6 +25,12 @@ pub struct Merge {
 pub fn run(options: &Merge) -> Result<CommandOutput, String> {
     let files = from_folder(&options.folder)?;
     let mut set = Set::new(&files, &options.folder.display().to_string())?;
+    if let Some(path) = &options.out {
+        let parts: Vec<PathBuf> =
+            files.iter().map(|file| options.folder.join(&file.name)).collect();
+        let parts: Vec<&Path> = parts.iter().map(PathBuf::as_path).collect();
+        out::check(path, "--out", &parts)?;
+    }
     let styles = Styles::of(&set.header.job);
     styles.check(&options.style)?;
     set.header.arguments = styles.applied(&set.header.arguments, &options.style);

@@ -1,5 +1,6 @@
 //! Commands and their options.
 
+pub mod answers;
 pub mod bodies;
 pub mod cases;
 mod certificates;
@@ -121,8 +122,11 @@ Example:
 impl Arguments {
     /// Reads the arguments of the program; former names work, and are left out of the help.
     pub fn read(arguments: impl IntoIterator<Item = OsString>) -> Self {
-        let matches = Self::described().get_matches_from(arguments);
-        Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+        Self::parse_from(arguments).unwrap_or_else(|error| refuse(&error))
+    }
+
+    fn parse_from(arguments: impl IntoIterator<Item = OsString>) -> Result<Self, clap::Error> {
+        Self::from_arg_matches(&Self::described().try_get_matches_from(arguments)?)
     }
 
     /// All commands and options; former names are hidden.
@@ -132,8 +136,38 @@ impl Arguments {
         for one in former.get_subcommands() {
             command = command.mut_subcommand(one.get_name(), |own| own.hide(true));
         }
-        command
+        with_negative_numbers(command)
     }
+}
+
+/// Lets options take negative numbers, whose own messages are better than one about an option `-1`.
+fn with_negative_numbers(command: clap::Command) -> clap::Command {
+    let takes_value = |own: &clap::Arg| !own.is_positional() && own.get_action().takes_values();
+    command
+        .mut_args(|own| if takes_value(&own) { own.allow_negative_numbers(true) } else { own })
+        .mut_subcommands(with_negative_numbers)
+}
+
+/// Words of the reader of arguments about numbers, and ours.
+const NUMBER_WORDS: [(&str, &str); 4] = [
+    ("invalid digit found in string", "write a whole number, 0 or more"),
+    ("cannot parse integer from empty string", "write a whole number, 0 or more"),
+    ("number too large to fit in target type", "write a smaller number"),
+    ("invalid float literal", "write a number"),
+];
+
+/// Text of wrong arguments.
+fn in_our_words(text: &str) -> String {
+    NUMBER_WORDS.iter().fold(text.to_string(), |text, (theirs, ours)| text.replace(theirs, ours))
+}
+
+/// Prints what is wrong with the arguments, or the help that is asked for, and ends the program.
+fn refuse(error: &clap::Error) -> ! {
+    if !error.use_stderr() {
+        error.exit();
+    }
+    anstream::eprint!("{}", in_our_words(&error.render().ansi().to_string()));
+    std::process::exit(error.exit_code())
 }
 
 /// Options of the sampling.
@@ -342,16 +376,6 @@ pub fn finish(answer: Result<CommandOutput, String>) -> u8 {
             2
         }
     }
-}
-
-/// Writes a file that an option names.
-fn write(path: &Path, option: &str, bytes: impl AsRef<[u8]>) -> Result<(), String> {
-    std::fs::write(path, bytes).map_err(|error| {
-        format!(
-            "error: cannot write {}: {error}\nhelp: give {option} a file in a folder that exists",
-            path.display()
-        )
-    })
 }
 
 /// Writes a file that must not exist yet.

@@ -8,7 +8,7 @@ use clap::Args;
 use super::eval::read_settings;
 use super::explore::progress::telling;
 use super::threads::pool;
-use super::{CommandOutput, LimitArgs, SamplingArgs};
+use super::{CommandOutput, LimitArgs, SamplingArgs, source};
 
 /// Words by which a certificate of a proof by points is known.
 const BY_POINTS: &str = "\"liouville certificate 1\"";
@@ -48,13 +48,8 @@ pub fn run(options: &Verify) -> Result<CommandOutput, String> {
 
 /// Verifies a certificate. The outer error is that of a file that cannot be read.
 fn one(path: &Path, options: &Verify) -> Result<Result<String, String>, String> {
-    let text = std::fs::read_to_string(path).map_err(|error| {
-        format!(
-            "error: cannot read {}: {error}\n\
-             help: `liouville check CASE --motion --certificate FOLDER` writes certificates",
-            path.display()
-        )
-    })?;
+    let help = "`liouville check CASE --motion --certificate FOLDER` writes certificates";
+    let text = source::text(path, help)?;
     if ![ORBITS, HORSESHOES].iter().any(|format| text.contains(format)) && text.contains(BY_POINTS)
     {
         let reason = "a proof by points, which `python3 docs/certificates/check.py` checks";

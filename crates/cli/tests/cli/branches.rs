@@ -102,7 +102,7 @@ fn wrong_branches_are_refused_with_a_remedy() {
     };
     let at = ["--start", "1,0", "--parameter"];
     let of = |more: &[&'static str]| with(&[&at[..], more].concat());
-    refuse(&of(&["q"]), "there is no `q` to vary", "vary μ, twice, or energy");
+    refuse(&of(&["q"]), "there is no `q` to vary", "vary μ, twice");
     refuse(&of(&["twice"]), "`twice` is computed from other parameters", "vary those");
     refuse(&of(&["energy"]), "the range of `energy` is not known", "--from and --to");
     refuse(&of(&["energy", "--from", "0", "--to", "1"]), "has no energy", "--energy");

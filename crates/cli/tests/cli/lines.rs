@@ -177,7 +177,7 @@ fn lines_that_cannot_be_followed_are_refused_with_a_remedy() {
         (
             [&diagram[..], &["q=0..1"]].concat(),
             "there is no `q` to vary",
-            "vary one of μ, v1, v2, v3, energy",
+            "vary one of μ, v1, v2, v3",
         ),
         (
             [&diagram[..], &["L/G=0..1"]].concat(),

@@ -110,6 +110,18 @@ fn samples_that_cannot_be_written_say_why() {
     let starts = path(&folder, "starts.csv");
     orbit(&["--starts", &starts], "line 3: `q` is not a number");
     orbit(&["--starts", &starts, "--out", &starts], "a file that the command reads");
+    let diagram = ["motion", "diagram", &case, "--over", "energy=1..2", "--starts", &starts];
+    fails(&[&diagram[..], &["--out", &starts]].concat(), "a file that the command reads");
+    let other = path(&folder, "./starts.csv");
+    fails(&[&diagram[..], &["--out", &other]].concat(), "a file that the command reads");
+    let branch = ["motion", "continue", &case, "--parameter", "energy", "--starts", &starts];
+    fails(&[&branch[..], &["--out", &starts]].concat(), "a file that the command reads");
+    let rotation = ["motion", "rotation", &case, "--from", "1", "--to", "2", "--out", &case];
+    fails(&rotation, "is none of");
+    fails(&["export", &case, "--to", "python", "--out", &case], "a file that the command reads");
+    let bench = ["measure", "bench", &case, "--svg", &case];
+    fails(&bench, "a file that the command reads");
+    assert_eq!(fs::read_to_string(&case).expect("the case"), POLE, "it is as it was");
     let pole = ["motion", "orbit", &case, "--start", "1", "--time", "2", "--out", &out];
     fails(&pole, "has what comes before");
     let rows = fs::read_to_string(&out).expect("rows up to the pole");

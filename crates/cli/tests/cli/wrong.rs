@@ -174,7 +174,7 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
             "no state on the level set",
             "may not all vanish",
         ),
-        ("no-level", turning("[level]\nequations = ['1 = 0']"), "on no state variable", "remove"),
+        ("no-level", turning("[level]\nequations = ['1 = 0']"), "contains no state variable", "leave it out"),
         (
             "open-level",
             turning("[level]\nequations = ['y = ∫(x, x)']"),
@@ -195,7 +195,7 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
         ),
         ("kinetic", lagrangian("nonholonomic", ""), "has no `kinetic`", "add kinetic"),
         ("multipliers", lagrangian("vakonomic", skate), "0 multipliers", "multipliers = [\"λ\"]"),
-        ("dependent", lagrangian("nonholonomic", twice), "depends on those before", "remove"),
+        ("dependent", lagrangian("nonholonomic", twice), "follows from the equations before", "leave it out"),
         ("algebra", lagrangian("nonholonomic", quasi), "is not a known algebra", "so(3)"),
         ("variables", turning("[[claim]]\ncasimir = 'x'"), "has none", "add [poisson]"),
         (
@@ -243,4 +243,35 @@ fn eval_refuses_what_it_does_not_understand() {
         .assert()
         .code(2)
         .stderr(contains("this case has no parameters"));
+}
+
+#[test]
+fn files_that_are_not_utf_8_have_a_place() {
+    let place = folder(
+        "latin",
+        &[(
+            "good.toml",
+            "title = 'a'\n[state]\nx = '1..2'\n[field]\n\"x'\" = 'x'\n[[claim]]\nintegral = '1'\n",
+        )],
+    );
+    let file = |name: &str| place.join(name).to_str().expect("UTF-8").to_string();
+    let (good, bad, table) = (file("good.toml"), file("bad.toml"), file("bad.csv"));
+    std::fs::write(&bad, b"title = 'a'\nsource = 'Poincar\xe9'\n").expect("a file");
+    std::fs::write(&table, b"x\n1\n\xe9\n").expect("a file");
+    liouville(&["check", &bad])
+        .assert()
+        .code(2)
+        .stdout(contains("byte 0xE9 in line 2 is not UTF-8"))
+        .stdout(contains("bad.toml:2:18"))
+        .stdout(contains("with the encoding UTF-8"));
+    for arguments in [
+        ["motion", "orbit", &good, "--starts", &table],
+        ["check", &good, "-q", "--settings", &table],
+    ] {
+        liouville(&arguments)
+            .assert()
+            .code(2)
+            .stderr(contains("is not UTF-8"))
+            .stderr(contains("with the encoding UTF-8"));
+    }
 }

@@ -1,11 +1,12 @@
 //! Regular motion and chaos: exponents, vectors, planes of starts.
 
 use liouville::case::{Case, Setting};
+use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
 use liouville::verdict::{evaluate, read_state};
 use liouville_flow::{
-    Character, ChartAxis, Coordinate, FlowError, Launch, PlaneRequest, Variational, plane,
-    section_starts,
+    Character, ChartAxis, Coordinate, FlowError, Launch, PlaneRequest, Precision, Variational,
+    orbit, plane, section_starts,
 };
 
 use crate::{catalogue, parse, start};
@@ -160,4 +161,27 @@ fn a_motion_whose_steps_shrink_without_end_is_given_up() {
     let found = motion.exponents(-2000.0);
     let Err(FlowError::Shrinking { time, step, .. }) = found else { panic!("{found:?}") };
     assert!(time < -0.5 && step.abs() < 1e-6, "given up at t = {time}, step {step:e}");
+}
+
+#[test]
+fn a_time_of_too_many_steps_is_given_up() {
+    let text = "title = 'a circle'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = 'y'\n\"y'\" = '-x'\n";
+    let case = parse(text);
+    let begin = start(&case, "x=1 y=0");
+    for time in [1e300, -1e300, 1e12] {
+        let time = DoubleDouble::from_f64(time);
+        let found = orbit(&case, begin.clone(), time, Precision::Float);
+        assert!(matches!(found, Err(FlowError::Endless { .. })), "{time:?}: {found:?}");
+    }
+    let motion = Variational::new(&case.model, &begin).expect("a motion");
+    let found = motion.exponents(1e300);
+    assert!(matches!(found, Err(FlowError::Endless { .. })), "{found:?}");
+    // steps that grow arrive: the radius of convergence of √(1 + t²) grows with t
+    let text =
+        "title = 'a'\n[state]\nx = '1..2'\ny = '0..1'\n[field]\n\"x'\" = 'y/x'\n\"y'\" = '1'\n";
+    let case = parse(text);
+    let time = DoubleDouble::from_f64(1e15);
+    let found = orbit(&case, start(&case, "x=1 y=0"), time, Precision::Float);
+    let end = found.expect("a motion").end[0].hi;
+    assert!((end / 1e15 - 1.0).abs() < 1e-9, "x = √(1 + t²), not {end}");
 }

@@ -22,7 +22,7 @@ use crate::commands::explore::share::Share;
 use crate::commands::judging::{stated, verdicts};
 use crate::commands::out::write;
 use crate::commands::threads::pool;
-use crate::commands::{CheckArgs, CommandOutput, eval};
+use crate::commands::{CheckArgs, CommandOutput, eval, source};
 use crate::parts::{Form, Identity, Job, json_line, json_unit};
 use crate::report::bodies::{BodiesReport, Body, Finding, Invariants, RowMistake, StatedClaim};
 use crate::report::{CaseDigest, sha256};
@@ -152,12 +152,10 @@ impl BodiesJob {
         let shown = path.display();
         let text = match &self.bodies.text {
             Some(text) => Cow::Borrowed(text.as_str()),
-            None => std::fs::read_to_string(path).map(Cow::Owned).map_err(|error| {
-                format!(
-                    "error: cannot read {shown}: {error}\n\
-                     help: give --settings a CSV file: names of parameters, and a row for each body"
-                )
-            })?,
+            None => Cow::Owned(source::text(
+                path,
+                "give --settings a CSV file: names of parameters, and a row for each body",
+            )?),
         };
         let told =
             |mistake: TableMistake| format!("error: {shown}: {mistake}\nhelp: {}", mistake.help());

@@ -261,14 +261,14 @@ fn request(
     starts: Vec<[f64; 2]>,
 ) -> Result<SectionRequest, String> {
     let choice = SectionChoice {
-        direction: options.direction,
+        direction: options.crossing.direction,
         orbits: options.orbits,
-        crossings: options.crossings,
-        skip: options.skip,
+        crossings: options.crossing.crossings,
+        skip: options.crossing.skip,
         starts,
         backwards: options.backwards,
         seed: options.subject.seed,
-        ..options.plane.choice()
+        ..options.crossing.plane.choice()
     };
     choice.request(case).map_err(|error| wrong_choice(&error))
 }

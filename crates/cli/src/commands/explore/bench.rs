@@ -10,7 +10,7 @@ use clap::Args;
 use liouville::verdict::TAPE_LANES;
 use liouville_lab::bench::{BenchItem, BenchOptions, ClaimMeasurements, measure_item, work_items};
 
-use super::{CommandOutput, colour, files, source, width};
+use super::{CommandOutput, colour, files, out, source, width};
 
 #[derive(Debug, Args)]
 pub struct BenchArgs {
@@ -41,6 +41,10 @@ pub fn run(options: &BenchArgs) -> Result<CommandOutput, String> {
     };
     let mut run = BenchRun::new(amount);
     let found = items(options)?;
+    if let Some(path) = &options.svg {
+        let inputs: Vec<&Path> = found.iter().map(|(path, _)| Path::new(path)).collect();
+        out::check(path, "--svg", &inputs)?;
+    }
     let (started, bar) = (Instant::now(), files::bar(found.len() as u64));
     for (path, item) in found {
         // One thread, one item at a time: candidates do not compete for the machine.
@@ -60,7 +64,7 @@ pub fn run(options: &BenchArgs) -> Result<CommandOutput, String> {
     if let Some(path) = &options.svg
         && !run.measured.is_empty()
     {
-        super::write(path, "--svg", diagram::svg(&run.measured))?;
+        out::write(path, "--svg", diagram::svg(&run.measured))?;
     }
     let text = if options.json {
         bench::json(&run).map_err(|error| format!("error: {error}"))? + "\n"

@@ -14,13 +14,13 @@ use liouville_flow::{
 
 use super::super::limits::{STOPPED, Stop, signals};
 use super::eval::Opened;
-use super::ink::Ink;
+use super::ink::{Ink, Sheet};
 use super::motion::wrong_formula;
 use super::output::Ending;
 use super::periodic::OrbitSearch;
 use super::progress::telling;
 use super::surface::read_surface;
-use super::{CommandOutput, LimitArgs, write};
+use super::{CommandOutput, LimitArgs};
 use crate::report::branch::BranchReport;
 
 #[derive(Debug, Args)]
@@ -56,14 +56,34 @@ fn parse_step(text: &str) -> Result<f64, String> {
 }
 
 pub fn run(options: &ContinueArgs) -> Result<CommandOutput, String> {
+    let limits = options.search.subject.limits;
+    limits.check()?;
+    let watch = Watch::new(limits)?;
+    let found = stoppable(&watch.raised, || answer(options));
+    let (raised, stop) = (Arc::clone(&watch.raised), watch.end());
+    let (text, is_stopped) = match found {
+        // nothing was reached
+        Err(_) if raised.load(Ordering::Relaxed) => (String::new(), true),
+        other => other?,
+    };
+    if is_stopped {
+        let words = stop.map_or("stopped".to_string(), |stop| stop.to_string());
+        anstream::eprintln!("error: not finished: {words}\nhelp: allow more, or ask for less");
+    }
+    Ok(CommandOutput { text, code: if is_stopped { STOPPED } else { 0 } })
+}
+
+/// Follows the branch and writes its file; returns the report, and whether the branch was stopped
+/// before its end.
+pub fn answer(options: &ContinueArgs) -> Result<(String, bool), String> {
     let subject = &options.search.subject;
-    subject.limits.check()?;
-    let out = options.ink.output(Ending::CHARTS, &[&subject.case])?;
+    let inputs: Vec<_> =
+        [subject.case.as_path()].into_iter().chain(options.search.starts.inputs()).collect();
+    let out = options.ink.output(Ending::CHARTS, &inputs)?;
     let opened = subject.opened()?;
     let case = &opened.case;
-    let told = |error: FlowError| subject.told(&error);
     if case.model.system.has_arbitrary_function() {
-        return Err(told(FlowError::Arbitrary));
+        return Err(subject.told(&FlowError::Arbitrary));
     }
     let (name, varied) =
         Coordinate::of_branch(case, options.parameter.trim()).map_err(|mistake| {
@@ -72,52 +92,30 @@ pub fn run(options: &ContinueArgs) -> Result<CommandOutput, String> {
     let range = options.range(&opened, &name, varied)?;
     let surface = options.search.section.as_deref();
     let surface = surface.map(|text| read_surface(case, text)).transpose()?;
-    let mut columns = options.columns(case, surface.as_ref())?;
-    let (titles, watch) = (columns.as_ref().map(Columns::titles), Watch::new(subject.limits)?);
+    let columns = options.columns(case, surface.as_ref())?;
+    let titles = columns.as_ref().map(Columns::titles);
     let titles = titles.map_or_else(|| vec!["l".to_string(), "L/G".to_string()], <[_]>::to_vec);
-    let found = stoppable(&watch.raised, || {
-        options.follow(case, varied, &range, surface.as_ref(), columns.take())
-    });
-    let (raised, stop) = (Arc::clone(&watch.raised), watch.end());
-    let stopped = |stop: Option<Stop>| {
-        let words = stop.map_or("stopped".to_string(), |stop| stop.to_string());
-        anstream::eprintln!("error: not finished: {words}\nhelp: allow more, or ask for less");
-        STOPPED
-    };
-    let found = match found {
-        // nothing was reached
-        Err(_) if raised.load(Ordering::Relaxed) => {
-            return Ok(CommandOutput { text: String::new(), code: stopped(stop) });
-        }
-        other => other?,
-    };
-    let period = options.search.period;
-    let surface = surface.as_ref().map(CrossingSurface::text);
+    let found = options.follow(case, varied, &range, surface.as_ref(), columns)?;
     let report = BranchReport {
         case,
         name: &name,
         range: &range,
         titles: &titles,
-        surface,
-        period,
+        surface: surface.as_ref().map(CrossingSurface::text),
+        period: options.search.period,
         branch: &found,
     };
-    if let Some(out) = &out {
-        let bytes = match out.ending {
-            Ending::Csv => report.csv().into_bytes(),
-            Ending::Json => report.json()?.into_bytes(),
-            ending => {
-                let words = (case.title.as_str(), vec![report.caption()]);
-                let plots = report.plots();
-                let columns = plots.len().min(2);
-                options.ink.drawn(words, plots, columns, ending)?
-            }
-        };
-        write(&out.path, "--out", bytes)?;
-    }
-    let code = if report.is_stopped() { stopped(stop) } else { 0 };
+    options.ink.save(
+        out.as_ref(),
+        &Sheet {
+            title: &case.title,
+            csv: &|| report.csv(),
+            json: &|| report.json(),
+            picture: &|| (report.caption(), report.plots()),
+        },
+    )?;
     let text = if subject.json { report.json()? } else { report.text() };
-    Ok(CommandOutput { text, code })
+    Ok((text, report.is_stopped()))
 }
 
 impl ContinueArgs {

@@ -13,13 +13,13 @@ use liouville_flow::{
     ChartAxis, Coordinate, Exponents, FlowError, Launch, PlaneRequest, SectionChoice,
 };
 
+use super::CommandOutput;
 use super::eval::Opened;
-use super::ink::Ink;
+use super::ink::{Ink, Sheet};
 use super::motion::{MotionArgs, SectionPlaneArgs, Threads, parse_start, wrong_choice};
 use super::output::{Ending, Output};
 use super::progress::progress;
 use super::share::{Share, Target, carry_out};
-use super::{CommandOutput, write};
 
 #[derive(Clone, Debug, Args)]
 pub struct ChartArgs {
@@ -198,20 +198,14 @@ impl Job for ChartJob {
         let report = ChartReport { title: &case.title, names, axes, time, cells };
         let json =
             || report.json().map(|text| text + "\n").map_err(|error| format!("error: {error}"));
-        if let Some(out) = out {
-            let bytes = match out.ending {
-                Ending::Csv => report.csv().into_bytes(),
-                Ending::Json => json()?.into_bytes(),
-                ending => {
-                    let own = [own(case, request, 0), own(case, request, 1)];
-                    let plot = report.plot(options.colour.of(), own);
-                    let caption = caption(case, request, names);
-                    let words = (case.title.as_str(), vec![caption]);
-                    options.ink.drawn(words, vec![plot], 1, ending)?
-                }
-            };
-            write(&out.path, "--out", bytes)?;
-        }
+        let picture = || {
+            let own = [own(case, request, 0), own(case, request, 1)];
+            (caption(case, request, names), vec![report.plot(options.colour.of(), own)])
+        };
+        options.ink.save(
+            out.as_ref(),
+            &Sheet { title: &case.title, csv: &|| report.csv(), json: &json, picture: &picture },
+        )?;
         let text = if subject.json { json()? } else { report.text() };
         // A picture without any motion is a failure; single motions may fail.
         match cells.iter().find_map(|found| found.as_ref().err()) {

@@ -1,24 +1,25 @@
 //! The command `liouville motion diagram`.
 
 use clap::Args;
-use liouville::case::{Case, Direction};
+use liouville::case::Case;
 use liouville_flow::{
     Begin, ChartAxis, Columns, Coordinate, CrossingSurface, DiagramRequest, DiagramSection,
     FlowError, SectionChoice, SurfaceRequest, diagram,
 };
 
-use super::ink::Ink;
-use super::motion::{MotionArgs, SectionPlaneArgs, Threads, parse_count, wrong_choice};
+use super::CommandOutput;
+use super::ink::{Ink, Sheet};
+use super::motion::{CrossingArgs, MotionArgs, Threads, parse_count, wrong_choice};
 use super::output::Ending;
 use super::progress::progress;
 use super::starts::{GivenStart, Starts, misfit};
 use super::surface::{begin, read_axes, read_surface};
-use super::{CommandOutput, write};
 use crate::report::bifurcations::{DiagramReport, OrbitsAtValue};
 
 /// Largest number of crossings of a diagram.
 const MOST_CROSSINGS: usize = 20_000_000;
-/// Default number of crossings left out.
+/// Default numbers of crossings, and of those left out.
+const CROSSINGS: usize = 100;
 const SKIP: usize = 300;
 
 #[derive(Clone, Debug, Args)]
@@ -33,30 +34,13 @@ pub struct DiagramArgs {
     #[arg(long, default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub count: u32,
     #[command(flatten)]
-    pub plane: SectionPlaneArgs,
-    /// Surface of the section, by formulas of the case: --section 'x = 0'. By default g = g₀ of a
-    /// rolling body
-    #[arg(long, value_name = "EQUATION", conflicts_with = "g0", allow_hyphen_values = true)]
-    pub section: Option<String>,
-    /// Values recorded at crossings of --section, a plot each: --axes 'y, |γ|²'. By default the first
-    /// two components of the state that the surface leaves free
-    #[arg(long, value_name = "FORMULAS", requires = "section", allow_hyphen_values = true)]
-    pub axes: Option<String>,
+    pub crossing: CrossingArgs,
     #[command(flatten)]
     pub starts: Starts,
     /// Number of motions at each value, from starts spread over the sphere; with --section, from
     /// states drawn. By default the first start of the case, or one drawn
     #[arg(long, value_parser = parse_count)]
     pub orbits: Option<usize>,
-    /// Number of crossings of each motion
-    #[arg(long, default_value = "100", value_parser = parse_count)]
-    pub crossings: usize,
-    /// Number of crossings left out at the beginning of each motion
-    #[arg(long, default_value_t = SKIP, value_parser = parse_count)]
-    pub skip: usize,
-    /// Crossings that count: up (g or the surface's left side less its right one grows), down, both
-    #[arg(long)]
-    pub direction: Option<Direction>,
     /// Follow the motions backwards in time
     #[arg(long)]
     pub backwards: bool,
@@ -67,7 +51,9 @@ pub struct DiagramArgs {
 }
 
 pub fn run(options: &DiagramArgs) -> Result<CommandOutput, String> {
-    let out = options.ink.output(Ending::CHARTS, &[&options.subject.case])?;
+    let inputs: Vec<_> =
+        [options.subject.case.as_path()].into_iter().chain(options.starts.inputs()).collect();
+    let out = options.ink.output(Ending::CHARTS, &inputs)?;
     let case = options.subject.open()?;
     if case.model.system.has_arbitrary_function() {
         return Err(options.subject.told(&FlowError::Arbitrary));
@@ -76,7 +62,7 @@ pub fn run(options: &DiagramArgs) -> Result<CommandOutput, String> {
         ChartAxis::read(&case, &options.over, options.count as usize).map_err(|mistake| {
             format!("error: --over {}: {}\nhelp: {}", options.over, mistake.message, mistake.help)
         })?;
-    let found = match options.section.as_deref() {
+    let found = match options.crossing.section.as_deref() {
         None => through_angle(options, &case, &axis)?,
         Some(text) => through_surface(options, &case, &axis, text)?,
     };
@@ -94,21 +80,27 @@ pub fn run(options: &DiagramArgs) -> Result<CommandOutput, String> {
     {
         return Err(options.subject.told(problem));
     }
-    if let Some(out) = &out {
-        let bytes = match out.ending {
-            Ending::Csv => report.csv().into_bytes(),
-            Ending::Json => report.json()?.into_bytes(),
-            ending => {
-                let plots = report.plots();
-                let columns = plots.len().min(2);
-                let words = (case.title.as_str(), vec![report.caption()]);
-                options.ink.drawn(words, plots, columns, ending)?
-            }
-        };
-        write(&out.path, "--out", bytes)?;
-    }
+    options.ink.save(
+        out.as_ref(),
+        &Sheet {
+            title: &case.title,
+            csv: &|| report.csv(),
+            json: &|| report.json(),
+            picture: &|| (report.caption(), report.plots()),
+        },
+    )?;
     let text = if options.subject.json { report.json()? } else { report.text() };
     Ok(CommandOutput { text, code: 0 })
+}
+
+impl DiagramArgs {
+    fn crossings(&self) -> usize {
+        self.crossing.crossings.unwrap_or(CROSSINGS)
+    }
+
+    fn skip(&self) -> usize {
+        self.crossing.skip.unwrap_or(SKIP)
+    }
 }
 
 /// Crossings at all values, with what they are crossings of.
@@ -137,16 +129,16 @@ fn through_angle(options: &DiagramArgs, case: &Case, axis: &ChartAxis) -> Result
     let choice = SectionChoice {
         energy: match axis.coordinate {
             Coordinate::Energy => Some(middle),
-            _ => options.plane.energy.clone(),
+            _ => options.crossing.plane.energy.clone(),
         },
-        direction: options.direction,
+        direction: options.crossing.direction,
         orbits: if is_given { options.orbits } else { Some(usize::from(!has_starts(case))) },
-        crossings: Some(options.crossings),
-        skip: Some(options.skip),
+        crossings: Some(options.crossings()),
+        skip: Some(options.skip()),
         starts,
         backwards: options.backwards,
         seed: options.subject.seed,
-        ..options.plane.choice()
+        ..options.crossing.plane.choice()
     };
     let mut request = choice.request(case).map_err(|error| wrong_choice(&error))?;
     if !is_given {
@@ -175,7 +167,7 @@ fn through_surface(
             .to_string());
     }
     let surface: CrossingSurface = read_surface(case, text)?;
-    let axes: Columns = read_axes(case, &surface, options.axes.as_deref())?;
+    let axes: Columns = read_axes(case, &surface, options.crossing.axes.as_deref())?;
     let mut starts = Vec::new();
     for (name, given) in options.starts.read(case)? {
         starts.push((name, begin(case, &axes, given)?));
@@ -186,12 +178,12 @@ fn through_surface(
     let request = SurfaceRequest {
         surface: &surface,
         axes: &axes,
-        direction: options.direction.unwrap_or_default(),
-        crossings: options.crossings,
-        skip: options.skip,
+        direction: options.crossing.direction.unwrap_or_default(),
+        crossings: options.crossings(),
+        skip: options.skip(),
         backwards: options.backwards,
     };
-    let energy = options.plane.energy.as_ref();
+    let energy = options.crossing.plane.energy.as_ref();
     let section = DiagramSection::Surface { request: &request, begins: &begins, energy };
     let values = follow(options, case, axis, section)?;
     let (surface, titles) = (Some(surface.text().to_string()), axes.titles().to_vec());
@@ -206,7 +198,7 @@ fn follow(
     section: DiagramSection<'_>,
 ) -> Result<Vec<OrbitsAtValue>, String> {
     let request = DiagramRequest { axis, section, seed: options.subject.seed };
-    let each = request.count().saturating_mul(options.crossings);
+    let each = request.count().saturating_mul(options.crossings());
     if each.saturating_mul(axis.count) > MOST_CROSSINGS {
         return Err(format!(
             "error: {} values of {each} crossings are more than {MOST_CROSSINGS}\n\

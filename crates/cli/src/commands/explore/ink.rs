@@ -6,6 +6,7 @@ use clap::Args;
 use liouville_draw::{Figure, Paper, Plot, Size, Text, pdf, plain, png, svg};
 
 use super::output::{Ending, Output};
+use super::write;
 
 /// Width of a picture of one plot, and of several, in millimetres.
 const SINGLE: f64 = 120.0;
@@ -64,6 +65,14 @@ fn parse_opacity(text: &str) -> Result<f64, String> {
     parse_number(text, 0.005, 1.0).ok_or("write a number from 0.005 to 1".to_string())
 }
 
+/// Results for a file: rows with commas, a document, and plots with the words below them.
+pub struct Sheet<'s> {
+    pub title: &'s str,
+    pub csv: &'s dyn Fn() -> String,
+    pub json: &'s dyn Fn() -> Result<String, String>,
+    pub picture: &'s dyn Fn() -> (Text, Vec<Plot>),
+}
+
 impl Ink {
     /// Options of the style with a value.
     pub const VALUED: &'static [&'static str] =
@@ -84,6 +93,21 @@ impl Ink {
     pub fn cells(&self, columns: usize, aspect: f64) -> [usize; 2] {
         let across = FRAME * self.width(columns) / columns.max(1) as f64 / CELL;
         [across, across * aspect].map(|count| (count.round() as usize).max(8))
+    }
+
+    /// Writes a sheet to its file, in the format of the ending.
+    pub fn save(&self, out: Option<&Output>, sheet: &Sheet<'_>) -> Result<(), String> {
+        let Some(out) = out else { return Ok(()) };
+        let bytes = match out.ending {
+            Ending::Csv => (sheet.csv)().into_bytes(),
+            Ending::Json => (sheet.json)()?.into_bytes(),
+            ending => {
+                let (caption, plots) = (sheet.picture)();
+                let columns = plots.len().min(2);
+                self.drawn((sheet.title, vec![caption]), plots, columns, ending)?
+            }
+        };
+        write(&out.path, "--out", bytes)
     }
 
     /// Draws plots with the words of the command line, or else with these.

@@ -3,7 +3,7 @@
 mod andoyer;
 mod basins;
 mod bench;
-mod branch;
+pub(super) mod branch;
 pub(super) mod chart;
 mod diagram;
 pub(super) mod exponents;
@@ -252,7 +252,8 @@ impl MotionCommand {
         }
     }
 
-    fn run(&self) -> Result<CommandOutput, String> {
+    /// Carries the command out.
+    pub fn run(&self) -> Result<CommandOutput, String> {
         let mut output = match self {
             Self::Orbit(options) => orbit::run(options),
             Self::Section(options) => section::run(options),

@@ -7,7 +7,7 @@ use crate::parts::Identity;
 use crate::report::data::DataTable;
 use crate::report::diagnostic;
 use clap::Args;
-use liouville::case::{Angle, Case};
+use liouville::case::{Angle, Case, Direction};
 use liouville::mechanics::components;
 use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
@@ -36,6 +36,9 @@ pub struct MotionArgs {
     pub json: bool,
     #[command(flatten)]
     pub limits: LimitArgs,
+    /// Text of the case, if it is at hand.
+    #[arg(skip)]
+    pub text: Option<String>,
 }
 
 impl MotionArgs {
@@ -45,7 +48,10 @@ impl MotionArgs {
 
     /// Reads the case, and keeps its text.
     pub fn opened(&self) -> Result<Opened, String> {
-        self.moving(open_text(&self.case, &self.settings)?)
+        match &self.text {
+            Some(text) => self.read(text),
+            None => self.moving(open_text(&self.case, &self.settings)?),
+        }
     }
 
     /// Reads the case from its text.
@@ -137,6 +143,32 @@ impl SectionPlaneArgs {
     pub fn of(&self, case: &Case) -> Result<(Angle, Rational), String> {
         self.choice().place(case).map_err(|error| wrong_choice(&error))
     }
+}
+
+/// Section of motions: what they cross, what is recorded there, and how many crossings count.
+#[derive(Clone, Debug, Args)]
+pub struct CrossingArgs {
+    #[command(flatten)]
+    pub plane: SectionPlaneArgs,
+    /// Surface of the section, by formulas of the case: --section 'x = 0'. By default g = g₀ of a
+    /// rolling body
+    #[arg(long, value_name = "EQUATION", conflicts_with = "g0", allow_hyphen_values = true)]
+    pub section: Option<String>,
+    /// Values recorded at crossings of --section, by formulas: --axes 'y, z'. By default the first
+    /// two components of the state that the surface leaves free
+    #[arg(long, value_name = "FORMULAS", requires = "section", allow_hyphen_values = true)]
+    pub axes: Option<String>,
+    /// Number of crossings of each motion; by default of a section 500 or as the case says, of a
+    /// diagram 100, of a rotation number 2000
+    #[arg(long, value_parser = parse_count)]
+    pub crossings: Option<usize>,
+    /// Number of crossings left out at the beginning of each motion; by default of a section none or
+    /// as the case says, of a diagram 300, of a rotation number none
+    #[arg(long, value_parser = parse_count)]
+    pub skip: Option<usize>,
+    /// Crossings that count: up (g or the surface's left side less its right one grows), down, both
+    #[arg(long)]
+    pub direction: Option<Direction>,
 }
 
 /// Message about options that determine no section.

@@ -8,19 +8,19 @@ use liouville_flow::{
     SurfaceRequest, number_with_pi, surface_section,
 };
 
-use super::ink::Ink;
-use super::motion::{
-    MotionArgs, SectionPlaneArgs, Threads, parse_count, wrong_choice, wrong_formula,
-};
+use super::CommandOutput;
+use super::ink::{Ink, Sheet};
+use super::motion::{CrossingArgs, MotionArgs, Threads, wrong_choice, wrong_formula};
 use super::output::Ending;
 use super::progress::progress;
 use super::starts::{GivenStart, given};
 use super::surface::{begin, read_axes, read_surface};
-use super::{CommandOutput, write};
 use crate::report::rotation::{RotationReport, RotationRow};
 
 /// Smallest number of crossings of which a rotation number is taken.
 const LEAST_CROSSINGS: usize = 32;
+/// Default number of crossings.
+const CROSSINGS: usize = 2000;
 /// Largest number of crossings in all.
 const MOST_CROSSINGS: usize = 100_000_000;
 
@@ -29,15 +29,7 @@ pub struct RotationArgs {
     #[command(flatten)]
     pub subject: MotionArgs,
     #[command(flatten)]
-    pub plane: SectionPlaneArgs,
-    /// Surface of the section, by formulas of the case: --section 'x = 0'. By default g = g₀ of a
-    /// rolling body
-    #[arg(long, value_name = "EQUATION", conflicts_with = "g0", allow_hyphen_values = true)]
-    pub section: Option<String>,
-    /// Two coordinates of --section: --axes 'y, py'. By default the first two components of the state
-    /// that the surface leaves free
-    #[arg(long, value_name = "FORMULAS", requires = "section", allow_hyphen_values = true)]
-    pub axes: Option<String>,
+    pub crossing: CrossingArgs,
     /// First start of the line: l,L/G, or values of the two axes, or a state 'x=1 y=0'
     #[arg(long, value_name = "START", allow_hyphen_values = true)]
     pub from: String,
@@ -54,15 +46,6 @@ pub struct RotationArgs {
     /// Angle in radians that is counted instead, by a formula: --angle 'atan2(y, x)'
     #[arg(long, value_name = "FORMULA", requires = "section", allow_hyphen_values = true)]
     pub angle: Option<String>,
-    /// Number of crossings of each motion
-    #[arg(long, default_value = "2000", value_parser = parse_count)]
-    pub crossings: usize,
-    /// Number of crossings left out at the beginning of each motion
-    #[arg(long, default_value_t = 0, value_parser = parse_count)]
-    pub skip: usize,
-    /// Crossings that count: up (g or the surface's left side less its right one grows), down, both
-    #[arg(long)]
-    pub direction: Option<Direction>,
     #[command(flatten)]
     pub ink: Ink,
     #[command(flatten)]
@@ -83,7 +66,7 @@ pub fn run(options: &RotationArgs) -> Result<CommandOutput, String> {
     }
     options.check()?;
     let (line, centre) = (Line::read(&case, options)?, options.centre()?);
-    let (titles, surface, courses) = match options.section.as_deref() {
+    let (titles, surface, courses) = match options.crossing.section.as_deref() {
         None => through_angle(options, &case, &line)?,
         Some(text) => through_surface(options, &case, &line, text)?,
     };
@@ -113,34 +96,37 @@ pub fn run(options: &RotationArgs) -> Result<CommandOutput, String> {
         around: options.around(),
         rows: &rows,
     };
-    if let Some(out) = &out {
-        let bytes = match out.ending {
-            Ending::Csv => report.csv().into_bytes(),
-            Ending::Json => report.json()?.into_bytes(),
-            ending => {
-                let words = (case.title.as_str(), vec![report.caption()]);
-                options.ink.drawn(words, vec![report.plot()], 1, ending)?
-            }
-        };
-        write(&out.path, "--out", bytes)?;
-    }
+    options.ink.save(
+        out.as_ref(),
+        &Sheet {
+            title: &case.title,
+            csv: &|| report.csv(),
+            json: &|| report.json(),
+            picture: &|| (report.caption(), vec![report.plot()]),
+        },
+    )?;
     let text = if options.subject.json { report.json()? } else { report.text() };
     Ok(CommandOutput { text, code: 0 })
 }
 
 impl RotationArgs {
+    fn crossings(&self) -> usize {
+        self.crossing.crossings.unwrap_or(CROSSINGS)
+    }
+
     fn check(&self) -> Result<(), String> {
-        if self.crossings < LEAST_CROSSINGS {
+        if self.crossings() < LEAST_CROSSINGS {
             return Err(format!("error: --crossings: write at least {LEAST_CROSSINGS}"));
         }
-        if self.crossings.saturating_mul(self.count as usize) > MOST_CROSSINGS {
+        if self.crossings().saturating_mul(self.count as usize) > MOST_CROSSINGS {
             return Err(format!(
                 "error: {} motions of {} crossings are more than {MOST_CROSSINGS} crossings\n\
                  help: give a smaller --count or --crossings",
-                self.count, self.crossings
+                self.count,
+                self.crossings()
             ));
         }
-        if self.section.is_some() && self.centre.is_none() && self.angle.is_none() {
+        if self.crossing.section.is_some() && self.centre.is_none() && self.angle.is_none() {
             return Err("error: the angle that is counted is not known\n\
                         help: give --centre U,V with the coordinates of a point of the section, or \
                         --angle 'atan2(y, x)'"
@@ -169,7 +155,7 @@ impl RotationArgs {
         let Some([u, v]) = centre else {
             return value(if self.angle.is_some() { 2 } else { 0 });
         };
-        let across = match self.section {
+        let across = match self.crossing.section {
             // l is an angle: the nearest way round.
             None => libm::remainder(value(0) - u, std::f64::consts::TAU),
             Some(_) => value(0) - u,
@@ -265,13 +251,13 @@ fn through_angle(options: &RotationArgs, case: &Case, line: &Line) -> Result<Fol
             .to_string()
     })?;
     let choice = SectionChoice {
-        direction: options.direction,
+        direction: options.crossing.direction,
         orbits: Some(0),
-        crossings: Some(options.crossings),
-        skip: Some(options.skip),
+        crossings: Some(options.crossings()),
+        skip: Some(options.crossing.skip.unwrap_or(0)),
         starts,
         seed: options.subject.seed,
-        ..options.plane.choice()
+        ..options.crossing.plane.choice()
     };
     let request = choice.request(case).map_err(|error| wrong_choice(&error))?;
     let bar = progress(line.count as u64, "motions");
@@ -292,7 +278,7 @@ fn through_surface(
     text: &str,
 ) -> Result<Followed, String> {
     let surface = read_surface(case, text)?;
-    let axes = read_axes(case, &surface, options.axes.as_deref())?;
+    let axes = read_axes(case, &surface, options.crossing.axes.as_deref())?;
     if axes.titles().len() != 2 {
         return Err("error: --axes: the section of a rotation has two coordinates\n\
                     help: write --axes 'y, py'"
@@ -311,10 +297,10 @@ fn through_surface(
             Some(read.map_err(|mistake| wrong_formula("--angle", &all, &mistake))?)
         }
     };
-    let direction = options.direction.unwrap_or(Direction::Up);
+    let direction = options.crossing.direction.unwrap_or(Direction::Up);
     let launches = Launches {
         case,
-        energy: options.plane.energy.as_ref(),
+        energy: options.crossing.plane.energy.as_ref(),
         pad: Some(Launchpad { surface: &surface, axes: &axes, direction }),
         seed: options.subject.seed,
         index: 0,
@@ -327,8 +313,8 @@ fn through_surface(
         surface: &surface,
         axes: recorded.as_ref().unwrap_or(&axes),
         direction,
-        crossings: options.crossings,
-        skip: options.skip,
+        crossings: options.crossings(),
+        skip: options.crossing.skip.unwrap_or(0),
         backwards: false,
     };
     let bar = progress(line.count as u64, "motions");

@@ -6,7 +6,7 @@ use crate::parts::{Form, Identity, Job, json_line, json_unit};
 use crate::report::data::DataTable;
 use crate::report::exponents::MotionRow;
 use clap::Args;
-use liouville::case::{Case, Direction, FixedLine};
+use liouville::case::{Case, FixedLine};
 use liouville::part::Part;
 use liouville_draw::{Plot, Text, plain};
 use liouville_flow::{SectionOrbit, SurfaceOrbit};
@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use super::chart::parse_size;
 use super::eval::Opened;
 use super::ink::Ink;
-use super::motion::{MotionArgs, SectionPlaneArgs, Threads, parse_count, parse_start, rendered};
+use super::motion::{CrossingArgs, MotionArgs, Threads, parse_count, parse_start, rendered};
 use super::output::{Ending, Output};
 use super::share::{Share, Target, carry_out};
 use super::starts::Starts;
@@ -32,29 +32,12 @@ pub struct SectionArgs {
     #[arg(long, value_name = "NXxNY", value_parser = parse_size)]
     pub panels: Option<[usize; 2]>,
     #[command(flatten)]
-    pub plane: SectionPlaneArgs,
-    /// Surface of the section, by formulas of the case: --section 'x = 0'. By default g = g₀ of a
-    /// rolling body
-    #[arg(long, value_name = "EQUATION", conflicts_with = "g0", allow_hyphen_values = true)]
-    pub section: Option<String>,
-    /// Values recorded at crossings of --section, by formulas: --axes 'y, z'. By default the first
-    /// two components of the state that the surface leaves free
-    #[arg(long, value_name = "FORMULAS", requires = "section", allow_hyphen_values = true)]
-    pub axes: Option<String>,
+    pub crossing: CrossingArgs,
     /// Number of orbits to start, spread over the sphere; with --section, of states drawn
     #[arg(long, value_parser = parse_count)]
     pub orbits: Option<usize>,
-    /// Number of crossings of each orbit to draw
-    #[arg(long, value_parser = parse_count)]
-    pub crossings: Option<usize>,
-    /// Number of crossings to leave out at the beginning of each orbit
-    #[arg(long, value_parser = parse_count)]
-    pub skip: Option<usize>,
     #[command(flatten)]
     pub starts: Starts,
-    /// Crossings to draw: up (g or the surface's left side less its right one grows), down, both
-    #[arg(long)]
-    pub direction: Option<Direction>,
     /// Follow the motion backwards in time
     #[arg(long)]
     pub backwards: bool,
@@ -193,7 +176,7 @@ fn compute(
     part: Part,
     threads: usize,
 ) -> Result<Vec<Unit>, String> {
-    match options.section.is_some() {
+    match options.crossing.section.is_some() {
         true => surface::compute(case, subject, options, wish, (part, threads)),
         false => andoyer::compute(case, subject, options, (part, threads)),
     }
@@ -207,7 +190,7 @@ fn drawn(
     wish: Wish,
     units: Vec<Unit>,
 ) -> Result<Drawn, String> {
-    match options.section.is_some() {
+    match options.crossing.section.is_some() {
         true => surface::drawn(case, subject, options, wish, units),
         false => andoyer::drawn(case, subject, options, wish, units),
     }
@@ -230,7 +213,7 @@ impl SectionJob {
 
     /// Titles of the axes of a surface; `None` for g = g₀.
     pub fn axes(&self) -> Result<Option<Vec<String>>, String> {
-        match self.options.section.is_some() {
+        match self.options.crossing.section.is_some() {
             true => surface::axes(&self.opened.case, &self.options).map(Some),
             false => Ok(None),
         }
@@ -242,7 +225,7 @@ impl Job for SectionJob {
 
     fn identity(&self) -> Result<Identity, String> {
         let (case, options) = (&self.opened.case, &self.options);
-        let (count, request) = match options.section.is_some() {
+        let (count, request) = match options.crossing.section.is_some() {
             true => surface::request_text(case, options)?,
             false => andoyer::request_text(case, options)?,
         };
@@ -315,7 +298,7 @@ impl Layout {
             let plots: Vec<Plot> = drawn.iter_mut().filter_map(|one| one.plot.take()).collect();
             let bytes = match drawn.first().and_then(|one| one.data.as_ref()) {
                 Some(data) => {
-                    if options.section.is_some() {
+                    if options.crossing.section.is_some() {
                         let (rows, columns) = (data.rows.len(), data.columns.join(", "));
                         saved = format!("{}: {rows} rows of {columns}\n", out.path.display());
                     }

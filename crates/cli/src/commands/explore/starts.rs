@@ -9,6 +9,8 @@ use liouville::number::rational::Rational;
 use liouville::verdict;
 use liouville_flow::{FlowError, Start, number_with_pi};
 
+use super::source;
+
 /// Starts of the motions.
 #[derive(Clone, Debug, Args)]
 pub struct Starts {
@@ -47,8 +49,7 @@ impl Starts {
         if let Some(path) = &self.starts {
             let text = match &self.text {
                 Some(text) => text.clone(),
-                None => std::fs::read_to_string(path)
-                    .map_err(|error| format!("error: cannot read {}: {error}", path.display()))?,
+                None => source::text(path, "give --starts a CSV file: a start on each line")?,
             };
             found.extend(from_text(case, path, &text)?);
         }

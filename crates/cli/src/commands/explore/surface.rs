@@ -114,7 +114,7 @@ pub fn request_text(case: &Case, options: &SectionArgs) -> Result<(usize, String
     let request = format!(
         "surface {surface:?} axes {axes:?} {direction:?} crossings {crossings} skip {skip} \
          backwards {backwards} {:?} starts sha256:{starts}",
-        options.plane
+        options.crossing.plane
     );
     Ok((begins.len(), request))
 }
@@ -129,9 +129,9 @@ struct Plan {
 impl Plan {
     fn read(case: &Case, options: &SectionArgs) -> Result<Self, String> {
         refuse_others(options)?;
-        let surface = read_surface(case, options.section.as_deref().unwrap_or_default())?;
-        let axes = read_axes(case, &surface, options.axes.as_deref())?;
-        Ok(Self { surface, axes, direction: options.direction.unwrap_or_default() })
+        let surface = read_surface(case, options.crossing.section.as_deref().unwrap_or_default())?;
+        let axes = read_axes(case, &surface, options.crossing.axes.as_deref())?;
+        Ok(Self { surface, axes, direction: options.crossing.direction.unwrap_or_default() })
     }
 
     fn request(&self, options: &SectionArgs) -> SurfaceRequest<'_> {
@@ -139,8 +139,8 @@ impl Plan {
             surface: &self.surface,
             axes: &self.axes,
             direction: self.direction,
-            crossings: options.crossings.unwrap_or(CROSSINGS),
-            skip: options.skip.unwrap_or(0),
+            crossings: options.crossing.crossings.unwrap_or(CROSSINGS),
+            skip: options.crossing.skip.unwrap_or(0),
             backwards: options.backwards,
         }
     }
@@ -149,7 +149,7 @@ impl Plan {
         let Self { surface, axes, direction } = self;
         Launches {
             case,
-            energy: options.plane.energy.as_ref(),
+            energy: options.crossing.plane.energy.as_ref(),
             pad: Some(Launchpad { surface, axes, direction: *direction }),
             seed: options.subject.seed,
             index: 0,
