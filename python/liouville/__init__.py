@@ -7,7 +7,7 @@ True
 
 from ._liouville import VERSION as __version__
 from .bodies import Bodies, Body
-from .branches import Branch, ClosedOrbits, Diagram, Rotation
+from .branches import Basins, Branch, ClosedOrbits, Diagram, Rotation
 from .case import Case
 from .errors import (
     CaseError,
@@ -22,6 +22,7 @@ from .found import Found, Search
 from .function import Field, Function
 from .motion import CLASSES, Chart, Exponents, Orbit, Section, Spectra
 from .reading import (
+    basins,
     branch,
     catalogue,
     chart,
@@ -43,6 +44,7 @@ from .verdicts import Claim, Report
 
 __all__ = [
     "CLASSES",
+    "Basins",
     "Bodies",
     "Body",
     "Branch",
@@ -70,6 +72,7 @@ __all__ = [
     "Spectra",
     "Sweep",
     "__version__",
+    "basins",
     "branch",
     "catalogue",
     "chart",

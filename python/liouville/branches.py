@@ -1,4 +1,4 @@
-"""Closed orbits, their branches, bifurcation diagrams and rotation numbers, as tables and arrays."""
+"""Closed orbits, their branches, diagrams, rotation numbers and basins, as tables and arrays."""
 
 from __future__ import annotations
 
@@ -227,3 +227,49 @@ class Rotation(_Answer):
             }
             for one in self
         ]
+
+
+class Basins(_Answer):
+    """Attractors, each a dictionary as of `liouville motion basins --json`, with their basins."""
+
+    _key = "attractors"
+
+    @property
+    def names(self) -> tuple[str, str]:
+        """Names of the axes, across and upwards."""
+        return self.outcome["x"]["name"], self.outcome["y"]["name"]
+
+    @property
+    def x(self) -> np.ndarray:
+        """Starts across."""
+        return _middles(self.outcome["x"])
+
+    @property
+    def y(self) -> np.ndarray:
+        """Starts upwards."""
+        return _middles(self.outcome["y"])
+
+    @property
+    def basin(self) -> np.ndarray:
+        """Number of the attractor of each motion, from 1 on, row by row from below; 0 without one."""
+        return np.array(
+            [[end if isinstance(end, int) else 0 for end in row] for row in self.outcome["rows"]]
+        )
+
+    @property
+    def states(self) -> np.ndarray:
+        """A state on each attractor, one in a row."""
+        return np.array([one["state"] for one in self])
+
+    def to_dicts(self) -> list[dict[str, Any]]:
+        """One row an attractor."""
+        return [
+            {"attractor": number + 1, **{key: one[key] for key in ("kind", "count", "exponent")}}
+            for number, one in enumerate(self)
+        ]
+
+
+def _middles(axis: dict[str, Any]) -> np.ndarray:
+    """Middles of the parts of an axis."""
+    shares = (np.arange(axis["count"]) + 0.5) / axis["count"]
+    return axis["from"] + (axis["to"] - axis["from"]) * shares

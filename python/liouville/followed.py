@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _liouville as native
 from . import _values
-from .branches import Branch, ClosedOrbits, Diagram, Rotation
+from .branches import Basins, Branch, ClosedOrbits, Diagram, Rotation
 from .described import Described
 from .parts import begun, worded
 
@@ -176,6 +176,36 @@ class Followed(Described):
             "threads": threads,
         }
         return Rotation(self._asked("rotation", wanted | _place(g0, energy, seed), None, threads))
+
+    def basins(
+        self,
+        x: str | tuple[str, Any, Any],
+        y: str | tuple[str, Any, Any],
+        start: Start | None = None,
+        *,
+        size: tuple[int, int] = (64, 40),
+        time: float = 400,
+        by: str | Iterable[str] | None = None,
+        energy: Any = None,
+        seed: int = 1,
+        threads: int | None = None,
+    ) -> Basins:
+        """Basins of attraction over two components of the state, `"x=-2..2"` or `("x", -2, 2)`.
+
+        `start` gives the other components; attractors are told apart by the formulas `by`.
+        """
+        wanted = {
+            "x": _values.axis(x),
+            "y": _values.axis(y),
+            "start": None if start is None else _word(start),
+            "size": f"{int(size[0])}x{int(size[1])}",
+            "time": float(time),
+            "by": _values.listed(by),
+            "energy": None if energy is None else _values.exact(energy),
+            "seed": seed,
+            "threads": threads,
+        }
+        return Basins(self._asked("basins", wanted, None, threads))
 
 
 def _place(g0: Any, energy: Any, seed: int) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from typing import Any, overload
 from . import _liouville as native
 from . import _values
 from .bodies import Bodies, BodyTable
-from .branches import Branch, ClosedOrbits, Diagram, Rotation
+from .branches import Basins, Branch, ClosedOrbits, Diagram, Rotation
 from .case import Case
 from .found import Search
 from .judged import Format
@@ -108,6 +108,11 @@ def rotation(
 ) -> Rotation:
     """Rotation numbers along a line of starts; see `Case.rotation`."""
     return _case(case).rotation(first, last, *section, **options)
+
+
+def basins(case: Case | str | Path, x: Any, y: Any, *start: Any, **options: Any) -> Basins:
+    """Basins of attraction; see `Case.basins`."""
+    return _case(case).basins(x, y, *start, **options)
 
 
 def exponents(case: Case | str | Path, starts: Any = None, **options: Any) -> Exponents | Spectra:

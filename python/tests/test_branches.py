@@ -83,6 +83,20 @@ def test_rotation_numbers_are_those_of_the_command(command):
     assert text.outcome == asked
 
 
+def test_basins_are_those_of_the_command(command):
+    words = ["--x", "x=-2..2", "--y", "p=-2..2", "--size", "6x4", "--time", "120"]
+    asked = told(command, "basins", CYCLE, *words, "--set", "μ=1")
+    case = lv.read(CYCLE, μ=1)
+    found = case.basins("x=-2..2", ("p", -2, 2), size=(6, 4), time=120)
+    assert found.outcome == asked and found.names == ("x", "p")
+    assert found.basin.shape == (4, 6) and (found.basin == 1).all(), "the cycle attracts all"
+    assert found.x.shape == (6,) and found.y.shape == (4,) and abs(found.x.sum()) < 1e-12
+    assert [one["kind"] for one in found] == ["cycle or torus"] and found.states.shape == (1, 2)
+    assert lv.basins(case, "x=-2..2", "p=-2..2", size=(6, 4), time=120).outcome == asked
+    with pytest.raises(lv.MotionError, match="component of the state"):
+        case.basins("x=0..1", "q=0..1")
+
+
 def test_mistakes_about_closed_orbits():
     case = lv.read(CYCLE)
     with pytest.raises(lv.MotionError) as caught:

@@ -5,8 +5,8 @@ use super::explore::{ExploreCommand, FormerCommand, MotionCommand, branch};
 use super::jobs::{Given, parsed};
 use super::{Command, CommandOutput};
 
-/// Carries out a command about closed orbits, diagrams or rotation numbers; returns what it prints
-/// with `--json`.
+/// Carries out a command about closed orbits, diagrams, rotation numbers or basins; returns what it
+/// prints with `--json`.
 ///
 /// # Errors
 ///
@@ -42,6 +42,7 @@ pub fn motion(arguments: &[String], given: Given<'_>) -> Result<String, String> 
             options.starts.text = table();
         }
         MotionCommand::Rotation(options) => put(&mut options.subject),
+        MotionCommand::Basins(options) => put(&mut options.subject),
         _ => return Err(no_motion(arguments)),
     }
     motion.run().map(|CommandOutput { text, .. }| text)

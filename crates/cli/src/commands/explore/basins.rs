@@ -6,13 +6,13 @@ use liouville::mechanics::TIME;
 use liouville::number::rational::Rational;
 use liouville_flow::{BasinRequest, Columns, FlowError, Lexicon, StateAxis, basins};
 
+use super::CommandOutput;
 use super::chart::parse_size;
-use super::ink::Ink;
+use super::ink::{Ink, Sheet};
 use super::motion::{MotionArgs, Threads, wrong_formula};
 use super::output::Ending;
 use super::progress::progress;
 use super::starts::{GivenStart, example, given, misfit};
-use super::{CommandOutput, write};
 use crate::report::basins::BasinReport;
 
 /// Largest number of motions.
@@ -89,17 +89,15 @@ pub fn run(options: &BasinArgs) -> Result<CommandOutput, String> {
     bar.finish_and_clear();
     let found = found.map_err(|error| options.subject.told(&error))?;
     let report = BasinReport { case: &case, request: &request, found: &found };
-    if let Some(out) = &out {
-        let bytes = match out.ending {
-            Ending::Csv => report.csv().into_bytes(),
-            Ending::Json => report.json()?.into_bytes(),
-            ending => {
-                let words = (case.title.as_str(), vec![report.caption()]);
-                options.ink.drawn(words, vec![report.plot()], 1, ending)?
-            }
-        };
-        write(&out.path, "--out", bytes)?;
-    }
+    options.ink.save(
+        out.as_ref(),
+        &Sheet {
+            title: &case.title,
+            csv: &|| report.csv(),
+            json: &|| report.json(),
+            picture: &|| (report.caption(), vec![report.plot()]),
+        },
+    )?;
     let text = if options.subject.json { report.json()? } else { report.text() };
     Ok(CommandOutput { text, code: 0 })
 }
