@@ -26,12 +26,14 @@ pub struct Query {
     pub outputs: Vec<Expr>,
     /// Values that exist at the states that count, besides those that exist at every state.
     pub requirement: Vec<Expr>,
+    /// Values that have to exist at the states that count.
+    pub presence: Vec<Expr>,
 }
 
 impl Query {
     /// Makes a query for which all states count.
     pub fn of(outputs: Vec<Expr>) -> Self {
-        Self { outputs, requirement: Vec::new() }
+        Self { outputs, ..Self::default() }
     }
 }
 
@@ -95,6 +97,7 @@ impl<'a> PrimeFieldStates<'a> {
         let group = |query: &Query| Group {
             outputs: query.outputs.clone(),
             required: [&query.requirement[..], &common].concat(),
+            presence: query.presence.clone(),
         };
         let groups: Vec<Group> = queries.iter().map(group).collect();
         let mut answers: Vec<Option<Answer>> = vec![None; queries.len()];

@@ -176,6 +176,7 @@ impl Judging<'_> {
         queries.extend(unsettled.iter().map(|(item, _)| Query {
             outputs: [&item.residual[..], &item.context.quadrature_defects].concat(),
             requirement: item.requirement.clone(),
+            presence: item.presence.clone(),
         }));
         let field = PrimeFieldStates::new(self, sampler);
         let mut answers = field.test(&queries)?.into_iter();

@@ -43,7 +43,11 @@ impl Judging<'_> {
             .iter()
             .flat_map(|(item, status)| {
                 let groups = asked(item, status.evidence.independence).into_iter().flatten();
-                groups.map(|outputs| Query { outputs, requirement: item.requirement.clone() })
+                groups.map(|outputs| Query {
+                    outputs,
+                    requirement: item.requirement.clone(),
+                    ..Query::default()
+                })
             })
             .collect();
         let mut answers = match self.options.trust {

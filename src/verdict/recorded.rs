@@ -21,6 +21,8 @@ pub struct RecordedClaim<'c> {
     pub residual: Vec<Expr>,
     /// Values of the claim's formulas as written, which exist where a state counts.
     pub requirement: Vec<Expr>,
+    /// Values without which the claim has no meaning, where a state counts.
+    pub presence: Vec<Expr>,
     pub context: ResidualContext,
     pub novelty: Novelty,
     pub conditions: Vec<Condition>,
@@ -47,13 +49,14 @@ pub struct Wider {
 impl<'c> RecordedClaim<'c> {
     /// Records the residual of a claim, at its place and in wider ones, and its context.
     pub fn new(claim: &'c PlacedClaim, jet: &DualPoint<'_, Expr>) -> Self {
+        let presence = claim.kind.presence(jet).into_iter();
+        let presence: Vec<Expr> = presence.filter(|value| !value.is_always_defined()).collect();
         // 0 where the value exists, and undefined elsewhere.
-        let presence = claim.kind.presence(jet).into_iter().filter(|x| !x.is_always_defined());
-        let presence: Vec<Expr> =
-            presence.map(|value| literally(|| value * Expr::zero())).collect();
+        let zeros: Vec<Expr> =
+            presence.iter().map(|value| literally(|| *value * Expr::zero())).collect();
         let residual = |place: &LevelSubset| {
             let mut residual = claim.kind.residual(jet, &place.kept);
-            residual.extend(&presence);
+            residual.extend(&zeros);
             residual
         };
         let wider = match claim.kind.widens() && claim.expect != Expect::Fails {
@@ -63,6 +66,7 @@ impl<'c> RecordedClaim<'c> {
         Self {
             claim,
             residual: residual(&claim.place),
+            presence,
             requirement: {
                 let mut values = literal_values(&jet.phase, claim.kind.formulas());
                 // Where ρ is 0 on an open part, div(ρv) is 0, and v(ln ρ) is undefined.

@@ -104,7 +104,7 @@ impl Judging<'_> {
         item: &RecordedClaim<'_>,
     ) -> Result<Option<Contradiction>, Fault> {
         let required = [&item.requirement[..], &self.common.required_at(sampler.kept())].concat();
-        let group = Group { outputs: item.residual.clone(), required };
+        let group = Group { outputs: item.residual.clone(), required, ..Group::default() };
         let open = vec![None; sampler.recipes().len()];
         let (graph, groups) = sampler.compose_groups(self.graph, &[group], &open)?;
         let Some(group) = groups.into_iter().next() else { return Ok(None) };

@@ -153,6 +153,7 @@ impl Judging<'_> {
         let group = |(density, item, _): &(Expr, &RecordedClaim<'_>, &mut ClaimState)| Group {
             outputs: vec![*density],
             required: [&item.requirement[..], &common].concat(),
+            ..Group::default()
         };
         let groups: Vec<Group> = densities.iter().map(group).collect();
         let (graph, groups) = sampler.compose_groups(self.graph, &groups, &lists[0])?;

@@ -81,7 +81,11 @@ impl Judging<'_> {
                 // Where nothing has a value nothing holds.
                 if sound && result.has_value() && !result.excludes_zero() {
                     let group = [&outputs[residual], &outputs[defects]].concat();
-                    let query = Query { outputs: group, requirement: outputs[own].to_vec() };
+                    let query = Query {
+                        outputs: group,
+                        requirement: outputs[own].to_vec(),
+                        ..Query::default()
+                    };
                     open.push((claim, status, query, result.is_zero(), implies_own));
                 }
             }

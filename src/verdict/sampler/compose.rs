@@ -44,16 +44,16 @@ impl Sampler {
             };
             let outputs = values_of(&mut groups.iter().flat_map(|group| &group.outputs).copied());
             // √x √x is x where x ≥ 0, and the required value is undefined elsewhere.
-            let required = literally(|| {
-                values_of(&mut groups.iter().flat_map(|group| &group.required).copied())
-            });
+            let written = |group: &'_ Group| [&group.required[..], &group.presence].concat();
+            let required = literally(|| values_of(&mut groups.iter().flat_map(written)));
             let all = |some: &[Expr], values: &[Option<Expr>]| {
                 some.iter().map(|value| values[graph.place(*value)]).collect::<Option<Vec<Expr>>>()
             };
             let group = |group: &Group| {
+                let presence = all(&group.presence, &required)?;
                 let mut required = all(&group.required, &required)?;
                 required.extend(&inputs[..self.made.len()]);
-                Some(Group { outputs: all(&group.outputs, &outputs)?, required })
+                Some(Group { outputs: all(&group.outputs, &outputs)?, required, presence })
             };
             groups.iter().map(group).collect::<Option<Vec<Group>>>()
         })?;

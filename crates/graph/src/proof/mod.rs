@@ -103,12 +103,14 @@ pub struct Group {
     pub outputs: Vec<Expr>,
     /// Values that exist wherever the claim is to hold.
     pub required: Vec<Expr>,
+    /// Values without which the claim has no meaning; they need not be zero.
+    pub presence: Vec<Expr>,
 }
 
 impl Group {
     /// Makes a group of values without further requirements.
     pub fn of(outputs: Vec<Expr>) -> Self {
-        Self { outputs, required: Vec::new() }
+        Self { outputs, ..Self::default() }
     }
 }
 
@@ -128,7 +130,8 @@ impl Prover<'_> {
                 false => combined(self.explore(&question, &asked, &bucket)?, members.len()),
             };
             for (index, (outcome, is_partial)) in members.iter().zip(found) {
-                outcomes[*index] = Some(match (is_partial, &outcome) {
+                let is_doubtful = is_partial || !groups[*index].presence.is_empty();
+                outcomes[*index] = Some(match (is_doubtful, &outcome) {
                     (true, GroupOutcome::Zero(_) | GroupOutcome::Void) => {
                         self.on_all_parts(&question, &groups[*index], outcome)?
                     }
@@ -173,8 +176,8 @@ impl Prover<'_> {
     }
 
     /// Proves values that are undefined on a part of the inputs, as a derivative is where the
-    /// radicand of a root vanishes. The outcome stands if the required values are undefined there
-    /// too.
+    /// radicand of a root vanishes, or that have no meaning there. The outcome stands if the required
+    /// values are undefined there too.
     fn on_all_parts(
         &self,
         question: &QuestionData<'_>,
@@ -182,18 +185,22 @@ impl Prover<'_> {
         outcome: GroupOutcome,
     ) -> Result<GroupOutcome, Fault> {
         let QuestionData { graph, sources, .. } = question;
-        if group.required.is_empty() {
+        let Group { outputs, required, presence } = group;
+        if required.is_empty() && presence.is_empty() {
             return Ok(outcome);
         }
-        let both = [&group.outputs[..], &group.required[..]].concat();
-        let wide = Group { outputs: both, required: group.required.clone() };
+        let own = [&outputs[..], presence].concat();
+        let wide = Group {
+            outputs: [&own[..], required].concat(),
+            required: required.clone(),
+            presence: Vec::new(),
+        };
+        let asked: &[&[Expr]] = if required.is_empty() { &[&own] } else { &[&own, required] };
         let leaves = match buckets(graph, &[wide], sources).pop() {
-            Some(bucket) => {
-                self.explore(question, &[&group.outputs, &group.required], &bucket)?.leaves
-            }
+            Some(bucket) => self.explore(question, asked, &bucket)?.leaves,
             None => Vec::new(),
         };
-        let is_missing = |leaf: &Leaf| matches!(&leaf.results[..], [None, Some(_)]);
+        let is_missing = |leaf: &Leaf| matches!(&leaf.results[..], [None] | [None, Some(_)]);
         Ok(match leaves.iter().any(is_missing) {
             true => GroupOutcome::Partial,
             false => outcome,
