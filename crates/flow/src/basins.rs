@@ -4,7 +4,7 @@ use super::attractors::{MOST_SETS, Tail};
 use super::axis::{AxisMistake, range};
 use super::columns::Columns;
 use super::error::FlowError;
-use super::late::{GOLDEN, Late, LateMotions};
+use super::late::{GOLDEN, Late, LateMotions, LateSamples};
 use super::launch::Launches;
 use super::lyapunov::{Estimate, Exponents};
 use super::shadow::{ShadowStart, Shadowed};
@@ -16,6 +16,8 @@ use liouville::number::rational::Rational;
 
 /// Number of motions whose samples are kept at once.
 const WAVE: usize = 4096;
+/// Smallest width, as a share of the values and of the largest one.
+const NARROW: f64 = 1e-3;
 /// Logarithm of the contraction over the time from which on a motion tends to a point.
 const CONTRACTION: f64 = 3.0;
 
@@ -208,18 +210,19 @@ impl Found {
 
     fn add(&mut self, places: &[usize], tails: Vec<Late>) {
         if self.widths.is_empty() {
-            self.widths = widths(tails.iter().flatten().flat_map(|(rows, _)| rows));
+            let seen = tails.iter().flatten();
+            self.widths = widths(seen.flat_map(|own| own.rows.iter().chain([&own.first])));
         }
         for (place, late) in places.iter().zip(tails) {
             self.ends[*place] = match late {
-                Ok((rows, end)) => self.place(rows, end),
+                Ok(late) => self.place(late),
                 Err(problem) => Destiny::Ended(problem),
             };
         }
     }
 
     /// Finds the set of a motion, which may be a new one.
-    fn place(&mut self, rows: Vec<Vec<f64>>, end: Vec<DoubleDouble>) -> Destiny {
+    fn place(&mut self, LateSamples { rows, end, .. }: LateSamples) -> Destiny {
         let tail = Tail::new(&rows, &self.widths);
         if !tail.is_settled() {
             return Destiny::Unsettled;
@@ -247,8 +250,11 @@ impl Found {
         let firsts = std::mem::take(&mut self.sets);
         let mut home = Vec::new();
         for (first, late) in firsts.iter().zip(later) {
-            let after =
-                late.map(|(rows, end)| First { tail: Tail::new(&rows, &self.widths), rows, end });
+            let after = late.map(|LateSamples { rows, end, .. }| First {
+                tail: Tail::new(&rows, &self.widths),
+                rows,
+                end,
+            });
             let stays = |after: &First| after.tail.is_settled() && after.tail.is_with(&first.tail);
             let Some(after) = after.ok().filter(stays) else {
                 home.push(Destiny::Unsettled);
@@ -324,14 +330,14 @@ fn ranges<'r>(rows: impl IntoIterator<Item = &'r Vec<f64>>) -> Vec<[f64; 2]> {
     ranges
 }
 
-/// Widths of the components; 1 where there is none.
+/// Widths of the components, at least a small share of the largest; sizes where there are none.
 fn widths<'r>(rows: impl Iterator<Item = &'r Vec<f64>>) -> Vec<f64> {
-    let width = |[from, to]: &[f64; 2]| {
-        let size = from.abs().max(to.abs());
-        let width = to - from;
-        if width.is_finite() && width > size * f64::EPSILON * 1e3 { width } else { size.max(1.0) }
-    };
-    ranges(rows).iter().map(width).collect()
+    let ranges = ranges(rows);
+    let size = |range: &[f64; 2]| range[0].abs().max(range[1].abs());
+    let width = |range: &[f64; 2]| (range[1] - range[0]).max(NARROW * size(range));
+    let widest = ranges.iter().map(width).fold(0.0, f64::max);
+    let floor = if widest > 0.0 { NARROW * widest } else { 1.0 };
+    ranges.iter().map(|range| width(range).max(floor)).collect()
 }
 
 #[cfg(test)]

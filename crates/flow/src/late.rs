@@ -18,8 +18,18 @@ const LATE: f64 = 0.5;
 /// Fraction of the golden section: the times of samples are in step with no period.
 pub const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// Samples of a motion, with the state at its end; or the reason why there are none.
-pub type Late = Result<(Vec<Vec<f64>>, Vec<DoubleDouble>), FlowError>;
+/// Samples of a motion.
+pub struct LateSamples {
+    /// Values at the start.
+    pub first: Vec<f64>,
+    /// Values at late times.
+    pub rows: Vec<Vec<f64>>,
+    /// State at the end.
+    pub end: Vec<DoubleDouble>,
+}
+
+/// Samples of a motion, or the reason why there are none.
+pub type Late = Result<LateSamples, FlowError>;
 
 /// Equations of all motions, and the values that are sampled.
 pub struct LateMotions {
@@ -54,6 +64,7 @@ impl LateMotions {
 /// Motion in a lane.
 struct Running {
     index: usize,
+    first: Vec<f64>,
     rows: Vec<Vec<f64>>,
 }
 
@@ -81,7 +92,8 @@ impl Worker<'_> {
                         Ok(start) => {
                             let until = DoubleDouble::from_f64(self.time);
                             self.stepper.start(lane, &start.state, until);
-                            self.running[lane] = Some(Running { index, rows: Vec::new() });
+                            let first = row(DoubleDouble::default(), &start.state);
+                            self.running[lane] = Some(Running { index, first, rows: Vec::new() });
                         }
                         Err(problem) => {
                             self.done.push((index, Err(problem.clone())));
@@ -116,7 +128,7 @@ impl Worker<'_> {
                 running.rows.resize_with(SAMPLES, || row(self.stepper.time(lane), &end));
                 let values = running.rows.iter().flatten();
                 let late = match values.copied().all(f64::is_finite) {
-                    true => Ok((running.rows, end)),
+                    true => Ok(LateSamples { first: running.first, rows: running.rows, end }),
                     false => Err(FlowError::Singular {
                         time: self.time,
                         state: end.iter().map(|x| x.hi).collect(),

@@ -3,8 +3,12 @@
 //! 0·ln x is recorded as 0, and √x·√x as x; as written they have values for x > 0 alone. A proof about
 //! a motion includes the operations that were left out, so that it ends where one has no value.
 
-use liouville::graph::{Expr, Graph, Step};
-use liouville::mechanics::{ParameterOrigin, Phase};
+use super::error::FlowError;
+use super::motion::{point, program};
+use super::program::TaylorProgram;
+use liouville::graph::{Expr, Graph, Step, record};
+use liouville::mechanics::{Model, ParameterOrigin, Phase};
+use liouville::number::rational::Rational;
 use liouville::number::{BinaryOperation, UnaryFunction};
 
 /// Formulas of the system and of its parameters, recorded as written; those that have a value
@@ -32,4 +36,20 @@ pub fn left_out(graph: &Graph, field: &[Expr], written: &[Expr]) -> Vec<Expr> {
     };
     let lost = (0..graph.len()).filter(|place| all[*place] && !kept[*place]);
     lost.filter(|place| is_partial(graph.step(*place))).map(|place| graph.at(place)).collect()
+}
+
+/// Compiles a model's field with the operations that were left out of it as rates of further
+/// components, so that steps are as short as they need.
+pub fn guarded_program(model: &Model, parameters: &[Rational]) -> Result<TaylorProgram, FlowError> {
+    let field = program(model, parameters, |_| Vec::new())?;
+    let (graph, (mut rates, written)) = record(model.dimension(), |state| {
+        let phase = point(model, parameters, state);
+        (phase.field().to_vec(), as_written(&phase))
+    })?;
+    let left_out = left_out(&graph, &rates, &written);
+    if left_out.is_empty() {
+        return Ok(field);
+    }
+    rates.extend(left_out);
+    TaylorProgram::compile(&graph, &rates, &[])
 }

@@ -27,6 +27,7 @@ impl<T: SeriesNumber> Stepper<T> {
                 if ends.lane(index).leading() < 0.0 {
                     let own: Vec<T::One> = root.iter().map(|x| x.lane(index)).collect();
                     lane.step = before_branch(&own, lane.step);
+                    lane.is_cut = true;
                 }
             }
         }
@@ -55,6 +56,7 @@ impl<T: SeriesNumber> Stepper<T> {
                 let share = ends.known_share(index, count, limits);
                 if share < 1.0 {
                     lane.step = lane.step * T::One::float(share);
+                    lane.is_cut = true;
                     is_known = false;
                 }
             }

@@ -83,6 +83,8 @@ pub(super) struct Lane<One> {
     pace: Pace,
     /// Whether the final time is a stand-in for none.
     is_open: bool,
+    /// Whether the present step is cut for a branch point or for a further function.
+    pub(super) is_cut: bool,
 }
 
 /// Progress of a motion, by which one whose end is out of reach is found.
@@ -140,6 +142,7 @@ impl<T: SeriesNumber> Stepper<T> {
             steps: 0,
             pace: Pace::default(),
             is_open: false,
+            is_cut: false,
         };
         let state = vec![T::ZERO; program.dimension()];
         Self {
@@ -166,6 +169,7 @@ impl<T: SeriesNumber> Stepper<T> {
             steps: 0,
             pace: Pace::default(),
             is_open: false,
+            is_cut: false,
         };
     }
 
@@ -207,6 +211,7 @@ impl<T: SeriesNumber> Stepper<T> {
         for index in 0..T::LANES {
             let size = self.step_size(index);
             let lane = &mut self.lanes[index];
+            lane.is_cut = false;
             let left = lane.until - lane.time;
             lane.step = if size < left.hi.abs() {
                 T::One::float(size.copysign(left.hi))
@@ -270,8 +275,13 @@ impl<T: SeriesNumber> Stepper<T> {
     }
 
     /// Whether the present expansion of a motion is finite.
-    pub fn is_regular(&self, lane: usize) -> bool {
+    fn is_regular(&self, lane: usize) -> bool {
         self.sizes.soundness.lane(lane).leading() == 0.0
+    }
+
+    /// Whether the present step of a motion is cut where the motion itself may go on.
+    pub fn is_cut(&self, lane: usize) -> bool {
+        self.is_regular(lane) && self.lanes[lane].is_cut
     }
 
     /// Velocity of a motion at its present state.

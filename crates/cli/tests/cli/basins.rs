@@ -36,7 +36,7 @@ v = "-2..2"
 const POLE: &str = r#"
 title = "to the north"
 [state]
-"γ" = "unit"
+"γ" = "vector(-1..1)"
 [field]
 "γ'" = "[0, 0, 1] − γ[3]*γ"
 [level]

@@ -1,7 +1,7 @@
 //! Nodes of a closed orbit, as approximate numbers.
 
 use crate::error::FlowError;
-use crate::motion::program;
+use crate::presence::guarded_program;
 use crate::start::Start;
 use crate::stepper::{Accuracy, Stepper};
 use liouville::mechanics::Model;
@@ -26,9 +26,11 @@ impl Nodes {
         kappa: f64,
         most: usize,
     ) -> Result<Option<Self>, FlowError> {
-        let program = program(model, &start.parameters, |_| Vec::new())?;
+        let program = guarded_program(model, &start.parameters)?;
         let mut stepper = Stepper::<f64>::new(&program, Accuracy { order: ORDER, kappa });
-        stepper.start(0, &start.state, DoubleDouble::from_f64(time));
+        let mut state = start.state.clone();
+        state.resize(program.dimension(), DoubleDouble::default());
+        stepper.start(0, &state, DoubleDouble::from_f64(time));
         let (mut states, mut shares) = (Vec::new(), Vec::new());
         while !stepper.is_done(0) {
             if states.len() == most {
@@ -36,7 +38,8 @@ impl Nodes {
             }
             stepper.expand();
             stepper.check(0)?;
-            states.push(stepper.pairs(0).iter().map(|x| x.hi).collect());
+            let state = stepper.pairs(0).into_iter().take(start.state.len());
+            states.push(state.map(|x| x.hi).collect());
             shares.push(stepper.step(0) / time);
             stepper.advance();
         }
