@@ -108,7 +108,29 @@ pub(super) fn literal_values<T: Scalar>(
     lookup: &mut dyn FnMut(Symbol) -> Value<T>,
 ) -> Vec<Value<T>> {
     let symbols: Vec<Value<T>> = arena.symbols.iter().map(|(symbol, _)| lookup(*symbol)).collect();
-    T::literally(|| steps(arena, &symbols))
+    T::literally(|| {
+        let mut values = Values(Vec::with_capacity(arena.nodes.len()));
+        for node in &arena.nodes {
+            let value = step(&node.operation, node.value_type, &values, &symbols);
+            let value = match node.operation {
+                NodeOperation::Component(a, _)
+                | NodeOperation::Entry(a, ..)
+                | NodeOperation::Row(a, _) => with_others(value, &values.0[a]),
+                _ => value,
+            };
+            values.0.push(value);
+        }
+        values.0
+    })
+}
+
+/// A part of a list or table, with a value where all entries have one.
+fn with_others<T: Scalar>(part: Value<T>, whole: &Value<T>) -> Value<T> {
+    let others = whole.components().into_iter().map(|entry| T::zero() * entry);
+    match others.reduce(|sum, entry| sum + entry) {
+        Some(others) => part.map(|x| x + others),
+        None => part,
+    }
 }
 
 fn steps<T: Scalar>(arena: &Arena, symbols: &[Value<T>]) -> Vec<Value<T>> {

@@ -134,7 +134,7 @@ Examples:
     /// Draw basins of attraction: where the motions from a plane of starts end
     #[command(after_help = "\
 Examples:
-  liouville motion basins classical/flows/duffing-forced --set δ=1/5 --set f=1/4 --x x=-2..2 --y p=-2..2 --start 0,0,0 --out basins.png
+  liouville motion basins classical/flows/duffing-forced --set δ=1/5 --set f=1/10 --x x=-2..2 --y p=-2..2 --start 0,0,0 --out basins.png
   liouville motion basins classical/flows/lorenz-equilibria --set σ=10 --set b=8/3 --set r=20 --x x=-20..20 --y y=-20..20 --start 0,0,20")]
     Basins(basins::BasinArgs),
 }
