@@ -231,8 +231,10 @@ impl Judging<'_> {
             status.evidence.method = Method::PreciseBall;
             status.settled = Some(Verdict::Refuted);
             status.rung(Method::PreciseBall, found);
+            return true;
         }
-        true
+        // Where the residual is 0 exactly, as at √0, the state may be alone, and then counts for nothing.
+        !residuals.iter().all(|value| matches!(value, Number::Exact(value) if value.is_zero()))
     }
 }
 
