@@ -115,7 +115,12 @@ pub(super) fn literal_values<T: Scalar>(
             let value = match node.operation {
                 NodeOperation::Component(a, _)
                 | NodeOperation::Entry(a, ..)
-                | NodeOperation::Row(a, _) => with_others(value, &values.0[a]),
+                | NodeOperation::Row(a, _)
+                    // A variable has all entries, and there may be many.
+                    if !matches!(arena.nodes[a].operation, NodeOperation::Symbol(_)) =>
+                {
+                    with_others(value, &values.0[a])
+                }
                 _ => value,
             };
             values.0.push(value);

@@ -179,11 +179,11 @@ fn no_motion_goes_on_where_the_field_as_written_has_no_value() {
     ];
     for field in fields {
         let text = format!("[state]\nx = \"0..4\"\n[field]\n\"x'\" = \"{field}\"");
-        for (time, is_reached) in [("1", true), ("3", false)] {
+        for (time, is_reached) in [("1/2", true), ("3", false)] {
             let found = claim(
                 &text,
                 &format!(
-                    "reaches = \"x\"\nstate = {{ x = \"1/2\" }}\ntime = {time}\nabove = \"{time}\""
+                    "reaches = \"x\"\nstate = {{ x = \"1/2\" }}\ntime = \"{time}\"\nabove = \"{time}\""
                 ),
             );
             let expected = if is_reached { Verdict::Proved } else { Verdict::Undecided };
