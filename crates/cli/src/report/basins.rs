@@ -127,8 +127,8 @@ impl BasinReport<'_> {
             (0..self.found.ends.len()).filter(|place| basin(*place).is_some()).collect();
         let is_near = |place: &&usize| {
             let place = **place;
-            let left = (place % columns > 0).then(|| place - 1);
-            let right = ((place + 1) % columns > 0).then_some(place + 1);
+            let left = (!place.is_multiple_of(columns)).then(|| place - 1);
+            let right = (!(place + 1).is_multiple_of(columns)).then_some(place + 1);
             let around = [left, right, place.checked_sub(columns), Some(place + columns)];
             let mut around = around.into_iter().flatten().filter_map(basin);
             around.any(|other| Some(other) != basin(place))
