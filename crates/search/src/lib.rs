@@ -366,6 +366,11 @@ pub fn search(
     report.stage("relations along an orbit", effort, |report| {
         orbit::search(case, effort, effort.halt.is_timed(), report, progress)
     })?;
+    if let Some(wanted) = &effort.poisson {
+        report.stage("brackets", effort, |report| {
+            ansatz::brackets(case, wanted, effort, report, progress)
+        })?;
+    }
     if effort.conditions == Some(ConditionTarget::Existence) {
         report.stage("values of parameters", effort, |report| {
             conditions::several::conditions(case, effort, report, progress)

@@ -22,14 +22,14 @@ impl BracketSearch<'_> {
         };
         let below = if field.is_zero() { BigInt::from(-1) } else { field };
         let mut entries = Vec::new();
-        let dimension = self.names.len();
+        let dimension = self.family.names.len();
         for pair in (0..dimension).flat_map(|i| (i + 1..dimension).map(move |j| (i, j))) {
-            let used = || self.unknowns.iter().zip(own).filter(|(one, _)| one.pair == pair);
+            let used = || self.family.unknowns.iter().zip(own).filter(|(one, _)| one.pair == pair);
             let terms: Result<Vec<Formula>, FormulaError> = used()
                 .filter(|(_, a)| !a.is_zero())
                 .map(|(one, _)| {
-                    let power = power_product(&self.names, &one.exponents)?;
-                    self.weights[one.weight].on(&power)
+                    let power = power_product(&self.family.names, &one.exponents)?;
+                    self.family.weights[one.weight].on(&power)
                 })
                 .collect();
             // Σ c P + f v = 0: P is −c/f.
@@ -48,9 +48,22 @@ impl BracketSearch<'_> {
         Ok(entries)
     }
 
+    /// Entry P_ij of the bracket with some entries above its diagonal; 0 where none is given.
+    pub(super) fn entry(&self, entries: &[Formula], i: usize, j: usize) -> Formula {
+        let (low, high, count) = (i.min(j), i.max(j), self.family.names.len());
+        // Earlier rows come first: row k has count − 1 − k entries.
+        let place = (0..low).map(|k| count - 1 - k).sum::<usize>() + high.saturating_sub(low + 1);
+        let own = entries.get(place).cloned().unwrap_or_else(|| Formula::number(0));
+        match i.cmp(&j) {
+            Ordering::Less => own,
+            Ordering::Equal => Formula::number(0),
+            Ordering::Greater => -own.bracketed(),
+        }
+    }
+
     /// Writes the nonzero entries, such as `{x,y} = x*y`.
     pub(super) fn shown(&self, entries: &[Formula]) -> String {
-        let names = &self.names;
+        let names = &self.family.names;
         let pairs = (0..names.len()).flat_map(|i| (i + 1..names.len()).map(move |j| (i, j)));
         let nonzero = pairs.zip(entries).filter(|(_, entry)| !is_zero(entry));
         let one = |((i, j), entry): ((usize, usize), &Formula)| {
@@ -62,20 +75,7 @@ impl BracketSearch<'_> {
     /// Adds a bracket in the state variables to the case; without entries, the bracket 0.
     pub(super) fn with_bracket(&self, entries: &[Formula]) -> Result<Case, SearchError> {
         let state = &self.case.model.state;
-        let count = self.names.len();
-        let zero = Formula::number(0);
-        let entry = |i: usize, j: usize| -> Formula {
-            let (low, high) = (i.min(j), i.max(j));
-            // Earlier rows come first: row k has count − 1 − k entries.
-            let place =
-                (0..low).map(|k| count - 1 - k).sum::<usize>() + high.saturating_sub(low + 1);
-            let own = entries.get(place).unwrap_or(&zero);
-            match i.cmp(&j) {
-                Ordering::Less => own.clone(),
-                Ordering::Equal => zero.clone(),
-                Ordering::Greater => -own.bracketed(),
-            }
-        };
+        let entry = |i: usize, j: usize| self.entry(entries, i, j);
         let mut named = Vec::new();
         for variable in state {
             named.push((variable.name.clone(), self.case.formula(&variable.name)?));
@@ -149,7 +149,7 @@ impl Weight {
     }
 
     /// The product of the weight and a monomial.
-    fn on(&self, power: &Formula) -> FormulaResult {
+    pub(super) fn on(&self, power: &Formula) -> FormulaResult {
         match self {
             Weight::Above(own) if is_one(own) => Ok(power.clone()),
             Weight::Above(own) if is_one(power) => Ok(own.clone()),

@@ -15,8 +15,12 @@
 //!
 //! [`potentials`] and [`gyrostats`] start from the leading form of an integral: then a potential,
 //! or the direction of a rotor, enters linearly together with the terms added to the integral.
-//! [`poisson`] starts from a Hamiltonian: then the entries of a bracket enter linearly.
+//! [`poisson`] starts from a Hamiltonian: then the entries of a bracket enter linearly, and so do the
+//! exponents of functions by which it is multiplied.
 
+mod bracket_absence;
+mod bracket_family;
+mod bracket_system;
 mod brackets;
 mod characters;
 pub mod coefficients;
@@ -27,6 +31,7 @@ pub mod monomials;
 mod poisson;
 mod potentials;
 pub mod recording;
+mod scales;
 mod size;
 pub mod subspace;
 mod surd;
@@ -45,7 +50,7 @@ use liouville::mechanics::Draw;
 use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
 use monomials::AnsatzVariables;
-pub use poisson::Hamiltonians;
+pub use poisson::{Hamiltonians, brackets};
 use system::Column;
 
 /// Scope and limits of the linear ansatz.
@@ -82,9 +87,6 @@ pub fn search(
     }
     if effort.ansatz.gyrostats {
         gyrostats::gyrostats(case, effort, report, progress)?;
-    }
-    if let Some(wanted) = &effort.poisson {
-        poisson::brackets(case, wanted, effort, report, progress)?;
     }
     Ok(())
 }

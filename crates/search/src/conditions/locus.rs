@@ -17,7 +17,6 @@ use super::parameter_line::ParameterLines;
 use super::polynomial::{Polynomial, PrimePolynomials};
 use super::variety::power;
 use crate::SearchError;
-use crate::budget::STEPS;
 use crate::echelon::Echelon;
 use crate::orbit::monomials;
 
@@ -30,7 +29,7 @@ const PLANES: usize = 80;
 /// Largest number of factors modulo the prime whose product is one over the rational numbers.
 const CONJUGATES: usize = 4;
 /// Number of primes, and of lines for each, on which a point of a hypersurface is looked for.
-const PRIMES: u64 = 3;
+const PRIMES: u64 = 16;
 const LINES: usize = 6;
 
 /// Conditions of codimension one.
@@ -39,8 +38,6 @@ pub struct SpecialLocus {
     pub surfaces: Vec<Hypersurface>,
     /// Degree of all others together.
     pub unexplained: usize,
-    /// Number of elementary steps for one line.
-    pub steps: f64,
 }
 
 /// A factor of D on planes through one line.
@@ -61,19 +58,30 @@ pub enum NoLocus {
 }
 
 /// Finds the conditions on some draws of the parameters under which there are more integrals, besides
-/// `known` ones.
+/// `known` ones; the steps taken are subtracted from `left`.
 pub fn special(
     equations: &ParametricEquations<'_>,
     draws: &[usize],
     known: &[Hypersurface],
+    left: &mut f64,
 ) -> Result<Result<SpecialLocus, NoLocus>, SearchError> {
     let Some(lines) = ParameterLines::new(equations, draws.to_vec(), 0)? else {
         return Ok(Err(NoLocus::NoValues));
     };
     let mut planes = Planes::new(lines, known);
-    let Some(first) = planes.first()? else { return Ok(Err(NoLocus::NoFractions)) };
-    let steps = planes.lines.steps();
-    let mut found = SpecialLocus { surfaces: Vec::new(), unexplained: first.len() - 1, steps };
+    let found = found(equations, draws, &mut planes, *left);
+    *left -= planes.spent;
+    found
+}
+
+fn found(
+    equations: &ParametricEquations<'_>,
+    draws: &[usize],
+    planes: &mut Planes<'_, '_, '_>,
+    left: f64,
+) -> Result<Result<SpecialLocus, NoLocus>, SearchError> {
+    let Some(first) = planes.first(left)? else { return Ok(Err(NoLocus::NoFractions)) };
+    let mut found = SpecialLocus { surfaces: Vec::new(), unexplained: first.len() - 1 };
     if first.len() < 2 {
         return Ok(Ok(found));
     }
@@ -192,34 +200,38 @@ struct Planes<'p, 'l, 'e> {
     directions: Vec<Vec<u64>>,
     /// Number of lines that may still be examined.
     left: usize,
+    /// Number of elementary steps so far.
+    spent: f64,
 }
 
 impl<'p, 'l, 'e> Planes<'p, 'l, 'e> {
     fn new(mut lines: ParameterLines<'l, 'e>, known: &'p [Hypersurface]) -> Self {
         let (origin, slope) = (lines.random(), lines.random());
-        Self { lines, known, origin, slope, directions: Vec::new(), left: 0 }
+        Self { lines, known, origin, slope, directions: Vec::new(), left: 0, spent: 0.0 }
     }
 
     fn ring(&self) -> PrimePolynomials {
         PrimePolynomials(self.lines.modulus())
     }
 
-    /// Finds D on the first line; `None` if the equations are not fractions of low degree, or take too
-    /// long.
-    fn first(&mut self) -> Result<Option<Polynomial>, SearchError> {
-        if !self.lines.is_affordable() {
+    /// Finds D on the first line, within a number of steps for all; `None` if the equations are not
+    /// fractions of low degree, or take too long.
+    fn first(&mut self, steps: f64) -> Result<Option<Polynomial>, SearchError> {
+        if self.lines.steps() > steps {
             return Ok(None);
         }
         let origin = self.origin.clone();
         let found = self.special(&origin)?;
-        let most = self.lines.effort().seconds * STEPS / self.lines.steps().max(1.0);
+        let most = steps / self.lines.steps().max(1.0);
         self.left = (most as usize).saturating_sub(1);
         Ok(found)
     }
 
     /// Finds D without known factors on a line with the slope of all.
     fn special(&mut self, origin: &[u64]) -> Result<Option<Polynomial>, SearchError> {
-        let Some(mut found) = self.lines.special(origin, &self.slope)? else { return Ok(None) };
+        let found = self.lines.special(origin, &self.slope)?;
+        self.spent += self.lines.steps();
+        let Some(mut found) = found else { return Ok(None) };
         let (m, ring) = (self.lines.modulus(), self.ring());
         for own in self.known {
             let Some(own) = own.on_line(&m, origin, &self.slope) else { return Ok(None) };

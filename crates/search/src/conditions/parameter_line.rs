@@ -9,10 +9,10 @@ use liouville::proof::ProofRng;
 use super::equations::ParametricEquations;
 use super::pencil::{self, SquareMatrix};
 use super::polynomial::{Polynomial, PrimePolynomials};
+use crate::SearchError;
 use crate::ansatz::system::PrimePoint;
 use crate::budget::STEPS;
 use crate::streams::SearchStream;
-use crate::{Effort, SearchError};
 
 /// Number of minors that are compared.
 const MINORS: usize = 2;
@@ -22,6 +22,8 @@ const VALUES: [usize; 3] = [6, 14, 30];
 const STREAM: u64 = 5000;
 /// Steps of one multiplication modulo a prime and what belongs to it.
 const STEP: f64 = 3.0;
+/// Steps for one entry of the equations at one state.
+pub const ENTRY: f64 = 60.0;
 
 /// Lines in the space of some draws of the parameters, modulo one prime.
 pub struct ParameterLines<'l, 'e> {
@@ -60,11 +62,6 @@ impl<'l, 'e> ParameterLines<'l, 'e> {
         self.base.modulus
     }
 
-    /// Returns the limits of the search.
-    pub fn effort(&self) -> &'e Effort {
-        self.equations.effort
-    }
-
     /// Number of parameters that vary.
     pub fn dimension(&self) -> usize {
         self.draws.len()
@@ -79,12 +76,14 @@ impl<'l, 'e> ParameterLines<'l, 'e> {
     /// Number of elementary steps for one line.
     pub fn steps(&self) -> f64 {
         let size = ((self.columns.len() - self.general) * self.degree) as f64;
+        let columns = self.columns.len() as f64;
         // C⁻¹B and Hessenberg's form take 4/3 + 10/3 + 1/6 multiplications of a size cubed.
-        MINORS as f64 * STEP * 5.0 * size * size * size
+        let entries = VALUES[0] as f64 * columns * columns;
+        MINORS as f64 * (STEP * 5.0 * size * size * size + ENTRY * entries)
     }
 
     /// Whether one line takes less than the time of a count.
-    pub fn is_affordable(&self) -> bool {
+    fn is_affordable(&self) -> bool {
         self.steps() <= self.equations.effort.seconds * STEPS
     }
 

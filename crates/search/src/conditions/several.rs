@@ -19,6 +19,9 @@ use crate::branches;
 use crate::budget::STEPS;
 use crate::{Effort, SearchError, SearchReport};
 
+/// Steps of a search for integrals where a condition holds: half a second.
+const SEARCH: f64 = STEPS / 2.0;
+
 /// Finds the conditions on the parameters of a field under which there are more polynomial integrals of
 /// at most the degree of the search, and the integrals there.
 pub fn conditions(
@@ -65,13 +68,14 @@ fn in_all(
     if whole.scalars.len() == 1 {
         return Ok(false);
     }
-    let mut search =
-        ConditionSearch { whole, effort, report, progress, found: Vec::new(), steps: 0.0 };
+    let left = effort.seconds * STEPS;
+    let mut search = ConditionSearch { whole, effort, report, progress, found: Vec::new(), left };
     let none = SimpleEquations::none(whole.scalars.len());
     if !search.examined(&none, whole)? {
         return Ok(false);
     }
-    if search.steps > 0.0 {
+    // Some lines have been examined.
+    if search.left < left {
         search.several(&none)?;
     }
     Ok(true)
@@ -82,9 +86,9 @@ fn held(whole: &SplitCase, effort: &Effort) -> Result<Vec<String>, SearchError> 
     let Some(equations) = ParametricEquations::new(&whole.case, 1, effort)? else {
         return Ok(Vec::new());
     };
-    let mut held = Vec::new();
+    let (mut held, mut left) = (Vec::new(), effort.seconds * STEPS);
     for scalar in &whole.scalars {
-        if special(&equations, &[scalar.draw], &[])?.is_err() {
+        if special(&equations, &[scalar.draw], &[], &mut left)?.is_err() {
             held.push(scalar.name.clone());
         }
     }
@@ -132,8 +136,8 @@ struct ConditionSearch<'s> {
     report: &'s mut SearchReport,
     progress: &'s mut dyn FnMut(&str),
     found: Vec<FoundCondition>,
-    /// Number of steps for one line at the highest degree.
-    steps: f64,
+    /// Number of elementary steps that may still be taken.
+    left: f64,
 }
 
 impl ConditionSearch<'_> {
@@ -170,7 +174,7 @@ impl ConditionSearch<'_> {
                     .filter_map(|own| own.simple.addition(simple))
                     .map(|own| Hypersurface::from(own, simple.first().len()).among(&free)),
             );
-            let own = match special(&equations, &draws, &known)? {
+            let own = match special(&equations, &draws, &known, &mut self.left)? {
                 Ok(own) => own,
                 Err(NoLocus::NoValues) => return Ok(true),
                 Err(NoLocus::NoFractions) if degree == 1 && is_first => return Ok(false),
@@ -184,7 +188,6 @@ impl ConditionSearch<'_> {
                 }
             };
             last = degree;
-            self.steps = self.steps.max(own.steps);
             let conditions = self.report.conditions.len();
             self.tell(simple, split, degree, own)?;
             if self.report.conditions.len() > conditions {
@@ -227,7 +230,15 @@ impl ConditionSearch<'_> {
             let solved = split.letters().and_then(|letters| own.solved(&letters)).ok().flatten();
             if let Some(fixed) = solved.and_then(|value| split.with(vec![value])) {
                 let with = ("condition", text.clone());
-                integrals_with(&fixed.case, with, self.effort, self.report)?;
+                if self.left > 0.0 {
+                    integrals_with(&fixed.case, with, self.effort, self.report)?;
+                    self.left -= SEARCH;
+                } else {
+                    self.report.remark(format!(
+                        "integrals where {text} are not sought: the bound is {} s, see --seconds",
+                        self.effort.seconds
+                    ));
+                }
             }
             equations.push(text);
         }
@@ -277,10 +288,13 @@ impl ConditionSearch<'_> {
                 }
             }
         }
-        let most = (self.effort.seconds * STEPS / self.steps.max(1.0)) as usize;
-        let admitted = sets.len().min(most);
-        for simple in &sets[..admitted] {
+        let mut admitted = 0;
+        for simple in &sets {
             self.effort.halt.check()?;
+            if self.left <= 0.0 {
+                break;
+            }
+            admitted += 1;
             // Where they hold there are more integrals already.
             let is_special = |own: &FoundCondition| {
                 let further = own.further.as_ref().map(|further| further.under(simple));

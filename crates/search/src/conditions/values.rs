@@ -5,6 +5,8 @@
 //! and of other columns have no further root in common. What is left of the common divisor without
 //! these values is reported.
 
+use std::cell::Cell;
+
 use liouville::case::Case;
 use liouville::formula::Formula;
 use liouville::proof::ProofRng;
@@ -12,10 +14,12 @@ use liouville::proof::ProofRng;
 use super::ParameterCondition;
 use super::equations::ParametricEquations;
 use super::minors::{determinant, equation};
+use super::parameter_line::ENTRY;
 use super::polynomial::{Polynomial, PrimePolynomials};
 use super::relation::{Relation, Round, ScalarParameter, explained, unexplained};
 use super::split::SplitCase;
 use crate::ansatz::system::PrimePoint;
+use crate::budget::STEPS;
 use crate::echelon::Echelon;
 use crate::orbit;
 use crate::streams::SearchStream;
@@ -40,6 +44,7 @@ pub fn conditions(
 ) -> Result<(), SearchError> {
     let SplitCase { case, scalars: all, .. } = split;
     let mut told: Vec<String> = Vec::new();
+    let left = Cell::new(effort.seconds * STEPS);
     for degree in 1..=effort.degree {
         for (place, parameter) in all.iter().enumerate() {
             let name = &parameter.name;
@@ -47,9 +52,19 @@ pub fn conditions(
             let Some(equations) = ParametricEquations::new(case, degree, effort)? else {
                 return Ok(());
             };
-            let search = OneParameter { equations, draw: parameter.draw };
+            let search = OneParameter { equations, draw: parameter.draw, left: &left };
             let rounds = if all.len() > 1 { 2 } else { 1 };
-            let Some(found) = search.rounds(rounds)? else {
+            let found = match search.rounds(rounds) {
+                Err(SearchError::Long { seconds, .. }) => {
+                    report.remark(format!(
+                        "values of {name} with more integrals of degree {degree}, and what comes after, \
+                         are not sought: the bound is {seconds} s, see --seconds"
+                    ));
+                    return Ok(());
+                }
+                found => found?,
+            };
+            let Some(found) = found else {
                 report.remark(format!(
                     "values of {name} with more integrals are not sought: the equations are not \
                      fractions of low degree in it"
@@ -168,6 +183,8 @@ struct SpecialValues {
 struct OneParameter<'e> {
     equations: ParametricEquations<'e>,
     draw: usize,
+    /// Number of elementary steps that may still be taken.
+    left: &'e Cell<f64>,
 }
 
 impl OneParameter<'_> {
@@ -260,11 +277,18 @@ impl OneParameter<'_> {
         }
         let pivots: Vec<usize> =
             (0..order.len()).filter(|k| echelon.has_pivot(*k)).map(|k| order[k]).collect();
+        let (size, states) = (pivots.len() as f64, count as f64);
+        let steps = size * size * (size + ENTRY) + ENTRY * size * (states - size);
         let mut values = Vec::new();
         let mut wanted = VALUES.0;
         while wanted <= VALUES.1 {
             while values.len() < wanted {
                 self.equations.effort.halt.check()?;
+                self.left.set(self.left.get() - steps);
+                if self.left.get() < 0.0 {
+                    let seconds = self.equations.effort.seconds;
+                    return Err(SearchError::Long { unknowns: pivots.len(), seconds });
+                }
                 let value = rng.element(&m);
                 let at = self.with(base, value);
                 let Some(rows) = self.equations.system.rows(&at, stream, &pivots, count) else {

@@ -24,7 +24,9 @@ use super::setting::{ExtendedCase, OrbitSetting, PrimePhasePoint, SPARE_ORDERS};
 
 /// Number of primes tried until all special places of a line lie in the field, for polynomials of
 /// degree up to 2, and of higher degree.
-const PRIMES: [u64; 2] = [4, 2];
+const PRIMES: [u64; 2] = [4, 4];
+/// Number of further lines on which points are looked for that share a relation with those of the first.
+const FURTHER_LINES: u64 = 3;
 /// Largest number of conjugate factors that are multiplied.
 const CONJUGATES: usize = 4;
 /// Largest number of ways to choose points of rest, one on each line.
@@ -121,10 +123,17 @@ impl DarbouxSearch<'_, '_> {
         }
         if !open.is_empty() && open.len() <= MOST_CANDIDATES {
             // f vanishes along the orbits of all its points, the relations P − c Q differ.
-            let Some(other) = RandomLine::draw(self.setting, at, 1) else {
-                return Ok((vec![], true));
-            };
-            let others = other.special(all, self.degree, factors)?.all;
+            let mut others = Vec::new();
+            for number in 1..=FURTHER_LINES {
+                let Some(other) = RandomLine::draw(self.setting, at, number) else {
+                    return Ok((vec![], true));
+                };
+                others = other.special(all, self.degree, factors)?.all;
+                // Its points may lie in an extension of the field.
+                if !others.is_empty() {
+                    break;
+                }
+            }
             for (one, two) in open.iter().flat_map(|one| others.iter().map(move |two| (one, two))) {
                 self.setting.effort.halt.check()?;
                 let mut both = Echelon::new(all.len(), at.modulus);

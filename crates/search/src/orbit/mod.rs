@@ -9,6 +9,7 @@
 //! rational     rational ones, as P and Q of the relations P − c Q
 //! line         points of a line whose orbits satisfy an additional relation
 //! darboux      Darboux polynomials: the relations at these points
+//! cleared      Darboux polynomials of fields of fractions
 //! angle        angles between conjugate Darboux polynomials
 //! no_others    theorem that the Darboux polynomials found are all
 //! finite_order   maps with Φⁿ = id, and sums over their orbits
@@ -26,6 +27,7 @@ mod adjoin;
 mod angle;
 mod blocks;
 mod claims;
+mod cleared;
 mod darboux;
 mod exponents;
 mod factor;
@@ -62,6 +64,7 @@ use self::line::RandomLine;
 use self::part::VariableSet;
 use self::setting::OrbitSetting;
 use super::ask::proved_energy;
+use super::branches;
 use super::{Effort, SearchError, SearchReport};
 
 /// Limits of one round of a search.
@@ -89,6 +92,9 @@ const FURTHER: [RoundLimits; 4] = [
     RoundLimits { monomials: 3200, degree: 24, steps: 2e11 },
 ];
 
+/// Largest number of roots whose signs at all states are compared with those modulo a prime.
+const FEW_ROOTS: usize = 4;
+
 /// Number of these for functions as further variables, before the field is searched without them.
 const WITH_FUNCTIONS: usize = 2;
 
@@ -108,6 +114,45 @@ pub struct OrbitReport {
 /// Searches a field for integrals; proved ones go into the report. If `further`, the limits grow while
 /// there is time.
 pub fn search(
+    case: &Case,
+    effort: &Effort,
+    further: bool,
+    report: &mut SearchReport,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(), SearchError> {
+    counted(case, effort, report, |report| along(case, effort, further, report, progress))
+}
+
+/// Runs a search along orbits. If a root of the case depends on others, it has the wrong sign at half of
+/// the points modulo a prime: then nothing is counted.
+fn counted(
+    case: &Case,
+    effort: &Effort,
+    report: &mut SearchReport,
+    run: impl FnOnce(&mut SearchReport) -> Result<(), SearchError>,
+) -> Result<(), SearchError> {
+    let before = report.orbits.len();
+    let outcome = run(report);
+    if report.orbits.len() > before && !has_true_roots(case, effort)? {
+        report.orbits.truncate(before);
+        report.remark(
+            "relations along orbits are not counted: the formulas contain a modulus, or a root that \
+             depends on others; write √(4*x) as 2*√x, √(x*y) as √x*√y, √(x²) as x where x > 0"
+                .to_string(),
+        );
+    }
+    outcome
+}
+
+/// Whether the signs of roots modulo a prime do not matter, or are those at all states.
+fn has_true_roots(case: &Case, effort: &Effort) -> Result<bool, SearchError> {
+    let roots = adjoin::root_steps(case)?;
+    Ok(roots == 0
+        || adjoin::has_independent_roots(case, effort, roots)?
+        || (roots <= FEW_ROOTS && branches::are_true(case, effort)?))
+}
+
+fn along(
     case: &Case,
     effort: &Effort,
     further: bool,
@@ -182,7 +227,19 @@ pub fn search_map(
         Ok(setting) => {
             map_densities::densities(&setting, report, progress)?;
             finite_order::finite_order(&setting, report)?;
-            along_orbits(&setting, further_limits(further), report, progress)
+            let before = report.orbits.len();
+            let outcome = counted(case, effort, report, |report| {
+                along_orbits(&setting, further_limits(further), report, progress)
+            });
+            // All points of an orbit but its first satisfy what all images do.
+            if report.orbits.len() > before && !setting.fills_space()? {
+                report.orbits.truncate(before);
+                report.remark(
+                    "relations along orbits are not counted: the images of the map do not fill the space"
+                        .to_string(),
+                );
+            }
+            outcome
         }
         Err(reason) => {
             report.remark(format!("no relations along orbits: {reason}"));
@@ -234,6 +291,23 @@ pub fn roots(case: &Case) -> Result<Vec<(Formula, Option<Rational>)>, SearchErro
     }
 }
 
+/// Lists the denominators, radicands and other factors of the functions in a field and in `further`,
+/// in the names of the case.
+pub fn factors(
+    case: &Case,
+    effort: &Effort,
+    further: &[Formula],
+) -> Result<Vec<Formula>, SearchError> {
+    if !matches!(case.model.system, System::Field(_) | System::Hamiltonian(_)) {
+        return Ok(Vec::new());
+    }
+    let Some(extension) = adjoin::extended(case, effort, further, Vec::new())? else {
+        return Ok(Vec::new());
+    };
+    let own = extension.factors.iter().map(|factor| case.formula(&extension.back(factor)));
+    Ok(own.flatten().collect())
+}
+
 /// Lists the energy and the integrals found so far, as far as they are proved.
 fn found(case: &Case, effort: &Effort, report: &SearchReport) -> Result<Vec<Formula>, SearchError> {
     let energy = proved_energy(case, effort)?.into_iter();
@@ -257,7 +331,10 @@ fn along_orbits(
     let part = |variables| VariableSet::new(variables, degree);
     let mut parts: Vec<VariableSet> = blocks::closed(setting.case)?.into_iter().map(part).collect();
     let limits = if setting.origin.is_some() { EXTENDED } else { MODEST };
-    let outcome = rounds(setting, &mut parts, (limits, next), &mut known, report, progress);
+    let mut outcome = rounds(setting, &mut parts, (limits, next), &mut known, report, progress);
+    if has_line && degree.is_none() && setting.origin.is_none() && outcome.is_ok() {
+        outcome = cleared::search(setting, limits.steps, &mut known, report, progress);
+    }
     if let Some(whole) = parts.last() {
         whole.conclude(setting, report)?;
     }

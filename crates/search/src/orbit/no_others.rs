@@ -22,6 +22,8 @@ use super::setting::OrbitSetting;
 const TARGET: f64 = -100.0;
 /// Largest number of primes.
 const PRIMES: u64 = 8;
+/// Number of lines on which places of other Darboux polynomials are looked for at lower degrees.
+const LINES: u64 = 4;
 /// Log₂ of the number of primes between 2⁶⁰ and 2⁶¹ from which one is drawn, rounded down.
 const POOL: f64 = 50.0;
 
@@ -154,6 +156,13 @@ impl Sizes {
             )));
         }
         let variables: Vec<usize> = (0..dimension).collect();
+        // A place with a relation of a lower degree has one of this degree: that is seen sooner.
+        for lower in 1..degree {
+            let all = monomials::up_to(&variables, dimension, lower);
+            if has_others(setting, &all, field, factors)? {
+                return Ok(Err(may_be_others(degree)));
+            }
+        }
         let all = monomials::up_to(&variables, dimension, degree);
         let primes = needed as u64;
         for prime in 0..primes {
@@ -170,9 +179,7 @@ impl Sizes {
                 )));
             }
             if !special.is_whole || !special.all.is_empty() {
-                return Ok(Err(format!(
-                    "there may be other Darboux polynomials of degree {degree} or less"
-                )));
+                return Ok(Err(may_be_others(degree)));
             }
         }
         Ok(Ok(NoOthers { degree, error_log2: each * needed, monomials, primes }))
@@ -206,6 +213,31 @@ impl Sizes {
         let unlucky_line = resultant_degree.log2() - 60.0;
         unlucky_prime.max(unlucky_line) + 1.0
     }
+}
+
+/// Reason why nothing is shown where a line has special places besides those of the known polynomials.
+fn may_be_others(degree: u32) -> String {
+    format!("there may be other Darboux polynomials of degree {degree} or less")
+}
+
+/// Whether some orbit that starts on no known polynomial satisfies a relation between these monomials,
+/// and others do not.
+fn has_others(
+    setting: &OrbitSetting<'_>,
+    all: &[Vec<u32>],
+    field: usize,
+    factors: &[RatedPolynomial],
+) -> Result<bool, SearchError> {
+    for number in 0..LINES {
+        let Some(at) = setting.at(number, number) else { return Ok(false) };
+        let Some(line) = RandomLine::draw(setting, &at, number) else { return Ok(false) };
+        let special = line.special(all, field, factors)?;
+        if !special.all.is_empty() || special.is_whole || !special.is_full {
+            return Ok(special.is_full && !special.all.is_empty());
+        }
+        // The places lie in an extension of the field.
+    }
+    Ok(false)
 }
 
 /// Shows that each irreducible Darboux polynomial of at most a degree, with complex coefficients,

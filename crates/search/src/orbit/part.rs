@@ -12,9 +12,9 @@ use super::{OrbitReport, RoundLimits, fractions, monomials, no_others, polynomia
 use liouville::formula::Formula;
 
 /// Largest degree of a Darboux polynomial.
-const DARBOUX: u32 = 12;
+pub const DARBOUX: u32 = 12;
 /// Family of the theorem on Darboux polynomials, before the degree.
-const DARBOUX_THEOREM: &str = "Darboux polynomials of degree up to";
+pub const DARBOUX_THEOREM: &str = "Darboux polynomials of degree up to";
 /// Bound above the degrees of the relations.
 const MOST_DEGREE: u32 = 64;
 

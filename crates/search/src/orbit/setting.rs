@@ -251,9 +251,10 @@ impl<'c> OrbitSetting<'c> {
         self.flow.orbit(&at.modulus, parameters, state, orders, &self.effort.halt)
     }
 
-    /// Whether the images of a map fill the space: det DΦ is not 0 at a random point.
+    /// Whether the images of a map fill the space, or the level: det DΦ is not 0 at a random point.
     pub fn fills_space(&self) -> Result<bool, SearchError> {
-        let (graph, factor) = recorded(self.case, |jet| jet.expansion(&[]))?;
+        let kept = LevelSubset::level(&self.case.model).kept;
+        let (graph, factor) = recorded(self.case, |jet| jet.expansion(&kept))?;
         let Some(at) = self.at(0, 0) else { return Ok(false) };
         let Some(point) = self.point(&at, 0) else { return Ok(false) };
         let inputs = [point.parameters, point.state].concat();

@@ -26,6 +26,19 @@ fn functions_of_the_state_add_no_integrals() {
 }
 
 #[test]
+fn roots_that_depend_on_others_are_not_counted() {
+    // x² + y² is an integral where √(x²) is x, and none where it is −x.
+    let text = field("", &["y + √(x²) - x", "-x", "z² + x*z + y"]);
+    let report = searched(&text, &Effort::default());
+    assert!(report.orbits.is_empty(), "{:?}", report.orbits);
+    assert!(report.excluded.is_empty(), "{:?}", report.excluded);
+    let says = |own: &String| own.starts_with("relations along orbits are not counted");
+    assert!(report.remarks.iter().any(says), "{:?}", report.remarks);
+    let free = searched(&field("", &["√x", "-x", "z² + x*z + y"]), &Effort::default());
+    assert!(!free.orbits.is_empty(), "a root of its own is counted");
+}
+
+#[test]
 fn planted_integrals_are_counted() {
     // x − y and exp(x) − z are integrals.
     let text = field("", &["y*z", "y*z", "y*z*exp(x)"]);

@@ -49,6 +49,18 @@ fn maps_onto_a_curve_exclude_nothing() {
 }
 
 #[test]
+fn the_orbits_of_maps_onto_a_curve_or_a_point_are_not_counted() {
+    for images in [&["x + y", "2*(x + y)"][..], &["3", "2"], &["x + y", "x*y", "x*y + 1"]] {
+        let report = searched(&map("", images), &Effort::default());
+        assert!(report.orbits.is_empty(), "{images:?}: {:?}", report.orbits);
+        let says = |own: &String| own.contains("the images of the map do not fill the space");
+        assert!(report.remarks.iter().any(says), "{images:?}: {:?}", report.remarks);
+    }
+    let shear = searched(&map("", &["x + y", "y"]), &Effort::default());
+    assert_eq!(shear.orbits.last().map(|own| own.integrals), Some(1), "{:?}", shear.orbits);
+}
+
+#[test]
 fn planted_integrals_of_maps_are_not_excluded() {
     for (own, kept) in [("y", 1), ("y + k*x²", 2), ("x*y", 2)] {
         let images = match own {

@@ -73,3 +73,21 @@ fn a_claim_that_fails_in_general_is_given_its_condition() {
     let error = search(&read, &wanted, &mut |_| {}).expect_err("there is none");
     assert!(error.to_string().contains("no such claim"), "{error}");
 }
+
+#[test]
+fn irrational_values_are_not_excluded() {
+    // x y is an integral where a² = a b + b², b = 1 included.
+    let golden = "title = 'golden'\n[parameters]\na = '1..2'\n[state]\nx = '1..2'\ny = '1..2'\n[field]\n\
+                \"x'\" = '(a² − a − 1)*(x² + y³ + 1) + x*y'\n\"y'\" = '−y²'\n";
+    let mut wanted = effort(2);
+    wanted.conditions = Some(ConditionTarget::Existence);
+    let ratio = golden
+        .replace("a = '1..2'", "a = '1..2'\nb = '1..2'")
+        .replace("a² − a − 1", "a² − a*b − b²");
+    for (body, equation) in [(golden.to_string(), "a² − a − 1 = 0"), (ratio, "a² − a*b − b² = 0")]
+    {
+        let report = search(&case(&body), &wanted, &mut |_| {}).expect("it can be searched");
+        let told: Vec<&String> = report.conditions.iter().flat_map(|own| &own.equations).collect();
+        assert!(told.iter().any(|own| *own == equation), "{equation}: {told:?}");
+    }
+}

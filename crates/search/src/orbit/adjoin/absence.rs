@@ -97,6 +97,26 @@ impl AdjoinedPolynomials {
     }
 }
 
+/// Whether all roots of a ring are square roots of functions of the state and the parameters, of which no
+/// product is a constant times a square.
+pub fn has_independent_roots(model: &Model, ring: &AdjoinedRing, seed: u64) -> bool {
+    let Some(mut radicands) = constants(ring) else { return false };
+    for atom in &ring.atoms {
+        match atom {
+            Atom::Root(base, 2) => {
+                let is_plain = |k: &usize| matches!(ring.atoms[*k], Atom::State | Atom::Parameter);
+                if !base.variables().iter().all(is_plain) {
+                    return false;
+                }
+                radicands.push(base);
+            }
+            Atom::Root(..) | Atom::Power(..) => return false,
+            _ => {}
+        }
+    }
+    has_no_squares(model, ring, &radicands, seed)
+}
+
 /// Radicands of the roots of parameters; `None` if a root of a number may be a number, or depend on
 /// another: its sign modulo a prime may then differ from that of the real root.
 fn constants(ring: &AdjoinedRing) -> Option<Vec<&RingPolynomial>> {

@@ -25,6 +25,8 @@ mod read;
 mod ring;
 mod write;
 
+pub use self::write::written as polynomial_text;
+
 use liouville::case::Case;
 use liouville::formula::{Formula, Type};
 use liouville::graph::{Expr, Step};
@@ -34,7 +36,8 @@ use liouville::number::rational::Rational;
 
 use self::absence::AdjoinedPolynomials;
 use self::back::Back;
-use self::polynomial::{Monomial, RingPolynomial};
+use self::polynomial::Monomial;
+pub use self::polynomial::RingPolynomial;
 use self::read::StepReader;
 pub use self::ring::Divided;
 use self::ring::{AdjoinedRing, Atom, Of};
@@ -229,6 +232,32 @@ fn functions(ring: &AdjoinedRing) -> usize {
     let is_function =
         |atom: &&Atom| !matches!(atom, Atom::Parameter | Atom::State | Atom::Constant(_));
     ring.atoms.iter().filter(is_function).count()
+}
+
+/// Number of roots and moduli in a field or map, as it is recorded.
+pub fn root_steps(case: &Case) -> Result<usize, SearchError> {
+    let (graph, field) = recorded(case, |jet| jet.phase.field().to_vec())?;
+    let reached = graph.reached(field);
+    let steps = graph.steps().enumerate().filter(|(place, _)| reached[*place]);
+    let is_root = |step: &Step<'_>| match step {
+        Step::Unary(function, _) => matches!(function, UnaryFunction::Sqrt | UnaryFunction::Abs),
+        Step::Power(_, exponent) => exponent.to_integer().is_none(),
+        _ => false,
+    };
+    Ok(steps.filter(|(_, step)| is_root(step)).count())
+}
+
+/// Whether the `roots` in a field are square roots of functions of which none depends on others.
+pub fn has_independent_roots(
+    case: &Case,
+    effort: &Effort,
+    roots: usize,
+) -> Result<bool, SearchError> {
+    let Some(Read { ring, .. }) = read(case, effort, &[], Vec::new())? else { return Ok(false) };
+    let is_root = |atom: &&Atom| matches!(atom, Atom::Root(..) | Atom::Constant(Of::Root(_)));
+    // Of fewer some have been written by others, as √(x²) is x.
+    Ok(ring.atoms.iter().filter(is_root).count() == roots
+        && absence::has_independent_roots(&case.model, &ring, effort.options.seed))
 }
 
 /// Lists the square roots of functions of the parameters in a field, with the number under a root of a

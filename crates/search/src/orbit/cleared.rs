@@ -1,0 +1,318 @@
+//! Darboux polynomials of fields that are fractions: those of the field times its denominator.
+//!
+//! With a polynomial D for which Dv is a polynomial field, f = 0 is invariant under v if and only if f
+//! divides Dv(f), where f has no factor in common with D: then v(f) = (K/D) f with a polynomial K.
+
+use liouville::case::Case;
+use liouville::formula::{Formula, Type};
+use liouville::graph::{Graph, Step};
+use liouville::mechanics::System;
+use liouville::number::rational::Rational;
+use liouville::number::{BinaryOperation, UnaryFunction};
+
+use super::super::terms::recorded;
+use super::super::{Effort, Excluded, SearchError, SearchReport};
+use super::adjoin::{RingPolynomial, polynomial_text};
+use super::claims::{self, OrbitStatement};
+use super::darboux::DarbouxSearch;
+use super::exponents::ExponentSystem;
+use super::factor::RatedPolynomial;
+use super::known::IndependentIntegrals;
+use super::part::{DARBOUX, DARBOUX_THEOREM};
+use super::setting::OrbitSetting;
+use super::{blocks, degree_of_field, fractions, monomials, no_others};
+
+/// Largest degree of the denominator.
+const MOST_DEGREE: u32 = 12;
+/// Largest number of coefficients of a cofactor.
+const MOST_COFACTOR: usize = 300;
+
+/// A field times its denominator.
+struct ClearedField {
+    case: Case,
+    /// Denominator D.
+    denominator: Formula,
+    /// Factors of D that vary with the state, as they are written in the field, with their degrees.
+    factors: Vec<(Formula, u32)>,
+}
+
+/// Searches a field of fractions for Darboux polynomials, and for what follows from them.
+pub fn search(
+    setting: &OrbitSetting<'_>,
+    most_steps: f64,
+    known: &mut IndependentIntegrals,
+    report: &mut SearchReport,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(), SearchError> {
+    let (case, effort) = (setting.case, setting.effort);
+    let Some(cleared) = ClearedField::of(case)? else { return Ok(()) };
+    let Ok(polynomial) = OrbitSetting::of(&cleared.case, effort)? else { return Ok(()) };
+    let Some(degree) = degree_of_field(&polynomial)? else { return Ok(()) };
+    if monomials::count(setting.dimension(), degree.saturating_sub(1) as u32) > MOST_COFACTOR {
+        return Ok(());
+    }
+    let (mut factors, mut pairs) = (Vec::new(), Vec::new());
+    let mut own = SearchReport::default();
+    let mut highest = 0;
+    for variables in blocks::closed(&cleared.case)? {
+        let search = DarbouxSearch { setting: &polynomial, variables: &variables, degree };
+        highest = 0;
+        while highest < DARBOUX
+            && monomials::steps(variables.len(), highest + 1, degree) <= most_steps
+        {
+            highest += 1;
+            progress(&format!("Darboux polynomials of degree {highest}"));
+            search.of_degree(highest, &mut factors, &mut pairs, &mut own)?;
+        }
+    }
+    cleared.tell(setting, &own, report)?;
+    let mut rated = Vec::new();
+    let curves = factors.iter().map(|own| (&own.formula, own.degree));
+    for (formula, degree) in
+        curves.chain(cleared.factors.iter().map(|(own, degree)| (own, *degree)))
+    {
+        if rated.iter().all(|own: &RatedPolynomial| own.formula.text() != formula.text()) {
+            rated.extend(RatedPolynomial::of(setting, formula, degree)?);
+        }
+    }
+    let all: Vec<usize> = (0..setting.dimension()).collect();
+    ExponentSystem::of(setting, &all, &rated, &[])?.search(known, report)?;
+    let curves: Vec<Formula> = factors.into_iter().map(|own| own.formula).collect();
+    cleared.conclude(&curves, (1..=highest).rev(), (effort, most_steps), setting, report)
+}
+
+impl ClearedField {
+    /// Multiplies a field by its denominator; `None` if it has none, or is not rational.
+    fn of(case: &Case) -> Result<Option<Self>, SearchError> {
+        let model = &case.model;
+        let (graph, rates) = recorded(case, |jet| jet.phase.field().to_vec())?;
+        if graph.inputs() > model.free_components() + model.dimension() {
+            return Ok(None);
+        }
+        let places: Vec<usize> = rates.iter().map(|rate| graph.place(*rate)).collect();
+        let Some(rates) = fractions_of(&graph, &places) else { return Ok(None) };
+        let mut below: Below = Vec::new();
+        rates.iter().for_each(|own| below = joined(&below, &own.below));
+        let total: u32 = below.iter().map(|(base, power)| power * degree(base)).sum();
+        if total > MOST_DEGREE {
+            return Ok(None);
+        }
+        let parameters = model
+            .free_parameters()
+            .flat_map(|own| (0..own.kind.size()).map(|place| own.kind.component(&own.name, place)));
+        let state = (0..model.dimension()).map(|k| model.component_name(k));
+        let names: Vec<String> = parameters.chain(state).collect();
+        let formula = |own: &RingPolynomial| case.formula(&polynomial_text(own, &names)).ok();
+        let cleared: Option<Vec<Formula>> =
+            rates.iter().map(|own| formula(&own.over(&below)?)).collect();
+        let denominator = product(&below).and_then(|own| formula(&own));
+        let first = model.free_components();
+        let varies =
+            |(base, _): &&(RingPolynomial, u32)| base.variables().iter().any(|k| *k >= first);
+        let factors: Option<Vec<(Formula, u32)>> = below
+            .iter()
+            .filter(varies)
+            .map(|(base, _)| Some((formula(base)?, degree(base))))
+            .collect();
+        let (Some(cleared), Some(denominator), Some(factors)) = (cleared, denominator, factors)
+        else {
+            return Ok(None);
+        };
+        if factors.is_empty() {
+            return Ok(None);
+        }
+        let mut rest = cleared.iter().cloned();
+        let mut field = Vec::new();
+        for variable in &model.state {
+            let parts: Vec<Formula> = rest.by_ref().take(variable.len()).collect();
+            field.push(match (variable.kind, &parts[..]) {
+                (Type::Scalar, [only]) => only.clone(),
+                (kind, parts) => kind.filled(parts)?,
+            });
+        }
+        let mut case = case.clone();
+        case.claims.clear();
+        case.absences.clear();
+        case.motions.clear();
+        case.model.system = System::Field(field);
+        Ok(Some(Self { case, denominator, factors }))
+    }
+
+    /// Judges the Darboux polynomials as claims about the field itself.
+    fn tell(
+        &self,
+        setting: &OrbitSetting<'_>,
+        own: &SearchReport,
+        report: &mut SearchReport,
+    ) -> Result<(), SearchError> {
+        for found in &own.found {
+            let cofactor = found.with.iter().find(|(what, _)| *what == "cofactor");
+            let (Some(function), Some((_, cofactor))) = (&found.function, cofactor) else {
+                continue;
+            };
+            let Ok(cofactor) = setting.case.formula(cofactor) else { continue };
+            let cofactor = (&cofactor / &self.denominator)?;
+            let rate = (&cofactor * function)?;
+            let statement = OrbitStatement::Rate { function: function.clone(), rate };
+            let with = vec![("cofactor", &cofactor)];
+            claims::other(setting, "darboux-polynomial", function, &statement, with, report)?;
+        }
+        Ok(())
+    }
+
+    /// States that these are all, up to the highest degree for which this is shown.
+    fn conclude(
+        &self,
+        known: &[Formula],
+        degrees: impl Iterator<Item = u32>,
+        (effort, most_steps): (&Effort, f64),
+        setting: &OrbitSetting<'_>,
+        report: &mut SearchReport,
+    ) -> Result<(), SearchError> {
+        let Ok(shown) = no_others::shown(&self.case, effort, known, degrees, most_steps)? else {
+            return Ok(());
+        };
+        let names: Vec<String> = setting.terms.iter().map(ToString::to_string).collect();
+        let statement = no_others::statement(&names.join(", "), shown.degree, known);
+        let statement = format!("for the field times {}, {statement}", self.denominator);
+        report.excluded.retain(|own| !own.ansatz.starts_with(DARBOUX_THEOREM));
+        report.excluded.push(Excluded {
+            ansatz: format!("{DARBOUX_THEOREM} {}", shown.degree),
+            dimension: known.len(),
+            known: known.len(),
+            error_log2: Some(shown.error_log2),
+            theorem: fractions::sentence(setting.case, &statement),
+        });
+        Ok(())
+    }
+}
+
+/// A denominator by its factors and their powers.
+type Below = Vec<(RingPolynomial, u32)>;
+
+/// A fraction of polynomials.
+#[derive(Clone)]
+struct Fraction {
+    above: RingPolynomial,
+    below: Below,
+}
+
+impl Fraction {
+    fn of(above: RingPolynomial) -> Self {
+        Self { above, below: Vec::new() }
+    }
+
+    /// The numerator over a multiple of the denominator.
+    fn over(&self, below: &Below) -> Option<RingPolynomial> {
+        let mut above = self.above.clone();
+        for (base, power) in below {
+            let own = self.below.iter().find(|(own, _)| own == base).map_or(0, |(_, own)| *own);
+            above = above.times(&base.raised(power.checked_sub(own)?)?)?;
+        }
+        Some(above)
+    }
+
+    fn plus(&self, other: &Self, sign: i64) -> Option<Self> {
+        let below = joined(&self.below, &other.below);
+        let above = self.over(&below)?.plus(&other.over(&below)?, &Rational::from(sign))?;
+        Some(Self { above, below })
+    }
+
+    fn times(&self, other: &Self) -> Option<Self> {
+        let mut below = self.below.clone();
+        other.below.iter().for_each(|(base, power)| add(&mut below, base, *power));
+        Some(Self { above: self.above.times(&other.above)?, below })
+    }
+
+    fn raised(&self, power: u32) -> Option<Self> {
+        (0..power).try_fold(Self::of(number(1)), |made, _| made.times(self))
+    }
+}
+
+fn number(value: i64) -> RingPolynomial {
+    RingPolynomial::constant(Rational::from(value))
+}
+
+fn add(below: &mut Below, base: &RingPolynomial, power: u32) {
+    match below.iter_mut().find(|(own, _)| own == base) {
+        Some((_, own)) => *own += power,
+        None => below.push((base.clone(), power)),
+    }
+}
+
+/// Least common multiple of two denominators.
+fn joined(a: &Below, b: &Below) -> Below {
+    let mut all = a.clone();
+    for (base, power) in b {
+        match all.iter_mut().find(|(own, _)| own == base) {
+            Some((_, own)) => *own = (*own).max(*power),
+            None => all.push((base.clone(), *power)),
+        }
+    }
+    all
+}
+
+fn product(below: &Below) -> Option<RingPolynomial> {
+    below.iter().try_fold(number(1), |made, (base, power)| made.times(&base.raised(*power)?))
+}
+
+fn degree(own: &RingPolynomial) -> u32 {
+    own.terms().map(|(a, _)| a.iter().map(|(_, power)| power).sum()).max().unwrap_or(0)
+}
+
+/// Reads steps of a recording as fractions; `None` if one is none.
+fn fractions_of(graph: &Graph, places: &[usize]) -> Option<Vec<Fraction>> {
+    let reached = graph.reached_from(places);
+    let mut values: Vec<Option<Fraction>> = vec![None; graph.len()];
+    for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
+        let of = |place: usize| values[place].as_ref();
+        let made = match step {
+            Step::Constant(value) => Fraction::of(RingPolynomial::constant(value.clone())),
+            Step::Input(input) => Fraction::of(RingPolynomial::variable(input, 1)),
+            Step::Unary(UnaryFunction::Neg, a) => of(a)?.times(&Fraction::of(number(-1)))?,
+            Step::Unary(UnaryFunction::Recip, a) => inverse(graph, &values, a)?,
+            Step::Unary(..) => return None,
+            Step::Binary(operation, a, b) => match operation {
+                BinaryOperation::Add => of(a)?.plus(of(b)?, 1)?,
+                BinaryOperation::Sub => of(a)?.plus(of(b)?, -1)?,
+                BinaryOperation::Mul => of(a)?.times(of(b)?)?,
+                BinaryOperation::Pow => return None,
+            },
+            Step::Power(a, exponent) => {
+                let power = exponent.to_integer()?;
+                let base = if power < 0 { inverse(graph, &values, a)? } else { of(a)?.clone() };
+                base.raised(u32::try_from(power.unsigned_abs()).ok()?)?
+            }
+        };
+        values[place] = Some(made);
+    }
+    places.iter().map(|place| values[*place].clone()).collect()
+}
+
+/// The inverse of a step, factor by factor: a product that is written out has lost its factors.
+fn inverse(graph: &Graph, values: &[Option<Fraction>], place: usize) -> Option<Fraction> {
+    match graph.step(place) {
+        Step::Unary(UnaryFunction::Neg, a) => {
+            inverse(graph, values, a)?.times(&Fraction::of(number(-1)))
+        }
+        Step::Binary(BinaryOperation::Mul, a, b) => {
+            inverse(graph, values, a)?.times(&inverse(graph, values, b)?)
+        }
+        Step::Power(a, exponent) if !exponent.is_negative() => {
+            inverse(graph, values, a)?.raised(u32::try_from(exponent.to_integer()?).ok()?)
+        }
+        _ => {
+            let own = values[place].as_ref()?;
+            let (value, monomial, rest) = own.above.split()?;
+            let above = product(&own.below)?.times_number(&value.recip()?);
+            let mut below: Below = monomial
+                .into_iter()
+                .map(|(variable, power)| (RingPolynomial::variable(variable, 1), power))
+                .collect();
+            if rest.value().is_none() {
+                below.push((rest, 1));
+            }
+            Some(Fraction { above, below })
+        }
+    }
+}
