@@ -141,8 +141,7 @@ impl Statement for Relation {
         };
         let zeros = Condition {
             need: Need::Zeros { function },
-            otherwise: "F = 0 contains no state of the declared ranges"
-                .to_string(),
+            otherwise: "F = 0 contains no state of the declared ranges".to_string(),
             is_essential: false,
         };
         let identical = "F is 0 identically: this says nothing";

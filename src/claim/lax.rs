@@ -40,10 +40,14 @@ impl Lax {
         let axes = gradients.first().map_or(0, Vec::len);
         let powers = if n <= FEW_ROWS { n } else { FEW_POWERS };
         let mut slopes = Vec::new();
-        let mut power: Vec<Expr> = (0..n * n).map(|place| Expr::from(f64::from(u8::from(place / n == place % n)))).collect();
+        let mut power: Vec<Expr> = (0..n * n)
+            .map(|place| Expr::from(f64::from(u8::from(place / n == place % n))))
+            .collect();
         for _ in 0..powers {
             slopes.extend((0..axes).map(|axis| -> Expr {
-                (0..n * n).map(|place| power[place] * gradients[place % n * n + place / n][axis]).sum()
+                (0..n * n)
+                    .map(|place| power[place] * gradients[place % n * n + place / n][axis])
+                    .sum()
             }));
             power = product(&power, &matrix, n);
         }

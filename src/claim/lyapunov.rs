@@ -60,7 +60,9 @@ impl Statement for Lyapunov {
         let constant = Condition::nonzero(slopes, "F is a constant: this says nothing");
         match jet.phase.model().system.is_map() {
             true => vec![constant],
-            false => vec![constant, Condition::continuous(vec![jet.phase.scalar(&self.function)], "F")],
+            false => {
+                vec![constant, Condition::continuous(vec![jet.phase.scalar(&self.function)], "F")]
+            }
         }
     }
 

@@ -129,7 +129,10 @@ impl Judging<'_> {
         if are_zero(self.graph, values) {
             return Ok(true);
         }
-        if values.iter().any(|value| self.graph.constant_value(*value).is_some_and(|v| !v.is_zero())) {
+        if values
+            .iter()
+            .any(|value| self.graph.constant_value(*value).is_some_and(|v| !v.is_zero()))
+        {
             return Ok(false);
         }
         let answers = PrimeFieldStates::new(self, sampler).test(&[Query::of(values.to_vec())])?;

@@ -31,11 +31,7 @@ impl Judging<'_> {
     /// Finds a state, as text, near which one of these values jumps.
     ///
     /// `None` if no jump was met on the lines that were tried.
-    pub(super) fn jump(
-        &self,
-        sampler: &Sampler,
-        values: &[Expr],
-    ) -> Result<Option<String>, Fault> {
+    pub(super) fn jump(&self, sampler: &Sampler, values: &[Expr]) -> Result<Option<String>, Fault> {
         if !may_jump(self.graph, values) {
             return Ok(None);
         }
@@ -84,8 +80,8 @@ impl Line {
     fn between(sampler: &Sampler, ends: [Vec<(f64, bool)>; 2], inputs: usize) -> Self {
         let [mut from, mut to] = ends.map(|end| end.iter().map(|draw| draw.0).collect::<Vec<_>>());
         for (index, recipe) in sampler.recipes().iter().enumerate() {
-            let is_shared = index < sampler.parameter_draws()
-                || matches!(recipe, Draw::Sign | Draw::OneOf(_));
+            let is_shared =
+                index < sampler.parameter_draws() || matches!(recipe, Draw::Sign | Draw::OneOf(_));
             if is_shared {
                 to[index] = from[index];
             }
@@ -111,7 +107,8 @@ impl Line {
     }
 
     fn jump_of(&self, tape: &Tape, output: usize, whole: &[f64; POINTS]) -> Option<f64> {
-        let size = whole.iter().filter(|value| value.is_finite()).fold(0.0f64, |a, b| a.max(b.abs()));
+        let size =
+            whole.iter().filter(|value| value.is_finite()).fold(0.0f64, |a, b| a.max(b.abs()));
         let (mut places, mut values) = (divided(0.0, 1.0), *whole);
         let mut early = [0.0; 2];
         for division in 0..LATE {

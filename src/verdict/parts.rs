@@ -56,15 +56,35 @@ impl Judging<'_> {
     }
 }
 
-/// Whether values are built without moduli, roots, powers of variable exponent, and signs: they are then
-/// single-valued where they exist, or logarithms of such.
+/// Whether values are restrictions of one analytic function on a connected complex domain: they are built
+/// by arithmetic, exp, sin, cos, and by roots, logarithms and powers of affine functions.
 fn is_one_function(graph: &Graph, values: &[Expr], inputs: &[Draw]) -> bool {
     let reached = graph.reached(values.iter().copied());
-    graph.steps().zip(reached).filter(|(_, reached)| *reached).all(|(step, _)| match step {
-        Step::Input(input) => !matches!(inputs.get(input), Some(Draw::Sign)),
-        Step::Unary(UnaryFunction::Abs | UnaryFunction::Sqrt, _) => false,
-        Step::Power(_, exponent) => exponent.to_integer().is_some(),
-        Step::Binary(BinaryOperation::Pow, ..) => false,
-        _ => true,
-    })
+    let mut is_affine = vec![false; reached.len()];
+    for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
+        let is_constant = |place: usize| matches!(graph.step(place), Step::Constant(_));
+        is_affine[place] = match step {
+            Step::Constant(_) | Step::Input(_) => true,
+            Step::Unary(UnaryFunction::Neg, a) => is_affine[a],
+            Step::Binary(BinaryOperation::Add | BinaryOperation::Sub, a, b) => {
+                is_affine[a] && is_affine[b]
+            }
+            Step::Binary(BinaryOperation::Mul, a, b) => {
+                (is_constant(a) && is_affine[b]) || (is_constant(b) && is_affine[a])
+            }
+            _ => false,
+        };
+        let is_single_valued = match step {
+            Step::Input(input) => !matches!(inputs.get(input), Some(Draw::Sign)),
+            Step::Unary(UnaryFunction::Abs | UnaryFunction::Atan, _) => false,
+            Step::Unary(UnaryFunction::Sqrt | UnaryFunction::Ln, a) => is_affine[a],
+            Step::Power(a, exponent) => exponent.to_integer().is_some() || is_affine[a],
+            Step::Binary(BinaryOperation::Pow, a, _) => is_affine[a],
+            _ => true,
+        };
+        if !is_single_valued {
+            return false;
+        }
+    }
+    true
 }

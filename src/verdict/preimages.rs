@@ -64,9 +64,10 @@ impl Judging<'_> {
             for other in (1..=STARTS).map(|step| k - k % set + (k + step) % set) {
                 let start: Vec<f64> = lane(other)[free..].iter().map(|x| x.mid[0]).collect();
                 let Some(there) = newton.enclose(&target, &start) else { continue };
-                let is_other = here[free..].iter().zip(&there).any(|(a, b)| {
-                    (a.mid[0] - b.mid[0]).abs() > 2.0 * (a.rad[0] + b.rad[0])
-                });
+                let is_other = here[free..]
+                    .iter()
+                    .zip(&there)
+                    .any(|(a, b)| (a.mid[0] - b.mid[0]).abs() > 2.0 * (a.rad[0] + b.rad[0]));
                 let is_inside = there.iter().zip(&self.case.free_draws).all(|(x, draw)| {
                     let (low, high) = inside(draw).unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
                     x.mid[0] - x.rad[0] >= low && x.mid[0] + x.rad[0] <= high
