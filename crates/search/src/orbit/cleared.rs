@@ -27,6 +27,9 @@ const MOST_DEGREE: u32 = 12;
 /// Largest number of coefficients of a cofactor.
 const MOST_COFACTOR: usize = 300;
 
+/// Degrees of fields with whose cofactors those of fractions are compared.
+const SHORT: [usize; 2] = [1, 2];
+
 /// A field times its denominator.
 struct ClearedField {
     case: Case,
@@ -151,7 +154,10 @@ impl ClearedField {
                 continue;
             };
             let Ok(cofactor) = setting.case.formula(cofactor) else { continue };
-            let cofactor = (&cofactor / &self.denominator)?;
+            let cofactor = match polynomial_cofactor(setting, function)? {
+                Some(cofactor) => cofactor,
+                None => (&cofactor / &self.denominator)?,
+            };
             let rate = (&cofactor * function)?;
             let statement = OrbitStatement::Rate { function: function.clone(), rate };
             let with = vec![("cofactor", &cofactor)];
@@ -185,6 +191,21 @@ impl ClearedField {
         });
         Ok(())
     }
+}
+
+/// The cofactor along the field itself, where it is a polynomial of low degree.
+fn polynomial_cofactor(
+    setting: &OrbitSetting<'_>,
+    function: &Formula,
+) -> Result<Option<Formula>, SearchError> {
+    let all: Vec<usize> = (0..setting.dimension()).collect();
+    let Some(rated) = RatedPolynomial::of(setting, function, 1)? else { return Ok(None) };
+    for degree in SHORT {
+        if let Some(cofactor) = rated.cofactor(setting, &all, degree)? {
+            return Ok(Some(cofactor));
+        }
+    }
+    Ok(None)
 }
 
 /// A denominator by its factors and their powers.

@@ -101,3 +101,27 @@ fn planes_on_which_the_motion_has_integrals_are_found() {
         }
     }
 }
+
+#[test]
+fn fields_of_fractions_have_those_of_the_field_times_the_denominator() {
+    let chemostat = field("d = '0.1..0.5'", &["x*(y/(1 + y) - d)", "d*(1 - y) - x*y/(1 + y)"]);
+    let report = searched(&chemostat, &Effort::default());
+    assert_eq!(cofactor(&report, "x"), Some("(−d + (1 − d)*y)/(1 + y)"), "{:?}", report.found);
+    // The total x + y − 1 decays.
+    let total = report.found.iter().find(|own| own.with.contains(&("cofactor", "−d".to_string())));
+    assert!(total.is_some_and(|own| own.kind == "darboux-polynomial"), "{:?}", report.found);
+    let says = |own: &String| own.contains("for the field times 1 + y, every Darboux polynomial");
+    let theorems: Vec<&String> = report.excluded.iter().map(|own| &own.theorem).collect();
+    assert!(theorems.iter().any(|own| says(own)), "{theorems:?}");
+}
+
+#[test]
+fn a_polynomial_on_which_the_motion_has_integrals_is_found() {
+    // Chazy's equation: the discriminant of Eisenstein's series.
+    let report = searched(&field("", &["y", "z", "2*x*z - 3*y²"]), &Effort::default());
+    let found: Vec<_> =
+        report.found.iter().filter(|own| own.kind == "darboux-polynomial").collect();
+    let [own] = found[..] else { panic!("one: {:?}", report.found) };
+    assert!(own.with.contains(&("cofactor", "2*x".to_string())), "{own:?}");
+    assert!(own.formula.contains("x³*z"), "{own:?}");
+}
