@@ -98,8 +98,11 @@ impl BracketFamily {
     }
 }
 
-/// Functions w xᵃ: the index of w, and the exponents.
-struct Functions(Vec<(usize, Vec<u32>)>);
+/// The index of w, and the exponents, of some functions w xᵃ.
+type Places = Vec<(usize, Vec<u32>)>;
+
+/// Functions w xᵃ.
+struct Functions(Places);
 
 impl Functions {
     fn up_to(degree: u32, weights: usize, dimension: usize) -> Self {
@@ -117,7 +120,7 @@ impl Functions {
         effort: &Effort,
         weights: &[Weight],
         names: &[Formula],
-    ) -> Result<(Vec<(usize, Vec<u32>)>, Option<Vec<Formula>>), SearchError> {
+    ) -> Result<(Places, Option<Vec<Formula>>), SearchError> {
         if case.model.level.is_empty() {
             return Ok((self.0, Some(Vec::new())));
         }

@@ -114,14 +114,3 @@ fn fields_of_fractions_have_those_of_the_field_times_the_denominator() {
     let theorems: Vec<&String> = report.excluded.iter().map(|own| &own.theorem).collect();
     assert!(theorems.iter().any(|own| says(own)), "{theorems:?}");
 }
-
-#[test]
-fn a_polynomial_on_which_the_motion_has_integrals_is_found() {
-    // Chazy's equation: the discriminant of Eisenstein's series.
-    let report = searched(&field("", &["y", "z", "2*x*z - 3*y²"]), &Effort::default());
-    let found: Vec<_> =
-        report.found.iter().filter(|own| own.kind == "darboux-polynomial").collect();
-    let [own] = found[..] else { panic!("one: {:?}", report.found) };
-    assert!(own.with.contains(&("cofactor", "2*x".to_string())), "{own:?}");
-    assert!(own.formula.contains("x³*z"), "{own:?}");
-}
