@@ -18,6 +18,7 @@ use super::darboux::DarbouxSearch;
 use super::exponents::ExponentSystem;
 use super::factor::RatedPolynomial;
 use super::known::IndependentIntegrals;
+use super::line::RandomLine;
 use super::part::{DARBOUX, DARBOUX_THEOREM};
 use super::setting::OrbitSetting;
 use super::{blocks, degree_of_field, fractions, monomials, no_others};
@@ -148,7 +149,22 @@ impl ClearedField {
         own: &SearchReport,
         report: &mut SearchReport,
     ) -> Result<(), SearchError> {
+        let Some(at) = setting.split(0, 0) else { return Ok(()) };
+        let Some(line) = RandomLine::draw(setting, &at, 0) else { return Ok(()) };
+        let mut poles = Vec::new();
+        for (formula, degree) in &self.factors {
+            poles.extend(RatedPolynomial::of(setting, formula, *degree)?);
+        }
         for found in &own.found {
+            // Where D is 0 the field has a pole, and nothing is invariant.
+            let rated = match &found.function {
+                Some(function) => RatedPolynomial::of(setting, function, DARBOUX)?,
+                None => None,
+            };
+            match rated {
+                Some(rated) if line.has_more(&rated, &poles)? => {}
+                _ => continue,
+            }
             let cofactor = found.with.iter().find(|(what, _)| *what == "cofactor");
             let (Some(function), Some((_, cofactor))) = (&found.function, cofactor) else {
                 continue;
