@@ -4,7 +4,7 @@ use liouville::graph::Fault;
 use liouville::number::UnaryFunction;
 use serde::{Deserialize, Serialize};
 
-use super::stepper::{ENDLESS, MOST_STEPS};
+use super::pace::{ENDLESS, MOST_STEPS};
 
 /// Reason why a motion cannot be computed.
 ///
@@ -28,6 +28,17 @@ pub enum FlowError {
         /// Last state.
         #[serde(with = "super::record")]
         state: Vec<f64>,
+    },
+    /// A formula of the system has no value where the motion starts, or where it comes to.
+    #[error("{}", without_value(formula, *time, place))]
+    NoValue {
+        /// Formula as written.
+        formula: String,
+        /// Time from which on it has no value.
+        #[serde(with = "super::record")]
+        time: f64,
+        /// State there, in words.
+        place: String,
     },
     /// The steps have shrunk, and become so many that the end is out of reach.
     #[error("{}", shrinking(*time, *step, state))]
@@ -237,6 +248,13 @@ pub enum FlowError {
     Recording(#[from] Fault),
 }
 
+fn without_value(formula: &str, time: f64, place: &str) -> String {
+    match time == 0.0 {
+        true => format!("`{formula}` has no value at the start, {place}"),
+        false => format!("the motion ends at t = {time}: `{formula}` has no value at {place}"),
+    }
+}
+
 fn shrinking(time: f64, step: f64, state: &[f64]) -> String {
     let state: Vec<String> = state.iter().map(|x| format!("{x:.3e}")).collect();
     format!(
@@ -284,6 +302,14 @@ impl FlowError {
             FlowError::Antiderivative => "write the function itself instead of ∫(f, x)",
             FlowError::Singular { time: 0.0, .. } => {
                 "choose another start; if all are singular, the parameters are"
+            }
+            FlowError::NoValue { time: 0.0, .. } => {
+                "choose another start, or other parameters; a formula that goes on there is written \
+                 without the operation, as x for x²/x"
+            }
+            FlowError::NoValue { .. } => {
+                "choose another start, or a shorter time; a formula that goes on there is written \
+                 without the operation, as x for x²/x"
             }
             FlowError::Singular { .. } | FlowError::Shrinking { .. } => {
                 "choose another start, or a shorter time"
@@ -340,7 +366,10 @@ impl FlowError {
             }
             FlowError::TooLong => "write the field with fewer terms, by [let]",
             FlowError::Stopped => "follow it again, for a shorter time",
-            FlowError::NoStart => "give a state by --state, or another --seed or --index",
+            FlowError::NoStart => {
+                "give a start nearer to the level, where the slopes of its equations do not vanish, or \
+                 another --seed or --index"
+            }
             FlowError::Recording(_) => "use operations that hold for every number",
         }
     }

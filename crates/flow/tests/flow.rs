@@ -4,6 +4,8 @@
 mod chaos;
 #[path = "flow/lanes.rs"]
 mod lanes;
+#[path = "flow/presence.rs"]
+mod presence;
 #[path = "flow/roots.rs"]
 mod roots;
 #[path = "flow/sections.rs"]
