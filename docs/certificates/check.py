@@ -29,6 +29,79 @@ def require(condition, reason):
         raise Refused(reason)
 
 
+# --- the form of a certificate ----------------------------------------------------------------------
+
+def load(file):
+    """Reads JSON with whole numbers alone, in which no key is there twice."""
+    def table(pairs):
+        keys = [key for key, _ in pairs]
+        twice = next((key for key in keys if keys.count(key) > 1), None)
+        require(twice is None, f"the key `{twice}` is there twice")
+        return dict(pairs)
+
+    def number(text):
+        raise Refused(f"the number {text[:30]} is not whole")
+
+    return json.load(file, object_pairs_hook=table, parse_float=number, parse_constant=number)
+
+
+def is_number(text):
+    return isinstance(text, str) and re.fullmatch(r"-?[0-9]+(/0*[1-9][0-9]*)?", text)
+
+
+def is_index(value):
+    return type(value) is int and value >= 0
+
+
+TEXT = (lambda value: isinstance(value, str), "is not a text")
+TEXT_OR_NONE = (lambda value: value is None or isinstance(value, str), "is not a text")
+INDEX = (is_index, "is not a number from 0")
+PLACES = [INDEX]
+STEP = (lambda value: isinstance(value, list) and value, "is not a step")
+FIXED = (lambda value: isinstance(value, list) and len(value) == 2 and is_index(value[0])
+         and isinstance(value[1], str) and re.fullmatch(r"-?[0-9]+([./][0-9]+)?", value[1]),
+         "is not a draw with its value")
+CASE = {"path": TEXT, "sha256": TEXT, "text": TEXT}
+PROGRAM = {"inputs": INDEX, "fixed": [FIXED], "steps": [STEP], "parameters": {None: PLACES},
+           "state": {None: PLACES},
+           "zero": {"residual": PLACES, "level": PLACES, "level rates": PLACES,
+                    "quadratures": PLACES}}
+OPTIONAL = {"level", "level rates", "quadratures", "least"}
+CERTIFICATE = {
+    "format": TEXT,
+    "statement": {"case": CASE, "settings": [TEXT], "programs": [PROGRAM],
+                  "claim": {"name": TEXT, "kind": TEXT, "formula": TEXT_OR_NONE, "where": TEXT,
+                            "expect": TEXT, "verdict": TEXT}},
+    "evidence": {"digest": TEXT, "primes": [INDEX], "points": INDEX, "degrees": [INDEX],
+                 "heights": [INDEX], "error_log2": (lambda n: type(n) is int, "is not whole")}}
+
+
+def shaped(value, form, place=""):
+    """Refuses what has not exactly this form: a table of keys (`None`: any), a list, or a leaf."""
+    at = place or "the certificate"
+    if isinstance(form, dict):
+        require(isinstance(value, dict), f"{at} is not a table")
+        for key in value:
+            require(key in form or None in form, f"{at} has the unknown key `{key}`")
+        for key in form:
+            is_there = key is None or key in value or key in OPTIONAL
+            require(is_there, f"{at} has no key `{key}`")
+        for key, one in value.items():
+            shaped(one, form.get(key, form.get(None)), f"{place}.{key}".lstrip("."))
+    elif isinstance(form, list):
+        require(isinstance(value, list), f"{at} is not a list")
+        for index, one in enumerate(value):
+            shaped(one, form[0], f"{place}[{index}]")
+    else:
+        require(form[0](value), f"{at} {form[1]}")
+
+
+def same(stated, found, place):
+    """Requires that what is stated is what was found, key by key."""
+    for key, value in found.items():
+        require(stated[key] == value, f"{place}.{key} is not what the statement leads to")
+
+
 # --- what the digest decides ----------------------------------------------------------------------
 
 def digest_of(statement):
@@ -72,26 +145,33 @@ def primes_of(digest):
 
 # --- programs ---------------------------------------------------------------------------------------
 
-def read_program(program):
+def read_program(program, at="program"):
     """Steps with exact numbers; every argument is an earlier step."""
     steps, inputs = [], program["inputs"]
-    require(type(inputs) is int and 0 <= inputs <= 10**6, "the number of inputs is none")
+    require(inputs <= 10**6, f"{at}.inputs is too large")
+    for draw, _ in program["fixed"]:
+        require(draw < inputs, f"{at}.fixed names an input that does not exist")
     for place, (name, *rest) in enumerate(program["steps"]):
-        require(len(rest) == ARITY.get(name), f"step {place} is none")
+        here = f"{at}.steps[{place}]"
+        require(isinstance(name, str) and len(rest) == ARITY.get(name), f"{here} is not a step")
         if name == "constant":
-            require(re.fullmatch(r"-?\d+(/\d+)?", rest[0], re.ASCII), "a constant is no number")
+            require(is_number(rest[0]), f"{here} has a constant that is not a number")
             rest = [Fraction(rest[0])]
         elif name == "input":
-            require(type(rest[0]) is int and 0 <= rest[0] < inputs, "an input does not exist")
+            require(is_index(rest[0]) and rest[0] < inputs, f"{here}: the input does not exist")
         else:
             arguments = rest[:1] if name == "power" else rest
-            require(all(type(a) is int and 0 <= a < place for a in arguments),
-                    f"step {place} uses what comes later")
-            require(name != "power" or type(rest[1]) is int, "an exponent is no integer")
+            require(all(is_index(a) and a < place for a in arguments),
+                    f"{here} uses a step that does not come before it")
+            require(name != "power" or type(rest[1]) is int and abs(rest[1]) <= 2**31,
+                    f"{here} has an exponent that is not whole, or too large")
         steps.append((name, *rest))
+    for part in ("parameters", "state", "zero"):
+        for key, places in program[part].items():
+            require(all(place < len(steps) for place in places),
+                    f"{at}.{part}.{key} names a step that does not exist")
+    require(program["zero"]["residual"], f"{at}.zero.residual is empty")
     zero = [place for places in program["zero"].values() for place in places]
-    require(program["zero"].get("residual"), "there is no residual")
-    require(all(type(a) is int and 0 <= a < len(steps) for a in zero), "a value does not exist")
     return steps, zero
 
 
@@ -142,7 +222,7 @@ def evaluate(steps, point, p, signs):
     return v
 
 
-def check_roots(steps, inputs, primes, numbers):
+def check_roots(steps, inputs, primes, numbers, at):
     """Requires that the radicands contain no roots, and that the roots are independent modulo p.
 
     At a point each radicand is a square or none. If the vectors of these bits over some points, and
@@ -150,10 +230,10 @@ def check_roots(steps, inputs, primes, numbers):
     product of radicands is a square, and the roots are independent (Kummer).
     """
     has_root = []
-    for name, a, *b in steps:
+    for place, (name, a, *b) in enumerate(steps):
         used = [] if name in ("constant", "input") else [a] if name == "power" else [a, *b]
-        require(name != "root" or not has_root[a], "a root contains another")
-        has_root.append(name == "root" or any(has_root[place] for place in used))
+        require(name != "root" or not has_root[a], f"{at}.steps[{place}]: a root contains another")
+        has_root.append(name == "root" or any(has_root[step] for step in used))
     radicands = [step[1] for step in steps if step[0] == "root"]
     if not radicands:
         return
@@ -175,7 +255,7 @@ def check_roots(steps, inputs, primes, numbers):
         for row in rows + [(1 << count) - 1]:
             for other in basis:
                 row = min(row, row ^ other)
-            require(row, "the roots are not seen to be independent")
+            require(row, f"{at}: the roots are not seen to be independent")
             basis.append(row)
 
 
@@ -239,7 +319,7 @@ def error_log2(degree, height):
     return math.ceil(PRIMES * math.log2(prime + points))
 
 
-def vanishes(steps, zero, inputs, primes, numbers):
+def vanishes(steps, zero, inputs, primes, numbers, at):
     """Whether all values are 0 at POINTS points for each prime; their number."""
     accepted = 0
     for p in primes:
@@ -248,13 +328,13 @@ def vanishes(steps, zero, inputs, primes, numbers):
             point = [next(numbers) % p for _ in range(inputs)]
             values = evaluate(steps, point, p, numbers)
             if values is not None:
-                is_zero = all(values[place] == (0, 0) for place in zero)
-                require(is_zero, "a value is not 0 at a point")
+                other = next((place for place in zero if values[place] != (0, 0)), None)
+                require(other is None, f"{at}.steps[{other}] is not 0 at a point")
                 left -= 1
                 accepted += 1
             if left == 0:
                 break
-        require(left == 0, "a denominator is 0 at almost all points")
+        require(left == 0, f"{at} has no value at almost all points: a denominator is 0")
     return accepted
 
 
@@ -262,35 +342,45 @@ def evidence_of(statement):
     """What a certificate has to state: derived from its statement alone."""
     digest = digest_of(statement)
     primes, degrees, heights, errors, points = primes_of(digest), [], [], [], 0
-    require(statement["programs"], "there is no program")
+    require(statement["programs"], "statement.programs is empty")
     for number, program in enumerate(statement["programs"]):
-        steps, zero = read_program(program)
+        at = f"statement.programs[{number}]"
+        steps, zero = read_program(program, at)
+        require(statement["claim"]["where"] == "everywhere" or program["zero"].get("level"),
+                f"{at}.zero.level is missing: the claim is made on a level")
         degree, height = bounds(steps, zero)
         degrees.append(degree)
         heights.append(height)
         errors.append(error_log2(degree, height))
         characters = stream(digest, f"characters {number}")
-        check_roots(steps, program["inputs"], primes, characters)
+        check_roots(steps, program["inputs"], primes, characters, at)
         numbers = stream(digest, f"points {number}")
-        points += vanishes(steps, zero, program["inputs"], primes, numbers)
+        points += vanishes(steps, zero, program["inputs"], primes, numbers, at)
     error = max(errors) + math.ceil(math.log2(len(errors)))
     require(error <= TARGET, f"the error is bounded by 2^{error} only")
     return {"digest": digest, "primes": primes, "points": points, "degrees": degrees,
             "heights": heights, "error_log2": error}
 
 
+def check_case(statement):
+    text, claim = statement["case"]["text"], statement["claim"]
+    require(hashlib.sha256(text.encode()).hexdigest() == statement["case"]["sha256"],
+            "statement.case.text has another digest")
+    require(claim["verdict"] == "proved", "statement.claim.verdict is no proof")
+
+
 def check(certificate):
     """Raises Refused, or returns what `from_text` does."""
     try:
-        require(set(certificate) == {"format", "statement", "evidence"}, "the parts are wrong")
-        require(certificate["format"] == "liouville certificate 1", "the format is unknown")
+        require(isinstance(certificate, dict)
+                and certificate.get("format") == "liouville certificate 1", "format is unknown")
+        shaped(certificate, CERTIFICATE)
         statement, evidence = certificate["statement"], certificate["evidence"]
-        text, claim = statement["case"]["text"], statement["claim"]
-        require(hashlib.sha256(text.encode()).hexdigest() == statement["case"]["sha256"],
-                "the text of the case has another digest")
-        require(claim["verdict"] == "proved", "nothing else than a proof is certified")
-        require(evidence.get("digest") == digest_of(statement), "the statement has another digest")
-        require(evidence == evidence_of(statement), "the evidence is not that of the statement")
+        check_case(statement)
+        require(statement["claim"]["expect"] in ("holds", "fails", "open"),
+                "statement.claim.expect is unknown")
+        require(evidence["digest"] == digest_of(statement), "the statement has another digest")
+        same(evidence, evidence_of(statement), "evidence")
         return from_text(statement)
     except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError) as error:
         raise Refused(f"the certificate is malformed: {error!r}") from error
@@ -336,9 +426,44 @@ class Series:
 
 GREEK = dict(zip("alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho "
                  "sigma tau phi chi psi omega".split(), "αβγδεζηθικλμνξπρστφχψω"))
-TOKEN = re.compile(r"\s*(?:(\d+(?:\.\d+)?)|([^\W\d_²³⁴⁵⁶⁷⁸⁹]+\d*)|(.))", re.S)
+TOKEN = re.compile(r"\s*(?:([0-9]+(?:\.[0-9]+)?)|([^\W\d_²³⁴⁵⁶⁷⁸⁹]+[0-9]*)|(.))", re.S)
 SIGNS = {"−": "-", "·": "*"}
 RAISED = dict(zip("²³⁴⁵⁶⁷⁸⁹", range(2, 10)))
+
+
+def spelled(name):
+    """The name in the form in which formulas have it."""
+    letters = name.rstrip("0123456789")
+    return GREEK.get(letters, letters) + name[len(letters):]
+
+
+def named(table, place):
+    """A table of the case by its names as they are spelled, none of which is there twice."""
+    if not isinstance(table, dict):
+        raise Unread(f"{place} is no table")
+    found = {spelled(name): value for name, value in table.items()}
+    if len(found) < len(table):
+        raise Unread(f"{place} has a name twice, in two spellings")
+    return found
+
+
+def case_of(text):
+    """The case as exact text: a decimal is not rounded to a float."""
+    try:
+        import tomllib
+    except ImportError:
+        raise Unread("Python before 3.11 reads no TOML") from None
+    try:
+        return tomllib.loads(text, parse_float=str)
+    except tomllib.TOMLDecodeError as error:
+        raise Refused(f"statement.case.text is no TOML: {error}") from error
+
+
+def only(table, keys, place):
+    """Leaves a case unread that says more than this reader knows."""
+    for key in table:
+        if key not in keys:
+            raise Unread(f"{place} has the key `{key}`, which is beyond this reader")
 
 
 class Reader:
@@ -399,8 +524,7 @@ class Reader:
         if number:
             return self.number(Fraction(number))
         if name:
-            letters = name.rstrip("0123456789")
-            return self.name(GREEK.get(letters, letters) + name[len(letters):])
+            return self.name(spelled(name))
         if sign == "(":
             value = self.sum()
             if self.next_sign() == ")":
@@ -414,12 +538,18 @@ STATED = {"integral": "{}", "density": "{}", "identity": "{}={}", "rate": "({})'
           "invariant-relation": "{}=0"}
 
 
+SECOND = {"rate": "equals", "invariant-relation": "cofactor"}
+KEYS = {"title", "source", "system", "note", "parameters", "state", "field", "claim", "let",
+        "check-weights"}
+CLAIM_KEYS = {"name", "source", "where", "expect", "cell", "note"}
+
+
 def parts(kind, entry):
     """Two formulas of a claim in a case; 0 where it has one."""
     if kind == "identity":
         left, equals, right = entry[kind].partition("=")
         return left, right if equals else "0"
-    second = {"rate": "equals", "invariant-relation": "cofactor"}.get(kind)
+    second = SECOND.get(kind)
     return entry[kind], entry.get(second, "0") if second else "0"
 
 
@@ -430,30 +560,41 @@ def stated(kind, entry):
     return "".join(STATED[kind].format(*texts).split())
 
 
+def divides_by_inputs(steps, last):
+    """Whether a value contains the reciprocal of one that is not constant."""
+    varies, divides = [], []
+    for name, a, *b in steps:
+        used = [] if name in ("constant", "input") else [a, *b]
+        varies.append(name == "input" or any(varies[step] for step in used))
+        divides.append(name == "reciprocal" and varies[a] or any(divides[step] for step in used))
+    return divides[last]
+
+
 def derived(statement):
     """A program for the residual from the text of the case, for rational scalar fields everywhere."""
-    try:
-        import tomllib
-    except ImportError:
-        raise Unread("Python before 3.11 reads no TOML") from None
-    case, claim = tomllib.loads(statement["case"]["text"]), statement["claim"]
+    case, claim = case_of(statement["case"]["text"]), statement["claim"]
     if statement["settings"] or "field" not in case or case.get("system", "field") != "field":
         raise Unread("the case is no field, or is changed by --set")
-    if set(case) - {"title", "source", "system", "note", "notes", "parameters", "state", "field",
-                    "claim", "variables", "poisson", "let", "table", "level", "one-sided",
-                    "check-weights"}:
-        raise Unread("the case has tables beyond this reader")
-    if "level" in case and claim["where"] != "everywhere":
+    only(case, KEYS | {"variables", "poisson", "table", "level", "one-sided"}, "the case")
+    if claim["where"] != "everywhere":
+        require("level" in case, "statement.claim.where is on a level, and the case has none")
         raise Unread("the claim is made on a level")
     kind = claim["kind"]
     if kind not in STATED:
         raise Unread("the kind of the claim is beyond this reader")
-    named = [one for one in case["claim"] if one.get("name", claim["name"]) == claim["name"]]
-    own = [one for one in named if stated(kind, one) == "".join(claim["formula"].split())]
-    require(own or not any(kind in one for one in named), "the case has no such claim")
+    all_claims = case.get("claim", [])
+    unnamed = re.sub(r" \([0-9]+\)$", "", claim["name"]) == claim["formula"]
+    like = [one for one in all_claims if one.get("name", unnamed) in (claim["name"], True)]
+    own = [one for one in like if stated(kind, one) == "".join((claim["formula"] or "").split())]
+    require(own or not any(kind in one for one in like),
+            "statement.claim.formula is not that of the case")
     if not own:
         raise Unread("the claim is not found by its name")
-    require(own[0].get("expect", "holds") == claim["expect"], "the case expects something else")
+    only(own[0], CLAIM_KEYS | {kind, SECOND.get(kind)}, "the claim")
+    if own[0].get("where") == "level only":
+        raise Unread("the claim is made on a level only")
+    require(own[0].get("expect", "holds") == claim["expect"],
+            "statement.claim.expect is not that of the case")
     first, second = parts(kind, own[0])
     program = {}
 
@@ -461,25 +602,22 @@ def derived(statement):
         return program.setdefault(one, len(program))
 
     zero = step("constant", Fraction(0))
-    inputs, formulas, busy, rates = {}, dict(case.get("let", {})), set(), {}
+    inputs, busy, rates = {}, set(), {}
+    state, formulas = named(case["state"], "state"), named(case.get("let", {}), "let")
+    parameters = named(case.get("parameters", {}), "parameters")
+    if len({*state, *formulas, *parameters}) < len(state) + len(formulas) + len(parameters):
+        raise Unread("a name of the case has two meanings")
 
     def number(value):
         return Series(program, step("constant", value), zero)
 
-    def spelled(name):
-        letters = name.rstrip("0123456789")
-        return GREEK.get(letters, letters) + name[len(letters):]
-
-    formulas = {spelled(name): formula for name, formula in formulas.items()}
-    state = [spelled(name) for name in case["state"]]
-    for name, value in list(case["state"].items()) + list(case.get("parameters", {}).items()):
-        is_range = isinstance(value, str) and ".." in value and "(" not in value
-        if is_range:
-            inputs[spelled(name)] = len(inputs)
-        elif spelled(name) in state or isinstance(value, (list, dict, bool)):
+    for name, value in [*state.items(), *parameters.items()]:
+        if isinstance(value, str) and ".." in value and "(" not in value:
+            inputs[name] = len(inputs)
+        elif name in state or type(value) not in (str, int):
             raise Unread("a variable is no scalar")
         else:
-            formulas[spelled(name)] = str(value)
+            formulas[name] = str(value)
 
     def value_of(name):
         if name in inputs:
@@ -493,8 +631,8 @@ def derived(statement):
 
     field = {}
     for name, rate in case["field"].items():
-        if not name.endswith(("'", "′")) or not isinstance(rate, str):
-            raise Unread("a rate is no scalar")
+        if not name.endswith(("'", "′")) or not isinstance(rate, str) or spelled(name[:-1]) in field:
+            raise Unread("a rate is no scalar, or is there twice")
         field[spelled(name[:-1])] = rate
     if set(field) != set(state):
         raise Unread("the rates are not those of the variables")
@@ -506,6 +644,8 @@ def derived(statement):
 
     velocity = {name: read(field[name], {}).value for name in state}
     value, other = read(first, velocity), read(second, velocity)
+    if kind == "invariant-relation" and divides_by_inputs(list(program), other.value):
+        raise Unread("the cofactor has a denominator, which may vanish where the relation holds")
     residual = value.rate
     if kind == "identity":
         residual = step("difference", value.value, other.value)
@@ -527,10 +667,10 @@ def from_text(statement):
         steps, residual, inputs = derived(statement)
     except Unread as reason:
         return False, str(reason)
-    digest = digest_of(statement)
-    vanishes(steps, [residual], inputs, primes_of(digest), stream(digest, "text"))
+    digest, at = digest_of(statement), "the residual from statement.case.text"
+    vanishes(steps, [residual], inputs, primes_of(digest), stream(digest, "text"), at)
     error = error_log2(*bounds(steps, [residual]))
-    require(error <= TARGET, f"the error from the text is bounded by 2^{error} only")
+    require(error <= TARGET, f"{at} has an error bounded by 2^{error} only")
     return True, ""
 
 
@@ -539,12 +679,12 @@ def main(files):
     for name in files:
         try:
             with open(name, encoding="utf-8") as file:
-                is_text, reason = check(json.load(file))
-            told, reason = ("text", "") if is_text else ("program", f": {reason}")
+                is_text, reason = check(load(file))
+            word, reason = ("text", "") if is_text else ("program", f": {reason}")
         except (Refused, OSError, ValueError, RecursionError) as problem:
-            told, reason = "REFUSED", f": {problem}"
-        counts[told] += 1
-        print(f"{told:<8} {name}{reason}")
+            word, reason = "REFUSED", f": {problem}"
+        counts[word] += 1
+        print(f"{word:<8} {name}{reason}")
     print(f"{len(files)} certificates: {counts['text']} passed from the text of the case, "
           f"{counts['program']} passed for the program, {counts['REFUSED']} refused")
     return 1 if counts["REFUSED"] or not files else 0

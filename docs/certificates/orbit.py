@@ -6,12 +6,12 @@ docs/closed-orbits.md asks of the numbers is computed here, in intervals of inte
 Exit code 0 if every file passes, 1 otherwise. Python 3.11 or later, standard library only.
 """
 
-import hashlib
-import json
+import re
 import sys
 from fractions import Fraction
 
-from check import Reader, Refused, Series, Unread, digest_of, require, GREEK
+from check import (CASE, INDEX, KEYS, TEXT, TEXT_OR_NONE, Reader, Refused, Series, Unread, case_of,
+                   check_case, digest_of, load, named, only, require, shaped, spelled)
 
 BITS = 192
 ONE = 1 << BITS
@@ -71,29 +71,30 @@ def around(mid, radius):
 
 # --- the equations from the text of the case -----------------------------------------------------------
 
-def spelled(name):
-    letters = name.rstrip("0123456789")
-    return GREEK.get(letters, letters) + name[len(letters):]
-
-
 class Motion:
     """Rates of the state, of parameters s, of n vectors by n + len(s), and of the integral of div v.
 
     Inputs are these variables; each step is a sum, difference, product, reciprocal, or constant."""
 
     def __init__(self, case, varied):
-        known = {"title", "source", "system", "note", "notes", "parameters", "state", "field",
-                 "claim", "let", "check-weights"}
-        if case.get("system", "field") != "field" or set(case) - known:
-            raise Unread("the case is no plain field")
-        self.names = [spelled(name) for name in case["state"]]
-        formulas = {spelled(k): str(v) for k, v in case.get("let", {}).items()}
-        centres = {}
-        for name, value in case.get("parameters", {}).items():
-            if isinstance(value, (list, dict, bool)) or ".." in str(value):
+        if case.get("system", "field") != "field":
+            raise Unread("the case is no field")
+        only(case, KEYS, "the case")
+        state, formulas = named(case["state"], "state"), named(case.get("let", {}), "let")
+        self.names = list(state)
+        if not all(isinstance(one, str) and ".." in one and "(" not in one for one in state.values()):
+            raise Unread("a variable is no scalar")
+        parameters, centres = named(case.get("parameters", {}), "parameters"), {}
+        if len({*state, *formulas, *parameters}) < len(state) + len(formulas) + len(parameters):
+            raise Unread("a name of the case has two meanings")
+        formulas = {name: str(formula) for name, formula in formulas.items()}
+        for name, value in parameters.items():
+            if type(value) not in (str, int) or ".." in str(value):
                 raise Unread("a parameter is no number")
-            formulas[spelled(name)] = str(value)
-            centres[spelled(name)] = str(value)
+            formulas[name] = centres[name] = str(value)
+        for name in varied:
+            if not DECIMAL.fullmatch(centres.get(name, "")):
+                raise Unread(f"the parameter {name} varies about no decimal")
         n, q = len(self.names), len(varied)
         self.n, self.q, self.size = n, q, n + q + n * (n + q) + 1
         self.program, busy, rates = {}, set(), {}
@@ -111,7 +112,7 @@ class Motion:
             if name in self.names:
                 return Series(self.program, inputs[self.names.index(name)], rates.get(name, zero))
             require(name in formulas and name not in busy, f"the name {name} is not known")
-            if name in varied and name in centres:
+            if name in varied:
                 s = n + list(varied).index(name)
                 variable = Series(self.program, inputs[s], rates.get(s, zero))
                 return number(Fraction(centres[name])) + number(varied[name]) * variable
@@ -120,8 +121,12 @@ class Motion:
             busy.remove(name)
             return value
 
-        field = {spelled(name.rstrip("'′")): rate for name, rate in case["field"].items()}
-        require(set(field) == set(self.names), "the rates are not those of the variables")
+        if not all(name.endswith(("'", "′")) and isinstance(rate, str)
+                   for name, rate in case["field"].items()):
+            raise Unread("a rate is no scalar")
+        field = named({name[:-1]: rate for name, rate in case["field"].items()}, "field")
+        if set(field) != set(self.names) or len(field) < len(case["field"]):
+            raise Unread("the rates are not those of the variables")
 
         def derivative(along):
             rates.clear()
@@ -140,6 +145,16 @@ class Motion:
             divergence = step("sum", divergence, derivative({name: unit})[k].rate)
         self.rates.append(divergence)
         self.steps = list(self.program)
+        self.constants = {name: formulas[name] for name in parameters}
+
+    def number(self, text, busy=()):
+        """Value of a formula in the parameters, as they are in the case."""
+        def one(name):
+            if name not in self.constants or name in busy:
+                raise Unread(f"the start contains {name}")
+            return self.number(self.constants[name], (*busy, name))
+
+        return Reader(text, Fraction, one).whole()
 
     def step(self, start, h, order, rho):
         """Encloses the variables after the time h, by tails in the norm of radius rho."""
@@ -281,14 +296,22 @@ def approximate_inverse(columns, count):
 def prove(motion, proof):
     """Encloses start, period and the integral of the divergence, or raises Refused."""
     n, m, order = motion.n, len(proof["nodes"]), proof["order"]
-    number = float.fromhex
+    number = float.fromhex  # exact: `shaped` lets no more than 53 bits pass
     nodes = [[number(x) for x in node] for node in proof["nodes"]]
     shares, tails = [[number(x) for x in proof[key]] for key in ("shares", "tails")]
     radii, period = [number(x) for x in proof["radii"]], number(proof["period"])
-    require(proof["functions"] == [] and proof["values"] == [], "functions are conserved")
-    require(m > 0 and all(len(node) == n for node in nodes) and len(shares) == len(tails) == m
-            and len(radii) == n * m + 1, "the lists have other lengths")
-    require(2 <= order <= 60 and min(shares + tails + radii + [period]) > 0, "numbers are not positive")
+    for key in ("functions", "values"):
+        if proof[key]:
+            raise Unread(f"proof.{key}: functions are conserved")
+    require(m > 0, "proof.nodes is empty")
+    for index, node in enumerate(nodes):
+        require(len(node) == n, f"proof.nodes[{index}] has not {n} components")
+    for key, count in (("shares", m), ("tails", m), ("radii", n * m + 1)):
+        require(len(proof[key]) == count, f"proof.{key} has not {count} numbers")
+    require(2 <= order <= 60, "proof.order is out of range")
+    for key, numbers in (("shares", shares), ("tails", tails), ("radii", radii), ("period", [period])):
+        require(min(numbers) > 0, f"proof.{key} is not positive")
+    require(radii[-1] < period, "proof.radii: the period may be 0")
     count = n * m + 1
     turn = around(period, radii[-1])
     residual, shifts, columns = [], [[] for _ in range(motion.q)], [{} for _ in range(count)]
@@ -331,7 +354,7 @@ def prove(motion, proof):
             for place, slope in column.items():
                 entry = sub(entry, mul(row[place], slope))
             image += up(size(entry), exact(radii[j])[1])
-        require(image < exact(radii[i])[0], "the boxes are not mapped into themselves")
+        require(image < exact(radii[i])[0], f"proof.radii[{i}]: the box is not mapped into itself")
         images.append(image)
     middles = [exact(x) for node in nodes for x in node] + [exact(period)]
     found = [(x[0] - r, x[1] + r) for x, r in zip(middles, images)]
@@ -383,62 +406,137 @@ def least(motion, boxes, shares, turn, tails, order, slopes):
 
 # --- the certificate ----------------------------------------------------------------------------------------
 
+DECIMAL = re.compile(r"-?[0-9]+(\.[0-9]+)?([eE][-+]?[0-9]{1,3})?")
+HEXADECIMAL = re.compile(r"-?0x(1\.[0-9a-f]{13}p[-+][0-9]{1,4}|0\.[0-9a-f]{13}p(-1022|\+0))")
+NUMBER = (lambda x: isinstance(x, str) and HEXADECIMAL.fullmatch(x)
+          and (x.lstrip("-")[2] == "0" or -1022 <= int(x[x.index("p") + 1:]) <= 1023),
+          "is not a number in hexadecimal")
+BALL = (lambda x: isinstance(x, list) and len(x) == 2 and all(map(NUMBER[0], x)), "is not a ball")
+BALL_OR_NONE = (lambda x: x is None or BALL[0](x), "is not a ball")
+CERTIFICATE = {
+    "format": TEXT,
+    "digest": TEXT,
+    "statement": {
+        "case": CASE, "settings": [TEXT],
+        "claim": {"name": TEXT, "kind": TEXT, "formula": TEXT_OR_NONE, "where": TEXT,
+                  "verdict": TEXT},
+        "orbit": {"start": [BALL], "period": BALL, "volume": BALL, "multipliers": BALL_OR_NONE,
+                  "least": (lambda x: isinstance(x, bool), "is neither true nor false")}},
+    "proof": {"order": INDEX, "functions": [INDEX], "values": [NUMBER], "nodes": [[NUMBER]],
+              "shares": [NUMBER], "period": NUMBER, "radii": [NUMBER], "tails": [NUMBER]}}
+OF_CLAIM = {"name", "source", "expect", "note", "closed-orbit", "state", "period", "divergence",
+            "stability", "density", "parameters"}
+NEAR = Fraction(1, 100)  # distance from the start within which an orbit is the claimed one
+
+
 def inside(found, stated, what):
     mid, radius = [Fraction(float.fromhex(x)) * ONE for x in stated]
-    require(mid - radius <= found[0] and found[1] <= mid + radius, f"the {what} is another")
+    require(mid - radius <= found[0] and found[1] <= mid + radius,
+            f"statement.orbit.{what} does not contain what the proof encloses")
+
+
+def texts(table, place):
+    """A table of texts; numbers are read as they are written."""
+    if not isinstance(table, dict) or not all(type(one) in (str, int) for one in table.values()):
+        raise Unread(f"{place} is no table of formulas")
+    return {name: str(one) for name, one in table.items()}
+
+
+def in_words(own, state, halves, names):
+    """The formula of a claim and its place, as liouville states them."""
+    start = ", ".join(f"{names(name)} = {text.strip()}" for name, text in state.items())
+    kind = f"{own['stability']}, " if "stability" in own else ""
+    least = "least " if "period" in own else ""
+    volume = {"negative": ", volume shrinks", "positive": ", volume grows",
+              "nonzero": ", volume changes", None: ""}[own.get("divergence")]
+    density = ", no density" if "density" in own else ""
+    varied = ", ".join(f"{spelled(name)} ± {half}" for name, half in halves.items())
+    varied = f", for {varied}" if varied else ""
+    orbit = f"{kind}closed orbit of {least}period {own['closed-orbit']}"
+    return f"{orbit} near {start}{volume}{density}{varied}", f"from {start}"
+
+
+def read_claim(case, claim):
+    """The claim in the case, its start, and the distances of its parameters."""
+    found = [one for one in case.get("claim", []) if one.get("name") == claim["name"]]
+    require(len(found) == 1 and "closed-orbit" in found[0],
+            "statement.claim.name is not that of a closed orbit in the case")
+    own = found[0]
+    only(own, OF_CLAIM, "the claim")
+    for key, words in (("period", {"least"}), ("density", {"none"}),
+                       ("divergence", {"negative", "positive", "nonzero"}),
+                       ("stability", {"sink", "source"})):
+        if key in own and own[key] not in words:
+            raise Unread(f"the claim's {key} is beyond this reader")
+    state, halves = texts(own.get("state"), "state"), {}
+    for name, text in texts(own.get("parameters", {}), "parameters").items():
+        centre, sign, half = text.partition("±")
+        if centre.strip() or not sign or not DECIMAL.fullmatch(half.strip()):
+            raise Unread(f"the distance of {name} is beyond this reader")
+        halves[name] = half.strip()
+        require(Fraction(half.strip()) > 0, f"the range of {name} is empty")
+    stated = claim["formula"], claim["where"]
+    require(stated in [in_words(own, state, halves, names) for names in (spelled, str)],
+            "statement.claim.formula or .where is not that of the case")
+    named(halves, "parameters")
+    return own, named(state, "state"), {spelled(k): Fraction(half) for k, half in halves.items()}
+
+
+def check_claim(own, motion, state, start, period, volume, stated):
+    """Refuses the claim where the enclosures do not show it."""
+    if not set(state) <= set(motion.names):
+        raise Unread("the start has a name that is no variable")
+    claimed = [motion.number(state.get(name, "0")) for name in motion.names]
+    gaps = [Fraction(x[0] + x[1], 2 * ONE) - y for x, y in zip(start, claimed)]
+    require(sum(g * g for g in gaps) <= NEAR**2 * sum(y * y for y in claimed),
+            "the orbit does not begin near the state of the claim")
+    require("period" not in own or stated.get("least"), "statement.orbit.least: the claim needs it")
+    digits = str(own["closed-orbit"])
+    if not re.fullmatch(r"[0-9]+\.[0-9]+", digits):
+        raise Unread("the period of the claim is no decimal")
+    unit = Fraction(1, 10 ** len(digits.partition(".")[2]))
+    gap = max(abs(Fraction(x, ONE) - Fraction(digits)) for x in period)
+    require(gap <= min(unit, NEAR * Fraction(digits)), "the period is not the one claimed")
+    sign = (volume[0] > 0) - (volume[1] < 0)
+    wanted = {"negative": [-1], "positive": [1], "nonzero": [-1, 1], None: [-1, 0, 1]}
+    require(sign in wanted[own.get("divergence")], "volumes change otherwise than claimed")
+    require("density" not in own or sign, "volumes may be kept, and the claim excludes a density")
+    if "stability" in own:
+        if motion.n != 2:
+            raise Unread("more than one multiplier is beyond this script")
+        require({"sink": -1, "source": 1}[own["stability"]] == sign, "the orbit is of another kind")
 
 
 def check(certificate):
     """Raises Refused or Unread, or returns the claim in words."""
     try:
-        import tomllib
-    except ImportError:
-        raise Unread("Python before 3.11 reads no TOML") from None
-    try:
-        require(certificate["format"] == "liouville motion certificate 1", "the format is unknown")
+        require(isinstance(certificate, dict)
+                and certificate.get("format") == "liouville motion certificate 1",
+                "format is unknown")
+        shaped(certificate, CERTIFICATE)
         statement, proof = certificate["statement"], certificate["proof"]
         require(certificate["digest"] == digest_of({"statement": statement, "proof": proof}),
                 "the digest does not fit")
-        text, claim = statement["case"]["text"], statement["claim"]
-        require(hashlib.sha256(text.encode()).hexdigest() == statement["case"]["sha256"],
-                "the text of the case has another digest")
-        require(claim["kind"] == "closed-orbit" and claim["verdict"] == "proved", "no closed orbit")
+        check_case(statement)
+        claim, stated = statement["claim"], statement["orbit"]
+        require(claim["kind"] == "closed-orbit", "statement.claim.kind is no closed orbit")
         if statement["settings"]:
             raise Unread("the case is changed by --set")
-        case = tomllib.loads(text, parse_float=str)
-        own = [one for one in case["claim"] if one.get("name") == claim["name"]]
-        require(len(own) == 1 and "closed-orbit" in own[0], "the case has no such claim")
-        own, varied = own[0], {}
-        if "integrals" in own:
-            raise Unread("integrals hold the orbit")
-        for name, half in own.get("parameters", {}).items():
-            varied[spelled(name)] = Fraction(half.split("±")[1].strip())
-            require(varied[spelled(name)] > 0, "a range is empty")
+        if stated["multipliers"] is not None:
+            raise Unread("statement.orbit.multipliers are beyond this script")
+        case = case_of(statement["case"]["text"])
+        own, state, varied = read_claim(case, claim)
         motion = Motion(case, varied)
+        require(len(stated["start"]) == motion.n,
+                f"statement.orbit.start has not {motion.n} components")
         start, period, volume, is_least = prove(motion, proof)
-        orbit = statement["orbit"]
-        require(len(orbit["start"]) == motion.n, "the start has other components")
-        for found, stated in zip(start, orbit["start"]):
-            inside(found, stated, "start")
-        inside(period, orbit["period"], "period")
-        inside(volume, orbit["volume"], "integral of the divergence")
-        stated = orbit.get("least", False)
-        require(stated is False or stated is True and is_least(), "the least period is another")
-        require("period" not in own or own["period"] == "least" and stated,
-                "the period is not stated to be the least")
-        digits = str(own["closed-orbit"])
-        unit = Fraction(1, 10 ** len(digits.partition(".")[2]))
-        gap = max(abs(Fraction(x, ONE) - Fraction(digits)) for x in period)
-        require("." in digits and gap <= unit, "the period is not the one claimed")
-        sign = (volume[0] > 0) - (volume[1] < 0)
-        wanted = {"negative": [-1], "positive": [1], "nonzero": [-1, 1], None: [-1, 0, 1]}
-        require(sign in wanted[own.get("divergence")], "volumes change otherwise")
-        require("density" not in own or sign, "volumes may be kept")
-        if "stability" in own:
-            if motion.n != 2:
-                raise Unread("more than one multiplier is beyond this script")
-            require({"sink": -1, "source": 1}.get(own["stability"]) == sign, "the kind is another")
-        word = "least period" if stated else "period"
+        for k, (found, ball) in enumerate(zip(start, stated["start"])):
+            inside(found, ball, f"start[{k}]")
+        inside(period, stated["period"], "period")
+        inside(volume, stated["volume"], "volume")
+        require(not stated.get("least") or is_least(), "statement.orbit.least is not proved")
+        check_claim(own, motion, state, start, period, volume, stated)
+        word = "least period" if stated.get("least") else "period"
         return f"{word} {middle(period):.12f}, volume {middle(volume):.12f}"
     except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError) as error:
         raise Refused(f"the certificate is malformed: {error!r}") from error
@@ -449,7 +547,7 @@ def main(files):
     for name in files:
         try:
             with open(name, encoding="utf-8") as file:
-                print(f"proved  {name}: {check(json.load(file))}", flush=True)
+                print(f"proved  {name}: {check(load(file))}", flush=True)
         except (Refused, Unread, OSError, ValueError, RecursionError) as problem:
             refused += 1
             print(f"REFUSED {name}: {problem}", flush=True)

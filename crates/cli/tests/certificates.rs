@@ -92,6 +92,27 @@ fn certificates_that_were_tampered_with_are_refused() {
 }
 
 #[test]
+fn forged_certificates_are_refused_with_their_place() {
+    let (folder, _) = certified("forged", &["cases/classical/planar"]);
+    let orbits = of_the_limit_cycle("orbits-forged");
+    let orbit = orbits.iter().find(|file| !file.contains("for-all")).expect("at one value");
+    let text = fs::read_to_string(orbit).expect("a certificate");
+    let twice = text.replacen("\"settings\"", "\"settings\": [\"μ=2\"], \"settings\"", 1);
+    assert_ne!(text, twice);
+    let refused = verify(&twice, &Options::default(), &|_| Ok(Vec::new())).expect_err("twice");
+    assert!(refused.contains("the key `settings` is there twice"), "{refused}");
+    if !is_there() {
+        return;
+    }
+    let script = "crates/cli/tests/certificates/forge.py";
+    let folder = folder.display().to_string();
+    let output = run("python3", &[script, "docs/certificates", &folder, orbit]);
+    let answers = self::text(&output.stdout);
+    assert!(output.status.success(), "{answers}{}", self::text(&output.stderr));
+    assert!(answers.lines().count() > 130, "{answers}");
+}
+
+#[test]
 fn what_cannot_be_certified_is_told() {
     let folder = scratch("none").display().to_string();
     let program = env!("CARGO_BIN_EXE_liouville");

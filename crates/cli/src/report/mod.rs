@@ -29,6 +29,7 @@ pub mod survey;
 pub mod sweep;
 pub mod table;
 pub mod terminal;
+mod unique_keys;
 
 pub use liouville_report::{
     CaseDigest, FileFailure, FileOutcome, Heading, RunReport, Summary, VERSION, diagnostic, json,

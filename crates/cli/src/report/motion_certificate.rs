@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::certificate::{CaseOrigin, canonical};
 use super::certificate_part::{CertificatePart, list, wider};
 use super::hexadecimal::written;
-use super::{horseshoe_certificate, sha256};
+use super::{horseshoe_certificate, sha256, unique_keys};
 
 /// Name and version of the format for closed orbits.
 pub const ORBITS: &str = "liouville motion certificate 1";
@@ -104,8 +104,7 @@ pub fn verify(
     options: &Options,
     settings: &Settings<'_>,
 ) -> Result<ClaimReport, String> {
-    let whole: Value =
-        serde_json::from_str(text).map_err(|error| format!("it is not JSON: {error}"))?;
+    let whole = unique_keys::read(text).map_err(|error| format!("it is not JSON: {error}"))?;
     let own = CertificatePart { value: &whole, path: String::new() };
     own.only(&["format", "statement", "proof", "digest"])?;
     let key = match own.text("format")? {
