@@ -123,11 +123,11 @@ fn sections_tell_classes_and_draw_separatrices() {
 
 #[test]
 fn orbits_that_are_run_through_several_times_are_told() {
-    let (case, surface) = ("classical/flows/van-der-pol-cycle", ["--section", "p = 0"]);
-    let found = |period: &str, more: &[&str]| {
-        let orbit = ["motion", "periodic", case, "--start", "2,0", "--period", period];
-        [&orbit[..], &surface, more].concat()
-    };
+    fn found<'a>(period: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+        let case = "classical/flows/van-der-pol-cycle";
+        let orbit = ["motion", "periodic", case, "--start", "2,0", "--section", "p = 0"];
+        [&orbit[..], &["--period", period], more].concat()
+    }
     let point = |period: &str| json(&found(period, &["--json"]), 0)["points"][0].clone();
     let (once, thrice) = (point("1"), point("3"));
     let number = |point: &serde_json::Value, key: &str| point[key].as_f64().expect("a number");
