@@ -71,6 +71,7 @@ impl TaylorProgram {
             instructions: compiler.instructions,
             rates: rows,
             outputs,
+            presence: None,
         })
     }
 }

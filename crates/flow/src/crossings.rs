@@ -186,7 +186,8 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
                 running.track.problem = Some(FlowError::InSurface);
                 return true;
             }
-            for event in running.sides.events(&polynomial, piece.length()) {
+            let doubt = || self.task.program.rounding::<f64>(0, &self.stepper.pairs(lane), 0.0);
+            for event in running.sides.events(&polynomial, piece.length(), doubt) {
                 if running.meet(event, &piece, self.task, steps, &mut self.observe) {
                     return true;
                 }

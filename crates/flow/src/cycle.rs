@@ -13,7 +13,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::carry::{MOST_STEPS, carried};
+use super::carry::carried;
 use super::closed::MeasuredNumber;
 use super::error::FlowError;
 use super::motion::program;
@@ -22,6 +22,7 @@ use super::number::SeriesNumber;
 use super::program::TaylorProgram;
 use super::start::{LevelFunctions, Start, dot, level_basis};
 use super::stepper::{Accuracy, Stepper};
+use super::turns::turns;
 use super::variational::variational_program;
 use liouville::mechanics::Model;
 use liouville::number::double_double::DoubleDouble;
@@ -34,8 +35,6 @@ const LONGEST: f64 = 0.2;
 const CONVERGED: f64 = 1e-10;
 /// Smallest singular value of a nondegenerate orbit, relative to the largest.
 const DEGENERATE: f64 = 1e-11;
-/// Change of the energy along a motion that is rounding, relative to its size.
-const KEPT: f64 = 1e-10;
 
 /// Functions that fix one closed orbit of a family.
 pub(super) struct Pins {
@@ -54,6 +53,8 @@ pub struct Cycle {
     pub start: Start,
     /// Time after which the motion is back.
     pub period: MeasuredNumber,
+    /// Number of times that the orbit is run through until then.
+    pub turns: u32,
     /// Distance between the state and its image, in double-double.
     pub residual: f64,
     /// Integral of the divergence on the level along the orbit.
@@ -80,10 +81,12 @@ pub(super) fn cycle(
         search.derivative::<DoubleDouble>(Accuracy::PAIR)?,
     );
     let (multipliers, kind) = search.multipliers(&float, &pair)?;
+    let turns = turns(&search.field, &search.start.state, search.time, residual)?;
     let float_period = search.float_period;
     Ok(Cycle {
         start: search.start,
         period: MeasuredNumber::twice(float_period, search.time.hi),
+        turns,
         residual,
         volume: MeasuredNumber::twice(float.volume.hi, pair.volume.hi),
         multipliers,
@@ -315,31 +318,6 @@ impl<'s> CycleSearch<'s> {
         }
         Ok(multiplier::all(&matrix(float), &matrix(pair), &known))
     }
-}
-
-/// Whether the energy is kept along a motion up to rounding.
-pub(super) fn keeps_energy(
-    model: &Model,
-    start: &Start,
-    time: f64,
-    functions: &LevelFunctions,
-    place: usize,
-) -> Result<bool, FlowError> {
-    let program = program(model, &start.parameters, |_| Vec::new())?;
-    let energy = |state: &[DoubleDouble]| functions.at(state).0[place].hi;
-    let first = energy(&start.state);
-    let mut stepper = Stepper::<f64>::new(&program, Accuracy::FLOAT);
-    stepper.start(0, &start.state, DoubleDouble::from_f64(time));
-    while !stepper.is_done(0) && stepper.steps(0) < MOST_STEPS {
-        stepper.expand();
-        stepper.check(0)?;
-        stepper.advance();
-        let change = (energy(&stepper.pairs(0)) - first).abs();
-        if change.is_nan() || change > KEPT * first.abs().max(f64::MIN_POSITIVE.sqrt()) {
-            return Ok(false);
-        }
-    }
-    Ok(true)
 }
 
 /// Least-squares solution; `None` where the equations are singular.

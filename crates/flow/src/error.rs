@@ -4,7 +4,7 @@ use liouville::graph::Fault;
 use liouville::number::UnaryFunction;
 use serde::{Deserialize, Serialize};
 
-use super::stepper::{ENDLESS, MOST_STEPS};
+use super::pace::{ENDLESS, MOST_STEPS};
 
 /// Reason why a motion cannot be computed.
 ///
@@ -28,6 +28,29 @@ pub enum FlowError {
         /// Last state.
         #[serde(with = "super::record")]
         state: Vec<f64>,
+    },
+    /// A formula of the system has no value where the motion starts, or where it comes to.
+    #[error("{}", without_value(formula, *time, place))]
+    NoValue {
+        /// Formula as written.
+        formula: String,
+        /// Time from which on it has no value.
+        #[serde(with = "super::record")]
+        time: f64,
+        /// State there, in words.
+        place: String,
+    },
+    /// The numbers of a motion are too large or too small.
+    #[error("{}", out_of_range(*time, state, *is_large))]
+    OutOfRange {
+        /// Time of the last state.
+        #[serde(with = "super::record")]
+        time: f64,
+        /// Last state.
+        #[serde(with = "super::record")]
+        state: Vec<f64>,
+        /// Whether they are too large.
+        is_large: bool,
     },
     /// The steps have shrunk, and become so many that the end is out of reach.
     #[error("{}", shrinking(*time, *step, state))]
@@ -237,6 +260,22 @@ pub enum FlowError {
     Recording(#[from] Fault),
 }
 
+fn without_value(formula: &str, time: f64, place: &str) -> String {
+    match time == 0.0 {
+        true => format!("`{formula}` has no value at the start, {place}"),
+        false => format!("the motion ends at t = {time}: `{formula}` has no value at {place}"),
+    }
+}
+
+fn out_of_range(time: f64, state: &[f64], is_large: bool) -> String {
+    let state: Vec<String> = state.iter().map(|x| format!("{x:.3e}")).collect();
+    let words = if is_large { "above" } else { "below" };
+    format!(
+        "at t = {time}, at the state [{}], the numbers of the motion are {words} the range of f64",
+        state.join(", ")
+    )
+}
+
 fn shrinking(time: f64, step: f64, state: &[f64]) -> String {
     let state: Vec<String> = state.iter().map(|x| format!("{x:.3e}")).collect();
     format!(
@@ -284,6 +323,17 @@ impl FlowError {
             FlowError::Antiderivative => "write the function itself instead of ∫(f, x)",
             FlowError::Singular { time: 0.0, .. } => {
                 "choose another start; if all are singular, the parameters are"
+            }
+            FlowError::NoValue { time: 0.0, .. } => {
+                "choose another start, or other parameters; a formula that goes on there is written \
+                 without the operation, as x for x²/x"
+            }
+            FlowError::NoValue { .. } => {
+                "choose another start, or a shorter time; a formula that goes on there is written \
+                 without the operation, as x for x²/x"
+            }
+            FlowError::OutOfRange { .. } => {
+                "measure the state and the time in units in which states and rates are nearer to 1"
             }
             FlowError::Singular { .. } | FlowError::Shrinking { .. } => {
                 "choose another start, or a shorter time"
@@ -340,7 +390,10 @@ impl FlowError {
             }
             FlowError::TooLong => "write the field with fewer terms, by [let]",
             FlowError::Stopped => "follow it again, for a shorter time",
-            FlowError::NoStart => "give a state by --state, or another --seed or --index",
+            FlowError::NoStart => {
+                "give a start nearer to the level, where the slopes of its equations do not vanish, or \
+                 another --seed or --index"
+            }
             FlowError::Recording(_) => "use operations that hold for every number",
         }
     }

@@ -3,6 +3,7 @@
 use super::error::FlowError;
 use super::merge::merged;
 use super::program::TaylorProgram;
+use super::watch::{Presence, written};
 use liouville::graph::{Expr, record};
 use liouville::mechanics::{Model, Phase};
 use liouville::number::rational::Rational;
@@ -53,14 +54,16 @@ pub fn program(
     parameters: &[Rational],
     further: impl FnOnce(&Phase<'_, Expr>) -> Vec<Expr>,
 ) -> Result<TaylorProgram, FlowError> {
-    extended_program(model, parameters, 0, |phase, _| (phase.field().to_vec(), further(phase)))
+    extended_program(model, parameters, &[], 0, |phase, _| (phase.field().to_vec(), further(phase)))
 }
 
-/// Compiles a field in the state and `more` further variables. `build` receives a point and those
-/// variables, and returns the rates of all, and further functions.
+/// Compiles a field in the state and `more` further variables, the first of which are the inputs of
+/// loose parameters. `build` receives a point and those variables, and returns the rates of all, and
+/// further functions.
 pub(super) fn extended_program(
     model: &Model,
     parameters: &[Rational],
+    loose: &[Loose],
     more: usize,
     build: impl FnOnce(&Phase<'_, Expr>, &[Expr]) -> (Vec<Expr>, Vec<Expr>),
 ) -> Result<TaylorProgram, FlowError> {
@@ -68,19 +71,27 @@ pub(super) fn extended_program(
         return Err(FlowError::Discrete);
     }
     let dimension = model.dimension();
-    let (graph, (rates, outputs)) = record(dimension + more, |inputs| {
+    let (graph, (rates, mut outputs, written)) = record(dimension + more, |inputs| {
         let (state, more) = inputs.split_at(dimension);
-        build(&point(model, parameters, state), more)
+        let phase = Phase::new(model, &filled(parameters, loose, more), state);
+        let (rates, outputs) = build(&phase, more);
+        (rates, outputs, written(&phase))
     })?;
     if graph.inputs() > dimension + more {
         return Err(FlowError::Antiderivative);
     }
-    if !model.system.conserves_level() {
-        return TaylorProgram::compile(&graph, &rates, &outputs);
-    }
-    let count = rates.len();
-    let wanted = [rates, outputs].concat();
-    let (simpler, mut values) = merged(model, &graph, &wanted)?;
-    let outputs = values.split_off(count);
-    TaylorProgram::compile(&simpler, &values, &outputs)
+    let field = [rates.as_slice(), &outputs].concat();
+    let (presence, arguments) = Presence::new(model, &graph, &field, written);
+    outputs.extend(arguments);
+    let mut program = match model.system.conserves_level() {
+        false => TaylorProgram::compile(&graph, &rates, &outputs)?,
+        true => {
+            let wanted = [rates.as_slice(), &outputs].concat();
+            let (simpler, mut values) = merged(model, &graph, &wanted)?;
+            let outputs = values.split_off(rates.len());
+            TaylorProgram::compile(&simpler, &values, &outputs)?
+        }
+    };
+    program.presence = Some(presence);
+    Ok(program)
 }

@@ -91,6 +91,7 @@ pub(super) fn follow<T: SeriesNumber<One = T>>(
     }
     let phases = Phases::new(case, rule, start)?;
     let mut walk = Walk::<T> {
+        phases: &phases,
         free: Stepper::new(&phases.free, accuracy),
         contact: Stepper::new(&phases.contact, accuracy),
         events: Vec::new(),
@@ -110,7 +111,8 @@ pub(super) fn follow<T: SeriesNumber<One = T>>(
     Err(FlowError::TooManyPhases { time: walk.now.hi })
 }
 
-struct Walk<T: SeriesNumber> {
+struct Walk<'p, T: SeriesNumber> {
+    phases: &'p Phases,
     free: Stepper<T>,
     contact: Stepper<T>,
     events: Vec<ContactEvent>,
@@ -120,7 +122,7 @@ struct Walk<T: SeriesNumber> {
     until: DoubleDouble,
 }
 
-impl<T: SeriesNumber<One = T>> Walk<T> {
+impl<T: SeriesNumber<One = T>> Walk<'_, T> {
     /// Whether the motion begins in contact: r = 0, and r would fall, or would not move while λ >
     /// 0.
     fn begins_in_contact(&mut self) -> Result<bool, FlowError> {
@@ -151,7 +153,8 @@ impl<T: SeriesNumber<One = T>> Walk<T> {
             let piece = self.free.piece(0);
             let polynomial = piece.output(0);
             let at = |after: T| self.now + piece.begin() + after.pair();
-            for event in sides.events(&polynomial, piece.length()) {
+            let doubt = || self.phases.free.rounding::<T>(0, &self.free.pairs(0), 0.0);
+            for event in sides.events(&polynomial, piece.length(), doubt) {
                 let after = match event {
                     Event::Crossing { rising: true, .. } => continue,
                     Event::Crossing { after, .. } | Event::Tangency { after } => after,
@@ -197,7 +200,8 @@ impl<T: SeriesNumber<One = T>> Walk<T> {
             self.contact.check(0)?;
             let piece = self.contact.piece(0);
             let polynomial = piece.output(0);
-            for event in sides.events(&polynomial, piece.length()) {
+            let doubt = || self.phases.contact.rounding::<T>(0, &self.contact.pairs(0), 0.0);
+            for event in sides.events(&polynomial, piece.length(), doubt) {
                 let Event::Crossing { after, rising: false } = event else { continue };
                 watcher.piece(self.now + piece.begin(), &piece, after);
                 (self.now, self.state) =

@@ -174,7 +174,8 @@ impl<'c> SectionMap<'c> {
                 End { rate: rate(&self.g0, &state, value(&across, after).1.leading()), state }
             };
             let departure = departure.get_or_insert_with(|| end(T::ZERO));
-            for event in sides.events(&across, piece.length()) {
+            let doubt = || self.program.rounding::<T>(0, &stepper.pairs(0), 0.0);
+            for event in sides.events(&across, piece.length(), doubt) {
                 let Event::Crossing { after, .. } = event else { continue };
                 if value(&along, after).0.leading() <= 0.0 {
                     continue;

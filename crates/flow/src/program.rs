@@ -16,7 +16,10 @@
 //!
 //! The inner sums need lower orders only, whatever the instruction: all are made first.
 
+use std::sync::Arc;
+
 use super::form::{BilinearForm, Row};
+use super::watch::Presence;
 use liouville::number::rational::Rational;
 
 /// Last stage of an instruction, given the inner sum Σ c x_k y_{n-k} of its products.
@@ -85,6 +88,8 @@ pub struct TaylorProgram {
     pub(super) rates: Vec<Row>,
     /// Rows of the further functions.
     pub(super) outputs: Vec<Row>,
+    /// Values that a motion has to have, if they are known.
+    pub(super) presence: Option<Arc<Presence>>,
 }
 
 impl TaylorProgram {

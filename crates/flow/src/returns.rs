@@ -2,8 +2,9 @@
 
 use super::andoyer::section_functions;
 use super::crossings::CrossingTask;
-use super::cycle::{Cycle, Pins, cycle, keeps_energy};
+use super::cycle::{Cycle, Pins, cycle};
 use super::error::FlowError;
+use super::kept::keeps_energy;
 use super::periodic::{ComputedPeriodicPoint, SectionMap};
 use super::start::{LevelFunctions, Start};
 use super::surface::CrossingSurface;
@@ -42,11 +43,7 @@ pub fn closed_orbit(
     surface: Option<&CrossingSurface>,
 ) -> Result<Cycle, FlowError> {
     let model = surface.map_or(&case.model, CrossingSurface::model);
-    let energy = LevelFunctions::with(model, &start.parameters, &|phase| {
-        model.system.energy(phase).into_iter().collect()
-    })?;
-    let place = model.level.len();
-    let has_energy = energy.len() > place && keeps_energy(model, start, time, &energy, place)?;
+    let has_energy = keeps_energy(case, model, start, time)?;
     let functions = LevelFunctions::with(model, &start.parameters, &|phase| {
         let energy = model.system.energy(phase).filter(|_| has_energy);
         let surface = surface.map(|surface| surface.value(phase));

@@ -25,6 +25,8 @@ pub struct Series<T: SeriesNumber> {
     pub(super) memory: Vec<T>,
     /// Places of the rows that are roots or powers, which are not negative.
     roots: Vec<Place>,
+    /// Places of the rows that are divided by.
+    divisors: Vec<Place>,
     /// Number of expansions so far, up to where machine code pays.
     pub(super) expansions: u32,
     pub(super) machine: Option<Box<T::Machine>>,
@@ -44,6 +46,17 @@ impl<T: SeriesNumber> Series<T> {
             matches!(operation.rule, PlacedRule::Sqrt(_) | PlacedRule::Power { .. })
         });
         let roots = roots.map(|(_, finish)| finish.place).collect();
+        let divisors = code.operations.iter().filter_map(|operation| match &operation.rule {
+            PlacedRule::Recip(x) => Some(*x),
+            PlacedRule::Power { x, exponent, .. } => {
+                let is_quotient = exponent.is_negative() && exponent.to_integer().is_some();
+                is_quotient.then_some(*x)
+            }
+            _ => None,
+        });
+        let mut divisors: Vec<Place> = divisors.collect();
+        divisors.sort_unstable();
+        divisors.dedup();
         Self {
             order,
             orders: order.next_multiple_of(T::WIDTH),
@@ -55,6 +68,7 @@ impl<T: SeriesNumber> Series<T> {
             inner: vec![T::ZERO; sums],
             memory,
             roots,
+            divisors,
             expansions: 0,
             machine: None,
         }
@@ -137,6 +151,16 @@ impl<T: SeriesNumber> Series<T> {
     /// Coefficients of the roots and powers, orders 0 to `order` - 1.
     pub fn roots(&self) -> impl Iterator<Item = &[T]> {
         self.roots.iter().map(|place| &self.memory[*place as usize..][..self.order])
+    }
+
+    /// Coefficients of the rows that are divided by, orders 0 to `order` - 1.
+    pub fn divisors(&self) -> impl Iterator<Item = &[T]> {
+        self.divisors.iter().map(|place| &self.memory[*place as usize..][..self.order])
+    }
+
+    /// Number of further functions.
+    pub fn outputs(&self) -> usize {
+        self.code.outputs.len()
     }
 
     /// Coefficients of a further function, orders 0 to `order` - 1.

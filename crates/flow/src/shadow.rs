@@ -47,8 +47,7 @@ pub(super) struct Shadowed {
 impl Shadowed {
     /// Compiles the equations of a model with these parameters, some of them loose.
     pub fn new(model: &Model, parameters: &[Rational], loose: &[Loose]) -> Result<Self, FlowError> {
-        let program = extended_program(model, parameters, loose.len(), |phase, more| {
-            let phase = Phase::new(model, &filled(parameters, loose, more), &phase.state());
+        let program = extended_program(model, parameters, loose, loose.len(), |phase, more| {
             let mut rates = phase.field().to_vec();
             rates.extend(more.iter().map(|_| Expr::rational(&Rational::from(0))));
             (rates, Vec::new())

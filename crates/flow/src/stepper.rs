@@ -5,12 +5,15 @@
 //! time, so that each lane takes its own step.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::error::FlowError;
 use super::halt::Halt;
 use super::number::SeriesNumber;
+use super::pace::{Lane, Lost};
 use super::program::TaylorProgram;
 use super::series::Series;
+use super::watch::{Edge, Presence};
 use liouville::graph::{Kernel, with_widest_vectors};
 use liouville::number::double_double::DoubleDouble;
 
@@ -33,22 +36,8 @@ impl Accuracy {
     pub const PAIR: Self = Self { order: 34, kappa: 2.15 };
 }
 
-/// Number of steps after which the pace of a motion is looked at.
-const STRIDE: u64 = 1 << 18;
-/// Ratio of a motion's longest step to the present ones, above which these count as shrinking.
-const SHRUNK: f64 = 1e6;
-/// Number of such steps that nobody waits for.
-pub(super) const ENDLESS: f64 = 1e9;
-/// Number of steps that no motion takes, whatever their size.
-pub(super) const MOST_STEPS: f64 = 1e10;
 /// Time that stands for no end.
 const NEVER: f64 = 1e15;
-/// Numbers of steps at which the pace is looked at before, for ends that are out of any reach.
-const EARLY: [u64; 2] = [1 << 11, 1 << 12];
-/// Multiple of [`MOST_STEPS`] that counts as out of any reach.
-const HOPELESS: f64 = 1e6;
-/// Ratio of the longest steps at two looks, below which steps do not grow.
-const GROWTH: f64 = 1.1;
 
 /// Motions in lockstep, one in each lane.
 pub struct Stepper<T: SeriesNumber> {
@@ -59,6 +48,8 @@ pub struct Stepper<T: SeriesNumber> {
     rest: Vec<T>,
     pub(super) lanes: Vec<Lane<T::One>>,
     pub(super) sizes: Sizes<T>,
+    /// Values that the motions have to have, if they are known.
+    pub(super) presence: Option<Arc<Presence>>,
     halt: Halt,
 }
 
@@ -71,79 +62,10 @@ pub(super) struct Sizes<T> {
     soundness: T,
 }
 
-/// Time and step of one motion.
-#[derive(Clone, Copy)]
-pub(super) struct Lane<One> {
-    time: DoubleDouble,
-    /// Final time; its sign relative to `time` is the direction.
-    until: DoubleDouble,
-    /// Step from the present expansion.
-    pub(super) step: One,
-    steps: u64,
-    pace: Pace,
-    /// Whether the final time is a stand-in for none.
-    is_open: bool,
-    /// Whether the present step is cut for a branch point or for a further function.
-    pub(super) is_cut: bool,
-}
-
-/// Progress of a motion, by which one whose end is out of reach is found.
-#[derive(Clone, Copy, Default)]
-struct Pace {
-    /// Longest step so far, and at the last look.
-    longest: f64,
-    former: f64,
-    /// Time and number of steps at the last look.
-    before: f64,
-    counted: u64,
-    /// Why the end is out of reach, if it is.
-    lost: Option<Lost>,
-}
-
-/// Reason why the end of a motion is out of reach.
-#[derive(Clone, Copy)]
-enum Lost {
-    /// Its steps have shrunk.
-    Shrinking,
-    /// Its time takes too many steps of its usual size.
-    Endless,
-}
-
-impl Pace {
-    /// Keeps a step; measures the pace after so many of them, with the times that have gone by and
-    /// that are left.
-    fn keep(&mut self, step: f64, steps: u64, now: f64, left: f64) {
-        self.longest = self.longest.max(step.abs());
-        let is_early = EARLY.contains(&steps);
-        if !is_early && !steps.is_multiple_of(STRIDE) {
-            return;
-        }
-        let mean = (now - self.before).abs() / (steps - self.counted) as f64;
-        let most = MOST_STEPS * if is_early { HOPELESS } else { 1.0 };
-        let is_shrunk = mean * SHRUNK < self.longest && left.abs() > mean * ENDLESS;
-        // Steps that grow, as on the way to infinity, may still arrive.
-        let is_steady = self.former > 0.0 && self.longest < GROWTH * self.former;
-        self.lost = match () {
-            () if is_shrunk && !is_early => Some(Lost::Shrinking),
-            () if is_steady && left.abs() > mean * most => Some(Lost::Endless),
-            () => None,
-        };
-        (self.former, self.before, self.counted) = (self.longest, now, steps);
-    }
-}
-
 impl<T: SeriesNumber> Stepper<T> {
     /// Prepares motions of a program's field; each lane needs a start.
     pub fn new(program: &TaylorProgram, accuracy: Accuracy) -> Self {
-        let idle = Lane {
-            time: DoubleDouble::default(),
-            until: DoubleDouble::default(),
-            step: T::One::ZERO,
-            steps: 0,
-            pace: Pace::default(),
-            is_open: false,
-            is_cut: false,
-        };
+        let idle = Lane::new(DoubleDouble::default());
         let state = vec![T::ZERO; program.dimension()];
         Self {
             series: Series::new(program, accuracy.order),
@@ -152,6 +74,7 @@ impl<T: SeriesNumber> Stepper<T> {
             state,
             lanes: vec![idle; T::LANES],
             sizes: Sizes { norms: [T::ZERO; 4], soundness: T::ZERO },
+            presence: program.presence.clone(),
             halt: Halt::current(),
         }
     }
@@ -162,15 +85,7 @@ impl<T: SeriesNumber> Stepper<T> {
             self.series.clear();
         }
         self.place(lane, state);
-        self.lanes[lane] = Lane {
-            time: DoubleDouble::default(),
-            until,
-            step: T::One::ZERO,
-            steps: 0,
-            pace: Pace::default(),
-            is_open: false,
-            is_cut: false,
-        };
+        self.lanes[lane] = Lane::new(until);
     }
 
     /// Starts a motion at time 0 that somebody else ends, after a number of steps.
@@ -211,7 +126,7 @@ impl<T: SeriesNumber> Stepper<T> {
         for index in 0..T::LANES {
             let size = self.step_size(index);
             let lane = &mut self.lanes[index];
-            lane.is_cut = false;
+            (lane.is_cut, lane.edge) = (false, None);
             let left = lane.until - lane.time;
             lane.step = if size < left.hi.abs() {
                 T::One::float(size.copysign(left.hi))
@@ -220,6 +135,9 @@ impl<T: SeriesNumber> Stepper<T> {
             };
         }
         self.keep_branches();
+        self.keep_quotients();
+        self.keep_values();
+        self.lanes.iter_mut().for_each(Lane::begin);
     }
 
     /// Makes neighbouring motions, in groups of `together`, take the same step.
@@ -260,7 +178,17 @@ impl<T: SeriesNumber> Stepper<T> {
         let at_end = left <= f64::EPSILON * motion.time.hi.abs();
         let advances = at_end || motion.time.hi + step != motion.time.hi || motion.time.hi == 0.0;
         let time = motion.time.hi;
-        let state = || self.pairs(lane).iter().map(|x| x.hi).collect();
+        let state = || self.own_state(lane).iter().map(|x| x.hi).collect();
+        if motion.steps == 0 && self.is_below_range(lane) {
+            return Err(FlowError::OutOfRange { time, state: state(), is_large: false });
+        }
+        match (motion.lost, &self.presence) {
+            (None, _) => {}
+            (Some(Edge::Watched(index)), Some(presence)) => {
+                return Err(self.without_value(lane, presence, presence.formula(index)));
+            }
+            (Some(_), _) => return Err(self.singular(lane)),
+        }
         match finite && advances && step.is_finite() {
             true => match motion.pace.lost.filter(|_| !at_end) {
                 None => Ok(()),
@@ -270,7 +198,56 @@ impl<T: SeriesNumber> Stepper<T> {
                     Err(FlowError::Endless { time, step, until: motion.until.hi })
                 }
             },
-            false => Err(FlowError::Singular { time, state: state() }),
+            false => Err(self.singular(lane)),
+        }
+    }
+
+    /// State of the system itself, without further components.
+    fn own_state(&self, lane: usize) -> Vec<DoubleDouble> {
+        let mut state = self.pairs(lane);
+        state.truncate(self.presence.as_ref().map_or(state.len(), |presence| presence.dimension()));
+        state
+    }
+
+    /// Error at a state where the field has no series: a start without a value is told by the formula
+    /// that has none.
+    fn singular(&self, lane: usize) -> FlowError {
+        let (time, state) = (self.lanes[lane].time.hi, self.pairs(lane));
+        let is_lost = self.lanes[lane].lost.is_some();
+        if (time == 0.0 || is_lost)
+            && let Some(presence) = &self.presence
+            && let Some(formula) = presence.missing(&state)
+        {
+            return self.without_value(lane, presence, formula);
+        }
+        let state = self.own_state(lane).iter().map(|x| x.hi).collect();
+        match self.overflows(lane) {
+            true => FlowError::OutOfRange { time, state, is_large: true },
+            false => FlowError::Singular { time, state },
+        }
+    }
+
+    /// Whether a motion moves, and its numbers are too small to have all digits.
+    fn is_below_range(&self, lane: usize) -> bool {
+        let [still, moving, ..] = self.sizes.norms.map(|norm| norm.lane(lane).leading());
+        let size = still.max(moving);
+        size > 0.0 && size < range::<T>()
+    }
+
+    /// Whether a motion has a velocity, by which its higher coefficients are out of range.
+    fn overflows(&self, lane: usize) -> bool {
+        let [still, moving, ..] = self.sizes.norms.map(|norm| norm.lane(lane).leading());
+        let order = self.series.order() as f64;
+        let last = libm::log(still) + order * (libm::log(moving) - libm::log(still));
+        self.velocity(lane).iter().all(|x| x.is_finite()) && last > libm::log(f64::MAX)
+    }
+
+    /// Error at a state where a formula has no value.
+    fn without_value(&self, lane: usize, presence: &Presence, formula: &str) -> FlowError {
+        FlowError::NoValue {
+            formula: formula.to_string(),
+            time: self.lanes[lane].time.hi,
+            place: presence.place(&self.pairs(lane)),
         }
     }
 
@@ -299,14 +276,7 @@ impl<T: SeriesNumber> Stepper<T> {
     /// Takes the steps.
     pub fn advance(&mut self) {
         with_widest_vectors(Advance(self));
-        for lane in &mut self.lanes {
-            if lane.step.leading() != 0.0 {
-                lane.time = lane.time + lane.step.pair();
-                lane.steps += 1;
-                let (now, left) = (lane.time.hi, (lane.until - lane.time).hi);
-                lane.pace.keep(lane.step.leading(), lane.steps, now, left);
-            }
-        }
+        self.lanes.iter_mut().for_each(Lane::advance);
     }
 
     /// Whether a motion has reached its end.
@@ -345,8 +315,25 @@ impl<T: SeriesNumber> Stepper<T> {
         let (first, size) = if still > 0.0 { (0, still) } else { (1, moving) };
         let size = libm::log(size);
         let radius = |n: usize, norm: f64| (size - libm::log(norm)) / (n - first) as f64;
-        libm::exp(radius(order - 1, before_last).min(radius(order, last)) - self.kappa)
+        let own = libm::exp(radius(order - 1, before_last).min(radius(order, last)) - self.kappa);
+        match before_last.max(last) < range::<T>() {
+            true => own.min(longest::<T>(still, order)),
+            false => own,
+        }
     }
+}
+
+/// Size below which numbers have not all digits.
+fn range<T: SeriesNumber>() -> f64 {
+    f64::MIN_POSITIVE / T::EPSILON.max(f64::EPSILON)
+}
+
+/// Longest step after which terms that are lost below the range of numbers are within the rounding of
+/// the state.
+fn longest<T: SeriesNumber>(size: f64, order: usize) -> f64 {
+    let lost = libm::log(f64::MIN_POSITIVE);
+    let rounding = libm::log(T::EPSILON) + libm::log(size.max(range::<T>()));
+    libm::exp((rounding - lost) / order as f64)
 }
 
 /// Work of measuring the present expansions.

@@ -78,7 +78,7 @@ pub(super) fn variational_program(
     vectors: usize,
 ) -> Result<TaylorProgram, FlowError> {
     let dimension = model.dimension();
-    extended_program(model, parameters, vectors * dimension + 1, |phase, more| {
+    extended_program(model, parameters, &[], vectors * dimension + 1, |phase, more| {
         let jet = DualPoint::new(phase.with(&[], &phase.state()));
         let mut rates = jet.phase.field().to_vec();
         for vector in more[..vectors * dimension].chunks(dimension) {

@@ -4,6 +4,10 @@
 mod chaos;
 #[path = "flow/lanes.rs"]
 mod lanes;
+#[path = "flow/presence.rs"]
+mod presence;
+#[path = "flow/range.rs"]
+mod range;
 #[path = "flow/roots.rs"]
 mod roots;
 #[path = "flow/sections.rs"]

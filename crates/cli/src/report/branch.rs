@@ -29,6 +29,8 @@ pub struct BranchReport<'r> {
     pub surface: Option<&'r str>,
     /// Number of crossings after which the first orbit closed.
     pub period: u32,
+    /// Number of times that the orbit at the start is run through until then.
+    pub turns: u32,
     /// Branch.
     pub branch: &'r Branch,
 }
@@ -113,6 +115,12 @@ impl BranchReport<'_> {
             points.len() - marked,
             if marked == 1 { "" } else { "s" },
         );
+        if self.turns > 1 {
+            out.push_str(&format!(
+                "the orbit at the start is run through {} times in its period\n",
+                self.turns
+            ));
+        }
         let titles = self.titles.iter().map(|title| format!(" {title:>15}"));
         out.push_str(&format!(
             "{:>17}{} {:>15}  multipliers\n",
@@ -187,6 +195,7 @@ impl BranchReport<'_> {
             "to": self.range[1].to_f64().0,
             "section": self.surface,
             "period": self.period,
+            "turns": self.turns,
             "axes": self.titles,
             "points": self.branch.points.iter().map(point).collect::<Vec<_>>(),
             "start": self.branch.start,

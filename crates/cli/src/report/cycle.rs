@@ -69,6 +69,10 @@ pub fn text(case: &Case, found: &FoundOrbit) -> String {
     }
     let period = shown(cycle.period);
     out.push_str(&format!("  returns after t = {period}, to {:.1e}\n", cycle.residual));
+    if cycle.turns > 1 {
+        let (turns, least) = (cycle.turns, shown(least(cycle)));
+        out.push_str(&format!("  run through {turns} times: the least period is {least}\n"));
+    }
     for multiplier in &cycle.multipliers {
         if multiplier.im < 0.0 {
             continue;
@@ -90,6 +94,13 @@ fn written(multiplier: &Multiplier) -> String {
     let angle = libm::atan2(multiplier.im, multiplier.re);
     let angle = MeasuredNumber { value: angle, error: error / multiplier.modulus() };
     format!("s: modulus {}, argument ±{}", shown(modulus), shown(angle))
+}
+
+/// Least period: that after which the orbit closes, over the times that it is run through.
+fn least(cycle: &Cycle) -> MeasuredNumber {
+    let turns = f64::from(cycle.turns);
+    let MeasuredNumber { value, error } = cycle.period;
+    MeasuredNumber { value: value / turns, error: error / turns }
 }
 
 /// Product of all multipliers, e^∮ div v.
@@ -120,6 +131,9 @@ pub fn entry(found: &FoundOrbit) -> Value {
         "kind": kind(cycle.kind),
         "time": cycle.period.value,
         "time_error": cycle.period.error,
+        "turns": cycle.turns,
+        "least_time": least(cycle).value,
+        "least_time_error": least(cycle).error,
         "residual": cycle.residual,
         "multipliers": cycle.multipliers.iter().map(multiplier).collect::<Vec<_>>(),
         "product": product.value,

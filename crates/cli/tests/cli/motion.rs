@@ -122,6 +122,40 @@ fn sections_tell_classes_and_draw_separatrices() {
 }
 
 #[test]
+fn orbits_that_are_run_through_several_times_are_told() {
+    fn found<'a>(period: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+        let case = "classical/flows/van-der-pol-cycle";
+        let orbit = ["motion", "periodic", case, "--start", "2,0", "--section", "p = 0"];
+        [&orbit[..], &["--period", period], more].concat()
+    }
+    let point = |period: &str| json(&found(period, &["--json"]), 0)["points"][0].clone();
+    let (once, thrice) = (point("1"), point("3"));
+    let number = |point: &serde_json::Value, key: &str| point[key].as_f64().expect("a number");
+    assert_eq!((&once["turns"], &thrice["turns"]), (&1.into(), &3.into()));
+    let gap = number(&thrice, "least_time") - number(&once, "time");
+    assert!(gap.abs() <= number(&thrice, "least_time_error") + number(&once, "time_error"));
+    let text = |period: &str| {
+        let out = liouville(&found(period, &[])).assert().code(0).get_output().stdout.clone();
+        String::from_utf8(out).expect("text")
+    };
+    assert!(text("3").contains("run through 3 times: the least period is 6."), "{}", text("3"));
+    assert!(!text("1").contains("run through"), "{}", text("1"));
+}
+
+#[test]
+fn an_energy_of_0_is_held() {
+    let oscillator = "title = 'a'\n[state]\nq = '-2..2'\np = '-2..2'\n[hamiltonian]\n\
+                      function = 'p²/2 + q²/2 + q^4/4 - 3/4'\npairs = [['q', 'p']]\n";
+    let folder = folder("zero-energy", &[("oscillator.toml", oscillator)]);
+    let case = folder.join("oscillator.toml").display().to_string();
+    let orbit = ["motion", "periodic", &case, "--start", "1,0", "--section", "p = 0", "--json"];
+    let point = json(&orbit, 0)["points"][0].clone();
+    // 4 ∫ dq/√(3/2 − q² − q⁴/2) from 0 to 1
+    let period = point["time"].as_f64().expect("a number");
+    assert!((period - 4.768_022_3).abs() < 1e-6, "{period}");
+}
+
+#[test]
 fn periodic_and_exponents_report_in_json() {
     let case = figure("fig-8");
     let report = json(&["periodic", &case, "--start", "3.36,0.32", "--json"], 0);

@@ -275,3 +275,41 @@ fn files_that_are_not_utf_8_have_a_place() {
             .stderr(contains("with the encoding UTF-8"));
     }
 }
+
+#[test]
+fn starts_without_a_value_are_told_alike_by_all_commands() {
+    let field = "title = 'a'\n[parameters]\na = '1..2'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\
+                 \"x'\" = 'a*y + 1/x'\n\"y'\" = '-x'\n";
+    let folder = folder("no-value", &[("field.toml", field)]);
+    let case = folder.join("field.toml").display().to_string();
+    let set = ["--set", "a=1"];
+    for command in [
+        &["orbit", &case, "--start", "0,1", "--time", "1"][..],
+        &["section", &case, "--start", "0,1", "--section", "y = 0"],
+        &["exponents", &case, "--start", "0,1", "--time", "1"],
+        &["periodic", &case, "--start", "0,1", "--section", "y = 0"],
+        &["periodic", &case, "--start", "0,1", "--time", "1"],
+    ] {
+        let found = liouville(&[&["motion"], command, &set].concat()).assert().code(2);
+        found
+            .stderr(contains("`a*y + 1/x` has no value at the start, x = 0.0, y = 1.0"))
+            .stderr(contains("choose another start"));
+    }
+    let level = field.replace("a*y + 1/x", "a*y") + "[level]\nequations = ['x² + 2*y² = 1']\n";
+    let folder = crate::folder("not-kept", &[("level.toml", &level)]);
+    let case = folder.join("level.toml").display().to_string();
+    for command in [
+        &["orbit", &case, "--time", "1"][..],
+        &["section", &case, "--section", "y = 0"],
+        &["exponents", &case, "--time", "1"],
+        &["periodic", &case, "--start", "1,0", "--section", "y = 0"],
+        &["continue", &case, "--start", "1,0", "--section", "y = 0", "--parameter", "a"],
+        &["diagram", &case, "--over", "a=1..2", "--section", "y = 0"],
+        &["rotation", &case, "--section", "y = 0", "--from", "0,1", "--to", "0,2"],
+        &["basins", &case, "--x", "x=-1..1", "--y", "y=-1..1"],
+        &["chart", &case, "--x", "a=1..2", "--y", "a=1..2"],
+    ] {
+        let found = liouville(&[&["motion"], command].concat()).assert().code(2);
+        found.stderr(contains("along the motion `x² + 2*y² = 1` changes"));
+    }
+}

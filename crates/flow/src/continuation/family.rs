@@ -117,13 +117,13 @@ impl Family {
             Phase::new(&model, &free, state).field().to_vec()
         };
         let zero = || Expr::rational(&Rational::from(0));
-        let flow = extended_program(&model, &parameters, 1, |phase, more| {
+        let flow = extended_program(&model, &parameters, &loose, 1, |phase, more| {
             let mut all = rates(&more[0], &phase.state());
             all.push(zero());
             (all, Vec::new())
         })?;
         let more = 2 + (count + 1) * dimension;
-        let bundle = extended_program(&model, &parameters, more, |phase, more| {
+        let bundle = extended_program(&model, &parameters, &loose, more, |phase, more| {
             let (lambda, state) = (more[0], phase.state());
             let free = filled(&parameters, &loose, &[lambda]);
             let jet = DualPoint::new(Phase::new(&model, &free, &state));

@@ -25,8 +25,8 @@ use node::Node;
 use solve::{Solver, Trouble};
 use walk::{Half, Walk};
 
-use super::cycle::keeps_energy;
 use super::error::FlowError;
+use super::kept::keeps_energy;
 use super::start::LevelFunctions;
 use liouville::mechanics::{ParameterOrigin, components};
 use liouville::number::double_double::DoubleDouble;
@@ -87,8 +87,7 @@ fn kept(request: &BranchRequest<'_>) -> Result<(KeptEnergy, Rational), FlowError
         model.system.energy(phase).into_iter().collect()
     })?;
     let place = model.level.len();
-    let is_kept =
-        functions.len() > place && keeps_energy(model, start, request.time, &functions, place)?;
+    let is_kept = keeps_energy(request.case, model, start, request.time)?;
     let own = || functions.at(&start.state).0[place];
     if let Some(value) = own_value(request) {
         let energy = if is_kept { KeptEnergy::Fixed(own()) } else { KeptEnergy::None };

@@ -4,16 +4,16 @@
 use std::borrow::Cow;
 
 use super::scene::FollowedCase;
+use crate::kept::is_proved;
 use crate::{Enclosure, FlowError, Loose, Obstacle, ProvedHorseshoe, ProvedOrbit, Request, Start};
 use liouville::case::Case;
-use liouville::claim::Claim;
 use liouville::claim::motion::{Beginning, ClosedOrbit, Horseshoe, Neighbourhood};
 use liouville::formula::Formula;
 use liouville::mechanics::{
     Chart, Draw, LevelFunction, NumberLine, Parameter, ParameterOrigin, SamplerSpec,
 };
 use liouville::number::rational::Rational;
-use liouville::verdict::{self, Options, Trust, Verdict};
+use liouville::verdict::Options;
 
 /// Closed orbit that a claim is about.
 pub struct ClaimedOrbit<'g> {
@@ -244,14 +244,6 @@ fn kept(case: &Case, integrals: &[Formula], options: &Options) -> Result<bool, S
         return Err(format!("it is not proved that the motion keeps {}", text.trim()));
     }
     Ok(case.model.system.has_energy() && is_proved(case, "energy", options))
-}
-
-/// Whether a function is proved to be an integral on the level.
-fn is_proved(case: &Case, function: &str, options: &Options) -> bool {
-    let Ok(asked) = case.with_claims(&[Claim::integral(function)]) else { return false };
-    let options = Options { trust: Trust::Best, mutants: false, ..*options };
-    let report = verdict::judge(&asked, &options);
-    report.is_ok_and(|report| report.claims.iter().all(|claim| claim.verdict == Verdict::Proved))
 }
 
 /// Whether a box of states lies where identities are proved: near a state that can be drawn they

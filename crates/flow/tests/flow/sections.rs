@@ -191,3 +191,32 @@ fn motions_that_are_polynomials_of_time_cross_surfaces() {
         assert!((met.time - time).abs() < 1e-12, "{surface}: {met:?}");
     }
 }
+
+#[test]
+fn crossings_are_counted_once_where_operands_cancel() {
+    let case = parse(
+        "title = 'a'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = 'y'\n\"y'\" = '-x'\n",
+    );
+    // x = 0.3, known to some 0.01: steps of the motion end within that of the surface now and then
+    let text = "(x + 1e14)^2 = (1e14 + 0.3)^2";
+    let surface = CrossingSurface::read(Lexicon::new(&case), text).expect("a surface");
+    let axes = Columns::read(Lexicon::new(&case), "x, y").expect("axes");
+    let request = SurfaceRequest {
+        surface: &surface,
+        axes: &axes,
+        direction: Direction::Both,
+        crossings: 3000,
+        skip: 0,
+        backwards: false,
+    };
+    let begin = start(&case, "x=1 y=0");
+    let found = surface_section(&case, &request, &[Ok(begin)], 1, &|| ()).expect("a section");
+    let crossings = &found[0].crossings;
+    assert_eq!(crossings.len(), 3000);
+    for pair in crossings.windows(2) {
+        let [earlier, later] = pair else { continue };
+        let between = later.time - earlier.time;
+        assert!(earlier.rising != later.rising, "up and down in turn: {pair:?}");
+        assert!((2.4..3.9).contains(&between), "{pair:?}");
+    }
+}

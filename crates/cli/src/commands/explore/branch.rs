@@ -95,7 +95,7 @@ pub fn answer(options: &ContinueArgs) -> Result<(String, bool), String> {
     let columns = options.columns(case, surface.as_ref())?;
     let titles = columns.as_ref().map(Columns::titles);
     let titles = titles.map_or_else(|| vec!["l".to_string(), "L/G".to_string()], <[_]>::to_vec);
-    let found = options.follow(case, varied, &range, surface.as_ref(), columns)?;
+    let (turns, found) = options.follow(case, varied, &range, surface.as_ref(), columns)?;
     let report = BranchReport {
         case,
         name: &name,
@@ -103,6 +103,7 @@ pub fn answer(options: &ContinueArgs) -> Result<(String, bool), String> {
         titles: &titles,
         surface: surface.as_ref().map(CrossingSurface::text),
         period: options.search.period,
+        turns,
         branch: &found,
     };
     options.ink.save(
@@ -177,7 +178,8 @@ impl ContinueArgs {
         }
     }
 
-    /// Finds the closed orbit, and follows its branch.
+    /// Finds the closed orbit, and follows its branch. Returns the number of times that the orbit is
+    /// run through, too.
     fn follow(
         &self,
         case: &Case,
@@ -185,7 +187,7 @@ impl ContinueArgs {
         range: &[Rational; 2],
         surface: Option<&CrossingSurface>,
         columns: Option<Columns>,
-    ) -> Result<Branch, String> {
+    ) -> Result<(u32, Branch), String> {
         let search = &self.search;
         let mut starts = search.starts(case)?;
         let (Some(given), true) = (starts.pop(), starts.is_empty()) else {
@@ -207,6 +209,7 @@ impl ContinueArgs {
             }
         };
         let orbit = search.orbit(case, given, None)?;
+        let turns = orbit.cycle.turns;
         let request = BranchRequest {
             case,
             section,
@@ -219,7 +222,7 @@ impl ContinueArgs {
             count: self.count as usize,
             longest: self.step,
         };
-        telling(|tell| {
+        let found = telling(|tell| {
             let tell = std::cell::RefCell::new(tell);
             let progress = |point: &BranchPoint| {
                 let words = format!("{} = {}", self.parameter, point.value);
@@ -227,7 +230,8 @@ impl ContinueArgs {
             };
             branch(&request, &progress)
         })
-        .map_err(|error| search.subject.told(&error))
+        .map_err(|error| search.subject.told(&error))?;
+        Ok((turns, found))
     }
 }
 

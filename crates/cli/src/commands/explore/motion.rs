@@ -81,11 +81,18 @@ impl MotionArgs {
         }
     }
 
-    /// The case, if it has motions.
+    /// The case, if it has motions, and these stay on its level.
     fn moving(&self, opened: Opened) -> Result<Opened, String> {
-        match opened.case.model.system.is_map() {
-            true => Err(self.told(&FlowError::Discrete)),
-            false => Ok(opened),
+        if opened.case.model.system.is_map() {
+            return Err(self.told(&FlowError::Discrete));
+        }
+        match liouville_flow::check_level(&opened.case, self.seed) {
+            Ok(()) => Ok(opened),
+            Err(error) => {
+                let coloured = colour(std::io::stderr().is_terminal());
+                let shown = self.case.display().to_string();
+                Err(diagnostic::of_judging(&shown, &opened.text, &error, coloured).rendered)
+            }
         }
     }
 

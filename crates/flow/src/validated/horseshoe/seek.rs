@@ -216,7 +216,8 @@ impl<'s> Seeker<'s> {
         track: &mut Vec<SaddleCrossing>,
     ) {
         let piece = stepper.piece(lane);
-        for event in sides.events(&piece.output(0), piece.length()) {
+        let doubt = || self.program.rounding::<f64>(0, &stepper.pairs(lane), 0.0);
+        for event in sides.events(&piece.output(0), piece.length(), doubt) {
             let Event::Crossing { after, rising: true } = event else { continue };
             let state: Vec<f64> = piece.state(after).iter().map(|x| x.hi).collect();
             if distance(&state, &self.saddle.home.origin) > self.near {
