@@ -44,8 +44,8 @@ fn case(formula: &str) -> String {
 }
 
 /// Judges all formulas by `eval`, and compares with what is expected.
-fn trials() -> Vec<Trial> {
-    let folder = scratch("undefined");
+fn trials(language: &str) -> Vec<Trial> {
+    let folder = scratch(&format!("undefined-cases-{language}"));
     let mut all = Vec::new();
     for (index, (formula, known)) in FORMULAS.into_iter().enumerate() {
         let path = folder.join(format!("case{index}.toml"));
@@ -100,7 +100,7 @@ fn compare(language: &str, trial: &Trial, printed: &str) {
 }
 
 fn with_code(language: &str, driver: impl Fn(&std::path::Path, &str, &Trial) -> String) {
-    for (index, trial) in trials().iter().enumerate() {
+    for (index, trial) in trials(language).iter().enumerate() {
         let code = liouville(&["export", &trial.case, "--to", language]);
         let folder = scratch(&format!("undefined-{language}-{index}"));
         compare(language, trial, &driver(&folder, &code, trial));
