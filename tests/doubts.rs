@@ -1,8 +1,14 @@
 //! Cases that must not receive a verdict: charts off the level, undefined formulas, quadratures of
 //! other functions, places that the motion leaves.
 
+#[path = "doubts/jumps.rs"]
+mod jumps;
 #[path = "doubts/levels.rs"]
 mod levels;
+#[path = "doubts/parts.rs"]
+mod parts;
+#[path = "doubts/vacuous.rs"]
+mod vacuous;
 
 use liouville::case::Case;
 use liouville::verdict::{
@@ -388,26 +394,5 @@ fn a_witness_beyond_f64_shows_its_residual() {
             "{}: {digits:?}",
             claim.name
         );
-    }
-}
-
-#[test]
-fn independence_on_a_part_of_the_states_is_said_to_be_that() {
-    let remark = |functions: &str| {
-        let text = format!(
-            "title = 't'\n[state]\nx = '-1..1'\ny = '-1..1'\n[field]\n\"x'\" = '0*x'\n\"y'\" = '0*y'\n\
-             [[claim]]\nindependent = [{functions}]\n"
-        );
-        let report = claims(&text).remove(0);
-        assert_eq!(report.verdict, Verdict::Proved, "{functions}");
-        report.evidence.remark.unwrap_or_default()
-    };
-    for functions in ["'x + |x|', 'y'", "'x + √(x²)', 'y'", "'x', '|y|*y'"] {
-        let own = remark(functions);
-        assert!(own.contains("on a part of the states only"), "{functions}: {own}");
-    }
-    for functions in ["'x', 'y'", "'√(1 + x²)', 'y'", "'exp(x)', 'x + y³'"] {
-        let own = remark(functions);
-        assert!(!own.contains("part of the states"), "{functions}: {own}");
     }
 }

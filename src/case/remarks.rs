@@ -61,9 +61,6 @@ fn unread(root: &CaseTable<'_>, system: &str, model: &Model) -> Vec<String> {
                 .to_string(),
         );
     }
-    if root.has("poisson") && !root.has("variables") {
-        all.push("[poisson] is not read without [variables]".to_string());
-    }
     all
 }
 

@@ -13,6 +13,21 @@ pub struct Condition {
     pub is_essential: bool,
 }
 
+impl Condition {
+    /// Requires that the values of a claim are not all 0 identically, or it says nothing.
+    pub fn nonzero(values: Vec<Expr>, otherwise: &str) -> Self {
+        let need = Need::Nonzero { values };
+        Self { need, otherwise: otherwise.to_string(), is_essential: false }
+    }
+
+    /// Requires that values do not jump, or the claim says nothing of motions across the jump.
+    pub fn continuous(values: Vec<Expr>, what: &str) -> Self {
+        let need = Need::Continuous { values };
+        let otherwise = format!("{what} jumps: this says nothing of motions across");
+        Self { need, otherwise, is_essential: false }
+    }
+}
+
 /// A property that can be required.
 #[derive(Clone, Debug)]
 pub enum Need {
@@ -32,6 +47,23 @@ pub enum Need {
     Positive {
         /// The value.
         value: Expr,
+    },
+    /// Some of these values is not 0 identically.
+    Nonzero {
+        /// The values.
+        values: Vec<Expr>,
+    },
+    /// A function is 0 at some state.
+    Zeros {
+        /// The function.
+        function: Expr,
+    },
+    /// The map takes no two states to one image.
+    OneToOne,
+    /// No value jumps at states that motions can cross.
+    Continuous {
+        /// The values.
+        values: Vec<Expr>,
     },
     /// A factor has a value at almost every zero of a function.
     ValueOnZeros {

@@ -9,7 +9,7 @@
 
 use num_dual::DualNum;
 
-use super::{Reader, ResidualContext, Statement};
+use super::{Condition, Need, Reader, ResidualContext, Statement};
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
 use crate::mechanics::calculus::{DualPoint, dot};
@@ -68,6 +68,16 @@ impl Statement for Density {
             value: vec![jet.phase.scalar(&self.0)],
             ..ResidualContext::default()
         }
+    }
+
+    fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+        if jet.phase.model().system.is_map() {
+            let otherwise = "ρ dx is invariant only where Φ is one-to-one";
+            let need = Need::OneToOne;
+            return vec![Condition { need, otherwise: otherwise.to_string(), is_essential: true }];
+        }
+        let density = Condition::continuous(vec![jet.phase.scalar(&self.0)], "ρ");
+        vec![density, Condition::continuous(jet.phase.field().to_vec(), "the field")]
     }
 
     fn slopes(&self, jet: &DualPoint<'_, Expr>) -> Vec<Vec<Expr>> {

@@ -4,7 +4,7 @@
 //! on a level they are compared on vectors along it.
 
 use super::components::Components;
-use super::{Objection, Reader, ResidualContext, Statement};
+use super::{Condition, Objection, Reader, ResidualContext, Statement};
 use crate::formula::{Formula, Type, canonical_name};
 use crate::graph::Expr;
 use crate::mechanics::calculus::{DualPoint, dot, transversals};
@@ -115,6 +115,13 @@ impl Form {
             Some(factor) => phase.scalar(factor),
             None if phase.model().system.is_map() => T::one(),
             None => T::zero(),
+        }
+    }
+
+    fn coefficients(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
+        match &self.form {
+            FormShape::One(form) => form.at(&jet.phase),
+            FormShape::Two(blocks) => matrix(blocks, &jet.phase).0.concat(),
         }
     }
 
@@ -247,6 +254,10 @@ impl Statement for Form {
         is_open.then(|| Objection::open_constant("a form"))
     }
 
+    fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+        vec![Condition::nonzero(self.coefficients(jet), "the form is 0: this says nothing")]
+    }
+
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {
         let gradients = jet.level_gradients(kept);
         let across = transversals(&gradients);
@@ -272,10 +283,7 @@ impl Statement for Form {
     }
 
     fn context(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> ResidualContext {
-        let value: Vec<Expr> = match &self.form {
-            FormShape::One(form) => form.at(&jet.phase),
-            FormShape::Two(blocks) => matrix(blocks, &jet.phase).0.concat(),
-        };
+        let value = self.coefficients(jet);
         let steep: Expr = jet.derivative().iter().map(|column| dot(column, column)).sum();
         let scale = dot(&value, &value) * (steep + Expr::from(1.0));
         ResidualContext { scale: Some(scale), value, ..ResidualContext::default() }

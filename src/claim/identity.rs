@@ -139,7 +139,14 @@ impl Statement for Relation {
                     .to_string(),
             is_essential: true,
         };
-        factor.into_iter().map(condition).collect()
+        let zeros = Condition {
+            need: Need::Zeros { function },
+            otherwise: "F = 0 contains no state of the declared ranges".to_string(),
+            is_essential: false,
+        };
+        let identical = "F is 0 identically: this says nothing";
+        let vacuous = [Condition::nonzero(vec![function], identical), zeros];
+        factor.into_iter().map(condition).chain(vacuous).collect()
     }
 
     fn remark(&self, model: &Model) -> Option<String> {

@@ -1,6 +1,6 @@
 //! First integrals: L_vF = 0, or F∘Φ = F for a map; for scalars, vectors and matrices.
 
-use super::{Novelty, Reader, ResidualContext, Statement, difference};
+use super::{Condition, Novelty, Reader, ResidualContext, Statement, difference};
 use crate::formula::Formula;
 use crate::graph::Expr;
 use crate::mechanics::Phase;
@@ -50,6 +50,13 @@ impl Statement for Integral {
             scale: Some(steepness * dot(field, field)),
             value: jet.phase.evaluate(&self.0).components(),
             ..ResidualContext::default()
+        }
+    }
+
+    fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+        match jet.phase.model().system.is_map() {
+            true => Vec::new(),
+            false => vec![Condition::continuous(jet.phase.evaluate(&self.0).components(), "F")],
         }
     }
 

@@ -1,11 +1,15 @@
 //! Lax pairs: L' = [L,A] = LA − AL for square matrices of any size.
 
-use super::{Reader, ResidualContext, Statement, difference};
+use super::{Condition, Reader, ResidualContext, Statement, difference};
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
 use crate::mechanics::Phase;
 use crate::mechanics::calculus::{DualPoint, dot};
 use crate::scalar::Scalar;
+
+/// Largest number of rows for which all powers of L are examined, and number of powers for more.
+const FEW_ROWS: usize = 4;
+const FEW_POWERS: usize = 2;
 
 /// The claim L_vL = LA − AL.
 #[derive(Clone, Debug)]
@@ -21,11 +25,38 @@ fn product<T: Scalar>(a: &[T], b: &[T], n: usize) -> Vec<T> {
 }
 
 impl Lax {
+    fn size(&self) -> usize {
+        match self.matrix.value_type() {
+            Type::Matrix(n, _) => n,
+            other => unreachable!("a {} was refused when the claim was read", other.in_full()),
+        }
+    }
+
+    /// Computes the gradients of tr L, tr L², …: k tr(Lᵏ⁻¹ ∂L).
+    fn trace_slopes(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
+        let n = self.size();
+        let matrix = jet.phase.evaluate(&self.matrix).components();
+        let gradients = jet.gradients(&self.matrix);
+        let axes = gradients.first().map_or(0, Vec::len);
+        let powers = if n <= FEW_ROWS { n } else { FEW_POWERS };
+        let mut slopes = Vec::new();
+        let mut power: Vec<Expr> = (0..n * n)
+            .map(|place| Expr::from(f64::from(u8::from(place / n == place % n))))
+            .collect();
+        for _ in 0..powers {
+            slopes.extend((0..axes).map(|axis| -> Expr {
+                (0..n * n)
+                    .map(|place| power[place] * gradients[place % n * n + place / n][axis])
+                    .sum()
+            }));
+            power = product(&power, &matrix, n);
+        }
+        slopes
+    }
+
     /// Computes LA and AL.
     fn products<T: Scalar>(&self, phase: &Phase<'_, T>) -> (Vec<T>, Vec<T>) {
-        let Type::Matrix(n, _) = self.matrix.value_type() else {
-            unreachable!("checked when the claim was read")
-        };
+        let n = self.size();
         let [l, a] = [&self.matrix, &self.partner].map(|f| phase.evaluate(f).components());
         (product(&l, &a, n), product(&a, &l, n))
     }
@@ -76,6 +107,14 @@ impl Statement for Lax {
 
     fn about(&self, partner: Formula) -> Option<Self> {
         Some(Self { partner, ..self.clone() })
+    }
+
+    /// Requires an integral among tr L, tr L², …, as far as they are computed.
+    fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+        let slopes = self.trace_slopes(jet);
+        let most = if self.size() <= FEW_ROWS { self.size() } else { FEW_POWERS };
+        let otherwise = format!("tr Lᵏ is constant for k ≤ {most}: these are no integrals");
+        vec![Condition::nonzero(slopes, &otherwise)]
     }
 
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {

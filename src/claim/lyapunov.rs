@@ -3,7 +3,7 @@
 //! The inequality x ≤ 0 is the equation x + |x| = 0. It is proved if intervals show that x is positive
 //! at no state, and refuted by a state at which x is positive.
 
-use super::{Objection, Reader, ResidualContext, Statement};
+use super::{Condition, Objection, Reader, ResidualContext, Statement};
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
 use crate::mechanics::Model;
@@ -53,6 +53,17 @@ impl Statement for Lyapunov {
     fn objection(&self, model: &Model) -> Option<Objection> {
         let is_open = self.rate.as_ref().is_some_and(|rate| model.has_antiderivative(rate));
         is_open.then(|| Objection::open_constant("a rate with a sign"))
+    }
+
+    fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+        let slopes = jet.gradients(&self.function).concat();
+        let constant = Condition::nonzero(slopes, "F is a constant: this says nothing");
+        match jet.phase.model().system.is_map() {
+            true => vec![constant],
+            false => {
+                vec![constant, Condition::continuous(vec![jet.phase.scalar(&self.function)], "F")]
+            }
+        }
     }
 
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {

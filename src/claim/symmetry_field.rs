@@ -1,9 +1,10 @@
 //! Symmetry fields, tangent to the level: [u,v] = (u·∇)v - (v·∇)u vanishes, or is a multiple of v.
 
 use super::components::Components;
-use super::{Reader, Statement};
+use super::{Condition, Reader, Statement};
 use crate::formula::{Formula, Type};
-use crate::mechanics::calculus::{DualPoint, dot};
+use crate::graph::Expr;
+use crate::mechanics::calculus::{DualPoint, dot, rejection};
 use crate::scalar::Scalar;
 
 /// The claim `[u,v] = c v`, with c = 0 unless a weight is given.
@@ -25,6 +26,13 @@ impl Statement for SymmetryField {
 
     fn formulas(&self) -> Vec<&Formula> {
         self.components.formulas().chain(&self.weight).collect()
+    }
+
+    /// Requires that u is no multiple of v: every f v with L_vf = 0 commutes with v.
+    fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+        let across = rejection(&self.components.at(&jet.phase), &[jet.phase.field().to_vec()]);
+        let otherwise = "u is 0 or a multiple of the field, as every system has";
+        vec![Condition::nonzero(across, otherwise)]
     }
 
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {

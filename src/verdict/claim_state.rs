@@ -36,6 +36,8 @@ pub struct ClaimState {
     pub blurred: Option<String>,
     /// Message that the residual has no value on a part of the states that count, if so.
     pub partial: Option<String>,
+    /// Whether a value that does not vanish is shown not to on a part of the states only.
+    pub is_on_a_part: bool,
     /// Lanes of the first block at which f64 finds no state, or no required value.
     pub missing: Vec<usize>,
 }

@@ -6,32 +6,14 @@ use super::judge::{Options, Trust};
 use super::recorded::RecordedClaim;
 use crate::case::{Case, Expect};
 use crate::claim::ClaimKind;
-use crate::graph::{Graph, Step};
-use crate::number::{BinaryOperation, UnaryFunction};
 
-/// Whether a residual contains a modulus, or the root of a square: it may then be 0
-/// on a part of the states, and not on others.
-fn is_piecewise(graph: &Graph, item: &RecordedClaim<'_>) -> bool {
-    let reached = graph.reached(item.residual.iter().chain(&item.requirement).copied());
-    let is_square = |place: usize| match graph.step(place) {
-        Step::Binary(BinaryOperation::Mul, a, b) => a == b,
-        Step::Power(_, exponent) => {
-            let (above, below) = exponent.parts();
-            below == 1.into() && !above.bit(0)
-        }
-        _ => false,
-    };
-    (0..reached.len()).filter(|place| reached[*place]).any(|place| match graph.step(place) {
-        Step::Unary(UnaryFunction::Abs, _) => true,
-        Step::Unary(UnaryFunction::Sqrt, a) => is_square(a),
-        _ => false,
-    })
-}
+/// Remark on a value that is shown not to vanish at some states, and may vanish at others.
+const ON_A_PART: &str = "shown on a part of the states only: where a modulus, or a root that depends on \
+                         others, has another sign, it may fail";
 
 /// Makes the report on a claim, with its verdict compared with the expectation.
 pub fn report(
     case: &Case,
-    graph: &Graph,
     item: &RecordedClaim<'_>,
     status: ClaimState,
     options: &Options,
@@ -63,13 +45,13 @@ pub fn report(
     }
     let holds = matches!(verdict, Verdict::Proved | Verdict::Confirmed);
     if holds {
-        evidence.remark = evidence.remark.or_else(|| claim.kind.remark(&case.model));
-        if claim.kind.is_negated() && is_piecewise(graph, item) {
-            let part = "shown on a part of the states only: where a modulus, or the root of a square, is \
-                        another function, it may fail";
+        if let Some(remark) = claim.kind.remark(&case.model) {
+            evidence.add_remark(remark);
+        }
+        if claim.kind.is_negated() && status.is_on_a_part {
             evidence.remark = Some(match evidence.remark {
-                Some(remark) => format!("{remark}; {part}"),
-                None => part.to_string(),
+                Some(remark) => format!("{ON_A_PART}; {remark}"),
+                None => ON_A_PART.to_string(),
             });
         }
     }

@@ -1,7 +1,7 @@
 //! Conditions that claims presuppose.
 
-use super::claim_state::undecide;
-use super::field::{PrimeFieldStates, combinations};
+use super::claim_state::{are_zero, undecide};
+use super::field::{Answer, PrimeFieldStates, Query, combinations};
 use super::judging::Judging;
 use super::ladder::Open;
 use super::recorded::RecordedClaim;
@@ -29,11 +29,11 @@ impl Judging<'_> {
                         Some(condition.otherwise.clone())
                     }
                     (_, true) => None,
-                    (_, false) => self.failure(sampler, condition)?,
+                    (_, false) => self.failure(sampler, item, condition)?,
                 };
                 let Some(failure) = failure else { continue };
                 if !condition.is_essential {
-                    status.evidence.remark = Some(failure);
+                    status.evidence.add_remark(failure);
                 } else if !self.holds_of_all_values(item)? {
                     undecide(status, failure);
                 }
@@ -44,7 +44,12 @@ impl Judging<'_> {
 
     /// Returns the message on a condition that fails, or on an essential one that is not known to
     /// hold.
-    fn failure(&self, sampler: &Sampler, condition: &Condition) -> Result<Option<String>, Fault> {
+    fn failure(
+        &self,
+        sampler: &Sampler,
+        item: &RecordedClaim<'_>,
+        condition: &Condition,
+    ) -> Result<Option<String>, Fault> {
         let otherwise = &condition.otherwise;
         match &condition.need {
             Need::Rank { rows, rank } => {
@@ -75,6 +80,25 @@ impl Judging<'_> {
                     })?;
                 Ok((!is_met).then(|| otherwise.clone()))
             }
+            Need::Nonzero { values } => {
+                let is_vacuous = self.are_zero_everywhere(sampler, values)?;
+                Ok(is_vacuous.then(|| otherwise.clone()))
+            }
+            Need::Zeros { function } => {
+                let has_none =
+                    self.holds_at_all_states(sampler, *function, &|graph, extents, value| {
+                        is_nowhere_zero(graph, extents, &[], &[value])
+                    })?;
+                Ok(has_none.then(|| otherwise.clone()))
+            }
+            Need::OneToOne => {
+                let both = self.second_preimage(sampler, item)?;
+                Ok(both.map(|both| format!("Φ takes {both} to one state: {otherwise}")))
+            }
+            Need::Continuous { values } => {
+                let place = self.jump(sampler, values)?;
+                Ok(place.map(|place| format!("near {place} {otherwise}")))
+            }
             Need::ValueOnZeros { function, factor, inverse } => {
                 let is_met = self.has_value_on_zeros(sampler, *function, *factor, *inverse)?;
                 Ok((!is_met).then(|| otherwise.clone()))
@@ -98,6 +122,21 @@ impl Judging<'_> {
             }
         }
         Ok(true)
+    }
+
+    /// Whether values are known to be 0 at all states.
+    fn are_zero_everywhere(&self, sampler: &Sampler, values: &[Expr]) -> Result<bool, Fault> {
+        if are_zero(self.graph, values) {
+            return Ok(true);
+        }
+        if values
+            .iter()
+            .any(|value| self.graph.constant_value(*value).is_some_and(|v| !v.is_zero()))
+        {
+            return Ok(false);
+        }
+        let answers = PrimeFieldStates::new(self, sampler).test(&[Query::of(values.to_vec())])?;
+        Ok(matches!(answers.first(), Some(Answer::Zero(_))))
     }
 
     /// Whether a claim about new variables is proved for all their values, related or not.

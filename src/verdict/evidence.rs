@@ -271,6 +271,19 @@ pub struct Evidence {
     pub reason: Option<String>,
 }
 
+impl Evidence {
+    /// Adds a remark to those that there are.
+    pub(crate) fn add_remark(&mut self, remark: String) {
+        match &mut self.remark {
+            Some(before) => {
+                before.push_str("; ");
+                before.push_str(&remark);
+            }
+            None => self.remark = Some(remark),
+        }
+    }
+}
+
 /// Report on a claim.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ClaimReport {

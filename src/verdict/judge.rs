@@ -228,7 +228,7 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
     let claims: Vec<ClaimReport> = recorded
         .iter()
         .zip(statuses)
-        .map(|(item, status)| report(case, &graph, item, status, options))
+        .map(|(item, status)| report(case, item, status, options))
         .collect();
     let mutants = options.mutants.then(|| mutate(case, &claims, options)).transpose()?;
     let (motions_left, absences_left) = (case.motions.len(), case.absences.len());

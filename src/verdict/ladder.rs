@@ -54,6 +54,7 @@ impl Judging<'_> {
         }
         let missed = self.missed_part(&sampler)?;
         self.decide(place, &sampler, missed.as_deref(), &mut open)?;
+        self.settle_parts(&sampler, &mut open)?;
         let mut holding: Open<'_, '_> =
             open.into_iter().filter(|(_, status)| status.holds()).collect();
         self.settle_novelty(&sampler, &mut holding)?;
@@ -127,9 +128,13 @@ impl Judging<'_> {
                 let mut one = ClaimState::default();
                 let chosen = sampler.with(fixed);
                 self.decide(place, &chosen, missed, &mut vec![(item, &mut one)])?;
+                self.settle_parts(&chosen, &mut vec![(item, &mut one)])?;
+                one.is_on_a_part |= status.is_on_a_part;
                 let refuted = one.settled == Some(Verdict::Refuted);
                 if !refuted || status.settled.is_none() {
                     *status = one;
+                } else {
+                    status.is_on_a_part = one.is_on_a_part;
                 }
                 if !refuted {
                     let listed = chosen.listed(self.case);

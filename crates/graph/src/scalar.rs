@@ -127,7 +127,9 @@ impl<T: Scalar> Scalar for Dual<T> {
 
     fn modulus(self) -> Self {
         let value = self.re.modulus();
-        Dual::new(value, self.eps * self.re / value)
+        // |q − q| is a constant, although |x| has no derivative at 0.
+        let slope = if self.eps.is_absent() { self.eps } else { self.eps * self.re / value };
+        Dual::new(value, slope)
     }
 
     fn arcsine(self) -> Self {

@@ -10,7 +10,7 @@ mod print;
 mod ranges;
 
 pub use maker::Maker;
-pub use ranges::extent;
+pub use ranges::{extent, inside};
 
 use std::sync::Arc;
 

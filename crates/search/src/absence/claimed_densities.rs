@@ -21,7 +21,7 @@ const MOST_VELOCITIES: usize = 6;
 
 /// Returns a density of the file, or a known one, that is proved and belongs to the class with polynomials
 /// up to a degree.
-pub fn witness(asked: &AbsenceCase<'_>, most: u32) -> Result<Option<Formula>, SearchError> {
+pub fn witness(asked: &AbsenceCase<'_>, most: u32) -> Result<Option<String>, SearchError> {
     let case = asked.case;
     let in_velocities = Coordinates::of(case).is_ok();
     let in_state = AnsatzVariables::of(case).is_some_and(|own| !own.have_velocities());
@@ -37,14 +37,21 @@ pub fn witness(asked: &AbsenceCase<'_>, most: u32) -> Result<Option<Formula>, Se
             (false, false) => false,
         };
         // The claim itself may concern another domain, and thus another volume.
-        if is_of_class
-            && judged_alone(case, Claim::density(formula), &asked.effort)?
-                .is_some_and(|report| report.verdict == Verdict::Proved)
-        {
-            return Ok(Some(formula.clone()));
+        if is_of_class && let Some(exhibit) = exhibit(asked, formula)? {
+            return Ok(Some(exhibit));
         }
     }
     Ok(None)
+}
+
+/// Writes a density that is proved, with what is remarked on it.
+pub fn exhibit(asked: &AbsenceCase<'_>, formula: &Formula) -> Result<Option<String>, SearchError> {
+    let report = judged_alone(asked.case, Claim::density(formula), &asked.effort)?;
+    let proved = report.filter(|report| report.verdict == Verdict::Proved);
+    Ok(proved.map(|report| match &report.evidence.remark {
+        Some(remark) => format!("density, proved: {formula}; {remark}"),
+        None => format!("density, proved: {formula}"),
+    }))
 }
 
 /// The determinant of the second derivatives of the kinetic energy by the velocities, by which dq dp is

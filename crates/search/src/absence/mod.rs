@@ -163,7 +163,7 @@ impl<'a> AbsenceCase<'a> {
         if matches!(counted, Counted::Densities)
             && let Some(density) = claimed_densities::witness(self, degree)?
         {
-            return Ok(AbsenceOutcome::Exhibited(format!("density, proved: {density}")));
+            return Ok(AbsenceOutcome::Exhibited(density));
         }
         let outcome = if Coordinates::of(self.case).is_ok() {
             velocities::judge(self, counted, degree)?

@@ -16,7 +16,7 @@ use super::super::products::{DEGREE_PRIMES, Generators};
 use super::super::terms::{is_one, numeric_exponent};
 use super::known::{contains_integrals, has_lists, rank};
 use super::leading;
-use super::{AbsenceCase, AbsenceOutcome, Counted, generated};
+use super::{AbsenceCase, AbsenceOutcome, Counted, claimed_densities, generated};
 use liouville::claim::Claim;
 use liouville::formula::{Formula, FormulaError};
 use liouville::graph::Expr;
@@ -334,8 +334,8 @@ impl<'a> Counting<'a> {
                     true => polynomial,
                     false => polynomial.bracketed().power(&root)?,
                 };
-                if self.holds(Claim::density(&formula))? {
-                    return Ok(AbsenceOutcome::Exhibited(format!("density, proved: {formula}")));
+                if let Some(exhibit) = claimed_densities::exhibit(self.asked, &formula)? {
+                    return Ok(AbsenceOutcome::Exhibited(exhibit));
                 }
             }
             return Ok(AbsenceOutcome::Open(format!(
@@ -391,9 +391,9 @@ impl<'a> Counting<'a> {
             false => (sum.bracketed() / &below.bracketed())?,
         };
         let formula = Formula::call("exp", &[&exponent])?;
-        match self.holds(Claim::density(&formula))? {
-            true => Ok(AbsenceOutcome::Exhibited(format!("density, proved: {formula}"))),
-            false => open(),
+        match claimed_densities::exhibit(self.asked, &formula)? {
+            Some(exhibit) => Ok(AbsenceOutcome::Exhibited(exhibit)),
+            None => open(),
         }
     }
 }

@@ -1,0 +1,186 @@
+//! Jumps of functions along lines of states: a function that jumps is not kept by a motion that
+//! crosses the jump, whatever its rate is on both sides.
+//!
+//! A jump is observed in f64, not proved, and is told in a remark.
+
+use super::field::combinations;
+use super::judging::Judging;
+use super::point::named;
+use super::sampler::Sampler;
+use crate::formula::Type;
+use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape};
+use crate::mechanics::Draw;
+use crate::number::float::Float;
+use crate::number::{BinaryOperation, UnaryFunction};
+
+/// Number of points into which a line, or a part of it, is divided at a time.
+const POINTS: usize = 64;
+/// Number of lines through pairs of states.
+const LINES: u64 = 16;
+/// Number of divisions: before the sides of a jump are first compared, and in all.
+const EARLY: usize = 3;
+const LATE: usize = 6;
+/// Largest change of each side between the two, in units of the jump.
+const MOST_DRIFT: f64 = 0.1;
+/// Smallest jump in units of the function's values on the line.
+const LEAST_JUMP: f64 = 1e-9;
+/// Value of antiderivatives, which do not jump.
+const ANTIDERIVATIVE: f64 = 0.5;
+
+impl Judging<'_> {
+    /// Finds a state, as text, near which one of these values jumps.
+    ///
+    /// `None` if no jump was met on the lines that were tried.
+    pub(super) fn jump(&self, sampler: &Sampler, values: &[Expr]) -> Result<Option<String>, Fault> {
+        if !may_jump(self.graph, values) {
+            return Ok(None);
+        }
+        let Some(fixed) = combinations(sampler.recipes()).and_then(|all| all.into_iter().next())
+        else {
+            return Ok(None);
+        };
+        let state = self.case.model.free_components() + self.case.model.dimension();
+        let made = sampler.made()[..state.min(sampler.made().len())].to_vec();
+        let (graph, groups) = sampler.compose(self.graph, &[values.to_vec()], &fixed)?;
+        let tape = Tape::new(&graph, &groups.concat());
+        for line in 0..LINES {
+            let ends = [2 * line, 2 * line + 1].map(|index| sampler.nearest_draws(index));
+            let line = Line::between(sampler, ends, graph.inputs());
+            if let Some(place) = line.jump(&tape) {
+                let tape = Tape::new(sampler.graph(), &made);
+                return Ok(Some(self.told(&line.values(&tape, [place; POINTS]))));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Writes the state among values of parameters and state.
+    fn told(&self, values: &[[f64; POINTS]]) -> String {
+        let short = |value: &[f64; POINTS]| match value[0] {
+            value if value.abs() < LEAST_JUMP => "0".to_string(),
+            value => format!("{value:.3}"),
+        };
+        let values: Vec<String> = values.iter().map(short).collect();
+        let (_, state) = named(&self.case.model, &values);
+        let kinds = self.case.model.state.iter().map(|variable| variable.kind);
+        let written = |((name, value), kind): (&(String, Vec<String>), Type)| {
+            format!("{name} = {}", kind.listed(value, ["[", ", ", "]"]))
+        };
+        state.iter().zip(kinds).map(written).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// A line of draws, with the parameters of its first end.
+struct Line {
+    from: Vec<f64>,
+    to: Vec<f64>,
+}
+
+impl Line {
+    fn between(sampler: &Sampler, ends: [Vec<(f64, bool)>; 2], inputs: usize) -> Self {
+        let [mut from, mut to] = ends.map(|end| end.iter().map(|draw| draw.0).collect::<Vec<_>>());
+        for (index, recipe) in sampler.recipes().iter().enumerate() {
+            let is_shared =
+                index < sampler.parameter_draws() || matches!(recipe, Draw::Sign | Draw::OneOf(_));
+            if is_shared {
+                to[index] = from[index];
+            }
+        }
+        from.resize(inputs.max(from.len()), ANTIDERIVATIVE);
+        to.resize(from.len(), ANTIDERIVATIVE);
+        Self { from, to }
+    }
+
+    /// Values at some places on the line.
+    fn values(&self, tape: &Tape, places: [f64; POINTS]) -> Vec<[f64; POINTS]> {
+        let input = |(from, to): (&f64, &f64)| places.map(|place| from + place * (to - from));
+        let inputs: Vec<[f64; POINTS]> = self.from.iter().zip(&self.to).map(input).collect();
+        let mut evaluator = Evaluator::new(tape, Float::<POINTS>);
+        evaluator.run(&inputs);
+        evaluator.outputs().copied().collect()
+    }
+
+    /// Finds a place at which some value has different limits from both sides.
+    fn jump(&self, tape: &Tape) -> Option<f64> {
+        let whole = self.values(tape, divided(0.0, 1.0));
+        (0..whole.len()).find_map(|output| self.jump_of(tape, output, &whole[output]))
+    }
+
+    fn jump_of(&self, tape: &Tape, output: usize, whole: &[f64; POINTS]) -> Option<f64> {
+        let size =
+            whole.iter().filter(|value| value.is_finite()).fold(0.0f64, |a, b| a.max(b.abs()));
+        let (mut places, mut values) = (divided(0.0, 1.0), *whole);
+        let mut early = [0.0; 2];
+        for division in 0..LATE {
+            let step = |k: &usize| (values[k + 1] - values[*k]).abs();
+            let steepest = (0..POINTS - 1)
+                .filter(|k| step(k).is_finite())
+                .max_by(|a, b| step(a).total_cmp(&step(b)))?;
+            let sides = [values[steepest], values[steepest + 1]];
+            let jump = (sides[1] - sides[0]).abs();
+            if jump <= LEAST_JUMP * size {
+                return None;
+            }
+            if division == EARLY {
+                early = sides;
+            }
+            if division + 1 == LATE {
+                let drift = |k: usize| (sides[k] - early[k]).abs();
+                let is_jump = (0..2).all(|side| drift(side) <= MOST_DRIFT * jump);
+                return is_jump.then_some(0.5 * (places[steepest] + places[steepest + 1]));
+            }
+            places = divided(places[steepest], places[steepest + 1]);
+            values = self.values(tape, places)[output];
+        }
+        None
+    }
+}
+
+/// Places from one to another, in equal steps.
+fn divided(from: f64, to: f64) -> [f64; POINTS] {
+    std::array::from_fn(|k| from + (to - from) * k as f64 / (POINTS - 1) as f64)
+}
+
+/// Whether values contain what can jump: a quotient with a modulus or the root of a square, or an
+/// arctangent or exponential of a quotient. Other quotients jump on sets that no motion meets.
+fn may_jump(graph: &Graph, values: &[Expr]) -> bool {
+    let reached = graph.reached(values.iter().copied());
+    let mut is_quotient = vec![false; reached.len()];
+    let (mut has_corner, mut has_quotient) = (false, false);
+    for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
+        let below = step.arguments().any(|argument| is_quotient[argument]);
+        is_quotient[place] = below
+            || match step {
+                Step::Unary(UnaryFunction::Recip, a) => !is_constant(graph, a),
+                Step::Power(_, exponent) => exponent.is_negative(),
+                Step::Binary(BinaryOperation::Pow, ..) => true,
+                _ => false,
+            };
+        has_quotient |= is_quotient[place];
+        has_corner |= match step {
+            Step::Unary(UnaryFunction::Abs, _) => true,
+            Step::Unary(UnaryFunction::Sqrt, a) => has_square_factor(graph, a),
+            Step::Unary(UnaryFunction::Atan | UnaryFunction::Exp, _) => below,
+            _ => false,
+        };
+    }
+    has_corner && has_quotient
+}
+
+fn is_constant(graph: &Graph, place: usize) -> bool {
+    matches!(graph.step(place), Step::Constant(_))
+}
+
+/// Whether a value is written as a product with the square of something.
+fn has_square_factor(graph: &Graph, place: usize) -> bool {
+    match graph.step(place) {
+        Step::Binary(BinaryOperation::Mul, a, b) => {
+            a == b || has_square_factor(graph, a) || has_square_factor(graph, b)
+        }
+        Step::Power(_, exponent) => {
+            let (above, below) = exponent.parts();
+            below == 1.into() && !above.bit(0)
+        }
+        _ => false,
+    }
+}
