@@ -148,7 +148,7 @@ impl DiagramRequest<'_> {
 /// The case with all parameters fixed: free ones as drawn, and the one that varies at a value.
 fn fixed(case: &Case, drawn: &[Rational], varied: Coordinate, value: &Rational) -> Option<Case> {
     let mut fixed = case.clone();
-    let mut drawn = drawn;
+    let (mut drawn, zero) = (drawn, Rational::from(0));
     let own = varied.parameter().map(|(index, component)| case.model.tied(index, component));
     // An entry that cannot vary is refused by its name, before.
     let tied = own.and_then(Result::ok).unwrap_or_default();
@@ -162,8 +162,8 @@ fn fixed(case: &Case, drawn: &[Rational], varied: Coordinate, value: &Rational) 
             (Some((index, component)), ParameterOrigin::Fixed(values)) if index == place => {
                 *values.get_mut(component)? = value.clone();
                 for one in &tied {
-                    let value = value.clone();
-                    *values.get_mut(one.component)? = if one.is_negative { -value } else { value };
+                    *values.get_mut(one.component)? =
+                        if one.is_negative { &zero - value } else { value.clone() };
                 }
             }
             _ => {}
@@ -182,7 +182,7 @@ mod tests {
              x = 'vector(2, -1..1)'\n[field]\n\"x'\" = 'J*K*x'\n";
         let case = Case::parse(text, &[]).expect("a case");
         let [zero, one, seven] = [0, 1, 7].map(Rational::from);
-        let drawn = [zero.clone(), one.clone(), -one, zero];
+        let drawn = [zero.clone(), one.clone(), &zero - &one, zero];
         for (index, component, text) in [(0, 1, "2 7 7 3"), (1, 2, "0 -7 7 0")] {
             let varied = Coordinate::Parameter { index, component };
             let fixed = fixed(&case, &drawn, varied, &seven).expect("a value");
