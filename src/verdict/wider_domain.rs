@@ -15,12 +15,34 @@ use super::field::{Answer, PrimeFieldStates, Query};
 use super::judge::{JudgeError, Trust};
 use super::judging::Judging;
 use super::recorded::{RecordedClaim, Wider};
-use super::run::Doubles;
+use super::run::{Doubles, Values};
 use super::sampler::{Sampler, TAPE_LANES};
 use crate::claim::LevelSubset;
 use crate::graph::{Expr, Step};
 use crate::number::UnaryFunction;
 use crate::number::ball::Ball;
+
+/// A claim that holds at its own place, with the positions of its outputs for a wider one.
+struct Candidate<'f, 'r> {
+    item: &'f RecordedClaim<'r>,
+    status: &'f mut ClaimState,
+    residual: Range<usize>,
+    scale: Range<usize>,
+    defects: Range<usize>,
+    requirement: Range<usize>,
+    /// Whether a proof at the wider place is one at its own.
+    implies_own: bool,
+}
+
+/// A candidate that enclosures do not exclude.
+struct Asked<'f, 'r> {
+    item: &'f RecordedClaim<'r>,
+    status: &'f mut ClaimState,
+    query: Query,
+    /// Whether 0 lies in the enclosures at all states.
+    is_zero: bool,
+    implies_own: bool,
+}
 
 impl Judging<'_> {
     /// Finds the wider places in which claims hold as well.
@@ -29,7 +51,6 @@ impl Judging<'_> {
         recorded: &[RecordedClaim<'_>],
         statuses: &mut [ClaimState],
     ) -> Result<(), JudgeError> {
-        let model = &self.case.model;
         let mut places: Vec<&LevelSubset> = Vec::new();
         for place in recorded.iter().flat_map(|item| item.wider.iter().map(|wider| &wider.place)) {
             if !places.contains(&place) {
@@ -37,102 +58,106 @@ impl Judging<'_> {
             }
         }
         for place in places {
-            let mut outputs = self.rates_at(place);
-            let rates = 0..outputs.len();
-            let mut extend = |some: &[Expr]| {
-                let start = outputs.len();
-                outputs.extend_from_slice(some);
-                start..outputs.len()
-            };
-            let mut asked = Vec::new();
-            let common = extend(&self.common.required_at(&place.kept));
-            for (item, status) in recorded.iter().zip(statuses.iter_mut()) {
-                let wider = item.wider.iter().find(|wider| wider.place == *place);
-                let covered = status.evidence.holds.iter().any(|name| name == "everywhere");
-                if let (Some(wider), true, false) = (wider, status.holds(), covered) {
-                    let residual = extend(&wider.residual);
-                    let scale = extend(item.context.scale.as_slice());
-                    let (defects, own) = (extend(&wider.defects), extend(&item.requirement));
-                    let implies_own = self.is_continued(place, item, wider);
-                    asked.push((item.claim, status, residual, scale, defects, own, implies_own));
-                }
-            }
-            if asked.is_empty() {
-                continue;
-            }
-            let sampler = Sampler::new(self.case, place, self.options.seed)?;
-            if self.missed_part(&sampler)?.is_some() {
-                continue;
-            }
-            let values = self.run(&outputs).at(&Ball::<TAPE_LANES>, &sampler.balls(0));
-            let all = values.existing(std::slice::from_ref(&common));
-            if BlockResult::at::<Doubles>(&values.range(rates), None, &all).excludes_zero() {
-                continue;
-            }
-            let mut open = Vec::new();
-            for (claim, status, residual, scale, defects, own, implies_own) in asked {
-                let scale = values.range(scale).first().copied();
-                let existing = values.existing(&[common.clone(), own.clone()]);
-                let result = |range: Range<usize>, scale| {
-                    BlockResult::at::<Doubles>(&values.range(range), scale, &existing)
-                };
-                let sound = defects.is_empty() || result(defects.clone(), None).is_zero();
-                let result = result(residual.clone(), scale);
-                // Where nothing has a value nothing holds.
-                if sound && result.has_value() && !result.excludes_zero() {
-                    let group = [&outputs[residual], &outputs[defects]].concat();
-                    let query = Query {
-                        outputs: group,
-                        requirement: outputs[own].to_vec(),
-                        ..Query::default()
-                    };
-                    open.push((claim, status, query, result.is_zero(), implies_own));
-                }
-            }
-            let queries: Vec<Query> = open.iter().map(|(_, _, query, ..)| query.clone()).collect();
-            let answers = match self.options.trust {
-                Trust::Float => vec![None; queries.len()],
-                _ => PrimeFieldStates::new(self, &sampler)
-                    .test(&queries)?
-                    .into_iter()
-                    .map(Some)
-                    .collect(),
-            };
-            for ((claim, status, query, is_zero, implies_own), answer) in
-                open.into_iter().zip(answers)
-            {
-                let holds = match answer {
-                    Some(Answer::Zero(certificate)) => {
-                        if implies_own && status.settled == Some(Verdict::Confirmed) {
-                            prove(status, Proof::from(certificate), place.name(model));
-                        }
-                        true
-                    }
-                    Some(Answer::NonZero(_) | Answer::Partial) => false,
-                    Some(Answer::Silent(_) | Answer::Void) | None => {
-                        let constant = |expr: &Expr| self.graph.constant_value(*expr);
-                        let folded =
-                            query.outputs.iter().all(|x| constant(x).is_some_and(|x| x.is_zero()));
-                        let confirmed = status.settled == Some(Verdict::Confirmed);
-                        if is_zero && claim.only_there && !folded {
-                            let place = place.name(model);
-                            let reason = format!("it is not known whether it also holds {place}");
-                            status.evidence.reason = Some(reason);
-                        }
-                        folded || (is_zero && confirmed && !claim.only_there)
-                    }
-                };
-                if holds {
-                    status.evidence.holds.push(place.name(model));
-                }
-            }
+            self.extend_to(place, recorded, statuses)?;
         }
         for (item, status) in recorded.iter().zip(statuses) {
             if status.holds() && status.evidence.holds.is_empty() {
-                status.evidence.holds.push(item.claim.place.name(model));
+                status.evidence.holds.push(item.claim.place.name(&self.case.model));
             }
         }
         Ok(())
+    }
+
+    /// Finds the claims that hold at a wider place.
+    fn extend_to(
+        &self,
+        place: &LevelSubset,
+        recorded: &[RecordedClaim<'_>],
+        statuses: &mut [ClaimState],
+    ) -> Result<(), JudgeError> {
+        let mut outputs = self.rates_at(place);
+        let rates = 0..outputs.len();
+        let mut extend = |some: &[Expr]| {
+            let start = outputs.len();
+            outputs.extend_from_slice(some);
+            start..outputs.len()
+        };
+        let common = extend(&self.common.required_at(&place.kept));
+        let mut candidates = Vec::new();
+        for (item, status) in recorded.iter().zip(statuses.iter_mut()) {
+            let wider = item.wider.iter().find(|wider| wider.place == *place);
+            let covered = status.evidence.holds.iter().any(|name| name == "everywhere");
+            if let (Some(wider), true, false) = (wider, status.holds(), covered) {
+                candidates.push(Candidate {
+                    item,
+                    status,
+                    residual: extend(&wider.residual),
+                    scale: extend(item.context.scale.as_slice()),
+                    defects: extend(&wider.defects),
+                    requirement: extend(&item.requirement),
+                    implies_own: self.is_continued(place, item, wider),
+                });
+            }
+        }
+        if candidates.is_empty() {
+            return Ok(());
+        }
+        let sampler = Sampler::new(self.case, place, self.options.seed)?;
+        if self.missed_part(&sampler)?.is_some() {
+            return Ok(());
+        }
+        let values = self.run(&outputs).at(&Ball::<TAPE_LANES>, &sampler.balls(0));
+        let all = values.existing(std::slice::from_ref(&common));
+        if BlockResult::at::<Doubles>(&values.range(rates), None, &all).excludes_zero() {
+            return Ok(());
+        }
+        let asked: Vec<Asked<'_, '_>> = candidates
+            .into_iter()
+            .filter_map(|candidate| candidate.weighed(&outputs, &values, &common))
+            .collect();
+        let queries: Vec<Query> = asked.iter().map(|asked| asked.query.clone()).collect();
+        let answers = match self.options.trust {
+            Trust::Float => vec![None; queries.len()],
+            _ => {
+                let found = PrimeFieldStates::new(self, &sampler).test(&queries)?;
+                found.into_iter().map(Some).collect()
+            }
+        };
+        for (asked, answer) in asked.into_iter().zip(answers) {
+            self.conclude_at(place, asked, answer);
+        }
+        Ok(())
+    }
+
+    /// Adds a wider place to those where a claim holds, if it does.
+    fn conclude_at(&self, place: &LevelSubset, asked: Asked<'_, '_>, answer: Option<Answer>) {
+        let Asked { item, status, query, is_zero, implies_own } = asked;
+        let name = place.name(&self.case.model);
+        let confirmed = status.settled == Some(Verdict::Confirmed);
+        let holds = match answer {
+            Some(Answer::Zero(certificate)) => {
+                if implies_own && confirmed {
+                    prove(status, Proof::from(certificate), &name);
+                }
+                true
+            }
+            Some(Answer::NonZero(_) | Answer::Partial) => false,
+            Some(Answer::Silent(_) | Answer::Void) | None => {
+                let is_folded = |expr: &Expr| {
+                    self.graph.constant_value(*expr).is_some_and(|value| value.is_zero())
+                };
+                let folded = query.outputs.iter().all(is_folded);
+                let only_there = item.claim.only_there;
+                if is_zero && only_there && !folded {
+                    let reason = format!("it is not known whether it also holds {name}");
+                    status.evidence.reason = Some(reason);
+                }
+                folded || (is_zero && confirmed && !only_there)
+            }
+        };
+        if holds {
+            status.evidence.holds.push(name);
+        }
     }
 
     /// Whether a residual that is zero in the wider place is zero at the claim's own place, too.
@@ -157,8 +182,39 @@ impl Judging<'_> {
     }
 }
 
+impl<'f, 'r> Candidate<'f, 'r> {
+    /// The question for the fields; `None` if enclosures exclude that the claim holds.
+    fn weighed(
+        self,
+        outputs: &[Expr],
+        values: &Values<Doubles>,
+        common: &Range<usize>,
+    ) -> Option<Asked<'f, 'r>> {
+        let scale = values.range(self.scale).first().copied();
+        let existing = values.existing(&[common.clone(), self.requirement.clone()]);
+        let result = |range: &Range<usize>, scale| {
+            BlockResult::at::<Doubles>(&values.range(range.clone()), scale, &existing)
+        };
+        let is_sound = self.defects.is_empty() || result(&self.defects, None).is_zero();
+        let found = result(&self.residual, scale);
+        // Where nothing has a value nothing holds.
+        let is_open = is_sound && found.has_value() && !found.excludes_zero();
+        is_open.then(|| Asked {
+            item: self.item,
+            status: self.status,
+            query: Query {
+                outputs: [&outputs[self.residual], &outputs[self.defects]].concat(),
+                requirement: outputs[self.requirement].to_vec(),
+                presence: self.item.presence.clone(),
+            },
+            is_zero: found.is_zero(),
+            implies_own: self.implies_own,
+        })
+    }
+}
+
 /// Settles a confirmed claim as proved, by a proof at a place that contains its own.
-fn prove(status: &mut ClaimState, proof: Proof, place: String) {
+fn prove(status: &mut ClaimState, proof: Proof, place: &str) {
     status.rung(Method::PrimeField, format!("{place}: {proof}"));
     status.evidence.method = Method::PrimeField;
     status.evidence.proof = Some(proof);
