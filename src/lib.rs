@@ -106,6 +106,7 @@ pub mod level;
 pub mod mechanics;
 pub mod part;
 pub mod program;
+mod requirement;
 pub mod sweep;
 pub mod verdict;
 

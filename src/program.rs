@@ -6,6 +6,7 @@ use crate::formula::{Formula, Type};
 use crate::graph::{Expr, Fault, Graph, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{Meaning, ParameterOrigin, Phase, components};
+use crate::requirement;
 
 /// A case recorded as one graph, with names for its inputs and functions for its outputs.
 pub struct Program {
@@ -60,6 +61,9 @@ pub struct NamedFunction {
     pub part: FunctionSubject,
     /// Values, in order.
     pub outputs: Vec<Expr>,
+    /// Operations of the formulas as written that the values do without: where one of them has no
+    /// value, the function has none.
+    pub required: Vec<Expr>,
 }
 
 /// A named value of the case.
@@ -79,30 +83,47 @@ impl Program {
         let model = &case.model;
         let free = model.free_components();
         let kept: Vec<usize> = (0..case.claims.len()).filter(|index| keep(*index)).collect();
-        let (graph, (functions, named)) = record(free + model.dimension(), |inputs| {
+        let (graph, (mut functions, named)) = record(free + model.dimension(), |inputs| {
             let (parameters, state) = inputs.split_at(free);
             let jet = DualPoint::new(Phase::new(model, parameters, state));
             let phase = &jet.phase;
             let level = model.level.iter().map(|e| phase.level_function(&e.function)).collect();
+            let of_system = requirement::of_system(phase);
             let mut functions = vec![
-                NamedFunction { part: FunctionSubject::Field, outputs: phase.field().to_vec() },
-                NamedFunction { part: FunctionSubject::Level, outputs: level },
+                NamedFunction {
+                    part: FunctionSubject::Field,
+                    outputs: phase.field().to_vec(),
+                    required: of_system.clone(),
+                },
+                NamedFunction {
+                    part: FunctionSubject::Level,
+                    outputs: level,
+                    required: requirement::of_level(phase),
+                },
             ];
             for index in kept.iter().copied() {
                 let claim = &case.claims[index];
                 let value = claim.kind.formula().map(|f| phase.evaluate(f).components());
                 let residual = claim.kind.residual(&jet, &claim.place.kept);
+                let of_value = requirement::of_formulas(phase, claim.kind.formula());
+                let of_residual = requirement::of_claim(phase, &claim.kind, &of_system);
                 let own = [
-                    (FunctionSubject::Value(index), value.unwrap_or_default()),
-                    (FunctionSubject::Residual(index), residual),
+                    (FunctionSubject::Value(index), value.unwrap_or_default(), of_value),
+                    (FunctionSubject::Residual(index), residual, of_residual),
                 ];
-                functions
-                    .extend(own.into_iter().map(|(part, outputs)| NamedFunction { part, outputs }));
+                functions.extend(own.map(|(part, outputs, required)| NamedFunction {
+                    part,
+                    outputs,
+                    required,
+                }));
             }
             functions.retain(|function| !function.outputs.is_empty());
             let formulas = kept.iter().flat_map(|index| case.claims[*index].kind.formulas());
             (functions, named(phase, formulas))
         })?;
+        for function in &mut functions {
+            function.required = graph.left_out(&function.outputs, &function.required);
+        }
         let mut inputs: Vec<Input> = Vec::new();
         let of_role =
             |role: InputRole| move |name: &str, kind| Input { name: name.to_string(), kind, role };

@@ -104,6 +104,21 @@ impl<'r, 's> Reading<'r, 's> {
             let problem = format!("`{name}` is a {expected}, and this is a {kind}");
             return Err(set_to(setting, &problem, "give a value of the same kind"));
         }
+        if let (Some(setting), Ok(GivenValue::Drawn(recipe))) =
+            (setting, shapes::given(value, &self.vocabulary))
+            && let ParameterOrigin::Fixed(values) = &origin
+            && let Some([(i, j), (k, l)]) = recipe.unlike(values)
+        {
+            let [one, other] =
+                [[i, j], [k, l]].map(|[i, j]| format!("{name}[{},{}]", i + 1, j + 1));
+            let problem = match one == other {
+                true => format!("`{name}` is `{}`, and {one} is not 0", recipe.text()),
+                false => {
+                    format!("`{name}` is `{}`, and {one} and {other} do not fit", recipe.text())
+                }
+            };
+            return Err(set_to(setting, &problem, "give a matrix of this form"));
+        }
         let whole = match (&origin, kind) {
             (ParameterOrigin::Fixed(values), Type::Scalar) => {
                 values.first().and_then(Rational::to_integer)
@@ -184,10 +199,26 @@ pub fn unknown_settings(root: &CaseTable<'_>, settings: &[Setting], parameters: 
     for setting in settings.iter().filter(|setting| !known(&setting.name)) {
         let names: Vec<&str> = parameters.iter().map(|p| p.name.as_str()).collect();
         let known = if names.is_empty() { "no parameters".to_string() } else { names.join(", ") };
-        root.mistakes().add(Mistake::whole(Problem::Other {
-            message: format!("there is no parameter `{}` to set", setting.name),
-            remedy: format!("this case has {known}"),
-        }));
+        let whole = setting.name.split(|c: char| c.is_ascii_digit() || c == '[').next();
+        let whole = parameters.iter().find(|own| Some(own.name.as_str()) == whole);
+        let (message, remedy) = match whole.filter(|own| own.kind != Type::Scalar) {
+            Some(own) => {
+                let all =
+                    if matches!(own.kind, Type::Vector(_)) { "[…]" } else { "[[…], […]]" };
+                (
+                    format!(
+                        "`{}` is an entry of `{}`, and is not set alone",
+                        setting.name, own.name
+                    ),
+                    format!("give the whole: --set '{}={all}'", own.name),
+                )
+            }
+            None => (
+                format!("there is no parameter `{}` to set", setting.name),
+                format!("this case has {known}"),
+            ),
+        };
+        root.mistakes().add(Mistake::whole(Problem::Other { message, remedy }));
     }
 }
 

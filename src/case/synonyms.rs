@@ -1,7 +1,7 @@
 //! Synonyms of keys.
 
 /// Alternative names of keys.
-const SYNONYMS: [(&str, &[&str]); 22] = [
+const SYNONYMS: [(&str, &[&str]); 23] = [
     ("parameters", &["params", "param", "parameter", "constants", "constant"]),
     ("state", &["states", "vars", "phase", "coordinates", "unknowns"]),
     ("field", &["equations", "rates", "ode", "dynamics", "motion", "vector-field"]),
@@ -18,6 +18,7 @@ const SYNONYMS: [(&str, &[&str]); 22] = [
     ("body", &["bodies", "rigid-body", "solid"]),
     ("lagrangian", &["lagrange", "L"]),
     ("hamiltonian", &["hamilton", "H"]),
+    ("function", &["H", "energy", "hamiltonian"]),
     ("level", &["levels", "constraint", "constraints", "level-set"]),
     ("equations", &["equation", "constraints"]),
     ("constraints", &["nonholonomic", "equations"]),

@@ -29,6 +29,7 @@ mod shortcuts;
 mod spinning;
 mod streams;
 mod system;
+mod ties;
 mod variables;
 mod vocabulary;
 
@@ -56,6 +57,7 @@ pub use rigid::RigidBody;
 pub use rubber::{NORMAL, OMEGA, Potential, Rubber};
 pub use spinning::Spinning;
 pub use system::System;
+pub use ties::{StiffEntry, TiedEntry};
 pub use variables::{BracketBlock, NewVariables, Poisson};
 pub use vocabulary::{Dependence, Meaning, Vocabulary, VocabularyEntry};
 

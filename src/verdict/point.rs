@@ -10,6 +10,7 @@ use crate::mechanics::{Model, Phase, components};
 use crate::number::Domain;
 use crate::number::arb::{Approximation, ArbBall};
 use crate::number::rational::Rational;
+use crate::requirement;
 
 /// A number with a bound on its error; `None` where it is undefined.
 pub type Enclosed = Option<(f64, f64)>;
@@ -117,8 +118,8 @@ struct PointScene<'c> {
     point: Vec<Rational>,
     tape: Tape,
     inputs: usize,
-    /// Number of outputs of each part of the report.
-    counts: Vec<usize>,
+    /// Numbers of outputs of each part of the report, and of values that these outputs require.
+    counts: Vec<[usize; 2]>,
 }
 
 impl<'c> PointScene<'c> {
@@ -145,32 +146,38 @@ impl<'c> PointScene<'c> {
             let (parameters, state) = inputs.split_at(free);
             let jet = DualPoint::new(Phase::new(model, parameters, state));
             let phase = &jet.phase;
-            let mut groups: Vec<Vec<Expr>> = vec![
-                model.level.iter().map(|e| phase.level_function(&e.function)).collect(),
-                phase.field().to_vec(),
-            ];
+            let of_level = requirement::of_level(phase);
+            let of_system = requirement::of_system(phase);
+            let levels = model.level.iter().map(|e| phase.level_function(&e.function)).collect();
+            let mut groups: Vec<[Vec<Expr>; 2]> = vec![[levels, of_level]];
+            let mut add = |values: Vec<Expr>| groups.push([values, of_system.clone()]);
+            add(phase.field().to_vec());
             if model.system.is_map() {
-                groups.extend([Vec::new(), vec![determinant(&jet.derivative())]]);
+                add(Vec::new());
+                add(vec![determinant(&jet.derivative())]);
             } else {
                 let divergence = jet.divergence();
-                let cofactor = jet.level_cofactor(&level.kept);
-                groups.extend([vec![divergence, divergence - cofactor], Vec::new()]);
+                add(vec![divergence, divergence - jet.level_cofactor(&level.kept)]);
+                add(Vec::new());
             }
-            groups.push(model.system.chi(phase).map_or(Vec::new(), Vec::from));
-            groups.push(model.system.criterion(phase));
-            groups.push(model.system.energy(phase).into_iter().collect());
+            add(model.system.chi(phase).map_or(Vec::new(), Vec::from));
+            add(model.system.criterion(phase));
+            add(model.system.energy(phase).into_iter().collect());
             for claim in &case.claims {
                 let value = claim.kind.formula().map(|f| phase.evaluate(f).components());
-                groups.push(value.unwrap_or_default());
-                groups.push(claim.kind.residual(&jet, &claim.place.kept));
+                let of_value = requirement::of_formulas(phase, claim.kind.formula());
+                groups.push([value.unwrap_or_default(), of_value]);
+                let residual = claim.kind.residual(&jet, &claim.place.kept);
+                groups.push([residual, requirement::of_claim(phase, &claim.kind, &of_system)]);
             }
-            counts = groups.iter().map(Vec::len).collect();
-            groups.concat()
+            counts = groups.iter().map(|group| group.each_ref().map(Vec::len)).collect();
+            groups.as_flattened().concat()
         })?;
         let tape = Tape::new(&graph, &outputs);
         Ok(Self { case, point, tape, inputs: graph.inputs(), counts })
     }
 
+    /// Computes the outputs of the report; without a value that is required they have none.
     fn values(&self, domain: &ArbBall) -> Vec<Option<Approximation>> {
         let antiderivatives = (0..self.inputs - self.point.len()).map(antiderivative_value);
         let inputs: Vec<_> = self
@@ -182,7 +189,17 @@ impl<'c> PointScene<'c> {
             .collect();
         let mut evaluator = Evaluator::new(&self.tape, *domain);
         evaluator.run(&inputs);
-        evaluator.outputs().cloned().collect()
+        let mut all = evaluator.outputs().cloned();
+        let mut found = Vec::new();
+        for [outputs, required] in self.counts.iter().copied() {
+            let first = found.len();
+            found.extend(all.by_ref().take(outputs));
+            let missing = all.by_ref().take(required).filter(Option::is_none).count();
+            if missing > 0 {
+                found[first..].fill(None);
+            }
+        }
+        found
     }
 
     /// Makes the report from the values of the outputs; missing values of a claim are the default.
@@ -190,7 +207,7 @@ impl<'c> PointScene<'c> {
         let model = &self.case.model;
         let mut values = values.into_iter();
         let mut groups =
-            self.counts.iter().map(|count| values.by_ref().take(*count).collect::<Vec<N>>());
+            self.counts.iter().map(|[count, _]| values.by_ref().take(*count).collect::<Vec<N>>());
         let mut next = || groups.next().unwrap_or_default();
         let level = model.level.iter().map(|e| e.text.clone()).zip(next()).collect();
         let field = next();

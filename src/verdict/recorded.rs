@@ -12,8 +12,9 @@ use crate::claim::{Condition, LevelSubset, Novelty, ResidualContext, quadrature_
 use crate::formula::Formula;
 use crate::graph::{Expr, literally};
 use crate::mechanics::calculus::{DualPoint, rejection};
-use crate::mechanics::{LevelEquation, LevelFunction, ParameterOrigin, Phase, System};
+use crate::mechanics::{LevelEquation, LevelFunction, ParameterOrigin, System};
 use crate::number::Enclosing;
+use crate::requirement::literal_values;
 
 /// A claim with all expressions recorded for it.
 pub struct RecordedClaim<'c> {
@@ -27,16 +28,6 @@ pub struct RecordedClaim<'c> {
     pub novelty: Novelty,
     pub conditions: Vec<Condition>,
     pub wider: Vec<Wider>,
-}
-
-/// Records the components of formulas so that they are defined exactly where everything written is;
-/// components that are defined everywhere are omitted.
-fn literal_values<'f>(
-    phase: &Phase<'_, Expr>,
-    formulas: impl IntoIterator<Item = &'f Formula>,
-) -> Vec<Expr> {
-    let values = formulas.into_iter().flat_map(|f| phase.evaluate_literally(f).components());
-    values.filter(|value| !value.is_always_defined()).collect()
 }
 
 /// A wider place than the claim's, with the values that vanish if the claim holds there too.

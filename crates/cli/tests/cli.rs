@@ -6,6 +6,8 @@ mod basins;
 mod bodies;
 #[path = "cli/branches.rs"]
 mod branches;
+#[path = "cli/keys.rs"]
+mod keys;
 #[path = "cli/limits.rs"]
 mod limits;
 #[path = "cli/lines.rs"]

@@ -2,6 +2,8 @@
 
 #[path = "export/snapshots.rs"]
 mod snapshots;
+#[path = "export/undefined.rs"]
+mod undefined;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -28,6 +30,9 @@ const CASES: [&str; 12] = [
 
 /// Largest difference of doubles from the true values, relative to the largest number beside them.
 const ROUNDING: f64 = 1e-11;
+
+/// Functions that are not exported, but used by those that are.
+const HELPERS: [&str; 3] = ["reciprocal", "logarithm", "power"];
 
 /// Number of states at which values are compared.
 const STATES: u64 = 4;
@@ -139,8 +144,7 @@ fn compare_all(
         let code = liouville(&["export", case, "--to", language]);
         let all: Vec<Known> = (0..STATES).map(|index| known(case, index)).collect();
         let names: Vec<&str> = functions(&code, before);
-        let names: Vec<&str> =
-            names.into_iter().filter(|name| !["reciprocal", "logarithm"].contains(name)).collect();
+        let names: Vec<&str> = names.into_iter().filter(|name| !HELPERS.contains(name)).collect();
         let text = driver(&folder, &code, &names, &all);
         let mut lines = text.lines().map(|line| {
             line.split_whitespace().map(|x| x.parse().expect("a number")).collect::<Vec<f64>>()

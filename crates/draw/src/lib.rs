@@ -22,7 +22,6 @@ pub use axis::{Axis, power_of_ten};
 pub use density::CountGrid;
 pub use figure::{Figure, Size};
 pub use font::width;
-pub use labels::Labels;
 pub use mark::MarkShape;
 pub use palette::{CATEGORIES, Paint, Paper, gradient};
 pub use pdf::pdf;

@@ -4,7 +4,7 @@ use super::andoyer::applies;
 use super::plane::{ChartAxis, Coordinate};
 use liouville::case::Case;
 use liouville::formula::{Type, canonical_name};
-use liouville::mechanics::ParameterOrigin;
+use liouville::mechanics::{ParameterOrigin, StiffEntry};
 use liouville::number::rational::Rational;
 
 /// Correct form of an axis.
@@ -65,7 +65,9 @@ impl Coordinate {
         };
         let coordinate =
             Coordinate::of(case, &name).ok_or_else(|| AxisMistake::new(&none(), known))?;
-        let Some((index, _)) = coordinate.parameter() else { return Ok((name, coordinate)) };
+        let Some((index, component)) = coordinate.parameter() else {
+            return Ok((name, coordinate));
+        };
         if matches!(case.model.parameters[index].origin, ParameterOrigin::Formula(_)) {
             let message = format!("`{name}` is computed from other parameters");
             return Err(AxisMistake::new(&message, "vary those that it is computed from"));
@@ -74,7 +76,21 @@ impl Coordinate {
             let message = format!("`{name}` is a size, or stands in an index");
             return Err(AxisMistake::new(&message, "vary another parameter"));
         }
-        Ok((name, coordinate))
+        let own = &case.model.parameters[index].name;
+        let tied = case.model.tied(index, component).map_err(|stiff| match stiff {
+            StiffEntry::Zero => AxisMistake::new(
+                &format!("`{name}` is 0 in all values of `{own}`"),
+                "vary another entry, or declare the matrix by its entries",
+            ),
+            StiffEntry::Rotation => AxisMistake::new(
+                &format!("`{name}` is an entry of a rotation, and cannot vary alone"),
+                "write the rotation with an angle, a parameter, and vary that",
+            ),
+        })?;
+        // The first of equal entries stands for them, so that two axes of one quantity are seen.
+        let equal = tied.iter().filter(|one| !one.is_negative).map(|one| one.component);
+        let component = equal.min().map_or(component, |other| other.min(component));
+        Ok((name, Coordinate::Parameter { index, component }))
     }
 
     /// Coordinate of a name that varies along a branch of closed orbits: a parameter, a component of
@@ -177,6 +193,26 @@ pub fn number_with_pi(text: &str) -> Option<Rational> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn equal_entries_of_a_matrix_are_one_axis() {
+        let case = Case::parse(
+            "title = 'a'\n[parameters]\nJ = [[2, 1, 0], [1, 3, 0], [0, 0, 4]]\nQ = 'rotation'\n\
+             K = 'skew(3, 1..2)'\n[state]\nx = 'vector(-1..1)'\n[field]\n\"x'\" = 'J*Q*K*x'\n",
+            &[],
+        );
+        let case = case.expect("a case");
+        let [one, other] = ["J12=0..1", "J21=0..1"]
+            .map(|text| ChartAxis::read(&case, text, 4).expect("an axis").1.coordinate);
+        assert_eq!(one, other, "one quantity");
+        for (text, wrong) in [
+            ("Q12=0..1", "`Q12` is an entry of a rotation, and cannot vary alone"),
+            ("K2=0..1", "`K2` is 0 in all values of `K`"),
+        ] {
+            let mistake = ChartAxis::read(&case, text, 4).expect_err(text);
+            assert_eq!(mistake.message, wrong, "{text}");
+        }
+    }
 
     #[test]
     fn axes_are_read_by_name() {

@@ -148,7 +148,10 @@ impl DiagramRequest<'_> {
 /// The case with all parameters fixed: free ones as drawn, and the one that varies at a value.
 fn fixed(case: &Case, drawn: &[Rational], varied: Coordinate, value: &Rational) -> Option<Case> {
     let mut fixed = case.clone();
-    let mut drawn = drawn;
+    let (mut drawn, zero) = (drawn, Rational::from(0));
+    let own = varied.parameter().map(|(index, component)| case.model.tied(index, component));
+    // An entry that cannot vary is refused by its name, before.
+    let tied = own.and_then(Result::ok).unwrap_or_default();
     for (place, parameter) in fixed.model.parameters.iter_mut().enumerate() {
         if let ParameterOrigin::Free(_) = parameter.origin {
             let (own, others) = drawn.split_at_checked(components(parameter.kind))?;
@@ -158,9 +161,36 @@ fn fixed(case: &Case, drawn: &[Rational], varied: Coordinate, value: &Rational) 
         match (varied.parameter(), &mut parameter.origin) {
             (Some((index, component)), ParameterOrigin::Fixed(values)) if index == place => {
                 *values.get_mut(component)? = value.clone();
+                for one in &tied {
+                    *values.get_mut(one.component)? =
+                        if one.is_negative { &zero - value } else { value.clone() };
+                }
             }
             _ => {}
         }
     }
     Some(fixed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_entries_have_one_value() {
+        let text = "title = 'a'\n[parameters]\nJ = [[2, 1], [1, 3]]\nK = 'skew(2, 1..2)'\n[state]\n\
+             x = 'vector(2, -1..1)'\n[field]\n\"x'\" = 'J*K*x'\n";
+        let case = Case::parse(text, &[]).expect("a case");
+        let [zero, one, seven] = [0, 1, 7].map(Rational::from);
+        let drawn = [zero.clone(), one.clone(), &zero - &one, zero];
+        for (index, component, text) in [(0, 1, "2 7 7 3"), (1, 2, "0 -7 7 0")] {
+            let varied = Coordinate::Parameter { index, component };
+            let fixed = fixed(&case, &drawn, varied, &seven).expect("a value");
+            let ParameterOrigin::Fixed(values) = &fixed.model.parameters[index].origin else {
+                panic!("it is fixed")
+            };
+            let values: Vec<String> = values.iter().map(ToString::to_string).collect();
+            assert_eq!(values.join(" "), text, "J12 = J21, K21 = −K12");
+        }
+    }
 }

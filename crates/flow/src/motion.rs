@@ -28,13 +28,28 @@ pub struct Loose {
     pub centre: Rational,
     /// Half the length of its range.
     pub half: Rational,
+    /// Components that are the same quantity, or its negative.
+    pub tied: Vec<(usize, bool)>,
 }
 
 impl Loose {
-    /// Component that varies between two values.
-    pub(super) fn within(component: usize, from: &Rational, to: &Rational) -> Self {
+    /// Component of a parameter of the case that varies between two values, together with those
+    /// that are the same quantity; `place` is that of the parameter among the free ones.
+    pub(super) fn within(
+        model: &Model,
+        [index, component]: [usize; 2],
+        place: usize,
+        [from, to]: [&Rational; 2],
+    ) -> Self {
         let half = Rational::new(1, 2);
-        Self { component, centre: &(from + to) * &half, half: &(to - from) * &half }
+        // An entry that cannot vary is refused by its name, before.
+        let tied = model.tied(index, component).unwrap_or_default();
+        Self {
+            component: place + component,
+            centre: &(from + to) * &half,
+            half: &(to - from) * &half,
+            tied: tied.iter().map(|one| (place + one.component, one.is_negative)).collect(),
+        }
     }
 }
 
@@ -42,7 +57,11 @@ impl Loose {
 pub(super) fn filled<T: Scalar>(parameters: &[Rational], loose: &[Loose], inputs: &[T]) -> Vec<T> {
     let mut filled: Vec<T> = parameters.iter().map(T::rational).collect();
     for (one, x) in loose.iter().zip(inputs) {
-        filled[one.component] = T::rational(&one.centre) + T::rational(&one.half) * *x;
+        let value = T::rational(&one.centre) + T::rational(&one.half) * *x;
+        filled[one.component] = value;
+        for (component, is_negative) in &one.tied {
+            filled[*component] = if *is_negative { -value } else { value };
+        }
     }
     filled
 }
@@ -94,4 +113,26 @@ pub(super) fn extended_program(
     };
     program.presence = Some(presence);
     Ok(program)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use liouville::case::Case;
+
+    #[test]
+    fn equal_entries_vary_together() {
+        let text = "title = 'a'\n[parameters]\nJ = 'symmetric(2, 1..2)'\nK = 'skew(2, 1..2)'\n\
+             [state]\nx = 'vector(2, -1..1)'\n[field]\n\"x'\" = 'J*K*x'\n";
+        let case = Case::parse(text, &[]).expect("a case");
+        let [low, high] = [0, 4].map(Rational::from);
+        let range = [&low, &high];
+        let loose = [
+            Loose::within(&case.model, [0, 1], 0, range),
+            Loose::within(&case.model, [1, 2], 4, range),
+        ];
+        let values: Vec<Rational> = (1..=8).map(Rational::from).collect();
+        let found = filled::<f64>(&values, &loose, &[0.5, -0.5]);
+        assert_eq!(found, [1.0, 3.0, 3.0, 4.0, 5.0, -1.0, 1.0, 8.0], "J12 = J21, K12 = −K21");
+    }
 }

@@ -62,9 +62,9 @@ impl ChartAxis {
 
     /// Component of the free parameters that varies along the axis, given the offset of each
     /// parameter.
-    fn loose(&self, places: &[usize]) -> Option<Loose> {
+    fn loose(&self, model: &Model, places: &[usize]) -> Option<Loose> {
         let (index, component) = self.coordinate.parameter()?;
-        Some(Loose::within(places[index] + component, &self.from, &self.to))
+        Some(Loose::within(model, [index, component], places[index], [&self.from, &self.to]))
     }
 
     /// Value at a point of the axis.
@@ -130,7 +130,8 @@ pub fn plane_part(
     let OpenModel { model, parameters, places } = OpenModel::new(&case.model, &drawn, &indices);
     let model = &model;
     let [across, up] = &request.axes;
-    let loose: Vec<Loose> = request.axes.iter().filter_map(|axis| axis.loose(&places)).collect();
+    let loose: Vec<Loose> =
+        request.axes.iter().filter_map(|axis| axis.loose(&case.model, &places)).collect();
     let equations = Shadowed::new(model, &parameters, &loose)?;
     let launcher = Launcher::new(case, model, request, &parameters, &loose)?;
     let cells = part.range((across.count * up.count) as u64);

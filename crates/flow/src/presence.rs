@@ -6,10 +6,9 @@
 use super::error::FlowError;
 use super::motion::{point, program};
 use super::program::TaylorProgram;
-use liouville::graph::{Expr, Graph, Step, record};
+use liouville::graph::{Expr, record};
 use liouville::mechanics::{Model, ParameterOrigin, Phase};
 use liouville::number::rational::Rational;
-use liouville::number::{BinaryOperation, UnaryFunction};
 
 /// Formulas of the system and of its parameters, recorded as written; those that have a value
 /// everywhere are left out.
@@ -24,20 +23,6 @@ pub fn as_written(phase: &Phase<'_, Expr>) -> Vec<Expr> {
     values.filter(|value| !value.is_always_defined()).collect()
 }
 
-/// Operations without a value at some arguments that occur in what is written, and not in the field.
-pub fn left_out(graph: &Graph, field: &[Expr], written: &[Expr]) -> Vec<Expr> {
-    let kept = graph.reached(field.iter().copied());
-    let all = graph.reached(written.iter().copied());
-    let is_partial = |step: Step<'_>| match step {
-        Step::Unary(UnaryFunction::Recip | UnaryFunction::Sqrt | UnaryFunction::Ln, _) => true,
-        Step::Binary(BinaryOperation::Pow, ..) => true,
-        Step::Power(_, exponent) => exponent.is_negative() || exponent.to_integer().is_none(),
-        _ => false,
-    };
-    let lost = (0..graph.len()).filter(|place| all[*place] && !kept[*place]);
-    lost.filter(|place| is_partial(graph.step(*place))).map(|place| graph.at(place)).collect()
-}
-
 /// Compiles a model's field with the operations that were left out of it as rates of further
 /// components, so that steps are as short as they need.
 pub fn guarded_program(model: &Model, parameters: &[Rational]) -> Result<TaylorProgram, FlowError> {
@@ -46,7 +31,7 @@ pub fn guarded_program(model: &Model, parameters: &[Rational]) -> Result<TaylorP
         let phase = point(model, parameters, state);
         (phase.field().to_vec(), as_written(&phase))
     })?;
-    let left_out = left_out(&graph, &rates, &written);
+    let left_out = graph.left_out(&rates, &written);
     if left_out.is_empty() {
         return Ok(field);
     }

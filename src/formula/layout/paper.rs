@@ -51,40 +51,17 @@ impl Paper<'_> {
                 self.product(*a, *b, inline)
             }
             Divide(a, b) if inline => self.between(*a, "/", *b, BoxStrength::Product, inline),
-            Divide(a, b) => {
-                let below = Box::new(self.set(*b, inline).0);
-                match without_minus(self.set(*a, inline).0) {
-                    Ok(above) => {
-                        let fraction = Layout::Fraction(Box::new(above), below);
-                        (Layout::Row(vec![Layout::Sign("−"), fraction]), BoxStrength::Sum)
-                    }
-                    Err(above) => (Layout::Fraction(Box::new(above), below), BoxStrength::Power),
-                }
-            }
-            Dot(a, b) if a == b => {
-                (self.at(*a, BoxStrength::Whole, inline).raised(digits("2")), BoxStrength::Power)
-            }
+            Divide(a, b) => self.fraction(*a, *b),
+            Dot(a, b) if a == b => self.raised(*a, digits("2"), inline),
             Dot(a, b) => {
                 let parts = vec![self.set(*a, inline).0, Layout::Sign(","), self.set(*b, inline).0];
                 whole(Layout::Row(parts).fenced())
             }
-            Power(a, exponent) => {
-                let exponent = number(exponent, true).0;
-                (self.at(*a, BoxStrength::Whole, inline).raised(exponent), BoxStrength::Power)
-            }
-            PowerOf(a, b) => {
-                let exponent = self.set(*b, true).0;
-                (self.at(*a, BoxStrength::Whole, inline).raised(exponent), BoxStrength::Power)
-            }
-            MatrixPower(a, n) => (
-                self.at(*a, BoxStrength::Whole, inline).raised(digits(&n.to_string())),
-                BoxStrength::Power,
-            ),
+            Power(a, exponent) => self.raised(*a, number(exponent, true).0, inline),
+            PowerOf(a, b) => self.raised(*a, self.set(*b, true).0, inline),
+            MatrixPower(a, n) => self.raised(*a, digits(&n.to_string()), inline),
             Inverse(a) => (self.inverse(*a, inline), BoxStrength::Power),
-            Transpose(a) => (
-                self.at(*a, BoxStrength::Whole, inline).raised(Layout::Word("T")),
-                BoxStrength::Power,
-            ),
+            Transpose(a) => self.raised(*a, Layout::Word("T"), inline),
             Solve(a, b) => {
                 let parts = vec![
                     self.inverse(*a, inline),
@@ -110,20 +87,7 @@ impl Paper<'_> {
             Function(function, a) => self.function(*function, *a, inline),
             Angle(y, x) => self.called("atan2", &[*y, *x], inline),
             Extreme(which, all) => self.called(which_word(*which), all, inline),
-            Partial { of, by, .. } => {
-                let part = |node| {
-                    Layout::Row(vec![Layout::Sign("∂"), self.at(node, BoxStrength::Whole, inline)])
-                };
-                let (above, below) = (part(*of), part(*by));
-                match inline {
-                    true => {
-                        (Layout::Row(vec![above, Layout::Sign("/"), below]), BoxStrength::Product)
-                    }
-                    false => {
-                        (Layout::Fraction(Box::new(above), Box::new(below)), BoxStrength::Power)
-                    }
-                }
-            }
+            Partial { of, by, .. } => self.partial(*of, *by, inline),
             Antiderivative(f, x) => {
                 let parts = vec![
                     Layout::Sign("∫"),
@@ -134,6 +98,34 @@ impl Paper<'_> {
                 ];
                 (Layout::Row(parts), BoxStrength::Product)
             }
+        }
+    }
+
+    /// Sets a fraction, with a minus of the numerator before it.
+    fn fraction(&self, above: NodeId, below: NodeId) -> Bonded {
+        let below = Box::new(self.set(below, false).0);
+        match without_minus(self.set(above, false).0) {
+            Ok(above) => {
+                let fraction = Layout::Fraction(Box::new(above), below);
+                (Layout::Row(vec![Layout::Sign("−"), fraction]), BoxStrength::Sum)
+            }
+            Err(above) => (Layout::Fraction(Box::new(above), below), BoxStrength::Power),
+        }
+    }
+
+    /// Sets a power, or what is written like one.
+    fn raised(&self, base: NodeId, exponent: Layout, inline: bool) -> Bonded {
+        (self.at(base, BoxStrength::Whole, inline).raised(exponent), BoxStrength::Power)
+    }
+
+    /// Sets a partial derivative.
+    fn partial(&self, of: NodeId, by: NodeId, inline: bool) -> Bonded {
+        let part =
+            |node| Layout::Row(vec![Layout::Sign("∂"), self.at(node, BoxStrength::Whole, inline)]);
+        let (above, below) = (part(of), part(by));
+        match inline {
+            true => (Layout::Row(vec![above, Layout::Sign("/"), below]), BoxStrength::Product),
+            false => (Layout::Fraction(Box::new(above), Box::new(below)), BoxStrength::Power),
         }
     }
 

@@ -127,7 +127,10 @@ fn nothing_meant(case: &Case, wanted: &dyn Fn(&str, &str) -> bool, patterns: &[S
             "error: `{patterns}` is a claim about motion or of absence, which has no residual\n\
              help: leave out --claim to export the field and the other claims"
         ),
-        false => format!("error: no claim has a name or source like `{patterns}`"),
+        false => format!(
+            "error: no claim has a name or source like `{patterns}`\n\
+             help: `liouville check -v` shows the names"
+        ),
     }
 }
 

@@ -389,7 +389,9 @@ fn write_new(path: &Path, text: &str) -> Result<(), String> {
                     "error: {shown} exists already\nhelp: give another name, or remove it first"
                 )
             }
-            _ => format!("error: cannot write {shown}: {error}"),
+            _ => format!(
+                "error: cannot write {shown}: {error}\nhelp: give a path in a folder that exists"
+            ),
         }
     })
 }

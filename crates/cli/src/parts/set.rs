@@ -29,7 +29,10 @@ pub struct Set {
 /// Reads the parts in a folder, by their names and texts. Other files are passed over.
 pub fn from_folder(folder: &Path) -> Result<Vec<PartFile>, String> {
     let shown = folder.display();
-    let wrong = |error: std::io::Error| format!("error: cannot read {shown}: {error}");
+    let wrong = |error: std::io::Error| {
+        let help = "give the folder in which --out of the commands with --part wrote parts";
+        format!("error: cannot read {shown}: {error}\nhelp: {help}")
+    };
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).map_err(wrong)? {
         let path = entry.map_err(wrong)?.path();

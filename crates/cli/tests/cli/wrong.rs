@@ -313,3 +313,23 @@ fn starts_without_a_value_are_told_alike_by_all_commands() {
         found.stderr(contains("along the motion `x² + 2*y² = 1` changes"));
     }
 }
+
+#[test]
+fn values_that_are_not_of_the_form_declared_are_refused() {
+    let text = "title = 'x'\n[parameters]\nJ = 'symmetric(2, 1..2)'\nK = 'skew(2, 1..2)'\n[state]\n\
+        x = 'vector(2, -1..1)'\n[field]\n\"x'\" = 'K*(J*x)'\n";
+    let home = folder("forms", &[("forms.toml", text)]);
+    let path = home.join("forms.toml").display().to_string();
+    for (set, message, remedy) in [
+        ("J=[[1,2],[3,4]]", "J[1,2] and J[2,1] do not fit", "give a matrix of this form"),
+        ("K=[[1,2],[-2,0]]", "K[1,1] is not 0", "give a matrix of this form"),
+        ("J12=3", "`J12` is an entry of `J`, and is not set alone", "--set 'J=[[…], […]]'"),
+    ] {
+        let run = liouville(&["eval", &path, "--set", set]).assert().code(2);
+        run.stderr(contains(message)).stderr(contains(remedy));
+    }
+    liouville(&["eval", &path, "--set", "J=[[1,2],[2,4]]"]).assert().code(0);
+    let over = ["motion", "diagram", &path, "--over", "K1=0..1", "--section", "x1 = 0"];
+    let run = liouville(&over).assert().code(2);
+    run.stderr(contains("`K1` is 0 in all values of `K`")).stderr(contains("vary another entry"));
+}

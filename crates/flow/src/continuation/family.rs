@@ -97,10 +97,9 @@ impl Family {
             request.varied.parameter().into_iter().map(|(index, _)| index).collect();
         let drawn = &request.start.parameters;
         let OpenModel { model, parameters, places } = OpenModel::new(base, drawn, &indices);
-        let varies = request
-            .varied
-            .parameter()
-            .map(|(index, component)| Loose::within(places[index] + component, from, to));
+        let varies = request.varied.parameter().map(|(index, component)| {
+            Loose::within(base, [index, component], places[index], [from, to])
+        });
         let half = Rational::new(1, 2);
         let range = [&(from + to) * &half, &(to - from) * &half];
         let dimension = model.dimension();

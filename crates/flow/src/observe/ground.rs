@@ -200,6 +200,7 @@ fn freed<'c>(case: &'c Case, varied: &[Neighbourhood]) -> Option<(Cow<'c, Case>,
             component: first + place,
             centre: centre.clone(),
             half: half.clone(),
+            tied: Vec::new(),
         }));
         first += parameter.kind.size();
     }

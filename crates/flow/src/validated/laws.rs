@@ -41,7 +41,11 @@ impl<'l> Laws<'l> {
         let filled = filled(self.parameters, self.loose, loose);
         let mut parameters: Vec<Dual<Expr>> = filled.into_iter().map(Dual::from_re).collect();
         if let Some(one) = self.loose.get(along) {
-            parameters[one.component].eps = Expr::rational(&one.half);
+            let slope = Expr::rational(&one.half);
+            parameters[one.component].eps = slope;
+            for (component, is_negative) in &one.tied {
+                parameters[*component].eps = if *is_negative { -slope } else { slope };
+            }
         }
         let pairs = state.iter().zip(direction);
         let state: Vec<Dual<Expr>> = pairs.map(|(x, dx)| Dual::new(*x, *dx)).collect();

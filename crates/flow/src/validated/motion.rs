@@ -7,7 +7,7 @@ use super::plan::Plan;
 use super::sharp;
 use super::tail::{self, End};
 use crate::error::FlowError;
-use crate::presence::{as_written, left_out};
+use crate::presence::as_written;
 use crate::program::TaylorProgram;
 use liouville::graph::{Expr, record};
 use liouville::mechanics::Phase;
@@ -232,7 +232,7 @@ fn plan(
         rates.extend(rest);
         (rates, if with_all { as_written(&phase) } else { Vec::new() })
     })?;
-    let left_out = left_out(&graph, &rates, &written);
+    let left_out = graph.left_out(&rates, &written);
     rates.extend(left_out);
     if graph.inputs() > dimension + loose + more {
         return Err(FlowError::Antiderivative);

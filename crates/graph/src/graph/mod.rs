@@ -15,6 +15,7 @@ mod expr;
 mod fingerprint;
 mod index;
 mod merge;
+mod presence;
 mod simplify;
 mod steps;
 mod tape;

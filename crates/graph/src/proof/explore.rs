@@ -8,6 +8,7 @@ use crate::number::BinaryOperation;
 use super::Prover;
 use super::bounds::InputDistribution;
 use super::cells::{Cell, CellChange, Leaf, with_signs};
+use super::choices::{for_all_choices, unlike};
 use super::classes::Classes;
 use super::digest::SeedDigest;
 use super::domain::Region;
@@ -15,7 +16,7 @@ use super::fact::SignFact;
 use super::free_roots::zeros_for_free_roots;
 use super::logarithms::Rules;
 use super::lower::Algebraic;
-use super::next::{Next, for_both, silent};
+use super::next::{Next, silent};
 use super::rewrite::Rewrite;
 use super::roots::{RootFinder, RootSearch};
 use super::tower::{RootStatus, Tower};
@@ -292,12 +293,7 @@ impl Explorer<'_> {
             let reason = format!("{} roots or moduli depend on others", loose.len());
             return self.on_free_roots(&reason);
         }
-        let is_lost = |value: &Expr| {
-            let lowered = algebraic.values[cell.graph.place(*value)];
-            !cell.graph.is_nowhere_defined(*value)
-                && lowered.is_none_or(|lowered| algebraic.graph.is_nowhere_defined(lowered))
-        };
-        if cell.values.iter().any(is_lost) {
+        if cell.values.iter().any(|value| is_lost(cell, algebraic, *value)) {
             return all_silent("a function has no value in a prime field");
         }
         // The outputs themselves, built from their roots and functions as they are on this cell.
@@ -318,26 +314,9 @@ impl Explorer<'_> {
         let all = self.by_group(&made);
         let is_void = |group: &[Expr]| group.iter().any(|x| extended.graph.is_nowhere_defined(*x));
         let asked: Vec<&[Expr]> = all.iter().copied().filter(|group| !is_void(group)).collect();
-        let extended_trial = Trial::new(&extended, self.digest);
-        let mut found: Vec<TrialResult> = Vec::new();
-        for choice in 0u32..1 << loose.len() {
-            let fixed: Vec<(usize, bool)> =
-                loose.iter().enumerate().map(|(k, sign)| (*sign, choice >> k & 1 == 0)).collect();
-            let roots = Roots { nested: tower.nested + loose.len() as u32, fixed: &fixed };
-            let one = extended_trial.test(&asked, roots);
-            found = match choice {
-                0 => one,
-                _ => found.into_iter().zip(one).map(|(a, b)| for_both(a, b)).collect(),
-            };
-        }
+        let found = for_all_choices(&Trial::new(&extended, self.digest), &asked, tower, loose);
         let mut found = found.into_iter().zip(&asked).map(|(result, group)| match result {
-            TrialResult::NonZero if !loose.is_empty() => TrialResult::Silent(
-                "it does not vanish for all choices of signs of dependent roots".to_string(),
-            ),
-            TrialResult::NonZero if extended.has_symbols(group) => TrialResult::Silent(
-                "it does not vanish for independent symbols in the place of transcendental functions"
-                    .to_string(),
-            ),
+            TrialResult::NonZero => unlike(&extended, group, loose),
             TrialResult::Zero(own) => {
                 TrialResult::Zero(cell.certificate.map_or(own, |before| own.and(before)))
             }
@@ -371,15 +350,34 @@ impl Explorer<'_> {
             |result: &Option<TrialResult>| matches!(result, None | Some(TrialResult::Zero(_)));
         if cell.is_part() && !results.iter().all(is_zero) {
             // Find out first whether the cell is empty.
-            let classes = Classes::of(algebraic, trial, tower, self.digest);
-            let inputs = self.prover.extents;
-            let region = Region { graph: &cell.graph, inputs, facts: known, classes: &classes };
-            if region.is_empty() {
-                return Ok(Next::Empty(classes.certificate));
+            if let Some(empty) = self.empty(cell, algebraic, trial, tower, known) {
+                return Ok(empty);
             }
         }
         Ok(Next::Tested(results))
     }
+
+    /// The answer for a cell that contains no point, where that is seen.
+    fn empty(
+        &self,
+        cell: &Cell,
+        algebraic: &Algebraic<'_>,
+        trial: &Trial<'_>,
+        tower: &Tower,
+        known: &[(usize, SignFact)],
+    ) -> Option<Next> {
+        let classes = Classes::of(algebraic, trial, tower, self.digest);
+        let inputs = self.prover.extents;
+        let region = Region { graph: &cell.graph, inputs, facts: known, classes: &classes };
+        region.is_empty().then_some(Next::Empty(classes.certificate))
+    }
+}
+
+/// Whether a value has none in a prime field, though it has one on the cell.
+fn is_lost(cell: &Cell, algebraic: &Algebraic<'_>, value: Expr) -> bool {
+    let lowered = algebraic.values[cell.graph.place(value)];
+    !cell.graph.is_nowhere_defined(value)
+        && lowered.is_none_or(|lowered| algebraic.graph.is_nowhere_defined(lowered))
 }
 
 impl Explorer<'_> {

@@ -24,6 +24,7 @@ mod bounds;
 mod branches;
 mod cells;
 mod characters;
+mod choices;
 mod classes;
 mod coprime;
 mod digest;

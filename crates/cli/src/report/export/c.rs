@@ -7,13 +7,13 @@ use super::ExportedCase;
 use super::lines::CodeLines;
 use super::names::ExportNames;
 use super::python::code_name;
-use super::target::{Target, TargetTerm, comments, double, usual};
+use super::target::{Target, TargetTerm, comments, double, is_plain, usual};
 
 /// C.
 pub struct C;
 
 /// Functions that have no value where the language has an infinite one.
-const HELPERS: [(&str, &str); 2] = [
+const HELPERS: [(&str, &str); 3] = [
     (
         "reciprocal(",
         "/* 1/x; no value at 0. */\n\
@@ -23,6 +23,11 @@ const HELPERS: [(&str, &str); 2] = [
         "logarithm(",
         "/* log(x); no value at 0. */\n\
          static double logarithm(double x) { return x == 0.0 ? NAN : log(x); }\n",
+    ),
+    (
+        "power(",
+        "/* x^y for x > 0. */\n\
+         static double power(double x, double y) { return x > 0.0 ? pow(x, y) : NAN; }\n",
     ),
 ];
 
@@ -89,6 +94,7 @@ impl Target for C {
             "I",
             "reciprocal",
             "logarithm",
+            "power",
             "state",
             "parameters",
             "values",
@@ -124,7 +130,8 @@ impl Target for C {
     }
 
     fn power(&self, base: &TargetTerm, exponent: &Rational) -> TargetTerm {
-        let text = format!("pow({}, {})", base.text, self.number(&exponent.abs()).text);
+        let name = if is_plain(exponent) { "pow" } else { "power" };
+        let text = format!("{name}({}, {})", base.text, self.number(&exponent.abs()).text);
         match exponent.is_negative() {
             true => TargetTerm::atom(format!("reciprocal({text})")),
             false => TargetTerm::atom(text),
@@ -132,7 +139,7 @@ impl Target for C {
     }
 
     fn power_of(&self, base: &TargetTerm, exponent: &TargetTerm) -> TargetTerm {
-        TargetTerm::atom(format!("pow({}, {})", base.text, exponent.text))
+        TargetTerm::atom(format!("power({}, {})", base.text, exponent.text))
     }
 
     fn reciprocal(&self, a: &TargetTerm) -> TargetTerm {
@@ -147,7 +154,7 @@ impl Target for C {
         let mut code = String::new();
         for body in bodies {
             code.push('\n');
-            code.push_str(&comments(&export.subject(body.part), "/* ", " */"));
+            code.push_str(&comments(&export.described(body), "/* ", " */"));
             code.push_str(&format!(
                 "void {}(const double *state, const double *parameters, double *values)\n{{\n",
                 body.name

@@ -7,7 +7,7 @@ use super::ExportedCase;
 use super::lines::CodeLines;
 use super::names::ExportNames;
 use super::python::code_name;
-use super::target::{Rank, Target, TargetTerm, comments, double, usual};
+use super::target::{Rank, Target, TargetTerm, comments, double, is_plain, usual};
 
 /// Julia.
 pub struct Julia;
@@ -17,6 +17,9 @@ const HELPERS: &str = "
 # No value at 0, where 1/x and log(x) would be infinite.
 reciprocal(x) = iszero(x) ? oftype(x, NaN) : inv(x)
 logarithm(x) = iszero(x) ? oftype(x, NaN) : log(x)
+
+# x^y for x > 0.
+power(x, y) = x > 0 ? x^y : oftype(x, NaN)
 ";
 
 impl Target for Julia {
@@ -68,6 +71,7 @@ impl Target for Julia {
             "NaN",
             "reciprocal",
             "logarithm",
+            "power",
             "state",
             "parameters",
             "in",
@@ -91,15 +95,18 @@ impl Target for Julia {
 
     fn power(&self, base: &TargetTerm, exponent: &Rational) -> TargetTerm {
         let above = exponent.abs();
-        let raised = match above.to_integer() {
-            Some(n) => n.to_string(),
-            None => self.number(&above).at_least(Rank::Atom),
+        let term = match above.to_integer().filter(|_| is_plain(exponent)) {
+            Some(n) => TargetTerm::of(format!("{}^{n}", base.at_least(Rank::Atom)), Rank::Power),
+            None => self.power_of(base, &self.number(&above)),
         };
-        let text = format!("{}^{raised}", base.at_least(Rank::Atom));
         match exponent.is_negative() {
-            true => TargetTerm::atom(format!("reciprocal({text})")),
-            false => TargetTerm::of(text, Rank::Power),
+            true => TargetTerm::atom(format!("reciprocal({})", term.text)),
+            false => term,
         }
+    }
+
+    fn power_of(&self, base: &TargetTerm, exponent: &TargetTerm) -> TargetTerm {
+        TargetTerm::atom(format!("power({}, {})", base.text, exponent.text))
     }
 
     fn reciprocal(&self, a: &TargetTerm) -> TargetTerm {
@@ -116,7 +123,7 @@ impl Target for Julia {
         text.push_str(HELPERS);
         for body in bodies {
             text.push('\n');
-            text.push_str(&comments(&export.subject(body.part), "# ", ""));
+            text.push_str(&comments(&export.described(body), "# ", ""));
             text.push_str(&format!("function {}(state, parameters)\n", body.name));
             let line =
                 |list: &str, at: usize, own: &str| format!("    {own} = {list}[{}]\n", at + 1);

@@ -5,10 +5,10 @@ use liouville::number::UnaryFunction;
 use liouville::number::rational::Rational;
 use liouville::program::FunctionSubject;
 
-use super::ExportedCase;
 use super::lines::CodeLines;
 use super::names::ExportNames;
 use super::target::{Rank, Target, TargetTerm};
+use super::{ExportedCase, REQUIRED};
 use crate::report::typeset::latex::{formula, prose};
 
 /// LaTeX.
@@ -139,6 +139,9 @@ impl Target for Latex {
             let subject = export.subject(body.part);
             text.push_str(&format!("\n\\subsection*{{{}}}\n", prose(&body.name.replace('_', " "))));
             subject.iter().for_each(|line| text.push_str(&format!("{}\\\\\n", prose(line))));
+            for own in &body.required {
+                text.push_str(&format!("{REQUIRED}: ${own}$.\\\\\n"));
+            }
             let left = |index: usize| match body.part {
                 FunctionSubject::Field if export.case.model.system.is_map() => {
                     format!("\\Phi\\left({}\\right)", names.inputs[state[index].0])

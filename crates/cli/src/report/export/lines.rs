@@ -1,7 +1,8 @@
 //! Functions as lines of code: values that are used more than once, or have a name, get a line;
 //! the others are written where they are used.
 
-use liouville::graph::{Graph, Step};
+use liouville::graph::{Expr, Graph, Step};
+use liouville::number::rational::Rational;
 use liouville::number::{BinaryOperation, UnaryFunction as Unary};
 use liouville::program::{FunctionSubject, NamedFunction};
 
@@ -21,6 +22,8 @@ pub struct CodeLines {
     pub lines: Vec<(String, String)>,
     /// Values of the function.
     pub outputs: Vec<String>,
+    /// Operations without which it has no value, in exact languages: others add 0 times these.
+    pub required: Vec<String>,
 }
 
 /// Writes a function of the program.
@@ -32,13 +35,14 @@ pub fn body(
 ) -> CodeLines {
     let graph = &export.program.graph;
     let name = names.function(target, export, function.part);
-    let reached = graph.reached(function.outputs.iter().copied());
+    let needed = function.outputs.iter().chain(&function.required).copied();
+    let reached = graph.reached(needed.clone());
     let mut uses = vec![0usize; graph.len()];
     for (_, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
         step.arguments().for_each(|place| uses[place] += 1);
     }
-    for output in &function.outputs {
-        uses[graph.place(*output)] += 1;
+    for value in needed {
+        uses[graph.place(value)] += 1;
     }
     let (terms, has_line) = (vec![None; graph.len()], vec![false; graph.len()]);
     let mut writer = LineWriter { target, graph, terms, has_line, uses };
@@ -63,10 +67,27 @@ pub fn body(
         writer.terms[place] = Some(term);
     }
     inputs.sort_unstable();
-    let output =
-        |place: usize| writer.terms[place].as_ref().map_or(String::new(), |t| t.text.clone());
-    let outputs = function.outputs.iter().map(|value| output(graph.place(*value))).collect();
-    CodeLines { part: function.part, name, inputs, lines, outputs }
+    let term = |value: &Expr| writer.at(graph.place(*value));
+    let mut outputs: Vec<TargetTerm> = function.outputs.iter().map(term).collect();
+    let required: Vec<TargetTerm> = function.required.iter().map(term).collect();
+    if !target.is_exact() {
+        // 0 times NaN is NaN: the sum of these is 0, or it is not a number.
+        let zero = target.number(&Rational::from(0));
+        let mut guard: Option<TargetTerm> = None;
+        for own in &required {
+            let own = target.product(&zero, own);
+            let sum = guard.map_or(own.clone(), |before| target.sum(&before, "+", &own));
+            let name = names.temporary(target, &mut count);
+            lines.push((name.clone(), sum.text));
+            guard = Some(TargetTerm::atom(name));
+        }
+        if let Some(guard) = guard {
+            outputs.iter_mut().for_each(|own| *own = target.sum(own, "+", &guard));
+        }
+    }
+    let texts = |terms: Vec<TargetTerm>| terms.into_iter().map(|own| own.text).collect();
+    let required = if target.is_exact() { texts(required) } else { Vec::new() };
+    CodeLines { part: function.part, name, inputs, lines, outputs: texts(outputs), required }
 }
 
 /// The terms written so far.

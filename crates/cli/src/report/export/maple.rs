@@ -129,7 +129,7 @@ impl Target for Maple {
         text.push_str("# Each function takes two lists, of numbers or of names.\n");
         for body in bodies {
             text.push('\n');
-            text.push_str(&comments(&export.subject(body.part), "# ", ""));
+            text.push_str(&comments(&export.described(body), "# ", ""));
             text.push_str(&format!("{} := proc(state, parameters)\n", body.name));
             let locals = export.locals(body, names);
             if !locals.is_empty() {

@@ -82,7 +82,7 @@ impl Target for Mathematica {
         text.push_str("(* Each function takes two lists, of numbers or of symbols. *)\n");
         for body in bodies {
             text.push('\n');
-            text.push_str(&comments(&export.subject(body.part), "(* ", " *)"));
+            text.push_str(&comments(&export.described(body), "(* ", " *)"));
             let locals = export.locals(body, names);
             text.push_str(&format!(
                 "{}[state_List, parameters_List] := Module[{{{}}},\n",

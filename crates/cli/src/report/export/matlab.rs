@@ -7,7 +7,7 @@ use super::ExportedCase;
 use super::lines::CodeLines;
 use super::names::ExportNames;
 use super::python::code_name;
-use super::target::{Rank, Target, TargetTerm, comments, double};
+use super::target::{Rank, Target, TargetTerm, comments, double, is_plain};
 
 /// MATLAB.
 pub struct Matlab;
@@ -28,6 +28,15 @@ function y = logarithm(x)
     y = NaN;
   else
     y = reallog(x);
+  end
+end
+
+% x^y for x > 0.
+function z = power_of(x, y)
+  if x > 0
+    z = x^y;
+  else
+    z = NaN;
   end
 end
 ";
@@ -76,6 +85,7 @@ impl Target for Matlab {
             "do",
             "reciprocal",
             "logarithm",
+            "power_of",
             "state",
             "parameters",
             "values",
@@ -103,9 +113,9 @@ impl Target for Matlab {
 
     fn power(&self, base: &TargetTerm, exponent: &Rational) -> TargetTerm {
         let above = self.number(&exponent.abs());
-        let (text, rank) = match exponent.to_integer() {
-            Some(_) => (format!("{}^{}", base.at_least(Rank::Atom), above.text), Rank::Power),
-            None => (format!("realpow({}, {})", base.text, above.text), Rank::Atom),
+        let (text, rank) = match is_plain(exponent) {
+            true => (format!("{}^{}", base.at_least(Rank::Atom), above.text), Rank::Power),
+            false => (self.power_of(base, &above).text, Rank::Atom),
         };
         match exponent.is_negative() {
             true => TargetTerm::atom(format!("reciprocal({text})")),
@@ -114,7 +124,7 @@ impl Target for Matlab {
     }
 
     fn power_of(&self, base: &TargetTerm, exponent: &TargetTerm) -> TargetTerm {
-        TargetTerm::atom(format!("realpow({}, {})", base.text, exponent.text))
+        TargetTerm::atom(format!("power_of({}, {})", base.text, exponent.text))
     }
 
     fn reciprocal(&self, a: &TargetTerm) -> TargetTerm {
@@ -140,7 +150,7 @@ impl Target for Matlab {
         text.push_str("end\n");
         for body in bodies {
             text.push('\n');
-            text.push_str(&comments(&export.subject(body.part), "% ", ""));
+            text.push_str(&comments(&export.described(body), "% ", ""));
             text.push_str(&format!("function values = {}(state, parameters)\n", body.name));
             let line =
                 |list: &str, at: usize, own: &str| format!("  {own} = {list}({});\n", at + 1);

@@ -22,6 +22,9 @@ use lines::CodeLines;
 use names::ExportNames;
 use target::Target;
 
+/// Words before an operation of a formula that simplified values do without.
+const REQUIRED: &str = "No value where this has none";
+
 /// A language of the exported code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Language {
@@ -118,6 +121,13 @@ impl ExportedCase<'_> {
         }
         lines.extend(self.matrices());
         lines.iter().map(|line| one_line(line)).collect()
+    }
+
+    /// Lines that describe a function, and what it has no value without.
+    fn described(&self, body: &CodeLines) -> Vec<String> {
+        let mut lines = self.subject(body.part);
+        lines.extend(body.required.iter().map(|own| format!("{REQUIRED}: {}.", one_line(own))));
+        lines
     }
 
     /// Lines that describe a function.

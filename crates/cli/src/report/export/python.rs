@@ -7,7 +7,17 @@ use liouville::number::rational::Rational;
 use super::ExportedCase;
 use super::lines::CodeLines;
 use super::names::ExportNames;
-use super::target::{Rank, Target, TargetTerm, comments, double, usual};
+use super::target::{Rank, Target, TargetTerm, comments, double, is_plain, usual};
+
+/// Powers with exponents that are not whole.
+const POWER: &str = "
+
+def power(x, y):
+    # x^y for x > 0.
+    if not x > 0:
+        raise ValueError(\"a power of a number that is not positive\")
+    return math.pow(x, y)
+";
 
 /// Python, numerical or symbolic.
 pub struct Python {
@@ -64,6 +74,7 @@ impl Target for Python {
             "with",
             "yield",
             "abs",
+            "power",
             "math",
             "sympy",
             "state",
@@ -102,14 +113,12 @@ impl Target for Python {
     fn power(&self, base: &TargetTerm, exponent: &Rational) -> TargetTerm {
         let raised = self.number(exponent).at_least(Rank::Atom);
         // A float to a fractional power would be complex where the base is negative.
-        match exponent.to_integer().is_none() && !self.is_symbolic {
+        match self.is_symbolic || is_plain(exponent) {
             true => {
-                TargetTerm::atom(format!("math.pow({}, {})", base.text, self.number(exponent).text))
-            }
-            false => {
                 let text = format!("{}**{raised}", base.at_least(Rank::Atom));
                 TargetTerm::of(text, Rank::Power)
             }
+            false => self.power_of(base, &self.number(exponent)),
         }
     }
 
@@ -119,7 +128,7 @@ impl Target for Python {
                 let exponent = exponent.at_least(Rank::Atom);
                 TargetTerm::of(format!("{}**{exponent}", base.at_least(Rank::Atom)), Rank::Power)
             }
-            false => TargetTerm::atom(format!("math.pow({}, {})", base.text, exponent.text)),
+            false => TargetTerm::atom(format!("power({}, {})", base.text, exponent.text)),
         }
     }
 
@@ -150,13 +159,20 @@ impl Target for Python {
             }
             text.push_str(if all.is_empty() { "]\n" } else { "\n]\n" });
         }
+        let raises = |body: &CodeLines| {
+            let lines = body.lines.iter().map(|(_, value)| value);
+            lines.chain(&body.outputs).any(|text| text.contains("power("))
+        };
+        if bodies.iter().any(raises) {
+            text.push_str(POWER);
+        }
         for body in bodies {
             let arguments = match self.is_symbolic {
                 true => "state=STATE, parameters=PARAMETERS",
                 false => "state, parameters",
             };
             text.push_str(&format!("\n\ndef {}({arguments}):\n", body.name));
-            text.push_str(&comments(&export.subject(body.part), "    # ", ""));
+            text.push_str(&comments(&export.described(body), "    # ", ""));
             let line = |list: &str, at: usize, own: &str| format!("    {own} = {list}[{at}]\n");
             text.push_str(&export.taken(body, names, line));
             for (name, value) in &body.lines {

@@ -7,13 +7,13 @@ use super::ExportedCase;
 use super::lines::CodeLines;
 use super::names::ExportNames;
 use super::python::code_name;
-use super::target::{Target, TargetTerm, comments, double, usual};
+use super::target::{Target, TargetTerm, comments, double, is_plain, usual};
 
 /// Rust.
 pub struct Rust;
 
 /// Functions that have no value where the language has an infinite one.
-const HELPERS: [(&str, &str); 2] = [
+const HELPERS: [(&str, &str); 3] = [
     (
         "reciprocal(",
         "\n/// 1/x; no value at 0.\nfn reciprocal(x: f64) -> f64 {\n    \
@@ -23,6 +23,11 @@ const HELPERS: [(&str, &str); 2] = [
         "logarithm(",
         "\n/// ln x; no value at 0.\nfn logarithm(x: f64) -> f64 {\n    \
          if x == 0.0 { f64::NAN } else { x.ln() }\n}\n",
+    ),
+    (
+        "power(",
+        "\n/// x^y for x > 0.\nfn power(x: f64, y: f64) -> f64 {\n    \
+         if x > 0.0 { x.powf(y) } else { f64::NAN }\n}\n",
     ),
 ];
 
@@ -88,6 +93,7 @@ impl Target for Rust {
             "f64",
             "reciprocal",
             "logarithm",
+            "power",
             "state",
             "parameters",
             "main",
@@ -110,7 +116,8 @@ impl Target for Rust {
     }
 
     fn power(&self, base: &TargetTerm, exponent: &Rational) -> TargetTerm {
-        let text = format!("f64::powf({}, {})", base.text, self.number(&exponent.abs()).text);
+        let name = if is_plain(exponent) { "f64::powf" } else { "power" };
+        let text = format!("{name}({}, {})", base.text, self.number(&exponent.abs()).text);
         match exponent.is_negative() {
             true => TargetTerm::atom(format!("reciprocal({text})")),
             false => TargetTerm::atom(text),
@@ -118,7 +125,7 @@ impl Target for Rust {
     }
 
     fn power_of(&self, base: &TargetTerm, exponent: &TargetTerm) -> TargetTerm {
-        TargetTerm::atom(format!("f64::powf({}, {})", base.text, exponent.text))
+        TargetTerm::atom(format!("power({}, {})", base.text, exponent.text))
     }
 
     fn reciprocal(&self, a: &TargetTerm) -> TargetTerm {
@@ -134,7 +141,7 @@ impl Target for Rust {
         let mut code = String::new();
         for body in bodies {
             code.push('\n');
-            code.push_str(&comments(&export.subject(body.part), "/// ", ""));
+            code.push_str(&comments(&export.described(body), "/// ", ""));
             let count = body.outputs.len();
             let argument = |name: &str, is_state| match export.used(body, is_state).is_empty() {
                 true => format!("_{name}"),

@@ -161,6 +161,11 @@ pub fn double(value: &Rational, point: &str) -> TargetTerm {
     }
 }
 
+/// Whether a power has a value for negative numbers too, and an exponent that is a double.
+pub fn is_plain(exponent: &Rational) -> bool {
+    exponent.to_integer().is_some_and(|n| n.unsigned_abs() <= 1 << 53)
+}
+
 /// An exact number: an integer or a quotient of integers.
 pub fn exact(value: &Rational) -> TargetTerm {
     let rank = |own: Rank| if value.is_negative() { Rank::Sum } else { own };
