@@ -9,7 +9,6 @@ use std::sync::Arc;
 
 use super::event::{Event, Sides};
 use super::number::SeriesNumber;
-use super::presence::left_out;
 use super::stepper::Stepper;
 use liouville::graph::{Evaluator, Expr, Graph, Step, Tape};
 use liouville::mechanics::{Model, ParameterOrigin, Phase};
@@ -142,7 +141,7 @@ impl Presence {
         let reached: Vec<Vec<bool>> =
             values.iter().map(|own| graph.reached(own.iter().copied())).collect();
         let (mut watched, mut arguments) = (Vec::new(), Vec::new());
-        for operation in left_out(graph, field, &all) {
+        for operation in graph.left_out(field, &all) {
             let place = graph.place(operation);
             let formula = reached.iter().position(|reached| reached[place]);
             if let (Some(formula), Some((domain, argument))) =
