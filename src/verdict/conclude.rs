@@ -9,7 +9,7 @@ use crate::claim::ClaimKind;
 
 /// Remark on a value that is shown not to vanish at some states, and may vanish at others.
 const ON_A_PART: &str = "shown on a part of the states only: where a modulus, or a root that depends on \
-                         others, has another sign, it may fail";
+                         others, has another sign, or on another branch of the level, it may fail";
 
 /// Makes the report on a claim, with its verdict compared with the expectation.
 pub fn report(

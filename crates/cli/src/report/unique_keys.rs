@@ -89,7 +89,7 @@ mod tests {
         let plain: Value = serde_json::from_str(text).expect("JSON");
         assert_eq!(read(text).expect("JSON"), plain, "the same value");
         for (text, place) in
-            [(r#"{"a": 1, "a": 1}"#, "column 11"), (r#"[{"b": {"a": 1, "a": 2}}]"#, "`a`")]
+            [(r#"{"a": 1, "a": 1}"#, "column 12"), (r#"[{"b": {"a": 1, "a": 2}}]"#, "`a`")]
         {
             let error = read(text).expect_err("twice").to_string();
             assert!(error.contains("twice") && error.contains(place), "{error}");
