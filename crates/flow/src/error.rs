@@ -40,18 +40,6 @@ pub enum FlowError {
         /// State there, in words.
         place: String,
     },
-    /// The numbers of a motion are too large or too small.
-    #[error("{}", out_of_range(*time, state, *is_large))]
-    OutOfRange {
-        /// Time of the last state.
-        #[serde(with = "super::record")]
-        time: f64,
-        /// Last state.
-        #[serde(with = "super::record")]
-        state: Vec<f64>,
-        /// Whether they are too large.
-        is_large: bool,
-    },
     /// The steps have shrunk, and become so many that the end is out of reach.
     #[error("{}", shrinking(*time, *step, state))]
     Shrinking {
@@ -267,15 +255,6 @@ fn without_value(formula: &str, time: f64, place: &str) -> String {
     }
 }
 
-fn out_of_range(time: f64, state: &[f64], is_large: bool) -> String {
-    let state: Vec<String> = state.iter().map(|x| format!("{x:.3e}")).collect();
-    let words = if is_large { "above" } else { "below" };
-    format!(
-        "at t = {time}, at the state [{}], the numbers of the motion are {words} the range of f64",
-        state.join(", ")
-    )
-}
-
 fn shrinking(time: f64, step: f64, state: &[f64]) -> String {
     let state: Vec<String> = state.iter().map(|x| format!("{x:.3e}")).collect();
     format!(
@@ -331,9 +310,6 @@ impl FlowError {
             FlowError::NoValue { .. } => {
                 "choose another start, or a shorter time; a formula that goes on there is written \
                  without the operation, as x for x²/x"
-            }
-            FlowError::OutOfRange { .. } => {
-                "measure the state and the time in units in which states and rates are nearer to 1"
             }
             FlowError::Singular { .. } | FlowError::Shrinking { .. } => {
                 "choose another start, or a shorter time"

@@ -179,9 +179,6 @@ impl<T: SeriesNumber> Stepper<T> {
         let advances = at_end || motion.time.hi + step != motion.time.hi || motion.time.hi == 0.0;
         let time = motion.time.hi;
         let state = || self.own_state(lane).iter().map(|x| x.hi).collect();
-        if motion.steps == 0 && self.is_below_range(lane) {
-            return Err(FlowError::OutOfRange { time, state: state(), is_large: false });
-        }
         match (motion.lost, &self.presence) {
             (None, _) => {}
             (Some(Edge::Watched(index)), Some(presence)) => {
@@ -221,25 +218,7 @@ impl<T: SeriesNumber> Stepper<T> {
             return self.without_value(lane, presence, formula);
         }
         let state = self.own_state(lane).iter().map(|x| x.hi).collect();
-        match self.overflows(lane) {
-            true => FlowError::OutOfRange { time, state, is_large: true },
-            false => FlowError::Singular { time, state },
-        }
-    }
-
-    /// Whether a motion moves, and its numbers are too small to have all digits.
-    fn is_below_range(&self, lane: usize) -> bool {
-        let [still, moving, ..] = self.sizes.norms.map(|norm| norm.lane(lane).leading());
-        let size = still.max(moving);
-        size > 0.0 && size < range::<T>()
-    }
-
-    /// Whether a motion has a velocity, by which its higher coefficients are out of range.
-    fn overflows(&self, lane: usize) -> bool {
-        let [still, moving, ..] = self.sizes.norms.map(|norm| norm.lane(lane).leading());
-        let order = self.series.order() as f64;
-        let last = libm::log(still) + order * (libm::log(moving) - libm::log(still));
-        self.velocity(lane).iter().all(|x| x.is_finite()) && last > libm::log(f64::MAX)
+        FlowError::Singular { time, state }
     }
 
     /// Error at a state where a formula has no value.
@@ -315,25 +294,8 @@ impl<T: SeriesNumber> Stepper<T> {
         let (first, size) = if still > 0.0 { (0, still) } else { (1, moving) };
         let size = libm::log(size);
         let radius = |n: usize, norm: f64| (size - libm::log(norm)) / (n - first) as f64;
-        let own = libm::exp(radius(order - 1, before_last).min(radius(order, last)) - self.kappa);
-        match before_last.max(last) < range::<T>() {
-            true => own.min(longest::<T>(still, order)),
-            false => own,
-        }
+        libm::exp(radius(order - 1, before_last).min(radius(order, last)) - self.kappa)
     }
-}
-
-/// Size below which numbers have not all digits.
-fn range<T: SeriesNumber>() -> f64 {
-    f64::MIN_POSITIVE / T::EPSILON.max(f64::EPSILON)
-}
-
-/// Longest step after which terms that are lost below the range of numbers are within the rounding of
-/// the state.
-fn longest<T: SeriesNumber>(size: f64, order: usize) -> f64 {
-    let lost = libm::log(f64::MIN_POSITIVE);
-    let rounding = libm::log(T::EPSILON) + libm::log(size.max(range::<T>()));
-    libm::exp((rounding - lost) / order as f64)
 }
 
 /// Work of measuring the present expansions.

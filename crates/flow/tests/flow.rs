@@ -6,8 +6,6 @@ mod chaos;
 mod lanes;
 #[path = "flow/presence.rs"]
 mod presence;
-#[path = "flow/range.rs"]
-mod range;
 #[path = "flow/roots.rs"]
 mod roots;
 #[path = "flow/sections.rs"]
