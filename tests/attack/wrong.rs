@@ -88,6 +88,9 @@ const CONFIRMED: [(usize, f64); 2] = [(256, 0.25), (64, 0.02)];
 /// The same where the states are enclosures in f64.
 const CONFIRMED_NEARBY: [(usize, f64); 1] = [(40, 0.02)];
 
+/// Number of states at which a new integral is sought to vary where no cell shows it.
+const MANY_STATES: usize = 4000;
+
 /// Number and length of descents to states at which a density has the other sign, to contradict a
 /// proof, and to find both signs before a verdict counts as wrong.
 const FEW: (usize, usize) = (1, 12);
@@ -280,6 +283,10 @@ fn beside(
             while survey.off == 0 && independence == Independence::Independent {
                 let Some(next) = surveys.next() else { break };
                 survey = next;
+            }
+            // √((x − a)²) bends without a modulus that would be seen as the border of a cell.
+            if survey.off == 0 && survey.zero > 0 && independence == Independence::Independent {
+                survey = evenly(scene, &claim, stream, MANY_STATES);
             }
             let wrong = match independence {
                 Independence::Independent => {
