@@ -1,5 +1,7 @@
 //! Lax pairs: L' = [L,A] = LA − AL for square matrices of any size.
 
+use num_traits::{One, Zero};
+
 use super::{Condition, Reader, ResidualContext, Statement, difference};
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
@@ -32,18 +34,21 @@ impl Lax {
         }
     }
 
-    /// Computes the gradients of tr L, tr L², …: k tr(Lᵏ⁻¹ ∂L).
+    /// Number of powers of L whose traces are examined.
+    fn powers(&self) -> usize {
+        if self.size() <= FEW_ROWS { self.size() } else { FEW_POWERS }
+    }
+
+    /// Computes tr(Lᵏ⁻¹ ∂L), 1/k of the gradient of tr Lᵏ, for k = 1, 2, …
     fn trace_slopes(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
         let n = self.size();
         let matrix = jet.phase.evaluate(&self.matrix).components();
         let gradients = jet.gradients(&self.matrix);
         let axes = gradients.first().map_or(0, Vec::len);
-        let powers = if n <= FEW_ROWS { n } else { FEW_POWERS };
         let mut slopes = Vec::new();
-        let mut power: Vec<Expr> = (0..n * n)
-            .map(|place| Expr::from(f64::from(u8::from(place / n == place % n))))
-            .collect();
-        for _ in 0..powers {
+        let unit = |place: usize| if place / n == place % n { Expr::one() } else { Expr::zero() };
+        let mut power: Vec<Expr> = (0..n * n).map(unit).collect();
+        for _ in 0..self.powers() {
             slopes.extend((0..axes).map(|axis| -> Expr {
                 (0..n * n)
                     .map(|place| power[place] * gradients[place % n * n + place / n][axis])
@@ -112,7 +117,7 @@ impl Statement for Lax {
     /// Requires an integral among tr L, tr L², …, as far as they are computed.
     fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
         let slopes = self.trace_slopes(jet);
-        let most = if self.size() <= FEW_ROWS { self.size() } else { FEW_POWERS };
+        let most = self.powers();
         let otherwise = format!("tr Lᵏ is constant for k ≤ {most}: these are no integrals");
         vec![Condition::nonzero(slopes, &otherwise)]
     }

@@ -160,10 +160,7 @@ impl Model {
     /// Whether the value of a parameter is written into the case, or into one of these formulas, as
     /// a size or an index, so that the parameter cannot change.
     pub fn is_rigid(&self, parameter: usize, formulas: &[&Formula]) -> bool {
-        let given = self.parameters.iter().filter_map(|parameter| match &parameter.origin {
-            ParameterOrigin::Formula(formula) => Some(formula),
-            _ => None,
-        });
+        let given = self.parameter_formulas();
         let own = self.functions().into_iter().chain(&self.abbreviations).chain(given);
         let all = own.chain(formulas.iter().copied());
         let symbols = all.flat_map(Formula::fixed_symbols).chain(&self.fixed).copied();
@@ -190,11 +187,23 @@ impl Model {
     /// Returns the formulas that are functions of the state apart from the claims: the equations of
     /// motion, the new variables, and the level.
     pub fn functions(&self) -> Vec<&Formula> {
-        let level = self.level.iter().filter_map(|equation| match &equation.function {
+        self.dynamics().into_iter().chain(self.level_formulas()).collect()
+    }
+
+    /// Returns the formulas of level functions that the file gives.
+    pub fn level_formulas(&self) -> impl Iterator<Item = &Formula> {
+        self.level.iter().filter_map(|equation| match &equation.function {
             LevelFunction::Formula(formula) => Some(formula),
             _ => None,
-        });
-        self.dynamics().into_iter().chain(level).collect()
+        })
+    }
+
+    /// Returns the formulas of parameters that are computed from others.
+    pub fn parameter_formulas(&self) -> impl Iterator<Item = &Formula> {
+        self.parameters.iter().filter_map(|parameter| match &parameter.origin {
+            ParameterOrigin::Formula(formula) => Some(formula),
+            _ => None,
+        })
     }
 
     /// Returns the formulas of the equations of motion and of the new variables.

@@ -20,6 +20,7 @@ use super::rolling::RollingTerms;
 use super::rubber::{NORMAL, angular_velocity, normal};
 use super::vocabulary::Meaning;
 use crate::formula::{Formula, Symbol, Value};
+use crate::graph::Expr;
 use crate::scalar::Scalar;
 
 /// A point of phase space over the scalar T.
@@ -225,5 +226,14 @@ impl<'m, T: Scalar> Phase<'m, T> {
         let mut direction = vec![T::zero(); self.model().dimension()];
         direction[index] = T::one();
         self.lift(&direction)
+    }
+}
+
+impl Phase<'_, Expr> {
+    /// Records the components of formulas so that they are defined exactly where everything written
+    /// is; components that are defined everywhere are omitted.
+    pub fn literal_values<'f>(&self, formulas: impl IntoIterator<Item = &'f Formula>) -> Vec<Expr> {
+        let values = formulas.into_iter().flat_map(|f| self.evaluate_literally(f).components());
+        values.filter(|value| !value.is_always_defined()).collect()
     }
 }

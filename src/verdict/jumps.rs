@@ -5,9 +5,8 @@
 
 use super::field::combinations;
 use super::judging::Judging;
-use super::point::named;
 use super::sampler::Sampler;
-use crate::formula::Type;
+use super::witness::briefly;
 use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape};
 use crate::mechanics::Draw;
 use crate::number::float::Float;
@@ -39,34 +38,21 @@ impl Judging<'_> {
         else {
             return Ok(None);
         };
-        let state = self.case.model.free_components() + self.case.model.dimension();
-        let made = sampler.made()[..state.min(sampler.made().len())].to_vec();
         let (graph, groups) = sampler.compose(self.graph, &[values.to_vec()], &fixed)?;
         let tape = Tape::new(&graph, &groups.concat());
         for line in 0..LINES {
             let ends = [2 * line, 2 * line + 1].map(|index| sampler.nearest_draws(index));
             let line = Line::between(sampler, ends, graph.inputs());
             if let Some(place) = line.jump(&tape) {
-                let tape = Tape::new(sampler.graph(), &made);
-                return Ok(Some(self.told(&line.values(&tape, [place; POINTS]))));
+                let model = &self.case.model;
+                let state = &sampler.made()[model.free_components()..];
+                let tape = Tape::new(sampler.graph(), state);
+                let state =
+                    line.values(&tape, [place; POINTS]).iter().map(|x| x[0]).collect::<Vec<_>>();
+                return Ok(Some(briefly(model, &state)));
             }
         }
         Ok(None)
-    }
-
-    /// Writes the state among values of parameters and state.
-    fn told(&self, values: &[[f64; POINTS]]) -> String {
-        let short = |value: &[f64; POINTS]| match value[0] {
-            value if value.abs() < LEAST_JUMP => "0".to_string(),
-            value => format!("{value:.3}"),
-        };
-        let values: Vec<String> = values.iter().map(short).collect();
-        let (_, state) = named(&self.case.model, &values);
-        let kinds = self.case.model.state.iter().map(|variable| variable.kind);
-        let written = |((name, value), kind): (&(String, Vec<String>), Type)| {
-            format!("{name} = {}", kind.listed(value, ["[", ", ", "]"]))
-        };
-        state.iter().zip(kinds).map(written).collect::<Vec<_>>().join(", ")
     }
 }
 

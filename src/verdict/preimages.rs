@@ -5,6 +5,7 @@
 use super::judging::Judging;
 use super::recorded::RecordedClaim;
 use super::sampler::{Sampler, TAPE_LANES, inside};
+use super::witness::briefly;
 use crate::graph::{Evaluator, Expr, Fault, Tape, record};
 use crate::level::Newton;
 use crate::mechanics::Phase;
@@ -73,26 +74,14 @@ impl Judging<'_> {
                     x.mid[0] - x.rad[0] >= low && x.mid[0] + x.rad[0] <= high
                 });
                 if is_other && is_inside && images(&[&here[..free], &there].concat()).is_some() {
-                    let both = [&here[free..], &there].map(|state| self.written(state));
+                    let both = [&here[free..], &there].map(|state| {
+                        let middles: Vec<f64> = state.iter().map(|x| x.mid[0]).collect();
+                        briefly(model, &middles)
+                    });
                     return Ok(Some(both.join(" and ")));
                 }
             }
         }
         Ok(None)
-    }
-
-    /// Writes a state to a few digits.
-    fn written(&self, state: &[Balls<1>]) -> String {
-        let model = &self.case.model;
-        let mut rest = state;
-        let mut shown = Vec::new();
-        for variable in &model.state {
-            let (own, others) = rest.split_at(variable.len());
-            rest = others;
-            let digits: Vec<String> = own.iter().map(|x| format!("{:.4}", x.mid[0])).collect();
-            let value = variable.kind.listed(&digits, ["[", ", ", "]"]);
-            shown.push(format!("{} = {value}", variable.name));
-        }
-        shown.join(", ")
     }
 }

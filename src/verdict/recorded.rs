@@ -12,9 +12,8 @@ use crate::claim::{Condition, LevelSubset, Novelty, ResidualContext, quadrature_
 use crate::formula::Formula;
 use crate::graph::{Expr, literally};
 use crate::mechanics::calculus::{DualPoint, rejection};
-use crate::mechanics::{LevelEquation, LevelFunction, ParameterOrigin, System};
+use crate::mechanics::{LevelEquation, LevelFunction, System};
 use crate::number::Enclosing;
-use crate::requirement::literal_values;
 
 /// A claim with all expressions recorded for it.
 pub struct RecordedClaim<'c> {
@@ -59,7 +58,7 @@ impl<'c> RecordedClaim<'c> {
             residual: residual(&claim.place),
             presence,
             requirement: {
-                let mut values = literal_values(&jet.phase, claim.kind.formulas());
+                let mut values = jet.phase.literal_values(claim.kind.formulas());
                 // Where ρ is 0 on an open part, div(ρv) is 0, and v(ln ρ) is undefined.
                 for divisor in claim.kind.divisors() {
                     let divisor = jet.phase.evaluate_literally(divisor).components();
@@ -124,15 +123,11 @@ impl SharedTerms {
             field: phase.field().to_vec(),
             requirement: {
                 let model = phase.model();
-                let formulas = model.parameters.iter().filter_map(|p| match &p.origin {
-                    ParameterOrigin::Formula(formula) => Some(formula),
-                    _ => None,
-                });
-                literal_values(phase, formulas.chain(model.dynamics()))
+                phase.literal_values(model.parameter_formulas().chain(model.dynamics()))
             },
             level_requirement: {
                 let formula = |equation: &LevelEquation| match &equation.function {
-                    LevelFunction::Formula(formula) => literal_values(phase, [formula]),
+                    LevelFunction::Formula(formula) => phase.literal_values([formula]),
                     _ => Vec::new(),
                 };
                 phase.model().level.iter().map(formula).collect()

@@ -1,4 +1,4 @@
-//! What a motion keeps: proved, or else measured within the rounding of the motion itself.
+//! Level and energy along a motion: kept by a proof, or else as measured within the rounding of the motion itself.
 
 use super::carry::MOST_STEPS;
 use super::error::FlowError;

@@ -33,9 +33,9 @@ pub(super) struct Lane<One> {
     pub(super) is_open: bool,
     /// Whether the present step is cut for a branch point or for a further function.
     pub(super) is_cut: bool,
-    /// What has no value from a time after the present state on.
+    /// Operation without a value from a time after the present state on.
     pub(super) edge: Option<(Edge, One)>,
-    /// What has no value at the present state, or next to it.
+    /// Operation without a value at the present state, or next to it.
     pub(super) lost: Option<Edge>,
 }
 

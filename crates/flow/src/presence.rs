@@ -7,20 +7,14 @@ use super::error::FlowError;
 use super::motion::{point, program};
 use super::program::TaylorProgram;
 use liouville::graph::{Expr, record};
-use liouville::mechanics::{Model, ParameterOrigin, Phase};
+use liouville::mechanics::{Model, Phase};
 use liouville::number::rational::Rational;
 
 /// Formulas of the system and of its parameters, recorded as written; those that have a value
 /// everywhere are left out.
 pub fn as_written(phase: &Phase<'_, Expr>) -> Vec<Expr> {
     let model = phase.model();
-    let parameters = model.parameters.iter().filter_map(|parameter| match &parameter.origin {
-        ParameterOrigin::Formula(formula) => Some(formula),
-        _ => None,
-    });
-    let formulas = parameters.chain(model.dynamics());
-    let values = formulas.flat_map(|formula| phase.evaluate_literally(formula).components());
-    values.filter(|value| !value.is_always_defined()).collect()
+    phase.literal_values(model.parameter_formulas().chain(model.dynamics()))
 }
 
 /// Compiles a model's field with the operations that were left out of it as rates of further

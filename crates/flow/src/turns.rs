@@ -1,4 +1,4 @@
-//! How often a closed orbit is run through in the time after which it was found to close.
+//! Number of times that a closed orbit is run through until it was found to close.
 
 use super::carry::carried;
 use super::error::FlowError;

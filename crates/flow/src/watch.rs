@@ -11,7 +11,7 @@ use super::event::{Event, Sides};
 use super::number::SeriesNumber;
 use super::stepper::Stepper;
 use liouville::graph::{Evaluator, Expr, Graph, Step, Tape};
-use liouville::mechanics::{Model, ParameterOrigin, Phase};
+use liouville::mechanics::{Model, Phase};
 use liouville::number::UnaryFunction;
 use liouville::number::double_double::{DoubleDouble, DoubleDoubles};
 
@@ -22,18 +22,10 @@ pub(super) type Written = Vec<(String, Vec<Expr>)>;
 /// everywhere are left out.
 pub(super) fn written(phase: &Phase<'_, Expr>) -> Written {
     let model = phase.model();
-    let parameters = model.parameters.iter().filter_map(|parameter| match &parameter.origin {
-        ParameterOrigin::Formula(formula) => Some(formula),
-        _ => None,
-    });
-    let formulas = parameters.chain(model.dynamics());
+    let formulas = model.parameter_formulas().chain(model.dynamics());
     let known = formulas.filter(|formula| !model.has_antiderivative(formula));
-    let all = known.map(|formula| {
-        let values = phase.evaluate_literally(formula).components();
-        let partial = values.into_iter().filter(|value| !value.is_always_defined()).collect();
-        (formula.text().trim().to_string(), partial)
-    });
-    all.filter(|(_, values): &(String, Vec<Expr>)| !values.is_empty()).collect()
+    let all = known.map(|f| (f.text().trim().to_string(), phase.literal_values([f])));
+    all.filter(|(_, values)| !values.is_empty()).collect()
 }
 
 /// Values of an argument at which an operation exists.
@@ -98,7 +90,7 @@ fn falls<T: SeriesNumber>(argument: &[T], length: T) -> bool {
     })
 }
 
-/// What has no value from somewhere on.
+/// An operation that has no value from somewhere on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Edge {
     /// An operation that is written, and that the field does without, by its index.
@@ -129,7 +121,8 @@ pub(super) struct Presence {
 }
 
 impl Presence {
-    /// What has to exist along the motions of a field; returns the arguments to be watched too.
+    /// Lists the values that have to exist along the motions of a field; returns the arguments to be
+    /// watched too.
     pub fn new(
         model: &Model,
         graph: &Graph,

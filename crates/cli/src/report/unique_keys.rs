@@ -8,7 +8,7 @@ use serde_json::{Map, Number, Value};
 /// Reads JSON.
 ///
 /// # Errors
-/// What is not JSON, and keys that are there twice, with their place.
+/// An error names the place of the first fault: text that is not JSON, or a key that is there twice.
 pub fn read(text: &str) -> Result<Value, serde_json::Error> {
     let mut from = serde_json::Deserializer::from_str(text);
     let value = UniqueKeys.deserialize(&mut from)?;

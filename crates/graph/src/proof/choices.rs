@@ -26,7 +26,7 @@ pub fn for_all_choices(
     (1u32..1 << loose.len()).map(of_choice).fold(of_choice(0), both)
 }
 
-/// What it means that a group does not vanish, where its roots or functions may depend on others.
+/// Result for a group that does not vanish, where its roots or functions may depend on others.
 pub fn unlike(extended: &Algebraic<'_>, group: &[Expr], loose: &[usize]) -> TrialResult {
     let reason = match () {
         () if !loose.is_empty() => "it does not vanish for all choices of signs of dependent roots",

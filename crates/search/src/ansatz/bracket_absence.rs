@@ -1,4 +1,4 @@
-//! What a search for brackets excludes, in words.
+//! Theorems of absence of a search for brackets, in words.
 
 use super::super::{Excluded, SearchError};
 use super::bracket_family::BracketFamily;
