@@ -147,10 +147,7 @@ fn rounded(value: f64) -> Option<f64> {
 impl BodyOnSphere {
     /// Takes the body with the parameters of the first state; `None` for a case without a body, or
     /// with further variables.
-    pub fn first(
-        case: &Case,
-        options: &Options,
-    ) -> Result<Option<(Self, Parameters)>, JudgeError> {
+    pub fn first(case: &Case, options: &Options) -> Result<Option<(Self, Parameters)>, JudgeError> {
         let model = &case.model;
         let Some(body) = model.system.body().filter(|_| model.extension.is_empty()) else {
             return Ok(None);
