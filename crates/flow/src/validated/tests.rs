@@ -13,7 +13,7 @@ use super::motion::ORDER;
 use super::plan::Plan;
 use super::tail::{End, FIRST, states};
 use super::{coefficients, sharp};
-use crate::program::TaylorProgram;
+use crate::taylor::program::TaylorProgram;
 
 type Number = <ArbBall as Domain>::Block;
 
