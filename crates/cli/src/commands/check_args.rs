@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 
 use super::{LimitArgs, SamplingArgs, bodies, explore};
 
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct CheckArgs {
     /// Case files, folders of them, or `-` for standard input; paths that do not exist are looked
     /// up in the catalogue inside the program
@@ -53,6 +53,9 @@ pub struct CheckArgs {
     /// Print the summary alone
     #[arg(short, long, conflicts_with = "verbose")]
     pub quiet: bool,
+    /// Judge again whenever a file changes, until Ctrl-C
+    #[arg(long, conflicts_with_all = ["bodies_table", "certificate"])]
+    pub watch: bool,
     #[command(flatten)]
     pub limits: LimitArgs,
     #[command(flatten)]
@@ -70,6 +73,9 @@ pub enum CheckFormat {
     Jsonl,
     /// One line for each claim, with a header; for each body with --settings
     Csv,
+    /// Annotations of GitHub's workflows: errors where a verdict is not as expected, warnings where a
+    /// claim is undecided
+    Github,
     /// JUnit's XML, for continuous integration
     Junit,
 }

@@ -26,6 +26,7 @@ mod styles;
 pub mod table;
 mod threads;
 pub mod verify;
+mod watch;
 
 use std::ffi::OsString;
 use std::io::{ErrorKind, IsTerminal, Write};
@@ -38,7 +39,8 @@ pub use run::run;
 pub use sampling::{SamplingArgs, parse_threads};
 
 use crate::source;
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use anstream::ColorChoice;
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 
 /// First steps, below the list of commands.
 const FIRST_STEPS: &str = "\
@@ -52,6 +54,17 @@ Examples:
 #[derive(Debug, Parser)]
 #[command(name = "liouville", version, max_term_width = 100, after_help = FIRST_STEPS)]
 pub struct Arguments {
+    /// Colours in the output
+    #[arg(
+        long,
+        global = true,
+        value_name = "WHEN",
+        value_enum,
+        default_value_t,
+        hide_possible_values = true,
+        help = "Colours in the output: auto, always or never"
+    )]
+    pub color: ColorArg,
     #[command(subcommand)]
     pub command: Command,
 }
@@ -121,6 +134,26 @@ Example:
     /// Write the manual pages
     #[command(after_help = "Example:\n  liouville man ~/.local/share/man/man1")]
     Man(completions::Man),
+}
+
+/// Choice of colours.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub enum ColorArg {
+    /// On a terminal, unless NO_COLOR is set
+    #[default]
+    Auto,
+    Always,
+    Never,
+}
+
+impl From<ColorArg> for ColorChoice {
+    fn from(choice: ColorArg) -> Self {
+        match choice {
+            ColorArg::Auto => ColorChoice::Auto,
+            ColorArg::Always => ColorChoice::Always,
+            ColorArg::Never => ColorChoice::Never,
+        }
+    }
 }
 
 impl Arguments {
@@ -214,9 +247,15 @@ fn write_new(path: &Path, text: &str) -> Result<(), String> {
     })
 }
 
-/// Whether to use colours on this stream.
+/// Whether to colour what goes to a terminal, or elsewhere.
 pub fn colour(terminal: bool) -> bool {
-    terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+    match ColorChoice::global() {
+        ColorChoice::Always | ColorChoice::AlwaysAnsi => true,
+        ColorChoice::Never => false,
+        ColorChoice::Auto => {
+            terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+        }
+    }
 }
 
 /// Width to lay tables out for: that of the terminal, or a fixed one for files and pipes.

@@ -13,6 +13,7 @@ mod pictures;
 mod site;
 mod start;
 mod tables;
+mod watch;
 mod wrong;
 
 use std::fs;
