@@ -101,3 +101,13 @@ fn tracks_are_the_path_of_the_contact_point() {
     let pendulum = ["motion", "orbit", "figures/fig-13", "--track", "--out", "x.svg"];
     liouville(&pendulum).assert().code(2).stderr(contains("contact point on a plane"));
 }
+
+#[test]
+fn a_section_can_be_drawn_on_the_sphere() {
+    let case = ["motion", "section", "figures/fig-5"];
+    let svg = text(drawn("sphere", "two.svg", &[&case[..], &FEW, &["--sphere"]].concat()));
+    assert!(svg.contains("&gt;") && svg.contains("&lt;"), "the discs L > 0 and L < 0");
+    assert!(!svg.contains("(c)"), "two discs");
+    let shaded = [&case[..], &["--sphere", "--shade", "--out", "x.svg"]].concat();
+    liouville(&shaded).assert().code(2).stderr(contains("cannot be used with"));
+}
