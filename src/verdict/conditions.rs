@@ -75,7 +75,7 @@ impl Judging<'_> {
             Need::Positive { value } => {
                 let is_met =
                     self.holds_at_all_states(sampler, *value, &|graph, extents, value| {
-                        sign(graph, extents, &[], value) == Some(true)
+                        sign(graph, extents, &[], &[], value) == Some(true)
                             && is_nowhere_zero(graph, extents, &[], &[value])
                     })?;
                 Ok((!is_met).then(|| otherwise.clone()))

@@ -242,7 +242,8 @@ pub struct Evidence {
     /// Whether the sign is proved at all states rather than observed at those tried.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub sign_is_proved: bool,
-    /// Whether states were tried at which it is not known whether the density has a value.
+    /// Whether the sign may be another at states at which it is not known whether the density has a
+    /// value, or on a part of the level that was not reached.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub sign_is_partial: bool,
     /// Volume form to which a density on a level set refers.

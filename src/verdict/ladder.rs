@@ -30,7 +30,7 @@ pub const PRECISE_STATES: u64 = 4;
 /// Number of such states for a claim on which the fields are silent, and number of operations of the
 /// residual up to which they are all tried.
 const CONFIRMING_STATES: u64 = 32;
-const FEW_OPERATIONS: usize = 4096;
+pub const FEW_OPERATIONS: usize = 4096;
 /// Number of states tried to find one of them.
 const PRECISE_TRIES: u64 = 8;
 

@@ -37,6 +37,7 @@ mod signs;
 mod state;
 mod statement;
 mod values;
+mod vanishing;
 mod wider_domain;
 mod witness;
 

@@ -88,11 +88,17 @@ impl Judging<'_> {
                 self.look_closely(&run, &required, sampler, &mut seen);
             }
         }
+        let unreached = sampler.unreached();
         for (((_, _, status), seen), proved) in open.iter_mut().zip(&seen).zip(proved) {
-            status.evidence.sign = sign(&seen.signs);
-            status.evidence.sign_is_proved =
-                proved.is_some() || status.evidence.sign == Some(DensitySign::Changes);
-            status.evidence.sign_is_partial = seen.is_doubtful && !status.evidence.sign_is_proved;
+            let evidence = &mut status.evidence;
+            evidence.sign = sign(&seen.signs);
+            evidence.sign_is_proved =
+                proved.is_some() || evidence.sign == Some(DensitySign::Changes);
+            let is_open = evidence.sign.is_some() && !evidence.sign_is_proved;
+            evidence.sign_is_partial = is_open && (seen.is_doubtful || unreached.is_some());
+            if let Some(reason) = unreached.filter(|_| is_open) {
+                evidence.add_remark(format!("its sign is that of the states tried: {reason}"));
+            }
             if status.evidence.sign.is_none() {
                 status.evidence.sign_is_proved = false;
                 undecide(status, "the density is 0 at all states that were tried".to_string());
@@ -160,7 +166,7 @@ impl Judging<'_> {
         let extents = sampler.extents();
         let sign = |group: &Group| {
             let value = *group.outputs.first()?;
-            proof::sign(&graph, &extents, &group.required, value)
+            proof::sign(&graph, &extents, &group.required, &group.facts, value)
         };
         Ok(groups.iter().map(sign).collect())
     }

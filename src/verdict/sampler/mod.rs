@@ -39,6 +39,9 @@ pub struct Sampler {
     /// Parameters and state as functions of the draws.
     graph: Arc<Graph>,
     made: Vec<Expr>,
+    /// Values that are not negative at a state: distances of solved components from the ends of
+    /// their ranges, and sides of equations that were squared.
+    facts: Vec<Expr>,
     /// Solution of the level, with the values that must not vanish, or a part of it is missed.
     solution: Option<Arc<Solution>>,
     pivots: Arc<[Pivot]>,
@@ -82,19 +85,20 @@ impl Sampler {
             Some(solution) => solution.draws(&case.free_draws),
             None => case.chart.draws(&case.free_draws, kept),
         });
-        let (graph, (made, guarded, pivots)) = record(draws.len(), |inputs| {
+        let (graph, (made, guarded, facts, pivots)) = record(draws.len(), |inputs| {
             let (parameters, state) = model.make_parameters(inputs);
             let Some(solution) = &solution else {
                 let mut made = parameters;
                 let point = literally(|| case.chart.point(model, kept, &made, state));
                 made.extend(point);
-                return (made.clone(), made, Vec::new());
+                return (made.clone(), made, Vec::new(), Vec::new());
             };
             let solved = solution.point(model, parameters, state);
             let bounds = ranges(case, solution, &solved.made);
-            let facts = solved.facts.iter().map(|(value, _)| *value).chain(bounds);
-            let guarded = guarded(&solved.made, facts);
-            (solved.made, guarded, solved.pivots)
+            let facts: Vec<Expr> =
+                solved.facts.iter().map(|(value, _)| *value).chain(bounds).collect();
+            let guarded = guarded(&solved.made, facts.iter().copied());
+            (solved.made, guarded, facts, solved.pivots)
         })?;
         let (tape, unguarded) = (Tape::new(&graph, &guarded), Tape::new(&graph, &made));
         let is_guarded = solution.is_some();
@@ -109,6 +113,7 @@ impl Sampler {
             recipes,
             graph,
             made: guarded,
+            facts,
             solution,
             pivots,
             parameter_draws,

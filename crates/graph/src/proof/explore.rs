@@ -2,8 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::graph::{Expr, Fault, Graph, Step, literally};
-use crate::number::BinaryOperation;
+use crate::graph::{Expr, Fault, Graph, literally};
 
 use super::Prover;
 use super::bounds::InputDistribution;
@@ -207,8 +206,18 @@ impl Explorer<'_> {
         if !rewrites.is_empty() {
             return Ok(Next::Rewrite(rewrites, certificate));
         }
-        self.divide(cell, algebraic, &trial, &tower, open)
-            .map_or_else(|| self.test(cell, algebraic, &trial, &tower, &loose, known), Ok)
+        if let Some(next) = self.divide(cell, algebraic, &trial, &tower, open) {
+            return Ok(next);
+        }
+        let tested = self.test(cell, algebraic, &trial, &tower, &loose, known)?;
+        let is_zero =
+            |result: &Option<TrialResult>| matches!(result, None | Some(TrialResult::Zero(_)));
+        Ok(match (&tested, self.sign_of(cell, algebraic, &loose)) {
+            (Next::Tested(results), Some(input)) if !results.iter().all(is_zero) => {
+                Next::DivideInput(input)
+            }
+            _ => tested,
+        })
     }
 
     /// Tests whether a value with independent roots alone vanishes identically; returns the
@@ -219,59 +228,6 @@ impl Explorer<'_> {
             Some(TrialResult::Zero(certificate)) => Some(certificate),
             _ => None,
         }
-    }
-
-    /// Finds the signs of moduli that are still open, or divides by one of them or by an input.
-    fn divide(
-        &self,
-        cell: &Cell,
-        algebraic: &Algebraic<'_>,
-        trial: &Trial<'_>,
-        tower: &Tower,
-        open: Vec<(usize, usize)>,
-    ) -> Option<Next> {
-        if let Some((modulus, argument)) = open.first().copied() {
-            let classes = Classes::of(algebraic, trial, tower, self.digest);
-            let (known, inputs) = (cell.known(), self.prover.extents);
-            let region = Region { graph: &cell.graph, inputs, facts: &known, classes: &classes };
-            if cell.is_part() && region.is_empty() {
-                return Some(Next::Empty(classes.certificate));
-            }
-            let signs = open.iter().filter_map(|(place, argument)| {
-                let positive = region.sign(*argument)?;
-                Some(Rewrite::Signed { place: *place, positive })
-            });
-            let rewrites: Vec<Rewrite> = signs.collect();
-            if !rewrites.is_empty() {
-                return Some(Next::Rewrite(rewrites, classes.certificate));
-            }
-            return Some(Next::Divide { modulus, argument });
-        }
-        let Question { graph, groups, special } = self.question;
-        let outputs = groups.iter().flat_map(|group| group.iter().copied());
-        let reached = graph.reached(outputs);
-        let mut signs = special.iter().filter_map(|place| match graph.step(*place) {
-            Step::Input(input) if cell.fixed.iter().all(|(fixed, _)| *fixed != input) => {
-                Some((*place, input))
-            }
-            _ => None,
-        });
-        let is_root = |place: usize| {
-            let own = special.iter().position(|own| *own == place);
-            own.and_then(|own| algebraic.values[cell.graph.place(cell.values[own])])
-                .is_some_and(|value| tower.is_independent_root(algebraic, value))
-        };
-        // The sign of an independent root is random already.
-        let is_absorbed = |sign: usize| {
-            let steps = graph.steps().enumerate().filter(|(place, _)| reached[*place]);
-            let mut users =
-                steps.filter(|(_, step)| step.arguments().any(|argument| argument == sign));
-            users.all(|(_, step)| match step {
-                Step::Binary(BinaryOperation::Mul, a, b) => is_root(if a == sign { b } else { a }),
-                _ => false,
-            })
-        };
-        signs.find(|(place, _)| !is_absorbed(*place)).map(|(_, input)| Next::DivideInput(input))
     }
 
     /// Tests all groups, with all choices of unknown signs.

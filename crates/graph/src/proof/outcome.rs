@@ -36,6 +36,9 @@ pub struct InputRegion {
     pub positive: Vec<Expr>,
     /// Sign inputs, and whether each is 1.
     pub signs: Vec<(usize, bool)>,
+    /// Values of the question's graph that vanish identically on the part: radicands without which
+    /// the required values would not exist.
+    pub zeros: Vec<Expr>,
 }
 
 impl std::fmt::Debug for InputRegion {

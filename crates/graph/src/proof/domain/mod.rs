@@ -128,15 +128,18 @@ impl Region<'_> {
         whole
     }
 
-    /// Halves a part along one input after the other.
+    /// Halves a part along one input after the other, without those that are single numbers.
     fn cut(
         &self,
         used: &[usize],
         part: Vec<Extent>,
         depth: usize,
     ) -> Option<[(Vec<Extent>, usize); 2]> {
-        let input = *used.get(depth % used.len().max(1))?;
-        let (low, high) = part[input].halves()?;
+        let mut depths = depth..depth + used.len();
+        let (depth, input, (low, high)) = depths.find_map(|depth| {
+            let input = used[depth % used.len()];
+            Some((depth, input, part[input].halves()?))
+        })?;
         let (mut lower, mut upper) = (part.clone(), part);
         (lower[input], upper[input]) = (low, high);
         Some([(upper, depth + 1), (lower, depth + 1)])

@@ -84,10 +84,17 @@ pub fn is_nowhere_zero(
     open.is_empty()
 }
 
-/// Finds the sign of a value at all inputs inside their extents at which some values exist, where 0
-/// counts as either sign; `None` if unknown.
-pub fn sign(graph: &Graph, inputs: &[Extent], required: &[Expr], value: Expr) -> Option<bool> {
-    let facts = conditions(graph, &graph.reached(required.iter().copied()));
+/// Finds the sign of a value at all inputs inside their extents at which some values exist and others
+/// are not negative, where 0 counts as either sign; `None` if unknown.
+pub fn sign(
+    graph: &Graph,
+    inputs: &[Extent],
+    required: &[Expr],
+    not_negative: &[Expr],
+    value: Expr,
+) -> Option<bool> {
+    let mut facts = conditions(graph, &graph.reached(required.iter().copied()));
+    facts.extend(not_negative.iter().map(|value| (graph.place(*value), SignFact::NotNegative)));
     let classes = Classes::default();
     Region { graph, inputs, facts: &facts, classes: &classes }.sign(graph.place(value))
 }
