@@ -16,6 +16,7 @@ mod density;
 mod density_in_variables;
 mod divergence;
 mod entry;
+mod expansion;
 mod expect;
 mod fixed_point;
 mod form;
