@@ -27,6 +27,7 @@ mod overflow;
 mod parts;
 mod pass;
 mod physics;
+mod pieces;
 mod point;
 mod preimages;
 mod recorded;

@@ -17,7 +17,7 @@ use std::sync::Arc;
 use crate::case::Case;
 use crate::claim::LevelSubset;
 use crate::graph::{Expr, Fault, Graph, Tape, literally, record};
-use crate::level::{self, Pivot, Solution};
+use crate::level::{self, Part, Pivot, Solution};
 use crate::mechanics::{Chart, Draw, DrawSource};
 use crate::number::rational::Rational;
 use crate::proof::{Extent, InputDistribution};
@@ -59,6 +59,8 @@ pub struct Sampler {
     /// Whether the states are made with moduli.
     has_moduli: bool,
     newton: Option<NumericalLevel>,
+    /// Whether the states are a part of lower dimension than the place.
+    is_thin: bool,
 }
 
 impl Sampler {
@@ -124,7 +126,52 @@ impl Sampler {
             is_guarded,
             has_moduli,
             newton,
+            is_thin: false,
         })
+    }
+
+    /// Makes a sampler of the states on a part of the same place, with their own distributions.
+    pub fn on_part(&self, part: &Part, recipes: Vec<Draw>) -> Result<Self, Fault> {
+        let (graph, made) = record(part.graph.inputs(), |inputs| {
+            let all: Vec<Expr> = part.made.iter().chain(&part.facts).copied().collect();
+            let reached = part.graph.reached(all.iter().copied());
+            let values = part.graph.replay(&reached, inputs, |_, _, _| None);
+            let at = |value: &Expr| values[part.graph.place(*value)];
+            let mut made = all.iter().map(at).collect::<Option<Vec<Expr>>>()?;
+            let facts = made.split_off(part.made.len());
+            let guarded = guarded(&made, facts.iter().copied());
+            Some((made, facts, guarded))
+        })?;
+        let (made, facts, guarded) = made.ok_or(Fault::ForeignValue)?;
+        Ok(Self {
+            seed: self.seed,
+            draws: DrawSource::new(&recipes),
+            recipes,
+            tape: Tape::new(&graph, &guarded),
+            unguarded: Tape::new(&graph, &made),
+            is_guarded: true,
+            has_moduli: level::has_moduli(&graph, &guarded),
+            graph: Arc::new(graph),
+            made: guarded,
+            facts,
+            solution: None,
+            pivots: Arc::new([]),
+            parameter_draws: self.parameter_draws,
+            dimension: self.dimension,
+            kept: self.kept.clone(),
+            newton: None,
+            is_thin: part.is_thin,
+        })
+    }
+
+    /// Whether the states are a part of lower dimension than the place.
+    pub fn is_thin(&self) -> bool {
+        self.is_thin
+    }
+
+    /// Whether some draws may lead to no state.
+    pub fn is_guarded(&self) -> bool {
+        self.is_guarded
     }
 
     /// Whether the states are found numerically, with an estimated rather than a proved distance

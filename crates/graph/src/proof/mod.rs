@@ -69,6 +69,7 @@ pub use domain::{is_nowhere_zero, sign};
 pub use elimination::reduce;
 pub use extent::Extent;
 pub use fact::SignFact;
+pub use nested::SquareRoot;
 pub use outcome::{GroupOutcome, InputRegion, InputRegions};
 pub use plain::plain_bounds;
 pub use polynomials::{PolynomialBounds, polynomial_bounds};
