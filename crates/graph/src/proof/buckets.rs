@@ -18,7 +18,9 @@ use super::trial::{self, Certificate, TrialResult};
 pub struct Bucket {
     /// Places of the non-rational steps that they need.
     pub special: Vec<usize>,
-    /// Facts about values, wherever the claim is to hold.
+    /// Values that exist wherever the claim is to hold.
+    pub required: Vec<Expr>,
+    /// Facts about values there.
     pub facts: Vec<(Expr, SignFact)>,
     /// Indices of the groups.
     pub members: Vec<usize>,
@@ -63,7 +65,8 @@ pub fn buckets(graph: &Graph, groups: &[Group], sources: &[InputDistribution]) -
                         written.chain(given).collect()
                     }
                 };
-                buckets.push(Bucket { special: own, facts, members: vec![index] });
+                let required = group.required.clone();
+                buckets.push(Bucket { special: own, required, facts, members: vec![index] });
             }
         }
     }

@@ -41,7 +41,7 @@ impl Explorer<'_> {
             }
             return Some(Next::Divide { modulus, argument });
         }
-        let Question { graph, groups, special } = self.question;
+        let Question { graph, groups, special, .. } = self.question;
         let outputs = groups.iter().flat_map(|group| group.iter().copied());
         let reached = graph.reached(outputs);
         let mut signs = special.iter().filter_map(|place| match graph.step(*place) {

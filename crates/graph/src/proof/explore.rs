@@ -2,7 +2,8 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::graph::{Expr, Fault, Graph, literally};
+use crate::graph::{Expr, Fault, Graph, Step, literally};
+use crate::number::UnaryFunction;
 
 use super::Prover;
 use super::bounds::InputDistribution;
@@ -12,7 +13,7 @@ use super::classes::Classes;
 use super::digest::SeedDigest;
 use super::domain::Region;
 use super::fact::SignFact;
-use super::free_roots::zeros_for_free_roots;
+use super::free_symbols::zeros_for_free_symbols;
 use super::logarithms::Rules;
 use super::lower::Algebraic;
 use super::next::{Next, silent};
@@ -45,6 +46,8 @@ pub struct Question<'q> {
     pub groups: Vec<&'q [Expr]>,
     /// Places of roots, moduli, signs and functions that the groups need.
     pub special: &'q [usize],
+    /// Values that exist wherever the groups are asked for.
+    pub required: &'q [Expr],
 }
 
 /// A search through all cells.
@@ -62,19 +65,29 @@ pub struct Explorer<'p> {
 impl Explorer<'_> {
     /// Finds the outcome on all cells into which `cell` is divided.
     pub fn explore(&self, cell: Cell) -> Result<Explored, Fault> {
-        let count = self.question.groups.len();
         let mut explored = Explored::default();
-        let mut open = vec![(cell, 0)];
-        let mut seen = 1;
+        if self.has_many_moduli() {
+            let results = self.on_free_symbols("")?;
+            let is_zero =
+                |result: &Option<TrialResult>| matches!(result, Some(TrialResult::Zero(_)));
+            if results.iter().all(is_zero) {
+                explored.leaves.push(Leaf { cell, results });
+                return Ok(explored);
+            }
+        }
+        let (mut open, mut seen) = (vec![(cell, 0)], 1);
+        let mut beyond: Option<Vec<Option<TrialResult>>> = None;
         while let Some((cell, round)) = open.pop() {
-            let next = match round >= MOST_ROUNDS || seen > MOST_CELLS {
-                true => Next::Tested(silent(
-                    count,
-                    &format!(
+            let next = match (round >= MOST_ROUNDS || seen > MOST_CELLS, &beyond) {
+                (false, _) => self.next(&cell)?,
+                (true, Some(results)) => Next::Tested(results.clone()),
+                (true, None) => {
+                    let reason = format!(
                         "its roots and moduli have more than {MOST_CELLS} combinations of signs"
-                    ),
-                )),
-                false => self.next(&cell)?,
+                    );
+                    let results = self.on_free_symbols(&reason)?;
+                    Next::Tested(beyond.insert(results).clone())
+                }
             };
             let mut divided = |change: CellChange<'_>| -> Result<(), Fault> {
                 open.push((cell.changed(&change)?, round + 1));
@@ -116,6 +129,15 @@ impl Explorer<'_> {
         Ok(explored)
     }
 
+    /// Whether the moduli have more combinations of signs than there may be cells, unless the ranges
+    /// decide some.
+    fn has_many_moduli(&self) -> bool {
+        let Question { graph, special, .. } = self.question;
+        let is_modulus =
+            |place: &&usize| matches!(graph.step(**place), Step::Unary(UnaryFunction::Abs, _));
+        1 << special.iter().filter(is_modulus).count().min(31) > MOST_CELLS
+    }
+
     fn next(&self, cell: &Cell) -> Result<Next, Fault> {
         let (graph, known) = (&cell.graph, cell.known());
         let no_classes = Classes::default();
@@ -129,14 +151,16 @@ impl Explorer<'_> {
         Ok(self.on_lowered(cell, &algebraic, &region, &known)?.given(related))
     }
 
-    /// Tests the groups with free symbols in the place of roots, too many to be told apart.
-    fn on_free_roots(&self, reason: &str) -> Result<Next, Fault> {
-        let Question { graph, groups, special } = self.question;
-        let zeros = zeros_for_free_roots(graph, groups, special, self.sources, self.digest)?;
+    /// Tests the groups with free symbols in the place of roots, moduli and functions, too many to be
+    /// told apart.
+    fn on_free_symbols(&self, reason: &str) -> Result<Vec<Option<TrialResult>>, Fault> {
+        let is_thin = |value| self.prover.is_nonzero_on_all_cells(self.question.graph, value);
+        let (question, inputs) = (self.question, self.sources.len());
+        let zeros = zeros_for_free_symbols(question, &is_thin, inputs, self.digest)?;
         let silent = || TrialResult::Silent(reason.to_string());
         let results =
             zeros.into_iter().map(|zero| Some(zero.map_or_else(silent, TrialResult::Zero)));
-        Ok(Next::Tested(results.collect()))
+        Ok(results.collect())
     }
 
     /// Finds the next action on a cell from its algebraic computation.
@@ -149,7 +173,7 @@ impl Explorer<'_> {
     ) -> Result<Next, Fault> {
         let graph = &cell.graph;
         if !algebraic.has_few_signs() {
-            return self.on_free_roots("it contains too many roots");
+            return Ok(Next::Tested(self.on_free_symbols("it contains too many roots")?));
         }
         let trial = Trial::new(algebraic, self.digest);
         let tower = Tower::of(graph, algebraic, &trial, self.digest);
@@ -240,14 +264,14 @@ impl Explorer<'_> {
         loose: &[usize],
         known: &[(usize, SignFact)],
     ) -> Result<Next, Fault> {
-        let Question { graph, groups, special } = self.question;
+        let Question { graph, groups, special, .. } = self.question;
         let all_silent = |reason: &str| Ok(Next::Tested(silent(groups.len(), reason)));
         if tower.standings.contains(&RootStatus::Unreached) {
             return all_silent("a root never exists at random points, or is reached too rarely");
         }
         if loose.len() > MOST_CHOICES {
             let reason = format!("{} roots or moduli depend on others", loose.len());
-            return self.on_free_roots(&reason);
+            return Ok(Next::Tested(self.on_free_symbols(&reason)?));
         }
         if cell.values.iter().any(|value| is_lost(cell, algebraic, *value)) {
             return all_silent("a function has no value in a prime field");

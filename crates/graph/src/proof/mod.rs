@@ -15,7 +15,7 @@
 //! | `tower`, `characters` | certificates of independence for roots |
 //! | `roots`, `squares`, `nested`, `polynomial` | dependent roots and their expressions |
 //! | `logarithms`, `powers` | rules of logarithms, powers and exponentials |
-//! | `free_roots` | symbols in the place of very many roots |
+//! | `free_symbols` | symbols in the place of very many roots, moduli and functions |
 //! | `buckets` | values that are proved together |
 //! | `explore`, `division`, `next`, `cells`, `rewrite` | the cells of signs, and proofs on each |
 //! | `domain`, `fact`, `classes`, `extent` | signs of values over the ranges of the inputs |
@@ -36,7 +36,7 @@ mod elimination;
 mod explore;
 mod extent;
 mod fact;
-mod free_roots;
+mod free_symbols;
 mod logarithms;
 mod lower;
 mod nested;
@@ -199,7 +199,8 @@ impl Prover<'_> {
     ) -> Result<Explored, Fault> {
         let QuestionData { graph, sources, digest } = question;
         let cell = Cell::whole(graph, &bucket.special, &bucket.facts)?;
-        let question = &Question { graph, groups: groups.to_vec(), special: &bucket.special };
+        let (special, required) = (&bucket.special, &bucket.required);
+        let question = &Question { graph, groups: groups.to_vec(), special, required };
         Explorer { question, prover: self, sources, digest: *digest }.explore(cell)
     }
 
