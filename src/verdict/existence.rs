@@ -159,7 +159,7 @@ impl Judging<'_> {
                 parts.iter().any(|part| self.drawn_state(item, &chosen, Some(part), status))
                     || parts.iter().any(|part| self.state_inside(item, &chosen, part, status))
             }
-        } || self.has_state_with_zeros(&chosen, found)?;
+        } || self.has_state_around(&chosen, found)?;
         if exists && status.settled.is_none() {
             let kind = item.claim.kind.name();
             status.settled = Some(Verdict::Refuted);
@@ -227,7 +227,7 @@ impl Judging<'_> {
         part: &InputRegion,
         status: &mut ClaimState,
     ) -> bool {
-        let mut all = signed_extents(sampler, part).into_iter();
+        let mut all = signed_extents(sampler, &part.signs).into_iter();
         let Some(point) = all.find_map(|extents| part.point(&extents)) else { return false };
         let numbers: Option<Vec<Rational>> = sampler
             .recipes()
@@ -268,13 +268,13 @@ fn number<const N: usize>(block: &Balls<N>, lane: usize) -> Number {
 
 /// Returns the ranges of the draws in a part of the states, with each choice of the signs that the
 /// part leaves free. A sign is 1 or -1, and nothing between them leads to a state.
-pub(super) fn signed_extents(sampler: &Sampler, part: &InputRegion) -> Vec<Vec<Extent>> {
+pub(super) fn signed_extents(sampler: &Sampler, signs: &[(usize, bool)]) -> Vec<Vec<Extent>> {
     let mut all = vec![sampler.extents()];
     for (input, draw) in sampler.recipes().iter().enumerate() {
         if !matches!(draw, Draw::Sign) {
             continue;
         }
-        let given = part.signs.iter().find(|(sign, _)| *sign == input).map(|(_, is)| *is);
+        let given = signs.iter().find(|(sign, _)| *sign == input).map(|(_, is)| *is);
         let choices: Vec<bool> = given.map_or(vec![true, false], |is| vec![is]);
         let with = |extents: &Vec<Extent>, positive: bool| {
             let mut extents = extents.clone();

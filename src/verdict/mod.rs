@@ -5,6 +5,7 @@
 //! all states contain 0 and are narrow against the terms that were added. There is no fixed
 //! tolerance.
 
+mod around;
 mod branches;
 mod claim_state;
 mod conclude;
@@ -38,7 +39,6 @@ mod signs;
 mod state;
 mod statement;
 mod values;
-mod vanishing;
 mod wider_domain;
 mod witness;
 

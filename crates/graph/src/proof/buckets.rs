@@ -112,7 +112,7 @@ pub fn combined(explored: Explored, bucket: &Bucket) -> Vec<(GroupOutcome, bool)
     let is_partial: Vec<bool> =
         (0..count).map(|index| leaves.iter().any(|leaf| leaf.results[index].is_none())).collect();
     let shared: Vec<Arc<InputRegion>> =
-        leaves.into_iter().map(|leaf| Arc::new(part(leaf.cell, &bucket.facts))).collect();
+        leaves.into_iter().map(|leaf| Arc::new(part(leaf.cell))).collect();
     for (outcome, own) in outcomes.iter_mut().zip(parts) {
         if outcome.is_nonzero() && !own.is_empty() {
             let parts = own.into_iter().map(|number| Arc::clone(&shared[number])).collect();
@@ -122,14 +122,8 @@ pub fn combined(explored: Explored, bucket: &Bucket) -> Vec<(GroupOutcome, bool)
     outcomes.into_iter().zip(is_partial).collect()
 }
 
-/// Makes the part of the inputs that a cell is, given the facts with which the search began.
-pub fn part(cell: Cell, facts: &[(Expr, SignFact)]) -> InputRegion {
+/// Makes the part of the inputs that a cell is.
+pub fn part(cell: Cell) -> InputRegion {
     let positive = cell.signs().map(|place| cell.graph.at(place)).collect();
-    let is_zero = |place: usize| match cell.graph.step(place) {
-        Step::Constant(value) => value.is_zero(),
-        _ => false,
-    };
-    let zeros = facts.iter().zip(&cell.facts).filter(|(_, (place, _))| is_zero(*place));
-    let zeros = zeros.map(|((value, _), _)| *value).collect();
-    InputRegion { positive, signs: cell.fixed, zeros, graph: cell.graph }
+    InputRegion { positive, signs: cell.fixed, graph: cell.graph }
 }

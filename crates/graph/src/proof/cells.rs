@@ -24,8 +24,7 @@ pub struct Cell {
     pub graph: Graph,
     /// Values that cannot be computed in a field as they stand: roots, moduli, signs, functions.
     pub values: Vec<Expr>,
-    /// Signs of values, by place, that hold wherever the claim is to be proved; those with which the
-    /// search began come first, in their order.
+    /// Signs of values, by place, that hold wherever the claim is to be proved.
     pub facts: Vec<(usize, SignFact)>,
     /// Indices of the facts that were chosen: positive on this cell, and not on others.
     chosen: Vec<usize>,

@@ -65,7 +65,7 @@ mod tests;
 pub use bounds::InputDistribution;
 pub use coprime::{are_coprime, are_polynomials, is_single_valued};
 pub use digest::statement_seed;
-pub use domain::{is_nowhere_zero, sign};
+pub use domain::{is_nowhere_zero, point, sign};
 pub use elimination::reduce;
 pub use extent::Extent;
 pub use fact::SignFact;
@@ -188,7 +188,7 @@ impl Prover<'_> {
         let is_nonzero =
             |leaf: &Leaf| matches!(leaf.results.first(), Some(Some(TrialResult::NonZero)));
         let parts = leaves.into_iter().filter(is_nonzero);
-        Ok(parts.map(|leaf| part(leaf.cell, &bucket.facts)).collect())
+        Ok(parts.map(|leaf| part(leaf.cell)).collect())
     }
 
     fn explore(

@@ -36,9 +36,6 @@ pub struct InputRegion {
     pub positive: Vec<Expr>,
     /// Sign inputs, and whether each is 1.
     pub signs: Vec<(usize, bool)>,
-    /// Values of the question's graph that vanish identically on the part: radicands without which
-    /// the required values would not exist.
-    pub zeros: Vec<Expr>,
 }
 
 impl std::fmt::Debug for InputRegion {
@@ -56,9 +53,7 @@ impl InputRegion {
                 *extent = extent.within(*positive);
             }
         }
-        let positive: Vec<usize> =
-            self.positive.iter().map(|value| self.graph.place(*value)).collect();
-        domain::point(&self.graph, &inputs, &positive)
+        domain::point(&self.graph, &inputs, &self.positive)
     }
 }
 

@@ -17,7 +17,8 @@ const MOST_BOXES: usize = 1 << 12;
 
 /// Searches for a point inside the extents of some inputs at which some values are positive,
 /// whatever the others do; `None` if none is found.
-pub fn point(graph: &Graph, inputs: &[Extent], positive: &[usize]) -> Option<Vec<f64>> {
+pub fn point(graph: &Graph, inputs: &[Extent], positive: &[Expr]) -> Option<Vec<f64>> {
+    let positive: Vec<usize> = positive.iter().map(|value| graph.place(*value)).collect();
     let facts: Vec<(usize, SignFact)> =
         positive.iter().map(|place| (*place, SignFact::Positive)).collect();
     let classes = Classes::default();
