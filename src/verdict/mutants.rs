@@ -104,7 +104,7 @@ pub fn mutate(
         let mut alive: Vec<_> = here.into_iter().map(|candidate| (candidate, true)).collect();
         let samplers = bench.all_samplers(place)?;
         let is_single = samplers.len() == 1;
-        for sampler in samplers.iter().filter(|sampler| is_single || has_states(sampler)) {
+        for sampler in samplers.iter().filter(|sampler| is_single || sampler.has_states()) {
             let (left, proved): (Vec<_>, Vec<bool>) = alive.into_iter().unzip();
             let known: Vec<_> = left.iter().copied().zip(proved).collect();
             let was_proved = |candidate: &&Candidate<'_>| {
@@ -122,12 +122,6 @@ pub fn mutate(
         }
     }
     Ok(report)
-}
-
-/// Whether states are known on a part of a place.
-fn has_states(sampler: &Sampler) -> bool {
-    let states = sampler.balls(0);
-    (0..TAPE_LANES).any(|lane| states.iter().all(|block| block.is_defined(lane)))
 }
 
 impl Candidate<'_> {

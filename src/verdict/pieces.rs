@@ -154,6 +154,7 @@ fn on_some(states: Vec<ClaimState>) -> ClaimState {
 fn on_all(states: Vec<ClaimState>) -> ClaimState {
     // Parts without states say nothing, as long as there are others.
     let is_void = |state: &ClaimState| state.is_void || state.is_unseen;
+    let is_unseen = states.iter().any(|state| state.is_unseen && !state.is_thin);
     let (void, mut states): (Vec<_>, Vec<_>) = states.into_iter().partition(is_void);
     if states.is_empty() {
         return first(void, |_| true);
@@ -174,6 +175,13 @@ fn on_all(states: Vec<ClaimState>) -> ClaimState {
     for state in states {
         all.evidence.include(state.evidence, all.is_thin || state.is_thin);
         all.is_thin &= state.is_thin;
+    }
+    if is_unseen {
+        let evidence = &mut all.evidence;
+        let is_open = evidence.sign.is_some_and(|sign| sign != DensitySign::Changes);
+        evidence.independence = None;
+        evidence.sign_is_proved &= !is_open;
+        evidence.sign_is_partial |= is_open;
     }
     if let (Some(last), true) = (all.evidence.climb.last_mut(), parts > 1) {
         last.found = format!("on each of {parts} parts of the level: {}", last.found);

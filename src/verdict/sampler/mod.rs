@@ -109,7 +109,7 @@ impl Sampler {
         let (recipes, draws) = (draws.clone(), DrawSource::new(&draws));
         let (graph, pivots) = (Arc::new(graph), pivots.into());
         let solution = solution.map(Arc::new);
-        Ok(Self {
+        let sampler = Self {
             seed,
             draws,
             recipes,
@@ -127,7 +127,17 @@ impl Sampler {
             has_moduli,
             newton,
             is_thin: false,
+        };
+        Ok(match sampler.is_guarded && !sampler.has_states() {
+            true => sampler.narrowed(),
+            false => sampler,
         })
+    }
+
+    /// Whether some state of the first block is known.
+    pub fn has_states(&self) -> bool {
+        let states = self.balls(0);
+        (0..TAPE_LANES).any(|lane| states.iter().all(|block| block.is_defined(lane)))
     }
 
     /// Makes a sampler of the states on a part of the same place, with their own distributions.
@@ -161,7 +171,8 @@ impl Sampler {
             kept: self.kept.clone(),
             newton: None,
             is_thin: part.is_thin,
-        })
+        }
+        .narrowed())
     }
 
     /// Whether the states are a part of lower dimension than the place.

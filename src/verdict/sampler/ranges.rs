@@ -5,10 +5,12 @@ use num_dual::DualNum;
 use crate::case::Case;
 use crate::graph::{Expr, literally};
 use crate::level::Solution;
-use crate::mechanics::{Draw, NumberLine};
+use crate::mechanics::{Draw, DrawSource, NumberLine, Range};
 use crate::number::rational::Rational;
-use crate::proof::Extent;
+use crate::proof::{Extent, narrowed};
 use crate::scalar::Scalar;
+
+use super::Sampler;
 
 /// Returns the range of a drawn number.
 pub fn extent(draw: &Draw) -> Extent {
@@ -55,6 +57,25 @@ pub fn inside(draw: &Draw) -> Option<(f64, f64)> {
         Draw::Within(range) => Some((above(&range.low), below(&range.high))),
         Draw::Of(NumberLine::Positive, _) => Some((f64::MIN_POSITIVE, f64::INFINITY)),
         Draw::Of(NumberLine::All, _) | Draw::OneOf(_) | Draw::Sign => None,
+    }
+}
+
+impl Sampler {
+    /// Draws from those parts of the ranges alone in which bounds leave room for states.
+    pub(super) fn narrowed(mut self) -> Self {
+        let Some(extents) = narrowed(&self.graph, &self.extents(), &self.facts) else {
+            return self;
+        };
+        for (draw, extent) in self.recipes.iter_mut().zip(extents) {
+            let (Draw::Within(range), Some(ends)) = (draw, extent.ends()) else { continue };
+            let [Some(low), Some(high)] = ends.map(Rational::from_f64) else { continue };
+            let (low, high) = (low.max(range.low.clone()), high.min(range.high.clone()));
+            if low < high {
+                *range = Range { low, high };
+            }
+        }
+        self.draws = DrawSource::new(&self.recipes);
+        self
     }
 }
 

@@ -33,7 +33,7 @@ impl Explorer<'_> {
             }
             let signs = open.iter().filter_map(|(place, argument)| {
                 let positive = region.sign(*argument)?;
-                Some(Rewrite::Signed { place: *place, positive })
+                Some(Rewrite::Signed { place: *place, positive, is_implied: true })
             });
             let rewrites: Vec<Rewrite> = signs.collect();
             if !rewrites.is_empty() {

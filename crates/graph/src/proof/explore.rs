@@ -114,7 +114,8 @@ impl Explorer<'_> {
                 Next::Divide { modulus, argument } => {
                     seen += 1;
                     for positive in [false, true] {
-                        let rewrites = [Rewrite::Signed { place: modulus, positive }];
+                        let rewrites =
+                            [Rewrite::Signed { place: modulus, positive, is_implied: false }];
                         let chosen = Some((argument, positive));
                         divided(CellChange {
                             rewrites: &rewrites,
@@ -202,6 +203,7 @@ impl Explorer<'_> {
             }
         }
         let mut open = Vec::new();
+        let evident = self.signs_at_sight(cell, algebraic);
         for modulus in &algebraic.moduli {
             if !tower.is_clean(algebraic, modulus.argument) {
                 loose.push(modulus.sign);
@@ -210,7 +212,9 @@ impl Explorer<'_> {
             let argument = graph.step(modulus.place).arguments().next().unwrap_or(modulus.place);
             match region.sign(argument) {
                 Some(positive) => {
-                    rewrites.push(Rewrite::Signed { place: modulus.place, positive });
+                    let is_implied = !evident[argument];
+                    let place = modulus.place;
+                    rewrites.push(Rewrite::Signed { place, positive, is_implied });
                 }
                 None => match self.vanishes(&trial, &tower, modulus.argument) {
                     Some(own) => {
@@ -242,6 +246,16 @@ impl Explorer<'_> {
             }
             _ => tested,
         })
+    }
+
+    /// Marks the arguments of moduli whose signs follow from the ranges of the inputs, without facts.
+    fn signs_at_sight(&self, cell: &Cell, algebraic: &Algebraic<'_>) -> Vec<bool> {
+        let (graph, inputs) = (&cell.graph, self.prover.extents);
+        let classes = &Classes::default();
+        let moduli = algebraic.moduli.iter();
+        let arguments: Vec<usize> =
+            moduli.filter_map(|modulus| graph.step(modulus.place).arguments().next()).collect();
+        Region { graph, inputs, facts: &[], classes }.at_sight(&arguments)
     }
 
     /// Tests whether a value with independent roots alone vanishes identically; returns the

@@ -30,6 +30,9 @@ pub enum Rewrite {
         place: usize,
         /// Whether |X| is X.
         positive: bool,
+        /// Whether this holds only because of the facts, so that it is a fact itself: a radicand
+        /// that becomes 0 by it does not say so any more.
+        is_implied: bool,
     },
     /// |X| is 0.
     Vanishing {
@@ -95,6 +98,16 @@ impl Rewrite {
         }
     }
 
+    /// Returns the place of X with its sign, if the replacement of |X| rests on facts.
+    pub fn implied(&self, graph: &Graph) -> Option<(usize, bool)> {
+        match self {
+            Rewrite::Signed { place, positive, is_implied: true } => {
+                graph.step(*place).arguments().next().map(|argument| (argument, *positive))
+            }
+            _ => None,
+        }
+    }
+
     /// Records the value of a step from the values at places, if the step is replaced.
     pub fn value(
         &self,
@@ -104,7 +117,7 @@ impl Rewrite {
         values: &[Option<Expr>],
     ) -> Option<Expr> {
         match (self, step) {
-            (Rewrite::Signed { place: own, positive }, Step::Unary(UnaryFunction::Abs, a)) => {
+            (Rewrite::Signed { place: own, positive, .. }, Step::Unary(UnaryFunction::Abs, a)) => {
                 let value = values[a].filter(|_| *own == place)?;
                 Some(if *positive { value } else { -value })
             }

@@ -85,6 +85,23 @@ pub fn is_nowhere_zero(
     open.is_empty()
 }
 
+/// Narrows the extents of inputs to what contains all those at which some values are not negative;
+/// `None` if there are none.
+pub fn narrowed(graph: &Graph, inputs: &[Extent], not_negative: &[Expr]) -> Option<Vec<Extent>> {
+    let classes = Classes::default();
+    let fact = |value: &Expr| (graph.place(*value), SignFact::NotNegative);
+    let facts: Vec<(usize, SignFact)> = not_negative.iter().map(fact).collect();
+    let region = Region { graph, inputs, facts: &facts, classes: &classes };
+    let (reached, mut whole) = (region.reached(&[]), region.whole());
+    let bounds = region.bounds(&reached, &whole)?;
+    for place in reached {
+        if let Step::Input(input) = graph.step(place) {
+            whole[input] = whole[input].common(bounds[place]);
+        }
+    }
+    Some(whole)
+}
+
 /// Finds the sign of a value at all inputs inside their extents at which some values exist and others
 /// are not negative, where 0 counts as either sign; `None` if unknown.
 pub fn sign(
