@@ -198,8 +198,9 @@ impl Judging<'_> {
             return false;
         }
         let domain = DoubleDoubleBall::<TAPE_LANES>;
-        let values = self.run(field).at(&domain, &sampler.states(&domain, TAPE_LANES, 0));
-        let blocks = values.range(0..field.len());
+        let states = sampler.states(&domain, TAPE_LANES, 0);
+        let values = self.run(field).at(&domain, &states);
+        let blocks: Vec<_> = states.iter().chain(values.range(0..field.len())).collect();
         if (0..TAPE_LANES).any(|lane| blocks.iter().all(|block| block.is_defined(lane))) {
             return true;
         }

@@ -216,6 +216,7 @@ impl Evidence {
             self.include_sign(&other);
         }
         self.sign_is_partial |= other.sign_is_partial;
+        self.sign_may_vanish |= other.sign_may_vanish;
         if let Some(remark) = other.remark
             && self.remark.as_ref().is_none_or(|own| !own.contains(&remark))
         {
@@ -250,17 +251,14 @@ impl Evidence {
 impl Proof {
     /// Combines the proofs of two parts of a statement.
     fn and(self, other: &Self) -> Self {
-        let error = self.error_log2.exp2() + other.error_log2.exp2();
+        // log₂(2^a + 2^b) ≤ max + 1
         Self {
             primes: self.primes.max(other.primes),
-            points: self.points + other.points,
-            draws: self.draws + other.draws,
+            points: self.points.min(other.points),
+            draws: self.draws.max(other.draws),
             degree: self.degree.max(other.degree),
             roots: self.roots.max(other.roots),
-            error_log2: match error > 0.0 {
-                true => (error.log2() * 10.0).ceil() / 10.0,
-                false => self.error_log2.max(other.error_log2) + 1.0,
-            },
+            error_log2: self.error_log2.max(other.error_log2) + 1.0,
         }
     }
 }

@@ -15,7 +15,7 @@ use crate::number::Enclosing;
 use crate::number::ball::Ball;
 use crate::number::double_double_ball::DoubleDoubleBall;
 use crate::number::mixed::{Mixed, Number};
-use crate::proof::{self, Group};
+use crate::proof::{self, Group, KnownSign};
 
 /// Number of parameter sets for which the sign of a density is observed.
 const PARAMETER_SETS: usize = 4;
@@ -71,7 +71,8 @@ impl Judging<'_> {
             for values in run.at_blocks(sampler, blocks, sharing) {
                 observe(&values, &required, &mut seen);
             }
-            let is_known = |(seen, proved): (&DensityObservations, &Option<bool>)| match proved {
+            let is_known = |(seen, proved): (&DensityObservations, &Option<KnownSign>)| match proved
+            {
                 Some(_) => sign(&seen.signs).is_some(),
                 None => sign(&seen.signs) == Some(DensitySign::Changes),
             };
@@ -80,7 +81,7 @@ impl Judging<'_> {
             }
         }
         if !sampler.is_numerical() {
-            let is_open = |(seen, proved): (&DensityObservations, &Option<bool>)| {
+            let is_open = |(seen, proved): (&DensityObservations, &Option<KnownSign>)| {
                 let sign = sign(&seen.signs);
                 sign.is_none() || (proved.is_none() && sign != Some(DensitySign::Changes))
             };
@@ -94,6 +95,7 @@ impl Judging<'_> {
             evidence.sign = sign(&seen.signs);
             evidence.sign_is_proved =
                 proved.is_some() || evidence.sign == Some(DensitySign::Changes);
+            evidence.sign_may_vanish = proved.is_some_and(|proved| proved.may_vanish);
             let is_open = evidence.sign.is_some() && !evidence.sign_is_proved;
             evidence.sign_is_partial = is_open && (seen.is_doubtful || unreached.is_some());
             if let Some(reason) = unreached.filter(|_| is_open) {
@@ -150,7 +152,7 @@ impl Judging<'_> {
         &self,
         sampler: &Sampler,
         densities: &[(Expr, &RecordedClaim<'_>, &mut ClaimState)],
-    ) -> Result<Vec<Option<bool>>, Fault> {
+    ) -> Result<Vec<Option<KnownSign>>, Fault> {
         let lists = combinations(sampler.recipes()).unwrap_or_default();
         if sampler.is_numerical() || lists.len() != 1 {
             return Ok(vec![None; densities.len()]);

@@ -109,7 +109,8 @@ impl Cover<'_> {
     /// hold nowhere else.
     fn edge(&self, node: &Node) -> Result<Option<Node>, Fault> {
         for (index, fact) in node.facts.iter().enumerate() {
-            if sign(&node.graph, self.extents, &[*fact], &[], *fact) == Some(false)
+            let known = sign(&node.graph, self.extents, &[*fact], &[], *fact);
+            if known.is_some_and(|known| !known.is_positive)
                 && matches!(self.known(&node.graph, *fact, &[])?, Known::Thin)
             {
                 let mut edge = node.clone();

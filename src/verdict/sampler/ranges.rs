@@ -67,16 +67,32 @@ impl Sampler {
             return self;
         };
         for (draw, extent) in self.recipes.iter_mut().zip(extents) {
-            let (Draw::Within(range), Some(ends)) = (draw, extent.ends()) else { continue };
-            let [Some(low), Some(high)] = ends.map(Rational::from_f64) else { continue };
-            let (low, high) = (low.max(range.low.clone()), high.min(range.high.clone()));
-            if low < high {
-                *range = Range { low, high };
+            if let (Draw::Within(range), Some(ends)) = (draw, extent.ends())
+                && let Some([low, high]) = rounded(ends)
+            {
+                let (low, high) = (low.max(range.low.clone()), high.min(range.high.clone()));
+                if low < high {
+                    *range = Range { low, high };
+                }
             }
         }
         self.draws = DrawSource::new(&self.recipes);
         self
     }
+}
+
+/// Rounds the ends of a range outwards to short binary fractions; `None` if it is very narrow.
+fn rounded([low, high]: [f64; 2]) -> Option<[Rational; 2]> {
+    const SHARE: f64 = 1.0 / 1024.0;
+    const NARROWEST: f64 = 1e-12;
+    if high - low < NARROWEST {
+        return None;
+    }
+    // The largest power of two that is not above the share.
+    let step = f64::from_bits(((high - low) * SHARE).to_bits() & f64::INFINITY.to_bits());
+    let low = Rational::from_f64((low / step).floor() * step)?;
+    let high = Rational::from_f64((high / step).ceil() * step)?;
+    Some([low, high])
 }
 
 /// Makes parameters and state undefined where some values are negative: √x is undefined for x < 0.

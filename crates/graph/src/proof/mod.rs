@@ -65,7 +65,7 @@ mod tests;
 pub use bounds::InputDistribution;
 pub use coprime::{are_coprime, are_polynomials, is_single_valued};
 pub use digest::statement_seed;
-pub use domain::{is_nowhere_zero, narrowed, point, sign};
+pub use domain::{KnownSign, is_nowhere_zero, narrowed, point, sign};
 pub use elimination::reduce;
 pub use extent::Extent;
 pub use fact::SignFact;

@@ -8,7 +8,7 @@ use crate::proof::extent::Extent;
 use crate::proof::fact::SignFact;
 use crate::proof::rewrite::conditions;
 
-use super::Region;
+use super::{KnownSign, Region};
 
 /// Largest number of parts of the box used to show that a value does not vanish.
 const MOST_PIECES: usize = 1 << 12;
@@ -110,9 +110,9 @@ pub fn sign(
     required: &[Expr],
     not_negative: &[Expr],
     value: Expr,
-) -> Option<bool> {
+) -> Option<KnownSign> {
     let mut facts = conditions(graph, &graph.reached(required.iter().copied()));
     facts.extend(not_negative.iter().map(|value| (graph.place(*value), SignFact::NotNegative)));
     let classes = Classes::default();
-    Region { graph, inputs, facts: &facts, classes: &classes }.sign(graph.place(value))
+    Region { graph, inputs, facts: &facts, classes: &classes }.known_sign(graph.place(value))
 }
