@@ -25,6 +25,7 @@ mod identity;
 mod independence;
 mod integral;
 mod jacobi_identity;
+mod kinks;
 mod lax;
 mod limit;
 mod lyapunov;
