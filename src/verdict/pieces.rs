@@ -15,6 +15,7 @@ use crate::graph::Fault;
 use crate::level::Cover;
 use crate::mechanics::{Chart, Draw};
 use crate::number::rational::Rational;
+use crate::proof::fewest;
 
 /// Samplers of the parts of a place, for each choice of listed parameter values.
 pub type Pieces = Rc<[Vec<Sampler>]>;
@@ -170,12 +171,14 @@ fn on_all(states: Vec<ClaimState>) -> ClaimState {
     for state in states.iter_mut().filter(|state| state.is_thin) {
         (state.evidence.sign, state.evidence.independence) = (None, None);
     }
+    let remark = remark_on_all(&states);
     let weakest = states.iter().position(|state| state.settled == Some(Verdict::Confirmed));
     let mut all = states.swap_remove(weakest.unwrap_or(0));
     for state in states {
         all.evidence.include(state.evidence, all.is_thin || state.is_thin);
         all.is_thin &= state.is_thin;
     }
+    all.evidence.remark = remark;
     if is_unseen {
         let evidence = &mut all.evidence;
         let is_open = evidence.sign.is_some_and(|sign| sign != DensitySign::Changes);
@@ -187,6 +190,24 @@ fn on_all(states: Vec<ClaimState>) -> ClaimState {
         last.found = format!("on each of {parts} parts of the level: {}", last.found);
     }
     all
+}
+
+/// Combines the remarks on all parts; what is remarked of some parts is not true of others.
+fn remark_on_all(states: &[ClaimState]) -> Option<String> {
+    let of = |state: &ClaimState| state.evidence.remark.clone();
+    let mut remarks: Vec<Option<String>> = states.iter().map(of).collect();
+    remarks.dedup();
+    if let [only] = &mut remarks[..] {
+        return only.take();
+    }
+    let mut told: Vec<String> = Vec::new();
+    for remark in remarks.into_iter().flatten() {
+        let remark = format!("on a part of the level: {remark}");
+        if !told.contains(&remark) {
+            told.push(remark);
+        }
+    }
+    (!told.is_empty()).then(|| told.join("; "))
 }
 
 impl Evidence {
@@ -217,11 +238,6 @@ impl Evidence {
         }
         self.sign_is_partial |= other.sign_is_partial;
         self.sign_may_vanish |= other.sign_may_vanish;
-        if let Some(remark) = other.remark
-            && self.remark.as_ref().is_none_or(|own| !own.contains(&remark))
-        {
-            self.add_remark(remark);
-        }
     }
 }
 
@@ -254,7 +270,7 @@ impl Proof {
         // log₂(2^a + 2^b) ≤ max + 1
         Self {
             primes: self.primes.max(other.primes),
-            points: self.points.min(other.points),
+            points: fewest(self.points, other.points),
             draws: self.draws.max(other.draws),
             degree: self.degree.max(other.degree),
             roots: self.roots.max(other.roots),

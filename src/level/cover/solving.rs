@@ -5,9 +5,10 @@ use num_traits::Zero;
 
 use super::node::{Additions, Change, Node};
 use super::{Cover, Known};
-use crate::graph::{Expr, Fault, Graph, record};
+use crate::graph::{Expr, Fault, Graph, Step, record};
 use crate::mechanics::Draw;
 use crate::number::rational::Rational;
+use crate::number::{BinaryOperation, UnaryFunction};
 use crate::proof::{SquareRoot, are_coprime, is_nowhere_zero};
 use crate::scalar::Scalar;
 
@@ -34,6 +35,10 @@ impl Coefficients {
     pub fn of(node: &Node, equation: usize, draw: usize) -> Result<Option<Self>, Fault> {
         let reached = node.graph.reached([node.equations[equation]]);
         let place = node.graph.place(node.equations[equation]);
+        // The derivatives of x/|x| do not tell that it has two values.
+        if !is_polynomial(&node.graph, &reached, draw) {
+            return Ok(None);
+        }
         let (expanded, found) = record(node.graph.inputs(), |inputs| {
             let value = node.graph.replay(&reached, inputs, |_, _, _| None)[place]?;
             let slope = derivative(value, inputs[draw])?;
@@ -102,12 +107,15 @@ impl Coefficients {
                 Some(Additions { equations, ..Additions::default() })
             })
         };
-        if self.number(divisor).is_none() {
-            match cover.known(&self.graph, divisor, &[])? {
-                Known::Zero => return Ok(Some(vec![lower(false)?])),
-                Known::Thin => {}
-                Known::Open => return Ok(None),
-            }
+        let known = match self.number(divisor) {
+            Some(number) if number.is_zero() => Known::Zero,
+            Some(_) => Known::Thin,
+            None => cover.known(&self.graph, divisor, &[])?,
+        };
+        match known {
+            Known::Zero => return Ok(Some(vec![lower(false)?])),
+            Known::Thin => {}
+            Known::Open => return Ok(None),
         }
         let Some(mut children) = self.roots(cover, node)? else { return Ok(None) };
         if self.may_miss(cover, node) {
@@ -203,6 +211,27 @@ impl Coefficients {
             values.iter().map(|value| made[self.graph.place(*value)]).collect();
         found?.try_into().ok()
     }
+}
+
+/// Whether those steps that depend on a draw are polynomials in it.
+fn is_polynomial(graph: &Graph, reached: &[bool], draw: usize) -> bool {
+    let mut depends = vec![false; reached.len()];
+    for (place, step) in graph.steps().enumerate().take(reached.len()) {
+        depends[place] = match step {
+            Step::Input(input) => input == draw,
+            _ => step.arguments().any(|argument| depends[argument]),
+        };
+        let is_sum_or_product = match step {
+            Step::Constant(_) | Step::Input(_) | Step::Unary(UnaryFunction::Neg, _) => true,
+            Step::Binary(operation, ..) => operation != BinaryOperation::Pow,
+            Step::Power(_, exponent) => exponent.to_integer().is_some_and(|exponent| exponent >= 0),
+            Step::Unary(..) => false,
+        };
+        if reached[place] && depends[place] && !is_sum_or_product {
+            return false;
+        }
+    }
+    true
 }
 
 /// Differentiates a recorded value by an input.

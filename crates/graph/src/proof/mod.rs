@@ -76,7 +76,7 @@ pub use polynomials::{PolynomialBounds, polynomial_bounds};
 pub use reconstruct::reconstruct;
 pub use rewrite::conditions;
 pub use rng::ProofRng;
-pub use trial::Certificate;
+pub use trial::{Certificate, fewest};
 
 use crate::graph::{Expr, Fault, Graph};
 

@@ -232,8 +232,9 @@ impl Arithmetic {
     /// Computes a^q for a that is not negative.
     pub fn power(&mut self, a: &Series, exponent: &Rational) -> Result<Series, Failure> {
         let is_root = (exponent * &Rational::from(2)).to_integer().is_some();
-        if a.is_exactly_zero() && is_root && !exponent.is_negative() {
-            return Ok(a.clone());
+        if a.is_exactly_zero() && !exponent.is_negative() {
+            // Other powers of 0 have no value in some number domains.
+            return if is_root { Ok(a.clone()) } else { Err(Failure::Form) };
         }
         let ((order, logs), value, rest) = self.normal(a)?;
         if logs != 0 {
