@@ -7,9 +7,10 @@ use num_traits::Zero;
 
 use super::antiderivative_value;
 use super::existence::signed_extents;
-use super::field::{DrawnGroup, Where};
+use super::field::{DrawnGroup, Where, combinations};
 use super::judging::Judging;
-use super::ladder::LADDER_BITS;
+use super::ladder::{LADDER_BITS, Open};
+use super::recorded::RecordedClaim;
 use super::sampler::Sampler;
 use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, literally, record};
 use crate::mechanics::Draw;
@@ -26,6 +27,46 @@ const MOST_SEARCHED: usize = 4;
 const MOST_PASSES: usize = 8;
 
 impl Judging<'_> {
+    /// Looks for states around which all formulas of claims exist that are known to be 0 wherever they
+    /// do, but were seen at no state.
+    pub(super) fn unseen_states(
+        &self,
+        sampler: &Sampler,
+        open: &mut Open<'_, '_>,
+    ) -> Result<(), Fault> {
+        for (item, status) in open.iter_mut() {
+            let is_unseen = status.settled.is_none() && status.is_zero;
+            if is_unseen
+                && status.undefined.is_some()
+                && item.context.quadrature_defects.is_empty()
+                && !sampler.is_numerical()
+                && self.has_any_state(item, sampler)?
+            {
+                status.undefined = None;
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a state is known around which all that a claim requires exists.
+    fn has_any_state(&self, item: &RecordedClaim<'_>, sampler: &Sampler) -> Result<bool, Fault> {
+        let common = self.common.required_at(sampler.kept());
+        let group = Group {
+            outputs: item.residual.clone(),
+            required: [&item.requirement[..], &common, &item.context.value].concat(),
+            ..Group::default()
+        };
+        for fixed in combinations(sampler.recipes()).unwrap_or_default() {
+            let groups = std::slice::from_ref(&group);
+            let (graph, groups) = sampler.compose_groups(self.graph, groups, &fixed)?;
+            let Some(group) = groups.first() else { continue };
+            if has_state(&sampler.with(&fixed), &Surroundings::of(&graph, group)?)? {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
     /// Whether a state is known on a part on which the values are not identically 0, around which all
     /// that is required exists.
     pub(super) fn has_state_around(&self, sampler: &Sampler, found: &Where) -> Result<bool, Fault> {
@@ -34,31 +75,37 @@ impl Judging<'_> {
         let prover = Prover { sources: &sources, extents: &extents, seed: self.options.seed };
         let whole = Surroundings::of(graph, group)?;
         for part in prover.nonzero_parts(graph, group)? {
-            let part = whole.inside(&part)?;
-            let mut searched: Vec<Surroundings> = Vec::new();
-            let drawn = (0..STATES).map(|index| sampler.drawn(&domain(), 1, index));
-            for state in drawn.chain(part.points(sampler, &[])) {
-                let Some(state) = part.completed(state) else { continue };
-                let around = part.around(&state)?;
-                if around.exist_at(&state) {
-                    return Ok(true);
-                }
-                if searched.len() < MOST_SEARCHED {
-                    searched.push(around);
-                }
-            }
-            for around in searched {
-                let mut points =
-                    around.points(sampler, &around.conditions_of(&around.required)).into_iter();
-                if points.any(|state| {
-                    around.completed(state).is_some_and(|state| around.exist_at(&state))
-                }) {
-                    return Ok(true);
-                }
+            if has_state(sampler, &whole.inside(&part)?)? {
+                return Ok(true);
             }
         }
         Ok(false)
     }
+}
+
+/// Whether a state is known around which all required values of a part exist.
+fn has_state(sampler: &Sampler, part: &Surroundings) -> Result<bool, Fault> {
+    let mut searched: Vec<Surroundings> = Vec::new();
+    let drawn = (0..STATES).map(|index| sampler.drawn(&domain(), 1, index));
+    for state in drawn.chain(part.points(sampler, &[])) {
+        let Some(state) = part.completed(state) else { continue };
+        let around = part.around(&state)?;
+        if around.exist_at(&state) {
+            return Ok(true);
+        }
+        if searched.len() < MOST_SEARCHED {
+            searched.push(around);
+        }
+    }
+    for around in searched {
+        let conditions = around.conditions_of(&around.required);
+        let points = around.points(sampler, &conditions);
+        let mut completed = points.into_iter().filter_map(|state| around.completed(state));
+        if completed.any(|state| around.exist_at(&state)) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }
 
 /// Makes the domain in which states are examined.

@@ -137,9 +137,9 @@ pub fn classify<D: Enclosing>(
         };
     }
     if status.settled.is_some() {
-        if let Some(reason) = status.undefined.take() {
-            status.is_unseen = status.settled == Some(Verdict::Proved);
-            undecide(status, reason);
+        if status.undefined.is_some() {
+            // Whether there is a state is not yet known.
+            status.settled = None;
         }
         return;
     }

@@ -130,8 +130,9 @@ impl Judging<'_> {
         sampler: &Sampler,
         open: &mut Open<'_, '_>,
     ) -> Result<(), Fault> {
-        let unsettled = open.iter_mut().filter(|(_, status)| {
-            status.settled.is_none() && status.is_nonzero() && status.undefined.is_none()
+        let unsettled = open.iter_mut().filter(|(item, status)| {
+            let is_known = status.undefined.is_none() || item.context.quadrature_defects.is_empty();
+            status.settled.is_none() && status.is_nonzero() && is_known
         });
         for (item, status) in unsettled {
             for found in std::mem::take(&mut status.nonzero) {

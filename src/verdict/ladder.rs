@@ -97,6 +97,7 @@ impl Judging<'_> {
         }
         if self.options.trust != Trust::Float {
             self.missing_states(sampler, open);
+            self.unseen_states(sampler, open)?;
             self.real_states(sampler, open)?;
         }
         for (item, status) in open.iter_mut() {

@@ -103,7 +103,7 @@ impl Judging<'_> {
             }
             if status.evidence.sign.is_none() {
                 status.evidence.sign_is_proved = false;
-                undecide(status, "the density is 0 at all states that were tried".to_string());
+                undecide(status, "no state is known at which the density is not 0".to_string());
             }
         }
         Ok(())
