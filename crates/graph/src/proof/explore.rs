@@ -6,6 +6,7 @@ use crate::graph::{Expr, Fault, Graph, Step, literally};
 use crate::number::UnaryFunction;
 
 use super::Prover;
+use super::angles::angles;
 use super::bounds::InputDistribution;
 use super::cells::{Cell, CellChange, Leaf, with_signs};
 use super::choices::{for_all_choices, unlike};
@@ -224,6 +225,9 @@ impl Explorer<'_> {
                     None => open.push((modulus.place, argument)),
                 },
             }
+        }
+        if rewrites.is_empty() {
+            rewrites = angles(graph, &cell.values);
         }
         if rewrites.is_empty() {
             let (sources, digest) = (self.sources, self.digest);

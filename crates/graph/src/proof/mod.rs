@@ -21,6 +21,7 @@
 //! | `domain`, `fact`, `classes`, `extent` | signs of values over the ranges of the inputs |
 //! | `elimination`, `rank`, `reconstruct`, `coprime` | linear algebra and polynomials modulo a prime |
 
+mod angles;
 mod bounds;
 mod branches;
 mod buckets;

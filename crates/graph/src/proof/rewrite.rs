@@ -7,6 +7,7 @@ use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
 use crate::scalar::Scalar;
 
+use super::angles::Angle;
 use super::fact::SignFact;
 use super::nested::DenestedRoot;
 use super::powers::{Logarithm, split_exponential};
@@ -76,6 +77,13 @@ pub enum Rewrite {
         argument: usize,
         /// Places of the ln X_j.
         logarithms: Vec<usize>,
+    },
+    /// sin E and cos E, by arctangents in E.
+    Angle {
+        /// Place of E.
+        argument: usize,
+        /// E as a sum.
+        angle: Angle,
     },
 }
 
@@ -174,6 +182,13 @@ impl Rewrite {
             (Rewrite::Exponential { argument, logarithms }, step) => match step {
                 Step::Unary(UnaryFunction::Exp, a) if a == *argument => {
                     split_exponential(graph, a, logarithms, values)
+                }
+                _ => None,
+            },
+            (Rewrite::Angle { argument, angle }, step) => match step {
+                Step::Unary(function @ (UnaryFunction::Sin | UnaryFunction::Cos), a) => {
+                    let is_sine = function == UnaryFunction::Sin;
+                    angle.value(is_sine, values).filter(|_| a == *argument)
                 }
                 _ => None,
             },

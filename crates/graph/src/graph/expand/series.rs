@@ -233,8 +233,8 @@ impl Arithmetic {
     pub fn power(&mut self, a: &Series, exponent: &Rational) -> Result<Series, Failure> {
         let is_root = (exponent * &Rational::from(2)).to_integer().is_some();
         if a.is_exactly_zero() && !exponent.is_negative() {
-            // Other powers of 0 have no value in some number domains.
-            return if is_root { Ok(a.clone()) } else { Err(Failure::Form) };
+            // √0 is 0, and other powers of 0 have no value.
+            return if is_root { Ok(a.clone()) } else { Err(Failure::NoValue) };
         }
         let ((order, logs), value, rest) = self.normal(a)?;
         if logs != 0 {
