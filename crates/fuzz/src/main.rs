@@ -1,7 +1,10 @@
-//! Mutated formulas and case files, read and judged in this process.
+//! Mutated formulas and case files, read and judged in this process, and command lines for the
+//! program.
 
+mod arguments;
 mod mutation;
 
+use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -9,72 +12,116 @@ use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
 use std::{env, fs, io};
 
+use arguments::Lines;
 use liouville::case::Case;
 use liouville::verdict::Options;
 use mutation::{Corpus, Random};
 
-/// Time that one input may take before it is kept as a slow one.
-const SLOW: Duration = Duration::from_secs(2);
-
 /// Time that a judgement may take.
 const PATIENCE: Duration = Duration::from_secs(20);
 
+/// What is done with the inputs.
+#[derive(Clone, Copy, PartialEq)]
+enum Mode {
+    Read,
+    Judge,
+    Arguments,
+}
+
+impl Mode {
+    /// Time that one input may take before it is kept as a slow one.
+    fn slow(self) -> Duration {
+        Duration::from_secs(if self == Self::Arguments { 10 } else { 2 })
+    }
+}
+
 fn main() -> ExitCode {
-    match run() {
-        Ok(0) => ExitCode::SUCCESS,
-        Ok(_) => ExitCode::FAILURE,
-        Err(error) => {
-            eprintln!("error: {error}\nusage: fuzz [INPUTS [SEED [judge]]]");
+    let usage = "usage: fuzz [INPUTS or FROM..TO [SEED [judge|arguments]]]";
+    match arguments().map(|(inputs, seed, mode)| run(inputs, seed, mode)) {
+        Some(Ok(0)) => ExitCode::SUCCESS,
+        Some(Ok(_)) => ExitCode::FAILURE,
+        Some(Err(error)) => {
+            eprintln!("error: {error}");
+            ExitCode::from(2)
+        }
+        None => {
+            eprintln!("{usage}");
             ExitCode::from(2)
         }
     }
 }
 
-fn run() -> io::Result<u64> {
-    let mut arguments = env::args().skip(1);
-    let mut number = |default: u64| match arguments.next() {
-        None => Ok(default),
-        Some(text) => text.parse().map_err(io::Error::other),
+fn arguments() -> Option<(Range<u64>, u64, Mode)> {
+    let words: Vec<String> = env::args().skip(1).collect();
+    let inputs = match words.first().map(String::as_str) {
+        None => 0..1_000_000,
+        Some(word) => match word.split_once("..") {
+            Some((from, to)) => from.parse().ok()?..to.parse().ok()?,
+            None => 0..word.parse().ok()?,
+        },
     };
-    let (inputs, seed) = (number(1_000_000)?, number(1)?);
-    let judges = env::args().nth(3).is_some_and(|word| word == "judge");
+    let seed = words.get(1).map_or(Some(1), |word| word.parse().ok())?;
+    let mode = match words.get(2).map(String::as_str) {
+        None => Mode::Read,
+        Some("judge") => Mode::Judge,
+        Some("arguments") => Mode::Arguments,
+        Some(_) => return None,
+    };
+    Some((inputs, seed, mode))
+}
+
+fn run(inputs: Range<u64>, seed: u64, mode: Mode) -> io::Result<u64> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let corpus = Corpus::read(&[root.join("../../cases"), root.join("corpus")])?;
     let found = root.join("found");
     fs::create_dir_all(&found)?;
-    let mut random = Random::new(seed);
+    let corpus = Corpus::read(&[root.join("../../cases"), root.join("corpus")])?;
+    let lines = match mode {
+        Mode::Arguments => Some(Lines::of_program(&found)?),
+        Mode::Read | Mode::Judge => None,
+    };
     let started = Instant::now();
     let (mut failures, mut valid, mut slowest) = (0, 0u64, Duration::ZERO);
-    for index in 0..inputs {
-        let text = corpus.input(&mut random);
-        let begun = Instant::now();
-        let outcome = match judges {
-            false => read(&text),
-            true => {
-                fs::write(found.join("last.toml"), &text)?;
-                judged(&text)
+    for index in inputs.clone() {
+        let random = &mut Random::new(seed, index);
+        let begun;
+        let (text, outcome) = match &lines {
+            Some(lines) => {
+                let line = lines.input(random);
+                begun = Instant::now();
+                let (outcome, printed) = lines.run(&line)?;
+                (format!("{line:?}\n{printed}"), outcome)
+            }
+            None => {
+                let text = corpus.input(random);
+                if mode == Mode::Judge {
+                    fs::write(found.join("last.toml"), &text)?;
+                }
+                begun = Instant::now();
+                let outcome = if mode == Mode::Judge { judged(&text) } else { read(&text) };
+                (text, outcome)
             }
         };
         let took = begun.elapsed();
         slowest = slowest.max(took);
-        match outcome {
-            Outcome::Valid => valid += 1,
-            Outcome::Refused => {}
-            Outcome::Failed => {
-                failures += 1;
-                keep(&found, "failed", seed, index, &text)?;
-            }
-        }
-        if took > SLOW {
-            failures += u64::from(!judges);
+        valid += u64::from(outcome == Outcome::Valid);
+        if outcome == Outcome::Failed {
+            failures += 1;
+            keep(&found, "failed", seed, index, &text)?;
+        } else if mode != Mode::Judge && took > mode.slow() {
+            failures += 1;
             keep(&found, "slow", seed, index, &text)?;
         }
-        if index % 100_000 == 99_999 {
-            eprintln!("{} inputs, {failures} failures", index + 1);
+        let done = index + 1 - inputs.start;
+        if let Some(lines) = lines.as_ref().filter(|_| done.is_multiple_of(1000)) {
+            lines.tidy()?;
+        }
+        if done.is_multiple_of(if mode == Mode::Read { 100_000 } else { 1000 }) {
+            eprintln!("{done} inputs, {failures} failures");
         }
     }
     println!(
-        "{inputs} inputs, {valid} of them valid, {failures} failures; slowest {:.2} s; {:.0} s",
+        "{} inputs, {valid} of them valid, {failures} failures; slowest {:.2} s; {:.0} s",
+        inputs.end.saturating_sub(inputs.start),
         slowest.as_secs_f64(),
         started.elapsed().as_secs_f64()
     );

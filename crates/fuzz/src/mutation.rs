@@ -104,9 +104,17 @@ const HEADS: [&str; 3] = [
 pub struct Random(u64);
 
 impl Random {
-    /// Numbers that depend on the seed alone.
-    pub fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
+    /// Numbers for one input, which depend on the seed and its index alone.
+    pub fn new(seed: u64, index: u64) -> Self {
+        // two rounds of SplitMix64
+        let mut word = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ index;
+        for _ in 0..2 {
+            word = word.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            word = (word ^ (word >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            word ^= word >> 31;
+        }
+        Self(word | 1)
     }
 
     /// A number below a bound.
@@ -117,7 +125,8 @@ impl Random {
         (self.0 >> 11) as usize % bound.max(1)
     }
 
-    fn of<'a, T>(&mut self, items: &'a [T]) -> Option<&'a T> {
+    /// One of some items.
+    pub fn of<'a, T>(&mut self, items: &'a [T]) -> Option<&'a T> {
         items.get(self.below(items.len()))
     }
 }

@@ -17,16 +17,19 @@ pub struct Cases {
 #[derive(Debug, Subcommand)]
 pub enum Action {
     /// List the cases whose path or title contains all of the words
+    #[command(after_help = "Example:\n  liouville cases list kovalevskaya")]
     List {
         /// Words to look for, in upper or lower case
         words: Vec<String>,
     },
     /// Print a case
+    #[command(after_help = "Example:\n  liouville cases show plane/balanced-ball > ball.toml")]
     Show {
         /// Case, such as plane/balanced-ball
         name: PathBuf,
     },
     /// Write cases to a folder, to change them
+    #[command(after_help = "Example:\n  liouville cases copy classical/tops tops")]
     Copy {
         /// Case or folder of the catalogue, such as plane/balanced-ball or plane
         name: PathBuf,

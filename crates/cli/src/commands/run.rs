@@ -81,3 +81,50 @@ fn carry_out(command: &Command) -> Result<CommandOutput, String> {
         Command::Man(options) => super::completions::man(options),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Commands that read or write texts, and compute nothing.
+    const INSTANT: [&str; 12] = [
+        "merge",
+        "new",
+        "export",
+        "names",
+        "explain",
+        "list",
+        "show",
+        "copy",
+        "schema",
+        "completions",
+        "man",
+        "help",
+    ];
+
+    /// The commands without commands of their own.
+    fn leaves<'a>(command: &'a clap::Command, found: &mut Vec<&'a clap::Command>) {
+        if !command.has_subcommands() {
+            found.push(command);
+        }
+        let shown = command.get_subcommands().filter(|one| !one.is_hide_set());
+        shown.for_each(|one| leaves(one, found));
+    }
+
+    #[test]
+    fn every_command_has_an_example_and_limits() {
+        let program = Arguments::described();
+        let mut found = Vec::new();
+        leaves(&program, &mut found);
+        assert!(found.len() > 25, "{}", found.len());
+        for command in found {
+            let name = command.get_name();
+            let after = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+            assert!(after.contains("Example") || name == "help", "{name} has no example");
+            for limit in ["within", "megabytes"] {
+                let has = command.get_arguments().any(|one| one.get_id() == limit);
+                assert!(has || INSTANT.contains(&name), "{name} has no --{limit}");
+            }
+        }
+    }
+}

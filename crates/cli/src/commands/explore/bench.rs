@@ -10,7 +10,7 @@ use clap::Args;
 use liouville::verdict::TAPE_LANES;
 use liouville_lab::bench::{BenchItem, BenchOptions, ClaimMeasurements, measure_item, work_items};
 
-use super::{CommandOutput, colour, files, out, source, width};
+use super::{CommandOutput, LimitArgs, colour, files, out, source, width};
 
 #[derive(Debug, Args)]
 pub struct BenchArgs {
@@ -31,6 +31,8 @@ pub struct BenchArgs {
     /// Number of interleaved rounds, of which the median time is taken
     #[arg(long, default_value_t = 21, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub rounds: u32,
+    #[command(flatten)]
+    pub limits: LimitArgs,
 }
 
 pub fn run(options: &BenchArgs) -> Result<CommandOutput, String> {

@@ -19,6 +19,9 @@ pub struct GrowthArgs {
     /// Seconds for each family
     #[arg(long, default_value_t = 5.0, value_parser = seconds)]
     pub within: f64,
+    /// Stop when a size takes more than N megabytes of memory
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub megabytes: Option<u64>,
     /// Measure this size alone, in this process; print JSON with --format json
     #[arg(long, requires = "families", value_parser = clap::value_parser!(u64).range(1..))]
     pub size: Option<u64>,
@@ -49,6 +52,9 @@ fn apart(family: &CaseFamily, size: u64, options: &GrowthArgs) -> Result<SizePoi
     command.args(["--size", &size.to_string()]);
     if let Some(threads) = options.threads {
         command.args(["--threads", &threads.to_string()]);
+    }
+    if let Some(megabytes) = options.megabytes {
+        command.args(["--megabytes", &megabytes.to_string()]);
     }
     let output = command.output().map_err(|error| error.to_string())?;
     let told: Vec<PriorMember> = serde_json::from_slice(&output.stdout)

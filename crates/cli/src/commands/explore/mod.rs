@@ -208,10 +208,10 @@ impl ExploreCommand {
             Self::Sweep(options) => options.subject.limits,
             Self::Motion { command } => command.limits(),
             Self::Former(FormerCommand::Motion(command)) => command.limits(),
-            Self::Search(_)
-            | Self::Site(_)
-            | Self::Measure { .. }
-            | Self::Former(FormerCommand::Measure(_)) => LimitArgs::default(),
+            Self::Measure { command } | Self::Former(FormerCommand::Measure(command)) => {
+                command.limits()
+            }
+            Self::Search(_) | Self::Site(_) => LimitArgs::default(),
         }
     }
 }
@@ -273,6 +273,15 @@ impl MotionCommand {
 }
 
 impl MeasureCommand {
+    fn limits(&self) -> LimitArgs {
+        match self {
+            Self::Bench(options) => options.limits,
+            Self::Stress(options) => options.limits,
+            // its seconds are those of each family
+            Self::Growth(options) => LimitArgs { within: None, megabytes: options.megabytes },
+        }
+    }
+
     fn run(&self) -> Result<CommandOutput, String> {
         match self {
             Self::Bench(options) => bench::run(options),

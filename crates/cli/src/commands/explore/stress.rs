@@ -8,7 +8,7 @@ use clap::Args;
 use liouville_lab::stress::{SCENARIOS, Scenario, StressError, Tally, digits_lost, verdicts};
 use rayon::prelude::*;
 
-use super::{CommandOutput, pool};
+use super::{CommandOutput, LimitArgs, pool};
 
 #[derive(Debug, Args)]
 pub struct Stress {
@@ -27,6 +27,8 @@ pub struct Stress {
     /// Draw the heat map
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
+    #[command(flatten)]
+    pub limits: LimitArgs,
 }
 
 pub fn run(options: &Stress) -> Result<CommandOutput, String> {
