@@ -37,4 +37,8 @@ impl OfBracket for Casimir {
     fn functions(&self) -> Vec<&Formula> {
         vec![&self.function]
     }
+
+    fn constant_if(&self) -> Option<&Formula> {
+        Some(&self.function)
+    }
 }

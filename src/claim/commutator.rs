@@ -1,7 +1,7 @@
 //! Commutators of vector fields: [u,w] = (u·∇)w − (w·∇)u = z, component by component.
 
 use super::components::Components;
-use super::{Reader, ResidualContext, Statement, difference, quadrature_defects};
+use super::{Condition, Reader, ResidualContext, Statement, difference, quadrature_defects};
 use crate::formula::Formula;
 use crate::graph::Expr;
 use crate::mechanics::Phase;
@@ -78,6 +78,12 @@ impl Statement for Commutator {
         let claimed = self.claimed(&jet.phase).unwrap_or_default();
         let scale = dot(&first, &first) + dot(&second, &second) + dot(&claimed, &claimed);
         ResidualContext { scale: Some(scale), value: claimed, ..ResidualContext::default() }
+    }
+
+    fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+        let of_one =
+            |field: &Components| Condition::nonzero(field.at(&jet.phase), "one of the fields is 0");
+        vec![of_one(&self.of), of_one(&self.with)]
     }
 
     /// Computes the defects of each ∫ off the level too, which the fields may leave.

@@ -9,7 +9,7 @@
 use num_traits::One;
 
 use super::rotation::{self, Among};
-use super::{Objection, Reader, ResidualContext, Statement, rest};
+use super::{Objection, Reader, ResidualContext, Statement, kinks, rest};
 use crate::graph::{Expr, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{Chart, Meaning, Model, NORMAL, Phase, Variable, VocabularyEntry};
@@ -44,6 +44,10 @@ macro_rules! decided_by_criterion {
         fn context(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> ResidualContext {
             let scale = jet.phase.model().system.criterion_scale(&jet.phase);
             ResidualContext { scale: Some(scale), ..ResidualContext::default() }
+        }
+
+        fn remark(&self, model: &Model) -> Option<String> {
+            kinks::remark(model)
         }
     };
 }

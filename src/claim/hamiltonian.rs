@@ -1,7 +1,7 @@
 //! Hamiltonian form in the variables of `[variables]` with the bracket of `[poisson]`.
 
 use super::of_bracket::{
-    CHOICE, bracket_of, defects, of, scalar_in, slope, they_vary, turned, variables,
+    CHOICE, are_not_zero, bracket_of, defects, of, scalar_in, slope, they_vary, turned, variables,
 };
 use super::{Condition, Reader, Statement, difference};
 use crate::formula::{Formula, Type};
@@ -43,7 +43,9 @@ impl Statement for Hamiltonian {
     }
 
     fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
-        vec![they_vary(jet, "the new variables obey a relation", false)]
+        let mut conditions = vec![they_vary(jet, "the new variables obey a relation", false)];
+        conditions.extend(are_not_zero(jet, &[self.bracket]));
+        conditions
     }
 
     fn quadrature_defects_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {

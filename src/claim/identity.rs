@@ -2,6 +2,7 @@
 
 use num_dual::DualNum;
 
+use super::statement::open_constant;
 use super::{Condition, Need, Reader, ResidualContext, Statement, difference};
 use crate::formula::Formula;
 use crate::graph::Expr;
@@ -54,6 +55,10 @@ impl Statement for Identity {
 
     fn about(&self, right: Formula) -> Option<Self> {
         Some(Self { right, ..self.clone() })
+    }
+
+    fn limit_of_refutation(&self, model: &Model) -> Option<&'static str> {
+        open_constant(model, &self.formulas())
     }
 
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {

@@ -3,11 +3,13 @@
 use num_dual::Dual;
 use num_traits::{One, Zero};
 
-use super::{Reader, ResidualContext, Statement, difference};
+use super::expansion::{Stated, defects, expansions, sides};
+use super::statement::open_constant;
+use super::{Reader, ResidualContext, Statement};
 use crate::formula::{Formula, Type, Value};
-use crate::graph::Expr;
+use crate::graph::{Expansion, Expr, Side};
 use crate::mechanics::calculus::DualPoint;
-use crate::mechanics::{Meaning, Model};
+use crate::mechanics::{Meaning, Model, Phase};
 use crate::scalar::Scalar;
 
 /// Reads the scalar parameter named by a key.
@@ -29,8 +31,8 @@ pub(super) fn scalar_parameter<R: Reader>(from: &R, key: &'static str) -> Result
     }
 }
 
-/// The claim that A → B as the parameter goes to 0, with the slope C if one is given. A must be
-/// analytic in the parameter near 0, as any formula is that does not divide by it.
+/// The claim that A → B as the parameter goes to 0 inside of its range, with the slope C if one is
+/// given. It is read off A at 0, or off its expansion where A has no value there.
 #[derive(Clone, Debug)]
 pub struct Limit {
     function: Formula,
@@ -54,8 +56,8 @@ impl Statement for Limit {
     const NAME: &'static str = "limit";
     const OF_MAPS: bool = true;
     const COMPANIONS: &'static [&'static str] = &["equals", "parameter", "slope"];
-    const UNDEFINED: &'static str = ": the parameter is set to 0, so the formula must be written without dividing by it, \
-         and with a slope have a second derivative there";
+    const UNDEFINED: &'static str = ": it is read off the formula where the parameter is 0, and with a slope off its second derivative, or \
+         off an expansion in powers and logarithms of the parameter, and none of these is known";
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let function = from.required(Self::NAME, None)?;
@@ -83,19 +85,36 @@ impl Statement for Limit {
         Some(Self { value, ..self.clone() })
     }
 
+    fn limit_of_refutation(&self, model: &Model) -> Option<&'static str> {
+        open_constant(model, &self.formulas())
+    }
+
     fn changes(&self) -> Vec<usize> {
         vec![self.parameter]
     }
 
-    /// A as written at 0: with 0/(x + |x| + 0) it has no value for x < 0, where A is 1.
+    /// A as written at 0: with 0/(x + |x| + 0) it has no value for x < 0, where A is 1. Where it has
+    /// none anywhere, what its expansion requires.
     fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
         let zero = [(self.parameter, Value::Scalar(Expr::zero()))];
         let at = jet.phase.with(&zero, &jet.phase.state());
         let model = at.model();
         let uses_motion = has_quantities(model, &self.function);
         let functions = if uses_motion { model.dynamics() } else { Vec::new() };
-        let all = functions.into_iter().chain([&self.function]);
-        all.flat_map(|formula| at.evaluate_literally(formula).components()).collect()
+        let mut presence = Vec::new();
+        for formula in functions.into_iter().chain([&self.function]) {
+            let expanded = self.expanded(&jet.phase, &at, formula);
+            let values = at.evaluate_literally(formula).components();
+            for (value, expanded) in values.into_iter().zip(expanded) {
+                match expanded {
+                    Some(sides) => {
+                        presence.extend(sides.into_iter().flat_map(|(_, own)| own.guards));
+                    }
+                    None => presence.push(value),
+                }
+            }
+        }
+        presence
     }
 
     /// Adds A'' at 0 if a slope is given: ε^(3/2) has a slope there too, and is not O(ε²).
@@ -105,11 +124,13 @@ impl Statement for Limit {
         }
         let zero = [(self.parameter, Value::Scalar(Expr::zero()))];
         let at = jet.phase.with(&zero, &jet.phase.state());
+        let expanded = self.expanded(&jet.phase, &at, &self.function);
         let near = at.lift_parameter(self.parameter, Expr::one());
         let nearer = near.lift_parameter(self.parameter, Dual::from_re(Expr::one()));
         let values = nearer.evaluate(&self.function).components();
+        let own = values.iter().zip(expanded).filter(|(_, expanded)| expanded.is_none());
         ResidualContext {
-            value: values.iter().map(|x| x.eps.eps).collect(),
+            value: own.map(|(x, _)| x.eps.eps).collect(),
             ..ResidualContext::default()
         }
     }
@@ -117,14 +138,52 @@ impl Statement for Limit {
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {
         let zero = [(self.parameter, Value::Scalar(T::zero()))];
         let at = jet.phase.with(&zero, &jet.phase.state());
+        let expanded = self.expanded(&jet.phase, &at, &self.function);
         let near = at.lift_parameter(self.parameter, T::one());
         let values = near.evaluate(&self.function).components();
-        let limit = values.iter().map(|x| x.re).collect();
-        let mut residual = difference(limit, at.evaluate(&self.value).components());
-        if let Some(slope) = &self.slope {
-            let slopes = values.iter().map(|x| x.eps).collect();
-            residual.extend(difference(slopes, at.evaluate(slope).components()));
+        let limits = at.evaluate(&self.value).components();
+        let slopes = self.slope.as_ref().map(|slope| at.evaluate(slope).components());
+        let mut residual = Vec::new();
+        for (k, ((value, limit), expanded)) in values.iter().zip(limits).zip(expanded).enumerate() {
+            let slope = slopes.as_ref().and_then(|slopes| slopes.get(k).copied());
+            let Some(sides) = expanded else {
+                residual.push(value.re - limit);
+                residual.extend(slope.map(|slope| value.eps - slope));
+                continue;
+            };
+            let stated = Stated { value: limit, slope };
+            residual.extend(sides.iter().flat_map(|(side, own)| defects(*side, own, &stated)));
         }
         residual
+    }
+}
+
+/// Expansions of one component by side; `None` where it is taken at 0, or not known.
+type BySide<T> = Option<Vec<(Side, Expansion<T>)>>;
+
+impl Limit {
+    /// Expands the components of a formula that have no value where the parameter is 0.
+    fn expanded<T: Scalar>(
+        &self,
+        phase: &Phase<'_, T>,
+        at_zero: &Phase<'_, T>,
+        formula: &Formula,
+    ) -> Vec<BySide<T>> {
+        let values = at_zero.evaluate_literally(formula).components();
+        if !values.iter().any(Scalar::is_never_defined) {
+            return values.iter().map(|_| None).collect();
+        }
+        let model = phase.model();
+        let parameter = phase.configuration.parameter(self.parameter).components();
+        let sides = sides(model, self.parameter);
+        let order = if self.slope.is_some() { 2 } else { 0 };
+        let written = phase.evaluate_literally(formula).components();
+        let one = |(at_zero, written): (&T, T)| match parameter.first() {
+            Some(parameter) if at_zero.is_never_defined() => {
+                expansions(written, *parameter, &sides, order)
+            }
+            _ => None,
+        };
+        values.iter().zip(written).map(one).collect()
     }
 }

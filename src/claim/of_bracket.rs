@@ -34,6 +34,11 @@ pub trait OfBracket: Clone {
     fn functions(&self) -> Vec<&Formula> {
         Vec::new()
     }
+
+    /// Returns the function of which the statement says nothing if it is constant.
+    fn constant_if(&self) -> Option<&Formula> {
+        None
+    }
 }
 
 impl<S: OfBracket> Statement for S {
@@ -64,7 +69,13 @@ impl<S: OfBracket> Statement for S {
     }
 
     fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
-        vec![they_vary(jet, ON_A_PART, true)]
+        let mut conditions = vec![they_vary(jet, ON_A_PART, true)];
+        conditions.extend(are_not_zero(jet, &self.brackets()));
+        if let Some(function) = self.constant_if() {
+            let there = jet.in_variables(of(jet.phase.model()));
+            conditions.push(Condition::nonzero(slope(there, function), "the function is constant"));
+        }
+        conditions
     }
 
     fn quadrature_defects_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
@@ -178,6 +189,17 @@ pub(super) fn they_vary(
     let rows: Vec<Vec<Expr>> = images.flat_map(|image| jet.gradients(image)).collect();
     let need = Need::Rank { rank: rows.len(), rows };
     Condition { need, otherwise: otherwise.to_string(), is_essential }
+}
+
+/// Requires that brackets are not 0, in which all functions are in involution.
+pub(super) fn are_not_zero(jet: &DualPoint<'_, Expr>, brackets: &[usize]) -> Vec<Condition> {
+    let variables = of(jet.phase.model());
+    let there = jet.in_variables(variables);
+    let of_one = |bracket: &usize| {
+        let entries = variables.tensor(*bracket, &there.phase).concat();
+        Condition::nonzero(entries, "the bracket is 0")
+    };
+    brackets.iter().map(of_one).collect()
 }
 
 /// Computes the derivatives of a tensor: the entry l is ∂P/∂y_l.

@@ -28,6 +28,15 @@ pub struct Objection {
     pub remedy: &'static str,
 }
 
+/// Message for a refutation of an equation whose sides differ by the open constant of an ∫.
+const OPEN_CONSTANT: &str = "it contains ∫, whose constant is open: the two sides differ for some constants. Compare their \
+                             rates, or write the antiderivative out";
+
+/// Returns what a nonzero difference of formulas does not exclude, if they contain an ∫.
+pub(super) fn open_constant(model: &Model, formulas: &[&Formula]) -> Option<&'static str> {
+    formulas.iter().any(|formula| model.has_antiderivative(formula)).then_some(OPEN_CONSTANT)
+}
+
 impl Objection {
     /// Makes the objection to an ∫ where its value matters.
     pub fn open_constant(what: &str) -> Self {

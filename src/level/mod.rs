@@ -13,6 +13,7 @@
 //! no part of a level is missed.
 
 mod analysis;
+mod cover;
 mod derivatives;
 mod equation;
 mod newton;
@@ -21,6 +22,7 @@ mod solution;
 mod steps;
 
 pub use analysis::solve;
+pub use cover::{Cover, Part};
 pub use newton::{Newton, has_moduli};
 pub use solution::{Solution, Solved};
 pub use steps::Pivot;

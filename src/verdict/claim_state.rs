@@ -34,6 +34,13 @@ pub struct ClaimState {
     pub undefined: Option<String>,
     /// Description of the rounding that blurred the residual.
     pub blurred: Option<String>,
+    /// Whether it is known that there is no state at which all formulas of the claim have a value.
+    pub is_void: bool,
+    /// Whether the residual is known to be zero wherever it has a value, and no state is known at which
+    /// the claim has one.
+    pub is_unseen: bool,
+    /// Whether the states are a part of lower dimension than the place.
+    pub is_thin: bool,
     /// Message that the residual has no value on a part of the states that count, if so.
     pub partial: Option<String>,
     /// Whether a value that does not vanish is shown not to on a part of the states only.
@@ -130,8 +137,9 @@ pub fn classify<D: Enclosing>(
         };
     }
     if status.settled.is_some() {
-        if let Some(reason) = status.undefined.take() {
-            undecide(status, reason);
+        if status.undefined.is_some() {
+            // Whether there is a state is not yet known.
+            status.settled = None;
         }
         return;
     }

@@ -75,7 +75,8 @@ impl Judging<'_> {
             Need::Positive { value } => {
                 let is_met =
                     self.holds_at_all_states(sampler, *value, &|graph, extents, value| {
-                        sign(graph, extents, &[], value) == Some(true)
+                        let known = sign(graph, extents, &[], &[], value);
+                        known.is_some_and(|known| known.is_positive)
                             && is_nowhere_zero(graph, extents, &[], &[value])
                     })?;
                 Ok((!is_met).then(|| otherwise.clone()))

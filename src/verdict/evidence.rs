@@ -242,7 +242,11 @@ pub struct Evidence {
     /// Whether the sign is proved at all states rather than observed at those tried.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub sign_is_proved: bool,
-    /// Whether states were tried at which it is not known whether the density has a value.
+    /// Whether a density of a proved sign is not known to be different from 0 at all states.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub sign_may_vanish: bool,
+    /// Whether the sign may be another at states at which it is not known whether the density has a
+    /// value, or on a part of the level that was not reached.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub sign_is_partial: bool,
     /// Volume form to which a density on a level set refers.

@@ -132,6 +132,7 @@ pub fn complete(item: &RecordedClaim<'_>, status: &mut ClaimState) {
     let kind = item.claim.kind.name();
     if let Some(reason) = status.undefined.take() {
         status.evidence.proof = None;
+        status.is_unseen = status.is_zero;
         undecide(status, reason);
     } else if status.is_zero {
         status.settled = Some(Verdict::Proved);

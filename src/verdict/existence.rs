@@ -7,7 +7,7 @@ use super::evidence::{Method, Verdict, Witness};
 use super::examine::BlockValues;
 use super::field::Where;
 use super::judging::Judging;
-use super::ladder::{LADDER_BITS, Open, PRECISE_STATES};
+use super::ladder::{FEW_OPERATIONS, LADDER_BITS, Open, PRECISE_STATES};
 use super::recorded::RecordedClaim;
 use super::sampler::{Sampler, TAPE_LANES};
 use super::witness;
@@ -20,7 +20,8 @@ use crate::number::mixed::{Mixed, Number};
 use crate::number::rational::Rational;
 use crate::proof::{Extent, InputRegion};
 
-/// Largest number of states without a value in f64 that are examined further.
+/// Largest number of states without a value in f64 that are examined further, for residuals of
+/// many operations.
 const MOST_MISSING: usize = 16;
 /// Largest number of choices of signs with which a state is sought.
 const MOST_SIGNS: usize = 16;
@@ -47,8 +48,9 @@ impl Judging<'_> {
             }
             let (run, layout) = self.lay_out(sampler, std::iter::once(*item), false);
             let (span, domain) = (&layout.spans[0], Mixed::new(LADDER_BITS[0]));
-            let looked = missing.len().min(MOST_MISSING);
-            let (mut doubtful, mut partial) = (0, None);
+            let is_small = status.evidence.operations <= FEW_OPERATIONS;
+            let looked = if is_small { missing.len() } else { missing.len().min(MOST_MISSING) };
+            let (mut doubtful, mut partial, mut supposed) = (0, None, None);
             for lane in &missing[..looked] {
                 let index = *lane as u64;
                 let state = match &found {
@@ -59,7 +61,19 @@ impl Judging<'_> {
                 let existing = layout.existing(&values, span);
                 let required = [layout.common.clone(), span.requirement.clone()];
                 let mut required = required.into_iter().flat_map(|range| values.range(range));
-                doubtful += usize::from(required.any(|value| *value == Number::Doubtful));
+                let is_doubtful = required.any(|value| *value == Number::Doubtful);
+                doubtful += usize::from(is_doubtful);
+                if supposed.is_none() && is_doubtful && !status.is_zero {
+                    let domain = Mixed::supposing_roots(LADDER_BITS[0]);
+                    let state = match &found {
+                        Some(_) => state.clone(),
+                        None => sampler.states(&domain, 1, index),
+                    };
+                    let values = run.at(&domain, &state);
+                    let residual = values.range(span.residual.clone());
+                    let fails = residual.iter().any(|value| Mixed::excludes_zero(value, 0));
+                    supposed = (fails && layout.existing(&values, span)[0]).then_some(index);
+                }
                 if found.is_some() {
                     continue;
                 }
@@ -82,6 +96,14 @@ impl Judging<'_> {
                     (true, false) => partial = partial.or(Some(index)),
                     (false, _) => {}
                 }
+            }
+            if let Some(index) = supposed.filter(|_| status.settled.is_none()) {
+                status.blurred.get_or_insert_with(|| {
+                    format!(
+                        "at state {index} it is not known whether a root has a value, as what is under \
+                         it is 0 up to rounding; if it has one, the claim fails there"
+                    )
+                });
             }
             if let Some(index) = partial.filter(|_| !status.is_zero) {
                 status.blurred.get_or_insert_with(|| {
@@ -108,12 +130,13 @@ impl Judging<'_> {
         sampler: &Sampler,
         open: &mut Open<'_, '_>,
     ) -> Result<(), Fault> {
-        let unsettled = open.iter_mut().filter(|(_, status)| {
-            status.settled.is_none() && status.is_nonzero() && status.undefined.is_none()
+        let unsettled = open.iter_mut().filter(|(item, status)| {
+            let is_known = status.undefined.is_none() || item.context.quadrature_defects.is_empty();
+            status.settled.is_none() && status.is_nonzero() && is_known
         });
         for (item, status) in unsettled {
             for found in std::mem::take(&mut status.nonzero) {
-                if self.settle_at(item, sampler, &found, status) {
+                if self.settle_at(item, sampler, &found, status)? {
                     break;
                 }
                 status.nonzero.push(found);
@@ -129,7 +152,7 @@ impl Judging<'_> {
         sampler: &Sampler,
         found: &Where,
         status: &mut ClaimState,
-    ) -> bool {
+    ) -> Result<bool, Fault> {
         let chosen = sampler.with(&found.fixed);
         let exists = match found.parts.proper() {
             None => self.drawn_state(item, &chosen, None, status),
@@ -137,7 +160,7 @@ impl Judging<'_> {
                 parts.iter().any(|part| self.drawn_state(item, &chosen, Some(part), status))
                     || parts.iter().any(|part| self.state_inside(item, &chosen, part, status))
             }
-        };
+        } || self.has_state_around(&chosen, found)?;
         if exists && status.settled.is_none() {
             let kind = item.claim.kind.name();
             status.settled = Some(Verdict::Refuted);
@@ -146,7 +169,7 @@ impl Judging<'_> {
                 "modulo a prime the residual of this {kind} is not 0, so it is not an identity"
             ));
         }
-        exists
+        Ok(exists)
     }
 
     /// Whether a drawn state lies in a part, with all required values; a witness decides the claim.
@@ -205,7 +228,7 @@ impl Judging<'_> {
         part: &InputRegion,
         status: &mut ClaimState,
     ) -> bool {
-        let mut all = signed_extents(sampler, part).into_iter();
+        let mut all = signed_extents(sampler, &part.signs).into_iter();
         let Some(point) = all.find_map(|extents| part.point(&extents)) else { return false };
         let numbers: Option<Vec<Rational>> = sampler
             .recipes()
@@ -246,13 +269,13 @@ fn number<const N: usize>(block: &Balls<N>, lane: usize) -> Number {
 
 /// Returns the ranges of the draws in a part of the states, with each choice of the signs that the
 /// part leaves free. A sign is 1 or -1, and nothing between them leads to a state.
-fn signed_extents(sampler: &Sampler, part: &InputRegion) -> Vec<Vec<Extent>> {
+pub(super) fn signed_extents(sampler: &Sampler, signs: &[(usize, bool)]) -> Vec<Vec<Extent>> {
     let mut all = vec![sampler.extents()];
     for (input, draw) in sampler.recipes().iter().enumerate() {
         if !matches!(draw, Draw::Sign) {
             continue;
         }
-        let given = part.signs.iter().find(|(sign, _)| *sign == input).map(|(_, is)| *is);
+        let given = signs.iter().find(|(sign, _)| *sign == input).map(|(_, is)| *is);
         let choices: Vec<bool> = given.map_or(vec![true, false], |is| vec![is]);
         let with = |extents: &Vec<Extent>, positive: bool| {
             let mut extents = extents.clone();

@@ -1,9 +1,11 @@
 //! Proofs of residuals in prime fields: the claim's graph as a function of the draws, passed to the
 //! prover.
 
+use std::sync::Arc;
+
 use super::judging::Judging;
 use super::sampler::Sampler;
-use crate::graph::{Expr, Fault};
+use crate::graph::{Expr, Fault, Graph};
 use crate::mechanics::Draw;
 use crate::number::rational::Rational;
 use crate::proof::{Certificate, Group, GroupOutcome, InputRegions, Prover};
@@ -60,6 +62,17 @@ pub struct Where {
     pub fixed: Vec<Option<Rational>>,
     /// Parts of the states.
     pub parts: InputRegions,
+    /// Values and what they require, as functions of the draws.
+    pub drawn: DrawnGroup,
+}
+
+/// Values and what they require, as functions of the draws.
+#[derive(Clone, Debug)]
+pub struct DrawnGroup {
+    /// Graph of the values.
+    pub graph: Arc<Graph>,
+    /// The values.
+    pub group: Group,
 }
 
 impl Answer {
@@ -98,12 +111,14 @@ impl<'a> PrimeFieldStates<'a> {
             outputs: query.outputs.clone(),
             required: [&query.requirement[..], &common].concat(),
             presence: query.presence.clone(),
+            ..Group::default()
         };
         let groups: Vec<Group> = queries.iter().map(group).collect();
         let mut answers: Vec<Option<Answer>> = vec![None; queries.len()];
         for fixed in combinations {
             let (graph, groups) = self.sampler.compose_groups(graph, &groups, &fixed)?;
             let outcomes = prover.prove(&graph, &groups)?;
+            let graph = Arc::new(graph);
             for ((all, one), group) in answers.iter_mut().zip(outcomes).zip(&groups) {
                 let is_void = group.required.iter().any(|value| graph.is_nowhere_defined(*value));
                 let one = match one {
@@ -111,7 +126,8 @@ impl<'a> PrimeFieldStates<'a> {
                     _ if is_void => Answer::Void,
                     GroupOutcome::Zero(certificate) => Answer::Zero(certificate),
                     GroupOutcome::NonZero(parts) => {
-                        Answer::NonZero(vec![Where { fixed: fixed.clone(), parts }])
+                        let drawn = DrawnGroup { graph: Arc::clone(&graph), group: group.clone() };
+                        Answer::NonZero(vec![Where { fixed: fixed.clone(), parts, drawn }])
                     }
                     GroupOutcome::Silent(reason) => Answer::Silent(reason),
                     GroupOutcome::Partial => Answer::Partial,

@@ -11,6 +11,7 @@ use super::judge::{JudgeError, Options};
 use super::ladder::{LADDER_BITS, PRECISE_STATES};
 use super::overflow;
 use super::physics;
+use super::pieces::Pieces;
 use super::recorded::SharedTerms;
 use super::run::{Doubles, Run};
 use super::sampler::{Sampler, TAPE_LANES};
@@ -32,6 +33,8 @@ pub struct Judging<'a> {
     pub inputs: usize,
     /// Reasons why the states of a place may miss a part of it, by the equations that hold there.
     pub(super) missed: RefCell<FxHashMap<Vec<bool>, Option<String>>>,
+    /// Parts of a place, by the equations that hold there.
+    pub(super) pieces: RefCell<FxHashMap<Vec<bool>, Option<Pieces>>>,
 }
 
 impl<'a> Judging<'a> {
@@ -43,7 +46,8 @@ impl<'a> Judging<'a> {
         graph: &'a Graph,
         inputs: usize,
     ) -> Self {
-        Self { case, common, options, graph, inputs, missed: RefCell::default() }
+        let (missed, pieces) = (RefCell::default(), RefCell::default());
+        Self { case, common, options, graph, inputs, missed, pieces }
     }
 }
 
@@ -55,18 +59,39 @@ impl Judging<'_> {
     /// Checks that states are on the level and that the field is defined and tangent to it; returns
     /// physical warnings.
     pub fn check(&self) -> Result<Vec<String>, JudgeError> {
-        let (model, common) = (&self.case.model, self.common);
         self.check_independence()?;
-        let level = LevelSubset::level(model);
+        let level = LevelSubset::level(&self.case.model);
         let sampler = Sampler::new(self.case, &level, self.options.seed)?;
+        let Some(pieces) = self.pieces(&sampler)? else { return self.check_on(&sampler) };
+        // A part may have no states in the declared ranges.
+        let (mut warnings, mut lacking) = (None, None);
+        for sampler in pieces.iter().flatten() {
+            match self.check_on(sampler) {
+                Ok(found) => warnings = warnings.or(Some(found)),
+                Err(error @ (JudgeError::Unreachable(_) | JudgeError::Overflow(_))) => {
+                    lacking = Some(error);
+                }
+                Err(error) => return Err(error),
+            }
+        }
+        match (warnings, lacking) {
+            (Some(warnings), _) => Ok(warnings),
+            (None, Some(error)) => Err(error),
+            (None, None) => Ok(Vec::new()),
+        }
+    }
+
+    /// Checks the states of a sampler.
+    fn check_on(&self, sampler: &Sampler) -> Result<Vec<String>, JudgeError> {
+        let (model, common) = (&self.case.model, self.common);
         let states = sampler.balls(0);
         let defined =
             |blocks: &[&Balls<TAPE_LANES>], lane: usize| blocks.iter().all(|b| b.is_defined(lane));
         let drawn: Vec<&Balls<TAPE_LANES>> = states.iter().collect();
         let is_nowhere = (0..TAPE_LANES).all(|lane| !defined(&drawn, lane));
-        if is_nowhere && !self.has_field_with_more_digits(&sampler) {
+        if is_nowhere && !self.has_field_with_more_digits(sampler) {
             let found = TAPE_LANES as u64;
-            return Err(match sampler.is_numerical() || sampler.solution().is_some() {
+            return Err(match sampler.is_numerical() || sampler.is_guarded() {
                 true => JudgeError::Unreachable(found),
                 false => JudgeError::Overflow(found),
             });
@@ -95,7 +120,7 @@ impl Judging<'_> {
             }
         }
         let undefined = (0..TAPE_LANES).all(|lane| !defined(&values.range(0..fields), lane));
-        if undefined && !self.has_field_with_more_digits(&sampler) {
+        if undefined && !self.has_field_with_more_digits(sampler) {
             let all = TAPE_LANES as u64;
             let overflows = |lane: usize| {
                 let at: Vec<f64> = states.iter().map(|block| block.mid[lane]).collect();
@@ -126,7 +151,7 @@ impl Judging<'_> {
                     .to_string(),
             );
         }
-        warnings.extend(self.missed_part(&sampler)?);
+        warnings.extend(self.missed_part(sampler)?);
         Ok(warnings)
     }
 
@@ -173,8 +198,9 @@ impl Judging<'_> {
             return false;
         }
         let domain = DoubleDoubleBall::<TAPE_LANES>;
-        let values = self.run(field).at(&domain, &sampler.states(&domain, TAPE_LANES, 0));
-        let blocks = values.range(0..field.len());
+        let states = sampler.states(&domain, TAPE_LANES, 0);
+        let values = self.run(field).at(&domain, &states);
+        let blocks: Vec<_> = states.iter().chain(values.range(0..field.len())).collect();
         if (0..TAPE_LANES).any(|lane| blocks.iter().all(|block| block.is_defined(lane))) {
             return true;
         }

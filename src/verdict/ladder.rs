@@ -30,7 +30,7 @@ pub const PRECISE_STATES: u64 = 4;
 /// Number of such states for a claim on which the fields are silent, and number of operations of the
 /// residual up to which they are all tried.
 const CONFIRMING_STATES: u64 = 32;
-const FEW_OPERATIONS: usize = 4096;
+pub const FEW_OPERATIONS: usize = 4096;
 /// Number of states tried to find one of them.
 const PRECISE_TRIES: u64 = 8;
 
@@ -41,25 +41,37 @@ impl Judging<'_> {
     pub fn climb<'f, 'r: 'f>(
         &self,
         place: &LevelSubset,
-        mut open: Open<'f, 'r>,
+        open: Open<'f, 'r>,
     ) -> Result<(), JudgeError> {
         let sampler = Sampler::new(self.case, place, self.options.seed)?;
-        self.check_motion(place, &sampler)?;
+        match self.pieces(&sampler)? {
+            Some(pieces) => self.climb_pieces(place, &pieces, open),
+            None => self.climb_on(place, &sampler, open),
+        }
+    }
+
+    /// Decides claims at the states of a sampler.
+    pub(super) fn climb_on<'f, 'r: 'f>(
+        &self,
+        place: &LevelSubset,
+        sampler: &Sampler,
+        mut open: Open<'f, 'r>,
+    ) -> Result<(), JudgeError> {
+        self.check_motion(place, sampler)?;
+        let missed = self.missed_part(sampler)?;
         if sampler.has_lists() {
             let (negated, others): (Open<'_, '_>, Open<'_, '_>) =
                 open.into_iter().partition(|(item, _)| item.claim.kind.is_negated());
             open = others;
-            let missed = self.missed_part(&sampler)?;
-            self.climb_each(place, &sampler, missed.as_deref(), negated)?;
+            self.climb_each(place, sampler, missed.as_deref(), negated)?;
         }
-        let missed = self.missed_part(&sampler)?;
-        self.decide(place, &sampler, missed.as_deref(), &mut open)?;
-        self.settle_parts(&sampler, &mut open)?;
+        self.decide(place, sampler, missed.as_deref(), &mut open)?;
+        self.settle_parts(sampler, &mut open)?;
         let mut holding: Open<'_, '_> =
             open.into_iter().filter(|(_, status)| status.holds()).collect();
-        self.settle_novelty(&sampler, &mut holding)?;
-        self.settle_conditions(&sampler, &mut holding)?;
-        self.settle_signs(&sampler, holding.into_iter().filter(|(_, status)| status.holds()))?;
+        self.settle_novelty(sampler, &mut holding)?;
+        self.settle_conditions(sampler, &mut holding)?;
+        self.settle_signs(sampler, holding.into_iter().filter(|(_, status)| status.holds()))?;
         Ok(())
     }
 
@@ -85,6 +97,7 @@ impl Judging<'_> {
         }
         if self.options.trust != Trust::Float {
             self.missing_states(sampler, open);
+            self.unseen_states(sampler, open)?;
             self.real_states(sampler, open)?;
         }
         for (item, status) in open.iter_mut() {
@@ -239,6 +252,7 @@ impl Judging<'_> {
                         "there is no state at which all formulas of the claim have a value";
                     status.rung(Method::PrimeField, reason.to_string());
                     status.evidence.silence = Some(reason.to_string());
+                    status.is_void = true;
                 }
             }
         }

@@ -5,6 +5,7 @@
 //! all states contain 0 and are narrow against the terms that were added. There is no fixed
 //! tolerance.
 
+mod around;
 mod branches;
 mod claim_state;
 mod conclude;
@@ -27,6 +28,7 @@ mod overflow;
 mod parts;
 mod pass;
 mod physics;
+mod pieces;
 mod point;
 mod preimages;
 mod recorded;

@@ -101,8 +101,18 @@ pub fn mutate(
     for place in places {
         let here: Vec<&Candidate<'_>> =
             candidates.iter().filter(|candidate| candidate.claim.place == *place).collect();
-        let sampler = Sampler::new(case, place, options.seed)?;
-        let alive = bench.kill(&sampler, here, &mut report)?;
+        let mut alive: Vec<_> = here.into_iter().map(|candidate| (candidate, true)).collect();
+        let samplers = bench.all_samplers(place)?;
+        let is_single = samplers.len() == 1;
+        for sampler in samplers.iter().filter(|sampler| is_single || sampler.has_states()) {
+            let (left, proved): (Vec<_>, Vec<bool>) = alive.into_iter().unzip();
+            let known: Vec<_> = left.iter().copied().zip(proved).collect();
+            let was_proved = |candidate: &&Candidate<'_>| {
+                known.iter().any(|(own, proved)| std::ptr::eq(*own, *candidate) && *proved)
+            };
+            let found = bench.kill(sampler, left, &mut report)?.into_iter();
+            alive = found.map(|(own, proved)| (own, proved && was_proved(&own))).collect();
+        }
         for (candidate, is_true) in alive {
             match is_true {
                 false => report.survived.push(candidate.report()),

@@ -110,7 +110,9 @@ impl Judging<'_> {
         let Some(group) = groups.into_iter().next() else { return Ok(None) };
         let all = group.outputs.iter().chain(&group.required).copied();
         let signs = signs(&graph, all.clone());
-        let outputs: Vec<Expr> = signs.iter().map(|place| graph.at(*place)).chain(all).collect();
+        let facts = group.facts.iter().copied();
+        let outputs: Vec<Expr> =
+            signs.iter().map(|place| graph.at(*place)).chain(facts).chain(all).collect();
         let tape = Tape::new(&graph, &outputs);
         let free = graph.inputs().saturating_sub(sampler.recipes().len());
         let is_range = |draw: &Draw| matches!(draw, Draw::Within(_) | Draw::Of(..));
@@ -121,6 +123,7 @@ impl Judging<'_> {
                 .map(|k| Ball::<TAPE_LANES>.constant(&antiderivative_value(k)))
                 .collect(),
             signs: signs.len(),
+            facts: group.facts.len(),
             residuals: group.outputs.len(),
         };
         let mut states = Vec::new();
@@ -144,6 +147,8 @@ struct SignSearch<'t> {
     /// Values of antiderivatives, which follow the draws.
     further: Vec<Balls<TAPE_LANES>>,
     signs: usize,
+    /// Number of values that are not negative at a state.
+    facts: usize,
     residuals: usize,
 }
 
@@ -195,10 +200,16 @@ impl SignSearch<'_> {
         self.evaluator.run(&columns);
         let outputs: Vec<&Balls<TAPE_LANES>> = self.evaluator.outputs().collect();
         let (signs, values) = outputs.split_at(self.signs);
+        let (facts, values) = values.split_at(self.facts);
         let (residuals, required) = values.split_at(self.residuals);
+        let holds = |block: &Balls<TAPE_LANES>, lane: usize| {
+            block.is_defined(lane) && block.mid[lane] >= block.rad[lane]
+        };
         let mut found = Vec::with_capacity(states.len());
         for (lane, numbers) in states.iter().enumerate() {
-            if !required.iter().all(|block| block.is_defined(lane)) {
+            let is_state = required.iter().all(|block| block.is_defined(lane))
+                && facts.iter().all(|block| holds(block, lane));
+            if !is_state {
                 found.push(None);
                 continue;
             }

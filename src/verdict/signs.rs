@@ -15,7 +15,7 @@ use crate::number::Enclosing;
 use crate::number::ball::Ball;
 use crate::number::double_double_ball::DoubleDoubleBall;
 use crate::number::mixed::{Mixed, Number};
-use crate::proof::{self, Group};
+use crate::proof::{self, Group, KnownSign};
 
 /// Number of parameter sets for which the sign of a density is observed.
 const PARAMETER_SETS: usize = 4;
@@ -71,7 +71,8 @@ impl Judging<'_> {
             for values in run.at_blocks(sampler, blocks, sharing) {
                 observe(&values, &required, &mut seen);
             }
-            let is_known = |(seen, proved): (&DensityObservations, &Option<bool>)| match proved {
+            let is_known = |(seen, proved): (&DensityObservations, &Option<KnownSign>)| match proved
+            {
                 Some(_) => sign(&seen.signs).is_some(),
                 None => sign(&seen.signs) == Some(DensitySign::Changes),
             };
@@ -80,7 +81,7 @@ impl Judging<'_> {
             }
         }
         if !sampler.is_numerical() {
-            let is_open = |(seen, proved): (&DensityObservations, &Option<bool>)| {
+            let is_open = |(seen, proved): (&DensityObservations, &Option<KnownSign>)| {
                 let sign = sign(&seen.signs);
                 sign.is_none() || (proved.is_none() && sign != Some(DensitySign::Changes))
             };
@@ -88,14 +89,21 @@ impl Judging<'_> {
                 self.look_closely(&run, &required, sampler, &mut seen);
             }
         }
+        let unreached = sampler.unreached();
         for (((_, _, status), seen), proved) in open.iter_mut().zip(&seen).zip(proved) {
-            status.evidence.sign = sign(&seen.signs);
-            status.evidence.sign_is_proved =
-                proved.is_some() || status.evidence.sign == Some(DensitySign::Changes);
-            status.evidence.sign_is_partial = seen.is_doubtful && !status.evidence.sign_is_proved;
+            let evidence = &mut status.evidence;
+            evidence.sign = sign(&seen.signs);
+            evidence.sign_is_proved =
+                proved.is_some() || evidence.sign == Some(DensitySign::Changes);
+            evidence.sign_may_vanish = proved.is_some_and(|proved| proved.may_vanish);
+            let is_open = evidence.sign.is_some() && !evidence.sign_is_proved;
+            evidence.sign_is_partial = is_open && (seen.is_doubtful || unreached.is_some());
+            if let Some(reason) = unreached.filter(|_| is_open) {
+                evidence.add_remark(format!("its sign is that of the states tried: {reason}"));
+            }
             if status.evidence.sign.is_none() {
                 status.evidence.sign_is_proved = false;
-                undecide(status, "the density is 0 at all states that were tried".to_string());
+                undecide(status, "no state is known at which the density is not 0".to_string());
             }
         }
         Ok(())
@@ -144,7 +152,7 @@ impl Judging<'_> {
         &self,
         sampler: &Sampler,
         densities: &[(Expr, &RecordedClaim<'_>, &mut ClaimState)],
-    ) -> Result<Vec<Option<bool>>, Fault> {
+    ) -> Result<Vec<Option<KnownSign>>, Fault> {
         let lists = combinations(sampler.recipes()).unwrap_or_default();
         if sampler.is_numerical() || lists.len() != 1 {
             return Ok(vec![None; densities.len()]);
@@ -160,7 +168,7 @@ impl Judging<'_> {
         let extents = sampler.extents();
         let sign = |group: &Group| {
             let value = *group.outputs.first()?;
-            proof::sign(&graph, &extents, &group.required, value)
+            proof::sign(&graph, &extents, &group.required, &group.facts, value)
         };
         Ok(groups.iter().map(sign).collect())
     }

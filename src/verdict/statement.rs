@@ -1,9 +1,11 @@
 //! Statements behind proofs in prime fields, as programs over the draws of states: for certificates
 //! that are checked outside the program.
 
-use super::JudgeError;
 use super::field::combinations;
+use super::judging::Judging;
+use super::recorded::SharedTerms;
 use super::sampler::Sampler;
+use super::{JudgeError, Options};
 use crate::case::Case;
 use crate::claim::LevelSubset;
 use crate::graph::{Expr, Graph, record};
@@ -50,7 +52,7 @@ struct RecordedValues {
 pub fn statements(case: &Case, claims: &[usize], seed: u64) -> Result<Vec<Residuals>, JudgeError> {
     let model = &case.model;
     let free = model.free_components();
-    let (graph, (inputs, recorded, level, rates)) = record(free + model.dimension(), |inputs| {
+    let (graph, (inputs, recorded, common)) = record(free + model.dimension(), |inputs| {
         let (parameters, state) = inputs.split_at(free);
         let jet = DualPoint::new(Phase::new(model, parameters, state));
         let recorded: Vec<RecordedValues> = claims
@@ -63,17 +65,19 @@ pub fn statements(case: &Case, claims: &[usize], seed: u64) -> Result<Vec<Residu
                 }
             })
             .collect();
-        let common = super::recorded::SharedTerms::of(&jet);
-        (inputs.to_vec(), recorded, common.level, common.level_rates)
+        (inputs.to_vec(), recorded, SharedTerms::of(&jet))
     })?;
-    let mut samplers: Vec<(&LevelSubset, Sampler)> = Vec::new();
+    let (level, rates) = (&common.level, &common.level_rates);
+    let options = Options { seed, ..Options::default() };
+    let bench = Judging::new(case, &common, &options, &graph, inputs.len());
+    let mut samplers: Vec<(&LevelSubset, Vec<Sampler>)> = Vec::new();
     let mut all = Vec::new();
     for (index, own) in claims.iter().zip(&recorded) {
         let place = &case.claims[*index].place;
         if !samplers.iter().any(|(known, _)| *known == place) {
-            samplers.push((place, Sampler::new(case, place, seed)?));
+            samplers.push((place, bench.all_samplers(place)?));
         }
-        let Some((_, sampler)) = samplers.iter().find(|(known, _)| *known == place) else {
+        let Some((_, own_samplers)) = samplers.iter().find(|(known, _)| *known == place) else {
             continue;
         };
         let kept = |values: &[Expr]| -> Vec<Expr> {
@@ -84,14 +88,10 @@ pub fn statements(case: &Case, claims: &[usize], seed: u64) -> Result<Vec<Residu
             inputs.clone(),
             own.residual.clone(),
             own.quadratures.clone(),
-            kept(&level),
-            kept(&rates),
+            kept(level),
+            kept(rates),
         ];
-        let choices = match sampler.is_numerical() {
-            true => Vec::new(),
-            false => combinations(&with_signs(sampler.recipes())).unwrap_or_default(),
-        };
-        let compose = |choice: &Vec<Option<Rational>>| {
+        let compose = |sampler: &Sampler, choice: &[Option<Rational>]| {
             let (composed, groups) = sampler.compose(&graph, &groups, choice)?;
             let mut groups = groups.into_iter();
             let mut next = || groups.next().unwrap_or_default();
@@ -112,7 +112,20 @@ pub fn statements(case: &Case, claims: &[usize], seed: u64) -> Result<Vec<Residu
                 level_rates: next(),
             })
         };
-        let programs = choices.iter().map(compose).collect::<Result<_, JudgeError>>()?;
+        let mut programs: Vec<Composed> = Vec::new();
+        for sampler in own_samplers {
+            let choices = match sampler.is_numerical() {
+                true => None,
+                false => combinations(&with_signs(sampler.recipes())),
+            };
+            // Without all programs of a part there is no statement of the whole.
+            let Some(choices) = choices else {
+                programs.clear();
+                break;
+            };
+            let own = choices.iter().map(|choice| compose(sampler, choice));
+            programs.extend(own.collect::<Result<Vec<Composed>, JudgeError>>()?);
+        }
         all.push(Residuals { claim: *index, programs });
     }
     Ok(all)

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::claim::{At, Claim};
-use super::expr::Tree;
+use super::expr::{Expr, Function, Tree};
 use super::jet::Place;
 use super::point::Point;
 use super::random::Stream;
@@ -134,8 +134,10 @@ pub fn searched(scene: &Scene, claim: &Claim, stream: &mut Stream, effort: usize
     for scene in scene.unlisted() {
         let of_branches = scene.branches().into_iter();
         let surveys = of_branches.map(|branch| in_cells(&branch, claim, stream, effort));
-        let valued: Vec<Survey> = surveys.filter(|survey| !survey.is_void()).collect();
-        let mixed = valued.iter().any(|survey| survey.off > 0)
+        let (void, valued): (Vec<Survey>, Vec<Survey>) = surveys.partition(Survey::is_void);
+        // On a branch at the corner of a modulus its slope is none; |w| − |w| may have one there.
+        let is_doubtful = !void.is_empty() && may_be_flat(&scene, claim);
+        let mixed = (is_doubtful || valued.iter().any(|survey| survey.off > 0))
             && valued.iter().any(|survey| survey.off == 0);
         match valued.into_iter().next() {
             Some(_) if mixed => choices.push(Survey { unsure: 1, ..Survey::default() }),
@@ -145,6 +147,16 @@ pub fn searched(scene: &Scene, claim: &Claim, stream: &mut Stream, effort: usize
     }
     choices.sort_by_key(|survey| (survey.off > 0, survey.zero == 0));
     choices.into_iter().next().unwrap_or_default()
+}
+
+/// Whether a rate or a slope may exist where those of its formula do not: |X| is 0 along a level on
+/// which X vanishes, and has a corner there.
+pub fn may_be_flat(scene: &Scene, claim: &Claim) -> bool {
+    let is_modulus = |node: &Expr| matches!(node, Expr::Of(Function::Modulus, _));
+    let mut trees = claim.trees().into_iter();
+    scene.level.is_some()
+        && !matches!(claim, Claim::Identity(..))
+        && trees.any(|tree| tree.any(&mut |node| is_modulus(node)))
 }
 
 /// Tests states in the middle of each cell of signs that is found, until one fails or the effort is

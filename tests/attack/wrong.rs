@@ -6,8 +6,7 @@ use liouville::verdict::{ClaimReport, DensitySign, Independence, Method, Verdict
 
 use super::claim::{At, Claim};
 use super::draw::Made;
-use super::expr::{Expr, Function};
-use super::oracle::{Survey, evenly, in_cells, searched, signs, thin_signs, visibly};
+use super::oracle::{Survey, evenly, in_cells, may_be_flat, searched, signs, thin_signs, visibly};
 use super::random::Stream;
 use super::real::Lack;
 use super::scene::Scene;
@@ -146,16 +145,6 @@ pub fn weighed(
         _ => None,
     };
     (truth, wrong)
-}
-
-/// Whether a rate may exist where the derivatives of its formula do not: |X| is 0 along a level on
-/// which X vanishes, and has a corner there.
-fn may_be_flat(scene: &Scene, claim: &Claim) -> bool {
-    let is_modulus = |node: &Expr| matches!(node, Expr::Of(Function::Modulus, _));
-    let mut trees = claim.trees().into_iter();
-    scene.level.is_some()
-        && !matches!(claim, Claim::Identity(..))
-        && trees.any(|tree| tree.any(&mut |node| is_modulus(node)))
 }
 
 /// Examines a claim as thoroughly as the verdict requires.

@@ -6,6 +6,7 @@
 
 use num_dual::{Dual, DualNum};
 
+use crate::graph::{Expanded, Side};
 use crate::number::rational::Rational;
 
 /// A `Copy` number over which mechanics and formulas are evaluated: f64, the recording
@@ -59,6 +60,17 @@ pub trait Scalar: DualNum<Primitive = f64> + Copy {
     /// Whether the value is 0 by its form, so that a recording has no operation for it.
     fn is_absent(&self) -> bool {
         false
+    }
+
+    /// Whether the value is known to exist for no inputs.
+    fn is_never_defined(&self) -> bool {
+        false
+    }
+
+    /// Expands the value up to and including some order of a variable, an input that tends to 0 from
+    /// one side; only recorded values have expansions.
+    fn expanded(self, _: Self, _: Side, _: i32) -> Expanded<Self> {
+        Expanded::Unknown
     }
 
     /// Computes the partial derivatives of values that are not 0 by their form, each with the place

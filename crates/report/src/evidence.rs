@@ -68,8 +68,11 @@ pub fn details(path: &str, report: &CaseReport) -> String {
             };
             let extent = match (evidence.sign_is_proved, evidence.sign) {
                 (true, Some(DensitySign::Changes)) => "at states with the same parameters",
+                (true, _) if evidence.sign_may_vanish => "at all states at which it is not 0",
                 (true, _) => "at all states",
-                (false, _) if evidence.sign_is_partial => "where its value is known",
+                (false, _) if evidence.sign_is_partial => {
+                    "at the states tried at which its value is known"
+                }
                 (false, _) => "at the states that were tried",
             };
             out.push_str(&format!("      sign      {sign} {extent}\n"));

@@ -38,7 +38,7 @@ impl Sampler {
         fixed: &[Option<Rational>],
     ) -> Result<(Graph, Vec<Group>), Fault> {
         let (composed, groups) = record(self.draws.len(), |draws| {
-            let (inputs, _) = self.inputs_from(graph, draws, fixed)?;
+            let (inputs, own) = self.inputs_from(graph, draws, fixed)?;
             let values_of = |needed: &mut dyn Iterator<Item = Expr>| {
                 graph.replay(&graph.reached(needed), &inputs, |_, _, _| None)
             };
@@ -49,11 +49,14 @@ impl Sampler {
             let all = |some: &[Expr], values: &[Option<Expr>]| {
                 some.iter().map(|value| values[graph.place(*value)]).collect::<Option<Vec<Expr>>>()
             };
+            let facts = self.facts.iter().map(|value| own[self.graph.place(*value)]);
+            let facts: Vec<Expr> = facts.collect::<Option<_>>()?;
             let group = |group: &Group| {
                 let presence = all(&group.presence, &required)?;
                 let mut required = all(&group.required, &required)?;
                 required.extend(&inputs[..self.made.len()]);
-                Some(Group { outputs: all(&group.outputs, &outputs)?, required, presence })
+                let outputs = all(&group.outputs, &outputs)?;
+                Some(Group { outputs, required, facts: facts.clone(), presence })
             };
             groups.iter().map(group).collect::<Option<Vec<Group>>>()
         })?;
@@ -73,7 +76,7 @@ impl Sampler {
             .zip(fixed)
             .map(|(draw, fixed)| fixed.as_ref().map_or(*draw, Expr::rational))
             .collect();
-        let reached = self.graph.reached(self.made.iter().copied());
+        let reached = self.graph.reached(self.made.iter().chain(&self.facts).copied());
         let values = self.graph.replay(&reached, &draws, |_, _, _| None);
         let made = self.made.iter().map(|value| values[self.graph.place(*value)]);
         let mut inputs = made.collect::<Option<Vec<Expr>>>()?;

@@ -17,7 +17,7 @@ use std::sync::Arc;
 use crate::case::Case;
 use crate::claim::LevelSubset;
 use crate::graph::{Expr, Fault, Graph, Tape, literally, record};
-use crate::level::{self, Pivot, Solution};
+use crate::level::{self, Part, Pivot, Solution};
 use crate::mechanics::{Chart, Draw, DrawSource};
 use crate::number::rational::Rational;
 use crate::proof::{Extent, InputDistribution};
@@ -39,6 +39,9 @@ pub struct Sampler {
     /// Parameters and state as functions of the draws.
     graph: Arc<Graph>,
     made: Vec<Expr>,
+    /// Values that are not negative at a state: distances of solved components from the ends of
+    /// their ranges, and sides of equations that were squared.
+    facts: Vec<Expr>,
     /// Solution of the level, with the values that must not vanish, or a part of it is missed.
     solution: Option<Arc<Solution>>,
     pivots: Arc<[Pivot]>,
@@ -56,6 +59,8 @@ pub struct Sampler {
     /// Whether the states are made with moduli.
     has_moduli: bool,
     newton: Option<NumericalLevel>,
+    /// Whether the states are a part of lower dimension than the place.
+    is_thin: bool,
 }
 
 impl Sampler {
@@ -82,19 +87,20 @@ impl Sampler {
             Some(solution) => solution.draws(&case.free_draws),
             None => case.chart.draws(&case.free_draws, kept),
         });
-        let (graph, (made, guarded, pivots)) = record(draws.len(), |inputs| {
+        let (graph, (made, guarded, facts, pivots)) = record(draws.len(), |inputs| {
             let (parameters, state) = model.make_parameters(inputs);
             let Some(solution) = &solution else {
                 let mut made = parameters;
                 let point = literally(|| case.chart.point(model, kept, &made, state));
                 made.extend(point);
-                return (made.clone(), made, Vec::new());
+                return (made.clone(), made, Vec::new(), Vec::new());
             };
             let solved = solution.point(model, parameters, state);
             let bounds = ranges(case, solution, &solved.made);
-            let facts = solved.facts.iter().map(|(value, _)| *value).chain(bounds);
-            let guarded = guarded(&solved.made, facts);
-            (solved.made, guarded, solved.pivots)
+            let facts: Vec<Expr> =
+                solved.facts.iter().map(|(value, _)| *value).chain(bounds).collect();
+            let guarded = guarded(&solved.made, facts.iter().copied());
+            (solved.made, guarded, facts, solved.pivots)
         })?;
         let (tape, unguarded) = (Tape::new(&graph, &guarded), Tape::new(&graph, &made));
         let is_guarded = solution.is_some();
@@ -103,12 +109,13 @@ impl Sampler {
         let (recipes, draws) = (draws.clone(), DrawSource::new(&draws));
         let (graph, pivots) = (Arc::new(graph), pivots.into());
         let solution = solution.map(Arc::new);
-        Ok(Self {
+        let sampler = Self {
             seed,
             draws,
             recipes,
             graph,
             made: guarded,
+            facts,
             solution,
             pivots,
             parameter_draws,
@@ -119,7 +126,63 @@ impl Sampler {
             is_guarded,
             has_moduli,
             newton,
+            is_thin: false,
+        };
+        Ok(match sampler.is_guarded && !sampler.has_states() {
+            true => sampler.narrowed(),
+            false => sampler,
         })
+    }
+
+    /// Whether some state of the first block is known.
+    pub fn has_states(&self) -> bool {
+        let states = self.balls(0);
+        (0..TAPE_LANES).any(|lane| states.iter().all(|block| block.is_defined(lane)))
+    }
+
+    /// Makes a sampler of the states on a part of the same place, with their own distributions.
+    pub fn on_part(&self, part: &Part, recipes: Vec<Draw>) -> Result<Self, Fault> {
+        let (graph, made) = record(part.graph.inputs(), |inputs| {
+            let all: Vec<Expr> = part.made.iter().chain(&part.facts).copied().collect();
+            let reached = part.graph.reached(all.iter().copied());
+            let values = part.graph.replay(&reached, inputs, |_, _, _| None);
+            let at = |value: &Expr| values[part.graph.place(*value)];
+            let mut made = all.iter().map(at).collect::<Option<Vec<Expr>>>()?;
+            let facts = made.split_off(part.made.len());
+            let guarded = guarded(&made, facts.iter().copied());
+            Some((made, facts, guarded))
+        })?;
+        let (made, facts, guarded) = made.ok_or(Fault::ForeignValue)?;
+        Ok(Self {
+            seed: self.seed,
+            draws: DrawSource::new(&recipes),
+            recipes,
+            tape: Tape::new(&graph, &guarded),
+            unguarded: Tape::new(&graph, &made),
+            is_guarded: true,
+            has_moduli: level::has_moduli(&graph, &guarded),
+            graph: Arc::new(graph),
+            made: guarded,
+            facts,
+            solution: None,
+            pivots: Arc::new([]),
+            parameter_draws: self.parameter_draws,
+            dimension: self.dimension,
+            kept: self.kept.clone(),
+            newton: None,
+            is_thin: part.is_thin,
+        }
+        .narrowed())
+    }
+
+    /// Whether the states are a part of lower dimension than the place.
+    pub fn is_thin(&self) -> bool {
+        self.is_thin
+    }
+
+    /// Whether some draws may lead to no state.
+    pub fn is_guarded(&self) -> bool {
+        self.is_guarded
     }
 
     /// Whether the states are found numerically, with an estimated rather than a proved distance

@@ -5,10 +5,12 @@ use num_dual::DualNum;
 use crate::case::Case;
 use crate::graph::{Expr, literally};
 use crate::level::Solution;
-use crate::mechanics::{Draw, NumberLine};
+use crate::mechanics::{Draw, DrawSource, NumberLine, Range};
 use crate::number::rational::Rational;
-use crate::proof::Extent;
+use crate::proof::{Extent, narrowed};
 use crate::scalar::Scalar;
+
+use super::Sampler;
 
 /// Returns the range of a drawn number.
 pub fn extent(draw: &Draw) -> Extent {
@@ -56,6 +58,41 @@ pub fn inside(draw: &Draw) -> Option<(f64, f64)> {
         Draw::Of(NumberLine::Positive, _) => Some((f64::MIN_POSITIVE, f64::INFINITY)),
         Draw::Of(NumberLine::All, _) | Draw::OneOf(_) | Draw::Sign => None,
     }
+}
+
+impl Sampler {
+    /// Draws from those parts of the ranges alone in which bounds leave room for states.
+    pub(super) fn narrowed(mut self) -> Self {
+        let Some(extents) = narrowed(&self.graph, &self.extents(), &self.facts) else {
+            return self;
+        };
+        for (draw, extent) in self.recipes.iter_mut().zip(extents) {
+            if let (Draw::Within(range), Some(ends)) = (draw, extent.ends())
+                && let Some([low, high]) = rounded(ends)
+            {
+                let (low, high) = (low.max(range.low.clone()), high.min(range.high.clone()));
+                if low < high {
+                    *range = Range { low, high };
+                }
+            }
+        }
+        self.draws = DrawSource::new(&self.recipes);
+        self
+    }
+}
+
+/// Rounds the ends of a range outwards to short binary fractions; `None` if it is very narrow.
+fn rounded([low, high]: [f64; 2]) -> Option<[Rational; 2]> {
+    const SHARE: f64 = 1.0 / 1024.0;
+    const NARROWEST: f64 = 1e-12;
+    if high - low < NARROWEST {
+        return None;
+    }
+    // The largest power of two that is not above the share.
+    let step = f64::from_bits(((high - low) * SHARE).to_bits() & f64::INFINITY.to_bits());
+    let low = Rational::from_f64((low / step).floor() * step)?;
+    let high = Rational::from_f64((high / step).ceil() * step)?;
+    Some([low, high])
 }
 
 /// Makes parameters and state undefined where some values are negative: √x is undefined for x < 0.

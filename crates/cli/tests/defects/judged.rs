@@ -90,6 +90,18 @@ fn also(claim: &Claim, answer: &Answer) -> Result<(), String> {
             }
             _ => Ok(()),
         },
+        Some("has a remark on a part") => match answer {
+            Answer::Verdict(report)
+                if !report
+                    .evidence
+                    .remark
+                    .as_ref()
+                    .is_some_and(|own| own.starts_with("on a part")) =>
+            {
+                Err(format!("it has the remark {:?}", report.evidence.remark))
+            }
+            _ => Ok(()),
+        },
         Some("keeps its sign") if sign != Some(DensitySign::Changes) => Ok(()),
         Some("keeps its sign") => Err("it does not change its sign".to_string()),
         Some(other) => Err(format!("`{other}` is nothing to be tested")),

@@ -6,6 +6,7 @@ use std::ops::{
     Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAssign, Sub, SubAssign,
 };
 
+use super::expand::{Expanded, Side, expansion};
 use super::{Fault, Graph, NodeId, with_graph};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
@@ -100,6 +101,28 @@ impl Expr {
         })
     }
 
+    /// Whether the recorded form shows that the value is defined for no inputs. Valid only while the
+    /// recording runs.
+    pub(super) fn is_never(self) -> bool {
+        with_graph(|graph| {
+            let node = self.node_in(graph);
+            graph.is_undefined(node)
+        })
+    }
+
+    /// Returns the number to which the value was folded, if it was.
+    pub(super) fn folded(self) -> Option<Rational> {
+        with_graph(|graph| {
+            let node = self.node_in(graph);
+            graph.constant_at(node).cloned()
+        })
+    }
+
+    /// Returns the recording that the value belongs to.
+    pub(super) fn session(self) -> u32 {
+        self.session
+    }
+
     /// Whether the value was folded to 0.
     pub(super) fn is_zero_node(self) -> bool {
         with_graph(|graph| self.node_in(graph) == super::ZERO)
@@ -149,6 +172,14 @@ impl Scalar for Expr {
 
     fn is_absent(&self) -> bool {
         self.is_zero_node()
+    }
+
+    fn is_never_defined(&self) -> bool {
+        self.is_never()
+    }
+
+    fn expanded(self, variable: Self, side: Side, order: i32) -> Expanded<Self> {
+        expansion(self, variable, side, order)
     }
 
     fn gradients_of(values: &[Self], variables: &[Self]) -> Option<Vec<Vec<(usize, Self)>>> {

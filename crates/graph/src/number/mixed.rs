@@ -16,6 +16,8 @@ const MAX_BITS: u64 = 1 << 14;
 #[derive(Clone, Copy, Debug)]
 pub struct Mixed {
     balls: ArbBall,
+    /// Whether the root of a ball about 0 is supposed to exist.
+    supposes_roots: bool,
 }
 
 /// A number, or the reason why there is none.
@@ -34,7 +36,13 @@ pub enum Number {
 impl Mixed {
     /// Makes a domain of balls with midpoints of `bits` bits.
     pub fn new(bits: u32) -> Self {
-        Self { balls: ArbBall::new(bits) }
+        Self { balls: ArbBall::new(bits), supposes_roots: false }
+    }
+
+    /// Makes the same domain, except that roots of balls about 0 are supposed to exist: what is
+    /// computed holds if they do.
+    pub fn supposing_roots(bits: u32) -> Self {
+        Self { supposes_roots: true, ..Self::new(bits) }
     }
 
     fn ball(&self, x: &Number) -> Option<Approximation> {
@@ -49,7 +57,13 @@ impl Mixed {
     /// a value exists.
     fn of_ball(&self, function: UnaryFunction, x: &Number) -> Number {
         let Some(ball) = self.ball(x) else { return x.clone() };
-        match self.balls.function(function, &ball) {
+        let value = match function {
+            UnaryFunction::Sqrt if self.supposes_roots => {
+                ball.sqrt_where_real(self.balls.bits()).and_then(Approximation::in_range)
+            }
+            _ => self.balls.function(function, &ball),
+        };
+        match value {
             Some(value) => Number::Ball(value),
             None => {
                 let is_negative = ball.excludes_zero() && !ball.is_positive();
@@ -228,5 +242,21 @@ mod tests {
         assert!(matches!(at("2", |x| x.sqrt().exp()), Number::Ball(_)), "an enclosure");
         assert_eq!(at("-1", |x| x.power(&Rational::new(1, 3))), Number::Nothing, "(-1)^(1/3)");
         assert_eq!(at("4", |x| x.sqrt() - 2.0), zero, "√4 is 2");
+    }
+
+    #[test]
+    fn a_root_that_is_supposed_to_exist_is_enclosed() {
+        let domain = Mixed::supposing_roots(128);
+        let at = |x: i64, build: fn(Expr) -> Expr| {
+            let (graph, value) = record(1, |inputs| build(inputs[0])).expect("records");
+            let tape = Tape::new(&graph, &[value]);
+            let mut run = Evaluator::new(&tape, domain);
+            run.run(&[Number::Exact(Rational::from(x))]);
+            Mixed::enclosure(run.output(0), 0)
+        };
+        let near = |x: i64, build| at(x, build).is_some_and(|(mid, rad)| mid == 0.0 && rad < 1e-18);
+        assert!(near(2, |x| (x.sqrt().powi(2) * 3.0 - x.sqrt() * x.sqrt() * 3.0).sqrt()), "√0");
+        assert_eq!(at(2, |x| (x.sqrt() - 2.0).sqrt()), None, "√(√2 − 2) is none");
+        assert!(at(2, |x| x.sqrt().sqrt()).is_some_and(|(mid, _)| mid > 1.18), "√√2");
     }
 }

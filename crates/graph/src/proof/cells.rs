@@ -120,6 +120,13 @@ impl Cell {
                 rewrites.find_map(|rewrite| rewrite.value(&self.graph, place, step, values))
             });
             let (own, mut facts) = replayed(&values, &places, &facts)?;
+            for rewrite in change.rewrites {
+                if let Some((place, positive)) = rewrite.implied(&self.graph)
+                    && let Some(value) = values[place]
+                {
+                    facts.push((if positive { value } else { -value }, SignFact::NotNegative));
+                }
+            }
             if let Some((place, positive)) = change.chosen {
                 let value = values[place]?;
                 facts.push((if positive { value } else { -value }, SignFact::Positive));

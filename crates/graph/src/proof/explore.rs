@@ -3,9 +3,10 @@
 use rustc_hash::FxHashMap;
 
 use crate::graph::{Expr, Fault, Graph, Step, literally};
-use crate::number::BinaryOperation;
+use crate::number::UnaryFunction;
 
 use super::Prover;
+use super::angles::angles;
 use super::bounds::InputDistribution;
 use super::cells::{Cell, CellChange, Leaf, with_signs};
 use super::choices::{for_all_choices, unlike};
@@ -13,7 +14,7 @@ use super::classes::Classes;
 use super::digest::SeedDigest;
 use super::domain::Region;
 use super::fact::SignFact;
-use super::free_roots::zeros_for_free_roots;
+use super::free_symbols::zeros_for_free_symbols;
 use super::logarithms::Rules;
 use super::lower::Algebraic;
 use super::next::{Next, silent};
@@ -46,6 +47,8 @@ pub struct Question<'q> {
     pub groups: Vec<&'q [Expr]>,
     /// Places of roots, moduli, signs and functions that the groups need.
     pub special: &'q [usize],
+    /// Values that exist wherever the groups are asked for.
+    pub required: &'q [Expr],
 }
 
 /// A search through all cells.
@@ -63,19 +66,29 @@ pub struct Explorer<'p> {
 impl Explorer<'_> {
     /// Finds the outcome on all cells into which `cell` is divided.
     pub fn explore(&self, cell: Cell) -> Result<Explored, Fault> {
-        let count = self.question.groups.len();
         let mut explored = Explored::default();
-        let mut open = vec![(cell, 0)];
-        let mut seen = 1;
+        if self.has_many_moduli() {
+            let results = self.on_free_symbols("")?;
+            let is_zero =
+                |result: &Option<TrialResult>| matches!(result, Some(TrialResult::Zero(_)));
+            if results.iter().all(is_zero) {
+                explored.leaves.push(Leaf { cell, results });
+                return Ok(explored);
+            }
+        }
+        let (mut open, mut seen) = (vec![(cell, 0)], 1);
+        let mut beyond: Option<Vec<Option<TrialResult>>> = None;
         while let Some((cell, round)) = open.pop() {
-            let next = match round >= MOST_ROUNDS || seen > MOST_CELLS {
-                true => Next::Tested(silent(
-                    count,
-                    &format!(
+            let next = match (round >= MOST_ROUNDS || seen > MOST_CELLS, &beyond) {
+                (false, _) => self.next(&cell)?,
+                (true, Some(results)) => Next::Tested(results.clone()),
+                (true, None) => {
+                    let reason = format!(
                         "its roots and moduli have more than {MOST_CELLS} combinations of signs"
-                    ),
-                )),
-                false => self.next(&cell)?,
+                    );
+                    let results = self.on_free_symbols(&reason)?;
+                    Next::Tested(beyond.insert(results).clone())
+                }
             };
             let mut divided = |change: CellChange<'_>| -> Result<(), Fault> {
                 open.push((cell.changed(&change)?, round + 1));
@@ -102,7 +115,8 @@ impl Explorer<'_> {
                 Next::Divide { modulus, argument } => {
                     seen += 1;
                     for positive in [false, true] {
-                        let rewrites = [Rewrite::Signed { place: modulus, positive }];
+                        let rewrites =
+                            [Rewrite::Signed { place: modulus, positive, is_implied: false }];
                         let chosen = Some((argument, positive));
                         divided(CellChange {
                             rewrites: &rewrites,
@@ -115,6 +129,15 @@ impl Explorer<'_> {
             }
         }
         Ok(explored)
+    }
+
+    /// Whether the moduli have more combinations of signs than there may be cells, unless the ranges
+    /// decide some.
+    fn has_many_moduli(&self) -> bool {
+        let Question { graph, special, .. } = self.question;
+        let is_modulus =
+            |place: &&usize| matches!(graph.step(**place), Step::Unary(UnaryFunction::Abs, _));
+        1 << special.iter().filter(is_modulus).count().min(31) > MOST_CELLS
     }
 
     fn next(&self, cell: &Cell) -> Result<Next, Fault> {
@@ -130,14 +153,16 @@ impl Explorer<'_> {
         Ok(self.on_lowered(cell, &algebraic, &region, &known)?.given(related))
     }
 
-    /// Tests the groups with free symbols in the place of roots, too many to be told apart.
-    fn on_free_roots(&self, reason: &str) -> Result<Next, Fault> {
-        let Question { graph, groups, special } = self.question;
-        let zeros = zeros_for_free_roots(graph, groups, special, self.sources, self.digest)?;
+    /// Tests the groups with free symbols in the place of roots, moduli and functions, too many to be
+    /// told apart.
+    fn on_free_symbols(&self, reason: &str) -> Result<Vec<Option<TrialResult>>, Fault> {
+        let is_thin = |value| self.prover.is_nonzero_on_all_cells(self.question.graph, value);
+        let (question, inputs) = (self.question, self.sources.len());
+        let zeros = zeros_for_free_symbols(question, &is_thin, inputs, self.digest)?;
         let silent = || TrialResult::Silent(reason.to_string());
         let results =
             zeros.into_iter().map(|zero| Some(zero.map_or_else(silent, TrialResult::Zero)));
-        Ok(Next::Tested(results.collect()))
+        Ok(results.collect())
     }
 
     /// Finds the next action on a cell from its algebraic computation.
@@ -150,7 +175,7 @@ impl Explorer<'_> {
     ) -> Result<Next, Fault> {
         let graph = &cell.graph;
         if !algebraic.has_few_signs() {
-            return self.on_free_roots("it contains too many roots");
+            return Ok(Next::Tested(self.on_free_symbols("it contains too many roots")?));
         }
         let trial = Trial::new(algebraic, self.digest);
         let tower = Tower::of(graph, algebraic, &trial, self.digest);
@@ -179,6 +204,7 @@ impl Explorer<'_> {
             }
         }
         let mut open = Vec::new();
+        let evident = self.signs_at_sight(cell, algebraic);
         for modulus in &algebraic.moduli {
             if !tower.is_clean(algebraic, modulus.argument) {
                 loose.push(modulus.sign);
@@ -187,7 +213,9 @@ impl Explorer<'_> {
             let argument = graph.step(modulus.place).arguments().next().unwrap_or(modulus.place);
             match region.sign(argument) {
                 Some(positive) => {
-                    rewrites.push(Rewrite::Signed { place: modulus.place, positive });
+                    let is_implied = !evident[argument];
+                    let place = modulus.place;
+                    rewrites.push(Rewrite::Signed { place, positive, is_implied });
                 }
                 None => match self.vanishes(&trial, &tower, modulus.argument) {
                     Some(own) => {
@@ -199,6 +227,9 @@ impl Explorer<'_> {
             }
         }
         if rewrites.is_empty() {
+            rewrites = angles(graph, &cell.values);
+        }
+        if rewrites.is_empty() {
             let (sources, digest) = (self.sources, self.digest);
             let rules = Rules { graph, algebraic, sources, digest };
             let found = rules.find(&cell.values);
@@ -207,8 +238,28 @@ impl Explorer<'_> {
         if !rewrites.is_empty() {
             return Ok(Next::Rewrite(rewrites, certificate));
         }
-        self.divide(cell, algebraic, &trial, &tower, open)
-            .map_or_else(|| self.test(cell, algebraic, &trial, &tower, &loose, known), Ok)
+        if let Some(next) = self.divide(cell, algebraic, &trial, &tower, open) {
+            return Ok(next);
+        }
+        let tested = self.test(cell, algebraic, &trial, &tower, &loose, known)?;
+        let is_zero =
+            |result: &Option<TrialResult>| matches!(result, None | Some(TrialResult::Zero(_)));
+        Ok(match (&tested, self.sign_of(cell, algebraic, &loose)) {
+            (Next::Tested(results), Some(input)) if !results.iter().all(is_zero) => {
+                Next::DivideInput(input)
+            }
+            _ => tested,
+        })
+    }
+
+    /// Marks the arguments of moduli whose signs follow from the ranges of the inputs, without facts.
+    fn signs_at_sight(&self, cell: &Cell, algebraic: &Algebraic<'_>) -> Vec<bool> {
+        let (graph, inputs) = (&cell.graph, self.prover.extents);
+        let classes = &Classes::default();
+        let moduli = algebraic.moduli.iter();
+        let arguments: Vec<usize> =
+            moduli.filter_map(|modulus| graph.step(modulus.place).arguments().next()).collect();
+        Region { graph, inputs, facts: &[], classes }.at_sight(&arguments)
     }
 
     /// Tests whether a value with independent roots alone vanishes identically; returns the
@@ -221,59 +272,6 @@ impl Explorer<'_> {
         }
     }
 
-    /// Finds the signs of moduli that are still open, or divides by one of them or by an input.
-    fn divide(
-        &self,
-        cell: &Cell,
-        algebraic: &Algebraic<'_>,
-        trial: &Trial<'_>,
-        tower: &Tower,
-        open: Vec<(usize, usize)>,
-    ) -> Option<Next> {
-        if let Some((modulus, argument)) = open.first().copied() {
-            let classes = Classes::of(algebraic, trial, tower, self.digest);
-            let (known, inputs) = (cell.known(), self.prover.extents);
-            let region = Region { graph: &cell.graph, inputs, facts: &known, classes: &classes };
-            if cell.is_part() && region.is_empty() {
-                return Some(Next::Empty(classes.certificate));
-            }
-            let signs = open.iter().filter_map(|(place, argument)| {
-                let positive = region.sign(*argument)?;
-                Some(Rewrite::Signed { place: *place, positive })
-            });
-            let rewrites: Vec<Rewrite> = signs.collect();
-            if !rewrites.is_empty() {
-                return Some(Next::Rewrite(rewrites, classes.certificate));
-            }
-            return Some(Next::Divide { modulus, argument });
-        }
-        let Question { graph, groups, special } = self.question;
-        let outputs = groups.iter().flat_map(|group| group.iter().copied());
-        let reached = graph.reached(outputs);
-        let mut signs = special.iter().filter_map(|place| match graph.step(*place) {
-            Step::Input(input) if cell.fixed.iter().all(|(fixed, _)| *fixed != input) => {
-                Some((*place, input))
-            }
-            _ => None,
-        });
-        let is_root = |place: usize| {
-            let own = special.iter().position(|own| *own == place);
-            own.and_then(|own| algebraic.values[cell.graph.place(cell.values[own])])
-                .is_some_and(|value| tower.is_independent_root(algebraic, value))
-        };
-        // The sign of an independent root is random already.
-        let is_absorbed = |sign: usize| {
-            let steps = graph.steps().enumerate().filter(|(place, _)| reached[*place]);
-            let mut users =
-                steps.filter(|(_, step)| step.arguments().any(|argument| argument == sign));
-            users.all(|(_, step)| match step {
-                Step::Binary(BinaryOperation::Mul, a, b) => is_root(if a == sign { b } else { a }),
-                _ => false,
-            })
-        };
-        signs.find(|(place, _)| !is_absorbed(*place)).map(|(_, input)| Next::DivideInput(input))
-    }
-
     /// Tests all groups, with all choices of unknown signs.
     fn test(
         &self,
@@ -284,14 +282,14 @@ impl Explorer<'_> {
         loose: &[usize],
         known: &[(usize, SignFact)],
     ) -> Result<Next, Fault> {
-        let Question { graph, groups, special } = self.question;
+        let Question { graph, groups, special, .. } = self.question;
         let all_silent = |reason: &str| Ok(Next::Tested(silent(groups.len(), reason)));
         if tower.standings.contains(&RootStatus::Unreached) {
             return all_silent("a root never exists at random points, or is reached too rarely");
         }
         if loose.len() > MOST_CHOICES {
             let reason = format!("{} roots or moduli depend on others", loose.len());
-            return self.on_free_roots(&reason);
+            return Ok(Next::Tested(self.on_free_symbols(&reason)?));
         }
         if cell.values.iter().any(|value| is_lost(cell, algebraic, *value)) {
             return all_silent("a function has no value in a prime field");

@@ -15,25 +15,29 @@
 //! | `tower`, `characters` | certificates of independence for roots |
 //! | `roots`, `squares`, `nested`, `polynomial` | dependent roots and their expressions |
 //! | `logarithms`, `powers` | rules of logarithms, powers and exponentials |
-//! | `free_roots` | symbols in the place of very many roots |
-//! | `explore`, `next`, `cells`, `rewrite` | the cells of signs, and proofs on each |
+//! | `free_symbols` | symbols in the place of very many roots, moduli and functions |
+//! | `buckets` | values that are proved together |
+//! | `explore`, `division`, `next`, `cells`, `rewrite` | the cells of signs, and proofs on each |
 //! | `domain`, `fact`, `classes`, `extent` | signs of values over the ranges of the inputs |
 //! | `elimination`, `rank`, `reconstruct`, `coprime` | linear algebra and polynomials modulo a prime |
 
+mod angles;
 mod bounds;
 mod branches;
+mod buckets;
 mod cells;
 mod characters;
 mod choices;
 mod classes;
 mod coprime;
 mod digest;
+mod division;
 mod domain;
 mod elimination;
 mod explore;
 mod extent;
 mod fact;
-mod free_roots;
+mod free_symbols;
 mod logarithms;
 mod lower;
 mod nested;
@@ -59,26 +63,25 @@ mod trial;
 #[cfg(test)]
 mod tests;
 
-use std::sync::Arc;
-
 pub use bounds::InputDistribution;
 pub use coprime::{are_coprime, are_polynomials, is_single_valued};
 pub use digest::statement_seed;
-pub use domain::{is_nowhere_zero, sign};
+pub use domain::{KnownSign, is_nowhere_zero, narrowed, point, sign};
 pub use elimination::reduce;
 pub use extent::Extent;
 pub use fact::SignFact;
+pub use nested::SquareRoot;
 pub use outcome::{GroupOutcome, InputRegion, InputRegions};
 pub use plain::plain_bounds;
 pub use polynomials::{PolynomialBounds, polynomial_bounds};
 pub use reconstruct::reconstruct;
 pub use rewrite::conditions;
 pub use rng::ProofRng;
-pub use trial::Certificate;
+pub use trial::{Certificate, fewest};
 
-use crate::graph::{Expr, Fault, Graph, Step};
-use crate::number::{BinaryOperation, UnaryFunction};
+use crate::graph::{Expr, Fault, Graph};
 
+use buckets::{Bucket, buckets, combined, part};
 use cells::{Cell, Leaf};
 use digest::SeedDigest;
 use explore::{Explored, Explorer, Question};
@@ -104,6 +107,8 @@ pub struct Group {
     pub outputs: Vec<Expr>,
     /// Values that exist wherever the claim is to hold.
     pub required: Vec<Expr>,
+    /// Values that are not negative wherever the claim is to hold.
+    pub facts: Vec<Expr>,
     /// Values without which the claim has no meaning; they need not be zero.
     pub presence: Vec<Expr>,
 }
@@ -128,7 +133,7 @@ impl Prover<'_> {
                 members.iter().map(|index| groups[*index].outputs.as_slice()).collect();
             let found = match bucket.special.is_empty() {
                 true => self.prove_plain(&question, &asked),
-                false => combined(self.explore(&question, &asked, &bucket)?, members.len()),
+                false => combined(self.explore(&question, &asked, &bucket)?, &bucket),
             };
             for (index, (outcome, is_partial)) in members.iter().zip(found) {
                 let is_doubtful = is_partial || !groups[*index].presence.is_empty();
@@ -164,6 +169,29 @@ impl Prover<'_> {
         Ok(!leaves.is_empty() && leaves.iter().all(is_nonzero))
     }
 
+    /// Finds parts of the inputs on which some value of a group is not identically zero, and on which
+    /// the signs of all moduli in the required values are fixed; none if that is not known.
+    pub fn nonzero_parts(&self, graph: &Graph, group: &Group) -> Result<Vec<InputRegion>, Fault> {
+        let Group { outputs, required, facts, .. } = group;
+        let digest = SeedDigest::of(self.seed, graph, std::slice::from_ref(outputs));
+        let question = QuestionData { graph, sources: self.sources_of(graph), digest };
+        let outputs_and_required = [&outputs[..], required].concat();
+        let wide = Group {
+            outputs: outputs_and_required,
+            required: required.clone(),
+            facts: facts.clone(),
+            ..Group::default()
+        };
+        let Some(bucket) = buckets(graph, &[wide], &question.sources).pop() else {
+            return Ok(Vec::new());
+        };
+        let leaves = self.explore(&question, &[outputs.as_slice()], &bucket)?.leaves;
+        let is_nonzero =
+            |leaf: &Leaf| matches!(leaf.results.first(), Some(Some(TrialResult::NonZero)));
+        let parts = leaves.into_iter().filter(is_nonzero);
+        Ok(parts.map(|leaf| part(leaf.cell)).collect())
+    }
+
     fn explore(
         &self,
         question: &QuestionData<'_>,
@@ -172,7 +200,8 @@ impl Prover<'_> {
     ) -> Result<Explored, Fault> {
         let QuestionData { graph, sources, digest } = question;
         let cell = Cell::whole(graph, &bucket.special, &bucket.facts)?;
-        let question = &Question { graph, groups: groups.to_vec(), special: &bucket.special };
+        let (special, required) = (&bucket.special, &bucket.required);
+        let question = &Question { graph, groups: groups.to_vec(), special, required };
         Explorer { question, prover: self, sources, digest: *digest }.explore(cell)
     }
 
@@ -186,7 +215,7 @@ impl Prover<'_> {
         outcome: GroupOutcome,
     ) -> Result<GroupOutcome, Fault> {
         let QuestionData { graph, sources, .. } = question;
-        let Group { outputs, required, presence } = group;
+        let Group { outputs, required, facts, presence } = group;
         if required.is_empty() && presence.is_empty() {
             return Ok(outcome);
         }
@@ -194,6 +223,7 @@ impl Prover<'_> {
         let wide = Group {
             outputs: [&own[..], required].concat(),
             required: required.clone(),
+            facts: facts.clone(),
             presence: Vec::new(),
         };
         let asked: &[&[Expr]] = if required.is_empty() { &[&own] } else { &[&own, required] };
@@ -263,111 +293,4 @@ struct QuestionData<'q> {
     graph: &'q Graph,
     sources: Vec<InputDistribution>,
     digest: SeedDigest,
-}
-
-/// Groups that are proved together.
-struct Bucket {
-    /// Places of the non-rational steps that they need.
-    special: Vec<usize>,
-    /// Facts about values, wherever the claim is to hold.
-    facts: Vec<(Expr, SignFact)>,
-    /// Indices of the groups.
-    members: Vec<usize>,
-}
-
-/// Sorts groups by the non-rational steps that they need and by the facts; in the order of the
-/// first member of each.
-fn buckets(graph: &Graph, groups: &[Group], sources: &[InputDistribution]) -> Vec<Bucket> {
-    let is_special = |step: Step<'_>| match step {
-        Step::Constant(_) => false,
-        Step::Input(input) => sources.get(input) == Some(&InputDistribution::Sign),
-        Step::Unary(function, _) => !matches!(function, UnaryFunction::Neg | UnaryFunction::Recip),
-        Step::Binary(operation, ..) => operation == BinaryOperation::Pow,
-        Step::Power(_, exponent) => exponent.to_integer().is_none(),
-    };
-    let special: Vec<usize> =
-        (0..graph.len()).filter(|place| is_special(graph.step(*place))).collect();
-    let mut buckets: Vec<Bucket> = Vec::new();
-    for (index, group) in groups.iter().enumerate() {
-        let own: Vec<usize> = match special.is_empty() {
-            true => Vec::new(),
-            false => {
-                let reached = graph.reached(group.outputs.iter().copied());
-                special.iter().copied().filter(|place| reached[*place]).collect()
-            }
-        };
-        let is_same = |bucket: &&mut Bucket| {
-            let required = |index: &usize| &groups[*index].required;
-            bucket.special == own
-                && (own.is_empty() || required(&bucket.members[0]) == &group.required)
-        };
-        match buckets.iter_mut().find(is_same) {
-            Some(bucket) => bucket.members.push(index),
-            None => {
-                let facts = match own.is_empty() {
-                    true => Vec::new(),
-                    false => {
-                        let reached = graph.reached(group.required.iter().copied());
-                        let facts = conditions(graph, &reached).into_iter();
-                        facts.map(|(place, fact)| (graph.at(place), fact)).collect()
-                    }
-                };
-                buckets.push(Bucket { special: own, facts, members: vec![index] });
-            }
-        }
-    }
-    buckets
-}
-
-/// Combines the findings on all cells for each group; the flag tells whether the group is undefined
-/// on some cell.
-fn combined(explored: Explored, count: usize) -> Vec<(GroupOutcome, bool)> {
-    let Explored { leaves, certificate } = explored;
-    let of_group = |index: usize| {
-        let results = || leaves.iter().filter_map(move |leaf| leaf.results[index].as_ref());
-        let is_nonzero =
-            |result: &Option<TrialResult>| matches!(result, Some(TrialResult::NonZero));
-        if leaves.iter().any(|leaf| is_nonzero(&leaf.results[index])) {
-            return GroupOutcome::NonZero(InputRegions::default());
-        }
-        let mut all: Option<Certificate> = None;
-        for result in results() {
-            match result {
-                TrialResult::Zero(certificate) => all = trial::both(all, Some(*certificate)),
-                TrialResult::Silent(reason) => return GroupOutcome::Silent(reason.clone()),
-                TrialResult::NonZero => {}
-            }
-        }
-        match all {
-            Some(all) => GroupOutcome::Zero(certificate.map_or(all, |dropped| all.and(dropped))),
-            None => GroupOutcome::Void,
-        }
-    };
-    let mut outcomes: Vec<GroupOutcome> = (0..count).map(of_group).collect();
-    // A group that is not zero on the whole needs no parts; others keep those on which they are not
-    // zero.
-    let is_nonzero = |leaf: &Leaf, index: usize| {
-        leaf.cell.is_part() && matches!(leaf.results[index], Some(TrialResult::NonZero))
-    };
-    let of_group = |index: usize| {
-        let numbers = (0..leaves.len()).filter(|number| is_nonzero(&leaves[*number], index));
-        numbers.collect::<Vec<usize>>()
-    };
-    let parts: Vec<Vec<usize>> = (0..count).map(of_group).collect();
-    let is_partial: Vec<bool> =
-        (0..count).map(|index| leaves.iter().any(|leaf| leaf.results[index].is_none())).collect();
-    let shared: Vec<Arc<InputRegion>> =
-        leaves.into_iter().map(|leaf| Arc::new(part(leaf.cell))).collect();
-    for (outcome, own) in outcomes.iter_mut().zip(parts) {
-        if outcome.is_nonzero() && !own.is_empty() {
-            let parts = own.into_iter().map(|number| Arc::clone(&shared[number])).collect();
-            *outcome = GroupOutcome::NonZero(InputRegions(Some(parts)));
-        }
-    }
-    outcomes.into_iter().zip(is_partial).collect()
-}
-
-fn part(cell: Cell) -> InputRegion {
-    let positive = cell.signs().map(|place| cell.graph.at(place)).collect();
-    InputRegion { positive, signs: cell.fixed, graph: cell.graph }
 }

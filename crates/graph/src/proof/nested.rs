@@ -45,6 +45,33 @@ pub enum DenestedRoot {
     },
 }
 
+/// A value that is c b² with a number c and a quotient b of polynomials in values at places.
+#[derive(Clone, Debug)]
+pub struct SquareRoot {
+    scale: Rational,
+    root: Fraction,
+}
+
+impl SquareRoot {
+    /// Finds the square that a value is, if it is one.
+    pub fn of(graph: &Graph, value: Expr) -> Option<Self> {
+        let (scale, root) = product(graph, &[graph.place(value)], &variable)?.square()?;
+        Some(Self { scale, root })
+    }
+
+    /// Whether the value is nowhere positive.
+    pub fn is_negative(&self) -> bool {
+        self.scale.is_negative()
+    }
+
+    /// Records √c b, one of the two roots of the value where c is not negative, from the values at
+    /// places.
+    pub fn value(&self, at: impl Fn(usize) -> Option<Expr>) -> Option<Expr> {
+        let scale = Expr::rational(&self.scale).apply(UnaryFunction::Sqrt);
+        Some(scale * self.root.value(&|variable: u32| at(variable as usize))?)
+    }
+}
+
 /// Denests the root of the product of the values at some places, if it is a square or has the form
 /// of a sum.
 pub fn written(graph: &Graph, places: &[usize]) -> Option<DenestedRoot> {

@@ -53,9 +53,7 @@ impl InputRegion {
                 *extent = extent.within(*positive);
             }
         }
-        let positive: Vec<usize> =
-            self.positive.iter().map(|value| self.graph.place(*value)).collect();
-        domain::point(&self.graph, &inputs, &positive)
+        domain::point(&self.graph, &inputs, &self.positive)
     }
 }
 

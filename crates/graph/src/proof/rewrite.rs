@@ -7,6 +7,7 @@ use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
 use crate::scalar::Scalar;
 
+use super::angles::Angle;
 use super::fact::SignFact;
 use super::nested::DenestedRoot;
 use super::powers::{Logarithm, split_exponential};
@@ -30,6 +31,9 @@ pub enum Rewrite {
         place: usize,
         /// Whether |X| is X.
         positive: bool,
+        /// Whether this holds only because of the facts, so that it is a fact itself: a radicand
+        /// that becomes 0 by it does not say so any more.
+        is_implied: bool,
     },
     /// |X| is 0.
     Vanishing {
@@ -74,6 +78,13 @@ pub enum Rewrite {
         /// Places of the ln X_j.
         logarithms: Vec<usize>,
     },
+    /// sin E and cos E, by arctangents in E.
+    Angle {
+        /// Place of E.
+        argument: usize,
+        /// E as a sum.
+        angle: Angle,
+    },
 }
 
 impl Rewrite {
@@ -95,6 +106,16 @@ impl Rewrite {
         }
     }
 
+    /// Returns the place of X with its sign, if the replacement of |X| rests on facts.
+    pub fn implied(&self, graph: &Graph) -> Option<(usize, bool)> {
+        match self {
+            Rewrite::Signed { place, positive, is_implied: true } => {
+                graph.step(*place).arguments().next().map(|argument| (argument, *positive))
+            }
+            _ => None,
+        }
+    }
+
     /// Records the value of a step from the values at places, if the step is replaced.
     pub fn value(
         &self,
@@ -104,7 +125,7 @@ impl Rewrite {
         values: &[Option<Expr>],
     ) -> Option<Expr> {
         match (self, step) {
-            (Rewrite::Signed { place: own, positive }, Step::Unary(UnaryFunction::Abs, a)) => {
+            (Rewrite::Signed { place: own, positive, .. }, Step::Unary(UnaryFunction::Abs, a)) => {
                 let value = values[a].filter(|_| *own == place)?;
                 Some(if *positive { value } else { -value })
             }
@@ -161,6 +182,13 @@ impl Rewrite {
             (Rewrite::Exponential { argument, logarithms }, step) => match step {
                 Step::Unary(UnaryFunction::Exp, a) if a == *argument => {
                     split_exponential(graph, a, logarithms, values)
+                }
+                _ => None,
+            },
+            (Rewrite::Angle { argument, angle }, step) => match step {
+                Step::Unary(function @ (UnaryFunction::Sin | UnaryFunction::Cos), a) => {
+                    let is_sine = function == UnaryFunction::Sin;
+                    angle.value(is_sine, values).filter(|_| a == *argument)
                 }
                 _ => None,
             },

@@ -220,6 +220,17 @@ impl Approximation {
         Some(Self::new(quotient, radius, exponent, bits))
     }
 
+    /// Encloses √x for those x of the interval that are not negative, if there are any.
+    pub fn sqrt_where_real(&self, bits: u32) -> Option<Self> {
+        let upper = Self::exact(&self.mantissa + BigInt::from(self.radius), self.exponent);
+        if self.excludes_zero() || upper.mantissa.is_negative() {
+            return self.sqrt(bits);
+        }
+        let root = upper.sqrt(bits)?;
+        let radius = root.mantissa.magnitude() + BigUint::from(root.radius);
+        Some(Self::new(BigInt::zero(), radius, root.exponent, bits))
+    }
+
     /// Computes √x, unless a negative number is in the interval.
     pub fn sqrt(&self, bits: u32) -> Option<Self> {
         if self.is_zero() {

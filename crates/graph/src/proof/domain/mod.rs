@@ -19,7 +19,7 @@ mod search;
 #[cfg(test)]
 mod tests;
 
-pub use search::{is_nowhere_zero, point, sign};
+pub use search::{is_nowhere_zero, narrowed, point, sign};
 
 use crate::graph::{Graph, Step};
 
@@ -29,6 +29,15 @@ use super::fact::SignFact;
 
 /// Largest number of parts of the box on which one value is bounded.
 const MOST_PARTS: usize = 64;
+
+/// The sign of a value wherever it exists.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct KnownSign {
+    /// Whether the value is never negative; otherwise it is never positive.
+    pub is_positive: bool,
+    /// Whether it is not known to be different from 0.
+    pub may_vanish: bool,
+}
 
 /// The real inputs within some extents at which facts hold.
 pub struct Region<'r> {
@@ -74,9 +83,14 @@ impl Region<'_> {
     /// Finds the sign of the value at a place over the region, wherever it exists, where 0 counts
     /// as either sign; `None` if unknown.
     pub fn sign(&self, place: usize) -> Option<bool> {
+        self.known_sign(place).map(|known| known.is_positive)
+    }
+
+    /// Finds the same, and whether the value may be 0.
+    pub fn known_sign(&self, place: usize) -> Option<KnownSign> {
         let reached = self.reached(&[place]);
         let used = self.inputs_of(&reached);
-        let mut known: Option<bool> = None;
+        let (mut known, mut may_vanish): (Option<bool>, bool) = (None, false);
         let mut parts = vec![(self.whole(), 0)];
         let mut looked = 0;
         while let Some((part, depth)) = parts.pop() {
@@ -86,14 +100,17 @@ impl Region<'_> {
             match (extent.sign(), known) {
                 _ if extent.is_empty() => {}
                 (Some(sign), Some(before)) if sign != before => return None,
-                (Some(sign), _) => known = Some(sign),
+                (Some(sign), _) => {
+                    known = Some(sign);
+                    may_vanish |= !extent.excludes_zero();
+                }
                 (None, _) => match self.cut(&used, part, depth) {
                     Some(halves) if looked + parts.len() + 2 <= MOST_PARTS => parts.extend(halves),
                     _ => return None,
                 },
             }
         }
-        known
+        known.map(|is_positive| KnownSign { is_positive, may_vanish })
     }
 
     /// Marks the places whose sign follows from bounds on the whole region.
@@ -128,15 +145,18 @@ impl Region<'_> {
         whole
     }
 
-    /// Halves a part along one input after the other.
+    /// Halves a part along one input after the other, without those that are single numbers.
     fn cut(
         &self,
         used: &[usize],
         part: Vec<Extent>,
         depth: usize,
     ) -> Option<[(Vec<Extent>, usize); 2]> {
-        let input = *used.get(depth % used.len().max(1))?;
-        let (low, high) = part[input].halves()?;
+        let mut depths = depth..depth + used.len();
+        let (depth, input, (low, high)) = depths.find_map(|depth| {
+            let input = used[depth % used.len()];
+            Some((depth, input, part[input].halves()?))
+        })?;
         let (mut lower, mut upper) = (part.clone(), part);
         (lower[input], upper[input]) = (low, high);
         Some([(upper, depth + 1), (lower, depth + 1)])

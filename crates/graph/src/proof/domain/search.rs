@@ -8,7 +8,7 @@ use crate::proof::extent::Extent;
 use crate::proof::fact::SignFact;
 use crate::proof::rewrite::conditions;
 
-use super::Region;
+use super::{KnownSign, Region};
 
 /// Largest number of parts of the box used to show that a value does not vanish.
 const MOST_PIECES: usize = 1 << 12;
@@ -17,7 +17,8 @@ const MOST_BOXES: usize = 1 << 12;
 
 /// Searches for a point inside the extents of some inputs at which some values are positive,
 /// whatever the others do; `None` if none is found.
-pub fn point(graph: &Graph, inputs: &[Extent], positive: &[usize]) -> Option<Vec<f64>> {
+pub fn point(graph: &Graph, inputs: &[Extent], positive: &[Expr]) -> Option<Vec<f64>> {
+    let positive: Vec<usize> = positive.iter().map(|value| graph.place(*value)).collect();
     let facts: Vec<(usize, SignFact)> =
         positive.iter().map(|place| (*place, SignFact::Positive)).collect();
     let classes = Classes::default();
@@ -84,10 +85,34 @@ pub fn is_nowhere_zero(
     open.is_empty()
 }
 
-/// Finds the sign of a value at all inputs inside their extents at which some values exist, where 0
-/// counts as either sign; `None` if unknown.
-pub fn sign(graph: &Graph, inputs: &[Extent], required: &[Expr], value: Expr) -> Option<bool> {
-    let facts = conditions(graph, &graph.reached(required.iter().copied()));
+/// Narrows the extents of inputs to what contains all those at which some values are not negative;
+/// `None` if there are none.
+pub fn narrowed(graph: &Graph, inputs: &[Extent], not_negative: &[Expr]) -> Option<Vec<Extent>> {
     let classes = Classes::default();
-    Region { graph, inputs, facts: &facts, classes: &classes }.sign(graph.place(value))
+    let fact = |value: &Expr| (graph.place(*value), SignFact::NotNegative);
+    let facts: Vec<(usize, SignFact)> = not_negative.iter().map(fact).collect();
+    let region = Region { graph, inputs, facts: &facts, classes: &classes };
+    let (reached, mut whole) = (region.reached(&[]), region.whole());
+    let bounds = region.bounds(&reached, &whole)?;
+    for place in reached {
+        if let Step::Input(input) = graph.step(place) {
+            whole[input] = whole[input].common(bounds[place]);
+        }
+    }
+    Some(whole)
+}
+
+/// Finds the sign of a value at all inputs inside their extents at which some values exist and others
+/// are not negative, where 0 counts as either sign; `None` if unknown.
+pub fn sign(
+    graph: &Graph,
+    inputs: &[Extent],
+    required: &[Expr],
+    not_negative: &[Expr],
+    value: Expr,
+) -> Option<KnownSign> {
+    let mut facts = conditions(graph, &graph.reached(required.iter().copied()));
+    facts.extend(not_negative.iter().map(|value| (graph.place(*value), SignFact::NotNegative)));
+    let classes = Classes::default();
+    Region { graph, inputs, facts: &facts, classes: &classes }.known_sign(graph.place(value))
 }

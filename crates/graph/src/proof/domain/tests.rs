@@ -89,7 +89,7 @@ fn contradictions_are_seen() {
     let one = &facts[..1];
     let region = Region { graph: &graph, inputs: &inputs, facts: one, classes: &classes };
     assert!(!region.is_empty(), "x > y alone");
-    let inside = point(&graph, &inputs, &[facts[0].0]).expect("a point");
+    let inside = point(&graph, &inputs, &[graph.at(facts[0].0)]).expect("a point");
     assert!(inside[0] > inside[1], "{inside:?}");
 }
 

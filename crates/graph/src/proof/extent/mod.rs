@@ -56,6 +56,11 @@ impl Extent {
         Self { low: low.next_down(), high: high.next_up() }
     }
 
+    /// Returns the ends, if they are finite.
+    pub fn ends(self) -> Option<[f64; 2]> {
+        (self.low.is_finite() && self.high.is_finite()).then_some([self.low, self.high])
+    }
+
     /// Whether the interval is empty.
     pub fn is_empty(self) -> bool {
         self.low > self.high

@@ -36,7 +36,7 @@ impl Certificate {
 }
 
 /// Returns the smaller number of points; 0 counts as missing.
-fn fewest(a: usize, b: usize) -> usize {
+pub fn fewest(a: usize, b: usize) -> usize {
     if a == 0 || b == 0 { a.max(b) } else { a.min(b) }
 }
 

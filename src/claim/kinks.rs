@@ -1,0 +1,73 @@
+//! Kinks of a body's surface, which the criterion for a density takes for smooth.
+
+use num_dual::DualNum;
+use num_traits::One;
+
+use crate::graph::{Expr, Graph, Step, record};
+use crate::mechanics::{Draw, Model, NORMAL, NumberLine, Phase};
+use crate::number::rational::Rational;
+use crate::number::{BinaryOperation, UnaryFunction};
+use crate::proof::{Extent, is_nowhere_zero};
+
+/// Returns the remark for a body whose radii of curvature are not known to be smooth functions of γ.
+pub(super) fn remark(model: &Model) -> Option<String> {
+    let body = model.system.body()?;
+    let mut extents: Vec<Extent> = model.parameter_draws().iter().map(extent).collect();
+    let unit = Extent::between(&Rational::from(-1), &Rational::from(1));
+    extents.extend([unit; 3]);
+    let recorded = record(extents.len(), |inputs| {
+        let (free, gamma) = model.make_parameters(inputs);
+        let mut state = vec![Expr::one(); model.dimension()];
+        let place = 3 * NORMAL;
+        state.get_mut(place..place + 3)?.copy_from_slice(gamma);
+        let phase = Phase::new(model, &free, &state);
+        let (sum, product) = body.radii(&phase.configuration);
+        let square = gamma.iter().fold(-Expr::one(), |sum, x| sum + x.powi(2));
+        Some(([sum, product], [square, -square]))
+    });
+    let (graph, (radii, sphere)) = match recorded {
+        Ok((graph, Some(found))) => (graph, found),
+        _ => return None,
+    };
+    let is_smooth = corners(&graph, &radii)
+        .iter()
+        .all(|value| is_nowhere_zero(&graph, &extents, &sphere, &[*value]));
+    (!is_smooth).then(|| {
+        "it is not known that the surface is smooth for all γ: the density is positive and smooth where \
+         the support function is"
+            .to_string()
+    })
+}
+
+/// Lists the values whose zeros are poles or corners of others.
+fn corners(graph: &Graph, values: &[Expr]) -> Vec<Expr> {
+    let reached = graph.reached(values.iter().copied());
+    let steps = graph.steps().zip(&reached).filter(|(_, reached)| **reached);
+    let corner = |(step, _): (Step<'_>, &bool)| match step {
+        Step::Unary(
+            UnaryFunction::Recip | UnaryFunction::Sqrt | UnaryFunction::Abs | UnaryFunction::Ln,
+            a,
+        )
+        | Step::Binary(BinaryOperation::Pow, a, _) => Some(a),
+        Step::Power(a, exponent) if exponent.to_integer().is_none() || exponent.is_negative() => {
+            Some(a)
+        }
+        _ => None,
+    };
+    let found = steps.filter_map(corner);
+    found.filter(|a| !matches!(graph.step(*a), Step::Constant(_))).map(|a| graph.at(a)).collect()
+}
+
+/// Returns the range of a drawn number.
+fn extent(draw: &Draw) -> Extent {
+    match draw {
+        Draw::Within(range) => Extent::between(&range.low, &range.high),
+        Draw::Of(NumberLine::Positive, _) => Extent::POSITIVE,
+        Draw::Of(NumberLine::All, _) => Extent::ALL,
+        Draw::OneOf(values) => match (values.iter().min(), values.iter().max()) {
+            (Some(least), Some(most)) => Extent::between(least, most),
+            _ => Extent::ALL,
+        },
+        Draw::Sign => Extent::SIGN,
+    }
+}

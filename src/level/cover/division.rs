@@ -1,0 +1,42 @@
+//! The choice of the next division of a node.
+
+use super::Cover;
+use super::node::Node;
+use super::solving::Coefficients;
+use crate::graph::Fault;
+
+impl Cover<'_> {
+    /// Divides a node by one of its equations, one with as few free draws as possible; `None` if none
+    /// of them is known to divide it.
+    pub(super) fn divided(&self, node: &Node) -> Result<Option<Vec<Node>>, Fault> {
+        let contained = |index: usize| -> Vec<usize> {
+            let inputs = node.graph.inputs_of(node.equations[index]);
+            inputs.into_iter().filter(|input| node.free.contains(input)).collect()
+        };
+        let mut order: Vec<(Vec<usize>, usize)> =
+            (0..node.equations.len()).map(|index| (contained(index), index)).collect();
+        order.sort_by_key(|(inputs, index)| (inputs.len(), *index));
+        for (inputs, index) in order {
+            if let Some(factors) = node.factors(index) {
+                return Ok(Some(factors));
+            }
+            // The last coordinates are preferred, as where a level has one solution.
+            let mut ways: Vec<(usize, Coefficients)> = Vec::new();
+            for draw in inputs.into_iter().rev() {
+                if let Some(found) = Coefficients::of(node, index, draw)? {
+                    ways.push((found.cost(self), found));
+                }
+            }
+            ways.sort_by_key(|(cost, _)| *cost);
+            for (_, way) in ways {
+                if let Some(children) = way.solutions(self, node)? {
+                    return Ok(Some(children));
+                }
+            }
+            if let Some(children) = node.by_sign(index)? {
+                return Ok(Some(children));
+            }
+        }
+        Ok(None)
+    }
+}

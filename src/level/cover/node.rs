@@ -1,0 +1,206 @@
+//! A node of the division: points that satisfy equations, with coordinates that are free.
+
+use std::sync::Arc;
+
+use super::{Cover, Part};
+use crate::graph::{Expr, Fault, Graph, Step, record};
+use crate::mechanics::{Draw, Phase};
+use crate::number::rational::Rational;
+use crate::number::{BinaryOperation, UnaryFunction};
+use crate::scalar::Scalar;
+
+/// Points with free coordinates at which equations hold and facts are not negative.
+#[derive(Clone)]
+pub struct Node {
+    /// Graph over the draws.
+    pub graph: Arc<Graph>,
+    /// Components of the free parameters, followed by those of the state.
+    pub made: Vec<Expr>,
+    /// Values that are 0.
+    pub equations: Vec<Expr>,
+    /// Values that are not negative.
+    pub facts: Vec<Expr>,
+    /// Draws that can be solved for.
+    pub free: Vec<usize>,
+    /// Number of draws that were solved for.
+    pub solved: usize,
+}
+
+/// A change of a node.
+pub struct Change<'c> {
+    /// Equation that is left out.
+    pub dropped: Option<usize>,
+    /// Draw that is solved for.
+    pub solved: Option<usize>,
+    /// Step with another value.
+    pub replaced: Option<(usize, &'c dyn Fn(&[Option<Expr>]) -> Option<Expr>)>,
+}
+
+/// Further equations and facts of a changed node, and the value of the draw that is solved for.
+#[derive(Default)]
+pub struct Additions {
+    pub value: Option<Expr>,
+    pub equations: Vec<Expr>,
+    pub facts: Vec<Expr>,
+}
+
+impl Node {
+    /// Makes the node of all points at which the equations of a level hold; `None` if they contain
+    /// antiderivatives.
+    pub fn whole(cover: &Cover<'_>) -> Result<Option<Self>, Fault> {
+        let model = cover.model;
+        let (graph, (made, equations)) = record(cover.draws.len(), |inputs| {
+            let mut inputs = inputs.to_vec();
+            for (input, value) in inputs.iter_mut().zip(cover.fixed) {
+                if let Some(value) = value {
+                    *input = Expr::rational(value);
+                }
+            }
+            let (parameters, state) = model.make_parameters(&inputs);
+            let phase = Phase::new(model, &parameters, state);
+            let kept = model.level.iter().zip(cover.kept).filter(|(_, kept)| **kept);
+            let equations = kept.map(|(equation, _)| phase.level_function(&equation.function));
+            let equations: Vec<Expr> = equations.collect();
+            let made: Vec<Expr> = parameters.iter().chain(state).copied().collect();
+            (made, equations)
+        })?;
+        if graph.inputs() > cover.draws.len() {
+            return Ok(None);
+        }
+        let is_free = |draw: &usize| match cover.draws[*draw] {
+            Draw::Within(_) => true,
+            Draw::Of(..) => *draw >= cover.parameters,
+            Draw::OneOf(_) | Draw::Sign => false,
+        };
+        let free = (0..cover.draws.len()).filter(is_free).collect();
+        let (graph, facts) = (Arc::new(graph), Vec::new());
+        Ok(Some(Self { graph, made, equations, facts, free, solved: 0 }))
+    }
+
+    /// Drops what is 0 by its form; `None` if an equation or a fact cannot hold.
+    pub fn simplified(mut self) -> Option<Self> {
+        let graph = Arc::clone(&self.graph);
+        let number = |value: &Expr| graph.constant_value(*value);
+        if self.facts.iter().any(|fact| number(fact).is_some_and(Rational::is_negative))
+            || self.equations.iter().any(|own| number(own).is_some_and(|value| !value.is_zero()))
+        {
+            return None;
+        }
+        self.facts.retain(|fact| number(fact).is_none());
+        self.equations.retain(|equation| number(equation).is_none());
+        Some(self)
+    }
+
+    /// Makes the part that the node is, of a level of `count` equations.
+    pub fn into_part(self, count: usize) -> Result<Part, Fault> {
+        let all: Vec<Expr> = self.made.iter().chain(&self.facts).copied().collect();
+        let (graph, values) = record(self.graph.inputs(), |inputs| {
+            let reached = self.graph.reached(all.iter().copied());
+            let values = self.graph.replay(&reached, inputs, |_, _, _| None);
+            all.iter().map(|value| values[self.graph.place(*value)]).collect::<Option<Vec<Expr>>>()
+        })?;
+        let mut made = values.ok_or(Fault::ForeignValue)?;
+        let facts = made.split_off(self.made.len());
+        Ok(Part { graph, made, facts, is_thin: self.solved > count })
+    }
+
+    /// Leaves out an equation.
+    pub fn without(&self, index: usize) -> Self {
+        let mut node = self.clone();
+        node.equations.remove(index);
+        node
+    }
+
+    /// Divides by the factors of an equation; `None` if it is no product, root or modulus.
+    pub fn factors(&self, index: usize) -> Option<Vec<Self>> {
+        let (mut open, mut factors) = (vec![self.graph.place(self.equations[index])], Vec::new());
+        let mut is_product = false;
+        while let Some(place) = open.pop() {
+            match self.graph.step(place) {
+                Step::Unary(UnaryFunction::Neg, a) => open.push(a),
+                Step::Binary(BinaryOperation::Mul, a, b) => {
+                    is_product = true;
+                    open.extend([b, a]);
+                }
+                Step::Unary(UnaryFunction::Sqrt | UnaryFunction::Abs, a) => {
+                    is_product = true;
+                    open.push(a);
+                }
+                // A quotient is 0 where its numerator is.
+                Step::Unary(UnaryFunction::Recip, _) => {}
+                Step::Constant(value) if !value.is_zero() => {}
+                _ if factors.contains(&place) => {}
+                _ => factors.push(place),
+            }
+        }
+        let with = |place: &usize| {
+            let mut node = self.clone();
+            node.equations[index] = self.graph.at(*place);
+            node
+        };
+        is_product.then(|| factors.iter().map(with).collect())
+    }
+
+    /// Divides by the sign of the first modulus in an equation; `None` if there is none.
+    pub fn by_sign(&self, index: usize) -> Result<Option<Vec<Self>>, Fault> {
+        let reached = self.graph.reached([self.equations[index]]);
+        let steps = self.graph.steps().enumerate().filter(|(place, _)| reached[*place]);
+        let modulus = steps.into_iter().find_map(|(place, step)| match step {
+            Step::Unary(UnaryFunction::Abs, a) => Some((place, a)),
+            _ => None,
+        });
+        let Some((place, argument)) = modulus else { return Ok(None) };
+        let with = |positive: bool| {
+            let signed = move |value: Expr| if positive { value } else { -value };
+            let own = move |values: &[Option<Expr>]| values[argument].map(signed);
+            let change = Change { dropped: None, solved: None, replaced: Some((place, &own)) };
+            self.changed(&change, |_, values| {
+                let fact = signed(values[argument]?);
+                Some(Additions { facts: vec![fact], ..Additions::default() })
+            })
+        };
+        Ok(Some(vec![with(true)?, with(false)?]))
+    }
+
+    /// Makes the node after a change; `more` adds to it, from the draws and from the values of the node
+    /// before a draw is solved for.
+    pub fn changed(
+        &self,
+        change: &Change<'_>,
+        more: impl FnOnce(&[Expr], &[Option<Expr>]) -> Option<Additions>,
+    ) -> Result<Self, Fault> {
+        let kept = (0..self.equations.len()).filter(|index| change.dropped != Some(*index));
+        let equations: Vec<Expr> = kept.map(|index| self.equations[index]).collect();
+        let all = self.made.iter().chain(&self.equations).chain(&self.facts);
+        let reached = self.graph.reached(all.copied());
+        let (graph, found) = record(self.graph.inputs(), |inputs| {
+            let replay = |inputs: &[Expr]| {
+                self.graph.replay(&reached, inputs, |place, _, values| match change.replaced {
+                    Some((own, value)) if own == place => value(values),
+                    _ => None,
+                })
+            };
+            let before = replay(inputs);
+            let more = more(inputs, &before)?;
+            let values = match (change.solved, more.value) {
+                (Some(draw), Some(value)) => {
+                    let mut inputs = inputs.to_vec();
+                    inputs[draw] = value;
+                    replay(&inputs)
+                }
+                _ => before,
+            };
+            let at = |some: &[Expr]| {
+                let all = some.iter().map(|value| values[self.graph.place(*value)]);
+                all.collect::<Option<Vec<Expr>>>()
+            };
+            let equations = [at(&equations)?, more.equations].concat();
+            let facts = [at(&self.facts)?, more.facts].concat();
+            Some((at(&self.made)?, equations, facts))
+        })?;
+        let (made, equations, facts) = found.ok_or(Fault::ForeignValue)?;
+        let free = self.free.iter().copied().filter(|draw| change.solved != Some(*draw)).collect();
+        let solved = self.solved + usize::from(change.solved.is_some());
+        Ok(Self { graph: Arc::new(graph), made, equations, facts, free, solved })
+    }
+}
