@@ -37,6 +37,7 @@ use std::sync::Arc;
 use crate::graph::{InstructionSet, Tape, widest};
 pub use machine::executable;
 
+pub use program::StepCounts;
 use program::StepProgram;
 
 /// Number of states in a row.
@@ -63,6 +64,7 @@ pub struct Engine(Arc<EngineCode>);
 #[derive(Debug)]
 struct EngineCode {
     steps: usize,
+    counts: StepCounts,
     inputs: usize,
     vectors: InstructionSet,
     interpreter: interpreter::InterpretedProgram,
@@ -83,7 +85,8 @@ impl Engine {
         };
         let interpreter = interpreter::InterpretedProgram::new(&program);
         let (steps, inputs) = (program.steps.len(), program.inputs);
-        Self(Arc::new(EngineCode { steps, inputs, vectors, interpreter, machine }))
+        let counts = program.counts();
+        Self(Arc::new(EngineCode { steps, counts, inputs, vectors, interpreter, machine }))
     }
 
     /// Whether there is machine code. Not where the processor or the system does not allow it, nor
@@ -95,6 +98,11 @@ impl Engine {
     /// Number of steps of a run: operations of the tape, less the products fused with sums.
     pub fn steps(&self) -> usize {
         self.0.steps
+    }
+
+    /// Number of steps of each kind.
+    pub fn counts(&self) -> StepCounts {
+        self.0.counts
     }
 
     /// Number of inputs of a run.

@@ -13,6 +13,19 @@
 use crate::graph::{Instruction, Tape};
 use crate::number::{BinaryOperation, UnaryFunction};
 
+/// Number of steps of each kind in a run; steps of other kinds are not counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StepCounts {
+    /// Products, those fused with a sum included.
+    pub products: usize,
+    /// Sums and differences on their own.
+    pub sums: usize,
+    /// Divisions.
+    pub divisions: usize,
+    /// Square roots.
+    pub roots: usize,
+}
+
 /// Operand of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Value {
@@ -110,6 +123,25 @@ impl StepProgram {
         }
         let outputs = tape.output_slots().iter().map(|slot| held[*slot as usize]).collect();
         Self { inputs, constants, steps, outputs }.fused().without_negations()
+    }
+
+    /// Number of steps of each kind.
+    pub(super) fn counts(&self) -> StepCounts {
+        let mut counts = StepCounts::default();
+        for step in &self.steps {
+            match step {
+                ProgramStep::Fused(..) | ProgramStep::Binary(BinaryOperation::Mul, ..) => {
+                    counts.products += 1;
+                }
+                ProgramStep::Binary(BinaryOperation::Add | BinaryOperation::Sub, ..) => {
+                    counts.sums += 1;
+                }
+                ProgramStep::Unary(UnaryFunction::Recip, _) => counts.divisions += 1,
+                ProgramStep::Unary(UnaryFunction::Sqrt, _) => counts.roots += 1,
+                ProgramStep::Unary(..) | ProgramStep::Binary(BinaryOperation::Pow, ..) => {}
+            }
+        }
+        counts
     }
 
     /// Steps that read each step's result, in order; a step that reads it twice occurs twice.
