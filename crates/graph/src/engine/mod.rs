@@ -154,6 +154,23 @@ impl Runner {
         }
     }
 
+    /// Computes the outputs for rows of inputs that lie elsewhere, without copying them for machine
+    /// code.
+    ///
+    /// # Panics
+    ///
+    /// Panics if there are fewer rows than inputs.
+    pub fn run_on(&mut self, rows: &[RowBlock]) {
+        match (&mut self.memory, &self.code.machine) {
+            (Memory::Machine { memory, .. }, Some(code)) => code.run(rows, memory),
+            _ => {
+                let inputs = self.code.inputs;
+                self.inputs().copy_from_slice(&rows[..inputs]);
+                self.run();
+            }
+        }
+    }
+
     /// Row of an output of the last run.
     pub fn output(&self, index: usize) -> &RowBlock {
         match &self.memory {

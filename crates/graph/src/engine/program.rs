@@ -65,7 +65,7 @@ impl ProgramStep {
         arguments.into_iter().flatten()
     }
 
-    fn with_arguments(self, renamed: impl Fn(Value) -> Value) -> Self {
+    pub(super) fn with_arguments(self, renamed: impl Fn(Value) -> Value) -> Self {
         match self {
             ProgramStep::Unary(function, a) => ProgramStep::Unary(function, renamed(a)),
             ProgramStep::Binary(operation, a, b) => {
@@ -213,7 +213,8 @@ impl StepProgram {
         self.without(&absorbed)
     }
 
-    /// Replaces a difference that is only read to be negated by the opposite difference.
+    /// Replaces a difference that is only read to be negated by the opposite difference, and a multiple
+    /// by the opposite one.
     fn without_negations(mut self) -> Self {
         let (reads, is_output) = (self.reads(), self.is_output());
         let mut absorbed = vec![false; self.steps.len()];
@@ -235,6 +236,12 @@ impl StepProgram {
                 }
                 ProgramStep::Fused(Sum::From, arguments) => {
                     ProgramStep::Fused(Sum::Minus, arguments)
+                }
+                ProgramStep::Binary(BinaryOperation::Mul, a, Value::Constant(constant))
+                | ProgramStep::Binary(BinaryOperation::Mul, Value::Constant(constant), a) => {
+                    self.constants.push(-self.constants[constant as usize]);
+                    let opposite = Value::Constant(self.constants.len() as u32 - 1);
+                    ProgramStep::Binary(BinaryOperation::Mul, a, opposite)
                 }
                 _ => continue,
             };

@@ -10,14 +10,19 @@
 mod derive;
 mod dispatch;
 mod dual_num;
+mod emitted;
 mod evaluate;
 mod expr;
 mod fingerprint;
 mod index;
 mod merge;
+mod plan;
+mod points;
 mod presence;
+mod scaled;
 mod simplify;
 mod steps;
+mod tally;
 mod tape;
 
 use std::cell::RefCell;
@@ -33,6 +38,7 @@ pub use evaluate::Evaluator;
 pub use expr::Expr;
 use index::Index;
 pub use merge::{Choice, Member};
+pub use points::Points;
 pub use steps::Step;
 pub(crate) use tape::Instruction;
 pub use tape::Tape;

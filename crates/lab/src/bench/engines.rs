@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use super::DifferentiationMethod;
 use super::candidate::{Block, Candidate};
 use super::subject::BenchCandidate;
-use liouville::engine::{Backend, Engine, Runner, StepCounts};
+use liouville::engine::{Backend, Engine, RowBlock, Runner, StepCounts};
 use liouville::graph::{Expr, Tape, record};
 use liouville::number::arb::Approximation;
 use num_dual::DualNum;
@@ -18,7 +18,7 @@ const START: f64 = 0.3125;
 
 /// Entries for the engines of this machine, and the floor; `laying_out` is the time to lay out the
 /// tape.
-pub fn all<'s>(tape: &Tape, states: &'s [Block], laying_out: Duration) -> Vec<BenchCandidate<'s>> {
+pub fn all<'s>(tape: &Tape, states: &[Block], laying_out: Duration) -> Vec<BenchCandidate<'s>> {
     let mut entries = Vec::new();
     let mut add = |method, domain, engine: &Engine, set_up, candidate| {
         let operations = Some(engine.steps());
@@ -31,6 +31,8 @@ pub fn all<'s>(tape: &Tape, states: &'s [Block], laying_out: Duration) -> Vec<Be
         let engine = Engine::new(tape, means);
         let set_up = laying_out + started.elapsed();
         if means == Backend::Interpreter || engine.is_machine_code() {
+            let rows = |block: &Block| block.iter().map(|input| RowBlock(*input)).collect();
+            let states = states.iter().map(rows).collect();
             let candidate = Box::new(EngineRun { runner: engine.runner(), states });
             add(
                 DifferentiationMethod::MergedTape,
@@ -48,17 +50,14 @@ pub fn all<'s>(tape: &Tape, states: &'s [Block], laying_out: Duration) -> Vec<Be
 }
 
 /// An engine with its states.
-struct EngineRun<'s> {
+struct EngineRun {
     runner: Runner,
-    states: &'s [Block],
+    states: Vec<Vec<RowBlock>>,
 }
 
-impl Candidate for EngineRun<'_> {
+impl Candidate for EngineRun {
     fn run(&mut self, block: usize) {
-        for (row, input) in self.runner.inputs().iter_mut().zip(&self.states[block]) {
-            row.0 = *input;
-        }
-        self.runner.run();
+        self.runner.run_on(&self.states[block]);
     }
 
     fn value(&self, lane: usize) -> Option<Approximation> {

@@ -12,10 +12,11 @@ use super::underived::{Reason, Underived};
 use super::{BenchError, BenchItem, DifferentiationMethod, Selection, StateValue};
 use liouville::case::{Case, PlacedClaim};
 use liouville::engine::{Backend, Engine};
-use liouville::graph::{Evaluator, Expr, Fault, Graph, Tape, record};
+use liouville::graph::{Evaluator, Expr, Fault, Graph, Points, Tape, record};
 use liouville::mechanics::Phase;
 use liouville::mechanics::calculus::DualPoint;
 use liouville::number::float::Float;
+use liouville::proof::InputDistribution;
 use liouville::verdict::{Sampler, TAPE_LANES};
 
 /// Number of recordings, of which the shortest time counts as set-up.
@@ -188,6 +189,20 @@ pub fn record_merged(case: &Case, claim: &PlacedClaim) -> Result<Tape, Fault> {
         let residual = claim.kind.residual(&jet, &claim.place.kept);
         (residual, jet.phase.model().system.shortcuts(&jet.phase))
     })?;
+    // The narrowest part of phase space first: more values are equal there.
+    let wider = claim.place.wider(&case.model).into_iter().rev();
+    for place in std::iter::once(claim.place.clone()).chain(wider) {
+        let sampler = Sampler::new(case, &place, 1)?;
+        if sampler.is_numerical() || place.kept.iter().all(|kept| !kept) {
+            continue;
+        }
+        let sources = sampler.sources();
+        let signs = sources.iter().map(|source| *source == InputDistribution::Sign).collect();
+        let points = Points { graph: sampler.graph(), inputs: sampler.made(), signs };
+        if let Some((graph, residual)) = graph.merged_at(&residual, &shortcuts, &points)? {
+            return Ok(Tape::new(&graph, &residual));
+        }
+    }
     let (graph, residual) = graph.merged(&residual, &shortcuts)?;
     Ok(Tape::new(&graph, &residual))
 }

@@ -1,38 +1,52 @@
-//! Register allocation for a program, by one scan over its steps.
+//! Register allocation for the vectors of a program, by one scan over their steps.
 //!
 //! Inputs and constants stay in memory: one operand of an instruction may be there, at no cost as
 //! long as there are two loads for two instructions. A result is given a register; where none is
 //! free, the one whose next use is furthest goes to the frame, and is read from there.
 
+use super::super::ROW_STATES;
 use super::super::program::{ProgramStep, StepProgram, Sum, Value};
 use super::encode::{
     Area, Assembler, Assembly, OperandOrder, PairInstruction, Register, SumSigns, VectorLocation,
     Width,
 };
+use super::interleave::Interleaved;
 use crate::number::{BinaryOperation, UnaryFunction};
 
 /// Assembles a program; also returns the constants at the beginning of its frame. `None` where the
 /// program has a function that is not an instruction.
 pub(super) fn assemble(program: &StepProgram, width: Width) -> Option<(Assembly, Vec<f64>)> {
-    let mut scan = Scan::new(program, width);
-    for (index, step) in program.steps.iter().enumerate() {
+    let in_row = ROW_STATES / width.lanes();
+    // Sixteen registers are too few for two vectors.
+    let vectors = if width == Width::Eight { in_row } else { 1 };
+    let interleaved = Interleaved::new(program, vectors);
+    let mut scan = Scan::new(&interleaved, &program.constants, width);
+    for (index, (copy, step)) in interleaved.steps.iter().enumerate() {
+        scan.copy = *copy;
         scan.step(index, step)?;
     }
-    for (index, output) in program.outputs.iter().enumerate() {
-        if !matches!(output, Value::Step(_)) {
-            // After the last step all registers are free.
-            scan.assembler.load(0, scan.place(*output));
-            scan.assembler.store(Area::Outputs, index as u32, 0);
+    for (copy, outputs) in interleaved.outputs.iter().enumerate() {
+        scan.copy = copy;
+        for (index, output) in outputs.iter().enumerate() {
+            if !matches!(output, Value::Step(_)) {
+                // After the last step all registers are free.
+                scan.assembler.load(0, scan.place(*output));
+                scan.assembler.store(Area::Outputs, scan.in_row(index as u32), 0);
+            }
         }
     }
-    Some((scan.assembler.finish(), scan.constants))
+    Some((scan.assembler.finish(interleaved.copies), scan.constants))
 }
 
 /// State of the scan.
-struct Scan<'p> {
-    program: &'p StepProgram,
+struct Scan {
     assembler: Assembler,
     constants: Vec<f64>,
+    /// Number of constants of the program itself.
+    own_constants: u32,
+    vectors_in_row: u32,
+    /// Vector of the present step.
+    copy: usize,
     /// Steps that read each result.
     reads: Vec<Vec<u32>>,
     /// Outputs equal to each result.
@@ -51,21 +65,24 @@ const ONE: f64 = 1.0;
 const SIGN_BIT: f64 = -0.0;
 const ALL_BUT_SIGN: f64 = f64::from_bits(!(1 << 63));
 
-impl<'p> Scan<'p> {
-    fn new(program: &'p StepProgram, width: Width) -> Self {
+impl Scan {
+    fn new(program: &Interleaved, constants: &[f64], width: Width) -> Self {
         let steps = program.steps.len();
         let mut outputs = vec![Vec::new(); steps];
-        for (index, output) in program.outputs.iter().enumerate() {
+        for (index, output) in program.outputs.iter().flat_map(|one| one.iter().enumerate()) {
             if let Value::Step(step) = *output {
                 outputs[step as usize].push(index as u32);
             }
         }
-        let constants = [&program.constants[..], &[ONE, SIGN_BIT, ALL_BUT_SIGN]].concat();
+        let own_constants = constants.len() as u32;
+        let constants = [constants, &[ONE, SIGN_BIT, ALL_BUT_SIGN]].concat();
         Self {
-            program,
             assembler: Assembler::new(width),
             spills: constants.len() as u32,
             constants,
+            own_constants,
+            vectors_in_row: (ROW_STATES / width.lanes()) as u32,
+            copy: 0,
             reads: program.reads(),
             outputs,
             places: vec![VectorLocation::Register(0); steps],
@@ -75,7 +92,8 @@ impl<'p> Scan<'p> {
     }
 
     fn step(&mut self, index: usize, step: &ProgramStep) -> Option<()> {
-        let extra = |number: usize| Value::Constant((self.program.constants.len() + number) as u32);
+        let own_constants = self.own_constants;
+        let extra = |number: u32| Value::Constant(own_constants + number);
         let target = match *step {
             ProgramStep::Unary(function, a) => match function {
                 UnaryFunction::Neg => self.pair(index, PairInstruction::Xor, a, extra(1)),
@@ -108,7 +126,8 @@ impl<'p> Scan<'p> {
         self.release_spills(index, step);
         self.places[index] = VectorLocation::Register(target);
         for output in &self.outputs[index] {
-            self.assembler.store(Area::Outputs, *output, target);
+            let place = self.in_row(*output);
+            self.assembler.store(Area::Outputs, place, target);
         }
         self.held[target as usize] = (!self.reads[index].is_empty()).then_some(index as u32);
         Some(())
@@ -177,9 +196,14 @@ impl<'p> Scan<'p> {
         target
     }
 
+    /// Place of the present vector in a row.
+    fn in_row(&self, row: u32) -> u32 {
+        row * self.vectors_in_row + self.copy as u32
+    }
+
     fn place(&self, value: Value) -> VectorLocation {
         match value {
-            Value::Input(input) => VectorLocation::Memory(Area::Inputs, input),
+            Value::Input(input) => VectorLocation::Memory(Area::Inputs, self.in_row(input)),
             Value::Constant(constant) => VectorLocation::Memory(Area::Frame, constant),
             Value::Step(step) => self.places[step as usize],
         }

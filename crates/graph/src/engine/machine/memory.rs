@@ -31,6 +31,7 @@ pub fn executable(bytes: &[u8]) -> Option<Mmap> {
 pub(super) struct Executable {
     memory: Mmap,
     width: Width,
+    copies: usize,
     extent: MemoryExtent,
 }
 
@@ -46,7 +47,8 @@ impl Executable {
             return None;
         }
         let memory = executable(&assembly.bytes)?;
-        Some(Self { memory, width: assembly.width, extent: assembly.extent })
+        let Assembly { width, copies, extent, .. } = *assembly;
+        Some(Self { memory, width, copies, extent })
     }
 
     /// Runs over all lanes of the rows. Panics where there are fewer rows than the code touches.
@@ -65,7 +67,7 @@ impl Executable {
         // its instructions. `RowBlock` is an array of f64, so a slice of rows is contiguous.
         unsafe {
             let entry: Entry = std::mem::transmute(self.memory.as_ptr());
-            let turns = ROW_STATES / self.width.lanes();
+            let turns = ROW_STATES / self.width.lanes() / self.copies;
             entry(
                 inputs.as_ptr().cast(),
                 frame.as_mut_ptr().cast(),

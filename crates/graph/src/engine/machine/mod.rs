@@ -1,7 +1,7 @@
-//! Machine code for a program: straight line, in a loop over the vectors of a row.
+//! Machine code for a program: straight lines for some vectors of a row, in a loop.
 //!
 //! ```text
-//! Program ─ registers allotted ─▶ instructions ─ encoded ─▶ bytes ─ write, then execute ─▶ function
+//! Program ─ vectors interleaved ─ registers allotted ─▶ instructions ─ encoded ─▶ bytes ─ write, then execute ─▶ function
 //! ```
 //!
 //! Code exists for x86-64 with AVX-512 or with AVX2 and FMA. Elsewhere, and for programs with
@@ -9,6 +9,7 @@
 
 mod allocate;
 mod encode;
+mod interleave;
 mod memory;
 
 use super::program::StepProgram;

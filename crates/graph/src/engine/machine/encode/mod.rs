@@ -39,8 +39,9 @@ impl Width {
 /// Number of a vector register.
 pub(super) type Register = u8;
 
-/// Area of memory, with a register that points to it. Inputs and outputs are rows of lanes,
-/// traversed vector by vector; the frame holds the same vectors in every turn of the loop.
+/// Area of memory, with a register that points to it; places are numbered vector by vector. Inputs
+/// and outputs are rows of several vectors, and each turn of the loop begins some vectors further
+/// on; the frame holds the same vectors in every turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Area {
     Inputs,
@@ -111,8 +112,6 @@ const MAP_0F: u8 = 1;
 const MAP_0F38: u8 = 2;
 /// Prefix 66 in compressed form: packed doubles.
 const PACKED_DOUBLE: u8 = 1;
-/// Bytes between the same lanes of two rows.
-const ROW_BYTES: i32 = 8 * crate::engine::ROW_STATES as i32;
 
 /// Encoder of a loop under construction, with the extent of the memory it touches.
 #[derive(Debug)]
@@ -122,7 +121,8 @@ pub(super) struct Assembler {
     extent: MemoryExtent,
 }
 
-/// Extent of the memory touched in each area.
+/// Extent of the memory touched in each area; of inputs and outputs in vectors, until it is known
+/// how many make a row.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct MemoryExtent {
     /// Number of rows of inputs.
@@ -139,6 +139,8 @@ pub(super) struct MemoryExtent {
 pub(super) struct Assembly {
     pub(super) bytes: Vec<u8>,
     pub(super) width: Width,
+    /// Number of vectors that a turn computes.
+    pub(super) copies: usize,
     pub(super) extent: MemoryExtent,
 }
 
@@ -195,16 +197,26 @@ impl Assembler {
         self.vector(MAP_0F38, order + signs, target, second, third);
     }
 
-    /// Closes the loop: advances by one vector in every row, and repeats for the number of turns.
-    pub(super) fn finish(mut self) -> Assembly {
-        let step = self.width.bytes() as u8;
+    /// Closes the loop: advances by some vectors in every row, and repeats for the number of turns.
+    pub(super) fn finish(mut self, copies: usize) -> Assembly {
+        let step = (self.width.bytes() * copies as i32).to_le_bytes();
         // add rdi, step; add rdx, step; dec rcx; jnz to the beginning; vzeroupper; ret
-        self.bytes.extend([0x48, 0x83, 0xc7, step, 0x48, 0x83, 0xc2, step, 0x48, 0xff, 0xc9]);
-        self.bytes.extend([0x0f, 0x85]);
+        for add in [[0x48, 0x81, 0xc7], [0x48, 0x81, 0xc2]] {
+            self.bytes.extend(add.into_iter().chain(step));
+        }
+        self.bytes.extend([0x48, 0xff, 0xc9, 0x0f, 0x85]);
         let back = -(self.bytes.len() as i32 + 4);
         self.bytes.extend(back.to_le_bytes());
         self.bytes.extend([0xc5, 0xf8, 0x77, 0xc3]);
-        Assembly { bytes: self.bytes, width: self.width, extent: self.extent }
+        let in_row = crate::engine::ROW_STATES / self.width.lanes();
+        let MemoryExtent { inputs, outputs, frame } = self.extent;
+        // The last turn begins this far behind the first.
+        let rows = |vectors: usize| match vectors {
+            0 => 0,
+            vectors => (vectors + in_row - copies).div_ceil(in_row),
+        };
+        let extent = MemoryExtent { inputs: rows(inputs), outputs: rows(outputs), frame };
+        Assembly { bytes: self.bytes, width: self.width, copies, extent }
     }
 
     /// Encodes a vector instruction: `register` and `place` in the ModRM byte, `second` in the
@@ -243,14 +255,14 @@ impl Assembler {
         let register = (register & 7) << 3;
         match place {
             VectorLocation::Register(_) => self.bytes.push(0b11 << 6 | register | low),
-            VectorLocation::Memory(area, index) => self.memory(area, index, register | low),
+            VectorLocation::Memory(_, index) => self.memory(index, register | low),
         }
     }
 
     /// Encodes ModRM and displacement of a place in memory.
-    fn memory(&mut self, area: Area, index: u32, fields: u8) {
+    fn memory(&mut self, index: u32, fields: u8) {
         let width = self.width.bytes();
-        let offset = index as i32 * if area == Area::Frame { width } else { ROW_BYTES };
+        let offset = index as i32 * width;
         // In EVEX a displacement of one byte counts vectors.
         let unit = if self.width == Width::Eight { width } else { 1 };
         match i8::try_from(offset / unit) {

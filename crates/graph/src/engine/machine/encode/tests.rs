@@ -56,11 +56,12 @@ fn assert_operand(width: Width, found: &Instruction, operand: u32, place: Vector
             assert_eq!(found.op_register(operand), vector(width, register), "{place:?}");
         }
         VectorLocation::Memory(area, index) => {
-            let (register, distance) = match area {
-                Area::Inputs => (Iced::RDI, 512),
-                Area::Outputs => (Iced::RDX, 512),
-                Area::Frame => (Iced::RSI, 8 * width.lanes() as u64),
+            let register = match area {
+                Area::Inputs => Iced::RDI,
+                Area::Outputs => Iced::RDX,
+                Area::Frame => Iced::RSI,
             };
+            let distance = 8 * width.lanes() as u64;
             assert_eq!(found.op_kind(operand), OpKind::Memory, "{place:?}");
             assert_eq!(found.memory_base(), register, "{place:?}");
             assert_eq!(found.memory_index(), Iced::None, "{place:?}");
@@ -122,14 +123,20 @@ fn a_disassembler_reads_what_was_meant() {
 
 #[test]
 fn a_loop_ends_and_goes_back_to_its_beginning() {
-    for width in WIDTHS {
+    for (width, copies) in
+        WIDTHS.into_iter().flat_map(|width| [1, 2, 4].map(|copies| (width, copies)))
+    {
+        let in_row = (crate::engine::ROW_STATES / width.lanes()) as u32;
         let mut assembler = Assembler::new(width);
-        assembler.load(3, VectorLocation::Memory(Area::Inputs, 4));
-        assembler.store(Area::Outputs, 2, 3);
+        assembler.load(3, VectorLocation::Memory(Area::Inputs, 4 * in_row + copies - 1));
+        assembler.store(Area::Outputs, 2 * in_row, 3);
         assembler.pair(PairInstruction::Add, 1, 3, VectorLocation::Memory(Area::Frame, 9));
-        let assembly = assembler.finish();
+        let assembly = assembler.finish(copies as usize);
         let extent = MemoryExtent { inputs: 5, outputs: 3, frame: 10 };
         assert_eq!(assembly.extent, extent, "all memory that is touched");
+        let mut beyond = Assembler::new(width);
+        beyond.load(3, VectorLocation::Memory(Area::Inputs, 4 * in_row + copies));
+        assert_eq!(beyond.finish(copies as usize).extent.inputs, 6, "in the last turn");
         let decoder = Decoder::with_ip(64, &assembly.bytes, 0, DecoderOptions::NONE);
         let found: Vec<Instruction> = decoder.into_iter().collect();
         let mnemonics: Vec<Mnemonic> = found[3..].iter().map(|one| one.mnemonic()).collect();
@@ -144,7 +151,8 @@ fn a_loop_ends_and_goes_back_to_its_beginning() {
         assert_eq!(mnemonics, expected, "the end of the loop");
         for (add, register) in found[3..5].iter().zip([Iced::RDI, Iced::RDX]) {
             assert_eq!(add.op_register(0), register, "rows go on");
-            assert_eq!(add.immediate(1), 8 * width.lanes() as u64, "by one vector");
+            let step = 8 * u64::from(copies) * width.lanes() as u64;
+            assert_eq!(add.immediate(1), step, "by the vectors of a turn");
         }
         assert_eq!(found[5].op_register(0), Iced::RCX, "turns are counted");
         assert_eq!(found[6].near_branch_target(), 0, "back to the beginning");
