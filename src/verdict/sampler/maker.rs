@@ -1,7 +1,9 @@
 //! Blocks of balls: enclosures of parameters and states.
 
-use crate::graph::Evaluator;
+use crate::engine::{BallEngine, BallRunner};
+use crate::graph::{Evaluator, Tape};
 use crate::number::ball::{Ball, Balls};
+use crate::number::rational::Rational;
 
 use super::{Sampler, TAPE_LANES};
 
@@ -43,6 +45,26 @@ impl Sampler {
 
 /// Number of draws from which a point of a numerical level inside the ranges is looked for.
 const NUMERICAL_ATTEMPTS: u32 = 8;
+
+impl Sampler {
+    /// Makes machine code for a tape over parameters and state and `further` numbers, from the draws
+    /// on; `None` where a state takes attempts or steps of Newton's method, or there is no such code.
+    pub(in crate::verdict) fn engine(
+        &self,
+        further: &[Rational],
+        tape: &Tape,
+    ) -> Option<BallEngine> {
+        if self.is_guarded || self.newton.is_some() {
+            return None;
+        }
+        BallEngine::new(&self.tape, further, tape)
+    }
+
+    /// Fills the inputs of such code for the states `start..start + LANES`.
+    pub(in crate::verdict) fn fill(&self, start: u64, runner: &mut BallRunner) {
+        self.draws.fill(self.seed, start, runner.inputs_mut());
+    }
+}
 
 /// A source of blocks of balls with its working memory.
 pub struct Maker<'s> {

@@ -24,6 +24,7 @@
 //! # Ok::<(), liouville_graph::graph::Fault>(())
 //! ```
 
+mod balls;
 mod interpreter;
 mod machine;
 mod program;
@@ -35,6 +36,7 @@ mod tests;
 use std::sync::Arc;
 
 use crate::graph::{InstructionSet, Tape, widest};
+pub use balls::{BallEngine, BallRunner};
 pub use machine::executable;
 
 pub use program::StepCounts;

@@ -27,7 +27,7 @@ pub struct StepCounts {
 }
 
 /// Operand of a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Value {
     Input(u32),
     Constant(u32),
@@ -36,7 +36,7 @@ pub(super) enum Value {
 }
 
 /// Sum of a product and a third value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Sum {
     /// a b + c
     Plus,
@@ -46,11 +46,44 @@ pub(super) enum Sum {
     From,
 }
 
+/// Operation that no tape has, for bounds of errors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum PairOperation {
+    /// a / b
+    Quotient,
+    /// Bits that are set in both.
+    And,
+    /// Bits that are set in one of them.
+    Or,
+    /// All bits where a > b, else none.
+    Greater,
+    /// All bits, which make a NaN, unless a > b; else none.
+    NotGreater,
+    /// All bits, which make a NaN, unless a ≥ b; else none.
+    NotAtLeast,
+}
+
+impl PairOperation {
+    /// Returns the result, for one lane.
+    pub(super) fn of(self, a: f64, b: f64) -> f64 {
+        let mask = |is_set: bool| f64::from_bits(if is_set { u64::MAX } else { 0 });
+        match self {
+            PairOperation::Quotient => a / b,
+            PairOperation::And => f64::from_bits(a.to_bits() & b.to_bits()),
+            PairOperation::Or => f64::from_bits(a.to_bits() | b.to_bits()),
+            PairOperation::Greater => mask(a > b),
+            PairOperation::NotGreater => mask(!(a > b)),
+            PairOperation::NotAtLeast => mask(!(a >= b)),
+        }
+    }
+}
+
 /// One step of a program.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum ProgramStep {
     Unary(UnaryFunction, Value),
     Binary(BinaryOperation, Value, Value),
+    Pair(PairOperation, Value, Value),
     Fused(Sum, [Value; 3]),
 }
 
@@ -59,7 +92,7 @@ impl ProgramStep {
     pub(super) fn arguments(&self) -> impl Iterator<Item = Value> {
         let arguments = match *self {
             ProgramStep::Unary(_, a) => [Some(a), None, None],
-            ProgramStep::Binary(_, a, b) => [Some(a), Some(b), None],
+            ProgramStep::Binary(_, a, b) | ProgramStep::Pair(_, a, b) => [Some(a), Some(b), None],
             ProgramStep::Fused(_, arguments) => arguments.map(Some),
         };
         arguments.into_iter().flatten()
@@ -70,6 +103,9 @@ impl ProgramStep {
             ProgramStep::Unary(function, a) => ProgramStep::Unary(function, renamed(a)),
             ProgramStep::Binary(operation, a, b) => {
                 ProgramStep::Binary(operation, renamed(a), renamed(b))
+            }
+            ProgramStep::Pair(operation, a, b) => {
+                ProgramStep::Pair(operation, renamed(a), renamed(b))
             }
             ProgramStep::Fused(sum, arguments) => ProgramStep::Fused(sum, arguments.map(renamed)),
         }
@@ -136,9 +172,12 @@ impl StepProgram {
                 ProgramStep::Binary(BinaryOperation::Add | BinaryOperation::Sub, ..) => {
                     counts.sums += 1;
                 }
-                ProgramStep::Unary(UnaryFunction::Recip, _) => counts.divisions += 1,
+                ProgramStep::Unary(UnaryFunction::Recip, _)
+                | ProgramStep::Pair(PairOperation::Quotient, ..) => counts.divisions += 1,
                 ProgramStep::Unary(UnaryFunction::Sqrt, _) => counts.roots += 1,
-                ProgramStep::Unary(..) | ProgramStep::Binary(BinaryOperation::Pow, ..) => {}
+                ProgramStep::Unary(..)
+                | ProgramStep::Pair(..)
+                | ProgramStep::Binary(BinaryOperation::Pow, ..) => {}
             }
         }
         counts

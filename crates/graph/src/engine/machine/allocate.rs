@@ -5,10 +5,11 @@
 //! free, the one whose next use is furthest goes to the frame, and is read from there.
 
 use super::super::ROW_STATES;
-use super::super::program::{ProgramStep, StepProgram, Sum, Value};
+use super::super::program::{PairOperation, ProgramStep, StepProgram, Sum, Value};
+use super::constants::Constants;
 use super::encode::{
-    Area, Assembler, Assembly, OperandOrder, PairInstruction, Register, SumSigns, VectorLocation,
-    Width,
+    Area, Assembler, Assembly, Comparison, OperandOrder, PairInstruction, Register, SumSigns,
+    VectorLocation, Width,
 };
 use super::interleave::Interleaved;
 use crate::number::{BinaryOperation, UnaryFunction};
@@ -20,7 +21,8 @@ pub(super) fn assemble(program: &StepProgram, width: Width) -> Option<(Assembly,
     // Sixteen registers are too few for two vectors.
     let vectors = if width == Width::Eight { in_row } else { 1 };
     let interleaved = Interleaved::new(program, vectors);
-    let mut scan = Scan::new(&interleaved, &program.constants, width);
+    let mut scan = Scan::new(&interleaved, Constants::new(program, width), width);
+    scan.keep_constants();
     for (index, (copy, step)) in interleaved.steps.iter().enumerate() {
         scan.copy = *copy;
         scan.step(index, step)?;
@@ -29,21 +31,19 @@ pub(super) fn assemble(program: &StepProgram, width: Width) -> Option<(Assembly,
         scan.copy = copy;
         for (index, output) in outputs.iter().enumerate() {
             if !matches!(output, Value::Step(_)) {
-                // After the last step all registers are free.
+                // After the last step all registers but those of constants are free.
                 scan.assembler.load(0, scan.place(*output));
                 scan.assembler.store(Area::Outputs, scan.in_row(index as u32), 0);
             }
         }
     }
-    Some((scan.assembler.finish(interleaved.copies), scan.constants))
+    Some((scan.assembler.finish(interleaved.copies), scan.constants.values))
 }
 
 /// State of the scan.
 struct Scan {
     assembler: Assembler,
-    constants: Vec<f64>,
-    /// Number of constants of the program itself.
-    own_constants: u32,
+    constants: Constants,
     vectors_in_row: u32,
     /// Vector of the present step.
     copy: usize,
@@ -60,13 +60,8 @@ struct Scan {
     free_spills: Vec<u32>,
 }
 
-/// Constants that the instructions need in addition to those of the program.
-const ONE: f64 = 1.0;
-const SIGN_BIT: f64 = -0.0;
-const ALL_BUT_SIGN: f64 = f64::from_bits(!(1 << 63));
-
 impl Scan {
-    fn new(program: &Interleaved, constants: &[f64], width: Width) -> Self {
+    fn new(program: &Interleaved, constants: Constants, width: Width) -> Self {
         let steps = program.steps.len();
         let mut outputs = vec![Vec::new(); steps];
         for (index, output) in program.outputs.iter().flat_map(|one| one.iter().enumerate()) {
@@ -74,45 +69,34 @@ impl Scan {
                 outputs[step as usize].push(index as u32);
             }
         }
-        let own_constants = constants.len() as u32;
-        let constants = [constants, &[ONE, SIGN_BIT, ALL_BUT_SIGN]].concat();
         Self {
             assembler: Assembler::new(width),
-            spills: constants.len() as u32,
-            constants,
-            own_constants,
+            spills: constants.values.len() as u32,
             vectors_in_row: (ROW_STATES / width.lanes()) as u32,
             copy: 0,
             reads: program.reads(),
             outputs,
             places: vec![VectorLocation::Register(0); steps],
-            held: vec![None; width.registers()],
+            held: vec![None; width.registers() - constants.kept.len()],
+            constants,
             free_spills: Vec::new(),
         }
     }
 
     fn step(&mut self, index: usize, step: &ProgramStep) -> Option<()> {
-        let own_constants = self.own_constants;
-        let extra = |number: u32| Value::Constant(own_constants + number);
         let target = match *step {
-            ProgramStep::Unary(function, a) => match function {
-                UnaryFunction::Neg => self.pair(index, PairInstruction::Xor, a, extra(1)),
-                UnaryFunction::Abs => self.pair(index, PairInstruction::And, a, extra(2)),
-                UnaryFunction::Recip => self.pair(index, PairInstruction::Div, extra(0), a),
-                UnaryFunction::Sqrt => {
+            ProgramStep::Unary(function, a) => match (function, self.constants.of(function)) {
+                (UnaryFunction::Neg, Some(sign)) => self.pair(index, PairInstruction::Xor, a, sign),
+                (UnaryFunction::Abs, Some(rest)) => self.pair(index, PairInstruction::And, a, rest),
+                (UnaryFunction::Recip, Some(one)) => self.pair(index, PairInstruction::Div, one, a),
+                (UnaryFunction::Sqrt, _) => {
                     let source = self.place(a);
                     self.release(index, &[a]);
                     let target = self.take(index, &[]);
                     self.assembler.square_root(target, source);
                     target
                 }
-                UnaryFunction::Exp
-                | UnaryFunction::Ln
-                | UnaryFunction::Sin
-                | UnaryFunction::Cos
-                | UnaryFunction::Atan => {
-                    return None;
-                }
+                _ => return None,
             },
             ProgramStep::Binary(operation, a, b) => match operation {
                 BinaryOperation::Add => self.pair(index, PairInstruction::Add, a, b),
@@ -120,6 +104,17 @@ impl Scan {
                 BinaryOperation::Mul => self.pair(index, PairInstruction::Mul, a, b),
                 BinaryOperation::Pow => return None,
             },
+            ProgramStep::Pair(operation, a, b) => {
+                let pair = match operation {
+                    PairOperation::Quotient => PairInstruction::Div,
+                    PairOperation::And => PairInstruction::And,
+                    PairOperation::Or => PairInstruction::Or,
+                    PairOperation::Greater => PairInstruction::Compare(Comparison::Greater),
+                    PairOperation::NotGreater => PairInstruction::Compare(Comparison::NotGreater),
+                    PairOperation::NotAtLeast => PairInstruction::Compare(Comparison::NotAtLeast),
+                };
+                self.pair(index, pair, a, b)
+            }
             ProgramStep::Fused(sum, arguments) => self.fused(index, sum, arguments),
         };
         // Not before the instruction: it may read a slot that would otherwise be reused.
@@ -136,7 +131,10 @@ impl Scan {
     /// Emits `a op b` into a register.
     fn pair(&mut self, index: usize, pair: PairInstruction, a: Value, b: Value) -> Register {
         let (mut x, mut y) = (self.place(a), self.place(b));
-        let commutes = !matches!(pair, PairInstruction::Sub | PairInstruction::Div);
+        let commutes = !matches!(
+            pair,
+            PairInstruction::Sub | PairInstruction::Div | PairInstruction::Compare(_)
+        );
         if commutes && matches!((x, y), (VectorLocation::Memory(..), VectorLocation::Register(_))) {
             (x, y) = (y, x);
         }
@@ -196,6 +194,14 @@ impl Scan {
         target
     }
 
+    /// Loads the constants that have registers, which follow those of results.
+    fn keep_constants(&mut self) {
+        for (place, constant) in self.constants.kept.iter().enumerate() {
+            let register = (self.held.len() + place) as Register;
+            self.assembler.load(register, VectorLocation::Memory(Area::Frame, *constant));
+        }
+    }
+
     /// Place of the present vector in a row.
     fn in_row(&self, row: u32) -> u32 {
         row * self.vectors_in_row + self.copy as u32
@@ -204,7 +210,12 @@ impl Scan {
     fn place(&self, value: Value) -> VectorLocation {
         match value {
             Value::Input(input) => VectorLocation::Memory(Area::Inputs, self.in_row(input)),
-            Value::Constant(constant) => VectorLocation::Memory(Area::Frame, constant),
+            Value::Constant(constant) => {
+                match self.constants.kept.iter().position(|c| *c == constant) {
+                    Some(place) => VectorLocation::Register((self.held.len() + place) as Register),
+                    None => VectorLocation::Memory(Area::Frame, constant),
+                }
+            }
             Value::Step(step) => self.places[step as usize],
         }
     }

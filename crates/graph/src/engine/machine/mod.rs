@@ -8,6 +8,7 @@
 //! functions that are not instructions (exp, sin, …), the interpreter does the work.
 
 mod allocate;
+mod constants;
 mod encode;
 mod interleave;
 mod memory;

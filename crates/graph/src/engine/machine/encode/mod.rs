@@ -64,7 +64,29 @@ pub(super) enum PairInstruction {
     Mul,
     Div,
     And,
+    Or,
     Xor,
+    /// All bits where the comparison holds, else none.
+    Compare(Comparison),
+}
+
+/// Comparisons; with a NaN only those with "not" hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Comparison {
+    Greater,
+    NotGreater,
+    NotAtLeast,
+}
+
+impl Comparison {
+    /// Predicate, of those that raise no exception.
+    fn predicate(self) -> u8 {
+        match self {
+            Comparison::Greater => 0x1e,
+            Comparison::NotGreater => 0x1a,
+            Comparison::NotAtLeast => 0x19,
+        }
+    }
 }
 
 impl PairInstruction {
@@ -75,6 +97,8 @@ impl PairInstruction {
             PairInstruction::Mul => 0x59,
             PairInstruction::Div => 0x5e,
             PairInstruction::And => 0x54,
+            PairInstruction::Or => 0x56,
+            PairInstruction::Compare(_) => 0xc2,
             PairInstruction::Xor => 0x57,
         }
     }
@@ -107,11 +131,17 @@ pub(super) enum SumSigns {
 const LOAD: u8 = 0x10;
 const STORE: u8 = 0x11;
 const SQUARE_ROOT: u8 = 0x51;
+/// Opcode in the map 0F38: the bits of a mask to whole lanes.
+const SPREAD: u8 = 0x38;
+/// Mask register that comparisons use.
+const MASK: u8 = 1;
 /// Opcode maps.
 const MAP_0F: u8 = 1;
 const MAP_0F38: u8 = 2;
 /// Prefix 66 in compressed form: packed doubles.
 const PACKED_DOUBLE: u8 = 1;
+/// Prefix F3 in compressed form: masks.
+const BROADER: u8 = 2;
 
 /// Encoder of a loop under construction, with the extent of the memory it touches.
 #[derive(Debug)]
@@ -167,7 +197,23 @@ impl Assembler {
         x: Register,
         y: VectorLocation,
     ) {
-        self.vector(MAP_0F, pair.opcode(), target, x, y);
+        let PairInstruction::Compare(comparison) = pair else {
+            self.vector(MAP_0F, pair.opcode(), target, x, y);
+            return;
+        };
+        match self.width {
+            Width::Four => {
+                self.vector(MAP_0F, pair.opcode(), target, x, y);
+                self.bytes.push(comparison.predicate());
+            }
+            Width::Eight => {
+                // To a mask, and from there to a register.
+                self.vector(MAP_0F, pair.opcode(), MASK, x, y);
+                self.bytes.push(comparison.predicate());
+                self.prefix(MAP_0F38, BROADER, target, 0, [0, 0]);
+                self.bytes.extend([SPREAD, 0b11 << 6 | (target & 7) << 3 | MASK]);
+            }
+        }
     }
 
     /// Emits `target = √x`.
@@ -230,6 +276,17 @@ impl Assembler {
                 (base(area), 0, 0)
             }
         };
+        self.prefix(map, PACKED_DOUBLE, register, second, [bit3, bit4]);
+        self.bytes.push(opcode);
+        let register = (register & 7) << 3;
+        match place {
+            VectorLocation::Register(_) => self.bytes.push(0b11 << 6 | register | low),
+            VectorLocation::Memory(_, index) => self.memory(index, register | low),
+        }
+    }
+
+    /// Encodes the prefix, with bits 3 and 4 of the register that the last field of ModRM names.
+    fn prefix(&mut self, map: u8, kind: u8, register: u8, second: u8, [bit3, bit4]: [u8; 2]) {
         // Register bits in prefixes are inverted.
         let not = |bit: u8| (bit & 1) ^ 1;
         match self.width {
@@ -240,7 +297,7 @@ impl Assembler {
                     | not(bit3) << 5
                     | not(register >> 4) << 4
                     | map,
-                0x80 | (!second & 15) << 3 | 1 << 2 | PACKED_DOUBLE,
+                0x80 | (!second & 15) << 3 | 1 << 2 | kind,
                 // Bits 6 and 5: 512 bits.
                 0b10 << 5 | not(second >> 4) << 3,
             ]),
@@ -248,14 +305,8 @@ impl Assembler {
                 0xc4,
                 not(register >> 3) << 7 | 1 << 6 | not(bit3) << 5 | map,
                 // Of these instructions only the fused ones use the topmost bit.
-                u8::from(map == MAP_0F38) << 7 | (!second & 15) << 3 | 1 << 2 | PACKED_DOUBLE,
+                u8::from(map == MAP_0F38) << 7 | (!second & 15) << 3 | 1 << 2 | kind,
             ]),
-        }
-        self.bytes.push(opcode);
-        let register = (register & 7) << 3;
-        match place {
-            VectorLocation::Register(_) => self.bytes.push(0b11 << 6 | register | low),
-            VectorLocation::Memory(_, index) => self.memory(index, register | low),
         }
     }
 

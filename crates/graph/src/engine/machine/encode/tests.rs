@@ -5,12 +5,13 @@ use iced_x86::{Decoder, DecoderOptions, Instruction, Mnemonic, OpKind, Register 
 use super::*;
 
 const WIDTHS: [Width; 2] = [Width::Four, Width::Eight];
-const PAIRS: [(PairInstruction, Mnemonic); 6] = [
+const PAIRS: [(PairInstruction, Mnemonic); 7] = [
     (PairInstruction::Add, Mnemonic::Vaddpd),
     (PairInstruction::Sub, Mnemonic::Vsubpd),
     (PairInstruction::Mul, Mnemonic::Vmulpd),
     (PairInstruction::Div, Mnemonic::Vdivpd),
     (PairInstruction::And, Mnemonic::Vandpd),
+    (PairInstruction::Or, Mnemonic::Vorpd),
     (PairInstruction::Xor, Mnemonic::Vxorpd),
 ];
 const FUSED: [(OperandOrder, SumSigns, Mnemonic); 9] = [
@@ -116,6 +117,39 @@ fn a_disassembler_reads_what_was_meant() {
                 let found = one(width, |to| to.fused(order, signs, target, second, place));
                 assert_eq!(found.mnemonic(), mnemonic, "{order:?} {signs:?}");
                 three(&found);
+            }
+        }
+    }
+}
+
+#[test]
+fn comparisons_are_read_back_with_their_predicates() {
+    let comparisons =
+        [(Comparison::Greater, 30), (Comparison::NotGreater, 26), (Comparison::NotAtLeast, 25)];
+    for width in WIDTHS {
+        for (place, (comparison, predicate)) in
+            places(width).into_iter().flat_map(|place| comparisons.map(|one| (place, one)))
+        {
+            for (target, second) in [(0, 5), (9, 13), (width.registers() as u8 - 1, 2)] {
+                let mut assembler = Assembler::new(width);
+                assembler.pair(PairInstruction::Compare(comparison), target, second, place);
+                let decoder = Decoder::with_ip(64, &assembler.bytes, 0, DecoderOptions::NONE);
+                let found: Vec<Instruction> = decoder.into_iter().collect();
+                assert_eq!(found[0].mnemonic(), Mnemonic::Vcmppd, "{width:?}");
+                assert_eq!(found[0].immediate(3), predicate, "{comparison:?}");
+                assert_operand(width, &found[0], 1, VectorLocation::Register(second));
+                assert_operand(width, &found[0], 2, place);
+                let result = match width {
+                    Width::Four => &found[0],
+                    Width::Eight => {
+                        assert_eq!(found[0].op_register(0), Iced::K1, "to a mask");
+                        assert_eq!(found[1].mnemonic(), Mnemonic::Vpmovm2q, "and from it");
+                        assert_eq!(found[1].op_register(1), Iced::K1, "the same mask");
+                        &found[1]
+                    }
+                };
+                assert_operand(width, result, 0, VectorLocation::Register(target));
+                assert_eq!(found.len(), if width == Width::Four { 1 } else { 2 }, "no more");
             }
         }
     }
