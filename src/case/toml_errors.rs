@@ -1,30 +1,41 @@
 //! Errors of TOML syntax, with places and corrections.
 
+use std::collections::BTreeSet;
+
 use super::error::{Mistake, Problem};
 
-/// Mistakes of a text that is not valid TOML, at most one for each line.
+/// Number of mistakes shown: one bracket that is not closed makes a mistake of every line below it.
+const SHOWN: usize = 20;
+
+/// Mistakes of a text that is not valid TOML, at most one for each line; the first ones, and the
+/// number of the others.
 pub fn mistakes(text: &str, errors: &[toml::de::Error]) -> Vec<Mistake> {
-    let mut seen = Vec::new();
-    let mut all = Vec::new();
-    for error in errors {
-        let span = error.span();
-        let line = span
-            .as_ref()
-            .map(|span| text.get(..span.start).map_or(0, |before| before.matches('\n').count()));
-        // one slip makes several errors on its line
-        if !seen.contains(&line) {
-            seen.push(line);
-            let help = match error.message() {
-                "duplicate key" => {
-                    Some("remove one of the two, or give it another name".to_string())
-                }
-                _ => span.as_ref().and_then(|span| help(text, span.start)),
-            };
-            let message = reworded(error.message(), help.as_deref());
-            all.push(Mistake::new(span, Problem::Toml { message, help }));
-        }
+    let starts: Vec<usize> = text.match_indices('\n').map(|(at, _)| at + 1).collect();
+    let mut lines = BTreeSet::new();
+    // one slip makes several errors on its line
+    let mut firsts = errors.iter().filter(|error| {
+        let line = error.span().map(|span| starts.partition_point(|start| *start <= span.start));
+        lines.insert(line)
+    });
+    let mut all: Vec<Mistake> = firsts.by_ref().take(SHOWN).map(|e| mistake(text, e)).collect();
+    if let Some(next) = firsts.next() {
+        let more = 1 + firsts.count();
+        let lines = if more == 1 { "line is" } else { "lines are" };
+        let message = format!("{more} more {lines} not valid TOML");
+        let help = Some("mend the mistakes above: others follow from them".to_string());
+        all.push(Mistake::new(next.span(), Problem::Toml { message, help }));
     }
     all
+}
+
+fn mistake(text: &str, error: &toml::de::Error) -> Mistake {
+    let span = error.span();
+    let help = match error.message() {
+        "duplicate key" => Some("remove one of the two, or give it another name".to_string()),
+        _ => span.as_ref().and_then(|span| help(text, span.start)),
+    };
+    let message = reworded(error.message(), help.as_deref());
+    Mistake::new(span, Problem::Toml { message, help })
 }
 
 /// Suggested correction of the line at a place.
@@ -140,6 +151,20 @@ fn parts(line: &str) -> Option<(&str, &str)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_bracket_that_is_not_closed_makes_few_mistakes() {
+        let found = |text: &str| {
+            let (_, errors) = toml::de::DeTable::parse_recoverable(text);
+            mistakes(text, &errors)
+        };
+        let open = |lines: usize| format!("x = [1, 2\n{}", "y = 3\n".repeat(lines));
+        assert_eq!(found(&open(SHOWN)).len(), SHOWN, "all of them");
+        let many = found(&open(1000));
+        assert_eq!(many.len(), SHOWN + 1, "the first, and the number of the others");
+        let last = many.last().expect("some").problem.to_string();
+        assert_eq!(last, format!("{} more lines are not valid TOML", 1000 - SHOWN));
+    }
 
     #[test]
     fn slips_of_a_line_are_mended() {

@@ -225,6 +225,7 @@ impl ClaimKind {
     }
 
     /// Computes the scalars that vanish where the claim holds.
+    #[inline(never)]
     pub fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {
         of_each!(self, statement => statement.residual(jet, kept))
     }

@@ -89,6 +89,7 @@ fn table<T: Scalar>(entries: MatrixEntries<T>) -> Value<T> {
 ///
 /// # Panics
 /// If `lookup` returns a value of another type than the scope declared for the symbol.
+#[inline(never)]
 pub(super) fn values<T: Scalar>(
     arena: &Arena,
     lookup: &mut dyn FnMut(Symbol) -> Value<T>,
@@ -103,6 +104,7 @@ pub(super) fn values<T: Scalar>(
 }
 
 /// Evaluates every node such that a value is defined exactly where all operations as written are.
+#[inline(never)]
 pub(super) fn literal_values<T: Scalar>(
     arena: &Arena,
     lookup: &mut dyn FnMut(Symbol) -> Value<T>,

@@ -44,6 +44,7 @@ impl<T: Scalar> Term<T> {
 /// Returns `(ln f)'` of the arena's last node, along the direction in the dual parts of `lookup`.
 ///
 /// Undefined if the formula is not a scalar.
+#[inline(never)]
 pub(super) fn logarithmic_derivative<T: Scalar>(
     arena: &Arena,
     lookup: &mut dyn FnMut(Symbol) -> Value<Dual<T>>,
@@ -60,6 +61,7 @@ pub(super) type Gradients<'g, T> = &'g dyn Fn(&[T]) -> Option<Vec<Vec<(usize, T)
 
 /// Returns the partial derivatives of `ln f` that are not 0 from those of the factors, with the
 /// places of their variables.
+#[inline(never)]
 pub(super) fn logarithmic_gradient<T: Scalar>(
     arena: &Arena,
     lookup: &mut dyn FnMut(Symbol) -> Value<T>,

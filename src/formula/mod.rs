@@ -151,6 +151,7 @@ impl Formula {
     ///
     /// # Panics
     /// If `lookup` returns a value of another type than the scope declared for the symbol.
+    #[inline(never)]
     pub fn evaluate<T: Scalar>(&self, lookup: &mut dyn FnMut(Symbol) -> Value<T>) -> Value<T> {
         let mut values = evaluate::values(&self.arena, lookup);
         // a formula that was read has at least one node
@@ -159,6 +160,7 @@ impl Formula {
 
     /// Evaluates the formula such that a value is defined exactly where all operations as written
     /// are: otherwise a recorded scalar folds √x·√x to x.
+    #[inline(never)]
     pub fn evaluate_literally<T: Scalar>(
         &self,
         lookup: &mut dyn FnMut(Symbol) -> Value<T>,

@@ -31,6 +31,7 @@ pub struct DualPoint<'m, T> {
 
 impl<'m, T: Scalar> DualPoint<'m, T> {
     /// Makes the jet at a point; nothing is computed yet.
+    #[inline(never)]
     pub fn new(phase: Phase<'m, T>) -> Self {
         Self {
             phase,
@@ -45,6 +46,7 @@ impl<'m, T: Scalar> DualPoint<'m, T> {
 
     /// Makes the jet at a point with the divergence by the system's closed formula, where there is
     /// one.
+    #[inline(never)]
     pub fn short(phase: Phase<'m, T>) -> Self {
         let divergence = phase.model().system.divergence(&phase);
         let jet = Self::new(phase);
@@ -55,11 +57,13 @@ impl<'m, T: Scalar> DualPoint<'m, T> {
     }
 
     /// Returns the point with the field as its derivative part.
+    #[inline(never)]
     pub fn along_field(&self) -> &Phase<'m, Dual<T>> {
         self.along_field.get_or_init(|| self.phase.lift(self.phase.field()))
     }
 
     /// Returns the point with a derivative part along each coordinate in turn.
+    #[inline(never)]
     pub fn along_axes(&self) -> &[Phase<'m, Dual<T>>] {
         self.along_axes.get_or_init(|| {
             (0..self.phase.model().dimension()).map(|index| self.phase.lift_along(index)).collect()
@@ -67,12 +71,14 @@ impl<'m, T: Scalar> DualPoint<'m, T> {
     }
 
     /// Computes L_v f, the derivative of f along the field.
+    #[inline(never)]
     pub fn lie_derivative(&self, f: impl FnOnce(&Phase<'m, Dual<T>>) -> Dual<T>) -> T {
         f(self.along_field()).eps
     }
 
     /// Computes the gradients of values at the point by sweeps of the recording; `None` where lifts
     /// along the coordinates have to do it.
+    #[inline(never)]
     fn swept(&self, values: impl FnOnce(&Phase<'m, T>) -> Vec<T>) -> Option<Vec<Vec<T>>> {
         let dimension = self.phase.model().dimension();
         if dimension < MANY {
@@ -83,16 +89,19 @@ impl<'m, T: Scalar> DualPoint<'m, T> {
     }
 
     /// Computes the partial derivatives of f with respect to the state's components.
+    #[inline(never)]
     pub fn gradient(&self, f: impl Fn(&Phase<'m, Dual<T>>) -> Dual<T>) -> Vec<T> {
         self.along_axes().iter().map(|phase| f(phase).eps).collect()
     }
 
     /// Computes L_vF, component by component.
+    #[inline(never)]
     pub fn rates(&self, formula: &Formula) -> Vec<T> {
         self.along_field().evaluate(formula).components().iter().map(|x| x.eps).collect()
     }
 
     /// Computes the gradients of the components of F.
+    #[inline(never)]
     pub fn gradients(&self, formula: &Formula) -> Vec<Vec<T>> {
         if let Some(rows) = self.swept(|at| at.evaluate(formula).components()) {
             return rows;
@@ -107,6 +116,7 @@ impl<'m, T: Scalar> DualPoint<'m, T> {
     }
 
     /// Computes the gradient of the logarithm of F, factor by factor.
+    #[inline(never)]
     pub fn logarithmic_gradient(&self, formula: &Formula) -> Vec<T> {
         let dimension = self.phase.model().dimension();
         if dimension >= MANY {
@@ -125,6 +135,7 @@ impl<'m, T: Scalar> DualPoint<'m, T> {
     }
 
     /// Computes div v = Σ ∂v_i/∂x_i over all components of the state.
+    #[inline(never)]
     pub fn divergence(&self) -> T {
         *self.divergence.get_or_init(|| {
             if self.phase.model().dimension() >= MANY
@@ -141,6 +152,7 @@ impl<'m, T: Scalar> DualPoint<'m, T> {
     ///
     /// On a level set {F_i = c_i} with dx = dF_1∧…∧dF_k∧σ, L_v σ = (div v - this sum) σ. It
     /// vanishes where the F_i are integrals near the level.
+    #[inline(never)]
     pub fn level_cofactor(&self, kept: &[bool]) -> T {
         let functions: Vec<&LevelFunction> = kept_functions(self.phase.model(), kept).collect();
         if functions.is_empty() || self.phase.model().system.conserves_level() {
@@ -156,11 +168,13 @@ impl<'m, T: Scalar> DualPoint<'m, T> {
     }
 
     /// Evaluates the kept level functions at another point.
+    #[inline(never)]
     pub fn level_at(&self, there: &Phase<'m, T>, kept: &[bool]) -> Vec<T> {
         kept_functions(there.model(), kept).map(|f| there.level_function(f)).collect()
     }
 
     /// Computes the gradients of the kept level functions.
+    #[inline(never)]
     pub fn level_gradients(&self, kept: &[bool]) -> Vec<Vec<T>> {
         let all = self.level_gradients.get_or_init(|| {
             let level = || self.phase.model().level.iter().map(|equation| &equation.function);
@@ -173,6 +187,7 @@ impl<'m, T: Scalar> DualPoint<'m, T> {
     }
 
     /// Computes the gradient of the energy, where there is one.
+    #[inline(never)]
     pub fn energy_gradient(&self) -> Option<&Vec<T>> {
         let make = || {
             let energy = |at: &Phase<'m, T>| at.model().system.energy(at);
@@ -187,6 +202,7 @@ impl<'m, T: Scalar> DualPoint<'m, T> {
 }
 
 /// Writes a row of derivatives out, with 0 for those that it leaves out.
+#[inline(never)]
 fn filled<T: Scalar>(row: &[(usize, T)], dimension: usize) -> Vec<T> {
     let mut all = vec![T::zero(); dimension];
     row.iter().for_each(|(place, value)| all[*place] = *value);
@@ -194,6 +210,7 @@ fn filled<T: Scalar>(row: &[(usize, T)], dimension: usize) -> Vec<T> {
 }
 
 /// Selects the level functions given by `kept`.
+#[inline(never)]
 fn kept_functions<'a>(
     model: &'a Model,
     kept: &'a [bool],
@@ -203,6 +220,7 @@ fn kept_functions<'a>(
 }
 
 /// Finds vectors n_i in the span of some gradients with dF_i(n_j) = δ_ij.
+#[inline(never)]
 pub fn transversals<T: Scalar>(gradients: &[Vec<T>]) -> Vec<Vec<T>> {
     let count = gradients.len();
     let unit = |i: usize, j: usize| if i == j { T::one() } else { T::zero() };
@@ -218,6 +236,7 @@ pub fn transversals<T: Scalar>(gradients: &[Vec<T>]) -> Vec<Vec<T>> {
 }
 
 /// Computes u minus its projection on the span of `others`: zero exactly when u depends on them.
+#[inline(never)]
 pub fn rejection<T: Scalar>(u: &[T], others: &[Vec<T>]) -> Vec<T> {
     let projections = others.iter().map(|other| dot(u, other)).collect();
     let weights = solve_positive(gram(others), projections);
@@ -226,6 +245,7 @@ pub fn rejection<T: Scalar>(u: &[T], others: &[Vec<T>]) -> Vec<T> {
 }
 
 /// Computes the inner product Σ a_i b_i.
+#[inline(never)]
 pub fn dot<T: Scalar>(a: &[T], b: &[T]) -> T {
     a.iter().zip(b).map(|(a, b)| *a * *b).sum()
 }
@@ -237,6 +257,7 @@ const MOST_BY_MINORS: usize = 10;
 /// Computes the Gram determinant of some vectors: zero exactly when they are dependent.
 ///
 /// Expanded by minors of the first rows, since a pivot may vanish where the vectors are dependent.
+#[inline(never)]
 pub fn gram_determinant<T: Scalar>(vectors: &[Vec<T>]) -> T {
     let n = vectors.len();
     if vectors.first().is_some_and(|vector| vector.len() < n) {
@@ -246,6 +267,7 @@ pub fn gram_determinant<T: Scalar>(vectors: &[Vec<T>]) -> T {
 }
 
 /// The determinant of a square matrix, without pivots.
+#[inline(never)]
 pub fn determinant<T: Scalar>(matrix: &[Vec<T>]) -> T {
     let n = matrix.len();
     if n > MOST_BY_MINORS {
@@ -270,6 +292,7 @@ pub fn determinant<T: Scalar>(matrix: &[Vec<T>]) -> T {
 
 /// Computes the coefficients of λ^(n-1), …, 1 in det(λE - A), A given by its columns, by the method
 /// of Faddeev and LeVerrier.
+#[inline(never)]
 pub fn characteristic_polynomial<T: Scalar>(columns: &[Vec<T>]) -> Vec<T> {
     let n = columns.len();
     let mut coefficients = Vec::new();
@@ -293,6 +316,7 @@ pub fn characteristic_polynomial<T: Scalar>(columns: &[Vec<T>]) -> Vec<T> {
 }
 
 /// Computes tr(B A⁻¹) for matrices given by their columns, by the normal equations of A.
+#[inline(never)]
 pub fn trace_of_quotient<T: Scalar>(a: &[Vec<T>], b: &[Vec<T>]) -> T {
     let solved = |j: usize| {
         let side = a.iter().map(|column| dot(column, &b[j])).collect();
@@ -301,11 +325,13 @@ pub fn trace_of_quotient<T: Scalar>(a: &[Vec<T>], b: &[Vec<T>]) -> T {
     (0..a.len()).map(solved).sum()
 }
 
+#[inline(never)]
 fn gram<T: Scalar>(vectors: &[Vec<T>]) -> Vec<Vec<T>> {
     vectors.iter().map(|a| vectors.iter().map(|b| dot(a, b)).collect()).collect()
 }
 
 /// Solves A x = b for a positive definite A, by elimination without pivots.
+#[inline(never)]
 pub fn solve_positive<T: Scalar>(mut a: Vec<Vec<T>>, mut b: Vec<T>) -> Vec<T> {
     for k in 0..b.len() {
         let (above, below) = a.split_at_mut(k + 1);
@@ -352,6 +378,7 @@ mod tests {
     use super::*;
 
     #[test]
+    #[inline(never)]
     fn elimination_solves() {
         let matrix = vec![vec![4.0, 1.0, 0.5], vec![1.0, 3.0, -1.0], vec![0.5, -1.0, 5.0]];
         let solution = solve_positive(matrix.clone(), vec![1.0, 2.0, 3.0]);
@@ -361,6 +388,7 @@ mod tests {
     }
 
     #[test]
+    #[inline(never)]
     fn determinants_traces_and_characteristic_polynomials() {
         // A = [[2,1,0],[0,3,1],[1,0,1]] by columns: det A = 7, tr A = 6, second invariant 11.
         let a = vec![vec![2.0, 0.0, 1.0], vec![1.0, 3.0, 0.0], vec![0.0, 1.0, 1.0]];
@@ -384,6 +412,7 @@ mod tests {
     }
 
     #[test]
+    #[inline(never)]
     fn rejection_is_zero_in_the_span_only() {
         let plane = [vec![1.0, 2.0, 0.0], vec![0.0, 1.0, 1.0]];
         let inside = rejection(&[2.0, 5.0, 1.0], &plane);

@@ -32,6 +32,7 @@ impl<'m, T: Scalar> Configuration<'m, T> {
     }
 
     /// Returns the same point with another value of state variable `index`.
+    #[inline(never)]
     pub fn moved(&self, index: usize, value: Value<T>) -> Self {
         let mut state = self.state.clone();
         state[index] = value;
@@ -39,6 +40,7 @@ impl<'m, T: Scalar> Configuration<'m, T> {
     }
 
     /// Returns the same point with `z` as the cosine at which a profile is evaluated.
+    #[inline(never)]
     pub fn with_axis_cosine(&self, z: T) -> Self {
         let mut moved = Self::new(self.model, Rc::clone(&self.parameters), self.state.clone());
         moved.axis_cosine = Some(z);
@@ -54,6 +56,7 @@ impl<'m, T: Scalar> Configuration<'m, T> {
     }
 
     /// Evaluates a formula that depends on the configuration at most.
+    #[inline(never)]
     pub fn evaluate(&self, formula: &Formula) -> Value<T> {
         formula.evaluate(&mut |symbol| self.value(symbol))
     }
@@ -64,6 +67,7 @@ impl<'m, T: Scalar> Configuration<'m, T> {
     }
 
     /// Returns the value of parameter `index`.
+    #[inline(never)]
     pub fn parameter(&self, index: usize) -> Value<T> {
         match (&self.parameters[index], &self.model.parameters[index].origin) {
             (Some(value), _) => value.clone(),
@@ -73,6 +77,7 @@ impl<'m, T: Scalar> Configuration<'m, T> {
     }
 
     /// Returns the value of a parameter by name, if it is declared.
+    #[inline(never)]
     pub fn named(&self, name: &str) -> Option<Value<T>> {
         match self.model.vocabulary.find(name)?.meaning {
             Meaning::Parameter(index) => Some(self.parameter(index)),
@@ -85,6 +90,7 @@ impl<'m, T: Scalar> Configuration<'m, T> {
         scalar(self.evaluate(formula))
     }
 
+    #[inline(never)]
     pub(super) fn value(&self, symbol: Symbol) -> Value<T> {
         let formula = |symbol| formula_of(self.model, symbol);
         self.known.value(symbol, &formula, &|symbol| match self
@@ -101,6 +107,7 @@ impl<'m, T: Scalar> Configuration<'m, T> {
     }
 
     /// Lifts the point with derivative parts `direction` for state variable `index`, 0 elsewhere.
+    #[inline(never)]
     pub fn lift(&self, index: usize, direction: Value<T>) -> Configuration<'m, Dual<T>> {
         let mut state: Vec<_> = self.state.iter().map(|value| value.map(Dual::from_re)).collect();
         state[index] = dual_value(&self.state[index], &direction);
@@ -108,12 +115,14 @@ impl<'m, T: Scalar> Configuration<'m, T> {
     }
 
     /// Returns the components of all state variables in order.
+    #[inline(never)]
     pub fn components(&self) -> Vec<T> {
         self.state.iter().flat_map(|value| value.components()).collect()
     }
 
     /// Lifts the point with the derivative part `direction`, one entry for each component of the
     /// state.
+    #[inline(never)]
     pub fn lift_state(&self, direction: &[T]) -> Configuration<'m, Dual<T>> {
         let mut rest = direction;
         let state = self
@@ -129,6 +138,7 @@ impl<'m, T: Scalar> Configuration<'m, T> {
     }
 
     /// Lifts the point with all derivative parts 0.
+    #[inline(never)]
     pub fn lift_constant(&self) -> Configuration<'m, Dual<T>> {
         let state = self.state.iter().map(|value| value.map(Dual::from_re)).collect();
         Configuration::new(self.model, lift_parameters(&self.parameters), state)

@@ -6,11 +6,13 @@ use crate::scalar::Scalar;
 
 impl<'m, T: Scalar> DualPoint<'m, T> {
     /// Returns the point Φ(x).
+    #[inline(never)]
     pub fn image(&self) -> Phase<'m, T> {
         self.phase.with(&[], self.phase.field())
     }
 
     /// Computes the columns of DΦ.
+    #[inline(never)]
     pub fn derivative(&self) -> Vec<Vec<T>> {
         let along = self.along_axes().iter();
         along.map(|beside| beside.field().iter().map(|image| image.eps).collect()).collect()
@@ -20,6 +22,7 @@ impl<'m, T: Scalar> DualPoint<'m, T> {
     ///
     /// The latter is the determinant of DΦ along the level with n_j(x) ↦ n_j(Φ(x)) across it, where
     /// dF_i(n_j) = δ_ij: dx takes both times the value of σ on what is left.
+    #[inline(never)]
     pub fn expansion(&self, kept: &[bool]) -> T {
         let mut columns = self.derivative();
         let gradients = self.level_gradients(kept);

@@ -45,6 +45,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
         Self::with_parameters(model, model.assign(free), state)
     }
 
+    #[inline(never)]
     fn with_parameters(model: &'m Model, parameters: Rc<[Option<Value<T>>]>, state: &[T]) -> Self {
         let mut rest = state;
         let state = model
@@ -74,21 +75,25 @@ impl<'m, T: Scalar> Phase<'m, T> {
     }
 
     /// Returns the state's components in order.
+    #[inline(never)]
     pub fn state(&self) -> Vec<T> {
         self.configuration.components()
     }
 
     /// Evaluates a formula.
+    #[inline(never)]
     pub fn evaluate(&self, formula: &Formula) -> Value<T> {
         formula.evaluate(&mut |symbol| self.value(symbol))
     }
 
     /// Evaluates a formula so that the value is defined exactly where every operation written in
     /// it, in its abbreviations and in its parameters is.
+    #[inline(never)]
     pub fn evaluate_literally(&self, formula: &Formula) -> Value<T> {
         formula.evaluate_literally(&mut |symbol| self.literal_value(symbol))
     }
 
+    #[inline(never)]
     fn literal_value(&self, symbol: Symbol) -> Value<T> {
         let formula = |symbol| self.literal_formula(symbol);
         self.literal.value(symbol, &formula, &|symbol| match self.literal_formula(symbol) {
@@ -112,6 +117,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
     }
 
     /// Returns the value of a symbol.
+    #[inline(never)]
     pub fn value(&self, symbol: Symbol) -> Value<T> {
         let model = self.model();
         let formula = |symbol| formula_of(model, symbol);
@@ -124,6 +130,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
     }
 
     /// Returns the rate of state variable `index`.
+    #[inline(never)]
     fn rate(&self, index: usize) -> Value<T> {
         let state = &self.model().state;
         let start: usize = state[..index].iter().map(Variable::len).sum();
@@ -134,11 +141,13 @@ impl<'m, T: Scalar> Phase<'m, T> {
         Value::from_components(state[index].kind, &rates[start..])
     }
 
+    #[inline(never)]
     fn own_field(&self) -> &[T] {
         self.own_field.get_or_init(|| self.model().system.field(self))
     }
 
     /// Returns the vector field: the time derivatives of the state's components, in order.
+    #[inline(never)]
     pub fn field(&self) -> &[T] {
         self.field.get_or_init(|| {
             let mut field = self.own_field().to_vec();
@@ -164,6 +173,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
     }
 
     /// Evaluates a level function F.
+    #[inline(never)]
     pub fn level_function(&self, function: &LevelFunction) -> T {
         match function {
             LevelFunction::UnitNormal => {
@@ -179,6 +189,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
     }
 
     /// Returns another point, with other values of some parameters.
+    #[inline(never)]
     pub fn with(&self, parameters: &[(usize, Value<T>)], state: &[T]) -> Self {
         let mut all = Rc::clone(&self.configuration.parameters);
         if !parameters.is_empty() {
@@ -192,11 +203,13 @@ impl<'m, T: Scalar> Phase<'m, T> {
     }
 
     /// Returns a point of another model that has the same parameters.
+    #[inline(never)]
     pub fn in_model<'n>(&self, model: &'n Model, state: &[T]) -> Phase<'n, T> {
         Phase::with_parameters(model, Rc::clone(&self.configuration.parameters), state)
     }
 
     /// Lifts the point with a derivative part of one scalar parameter.
+    #[inline(never)]
     pub fn lift_parameter(&self, index: usize, direction: T) -> Phase<'m, Dual<T>> {
         let mut parameters = lift_parameters(&self.configuration.parameters).to_vec();
         let value = self.configuration.parameter(index);
@@ -207,6 +220,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
 
     /// Lifts the point with the derivative part `direction`, one entry for each component of the
     /// state.
+    #[inline(never)]
     pub fn lift(&self, direction: &[T]) -> Phase<'m, Dual<T>> {
         let state: Vec<_> =
             self.state().into_iter().zip(direction).map(|(x, d)| Dual::new(x, *d)).collect();
@@ -222,6 +236,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
     }
 
     /// Lifts the point with a derivative part along coordinate `index`.
+    #[inline(never)]
     pub fn lift_along(&self, index: usize) -> Phase<'m, Dual<T>> {
         let mut direction = vec![T::zero(); self.model().dimension()];
         direction[index] = T::one();

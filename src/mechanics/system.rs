@@ -105,21 +105,25 @@ impl System {
     }
 
     /// The time derivatives of the state's components, in order; of a map their images.
+    #[inline(never)]
     pub fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         for_each_kind!(self, one => one.field(phase))
     }
 
     /// Energy: ½(ω,Ĩω) + U of a body, that of a Lagrangian, or H; `None` for a vector field.
+    #[inline(never)]
     pub fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
         for_each_kind!(self, one => one.energy(phase))
     }
 
     /// Closed formulas for values that occur in claims, where some are known.
+    #[inline(never)]
     pub fn shortcuts<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         for_each_kind!(self, one => one.shortcuts(phase))
     }
 
     /// Divergence div v by a closed formula of the system, where there is one.
+    #[inline(never)]
     pub fn divergence<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
         if !phase.model().extension.is_empty() {
             return None;
@@ -157,23 +161,27 @@ impl System {
     /// Computes the criterion: scalars that are zero everywhere exactly when a density of the
     /// configuration alone exists. One for a rubber body and a flat base, C₁ and C₂ for a spinning
     /// body, none for other systems.
+    #[inline(never)]
     pub fn criterion<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         for_each_kind!(self, one => one.criterion(phase))
     }
 
     /// Returns the covector whose rotation is the last part of the criterion: w(γ) of a body, ξ(r)
     /// of a flat base.
+    #[inline(never)]
     pub fn criterion_covector<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<Vec<T>> {
         for_each_kind!(self, one => one.criterion_covector(phase))
     }
 
     /// Returns the square of the scale of the criterion.
+    #[inline(never)]
     pub fn criterion_scale<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
         for_each_kind!(self, one => one.criterion_scale(phase))
     }
 
     /// Computes ρ₀ of a body: where the criterion vanishes, ρ = Nρ₀ is a density with
     /// d ln N = -(w,dγ).
+    #[inline(never)]
     pub fn reference_density<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {
         for_each_kind!(self, one => one.reference_density(at))
     }
@@ -181,6 +189,7 @@ impl System {
     /// Computes (γ, rot r), which vanishes on |γ| = 1 exactly when ∂r/∂γ is symmetric across γ
     /// there, as it is for the surface of a body; `None` where r is the gradient of a support
     /// function.
+    #[inline(never)]
     pub fn contact_twist<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {
         self.body().and_then(|body| body.contact_twist(at))
     }
@@ -198,6 +207,7 @@ impl System {
     }
 
     /// Computes χ with div v = (χ,ω) on the level; that of a rubber body is tangential.
+    #[inline(never)]
     pub fn chi<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<[T; 3]> {
         for_each_kind!(self, one => one.chi(phase))
     }
@@ -217,14 +227,17 @@ impl System {
 
     /// Computes K with Ĩω' = K of a body that may spin, if no moment acts on it besides those of a
     /// potential and a rotor; K is orthogonal to γ where ω is parallel to γ.
+    #[inline(never)]
     pub fn turning_moment<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<[T; 3]> {
         for_each_kind!(self, one => one.turning_moment(phase))
     }
 
+    #[inline(never)]
     pub(super) fn quantity<T: Scalar>(&self, quantity: Quantity, phase: &Phase<'_, T>) -> Value<T> {
         for_each_kind!(self, one => one.quantity(quantity, phase))
     }
 
+    #[inline(never)]
     pub(super) fn configuration_quantity<T: Scalar>(
         &self,
         quantity: Quantity,

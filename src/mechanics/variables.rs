@@ -62,27 +62,32 @@ impl BracketBlock {
 
 impl NewVariables {
     /// Evaluates φ(x), component by component.
+    #[inline(never)]
     pub fn image<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         self.images.iter().flat_map(|image| phase.evaluate(image).components()).collect()
     }
 
     /// Makes the point φ(x), at which formulas in the new variables are evaluated.
+    #[inline(never)]
     pub fn point<T: Scalar>(&self, phase: &Phase<'_, T>) -> Phase<'_, T> {
         phase.in_model(&self.model, &self.image(phase))
     }
 
     /// Computes L_vφ.
+    #[inline(never)]
     pub fn rates<T: Scalar>(&self, jet: &DualPoint<'_, T>) -> Vec<T> {
         self.images.iter().flat_map(|image| jet.rates(image)).collect()
     }
 
     /// Computes P + Pᵀ within the blocks on the diagonal, which vanishes where P is a bracket; the
     /// other blocks are skew by construction.
+    #[inline(never)]
     pub fn symmetric_part<T: Scalar>(&self, matrix: &[Vec<T>]) -> Vec<T> {
         symmetric_part(&self.model.state, matrix)
     }
 
     /// Returns the tensor P of a bracket at a point of the new variables, by rows.
+    #[inline(never)]
     pub fn tensor<T: Scalar>(&self, bracket: usize, there: &Phase<'_, T>) -> Vec<Vec<T>> {
         tensor(&self.model.state, &self.brackets[bracket].blocks, there)
     }
@@ -104,16 +109,19 @@ impl<T> Default for VariablesJet<'_, T> {
 
 impl<'m, T: Scalar> DualPoint<'m, T> {
     /// Returns the point φ(x) of new variables with its own lifts.
+    #[inline(never)]
     pub fn in_variables(&self, variables: &'m NewVariables) -> &DualPoint<'m, T> {
         self.image.point.get_or_init(|| Box::new(DualPoint::new(variables.point(&self.phase))))
     }
 
     /// Returns the point φ(x) of new variables with L_vφ as its derivative part.
+    #[inline(never)]
     pub fn in_variables_along_field(&self, variables: &'m NewVariables) -> &Phase<'m, Dual<T>> {
         self.image.along_field.get_or_init(|| variables.point(self.along_field()))
     }
 
     /// Computes dφ, by columns.
+    #[inline(never)]
     pub fn slopes_of_variables(&self, variables: &NewVariables) -> Vec<Vec<T>> {
         let slope =
             |beside: &Phase<'_, Dual<T>>| variables.image(beside).iter().map(|y| y.eps).collect();
@@ -122,6 +130,7 @@ impl<'m, T: Scalar> DualPoint<'m, T> {
 
     /// Computes tr(dφ⁻¹ d(L_vφ)), the divergence of the motion in new variables, as many as the old
     /// ones.
+    #[inline(never)]
     pub fn divergence_in_variables(&self, variables: &NewVariables) -> T {
         *self.image.divergence.get_or_init(|| {
             let (mut columns, mut rates) = (Vec::new(), Vec::new());
@@ -136,6 +145,7 @@ impl<'m, T: Scalar> DualPoint<'m, T> {
 }
 
 /// Computes P + Pᵀ within the blocks on the diagonal.
+#[inline(never)]
 pub(super) fn symmetric_part<T: Scalar>(state: &[Variable], matrix: &[Vec<T>]) -> Vec<T> {
     let mut parts = Vec::new();
     let mut start = 0;
@@ -149,6 +159,7 @@ pub(super) fn symmetric_part<T: Scalar>(state: &[Variable], matrix: &[Vec<T>]) -
 }
 
 /// Makes the tensor of some blocks at a point in their variables, by rows.
+#[inline(never)]
 pub(super) fn tensor<T: Scalar>(
     state: &[Variable],
     blocks: &[Vec<Option<BracketBlock>>],

@@ -4,7 +4,10 @@ use liouville::graph::Fault;
 use liouville::number::UnaryFunction;
 use serde::{Deserialize, Serialize};
 
-use super::pace::{ENDLESS, MOST_STEPS};
+/// Number of steps that nobody waits for.
+pub(super) const ENDLESS: f64 = 1e9;
+/// Number of steps that no motion takes, whatever their size.
+pub(super) const MOST_STEPS: f64 = 1e10;
 
 /// Reason why a motion cannot be computed.
 ///
@@ -23,10 +26,10 @@ pub enum FlowError {
     #[error("{}", singular(*time, state))]
     Singular {
         /// Time of the last state.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         time: f64,
         /// Last state.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         state: Vec<f64>,
     },
     /// A formula of the system has no value where the motion starts, or where it comes to.
@@ -35,7 +38,7 @@ pub enum FlowError {
         /// Formula as written.
         formula: String,
         /// Time from which on it has no value.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         time: f64,
         /// State there, in words.
         place: String,
@@ -44,26 +47,26 @@ pub enum FlowError {
     #[error("{}", shrinking(*time, *step, state))]
     Shrinking {
         /// Time of the last state.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         time: f64,
         /// Last step.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         step: f64,
         /// Last state.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         state: Vec<f64>,
     },
     /// The time takes too many steps.
     #[error("{}", endless(*time, *step, *until))]
     Endless {
         /// Time of the last state.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         time: f64,
         /// Last step.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         step: f64,
         /// Time at which the motion would end.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         until: f64,
     },
     /// The section uses variables that this system does not have.
@@ -84,10 +87,10 @@ pub enum FlowError {
     #[error("(l, L/G) = ({l}, {z}) is not a point of the section: |L/G| has to be below 1")]
     OffSphere {
         /// Coordinate l.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         l: f64,
         /// Coordinate L/G.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         z: f64,
     },
     /// The energy is not above the potential at the start.
@@ -96,23 +99,23 @@ pub enum FlowError {
     )]
     BelowPotential {
         /// Coordinate l.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         l: f64,
         /// Coordinate L/G.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         z: f64,
         /// Potential at the start.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         potential: f64,
         /// Energy of the section.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         energy: f64,
     },
     /// The motion does not return to the section.
     #[error("{}", never_crossed(*time, *crossings, *others))]
     NeverCrossed {
         /// Time up to which the motion was followed.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         time: f64,
         /// Number of crossings found.
         crossings: usize,
@@ -125,7 +128,7 @@ pub enum FlowError {
     )]
     SectionEnds {
         /// Time of the last value.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         time: f64,
     },
     /// The level set is a point.
@@ -156,36 +159,36 @@ pub enum FlowError {
     #[error("the start violates the one-sided constraint: its function is {by:e} there")]
     BehindConstraint {
         /// Value of r, which must not be negative.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         by: f64,
     },
     /// Contact and free motion alternate without end.
     #[error("contact and free motion alternate without end near t = {time}")]
     TooManyPhases {
         /// Time near which the phases accumulate.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         time: f64,
     },
     /// Newton's method does not converge.
     #[error("no point of period {period} was found near (l, L/G) = ({l}, {z})")]
     NoPeriodicPoint {
         /// Coordinate l.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         l: f64,
         /// Coordinate L/G.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         z: f64,
         /// Period, in crossings of the section.
         period: usize,
     },
     /// Newton's method for a closed orbit does not converge.
     #[error("no closed orbit was found near the start, with a period near {0}")]
-    NoClosedOrbit(#[serde(with = "super::record")] f64),
+    NoClosedOrbit(#[serde(with = "crate::record")] f64),
     /// The equations of a closed orbit are singular.
     #[error(
         "the closed orbit near t = {0} is degenerate: it is one of a family, such as those of a further integral"
     )]
-    Degenerate(#[serde(with = "super::record")] f64),
+    Degenerate(#[serde(with = "crate::record")] f64),
     /// A line is not that of a reversor.
     #[error(
         "{line} is no line of a reversor of this section: mirrored about it, the image of (l, L/G) = ({l:.4}, {z:.4}) comes back {by:.1e} away"
@@ -206,13 +209,13 @@ pub enum FlowError {
     #[error("what varies is {value} at the start, outside the range from {from} to {to}")]
     OutsideRange {
         /// Value at the start.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         value: f64,
         /// Lower end.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         from: f64,
         /// Upper end.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         to: f64,
     },
     /// The energy changes along the motion.
@@ -223,10 +226,10 @@ pub enum FlowError {
     #[serde(skip)]
     NotHyperbolic {
         /// Coordinate l.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         l: f64,
         /// Coordinate L/G.
-        #[serde(with = "super::record")]
+        #[serde(with = "crate::record")]
         z: f64,
         /// Kind of the periodic point.
         #[serde(skip)]

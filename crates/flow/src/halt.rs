@@ -44,7 +44,7 @@ impl Drop for Former {
 }
 
 /// Runs work whose motions end early once the flag is raised; each of them then yields
-/// [`FlowError::Stopped`](super::FlowError::Stopped).
+/// [`FlowError::Stopped`](crate::FlowError::Stopped).
 ///
 /// ```
 /// use std::sync::Arc;

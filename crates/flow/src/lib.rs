@@ -8,114 +8,63 @@
 //! orders (Moore 1966; Jorba, Zou 2005). It is run over f64, over several orbits at once, or over
 //! double-double.
 
-mod andoyer;
-mod area;
-mod attractors;
-mod axis;
-mod basins;
-mod batch;
-mod carry;
+mod chaos;
 mod closed;
-mod code;
-mod columns;
-mod compile;
-mod continuation;
-mod crossings;
-mod cycle;
-mod diagram;
 mod error;
-mod event;
-mod expand;
-mod form;
 mod halt;
-mod kept;
-mod lanes;
-mod late;
-mod launch;
-mod lexicon;
-mod lyapunov;
-mod machine;
-mod merge;
 mod motion;
-mod multiplier;
-mod number;
 pub mod observe;
-mod one_sided;
-mod open;
-mod orbit;
-mod pace;
-mod periodic;
-mod plane;
-mod portrait;
-mod presence;
-mod program;
 mod record;
-mod request;
-mod returns;
-mod rotation;
-mod rounding;
-mod samples;
 mod section;
-mod separatrix;
-mod series;
-mod shadow;
-mod shorten;
-mod spectrum;
-mod start;
-mod stepper;
-mod surface;
-mod symmetric;
-mod track;
-mod turns;
+mod taylor;
 mod validated;
-mod variational;
-mod watch;
 
-pub use andoyer::{applies as has_andoyer_section, spread};
-pub use area::{AreaForm, area_forms};
-pub use axis::{AxisMistake, number_with_pi};
-pub use basins::{Attractor, BasinRequest, Basins, Destiny, StateAxis, basins};
-pub use closed::{ComputedClosedOrbit, MeasuredNumber};
-pub use columns::Columns;
-pub use continuation::{
+pub use chaos::basins::{Attractor, BasinRequest, Basins, Destiny, StateAxis, basins};
+pub use chaos::plane::{PlaneRequest, plane, plane_part};
+pub use chaos::rotation::RotationNumber;
+pub use chaos::spectrum::{Spectrum, spectra};
+pub use closed::area::{AreaForm, area_forms};
+pub use closed::continuation::{
     Bifurcation, Branch, BranchEnd, BranchPoint, BranchRequest, BranchSection, branch,
     declared_range,
 };
-pub use cycle::Cycle;
-pub use diagram::{DiagramOrbit, DiagramRequest, DiagramSection, diagram};
-pub use error::FlowError;
-pub use halt::{stop_request, stoppable};
-pub use kept::check_level;
-pub use launch::{Begin, Launches, Launchpad};
-pub use lexicon::{FormulaMistake, Lexicon};
-pub use lyapunov::{Alignment, Character, Estimate, Exponents};
-pub use motion::Loose;
-pub use multiplier::{CycleKind, Multiplier};
-pub use one_sided::{Contact, ContactEvent};
-pub use orbit::{Followed, Orbit, Precision, QuantityRole, orbit, value_at};
-pub use periodic::{ComputedPeriodicPoint, Multipliers, SectionMap};
-pub use plane::{ChartAxis, Coordinate, Launch, PlaneRequest, plane, plane_part};
-pub use portrait::{Portrait, portrait};
-pub use request::{ChoiceError, SectionChoice};
-pub use returns::{closed_orbit, crossing_time};
-pub use rotation::RotationNumber;
-pub use samples::{SampledOrbit, Sampling, orbits};
-pub use section::{
-    Crossing, SectionOrbit, SectionRequest, section, section_starts, values_at_starts,
-};
-pub use separatrix::{Separatrices, separatrices};
-pub use spectrum::{Spectrum, spectra};
-pub use start::{Start, fixed_parameters};
-pub use surface::{
-    CrossingSurface, SurfaceCrossing, SurfaceOrbit, SurfaceRequest, surface_section,
-};
-pub use symmetric::{
+pub use closed::cycle::Cycle;
+pub use closed::multiplier::{CycleKind, Multiplier};
+pub use closed::periodic::{ComputedPeriodicPoint, Multipliers, SectionMap};
+pub use closed::returns::{closed_orbit, crossing_time};
+pub use closed::separatrix::{Separatrices, separatrices};
+pub use closed::symmetric::{
     SymmetricOrbit, SymmetricOrbits, SymmetricRequest, line_name, symmetric_orbits,
 };
-pub use track::{RollingSamples, Track, track};
+pub use closed::through::{ComputedClosedOrbit, MeasuredNumber};
+pub use error::FlowError;
+pub use halt::{stop_request, stoppable};
+pub use motion::columns::Columns;
+pub use motion::kept::check_level;
+pub use motion::lexicon::{FormulaMistake, Lexicon};
+pub use motion::lyapunov::{Alignment, Character, Estimate, Exponents};
+pub use motion::one_sided::{Contact, ContactEvent};
+pub use motion::orbit::{Followed, Orbit, Precision, QuantityRole, orbit, value_at};
+pub use motion::recorded::Loose;
+pub use motion::samples::{SampledOrbit, Sampling, orbits};
+pub use motion::start::{Start, fixed_parameters};
+pub use motion::track::{RollingSamples, Track, track};
+pub use motion::variational::Variational;
+pub use section::andoyer::{applies as has_andoyer_section, spread};
+pub use section::axis::{AxisMistake, number_with_pi};
+pub use section::coordinate::{ChartAxis, Coordinate, Launch};
+pub use section::diagram::{DiagramOrbit, DiagramRequest, DiagramSection, diagram};
+pub use section::launch::{Begin, Launches, Launchpad};
+pub use section::portrait::{Portrait, portrait};
+pub use section::request::{ChoiceError, SectionChoice};
+pub use section::rolling::{
+    Crossing, SectionOrbit, SectionRequest, section, section_starts, values_at_starts,
+};
+pub use section::surface::{
+    CrossingSurface, SurfaceCrossing, SurfaceOrbit, SurfaceRequest, surface_section,
+};
 pub use validated::{
     CoveringSet, Doubt, Enclosure, HorseshoeData, HorseshoeTrace, Margin, Obstacle, ProofData,
     ProvedHorseshoe, ProvedOrbit, Reached, Request, follow, prove, prove_horseshoe, replay,
     replay_horseshoe,
 };
-pub use variational::Variational;

@@ -1,6 +1,7 @@
 //! Writers of reports for people and for machines: verdicts as JSON and CSV, mistakes at their
 //! place, the invariants of a body as LaTeX, Markdown and HTML.
 
+mod annotations;
 pub mod diagnostic;
 mod digest;
 pub mod evidence;
@@ -12,6 +13,7 @@ pub mod site;
 pub mod survey;
 pub mod typeset;
 
+pub use annotations::annotations;
 pub use digest::{CaseDigest, VERSION, sha256};
 
 use std::collections::BTreeMap;

@@ -6,10 +6,11 @@ use crate::report::terminal::{Detail, Style};
 use crate::report::{diagnostic, json, records, terminal};
 use liouville::case::{Case, Column, is_labelled, labels, matches};
 use liouville::verdict::{ClaimReport, Options};
+use liouville_report::annotations;
 
 use super::eval::read_settings;
 use super::judging::{JudgingJob, judge};
-use super::{CheckArgs, CheckFormat, CommandOutput, bodies, certificates, colour, width};
+use super::{CheckArgs, CheckFormat, CommandOutput, bodies, certificates, colour, watch, width};
 
 /// Claims that were asked for, by name or source and by label.
 #[derive(Clone, Debug)]
@@ -93,6 +94,9 @@ pub(super) fn no_claim(wanted: &[String]) -> String {
 }
 
 pub fn run(options: &CheckArgs) -> Result<CommandOutput, String> {
+    if options.watch {
+        return watch::run(options);
+    }
     if options.bodies.settings.is_some() {
         return bodies::check(options);
     }
@@ -133,6 +137,7 @@ pub fn run(options: &CheckArgs) -> Result<CommandOutput, String> {
             json::render(&run).map_err(|error| format!("error: {error}"))? + "\n"
         }
         CheckFormat::Csv => records::csv(&run),
+        CheckFormat::Github => annotations(&run, |path| std::fs::read_to_string(path).ok()),
         CheckFormat::Junit => records::junit(&run),
         CheckFormat::Text => {
             let detail = match (options.verbose, options.quiet) {

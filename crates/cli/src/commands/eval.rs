@@ -1,7 +1,9 @@
 //! The command `liouville eval`.
 
 use std::io::IsTerminal;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
 
 use crate::report::point;
 use crate::report::{CaseDigest, diagnostic};
@@ -9,7 +11,42 @@ use liouville::case::{Case, Setting};
 use liouville::formula::canonical_name;
 use liouville::verdict;
 
-use super::{CommandOutput, Eval, colour, source};
+use super::{CommandOutput, LimitArgs, colour, source};
+
+fn parse_digits(text: &str) -> Result<usize, String> {
+    let digits: usize = text.parse().map_err(|_| "write a number of digits".to_string())?;
+    (1..=2000)
+        .contains(&digits)
+        .then_some(digits)
+        .ok_or("write a number from 1 to 2000".to_string())
+}
+
+#[derive(Debug, Args)]
+pub struct Eval {
+    /// Case file
+    pub case: PathBuf,
+    /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'; others are drawn
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    pub settings: Vec<String>,
+    /// State by exact numbers: --state 'ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]'; drawn by default
+    #[arg(long, value_name = "STATE")]
+    pub state: Option<String>,
+    /// Number of the state that is drawn
+    #[arg(long, default_value_t = 0)]
+    pub index: u64,
+    /// Number of significant digits to print, all of them right (up to 2000); without it, numbers
+    /// are rounded to f64 and come with a bound on their error
+    #[arg(long, value_parser = parse_digits)]
+    pub digits: Option<usize>,
+    /// Seed of the draws
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub limits: LimitArgs,
+}
 
 pub fn run(options: &Eval) -> Result<CommandOutput, String> {
     let case = open(&options.case, &options.settings)?;

@@ -1,9 +1,9 @@
 //! Limits of time and memory, and Ctrl-C: a watch beside the work.
 
 use std::fmt;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::sync::{Arc, OnceLock};
 use std::thread::Builder;
 use std::time::{Duration, Instant};
 
@@ -123,15 +123,19 @@ impl LimitArgs {
     }
 }
 
-/// Returns a flag that Ctrl-C and a request to end raise; a second Ctrl-C exits.
+/// Returns the flag of the process that Ctrl-C and a request to end raise; a second Ctrl-C exits.
 pub fn signals() -> Result<Arc<AtomicBool>, String> {
+    static RAISED: OnceLock<Arc<AtomicBool>> = OnceLock::new();
+    if let Some(raised) = RAISED.get() {
+        return Ok(Arc::clone(raised));
+    }
     let raised = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {
         flag::register_conditional_shutdown(signal, INTERRUPTED, Arc::clone(&raised))
             .and_then(|_| flag::register(signal, Arc::clone(&raised)))
             .map_err(|error| format!("error: cannot listen to signals: {error}"))?;
     }
-    Ok(raised)
+    Ok(Arc::clone(RAISED.get_or_init(|| raised)))
 }
 
 /// Megabytes of memory that the program takes, where the system tells.

@@ -5,6 +5,7 @@ pub mod bodies;
 pub mod cases;
 mod certificates;
 pub mod check;
+mod check_args;
 pub mod completions;
 pub mod eval;
 pub mod explain;
@@ -19,22 +20,27 @@ pub mod names;
 pub mod new;
 mod out;
 mod run;
+mod sampling;
 pub mod schema;
 mod styles;
 pub mod table;
 mod threads;
 pub mod verify;
+mod watch;
 
 use std::ffi::OsString;
 use std::io::{ErrorKind, IsTerminal, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 pub use crate::answer::CommandOutput;
+pub use check_args::{CheckArgs, CheckFormat};
 pub use limits::{LimitArgs, STOPPED};
 pub use run::run;
+pub use sampling::{SamplingArgs, parse_threads};
 
 use crate::source;
-use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
+use anstream::ColorChoice;
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 
 /// First steps, below the list of commands.
 const FIRST_STEPS: &str = "\
@@ -48,6 +54,17 @@ Examples:
 #[derive(Debug, Parser)]
 #[command(name = "liouville", version, max_term_width = 100, after_help = FIRST_STEPS)]
 pub struct Arguments {
+    /// Colours in the output
+    #[arg(
+        long,
+        global = true,
+        value_name = "WHEN",
+        value_enum,
+        default_value_t,
+        hide_possible_values = true,
+        help = "Colours in the output: auto, always or never"
+    )]
+    pub color: ColorArg,
     #[command(subcommand)]
     pub command: Command,
 }
@@ -69,7 +86,7 @@ Examples:
     #[command(
         after_help = "Example:\n  liouville eval plane/balanced-ball --set m=5/4 --digits 50"
     )]
-    Eval(Eval),
+    Eval(eval::Eval),
     #[command(flatten)]
     Explore(Box<explore::ExploreCommand>),
     /// Put the parts of a job together: the file that one run writes, with the same bytes
@@ -87,7 +104,7 @@ Example:
     Verify(verify::Verify),
     /// Print a hierarchy table of the paper, filled from verdicts
     #[command(after_help = "Example:\n  liouville table 1 --format latex")]
-    Table(TableArgs),
+    Table(table::TableArgs),
     /// Write a commented case to start from
     #[command(after_help = "Example:\n  liouville new field system.toml")]
     New(new::New),
@@ -117,6 +134,26 @@ Example:
     /// Write the manual pages
     #[command(after_help = "Example:\n  liouville man ~/.local/share/man/man1")]
     Man(completions::Man),
+}
+
+/// Choice of colours.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub enum ColorArg {
+    /// On a terminal, unless NO_COLOR is set
+    #[default]
+    Auto,
+    Always,
+    Never,
+}
+
+impl From<ColorArg> for ColorChoice {
+    fn from(choice: ColorArg) -> Self {
+        match choice {
+            ColorArg::Auto => ColorChoice::Auto,
+            ColorArg::Always => ColorChoice::Always,
+            ColorArg::Never => ColorChoice::Never,
+        }
+    }
 }
 
 impl Arguments {
@@ -170,192 +207,6 @@ fn refuse(error: &clap::Error) -> ! {
     std::process::exit(error.exit_code())
 }
 
-/// Options of the sampling.
-#[derive(Clone, Copy, Debug, Args)]
-pub struct SamplingArgs {
-    /// Seed of all random states
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
-    /// Number of states a claim must survive (rounded up to blocks of 64)
-    #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
-    pub states: u64,
-    /// Evidence required for a claim to hold: a proof, or states in floating point alone (faster).
-    /// By default a proof is tried, and a confirmation accepted where there is none
-    #[arg(long, value_enum)]
-    pub trust: Option<TrustArg>,
-    /// Number of threads; all cores by default. Results do not depend on it
-    #[arg(long, value_parser = parse_threads)]
-    pub threads: Option<usize>,
-}
-
-/// Reads a number of threads.
-pub fn parse_threads(text: &str) -> Result<usize, String> {
-    const MOST_THREADS: usize = 1024;
-    let threads = text.parse().ok().filter(|threads| (1..=MOST_THREADS).contains(threads));
-    threads.ok_or(format!("write a number of threads from 1 to {MOST_THREADS}"))
-}
-
-/// Required strength of evidence.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum TrustArg {
-    Proof,
-    Float,
-}
-
-impl SamplingArgs {
-    pub fn options(&self) -> liouville::verdict::Options {
-        use liouville::verdict::{Options, Trust as Asked};
-        let trust = match self.trust {
-            Some(TrustArg::Proof) => Asked::Proof,
-            Some(TrustArg::Float) => Asked::Float,
-            None => Asked::Best,
-        };
-        Options { seed: self.seed, states: self.states, trust, mutants: false }
-    }
-}
-
-#[derive(Debug, Args)]
-pub struct CheckArgs {
-    /// Case files, folders of them, or `-` for standard input; paths that do not exist are looked
-    /// up in the catalogue inside the program
-    #[arg(default_value = "cases")]
-    pub paths: Vec<PathBuf>,
-    /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'
-    #[arg(long = "set", value_name = "NAME=VALUE")]
-    pub settings: Vec<String>,
-    #[command(flatten)]
-    pub bodies: bodies::BodiesArgs,
-    /// Show only claims whose name or source contains this text, or matches it if it has `*` or
-    /// `?`
-    #[arg(long = "claim", value_name = "TEXT")]
-    pub claims: Vec<String>,
-    /// Show only claims that state this of a publication: an equation, theorem, figure or cell of a
-    /// table, or a pattern with `*` or `?`
-    #[arg(long = "source", value_name = "LABEL")]
-    pub sources: Vec<String>,
-    /// Output format
-    #[arg(long, value_enum, default_value_t = CheckFormat::Text, conflicts_with = "json")]
-    pub format: CheckFormat,
-    /// Print JSON
-    #[arg(long)]
-    pub json: bool,
-    /// Write the results of --settings to this file, .csv, .json or .jsonl; with --part the folder
-    /// of the parts
-    #[arg(long, value_name = "FILE", requires = "bodies_table")]
-    pub out: Option<PathBuf>,
-    #[command(flatten)]
-    pub share: explore::share::Share,
-    /// Perturb every true formula, and refute each mutant that is not equivalent
-    #[arg(long, conflicts_with = "bodies_table")]
-    pub mutants: bool,
-    /// Write a certificate of each proof by points of prime fields to this folder, for the checker
-    /// in docs/certificates; with --motion also of each closed orbit, for `liouville verify`
-    #[arg(long, value_name = "FOLDER", conflicts_with = "bodies_table")]
-    pub certificate: Option<PathBuf>,
-    /// Also check claims about motion (slow: minutes for cases/figures)
-    #[arg(long)]
-    pub motion: bool,
-    /// Show each claim of each case, with witnesses and evidence
-    #[arg(short, long, conflicts_with = "bodies_table")]
-    pub verbose: bool,
-    /// Print the summary alone
-    #[arg(short, long, conflicts_with = "verbose")]
-    pub quiet: bool,
-    #[command(flatten)]
-    pub limits: LimitArgs,
-    #[command(flatten)]
-    pub sampling: SamplingArgs,
-}
-
-/// Format of the verdicts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum CheckFormat {
-    /// Text for a terminal
-    Text,
-    /// JSON, one document
-    Json,
-    /// JSON, one line for each body of --settings
-    Jsonl,
-    /// One line for each claim, with a header; for each body with --settings
-    Csv,
-    /// JUnit's XML, for continuous integration
-    Junit,
-}
-
-fn parse_digits(text: &str) -> Result<usize, String> {
-    let digits: usize = text.parse().map_err(|_| "write a number of digits".to_string())?;
-    (1..=2000)
-        .contains(&digits)
-        .then_some(digits)
-        .ok_or("write a number from 1 to 2000".to_string())
-}
-
-#[derive(Debug, Args)]
-pub struct Eval {
-    /// Case file
-    pub case: PathBuf,
-    /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'; others are drawn
-    #[arg(long = "set", value_name = "NAME=VALUE")]
-    pub settings: Vec<String>,
-    /// State by exact numbers: --state 'ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]'; drawn by default
-    #[arg(long, value_name = "STATE")]
-    pub state: Option<String>,
-    /// Number of the state that is drawn
-    #[arg(long, default_value_t = 0)]
-    pub index: u64,
-    /// Number of significant digits to print, all of them right (up to 2000); without it, numbers
-    /// are rounded to f64 and come with a bound on their error
-    #[arg(long, value_parser = parse_digits)]
-    pub digits: Option<usize>,
-    /// Seed of the draws
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
-    /// Print JSON
-    #[arg(long)]
-    pub json: bool,
-    #[command(flatten)]
-    pub limits: LimitArgs,
-}
-
-#[derive(Debug, Args)]
-pub struct TableArgs {
-    /// Number of the table: 1 for the plane, 2 for the sphere, 3 for a ball on a surface, 4 for
-    /// rolling with and without spin
-    #[arg(value_parser = parse_table)]
-    pub number: u32,
-    /// Case files, or folders of them
-    #[arg(default_value = "cases")]
-    pub paths: Vec<PathBuf>,
-    /// Print JSON
-    #[arg(long, conflicts_with = "format")]
-    pub json: bool,
-    /// Output format
-    #[arg(long, value_enum, default_value_t = TableFormat::Text)]
-    pub format: TableFormat,
-    #[command(flatten)]
-    pub limits: LimitArgs,
-    #[command(flatten)]
-    pub sampling: SamplingArgs,
-}
-
-fn parse_table(text: &str) -> Result<u32, String> {
-    let number = text.parse().ok().filter(|number| (1..=4).contains(number));
-    number.ok_or("write 1, 2, 3 or 4".to_string())
-}
-
-/// Format of a table.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum TableFormat {
-    /// Text for a terminal
-    Text,
-    /// Markdown
-    Markdown,
-    /// A LaTeX document, for any LaTeX
-    Latex,
-    /// A web page
-    Html,
-}
-
 /// Prints the answer, or the problem, and returns the exit code; invalid input exits with 2.
 pub fn finish(answer: Result<CommandOutput, String>) -> u8 {
     match answer {
@@ -396,9 +247,15 @@ fn write_new(path: &Path, text: &str) -> Result<(), String> {
     })
 }
 
-/// Whether to use colours on this stream.
+/// Whether to colour what goes to a terminal, or elsewhere.
 pub fn colour(terminal: bool) -> bool {
-    terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+    match ColorChoice::global() {
+        ColorChoice::Always | ColorChoice::AlwaysAnsi => true,
+        ColorChoice::Never => false,
+        ColorChoice::Auto => {
+            terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+        }
+    }
 }
 
 /// Width to lay tables out for: that of the terminal, or a fixed one for files and pipes.

@@ -3,6 +3,8 @@
 use std::ffi::OsString;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use anstream::ColorChoice;
+
 use super::explore::share::Share;
 use super::{Arguments, Command, CommandOutput, LimitArgs, STOPPED, finish};
 
@@ -10,7 +12,9 @@ use super::{Arguments, Command, CommandOutput, LimitArgs, STOPPED, finish};
 /// code. Help and wrong arguments end the process.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
-    let mut command = Arguments::read(arguments.clone()).command;
+    let read = Arguments::read(arguments.clone());
+    ColorChoice::from(read.color).write_global();
+    let mut command = read.command;
     let own = arguments.get(1..).unwrap_or_default();
     let mut remedy = "allow more, or ask for less".to_string();
     if let Some(share) = share(&mut command) {

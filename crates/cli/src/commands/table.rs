@@ -1,10 +1,53 @@
 //! The command `liouville table`.
 
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
 use crate::report::{diagnostic, table};
 use liouville::case::Case;
 
 use super::judging::{JudgingJob, judge};
-use super::{CommandOutput, TableArgs, TableFormat, width};
+use super::{CommandOutput, LimitArgs, SamplingArgs, width};
+
+#[derive(Debug, Args)]
+pub struct TableArgs {
+    /// Number of the table: 1 for the plane, 2 for the sphere, 3 for a ball on a surface, 4 for
+    /// rolling with and without spin
+    #[arg(value_parser = parse_table)]
+    pub number: u32,
+    /// Case files, or folders of them
+    #[arg(default_value = "cases")]
+    pub paths: Vec<PathBuf>,
+    /// Print JSON
+    #[arg(long, conflicts_with = "format")]
+    pub json: bool,
+    /// Output format
+    #[arg(long, value_enum, default_value_t = TableFormat::Text)]
+    pub format: TableFormat,
+    #[command(flatten)]
+    pub limits: LimitArgs,
+    #[command(flatten)]
+    pub sampling: SamplingArgs,
+}
+
+fn parse_table(text: &str) -> Result<u32, String> {
+    let number = text.parse().ok().filter(|number| (1..=4).contains(number));
+    number.ok_or("write 1, 2, 3 or 4".to_string())
+}
+
+/// Format of a table.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum TableFormat {
+    /// Text for a terminal
+    Text,
+    /// Markdown
+    Markdown,
+    /// A LaTeX document, for any LaTeX
+    Latex,
+    /// A web page
+    Html,
+}
 
 pub fn run(options: &TableArgs) -> Result<CommandOutput, String> {
     let (sampling, number) = (&options.sampling, options.number);

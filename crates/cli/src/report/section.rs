@@ -1,6 +1,7 @@
 //! Report of `section`: the crossings as JSON, a summary as text, and the plot.
 
 pub mod drawing;
+pub mod sphere;
 
 use serde_json::{Value, json};
 

@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 
 use super::scene::FollowedCase;
-use crate::kept::is_proved;
+use crate::motion::kept::is_proved;
 use crate::{Enclosure, FlowError, Loose, Obstacle, ProvedHorseshoe, ProvedOrbit, Request, Start};
 use liouville::case::Case;
 use liouville::claim::motion::{Beginning, ClosedOrbit, Horseshoe, Neighbourhood};

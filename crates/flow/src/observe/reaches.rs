@@ -2,7 +2,7 @@
 
 use super::judgement::MotionJudgement;
 use super::scene::FollowedCase;
-use crate::motion::{filled, point};
+use crate::motion::recorded::{filled, point};
 use crate::{Enclosure, FlowError, MeasuredNumber, Obstacle, follow};
 use liouville::claim::Components;
 use liouville::claim::motion::{Beginning, Reaches};

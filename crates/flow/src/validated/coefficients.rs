@@ -8,7 +8,7 @@ use liouville::number::{BinaryOperation as Binary, Domain, UnaryFunction};
 
 use super::enclosure::{Enclosure, raised};
 use super::plan::{EnclosedSum, Plan, PowerExponent, RowRule};
-use crate::form::Row;
+use crate::taylor::form::Row;
 
 /// Number of boxes expanded at once.
 pub const BOXES: usize = 8;

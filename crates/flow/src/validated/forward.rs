@@ -16,7 +16,7 @@ use super::guess::Nodes;
 use super::laws::Laws;
 use super::motion::{Boxed, EnclosedMotion, EnclosedPassage};
 use super::{KAPPAS, LEAST_RADIUS, Obstacle};
-use crate::start::Start;
+use crate::motion::start::Start;
 use liouville::mechanics::Model;
 use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;

@@ -1,9 +1,9 @@
 //! Nodes of a closed orbit, as approximate numbers.
 
 use crate::error::FlowError;
-use crate::presence::guarded_program;
-use crate::start::Start;
-use crate::stepper::{Accuracy, Stepper};
+use crate::motion::presence::guarded_program;
+use crate::motion::start::Start;
+use crate::taylor::stepper::{Accuracy, Stepper};
 use liouville::mechanics::Model;
 use liouville::number::double_double::DoubleDouble;
 

@@ -1,7 +1,7 @@
 //! Equations of a motion as they enter a proof: parameters, some of them loose, and the functions
 //! that the motion conserves.
 
-use crate::motion::{Loose, filled};
+use crate::motion::recorded::{Loose, filled};
 use liouville::formula::Formula;
 use liouville::graph::Expr;
 use liouville::mechanics::{Model, Phase};

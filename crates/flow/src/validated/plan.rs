@@ -1,8 +1,8 @@
 //! Taylor programs with enclosed coefficients, and the reciprocals that their tails need.
 
 use crate::error::FlowError;
-use crate::form::{BilinearForm, Row};
-use crate::program::{Rule, TaylorProgram};
+use crate::taylor::form::{BilinearForm, Row};
+use crate::taylor::program::{Rule, TaylorProgram};
 
 use super::enclosure::Enclosure;
 use liouville::number::rational::Rational;

@@ -4,7 +4,7 @@ use super::coefficients::BOXES;
 use super::enclosure::Enclosure;
 use super::motion::Boxed;
 use super::plan::{Plan, PowerExponent, RowRule};
-use crate::form::{BilinearForm, Row};
+use crate::taylor::form::{BilinearForm, Row};
 use liouville::number::double_double::two_product;
 use liouville::number::double_double_ball::{DoubleDoubleBall, DoubleDoubleBalls};
 use liouville::number::rational::Rational;

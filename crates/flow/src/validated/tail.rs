@@ -20,7 +20,7 @@
 use super::coefficients::{BOXES, Block, Coefficients, Lane, add};
 use super::enclosure::{Enclosure, raised};
 use super::plan::{EnclosedSum, RowRule};
-use crate::form::Row;
+use crate::taylor::form::Row;
 use liouville::graph::{Kernel, with_widest_vectors};
 use liouville::number::ball::Balls;
 

@@ -7,12 +7,16 @@
 
 use std::f64::consts::PI;
 
+use num_traits::Zero;
 use serde::Serialize;
 
 use liouville::case::Case;
 use liouville::claim::LevelSubset;
-use liouville::mechanics::{Model, Phase, System};
+use liouville::graph::{Evaluator, Expr, Tape, record};
+use liouville::mechanics::{Phase, System};
+use liouville::number::float::Float;
 use liouville::number::rational::Rational;
+use liouville::scalar::Scalar;
 use liouville::verdict::{JudgeError, Options, Sampler};
 
 /// Number of latitudes of the grid, from south to north.
@@ -51,9 +55,11 @@ pub struct SphereMap {
 }
 
 /// One body of the case, evaluated at points of the sphere.
-pub(super) struct BodyOnSphere<'c> {
-    model: &'c Model,
-    parameters: Vec<f64>,
+pub(super) struct BodyOnSphere {
+    contact: Tape,
+    reference: Tape,
+    criterion: Tape,
+    covector: Tape,
 }
 
 /// Maps the logarithm of a density that exists by the criterion.
@@ -138,23 +144,16 @@ fn rounded(value: f64) -> Option<f64> {
     value.is_finite().then(|| format!("{value:.5e}").parse().ok()).flatten()
 }
 
-impl<'c> BodyOnSphere<'c> {
+impl BodyOnSphere {
     /// Takes the body with the parameters of the first state; `None` for a case without a body, or
     /// with further variables.
-    pub fn first(
-        case: &'c Case,
-        options: &Options,
-    ) -> Result<Option<(Self, Parameters)>, JudgeError> {
+    pub fn first(case: &Case, options: &Options) -> Result<Option<(Self, Parameters)>, JudgeError> {
         let model = &case.model;
-        if model.system.body().is_none() || !model.extension.is_empty() {
+        let Some(body) = model.system.body().filter(|_| model.extension.is_empty()) else {
             return Ok(None);
-        }
+        };
         let printed = Sampler::new(case, &LevelSubset::level(model), options.seed)?
             .printed(0, f64::MANTISSA_DIGITS);
-        let numbers = printed[..model.free_components()].iter();
-        let parameters: Vec<f64> = numbers
-            .map(|text| text.parse::<Rational>().map_or(f64::NAN, |value| value.to_f64().0))
-            .collect();
         let mut rest = printed.as_slice();
         let shown = model.free_parameters().map(|parameter| {
             let (own, others) = rest.split_at(liouville::mechanics::components(parameter.kind));
@@ -162,35 +161,43 @@ impl<'c> BodyOnSphere<'c> {
             (parameter.name.clone(), own.join(", "))
         });
         let shown = shown.collect();
-        Ok(Some((Self { model, parameters }, shown)))
-    }
-
-    fn at<R>(&self, gamma: [f64; 3], read: impl FnOnce(&Phase<'_, f64>) -> R) -> R {
-        let state = [[0.0; 3], gamma].concat();
-        read(&Phase::new(self.model, &self.parameters, &state))
+        let numbers = &printed[..model.free_components()];
+        let tape = |read: &dyn Fn(&Phase<'_, Expr>) -> Vec<Expr>| -> Result<Tape, JudgeError> {
+            let number = |text: &String| match text.parse::<Rational>() {
+                Ok(value) => Expr::rational(&value),
+                Err(_) => Expr::undefined(),
+            };
+            let (graph, values) = record(3, |gamma| {
+                let parameters: Vec<Expr> = numbers.iter().map(number).collect();
+                let state = [&[Expr::zero(); 3], gamma].concat();
+                read(&Phase::new(model, &parameters, &state))
+            })?;
+            Ok(Tape::new(&graph, &values))
+        };
+        let system = &model.system;
+        let own = Self {
+            contact: tape(&|at| body.shape.contact(&at.configuration).0.as_slice().to_vec())?,
+            reference: tape(&|at| Vec::from_iter(system.reference_density(&at.configuration)))?,
+            criterion: tape(&|at| Vec::from_iter(system.criterion(at).first().copied()))?,
+            covector: tape(&|at| system.criterion_covector(at).unwrap_or_default())?,
+        };
+        Ok(Some((own, shown)))
     }
 
     /// Computes the point of contact r.
     pub fn contact(&self, gamma: [f64; 3]) -> [f64; 3] {
-        self.at(gamma, |phase| match self.model.system.body() {
-            Some(body) => body.shape.contact(&phase.configuration).0.into(),
-            None => [f64::NAN; 3],
-        })
+        values(&self.contact, gamma)
     }
 
     /// Computes ρ₀.
     fn reference(&self, gamma: [f64; 3]) -> f64 {
-        let density = |phase: &Phase<'_, f64>| {
-            self.model.system.reference_density(&phase.configuration).unwrap_or(f64::NAN)
-        };
-        self.at(gamma, density)
+        let [density] = values(&self.reference, gamma);
+        density
     }
 
     fn criterion(&self, gamma: [f64; 3]) -> f64 {
-        self.at(gamma, |phase| self.model.system.criterion(phase))
-            .first()
-            .copied()
-            .unwrap_or(f64::NAN)
+        let [criterion] = values(&self.criterion, gamma);
+        criterion
     }
 
     /// Computes ∫ (w,dγ) along a path with parameter 0 ≤ t ≤ 1.
@@ -200,12 +207,19 @@ impl<'c> BodyOnSphere<'c> {
             let (t, small) = ((node + 1.0) / 2.0, 1e-4);
             // Central differences on a circle: an error of 1e-9 of the step's length.
             let (before, after) = (path(t - small), path(t + small));
-            let covector = self.at(path(t), |phase| self.model.system.criterion_covector(phase));
-            let Some(covector) = covector else { return f64::NAN };
+            let covector: [f64; 3] = values(&self.covector, path(t));
             let along: f64 =
                 (0..3).map(|k| covector[k] * (after[k] - before[k]) / (2.0 * small)).sum();
             sum += weight * along / 2.0;
         }
         sum
     }
+}
+
+/// Evaluates a tape at a point; what it does not compute is NaN.
+fn values<const N: usize>(tape: &Tape, gamma: [f64; 3]) -> [f64; N] {
+    let mut evaluator = Evaluator::new(tape, Float::<1>);
+    evaluator.run(&gamma.map(|x| [x]));
+    let mut outputs = evaluator.outputs();
+    std::array::from_fn(|_| outputs.next().map_or(f64::NAN, |block| block[0]))
 }

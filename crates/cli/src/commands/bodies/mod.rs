@@ -53,6 +53,7 @@ impl RowFormat {
             CheckFormat::Json => Ok(Self::Json),
             CheckFormat::Jsonl => Ok(Self::JsonLines),
             CheckFormat::Csv => Ok(Self::Csv),
+            CheckFormat::Github => Err(wrong_format("github")),
             CheckFormat::Junit => Err(wrong_format("junit")),
         }
     }

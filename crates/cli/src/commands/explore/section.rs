@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use crate::parts::{Form, Identity, Job, json_line, json_unit};
 use crate::report::data::DataTable;
 use crate::report::exponents::MotionRow;
+use crate::report::section::sphere;
 use clap::Args;
 use liouville::case::{Case, FixedLine};
 use liouville::part::Part;
@@ -51,6 +52,9 @@ pub struct SectionArgs {
     /// Shade the density of the crossings in place of single dots, for attractors
     #[arg(long, conflicts_with_all = ["both_ways", "colour", "separatrices"])]
     pub shade: bool,
+    /// Draw the sphere of (l, L/G) as two discs, L > 0 and L < 0, in a projection that preserves areas
+    #[arg(long, conflicts_with_all = ["shade", "others", "section", "part"])]
+    pub sphere: bool,
     /// Leave out the marks of the periodic points that the case claims
     #[arg(long)]
     pub no_marks: bool,
@@ -295,7 +299,11 @@ impl Layout {
     ) -> Result<CommandOutput, String> {
         let mut saved = String::new();
         if let Some(out) = &self.out {
-            let plots: Vec<Plot> = drawn.iter_mut().filter_map(|one| one.plot.take()).collect();
+            let plots = drawn.iter_mut().filter_map(|one| one.plot.take());
+            let (plots, columns) = match options.sphere {
+                true => (plots.flat_map(|plot| sphere::discs(&plot)).collect(), 2),
+                false => (plots.collect::<Vec<Plot>>(), self.columns),
+            };
             let bytes = match drawn.first().and_then(|one| one.data.as_ref()) {
                 Some(data) => {
                     if options.crossing.section.is_some() {
@@ -304,7 +312,7 @@ impl Layout {
                     }
                     rendered(data, out.ending)
                 }
-                None => options.ink.drawn(words(&drawn), plots, self.columns, out.ending)?,
+                None => options.ink.drawn(words(&drawn), plots, columns, out.ending)?,
             };
             write(&out.path, "--out", bytes)?;
         }

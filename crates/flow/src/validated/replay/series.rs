@@ -1,7 +1,7 @@
 //! Taylor coefficients of a plan in balls, one box at a time.
 
 use super::number::ReplayNumber;
-use crate::form::Row;
+use crate::taylor::form::Row;
 use crate::validated::plan::{Plan, PowerExponent, RowRule};
 use liouville::number::UnaryFunction;
 use liouville::number::rational::Rational;

@@ -4,7 +4,7 @@
 
 use super::number::ReplayNumber;
 use super::series::{BallSeries, Weights};
-use crate::form::Row;
+use crate::taylor::form::Row;
 use crate::validated::plan::RowRule;
 
 /// Rounds in which tails may settle.

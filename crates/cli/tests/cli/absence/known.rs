@@ -1,0 +1,80 @@
+//! Known integrals: each is counted once, and polynomials in them refute nothing.
+
+use liouville::verdict::Verdict;
+
+use crate::absence::only;
+
+const BALL: &str = r#"
+title = "balanced ball"
+system = "rubber-plane"
+[parameters]
+m = "0.5..2"
+R = "1..2"
+I = "inertia(1..4)"
+[body]
+shape = "ball"
+"#;
+
+#[test]
+fn the_energy_counts_once_however_it_is_claimed() {
+    let absence = "[[claim]]\nno-integral = { degree = 2 }\nexpect = \"open\"\n";
+    for claim in ["", "energy", "(energy)", "2*energy", "(ω,Ĩ*ω)/2"] {
+        let claimed = match claim {
+            "" => String::new(),
+            _ => format!("[[claim]]\nintegral = \"{claim}\"\n"),
+        };
+        let found = only(&format!("{BALL}{claimed}{absence}"));
+        assert_eq!(found.verdict, Verdict::Refuted, "{claim}: {:?}", found.evidence);
+    }
+    let both = "[[claim]]\nintegral = \"energy\"\n[[claim]]\nintegral = \"|Ĩ*ω × γ|²\"\n";
+    let found = only(&format!("{BALL}{both}{absence}"));
+    assert_eq!(found.verdict, Verdict::Proved, "{:?}", found.evidence);
+    let theorem = found.evidence.theorem.unwrap_or_default();
+    assert!(theorem.contains("polynomial in energy and |Ĩ*ω × γ|²."), "{theorem}");
+}
+
+/// A system of two oscillators with some integrals.
+fn oscillators(integrals: &[&str], degree: u32) -> String {
+    let claims: String =
+        integrals.iter().map(|text| format!("[[claim]]\nintegral = \"{text}\"\n")).collect();
+    format!(
+        "title = \"two oscillators\"\n[state]\nx = \"0.5..1\"\ny = \"0.5..1\"\nu = \"-1..1\"\nv = \"-1..1\"\n\
+         [field]\n\"x'\" = \"u\"\n\"y'\" = \"v\"\n\"u'\" = \"-x\"\n\"v'\" = \"-2*y\"\n{claims}\
+         [[claim]]\nno-integral = {{ degree = {degree} }}\nexpect = \"open\"\n"
+    )
+}
+
+#[test]
+fn a_polynomial_in_the_known_integrals_refutes_nothing() {
+    // 2y² + v² is the second less the square of the first: the squares cancel.
+    let tangled = ["x^2 + u^2", "2*y^2 + v^2 + (x^2 + u^2)^2"];
+    let found = only(&oscillators(&tangled, 2));
+    assert_eq!(found.verdict, Verdict::Undecided, "{:?}", found.evidence);
+    let reason = found.evidence.reason.unwrap_or_default();
+    assert!(reason.contains("may cancel to it"), "{reason}");
+    let plain = only(&oscillators(&["x^2 + u^2", "2*y^2 + v^2"], 2));
+    assert_eq!(plain.verdict, Verdict::Proved, "{:?}", plain.evidence);
+    // One that is independent of the known one, and one that is a function of it but no polynomial.
+    for known in ["x^2 + u^2 + 2*y^2 + v^2", "(x^2 + u^2)^2"] {
+        let found = only(&oscillators(&[known], 2));
+        assert_eq!(found.verdict, Verdict::Refuted, "{known}: {:?}", found.evidence);
+    }
+}
+
+#[test]
+fn functions_of_a_known_integral_hide_no_other() {
+    let pendula = |claims: &str| {
+        only(&format!(
+            "title = \"two pendula\"\n[state]\nx = \"-1..1\"\ny = \"-1..1\"\nu = \"-1..1\"\nv = \"-1..1\"\n\
+             [hamiltonian]\nfunction = \"(u^2 + v^2)/2 - cos(x) - 2*cos(y)\"\n\
+             pairs = [[\"x\", \"u\"], [\"y\", \"v\"]]\n{claims}\
+             [[claim]]\nno-integral = {{ degree = 2 }}\nexpect = \"open\"\n"
+        ))
+    };
+    for claimed in [vec!["energy"], vec!["energy", "energy^2"], vec!["exp(energy)"]] {
+        let claims: String =
+            claimed.iter().map(|own| format!("[[claim]]\nintegral = \"{own}\"\n")).collect();
+        let found = pendula(&claims);
+        assert_eq!(found.verdict, Verdict::Refuted, "{claimed:?}: {:?}", found.evidence);
+    }
+}

@@ -1,0 +1,16 @@
+//! Tests of the program, one module a subject.
+
+mod absence;
+mod bench;
+mod certificates;
+mod commands;
+#[path = "../../../../tests/common/mod.rs"]
+mod common;
+mod corpus;
+mod documents;
+mod export;
+mod maps;
+mod mistakes;
+mod report;
+#[path = "../common/values.rs"]
+mod values;

@@ -1,0 +1,356 @@
+//! Basins of attraction: the set to which each motion of a grid of starts keeps at late times.
+
+use crate::chaos::attractors::{MOST_SETS, Tail};
+use crate::chaos::late::{GOLDEN, Late, LateMotions, LateSamples};
+use crate::chaos::shadow::{ShadowStart, Shadowed};
+use crate::error::FlowError;
+use crate::motion::columns::Columns;
+use crate::motion::lyapunov::{Estimate, Exponents};
+use crate::motion::start::{Start, fixed_parameters, two_sided};
+use crate::section::axis::{AxisMistake, range};
+use crate::section::launch::Launches;
+use liouville::case::Case;
+use liouville::formula::canonical_name;
+use liouville::number::double_double::DoubleDouble;
+use liouville::number::rational::Rational;
+
+/// Number of motions whose samples are kept at once.
+const WAVE: usize = 4096;
+/// Smallest width, as a share of the values and of the largest one.
+const NARROW: f64 = 1e-3;
+/// Logarithm of the contraction over the time from which on a motion tends to a point.
+const CONTRACTION: f64 = 3.0;
+
+/// Component of the state that varies over a grid.
+#[derive(Clone, Debug)]
+pub struct StateAxis {
+    /// Name of the component.
+    pub name: String,
+    /// Its index in the state.
+    pub component: usize,
+    /// Lower end.
+    pub from: Rational,
+    /// Upper end.
+    pub to: Rational,
+    /// Number of points; the first and the last are half a step inside.
+    pub count: usize,
+}
+
+impl StateAxis {
+    /// Reads an axis `NAME=a..b` of `count` points.
+    pub fn read(case: &Case, text: &str, count: usize) -> Result<Self, AxisMistake> {
+        let (name, from, to) = range(text)?;
+        let name = canonical_name(name).unwrap_or_else(|| name.to_string());
+        let known: Vec<String> =
+            (0..case.model.dimension()).map(|k| case.model.component_name(k)).collect();
+        let component = known.iter().position(|known| *known == name).ok_or_else(|| {
+            let message = format!("`{name}` is not a component of the state");
+            AxisMistake { message, help: format!("vary two of {}", known.join(", ")) }
+        })?;
+        Ok(Self { name, component, from, to, count })
+    }
+
+    /// Value at a point of the axis.
+    pub fn value(&self, index: usize) -> Rational {
+        let share = Rational::new(2 * index as i64 + 1, 2 * self.count as i64);
+        &self.from + &(&(&self.to - &self.from) * &share)
+    }
+}
+
+/// Request for the basins of a grid of starts.
+pub struct BasinRequest<'r> {
+    /// Components that vary, across and upwards.
+    pub axes: &'r [StateAxis; 2],
+    /// State that gives the other components; starts are moved to the level.
+    pub base: &'r [Rational],
+    /// Energy of the starts; by default each has that of its state.
+    pub energy: Option<&'r Rational>,
+    /// Values by which sets are told apart.
+    pub columns: &'r Columns,
+    /// Time for which each motion is followed; the later half counts.
+    pub time: f64,
+    /// Seed of the free parameters.
+    pub seed: u64,
+}
+
+/// End of a motion.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Destiny {
+    /// It keeps to the set with this index.
+    Set(usize),
+    /// It keeps to a set beyond the largest number of them.
+    Further,
+    /// It does not return to where it was: it drifts, leaves, or needs more time.
+    Unsettled,
+    /// It has no start, or ended early.
+    Ended(FlowError),
+}
+
+/// Set to which motions keep.
+#[derive(Clone, Debug)]
+pub struct Attractor {
+    /// Number of motions that keep to it.
+    pub count: usize,
+    /// Smallest and largest value of each column on its first motion.
+    pub ranges: Vec<[f64; 2]>,
+    /// Values of the columns at the end of its first motion.
+    pub last: Vec<f64>,
+    /// Whether it is a single point, or its first motion tends to one.
+    pub is_point: bool,
+    /// State of its first motion at the end.
+    pub state: Vec<f64>,
+    /// Exponents of its first motion, from its end on.
+    pub exponents: Result<Exponents, FlowError>,
+}
+
+/// Basins of a grid of starts.
+#[derive(Clone, Debug)]
+pub struct Basins {
+    /// End of each motion, row by row from the least value of the second axis.
+    pub ends: Vec<Destiny>,
+    /// Sets, the one with the most motions first.
+    pub attractors: Vec<Attractor>,
+}
+
+/// Follows a motion from each point of the grid, and finds the sets to which they keep. Calls
+/// `progress` after each motion.
+pub fn basins(
+    case: &Case,
+    request: &BasinRequest<'_>,
+    threads: usize,
+    progress: &(dyn Fn() + Sync),
+) -> Result<Basins, FlowError> {
+    two_sided(case)?;
+    let [across, up] = request.axes;
+    let count = across.count * up.count;
+    let order = Order::of(count);
+    let launches =
+        Launches { case, energy: request.energy, pad: None, seed: request.seed, index: 0 };
+    let state = |place: usize| {
+        let mut state = request.base.to_vec();
+        for (axis, index) in [(across, place % across.count), (up, place / across.count)] {
+            state[axis.component] = axis.value(index);
+        }
+        state
+    };
+    let parameters = fixed_parameters(case, request.seed, 0)?;
+    let motions = LateMotions::new(case, request.columns, &parameters)?;
+    let mut found = Found::new(count);
+    for wave in (0..count).step_by(WAVE) {
+        let places: Vec<usize> =
+            (wave..count.min(wave + WAVE)).map(|index| order.place(index)).collect();
+        let starts = launches.starts(places.iter().map(|place| state(*place)).collect())?;
+        let tails = motions.follow(&starts, request.time, threads, progress);
+        if tails.iter().any(|tail| matches!(tail, Err(FlowError::Stopped))) {
+            return Err(FlowError::Stopped);
+        }
+        found.add(&places, tails);
+    }
+    if let Some(problem) = found.common_problem() {
+        return Err(problem);
+    }
+    let later = motions.follow(&found.later(&parameters), request.time, threads, &|| {});
+    found.join(later);
+    let shadowed = Shadowed::new(&case.model, &parameters, &[])?;
+    let exponents = shadowed.follow(&found.begins(), request.time, threads, &|| {});
+    Ok(found.told(exponents))
+}
+
+/// Order of the motions: the first ones are spread over the grid.
+struct Order {
+    count: usize,
+    stride: usize,
+}
+
+impl Order {
+    fn of(count: usize) -> Self {
+        let first = ((count as f64 * GOLDEN) as usize).max(1);
+        let stride = (first..=first + count).find(|stride| common(*stride, count) == 1);
+        Self { count, stride: stride.unwrap_or(1) }
+    }
+
+    fn place(&self, index: usize) -> usize {
+        (index as u128 * self.stride as u128 % self.count as u128) as usize
+    }
+}
+
+/// Greatest common divisor.
+fn common(a: usize, b: usize) -> usize {
+    if b == 0 { a } else { common(b, a % b) }
+}
+
+/// First motion of a set.
+struct First {
+    tail: Tail,
+    rows: Vec<Vec<f64>>,
+    end: Vec<DoubleDouble>,
+}
+
+/// Ends found so far.
+struct Found {
+    ends: Vec<Destiny>,
+    sets: Vec<First>,
+    widths: Vec<f64>,
+}
+
+impl Found {
+    fn new(count: usize) -> Self {
+        Self { ends: vec![Destiny::Unsettled; count], sets: Vec::new(), widths: Vec::new() }
+    }
+
+    /// Problem of the first motion, if none was followed to its end.
+    fn common_problem(&self) -> Option<FlowError> {
+        let problem = |end: &Destiny| match end {
+            Destiny::Ended(problem) => Some(problem.clone()),
+            _ => None,
+        };
+        let are_lost = self.ends.iter().all(|end| problem(end).is_some());
+        self.ends.first().filter(|_| are_lost).and_then(problem)
+    }
+
+    fn add(&mut self, places: &[usize], tails: Vec<Late>) {
+        if self.widths.is_empty() {
+            let seen = tails.iter().flatten();
+            self.widths = widths(seen.flat_map(|own| own.rows.iter().chain([&own.first])));
+        }
+        for (place, late) in places.iter().zip(tails) {
+            self.ends[*place] = match late {
+                Ok(late) => self.place(late),
+                Err(problem) => Destiny::Ended(problem),
+            };
+        }
+    }
+
+    /// Finds the set of a motion, which may be a new one.
+    fn place(&mut self, LateSamples { rows, end, .. }: LateSamples) -> Destiny {
+        let tail = Tail::new(&rows, &self.widths);
+        if !tail.is_settled() {
+            return Destiny::Unsettled;
+        }
+        match self.sets.iter().position(|known| known.tail.is_with(&tail)) {
+            Some(place) => Destiny::Set(place),
+            None if self.sets.len() < MOST_SETS => {
+                self.sets.push(First { tail, rows, end });
+                Destiny::Set(self.sets.len() - 1)
+            }
+            None => Destiny::Further,
+        }
+    }
+
+    /// Starts of the first motion of each set, from its end on.
+    fn later(&self, parameters: &[Rational]) -> Vec<Result<Start, FlowError>> {
+        let start = |first: &First| {
+            Ok(Start { parameters: parameters.to_vec(), state: first.end.clone(), moved: 0.0 })
+        };
+        self.sets.iter().map(start).collect()
+    }
+
+    /// Joins sets whose first motions come together later; a set that its first motion leaves is none.
+    fn join(&mut self, later: Vec<Late>) {
+        let firsts = std::mem::take(&mut self.sets);
+        let mut home = Vec::new();
+        for (first, late) in firsts.iter().zip(later) {
+            let after = late.map(|LateSamples { rows, end, .. }| First {
+                tail: Tail::new(&rows, &self.widths),
+                rows,
+                end,
+            });
+            let stays = |after: &First| after.tail.is_settled() && after.tail.is_with(&first.tail);
+            let Some(after) = after.ok().filter(stays) else {
+                home.push(Destiny::Unsettled);
+                continue;
+            };
+            let known = self.sets.iter().position(|known| known.tail.is_with(&after.tail));
+            home.push(Destiny::Set(known.unwrap_or(self.sets.len())));
+            if known.is_none() {
+                self.sets.push(after);
+            }
+        }
+        for end in &mut self.ends {
+            if let Destiny::Set(index) = *end {
+                *end = home[index].clone();
+            }
+        }
+    }
+
+    fn begins(&self) -> Vec<Result<ShadowStart, FlowError>> {
+        let begin = |first: &First| Ok(ShadowStart { state: first.end.clone(), loose: Vec::new() });
+        self.sets.iter().map(begin).collect()
+    }
+
+    /// Brings the sets into the order of their sizes.
+    fn told(self, exponents: Vec<Result<Exponents, FlowError>>) -> Basins {
+        let mut counts = vec![0; self.sets.len()];
+        for end in &self.ends {
+            if let Destiny::Set(index) = end {
+                counts[*index] += 1;
+            }
+        }
+        let mut order: Vec<usize> = (0..counts.len()).collect();
+        order.sort_by_key(|index| std::cmp::Reverse(counts[*index]));
+        let attractor = |index: &usize| {
+            let (first, exponents) = (&self.sets[*index], exponents[*index].clone());
+            Attractor {
+                count: counts[*index],
+                ranges: ranges(&first.rows),
+                last: first.rows.last().cloned().unwrap_or_default(),
+                is_point: first.tail.is_point() || exponents.as_ref().is_ok_and(contracts),
+                state: first.end.iter().map(|x| x.hi).collect(),
+                exponents,
+            }
+        };
+        let attractors = order.iter().map(attractor).collect();
+        let renamed = |end: &Destiny| match end {
+            Destiny::Set(index) => {
+                Destiny::Set(order.iter().position(|own| own == index).unwrap_or(*index))
+            }
+            other => other.clone(),
+        };
+        Basins { ends: self.ends.iter().map(renamed).collect(), attractors }
+    }
+}
+
+/// Whether neighbours come together, as around a point, and not along a cycle: on that they keep their
+/// distance on average.
+fn contracts(found: &Exponents) -> bool {
+    let Estimate { mean, error, later } = found.largest;
+    let least = CONTRACTION / found.time.abs();
+    mean < -3.0 * error - least && later < -least
+}
+
+/// Smallest and largest value of each component.
+fn ranges<'r>(rows: impl IntoIterator<Item = &'r Vec<f64>>) -> Vec<[f64; 2]> {
+    let mut ranges: Vec<[f64; 2]> = Vec::new();
+    for row in rows {
+        ranges.resize(row.len(), [f64::INFINITY, f64::NEG_INFINITY]);
+        for (range, x) in ranges.iter_mut().zip(row) {
+            *range = [range[0].min(*x), range[1].max(*x)];
+        }
+    }
+    ranges
+}
+
+/// Widths of the components, at least a small share of the largest; sizes where there are none.
+fn widths<'r>(rows: impl Iterator<Item = &'r Vec<f64>>) -> Vec<f64> {
+    let ranges = ranges(rows);
+    let size = |range: &[f64; 2]| range[0].abs().max(range[1].abs());
+    let width = |range: &[f64; 2]| (range[1] - range[0]).max(NARROW * size(range));
+    let widest = ranges.iter().map(width).fold(0.0, f64::max);
+    let floor = if widest > 0.0 { NARROW * widest } else { 1.0 };
+    ranges.iter().map(|range| width(range).max(floor)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_motions_have_their_turn() {
+        for count in [1, 2, 3, 10, 64, 2500, 4097] {
+            let order = Order::of(count);
+            let mut places: Vec<usize> = (0..count).map(|index| order.place(index)).collect();
+            places.sort_unstable();
+            assert!(places.into_iter().eq(0..count), "{count}");
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! Samples of many motions at late times, in the lanes of several threads.
+
+use crate::chaos::attractors::SAMPLES;
+use crate::error::FlowError;
+use crate::motion::columns::{Columns, Gauge};
+use crate::motion::recorded::program;
+use crate::motion::start::Start;
+use crate::taylor::batch::{MOTION_LANES, Queue, in_batches};
+use crate::taylor::lanes::Lanes;
+use crate::taylor::program::TaylorProgram;
+use crate::taylor::stepper::{Accuracy, Stepper};
+use liouville::case::Case;
+use liouville::number::double_double::DoubleDouble;
+use liouville::number::rational::Rational;
+
+/// Share of the time after which samples are taken.
+const LATE: f64 = 0.5;
+/// Fraction of the golden section: the times of samples are in step with no period.
+pub const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// Samples of a motion.
+pub struct LateSamples {
+    /// Values at the start.
+    pub first: Vec<f64>,
+    /// Values at late times.
+    pub rows: Vec<Vec<f64>>,
+    /// State at the end.
+    pub end: Vec<DoubleDouble>,
+}
+
+/// Samples of a motion, or the reason why there are none.
+pub type Late = Result<LateSamples, FlowError>;
+
+/// Equations of all motions, and the values that are sampled.
+pub struct LateMotions {
+    program: TaylorProgram,
+    gauge: Gauge,
+}
+
+impl LateMotions {
+    /// Compiles the field of a case with these parameters.
+    pub fn new(case: &Case, columns: &Columns, parameters: &[Rational]) -> Result<Self, FlowError> {
+        let program = program(&case.model, parameters, |_| Vec::new())?;
+        Ok(Self { program, gauge: columns.recorded(parameters)? })
+    }
+
+    /// Follows motions, and takes samples of each at late times. Calls `progress` after each.
+    pub fn follow(
+        &self,
+        starts: &[Result<Start, FlowError>],
+        time: f64,
+        threads: usize,
+        progress: &(dyn Fn() + Sync),
+    ) -> Vec<Late> {
+        in_batches(starts.len(), threads, |queue, _| {
+            let stepper = Stepper::new(&self.program, Accuracy::FLOAT);
+            let running = (0..MOTION_LANES).map(|_| None).collect();
+            let done = Vec::new();
+            Worker { motions: self, starts, time, stepper, running, done }.run(queue, progress)
+        })
+    }
+}
+
+/// Motion in a lane.
+struct Running {
+    index: usize,
+    first: Vec<f64>,
+    rows: Vec<Vec<f64>>,
+}
+
+/// Motions of one thread.
+struct Worker<'w> {
+    motions: &'w LateMotions,
+    starts: &'w [Result<Start, FlowError>],
+    time: f64,
+    stepper: Stepper<Lanes<MOTION_LANES>>,
+    running: Vec<Option<Running>>,
+    done: Vec<(usize, Late)>,
+}
+
+impl Worker<'_> {
+    fn run(mut self, queue: &Queue, progress: &(dyn Fn() + Sync)) -> Vec<(usize, Late)> {
+        let mut row = self.motions.gauge.rows();
+        let mut row = |time: DoubleDouble, state: &[DoubleDouble]| -> Vec<f64> {
+            row(time, state).into_iter().map(|x| x.hi).collect()
+        };
+        loop {
+            for lane in 0..MOTION_LANES {
+                while self.running[lane].is_none() {
+                    let Some(index) = queue.take() else { break };
+                    match &self.starts[index] {
+                        Ok(start) => {
+                            let until = DoubleDouble::from_f64(self.time);
+                            self.stepper.start(lane, &start.state, until);
+                            let first = row(DoubleDouble::default(), &start.state);
+                            self.running[lane] = Some(Running { index, first, rows: Vec::new() });
+                        }
+                        Err(problem) => {
+                            self.done.push((index, Err(problem.clone())));
+                            progress();
+                        }
+                    }
+                }
+            }
+            if self.running.iter().all(Option::is_none) {
+                return self.done;
+            }
+            self.stepper.expand();
+            for lane in 0..MOTION_LANES {
+                let Some(running) = &mut self.running[lane] else { continue };
+                match self.stepper.check(lane) {
+                    Ok(()) => take(&self.stepper, lane, self.time, &mut running.rows, &mut row),
+                    Err(problem) => {
+                        self.done.push((running.index, Err(problem)));
+                        self.running[lane] = None;
+                        progress();
+                    }
+                }
+            }
+            self.stepper.advance();
+            for lane in 0..MOTION_LANES {
+                if !self.stepper.is_done(lane) {
+                    continue;
+                }
+                let Some(mut running) = self.running[lane].take() else { continue };
+                let end = self.stepper.pairs(lane);
+                // The last sample may have been due within rounding of the end.
+                running.rows.resize_with(SAMPLES, || row(self.stepper.time(lane), &end));
+                let values = running.rows.iter().flatten();
+                let late = match values.copied().all(f64::is_finite) {
+                    true => Ok(LateSamples { first: running.first, rows: running.rows, end }),
+                    false => Err(FlowError::Singular {
+                        time: self.time,
+                        state: end.iter().map(|x| x.hi).collect(),
+                    }),
+                };
+                self.done.push((running.index, late));
+                progress();
+            }
+        }
+    }
+}
+
+/// Takes the samples that are due in the present step.
+fn take(
+    stepper: &Stepper<Lanes<MOTION_LANES>>,
+    lane: usize,
+    time: f64,
+    rows: &mut Vec<Vec<f64>>,
+    row: &mut dyn FnMut(DoubleDouble, &[DoubleDouble]) -> Vec<f64>,
+) {
+    let piece = stepper.piece(lane);
+    while rows.len() < SAMPLES {
+        let (now, due) = (piece.begin(), due(time, rows.len()));
+        let after = (DoubleDouble::from_f64(due) - now).hi;
+        if after.abs() > piece.length().abs() {
+            return;
+        }
+        let state = piece.state(after);
+        rows.push(row(DoubleDouble::from_f64(due), &state));
+    }
+}
+
+/// Time of a sample.
+fn due(time: f64, index: usize) -> f64 {
+    let part = (index as f64 + (index as f64 * GOLDEN).fract()) / SAMPLES as f64;
+    time * (LATE + (1.0 - LATE) * part)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_are_due_in_order_in_the_later_half() {
+        let times: Vec<f64> = (0..SAMPLES).map(|k| due(-10.0, k)).collect();
+        assert_eq!(times[0], -5.0);
+        assert!(times.windows(2).all(|pair| pair[1] < pair[0]) && times[SAMPLES - 1] > -10.0);
+    }
+}

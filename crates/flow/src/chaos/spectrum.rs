@@ -1,0 +1,157 @@
+//! All Lyapunov exponents of motions: tangent vectors made orthonormal after each step
+//! (Benettin, Galgani, Giorgilli, Strelcyn 1980).
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::FlowError;
+use crate::motion::lyapunov::{BLOCKS, Estimate, SKIPPED, estimate};
+use crate::motion::start::{LevelFunctions, Start, level_basis};
+use crate::motion::variational::variational_program;
+use crate::taylor::batch::each;
+use crate::taylor::program::TaylorProgram;
+use crate::taylor::stepper::{Accuracy, Stepper};
+use liouville::mechanics::Model;
+use liouville::number::double_double::DoubleDouble;
+
+/// All exponents of a motion on its level, the largest first.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Spectrum {
+    /// Time for which the motion was followed.
+    #[serde(with = "crate::record")]
+    pub time: f64,
+    /// Exponents, one for each dimension of the level.
+    pub exponents: Vec<Estimate>,
+    /// Mean of div v on the level, which is their sum.
+    pub divergence: Estimate,
+}
+
+impl Spectrum {
+    /// Dimension of Kaplan and Yorke: k + (λ₁ + … + λ_k)/|λ_{k+1}|, k the largest number for which
+    /// the sum is not negative; `None` where this holds for all exponents.
+    pub fn kaplan_yorke(&self) -> Option<f64> {
+        let mut sum = 0.0;
+        for (count, exponent) in self.exponents.iter().enumerate() {
+            if sum + exponent.mean < 0.0 {
+                return Some(count as f64 + sum / exponent.mean.abs());
+            }
+            sum += exponent.mean;
+        }
+        None
+    }
+}
+
+/// Measures the spectra of motions with the same parameters, each for a time, negative for
+/// backwards. Calls `progress` after each.
+pub fn spectra(
+    model: &Model,
+    starts: &[Result<Start, FlowError>],
+    time: f64,
+    threads: usize,
+    progress: &(dyn Fn() + Sync),
+) -> Result<Vec<Result<Spectrum, FlowError>>, FlowError> {
+    let Some(first) = starts.iter().flatten().next() else {
+        return Ok(starts
+            .iter()
+            .map(|start| Err(start.as_ref().err().cloned().unwrap_or(FlowError::NoStart)))
+            .collect());
+    };
+    let equations = LevelFunctions::new(model, &first.parameters, &[])?.len();
+    let count = model.dimension().saturating_sub(equations);
+    if count == 0 {
+        return Err(FlowError::NoTangents);
+    }
+    let program = variational_program(model, &first.parameters, count)?;
+    Ok(each(starts.len(), threads, &|index| {
+        let found = starts[index].as_ref().map_err(Clone::clone);
+        let found = found.and_then(|start| spectrum(&program, model, start, time));
+        progress();
+        found
+    }))
+}
+
+/// Sums along a motion.
+struct Sums {
+    /// Logarithms of the growth of the volumes' factors, since the last block.
+    growth: Vec<f64>,
+    /// ∫ div v at the end of the last block.
+    volume: f64,
+    blocks: Vec<Vec<f64>>,
+    volumes: Vec<f64>,
+}
+
+fn spectrum(
+    program: &TaylorProgram,
+    model: &Model,
+    start: &Start,
+    time: f64,
+) -> Result<Spectrum, FlowError> {
+    let dimension = model.dimension();
+    let basis = level_basis(model, start)?;
+    let count = basis.len();
+    let mut begin = start.state.clone();
+    begin.extend(basis.into_iter().flatten());
+    begin.push(DoubleDouble::default());
+    let block = time * (1.0 - SKIPPED) / BLOCKS as f64;
+    let mut sums =
+        Sums { growth: vec![0.0; count], volume: 0.0, blocks: Vec::new(), volumes: Vec::new() };
+    let level = LevelFunctions::new(model, &start.parameters, &[])?;
+    let mut stepper = Stepper::<f64>::new(program, Accuracy::FLOAT);
+    stepper.start(0, &begin, DoubleDouble::from_f64(time * SKIPPED));
+    loop {
+        stepper.expand();
+        stepper.check(0)?;
+        stepper.advance();
+        let mut all = stepper.pairs(0);
+        // Off the level vectors may grow otherwise than on it.
+        let normals = level.normals(&all[..dimension]);
+        let vectors = &mut all[dimension..dimension * (count + 1)];
+        let lengths = orthonormalised(vectors, dimension, normals);
+        for (sum, length) in sums.growth.iter_mut().zip(lengths) {
+            *sum += libm::log(length);
+        }
+        let volume = all.last().map_or(f64::NAN, |volume| volume.hi);
+        stepper.place(0, &all);
+        if !stepper.is_done(0) {
+            continue;
+        }
+        let growth = std::mem::replace(&mut sums.growth, vec![0.0; count]);
+        sums.blocks.push(growth.into_iter().map(|growth| growth / block.abs()).collect());
+        sums.volumes.push((volume - sums.volume) / block);
+        sums.volume = volume;
+        let done = sums.blocks.len();
+        if done > BLOCKS {
+            break;
+        }
+        stepper.extend(0, DoubleDouble::from_f64(time * SKIPPED + block * done as f64));
+    }
+    // The first block is the transient.
+    let blocks = &sums.blocks[1..];
+    let of = |index: usize| estimate(&blocks.iter().map(|block| block[index]).collect::<Vec<_>>());
+    let mut exponents: Vec<Estimate> = (0..count).map(of).collect();
+    exponents.sort_by(|a, b| b.mean.total_cmp(&a.mean));
+    Ok(Spectrum { time, exponents, divergence: estimate(&sums.volumes[1..]) })
+}
+
+/// Makes vectors orthonormal one after another, across unit vectors. Returns their lengths across
+/// those before.
+fn orthonormalised(
+    vectors: &mut [DoubleDouble],
+    dimension: usize,
+    mut unit: Vec<Vec<f64>>,
+) -> Vec<f64> {
+    let mut lengths = Vec::new();
+    for vector in vectors.chunks_mut(dimension) {
+        let mut rest: Vec<f64> = vector.iter().map(|x| x.hi).collect();
+        // Twice is enough against rounding.
+        for e in unit.iter().chain(&unit) {
+            let along: f64 = rest.iter().zip(e).map(|(x, e)| x * e).sum();
+            rest.iter_mut().zip(e).for_each(|(x, e)| *x -= along * e);
+        }
+        let length = rest.iter().map(|x| x * x).sum::<f64>().sqrt();
+        rest.iter_mut().for_each(|x| *x /= length);
+        vector.iter_mut().zip(&rest).for_each(|(x, rest)| *x = DoubleDouble::from_f64(*rest));
+        lengths.push(length);
+        unit.push(rest);
+    }
+    lengths
+}

@@ -1,0 +1,84 @@
+//! Closed orbits of a case: through periodic points of a section, or near states.
+
+use crate::closed::cycle::{Cycle, Pins, cycle};
+use crate::closed::periodic::{ComputedPeriodicPoint, SectionMap};
+use crate::error::FlowError;
+use crate::motion::kept::keeps_energy;
+use crate::motion::start::{LevelFunctions, Start};
+use crate::section::andoyer::section_functions;
+use crate::section::crossings::CrossingTask;
+use crate::section::surface::CrossingSurface;
+use liouville::case::{Case, Direction};
+use liouville::number::double_double::DoubleDouble;
+use liouville::scalar::Scalar;
+use num_dual::Dual;
+
+impl SectionMap<'_> {
+    /// Finds the periodic point near `near`, and the closed orbit through it.
+    pub fn cycle(
+        &self,
+        near: [f64; 2],
+        period: usize,
+    ) -> Result<(ComputedPeriodicPoint, Cycle), FlowError> {
+        let point = self.periodic(near, period)?;
+        let start = self.chart.start(point.at)?;
+        let model = self.chart.model;
+        let functions = LevelFunctions::with(model, &start.parameters, &|phase| {
+            let energy = model.system.energy(phase);
+            let [section, _] = section_functions(phase, self.g0());
+            vec![energy.unwrap_or(Dual::from_re(Scalar::undefined())), section]
+        })?;
+        let pins = Pins { functions, has_energy: true, has_surface: true };
+        let found = cycle(model, &start, point.time, &pins)?;
+        Ok((point, found))
+    }
+}
+
+/// Finds the closed orbit of a case near a state, at its energy, with a period near `time`. With a
+/// surface the state that is found lies on it.
+pub fn closed_orbit(
+    case: &Case,
+    start: &Start,
+    time: f64,
+    surface: Option<&CrossingSurface>,
+) -> Result<Cycle, FlowError> {
+    let model = surface.map_or(&case.model, CrossingSurface::model);
+    let has_energy = keeps_energy(case, model, start, time)?;
+    let functions = LevelFunctions::with(model, &start.parameters, &|phase| {
+        let energy = model.system.energy(phase).filter(|_| has_energy);
+        let surface = surface.map(|surface| surface.value(phase));
+        energy.into_iter().chain(surface).collect()
+    })?;
+    let pins = Pins { functions, has_energy, has_surface: surface.is_some() };
+    cycle(model, start, time, &pins)
+}
+
+/// Follows a motion to a surface, and on until it has crossed it n times more. Returns the state at
+/// the first crossing, and the time to the last.
+pub fn crossing_time(
+    start: &Start,
+    surface: &CrossingSurface,
+    direction: Direction,
+    crossings: usize,
+) -> Result<(Start, f64), FlowError> {
+    let program = surface.program(&start.parameters)?;
+    let task = CrossingTask {
+        program: &program,
+        starts: &[Ok(start.clone())],
+        direction,
+        crossings: crossings + 1,
+        skip: 0,
+        backwards: false,
+        has_side: false,
+    };
+    let mut tracks =
+        task.run(1, &|| |_: DoubleDouble, state: &[DoubleDouble]| state.to_vec(), &|| ());
+    let track = tracks.pop().ok_or(FlowError::NoStart)?;
+    let (first, last) = (track.crossings.first(), track.crossings.get(crossings));
+    match (first, last, track.problem) {
+        (Some(first), Some(last), None) => {
+            Ok((Start { state: first.at.clone(), ..start.clone() }, last.time - first.time))
+        }
+        (_, _, problem) => Err(problem.unwrap_or(FlowError::NoStart)),
+    }
+}

@@ -1,0 +1,16 @@
+//! Motions of a case: starts, single orbits and their samples, tangent vectors.
+
+pub(crate) mod carry;
+pub(crate) mod columns;
+pub(crate) mod kept;
+pub(crate) mod lexicon;
+pub(crate) mod lyapunov;
+pub(crate) mod one_sided;
+pub(crate) mod open;
+pub(crate) mod orbit;
+pub(crate) mod presence;
+pub(crate) mod recorded;
+pub(crate) mod samples;
+pub(crate) mod start;
+pub(crate) mod track;
+pub(crate) mod variational;

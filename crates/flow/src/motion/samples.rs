@@ -1,0 +1,131 @@
+//! Samples of motions at equal intervals of time, from the polynomials of their steps.
+
+use crate::error::FlowError;
+use crate::motion::columns::{Columns, Gauge};
+use crate::motion::orbit::{Orbit, Precision, sampled};
+use crate::motion::start::Start;
+use crate::taylor::batch::each;
+use crate::taylor::number::SeriesNumber;
+use crate::taylor::stepper::MotionPiece;
+use liouville::case::Case;
+use liouville::number::double_double::DoubleDouble;
+use liouville::number::rational::Rational;
+
+/// Columns and interval of samples: at the times 0, Δ, 2Δ, … up to the end.
+pub struct Sampling<'s> {
+    /// Columns of each row.
+    pub columns: &'s Columns,
+    /// Interval Δ, above 0 also backwards in time.
+    pub every: Rational,
+}
+
+/// A motion with its samples.
+pub struct SampledOrbit {
+    /// Motion as a whole, or the reason why it ended early or did not start.
+    pub orbit: Result<Orbit, FlowError>,
+    /// Rows of samples, up to the end or to where the motion ended early.
+    pub rows: Vec<Vec<DoubleDouble>>,
+}
+
+/// Follows several motions, each with samples if these are requested. Calls `progress` after each.
+pub fn orbits(
+    case: &Case,
+    starts: &[Result<Start, FlowError>],
+    (time, precision): (&Rational, Precision),
+    sampling: Option<&Sampling<'_>>,
+    threads: usize,
+    progress: &(dyn Fn() + Sync),
+) -> Vec<SampledOrbit> {
+    each(starts.len(), threads, &|index| {
+        let found = one(case, &starts[index], time, precision, sampling);
+        progress();
+        found
+    })
+}
+
+fn one(
+    case: &Case,
+    start: &Result<Start, FlowError>,
+    time: &Rational,
+    precision: Precision,
+    sampling: Option<&Sampling<'_>>,
+) -> SampledOrbit {
+    let failed = |problem| SampledOrbit { orbit: Err(problem), rows: Vec::new() };
+    let start = match start {
+        Ok(start) => start.clone(),
+        Err(problem) => return failed(problem.clone()),
+    };
+    let gauge = sampling.map(|sampling| sampling.columns.recorded(&start.parameters));
+    let gauge = match gauge.transpose() {
+        Ok(gauge) => gauge,
+        Err(problem) => return failed(problem),
+    };
+    let mut samples = match sampling.zip(gauge.as_ref()) {
+        Some((sampling, gauge)) => Samples::new(gauge, &sampling.every, time),
+        None => Samples::nothing(),
+    };
+    let orbit = sampled(case, start, DoubleDouble::from_rational(time), precision, &mut samples);
+    SampledOrbit { orbit, rows: samples.rows }
+}
+
+/// Function from a time and a state to a row.
+type Row<'s> = Box<dyn FnMut(DoubleDouble, &[DoubleDouble]) -> Vec<DoubleDouble> + 's>;
+
+/// Samples taken so far.
+pub(crate) struct Samples<'s> {
+    row: Option<Row<'s>>,
+    /// Interval, negative backwards in time.
+    every: Rational,
+    rows: Vec<Vec<DoubleDouble>>,
+}
+
+impl<'s> Samples<'s> {
+    /// Takes no samples.
+    pub fn nothing() -> Self {
+        Self { row: None, every: Rational::from(0), rows: Vec::new() }
+    }
+
+    fn new(gauge: &'s Gauge, every: &Rational, time: &Rational) -> Self {
+        let sign = Rational::from(if time.to_f64().0 < 0.0 { -1 } else { 1 });
+        Self { row: Some(Box::new(gauge.rows())), every: every * &sign, rows: Vec::new() }
+    }
+
+    /// Time of the next sample, rounded once.
+    fn next(&self) -> DoubleDouble {
+        DoubleDouble::from_rational(&(&self.every * &Rational::from(self.rows.len() as i64)))
+    }
+
+    /// Takes the samples of a piece of the motion that begins at a time.
+    pub fn piece<T: SeriesNumber<One = T>>(
+        &mut self,
+        begin: DoubleDouble,
+        piece: &MotionPiece<'_, T>,
+        length: T,
+    ) {
+        let Some(mut row) = self.row.take() else { return };
+        let forwards = length.leading() >= 0.0;
+        loop {
+            let next = self.next();
+            let after = next - begin;
+            let beyond = after - length.pair();
+            if beyond.hi != 0.0 && (beyond.hi > 0.0) == forwards {
+                break;
+            }
+            self.rows.push(row(next, &piece.state(T::split(after).0)));
+            // Steps of length 0 do not move on.
+            if length.leading() == 0.0 {
+                break;
+            }
+        }
+        self.row = Some(row);
+    }
+
+    /// Takes the sample at the end, where one is due.
+    pub fn end(&mut self, time: DoubleDouble, state: &[DoubleDouble]) {
+        let next = self.next();
+        let Some(row) = &mut self.row else { return };
+        if (next - time).hi == 0.0 {
+            self.rows.push(row(time, state));
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! Ends of pieces, and bounds of the terms between: what decides that a function has no zero on a piece.
+
+use crate::taylor::number::SeriesNumber;
+
+/// Values of functions at the ends of their pieces, a piece in each lane. They decide whether a
+/// function can vanish.
+pub struct Ends<T> {
+    pub(super) length: T,
+    /// Largest term of the polynomial.
+    pub(super) largest: T,
+    pub(super) first: T,
+    pub(super) last: T,
+    /// Derivatives at the ends.
+    pub(super) rates: [T; 2],
+    /// The last two terms of the polynomial.
+    tails: [T; 2],
+    /// Whether zeros, turns and bends are excluded.
+    pub(super) shape: Shape<T>,
+}
+
+/// Bounds of terms t_k = |c_k| h^k of a polynomial Σ c_k τ^k for |τ| ≤ h.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shape<T> {
+    /// t_0, t_1, 2 t_2
+    first: [T; 3],
+    /// Sums of the terms beyond these of the function, h times its slope, h² times its bend.
+    further: [T; 3],
+}
+
+impl<T: SeriesNumber> Shape<T> {
+    pub(super) const NONE: Self = Self { first: [T::ZERO; 3], further: [T::ZERO; 3] };
+
+    /// Adds the term of order n.
+    #[inline(always)]
+    pub(super) fn add(&mut self, n: usize, term: T) {
+        for (k, weight) in [1, n, n * n.saturating_sub(1)].into_iter().enumerate() {
+            let weighted = T::float(weight as f64) * term;
+            match n {
+                _ if n == k => self.first[k] = weighted,
+                _ if n > k => self.further[k] = self.further[k] + weighted,
+                _ => {}
+            }
+        }
+    }
+
+    /// Whether a function has no zero, does not turn, or bends to one side alone.
+    pub(super) fn is_simple(&self, lane: usize) -> bool {
+        let at = |value: T| value.lane(lane).leading();
+        let pairs = self.first.iter().zip(&self.further);
+        pairs.into_iter().any(|(first, further)| at(*first) > at(*further))
+    }
+}
+
+impl<T: SeriesNumber> Ends<T> {
+    /// Ends of no pieces.
+    pub const NONE: Self = Self {
+        length: T::ZERO,
+        largest: T::ZERO,
+        first: T::ZERO,
+        last: T::ZERO,
+        rates: [T::ZERO; 2],
+        tails: [T::ZERO; 2],
+        shape: Shape::NONE,
+    };
+
+    /// Evaluates polynomials at the ends of their pieces.
+    #[inline(always)]
+    pub fn new(polynomial: &[T], length: T) -> Self {
+        let size = T::ZERO.larger(length);
+        let (mut power, mut largest) = (T::ONE, T::ZERO);
+        let (mut tails, mut shape) = ([T::ZERO; 2], Shape::NONE);
+        for (n, coefficient) in polynomial.iter().enumerate() {
+            let term = T::ZERO.larger(*coefficient * power);
+            (tails, largest) = ([tails[1], term], largest.larger(term));
+            shape.add(n, term);
+            power = power * size;
+        }
+        let (mut last, mut rate) = (T::ZERO, T::ZERO);
+        for (n, coefficient) in polynomial.iter().enumerate().rev() {
+            last = last * length + *coefficient;
+            if n > 0 {
+                rate = rate * length + T::float(n as f64) * *coefficient;
+            }
+        }
+        let rates = [polynomial[1], rate];
+        Self { length, largest, first: polynomial[0], last, rates, tails, shape }
+    }
+
+    /// Part of a lane's piece after which the last two of its `count` terms are within their limits,
+    /// relative to the largest term; 1 if they are so now.
+    pub fn known_share(&self, lane: usize, count: usize, limits: [f64; 2]) -> f64 {
+        let at = |value: T| value.lane(lane).leading();
+        let largest = at(self.largest);
+        let tails = self.tails.map(at).into_iter().zip(limits).zip(count.saturating_sub(2)..);
+        let share = tails.map(|((tail, limit), n)| match tail > largest * limit && largest > 0.0 {
+            true => 0.95 * libm::pow(largest * limit / tail, 1.0 / n as f64),
+            false => 1.0,
+        });
+        share.filter(|share| share.is_finite()).fold(1.0, f64::min)
+    }
+}

@@ -1,0 +1,19 @@
+//! Taylor series of a recorded field, and steps by them.
+
+pub(crate) mod batch;
+pub(crate) mod code;
+pub(crate) mod compile;
+pub(crate) mod event;
+pub(crate) mod expand;
+pub(crate) mod form;
+pub(crate) mod lanes;
+pub(crate) mod machine;
+pub(crate) mod merge;
+pub(crate) mod number;
+pub(crate) mod pace;
+pub(crate) mod program;
+pub(crate) mod rounding;
+pub(crate) mod series;
+pub(crate) mod shorten;
+pub(crate) mod stepper;
+pub(crate) mod watch;

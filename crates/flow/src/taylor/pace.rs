@@ -1,0 +1,121 @@
+//! Time, step and progress of one motion, by which one whose end is out of reach is found.
+
+use crate::error::{ENDLESS, MOST_STEPS};
+use crate::taylor::number::SeriesNumber;
+use crate::taylor::watch::Edge;
+use liouville::number::double_double::DoubleDouble;
+
+/// Number of steps after which the pace of a motion is looked at.
+const STRIDE: u64 = 1 << 18;
+/// Ratio of a motion's longest step to the present ones, above which these count as shrinking.
+const SHRUNK: f64 = 1e6;
+/// Numbers of steps at which the pace is looked at before, for ends that are out of any reach.
+const EARLY: [u64; 2] = [1 << 11, 1 << 12];
+/// Multiple of [`MOST_STEPS`] that counts as out of any reach.
+const HOPELESS: f64 = 1e6;
+/// Ratio of the longest steps at two looks, below which steps do not grow.
+const GROWTH: f64 = 1.1;
+
+/// Time and step of one motion.
+#[derive(Clone, Copy)]
+pub(crate) struct Lane<One> {
+    pub(crate) time: DoubleDouble,
+    /// Final time; its sign relative to `time` is the direction.
+    pub(crate) until: DoubleDouble,
+    /// Step from the present expansion.
+    pub(crate) step: One,
+    pub(crate) steps: u64,
+    pub(crate) pace: Pace,
+    /// Whether the final time is a stand-in for none.
+    pub(crate) is_open: bool,
+    /// Whether the present step is cut for a branch point or for a further function.
+    pub(crate) is_cut: bool,
+    /// Operation without a value from a time after the present state on.
+    pub(crate) edge: Option<(Edge, One)>,
+    /// Operation without a value at the present state, or next to it.
+    pub(crate) lost: Option<Edge>,
+}
+
+impl<One: SeriesNumber> Lane<One> {
+    /// A motion at time 0 that ends at time `until`.
+    pub(crate) fn new(until: DoubleDouble) -> Self {
+        Self {
+            time: DoubleDouble::default(),
+            until,
+            step: One::ZERO,
+            steps: 0,
+            pace: Pace::default(),
+            is_open: false,
+            is_cut: false,
+            edge: None,
+            lost: None,
+        }
+    }
+
+    /// Begins a step: what has no value at once is lost already.
+    pub(crate) fn begin(&mut self) {
+        let at_once = self.edge.filter(|(_, after)| after.leading() == 0.0);
+        self.lost = self.lost.or(at_once.map(|(edge, _)| edge));
+    }
+
+    /// Goes on by the present step.
+    pub(crate) fn advance(&mut self)
+    where
+        One: SeriesNumber<One = One>,
+    {
+        let step = self.step.leading();
+        if step != 0.0 {
+            self.time = self.time + self.step.pair();
+            self.steps += 1;
+            let (now, left) = (self.time.hi, (self.until - self.time).hi);
+            self.pace.keep(step, self.steps, now, left);
+        }
+        let reached = self.edge.filter(|(_, after)| step.abs() >= after.leading().abs());
+        self.lost = self.lost.or(reached.map(|(edge, _)| edge));
+    }
+}
+
+/// Progress of a motion, by which one whose end is out of reach is found.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Pace {
+    /// Longest step so far, and at the last look.
+    longest: f64,
+    former: f64,
+    /// Time and number of steps at the last look.
+    before: f64,
+    counted: u64,
+    /// Why the end is out of reach, if it is.
+    pub(crate) lost: Option<Lost>,
+}
+
+/// Reason why the end of a motion is out of reach.
+#[derive(Clone, Copy)]
+pub(crate) enum Lost {
+    /// Its steps have shrunk.
+    Shrinking,
+    /// Its time takes too many steps of its usual size.
+    Endless,
+}
+
+impl Pace {
+    /// Keeps a step; measures the pace after so many of them, with the times that have gone by and
+    /// that are left.
+    fn keep(&mut self, step: f64, steps: u64, now: f64, left: f64) {
+        self.longest = self.longest.max(step.abs());
+        let is_early = EARLY.contains(&steps);
+        if !is_early && !steps.is_multiple_of(STRIDE) {
+            return;
+        }
+        let mean = (now - self.before).abs() / (steps - self.counted) as f64;
+        let most = MOST_STEPS * if is_early { HOPELESS } else { 1.0 };
+        let is_shrunk = mean * SHRUNK < self.longest && left.abs() > mean * ENDLESS;
+        // Steps that grow, as on the way to infinity, may still arrive.
+        let is_steady = self.former > 0.0 && self.longest < GROWTH * self.former;
+        self.lost = match () {
+            () if is_shrunk && !is_early => Some(Lost::Shrinking),
+            () if is_steady && left.abs() > mean * most => Some(Lost::Endless),
+            () => None,
+        };
+        (self.former, self.before, self.counted) = (self.longest, now, steps);
+    }
+}

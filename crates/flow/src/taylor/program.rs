@@ -1,0 +1,100 @@
+//! Taylor programs: rules that give the coefficients of order n from those of lower orders.
+//!
+//! With x = Σ x_k τ^k and θx = Σ k x_k τ^k, each instruction makes one row from others by the rule
+//! (Σ from k = 1 to n - 1, n ≥ 1; order 0 is the function itself)
+//!
+//! ```text
+//! z = Σ c x y   z_n = Σ c (x_0 y_n + x_n y_0 + Σ x_k y_{n-k})
+//! z = 1/x       z_n = -z_0 (x_n z_0 + Σ x_k z_{n-k})
+//! z = √x        z_n = (x_n - Σ z_k z_{n-k})/(2 z_0)
+//! z = eˣ        n z_n = θx_n z_0 + Σ θx_k z_{n-k}
+//! z = ln x      n x_0 z_n = n x_n - Σ θz_k x_{n-k}
+//! z = sin x     n z_n = θx_n y_0 + Σ θx_k y_{n-k}, y = cos x; the same with -sin for cos
+//! z = atan x    n y_0 z_n = n x_n - Σ θz_k y_{n-k}, y = 1 + x²
+//! z = x^q       n x_0 z_n = q θx_n z_0 + Σ (q θx_k z_{n-k} - θz_k x_{n-k})
+//! ```
+//!
+//! The inner sums need lower orders only, whatever the instruction: all are made first.
+
+use std::sync::Arc;
+
+use crate::taylor::form::{BilinearForm, Row};
+use crate::taylor::watch::Presence;
+use liouville::number::rational::Rational;
+
+/// Last stage of an instruction, given the inner sum Σ c x_k y_{n-k} of its products.
+#[derive(Clone, Debug)]
+pub enum Rule {
+    /// constant + Σ c x + Σ c x y
+    Sum,
+    /// n x_n
+    Theta(Row),
+    Recip(Row),
+    Sqrt(Row),
+    Exp(Row),
+    Ln(Row),
+    Sin {
+        x: Row,
+        cosine: Row,
+    },
+    Cos {
+        x: Row,
+        sine: Row,
+    },
+    Atan {
+        x: Row,
+        square: Row,
+    },
+    Power {
+        x: Row,
+        exponent: Rational,
+    },
+}
+
+impl Rule {
+    /// Row that the rule is a function of; `None` for a sum, which has several.
+    pub(crate) fn argument(&self) -> Option<Row> {
+        match self {
+            Rule::Sum => None,
+            Rule::Theta(x) | Rule::Recip(x) | Rule::Sqrt(x) | Rule::Exp(x) | Rule::Ln(x) => {
+                Some(*x)
+            }
+            Rule::Sin { x, .. }
+            | Rule::Cos { x, .. }
+            | Rule::Atan { x, .. }
+            | Rule::Power { x, .. } => Some(*x),
+        }
+    }
+}
+
+/// Computation of one row.
+#[derive(Clone, Debug)]
+pub struct RowInstruction {
+    pub rule: Rule,
+    pub out: Row,
+    /// Terms of a sum; for the other rules, the products of the inner sum.
+    pub form: BilinearForm,
+}
+
+/// Field and further functions of the state, as instructions over rows of coefficients.
+///
+/// Rows `0..dimension` are the state; each instruction makes one further row.
+#[derive(Clone, Debug)]
+pub struct TaylorProgram {
+    pub(crate) dimension: usize,
+    pub(crate) rows: usize,
+    pub(crate) instructions: Vec<RowInstruction>,
+    /// Rows of the rates of the state's components.
+    pub(crate) rates: Vec<Row>,
+    /// Rows of the further functions.
+    pub(crate) outputs: Vec<Row>,
+    /// Values that a motion has to have, if they are known.
+    pub(crate) presence: Option<Arc<Presence>>,
+}
+
+impl TaylorProgram {
+    /// Number of components of the state.
+    pub fn dimension(&self) -> usize {
+        self.dimension
+    }
+}

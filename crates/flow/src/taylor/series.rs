@@ -1,0 +1,171 @@
+//! Taylor coefficients of a motion at a state.
+
+use crate::taylor::batch::MOTION_LANES;
+use crate::taylor::code::{BoundProgram, LINE, Place, PlacedRule};
+use crate::taylor::expand::Expansion;
+use crate::taylor::lanes::Lanes;
+use crate::taylor::machine::{LaneMachine, TaylorCode};
+use crate::taylor::number::{BLOCK, SeriesNumber};
+use crate::taylor::program::TaylorProgram;
+use liouville::graph::with_widest_vectors;
+use liouville::number::rational::Rational;
+
+/// A program over one type of number, with the memory to run it.
+pub struct Series<T: SeriesNumber> {
+    pub(crate) order: usize,
+    /// Order to which rows are padded.
+    pub(crate) orders: usize,
+    pub(crate) code: BoundProgram<T>,
+    /// Reciprocals 1/n.
+    pub(crate) inverses: Vec<T>,
+    /// Inner sums of the operations that have any, at the current order, before and after their
+    /// parts are added.
+    pub(crate) partial: Vec<T::Partial>,
+    pub(crate) inner: Vec<T>,
+    pub(crate) memory: Vec<T>,
+    /// Places of the rows that are roots or powers, which are not negative.
+    roots: Vec<Place>,
+    /// Places of the rows that are divided by.
+    divisors: Vec<Place>,
+    /// Number of expansions so far, up to where machine code pays.
+    pub(crate) expansions: u32,
+    pub(crate) machine: Option<Box<T::Machine>>,
+}
+
+impl<T: SeriesNumber> Series<T> {
+    /// Prepares the program for expansions to this order.
+    pub fn new(program: &TaylorProgram, order: usize) -> Self {
+        let line = LINE / size_of::<T>().clamp(1, LINE);
+        let (_, length) = BoundProgram::<T>::new(program, order, line);
+        let memory = vec![T::ZERO; length + line];
+        let aligned = memory.as_ptr().align_offset(LINE).min(line);
+        let (code, _) = BoundProgram::new(program, order, aligned);
+        let sums = (code.counts.len() + 1).next_multiple_of(BLOCK);
+        let placed = code.operations.iter().zip(&code.finishes);
+        let roots = placed.filter(|(operation, _)| {
+            matches!(operation.rule, PlacedRule::Sqrt(_) | PlacedRule::Power { .. })
+        });
+        let roots = roots.map(|(_, finish)| finish.place).collect();
+        let divisors = code.operations.iter().filter_map(|operation| match &operation.rule {
+            PlacedRule::Recip(x) => Some(*x),
+            PlacedRule::Power { x, exponent, .. } => {
+                let is_quotient = exponent.is_negative() && exponent.to_integer().is_some();
+                is_quotient.then_some(*x)
+            }
+            _ => None,
+        });
+        let mut divisors: Vec<Place> = divisors.collect();
+        divisors.sort_unstable();
+        divisors.dedup();
+        Self {
+            order,
+            orders: order.next_multiple_of(T::WIDTH),
+            code,
+            inverses: (0..=order)
+                .map(|n| T::rational(&Rational::new(1, n.max(1) as i64)))
+                .collect(),
+            partial: vec![T::nothing(); sums],
+            inner: vec![T::ZERO; sums],
+            memory,
+            roots,
+            divisors,
+            expansions: 0,
+            machine: None,
+        }
+    }
+
+    /// Highest order of the state's coefficients.
+    pub fn order(&self) -> usize {
+        self.order
+    }
+
+    /// Computes all coefficients at `state`.
+    pub fn expand(&mut self, state: &[T]) {
+        for (component, value) in self.code.state.iter().zip(state) {
+            self.memory[component.place as usize] = *value;
+        }
+        with_widest_vectors(Expansion(self));
+    }
+
+    /// Clears the memory: values that are not finite must not meet the zeros behind a row.
+    pub fn clear(&mut self) {
+        self.memory.fill(T::ZERO);
+    }
+}
+
+/// Number of expansions of one motion that take as long as generating machine code.
+const MANY: u32 = 32;
+/// The same for motions in lanes.
+const MANY_IN_LANES: u32 = 8;
+
+impl Series<f64> {
+    /// Computes all orders by machine code. Returns `false` where there is none.
+    #[inline(always)]
+    pub(crate) fn by_machine(&mut self) -> bool {
+        if self.expansions < MANY {
+            self.expansions += 1;
+            if self.expansions == MANY {
+                self.machine = TaylorCode::new(&self.code, self.order).map(Box::new);
+            }
+        }
+        let Some(mut machine) = self.machine.take() else { return false };
+        if !machine.begin(&self.inverses, &mut self.memory) {
+            self.begin();
+            machine.take(&self.code);
+        }
+        machine.run(&self.code, &self.inverses, &mut self.memory);
+        self.machine = Some(machine);
+        true
+    }
+}
+
+impl Series<Lanes<MOTION_LANES>> {
+    /// Computes all orders by machine code. Returns `false` where there is none.
+    #[inline(always)]
+    pub(crate) fn by_machine(&mut self) -> bool {
+        if self.expansions < MANY_IN_LANES {
+            self.expansions += 1;
+            if self.expansions == MANY_IN_LANES {
+                self.machine = LaneMachine::new(&self.code, self.order).map(Box::new);
+            }
+        }
+        let Some(mut machine) = self.machine.take() else { return false };
+        if !machine.begin(&self.inverses, &mut self.memory) {
+            self.begin();
+            machine.take(&self.code);
+        }
+        machine.run(&self.code, &self.inverses, &mut self.memory);
+        self.machine = Some(machine);
+        true
+    }
+}
+
+impl<T: SeriesNumber> Series<T> {
+    /// Coefficients of a component of the state, orders 0 to `order`.
+    #[inline(always)]
+    pub fn component(&self, index: usize) -> &[T] {
+        let place = self.code.state[index].place as usize;
+        &self.memory[place..=place + self.order]
+    }
+
+    /// Coefficients of the roots and powers, orders 0 to `order` - 1.
+    pub fn roots(&self) -> impl Iterator<Item = &[T]> {
+        self.roots.iter().map(|place| &self.memory[*place as usize..][..self.order])
+    }
+
+    /// Coefficients of the rows that are divided by, orders 0 to `order` - 1.
+    pub fn divisors(&self) -> impl Iterator<Item = &[T]> {
+        self.divisors.iter().map(|place| &self.memory[*place as usize..][..self.order])
+    }
+
+    /// Number of further functions.
+    pub fn outputs(&self) -> usize {
+        self.code.outputs.len()
+    }
+
+    /// Coefficients of a further function, orders 0 to `order` - 1.
+    pub fn output(&self, index: usize) -> &[T] {
+        let place = self.code.outputs[index] as usize;
+        &self.memory[place..place + self.order]
+    }
+}

@@ -1,0 +1,102 @@
+//! Steps that are shortened: before branch points of the field, and where a further function of the
+//! state is sought for zeros.
+
+use crate::taylor::event::{Ends, value};
+use crate::taylor::number::SeriesNumber;
+use crate::taylor::stepper::Stepper;
+use liouville::graph::{Kernel, with_widest_vectors};
+
+/// Largest change of the state over a piece on which events are sought, relative to its size.
+const FAR: f64 = 100.0;
+/// Number of times that a step is shortened for a further function.
+const MOST_CUTS: usize = 40;
+/// Part of κ by which a further function may be known less well than the state: sums of products of
+/// its components are.
+const SLACK: f64 = 0.4;
+/// Number of times that a step is halved before a branch point.
+const MOST_HALVES: usize = 60;
+
+impl<T: SeriesNumber> Stepper<T> {
+    /// Shortens steps at whose ends a root or a power would be negative: there the series goes on with
+    /// another branch than the field.
+    pub(crate) fn keep_branches(&mut self) {
+        let steps = T::from_lanes(|lane| self.lanes[lane].step);
+        for root in self.series.roots() {
+            let ends = value(root, steps).0;
+            for (index, lane) in self.lanes.iter_mut().enumerate() {
+                if ends.lane(index).leading() < 0.0 {
+                    let own: Vec<T::One> = root.iter().map(|x| x.lane(index)).collect();
+                    lane.step = before_branch(&own, lane.step);
+                    lane.is_cut = true;
+                }
+            }
+        }
+    }
+
+    /// Values that decide whether a further function can vanish on the present pieces. Steps after
+    /// which its series is not known as well as the state's become shorter.
+    pub fn ends(&mut self, output: usize) -> Ends<T> {
+        for index in 0..T::LANES {
+            let [still, moving, ..] = self.sizes.norms.map(|norm| norm.lane(index).leading());
+            // Where the state is a polynomial of time its step has no other limit.
+            let most = if still > 0.0 { FAR * still / moving } else { FAR };
+            let step = &mut self.lanes[index].step;
+            if step.leading().abs() > most {
+                *step = T::One::float(most.copysign(step.leading()));
+            }
+        }
+        let count = self.series.order();
+        let limit = |n: usize| libm::exp((SLACK - self.kappa) * n as f64);
+        let limits = [count - 2, count - 1].map(limit);
+        let mut ends = Ends::NONE;
+        for _ in 0..MOST_CUTS {
+            with_widest_vectors(EndValues { stepper: self, output, ends: &mut ends });
+            let mut is_known = true;
+            for (index, lane) in self.lanes.iter_mut().enumerate() {
+                let share = ends.known_share(index, count, limits);
+                if share < 1.0 {
+                    lane.step = lane.step * T::One::float(share);
+                    lane.is_cut = true;
+                    is_known = false;
+                }
+            }
+            if is_known {
+                break;
+            }
+        }
+        ends
+    }
+}
+
+/// A part of a step at whose end a function that vanishes within it is not negative yet.
+fn before_branch<One: SeriesNumber>(root: &[One], step: One) -> One {
+    let halves = (0..MOST_HALVES).scan(step, |step, _| {
+        *step = *step * One::float(0.5);
+        Some(*step)
+    });
+    let shorter = halves.take_while(|step| step.leading() != 0.0);
+    let mut last = One::ZERO;
+    for step in shorter {
+        last = step;
+        if value(root, step).0.leading() >= 0.0 {
+            break;
+        }
+    }
+    last
+}
+
+/// Work of evaluating a further function at the ends of the present pieces.
+struct EndValues<'s, T: SeriesNumber> {
+    stepper: &'s Stepper<T>,
+    output: usize,
+    ends: &'s mut Ends<T>,
+}
+
+impl<T: SeriesNumber> Kernel for EndValues<'_, T> {
+    #[inline(always)]
+    fn run(self) {
+        let Self { stepper, output, ends } = self;
+        let length = T::from_lanes(|lane| stepper.lanes[lane].step);
+        *ends = Ends::new(stepper.series.output(output), length);
+    }
+}

@@ -1,0 +1,388 @@
+//! Stepping along motions: step sizes from the series, compensated states, dense output.
+//!
+//! The step is ρ e^(-κ), ρ the least of (‖x₀‖/‖x_n‖)^(1/n) over the last two orders, with maximum
+//! norms (Jorba, Zou 2005, with κ in place of their 2 + 0.7/(n - 1)). The field does not depend on
+//! time, so that each lane takes its own step.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::error::FlowError;
+use crate::halt::Halt;
+use crate::taylor::number::SeriesNumber;
+use crate::taylor::pace::{Lane, Lost};
+use crate::taylor::program::TaylorProgram;
+use crate::taylor::series::Series;
+use crate::taylor::watch::{Edge, Presence};
+use liouville::graph::{Kernel, with_widest_vectors};
+use liouville::number::double_double::DoubleDouble;
+
+/// Order of the series, and step size constant κ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Accuracy {
+    /// Highest power of the step that is kept.
+    pub order: usize,
+    /// Constant κ of the step ρ e^(-κ); the first term left out is about e^(-κ(order + 1)) of the
+    /// state.
+    pub kappa: f64,
+}
+
+impl Accuracy {
+    /// Accuracy for f64: e^(-κ·21) is a tenth of a unit in the last place.
+    pub const FLOAT: Self = Self { order: 20, kappa: 1.85 };
+    /// Accuracy of seven digits: e^(-κ·13) is about 10⁻⁸.
+    pub const ROUGH: Self = Self { order: 12, kappa: 1.4 };
+    /// Accuracy for double-double.
+    pub const PAIR: Self = Self { order: 34, kappa: 2.15 };
+}
+
+/// Time that stands for no end.
+const NEVER: f64 = 1e15;
+
+/// Motions in lockstep, one in each lane.
+pub struct Stepper<T: SeriesNumber> {
+    pub(crate) series: Series<T>,
+    pub(crate) kappa: f64,
+    /// State, and its rounding remainder.
+    state: Vec<T>,
+    rest: Vec<T>,
+    pub(crate) lanes: Vec<Lane<T::One>>,
+    pub(crate) sizes: Sizes<T>,
+    /// Values that the motions have to have, if they are known.
+    pub(crate) presence: Option<Arc<Presence>>,
+    halt: Halt,
+}
+
+/// Sizes of the present expansions.
+#[derive(Clone, Copy)]
+pub(crate) struct Sizes<T> {
+    /// Maximum norms of the state's coefficients of orders 0 and 1, and of the last two orders.
+    pub(crate) norms: [T; 4],
+    /// 0 where all coefficients of the last order are finite, or else NaN.
+    soundness: T,
+}
+
+impl<T: SeriesNumber> Stepper<T> {
+    /// Prepares motions of a program's field; each lane needs a start.
+    pub fn new(program: &TaylorProgram, accuracy: Accuracy) -> Self {
+        let idle = Lane::new(DoubleDouble::default());
+        let state = vec![T::ZERO; program.dimension()];
+        Self {
+            series: Series::new(program, accuracy.order),
+            kappa: accuracy.kappa,
+            rest: state.clone(),
+            state,
+            lanes: vec![idle; T::LANES],
+            sizes: Sizes { norms: [T::ZERO; 4], soundness: T::ZERO },
+            presence: program.presence.clone(),
+            halt: Halt::current(),
+        }
+    }
+
+    /// Starts a motion at time 0 that ends at time `until`, which may be negative.
+    pub fn start(&mut self, lane: usize, state: &[DoubleDouble], until: DoubleDouble) {
+        if T::LANES == 1 {
+            self.series.clear();
+        }
+        self.place(lane, state);
+        self.lanes[lane] = Lane::new(until);
+    }
+
+    /// Starts a motion at time 0 that somebody else ends, after a number of steps.
+    pub fn start_open(&mut self, lane: usize, state: &[DoubleDouble], backwards: bool) {
+        let until = if backwards { -NEVER } else { NEVER };
+        self.start(lane, state, DoubleDouble::from_f64(until));
+        self.lanes[lane].is_open = true;
+    }
+
+    /// Moves a motion to another state, at the same time.
+    pub fn place(&mut self, lane: usize, state: &[DoubleDouble]) {
+        for (index, value) in state.iter().enumerate() {
+            let (value, rest) = T::One::split(*value);
+            set(&mut self.state[index], lane, value);
+            set(&mut self.rest[index], lane, rest);
+        }
+    }
+
+    /// Multiplies some components of a motion's state.
+    pub fn scale(&mut self, lane: usize, components: Range<usize>, factor: T::One) {
+        for row in components {
+            for part in [&mut self.state[row], &mut self.rest[row]] {
+                let scaled = part.lane(lane) * factor;
+                set(part, lane, scaled);
+            }
+        }
+    }
+
+    /// Changes the final time of a motion.
+    pub fn extend(&mut self, lane: usize, until: DoubleDouble) {
+        self.lanes[lane].until = until;
+    }
+
+    /// Expands all motions at their states and chooses their steps.
+    pub fn expand(&mut self) {
+        self.series.expand(&self.state);
+        with_widest_vectors(ErrorMeasure(self));
+        for index in 0..T::LANES {
+            let size = self.step_size(index);
+            let lane = &mut self.lanes[index];
+            (lane.is_cut, lane.edge) = (false, None);
+            let left = lane.until - lane.time;
+            lane.step = if size < left.hi.abs() {
+                T::One::float(size.copysign(left.hi))
+            } else {
+                T::One::split(left).0
+            };
+        }
+        self.keep_branches();
+        self.keep_quotients();
+        self.keep_values();
+        self.lanes.iter_mut().for_each(Lane::begin);
+    }
+
+    /// Makes neighbouring motions, in groups of `together`, take the same step.
+    pub fn keep_pace(&mut self, together: usize) {
+        for group in self.lanes.chunks_mut(together) {
+            let steps = group.iter().map(|lane| lane.step);
+            let shortest =
+                steps.reduce(|a, b| if a.leading().abs() <= b.leading().abs() { a } else { b });
+            if let Some(step) = shortest {
+                group.iter_mut().for_each(|lane| lane.step = step);
+            }
+        }
+    }
+
+    /// States of all motions after a fraction of their steps, without the rounding remainders.
+    pub fn within(&self, share: f64) -> Vec<T> {
+        let steps = T::from_lanes(|lane| self.lanes[lane].step * T::One::float(share));
+        let rows = self.state.iter().enumerate();
+        rows.map(|(row, state)| *state + increment(self.series.component(row), steps)).collect()
+    }
+
+    /// Present step of a motion.
+    pub fn step(&self, lane: usize) -> T::One {
+        self.lanes[lane].step
+    }
+
+    /// Checks the present expansion of a motion; fails where the motion runs into a singularity,
+    /// where its end is out of reach, and once it is stopped.
+    pub fn check(&self, lane: usize) -> Result<(), FlowError> {
+        if self.halt.is_raised() {
+            return Err(FlowError::Stopped);
+        }
+        let motion = &self.lanes[lane];
+        let step = motion.step.leading();
+        let finite = self.is_regular(lane);
+        let left = (motion.until - motion.time).hi.abs();
+        // Less than the time's last place may be left of a very long run.
+        let at_end = left <= f64::EPSILON * motion.time.hi.abs();
+        let advances = at_end || motion.time.hi + step != motion.time.hi || motion.time.hi == 0.0;
+        let time = motion.time.hi;
+        let state = || self.own_state(lane).iter().map(|x| x.hi).collect();
+        match (motion.lost, &self.presence) {
+            (None, _) => {}
+            (Some(Edge::Watched(index)), Some(presence)) => {
+                return Err(self.without_value(lane, presence, presence.formula(index)));
+            }
+            (Some(_), _) => return Err(self.singular(lane)),
+        }
+        match finite && advances && step.is_finite() {
+            true => match motion.pace.lost.filter(|_| !at_end) {
+                None => Ok(()),
+                Some(Lost::Shrinking) => Err(FlowError::Shrinking { time, step, state: state() }),
+                Some(Lost::Endless) if motion.is_open => Ok(()),
+                Some(Lost::Endless) => {
+                    Err(FlowError::Endless { time, step, until: motion.until.hi })
+                }
+            },
+            false => Err(self.singular(lane)),
+        }
+    }
+
+    /// State of the system itself, without further components.
+    fn own_state(&self, lane: usize) -> Vec<DoubleDouble> {
+        let mut state = self.pairs(lane);
+        state.truncate(self.presence.as_ref().map_or(state.len(), |presence| presence.dimension()));
+        state
+    }
+
+    /// Error at a state where the field has no series: a start without a value is told by the formula
+    /// that has none.
+    fn singular(&self, lane: usize) -> FlowError {
+        let (time, state) = (self.lanes[lane].time.hi, self.pairs(lane));
+        let is_lost = self.lanes[lane].lost.is_some();
+        if (time == 0.0 || is_lost)
+            && let Some(presence) = &self.presence
+            && let Some(formula) = presence.missing(&state)
+        {
+            return self.without_value(lane, presence, formula);
+        }
+        let state = self.own_state(lane).iter().map(|x| x.hi).collect();
+        FlowError::Singular { time, state }
+    }
+
+    /// Error at a state where a formula has no value.
+    fn without_value(&self, lane: usize, presence: &Presence, formula: &str) -> FlowError {
+        FlowError::NoValue {
+            formula: formula.to_string(),
+            time: self.lanes[lane].time.hi,
+            place: presence.place(&self.pairs(lane)),
+        }
+    }
+
+    /// Whether the present expansion of a motion is finite.
+    fn is_regular(&self, lane: usize) -> bool {
+        self.sizes.soundness.lane(lane).leading() == 0.0
+    }
+
+    /// Whether the present step of a motion is cut where the motion itself may go on.
+    pub fn is_cut(&self, lane: usize) -> bool {
+        self.is_regular(lane) && self.lanes[lane].is_cut
+    }
+
+    /// Velocity of a motion at its present state.
+    pub fn velocity(&self, lane: usize) -> Vec<f64> {
+        let rows = 0..self.state.len();
+        rows.map(|row| self.series.component(row)[1].lane(lane).leading()).collect()
+    }
+
+    /// Whether a motion stands still: its velocity is exactly 0.
+    pub fn rests(&self, lane: usize) -> bool {
+        let speed = |row: usize| self.series.component(row)[1].lane(lane).leading();
+        (0..self.state.len()).all(|row| speed(row) == 0.0)
+    }
+
+    /// Takes the steps.
+    pub fn advance(&mut self) {
+        with_widest_vectors(Advance(self));
+        self.lanes.iter_mut().for_each(Lane::advance);
+    }
+
+    /// Whether a motion has reached its end.
+    pub fn is_done(&self, lane: usize) -> bool {
+        let motion = &self.lanes[lane];
+        let left = motion.until - motion.time;
+        left.hi.abs() <= f64::EPSILON * motion.step.leading().abs()
+    }
+
+    /// Time of a motion.
+    pub fn time(&self, lane: usize) -> DoubleDouble {
+        self.lanes[lane].time
+    }
+
+    /// Number of steps that a motion has taken.
+    pub fn steps(&self, lane: usize) -> u64 {
+        self.lanes[lane].steps
+    }
+
+    /// State of a motion.
+    pub fn pairs(&self, lane: usize) -> Vec<DoubleDouble> {
+        let parts = self.state.iter().zip(&self.rest);
+        parts.map(|(x, rest)| x.lane(lane).pair() + rest.lane(lane).pair()).collect()
+    }
+
+    /// Present piece of a motion.
+    pub fn piece(&self, lane: usize) -> MotionPiece<'_, T> {
+        MotionPiece { stepper: self, lane }
+    }
+
+    fn step_size(&self, lane: usize) -> f64 {
+        let order = self.series.order();
+        let norms = self.sizes.norms.map(|norm| norm.lane(lane).leading());
+        let [still, moving, before_last, last] = norms;
+        // A state that is exactly 0 has no size; its velocity has.
+        let (first, size) = if still > 0.0 { (0, still) } else { (1, moving) };
+        let size = libm::log(size);
+        let radius = |n: usize, norm: f64| (size - libm::log(norm)) / (n - first) as f64;
+        libm::exp(radius(order - 1, before_last).min(radius(order, last)) - self.kappa)
+    }
+}
+
+/// Work of measuring the present expansions.
+struct ErrorMeasure<'s, T: SeriesNumber>(&'s mut Stepper<T>);
+
+impl<T: SeriesNumber> Kernel for ErrorMeasure<'_, T> {
+    #[inline(always)]
+    fn run(self) {
+        let stepper = self.0;
+        let order = stepper.series.order();
+        let mut sizes = Sizes { norms: [T::ZERO; 4], soundness: T::ZERO };
+        for row in 0..stepper.state.len() {
+            let coefficients = stepper.series.component(row);
+            for (norm, n) in sizes.norms.iter_mut().zip([0, 1, order - 1, order]) {
+                *norm = norm.larger(coefficients[n]);
+            }
+            sizes.soundness = sizes.soundness + coefficients[order] * T::ZERO;
+        }
+        stepper.sizes = sizes;
+    }
+}
+
+fn set<T: SeriesNumber>(target: &mut T, lane: usize, value: T::One) {
+    let old = *target;
+    *target = T::from_lanes(|other| if other == lane { value } else { old.lane(other) });
+}
+
+/// Work of advancing all states to the ends of their steps.
+struct Advance<'s, T: SeriesNumber>(&'s mut Stepper<T>);
+
+impl<T: SeriesNumber> Kernel for Advance<'_, T> {
+    #[inline(always)]
+    fn run(self) {
+        let stepper = self.0;
+        let steps = T::from_lanes(|lane| stepper.lanes[lane].step);
+        for (row, (state, rest)) in stepper.state.iter_mut().zip(&mut stepper.rest).enumerate() {
+            let coefficients = stepper.series.component(row);
+            T::advance(state, rest, increment(coefficients, steps));
+        }
+    }
+}
+
+/// Returns Σ x_k h^k from k = 1 on.
+#[inline(always)]
+fn increment<T: SeriesNumber>(coefficients: &[T], step: T) -> T {
+    let mut sum = T::ZERO;
+    for coefficient in coefficients[1..].iter().rev() {
+        sum = coefficient.fused(sum, step).settled();
+    }
+    sum * step
+}
+
+/// A motion between two steps, as polynomials in the time since the first.
+pub struct MotionPiece<'s, T: SeriesNumber> {
+    stepper: &'s Stepper<T>,
+    lane: usize,
+}
+
+impl<T: SeriesNumber> MotionPiece<'_, T> {
+    /// Time at which the piece begins.
+    pub fn begin(&self) -> DoubleDouble {
+        self.stepper.lanes[self.lane].time
+    }
+
+    /// Duration; negative backwards in time.
+    pub fn length(&self) -> T::One {
+        self.stepper.lanes[self.lane].step
+    }
+
+    /// Coefficients of a further function of the program.
+    pub fn output(&self, index: usize) -> Vec<T::One> {
+        self.stepper.series.output(index).iter().map(|x| x.lane(self.lane)).collect()
+    }
+
+    /// State at a time after the beginning.
+    pub fn state(&self, after: T::One) -> Vec<DoubleDouble> {
+        let stepper = self.stepper;
+        (0..stepper.state.len())
+            .map(|row| {
+                let coefficients = stepper.series.component(row);
+                let mut sum = T::One::ZERO;
+                for coefficient in coefficients[1..].iter().rev() {
+                    sum = (sum + coefficient.lane(self.lane)) * after;
+                }
+                let rest = stepper.rest[row].lane(self.lane) + sum;
+                stepper.state[row].lane(self.lane).pair() + rest.pair()
+            })
+            .collect()
+    }
+}

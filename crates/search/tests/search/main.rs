@@ -1,0 +1,4 @@
+//! Tests of searches, one module a method.
+
+mod ansatz;
+mod orbits;

@@ -1,0 +1,29 @@
+//! Tests of the verifier through its public interface, one module a subject.
+
+mod bodies;
+#[path = "../common/mod.rs"]
+mod common;
+mod derivatives;
+mod documents;
+mod domains;
+mod doubts;
+mod functional_equations;
+mod geometry;
+mod golden;
+mod hamiltonian;
+mod labels;
+mod lanes;
+mod language;
+mod local;
+mod many_variables;
+mod mutated;
+mod newton_euler;
+#[path = "../common/random.rs"]
+mod random;
+mod sweep;
+mod systems;
+mod user_fields;
+mod values;
+mod verdicts;
+mod wide_balls;
+mod witnesses;
