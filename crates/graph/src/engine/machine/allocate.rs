@@ -7,17 +7,15 @@
 use super::super::ROW_STATES;
 use super::super::program::{PairOperation, ProgramStep, StepProgram, Sum, Value};
 use super::constants::Constants;
-use super::encode::{
-    Area, Assembler, Assembly, Comparison, OperandOrder, PairInstruction, Register, SumSigns,
-    VectorLocation, Width,
-};
+use super::encode::{Area, Assembler, Assembly, VectorLocation};
 use super::interleave::Interleaved;
+use crate::assembler::{Comparison, OperandOrder, PairInstruction, Register, SumSigns, Width};
 use crate::number::{BinaryOperation, UnaryFunction};
 
 /// Assembles a program; also returns the constants at the beginning of its frame. `None` where the
 /// program has a function that is not an instruction.
 pub(super) fn assemble(program: &StepProgram, width: Width) -> Option<(Assembly, Vec<f64>)> {
-    let in_row = ROW_STATES / width.lanes();
+    let in_row = ROW_STATES / width.numbers();
     // Sixteen registers are too few for two vectors.
     let vectors = if width == Width::Eight { in_row } else { 1 };
     let interleaved = Interleaved::new(program, vectors);
@@ -72,7 +70,7 @@ impl Scan {
         Self {
             assembler: Assembler::new(width),
             spills: constants.values.len() as u32,
-            vectors_in_row: (ROW_STATES / width.lanes()) as u32,
+            vectors_in_row: (ROW_STATES / width.numbers()) as u32,
             copy: 0,
             reads: program.reads(),
             outputs,

@@ -1,7 +1,7 @@
 //! Constants of machine code, and those that have a register of their own.
 
 use super::super::program::{ProgramStep, StepProgram, Value};
-use super::encode::Width;
+use crate::assembler::Width;
 use crate::number::UnaryFunction;
 
 /// Constants that instructions need in addition to those of the program.
@@ -26,7 +26,7 @@ impl Constants {
         let own = program.constants.len() as u32;
         let mut constants =
             Self { values: [&program.constants[..], &EXTRA].concat(), own, kept: Vec::new() };
-        if width == Width::Four {
+        if width != Width::Eight {
             return constants;
         }
         let mut reads = vec![0; constants.values.len()];

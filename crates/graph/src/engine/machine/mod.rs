@@ -15,8 +15,8 @@ mod memory;
 
 use super::program::StepProgram;
 use super::{ROW_STATES, RowBlock};
+use crate::assembler::Width;
 use crate::graph::InstructionSet;
-use encode::Width;
 use memory::Executable;
 
 pub use memory::executable;
@@ -49,7 +49,7 @@ impl MachineProgram {
             InstructionSet::Baseline => return None,
         };
         let (assembly, constants) = allocate::assemble(program, width)?;
-        let lanes = width.lanes();
+        let lanes = width.numbers();
         let frame_rows = assembly.extent.frame.max(constants.len()).div_ceil(ROW_STATES / lanes);
         let outputs = program.outputs.len();
         let executable = Executable::new(&assembly)?;
