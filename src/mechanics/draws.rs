@@ -89,10 +89,21 @@ impl DrawSource {
         self.picked(seed, index, attempt, NumberSource::nearest)
     }
 
+    /// Whether each number is an f64 that is finite, at nearly all states.
+    pub fn exact(&self) -> Vec<bool> {
+        let is_exact = |source: &NumberSource| match source {
+            NumberSource::List(values) => values.iter().all(|value| {
+                let (nearest, is_exact) = value.to_f64();
+                is_exact && nearest.is_finite()
+            }),
+            NumberSource::Sign | NumberSource::Range { .. } => true,
+        };
+        self.sources.iter().map(is_exact).collect()
+    }
+
     /// Encloses the numbers of the states from `start` on, one column of lanes for each number:
     /// those of [`DrawSource::nearest`].
-    pub fn fill<C: Column>(&self, seed: u64, start: u64, columns: &mut [C]) {
-        let streams = Streams::new(seed);
+    pub fn fill<C: Column>(&self, streams: &Streams, start: u64, columns: &mut [C]) {
         with_widest_vectors(Fill { sources: &self.sources, streams, start, columns });
     }
 
@@ -145,7 +156,7 @@ impl Column for [RowBlock; 2] {
 /// The numbers of a block of states.
 struct Fill<'f, C> {
     sources: &'f [NumberSource],
-    streams: Streams,
+    streams: &'f Streams,
     start: u64,
     columns: &'f mut [C],
 }

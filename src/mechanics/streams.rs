@@ -21,7 +21,8 @@ type Words = [[u32; WIDTH]; 16];
 const CONSTANTS: [u32; 4] = [0x6170_7865, 0x3320_646e, 0x7962_2d32, 0x6b20_6574];
 
 /// Streams of random words that belong to a seed.
-pub(super) struct Streams {
+#[derive(Clone, Debug)]
+pub struct Streams {
     key: [u32; 8],
 }
 

@@ -44,9 +44,10 @@ impl Total {
 /// Midpoints and radii of a block of balls.
 pub type BallParts<'b> = [&'b [f64; TAPE_LANES]; 2];
 
-/// Examines the values of all claims at one block of states.
+/// Examines the values of all claims at one block of states, of which parts that may not exist are
+/// given.
 pub fn passed<'b>(
-    states: &[BallParts<'b>],
+    states: impl Iterator<Item = BallParts<'b>>,
     output: impl Fn(usize) -> BallParts<'b>,
     layout: &OutputLayout,
 ) -> Vec<Passed> {
@@ -55,8 +56,8 @@ pub fn passed<'b>(
     found
 }
 
-struct Pass<'p, 'b, F> {
-    states: &'p [BallParts<'b>],
+struct Pass<'p, S, F> {
+    states: S,
     output: F,
     layout: &'p OutputLayout,
     found: &'p mut [Passed],
@@ -65,12 +66,16 @@ struct Pass<'p, 'b, F> {
 /// For each lane, 0 if all values so far are finite, and NaN otherwise.
 type Traces = [f64; TAPE_LANES];
 
-impl<'b, F: Fn(usize) -> BallParts<'b>> Kernel for Pass<'_, 'b, F> {
+impl<'b, S, F> Kernel for Pass<'_, S, F>
+where
+    S: Iterator<Item = BallParts<'b>>,
+    F: Fn(usize) -> BallParts<'b>,
+{
     #[inline(always)]
     fn run(self) {
         let Self { states, output, layout, found } = self;
         let mut common = [0.0; TAPE_LANES];
-        states.iter().for_each(|block| trace(&mut common, *block));
+        states.for_each(|block| trace(&mut common, block));
         trace_all(&mut common, &output, layout.common.clone());
         for (found, span) in found.iter_mut().zip(&layout.spans) {
             let mut traces = common;

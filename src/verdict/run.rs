@@ -115,28 +115,27 @@ impl Run {
         blocks: Range<u64>,
         layout: &OutputLayout,
     ) -> Option<Vec<Vec<Passed>>> {
-        if let Some(engine) = self.code(sampler, &blocks) {
-            let computed = engine.computed();
-            let one = |runner: &mut BallRunner, block: u64| {
-                sampler.fill(block * TAPE_LANES as u64, runner);
-                runner.run();
-                let output = |index: usize| runner.output(index).map(|row| &row.0);
-                let draws = runner.inputs().iter().map(|[mid, rad]| [&mid.0, &rad.0]);
-                let states: Vec<BallParts<'_>> = draws.chain((0..computed).map(output)).collect();
-                Some(passed(&states, |index| output(computed + index), layout))
-            };
-            return blocks.into_par_iter().map_init(|| engine.runner(), one).collect();
-        }
         let free = self.free(&Ball::<TAPE_LANES>);
-        let memory = || (sampler.maker(), Evaluator::new(&self.tape, Ball::<TAPE_LANES>));
-        let one = |(maker, evaluator): &mut (Maker<'_>, Evaluator<'_, Doubles>), block: u64| {
-            let states: Vec<&Balls<TAPE_LANES>> =
-                maker.straight(block * TAPE_LANES as u64)?.collect();
-            evaluator.run(states.iter().copied().chain(&free));
-            let states: Vec<BallParts<'_>> = states.into_iter().map(parts).collect();
-            Some(passed(&states, |index| parts(evaluator.output(index)), layout))
+        let general = || (sampler.maker(), Evaluator::new(&self.tape, Ball::<TAPE_LANES>));
+        let Some(engine) = self.code(sampler, &blocks) else {
+            let one = |memory: &mut (Maker<'_>, Evaluator<'_, Doubles>), block: u64| {
+                passed_straight(memory, &free, block, layout)
+            };
+            return blocks.into_par_iter().map_init(general, one).collect();
         };
-        blocks.into_par_iter().map_init(memory, one).collect()
+        let (streams, computed) = (sampler.streams(), engine.computed());
+        let one = |runner: &mut BallRunner, block: u64| {
+            sampler.fill(&streams, block * TAPE_LANES as u64, runner);
+            if !runner.is_exact() {
+                return passed_straight(&mut general(), &free, block, layout);
+            }
+            runner.run();
+            let output = |index: usize| runner.output(index).map(|row| &row.0);
+            let draws = runner.inexact().map(|[mid, rad]| [&mid.0, &rad.0]);
+            let states = draws.chain((0..computed).map(output));
+            Some(passed(states, |index| output(computed + index), layout))
+        };
+        blocks.into_par_iter().map_init(|| engine.runner(), one).collect()
     }
 
     /// Returns machine code where there are enough blocks for it, and it can be made.
@@ -167,6 +166,18 @@ impl Run {
         evaluator.run(states.iter().chain(&free));
         Values { blocks: evaluator.outputs().cloned().collect(), states: states.to_vec() }
     }
+}
+
+/// Passes a block of states that takes one run of each tape.
+fn passed_straight(
+    (maker, evaluator): &mut (Maker<'_>, Evaluator<'_, Doubles>),
+    free: &[Balls<TAPE_LANES>],
+    block: u64,
+    layout: &OutputLayout,
+) -> Option<Vec<Passed>> {
+    let states: Vec<&Balls<TAPE_LANES>> = maker.straight(block * TAPE_LANES as u64)?.collect();
+    evaluator.run(states.iter().copied().chain(free));
+    Some(passed(states.into_iter().map(parts), |index| parts(evaluator.output(index)), layout))
 }
 
 fn parts(balls: &Balls<TAPE_LANES>) -> BallParts<'_> {

@@ -2,6 +2,7 @@
 
 use crate::engine::{BallEngine, BallRunner};
 use crate::graph::{Evaluator, Tape};
+use crate::mechanics::Streams;
 use crate::number::ball::{Ball, Balls};
 use crate::number::rational::Rational;
 
@@ -20,6 +21,7 @@ impl Sampler {
             sampler: self,
             evaluator: Evaluator::new(&self.tape, Ball::<TAPE_LANES>),
             columns: vec![blank; self.draws.len()],
+            streams: self.streams(),
         }
     }
 
@@ -57,12 +59,17 @@ impl Sampler {
         if self.is_guarded || self.newton.is_some() {
             return None;
         }
-        BallEngine::new(&self.tape, further, tape)
+        BallEngine::new(self.draws.exact(), &self.tape, further, tape)
+    }
+
+    /// Random numbers of the draws.
+    pub(in crate::verdict) fn streams(&self) -> Streams {
+        Streams::new(self.seed)
     }
 
     /// Fills the inputs of such code for the states `start..start + LANES`.
-    pub(in crate::verdict) fn fill(&self, start: u64, runner: &mut BallRunner) {
-        self.draws.fill(self.seed, start, runner.inputs_mut());
+    pub(in crate::verdict) fn fill(&self, streams: &Streams, start: u64, runner: &mut BallRunner) {
+        self.draws.fill(streams, start, runner.inputs_mut());
     }
 }
 
@@ -72,6 +79,7 @@ pub struct Maker<'s> {
     evaluator: Evaluator<'s, Ball<TAPE_LANES>>,
     /// Draws of the last block.
     columns: Vec<Balls<TAPE_LANES>>,
+    streams: Streams,
 }
 
 impl Maker<'_> {
@@ -91,7 +99,7 @@ impl Maker<'_> {
         if self.sampler.is_guarded || self.sampler.newton.is_some() {
             return None;
         }
-        self.sampler.draws.fill(self.sampler.seed, start, &mut self.columns);
+        self.sampler.draws.fill(&self.streams, start, &mut self.columns);
         self.evaluator.run(&self.columns);
         Some(self.evaluator.outputs())
     }
@@ -133,7 +141,7 @@ impl Maker<'_> {
     ) -> Vec<Balls<TAPE_LANES>> {
         let sampler = self.sampler;
         if sets.is_none() && attempts.iter().all(|attempt| *attempt == 0) {
-            sampler.draws.fill(sampler.seed, start, &mut self.columns);
+            sampler.draws.fill(&self.streams, start, &mut self.columns);
         } else {
             let lanes: [Vec<(f64, bool)>; TAPE_LANES] = std::array::from_fn(|lane| {
                 sampler.nearest(start + lane as u64, attempts[lane], sets)

@@ -27,28 +27,37 @@ pub struct BallEngine(Arc<BallCode>);
 #[derive(Debug)]
 struct BallCode {
     machine: MachineProgram,
-    inputs: usize,
+    /// Whether each input is exact.
+    exact: Vec<bool>,
     /// Number of outputs of the first tape that are outputs of the code.
     computed: usize,
 }
 
 impl BallEngine {
-    /// Prepares two tapes. The inputs of the second are the outputs of the first, followed by
-    /// `further` numbers. `None` where their numbers differ, where the processor or the system allows no machine code, or a tape
-    /// has functions that are not processor instructions or is too long.
-    pub fn new(first: &Tape, further: &[Rational], second: &Tape) -> Option<Self> {
-        Self::with_vectors(first, further, second, widest())
+    /// Prepares two tapes; of each input it is said whether it is exact, so that its radius, which
+    /// must be 0, is never read. The inputs of the second tape are the outputs of the first,
+    /// followed by `further` numbers. `None` where their numbers differ, where the processor or the
+    /// system allows no machine code, or a tape has functions that are not processor instructions or
+    /// is too long.
+    pub fn new(
+        exact: Vec<bool>,
+        first: &Tape,
+        further: &[Rational],
+        second: &Tape,
+    ) -> Option<Self> {
+        Self::with_vectors(exact, first, further, second, widest())
     }
 
     pub(super) fn with_vectors(
+        exact: Vec<bool>,
         first: &Tape,
         further: &[Rational],
         second: &Tape,
         vectors: InstructionSet,
     ) -> Option<Self> {
-        let (program, computed) = program(first, further, second)?;
+        let (program, computed) = program(&exact, first, further, second)?;
         let machine = MachineProgram::new(&program, vectors)?;
-        Some(Self(Arc::new(BallCode { machine, inputs: first.inputs(), computed })))
+        Some(Self(Arc::new(BallCode { machine, exact, computed })))
     }
 
     /// Number of outputs of the first tape that are computed, and not inputs or constants.
@@ -60,7 +69,7 @@ impl BallEngine {
     pub fn runner(&self) -> BallRunner {
         BallRunner {
             code: Arc::clone(&self.0),
-            inputs: vec![[RowBlock([0.0; ROW_STATES]); 2]; self.0.inputs],
+            inputs: vec![[RowBlock([0.0; ROW_STATES]); 2]; self.0.exact.len()],
             memory: self.0.machine.memory(),
         }
     }
@@ -75,18 +84,26 @@ pub struct BallRunner {
 }
 
 impl BallRunner {
-    /// Midpoints and radii of the inputs.
-    pub fn inputs(&self) -> &[[RowBlock; 2]] {
-        &self.inputs
+    /// Midpoints and radii of the inputs that were not said to be exact.
+    pub fn inexact(&self) -> impl Iterator<Item = &[RowBlock; 2]> {
+        let inputs = self.inputs.iter().zip(&self.code.exact);
+        inputs.filter(|(_, is_exact)| !**is_exact).map(|(input, _)| input)
     }
 
-    /// The same, to be filled.
+    /// Midpoints and radii of the inputs, to be filled.
     pub fn inputs_mut(&mut self) -> &mut [[RowBlock; 2]] {
         &mut self.inputs
     }
 
-    /// Computes the outputs.
+    /// Whether all inputs that were said to be exact are.
+    pub fn is_exact(&self) -> bool {
+        let exact = self.inputs.iter().zip(&self.code.exact).filter(|(_, is_exact)| **is_exact);
+        exact.into_iter().all(|([_, rad], _)| rad.0.iter().fold(0.0, |sum, one| sum + one) == 0.0)
+    }
+
+    /// Computes the outputs. Inputs that were said to be exact must be.
     pub fn run(&mut self) {
+        debug_assert!(self.is_exact(), "no radius is left out");
         self.code.machine.run(self.inputs.as_flattened(), &mut self.memory);
     }
 
@@ -99,11 +116,16 @@ impl BallRunner {
 
 /// Makes the program of two tapes, with the number of outputs of the first that are computed; `None`
 /// for functions that are not instructions.
-fn program(first: &Tape, further: &[Rational], second: &Tape) -> Option<(StepProgram, usize)> {
+fn program(
+    exact: &[bool],
+    first: &Tape,
+    further: &[Rational],
+    second: &Tape,
+) -> Option<(StepProgram, usize)> {
     let mut builder = Builder::default();
-    let draws = (0..first.inputs() as u32).map(|input| BallValue {
+    let draws = (0..).zip(exact).map(|(input, is_exact)| BallValue {
         mid: Value::Input(2 * input),
-        rad: Some(Value::Input(2 * input + 1)),
+        rad: (!is_exact).then_some(Value::Input(2 * input + 1)),
     });
     let made = builder.tape(first, draws.collect())?;
     let further: Vec<BallValue> = further.iter().map(|value| builder.enclosed(value)).collect();

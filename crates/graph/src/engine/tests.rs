@@ -225,11 +225,18 @@ fn balls_have_the_bits_of_the_domain() {
         let length = 1 + sequence.next(if turn % 10 == 0 { 400 } else { 60 });
         let first = random_tape(&mut sequence, length, 20);
         let second = random_tape(&mut sequence, 40, 20);
+        // Some inputs are exact, and said to be.
+        let exact: Vec<bool> = (0..5).map(|_| turn % 2 == 0 && sequence.next(2) == 0).collect();
         let inputs: Vec<Balls<ROW_STATES>> =
-            (0..5)
-                .map(|_| {
-                    let mid: [f64; ROW_STATES] = std::array::from_fn(|_| sequence.number());
+            exact
+                .iter()
+                .map(|is_exact| {
+                    let mid: [f64; ROW_STATES] = std::array::from_fn(|_| {
+                        let number = sequence.number();
+                        if *is_exact && !number.is_finite() { 1.5 } else { number }
+                    });
                     let rad: [f64; ROW_STATES] = std::array::from_fn(|_| match sequence.next(3) {
+                        _ if *is_exact => 0.0,
                         0 => 0.0,
                         1 => 1e-16,
                         _ => sequence.next(1000) as f64 / 2000.0,
@@ -248,14 +255,19 @@ fn balls_have_the_bits_of_the_domain() {
         let expected: Vec<&Balls<ROW_STATES>> =
             states.iter().chain(evaluators[1].outputs()).collect();
         for vectors in [InstructionSet::Avx2, InstructionSet::Avx512] {
-            let engine = BallEngine::with_vectors(&first, &[], &second, vectors);
+            let engine = BallEngine::with_vectors(exact.clone(), &first, &[], &second, vectors);
             assert!(engine.is_some() || widest() != InstructionSet::Avx512, "there is code");
             let Some(engine) = engine else { continue };
             let (mut runner, computed) = (engine.runner(), engine.computed());
             for (input, ball) in runner.inputs_mut().iter_mut().zip(&inputs) {
                 *input = [RowBlock(ball.mid), RowBlock(ball.rad)];
             }
+            assert!(runner.is_exact(), "radii that are left out are 0");
             runner.run();
+            if let Some(index) = exact.iter().position(|is_exact| *is_exact) {
+                runner.inputs_mut()[index][1].0[63] = 1e-300;
+                assert!(!runner.is_exact(), "others are not left out");
+            }
             let results = expected[states.len()..].iter().copied();
             let made = computed_outputs(&first).into_iter().map(|place| expected[place]);
             assert_eq!(made.len(), computed, "states that are steps");
