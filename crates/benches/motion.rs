@@ -1,7 +1,10 @@
 //! The unbalanced ball to t = 1000: `orbit` in f64 and in double-double, compared with DOP853 of
 //! differential-equations on a handwritten field, and with a floor: the multiply-adds of the Cauchy
-//! products alone, as contiguous dot products in the cache. Only ratios within one run are
-//! significant.
+//! products alone, as contiguous dot products in the cache; single orbits and sections beside heyoka,
+//! where Python has it. Only ratios within one run are significant.
+
+#[path = "peers/hook.rs"]
+mod peers;
 
 use std::hint::black_box;
 
@@ -109,6 +112,9 @@ fn motion(criterion: &mut Criterion) {
         bench.iter(|| follow(&case, &start, 20.0, Precision::Pair));
     });
     group.finish();
+    for script in ["orbit.py", "section.py"] {
+        peers::print(script);
+    }
 }
 
 /// Runs `count` multiply-adds on two arrays that stay in the first-level cache.

@@ -1,10 +1,13 @@
-//! The work items W1, W2, W3 of `liouville measure bench`, by each method in each domain. Times are per 64
-//! states; only ratios within one run are significant.
+//! The work items W1, W2, W3 of `liouville measure bench`, by each method in each domain, and beside
+//! heyoka where Python has it. Times are per 64 states; only ratios within one run are significant.
+
+#[path = "peers/hook.rs"]
+mod peers;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use liouville::verdict::{Options, judge};
 use liouville_lab::bench::{
-    BenchClaim, BenchOptions as Amount, measure_item, record_residual, work_items,
+    BenchClaim, BenchOptions as Amount, Selection, measure_item, record_residual, work_items,
 };
 
 fn tapes(criterion: &mut Criterion) {
@@ -19,7 +22,7 @@ fn tapes(criterion: &mut Criterion) {
         {
             println!("{}: merged tape / num-dual by hand: {ratio:.4}", item.name);
         }
-        for mut entry in subject.entries() {
+        for mut entry in subject.entries(Selection::All) {
             let name = format!("{}, {}", entry.method.name(), entry.domain);
             group.bench_function(name, |bench| bench.iter(|| entry.candidate.run(0)));
         }
@@ -31,6 +34,7 @@ fn tapes(criterion: &mut Criterion) {
         });
         group.finish();
     }
+    peers::print("items.py");
 }
 
 criterion_group! {

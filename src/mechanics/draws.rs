@@ -8,6 +8,7 @@ use chacha20::rand_core::{Rng, SeedableRng};
 
 use super::recipe::{Draw, Range};
 use super::streams::{NUMBERS, Streams, WIDTH};
+use crate::engine::{ROW_STATES, RowBlock};
 use crate::graph::{Kernel, with_widest_vectors};
 use crate::number::ball::{Balls, about};
 use crate::number::rational::Rational;
@@ -88,10 +89,21 @@ impl DrawSource {
         self.picked(seed, index, attempt, NumberSource::nearest)
     }
 
-    /// Encloses the numbers of the states from `start` on, one block of lanes for each number:
+    /// Whether each number is an f64 that is finite, at nearly all states.
+    pub fn exact(&self) -> Vec<bool> {
+        let is_exact = |source: &NumberSource| match source {
+            NumberSource::List(values) => values.iter().all(|value| {
+                let (nearest, is_exact) = value.to_f64();
+                is_exact && nearest.is_finite()
+            }),
+            NumberSource::Sign | NumberSource::Range { .. } => true,
+        };
+        self.sources.iter().map(is_exact).collect()
+    }
+
+    /// Encloses the numbers of the states from `start` on, one column of lanes for each number:
     /// those of [`DrawSource::nearest`].
-    pub fn fill<const N: usize>(&self, seed: u64, start: u64, columns: &mut [Balls<N>]) {
-        let streams = Streams::new(seed);
+    pub fn fill<C: Column>(&self, streams: &Streams, start: u64, columns: &mut [C]) {
         with_widest_vectors(Fill { sources: &self.sources, streams, start, columns });
     }
 
@@ -113,30 +125,54 @@ impl DrawSource {
     }
 }
 
-/// The numbers of a block of states.
-struct Fill<'f, const N: usize> {
-    sources: &'f [NumberSource],
-    streams: Streams,
-    start: u64,
-    columns: &'f mut [Balls<N>],
+/// One number of a block of states, as balls.
+pub trait Column {
+    /// Number of states.
+    const LANES: usize;
+
+    /// Returns midpoints and radii.
+    fn parts(&mut self) -> [&mut [f64]; 2];
 }
 
-impl<const N: usize> Kernel for Fill<'_, N> {
+impl<const N: usize> Column for Balls<N> {
+    const LANES: usize = N;
+
+    #[inline(always)]
+    fn parts(&mut self) -> [&mut [f64]; 2] {
+        [&mut self.mid, &mut self.rad]
+    }
+}
+
+impl Column for [RowBlock; 2] {
+    const LANES: usize = ROW_STATES;
+
+    #[inline(always)]
+    fn parts(&mut self) -> [&mut [f64]; 2] {
+        let [mid, rad] = self;
+        [&mut mid.0, &mut rad.0]
+    }
+}
+
+/// The numbers of a block of states.
+struct Fill<'f, C> {
+    sources: &'f [NumberSource],
+    streams: &'f Streams,
+    start: u64,
+    columns: &'f mut [C],
+}
+
+impl<C: Column> Kernel for Fill<'_, C> {
     #[inline(always)]
     fn run(self) {
-        for first in (0..N).step_by(WIDTH) {
+        for first in (0..C::LANES).step_by(WIDTH) {
             let index = self.start + first as u64;
             for (block, sources) in self.sources.chunks(NUMBERS).enumerate() {
                 let numbers = self.streams.numbers(index, block as u64);
                 let columns = self.columns[block * NUMBERS..].iter_mut();
                 for ((source, bits), column) in sources.iter().zip(&numbers).zip(columns) {
-                    let lanes = first..N.min(first + WIDTH);
-                    source.enclose(
-                        index,
-                        bits,
-                        &mut column.mid[lanes.clone()],
-                        &mut column.rad[lanes],
-                    );
+                    let lanes = first..C::LANES.min(first + WIDTH);
+                    let [mid, rad] = column.parts();
+                    source.enclose(index, bits, &mut mid[lanes.clone()], &mut rad[lanes]);
                 }
             }
         }

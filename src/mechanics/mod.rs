@@ -56,6 +56,7 @@ pub use recipe::{Draw, NumberLine, Range, SamplerSpec};
 pub use rigid::RigidBody;
 pub use rubber::{NORMAL, OMEGA, Potential, Rubber};
 pub use spinning::Spinning;
+pub(crate) use streams::Streams;
 pub use system::System;
 pub use ties::{StiffEntry, TiedEntry};
 pub use variables::{BracketBlock, NewVariables, Poisson};

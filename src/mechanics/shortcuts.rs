@@ -6,7 +6,8 @@
 //! (so that ω' = PK on the plane, Pγ = 0, PĨ = E - b⊗γ), and J = γ×:
 //!
 //! ```text
-//! (Ĩω)'  = m(2(r,r')ω - (r,ω)r' - (r',ω)r) + f
+//! K       = L - m((r,r')ω - (r,ω)r'),  L = Ĩω×ω + …
+//! (Ĩω)'  = m(2(r,r')ω - (r,ω)r' - (r',ω)r) + f = m((r,r')ω - (r',ω)r) + L + λγ
 //! (Ĩω,ω)' = ((Ĩω)',ω) + (f,ω)
 //! X = (r,r') tr P - (Pr,r'),   Y = (Dᵀr×γ, Pω) - (r,ω) tr PDJ                           on the plane:
 //! div v        = -(b,γ') - m(X + Y)
@@ -31,13 +32,21 @@ impl Rubber {
         let motion = self.motion(phase);
         let Pose { omega, gamma, mass, r, .. } = &motion.pose;
         let (_, multiplier) = self.acceleration(phase);
-        let force = self.torque(phase) + gamma * multiplier;
+        let (torque, constraint) = (self.torque(phase), gamma * multiplier);
         let slide = &motion.contact_rate;
         let approach = r.dot(slide);
-        let moved = omega * (approach + approach) - slide * r.dot(omega) - r * slide.dot(omega);
-        let momentum_rate = moved * *mass + force;
+        // r×(ω×r')
+        let sliding = (omega * approach - slide * r.dot(omega)) * *mass;
+        let turning = torque + sliding;
+        let short_torque = turning - sliding;
+        let spin = (omega * approach - r * slide.dot(omega)) * *mass;
+        let moved = spin + sliding;
+        let force = torque + constraint;
+        let momentum_rate = moved + force;
+        let rates =
+            [momentum_rate, moved + (short_torque + constraint), spin + turning + constraint];
         let energy_rate = momentum_rate.dot(omega) + force.dot(omega);
-        let mut values: Vec<T> = momentum_rate.iter().copied().chain([energy_rate]).collect();
+        let mut values: Vec<T> = rates.iter().flatten().copied().chain([energy_rate]).collect();
         if self.curvature.is_none() {
             let terms = OnPlane::of(motion);
             values.extend([terms.divergence(), terms.logarithmic_rate(), terms.rotation]);

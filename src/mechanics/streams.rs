@@ -21,7 +21,8 @@ type Words = [[u32; WIDTH]; 16];
 const CONSTANTS: [u32; 4] = [0x6170_7865, 0x3320_646e, 0x7962_2d32, 0x6b20_6574];
 
 /// Streams of random words that belong to a seed.
-pub(super) struct Streams {
+#[derive(Clone, Debug)]
+pub struct Streams {
     key: [u32; 8],
 }
 
@@ -60,15 +61,39 @@ impl Streams {
             quarter::<2, 7, 8, 13>(&mut words);
             quarter::<3, 4, 9, 14>(&mut words);
         }
-        let mut numbers = [[0; WIDTH]; NUMBERS];
-        for (k, number) in numbers.iter_mut().enumerate() {
-            for lane in 0..WIDTH {
-                let word = |k: usize| u64::from(words[k][lane].wrapping_add(start[k][lane]));
-                number[lane] = word(2 * k) | word(2 * k + 1) << 32;
-            }
-        }
-        numbers
+        // By name: in a loop over the numbers these, not the lanes, would become vectors.
+        [
+            number::<0>(&words, &start),
+            number::<1>(&words, &start),
+            number::<2>(&words, &start),
+            number::<3>(&words, &start),
+            number::<4>(&words, &start),
+            number::<5>(&words, &start),
+            number::<6>(&words, &start),
+            number::<7>(&words, &start),
+        ]
     }
+}
+
+/// Joins the words 2K and 2K + 1 of a block to a number.
+#[inline(always)]
+fn number<const K: usize>(words: &Words, start: &Words) -> [u64; WIDTH] {
+    let (low, high) =
+        (sum(&words[2 * K], &start[2 * K]), sum(&words[2 * K + 1], &start[2 * K + 1]));
+    let mut number = [0; WIDTH];
+    for lane in 0..WIDTH {
+        number[lane] = u64::from(low[lane]) | u64::from(high[lane]) << 32;
+    }
+    number
+}
+
+#[inline(always)]
+fn sum(a: &[u32; WIDTH], b: &[u32; WIDTH]) -> [u32; WIDTH] {
+    let mut sum = [0; WIDTH];
+    for lane in 0..WIDTH {
+        sum[lane] = a[lane].wrapping_add(b[lane]);
+    }
+    sum
 }
 
 /// Mixes four words of each state (Bernstein, ChaCha, 2008).

@@ -6,10 +6,8 @@
 use std::ops::Range;
 
 use super::recorded::OutputLayout;
-use super::run::Doubles;
 use super::sampler::TAPE_LANES;
-use crate::graph::{Evaluator, Kernel, with_widest_vectors};
-use crate::number::ball::Balls;
+use crate::graph::{Kernel, with_widest_vectors};
 
 /// Residuals of a claim at a block of states.
 #[derive(Clone, Copy, Debug, Default)]
@@ -43,20 +41,24 @@ impl Total {
     }
 }
 
-/// Examines the values of all claims at one block of states.
-pub fn passed(
-    states: &[&Balls<TAPE_LANES>],
-    evaluator: &Evaluator<'_, Doubles>,
+/// Midpoints and radii of a block of balls.
+pub type BallParts<'b> = [&'b [f64; TAPE_LANES]; 2];
+
+/// Examines the values of all claims at one block of states, of which parts that may not exist are
+/// given.
+pub fn passed<'b>(
+    states: impl Iterator<Item = BallParts<'b>>,
+    output: impl Fn(usize) -> BallParts<'b>,
     layout: &OutputLayout,
 ) -> Vec<Passed> {
     let mut found = vec![Passed::default(); layout.spans.len()];
-    with_widest_vectors(Pass { states, evaluator, layout, found: &mut found });
+    with_widest_vectors(Pass { states, output, layout, found: &mut found });
     found
 }
 
-struct Pass<'p, 't> {
-    states: &'p [&'p Balls<TAPE_LANES>],
-    evaluator: &'p Evaluator<'t, Doubles>,
+struct Pass<'p, S, F> {
+    states: S,
+    output: F,
     layout: &'p OutputLayout,
     found: &'p mut [Passed],
 }
@@ -64,22 +66,26 @@ struct Pass<'p, 't> {
 /// For each lane, 0 if all values so far are finite, and NaN otherwise.
 type Traces = [f64; TAPE_LANES];
 
-impl Kernel for Pass<'_, '_> {
+impl<'b, S, F> Kernel for Pass<'_, S, F>
+where
+    S: Iterator<Item = BallParts<'b>>,
+    F: Fn(usize) -> BallParts<'b>,
+{
     #[inline(always)]
     fn run(self) {
-        let Self { states, evaluator, layout, found } = self;
+        let Self { states, output, layout, found } = self;
         let mut common = [0.0; TAPE_LANES];
-        states.iter().for_each(|block| trace(&mut common, block));
-        trace_all(&mut common, evaluator, layout.common.clone());
+        states.for_each(|block| trace(&mut common, block));
+        trace_all(&mut common, &output, layout.common.clone());
         for (found, span) in found.iter_mut().zip(&layout.spans) {
             let mut traces = common;
-            trace_all(&mut traces, evaluator, span.requirement.clone());
-            trace_all(&mut traces, evaluator, span.residual.clone());
+            trace_all(&mut traces, &output, span.requirement.clone());
+            trace_all(&mut traces, &output, span.residual.clone());
             found.states = traces.iter().map(|trace| usize::from(!trace.is_nan())).sum();
             let mut largest = [0.0; TAPE_LANES];
             let (mut scaled, mut outside) = (largest, largest);
             for index in span.residual.clone() {
-                let Balls { mid, rad } = evaluator.output(index);
+                let [mid, rad] = output(index);
                 for lane in 0..TAPE_LANES {
                     // NaN if the state does not count; maxima ignore it.
                     let mid = mid[lane].abs() + traces[lane];
@@ -99,16 +105,20 @@ impl Kernel for Pass<'_, '_> {
 }
 
 #[inline(always)]
-fn trace_all(traces: &mut Traces, evaluator: &Evaluator<'_, Doubles>, outputs: Range<usize>) {
+fn trace_all<'b>(
+    traces: &mut Traces,
+    output: impl Fn(usize) -> BallParts<'b>,
+    outputs: Range<usize>,
+) {
     for index in outputs {
-        trace(traces, evaluator.output(index));
+        trace(traces, output(index));
     }
 }
 
 /// Adds 0 where the lane is finite, and NaN elsewhere.
 #[inline(always)]
-fn trace(traces: &mut Traces, block: &Balls<TAPE_LANES>) {
+fn trace(traces: &mut Traces, [mid, rad]: BallParts<'_>) {
     for lane in 0..TAPE_LANES {
-        traces[lane] += block.mid[lane] * 0.0 + block.rad[lane] * 0.0;
+        traces[lane] += mid[lane] * 0.0 + rad[lane] * 0.0;
     }
 }

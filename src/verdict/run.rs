@@ -1,15 +1,18 @@
 //! Evaluation of a tape of residuals over blocks of states in any number domain.
 
 use std::ops::Range;
+use std::sync::OnceLock;
 
 use rayon::prelude::*;
 
+use crate::engine::{BallEngine, BallRunner};
 use crate::graph::{Evaluator, Expr, Graph, Tape};
 use crate::number::ball::{Ball, Balls};
+use crate::number::rational::Rational;
 use crate::number::{Domain, Enclosing};
 
 use super::antiderivative_value;
-use super::pass::{Passed, passed};
+use super::pass::{BallParts, Passed, passed};
 use super::recorded::OutputLayout;
 use super::sampler::{Maker, Sampler, TAPE_LANES};
 
@@ -55,6 +58,9 @@ pub const MOST_KEPT: u64 = 64;
 /// Largest number of blocks that are passed together, of which little is kept.
 pub const MOST_PASSED: u64 = 4096;
 
+/// Number of blocks in a wave from which on machine code pays.
+const MANY: u64 = 1024;
+
 /// Divides blocks into waves of increasing length, so that claims decided early cost little.
 pub fn waves(blocks: Range<u64>, most: u64) -> impl Iterator<Item = Range<u64>> {
     let (mut next, mut length) = (blocks.start, 1);
@@ -69,13 +75,15 @@ pub fn waves(blocks: Range<u64>, most: u64) -> impl Iterator<Item = Range<u64>> 
 pub struct Run {
     tape: Tape,
     antiderivatives: usize,
+    /// Machine code of the tape with its sampler, once it was needed; `None` where there is none.
+    code: OnceLock<Option<BallEngine>>,
 }
 
 impl Run {
     /// Lays out the tape; `inputs` are the parameters and the state, followed by antiderivatives.
     pub fn new(graph: &Graph, outputs: &[Expr], inputs: usize) -> Self {
         let antiderivatives = graph.inputs().saturating_sub(inputs);
-        Self { tape: Tape::new(graph, outputs), antiderivatives }
+        Self { tape: Tape::new(graph, outputs), antiderivatives, code: OnceLock::new() }
     }
 
     /// Computes the outputs at one block of parameters and states.
@@ -108,14 +116,39 @@ impl Run {
         layout: &OutputLayout,
     ) -> Option<Vec<Vec<Passed>>> {
         let free = self.free(&Ball::<TAPE_LANES>);
-        let memory = || (sampler.maker(), Evaluator::new(&self.tape, Ball::<TAPE_LANES>));
-        let one = |(maker, evaluator): &mut (Maker<'_>, Evaluator<'_, Doubles>), block: u64| {
-            let states: Vec<&Balls<TAPE_LANES>> =
-                maker.straight(block * TAPE_LANES as u64)?.collect();
-            evaluator.run(states.iter().copied().chain(&free));
-            Some(passed(&states, evaluator, layout))
+        let general = || (sampler.maker(), Evaluator::new(&self.tape, Ball::<TAPE_LANES>));
+        let Some(engine) = self.code(sampler, &blocks) else {
+            let one = |memory: &mut (Maker<'_>, Evaluator<'_, Doubles>), block: u64| {
+                passed_straight(memory, &free, block, layout)
+            };
+            return blocks.into_par_iter().map_init(general, one).collect();
         };
-        blocks.into_par_iter().map_init(memory, one).collect()
+        let (streams, computed) = (sampler.streams(), engine.computed());
+        let one = |runner: &mut BallRunner, block: u64| {
+            sampler.fill(&streams, block * TAPE_LANES as u64, runner);
+            if !runner.is_exact() {
+                return passed_straight(&mut general(), &free, block, layout);
+            }
+            runner.run();
+            let output = |index: usize| runner.output(index).map(|row| &row.0);
+            let draws = runner.inexact().map(|[mid, rad]| [&mid.0, &rad.0]);
+            let states = draws.chain((0..computed).map(output));
+            Some(passed(states, |index| output(computed + index), layout))
+        };
+        blocks.into_par_iter().map_init(|| engine.runner(), one).collect()
+    }
+
+    /// Returns machine code where there are enough blocks for it, and it can be made.
+    fn code(&self, sampler: &Sampler, blocks: &Range<u64>) -> Option<&BallEngine> {
+        if blocks.end - blocks.start < MANY {
+            return None;
+        }
+        let make = || {
+            let further: Vec<Rational> =
+                (0..self.antiderivatives).map(antiderivative_value).collect();
+            sampler.engine(&further, &self.tape)
+        };
+        self.code.get_or_init(make).as_ref()
     }
 
     /// Returns the values of antiderivatives, which are inputs behind the state.
@@ -133,4 +166,20 @@ impl Run {
         evaluator.run(states.iter().chain(&free));
         Values { blocks: evaluator.outputs().cloned().collect(), states: states.to_vec() }
     }
+}
+
+/// Passes a block of states that takes one run of each tape.
+fn passed_straight(
+    (maker, evaluator): &mut (Maker<'_>, Evaluator<'_, Doubles>),
+    free: &[Balls<TAPE_LANES>],
+    block: u64,
+    layout: &OutputLayout,
+) -> Option<Vec<Passed>> {
+    let states: Vec<&Balls<TAPE_LANES>> = maker.straight(block * TAPE_LANES as u64)?.collect();
+    evaluator.run(states.iter().copied().chain(free));
+    Some(passed(states.into_iter().map(parts), |index| parts(evaluator.output(index)), layout))
+}
+
+fn parts(balls: &Balls<TAPE_LANES>) -> BallParts<'_> {
+    [&balls.mid, &balls.rad]
 }

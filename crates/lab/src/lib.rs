@@ -4,3 +4,5 @@
 pub mod bench;
 pub mod growth;
 pub mod stress;
+
+mod clock;

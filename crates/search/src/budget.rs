@@ -5,7 +5,48 @@
 //! are really taken are counted, which gives the same answer on every machine, however busy.
 
 use super::echelon::Echelon;
+use super::reduced::ReducedEchelon;
 use super::{Effort, Halt, SearchError};
+
+/// An elimination that counts what it does.
+pub trait Elimination {
+    /// Number of unknowns.
+    fn unknowns(&self) -> usize;
+
+    /// Number of entries looked at so far.
+    fn work(&self) -> u64;
+
+    /// Number of bytes kept.
+    fn size(&self) -> u64;
+}
+
+impl Elimination for Echelon {
+    fn unknowns(&self) -> usize {
+        self.columns()
+    }
+
+    fn work(&self) -> u64 {
+        self.steps()
+    }
+
+    fn size(&self) -> u64 {
+        self.bytes()
+    }
+}
+
+impl Elimination for ReducedEchelon {
+    fn unknowns(&self) -> usize {
+        self.columns()
+    }
+
+    fn work(&self) -> u64 {
+        self.steps()
+    }
+
+    fn size(&self) -> u64 {
+        self.bytes()
+    }
+}
 
 /// Lower bound on the elementary steps of an elimination per second.
 pub const STEPS: f64 = 1e9;
@@ -52,13 +93,13 @@ impl<'e> Budget<'e> {
     }
 
     /// Fails once the search is to stop, or the elimination has done or kept more than the limit.
-    pub fn check(&self, echelon: &Echelon) -> Result<(), SearchError> {
+    pub fn check(&self, elimination: &impl Elimination) -> Result<(), SearchError> {
         self.halt.check()?;
-        let unknowns = echelon.columns();
-        if echelon.steps() as f64 > self.steps {
+        let unknowns = elimination.unknowns();
+        if elimination.work() as f64 > self.steps {
             return Err(self.long(unknowns));
         }
-        if echelon.bytes() as f64 > self.bytes {
+        if elimination.size() as f64 > self.bytes {
             return Err(self.large(unknowns));
         }
         Ok(())

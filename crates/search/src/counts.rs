@@ -43,8 +43,6 @@ pub struct CountEstimate {
     pub unknowns: u64,
     /// Least time to set up all systems, in seconds.
     pub seconds: f64,
-    /// Bound on the memory of the largest system.
-    pub megabytes: u64,
 }
 
 /// Estimates the cost of counting integrals within the effort; `None` if they cannot be counted.
@@ -57,11 +55,7 @@ pub fn plan(case: &Case, effort: &Effort) -> Option<CountEstimate> {
     let (unknowns, seconds) = counted
         .filter(|(_, seconds)| *seconds <= effort.seconds)
         .fold((0, 0.0), |(most, sum), (unknowns, seconds)| (unknowns.max(most), sum + seconds));
-    Some(CountEstimate { unknowns, seconds, megabytes: megabytes(unknowns) })
-}
-
-fn megabytes(unknowns: u64) -> u64 {
-    unknowns * unknowns * 8 / 1_000_000
+    Some(CountEstimate { unknowns, seconds })
 }
 
 /// The degrees that are counted, up to that of the effort.
@@ -146,8 +140,7 @@ impl<'c> CountedMotion<'c> {
             let (unknowns, seconds) = size(first, degree, self.mixed);
             let seconds = seconds * locals.len() as f64;
             progress(&format!(
-                "integrals of degree {degree}: {unknowns} unknowns, at least {seconds:.1} s and at most {} MB",
-                megabytes(unknowns)
+                "integrals of degree {degree}: {unknowns} unknowns, at least {seconds:.1} s"
             ));
             if seconds > effort.seconds {
                 report.remark(format!(

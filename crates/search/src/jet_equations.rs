@@ -7,8 +7,8 @@ use super::budget::Budget;
 use super::echelon::Echelon;
 use super::expansion::{FieldExpansion, Taylor};
 use super::jets::VelocityPolynomials;
+use super::reduced::ReducedEchelon;
 use super::series::{TruncatedSeries, exponents};
-use super::streams::SearchStream;
 use super::{Halt, SearchError};
 use liouville::number::prime::Modulus;
 
@@ -59,49 +59,20 @@ impl Equations {
         Ok((echelon, keys))
     }
 
-    /// Brings all equations into echelon form, as far as their rank is concerned.
+    /// Finds the columns with pivots alone.
     ///
-    /// Rows whose first column is their own are independent as they are. Of the others most depend
-    /// on the rest, and to find that takes nearly all of the work: as soon as one does, a random
-    /// combination of those still to come is added, and if that depends on the rest, so do they all.
-    /// This is wrong with probability 1/p, and then the rank is too low: a dimension remains an upper
-    /// bound.
-    pub fn ranked(&self, seed: u64, budget: &Budget<'_>) -> Result<Echelon, SearchError> {
-        let m = &self.modulus;
-        let mut echelon = Echelon::new(self.columns.len(), *m);
+    /// Rows of low order come first: with them each coefficient is expressed by the few that are
+    /// free up to its order.
+    pub fn ranked(&self, budget: &Budget<'_>) -> Result<ReducedEchelon, SearchError> {
         let mut rows: Vec<Entries> = self.rows.iter().map(|(_, row)| self.merged(row)).collect();
         rows.retain(|row| !row.is_empty());
-        // Short rows of low order first, for these stay sparse.
         rows.sort_by_key(|row| (std::cmp::Reverse(row[0].0), row.len()));
-        let dense = |rows: &[Entries], factor: &mut dyn FnMut() -> u64| {
-            let mut sum = vec![0; self.columns.len()];
-            for row in rows {
-                let factor = factor();
-                for (column, value) in row {
-                    sum[*column] = m.add(sum[*column], m.mul(factor, *value));
-                }
-            }
-            sum
-        };
-        let mut others: Vec<Entries> = Vec::new();
+        let mut reduced = ReducedEchelon::new(self.columns.len(), self.modulus);
         for row in rows {
-            budget.check(&echelon)?;
-            match echelon.has_pivot(row[0].0) {
-                true => others.push(row),
-                false => {
-                    echelon.push(dense(&[row], &mut || m.one()));
-                }
-            }
+            budget.check(&reduced)?;
+            reduced.push(&row);
         }
-        let mut rng = SearchStream::JetCombinations.under(seed);
-        for next in 0..others.len() {
-            budget.check(&echelon)?;
-            let is_new = echelon.push(dense(&others[next..=next], &mut || m.one()));
-            if !is_new && !echelon.push(dense(&others[next + 1..], &mut || rng.element(m))) {
-                break;
-            }
-        }
-        Ok(echelon)
+        Ok(reduced)
     }
 
     /// Adds up the entries of a row with the same column; those that are 0 are left out.
@@ -119,9 +90,17 @@ impl Equations {
 
     /// Number of integrals that the equations leave, as determined by coefficients of low order.
     pub fn dimension(&self, echelon: &Echelon) -> usize {
-        let free =
-            |column: &usize| self.columns[*column] <= self.degree && !echelon.has_pivot(*column);
-        (0..self.columns.len()).filter(free).count()
+        self.free_where(|column| !echelon.has_pivot(column))
+    }
+
+    /// Number of integrals that the equations leave, of which pivots alone are known.
+    pub fn free_below(&self, reduced: &ReducedEchelon) -> usize {
+        self.free_where(|column| !reduced.has_pivot(column))
+    }
+
+    fn free_where(&self, is_free: impl Fn(usize) -> bool) -> usize {
+        let counts = |column: &usize| self.columns[*column] <= self.degree && is_free(*column);
+        (0..self.columns.len()).filter(counts).count()
     }
 
     /// Sets up the equations for L_vP + α div v P = 0 at a point, where α is the weight, up to an
@@ -267,6 +246,7 @@ impl Blocks {
 mod tests {
     use super::*;
     use crate::Effort;
+    use crate::streams::SearchStream;
 
     /// Makes equations from rows with a first entry in a column of their own, followed by others.
     fn equations(modulus: Modulus, columns: usize, rows: Vec<Entries>) -> Equations {
@@ -275,17 +255,19 @@ mod tests {
     }
 
     /// Checks that both ways of elimination find pivots in the same columns.
-    fn agrees(equations: &Equations, seed: u64) -> usize {
+    fn agrees(equations: &Equations) -> usize {
         let effort = Effort::default();
         let budget = Budget::of(&effort);
-        let ranked = equations.ranked(seed, &budget).expect("within the budget");
+        let ranked = equations.ranked(&budget).expect("within the budget");
         let (solved, keys) = equations.solved(&budget).expect("within the budget");
-        assert_eq!(ranked.free(), solved.free(), "the columns without pivots");
+        let is_free = |column: &usize| !ranked.has_pivot(*column);
+        let free: Vec<usize> = (0..ranked.columns()).filter(is_free).collect();
+        assert_eq!(free, solved.free(), "the columns without pivots");
         keys.len()
     }
 
     #[test]
-    fn combinations_find_the_rank() {
+    fn both_ways_find_the_rank() {
         let mut rng = SearchStream::Jets.under(7);
         let m = rng.prime(&[], &[]);
         let (columns, mut ranks) = (24, Vec::new());
@@ -312,7 +294,7 @@ mod tests {
                 };
                 rows.push(row);
             }
-            ranks.push(agrees(&equations(m, columns, rows), round as u64));
+            ranks.push(agrees(&equations(m, columns, rows)));
         }
         assert!(ranks.contains(&columns), "all columns have pivots");
         assert!(ranks.iter().any(|rank| *rank < columns / 2), "few have");
@@ -325,8 +307,8 @@ mod tests {
         let mut rows: Vec<Entries> =
             (0..40u64).map(|k| vec![(0, m.integer(k + 1)), (1, m.integer(2 * k + 2))]).collect();
         rows.push(vec![(0, one), (1, one), (2, one)]);
-        assert_eq!(agrees(&equations(m, 3, rows.clone()), 1), 2);
+        assert_eq!(agrees(&equations(m, 3, rows.clone())), 2);
         rows.push(vec![(0, one), (0, m.sub(0, one))]);
-        assert_eq!(agrees(&equations(m, 3, rows), 1), 2, "entries that cancel are none");
+        assert_eq!(agrees(&equations(m, 3, rows)), 2, "entries that cancel are none");
     }
 }

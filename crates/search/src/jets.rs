@@ -85,7 +85,7 @@ impl<'l> MotionAtPoint<'l> {
         let (unknowns, entries) = extent(expansion, taylor, order, asked);
         budget.admits(unknowns, entries)?;
         let system = Equations::of(expansion, taylor, order, asked, weight, &effort.halt)?;
-        let dimension = system.dimension(&system.ranked(effort.options.seed, &budget)?);
+        let dimension = system.free_below(&system.ranked(&budget)?);
         Ok(DimensionCount { dimension, size: system.size() })
     }
 

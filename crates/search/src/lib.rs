@@ -32,6 +32,7 @@ mod maps;
 mod multipliers;
 mod orbit;
 mod products;
+mod reduced;
 mod second_opinion;
 mod series;
 mod streams;

@@ -7,8 +7,6 @@ use liouville::proof::ProofRng;
 pub enum SearchStream {
     /// Points at which Taylor coefficients are taken.
     Jets = 40,
-    /// Combinations of the equations for Taylor coefficients.
-    JetCombinations = 50,
     /// Points for relations between terms.
     Relations = 41,
     /// Points and lines for products of known integrals.

@@ -22,7 +22,7 @@ fn the_nearest_f64_is_that_of_the_number() {
     }
     for start in [0, 40, 64, 1 << 33] {
         let mut columns = vec![Balls::<64>::about(|_| (f64::NAN, true)); draws.len()];
-        draws.fill(5, start, &mut columns);
+        draws.fill(&Streams::new(5), start, &mut columns);
         for lane in 0..64 {
             let expected = draws.nearest(5, start + lane as u64, 0);
             for (column, expected) in columns.iter().zip(expected) {

@@ -1,7 +1,10 @@
 //! Blocks of balls: enclosures of parameters and states.
 
-use crate::graph::Evaluator;
+use crate::engine::{BallEngine, BallRunner};
+use crate::graph::{Evaluator, Tape};
+use crate::mechanics::Streams;
 use crate::number::ball::{Ball, Balls};
+use crate::number::rational::Rational;
 
 use super::{Sampler, TAPE_LANES};
 
@@ -18,6 +21,7 @@ impl Sampler {
             sampler: self,
             evaluator: Evaluator::new(&self.tape, Ball::<TAPE_LANES>),
             columns: vec![blank; self.draws.len()],
+            streams: self.streams(),
         }
     }
 
@@ -44,12 +48,38 @@ impl Sampler {
 /// Number of draws from which a point of a numerical level inside the ranges is looked for.
 const NUMERICAL_ATTEMPTS: u32 = 8;
 
+impl Sampler {
+    /// Makes machine code for a tape over parameters and state and `further` numbers, from the draws
+    /// on; `None` where a state takes attempts or steps of Newton's method, or there is no such code.
+    pub(in crate::verdict) fn engine(
+        &self,
+        further: &[Rational],
+        tape: &Tape,
+    ) -> Option<BallEngine> {
+        if self.is_guarded || self.newton.is_some() {
+            return None;
+        }
+        BallEngine::new(self.draws.exact(), &self.tape, further, tape)
+    }
+
+    /// Random numbers of the draws.
+    pub(in crate::verdict) fn streams(&self) -> Streams {
+        Streams::new(self.seed)
+    }
+
+    /// Fills the inputs of such code for the states `start..start + LANES`.
+    pub(in crate::verdict) fn fill(&self, streams: &Streams, start: u64, runner: &mut BallRunner) {
+        self.draws.fill(streams, start, runner.inputs_mut());
+    }
+}
+
 /// A source of blocks of balls with its working memory.
 pub struct Maker<'s> {
     sampler: &'s Sampler,
     evaluator: Evaluator<'s, Ball<TAPE_LANES>>,
     /// Draws of the last block.
     columns: Vec<Balls<TAPE_LANES>>,
+    streams: Streams,
 }
 
 impl Maker<'_> {
@@ -69,7 +99,7 @@ impl Maker<'_> {
         if self.sampler.is_guarded || self.sampler.newton.is_some() {
             return None;
         }
-        self.sampler.draws.fill(self.sampler.seed, start, &mut self.columns);
+        self.sampler.draws.fill(&self.streams, start, &mut self.columns);
         self.evaluator.run(&self.columns);
         Some(self.evaluator.outputs())
     }
@@ -111,7 +141,7 @@ impl Maker<'_> {
     ) -> Vec<Balls<TAPE_LANES>> {
         let sampler = self.sampler;
         if sets.is_none() && attempts.iter().all(|attempt| *attempt == 0) {
-            sampler.draws.fill(sampler.seed, start, &mut self.columns);
+            sampler.draws.fill(&self.streams, start, &mut self.columns);
         } else {
             let lanes: [Vec<(f64, bool)>; TAPE_LANES] = std::array::from_fn(|lane| {
                 sampler.nearest(start + lane as u64, attempts[lane], sets)

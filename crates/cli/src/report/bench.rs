@@ -8,7 +8,7 @@ use super::terminal::Style;
 use liouville::graph::vector_features;
 use liouville::verdict::TAPE_LANES;
 use liouville_lab::bench::{
-    BenchOptions, ClaimMeasurements, DifferentiationMethod, MethodMeasurements,
+    BenchOptions, ClaimMeasurements, DifferentiationMethod, MethodMeasurements, StateValue,
 };
 
 /// Results of a benchmark run.
@@ -38,6 +38,8 @@ struct BenchJson<'a> {
     items: Vec<ItemEntry<'a>>,
     rows: Vec<RowEntry<'a>>,
     skipped: Vec<SkippedEntry<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    values: Vec<ValueEntry<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     errors: Vec<ErrorEntry<'a>>,
 }
@@ -87,6 +89,14 @@ struct SkippedEntry<'a> {
 }
 
 #[derive(Serialize)]
+struct ValueEntry<'a> {
+    item: &'a str,
+    claim: &'a str,
+    #[serde(flatten)]
+    value: &'a StateValue,
+}
+
+#[derive(Serialize)]
 struct ErrorEntry<'a> {
     path: &'a str,
     #[serde(flatten)]
@@ -108,6 +118,10 @@ pub fn json(run: &BenchRun) -> Result<String, serde_json::Error> {
             };
             measured.skipped.iter().map(entry)
         });
+    let values = all().flat_map(|measured| {
+        let (item, claim) = (measured.item.as_str(), measured.claim.as_str());
+        measured.values.iter().map(move |value| ValueEntry { item, claim, value })
+    });
     let error = |(path, failure)| ErrorEntry { path, failure };
     serde_json::to_string_pretty(&BenchJson {
         seed: run.options.seed,
@@ -123,6 +137,7 @@ pub fn json(run: &BenchRun) -> Result<String, serde_json::Error> {
         items: all().map(item).collect(),
         rows: rows.collect(),
         skipped: skipped.collect(),
+        values: values.collect(),
         errors: run.errors.iter().map(|(path, failure)| error((path, failure))).collect(),
     })
 }

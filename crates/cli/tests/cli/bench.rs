@@ -140,6 +140,30 @@ fn json_has_the_documented_form() {
 }
 
 #[test]
+fn values_of_the_engine_are_those_of_code_by_hand() {
+    let report = json(&["--json", "--engines", "--values"], 0);
+    let rows = report["rows"].as_array().expect("rows");
+    let methods: BTreeSet<&str> = rows.iter().filter_map(|row| row["method"].as_str()).collect();
+    assert!(!methods.contains("tape"), "engines and code by hand alone: {methods:?}");
+    let values = report["values"].as_array().expect("values");
+    assert_eq!(values.len(), 3 * 64, "one for each state of each item");
+    for item in work_items().expect("cases") {
+        let own = values.iter().filter(|value| value["item"] == item.name.as_str());
+        for entry in own {
+            let number = |value: &Value| value.as_f64().expect("a number");
+            let state: Vec<f64> =
+                entry["state"].as_array().expect("a state").iter().map(number).collect();
+            let (found, scale) = (number(&entry["value"]), number(&entry["scale"]));
+            for (method, by_hand) in &item.by_hand {
+                let error = (found - by_hand(&state)).abs() / scale;
+                assert!(error < 1e-14, "{}, {method:?}: {error:e} of the scale", item.name);
+            }
+        }
+    }
+    bench(&["--values"]).assert().code(2).stderr(contains("--json"));
+}
+
+#[test]
 fn errors_do_not_depend_on_the_run() {
     let errors = |report: &Value| -> Vec<Value> {
         let rows = report["rows"].as_array().expect("rows").iter();

@@ -5,7 +5,7 @@
 
 #![allow(clippy::needless_range_loop, reason = "loops over groups are unrolled")]
 
-use super::program::{ProgramStep, StepProgram, Sum, Value};
+use super::program::{PairOperation, ProgramStep, StepProgram, Sum, Value};
 use super::vector::{BlockKernel, Vector, with_vectors};
 use super::{ROW_STATES, RowBlock};
 use crate::graph::InstructionSet;
@@ -41,6 +41,7 @@ enum StepKind {
     Function(UnaryFunction),
     /// x^y
     Pow,
+    Pair(PairOperation),
 }
 
 /// One step over rows.
@@ -153,6 +154,7 @@ impl Arranged {
         // Unused arguments repeat the first one.
         let (kind, arguments) = match program.steps[index] {
             ProgramStep::Unary(function, a) => (StepKind::Function(function), [a; 3]),
+            ProgramStep::Pair(operation, a, b) => (StepKind::Pair(operation), [a, b, a]),
             ProgramStep::Binary(operation, a, b) => match operation {
                 BinaryOperation::Pow => (StepKind::Pow, [a, b, a]),
                 BinaryOperation::Add if is_last(b) => (StepKind::Add, [b, a, b]),
@@ -235,6 +237,9 @@ impl BlockKernel for Run<'_> {
                         UnaryFunction::Atan => by_lane(x, x, |x, _| libm::atan(x)),
                     },
                     StepKind::Pow => by_lane(x, read(rows, y, start), libm::pow),
+                    StepKind::Pair(operation) => {
+                        by_lane(x, read(rows, y, start), |x, y| operation.of(x, y))
+                    }
                 };
                 if let Some(row) = instruction.out {
                     let to = &mut rows[row as usize].0[start..][..GROUP * V::LANES];

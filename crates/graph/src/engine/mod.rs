@@ -24,6 +24,7 @@
 //! # Ok::<(), liouville_graph::graph::Fault>(())
 //! ```
 
+mod balls;
 mod interpreter;
 mod machine;
 mod program;
@@ -35,8 +36,10 @@ mod tests;
 use std::sync::Arc;
 
 use crate::graph::{InstructionSet, Tape, widest};
+pub use balls::{BallEngine, BallRunner};
 pub use machine::executable;
 
+pub use program::StepCounts;
 use program::StepProgram;
 
 /// Number of states in a row.
@@ -63,6 +66,7 @@ pub struct Engine(Arc<EngineCode>);
 #[derive(Debug)]
 struct EngineCode {
     steps: usize,
+    counts: StepCounts,
     inputs: usize,
     vectors: InstructionSet,
     interpreter: interpreter::InterpretedProgram,
@@ -83,7 +87,8 @@ impl Engine {
         };
         let interpreter = interpreter::InterpretedProgram::new(&program);
         let (steps, inputs) = (program.steps.len(), program.inputs);
-        Self(Arc::new(EngineCode { steps, inputs, vectors, interpreter, machine }))
+        let counts = program.counts();
+        Self(Arc::new(EngineCode { steps, counts, inputs, vectors, interpreter, machine }))
     }
 
     /// Whether there is machine code. Not where the processor or the system does not allow it, nor
@@ -95,6 +100,11 @@ impl Engine {
     /// Number of steps of a run: operations of the tape, less the products fused with sums.
     pub fn steps(&self) -> usize {
         self.0.steps
+    }
+
+    /// Number of steps of each kind.
+    pub fn counts(&self) -> StepCounts {
+        self.0.counts
     }
 
     /// Number of inputs of a run.
@@ -143,6 +153,23 @@ impl Runner {
             (Memory::Machine { inputs, memory }, Some(code)) => code.run(inputs, memory),
             (Memory::Interpreter(rows), _) => self.code.interpreter.run(self.code.vectors, rows),
             (Memory::Machine { .. }, None) => {}
+        }
+    }
+
+    /// Computes the outputs for rows of inputs that lie elsewhere, without copying them for machine
+    /// code.
+    ///
+    /// # Panics
+    ///
+    /// Panics if there are fewer rows than inputs.
+    pub fn run_on(&mut self, rows: &[RowBlock]) {
+        match (&mut self.memory, &self.code.machine) {
+            (Memory::Machine { memory, .. }, Some(code)) => code.run(rows, memory),
+            _ => {
+                let inputs = self.code.inputs;
+                self.inputs().copy_from_slice(&rows[..inputs]);
+                self.run();
+            }
         }
     }
 

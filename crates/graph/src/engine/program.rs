@@ -13,8 +13,21 @@
 use crate::graph::{Instruction, Tape};
 use crate::number::{BinaryOperation, UnaryFunction};
 
+/// Number of steps of each kind in a run; steps of other kinds are not counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StepCounts {
+    /// Products, those fused with a sum included.
+    pub products: usize,
+    /// Sums and differences on their own.
+    pub sums: usize,
+    /// Divisions.
+    pub divisions: usize,
+    /// Square roots.
+    pub roots: usize,
+}
+
 /// Operand of a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Value {
     Input(u32),
     Constant(u32),
@@ -23,7 +36,7 @@ pub(super) enum Value {
 }
 
 /// Sum of a product and a third value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Sum {
     /// a b + c
     Plus,
@@ -33,11 +46,44 @@ pub(super) enum Sum {
     From,
 }
 
+/// Operation that no tape has, for bounds of errors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum PairOperation {
+    /// a / b
+    Quotient,
+    /// Bits that are set in both.
+    And,
+    /// Bits that are set in one of them.
+    Or,
+    /// All bits where a > b, else none.
+    Greater,
+    /// All bits, which make a NaN, unless a > b; else none.
+    NotGreater,
+    /// All bits, which make a NaN, unless a ≥ b; else none.
+    NotAtLeast,
+}
+
+impl PairOperation {
+    /// Returns the result, for one lane.
+    pub(super) fn of(self, a: f64, b: f64) -> f64 {
+        let mask = |is_set: bool| f64::from_bits(if is_set { u64::MAX } else { 0 });
+        match self {
+            PairOperation::Quotient => a / b,
+            PairOperation::And => f64::from_bits(a.to_bits() & b.to_bits()),
+            PairOperation::Or => f64::from_bits(a.to_bits() | b.to_bits()),
+            PairOperation::Greater => mask(a > b),
+            PairOperation::NotGreater => mask(!(a > b)),
+            PairOperation::NotAtLeast => mask(!(a >= b)),
+        }
+    }
+}
+
 /// One step of a program.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum ProgramStep {
     Unary(UnaryFunction, Value),
     Binary(BinaryOperation, Value, Value),
+    Pair(PairOperation, Value, Value),
     Fused(Sum, [Value; 3]),
 }
 
@@ -46,17 +92,20 @@ impl ProgramStep {
     pub(super) fn arguments(&self) -> impl Iterator<Item = Value> {
         let arguments = match *self {
             ProgramStep::Unary(_, a) => [Some(a), None, None],
-            ProgramStep::Binary(_, a, b) => [Some(a), Some(b), None],
+            ProgramStep::Binary(_, a, b) | ProgramStep::Pair(_, a, b) => [Some(a), Some(b), None],
             ProgramStep::Fused(_, arguments) => arguments.map(Some),
         };
         arguments.into_iter().flatten()
     }
 
-    fn with_arguments(self, renamed: impl Fn(Value) -> Value) -> Self {
+    pub(super) fn with_arguments(self, renamed: impl Fn(Value) -> Value) -> Self {
         match self {
             ProgramStep::Unary(function, a) => ProgramStep::Unary(function, renamed(a)),
             ProgramStep::Binary(operation, a, b) => {
                 ProgramStep::Binary(operation, renamed(a), renamed(b))
+            }
+            ProgramStep::Pair(operation, a, b) => {
+                ProgramStep::Pair(operation, renamed(a), renamed(b))
             }
             ProgramStep::Fused(sum, arguments) => ProgramStep::Fused(sum, arguments.map(renamed)),
         }
@@ -110,6 +159,28 @@ impl StepProgram {
         }
         let outputs = tape.output_slots().iter().map(|slot| held[*slot as usize]).collect();
         Self { inputs, constants, steps, outputs }.fused().without_negations()
+    }
+
+    /// Number of steps of each kind.
+    pub(super) fn counts(&self) -> StepCounts {
+        let mut counts = StepCounts::default();
+        for step in &self.steps {
+            match step {
+                ProgramStep::Fused(..) | ProgramStep::Binary(BinaryOperation::Mul, ..) => {
+                    counts.products += 1;
+                }
+                ProgramStep::Binary(BinaryOperation::Add | BinaryOperation::Sub, ..) => {
+                    counts.sums += 1;
+                }
+                ProgramStep::Unary(UnaryFunction::Recip, _)
+                | ProgramStep::Pair(PairOperation::Quotient, ..) => counts.divisions += 1,
+                ProgramStep::Unary(UnaryFunction::Sqrt, _) => counts.roots += 1,
+                ProgramStep::Unary(..)
+                | ProgramStep::Pair(..)
+                | ProgramStep::Binary(BinaryOperation::Pow, ..) => {}
+            }
+        }
+        counts
     }
 
     /// Steps that read each step's result, in order; a step that reads it twice occurs twice.
@@ -181,7 +252,8 @@ impl StepProgram {
         self.without(&absorbed)
     }
 
-    /// Replaces a difference that is only read to be negated by the opposite difference.
+    /// Replaces a difference that is only read to be negated by the opposite difference, and a multiple
+    /// by the opposite one.
     fn without_negations(mut self) -> Self {
         let (reads, is_output) = (self.reads(), self.is_output());
         let mut absorbed = vec![false; self.steps.len()];
@@ -203,6 +275,12 @@ impl StepProgram {
                 }
                 ProgramStep::Fused(Sum::From, arguments) => {
                     ProgramStep::Fused(Sum::Minus, arguments)
+                }
+                ProgramStep::Binary(BinaryOperation::Mul, a, Value::Constant(constant))
+                | ProgramStep::Binary(BinaryOperation::Mul, Value::Constant(constant), a) => {
+                    self.constants.push(-self.constants[constant as usize]);
+                    let opposite = Value::Constant(self.constants.len() as u32 - 1);
+                    ProgramStep::Binary(BinaryOperation::Mul, a, opposite)
                 }
                 _ => continue,
             };

@@ -1,7 +1,9 @@
 //! Tests of all engines against each other, bit for bit, and against the tape's evaluator.
 
+use super::program::Value;
 use super::*;
 use crate::graph::{Evaluator, Expr, record};
+use crate::number::ball::{Ball, Balls};
 use crate::number::float::Float;
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
@@ -196,4 +198,95 @@ fn machine_code_is_made_where_it_can_be() {
     let expected = widest() != InstructionSet::Baseline;
     assert_eq!(is_code(plain), expected, "a product is an instruction");
     assert!(!is_code(other), "a sine is none");
+}
+
+/// Outputs of a tape that are neither inputs nor constants.
+fn computed_outputs(tape: &Tape) -> Vec<usize> {
+    let program = StepProgram::new(tape);
+    let is_step = |index: &usize| matches!(program.outputs[*index], Value::Step(_));
+    (0..program.outputs.len()).filter(is_step).collect()
+}
+
+/// Whether two balls are the same, or none has a value.
+fn same_ball([mid, rad]: [f64; 2], [other_mid, other_rad]: [f64; 2]) -> bool {
+    match (mid.is_finite() && rad.is_finite(), other_mid.is_finite() && other_rad.is_finite()) {
+        (true, true) => {
+            mid.to_bits() == other_mid.to_bits() && rad.to_bits() == other_rad.to_bits()
+        }
+        (a, b) => a == b,
+    }
+}
+
+#[test]
+fn balls_have_the_bits_of_the_domain() {
+    let mut sequence = Sequence(2);
+    let mut compared = [0, 0];
+    for turn in 0..200 {
+        let length = 1 + sequence.next(if turn % 10 == 0 { 400 } else { 60 });
+        let first = random_tape(&mut sequence, length, 20);
+        let second = random_tape(&mut sequence, 40, 20);
+        // Some inputs are exact, and said to be.
+        let exact: Vec<bool> = (0..5).map(|_| turn % 2 == 0 && sequence.next(2) == 0).collect();
+        let inputs: Vec<Balls<ROW_STATES>> =
+            exact
+                .iter()
+                .map(|is_exact| {
+                    let mid: [f64; ROW_STATES] = std::array::from_fn(|_| {
+                        let number = sequence.number();
+                        if *is_exact && !number.is_finite() { 1.5 } else { number }
+                    });
+                    let rad: [f64; ROW_STATES] = std::array::from_fn(|_| match sequence.next(3) {
+                        _ if *is_exact => 0.0,
+                        0 => 0.0,
+                        1 => 1e-16,
+                        _ => sequence.next(1000) as f64 / 2000.0,
+                    });
+                    // As of states: an undefined number has no radius.
+                    let rad = std::array::from_fn(|lane| {
+                        if mid[lane].is_finite() { rad[lane] } else { f64::NAN }
+                    });
+                    Balls::new(mid, rad)
+                })
+                .collect();
+        let mut evaluators = [&first, &second].map(|tape| Evaluator::new(tape, Ball::<ROW_STATES>));
+        evaluators[0].run(&inputs);
+        let states: Vec<Balls<ROW_STATES>> = evaluators[0].outputs().cloned().collect();
+        evaluators[1].run(&states);
+        let expected: Vec<&Balls<ROW_STATES>> =
+            states.iter().chain(evaluators[1].outputs()).collect();
+        for vectors in [InstructionSet::Avx2, InstructionSet::Avx512] {
+            let engine = BallEngine::with_vectors(exact.clone(), &first, &[], &second, vectors);
+            assert!(engine.is_some() || widest() != InstructionSet::Avx512, "there is code");
+            let Some(engine) = engine else { continue };
+            let (mut runner, computed) = (engine.runner(), engine.computed());
+            for (input, ball) in runner.inputs_mut().iter_mut().zip(&inputs) {
+                *input = [RowBlock(ball.mid), RowBlock(ball.rad)];
+            }
+            assert!(runner.is_exact(), "radii that are left out are 0");
+            runner.run();
+            if let Some(index) = exact.iter().position(|is_exact| *is_exact) {
+                runner.inputs_mut()[index][1].0[63] = 1e-300;
+                assert!(!runner.is_exact(), "others are not left out");
+            }
+            let results = expected[states.len()..].iter().copied();
+            let made = computed_outputs(&first).into_iter().map(|place| expected[place]);
+            assert_eq!(made.len(), computed, "states that are steps");
+            for (index, expected) in made.chain(results).enumerate() {
+                let [mid, rad] = runner.output(index);
+                for lane in 0..ROW_STATES {
+                    let found = [mid.0[lane], rad.0[lane]];
+                    let own = [expected.mid[lane], expected.rad[lane]];
+                    compared[usize::from(expected.is_defined(lane))] += 1;
+                    assert!(
+                        same_ball(found, own),
+                        "tape {turn}, output {index}, lane {lane}: {found:?}, not {own:?}"
+                    );
+                }
+            }
+        }
+    }
+    assert!(
+        compared.iter().all(|count| *count > 1000) || widest() == InstructionSet::Baseline,
+        "balls with and without a value: {compared:?}"
+    );
 }

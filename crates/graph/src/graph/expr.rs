@@ -133,6 +133,14 @@ impl Expr {
         with_graph(|graph| self.node_in(graph) == super::ONE)
     }
 
+    /// Returns the argument if the value is a negation.
+    pub(super) fn without_negation(self) -> Option<Self> {
+        with_graph(|graph| {
+            let node = self.node_in(graph);
+            graph.negated(node).map(|node| Self { session: graph.session, node })
+        })
+    }
+
     /// Reports an operation that needs a magnitude or an order.
     pub(super) fn refuse(operation: &'static str) {
         with_graph(|graph| graph.fail(Fault::NeedsValue(operation)));

@@ -9,7 +9,7 @@
 //!
 //! For measuring only. Proofs and rounding bounds run the graph as it was recorded.
 
-use super::{Choice, Expr, Fault, Graph, Member, Node, Step};
+use super::{Choice, Expr, Fault, Graph, Member, Node, Points, Step};
 use crate::number::prime::{Modulus, Prime, UNDEFINED, is_prime};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, Domain, UnaryFunction};
@@ -22,6 +22,9 @@ const TRIES: u64 = 48;
 /// Bound on numerators and denominators of factors. Below it one prime determines them, and the
 /// other agrees by chance with a probability of 2^-61.
 const MOST_IN_FACTOR: i64 = 1 << 29;
+
+/// Names of the free numbers of points, apart from the inputs.
+const FREE: u64 = 1 << 32;
 
 type Values = [u64; FINGERPRINT_POINTS];
 
@@ -44,14 +47,53 @@ impl Graph {
         let needed = self.reached(outputs.iter().copied());
         let moduli = moduli();
         let few = reached.iter().filter(|reached| **reached).count() <= MOST_NODES;
-        let found = if few { self.fingerprints(&moduli, &reached, &needed) } else { None };
+        let found = if few { self.fingerprints(&moduli, &reached, &needed, None) } else { None };
         let Some(mut values) = found else { return self.copied(outputs) };
         let short = self.reached(shortcuts.iter().copied());
         for output in outputs.iter().filter(|output| self.constant_value(**output).is_none()) {
             self.part(self.place(*output), &mut values, &moduli, &short);
         }
-        let rebuilt =
-            self.rebuilt(outputs, &self.classes(&values, &moduli), Choice::Cheapest(&reached))?;
+        self.rebuilt_from(outputs, &reached, &values, &moduli)
+    }
+
+    /// Does the same for inputs at some points only, where more values are proportional; `None`
+    /// where an output that was not folded is zero at all of these, as nothing would be left of it,
+    /// or where no points were found.
+    pub fn merged_at(
+        &self,
+        outputs: &[Expr],
+        shortcuts: &[Expr],
+        points: &Points<'_>,
+    ) -> Result<Option<(Graph, Vec<Expr>)>, Fault> {
+        let reached = self.reached(outputs.iter().chain(shortcuts).copied());
+        let needed = self.reached(outputs.iter().copied());
+        let moduli = moduli();
+        if reached.iter().filter(|reached| **reached).count() > MOST_NODES {
+            return Ok(None);
+        }
+        let Some(values) = self.fingerprints(&moduli, &reached, &needed, Some(points)) else {
+            return Ok(None);
+        };
+        let is_lost = |output: &Expr| {
+            self.constant_value(*output).is_none()
+                && values[self.place(*output)].is_some_and(|values| vanishes(&values))
+        };
+        if outputs.iter().any(is_lost) {
+            return Ok(None);
+        }
+        self.rebuilt_from(outputs, &reached, &values, &moduli).map(Some)
+    }
+
+    /// Rebuilds the outputs from the cheapest members of the classes.
+    fn rebuilt_from(
+        &self,
+        outputs: &[Expr],
+        reached: &[bool],
+        values: &[Option<Values>],
+        moduli: &[Modulus; FINGERPRINT_POINTS],
+    ) -> Result<(Graph, Vec<Expr>), Fault> {
+        let members = self.classes(values, moduli);
+        let rebuilt = self.rebuilt(outputs, &members, Choice::Cheapest(reached))?;
         let is_folded = |(before, after): (&Expr, &Expr)| {
             rebuilt.0.constant_value(*after).is_some() && self.constant_value(*before).is_none()
         };
@@ -124,12 +166,18 @@ impl Graph {
         moduli: &[Modulus; FINGERPRINT_POINTS],
         reached: &[bool],
         needed: &[bool],
+        points: Option<&Points<'_>>,
     ) -> Option<Vec<Option<Values>>> {
         let domain = Fingerprint(Prime::new(*moduli));
         let mut found: Vec<Values> = vec![[UNDEFINED; FINGERPRINT_POINTS]; self.len()];
         let mut accepted = [0, HALF];
         for round in 0..TRIES {
-            let values = self.values_at(&domain, reached, round);
+            let inputs = points.map(|points| points.at(&domain, round)).unwrap_or_default();
+            let input = |index: u32| match inputs.get(index as usize) {
+                Some(values) => *values,
+                None => domain.point(u64::from(index), round),
+            };
+            let values = self.values_at(&domain, reached, input);
             let mut defined = [true; FINGERPRINT_POINTS];
             for (values, _) in values.iter().zip(needed).filter(|(_, needed)| **needed) {
                 for (defined, value) in defined.iter_mut().zip(values) {
@@ -153,7 +201,12 @@ impl Graph {
     }
 
     /// Evaluates the reached nodes at one block of points.
-    fn values_at(&self, domain: &Fingerprint, reached: &[bool], round: u64) -> Vec<Values> {
+    fn values_at(
+        &self,
+        domain: &Fingerprint,
+        reached: &[bool],
+        input: impl Fn(u32) -> Values,
+    ) -> Vec<Values> {
         let constants: Vec<Values> =
             self.constants.iter().map(|value| domain.constant(value)).collect();
         let mut values: Vec<Values> = Vec::with_capacity(self.len());
@@ -162,7 +215,7 @@ impl Graph {
             match *node {
                 Node::Constant(index) => value = constants[index as usize],
                 _ if !reached => {}
-                Node::Input(input) => value = domain.point(u64::from(input), round),
+                Node::Input(index) => value = input(index),
                 Node::Unary(function, a) => {
                     domain.unary(function, &values[a.0 as usize], &mut value);
                 }
@@ -178,6 +231,19 @@ impl Graph {
             values.push(value);
         }
         values
+    }
+}
+
+impl Points<'_> {
+    /// Computes the inputs at one block of points.
+    fn at(&self, domain: &Fingerprint, round: u64) -> Vec<Values> {
+        let free = |index: u32| match self.signs.get(index as usize) {
+            Some(true) => domain.sign(FREE + u64::from(index), round),
+            _ => domain.point(FREE + u64::from(index), round),
+        };
+        let reached = self.graph.reached(self.inputs.iter().copied());
+        let values = self.graph.values_at(domain, &reached, free);
+        self.inputs.iter().map(|input| values[self.graph.place(*input)]).collect()
     }
 }
 
@@ -231,6 +297,15 @@ impl Fingerprint {
         let moduli = self.0.moduli();
         let seed = mixed(input, round);
         std::array::from_fn(|lane| moduli[lane].integer(mixed(seed, lane as u64 + 1)))
+    }
+
+    /// Draws 1 or -1 for each lane.
+    fn sign(&self, input: u64, round: u64) -> Values {
+        let (seed, moduli) = (mixed(input, round), self.0.moduli());
+        std::array::from_fn(|lane| match mixed(seed, lane as u64 + 1) & 1 {
+            0 => moduli[lane].one(),
+            _ => moduli[lane].sub(0, moduli[lane].one()),
+        })
     }
 
     /// Evaluates function number `name` at x and y.

@@ -92,6 +92,13 @@ impl Graph {
             }
         };
         let places: Vec<usize> = outputs.iter().map(|output| self.place(*output)).collect();
+        if let Choice::Cheapest(reached) = choice {
+            let scaled = match self.best_plan(&places, members, reached, &made_by) {
+                Some((plan, order)) => self.rebuilt_scaled(&places, members, &plan, &order)?,
+                None => None,
+            };
+            return scaled.map_or_else(|| self.copied(outputs), Ok);
+        }
         let (graph, rebuilt) = record(self.inputs(), |inputs| {
             let mut order = self.order(&places, members, &made_by)?;
             if matches!(choice, Choice::First) {

@@ -10,15 +10,20 @@
 mod derive;
 mod dispatch;
 mod dual_num;
+mod emitted;
 mod evaluate;
 mod expand;
 mod expr;
 mod fingerprint;
 mod index;
 mod merge;
+mod plan;
+mod points;
 mod presence;
+mod scaled;
 mod simplify;
 mod steps;
+mod tally;
 mod tape;
 
 use std::cell::RefCell;
@@ -35,6 +40,7 @@ pub use expand::{Expanded, Expansion, Side, Term};
 pub use expr::Expr;
 use index::Index;
 pub use merge::{Choice, Member};
+pub use points::Points;
 pub use steps::Step;
 pub(crate) use tape::Instruction;
 pub use tape::Tape;

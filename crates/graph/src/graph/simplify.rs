@@ -40,7 +40,7 @@ impl Graph {
     }
 
     /// Returns the argument of a negation.
-    fn negated(&self, id: NodeId) -> Option<NodeId> {
+    pub(super) fn negated(&self, id: NodeId) -> Option<NodeId> {
         self.argument(UnaryFunction::Neg, id)
     }
 

@@ -21,11 +21,13 @@ use super::rational::Rational;
 use super::{BinaryOperation, Domain, Enclosing, UnaryFunction};
 
 /// Unit roundoff of f64 under rounding to nearest.
-const UNIT: f64 = f64::EPSILON / 2.0;
+pub(crate) const UNIT: f64 = f64::EPSILON / 2.0;
 /// Two units in the last place, the error granted to an elementary function.
 const ELEMENTARY: f64 = 2.0 * f64::EPSILON;
 /// More than the underflow of any bound below: a handful of products, each off by at most 2⁻¹⁰⁷⁴.
-const TINY: f64 = f64::MIN_POSITIVE;
+pub(crate) const TINY: f64 = f64::MIN_POSITIVE;
+/// Factor that restores the relative error of a bound.
+pub(crate) const WIDER: f64 = 1.0 + 32.0 * UNIT;
 
 /// The ball domain with `N` lanes.
 #[derive(Clone, Copy, Debug, Default)]
@@ -74,7 +76,7 @@ impl<const N: usize> Balls<N> {
 /// Restores what computing a bound in f64 may have lost.
 #[inline(always)]
 fn widen(radius: f64) -> f64 {
-    radius * (1.0 + 32.0 * UNIT) + TINY
+    radius * WIDER + TINY
 }
 
 /// Bounds e^x - 1 from above for x ≥ 0; unbounded from 1 on, where an enclosure is no longer

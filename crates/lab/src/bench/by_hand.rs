@@ -1,18 +1,24 @@
 //! Work items written by hand with num-dual, without formulas or graphs: the yardstick for the cost
-//! of the generic code. Plain code, not tuned; W3 has a second form, derived with pencil and paper.
+//! of the generic code. Plain code over arrays, not tuned; W3 has a second form, derived with
+//! pencil and paper.
 //!
 //! ```text
 //! Ĩω' = K + λγ,  K = Ĩω×ω - m r×(ω×r'),  γ' = γ×ω,  Ĩ = I + m r²E - m r⊗r
 //! ball: r = -Rγ - c      ellipsoid: r = -Bγ/√(γ,Bγ)
 //! ```
 
-use nalgebra::{Matrix3, Vector3};
+use std::array::from_fn;
+
 use num_dual::{Dual, Dual64, DualNum};
 
 /// Numbers of the residuals: f64 and its duals.
 trait DualOrFloat: DualNum<Primitive = f64> + Copy {}
 
 impl<T: DualNum<Primitive = f64> + Copy> DualOrFloat for T {}
+
+type Vector<T> = [T; 3];
+/// A symmetric matrix, row by row.
+type Matrix<T> = [[T; 3]; 3];
 
 const MASS: f64 = 1.3;
 const RADIUS: f64 = 3.0;
@@ -26,20 +32,20 @@ const INERTIA_MB_MU: [f64; 3] = [MASS + 2.0, 2.0 * MASS + 2.0, 3.5 * MASS + 2.0]
 /// Residual W1: v at f64, then F₂ at `Dual64` along v.
 pub fn second_integral_along_field(state: &[f64]) -> f64 {
     let (omega, gamma) = split(state);
-    let rate = gamma.cross(&omega);
-    let acceleration = acceleration(&omega, &gamma, &ball(&gamma), &(rate * -RADIUS), &INERTIA);
-    let lift = |x: &Vector3<f64>, dx: &Vector3<f64>| x.zip_map(dx, Dual64::new);
-    second_integral(&lift(&omega, &acceleration), &lift(&gamma, &rate)).eps
+    let rate = cross(gamma, omega);
+    let acceleration = acceleration(omega, gamma, ball(gamma), scaled(rate, -RADIUS), INERTIA);
+    let lift = |x: Vector<f64>, dx: Vector<f64>| from_fn(|k| Dual64::new(x[k], dx[k]));
+    second_integral(lift(omega, acceleration), lift(gamma, rate)).eps
 }
 
 /// Residual W2: ρ at `Dual64` along v, and v at `Dual64` along each axis of ω.
 pub fn liouville_residual(state: &[f64]) -> f64 {
     let (omega, gamma) = split(state);
-    let rate = gamma.cross(&omega);
-    let along = gamma.zip_map(&rate, Dual64::new);
-    let inertia = inertia_at(&ellipsoid(&along), &INERTIA_MB_MU);
-    let density = along.dot(&(adjugate(&inertia) * along));
-    density.eps / density.re + divergence(&omega, &gamma, &INERTIA_MB_MU)
+    let rate = cross(gamma, omega);
+    let along: Vector<Dual64> = from_fn(|k| Dual64::new(gamma[k], rate[k]));
+    let inertia = inertia_at(ellipsoid(along), INERTIA_MB_MU);
+    let density = dot(along, image(adjugate(inertia), along));
+    density.eps / density.re + divergence(omega, gamma, INERTIA_MB_MU)
 }
 
 /// Residual W3: div v = (χ,ω), so χ by v at duals along each axis of ω, for each unit vector ω;
@@ -49,14 +55,14 @@ pub fn criterion(state: &[f64]) -> f64 {
     let slopes = [0, 1, 2].map(|axis| {
         let mut gamma = gamma.map(Dual64::from_re);
         gamma[axis].eps = 1.0;
-        let chi = Vector3::from_fn(|k, _| {
-            let mut omega = Vector3::repeat(Dual64::from_re(0.0));
+        let chi = from_fn(|k| {
+            let mut omega = [Dual64::from_re(0.0); 3];
             omega[k].re = 1.0;
-            divergence(&omega, &gamma, &INERTIA)
+            divergence(omega, gamma, INERTIA)
         });
-        gamma.cross(&chi).map(|x| x.eps)
+        cross(gamma, chi).map(|x| x.eps)
     });
-    rotation_about(&gamma, &slopes)
+    rotation_about(gamma, slopes)
 }
 
 /// Residual W3 from a formula: a = Ĩ⁻¹γ/(γ,Ĩ⁻¹γ) at `Dual64` along each axis, and (γ, rot a).
@@ -65,99 +71,126 @@ pub fn criterion_in_closed_form(state: &[f64]) -> f64 {
     let slopes = [0, 1, 2].map(|axis| {
         let mut gamma = gamma.map(Dual64::from_re);
         gamma[axis].eps = 1.0;
-        let along = adjugate(&inertia_at(&ellipsoid(&gamma), &INERTIA)) * gamma;
-        along.map(|x| (x / gamma.dot(&along)).eps)
+        let along = image(adjugate(inertia_at(ellipsoid(gamma), INERTIA)), gamma);
+        let length = dot(gamma, along);
+        along.map(|x| (x / length).eps)
     });
-    rotation_about(&gamma, &slopes)
+    rotation_about(gamma, slopes)
 }
 
 /// Returns (γ, rot w) from ∂w/∂γ₁, ∂w/∂γ₂, ∂w/∂γ₃.
 #[inline]
-fn rotation_about(gamma: &Vector3<f64>, slopes: &[Vector3<f64>; 3]) -> f64 {
-    [(0, 1, 2), (1, 2, 0), (2, 0, 1)]
-        .into_iter()
-        .map(|(i, j, k)| gamma[i] * (slopes[j][k] - slopes[k][j]))
-        .sum()
+fn rotation_about(gamma: Vector<f64>, slopes: [Vector<f64>; 3]) -> f64 {
+    gamma[0] * (slopes[1][2] - slopes[2][1])
+        + gamma[1] * (slopes[2][0] - slopes[0][2])
+        + gamma[2] * (slopes[0][1] - slopes[1][0])
 }
 
 /// Returns Σ ∂ω'_i/∂ω_i of an ellipsoid; γ' has no divergence.
 #[inline]
-fn divergence<T: DualOrFloat>(omega: &Vector3<T>, gamma: &Vector3<T>, central: &[f64; 3]) -> T {
+fn divergence<T: DualOrFloat>(omega: Vector<T>, gamma: Vector<T>, central: [f64; 3]) -> T {
     let along = |axis: usize| {
         let mut omega = omega.map(Dual::from_re);
         omega[axis].eps = T::one();
         let gamma = gamma.map(Dual::from_re);
-        let slide = ellipsoid_slide(&gamma, &gamma.cross(&omega));
-        acceleration(&omega, &gamma, &ellipsoid(&gamma), &slide, central)[axis].eps
+        let slide = ellipsoid_slide(gamma, cross(gamma, omega));
+        acceleration(omega, gamma, ellipsoid(gamma), slide, central)[axis].eps
     };
-    (0..3).map(along).sum()
+    along(0) + along(1) + along(2)
 }
 
 #[inline]
-fn split(state: &[f64]) -> (Vector3<f64>, Vector3<f64>) {
+fn split(state: &[f64]) -> (Vector<f64>, Vector<f64>) {
     let at = |k: usize| state.get(k).copied().unwrap_or(f64::NAN);
-    (Vector3::new(at(0), at(1), at(2)), Vector3::new(at(3), at(4), at(5)))
+    ([at(0), at(1), at(2)], [at(3), at(4), at(5)])
 }
 
 #[inline]
-fn ball<T: DualOrFloat>(gamma: &Vector3<T>) -> Vector3<T> {
-    -(gamma.map(|x| x * RADIUS) + Vector3::from(CENTRE).map(T::from))
+fn dot<T: DualOrFloat>(a: Vector<T>, b: Vector<T>) -> T {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[inline]
-fn ellipsoid<T: DualOrFloat>(gamma: &Vector3<T>) -> Vector3<T> {
-    let image = gamma.component_mul(&Vector3::from(SQUARES).map(T::from));
-    let scale = -gamma.dot(&image).sqrt().recip();
+fn cross<T: DualOrFloat>(a: Vector<T>, b: Vector<T>) -> Vector<T> {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+#[inline]
+fn scaled<T: DualOrFloat>(a: Vector<T>, factor: f64) -> Vector<T> {
+    a.map(|x| x * factor)
+}
+
+#[inline]
+fn image<T: DualOrFloat>(matrix: Matrix<T>, a: Vector<T>) -> Vector<T> {
+    matrix.map(|row| dot(row, a))
+}
+
+#[inline]
+fn ball<T: DualOrFloat>(gamma: Vector<T>) -> Vector<T> {
+    from_fn(|k| gamma[k] * -RADIUS - CENTRE[k])
+}
+
+#[inline]
+fn ellipsoid<T: DualOrFloat>(gamma: Vector<T>) -> Vector<T> {
+    let image: Vector<T> = from_fn(|k| gamma[k] * SQUARES[k]);
+    let scale = -dot(gamma, image).sqrt().recip();
     image.map(|x| x * scale)
 }
 
 /// Returns r' of the ellipsoid for γ' = `rate`.
 #[inline]
-fn ellipsoid_slide<T: DualOrFloat>(gamma: &Vector3<T>, rate: &Vector3<T>) -> Vector3<T> {
-    let squares = Vector3::from(SQUARES).map(T::from);
-    let (image, image_rate) = (gamma.component_mul(&squares), rate.component_mul(&squares));
-    let square = gamma.dot(&image);
+fn ellipsoid_slide<T: DualOrFloat>(gamma: Vector<T>, rate: Vector<T>) -> Vector<T> {
+    let image: Vector<T> = from_fn(|k| gamma[k] * SQUARES[k]);
+    let image_rate: Vector<T> = from_fn(|k| rate[k] * SQUARES[k]);
+    let square = dot(gamma, image);
     let scale = -square.sqrt().recip();
-    let along = gamma.dot(&image_rate) / square;
-    image_rate.zip_map(&image, |dx, x| (dx - x * along) * scale)
+    let along = dot(gamma, image_rate) / square;
+    from_fn(|k| (image_rate[k] - image[k] * along) * scale)
 }
 
 #[inline]
-fn inertia_at<T: DualOrFloat>(r: &Vector3<T>, central: &[f64; 3]) -> Matrix3<T> {
-    let steiner = Matrix3::from_diagonal_element(r.dot(r)) - r * r.transpose();
-    Matrix3::from_diagonal(&Vector3::from(*central).map(T::from)) + steiner.map(|x| x * MASS)
+fn inertia_at<T: DualOrFloat>(r: Vector<T>, central: [f64; 3]) -> Matrix<T> {
+    let square = dot(r, r);
+    let entry = |i: usize, j: usize| {
+        let product = r[i] * r[j];
+        if i == j { (square - product) * MASS + central[i] } else { product * -MASS }
+    };
+    let (xy, xz, yz) = (entry(0, 1), entry(0, 2), entry(1, 2));
+    [[entry(0, 0), xy, xz], [xy, entry(1, 1), yz], [xz, yz, entry(2, 2)]]
 }
 
 /// Adjugate of a symmetric matrix.
 #[inline]
-fn adjugate<T: DualOrFloat>(a: &Matrix3<T>) -> Matrix3<T> {
-    let [x, y, z] = [0, 1, 2].map(|k| a.column(k).into_owned());
-    Matrix3::from_columns(&[y.cross(&z), z.cross(&x), x.cross(&y)])
+fn adjugate<T: DualOrFloat>(a: Matrix<T>) -> Matrix<T> {
+    let minor = |i: usize, j: usize, k: usize, l: usize| a[i][j] * a[k][l] - a[i][l] * a[k][j];
+    let (xy, xz, yz) = (minor(0, 2, 2, 1), minor(0, 1, 1, 2), minor(0, 2, 1, 0));
+    [[minor(1, 1, 2, 2), xy, xz], [xy, minor(0, 0, 2, 2), yz], [xz, yz, minor(0, 0, 1, 1)]]
 }
 
 #[inline]
 fn acceleration<T: DualOrFloat>(
-    omega: &Vector3<T>,
-    gamma: &Vector3<T>,
-    r: &Vector3<T>,
-    slide: &Vector3<T>,
-    central: &[f64; 3],
-) -> Vector3<T> {
+    omega: Vector<T>,
+    gamma: Vector<T>,
+    r: Vector<T>,
+    slide: Vector<T>,
+    central: [f64; 3],
+) -> Vector<T> {
     let inertia = inertia_at(r, central);
-    let torque = (inertia * omega).cross(omega) - r.cross(&omega.cross(slide)).map(|x| x * MASS);
-    let adjugate = adjugate(&inertia);
-    let determinant = inertia.column(0).dot(&adjugate.column(0));
-    let along = adjugate * gamma;
-    let multiplier = torque.dot(&along) / gamma.dot(&along);
-    let force = torque - gamma.map(|x| x * multiplier);
-    (adjugate * force).map(|x| x / determinant)
+    let turning = cross(image(inertia, omega), omega);
+    let sliding = cross(r, cross(omega, slide));
+    let torque: Vector<T> = from_fn(|k| turning[k] - sliding[k] * MASS);
+    let adjugate = adjugate(inertia);
+    let determinant = dot(inertia[0], adjugate[0]);
+    let along = image(adjugate, gamma);
+    let multiplier = dot(torque, along) / dot(gamma, along);
+    image(adjugate, from_fn(|k| torque[k] - gamma[k] * multiplier)).map(|x| x / determinant)
 }
 
 /// Integral |Ĩω × γ|² - 2mR(γ,c)(Ĩω,ω).
 #[inline]
-fn second_integral<T: DualOrFloat>(omega: &Vector3<T>, gamma: &Vector3<T>) -> T {
-    let momentum = inertia_at(&ball(gamma), &INERTIA) * omega;
-    let turned = momentum.cross(gamma);
-    let centre = Vector3::from(CENTRE).map(T::from);
-    turned.dot(&turned) - gamma.dot(&centre) * momentum.dot(omega) * (2.0 * MASS * RADIUS)
+fn second_integral<T: DualOrFloat>(omega: Vector<T>, gamma: Vector<T>) -> T {
+    let momentum = image(inertia_at(ball(gamma), INERTIA), omega);
+    let turned = cross(momentum, gamma);
+    let height = gamma[0] * CENTRE[0] + gamma[1] * CENTRE[1] + gamma[2] * CENTRE[2];
+    dot(turned, turned) - height * dot(momentum, omega) * (2.0 * MASS * RADIUS)
 }

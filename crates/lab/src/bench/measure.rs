@@ -1,12 +1,13 @@
 //! Measurement of times by interleaved rounds, and of errors against a reference.
 
 use std::hint::black_box;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::candidate::Candidate;
 use super::reference::reference;
 use super::subject::{BenchCandidate, BenchClaim};
-use super::{BenchError, MethodMeasurements};
+use super::{BenchError, BenchOptions, MethodMeasurements, Selection};
+use crate::clock::thread_time;
 use liouville::number::arb::Approximation;
 use liouville::verdict::TAPE_LANES;
 
@@ -16,19 +17,25 @@ const ROUND: Duration = Duration::from_micros(100);
 const ENOUGH: Duration = Duration::from_millis(40);
 /// Minimum number of rounds: a burst of other work may spoil a few.
 const FEWEST: usize = 9;
+/// Number of blocks at which errors are measured where only engines run.
+const FEW_BLOCKS: usize = 4;
 
 /// Measures all rows of a subject.
 pub fn measure(
     subject: &BenchClaim<'_>,
-    rounds: usize,
+    options: &BenchOptions,
 ) -> Result<Vec<MethodMeasurements>, BenchError> {
     let blocks = subject.states().len();
-    let truth = reference(subject.residual(), subject.states());
-    let scales = subject.scales()?.concat();
-    let mut entries = subject.entries();
-    let times = times(&mut entries, blocks, rounds);
-    let rows = entries.iter_mut().zip(times).map(|(entry, nanoseconds)| {
-        let found = values(entry.candidate.as_mut(), blocks);
+    let compared = match options.selection {
+        Selection::All => blocks,
+        Selection::Engines => blocks.min(FEW_BLOCKS),
+    };
+    let truth = reference(subject.residual(), &subject.states()[..compared]);
+    let scales = subject.scales(compared)?.concat();
+    let mut entries = subject.entries(options.selection);
+    let times = times(&mut entries, blocks, options.rounds);
+    let rows = entries.iter_mut().zip(times).map(|(entry, samples)| {
+        let found = values(entry.candidate.as_mut(), compared);
         let errors =
             sorted(found.iter().zip(&truth).zip(&scales).map(|((found, truth), scale)| {
                 let (value, truth) = (found.0.as_ref()?, truth.as_ref()?);
@@ -38,7 +45,8 @@ pub fn measure(
         MethodMeasurements {
             method: entry.method,
             domain: entry.domain,
-            ns_per_state: nanoseconds,
+            ns_per_state: samples.get(samples.len() / 2).copied().unwrap_or(f64::NAN),
+            least_ns_per_state: samples.first().copied().unwrap_or(f64::NAN),
             operations: entry.operations,
             setup_us: entry.set_up.as_secs_f64() * 1e6,
             max_error: errors.last().copied(),
@@ -70,9 +78,9 @@ fn values(
     values
 }
 
-/// Median nanoseconds per state. In each round every candidate runs in turn, so that a change of
-/// the machine's speed affects them all.
-fn times(entries: &mut [BenchCandidate<'_>], blocks: usize, rounds: usize) -> Vec<f64> {
+/// Nanoseconds per state in increasing order, a list for each candidate. In each round every
+/// candidate runs in turn, so that a change of the machine's speed affects them all.
+fn times(entries: &mut [BenchCandidate<'_>], blocks: usize, rounds: usize) -> Vec<Vec<f64>> {
     let repeats: Vec<u32> = entries.iter_mut().map(|entry| calibrate(entry, blocks)).collect();
     let mut samples: Vec<Vec<f64>> = vec![Vec::with_capacity(rounds); entries.len()];
     let mut spent = vec![Duration::ZERO; entries.len()];
@@ -87,7 +95,8 @@ fn times(entries: &mut [BenchCandidate<'_>], blocks: usize, rounds: usize) -> Ve
             samples[k].push(time.as_secs_f64() * 1e9 / states);
         }
     }
-    samples.iter_mut().map(|samples| median(samples)).collect()
+    samples.iter_mut().for_each(|samples| samples.sort_by(f64::total_cmp));
+    samples
 }
 
 /// Number of blocks that fill a round. The first pass warms caches, the second counts.
@@ -99,14 +108,9 @@ fn calibrate(entry: &mut BenchCandidate<'_>, blocks: usize) -> u32 {
 
 /// Runs `repeats` blocks, one after the other.
 fn pass(candidate: &mut dyn Candidate, repeats: u32, blocks: usize) -> Duration {
-    let started = Instant::now();
+    let started = thread_time();
     for block in (0..blocks).cycle().take(repeats as usize) {
         black_box(&mut *candidate).run(black_box(block));
     }
-    started.elapsed()
-}
-
-fn median(samples: &mut [f64]) -> f64 {
-    samples.sort_by(f64::total_cmp);
-    samples.get(samples.len() / 2).copied().unwrap_or(f64::NAN)
+    thread_time().saturating_sub(started)
 }

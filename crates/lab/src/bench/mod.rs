@@ -5,7 +5,7 @@
 //! |---|---|
 //! | tape | the recorded residual, in each number domain |
 //! | merged tape | the same residual from fewer operations, by each engine of f64 |
-//! | floor | one fused sum for each step of the engine, at the full speed of this machine |
+//! | floor | the operations of the engine's steps in registers, none waiting for another |
 //! | num-dual by hand | the work items over num-dual's numbers at f64, state by state, written out plainly |
 //! | num-dual, closed form | W3 from a formula for the criterion, instead of its definition |
 //! | complex step | Im f(x + i h d)/h, h = 10⁻¹⁰⁰, of the undifferentiated quantities on tapes |
@@ -51,7 +51,7 @@ pub enum DifferentiationMethod {
     /// The recorded residual, with nodes of equal value merged.
     #[serde(rename = "merged tape")]
     MergedTape,
-    /// Lower bound: the tape's steps as independent fused sums.
+    /// Lower bound: the operations of the tape's steps, independent of each other.
     #[serde(rename = "floor")]
     Floor,
     /// The residual written by hand over num-dual's numbers.
@@ -103,11 +103,25 @@ pub struct BenchOptions {
     pub blocks: u64,
     /// Number of rounds in which every candidate runs in turn.
     pub rounds: usize,
+    /// Which candidates run.
+    pub selection: Selection,
+    /// Whether the states are kept, with the results of the quickest engine.
+    pub keep_values: bool,
+}
+
+/// Candidates of a measurement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Selection {
+    /// All methods in all domains, with errors at all states.
+    All,
+    /// The merged tape on the engines of f64 beside code written by hand, with errors at the first
+    /// states only.
+    Engines,
 }
 
 impl Default for BenchOptions {
     fn default() -> Self {
-        Self { seed: 1, blocks: 4, rounds: 21 }
+        Self { seed: 1, blocks: 4, rounds: 21, selection: Selection::All, keep_values: false }
     }
 }
 
@@ -124,6 +138,19 @@ pub struct ClaimMeasurements {
     pub rows: Vec<MethodMeasurements>,
     /// Methods that cannot be used, with the reasons.
     pub skipped: Vec<(DifferentiationMethod, &'static str)>,
+    /// States with the results of the quickest engine, if they were asked for.
+    pub values: Vec<StateValue>,
+}
+
+/// A state with the result of the quickest engine.
+#[derive(Clone, Debug, Serialize)]
+pub struct StateValue {
+    /// Free parameters and state.
+    pub state: Vec<f64>,
+    /// Residual.
+    pub value: f64,
+    /// Scale of the residual.
+    pub scale: f64,
 }
 
 /// Measurements of one method in one domain.
@@ -133,8 +160,10 @@ pub struct MethodMeasurements {
     pub method: DifferentiationMethod,
     /// Name of the arithmetic.
     pub domain: &'static str,
-    /// Nanoseconds per state, the median over the rounds.
+    /// Nanoseconds of processor time per state, the median over the rounds.
     pub ns_per_state: f64,
+    /// The least over the rounds.
+    pub least_ns_per_state: f64,
     /// Operations per state, in the arithmetic of the domain; `None` where nothing is recorded.
     pub operations: Option<usize>,
     /// Microseconds to record and lay out the tapes.
@@ -201,8 +230,9 @@ pub fn measure_item(
             item: item.name.clone(),
             claim: subject.claim.name.clone(),
             kind: subject.claim.kind.name(),
-            rows: measure::measure(&subject, options.rounds)?,
+            rows: measure::measure(&subject, options)?,
             skipped: subject.skipped(),
+            values: if options.keep_values { subject.values()? } else { Vec::new() },
         })
     };
     item.case.claims.iter().map(one).collect()

@@ -9,12 +9,14 @@ use super::engines;
 use super::one_by_one::OneByOne;
 use super::tapes;
 use super::underived::{Reason, Underived};
-use super::{BenchError, BenchItem, DifferentiationMethod};
+use super::{BenchError, BenchItem, DifferentiationMethod, Selection, StateValue};
 use liouville::case::{Case, PlacedClaim};
-use liouville::graph::{Evaluator, Expr, Fault, Graph, Tape, record};
+use liouville::engine::{Backend, Engine};
+use liouville::graph::{Evaluator, Expr, Fault, Graph, Points, Tape, record};
 use liouville::mechanics::Phase;
 use liouville::mechanics::calculus::DualPoint;
 use liouville::number::float::Float;
+use liouville::proof::InputDistribution;
 use liouville::verdict::{Sampler, TAPE_LANES};
 
 /// Number of recordings, of which the shortest time counts as set-up.
@@ -76,8 +78,34 @@ impl<'i> BenchClaim<'i> {
         &self.residual
     }
 
-    /// All candidates that compute the residual.
-    pub fn entries(&self) -> Vec<BenchCandidate<'_>> {
+    /// Candidates that compute the residual.
+    pub fn entries(&self, selection: Selection) -> Vec<BenchCandidate<'_>> {
+        let mut entries = match selection {
+            Selection::All => self.tapes(),
+            Selection::Engines => Vec::new(),
+        };
+        entries.extend(engines::all(&self.merged, &self.states, self.merging));
+        let mut at_f64 = |method, domain, operations, set_up, candidate| {
+            entries.push(BenchCandidate { method, domain, operations, set_up, candidate });
+        };
+        let none = Duration::ZERO;
+        for (method, by_hand) in &self.item.by_hand {
+            let candidate = Box::new(OneByOne::new(by_hand, &self.states));
+            at_f64(*method, "f64", None, none, candidate);
+        }
+        if let (Ok((underived, time)), Selection::All) = (&self.underived, selection) {
+            let candidate = Box::new(ComplexStep::new(underived, &self.states));
+            let operations = Some(underived.operations(1));
+            at_f64(DifferentiationMethod::ComplexStep, "complex f64", operations, *time, candidate);
+            let candidate = Box::new(Central::new(underived, &self.states));
+            let operations = Some(underived.operations(2));
+            at_f64(DifferentiationMethod::CentralDifference, "f64", operations, *time, candidate);
+        }
+        entries
+    }
+
+    /// Candidates for the recorded tape in all domains, and for the merged one in f64.
+    fn tapes(&self) -> Vec<BenchCandidate<'_>> {
         let mut entries: Vec<BenchCandidate<'_>> = tapes::all(&self.residual, &self.states)
             .into_iter()
             .map(|(domain, candidate)| BenchCandidate {
@@ -98,23 +126,6 @@ impl<'i> BenchClaim<'i> {
                 candidate: tapes::in_f64(&self.merged, &self.states),
             },
         );
-        entries.extend(engines::all(&self.merged, &self.states, self.merging));
-        let mut at_f64 = |method, domain, operations, set_up, candidate| {
-            entries.push(BenchCandidate { method, domain, operations, set_up, candidate });
-        };
-        let none = Duration::ZERO;
-        for (method, by_hand) in &self.item.by_hand {
-            let candidate = Box::new(OneByOne::new(by_hand, &self.states));
-            at_f64(*method, "f64", None, none, candidate);
-        }
-        if let Ok((underived, time)) = &self.underived {
-            let candidate = Box::new(ComplexStep::new(underived, &self.states));
-            let operations = Some(underived.operations(1));
-            at_f64(DifferentiationMethod::ComplexStep, "complex f64", operations, *time, candidate);
-            let candidate = Box::new(Central::new(underived, &self.states));
-            let operations = Some(underived.operations(2));
-            at_f64(DifferentiationMethod::CentralDifference, "f64", operations, *time, candidate);
-        }
         entries
     }
 
@@ -128,9 +139,28 @@ impl<'i> BenchClaim<'i> {
         skipped
     }
 
-    /// Scale of the residual at each lane of each block: |∇F||v| of an integral, |v|(|∇ln ρ| +
-    /// 1/|x|) of a density, |a| of a criterion.
-    pub fn scales(&self) -> Result<Vec<[f64; TAPE_LANES]>, BenchError> {
+    /// Results of the quickest engine at all states.
+    pub fn values(&self) -> Result<Vec<StateValue>, BenchError> {
+        let scales = self.scales(self.states.len())?;
+        let mut runner = Engine::new(&self.merged, Backend::Quickest).runner();
+        let mut values = Vec::with_capacity(self.states.len() * TAPE_LANES);
+        for (block, scales) in self.states.iter().zip(scales) {
+            for (row, input) in runner.inputs().iter_mut().zip(block) {
+                row.0 = *input;
+            }
+            runner.run();
+            values.extend((0..TAPE_LANES).map(|lane| StateValue {
+                state: block.iter().map(|input| input[lane]).collect(),
+                value: runner.output(0).0[lane],
+                scale: scales[lane],
+            }));
+        }
+        Ok(values)
+    }
+
+    /// Scale of the residual at each lane of the first blocks: |∇F||v| of an integral,
+    /// |v|(|∇ln ρ| + 1/|x|) of a density, |a| of a criterion.
+    pub fn scales(&self, blocks: usize) -> Result<Vec<[f64; TAPE_LANES]>, BenchError> {
         let (graph, scale) = with_jet(&self.item.case, |jet| {
             self.claim.kind.context(jet, &self.claim.place.kept).scale
         })?;
@@ -140,7 +170,7 @@ impl<'i> BenchClaim<'i> {
             evaluator.run(block);
             scale.map_or([f64::NAN; TAPE_LANES], |_| evaluator.output(0).map(f64::sqrt))
         };
-        Ok(self.states.iter().map(square).collect())
+        Ok(self.states[..blocks].iter().map(square).collect())
     }
 }
 
@@ -159,6 +189,20 @@ pub fn record_merged(case: &Case, claim: &PlacedClaim) -> Result<Tape, Fault> {
         let residual = claim.kind.residual(&jet, &claim.place.kept);
         (residual, jet.phase.model().system.shortcuts(&jet.phase))
     })?;
+    // The narrowest part of phase space first: more values are equal there.
+    let wider = claim.place.wider(&case.model).into_iter().rev();
+    for place in std::iter::once(claim.place.clone()).chain(wider) {
+        let sampler = Sampler::new(case, &place, 1)?;
+        if sampler.is_numerical() || place.kept.iter().all(|kept| !kept) {
+            continue;
+        }
+        let sources = sampler.sources();
+        let signs = sources.iter().map(|source| *source == InputDistribution::Sign).collect();
+        let points = Points { graph: sampler.graph(), inputs: sampler.made(), signs };
+        if let Some((graph, residual)) = graph.merged_at(&residual, &shortcuts, &points)? {
+            return Ok(Tape::new(&graph, &residual));
+        }
+    }
     let (graph, residual) = graph.merged(&residual, &shortcuts)?;
     Ok(Tape::new(&graph, &residual))
 }

@@ -8,7 +8,9 @@ use crate::report::bench::{self, BenchRun};
 use crate::report::{FileFailure, diagnostic, diagram, terminal};
 use clap::Args;
 use liouville::verdict::TAPE_LANES;
-use liouville_lab::bench::{BenchItem, BenchOptions, ClaimMeasurements, measure_item, work_items};
+use liouville_lab::bench::{
+    BenchItem, BenchOptions, ClaimMeasurements, Selection, measure_item, work_items,
+};
 
 use super::{CommandOutput, LimitArgs, colour, files, out, source, width};
 
@@ -31,6 +33,12 @@ pub struct BenchArgs {
     /// Number of interleaved rounds, of which the median time is taken
     #[arg(long, default_value_t = 21, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub rounds: u32,
+    /// Measure only the engines in f64 and code written by hand, with errors at 256 states
+    #[arg(long)]
+    pub engines: bool,
+    /// List the states in the JSON, with the results of the quickest engine
+    #[arg(long, requires = "json")]
+    pub values: bool,
     #[command(flatten)]
     pub limits: LimitArgs,
 }
@@ -40,6 +48,8 @@ pub fn run(options: &BenchArgs) -> Result<CommandOutput, String> {
         seed: options.seed,
         blocks: options.states.div_ceil(TAPE_LANES as u64),
         rounds: options.rounds as usize,
+        selection: if options.engines { Selection::Engines } else { Selection::All },
+        keep_values: options.values,
     };
     let mut run = BenchRun::new(amount);
     let found = items(options)?;

@@ -102,8 +102,8 @@ pub fn run(options: &SearchArgs) -> Result<CommandOutput, String> {
         },
     };
     if let Some(plan) = liouville_search::plan(&case, &effort).filter(|plan| plan.seconds >= 1.0) {
-        let liouville_search::CountEstimate { unknowns, seconds, megabytes } = plan;
-        eprintln!("up to {unknowns} unknowns: at least {seconds:.0} s, and at most {megabytes} MB");
+        let liouville_search::CountEstimate { unknowns, seconds } = plan;
+        eprintln!("up to {unknowns} unknowns: at least {seconds:.0} s");
     }
     // A second Ctrl-C exits immediately.
     let switch = effort.halt.switch();

@@ -71,7 +71,7 @@ impl TaylorFunction {
         if cfg!(not(target_arch = "x86_64")) {
             return None;
         }
-        Some(Self { memory: executable(&assembler.bytes)?, touched: assembler.touched })
+        Some(Self { memory: executable(assembler.bytes())?, touched: assembler.touched })
     }
 
     /// Calls the function. Panics if it would access memory outside the given buffers.

@@ -5,7 +5,6 @@
 //! that the bits are those of the interpreter.
 
 mod call;
-mod calls;
 mod constants;
 mod emit;
 mod encode;

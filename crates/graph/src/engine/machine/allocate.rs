@@ -1,38 +1,50 @@
-//! Register allocation for a program, by one scan over its steps.
+//! Register allocation for the vectors of a program, by one scan over their steps.
 //!
 //! Inputs and constants stay in memory: one operand of an instruction may be there, at no cost as
 //! long as there are two loads for two instructions. A result is given a register; where none is
 //! free, the one whose next use is furthest goes to the frame, and is read from there.
 
-use super::super::program::{ProgramStep, StepProgram, Sum, Value};
-use super::encode::{
-    Area, Assembler, Assembly, OperandOrder, PairInstruction, Register, SumSigns, VectorLocation,
-    Width,
-};
+use super::super::ROW_STATES;
+use super::super::program::{PairOperation, ProgramStep, StepProgram, Sum, Value};
+use super::constants::Constants;
+use super::encode::{Area, Assembler, Assembly, VectorLocation};
+use super::interleave::Interleaved;
+use crate::assembler::{Comparison, OperandOrder, PairInstruction, Register, SumSigns, Width};
 use crate::number::{BinaryOperation, UnaryFunction};
 
 /// Assembles a program; also returns the constants at the beginning of its frame. `None` where the
 /// program has a function that is not an instruction.
 pub(super) fn assemble(program: &StepProgram, width: Width) -> Option<(Assembly, Vec<f64>)> {
-    let mut scan = Scan::new(program, width);
-    for (index, step) in program.steps.iter().enumerate() {
+    let in_row = ROW_STATES / width.numbers();
+    // Sixteen registers are too few for two vectors.
+    let vectors = if width == Width::Eight { in_row } else { 1 };
+    let interleaved = Interleaved::new(program, vectors);
+    let mut scan = Scan::new(&interleaved, Constants::new(program, width), width);
+    scan.keep_constants();
+    for (index, (copy, step)) in interleaved.steps.iter().enumerate() {
+        scan.copy = *copy;
         scan.step(index, step)?;
     }
-    for (index, output) in program.outputs.iter().enumerate() {
-        if !matches!(output, Value::Step(_)) {
-            // After the last step all registers are free.
-            scan.assembler.load(0, scan.place(*output));
-            scan.assembler.store(Area::Outputs, index as u32, 0);
+    for (copy, outputs) in interleaved.outputs.iter().enumerate() {
+        scan.copy = copy;
+        for (index, output) in outputs.iter().enumerate() {
+            if !matches!(output, Value::Step(_)) {
+                // After the last step all registers but those of constants are free.
+                scan.assembler.load(0, scan.place(*output));
+                scan.assembler.store(Area::Outputs, scan.in_row(index as u32), 0);
+            }
         }
     }
-    Some((scan.assembler.finish(), scan.constants))
+    Some((scan.assembler.finish(interleaved.copies), scan.constants.values))
 }
 
 /// State of the scan.
-struct Scan<'p> {
-    program: &'p StepProgram,
+struct Scan {
     assembler: Assembler,
-    constants: Vec<f64>,
+    constants: Constants,
+    vectors_in_row: u32,
+    /// Vector of the present step.
+    copy: usize,
     /// Steps that read each result.
     reads: Vec<Vec<u32>>,
     /// Outputs equal to each result.
@@ -46,55 +58,43 @@ struct Scan<'p> {
     free_spills: Vec<u32>,
 }
 
-/// Constants that the instructions need in addition to those of the program.
-const ONE: f64 = 1.0;
-const SIGN_BIT: f64 = -0.0;
-const ALL_BUT_SIGN: f64 = f64::from_bits(!(1 << 63));
-
-impl<'p> Scan<'p> {
-    fn new(program: &'p StepProgram, width: Width) -> Self {
+impl Scan {
+    fn new(program: &Interleaved, constants: Constants, width: Width) -> Self {
         let steps = program.steps.len();
         let mut outputs = vec![Vec::new(); steps];
-        for (index, output) in program.outputs.iter().enumerate() {
+        for (index, output) in program.outputs.iter().flat_map(|one| one.iter().enumerate()) {
             if let Value::Step(step) = *output {
                 outputs[step as usize].push(index as u32);
             }
         }
-        let constants = [&program.constants[..], &[ONE, SIGN_BIT, ALL_BUT_SIGN]].concat();
         Self {
-            program,
             assembler: Assembler::new(width),
-            spills: constants.len() as u32,
-            constants,
+            spills: constants.values.len() as u32,
+            vectors_in_row: (ROW_STATES / width.numbers()) as u32,
+            copy: 0,
             reads: program.reads(),
             outputs,
             places: vec![VectorLocation::Register(0); steps],
-            held: vec![None; width.registers()],
+            held: vec![None; width.registers() - constants.kept.len()],
+            constants,
             free_spills: Vec::new(),
         }
     }
 
     fn step(&mut self, index: usize, step: &ProgramStep) -> Option<()> {
-        let extra = |number: usize| Value::Constant((self.program.constants.len() + number) as u32);
         let target = match *step {
-            ProgramStep::Unary(function, a) => match function {
-                UnaryFunction::Neg => self.pair(index, PairInstruction::Xor, a, extra(1)),
-                UnaryFunction::Abs => self.pair(index, PairInstruction::And, a, extra(2)),
-                UnaryFunction::Recip => self.pair(index, PairInstruction::Div, extra(0), a),
-                UnaryFunction::Sqrt => {
+            ProgramStep::Unary(function, a) => match (function, self.constants.of(function)) {
+                (UnaryFunction::Neg, Some(sign)) => self.pair(index, PairInstruction::Xor, a, sign),
+                (UnaryFunction::Abs, Some(rest)) => self.pair(index, PairInstruction::And, a, rest),
+                (UnaryFunction::Recip, Some(one)) => self.pair(index, PairInstruction::Div, one, a),
+                (UnaryFunction::Sqrt, _) => {
                     let source = self.place(a);
                     self.release(index, &[a]);
                     let target = self.take(index, &[]);
                     self.assembler.square_root(target, source);
                     target
                 }
-                UnaryFunction::Exp
-                | UnaryFunction::Ln
-                | UnaryFunction::Sin
-                | UnaryFunction::Cos
-                | UnaryFunction::Atan => {
-                    return None;
-                }
+                _ => return None,
             },
             ProgramStep::Binary(operation, a, b) => match operation {
                 BinaryOperation::Add => self.pair(index, PairInstruction::Add, a, b),
@@ -102,13 +102,25 @@ impl<'p> Scan<'p> {
                 BinaryOperation::Mul => self.pair(index, PairInstruction::Mul, a, b),
                 BinaryOperation::Pow => return None,
             },
+            ProgramStep::Pair(operation, a, b) => {
+                let pair = match operation {
+                    PairOperation::Quotient => PairInstruction::Div,
+                    PairOperation::And => PairInstruction::And,
+                    PairOperation::Or => PairInstruction::Or,
+                    PairOperation::Greater => PairInstruction::Compare(Comparison::Greater),
+                    PairOperation::NotGreater => PairInstruction::Compare(Comparison::NotGreater),
+                    PairOperation::NotAtLeast => PairInstruction::Compare(Comparison::NotAtLeast),
+                };
+                self.pair(index, pair, a, b)
+            }
             ProgramStep::Fused(sum, arguments) => self.fused(index, sum, arguments),
         };
         // Not before the instruction: it may read a slot that would otherwise be reused.
         self.release_spills(index, step);
         self.places[index] = VectorLocation::Register(target);
         for output in &self.outputs[index] {
-            self.assembler.store(Area::Outputs, *output, target);
+            let place = self.in_row(*output);
+            self.assembler.store(Area::Outputs, place, target);
         }
         self.held[target as usize] = (!self.reads[index].is_empty()).then_some(index as u32);
         Some(())
@@ -117,7 +129,10 @@ impl<'p> Scan<'p> {
     /// Emits `a op b` into a register.
     fn pair(&mut self, index: usize, pair: PairInstruction, a: Value, b: Value) -> Register {
         let (mut x, mut y) = (self.place(a), self.place(b));
-        let commutes = !matches!(pair, PairInstruction::Sub | PairInstruction::Div);
+        let commutes = !matches!(
+            pair,
+            PairInstruction::Sub | PairInstruction::Div | PairInstruction::Compare(_)
+        );
         if commutes && matches!((x, y), (VectorLocation::Memory(..), VectorLocation::Register(_))) {
             (x, y) = (y, x);
         }
@@ -177,10 +192,28 @@ impl<'p> Scan<'p> {
         target
     }
 
+    /// Loads the constants that have registers, which follow those of results.
+    fn keep_constants(&mut self) {
+        for (place, constant) in self.constants.kept.iter().enumerate() {
+            let register = (self.held.len() + place) as Register;
+            self.assembler.load(register, VectorLocation::Memory(Area::Frame, *constant));
+        }
+    }
+
+    /// Place of the present vector in a row.
+    fn in_row(&self, row: u32) -> u32 {
+        row * self.vectors_in_row + self.copy as u32
+    }
+
     fn place(&self, value: Value) -> VectorLocation {
         match value {
-            Value::Input(input) => VectorLocation::Memory(Area::Inputs, input),
-            Value::Constant(constant) => VectorLocation::Memory(Area::Frame, constant),
+            Value::Input(input) => VectorLocation::Memory(Area::Inputs, self.in_row(input)),
+            Value::Constant(constant) => {
+                match self.constants.kept.iter().position(|c| *c == constant) {
+                    Some(place) => VectorLocation::Register((self.held.len() + place) as Register),
+                    None => VectorLocation::Memory(Area::Frame, constant),
+                }
+            }
             Value::Step(step) => self.places[step as usize],
         }
     }

@@ -8,7 +8,8 @@
 use memmap2::{Mmap, MmapMut};
 
 use super::super::{ROW_STATES, RowBlock};
-use super::encode::{Assembly, MemoryExtent, Width};
+use super::encode::{Assembly, MemoryExtent};
+use crate::assembler::Width;
 use crate::graph::{InstructionSet, widest};
 
 /// Signature of the code: inputs, frame, outputs, turns.
@@ -31,6 +32,7 @@ pub fn executable(bytes: &[u8]) -> Option<Mmap> {
 pub(super) struct Executable {
     memory: Mmap,
     width: Width,
+    copies: usize,
     extent: MemoryExtent,
 }
 
@@ -40,13 +42,14 @@ impl Executable {
     pub(super) fn new(assembly: &Assembly) -> Option<Self> {
         let has = match assembly.width {
             Width::Eight => widest() == InstructionSet::Avx512,
-            Width::Four => widest() != InstructionSet::Baseline,
+            Width::One | Width::Four => widest() != InstructionSet::Baseline,
         };
         if !has {
             return None;
         }
         let memory = executable(&assembly.bytes)?;
-        Some(Self { memory, width: assembly.width, extent: assembly.extent })
+        let Assembly { width, copies, extent, .. } = *assembly;
+        Some(Self { memory, width, copies, extent })
     }
 
     /// Runs over all lanes of the rows. Panics where there are fewer rows than the code touches.
@@ -58,14 +61,14 @@ impl Executable {
     ) {
         let enough = inputs.len() >= self.extent.inputs
             && outputs.len() >= self.extent.outputs
-            && frame.len() * ROW_STATES >= self.extent.frame * self.width.lanes();
+            && frame.len() * ROW_STATES >= self.extent.frame * self.width.numbers();
         assert!(enough, "machine code needs {:?}", self.extent);
         // SAFETY: an `Assembly` is made by the assembler alone, and its bytes are a function of this
         // type that touches no more than its extent, in rows of `ROW_STATES` states; the processor has
         // its instructions. `RowBlock` is an array of f64, so a slice of rows is contiguous.
         unsafe {
             let entry: Entry = std::mem::transmute(self.memory.as_ptr());
-            let turns = ROW_STATES / self.width.lanes();
+            let turns = ROW_STATES / self.width.numbers() / self.copies;
             entry(
                 inputs.as_ptr().cast(),
                 frame.as_mut_ptr().cast(),

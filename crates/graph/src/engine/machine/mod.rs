@@ -1,20 +1,22 @@
-//! Machine code for a program: straight line, in a loop over the vectors of a row.
+//! Machine code for a program: straight lines for some vectors of a row, in a loop.
 //!
 //! ```text
-//! Program ─ registers allotted ─▶ instructions ─ encoded ─▶ bytes ─ write, then execute ─▶ function
+//! Program ─ vectors interleaved ─ registers allotted ─▶ instructions ─ encoded ─▶ bytes ─ write, then execute ─▶ function
 //! ```
 //!
 //! Code exists for x86-64 with AVX-512 or with AVX2 and FMA. Elsewhere, and for programs with
 //! functions that are not instructions (exp, sin, …), the interpreter does the work.
 
 mod allocate;
+mod constants;
 mod encode;
+mod interleave;
 mod memory;
 
 use super::program::StepProgram;
 use super::{ROW_STATES, RowBlock};
+use crate::assembler::Width;
 use crate::graph::InstructionSet;
-use encode::Width;
 use memory::Executable;
 
 pub use memory::executable;
@@ -47,7 +49,7 @@ impl MachineProgram {
             InstructionSet::Baseline => return None,
         };
         let (assembly, constants) = allocate::assemble(program, width)?;
-        let lanes = width.lanes();
+        let lanes = width.numbers();
         let frame_rows = assembly.extent.frame.max(constants.len()).div_ceil(ROW_STATES / lanes);
         let outputs = program.outputs.len();
         let executable = Executable::new(&assembly)?;
