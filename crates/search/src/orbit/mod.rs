@@ -6,6 +6,8 @@
 //! relations    number of algebraic integrals; none is a theorem
 //! tangents     directions of the state itself, where its functions are variables
 //! polynomials  polynomial integrals
+//! lattice      exponents that a field does not mix
+//! graded       polynomial integrals of higher degree, class by class
 //! rational     rational ones, as P and Q of the relations P − c Q
 //! line         points of a line whose orbits satisfy an additional relation
 //! darboux      Darboux polynomials: the relations at these points
@@ -34,8 +36,10 @@ mod factor;
 mod finite_order;
 mod fraction;
 pub mod fractions;
+mod graded;
 mod images;
 mod known;
+mod lattice;
 mod line;
 mod map_densities;
 pub mod monomials;
@@ -76,20 +80,22 @@ struct RoundLimits {
     degree: u32,
     /// Largest number of steps of an elimination on a line.
     steps: f64,
+    /// Largest number of steps for polynomial integrals class by class.
+    graded: f64,
 }
 
 /// Limits without a limit of time.
-const MODEST: RoundLimits = RoundLimits { monomials: 300, degree: 8, steps: 4e7 };
+const MODEST: RoundLimits = RoundLimits { monomials: 300, degree: 8, steps: 4e7, graded: 4e8 };
 
 /// The same where functions are further variables.
-const EXTENDED: RoundLimits = RoundLimits { monomials: 400, degree: 8, steps: 4e7 };
+const EXTENDED: RoundLimits = RoundLimits { monomials: 400, degree: 8, steps: 4e7, graded: 4e8 };
 
 /// Limits that follow while there is time.
 const FURTHER: [RoundLimits; 4] = [
-    RoundLimits { monomials: 500, degree: 16, steps: 2e8 },
-    RoundLimits { monomials: 900, degree: 24, steps: 2e9 },
-    RoundLimits { monomials: 1700, degree: 24, steps: 2e10 },
-    RoundLimits { monomials: 3200, degree: 24, steps: 2e11 },
+    RoundLimits { monomials: 500, degree: 16, steps: 2e8, graded: 2e9 },
+    RoundLimits { monomials: 900, degree: 24, steps: 2e9, graded: 2e10 },
+    RoundLimits { monomials: 1700, degree: 24, steps: 2e10, graded: 2e11 },
+    RoundLimits { monomials: 3200, degree: 24, steps: 2e11, graded: 2e12 },
 ];
 
 /// Largest number of roots whose signs at all states are compared with those modulo a prime.

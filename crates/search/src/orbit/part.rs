@@ -5,6 +5,7 @@ use super::angle::ConjugatePair;
 use super::darboux::DarbouxSearch as Darboux;
 use super::exponents::ExponentSystem;
 use super::factor::RatedPolynomial;
+use super::graded::GradedSearch;
 use super::known::IndependentIntegrals;
 use super::rational::RationalSearch;
 use super::setting::{ExtendedCase, OrbitSetting};
@@ -23,6 +24,8 @@ pub struct VariableSet {
     variables: Vec<usize>,
     /// Degree of the relations that comes next.
     next: u32,
+    /// Degree of the polynomial integrals that are searched class by class next.
+    next_graded: u32,
     /// Degree of the Darboux polynomials that comes next.
     next_darboux: u32,
     /// Degree of the field, where it is a polynomial.
@@ -43,6 +46,7 @@ impl VariableSet {
         Self {
             variables,
             next: 1,
+            next_graded: 1,
             next_darboux: 1,
             degree,
             factors: Vec::new(),
@@ -88,6 +92,7 @@ impl VariableSet {
             }
             self.step(setting, &all, known, report, progress)?;
         }
+        self.graded(setting, limits, known, report, progress)?;
         let variables = &self.variables;
         let Some(degree) = self.degree else {
             // The whole state on a level: factors are given by the functions there.
@@ -121,6 +126,32 @@ impl VariableSet {
             let system = ExponentSystem::of(setting, variables, &self.factors, &self.pairs)?;
             system.search(known, report)?;
             self.with_angles = Some(counts);
+        }
+        Ok(())
+    }
+
+    /// Searches polynomial integrals of higher degree, class by class.
+    fn graded(
+        &mut self,
+        setting: &OrbitSetting<'_>,
+        limits: RoundLimits,
+        known: &mut IndependentIntegrals,
+        report: &mut SearchReport,
+        progress: &mut dyn FnMut(&str),
+    ) -> Result<(), SearchError> {
+        let mut left = limits.graded;
+        self.next_graded = self.next_graded.max(self.next);
+        if self.next_graded > limits.degree || is_complete(setting, known) {
+            return Ok(());
+        }
+        let Some(search) = GradedSearch::of(setting)? else { return Ok(()) };
+        while self.next_graded <= limits.degree && !is_complete(setting, known) {
+            let degree = self.next_graded;
+            progress(&format!("polynomial integrals of degree {degree}, class by class"));
+            let done = search.of_degree(&self.variables, degree, left, known, report)?;
+            let Some(steps) = done else { break };
+            left -= steps;
+            self.next_graded += 1;
         }
         Ok(())
     }
