@@ -13,6 +13,8 @@ pub struct FoundOrbit {
     pub crossings: Option<usize>,
     /// Orbit.
     pub cycle: Cycle,
+    /// Theorem that the orbit closes, or the reason why there is none, if it was asked for.
+    pub proof: Option<Result<String, String>>,
 }
 
 /// Formats a number with its error: the digits that the error leaves, and one more.
@@ -82,6 +84,11 @@ pub fn text(case: &Case, found: &FoundOrbit) -> String {
     let volume = cycle.volume;
     let product = product(volume);
     out.push_str(&format!("  product {}, ∮ div v dt = {}\n", shown(product), shown(volume)));
+    match &found.proof {
+        Some(Ok(theorem)) => out.push_str(&format!("  proved: {theorem}\n")),
+        Some(Err(reason)) => out.push_str(&format!("  not proved: {reason}\n")),
+        None => {}
+    }
     out
 }
 
@@ -124,7 +131,7 @@ pub(super) fn multiplier(one: &Multiplier) -> Value {
 pub fn entry(found: &FoundOrbit) -> Value {
     let cycle = &found.cycle;
     let product = product(cycle.volume);
-    json!({
+    let mut entry = json!({
         "at": found.point.map(|point| point.at),
         "period": found.crossings,
         "state": cycle.start.state.iter().map(|x| x.hi).collect::<Vec<_>>(),
@@ -140,7 +147,13 @@ pub fn entry(found: &FoundOrbit) -> Value {
         "product_error": product.error,
         "volume": cycle.volume.value,
         "volume_error": cycle.volume.error,
-    })
+    });
+    match &found.proof {
+        Some(Ok(theorem)) => entry["theorem"] = json!(theorem),
+        Some(Err(reason)) => entry["unproved"] = json!(reason),
+        None => {}
+    }
+    entry
 }
 
 #[cfg(test)]

@@ -111,6 +111,55 @@ fn forged_certificates_are_refused_with_their_place() {
     assert!(answers.lines().count() > 130, "{answers}");
 }
 
+/// Certificates to try, and one whose program was changed.
+fn with_a_wrong_one(folder: &str) -> (Vec<String>, String) {
+    let (path, files) =
+        certified(folder, &["cases/classical/planar", "cases/plane/balanced-ball.toml"]);
+    let mut wrong: Value =
+        serde_json::from_str(&fs::read_to_string(&files[0]).expect("a file")).expect("JSON");
+    let program = &mut wrong["statement"]["programs"][0];
+    let input = program["steps"].as_array().expect("steps").iter().position(|s| s[0] == "input");
+    program["zero"]["residual"] = serde_json::json!([input.expect("an input")]);
+    let changed = path.with_extension("json");
+    fs::write(&changed, wrong.to_string()).expect("written");
+    (files, changed.display().to_string())
+}
+
+#[test]
+fn certificates_hold_over_the_rational_numbers() {
+    let flint = Command::new("python3").args(["-c", "import flint"]).output();
+    let (files, wrong) = with_a_wrong_one("exact");
+    if !flint.is_ok_and(|output| output.status.success()) {
+        println!("not run: there is no python-flint on this machine");
+        return;
+    }
+    let files: Vec<&str> = files.iter().map(String::as_str).chain([wrong.as_str()]).collect();
+    let script = ["docs/certificates/exact.py", "--seconds", "1"];
+    let output = run("python3", &[&script[..], &files[..]].concat());
+    let told = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(1), "{told}{}", text(&output.stderr));
+    let refused: Vec<&str> = told.lines().filter(|line| line.starts_with("REFUSED")).collect();
+    assert!(refused.len() == 1 && refused[0].contains("is not 0"), "{refused:?}");
+    let exact = told.lines().filter(|line| line.starts_with("exact ")).count();
+    assert!(exact * 4 > files.len() * 3, "{told}");
+}
+
+#[test]
+fn certificates_become_goals_of_proof_assistants() {
+    let (files, _) = with_a_wrong_one("goals");
+    if !is_there() {
+        return;
+    }
+    let files: Vec<&str> = files.iter().map(String::as_str).collect();
+    for (to, heads) in [("coq", ["Theorem ", "field"]), ("lean", ["theorem ", "field_simp"])] {
+        let output = run("python3", &[&["docs/certificates/goals.py", to], &files[..]].concat());
+        let goals = text(&output.stdout);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        let count = goals.lines().filter(|line| line.starts_with(heads[0])).count();
+        assert!(count > 20 && goals.matches(heads[1]).count() >= count, "{count} goals");
+    }
+}
+
 #[test]
 fn what_cannot_be_certified_is_told() {
     let folder = scratch("none").display().to_string();

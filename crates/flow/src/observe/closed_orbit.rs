@@ -3,7 +3,9 @@
 use super::ground::Ground;
 use super::judgement::MotionJudgement;
 use super::scene::FollowedCase;
-use crate::{Enclosure, FlowError, MeasuredNumber, Obstacle, ProvedOrbit, Request, Start, prove};
+use crate::{
+    Cycle, Enclosure, FlowError, MeasuredNumber, Obstacle, ProvedOrbit, Request, Start, prove,
+};
 use liouville::case::Case;
 use liouville::claim::motion::{Change, ClosedOrbit, Neighbourhood, Stability, Stated};
 use liouville::number::rational::Rational;
@@ -54,6 +56,25 @@ pub(super) fn exclusion(
     let found = ground.enclosed(prove).ok()?;
     let changes = found.volume.is_positive() || (-found.volume).is_positive();
     changes.then(|| format!("proved: {}", theorem(&found, true, stability(&found), &[])))
+}
+
+/// Proves that a computed orbit closes, in its least period, and returns the theorem, or the reason why
+/// there is none. On an orbit through the section of a rolling body the energy is given.
+pub fn theorem_about(
+    case: &Case,
+    cycle: &Cycle,
+    energy: Option<&Rational>,
+    options: &Options,
+) -> Result<String, String> {
+    let period = cycle.period.value / f64::from(cycle.turns);
+    let ground = Ground::near(case, cycle.start.clone(), period, energy, options)?;
+    let found = ground.enclosed(prove)?;
+    if found.moved > NEAR {
+        let far = printed_bound(found.moved);
+        return Err(format!("the closed orbit that is proved lies at a distance of {far}"));
+    }
+    let changes = found.volume.is_positive() || (-found.volume).is_positive();
+    Ok(theorem(&found, changes, stability(&found), &[]))
 }
 
 /// Compares an orbit with the claim.
@@ -178,7 +199,17 @@ pub(super) fn printed_bound(bound: f64) -> String {
 pub(super) fn printed(x: Enclosure) -> String {
     let decimals = libm::ceil(-libm::log10(x.rad)).clamp(0.0, 16.0) as usize + 1;
     let left_out = 0.51 * libm::pow(10.0, -(decimals as f64));
-    format!("{:.decimals$} ± {}", x.mid, printed_bound(x.rad + left_out))
+    format!("{} ± {}", decimal(x.mid, decimals), printed_bound(x.rad + left_out))
+}
+
+/// Prints a number with this many decimals, 0 without a sign.
+fn decimal(x: f64, decimals: usize) -> String {
+    let text = format!("{x:.decimals$}");
+    let is_zero = !text.contains(|letter: char| ('1'..='9').contains(&letter));
+    match is_zero {
+        true => text.trim_start_matches('-').to_string(),
+        false => text,
+    }
 }
 
 /// Number of decimals of the state in a theorem.
@@ -190,7 +221,7 @@ fn theorem(
     seen: Option<Stability>,
     varied: &[Neighbourhood],
 ) -> String {
-    let state: Vec<String> = found.start.iter().map(|x| format!("{:.DECIMALS$}", x.mid)).collect();
+    let state: Vec<String> = found.start.iter().map(|x| decimal(x.mid, DECIMALS)).collect();
     let wide = found.start.iter().map(|x| x.rad).fold(0.0, f64::max);
     let wide = printed_bound(wide + 0.51 * libm::pow(10.0, -(DECIMALS as f64)));
     let kind = seen.map_or(String::new(), |seen| format!("; it is of kind {}", name(seen)));
@@ -235,6 +266,7 @@ mod tests {
     fn printed_enclosures_are_true() {
         assert_eq!(printed_bound(3.1e-12), "4e-12");
         assert_eq!(printed_bound(9.7e-12), "1e-11", "up to the next digit");
+        assert_eq!([-1e-40, -0.25, 0.0].map(|x| decimal(x, 2)), ["0.00", "-0.25", "0.00"]);
         for (mid, rad) in [(3.197_991_923_280_63, 4e-14), (-0.020_093_772_9, 8.7e-11), (2.5, 0.3)] {
             let text = printed(Enclosure::about(mid, rad));
             let (number, bound) = text.split_once(" ± ").expect("both");

@@ -30,6 +30,7 @@ use liouville::verdict::{
     self, CaseReport, ClaimReport, Evidence, JudgeError, Method, Options, Trust, Verdict,
 };
 
+pub use closed_orbit::theorem_about;
 pub use density::evidence_against_density;
 
 use judgement::MotionJudgement;

@@ -89,13 +89,17 @@ fn step(plan: &Plan, starts: &[Vec<Enclosure>], h: &[Enclosure]) -> [Option<End>
     states(&coefficients, &blocks(&h)[0], &mut FIRST.clone())
 }
 
-/// Number of groups of lanes that a test tries: with those of the others more than 10⁴ steps.
-const GROUPS: usize = 325;
+/// Number of groups of lanes that a test tries, `LIOUVILLE_STEP_GROUPS`: by default all tests together
+/// try more than 10⁴ steps.
+fn groups() -> usize {
+    let wanted = std::env::var("LIOUVILLE_STEP_GROUPS").ok().and_then(|text| text.parse().ok());
+    wanted.unwrap_or(325)
+}
 
 /// Tries steps of a system; `make` returns a start, a time, and the true end.
 fn try_all(plan: &Plan, make: impl Fn(&mut Random) -> (Vec<Enclosure>, Enclosure, Vec<Number>)) {
     let mut random = Random(7);
-    for trial in 0..GROUPS {
+    for trial in 0..groups() {
         let (mut starts, mut h, mut truths) = (Vec::new(), Vec::new(), Vec::new());
         for _ in 0..BOXES {
             let (start, time, truth) = make(&mut random);

@@ -4,8 +4,9 @@ use crate::report::cycle::{self, FoundOrbit};
 use clap::Args;
 use liouville::case::{Case, FixedLine};
 use liouville::number::rational::Rational;
+use liouville::verdict::Options;
 use liouville_flow::{
-    Begin, CrossingSurface, FlowError, Launches, SectionMap, closed_orbit, crossing_time,
+    Begin, CrossingSurface, FlowError, Launches, SectionMap, closed_orbit, crossing_time, observe,
 };
 use serde_json::json;
 
@@ -50,8 +51,27 @@ pub struct Periodic {
     #[arg(long, default_value_t = 400, requires = "symmetric",
         value_parser = clap::value_parser!(u32).range(8..=1_000_000))]
     pub points: u32,
+    /// Prove that each orbit closes, by enclosures: the theorem, or the reason why there is none
+    #[arg(long)]
+    pub prove: bool,
     #[command(flatten)]
     pub threads: Threads,
+}
+
+impl Periodic {
+    /// Adds the proof to an orbit, if it is asked for.
+    pub fn proved(&self, case: &Case, mut found: FoundOrbit) -> Result<FoundOrbit, String> {
+        if self.prove {
+            let energy = match found.point {
+                Some(_) => Some(self.search.plane.of(case)?.1),
+                None => None,
+            };
+            let options = Options { seed: self.search.subject.seed, ..Options::default() };
+            let theorem = observe::theorem_about(case, &found.cycle, energy.as_ref(), &options);
+            found.proof = Some(theorem);
+        }
+        Ok(found)
+    }
 }
 
 pub fn run(options: &Periodic) -> Result<CommandOutput, String> {
@@ -65,7 +85,8 @@ pub fn run(options: &Periodic) -> Result<CommandOutput, String> {
     }
     let time = options.time.as_ref();
     let found = search.starts(&case)?;
-    let found = found.into_iter().map(|given| search.orbit(&case, given, time));
+    let found =
+        found.into_iter().map(|given| options.proved(&case, search.orbit(&case, given, time)?));
     let found: Vec<FoundOrbit> = found.collect::<Result<_, _>>()?;
     let text = match search.subject.json {
         true => {
@@ -127,7 +148,7 @@ fn near_point(
     let map = SectionMap::new(case, &g0, &energy, options.subject.seed).map_err(told)?;
     let near = [l.to_f64().0, z.to_f64().0];
     let (point, cycle) = map.cycle(near, options.period as usize).map_err(told)?;
-    Ok(FoundOrbit { point: Some(point), crossings: Some(point.period), cycle })
+    Ok(FoundOrbit { point: Some(point), crossings: Some(point.period), cycle, proof: None })
 }
 
 /// Finds the orbit near a state.
@@ -161,5 +182,5 @@ fn near_state(
     };
     let surface = surface.filter(|_| crossings.is_some());
     let cycle = closed_orbit(case, &start, time, surface).map_err(told)?;
-    Ok(FoundOrbit { point: None, crossings, cycle })
+    Ok(FoundOrbit { point: None, crossings, cycle, proof: None })
 }

@@ -27,22 +27,32 @@ pub fn run(options: &Periodic, case: &Case) -> Result<CommandOutput, String> {
         threads: options.threads.count(),
     };
     let found = symmetric_orbits(&request).map_err(told)?;
+    let orbits = orbits(&found).map(|(orbit, lines)| Ok((options.proved(case, orbit)?, lines)));
+    let orbits: Vec<ListedOrbit> = orbits.collect::<Result<_, String>>()?;
     let text = match search.subject.json {
-        true => json_of(case, &found)?,
-        false => text_of(case, options, &found),
+        true => json_of(case, &found, &orbits)?,
+        false => text_of(case, options, &found, &orbits),
     };
     Ok(CommandOutput { text, code: 0 })
 }
 
-fn orbits(found: &SymmetricOrbits) -> impl Iterator<Item = (FoundOrbit, Vec<&'static str>)> {
+/// An orbit, and the lines of the reversors that keep it.
+type ListedOrbit = (FoundOrbit, Vec<&'static str>);
+
+fn orbits(found: &SymmetricOrbits) -> impl Iterator<Item = ListedOrbit> {
     found.orbits.iter().map(|orbit| {
         let (point, cycle) = (Some(orbit.point), orbit.cycle.clone());
         let lines = orbit.lines.iter().map(|line| line_name(*line)).collect();
-        (FoundOrbit { point, crossings: Some(orbit.point.period), cycle }, lines)
+        (FoundOrbit { point, crossings: Some(orbit.point.period), cycle, proof: None }, lines)
     })
 }
 
-fn text_of(case: &Case, options: &Periodic, found: &SymmetricOrbits) -> String {
+fn text_of(
+    case: &Case,
+    options: &Periodic,
+    found: &SymmetricOrbits,
+    orbits: &[ListedOrbit],
+) -> String {
     let lines: Vec<&str> = options.symmetric.iter().map(|line| line_name(*line)).collect();
     let mut out = format!(
         "{} symmetric orbits of periods up to {} meet {}\n",
@@ -50,8 +60,8 @@ fn text_of(case: &Case, options: &Periodic, found: &SymmetricOrbits) -> String {
         options.search.period,
         lines.join(", ")
     );
-    for (orbit, lines) in orbits(found) {
-        out.push_str(&cycle::text(case, &orbit));
+    for (orbit, lines) in orbits {
+        out.push_str(&cycle::text(case, orbit));
         out.push_str(&format!("  symmetric to {}\n", lines.join(", ")));
     }
     if found.unconfirmed > 0 {
@@ -68,10 +78,11 @@ fn text_of(case: &Case, options: &Periodic, found: &SymmetricOrbits) -> String {
     out
 }
 
-fn json_of(case: &Case, found: &SymmetricOrbits) -> Result<String, String> {
-    let points: Vec<Value> = orbits(found)
+fn json_of(case: &Case, found: &SymmetricOrbits, orbits: &[ListedOrbit]) -> Result<String, String> {
+    let points: Vec<Value> = orbits
+        .iter()
         .map(|(orbit, lines)| {
-            let mut entry = cycle::entry(&orbit);
+            let mut entry = cycle::entry(orbit);
             entry["symmetric"] = json!(lines);
             entry
         })

@@ -37,10 +37,8 @@ pub fn discs(plot: &Plot) -> [Plot; 2] {
             let ticks = ticks.map(|(at, word)| (at, word.to_string())).to_vec();
             Axis::with_ticks(math("l"), [-1.06, 1.06], ticks)
         };
-        let mut own = Plot::new(
-            angle([(-1.0, "π"), (1.0, "0")]),
-            angle([(-1.0, "3π/2"), (1.0, "π/2")]),
-        );
+        let mut own =
+            Plot::new(angle([(-1.0, "π"), (1.0, "0")]), angle([(-1.0, "3π/2"), (1.0, "π/2")]));
         own.title = Some(math(words));
         own.aspect = 1.0;
         own.layers = graticule();

@@ -153,3 +153,33 @@ fn symmetric_orbits_are_listed_with_their_reversors() {
     let field = ["motion", "periodic", "classical/flows/van-der-pol-cycle", "--symmetric", "L=0"];
     liouville(&field).assert().code(2).stderr(contains("for a body that rolls without spinning"));
 }
+
+#[test]
+fn found_orbits_are_proved_or_the_reason_is_given() {
+    let (_, case) = place("proved-orbits");
+    let search = ["--start", "1,0", "--section", "y = 0", "--prove", "--json"];
+    let wish = [&["motion", "periodic", &case, "--set", "μ=0"], &search[..]].concat();
+    let found = json(&wish, 0);
+    let theorem = found["points"][0]["theorem"].as_str().expect("a theorem");
+    assert!(theorem.contains("least period 6.28318530717") && theorem.contains("of kind sink"));
+    assert!(theorem.contains("no invariant measure"), "{theorem}");
+    let text = "title = 'o'\n[parameters]\na = '1..2'\n[state]\nx = '-2..2'\ny = '-2..2'\n\
+                [field]\nx = 'a*y + x*(1 - x² - y²)'\ny = '-a*x + y*(1 - x² - y²)'\n";
+    let drawn = folder("drawn", &[("o.toml", text)]).join("o.toml");
+    let wish = ["motion", "periodic", drawn.to_str().expect("UTF-8")];
+    let found = json(&[&wish[..], &search].concat(), 0);
+    let point = &found["points"][0];
+    let reason = point["unproved"].as_str().unwrap_or_default();
+    assert!(point["theorem"].is_null() && reason.contains("fixed values"), "{point}");
+    let wish = ["motion", "periodic", "figures/fig-A2", "--symmetric", "L=0", "--points", "40"];
+    let found = json(&[&wish[..], &["--prove", "--json"]].concat(), 0);
+    let points = found["points"].as_array().expect("points");
+    assert!(!points.is_empty(), "symmetric orbits");
+    for point in points {
+        let theorem = point["theorem"].as_str().unwrap_or_default();
+        let period = theorem.split(" period ").nth(1).and_then(|rest| rest.split(' ').next());
+        let period: f64 = period.and_then(|text| text.parse().ok()).expect("a period");
+        let gap = period - point["time"].as_f64().expect("a number");
+        assert!(gap.abs() < 1e-10, "{point}");
+    }
+}
