@@ -7,28 +7,23 @@
 
 use std::collections::BTreeMap;
 
-use liouville::graph::Tape;
-
 use super::super::ansatz::coefficients::{NullVector, Ratio};
 use super::super::ansatz::monomials::power_product;
 use super::super::ansatz::note_unwritten;
 use super::super::ansatz::system::{Column, LinearSystem, PrimePoint};
-use super::super::terms::{one, recorded};
+use super::super::terms::one;
 use super::super::{SearchError, SearchReport};
 use super::adjoin::{self, PolynomialField};
 use super::known::IndependentIntegrals;
 use super::lattice::ExponentLattice;
 use super::relations::combined_gradient;
-use super::setting::{OrbitSetting, PrimePhasePoint, run};
-use super::tangents::LocalGradients;
+use super::setting::OrbitSetting;
 use super::{claims, images, monomials};
 
 /// Largest number of monomials of one degree that are listed.
 const LISTED: usize = 60_000;
 /// Largest number of unknowns of one class.
 const WIDEST: usize = 2400;
-/// Number of the random point at which gradients are compared.
-const POINT: u64 = 1 << 50;
 
 /// Terms of the rates, and the equations of the level, of the case of a setting.
 pub struct GradedSearch<'s, 'c> {
@@ -156,7 +151,7 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
             }
         }
         candidates.sort_by_key(|(support, _)| support.len());
-        let Some((point, mut gradients)) = self.gradients(at, known)? else { return Ok(()) };
+        let Some((point, mut gradients)) = known.gradients(setting, at)? else { return Ok(()) };
         for (support, values) in candidates {
             setting.effort.halt.check()?;
             let own: Vec<Vec<u32>> = support.iter().map(|k| all[*k].clone()).collect();
@@ -179,27 +174,6 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
             }
         }
         Ok(())
-    }
-
-    /// A random point, and the gradients of the level and of the known integrals there.
-    fn gradients(
-        &self,
-        at: &PrimePoint,
-        known: &IndependentIntegrals,
-    ) -> Result<Option<(PrimePhasePoint, LocalGradients)>, SearchError> {
-        let setting = self.setting;
-        let Some(point) = setting.point(at, POINT) else { return Ok(None) };
-        let Some(mut gradients) = setting.tangents.at(at, &point) else { return Ok(None) };
-        let inputs = [point.parameters.as_slice(), &point.state].concat();
-        for formula in known.formulas() {
-            let (graph, slopes) = recorded(setting.case, |jet| {
-                jet.along_axes().iter().map(|own| own.scalar(formula).eps).collect::<Vec<_>>()
-            })?;
-            if let Some(gradient) = run(&Tape::new(&graph, &slopes), at.modulus, &inputs) {
-                gradients.push(at, gradient);
-            }
-        }
-        Ok(Some((point, gradients)))
     }
 }
 

@@ -16,6 +16,7 @@
 //! no_others    theorem that the Darboux polynomials found are all
 //! finite_order   maps with Φⁿ = id, and sums over their orbits
 //! map_densities  densities of maps, from discrete Darboux polynomials
+//! map_integrals  polynomial integrals of maps
 //! exponents    densities, and integrals with powers, logarithms and exponentials, from cofactors
 //! adjoin       functions of the state as further variables
 //! part         all of these in the variables of a part of the field
@@ -42,6 +43,7 @@ mod known;
 mod lattice;
 mod line;
 mod map_densities;
+mod map_integrals;
 pub mod monomials;
 pub mod no_others;
 mod part;

@@ -9,7 +9,10 @@ use super::graded::GradedSearch;
 use super::known::IndependentIntegrals;
 use super::rational::RationalSearch;
 use super::setting::{ExtendedCase, OrbitSetting};
-use super::{OrbitReport, RoundLimits, fractions, monomials, no_others, polynomials, relations};
+use super::{
+    OrbitReport, RoundLimits, fractions, map_integrals, monomials, no_others, polynomials,
+    relations,
+};
 use liouville::formula::Formula;
 
 /// Largest degree of a Darboux polynomial.
@@ -105,6 +108,14 @@ impl VariableSet {
                 }
                 self.combined =
                     combine(setting, variables, &self.factors, self.combined, known, report)?;
+                for [even, odd, square] in &origin.extension.circles {
+                    let square = (square.clone(), square.constant());
+                    let pair = ConjugatePair::rated(setting, [even, odd], square, 1)?;
+                    let is_new =
+                        |pair: &ConjugatePair| !self.pairs.iter().any(|own| own.is_same(pair));
+                    self.pairs.extend(pair.filter(is_new));
+                }
+                self.with_angles(setting, known, report)?;
             }
             return Ok(());
         };
@@ -120,10 +131,19 @@ impl VariableSet {
         }
         search.parts(&known.parts, &mut self.factors, report)?;
         self.combined = combine(setting, variables, &self.factors, self.combined, known, report)?;
-        // Angles jump by π, so what can be written without them is.
+        self.with_angles(setting, known, report)
+    }
+
+    /// Searches for integrals with angles; these jump by π, so what can be written without them is.
+    fn with_angles(
+        &mut self,
+        setting: &OrbitSetting<'_>,
+        known: &mut IndependentIntegrals,
+        report: &mut SearchReport,
+    ) -> Result<(), SearchError> {
         let counts = (self.factors.len(), self.pairs.len());
         if !self.pairs.is_empty() && self.with_angles != Some(counts) {
-            let system = ExponentSystem::of(setting, variables, &self.factors, &self.pairs)?;
+            let system = ExponentSystem::of(setting, &self.variables, &self.factors, &self.pairs)?;
             system.search(known, report)?;
             self.with_angles = Some(counts);
         }
@@ -192,9 +212,15 @@ impl VariableSet {
             integrals: step.integrals,
         });
         let variables = &self.variables;
-        // Of a map a polynomial integral is found as a fraction with denominator 1.
-        if step.integrals > known.within(variables) && !setting.flow.is_map {
-            polynomials::polynomials(setting, variables, monomials, degree, known, report)?;
+        if step.integrals > known.within(variables) {
+            match setting.flow.is_map {
+                true => map_integrals::polynomials(
+                    setting, variables, monomials, degree, known, report,
+                )?,
+                false => {
+                    polynomials::polynomials(setting, variables, monomials, degree, known, report)?;
+                }
+            }
         }
         if step.integrals > known.within(variables) {
             let rational = RationalSearch { setting, variables, monomials, degree };

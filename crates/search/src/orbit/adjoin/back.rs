@@ -4,6 +4,7 @@
 
 use num_integer::Integer;
 
+use super::polynomial::RingPolynomial;
 use super::ring::{AdjoinedRing, Atom};
 use super::write::{RingNames, written};
 
@@ -28,12 +29,21 @@ impl Back {
     /// Takes the functions of a ring.
     pub fn of(ring: &AdjoinedRing, names: &RingNames) -> Self {
         let entry = |(place, atom): (usize, &Atom)| {
+            let modulus = |base: &RingPolynomial| {
+                Some(format!("|{}|", written(&base.square_root()?, &names.original)))
+            };
+            // A root of a square is a modulus, and a base itself.
+            let own = |base: &RingPolynomial, order: u32| match order {
+                2 => modulus(base)
+                    .map_or_else(|| (written(base, &names.original), 2), |own| (own, 1)),
+                _ => (written(base, &names.original), order),
+            };
             let inverse = match atom {
-                Atom::Inverse(base, order) => Some((written(base, &names.original), *order)),
+                Atom::Inverse(base, order) => Some(own(base, *order)),
                 _ => None,
             };
             let root = match atom {
-                Atom::Root(base, order) => Some((written(base, &names.original), *order)),
+                Atom::Root(base, order) => Some(own(base, *order)),
                 _ => None,
             };
             AdjoinedFunction {

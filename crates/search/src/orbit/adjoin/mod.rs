@@ -70,6 +70,8 @@ pub struct Extension {
     ring: AdjoinedRing,
     /// Functions whose powers may be factors of densities and integrals.
     pub factors: Vec<Formula>,
+    /// g, h and D of such functions g² − D h², with components g and h of the state and a number D.
+    pub circles: Vec<[Formula; 3]>,
     back: Back,
     /// Exponentials by their names, with their arguments.
     exponentials: Vec<(String, Formula)>,
@@ -303,6 +305,7 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
         known: written,
         class: AdjoinedPolynomials::of(&case.model, ring, seed),
         factors: factors(ring, &names, formula),
+        circles: circles(ring, formula),
         angles: angles(ring),
         leading: ring.leading(),
         back: Back::of(ring, &names),
@@ -347,6 +350,35 @@ fn angles(ring: &AdjoinedRing) -> Vec<RingPolynomial> {
         _ => None,
     };
     ring.atoms.iter().filter_map(argument).collect()
+}
+
+/// Parts g, h and D of bases of denominators and roots that are multiples of g² − D h².
+fn circles(
+    ring: &AdjoinedRing,
+    formula: impl Fn(&RingPolynomial) -> Option<Formula>,
+) -> Vec<[Formula; 3]> {
+    let mut all: Vec<(usize, usize, Rational)> = Vec::new();
+    for atom in &ring.atoms {
+        let (Atom::Root(base, _) | Atom::Inverse(base, _)) = atom else { continue };
+        let squares = base.terms().map(|(own, value)| match own.as_slice() {
+            [(variable, 2)] if matches!(ring.atoms[*variable], Atom::State) => {
+                Some((*variable, value))
+            }
+            _ => None,
+        });
+        let Some(squares) = squares.collect::<Option<Vec<_>>>() else { continue };
+        let [(g, a), (h, b)] = squares[..] else { continue };
+        let Some(inverse) = a.recip() else { continue };
+        let own = (g, h, &-b * &inverse);
+        if !all.contains(&own) {
+            all.push(own);
+        }
+    }
+    let variable = |place| formula(&RingPolynomial::variable(place, 1));
+    let parts = all.into_iter().map(|(g, h, square)| {
+        Some([variable(g)?, variable(h)?, formula(&RingPolynomial::constant(square))?])
+    });
+    parts.flatten().collect()
 }
 
 /// Bases of denominators and roots, sines and cosines, and the sums of a root and a variable.
