@@ -70,8 +70,7 @@ use self::line::RandomLine;
 use self::part::VariableSet;
 use self::setting::OrbitSetting;
 use super::ask::proved_energy;
-use super::branches;
-use super::{Effort, SearchError, SearchReport};
+use super::{Effort, SearchError, SearchReport, branches};
 
 /// Limits of one round of a search.
 #[derive(Clone, Copy)]
@@ -103,7 +102,7 @@ const FURTHER: [RoundLimits; 4] = [
 /// Largest number of roots whose signs at all states are compared with those modulo a prime.
 const FEW_ROOTS: usize = 4;
 
-/// Number of these for functions as further variables, before the field is searched without them.
+/// Number of these with functions as variables, before the field is searched without them.
 const WITH_FUNCTIONS: usize = 2;
 
 /// Relations between monomials of at most a degree along one orbit.
@@ -332,10 +331,7 @@ fn along_orbits(
 ) -> Result<(), SearchError> {
     let mut known = IndependentIntegrals::of(setting, report)?;
     let has_line = !setting.is_on_level() && setting.flow.is_rational && !setting.flow.is_map;
-    let degree = match has_line {
-        true => degree_of_field(setting)?,
-        false => None,
-    };
+    let degree = if has_line { degree_of_field(setting)? } else { None };
     let part = |variables| VariableSet::new(variables, degree);
     let mut parts: Vec<VariableSet> = blocks::closed(setting.case)?.into_iter().map(part).collect();
     let limits = if setting.origin.is_some() { EXTENDED } else { MODEST };

@@ -226,6 +226,15 @@ impl VariableSet {
             let rational = RationalSearch { setting, variables, monomials, degree };
             rational.search(&at, &step.relations, step.integrals, known, report)?;
         }
+        // The reduced relations depend on the order, and another may have shorter ones.
+        if step.integrals > known.within(variables) && setting.flow.is_map {
+            let mut monomials = monomials.to_vec();
+            monomials.sort_by_key(|own| (own.iter().sum::<u32>(), own.clone()));
+            if let Some(relations) = setting.relations(&at, 0, &monomials)? {
+                let rational = RationalSearch { setting, variables, monomials: &monomials, degree };
+                rational.search(&at, &relations, step.integrals, known, report)?;
+            }
+        }
         Ok(())
     }
 

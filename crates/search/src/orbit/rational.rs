@@ -116,11 +116,6 @@ impl LeadingRelations<'_, '_, '_> {
         report: &mut SearchReport,
     ) -> Result<bool, SearchError> {
         let span = self.span(at)?;
-        eprintln!(
-            self.of.degree,
-            self.support.len(),
-            span.len()
-        );
         match (span.len(), interpolated) {
             (2, false) => self.pencil(&span, known, report),
             (3.., true) if self.support.len() <= TERMS => {

@@ -1,6 +1,7 @@
 //! Functions of the state as further variables.
 //!
 //! ```text
+//! plain        exponents of a field that is polynomial without further functions
 //! polynomial   sparse polynomials with rational coefficients
 //! ring         which functions are adjoined, and what is written in them
 //! rates        rates of the functions, and monomials that relations make superfluous
@@ -19,6 +20,7 @@
 pub mod absence;
 mod back;
 mod implied;
+mod plain;
 mod polynomial;
 mod rates;
 mod read;
@@ -36,6 +38,8 @@ use liouville::number::rational::Rational;
 
 use self::absence::AdjoinedPolynomials;
 use self::back::Back;
+pub use self::back::with_signs;
+pub use self::plain::{PolynomialField, polynomial_field};
 use self::polynomial::Monomial;
 pub use self::polynomial::RingPolynomial;
 use self::read::StepReader;
@@ -137,7 +141,8 @@ struct ReadParts {
     level: Vec<RingPolynomial>,
 }
 
-/// Adjoins the functions of a field and of known integrals, if there are any; `None` if the field
+/// Adjoins the functions of a field and of known integrals, if there are any, without integrals of whose
+/// functions nothing can be counted, as logarithms; `None` if the field
 /// contains functions whose rates are not polynomials in them, or has a level set.
 pub fn always_extended(
     case: &Case,
@@ -147,7 +152,7 @@ pub fn always_extended(
     if !case.model.level.is_empty() {
         return Ok(None);
     }
-    match read(case, effort, known, Vec::new())? {
+    match read(case, effort, (known, false), Vec::new())? {
         Some(made) => written(case, made, effort.options.seed),
         None => Ok(None),
     }
@@ -161,18 +166,19 @@ pub fn extended(
     known: &[Formula],
     divided: Vec<Divided>,
 ) -> Result<Option<Extension>, SearchError> {
-    let Some(made) = read(case, effort, known, divided)? else { return Ok(None) };
+    let Some(made) = read(case, effort, (known, true), divided)? else { return Ok(None) };
     match functions(&made.ring) > 0 || names_are_foreign(case) {
         true => written(case, made, effort.options.seed),
         false => Ok(None),
     }
 }
 
-/// Reads the field and known integrals as polynomials.
+/// Reads the field and known integrals as polynomials; unless `all`, without integrals that contain
+/// functions of which nothing can be counted.
 fn read(
     case: &Case,
     effort: &Effort,
-    known: &[Formula],
+    (known, all): (&[Formula], bool),
     mut divided: Vec<Divided>,
 ) -> Result<Option<Read>, SearchError> {
     let model = &case.model;
@@ -202,18 +208,26 @@ fn read(
     let place = |own: &_| graph.place(*own);
     let read = |ring: &mut AdjoinedRing| -> Option<ReadParts> {
         let mut reader = StepReader::new(&graph);
-        let mut all = |own: &[Expr], ring: &mut AdjoinedRing| -> Option<Vec<RingPolynomial>> {
+        let mut each = |own: &[Expr], ring: &mut AdjoinedRing| -> Option<Vec<RingPolynomial>> {
             own.iter().map(|own| reader.read(place(own), ring)).collect()
         };
-        let (field, level) = (all(&field, ring)?, all(&level, ring)?);
+        let (field, level) = (each(&field, ring)?, each(&level, ring)?);
         let divergence = reader.read(place(&divergence), ring)?;
         for own in &typed {
             reader.read(place(own), ring);
         }
-        let known = known.iter();
-        let known =
-            known.filter_map(|(k, own)| Some((*k, reader.read(place(own), ring)?))).collect();
-        Some(ReadParts { field, divergence, known, level })
+        let mut integrals = Vec::new();
+        for (k, own) in &known {
+            let before = (ring.clone(), reader.clone());
+            let made = reader.read(place(own), ring);
+            let added = &ring.atoms[before.0.atoms.len()..];
+            if !ring.is_refined && !all && added.iter().any(absence::is_beyond) {
+                (*ring, reader) = before;
+                continue;
+            }
+            integrals.extend(made.map(|made| (*k, made)));
+        }
+        Some(ReadParts { field, divergence, known: integrals, level })
     };
     let mut made = None;
     for _ in 0..TRIES {
@@ -228,48 +242,6 @@ fn read(
         break;
     }
     Ok(made)
-}
-
-/// Exponents of the terms of a polynomial field by the components of the state.
-pub struct PolynomialField {
-    /// Terms of each rate.
-    pub rates: Vec<Vec<Vec<i64>>>,
-    /// Terms of each equation of the level.
-    pub level: Vec<Vec<Vec<i64>>>,
-}
-
-/// Reads a field, and the equations of its level, as polynomials in the state; `None` if they are none.
-pub fn polynomial_field(case: &Case) -> Result<Option<PolynomialField>, SearchError> {
-    let model = &case.model;
-    let (parameters, dimension) = (model.free_components(), model.dimension());
-    let (graph, (field, level)) = recorded(case, |jet| {
-        let level = model.level.iter().map(|own| jet.phase.level_function(&own.function));
-        (jet.phase.field().to_vec(), level.collect::<Vec<_>>())
-    })?;
-    if graph.inputs() > parameters + dimension {
-        return Ok(None);
-    }
-    let mut ring = AdjoinedRing::new(parameters, dimension, Vec::new());
-    let mut reader = StepReader::new(&graph);
-    let mut all = |own: &[Expr]| -> Option<Vec<RingPolynomial>> {
-        own.iter().map(|own| reader.read(graph.place(*own), &mut ring)).collect()
-    };
-    let (Some(field), Some(level)) = (all(&field), all(&level)) else { return Ok(None) };
-    if functions(&ring) > 0 {
-        return Ok(None);
-    }
-    let state = parameters..parameters + dimension;
-    let exponents = |own: &RingPolynomial| -> Vec<Vec<i64>> {
-        let term = |(monomial, _): (&Monomial, &Rational)| {
-            let mut all = vec![0; dimension];
-            let own = monomial.iter().filter(|(variable, _)| state.contains(variable));
-            own.for_each(|(variable, power)| all[variable - parameters] = i64::from(*power));
-            all
-        };
-        own.terms().map(term).collect()
-    };
-    let table = |own: &[RingPolynomial]| own.iter().map(exponents).collect();
-    Ok(Some(PolynomialField { rates: table(&field), level: table(&level) }))
 }
 
 /// Number of functions of the state that are adjoined.

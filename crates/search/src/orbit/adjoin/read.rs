@@ -8,6 +8,7 @@ use super::polynomial::RingPolynomial;
 use super::ring::AdjoinedRing;
 
 /// Steps of a recording as polynomials.
+#[derive(Clone)]
 pub struct StepReader<'g> {
     graph: &'g Graph,
     values: Vec<Option<RingPolynomial>>,
