@@ -122,11 +122,15 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
                     None => continue,
                 },
             };
-            if let Some(vectors) = system.null_space(&at, &columns)?
-                && !vectors.is_empty()
-            {
-                found.push(ClassVectors { columns, vectors });
+            let Some(vectors) = system.null_space(&at, &columns)? else { continue };
+            if vectors.is_empty() {
+                continue;
             }
+            // In another order the reduced vectors may have fewer terms.
+            let turned: Vec<usize> = columns.iter().rev().copied().collect();
+            let others = system.null_space(&at, &turned)?.unwrap_or_default();
+            found.push(ClassVectors { columns, vectors });
+            found.push(ClassVectors { columns: turned, vectors: others });
         }
         self.tell(&system, &at, &all, (variables, degree), found, (known, report))?;
         Ok(Some(cost))
@@ -152,17 +156,18 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
         }
         candidates.sort_by_key(|(support, _)| support.len());
         let Some((point, mut gradients)) = known.gradients(setting, at)? else { return Ok(()) };
+        let mut unwritten = None;
         for (support, values) in candidates {
             setting.effort.halt.check()?;
             let own: Vec<Vec<u32>> = support.iter().map(|k| all[*k].clone()).collect();
+            let mut own_gradients = gradients.clone();
             let gradient = combined_gradient(at, &own, &values, &point);
-            if !gradients.push(at, gradient) {
+            if !own_gradients.push(at, gradient.clone()) {
                 continue;
             }
             let vector = NullVector { system, columns: &support };
             let Some(coefficients) = images::coefficients(&vector)? else {
-                let what = format!("an integral of degree {degree} with {} terms", support.len());
-                note_unwritten(setting.case, &what, report);
+                unwritten = unwritten.or(Some((support.len(), gradient)));
                 continue;
             };
             let functions: Result<Vec<Ratio>, _> =
@@ -171,7 +176,14 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
             let Some(formula) = coefficients.sum(&places, &functions?)? else { continue };
             if claims::integral(setting, &formula, report)? {
                 known.add(formula, Some(degree), variables);
+                gradients = own_gradients;
             }
+        }
+        if let Some((terms, gradient)) = unwritten
+            && gradients.push(at, gradient)
+        {
+            let what = format!("an integral of degree {degree} with {terms} terms");
+            note_unwritten(setting.case, &what, report);
         }
         Ok(())
     }

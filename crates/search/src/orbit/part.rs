@@ -129,7 +129,7 @@ impl VariableSet {
             self.combined =
                 combine(setting, variables, &self.factors, self.combined, known, report)?;
         }
-        search.parts(&known.parts, &mut self.factors, report)?;
+        search.parts(known, &mut self.factors, report)?;
         self.combined = combine(setting, variables, &self.factors, self.combined, known, report)?;
         self.with_angles(setting, known, report)
     }

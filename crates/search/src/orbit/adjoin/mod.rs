@@ -39,7 +39,7 @@ use liouville::number::rational::Rational;
 use self::absence::AdjoinedPolynomials;
 use self::back::Back;
 pub use self::back::with_signs;
-pub use self::plain::{PolynomialField, polynomial_field};
+pub use self::plain::{PolynomialField, polynomial_field, reduced};
 use self::polynomial::Monomial;
 pub use self::polynomial::RingPolynomial;
 use self::read::StepReader;

@@ -1,6 +1,7 @@
 //! Exponents of a field that is a polynomial in the state.
 
 use liouville::case::Case;
+use liouville::formula::Formula;
 use liouville::graph::Expr;
 use liouville::number::rational::Rational;
 
@@ -10,6 +11,7 @@ use super::functions;
 use super::polynomial::{Monomial, RingPolynomial};
 use super::read::StepReader;
 use super::ring::AdjoinedRing;
+use super::write;
 
 /// Exponents of the terms of a polynomial field by the components of the state.
 pub struct PolynomialField {
@@ -51,4 +53,54 @@ pub fn polynomial_field(case: &Case) -> Result<Option<PolynomialField>, SearchEr
     };
     let table = |own: &[RingPolynomial]| own.iter().map(exponents).collect();
     Ok(Some(PolynomialField { rates: table(&field), level: table(&level) }))
+}
+
+/// Divides a polynomial by others as often as this is possible, and takes the root of a square; `None` if
+/// none of this is possible, or the formulas are no polynomials.
+pub fn reduced(
+    case: &Case,
+    formula: &Formula,
+    others: &[Formula],
+) -> Result<Option<Formula>, SearchError> {
+    let model = &case.model;
+    let (parameters, dimension) = (model.free_components(), model.dimension());
+    let (graph, values) = recorded(case, |jet| {
+        let all = std::iter::once(formula).chain(others);
+        all.map(|own| jet.phase.scalar(own)).collect::<Vec<_>>()
+    })?;
+    if graph.inputs() > parameters + dimension {
+        return Ok(None);
+    }
+    let mut ring = AdjoinedRing::new(parameters, dimension, Vec::new());
+    let mut reader = StepReader::new(&graph);
+    let mut read = |own: &Expr| {
+        let made = reader.read(graph.place(*own), &mut ring)?;
+        made.variables().iter().all(|k| *k < parameters + dimension).then_some(made)
+    };
+    let Some((Some(first), others)) = values.split_first().map(|(first, others)| {
+        let others: Vec<RingPolynomial> = others.iter().filter_map(&mut read).collect();
+        (read(first), others)
+    }) else {
+        return Ok(None);
+    };
+    let mut own = first.clone();
+    for other in others.iter().filter(|other| other.value().is_none()) {
+        while let Some(quotient) = own.over(other) {
+            own = quotient;
+        }
+    }
+    while own.value().is_none()
+        && let Some(root) = own.square_root()
+    {
+        own = root;
+    }
+    if own == first {
+        return Ok(None);
+    }
+    let parameters = model
+        .free_parameters()
+        .flat_map(|own| (0..own.kind.size()).map(|place| own.kind.component(&own.name, place)));
+    let state = (0..dimension).map(|k| model.component_name(k));
+    let names: Vec<String> = parameters.chain(state).collect();
+    Ok(case.formula(&write::written(&own, &names)).ok())
 }

@@ -8,7 +8,11 @@ use liouville_search::{Effort, SearchReport, search};
 
 /// Searches a held-back system without its claims.
 fn held(name: &str) -> SearchReport {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("benchmark/held-back");
+    searched(&format!("held-back/{name}"))
+}
+
+fn searched(name: &str) -> SearchReport {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("benchmark");
     let path = folder.join(format!("{name}.toml"));
     let case = Case::read(&path, &[]).1.expect("a case");
     let effort = Effort { blind: true, ..Effort::default() };
@@ -72,4 +76,17 @@ fn factors_of_a_large_denominator_give_logarithms() {
 fn moduli_are_functions_of_the_state() {
     let report = held("peakons-2-modulus");
     assert!(has(&report, "exp(−|x − y|)"), "{:?}", report.found);
+}
+
+#[test]
+fn parts_of_fractions_are_divided_by_what_is_known() {
+    let found = |name: &str| -> Vec<String> {
+        let report = searched(&format!("pegasus/{name}"));
+        let own = report.found.iter().filter(|own| own.kind == "darboux-polynomial");
+        own.map(|own| own.formula.clone()).collect()
+    };
+    let squares = found("065-alongi-nelson-ex-4-1-9-page-143");
+    assert!(squares.contains(&"y1".to_string()), "(y1² + y2²)/y1²: {squares:?}");
+    let products = found("088-gorbuzov-pranevich-2012-example-1-1");
+    assert!(products.contains(&"y1 + y3".to_string()), "{products:?}");
 }
