@@ -3,6 +3,7 @@
 use liouville::number::prime::Modulus;
 
 /// A set of independent rows with distinct pivots.
+#[derive(Clone)]
 pub struct Echelon {
     modulus: Modulus,
     /// Row by pivot column.

@@ -227,14 +227,18 @@ impl VectorSamples<'_> {
         Some(())
     }
 
-    /// Returns the coordinates that differ between choices, and from those before them.
+    /// Returns the coordinates that differ between choices, and from those before them and their
+    /// negatives.
     fn varying(&mut self) -> Option<Vec<usize>> {
         self.extend(4)?;
+        let m = self.known.first()?.0.modulus;
         let column =
             |k: usize| -> Vec<u64> { self.known.iter().map(|(at, _)| at.coordinates[k]).collect() };
         let is_new = |k: &usize| {
             let own = column(*k);
-            own.iter().any(|x| *x != own[0]) && (0..*k).all(|j| column(j) != own)
+            let minus: Vec<u64> = own.iter().map(|x| m.sub(0, *x)).collect();
+            let is_same = |j| [&own, &minus].contains(&&column(j));
+            own.iter().any(|x| *x != own[0]) && !(0..*k).any(is_same)
         };
         Some((0..self.source.names().len()).filter(is_new).collect())
     }
@@ -329,8 +333,8 @@ impl VectorSamples<'_> {
             }
             if let Some(vector) = echelon.null_space().first() {
                 let (n, d) = vector.split_at(upper.len());
-                // 0 = c D at all points: the coordinates are dependent.
-                if n.iter().all(|image| *image == 0) {
+                // N = 0 or 0 = c D at all points: the coordinates are dependent.
+                if [n, d].iter().any(|part| part.iter().all(|image| *image == 0)) {
                     return None;
                 }
                 return Some((Fitted::new(&upper, n), Fitted::new(&lower, d)));

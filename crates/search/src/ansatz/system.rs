@@ -189,8 +189,9 @@ impl LinearSystem {
     /// at the other free ones and at all columns after its own; `None` if too few states have
     /// values.
     pub fn null_space(&self, at: &PrimePoint, columns: &[usize]) -> Found {
+        let highest = self.highest(columns);
         self.relations(at, columns.len(), &mut |values| {
-            self.row(&at.modulus, values, columns, &|column, powers| {
+            self.row(&at.modulus, values, (columns, highest), &|column, powers| {
                 powers.derivative(&at.modulus, column)
             })
         })
@@ -199,9 +200,9 @@ impl LinearSystem {
     /// A basis of the relations between the functions themselves, as
     /// [`null_space`](Self::null_space) has it between their derivatives.
     pub fn dependences(&self, at: &PrimePoint, columns: &[usize]) -> Found {
-        let m = &at.modulus;
+        let (m, highest) = (&at.modulus, self.highest(columns));
         self.relations(at, columns.len(), &mut |values| {
-            self.row(m, values, columns, &|column, powers| powers.value(m, column))
+            self.row(m, values, (columns, highest), &|column, powers| powers.value(m, column))
         })
     }
 
@@ -229,8 +230,10 @@ impl LinearSystem {
     ) -> Found {
         let m = &at.modulus;
         let columns: Vec<usize> = (0..self.columns.len()).collect();
+        let highest = self.highest(&columns);
         self.relations(at, combinations.len() + further.len(), &mut |values| {
-            let all = self.row(m, values, &columns, &|column, powers| powers.value(m, column))?;
+            let value = |column: &Column, powers: &VariablePowers<'_>| powers.value(m, column);
+            let all = self.row(m, values, (&columns, highest), &value)?;
             let sum =
                 |c: &Vec<u64>| c.iter().zip(&all).fold(0, |sum, (a, x)| m.add(sum, m.mul(*a, *x)));
             let product =
@@ -248,12 +251,12 @@ impl LinearSystem {
         columns: &[usize],
         count: usize,
     ) -> Option<Vec<Vec<u64>>> {
-        let m = &at.modulus;
+        let (m, highest) = (&at.modulus, self.highest(columns));
         let mut rows = Vec::with_capacity(count);
         let enough = self.visit(at, stream, 1 + count, &mut |values| {
-            rows.extend(
-                self.row(m, values, columns, &|column, powers| powers.derivative(m, column)),
-            );
+            let derivative =
+                |column: &Column, powers: &VariablePowers<'_>| powers.derivative(m, column);
+            rows.extend(self.row(m, values, (columns, highest), &derivative));
             rows.len() < count
         });
         enough.then_some(rows)
@@ -281,18 +284,19 @@ impl LinearSystem {
         echelon.free().into_iter().map(vector).collect::<Result<_, _>>().map(Some)
     }
 
-    /// Computes the entries of some columns at a state; `None` where a variable is 0.
+    /// Computes the entries of some columns, with their highest exponent, at a state; `None` where a
+    /// variable is 0.
     fn row(
         &self,
         m: &Modulus,
         values: &[u64],
-        columns: &[usize],
+        (columns, highest): (&[usize], u32),
         entry: &dyn Fn(&Column, &VariablePowers<'_>) -> u64,
     ) -> Option<Vec<u64>> {
         let powers: Option<Vec<VariablePowers<'_>>> = self
             .derivations
             .iter()
-            .map(|own| VariablePowers::of(m, own, values, self.highest()))
+            .map(|own| VariablePowers::of(m, own, values, highest))
             .collect();
         let powers = powers?;
         let one = |index: &usize| match &self.columns[*index] {
@@ -302,8 +306,8 @@ impl LinearSystem {
         Some(columns.iter().map(one).collect())
     }
 
-    fn highest(&self) -> u32 {
-        let exponents = self.columns.iter().flat_map(|column| match column {
+    fn highest(&self, columns: &[usize]) -> u32 {
+        let exponents = columns.iter().flat_map(|column| match &self.columns[*column] {
             Column::Given(_) => &[],
             Column::Product { exponents, .. } => exponents.as_slice(),
         });

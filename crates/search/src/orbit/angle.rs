@@ -88,15 +88,31 @@ impl ConjugatePair {
             None => of_functions(&vector, &monomials)?,
         };
         let Some((even, odd, square)) = found else { return Ok(None) };
+        Self::rated(setting, [&even, &odd], square, degree)
+    }
+
+    /// The pair g ± √D h with its rates; `square` is D, and its value if it is a number.
+    pub fn rated(
+        setting: &OrbitSetting<'_>,
+        [even, odd]: [&Formula; 2],
+        square: (Formula, Option<Rational>),
+        degree: u32,
+    ) -> Result<Option<Self>, SearchError> {
         let (graph, value) = recorded(setting.case, |jet| jet.phase.scalar(&square.0))?;
         let tape = Tape::new(&graph, &[value]);
         let (Some(even), Some(odd)) = (
-            RatedPolynomial::of(setting, &even, degree)?,
-            RatedPolynomial::of(setting, &odd, degree)?,
+            RatedPolynomial::of(setting, even, degree)?,
+            RatedPolynomial::of(setting, odd, degree)?,
         ) else {
             return Ok(None);
         };
         Ok(Some(Self { even, odd, square, tape }))
+    }
+
+    /// The same pair with its rates along another field of these variables.
+    pub fn along(&self, setting: &OrbitSetting<'_>) -> Result<Option<Self>, SearchError> {
+        let own = [&self.even.formula, &self.odd.formula];
+        Self::rated(setting, own, self.square.clone(), self.even.degree)
     }
 
     /// Whether two pairs are written alike.

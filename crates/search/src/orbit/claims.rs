@@ -7,6 +7,7 @@ use liouville::verdict::{ClaimReport, Verdict};
 use super::super::ask::judged_alone;
 use super::super::integrals::tell;
 use super::super::{Found, SearchError, SearchReport};
+use super::adjoin;
 use super::setting::OrbitSetting;
 use liouville::case::Case;
 
@@ -63,7 +64,10 @@ fn written(setting: &OrbitSetting<'_>, formula: &Formula) -> Option<Formula> {
 /// Writes an integral, up to a factor, in the names of the case that is judged.
 fn written_integral(setting: &OrbitSetting<'_>, formula: &Formula) -> Option<Formula> {
     match setting.origin {
-        None => written(setting, formula),
+        None => match adjoin::with_signs(formula.text()) {
+            Some(text) => setting.case.formula(&text).ok(),
+            None => written(setting, formula),
+        },
         Some(origin) => origin.case.formula(&origin.extension.back_integral(formula)).ok(),
     }
 }

@@ -13,6 +13,7 @@ use liouville::number::{BinaryOperation, UnaryFunction};
 use super::super::terms::recorded;
 use super::super::{Effort, Excluded, SearchError, SearchReport};
 use super::adjoin::{RingPolynomial, polynomial_text};
+use super::angle::ConjugatePair;
 use super::claims::{self, OrbitStatement};
 use super::darboux::DarbouxSearch;
 use super::exponents::ExponentSystem;
@@ -52,13 +53,16 @@ pub fn search(
     let Some(cleared) = ClearedField::of(case)? else { return Ok(()) };
     let Ok(polynomial) = OrbitSetting::of(&cleared.case, effort)? else { return Ok(()) };
     let Some(degree) = degree_of_field(&polynomial)? else { return Ok(()) };
-    if monomials::count(setting.dimension(), degree.saturating_sub(1) as u32) > MOST_COFACTOR {
-        return Ok(());
-    }
     let (mut factors, mut pairs) = (Vec::new(), Vec::new());
     let mut own = SearchReport::default();
     let mut highest = 0;
-    for variables in blocks::closed(&cleared.case)? {
+    // Without the others, the factors of the denominator are left.
+    let cofactor = monomials::count(setting.dimension(), degree.saturating_sub(1) as u32);
+    let sets = match cofactor <= MOST_COFACTOR {
+        true => blocks::closed(&cleared.case)?,
+        false => Vec::new(),
+    };
+    for variables in sets {
         let search = DarbouxSearch { setting: &polynomial, variables: &variables, degree };
         highest = 0;
         while highest < DARBOUX
@@ -81,6 +85,11 @@ pub fn search(
     }
     let all: Vec<usize> = (0..setting.dimension()).collect();
     ExponentSystem::of(setting, &all, &rated, &[])?.search(known, report)?;
+    let pairs: Result<Vec<_>, _> = pairs.iter().map(|pair| pair.along(setting)).collect();
+    let pairs: Vec<ConjugatePair> = pairs?.into_iter().flatten().collect();
+    if !pairs.is_empty() {
+        ExponentSystem::of(setting, &all, &rated, &pairs)?.search(known, report)?;
+    }
     let curves: Vec<Formula> = factors.into_iter().map(|own| own.formula).collect();
     cleared.conclude(&curves, (1..=highest).rev(), (effort, most_steps), setting, report)
 }

@@ -14,10 +14,12 @@ use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
 use super::super::terms::sum;
 use super::super::{SearchError, SearchReport};
+use super::adjoin;
 use super::angle::ConjugatePair;
 use super::claims::{self, OrbitStatement};
 use super::factor::RatedPolynomial;
 use super::images::{self, Images};
+use super::known::IndependentIntegrals;
 use super::line::RandomLine;
 use super::monomials::{self, value};
 use super::setting::{ExtendedCase, OrbitSetting, PrimePhasePoint, SPARE_ORDERS};
@@ -317,16 +319,25 @@ impl DarbouxSearch<'_, '_> {
         Ok(())
     }
 
-    /// Takes up numerators and denominators of rational integrals.
+    /// Takes up numerators and denominators of rational integrals, without the factors that are known and
+    /// polynomial integrals.
     pub fn parts(
         &self,
-        parts: &[(Formula, u32)],
+        known: &IndependentIntegrals,
         factors: &mut Vec<RatedPolynomial>,
         report: &mut SearchReport,
     ) -> Result<(), SearchError> {
-        for (formula, degree) in parts {
+        for (formula, degree) in &known.parts {
             self.setting.effort.halt.check()?;
-            self.tell(formula, *degree, factors, report)?;
+            let own = factors.iter().map(|own| &own.formula);
+            let others = own.chain(known.formulas());
+            let others: Vec<Formula> =
+                others.filter(|own| own.text() != formula.text()).cloned().collect();
+            let reduced = adjoin::reduced(self.setting.case, formula, &others)?;
+            let own = reduced.as_ref().unwrap_or(formula);
+            if own.constant().is_none() {
+                self.tell(own, *degree, factors, report)?;
+            }
         }
         Ok(())
     }

@@ -1,11 +1,18 @@
 //! Independent integrals found so far.
 
+use liouville::graph::Tape;
+
+use super::super::ansatz::system::PrimePoint;
 use super::super::ask::energy;
 use super::super::terms::recorded;
 use super::super::{SearchError, SearchReport};
 use super::claims::{self, OrbitStatement};
-use super::setting::OrbitSetting;
+use super::setting::{OrbitSetting, PrimePhasePoint, run};
+use super::tangents::LocalGradients;
 use liouville::formula::{Formula, Type};
+
+/// Number of the random point at which gradients are compared.
+const POINT: u64 = 1 << 50;
 
 /// An integral with the variables that it may contain.
 #[derive(Clone, Debug)]
@@ -50,6 +57,27 @@ impl IndependentIntegrals {
     /// Adds an integral that is independent of the others.
     pub fn add(&mut self, formula: Formula, degree: Option<u32>, variables: &[usize]) {
         self.all.push(KnownIntegral { formula, degree, variables: variables.to_vec() });
+    }
+
+    /// A random point, and the gradients of the level and of the known integrals there; `None` where there
+    /// is no point.
+    pub fn gradients(
+        &self,
+        setting: &OrbitSetting<'_>,
+        at: &PrimePoint,
+    ) -> Result<Option<(PrimePhasePoint, LocalGradients)>, SearchError> {
+        let Some(point) = setting.point(at, POINT) else { return Ok(None) };
+        let Some(mut gradients) = setting.tangents.at(at, &point) else { return Ok(None) };
+        let inputs = [point.parameters.as_slice(), &point.state].concat();
+        for formula in self.formulas() {
+            let (graph, slopes) = recorded(setting.case, |jet| {
+                jet.along_axes().iter().map(|own| own.scalar(formula).eps).collect::<Vec<_>>()
+            })?;
+            if let Some(gradient) = run(&Tape::new(&graph, &slopes), at.modulus, &inputs) {
+                gradients.push(at, gradient);
+            }
+        }
+        Ok(Some((point, gradients)))
     }
 
     /// Iterates over the formulas.

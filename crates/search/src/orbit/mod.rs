@@ -6,6 +6,8 @@
 //! relations    number of algebraic integrals; none is a theorem
 //! tangents     directions of the state itself, where its functions are variables
 //! polynomials  polynomial integrals
+//! lattice      exponents that a field does not mix
+//! graded       polynomial integrals of higher degree, class by class
 //! rational     rational ones, as P and Q of the relations P − c Q
 //! line         points of a line whose orbits satisfy an additional relation
 //! darboux      Darboux polynomials: the relations at these points
@@ -14,6 +16,7 @@
 //! no_others    theorem that the Darboux polynomials found are all
 //! finite_order   maps with Φⁿ = id, and sums over their orbits
 //! map_densities  densities of maps, from discrete Darboux polynomials
+//! map_integrals  polynomial integrals of maps
 //! exponents    densities, and integrals with powers, logarithms and exponentials, from cofactors
 //! adjoin       functions of the state as further variables
 //! part         all of these in the variables of a part of the field
@@ -34,10 +37,13 @@ mod factor;
 mod finite_order;
 mod fraction;
 pub mod fractions;
+mod graded;
 mod images;
 mod known;
+mod lattice;
 mod line;
 mod map_densities;
+mod map_integrals;
 pub mod monomials;
 pub mod no_others;
 mod part;
@@ -64,8 +70,7 @@ use self::line::RandomLine;
 use self::part::VariableSet;
 use self::setting::OrbitSetting;
 use super::ask::proved_energy;
-use super::branches;
-use super::{Effort, SearchError, SearchReport};
+use super::{Effort, SearchError, SearchReport, branches};
 
 /// Limits of one round of a search.
 #[derive(Clone, Copy)]
@@ -76,26 +81,28 @@ struct RoundLimits {
     degree: u32,
     /// Largest number of steps of an elimination on a line.
     steps: f64,
+    /// Largest number of steps for polynomial integrals class by class.
+    graded: f64,
 }
 
 /// Limits without a limit of time.
-const MODEST: RoundLimits = RoundLimits { monomials: 300, degree: 8, steps: 4e7 };
+const MODEST: RoundLimits = RoundLimits { monomials: 300, degree: 8, steps: 4e7, graded: 4e8 };
 
 /// The same where functions are further variables.
-const EXTENDED: RoundLimits = RoundLimits { monomials: 400, degree: 8, steps: 4e7 };
+const EXTENDED: RoundLimits = RoundLimits { monomials: 400, degree: 8, steps: 4e7, graded: 4e8 };
 
 /// Limits that follow while there is time.
 const FURTHER: [RoundLimits; 4] = [
-    RoundLimits { monomials: 500, degree: 16, steps: 2e8 },
-    RoundLimits { monomials: 900, degree: 24, steps: 2e9 },
-    RoundLimits { monomials: 1700, degree: 24, steps: 2e10 },
-    RoundLimits { monomials: 3200, degree: 24, steps: 2e11 },
+    RoundLimits { monomials: 500, degree: 16, steps: 2e8, graded: 2e9 },
+    RoundLimits { monomials: 900, degree: 24, steps: 2e9, graded: 2e10 },
+    RoundLimits { monomials: 1700, degree: 24, steps: 2e10, graded: 2e11 },
+    RoundLimits { monomials: 3200, degree: 24, steps: 2e11, graded: 2e12 },
 ];
 
 /// Largest number of roots whose signs at all states are compared with those modulo a prime.
 const FEW_ROOTS: usize = 4;
 
-/// Number of these for functions as further variables, before the field is searched without them.
+/// Number of these with functions as variables, before the field is searched without them.
 const WITH_FUNCTIONS: usize = 2;
 
 /// Relations between monomials of at most a degree along one orbit.
@@ -324,10 +331,7 @@ fn along_orbits(
 ) -> Result<(), SearchError> {
     let mut known = IndependentIntegrals::of(setting, report)?;
     let has_line = !setting.is_on_level() && setting.flow.is_rational && !setting.flow.is_map;
-    let degree = match has_line {
-        true => degree_of_field(setting)?,
-        false => None,
-    };
+    let degree = if has_line { degree_of_field(setting)? } else { None };
     let part = |variables| VariableSet::new(variables, degree);
     let mut parts: Vec<VariableSet> = blocks::closed(setting.case)?.into_iter().map(part).collect();
     let limits = if setting.origin.is_some() { EXTENDED } else { MODEST };

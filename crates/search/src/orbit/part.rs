@@ -5,10 +5,14 @@ use super::angle::ConjugatePair;
 use super::darboux::DarbouxSearch as Darboux;
 use super::exponents::ExponentSystem;
 use super::factor::RatedPolynomial;
+use super::graded::GradedSearch;
 use super::known::IndependentIntegrals;
 use super::rational::RationalSearch;
 use super::setting::{ExtendedCase, OrbitSetting};
-use super::{OrbitReport, RoundLimits, fractions, monomials, no_others, polynomials, relations};
+use super::{
+    OrbitReport, RoundLimits, fractions, map_integrals, monomials, no_others, polynomials,
+    relations,
+};
 use liouville::formula::Formula;
 
 /// Largest degree of a Darboux polynomial.
@@ -23,6 +27,8 @@ pub struct VariableSet {
     variables: Vec<usize>,
     /// Degree of the relations that comes next.
     next: u32,
+    /// Degree of the polynomial integrals that are searched class by class next.
+    next_graded: u32,
     /// Degree of the Darboux polynomials that comes next.
     next_darboux: u32,
     /// Degree of the field, where it is a polynomial.
@@ -43,6 +49,7 @@ impl VariableSet {
         Self {
             variables,
             next: 1,
+            next_graded: 1,
             next_darboux: 1,
             degree,
             factors: Vec::new(),
@@ -88,6 +95,7 @@ impl VariableSet {
             }
             self.step(setting, &all, known, report, progress)?;
         }
+        self.graded(setting, limits, known, report, progress)?;
         let variables = &self.variables;
         let Some(degree) = self.degree else {
             // The whole state on a level: factors are given by the functions there.
@@ -100,6 +108,14 @@ impl VariableSet {
                 }
                 self.combined =
                     combine(setting, variables, &self.factors, self.combined, known, report)?;
+                for [even, odd, square] in &origin.extension.circles {
+                    let square = (square.clone(), square.constant());
+                    let pair = ConjugatePair::rated(setting, [even, odd], square, 1)?;
+                    let is_new =
+                        |pair: &ConjugatePair| !self.pairs.iter().any(|own| own.is_same(pair));
+                    self.pairs.extend(pair.filter(is_new));
+                }
+                self.with_angles(setting, known, report)?;
             }
             return Ok(());
         };
@@ -113,14 +129,49 @@ impl VariableSet {
             self.combined =
                 combine(setting, variables, &self.factors, self.combined, known, report)?;
         }
-        search.parts(&known.parts, &mut self.factors, report)?;
+        search.parts(known, &mut self.factors, report)?;
         self.combined = combine(setting, variables, &self.factors, self.combined, known, report)?;
-        // Angles jump by π, so what can be written without them is.
+        self.with_angles(setting, known, report)
+    }
+
+    /// Searches for integrals with angles; these jump by π, so what can be written without them is.
+    fn with_angles(
+        &mut self,
+        setting: &OrbitSetting<'_>,
+        known: &mut IndependentIntegrals,
+        report: &mut SearchReport,
+    ) -> Result<(), SearchError> {
         let counts = (self.factors.len(), self.pairs.len());
         if !self.pairs.is_empty() && self.with_angles != Some(counts) {
-            let system = ExponentSystem::of(setting, variables, &self.factors, &self.pairs)?;
+            let system = ExponentSystem::of(setting, &self.variables, &self.factors, &self.pairs)?;
             system.search(known, report)?;
             self.with_angles = Some(counts);
+        }
+        Ok(())
+    }
+
+    /// Searches polynomial integrals of higher degree, class by class.
+    fn graded(
+        &mut self,
+        setting: &OrbitSetting<'_>,
+        limits: RoundLimits,
+        known: &mut IndependentIntegrals,
+        report: &mut SearchReport,
+        progress: &mut dyn FnMut(&str),
+    ) -> Result<(), SearchError> {
+        let mut left = limits.graded;
+        self.next_graded = self.next_graded.max(self.next);
+        if self.next_graded > limits.degree || is_complete(setting, known) {
+            return Ok(());
+        }
+        let Some(search) = GradedSearch::of(setting)? else { return Ok(()) };
+        while self.next_graded <= limits.degree && !is_complete(setting, known) {
+            let degree = self.next_graded;
+            progress(&format!("polynomial integrals of degree {degree}, class by class"));
+            let done = search.of_degree(&self.variables, degree, left, known, report)?;
+            let Some(steps) = done else { break };
+            left -= steps;
+            self.next_graded += 1;
         }
         Ok(())
     }
@@ -161,13 +212,28 @@ impl VariableSet {
             integrals: step.integrals,
         });
         let variables = &self.variables;
-        // Of a map a polynomial integral is found as a fraction with denominator 1.
-        if step.integrals > known.within(variables) && !setting.flow.is_map {
-            polynomials::polynomials(setting, variables, monomials, degree, known, report)?;
+        if step.integrals > known.within(variables) {
+            match setting.flow.is_map {
+                true => map_integrals::polynomials(
+                    setting, variables, monomials, degree, known, report,
+                )?,
+                false => {
+                    polynomials::polynomials(setting, variables, monomials, degree, known, report)?;
+                }
+            }
         }
         if step.integrals > known.within(variables) {
             let rational = RationalSearch { setting, variables, monomials, degree };
             rational.search(&at, &step.relations, step.integrals, known, report)?;
+        }
+        // The reduced relations depend on the order, and another may have shorter ones.
+        if step.integrals > known.within(variables) && setting.flow.is_map {
+            let mut monomials = monomials.to_vec();
+            monomials.sort_by_key(|own| (own.iter().sum::<u32>(), own.clone()));
+            if let Some(relations) = setting.relations(&at, 0, &monomials)? {
+                let rational = RationalSearch { setting, variables, monomials: &monomials, degree };
+                rational.search(&at, &relations, step.integrals, known, report)?;
+            }
         }
         Ok(())
     }

@@ -64,20 +64,36 @@ fn count(
     point: &PrimePhasePoint,
     gradients: &mut LocalGradients,
 ) -> Result<usize, SearchError> {
-    let m = at.modulus;
     let slopes: Vec<Vec<u64>> = monomials.iter().map(|own| gradient(at, own, point)).collect();
     let mut found = 0;
     for vector in vectors {
         setting.effort.halt.check()?;
-        let mut row = vec![0; setting.dimension()];
-        for (factor, slope) in vector.iter().zip(&slopes).filter(|(factor, _)| **factor != 0) {
-            for (entry, slope) in row.iter_mut().zip(slope) {
-                *entry = m.add(*entry, m.mul(*factor, *slope));
-            }
-        }
+        let row = combined(at, vector, &slopes, setting.dimension());
         found += usize::from(gradients.push(at, row));
     }
     Ok(found)
+}
+
+fn combined(at: &PrimePoint, vector: &[u64], slopes: &[Vec<u64>], dimension: usize) -> Vec<u64> {
+    let m = at.modulus;
+    let mut row = vec![0; dimension];
+    for (factor, slope) in vector.iter().zip(slopes).filter(|(factor, _)| **factor != 0) {
+        for (entry, slope) in row.iter_mut().zip(slope) {
+            *entry = m.add(*entry, m.mul(*factor, *slope));
+        }
+    }
+    row
+}
+
+/// Gradient of a polynomial at a point.
+pub fn combined_gradient(
+    at: &PrimePoint,
+    monomials: &[Vec<u32>],
+    vector: &[u64],
+    point: &PrimePhasePoint,
+) -> Vec<u64> {
+    let slopes: Vec<Vec<u64>> = monomials.iter().map(|own| gradient(at, own, point)).collect();
+    combined(at, vector, &slopes, point.state.len())
 }
 
 /// Gradient of a monomial at a point.

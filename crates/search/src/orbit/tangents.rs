@@ -27,6 +27,7 @@ pub struct Tangents {
 }
 
 /// Gradients at one point along the components of the state.
+#[derive(Clone)]
 pub struct LocalGradients {
     /// The directions of the components; none where they are those of the variables.
     directions: Vec<Vec<u64>>,

@@ -1,6 +1,7 @@
 //! Searches of own fields by orbits modulo a prime: rational integrals, Darboux polynomials,
 //! densities, and theorems that never exclude what was planted.
 
+mod benchmark;
 mod factors;
 mod functions;
 mod maps;
@@ -248,6 +249,7 @@ fn planted_integrals_with_functions_are_never_excluded() {
             1 => (format!("sin{l}"), format!("cos{l}")),
             2 => (format!("cos{l}"), format!("(-sin{l})")),
             3 => (format!("√(1 + {l}²)"), format!("({l}/√(1 + {l}²))")),
+            4 if plant % 12 == 4 => (format!("|{l}|"), format!("({l}/|{l}|)")),
             4 => (format!("√({l}²)"), format!("({l}/√({l}²))")),
             _ => (format!("(exp{l} + exp(−2*{l}))"), format!("(exp{l} − 2*exp(−2*{l}))")),
         };

@@ -97,6 +97,15 @@ impl AdjoinedPolynomials {
     }
 }
 
+/// Whether a class of polynomials cannot contain a function.
+pub fn is_beyond(atom: &Atom) -> bool {
+    match atom {
+        Atom::Root(base, 2) => base.square_root().is_some(),
+        Atom::Root(..) | Atom::Logarithm(..) | Atom::Arctangent(..) | Atom::Power(..) => true,
+        _ => false,
+    }
+}
+
 /// Whether all roots of a ring are square roots of functions of the state and the parameters, of which no
 /// product is a constant times a square.
 pub fn has_independent_roots(model: &Model, ring: &AdjoinedRing, seed: u64) -> bool {

@@ -4,6 +4,7 @@
 
 use num_integer::Integer;
 
+use super::polynomial::RingPolynomial;
 use super::ring::{AdjoinedRing, Atom};
 use super::write::{RingNames, written};
 
@@ -28,12 +29,21 @@ impl Back {
     /// Takes the functions of a ring.
     pub fn of(ring: &AdjoinedRing, names: &RingNames) -> Self {
         let entry = |(place, atom): (usize, &Atom)| {
+            let modulus = |base: &RingPolynomial| {
+                Some(format!("|{}|", written(&base.square_root()?, &names.original)))
+            };
+            // A root of a square is a modulus, and a base itself.
+            let own = |base: &RingPolynomial, order: u32| match order {
+                2 => modulus(base)
+                    .map_or_else(|| (written(base, &names.original), 2), |own| (own, 1)),
+                _ => (written(base, &names.original), order),
+            };
             let inverse = match atom {
-                Atom::Inverse(base, order) => Some((written(base, &names.original), *order)),
+                Atom::Inverse(base, order) => Some(own(base, *order)),
                 _ => None,
             };
             let root = match atom {
-                Atom::Root(base, order) => Some((written(base, &names.original), *order)),
+                Atom::Root(base, order) => Some(own(base, *order)),
                 _ => None,
             };
             AdjoinedFunction {
@@ -177,6 +187,21 @@ fn joined(all: &[(bool, String)]) -> String {
         text.push_str(term);
     }
     text
+}
+
+/// Text of an integral with other signs: F for −F if more terms are negative, and the positive terms
+/// first; `None` if it begins with a positive term, and most terms are.
+pub fn with_signs(text: &str) -> Option<String> {
+    let mut all: Vec<(bool, String)> =
+        terms(text).into_iter().map(|(sign, term)| (sign, term.to_string())).collect();
+    let negative = all.iter().filter(|(is_negative, _)| *is_negative).count();
+    let is_turned = 2 * negative > all.len();
+    if !is_turned && !all.first()?.0 {
+        return None;
+    }
+    all.iter_mut().for_each(|(is_negative, _)| *is_negative ^= is_turned);
+    all.sort_by_key(|(is_negative, _)| *is_negative);
+    Some(joined(&all))
 }
 
 /// b^(power/order).
@@ -336,5 +361,14 @@ mod tests {
         }
         assert_eq!(back.integral("−2*k*aux5 + u²"), "u² − 2*k/√(x² + y²)");
         assert_eq!(back.integral("(aux6)/(x*u)"), "x²*u");
+    }
+
+    #[test]
+    fn most_terms_are_positive_and_these_come_first() {
+        assert_eq!(with_signs("−x*q + y*p").as_deref(), Some("y*p − x*q"));
+        assert_eq!(with_signs("−x − y + b*ln(−x)").as_deref(), Some("x + y − b*ln(−x)"));
+        assert_eq!(with_signs("x² − y − z").as_deref(), Some("y + z − x²"));
+        assert_eq!(with_signs("x² − y*(−a + b) + z"), None);
+        assert_eq!(with_signs("(−a + b)*x"), None);
     }
 }

@@ -1,6 +1,7 @@
 //! Functions of the state as further variables.
 //!
 //! ```text
+//! plain        exponents of a field that is polynomial without further functions
 //! polynomial   sparse polynomials with rational coefficients
 //! ring         which functions are adjoined, and what is written in them
 //! rates        rates of the functions, and monomials that relations make superfluous
@@ -19,6 +20,7 @@
 pub mod absence;
 mod back;
 mod implied;
+mod plain;
 mod polynomial;
 mod rates;
 mod read;
@@ -36,6 +38,8 @@ use liouville::number::rational::Rational;
 
 use self::absence::AdjoinedPolynomials;
 use self::back::Back;
+pub use self::back::with_signs;
+pub use self::plain::{PolynomialField, polynomial_field, reduced};
 use self::polynomial::Monomial;
 pub use self::polynomial::RingPolynomial;
 use self::read::StepReader;
@@ -70,6 +74,8 @@ pub struct Extension {
     ring: AdjoinedRing,
     /// Functions whose powers may be factors of densities and integrals.
     pub factors: Vec<Formula>,
+    /// g, h and D of such functions g² − D h², with components g and h of the state and a number D.
+    pub circles: Vec<[Formula; 3]>,
     back: Back,
     /// Exponentials by their names, with their arguments.
     exponentials: Vec<(String, Formula)>,
@@ -135,7 +141,8 @@ struct ReadParts {
     level: Vec<RingPolynomial>,
 }
 
-/// Adjoins the functions of a field and of known integrals, if there are any; `None` if the field
+/// Adjoins the functions of a field and of known integrals, if there are any, without integrals of whose
+/// functions nothing can be counted, as logarithms; `None` if the field
 /// contains functions whose rates are not polynomials in them, or has a level set.
 pub fn always_extended(
     case: &Case,
@@ -145,7 +152,7 @@ pub fn always_extended(
     if !case.model.level.is_empty() {
         return Ok(None);
     }
-    match read(case, effort, known, Vec::new())? {
+    match read(case, effort, (known, false), Vec::new())? {
         Some(made) => written(case, made, effort.options.seed),
         None => Ok(None),
     }
@@ -159,18 +166,19 @@ pub fn extended(
     known: &[Formula],
     divided: Vec<Divided>,
 ) -> Result<Option<Extension>, SearchError> {
-    let Some(made) = read(case, effort, known, divided)? else { return Ok(None) };
+    let Some(made) = read(case, effort, (known, true), divided)? else { return Ok(None) };
     match functions(&made.ring) > 0 || names_are_foreign(case) {
         true => written(case, made, effort.options.seed),
         false => Ok(None),
     }
 }
 
-/// Reads the field and known integrals as polynomials.
+/// Reads the field and known integrals as polynomials; unless `all`, without integrals that contain
+/// functions of which nothing can be counted.
 fn read(
     case: &Case,
     effort: &Effort,
-    known: &[Formula],
+    (known, all): (&[Formula], bool),
     mut divided: Vec<Divided>,
 ) -> Result<Option<Read>, SearchError> {
     let model = &case.model;
@@ -200,18 +208,26 @@ fn read(
     let place = |own: &_| graph.place(*own);
     let read = |ring: &mut AdjoinedRing| -> Option<ReadParts> {
         let mut reader = StepReader::new(&graph);
-        let mut all = |own: &[Expr], ring: &mut AdjoinedRing| -> Option<Vec<RingPolynomial>> {
+        let mut each = |own: &[Expr], ring: &mut AdjoinedRing| -> Option<Vec<RingPolynomial>> {
             own.iter().map(|own| reader.read(place(own), ring)).collect()
         };
-        let (field, level) = (all(&field, ring)?, all(&level, ring)?);
+        let (field, level) = (each(&field, ring)?, each(&level, ring)?);
         let divergence = reader.read(place(&divergence), ring)?;
         for own in &typed {
             reader.read(place(own), ring);
         }
-        let known = known.iter();
-        let known =
-            known.filter_map(|(k, own)| Some((*k, reader.read(place(own), ring)?))).collect();
-        Some(ReadParts { field, divergence, known, level })
+        let mut integrals = Vec::new();
+        for (k, own) in &known {
+            let before = (ring.clone(), reader.clone());
+            let made = reader.read(place(own), ring);
+            let added = &ring.atoms[before.0.atoms.len()..];
+            if !ring.is_refined && !all && added.iter().any(absence::is_beyond) {
+                (*ring, reader) = before;
+                continue;
+            }
+            integrals.extend(made.map(|made| (*k, made)));
+        }
+        Some(ReadParts { field, divergence, known: integrals, level })
     };
     let mut made = None;
     for _ in 0..TRIES {
@@ -261,6 +277,7 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
         known: written,
         class: AdjoinedPolynomials::of(&case.model, ring, seed),
         factors: factors(ring, &names, formula),
+        circles: circles(ring, formula),
         angles: angles(ring),
         leading: ring.leading(),
         back: Back::of(ring, &names),
@@ -305,6 +322,35 @@ fn angles(ring: &AdjoinedRing) -> Vec<RingPolynomial> {
         _ => None,
     };
     ring.atoms.iter().filter_map(argument).collect()
+}
+
+/// Parts g, h and D of bases of denominators and roots that are multiples of g² − D h².
+fn circles(
+    ring: &AdjoinedRing,
+    formula: impl Fn(&RingPolynomial) -> Option<Formula>,
+) -> Vec<[Formula; 3]> {
+    let mut all: Vec<(usize, usize, Rational)> = Vec::new();
+    for atom in &ring.atoms {
+        let (Atom::Root(base, _) | Atom::Inverse(base, _)) = atom else { continue };
+        let squares = base.terms().map(|(own, value)| match own.as_slice() {
+            [(variable, 2)] if matches!(ring.atoms[*variable], Atom::State) => {
+                Some((*variable, value))
+            }
+            _ => None,
+        });
+        let Some(squares) = squares.collect::<Option<Vec<_>>>() else { continue };
+        let [(g, a), (h, b)] = squares[..] else { continue };
+        let Some(inverse) = a.recip() else { continue };
+        let own = (g, h, &-b * &inverse);
+        if !all.contains(&own) {
+            all.push(own);
+        }
+    }
+    let variable = |place| formula(&RingPolynomial::variable(place, 1));
+    let parts = all.into_iter().map(|(g, h, square)| {
+        Some([variable(g)?, variable(h)?, formula(&RingPolynomial::constant(square))?])
+    });
+    parts.flatten().collect()
 }
 
 /// Bases of denominators and roots, sines and cosines, and the sums of a root and a variable.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use liouville::number::exact::square_root;
 use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
 
@@ -133,6 +134,60 @@ impl RingPolynomial {
         Some(sum)
     }
 
+    /// The quotient by another polynomial; `None` if it is no polynomial, or too long.
+    pub fn over(&self, other: &Self) -> Option<Self> {
+        let last = |own: &Self| own.variables().last().copied();
+        let width = last(self).max(last(other)).map_or(0, |last| last + 1);
+        // By exponents of all variables, so that the order of products is that of the factors.
+        let dense = |own: &Self| -> BTreeMap<Vec<u32>, Rational> {
+            let term = |(own, value): (&Monomial, &Rational)| {
+                let mut all = vec![0; width];
+                own.iter().for_each(|(variable, power)| all[*variable] = *power);
+                (all, value.clone())
+            };
+            own.terms().map(term).collect()
+        };
+        let (mut rest, divisor) = (dense(self), dense(other));
+        let (lead, value) = divisor.last_key_value()?;
+        let inverse = value.recip()?;
+        let mut quotient = BTreeMap::new();
+        while let Some((top, number)) = rest.last_key_value() {
+            let powers = top.iter().zip(lead).map(|(a, b)| a.checked_sub(*b));
+            let powers: Vec<u32> = powers.collect::<Option<_>>()?;
+            let factor = number * &inverse;
+            for (own, value) in &divisor {
+                let place = own.iter().zip(&powers).map(|(a, b)| a + b).collect();
+                let entry = rest.entry(place).or_insert_with(|| Rational::from(0));
+                *entry = &*entry - &(value * &factor);
+            }
+            rest.retain(|_, value| !value.is_zero());
+            let monomial = powers.iter().enumerate().filter(|(_, power)| **power > 0);
+            quotient.insert(monomial.map(|(k, power)| (k, *power)).collect(), factor);
+            if rest.len() > MOST_TERMS {
+                return None;
+            }
+        }
+        limited(quotient)
+    }
+
+    /// The polynomial, up to its sign, of which this is the square; `None` if it is no square, or 0.
+    pub fn square_root(&self) -> Option<Self> {
+        let half = |(own, value): (&Monomial, &Rational)| {
+            let halved = own.iter().map(|(k, power)| (power % 2 == 0).then_some((*k, power / 2)));
+            Some((halved.collect::<Option<Monomial>>()?, square_root(value)?))
+        };
+        let mut parts = self.0.iter().filter_map(half);
+        let (first, value) = parts.next()?;
+        let twice = (&value * &Rational::from(2)).recip()?;
+        let mut made = Self::term(first.clone(), value);
+        for (own, _) in parts {
+            // The coefficient in the product with the first term has the sign.
+            let Some(value) = self.0.get(&product(&first, &own)) else { continue };
+            made = made.plus(&Self::term(own, value * &twice), &Rational::from(1))?;
+        }
+        (made.times(&made)? == *self).then_some(made)
+    }
+
     /// Splits off the common factor of all terms: value · monomial · rest, where the first
     /// coefficient of the rest is 1 and all terms have no common variable.
     pub fn split(&self) -> Option<(Rational, Monomial, Self)> {
@@ -259,5 +314,34 @@ mod tests {
         let found = combination(&x(1), &[a.clone(), b.clone()]);
         assert_eq!(found, Some(vec![Rational::new(-1, 2), Rational::new(1, 2)]));
         assert_eq!(combination(&x(2), &[a, b]), None, "z is independent");
+    }
+
+    #[test]
+    fn roots_of_squares_are_found() {
+        let variable = |k| RingPolynomial::variable(k, 1);
+        let minus = Rational::from(-3);
+        let sum = variable(0).plus(&variable(1), &minus).expect("few terms");
+        let sum = sum.plus(&variable(2).times(&variable(0)).expect("few terms"), &1.into());
+        let sum = sum.expect("few terms");
+        let square = sum.times(&sum).expect("few terms");
+        let root = square.square_root().expect("it is a square");
+        assert!(root == sum || root == sum.times_number(&Rational::from(-1)));
+        assert_eq!(square.plus(&variable(0), &1.into()).expect("few terms").square_root(), None);
+        assert_eq!(square.times_number(&Rational::from(2)).square_root(), None);
+        assert_eq!(RingPolynomial::default().square_root(), None);
+    }
+
+    #[test]
+    fn exact_quotients_are_found() {
+        let one = Rational::from(1);
+        let sum = x(0).plus(&x(1), &one).expect("short");
+        let other = x(0).times(&x(2)).expect("short").plus(&x(1), &Rational::from(-2));
+        let other = other.expect("short");
+        let product = sum.times(&other).expect("short");
+        assert_eq!(product.over(&sum), Some(other.clone()));
+        assert_eq!(product.over(&other), Some(sum.clone()));
+        let more = product.plus(&x(1), &one).expect("short");
+        assert_eq!(more.over(&sum), None, "(x + y)(xz − 2y) + y");
+        assert_eq!(sum.over(&RingPolynomial::default()), None, "no division by 0");
     }
 }

@@ -8,6 +8,7 @@ use super::polynomial::RingPolynomial;
 use super::ring::AdjoinedRing;
 
 /// Steps of a recording as polynomials.
+#[derive(Clone)]
 pub struct StepReader<'g> {
     graph: &'g Graph,
     values: Vec<Option<RingPolynomial>>,
@@ -68,7 +69,8 @@ impl<'g> StepReader<'g> {
                     UnaryFunction::Sin => ring.circular(a).map(|[_, sine]| sine),
                     UnaryFunction::Cos => ring.circular(a).map(|[cosine, _]| cosine),
                     UnaryFunction::Atan => ring.arctangent(a),
-                    UnaryFunction::Abs => None,
+                    // |u| is a root of u², and is written as a modulus.
+                    UnaryFunction::Abs => ring.power(&a.times(a)?, &Rational::new(1, 2)),
                 }
             }
             Step::Binary(operation, a, b) => {

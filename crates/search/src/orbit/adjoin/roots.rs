@@ -30,7 +30,9 @@ pub fn has_independent_roots(
     effort: &Effort,
     roots: usize,
 ) -> Result<bool, SearchError> {
-    let Some(Read { ring, .. }) = read(case, effort, &[], Vec::new())? else { return Ok(false) };
+    let Some(Read { ring, .. }) = read(case, effort, (&[], true), Vec::new())? else {
+        return Ok(false);
+    };
     let is_root = |atom: &&Atom| matches!(atom, Atom::Root(..) | Atom::Constant(Of::Root(_)));
     // Of fewer some have been written by others, as √(x²) is x.
     Ok(ring.atoms.iter().filter(is_root).count() == roots

@@ -69,10 +69,16 @@ fn defined(atom: &Atom, names: &[String]) -> String {
         Atom::Exponential(own) | Atom::ExponentialOf(own, _) => format!("exp({})", text(own)),
         Atom::Sine(own) => format!("sin({})", text(own)),
         Atom::Cosine(own) => format!("cos({})", text(own)),
-        Atom::Root(own, 2) => format!("√({})", text(own)),
+        Atom::Root(own, 2) => match own.square_root() {
+            Some(root) => format!("|{}|", text(&root)),
+            None => format!("√({})", text(own)),
+        },
         Atom::Root(own, order) => format!("({})^(1/{order})", text(own)),
         Atom::Inverse(own, 1) => format!("(1/{})", inside(own)),
-        Atom::Inverse(own, 2) => format!("(1/√({}))", text(own)),
+        Atom::Inverse(own, 2) => match own.square_root() {
+            Some(root) => format!("(1/|{}|)", text(&root)),
+            None => format!("(1/√({}))", text(own)),
+        },
         Atom::Inverse(own, order) => format!("({})^(−1/{order})", text(own)),
         Atom::Logarithm(own, _) => format!("ln({})", text(own)),
         Atom::Arctangent(own, _) => format!("atan({})", text(own)),

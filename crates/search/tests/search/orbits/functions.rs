@@ -68,3 +68,19 @@ fn roots_and_exponentials_are_written_simply() {
         }
     }
 }
+
+#[test]
+fn fields_with_a_modulus_have_no_theorem() {
+    // y² + x|x| is an integral; the branches of |x| are those of a root that depends on x.
+    let text = "title = 'x'\nsystem = 'field'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\
+                \"x'\" = 'y'\n\"y'\" = '-|x|'";
+    let report = searched(text, &Effort::default());
+    let integrals: Vec<&str> = report.formulas("integral").collect();
+    assert!(matches!(integrals[..], [own] if own.contains("|x|")), "{integrals:?}");
+    assert!(report.excluded.is_empty(), "{:?}", report.excluded);
+    // Where x > 0 alone, x² + y² is an integral, and a fraction as |x|/x is 1.
+    let text = text.replace("x = '-2..2'", "x = '1..2'");
+    let report = searched(&text, &Effort::default());
+    assert_eq!(report.formulas("integral").count(), 1, "{:?}", report.found);
+    assert!(report.excluded.is_empty(), "{:?}", report.excluded);
+}
