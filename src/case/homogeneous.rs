@@ -3,7 +3,8 @@
 use num_traits::One;
 
 use crate::graph::{Evaluator, Expr, Tape, record};
-use crate::mechanics::calculus::{DualPoint, dot};
+use crate::mechanics::calculus::DualPoint;
+use crate::mechanics::elimination::dot;
 use crate::mechanics::{Chart, DrawSource, Model, NORMAL, Phase, Shape};
 use crate::number::Domain;
 use crate::number::ball::Ball;

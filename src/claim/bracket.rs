@@ -4,7 +4,8 @@ use super::of_bracket::{CHOICE, OfBracket, bracket_of, turned, variables};
 use super::{Reader, difference};
 use crate::formula::{Formula, Type};
 use crate::mechanics::NewVariables;
-use crate::mechanics::calculus::{DualPoint, dot};
+use crate::mechanics::calculus::DualPoint;
+use crate::mechanics::elimination::dot;
 use crate::scalar::Scalar;
 
 /// The claim (∂F/∂y, P ∂G/∂y) = K and P + Pᵀ = 0; for vectors, for every pair of components.

@@ -5,7 +5,8 @@ use super::{Condition, Reader, ResidualContext, Statement, difference, quadratur
 use crate::formula::Formula;
 use crate::graph::Expr;
 use crate::mechanics::Phase;
-use crate::mechanics::calculus::{DualPoint, dot};
+use crate::mechanics::calculus::DualPoint;
+use crate::mechanics::elimination::dot;
 use crate::scalar::Scalar;
 
 /// The claim `[u,w] = z`.

@@ -12,7 +12,8 @@ use num_dual::DualNum;
 use super::{Condition, Need, Reader, ResidualContext, Statement};
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
-use crate::mechanics::calculus::{DualPoint, dot};
+use crate::mechanics::calculus::DualPoint;
+use crate::mechanics::elimination::dot;
 use crate::scalar::Scalar;
 
 /// ρ is an invariant density: v(ln ρ) + div v = 0 on the level, or |ρ∘Φ det DΦ| = |ρ|.

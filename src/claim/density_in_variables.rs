@@ -6,7 +6,8 @@ use super::of_bracket::{defects, of, scalar_in, variables};
 use super::{Jets, Reader, Statement};
 use crate::formula::Formula;
 use crate::graph::{Expr, literally};
-use crate::mechanics::calculus::{DualPoint, determinant};
+use crate::mechanics::calculus::DualPoint;
+use crate::mechanics::elimination::determinant;
 use crate::scalar::Scalar;
 
 /// The claim that the measure ρ dy is invariant: v(ln ρ) + Σ ∂y'_i/∂y_i = 0.

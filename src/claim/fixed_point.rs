@@ -10,7 +10,8 @@ use super::{ComplexFormula, Reader, Statement, difference};
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
 use crate::mechanics::Model;
-use crate::mechanics::calculus::{DualPoint, characteristic_polynomial};
+use crate::mechanics::calculus::DualPoint;
+use crate::mechanics::elimination::characteristic_polynomial;
 use crate::scalar::Scalar;
 
 /// The claim that the field vanishes at a point, and that its linear part there has given

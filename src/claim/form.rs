@@ -7,7 +7,8 @@ use super::components::Components;
 use super::{Condition, Objection, Reader, ResidualContext, Statement};
 use crate::formula::{Formula, Type, canonical_name};
 use crate::graph::Expr;
-use crate::mechanics::calculus::{DualPoint, dot, transversals};
+use crate::mechanics::calculus::DualPoint;
+use crate::mechanics::elimination::{dot, transversals};
 use crate::mechanics::{Model, Phase};
 use crate::scalar::Scalar;
 

@@ -6,7 +6,8 @@ use super::statement::open_constant;
 use super::{Condition, Need, Reader, ResidualContext, Statement, difference};
 use crate::formula::Formula;
 use crate::graph::Expr;
-use crate::mechanics::calculus::{DualPoint, dot};
+use crate::mechanics::calculus::DualPoint;
+use crate::mechanics::elimination::dot;
 use crate::mechanics::{Dependence, Model};
 use crate::scalar::Scalar;
 

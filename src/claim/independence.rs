@@ -3,7 +3,8 @@
 use super::{Reader, Statement};
 use crate::formula::Formula;
 use crate::mechanics::Model;
-use crate::mechanics::calculus::{DualPoint, gram_determinant};
+use crate::mechanics::calculus::DualPoint;
+use crate::mechanics::elimination::gram_determinant;
 use crate::scalar::Scalar;
 
 /// The claim that the gradients of these functions and of the level functions are linearly

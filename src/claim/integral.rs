@@ -4,7 +4,8 @@ use super::{Condition, Novelty, Reader, ResidualContext, Statement, difference};
 use crate::formula::Formula;
 use crate::graph::Expr;
 use crate::mechanics::Phase;
-use crate::mechanics::calculus::{DualPoint, dot, rejection};
+use crate::mechanics::calculus::DualPoint;
+use crate::mechanics::elimination::{dot, rejection};
 use crate::scalar::Scalar;
 
 /// F is a first integral: L_vF = 0, or F∘Φ = F.

@@ -6,7 +6,8 @@ use super::{Condition, Reader, ResidualContext, Statement, difference};
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
 use crate::mechanics::Phase;
-use crate::mechanics::calculus::{DualPoint, dot};
+use crate::mechanics::calculus::DualPoint;
+use crate::mechanics::elimination::dot;
 use crate::scalar::Scalar;
 
 /// Largest number of rows for which all powers of L are examined, and number of powers for more.

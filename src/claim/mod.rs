@@ -44,7 +44,8 @@ mod value;
 
 use crate::formula::Formula;
 use crate::graph::Expr;
-use crate::mechanics::calculus::{DualPoint, rejection};
+use crate::mechanics::calculus::DualPoint;
+use crate::mechanics::elimination::rejection;
 use crate::mechanics::{Model, NewVariables};
 use crate::scalar::Scalar;
 

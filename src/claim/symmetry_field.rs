@@ -4,7 +4,8 @@ use super::components::Components;
 use super::{Condition, Reader, Statement};
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
-use crate::mechanics::calculus::{DualPoint, dot, rejection};
+use crate::mechanics::calculus::DualPoint;
+use crate::mechanics::elimination::{dot, rejection};
 use crate::scalar::Scalar;
 
 /// The claim `[u,v] = c v`, with c = 0 unless a weight is given.

@@ -5,7 +5,7 @@ use num_traits::{One, Zero};
 
 use super::equation::{Equation, PartialPoint, determinant};
 use crate::graph::Expr;
-use crate::mechanics::calculus::gram_determinant;
+use crate::mechanics::elimination::gram_determinant;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 

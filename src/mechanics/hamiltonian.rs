@@ -1,8 +1,9 @@
 //! Hamilton's equations x' = P ∂H/∂x with bracket P and function H from the case file.
 
-use super::calculus::{MANY, dot};
+use super::calculus::MANY;
 use super::configuration::Configuration;
 use super::dynamics::Dynamics;
+use super::elimination::dot;
 use super::model::Variable;
 use super::phase::Phase;
 use super::quantity::Quantity;

@@ -1,6 +1,7 @@
 //! Maps of phase space: images of states, derivatives, and factors of volume.
 
-use super::calculus::{DualPoint, determinant, transversals};
+use super::calculus::DualPoint;
+use super::elimination::{determinant, transversals};
 use super::phase::Phase;
 use crate::scalar::Scalar;
 

@@ -14,9 +14,10 @@
 
 use num_dual::Dual;
 
-use super::calculus::{MANY, dot, solve_positive};
+use super::calculus::MANY;
 use super::configuration::Configuration;
 use super::dynamics::Dynamics;
+use super::elimination::{dot, solve_positive};
 use super::model::Variable;
 use super::phase::Phase;
 use super::quantity::Quantity;

@@ -9,6 +9,7 @@ mod chart;
 mod configuration;
 mod draws;
 mod dynamics;
+pub mod elimination;
 mod flat_base;
 mod hamiltonian;
 pub mod iterate;

@@ -4,7 +4,8 @@ use std::cell::OnceCell;
 
 use num_dual::Dual;
 
-use super::calculus::{DualPoint, trace_of_quotient};
+use super::calculus::DualPoint;
+use super::elimination::trace_of_quotient;
 use super::model::{Model, Variable};
 use super::phase::Phase;
 use crate::formula::Formula;

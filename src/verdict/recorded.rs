@@ -11,7 +11,8 @@ use crate::case::{Expect, PlacedClaim};
 use crate::claim::{Condition, LevelSubset, Novelty, ResidualContext, quadrature_defects};
 use crate::formula::Formula;
 use crate::graph::{Expr, literally};
-use crate::mechanics::calculus::{DualPoint, rejection};
+use crate::mechanics::calculus::DualPoint;
+use crate::mechanics::elimination::rejection;
 use crate::mechanics::{LevelEquation, LevelFunction, System};
 use crate::number::Enclosing;
 

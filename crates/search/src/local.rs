@@ -5,7 +5,7 @@ use num_dual::{Dual, DualNum};
 use super::SearchError;
 use liouville::case::Case;
 use liouville::graph::{Expr, Graph, record};
-use liouville::mechanics::calculus::{dot, solve_positive};
+use liouville::mechanics::elimination::{dot, solve_positive};
 use liouville::mechanics::{Chart, Draw, Phase, System, VariableRole};
 use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;

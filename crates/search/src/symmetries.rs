@@ -14,7 +14,7 @@ use liouville::case::Case;
 use liouville::claim::{Claim, LevelSubset};
 use liouville::formula::{Formula, FormulaError, Type};
 use liouville::graph::{Expr, Graph};
-use liouville::mechanics::calculus::dot;
+use liouville::mechanics::elimination::dot;
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 

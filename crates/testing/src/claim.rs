@@ -13,7 +13,7 @@
 use num_dual::Dual;
 
 use super::notation::{Involution, Quantity, TestState, VectorField};
-use liouville::mechanics::calculus::transversals;
+use liouville::mechanics::elimination::transversals;
 use liouville::scalar::Scalar;
 
 /// Values that must vanish, with the name shown on failure.

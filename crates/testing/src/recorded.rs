@@ -8,7 +8,7 @@ use super::claim::{Parts, level_gradients};
 use super::failure::{AssertionFailure, ChartProof, DrawnState, FieldWitness};
 use super::notation::TestState;
 use liouville::graph::{Evaluator, Expr, Graph, Tape, record};
-use liouville::mechanics::calculus::gram_determinant;
+use liouville::mechanics::elimination::gram_determinant;
 use liouville::mechanics::{Draw, DrawSource, Range};
 use liouville::number::Enclosing;
 use liouville::number::arb::ArbBall;

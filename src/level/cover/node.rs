@@ -26,6 +26,9 @@ pub struct Node {
     pub solved: usize,
 }
 
+/// Computes a step anew from the values of all steps, where these are known.
+pub type Replacement<'c> = &'c dyn Fn(&[Option<Expr>]) -> Option<Expr>;
+
 /// A change of a node.
 pub struct Change<'c> {
     /// Equation that is left out.
@@ -33,7 +36,7 @@ pub struct Change<'c> {
     /// Draw that is solved for.
     pub solved: Option<usize>,
     /// Step with another value.
-    pub replaced: Option<(usize, &'c dyn Fn(&[Option<Expr>]) -> Option<Expr>)>,
+    pub replaced: Option<(usize, Replacement<'c>)>,
 }
 
 /// Further equations and facts of a changed node, and the value of the draw that is solved for.

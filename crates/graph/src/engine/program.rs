@@ -67,13 +67,14 @@ impl PairOperation {
     /// Returns the result, for one lane.
     pub(super) fn of(self, a: f64, b: f64) -> f64 {
         let mask = |is_set: bool| f64::from_bits(if is_set { u64::MAX } else { 0 });
+        let (is_greater, is_at_least) = (a > b, a >= b);
         match self {
             PairOperation::Quotient => a / b,
             PairOperation::And => f64::from_bits(a.to_bits() & b.to_bits()),
             PairOperation::Or => f64::from_bits(a.to_bits() | b.to_bits()),
-            PairOperation::Greater => mask(a > b),
-            PairOperation::NotGreater => mask(!(a > b)),
-            PairOperation::NotAtLeast => mask(!(a >= b)),
+            PairOperation::Greater => mask(is_greater),
+            PairOperation::NotGreater => mask(!is_greater),
+            PairOperation::NotAtLeast => mask(!is_at_least),
         }
     }
 }

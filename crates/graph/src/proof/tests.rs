@@ -4,6 +4,7 @@ use num_dual::DualNum;
 
 use super::*;
 use crate::graph::record;
+use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
