@@ -10,6 +10,8 @@
 //! computes the same correctly rounded value: all engines give the same bits. A fused sum has one
 //! rounding less than the tape in the domain `Float`.
 
+use std::cmp::Ordering;
+
 use crate::graph::{Instruction, Tape};
 use crate::number::{BinaryOperation, UnaryFunction};
 
@@ -72,8 +74,8 @@ impl PairOperation {
             PairOperation::And => f64::from_bits(a.to_bits() & b.to_bits()),
             PairOperation::Or => f64::from_bits(a.to_bits() | b.to_bits()),
             PairOperation::Greater => mask(a > b),
-            PairOperation::NotGreater => mask(!(a > b)),
-            PairOperation::NotAtLeast => mask(!(a >= b)),
+            PairOperation::NotGreater => mask(!a.partial_cmp(&b).is_some_and(Ordering::is_gt)),
+            PairOperation::NotAtLeast => mask(!a.partial_cmp(&b).is_some_and(Ordering::is_ge)),
         }
     }
 }
