@@ -10,6 +10,8 @@
 //! computes the same correctly rounded value: all engines give the same bits. A fused sum has one
 //! rounding less than the tape in the domain `Float`.
 
+use std::cmp::Ordering;
+
 use crate::graph::{Instruction, Tape};
 use crate::number::{BinaryOperation, UnaryFunction};
 
@@ -67,14 +69,13 @@ impl PairOperation {
     /// Returns the result, for one lane.
     pub(super) fn of(self, a: f64, b: f64) -> f64 {
         let mask = |is_set: bool| f64::from_bits(if is_set { u64::MAX } else { 0 });
-        let (is_greater, is_at_least) = (a > b, a >= b);
         match self {
             PairOperation::Quotient => a / b,
             PairOperation::And => f64::from_bits(a.to_bits() & b.to_bits()),
             PairOperation::Or => f64::from_bits(a.to_bits() | b.to_bits()),
-            PairOperation::Greater => mask(is_greater),
-            PairOperation::NotGreater => mask(!is_greater),
-            PairOperation::NotAtLeast => mask(!is_at_least),
+            PairOperation::Greater => mask(a > b),
+            PairOperation::NotGreater => mask(!a.partial_cmp(&b).is_some_and(Ordering::is_gt)),
+            PairOperation::NotAtLeast => mask(!a.partial_cmp(&b).is_some_and(Ordering::is_ge)),
         }
     }
 }

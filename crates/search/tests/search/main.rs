@@ -1,4 +1,5 @@
 //! Tests of searches, one module a method.
 
 mod ansatz;
+mod growth;
 mod orbits;
