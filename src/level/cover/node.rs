@@ -26,6 +26,9 @@ pub struct Node {
     pub solved: usize,
 }
 
+/// A value made from those of the steps before it.
+pub type Value<'c> = &'c dyn Fn(&[Option<Expr>]) -> Option<Expr>;
+
 /// A change of a node.
 pub struct Change<'c> {
     /// Equation that is left out.
@@ -33,7 +36,7 @@ pub struct Change<'c> {
     /// Draw that is solved for.
     pub solved: Option<usize>,
     /// Step with another value.
-    pub replaced: Option<(usize, &'c dyn Fn(&[Option<Expr>]) -> Option<Expr>)>,
+    pub replaced: Option<(usize, Value<'c>)>,
 }
 
 /// Further equations and facts of a changed node, and the value of the draw that is solved for.
