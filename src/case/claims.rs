@@ -115,7 +115,7 @@ pub fn read_motion(
         .filter(|key| !accompanies(key));
     let (key, second) = (stated.next().copied().unwrap_or_default(), stated.next());
     section.allow(&[MOTIONS, STATEMENTS, &COMMON_OF_MOTIONS, MotionKind::companions(key)].concat());
-    let entries = Entries { section, model };
+    let entries = Entries { section, model, is_whole: context.is_whole };
     let kind = match (MotionKind::read(key, &entries), second) {
         (Some(kind), None) => kind?,
         _ => return Err(statements(section, 2)),
@@ -160,7 +160,7 @@ fn kind(section: &CaseTable<'_>, context: &ClaimContext<'_>) -> Result<ClaimKind
         STATEMENTS.iter().copied().filter(|key| section.value(key).is_some()).collect();
     let companions = given.first().map_or(&[][..], |key| ClaimKind::companions(key));
     section.allow(&[STATEMENTS, MOTIONS, &COMMON, companions].concat());
-    let entries = Entries { section, model: context.model };
+    let entries = Entries { section, model: context.model, is_whole: context.is_whole };
     match given.as_slice() {
         ["density"] if section.text("density")?.is_some_and(|text| text.value == "none") => {
             let message = "the absence of a density is claimed near a fixed point".to_string();

@@ -19,6 +19,8 @@ pub struct Entries<'e, 's> {
     pub section: &'e CaseTable<'s>,
     /// The case that it is about.
     pub model: &'e Model,
+    /// Whether nothing of the case is left out because of a mistake.
+    pub is_whole: bool,
 }
 
 impl Reader for Entries<'_, '_> {
@@ -26,6 +28,10 @@ impl Reader for Entries<'_, '_> {
 
     fn model(&self) -> &Model {
         self.model
+    }
+
+    fn complete_model(&self) -> Option<&Model> {
+        self.is_whole.then_some(self.model)
     }
 
     fn text(&self, key: &'static str) -> Result<Option<String>, Mistake> {

@@ -36,7 +36,8 @@ impl Statement for FixedPoint {
         let count = |(_, imaginary): &ComplexFormula| if imaginary.is_some() { 2 } else { 1 };
         let eigenvalues: usize = spectrum.iter().flatten().map(count).sum();
         // Where time is a variable nothing rests, which is the mistake to tell.
-        let has_rests = never_rests(model, Self::NAME).is_none();
+        let never_rests = |model: &Model| never_rests(model, Self::NAME).is_some();
+        let has_rests = !from.complete_model().is_some_and(never_rests);
         if eigenvalues > model.dimension() && has_rests {
             let message = format!("{eigenvalues} eigenvalues are too many");
             let remedy = "list the nonzero eigenvalues, each with its multiplicity";

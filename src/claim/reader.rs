@@ -14,6 +14,11 @@ pub trait Reader {
     /// Returns the model of the case.
     fn model(&self) -> &Model;
 
+    /// Returns the model if it can be evaluated: a mistake in the file may have left parts out.
+    fn complete_model(&self) -> Option<&Model> {
+        Some(self.model())
+    }
+
     /// Returns the text of a key.
     fn text(&self, key: &'static str) -> Result<Option<String>, Self::Error>;
 

@@ -71,8 +71,9 @@ impl Transformation {
     }
 
     /// Gives the variable t its image λt, if the map does not name it.
-    fn scale_clock(&mut self, model: &Model, factor: Option<&Formula>) {
-        let (Some(factor), Some(index)) = (factor, clock(model)) else { return };
+    fn scale_clock(&mut self, model: Option<&Model>, factor: Option<&Formula>) {
+        let (Some(model), Some(factor)) = (model, factor) else { return };
+        let Some(index) = clock(model) else { return };
         let image = Formula::parse(TIME, &model.vocabulary).and_then(|time| factor * &time);
         if let (None, Ok(image)) = (&self.state[index], image) {
             self.state[index] = Some(image);
@@ -163,11 +164,12 @@ impl Statement for Symmetry {
             let message = "`time` depends on the state, and t → λt has a number λ".to_string();
             return Err(from.complaint("time", message, "write λ by numbers and parameters"));
         }
-        if time.as_ref().is_some_and(|time| vanishes(from.model(), time)) {
+        let is_zero = |time: &Formula| from.complete_model().is_some_and(|own| vanishes(own, time));
+        if time.as_ref().is_some_and(is_zero) {
             let message = "`time` is 0, and t → 0 is not a change of time".to_string();
             return Err(from.complaint("time", message, "give λ with t → λt, not 0"));
         }
-        map.scale_clock(from.model(), time.as_ref());
+        map.scale_clock(from.complete_model(), time.as_ref());
         Ok(Self { map, time })
     }
 
@@ -217,7 +219,7 @@ impl Statement for Reversor {
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let mut map = Transformation::read(from, Self::NAME)?;
-        map.scale_clock(from.model(), Some(&Formula::number(-1)));
+        map.scale_clock(from.complete_model(), Some(&Formula::number(-1)));
         Ok(Self(map))
     }
 
