@@ -202,19 +202,24 @@ impl SignSearch<'_> {
         let (signs, values) = outputs.split_at(self.signs);
         let (facts, values) = values.split_at(self.facts);
         let (residuals, required) = values.split_at(self.residuals);
-        let holds = |block: &Balls<TAPE_LANES>, lane: usize| {
-            block.is_defined(lane) && block.mid[lane] >= block.rad[lane]
+        let may_hold = |block: &Balls<TAPE_LANES>, lane: usize| {
+            block.is_defined(lane) && block.mid[lane] + block.rad[lane] >= 0.0
         };
         let mut found = Vec::with_capacity(states.len());
         for (lane, numbers) in states.iter().enumerate() {
-            let is_state = required.iter().all(|block| block.is_defined(lane))
-                && facts.iter().all(|block| holds(block, lane));
-            if !is_state {
+            let may_be_state = required.iter().all(|block| block.is_defined(lane))
+                && facts.iter().all(|block| may_hold(block, lane));
+            if !may_be_state {
                 found.push(None);
                 continue;
             }
             let away = residuals.iter().find(|block| block.excludes_zero(lane));
-            if let (Some(away), true) = (away, residuals.iter().all(|r| r.is_defined(lane))) {
+            // At the end of a range it may be unknown whether there is a state.
+            let is_state = facts.iter().all(|block| block.mid[lane] >= block.rad[lane]);
+            if let Some(away) = away
+                && is_state
+                && residuals.iter().all(|residual| residual.is_defined(lane))
+            {
                 return Err((numbers.clone(), (away.mid[lane], away.rad[lane])));
             }
             let code = |block: &Balls<TAPE_LANES>| match block.excludes_zero(lane) {

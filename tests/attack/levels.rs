@@ -42,7 +42,7 @@ pub fn on_a_level(stream: &mut Stream) -> (Scene, Vec<Made>) {
     }
     let (level, round) = match stream.below(12) {
         0..=2 => (graph(&mut scene, stream), false),
-        3..=4 => (product(&mut scene, stream), false),
+        3..=4 => (product(stream), false),
         5 => (sphere(stream), true),
         6..=7 => charted(&mut scene, stream),
         8 => (lines(stream), false),
@@ -101,14 +101,8 @@ fn graph(scene: &mut Scene, stream: &mut Stream) -> Level {
 }
 
 /// Draws a product of two factors, each of which may vanish.
-fn product(scene: &mut Scene, stream: &mut Stream) -> Level {
+fn product(stream: &mut Stream) -> Level {
     let (x, y, z) = (symbol(X), symbol(Y), symbol(Z));
-    // Parameter of a point on a circle.
-    let t = symbol(scene.symbols.len());
-    if let Origin::State(low, high) = wide(6) {
-        let origin = Origin::Input(low, high);
-        scene.symbols.push(Symbol { name: "t".to_string(), origin });
-    }
     let value = match stream.below(4) {
         0 => whole(0),
         1 => square(&y),
@@ -116,19 +110,19 @@ fn product(scene: &mut Scene, stream: &mut Stream) -> Level {
         _ => mul(&y, &z),
     };
     let first = sub(&x, &value);
+    // Solved for either coordinate, so that states are drawn from narrow ranges of the other.
     let circle = |at: i64, radius: Tree| {
-        let below = add(&whole(1), &square(&t));
-        let along = div(&sub(&whole(1), &square(&t)), &below);
-        let across = div(&mul(&whole(2), &t), &below);
-        let branch = vec![
-            (Y, add(&whole(at), &mul(&radius, &along))),
-            (Z, add(&whole(at), &mul(&radius, &across))),
-        ];
         let centre = whole(at);
-        let distance = add(&square(&sub(&y, &centre)), &square(&sub(&z, &centre)));
-        (sub(&distance, &square(&radius)), vec![branch])
+        let from_centre = |symbol: &Tree| square(&sub(symbol, &centre));
+        let solved = |place: usize, other: &Tree| {
+            let half = root(&sub(&square(&radius), &from_centre(other)));
+            [vec![(place, add(&centre, &half))], vec![(place, sub(&centre, &half))]]
+        };
+        let distance = add(&from_centre(&y), &from_centre(&z));
+        let branches = [solved(Y, &z), solved(Z, &y)].concat();
+        (sub(&distance, &square(&radius)), branches)
     };
-    let (second, mut branches) = match stream.below(6) {
+    let (second, others) = match stream.below(6) {
         0 => circle(0, ratio(1, 100)),
         1 => circle(1, ratio(1, 10)),
         2 => circle(0, whole(1)),
@@ -137,7 +131,8 @@ fn product(scene: &mut Scene, stream: &mut Stream) -> Level {
         // A level without a second branch.
         _ => (add(&whole(1), &square(&y)), Vec::new()),
     };
-    branches.push(vec![(X, value.clone())]);
+    let mut branches = vec![vec![(X, value.clone())]];
+    branches.extend(others);
     let equation = match stream.once_in(2) {
         true => (mul(&first, &second), whole(0)),
         false => (mul(&x, &second), mul(&value, &second)),

@@ -26,8 +26,8 @@ pub struct Node {
     pub solved: usize,
 }
 
-/// Computes a step anew from the values of all steps, where these are known.
-pub type Replacement<'c> = &'c dyn Fn(&[Option<Expr>]) -> Option<Expr>;
+/// A value made from those of the steps before it.
+pub type Value<'c> = &'c dyn Fn(&[Option<Expr>]) -> Option<Expr>;
 
 /// A change of a node.
 pub struct Change<'c> {
@@ -36,7 +36,7 @@ pub struct Change<'c> {
     /// Draw that is solved for.
     pub solved: Option<usize>,
     /// Step with another value.
-    pub replaced: Option<(usize, Replacement<'c>)>,
+    pub replaced: Option<(usize, Value<'c>)>,
 }
 
 /// Further equations and facts of a changed node, and the value of the draw that is solved for.

@@ -197,8 +197,7 @@ impl Coefficients {
         };
         let has_none = is_nowhere_zero(&self.graph, cover.extents, &self.facts, &values);
         let is_last = self.is_linear() && node.equations.len() == 1;
-        let has_few = has_none || (is_last && are_coprime(&self.graph, &values, cover.seed));
-        !has_few
+        !(has_none || is_last && are_coprime(&self.graph, &values, cover.seed))
     }
 
     fn replayed(&self, inputs: &[Expr]) -> Vec<Option<Expr>> {

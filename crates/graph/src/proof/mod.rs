@@ -15,6 +15,7 @@
 //! | `tower`, `characters` | certificates of independence for roots |
 //! | `roots`, `squares`, `nested`, `polynomial` | dependent roots and their expressions |
 //! | `logarithms`, `powers` | rules of logarithms, powers and exponentials |
+//! | `angles` | sines and cosines of arctangents |
 //! | `free_symbols` | symbols in the place of very many roots, moduli and functions |
 //! | `buckets` | values that are proved together |
 //! | `explore`, `division`, `next`, `cells`, `rewrite` | the cells of signs, and proofs on each |
