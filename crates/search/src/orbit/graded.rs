@@ -18,6 +18,7 @@ use super::known::IndependentIntegrals;
 use super::lattice::ExponentLattice;
 use super::relations::combined_gradient;
 use super::setting::OrbitSetting;
+use super::sparse::sparse;
 use super::{claims, images, monomials};
 
 /// Largest number of monomials of one degree that are listed.
@@ -129,8 +130,9 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
             // In another order the reduced vectors may have fewer terms.
             let turned: Vec<usize> = columns.iter().rev().copied().collect();
             let others = system.null_space(&at, &turned)?.unwrap_or_default();
-            found.push(ClassVectors { columns, vectors });
-            found.push(ClassVectors { columns: turned, vectors: others });
+            for (columns, vectors) in [(columns, vectors), (turned, others)] {
+                found.push(ClassVectors { columns, vectors: sparse(&at.modulus, vectors) });
+            }
         }
         self.tell(&system, &at, &all, (variables, degree), found, (known, report))?;
         Ok(Some(cost))

@@ -20,13 +20,15 @@ use super::known::IndependentIntegrals;
 use super::monomials::value;
 use super::relations::combined_gradient;
 use super::setting::{OrbitSetting, SPARE_ORDERS, run};
+use super::sparse::sparse;
 
 /// Changes of monomials along a map.
+#[derive(Clone, Copy)]
 struct MonomialChanges<'s, 'c> {
     setting: &'s OrbitSetting<'c>,
     /// Monomials without the constant.
     monomials: &'s [Vec<u32>],
-    map: Tape,
+    map: &'s Tape,
 }
 
 impl MonomialChanges<'_, '_> {
@@ -41,7 +43,7 @@ impl MonomialChanges<'_, '_> {
             self.setting.effort.halt.check()?;
             let Some(point) = self.setting.point(at, number) else { continue };
             let inputs = [point.parameters.as_slice(), &point.state].concat();
-            let Some(image) = run(&self.map, m, &inputs) else { continue };
+            let Some(image) = run(self.map, m, &inputs) else { continue };
             let change =
                 |own: &Vec<u32>| m.sub(value(&m, &image, own), value(&m, &point.state, own));
             echelon.push(self.monomials.iter().map(change).collect());
@@ -66,18 +68,16 @@ pub fn polynomials(
 ) -> Result<(), SearchError> {
     let Some((_, monomials)) = all.split_first() else { return Ok(()) };
     let (graph, map) = recorded(setting.case, |jet| jet.phase.field().to_vec())?;
-    let changes = MonomialChanges { setting, monomials, map: Tape::new(&graph, &map) };
+    let map = Tape::new(&graph, &map);
+    let changes = MonomialChanges { setting, monomials, map: &map };
     let Some(at) = setting.at(0, 0) else { return Ok(()) };
     let Some(echelon) = changes.echelon(&at)? else { return Ok(()) };
-    let mut vectors: Vec<(usize, Vec<u64>)> =
-        echelon.free().into_iter().map(|own| (own, echelon.null_vector(own))).collect();
-    let terms = |vector: &[u64]| vector.iter().filter(|entry| **entry != 0).count();
-    vectors.sort_by_key(|(_, vector)| terms(vector));
+    let vectors = sparse(&at.modulus, echelon.null_space());
     if vectors.is_empty() {
         return Ok(());
     }
     let Some((point, mut gradients)) = known.gradients(setting, &at)? else { return Ok(()) };
-    for (own, vector) in vectors {
+    for vector in vectors {
         setting.effort.halt.check()?;
         let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
         let picked: Vec<Vec<u32>> = support.iter().map(|k| monomials[*k].clone()).collect();
@@ -86,9 +86,9 @@ pub fn polynomials(
             continue;
         }
         let make = |at: &PrimePoint| {
-            let echelon = changes.echelon(at).ok()??;
-            let vector = echelon.free().contains(&own).then(|| echelon.null_vector(own))?;
-            Some(support.iter().map(|k| vector[*k]).collect())
+            let own = MonomialChanges { monomials: &picked, ..changes };
+            let vector = own.echelon(at).ok()??.null_space().pop()?;
+            (vector.last() == Some(&at.modulus.one())).then_some(vector)
         };
         let images = Images { setting, width: support.len(), is_split: false, make };
         let Some(coefficients) = images::coefficients(&images)? else {

@@ -8,6 +8,7 @@
 //! polynomials  polynomial integrals
 //! lattice      exponents that a field does not mix
 //! graded       polynomial integrals of higher degree, class by class
+//! sparse       combinations of integrals with few terms
 //! rational     rational ones, as P and Q of the relations P − c Q
 //! line         points of a line whose orbits satisfy an additional relation
 //! darboux      Darboux polynomials: the relations at these points
@@ -53,6 +54,7 @@ mod products;
 mod rational;
 mod relations;
 mod setting;
+mod sparse;
 mod tangents;
 mod taylor;
 mod univariate;

@@ -14,6 +14,7 @@ use super::claims;
 use super::images;
 use super::known::IndependentIntegrals;
 use super::setting::OrbitSetting;
+use super::sparse::sparse;
 use liouville::formula::Formula;
 
 /// Searches for integrals that are sums of these monomials in some variables, of at most this degree;
@@ -47,6 +48,7 @@ pub fn polynomials(
     // The constant is the first.
     let columns = &columns[1..];
     let Some(vectors) = system.null_space(&at, columns)? else { return Ok(false) };
+    let vectors = sparse(&at.modulus, vectors);
     let spread = |own: Vec<u64>| {
         let mut full = vec![0; all.len()];
         columns.iter().zip(own).for_each(|(column, entry)| full[*column] = entry);
