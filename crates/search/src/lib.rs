@@ -19,6 +19,7 @@ mod conditions;
 mod counts;
 mod densities;
 mod echelon;
+mod effort;
 mod error;
 mod expansion;
 mod halt;
@@ -47,97 +48,18 @@ use self::ask::Claimed;
 use liouville::case::Case;
 use liouville::formula::Formula;
 use liouville::mechanics::{Meaning, Model};
-use liouville::verdict::{ClaimReport, Evidence, Options, Verdict};
+use liouville::verdict::{ClaimReport, Evidence, Verdict};
 
 pub use absence::{complete, judge};
 pub use ansatz::{Ansatz, Hamiltonians};
 pub use conditions::{ConditionTarget, ParameterCondition};
 pub use counts::{CountEstimate, CountReport, plan};
+pub use effort::{Effort, FurtherTerm};
 pub use error::SearchError;
 pub use halt::Halt;
 pub use multipliers::MultiplierReport;
 pub use orbit::OrbitReport;
 pub use second_opinion::SecondOpinion;
-
-/// Scope and limits of a search.
-#[derive(Clone, Debug)]
-pub struct Effort {
-    /// Highest degree in the velocities of integrals to be counted.
-    pub degree: u32,
-    /// Whether the claims of the case are ignored.
-    pub blind: bool,
-    /// Terms of integrals in addition to those offered by the system.
-    pub terms: Vec<FurtherTerm>,
-    /// Search for conditions on the parameters, if any.
-    pub conditions: Option<ConditionTarget>,
-    /// Time in seconds above which a count is left out.
-    pub seconds: f64,
-    /// Scope of the polynomial ansatz.
-    pub ansatz: Ansatz,
-    /// Hamiltonians for which brackets are searched, if any.
-    pub poisson: Option<Hamiltonians>,
-    /// Condition for an early end.
-    pub halt: Halt,
-    /// Options for judging candidates.
-    pub options: Options,
-}
-
-impl Default for Effort {
-    /// Integrals up to degree 4, a minute for each count, and no early end.
-    fn default() -> Self {
-        Self {
-            degree: 4,
-            blind: false,
-            terms: Vec::new(),
-            conditions: None,
-            seconds: 60.0,
-            ansatz: Ansatz::default(),
-            poisson: None,
-            halt: Halt::default(),
-            options: Options::default(),
-        }
-    }
-}
-
-/// A further term that integrals may contain.
-#[derive(Clone, Debug)]
-pub enum FurtherTerm {
-    /// Text in the names of the case.
-    Text(String),
-    /// Formula of the case.
-    Formula(Formula),
-}
-
-impl From<&str> for FurtherTerm {
-    fn from(text: &str) -> Self {
-        FurtherTerm::Text(text.to_string())
-    }
-}
-
-impl From<String> for FurtherTerm {
-    fn from(text: String) -> Self {
-        FurtherTerm::Text(text)
-    }
-}
-
-impl From<Formula> for FurtherTerm {
-    fn from(formula: Formula) -> Self {
-        FurtherTerm::Formula(formula)
-    }
-}
-
-impl FurtherTerm {
-    /// The term as a scalar of the case.
-    fn read(&self, model: &Model) -> Result<Formula, SearchError> {
-        match self {
-            FurtherTerm::Formula(formula) => Ok(formula.clone()),
-            FurtherTerm::Text(text) => {
-                let read = terms::read([text.as_str()], &model.vocabulary).pop();
-                read.ok_or_else(|| SearchError::NoTerm(text.clone()))
-            }
-        }
-    }
-}
 
 /// An invariant that was found.
 #[derive(Clone, Debug, Serialize)]

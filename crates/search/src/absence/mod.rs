@@ -136,6 +136,7 @@ impl<'a> AbsenceCase<'a> {
             // Roots in known integrals must have the right branch as well; other functions have one.
             terms: branching.cloned().map(Into::into).collect(),
             ansatz: Ansatz { wanted: true, ..Ansatz::default() },
+            by_class: false,
             halt: Halt::within(MOST_TIME),
             options,
             ..Effort::default()

@@ -161,7 +161,8 @@ impl VariableSet {
     ) -> Result<(), SearchError> {
         let mut left = limits.graded;
         self.next_graded = self.next_graded.max(self.next);
-        if self.next_graded > limits.degree || is_complete(setting, known) {
+        let is_over = self.next_graded > limits.degree || is_complete(setting, known);
+        if is_over || !setting.effort.by_class {
             return Ok(());
         }
         let Some(search) = GradedSearch::of(setting)? else { return Ok(()) };
