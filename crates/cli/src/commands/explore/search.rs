@@ -100,6 +100,7 @@ pub fn run(options: &SearchArgs) -> Result<CommandOutput, String> {
             seed: options.seed,
             ..liouville::verdict::Options::default()
         },
+        ..Effort::default()
     };
     if let Some(plan) = liouville_search::plan(&case, &effort).filter(|plan| plan.seconds >= 1.0) {
         let liouville_search::CountEstimate { unknowns, seconds } = plan;
