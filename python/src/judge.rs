@@ -93,6 +93,7 @@ pub fn search(
         }),
         halt: within.map_or_else(Halt::default, Halt::within),
         options: Options { seed, ..Options::default() },
+        ..Effort::default()
     };
     let inner = Arc::clone(&case.inner);
     // A search has a switch of its own, which ends it between two steps.
