@@ -4,7 +4,7 @@ use num_dual::DualNum;
 use num_traits::One;
 
 use crate::graph::{Expr, Graph, Step, record};
-use crate::mechanics::{Draw, Model, NORMAL, NumberLine, Phase};
+use crate::mechanics::{Draw, Model, NORMAL, Phase};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
 use crate::proof::{Extent, is_nowhere_zero};
@@ -12,7 +12,7 @@ use crate::proof::{Extent, is_nowhere_zero};
 /// Returns the remark for a body whose radii of curvature are not known to be smooth functions of γ.
 pub(super) fn remark(model: &Model) -> Option<String> {
     let body = model.system.body()?;
-    let mut extents: Vec<Extent> = model.parameter_draws().iter().map(extent).collect();
+    let mut extents: Vec<Extent> = model.parameter_draws().iter().map(Draw::extent).collect();
     let unit = Extent::between(&Rational::from(-1), &Rational::from(1));
     extents.extend([unit; 3]);
     let recorded = record(extents.len(), |inputs| {
@@ -56,18 +56,4 @@ fn corners(graph: &Graph, values: &[Expr]) -> Vec<Expr> {
     };
     let found = steps.filter_map(corner);
     found.filter(|a| !matches!(graph.step(*a), Step::Constant(_))).map(|a| graph.at(a)).collect()
-}
-
-/// Returns the range of a drawn number.
-fn extent(draw: &Draw) -> Extent {
-    match draw {
-        Draw::Within(range) => Extent::between(&range.low, &range.high),
-        Draw::Of(NumberLine::Positive, _) => Extent::POSITIVE,
-        Draw::Of(NumberLine::All, _) => Extent::ALL,
-        Draw::OneOf(values) => match (values.iter().min(), values.iter().max()) {
-            (Some(least), Some(most)) => Extent::between(least, most),
-            _ => Extent::ALL,
-        },
-        Draw::Sign => Extent::SIGN,
-    }
 }

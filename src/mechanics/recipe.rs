@@ -4,6 +4,7 @@ use nalgebra::Matrix3;
 
 use crate::formula::{Type, Value};
 use crate::number::rational::Rational;
+use crate::proof::Extent;
 use crate::scalar::Scalar;
 
 /// An open interval with exact ends.
@@ -41,6 +42,25 @@ pub enum Draw {
 }
 
 impl Draw {
+    /// Returns the numbers that may be drawn, as one interval.
+    pub fn extent(&self) -> Extent {
+        match self {
+            Draw::Within(range) => Extent::between(&range.low, &range.high),
+            Draw::Of(NumberLine::Positive, _) => Extent::POSITIVE,
+            Draw::Of(NumberLine::All, _) => Extent::ALL,
+            Draw::OneOf(values) => match (values.iter().min(), values.iter().max()) {
+                (Some(least), Some(most)) => Extent::between(least, most),
+                _ => Extent::ALL,
+            },
+            Draw::Sign => Extent::SIGN,
+        }
+    }
+
+    /// Returns the draw of one listed value, if one is given, or the same draw.
+    pub fn fixed(&self, value: Option<&Rational>) -> Self {
+        value.map_or_else(|| self.clone(), |value| Draw::OneOf(vec![value.clone()]))
+    }
+
     /// Returns the range or the list as case files write it.
     fn text(&self) -> String {
         match self {

@@ -14,7 +14,6 @@ use crate::claim::LevelSubset;
 use crate::graph::Fault;
 use crate::level::Cover;
 use crate::mechanics::{Chart, Draw};
-use crate::number::rational::Rational;
 use crate::proof::fewest;
 
 /// Samplers of the parts of a place, for each choice of listed parameter values.
@@ -56,11 +55,9 @@ impl Judging<'_> {
                 seed: self.options.seed,
             };
             let Some(parts) = cover.parts()? else { return Ok(None) };
-            let one = |(draw, fixed): (&Draw, &Option<Rational>)| match fixed {
-                Some(value) => Draw::OneOf(vec![value.clone()]),
-                None => draw.clone(),
-            };
-            let recipes: Vec<Draw> = draws.iter().zip(fixed).map(one).collect();
+            let pairs = draws.iter().zip(fixed);
+            let recipes: Vec<Draw> =
+                pairs.map(|(draw, fixed)| draw.fixed(fixed.as_ref())).collect();
             let of_part = |part| sampler.on_part(part, recipes.clone());
             let own: Vec<Sampler> = parts.iter().map(of_part).collect::<Result<_, Fault>>()?;
             if !own.is_empty() {
@@ -239,9 +236,7 @@ impl Evidence {
         self.sign_is_partial |= other.sign_is_partial;
         self.sign_may_vanish |= other.sign_may_vanish;
     }
-}
 
-impl Evidence {
     fn include_sign(&mut self, other: &Self) {
         self.independence = match (self.independence, other.independence) {
             (Some(a), Some(b)) if a == b => Some(a),

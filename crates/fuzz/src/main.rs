@@ -20,7 +20,7 @@ use mutation::{Corpus, Random};
 /// Time that a judgement may take.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// What is done with the inputs.
+/// Use that is made of the inputs.
 #[derive(Clone, Copy, PartialEq)]
 enum Mode {
     Read,

@@ -208,11 +208,8 @@ impl Sampler {
 
     /// Makes a sampler of the same states with the listed numbers fixed.
     pub fn with(&self, fixed: &[Option<Rational>]) -> Self {
-        let one = |(draw, fixed): (&Draw, &Option<Rational>)| match fixed {
-            Some(value) => Draw::OneOf(vec![value.clone()]),
-            None => draw.clone(),
-        };
-        let recipes: Vec<Draw> = self.recipes.iter().zip(fixed).map(one).collect();
+        let pairs = self.recipes.iter().zip(fixed);
+        let recipes: Vec<Draw> = pairs.map(|(draw, fixed)| draw.fixed(fixed.as_ref())).collect();
         Self { draws: DrawSource::new(&recipes), recipes, ..self.clone() }
     }
 

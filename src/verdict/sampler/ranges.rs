@@ -15,12 +15,9 @@ use super::Sampler;
 /// Returns the range of a drawn number.
 pub fn extent(draw: &Draw) -> Extent {
     match draw {
-        Draw::Within(range) => Extent::between(&range.low, &range.high),
-        Draw::Of(NumberLine::All, _) => Extent::ALL,
-        Draw::Of(NumberLine::Positive, _) => Extent::POSITIVE,
         // Each value is substituted before anything is proved.
         Draw::OneOf(_) => Extent::ALL,
-        Draw::Sign => Extent::SIGN,
+        other => other.extent(),
     }
 }
 

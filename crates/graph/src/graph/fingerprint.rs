@@ -56,7 +56,7 @@ impl Graph {
         self.rebuilt_from(outputs, &reached, &values, &moduli)
     }
 
-    /// Does the same for inputs at some points only, where more values are proportional; `None`
+    /// Merges nodes of equal value at some points only, where more values are proportional; `None`
     /// where an output that was not folded is zero at all of these, as nothing would be left of it,
     /// or where no points were found.
     pub fn merged_at(

@@ -10,7 +10,7 @@ use super::{Graph, ONE};
 /// Number of passes over all choices.
 const PASSES: usize = 6;
 
-/// How each class is computed.
+/// Choice of the member by which each class is computed.
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
     /// Place of the member that is computed.
