@@ -222,11 +222,13 @@ impl Surroundings {
         let replaced = |place: usize, _: Step<'_>, values: &[Option<Expr>]| {
             let index = moduli.iter().position(|(own, ..)| *own == place)?;
             let (_, square, a) = &moduli[index];
-            let argument = match square {
-                Some(square) => square.value(|place| values[place]),
-                None => values[self.graph.place(*a)],
+            let argument = values[self.graph.place(*a)]?;
+            let value = match square {
+                // √(1 + 0 √x) is 1 where √x exists.
+                Some(square) => square.value(|place| values[place])? + argument * Expr::zero(),
+                None => argument,
             };
-            Some(signed(argument?, known[index]?))
+            Some(signed(value, known[index]?))
         };
         let more = |inputs: &[Expr]| {
             let reached = own.graph.reached(arguments.iter().copied());

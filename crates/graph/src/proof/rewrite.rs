@@ -145,7 +145,7 @@ impl Rewrite {
                 if !arguments.contains(&a) {
                     return None;
                 }
-                let at = |place: usize| values[place];
+                let at = |place: usize| values.get(place).copied().flatten();
                 let mut value = match root {
                     Root::Found(scale, square) => {
                         let scale = Expr::rational(scale).apply(UnaryFunction::Sqrt);
@@ -154,7 +154,7 @@ impl Rewrite {
                     Root::Written(written) => written.value(at)?,
                 };
                 for other in over {
-                    value /= values[*other]?.apply(UnaryFunction::Sqrt);
+                    value /= at(*other)?.apply(UnaryFunction::Sqrt);
                 }
                 Some(value.power(&(&exponent * &Rational::from(2))))
             }
