@@ -3,3 +3,4 @@
 mod ansatz;
 mod growth;
 mod orbits;
+mod plants;
