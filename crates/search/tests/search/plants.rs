@@ -15,15 +15,15 @@ use liouville_search::{Effort, SearchReport, search};
 /// A system with an invariant.
 struct Plant {
     text: String,
-    /// An integral, with its degree as a fraction, or as a polynomial in the velocities.
-    integral: Option<(String, u32)>,
+    /// An integral, with its degrees as a fraction and as a polynomial in the velocities.
+    integral: Option<(String, [u32; 2])>,
     /// An invariant line: x on it, as a function of y.
     line: Option<String>,
 }
 
 impl Plant {
-    fn with_integral(text: String, integral: String, degree: u32) -> Self {
-        Self { text, integral: Some((integral, degree)), line: None }
+    fn with_integral(text: String, integral: String, degrees: [u32; 2]) -> Self {
+        Self { text, integral: Some((integral, degrees)), line: None }
     }
 }
 
@@ -93,7 +93,7 @@ fn planar_fraction(above: [i64; 6], below: [i64; 6], has_parameter: bool) -> Pla
     };
     let rates = [format!("{b}*{ay} − {a}*{by}"), format!("{a}*{bx} − {b}*{ax}")];
     let parameters = if has_parameter { "k = '0.5..2'\n" } else { "" };
-    Plant::with_integral(system("field", parameters, &rates), format!("{a}/{b}"), 2)
+    Plant::with_integral(system("field", parameters, &rates), format!("{a}/{b}"), [2; 2])
 }
 
 /// The field ∇F × w B² in space of a fraction F = A/B; it keeps a linear form as well.
@@ -106,7 +106,7 @@ fn spatial_fraction(numbers: &mut Numbers) -> Plant {
     };
     let rates = [[1, 2], [2, 0], [0, 1]]
         .map(|[i, j]| format!("{}*({}) − {}*({})", slope(i), w[j], slope(j), w[i]));
-    Plant::with_integral(system("field", "", &rates), format!("{above}*{third}/{below}"), 2)
+    Plant::with_integral(system("field", "", &rates), format!("{above}*{third}/{below}"), [2; 2])
 }
 
 /// A field for which X = l(x, y) + c has the rate K X, and another form any rate.
@@ -137,7 +137,7 @@ fn map(numbers: &mut Numbers) -> Plant {
         format!("(({d})*{first} − ({b})*{second})/({determinant})"),
         format!("(({a})*{second} − ({c})*{first})/({determinant})"),
     ];
-    Plant::with_integral(system("map", "", &images), format!("{x}*{y}"), 2)
+    Plant::with_integral(system("map", "", &images), format!("{x}*{y}"), [2; 2])
 }
 
 /// A particle with a potential that separates in other coordinates, X²/2 + f(X) being an integral.
@@ -154,7 +154,7 @@ fn separable(numbers: &mut Numbers) -> Plant {
          \"y'\" = '0.5..2'\n[lagrangian]\nkinetic = \"({}² + {}²)/2\"\npotential = '{f} + {g}'\n",
         speeds[0], speeds[1]
     );
-    Plant::with_integral(text, format!("{}²/2 + {f}", speeds[0]), 2)
+    Plant::with_integral(text, format!("{}²/2 + {f}", speeds[0]), [4, 2])
 }
 
 fn plant(number: u64) -> Plant {
@@ -187,10 +187,15 @@ fn mistakes(case: &Case, plant: &Plant, report: &SearchReport) -> Vec<String> {
     let formula = |text: &str| case.formula(text).expect("a formula");
     for own in &report.excluded {
         let reached = last_degree(&own.ansatz).unwrap_or(u32::MAX);
-        let is_about = |what: &str| own.ansatz.starts_with(what);
-        if let Some((integral, degree)) = &plant.integral
-            && (is_about("fractions") || is_about("polynomials in the velocities of degree"))
-            && reached >= *degree
+        let degree = |[fraction, speeds]: &[u32; 2]| match own.ansatz.as_str() {
+            ansatz if ansatz.starts_with("fractions") => Some(*fraction),
+            ansatz if ansatz.starts_with("polynomials in the velocities of degree") => {
+                Some(*speeds)
+            }
+            _ => None,
+        };
+        if let Some((integral, degrees)) = &plant.integral
+            && degree(degrees).is_some_and(|degree| reached >= degree)
         {
             // Integrals that the theorem names are those found, and the energy.
             let named = report.functions("integral").filter(|f| own.theorem.contains(f.text()));
@@ -206,7 +211,7 @@ fn mistakes(case: &Case, plant: &Plant, report: &SearchReport) -> Vec<String> {
             }
         }
         if let Some(line) = &plant.line
-            && is_about("Darboux polynomials")
+            && own.ansatz.starts_with("Darboux polynomials")
             && reached >= 1
         {
             let factors: Vec<String> = (report.found.iter())
