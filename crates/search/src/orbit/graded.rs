@@ -16,6 +16,7 @@ use super::super::{SearchError, SearchReport};
 use super::adjoin::{self, PolynomialField};
 use super::known::IndependentIntegrals;
 use super::lattice::ExponentLattice;
+use super::leading::LeadingField;
 use super::relations::combined_gradient;
 use super::setting::OrbitSetting;
 use super::sparse::sparse;
@@ -113,9 +114,19 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
         let product = |exponents| Column::Product { derivation: 0, factor: 0, exponents };
         system.columns = all.iter().cloned().map(product).collect();
         let Some(at) = system.at(0, 0) else { return Ok(Some(cost)) };
+        let leading = LeadingField::of(setting, &self.field, variables)?;
         let mut found = Vec::new();
         for places in classes {
             setting.effort.halt.check()?;
+            if let Some(leading) = &leading {
+                let forms: Vec<&Vec<u32>> = places.iter().map(|place| &all[*place]).collect();
+                let is_highest = |own: &&Vec<u32>| own.iter().sum::<u32>() == degree;
+                let forms: Vec<&Vec<u32>> = forms.into_iter().filter(is_highest).collect();
+                // An integral of lower degree was found before.
+                if 2 * forms.len() <= places.len() && leading.excludes(variables, &forms)? {
+                    continue;
+                }
+            }
             let columns = match setting.is_on_level() {
                 false => places,
                 true => match system.distinct(&at, &places)? {

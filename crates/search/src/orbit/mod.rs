@@ -7,6 +7,7 @@
 //! tangents     directions of the state itself, where its functions are variables
 //! polynomials  polynomial integrals
 //! lattice      exponents that a field does not mix
+//! leading      parts of highest degree that no polynomial integral has
 //! graded       polynomial integrals of higher degree, class by class
 //! sparse       combinations of integrals with few terms
 //! rational     rational ones, as P and Q of the relations P − c Q
@@ -42,6 +43,7 @@ mod graded;
 mod images;
 mod known;
 mod lattice;
+mod leading;
 mod line;
 mod map_densities;
 mod map_integrals;
@@ -290,6 +292,11 @@ fn with_functions(
     report.orbits.truncate(scope.before);
     along_orbits(&setting, scope.next, report, progress)?;
     Ok(Some(extension.halves()))
+}
+
+/// Number of roots, moduli and broken powers in a field.
+pub fn root_steps(case: &Case) -> Result<usize, SearchError> {
+    adjoin::root_steps(case)
 }
 
 /// Lists the square roots of parameters and numbers in a field, with the numbers.
