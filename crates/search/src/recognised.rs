@@ -4,8 +4,9 @@
 //! inner products. A formula that is shorter is proved to be equal, up to a factor, and to be an integral.
 
 use super::ansatz::coefficients::{PrimitiveVector, Ratio};
-use super::ansatz::system::{Column, LinearSystem};
-use super::ask::judged_alone;
+use super::ansatz::system::{Column, LinearSystem, PrimePoint};
+use super::ask::{judged_alone, proved_energy};
+use super::echelon::Echelon;
 use super::local::Coordinates;
 use super::products::degree_in;
 use super::{Effort, Found, SearchError, SearchReport};
@@ -50,8 +51,172 @@ pub fn rewrite(case: &Case, effort: &Effort, report: &mut SearchReport) -> Resul
         };
         if let Some(found) = shorter {
             let known = report.found[place].known.take();
+            for own in &mut report.excluded {
+                own.theorem = own.theorem.replace(function.text(), &found.formula);
+            }
             report.found[place] = Found { known, ..found };
         }
+    }
+    match exchange(case, effort, &products, report) {
+        Err(SearchError::NoChart) => Ok(()),
+        other => other,
+    }
+}
+
+/// Integrals that are combinations of products of inner products, short ones first, and the gradients of
+/// these, of others, and of what is known anyway, at a random state of the level.
+struct Sums {
+    formulas: Vec<Formula>,
+    system: LinearSystem,
+    at: PrimePoint,
+    dimension: usize,
+}
+
+impl Sums {
+    fn of(
+        case: &Case,
+        effort: &Effort,
+        terms: &[Formula],
+        others: &[Formula],
+    ) -> Result<Option<Self>, SearchError> {
+        let mut rates = LinearSystem::record(case, effort, |jet, recording| {
+            let moved = jet.along_field();
+            for term in terms {
+                let value = moved.scalar(term);
+                recording.give(value.eps);
+                recording.give(value.re);
+            }
+        })?;
+        rates.columns = (0..2 * terms.len()).map(Column::Given).collect();
+        let Some(at) = rates.at(0, 0) else { return Ok(None) };
+        // Terms that depend on others on the level are left out.
+        let values: Vec<usize> = (0..terms.len()).map(|k| 2 * k + 1).collect();
+        let Some(relations) = rates.null_space(&at, &values)? else { return Ok(None) };
+        let last = |own: &Vec<u64>| own.iter().rposition(|entry| *entry != 0);
+        let dependent: Vec<usize> = relations.iter().filter_map(last).collect();
+        let kept: Vec<usize> = (0..terms.len()).filter(|k| !dependent.contains(k)).collect();
+        let columns: Vec<usize> = kept.iter().map(|k| 2 * k).collect();
+        let Some(vectors) = rates.null_space(&at, &columns)? else { return Ok(None) };
+        let mut formulas = Vec::new();
+        for vector in vectors {
+            let own: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+            let support: Vec<usize> = own.iter().map(|k| columns[*k]).collect();
+            let Some(coefficients) = PrimitiveVector::of(&rates, &support)? else { continue };
+            let functions: Vec<Ratio> =
+                own.iter().map(|k| Ratio::of(terms[kept[*k]].clone())).collect();
+            let places: Vec<usize> = (0..own.len()).collect();
+            formulas.extend(with_plus(&coefficients, &places, &functions)?);
+        }
+        formulas.sort_by_key(|formula| formula.text().chars().count());
+        let all: Vec<&Formula> = formulas.iter().chain(others).collect();
+        let dimension = case.model.dimension();
+        let mut system = LinearSystem::record(case, effort, |jet, recording| {
+            for formula in &all {
+                for axis in jet.gradients(formula) {
+                    axis.into_iter().for_each(|slope| _ = recording.give(slope));
+                }
+            }
+            for own in &case.model.level {
+                for moved in jet.along_axes() {
+                    recording.give(moved.level_function(&own.function).eps);
+                }
+            }
+        })?;
+        let count = (all.len() + case.model.level.len()) * dimension;
+        system.columns = (0..count).map(Column::Given).collect();
+        Ok(system.at(0, 0).map(|at| Self { formulas, system, at, dimension }))
+    }
+
+    /// Gradients of all formulas, and of the functions of the level.
+    fn gradients(&self) -> Option<Vec<Vec<u64>>> {
+        let columns: Vec<usize> = (0..self.system.columns.len()).collect();
+        let row = self.system.rows(&self.at, 1, &columns, 1)?.pop()?;
+        Some(row.chunks(self.dimension).map(<[u64]>::to_vec).collect())
+    }
+
+    fn rank(&self, rows: &[&Vec<u64>]) -> usize {
+        let mut echelon = Echelon::new(self.dimension, self.at.modulus);
+        rows.iter().filter(|row| echelon.push(row.to_vec())).count()
+    }
+}
+
+/// Σ coefficient · function, or its negative where that begins with a plus.
+fn with_plus(
+    coefficients: &PrimitiveVector,
+    places: &[usize],
+    functions: &[Ratio],
+) -> Result<Option<Formula>, FormulaError> {
+    match coefficients.sum(places, functions)? {
+        Some(sum) if sum.text().starts_with(['−', '-']) => {
+            coefficients.negative().sum(places, functions)
+        }
+        other => Ok(other),
+    }
+}
+
+/// Takes short sums of products in place of long integrals, where all integrals together remain functions
+/// of those that are told.
+fn exchange(
+    case: &Case,
+    effort: &Effort,
+    products: &[(Formula, u32)],
+    report: &mut SearchReport,
+) -> Result<(), SearchError> {
+    let is_told = |found: &Found| {
+        found.kind == "integral" && found.with.is_empty() && found.verdict == Verdict::Proved
+    };
+    let mut places = Vec::new();
+    let mut others: Vec<Formula> = Vec::new();
+    for (place, found) in report.found.iter().enumerate().filter(|(_, found)| is_told(found)) {
+        if let Some(function) = &found.function {
+            places.push(place);
+            others.push(function.clone());
+        }
+    }
+    let count = others.len();
+    others.extend(proved_energy(case, effort)?);
+    let length = |report: &SearchReport, place: usize| report.found[place].formula.chars().count();
+    let Some(longest) = places.iter().map(|place| length(report, *place)).max() else {
+        return Ok(());
+    };
+    if longest <= SHORT {
+        return Ok(());
+    }
+    let terms = terms(products, MOST_DEGREE)?;
+    let Some(sums) = Sums::of(case, effort, &terms, &others)? else { return Ok(()) };
+    let Some(gradients) = sums.gradients() else { return Ok(()) };
+    let first = sums.formulas.len();
+    let mut own: Vec<&Vec<u64>> = gradients[first..first + count].iter().collect();
+    let fixed: Vec<&Vec<u64>> = gradients[first + count..].iter().collect();
+    let rank = sums.rank(&[&fixed[..], &own[..]].concat());
+    let mut is_new = vec![false; count];
+    for (formula, gradient) in sums.formulas.iter().zip(&gradients) {
+        effort.halt.check()?;
+        let size = formula.text().chars().count();
+        let mut order: Vec<usize> = (0..count)
+            .filter(|k| !is_new[*k] && length(report, places[*k]) > size.max(SHORT))
+            .filter(|k| {
+                let text = &report.found[places[*k]].formula;
+                report.excluded.iter().all(|own| !own.theorem.contains(text.as_str()))
+            })
+            .collect();
+        order.sort_by_key(|k| std::cmp::Reverse(length(report, places[*k])));
+        let takes_place = order.into_iter().find(|k| {
+            let mut changed = own.clone();
+            changed[*k] = gradient;
+            let all = [&fixed[..], &changed[..]].concat();
+            let with_both = [&all[..], &[own[*k]]].concat();
+            sums.rank(&all) == rank && sums.rank(&with_both) == rank
+        });
+        let Some(k) = takes_place else { continue };
+        let verdict = judged_alone(case, Claim::integral(formula), effort)?;
+        let Some(verdict) = verdict.filter(|report| report.verdict == Verdict::Proved) else {
+            continue;
+        };
+        let known = report.found[places[k]].known.take();
+        let found = Found::new("integral", formula, known, verdict, &case.model);
+        report.found[places[k]] = found;
+        (own[k], is_new[k]) = (gradient, true);
     }
     Ok(())
 }
