@@ -72,12 +72,14 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
     }
 
     /// Searches the polynomials of one degree in some variables, within a number of steps; returns the
-    /// steps taken, or `None` if there are too many.
+    /// steps taken, or `None` if there are too many. `counted` is the number of independent integrals of
+    /// the degrees before, those that could not be written among them.
     pub fn of_degree(
         &self,
         variables: &[usize],
         degree: u32,
         steps: f64,
+        counted: usize,
         known: &mut IndependentIntegrals,
         report: &mut SearchReport,
     ) -> Result<Option<f64>, SearchError> {
@@ -145,7 +147,7 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
                 found.push(ClassVectors { columns, vectors: sparse(&at.modulus, vectors) });
             }
         }
-        self.tell(&system, &at, &all, (variables, degree), found, (known, report))?;
+        self.tell(&system, &at, &all, (variables, degree, counted), found, (known, report))?;
         Ok(Some(cost))
     }
 
@@ -155,7 +157,7 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
         system: &LinearSystem,
         at: &PrimePoint,
         all: &[Vec<u32>],
-        (variables, degree): (&[usize], u32),
+        (variables, degree, counted): (&[usize], u32, usize),
         found: Vec<ClassVectors>,
         (known, report): (&mut IndependentIntegrals, &mut SearchReport),
     ) -> Result<(), SearchError> {
@@ -169,6 +171,16 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
         }
         candidates.sort_by_key(|(support, _)| support.len());
         let Some((point, mut gradients)) = known.gradients(setting, at)? else { return Ok(()) };
+        let gradient = |(support, values): &(Vec<usize>, Vec<u64>)| {
+            let own: Vec<Vec<u32>> = support.iter().map(|k| all[*k].clone()).collect();
+            combined_gradient(at, &own, values, &point)
+        };
+        // Functions of integrals that could not be written are no easier to write.
+        let mut together = gradients.clone();
+        let new = candidates.iter().filter(|own| together.push(at, gradient(own))).count();
+        if known.within(variables) + new <= counted {
+            return Ok(());
+        }
         let mut unwritten = None;
         for (support, values) in candidates {
             setting.effort.halt.check()?;

@@ -4,3 +4,4 @@ mod ansatz;
 mod growth;
 mod orbits;
 mod plants;
+mod shapes;

@@ -47,9 +47,11 @@ fn potentials_of_a_lagrangian_are_found() {
     // What separates stays separate, with any function; the own potential is kept.
     let apart = forced(&particle("(x'² + y'²)/2", "x²*x² + y²/2", "x'²/2 + x^4"));
     let found = told(&apart);
-    let (integral, potential) = found.first().expect("potentials");
-    assert_eq!(*potential, "f1(x) + f2(y) for any functions f1, f2");
-    assert!(integral.ends_with(" + f1(x)"), "{integral}");
+    assert!(!found.is_empty(), "{:?}", apart.remarks);
+    for (integral, potential) in found {
+        assert_eq!(potential, "f1(x) + f2(y) for any functions f1, f2");
+        assert_ne!(integral.contains("f1(x)"), integral.contains("f2(y)"), "{integral}");
+    }
 }
 
 #[test]
