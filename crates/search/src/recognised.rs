@@ -225,8 +225,9 @@ fn exchange(
 /// matrices of the parameters, by their degrees in the state; short ones first.
 fn inner_products(case: &Case, effort: &Effort) -> Result<Vec<(Formula, u32)>, SearchError> {
     let vocabulary = &case.model.vocabulary;
-    let (mut vectors, mut matrices): (Vec<(String, usize, bool)>, Vec<(String, usize)>) =
-        Default::default();
+    // Names with their lengths, and whether they are constant.
+    let mut vectors: Vec<(String, usize, bool)> = Vec::new();
+    let mut matrices: Vec<(String, usize)> = Vec::new();
     for (_, entry) in vocabulary.iter() {
         let is_named = matches!(
             entry.meaning,

@@ -72,17 +72,17 @@ fn vectors(case: &Case, effort: &Effort) -> Result<Vec<Formula>, SearchError> {
     let mut texts: Vec<String> = own.map(|variable| variable.name.clone()).collect();
     let is_own =
         matches!(model.system, System::Field(_) | System::Hamiltonian(_) | System::Lagrangian(_));
-    if texts.is_empty() && is_own && model.dimension() == 6 && model.level.is_empty() {
-        if let Ok(places) = positions(case, effort)?
-            && places.len() == 3
-        {
-            let list = |is_position: bool| {
-                let kept = (0..6).filter(|place| places.contains(place) == is_position);
-                let names: Vec<String> = kept.map(|place| model.component_name(place)).collect();
-                format!("[{}]", names.join(", "))
-            };
-            texts = vec![list(true), list(false)];
-        }
+    let has_six = texts.is_empty() && is_own && model.dimension() == 6 && model.level.is_empty();
+    if has_six
+        && let Ok(places) = positions(case, effort)?
+        && places.len() == 3
+    {
+        let list = |is_position: bool| {
+            let kept = (0..6).filter(|place| places.contains(place) == is_position);
+            let names: Vec<String> = kept.map(|place| model.component_name(place)).collect();
+            format!("[{}]", names.join(", "))
+        };
+        texts = vec![list(true), list(false)];
     }
     if texts.len() > MOST_VECTORS {
         return Ok(Vec::new());

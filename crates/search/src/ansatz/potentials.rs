@@ -69,6 +69,9 @@ pub fn potentials(
     Ok(())
 }
 
+/// Columns of the unknowns, and a basis of the relations between them.
+type Solutions = (Vec<usize>, Vec<Vec<u64>>);
+
 /// The search for the forces that preserve one integral.
 struct ForceSearch<'a> {
     case: &'a Case,
@@ -160,7 +163,7 @@ impl ForceSearch<'_> {
         &self,
         system: &LinearSystem,
         first: usize,
-    ) -> Result<Option<(Vec<usize>, Vec<Vec<u64>>)>, SearchError> {
+    ) -> Result<Option<Solutions>, SearchError> {
         let Some(columns) = self.columns(system, first)? else { return Ok(None) };
         let Some(at) = system.at(0, 0) else { return Ok(None) };
         Ok(system.null_space(&at, &columns)?.map(|vectors| (columns, vectors)))
@@ -176,7 +179,8 @@ impl ForceSearch<'_> {
         let each = (system.columns.len() - first) / self.family.ways();
         let starts = (0..self.family.ways()).map(|way| first + way * each);
         let mut columns = Vec::new();
-        for range in [0..first].into_iter().chain(starts.map(|start| start..start + each)) {
+        let forces = starts.map(|start| start..start + each);
+        for range in std::iter::once(0..first).chain(forces) {
             let own: Vec<usize> = range.collect();
             let Some(distinct) = system.distinct(&at, &own)? else { return Ok(None) };
             let is_idle = own[0] < first || matches!(self.family.entry, ForceEntry::Potential(_));

@@ -1,8 +1,8 @@
 //! Potentials and forces that integrals survive, of systems of the user's own and of a flat base.
 
-use liouville::case::{Case, Setting};
+use liouville::case::{Case, Expect, Setting};
 use liouville::claim::Claim;
-use liouville::verdict::{Options, Verdict};
+use liouville::verdict::{Options, Verdict, judge};
 use liouville_search::{SearchReport, search};
 
 use super::{case, effort};
@@ -158,5 +158,17 @@ fn families_need_a_constant_ratio() {
     let report = forced(text);
     for (integral, potential) in told(&report) {
         assert!(!potential.contains("f1(x, y)"), "{integral} with {potential}");
+    }
+}
+
+#[test]
+fn the_case_of_a_flat_base_with_potentials_holds() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/open/flat-base-potentials.toml");
+    let case = Case::read(std::path::Path::new(path), &[]).1.expect("a case");
+    let report = judge(&case, &Options::default()).expect("it can be judged");
+    for (claim, own) in case.claims.iter().zip(&report.claims) {
+        let holds = claim.expect == Expect::Holds;
+        let wanted = if holds { Verdict::Proved } else { Verdict::Refuted };
+        assert_eq!(own.verdict, wanted, "{}", claim.name);
     }
 }
