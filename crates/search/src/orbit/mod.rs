@@ -69,8 +69,9 @@ use liouville::mechanics::System;
 use liouville::number::rational::Rational;
 use liouville::verdict::Verdict;
 
+pub use self::adjoin::root_steps;
 use self::known::IndependentIntegrals;
-use self::line::RandomLine;
+use self::line::degree_of_field;
 use self::part::VariableSet;
 use self::setting::OrbitSetting;
 use super::ask::proved_energy;
@@ -294,11 +295,6 @@ fn with_functions(
     Ok(Some(extension.halves()))
 }
 
-/// Number of roots, moduli and broken powers in a field.
-pub fn root_steps(case: &Case) -> Result<usize, SearchError> {
-    adjoin::root_steps(case)
-}
-
 /// Lists the square roots of parameters and numbers in a field, with the numbers.
 pub fn roots(case: &Case) -> Result<Vec<(Formula, Option<Rational>)>, SearchError> {
     match case.model.system {
@@ -394,13 +390,4 @@ fn rounds(
         }
     }
     Ok(())
-}
-
-/// Degree of a field in the state; `None` if it is not a polynomial of low degree.
-fn degree_of_field(setting: &OrbitSetting<'_>) -> Result<Option<usize>, SearchError> {
-    let Some(at) = setting.at(0, 0) else { return Ok(None) };
-    match RandomLine::draw(setting, &at, 0) {
-        Some(line) => line.degree(),
-        None => Ok(None),
-    }
 }
