@@ -175,10 +175,11 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
             let own: Vec<Vec<u32>> = support.iter().map(|k| all[*k].clone()).collect();
             combined_gradient(at, &own, values, &point)
         };
-        // Functions of integrals that could not be written are no easier to write.
+        // Functions of integrals that could not be written are no easier to write; on a level others are,
+        // as polynomials that are equal there to fractions.
         let mut together = gradients.clone();
         let new = candidates.iter().filter(|own| together.push(at, gradient(own))).count();
-        if known.within(variables) + new <= counted {
+        if !setting.is_on_level() && known.within(variables) + new <= counted {
             return Ok(());
         }
         let mut unwritten = None;
