@@ -113,12 +113,18 @@ pub fn flat_base(section: &CaseTable<'_>, vocabulary: &Vocabulary) -> Option<Sys
     let curvature = constant("curvature", "k", Type::Scalar);
     let height = constant("height", "z", Type::Scalar);
     let gyrostat = section.keep(optional(section, "gyrostat", vocabulary, Type::VECTOR));
+    let potential = section.keep(section.text("potential").and_then(|text| {
+        let (what, kind) = ("the potential of a flat base", Some(Type::Scalar));
+        let read = |text| formula(&text, vocabulary, what, kind, Dependence::Configuration);
+        text.map(read).transpose()
+    }));
     Some(System::FlatBase(Box::new(FlatBase {
         mass: mass?,
         inertia: inertia?,
         curvature: curvature?,
         height: height?,
         gyrostat: gyrostat?,
+        potential: potential?.map(Potential::Formula),
     })))
 }
 

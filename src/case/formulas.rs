@@ -2,8 +2,8 @@
 
 use super::error::{Mistake, Problem};
 use super::section::SpannedStr;
-use crate::formula::{Formula, Scope, Type};
-use crate::mechanics::{Dependence, Meaning, Vocabulary};
+use crate::formula::{Formula, Scope, Symbol, Type};
+use crate::mechanics::{Dependence, Meaning, Vocabulary, VocabularyEntry};
 
 /// Reads a formula, and checks its type and the names it depends on.
 pub fn formula(
@@ -73,15 +73,19 @@ fn is_balanced(text: &str) -> bool {
     open.is_empty()
 }
 
-/// Name of the part of the state that shapes and potentials are functions of.
-fn position(vocabulary: &Vocabulary) -> &str {
-    let mut names = vocabulary.iter().filter(|(symbol, entry)| {
-        let is_state = matches!(entry.meaning, Meaning::State(_));
+/// Names of the part of the state that shapes and potentials are functions of.
+fn position(vocabulary: &Vocabulary) -> String {
+    let is_state = |(symbol, entry): &(Symbol, &VocabularyEntry)| {
         let is_found = vocabulary.lookup(&entry.name).is_some_and(|(found, _)| found == *symbol);
-        is_state && is_found && entry.reach == Dependence::Configuration
-    });
-    match (names.next(), names.next()) {
-        (Some((_, only)), None) => &only.name,
-        _ => "the state",
+        matches!(entry.meaning, Meaning::State(_)) && is_found
+    };
+    let all: Vec<&VocabularyEntry> =
+        vocabulary.iter().filter(is_state).map(|(_, entry)| entry).collect();
+    let own = all.iter().filter(|entry| entry.reach == Dependence::Configuration);
+    let names: Vec<&str> = own.map(|entry| entry.name.as_str()).collect();
+    match names.as_slice() {
+        [only] => only.to_string(),
+        [first, second] if all.len() > 2 => format!("{first}, {second}"),
+        _ => "the state".to_string(),
     }
 }

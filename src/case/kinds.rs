@@ -102,7 +102,8 @@ impl Reading<'_, '_> {
         let near = Draw::Of(NumberLine::All, Range::between((-3, 2), (3, 2)));
         let own = ["ω1", "ω2", "r1", "r2"].map(|name| (name, Type::Scalar));
         let draws = [near.clone(), near.clone(), near.clone(), near];
-        self.declare(&own, &draws, of_flat_base(), name);
+        let has_potential = section.value("potential").is_some();
+        self.declare(&own, &draws, of_flat_base(has_potential), name);
         self.further_state();
         self.settle(Stage::State);
         let system = body::flat_base(&section, &self.vocabulary);

@@ -223,7 +223,7 @@ impl<'r, 's> Reading<'r, 's> {
                 let problem = Problem::BadName { name: name.to_string(), reason };
                 self.mistakes().add(Mistake::new(place(name), problem));
             }
-            let position = matches!(*name, "γ" | "r");
+            let position = matches!(*name, "γ" | "r" | "r1" | "r2");
             let reach = if position { Dependence::Configuration } else { Dependence::Phase };
             self.vocabulary.add(name, Meaning::State(index), *kind, reach);
             self.state.variables.push(Variable { name: name.to_string(), kind: *kind });

@@ -5,9 +5,10 @@
 //!
 //! ```text
 //! r₁' = ω₂/k,  r₂' = -ω₁/k
-//! (Ĩω')₁,₂ = [(Ĩω + S)×ω - m r×(ω×r')]₁,₂,   Ĩ = I + m r²E - m r⊗r
+//! (Ĩω')₁,₂ = [(Ĩω + S)×ω - m r×(ω×r')]₁,₂ + (∂U/∂r₂, -∂U/∂r₁)/k,   Ĩ = I + m r²E - m r⊗r
 //! ```
 //!
+//! The moment of a potential U(r₁,r₂) does the work -U' as the contact moves.
 //! For a diagonal I these are (4.6), (4.7) of Borisov, Mamaev, Bizyaev 2013.
 
 use nalgebra::{Matrix3, Vector3};
@@ -18,9 +19,13 @@ use super::dynamics::Dynamics;
 use super::linear::point_mass;
 use super::phase::Phase;
 use super::quantity::Quantity;
+use super::rubber::Potential;
 use super::system::System;
 use crate::formula::{Formula, Value};
 use crate::scalar::Scalar;
+
+/// Index of the state variable r₁, before r₂.
+const PLACE: usize = 2;
 
 /// A body with a flat part on a sphere of curvature k.
 #[derive(Clone, Debug)]
@@ -35,6 +40,8 @@ pub struct FlatBase {
     pub height: Formula,
     /// Constant angular momentum S of a rotor.
     pub gyrostat: Option<Formula>,
+    /// Potential U of the place (r₁,r₂) of the contact.
+    pub potential: Option<Potential>,
 }
 
 /// Constants of the equations of motion over one scalar.
@@ -69,6 +76,35 @@ impl FlatBase {
         [constants.xi1([still(r1), along(r2)]).eps, constants.xi2([along(r1), still(r2)]).eps]
     }
 
+    /// The potential, where it is given by a formula.
+    fn potential_formula(&self) -> Option<&Formula> {
+        match &self.potential {
+            Some(Potential::Formula(formula)) => Some(formula),
+            _ => None,
+        }
+    }
+
+    fn total_energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
+        match self.potential {
+            None => self.kinetic_energy(phase),
+            Some(_) => self.kinetic_energy(phase) + self.potential_energy(phase),
+        }
+    }
+
+    fn potential_energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
+        self.potential_formula().map_or_else(T::zero, |formula| phase.configuration.scalar(formula))
+    }
+
+    /// Moment of the potential about the axes in the face.
+    fn moment<T: Scalar>(&self, phase: &Phase<'_, T>, curvature: T) -> [T; 2] {
+        let Some(formula) = self.potential_formula() else { return [T::zero(); 2] };
+        let slope = |index: usize| {
+            let moved = phase.configuration.lift(index, Value::Scalar(T::one()));
+            moved.scalar(formula).eps / curvature
+        };
+        [slope(PLACE + 1), -slope(PLACE)]
+    }
+
     fn kinetic_energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
         let [w1, w2, r1, r2] = coordinates(phase);
         let omega = Vector3::new(w1, w2, T::zero());
@@ -79,28 +115,34 @@ impl FlatBase {
 
 impl Dynamics for FlatBase {
     fn functions(&self) -> Vec<&Formula> {
-        Vec::new()
+        self.potential_formula().into_iter().collect()
     }
 
     /// Returns the rates (ω₁', ω₂', r₁', r₂').
     fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         let [w1, w2, r1, r2] = coordinates(phase);
         let constants = self.constants(phase);
-        let [a1, a2] = constants.acceleration([w1, w2], [r1, r2]);
+        let moment = self.moment(phase, constants.curvature);
+        let [a1, a2] = constants.acceleration([w1, w2], [r1, r2], moment);
         vec![a1, a2, w2 / constants.curvature, -w1 / constants.curvature]
     }
 
-    /// Energy ½(ω,Ĩω).
+    /// Energy ½(ω,Ĩω) + U.
     fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
-        Some(self.kinetic_energy(phase))
+        Some(self.total_energy(phase))
     }
 
     fn energy_is_inhomogeneous(&self) -> bool {
-        self.gyrostat.is_some()
+        self.gyrostat.is_some() || self.potential.is_some()
     }
 
     fn without_forces(&self) -> Option<System> {
-        Some(System::FlatBase(Box::new(Self { gyrostat: None, ..self.clone() })))
+        let free = Self { gyrostat: None, potential: None, ..self.clone() };
+        Some(System::FlatBase(Box::new(free)))
+    }
+
+    fn potential(&self) -> Option<&Potential> {
+        self.potential.as_ref()
     }
 
     fn gyrostat(&self) -> Option<&Formula> {
@@ -150,7 +192,8 @@ impl Dynamics for FlatBase {
             Quantity::Contact => Value::Vector(Vector3::new(r1, r2, constants.height)),
             Quantity::AngularVelocity => Value::Vector(Vector3::new(w1, w2, T::zero())),
             Quantity::InertiaAtContact => Value::Matrix(constants.inertia_at([r1, r2])),
-            _ => Value::Scalar(self.kinetic_energy(phase)),
+            Quantity::Potential => Value::Scalar(self.potential_energy(phase)),
+            _ => Value::Scalar(self.total_energy(phase)),
         }
     }
 }
@@ -170,13 +213,15 @@ impl<T: Scalar> Constants<T> {
         self.inertia + point_mass(self.mass, &Vector3::new(r[0], r[1], self.height))
     }
 
-    fn acceleration(&self, omega: [T; 2], r: [T; 2]) -> [T; 2] {
+    /// Computes ω' with a further moment about the axes in the face.
+    fn acceleration(&self, omega: [T; 2], r: [T; 2], moment: [T; 2]) -> [T; 2] {
         let inertia = self.inertia_at(r);
         let omega = Vector3::new(omega[0], omega[1], T::zero());
         let rate = Vector3::new(omega.y, -omega.x, T::zero()).map(|x| x / self.curvature);
         let r = Vector3::new(r[0], r[1], self.height);
         let torque = (inertia * omega + self.gyrostat).cross(&omega)
-            - r.cross(&omega.cross(&rate)) * self.mass;
+            - r.cross(&omega.cross(&rate)) * self.mass
+            + Vector3::new(moment[0], moment[1], T::zero());
         let determinant = inertia[(0, 0)] * inertia[(1, 1)] - inertia[(0, 1)] * inertia[(0, 1)];
         [
             (inertia[(1, 1)] * torque.x - inertia[(0, 1)] * torque.y) / determinant,
@@ -201,7 +246,7 @@ impl<T: Scalar> Constants<T> {
         let along = |i: usize| {
             let mut seeded = omega.map(Dual::from_re);
             seeded[i].eps = T::one();
-            lifted.acceleration(seeded, r)[i].eps
+            lifted.acceleration(seeded, r, [Dual::from_re(T::zero()); 2])[i].eps
         };
         along(0) + along(1)
     }

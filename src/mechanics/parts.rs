@@ -40,7 +40,7 @@ impl System {
                 EquationPart::Rotor,
                 EquationPart::Curvature,
             ],
-            System::FlatBase(_) => &[EquationPart::Rotor],
+            System::FlatBase(_) => &[EquationPart::Potential, EquationPart::Rotor],
             System::Ball(_) => &[EquationPart::Potential, EquationPart::Rotation],
             System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_) => {
                 &[]
@@ -58,6 +58,7 @@ impl System {
                 ball.rotation.take().is_some()
             }
             (System::FlatBase(base), EquationPart::Rotor) => base.gyrostat.take().is_some(),
+            (System::FlatBase(base), EquationPart::Potential) => base.potential.take().is_some(),
             (system, part) => system.body_mut().is_some_and(|body| match part {
                 EquationPart::Potential => body.potential.take().is_some(),
                 EquationPart::Moment => body.moment.take().is_some(),

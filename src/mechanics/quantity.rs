@@ -222,14 +222,16 @@ fn of_body(features: Features) -> Vec<(&'static str, Quantity, Type, Dependence)
 }
 
 /// Lists the quantities of a body with a flat part on a sphere.
-pub fn of_flat_base() -> Vec<(&'static str, Quantity, Type, Dependence)> {
+pub fn of_flat_base(has_potential: bool) -> Vec<(&'static str, Quantity, Type, Dependence)> {
     use Quantity::*;
-    vec![
+    let potential = has_potential.then_some(("U", Potential, Type::Scalar, Dependence::Phase));
+    let own = [
         ("r", Contact, Type::VECTOR, Dependence::Phase),
         ("ω", AngularVelocity, Type::VECTOR, Dependence::Phase),
         ("Ĩ", InertiaAtContact, Type::MATRIX, Dependence::Phase),
         ("energy", Energy, Type::Scalar, Dependence::Phase),
-    ]
+    ];
+    own.into_iter().chain(potential).collect()
 }
 
 /// The form in which a case gives the surface of a ball.

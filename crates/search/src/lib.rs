@@ -33,6 +33,7 @@ mod maps;
 mod multipliers;
 mod orbit;
 mod products;
+mod recognised;
 mod reduced;
 mod second_opinion;
 mod series;
@@ -41,6 +42,7 @@ pub mod survey;
 mod symbols;
 mod symmetries;
 mod terms;
+mod vectors;
 
 use serde::Serialize;
 
@@ -64,16 +66,16 @@ pub use second_opinion::SecondOpinion;
 /// An invariant that was found.
 #[derive(Clone, Debug, Serialize)]
 pub struct Found {
-    /// Kind of the invariant: `integral`, `density`, `symmetry-field` or `bracket`.
+    /// Kind of the invariant: `integral`, `vector-integral`, `density`, `symmetry-field` or `bracket`.
     pub kind: &'static str,
     /// Formula in the names of the case.
     pub formula: String,
     /// Abbreviations used in the formula that the case does not define, in order.
     #[serde(rename = "let", skip_serializing_if = "Vec::is_empty")]
     pub abbreviations: Vec<(&'static str, &'static str)>,
-    /// Additional data under which it holds: a `potential` or `gyrostat` that the case does not
-    /// have, the `value` of a parameter or a `condition` on several; for a bracket its `Hamiltonian`
-    /// and each known `Casimir`.
+    /// Additional data under which it holds: a `potential`, `force` or `gyrostat` that the case does
+    /// not have, the `value` of a parameter or a `condition` on several; for a vector each `component`
+    /// that was found; for a bracket its `Hamiltonian` and each known `Casimir`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub with: Vec<(&'static str, String)>,
     /// Whether it is a function of the energy and the level. Such finds are not reported, so this
@@ -289,6 +291,9 @@ pub fn search(
     report.stage("relations along an orbit", effort, |report| {
         orbit::search(case, effort, effort.halt.is_timed(), report, progress)
     })?;
+    report.stage("forces that integrals survive", effort, |report| {
+        ansatz::forces(case, effort, report, progress)
+    })?;
     if let Some(wanted) = &effort.poisson {
         report.stage("brackets", effort, |report| {
             ansatz::brackets(case, wanted, effort, report, progress)
@@ -299,6 +304,10 @@ pub fn search(
             conditions::several::conditions(case, effort, report, progress)
         })?;
     }
+    report.stage("shorter formulas", effort, |report| {
+        recognised::rewrite(case, effort, report)?;
+        vectors::gather(case, effort, report)
+    })?;
     if !report.orbits.is_empty() {
         // The search along orbits has these as well.
         report.remarks.retain(|remark| !remark.ends_with(integrals::IRRATIONAL));

@@ -70,6 +70,14 @@ impl Coordinates {
         }
     }
 
+    /// Components of the state as given positions, and all others as velocities.
+    pub fn divided(case: &Case, positions: &[usize]) -> Self {
+        let others = (0..case.model.dimension()).filter(|k| !positions.contains(k));
+        let kind = LocalKind::Components(positions.iter().copied().chain(others).collect());
+        let velocities = case.model.dimension() - positions.len();
+        Self { kind, positions: positions.len(), velocities }
+    }
+
     /// All components of the state as velocities, for a case without a level.
     pub fn all_moving(case: &Case) -> Self {
         let velocities = case.model.dimension();

@@ -46,13 +46,7 @@ impl Generators {
     /// Collects the energy and all integrals found or claimed.
     pub fn all(case: &Case, effort: &Effort, report: &SearchReport) -> Result<Self, SearchError> {
         let mut generators = Self::energy(case, effort)?;
-        let mut told: Vec<Formula> = report.functions("integral").cloned().collect();
-        for ask::Claimed { formula, .. } in &report.claimed {
-            if ask::independent(case, &told, formula, effort)?.is_some() {
-                told.push(formula.clone());
-            }
-        }
-        for formula in told {
+        for formula in told(case, effort, report)? {
             generators.add(case, &formula, effort.options.seed)?;
         }
         Ok(generators)
@@ -111,6 +105,31 @@ impl Generators {
     }
 }
 
+/// Lists the integrals found, and those claimed that are independent of them.
+pub fn told(
+    case: &Case,
+    effort: &Effort,
+    report: &SearchReport,
+) -> Result<Vec<Formula>, SearchError> {
+    let mut told: Vec<Formula> = report.functions("integral").cloned().collect();
+    for ask::Claimed { formula, .. } in &report.claimed {
+        if ask::independent(case, &told, formula, effort)?.is_some() {
+            told.push(formula.clone());
+        }
+    }
+    Ok(told)
+}
+
+/// Finds the degree of a formula in the velocities of some coordinates, as [`degree`] does.
+pub fn degree_in(
+    case: &Case,
+    formula: &Formula,
+    coordinates: &Coordinates,
+    seed: u64,
+) -> Result<Option<u32>, SearchError> {
+    on_lines(case, formula, coordinates, seed, polynomial_degree)
+}
+
 /// Finds the degree of a formula in the velocities; `None` if it is not a polynomial in them, or if
 /// its slope has no value modulo a prime.
 ///
@@ -119,7 +138,7 @@ impl Generators {
 /// where F has factors that fields lack, such as exponentials of the positions.
 pub fn degree(case: &Case, formula: &Formula, seed: u64) -> Result<Option<u32>, SearchError> {
     let Ok(coordinates) = Coordinates::of(case) else { return Ok(None) };
-    on_lines(case, formula, &coordinates, seed, polynomial_degree)
+    degree_in(case, formula, &coordinates, seed)
 }
 
 /// Finds the degree of a formula in all variables of a state without a level, as [`degree`] does in the

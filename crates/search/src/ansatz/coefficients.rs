@@ -139,6 +139,14 @@ impl PrimitiveVector {
         Ok(sum.total())
     }
 
+    /// The same vector with the other sign.
+    pub fn negative(&self) -> Self {
+        let mut other = self.clone();
+        let all = other.polynomials.iter_mut().flatten();
+        all.for_each(|(_, multiple)| *multiple = -multiple.clone());
+        other
+    }
+
     /// Negative of the coefficient of a column that is a single term.
     fn magnitude(&self, column: usize) -> FormulaResult {
         let mut other = self.clone();
@@ -361,5 +369,6 @@ fn linear(plain: usize, roots: usize, degree: u32) -> usize {
 
 mod fitted;
 mod numbers;
+mod ratio;
 #[cfg(test)]
 mod tests;

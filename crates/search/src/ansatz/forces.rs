@@ -1,4 +1,4 @@
-//! Variants of a body with another potential or rotor, and with further free constants.
+//! Variants of a system with another potential, rotor or force, and with further free constants.
 
 use liouville::case::Case;
 use liouville::formula::{Formula, FormulaError, Type};
@@ -11,6 +11,28 @@ use liouville::mechanics::{
 /// is not a function of the configuration.
 pub fn with_potential(model: &Model, further: &Formula) -> Option<Model> {
     let mut changed = model.clone();
+    match &mut changed.system {
+        System::Lagrangian(own) => {
+            own.potential = Some(match &own.potential {
+                None => further.clone(),
+                Some(before) => (before + further).ok()?,
+            });
+            return Some(changed);
+        }
+        System::Hamiltonian(own) => {
+            own.function = (&own.function + further).ok()?;
+            return Some(changed);
+        }
+        System::FlatBase(own) => {
+            own.potential = Some(Potential::Formula(match &own.potential {
+                None => further.clone(),
+                Some(Potential::Formula(before)) => (before + further).ok()?,
+                Some(Potential::Arbitrary(_)) => return None,
+            }));
+            return Some(changed);
+        }
+        _ => {}
+    }
     let body = changed.system.body_mut()?;
     let potential = match &body.potential {
         None => further.clone(),
@@ -23,6 +45,32 @@ pub fn with_potential(model: &Model, further: &Formula) -> Option<Model> {
         return None;
     }
     body.potential = Some(Potential::Formula(potential));
+    Some(changed)
+}
+
+/// Adds terms to the rates of components of a field's state; `None` if the system is no field.
+pub fn with_rates(model: &Model, further: &[(usize, Formula)]) -> Option<Model> {
+    let mut changed = model.clone();
+    let System::Field(rates) = &mut changed.system else { return None };
+    let zero = Formula::number(0);
+    let mut start = 0;
+    for (variable, rate) in model.state.iter().zip(rates) {
+        let own = start..start + variable.len();
+        start = own.end;
+        if !further.iter().any(|(component, _)| own.contains(component)) {
+            continue;
+        }
+        let added = |component| {
+            further.iter().find(|(own, _)| *own == component).map_or(&zero, |(_, term)| term)
+        };
+        let parts: Vec<&Formula> = own.map(added).collect();
+        let addition = match (variable.kind, parts.as_slice()) {
+            (Type::Scalar, [only]) => only.bracketed(),
+            (Type::Vector(_), parts) => Formula::vector(parts).ok()?,
+            _ => return None,
+        };
+        *rate = (rate.bracketed() + &addition).ok()?;
+    }
     Some(changed)
 }
 
@@ -46,12 +94,20 @@ pub fn with_constants(
     letter: &str,
     count: usize,
 ) -> Result<(Case, Vec<Formula>), FormulaError> {
+    with_numbers(case, &free_names(case, letter, count))
+}
+
+/// Names that a case does not use: a letter and a number.
+pub fn free_names(case: &Case, letter: &str, count: usize) -> Vec<String> {
+    let is_free = |name: &String| case.model.vocabulary.find(name).is_none();
+    (1..).map(|k| format!("{letter}{k}")).filter(is_free).take(count).collect()
+}
+
+/// Adds free numbers with these names to the case and returns them.
+pub fn with_numbers(case: &Case, names: &[String]) -> Result<(Case, Vec<Formula>), FormulaError> {
     let mut extended = case.clone();
     let model = &mut extended.model;
-    let is_free = |name: &String| case.model.vocabulary.find(name).is_none();
-    let names: Vec<String> =
-        (1..).map(|k| format!("{letter}{k}")).filter(is_free).take(count).collect();
-    for name in &names {
+    for name in names {
         let meaning = Meaning::Parameter(model.parameters.len());
         let range = Range::between((-2, 1), (2, 1));
         model.parameters.push(Parameter {

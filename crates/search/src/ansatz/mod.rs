@@ -24,6 +24,9 @@ mod bracket_system;
 mod brackets;
 mod characters;
 pub mod coefficients;
+mod force_family;
+mod force_split;
+mod force_text;
 mod forces;
 mod gyrostats;
 mod integrals;
@@ -44,6 +47,7 @@ use super::streams::SearchStream;
 use super::terms::{is_one, one, read};
 use super::{Effort, SearchError, SearchReport};
 use coefficients::Ratio;
+pub use force_split::positions;
 use liouville::case::Case;
 use liouville::formula::{Formula, FormulaError};
 use liouville::mechanics::Draw;
@@ -74,7 +78,7 @@ impl Default for Ansatz {
     }
 }
 
-/// Runs all searches within the effort.
+/// Searches for integrals in an ansatz, and for rotors that the known ones survive.
 pub fn search(
     case: &Case,
     effort: &Effort,
@@ -82,11 +86,21 @@ pub fn search(
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
     integrals::integrals(case, effort, report, progress)?;
-    if effort.ansatz.potentials {
-        potentials::potentials(case, effort, report, progress)?;
-    }
     if effort.ansatz.gyrostats {
         gyrostats::gyrostats(case, effort, report, progress)?;
+    }
+    Ok(())
+}
+
+/// Searches for potentials and forces that the known integrals survive.
+pub fn forces(
+    case: &Case,
+    effort: &Effort,
+    report: &mut SearchReport,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(), SearchError> {
+    if effort.ansatz.potentials {
+        potentials::potentials(case, effort, report, progress)?;
     }
     Ok(())
 }

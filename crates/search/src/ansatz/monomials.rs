@@ -56,9 +56,25 @@ impl AnsatzVariables {
             }
             _ => return None,
         };
+        Some(Self { ideal, ..Self::divided(case, is_velocity)? })
+    }
+
+    /// Returns the components of a case's state with a given division; monomials may depend on each
+    /// other on a level.
+    pub fn divided(case: &Case, is_velocity: Vec<bool>) -> Option<Self> {
+        let model = &case.model;
         let names: Vec<String> = (0..model.dimension()).map(|k| model.component_name(k)).collect();
         let terms = read(names.iter().map(String::as_str), &model.vocabulary);
-        (terms.len() == model.dimension()).then_some(Self { terms, is_velocity, ideal })
+        (terms.len() == model.dimension()).then_some(Self {
+            terms,
+            is_velocity,
+            ideal: Ideal::None,
+        })
+    }
+
+    /// Places of the positions.
+    pub fn positions(&self) -> Vec<usize> {
+        (0..self.count()).filter(|k| !self.is_velocity[*k]).collect()
     }
 
     /// Number of variables.

@@ -1,220 +1,315 @@
-//! Potentials under which an integral persists, within a linear ansatz.
+//! Potentials and forces under which an integral persists, within a linear ansatz.
 //!
-//! Let F be an integral of degree 2 in ω, and A(∇U) the contribution of a potential U to ω', linear
-//! in ∇U. Then F + G(γ) is an integral with U exactly when (∂F/∂ω, A(∇U)) + L_v G = 0: linear in U
-//! and G. Both are polynomials over some denominators, without constant terms. With P_i = (∂F/∂ω,
-//! A(e_i)) the first term is the derivative of U along γ → γ + tP.
+//! Let F be an integral of degree 1 or 2 in the velocities, and A(∇U) the contribution of a potential U
+//! of the positions to the field, linear in ∇U. Then F + G, with a function G of the positions, is an
+//! integral with U exactly when (∂F, A(∇U)) + L_v G = 0: linear in U and G. For forces Q of a field it
+//! is Σ Qᵢ ∂F/∂wᵢ + L_v G = 0. All functions are polynomials over some denominators.
 
 use super::super::ask::{holds, is_energy, judged_alone};
-use super::super::products::Generators;
-use super::super::terms::read;
+use super::super::branches::are_true;
+use super::super::products::{degree_in, told};
+use super::super::terms::one;
 use super::super::{Effort, Excluded, Found, SearchError, SearchReport};
 use super::coefficients::{PrimitiveVector, Ratio};
-use super::forces::{appended, combination, with_constants, with_potential};
-use super::monomials::AnsatzVariables;
+use super::force_family::{ForceEntry, ForceFamily};
+use super::force_text::{ForcedIntegral, SurvivingForce};
+use super::note_unwritten;
 use super::size::SystemSize;
 use super::system::{Column, LinearSystem};
-use super::{factors, note_unwritten, written};
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::formula::{Formula, FormulaError};
-use liouville::graph::Expr;
-use liouville::mechanics::{Model, Phase};
-use liouville::number::rational::Rational;
-use liouville::scalar::Scalar;
+use liouville::mechanics::Draw;
+use liouville::verdict::ClaimReport;
 
-/// Highest degree of a potential's numerators.
-const POTENTIAL: u32 = 4;
-/// Highest degree of the numerators of the terms added to an integral.
-const GAIN: u32 = 6;
+/// Largest number of forces that are written out.
+const LISTED: usize = 24;
 
-/// Finds, for each known integral of degree 1 or 2, the potentials under which it persists.
+/// Finds, for each known integral of degree 1 or 2, the potentials or forces under which it persists.
 pub fn potentials(
     case: &Case,
     effort: &Effort,
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    let axes = read(["γ1", "γ2", "γ3"], &case.model.vocabulary);
-    let unit: Option<Vec<Model>> =
-        axes.iter().map(|component| with_potential(&case.model, component)).collect();
-    let unit = unit.filter(|unit| unit.len() == 3);
-    let (Some(variables), Some(unit)) = (AnsatzVariables::of(case), unit) else {
-        let reason = "the system admits none, or has one with free coefficients";
-        report.remark(format!("no search for potentials: {reason}"));
-        return Ok(());
+    let family = match ForceFamily::of(case, effort)? {
+        Ok(family) => family,
+        Err(reason) => {
+            report.remark(format!("no search for potentials: {reason}"));
+            return Ok(());
+        }
     };
-    let generators = Generators::all(case, effort, report)?;
-    let own: Vec<Formula> = generators
-        .each()
-        .filter(|(formula, degree)| !is_energy(formula) && (1..=2).contains(degree))
-        .map(|(formula, _)| formula.clone())
-        .collect();
+    let coordinates = family.coordinates(case);
+    let mut own = Vec::new();
+    for formula in told(case, effort, report)? {
+        let degree = degree_in(case, &formula, &coordinates, effort.options.seed)?;
+        if !is_energy(&formula) && degree.is_some_and(|degree| (1..=2).contains(&degree)) {
+            own.push(formula);
+        }
+    }
     if own.is_empty() {
         report.remark(
-            "no integral of degree 1 or 2 is known that could survive a potential".to_string(),
+            "no integral of degree 1 or 2 in the velocities is known that could survive a potential"
+                .to_string(),
         );
     }
+    let is_list = |draw: &Draw| matches!(draw, Draw::OneOf(values) if values.len() > 1);
+    let has_theorem = are_true(case, effort)? && !case.model.parameter_draws().iter().any(is_list);
     for integral in own {
         effort.halt.check()?;
-        let family = PotentialSearch { case, effort, variables: &variables, unit: &unit, integral };
-        family.search(report, progress)?;
+        let search = ForceSearch { case, effort, family: &family, integral, has_theorem };
+        match search.search(report, progress) {
+            Err(error @ SearchError::NoChart) => {
+                report.remark(format!("no search for potentials: {error}"));
+                return Ok(());
+            }
+            other => other?,
+        }
     }
     Ok(())
 }
 
-/// The search for the potentials that preserve one integral.
-struct PotentialSearch<'a> {
+/// Columns of the unknowns, and a basis of the relations between them.
+type Solutions = (Vec<usize>, Vec<Vec<u64>>);
+
+/// The search for the forces that preserve one integral.
+struct ForceSearch<'a> {
     case: &'a Case,
     effort: &'a Effort,
-    variables: &'a AnsatzVariables,
-    /// Models with an additional potential γ_i.
-    unit: &'a [Model],
+    family: &'a ForceFamily,
     integral: Formula,
+    /// Whether what is missing modulo a prime is missing at real states.
+    has_theorem: bool,
 }
 
-impl PotentialSearch<'_> {
+impl ForceSearch<'_> {
     fn search(
         &self,
         report: &mut SearchReport,
         progress: &mut dyn FnMut(&str),
     ) -> Result<(), SearchError> {
-        let vocabulary = &self.case.model.vocabulary;
-        let below = ["1", "γ1²", "γ2²", "γ3²", "(γ,B*γ)", "(γ,J⁻¹*γ)"];
-        let below = read(below, vocabulary);
-        let mut system = self.recorded(&factors(&below)?)?;
-        let product = |derivation| {
-            move |(factor, exponents): (usize, Vec<u32>)| Column::Product {
-                derivation,
-                factor,
-                exponents,
-            }
-        };
-        let all = |degree: u32| -> Vec<(usize, Vec<u32>)> {
-            (0..below.len())
-                .flat_map(|factor| {
-                    let monomials = self.variables.monomials(0, 0..=degree);
-                    monomials.into_iter().map(move |exponents| (factor, exponents))
-                })
-                .collect()
-        };
-        // The potential's columns are last, so that its coefficients are the free ones.
-        let gains: Vec<Column> = all(GAIN).into_iter().map(product(1)).collect();
-        let potentials: Vec<Column> = all(POTENTIAL).into_iter().map(product(0)).collect();
+        let family = self.family;
+        let mut outcome = Ok(());
+        let mut system = LinearSystem::record(self.case, self.effort, |jet, recording| {
+            outcome = family.record(&self.integral, jet, recording);
+        })?;
+        outcome?;
+        // The forces' columns are last, so that their coefficients are the free ones.
+        let gains = family.gains();
         let first = gains.len();
-        system.columns = gains.into_iter().chain(potentials).collect();
+        system.columns = gains.into_iter().chain(family.forces()).collect();
         let count = system.columns.len();
         let size = SystemSize::of(&[(0..count).collect()]);
-        let what = format!("potentials that preserve {}", self.integral);
+        let what = format!("{} that preserve {}", self.kind(), self.integral);
         progress(&format!("{what}: {size}"));
         if let Some(reason) = size.beyond(self.effort) {
             report.remark(format!("{what}: not tried; {size}; {reason}"));
             return Ok(());
         }
-        let Some(at) = system.at(0, 0) else { return Ok(()) };
-        let mut columns = Vec::new();
-        for range in [0..first, first..count] {
-            let own: Vec<usize> = range.collect();
-            let Some(distinct) = system.distinct(&at, &own)? else { return Ok(()) };
-            // The constant is the first of the functions; it has no effect.
-            columns.extend(distinct.into_iter().filter(|column| *column != own[0]));
-        }
-        let Some(vectors) = system.null_space(&at, &columns)? else { return Ok(()) };
-        let mut found = Vec::new();
+        let Some((columns, vectors)) = self.solved(&system, first)? else {
+            report.remark(format!(
+                "{what}: not tried; formulas with exp, ln, sin, cos or general powers have no values \
+                 modulo a prime"
+            ));
+            return Ok(());
+        };
+        let (mut dimension, mut supports) = (0, Vec::new());
         for vector in &vectors {
             let pairs = columns.iter().zip(vector).filter(|(_, entry)| **entry != 0);
             let support: Vec<usize> = pairs.map(|(column, _)| *column).collect();
-            if support.last().is_none_or(|last| *last < first) {
-                continue;
+            if support.last().is_some_and(|last| *last >= first) {
+                dimension += 1;
+                supports.push(support);
             }
-            let Some(coefficients) = PrimitiveVector::of(&system, &support)? else {
-                let what = format!("a potential with {} terms", support.len());
-                note_unwritten(self.case, &what, report);
-                continue;
-            };
-            let sum = |potential: bool| {
-                let own = |k: &usize| (support[*k] >= first) == potential;
-                let own: Vec<usize> = (0..support.len()).filter(own).collect();
-                let function =
-                    |k: &usize| written(self.variables, &below, &system.columns[support[*k]]);
-                let functions: Vec<Ratio> =
-                    own.iter().map(function).collect::<Result<_, FormulaError>>()?;
-                coefficients.sum(&own, &functions)
-            };
-            // the support ends with a column of a potential
-            let Some(potential) = sum(true)? else { continue };
-            found.push((potential, sum(false)?));
         }
-        let told = self.tell(&found, report)?;
-        let names: Vec<&str> = below.iter().map(Formula::text).collect();
-        let names = names.join(", ");
-        let dimension = vectors.len();
-        report.excluded.push(Excluded {
-            ansatz: format!("potentials U = Σ p/d, p a polynomial in γ of degree at most {POTENTIAL}, d one of {names}"),
+        // Polynomials come first, and what has no gain: members of a family are left out then.
+        let is_fraction = |column: &usize| matches!(&system.columns[*column], Column::Product { factor, .. } if *factor > 0);
+        let has_gain = |support: &Vec<usize>| support.first().is_some_and(|own| *own < first);
+        supports.sort_by_key(|own| (has_gain(own), own.iter().any(is_fraction), own.len()));
+        let (free, gaining): (Vec<_>, Vec<_>) =
+            supports.into_iter().partition(|own| !has_gain(own));
+        let mut found = Vec::new();
+        for support in free.iter().take(LISTED).chain(gaining.iter().take(LISTED)) {
+            match PrimitiveVector::of(&system, support)? {
+                Some(coefficients) => {
+                    found.push(self.written(&system, support, first, &coefficients)?);
+                }
+                None => {
+                    let what = format!("a {} with {} terms", self.word(), support.len());
+                    note_unwritten(self.case, &what, report);
+                }
+            }
+        }
+        let told = if self.tell(&mut found, report)? { dimension } else { found.len() };
+        if self.has_theorem {
+            report.excluded.push(self.theorem(dimension, told));
+        }
+        Ok(())
+    }
+
+    fn word(&self) -> &'static str {
+        match self.family.entry {
+            ForceEntry::Potential(_) => "potential",
+            ForceEntry::Rates(_) => "force",
+        }
+    }
+
+    fn kind(&self) -> String {
+        format!("{}s", self.word())
+    }
+
+    /// Columns of the unknowns, and a basis of the relations between them; `None` without values.
+    fn solved(
+        &self,
+        system: &LinearSystem,
+        first: usize,
+    ) -> Result<Option<Solutions>, SearchError> {
+        let Some(columns) = self.columns(system, first)? else { return Ok(None) };
+        let Some(at) = system.at(0, 0) else { return Ok(None) };
+        Ok(system.null_space(&at, &columns)?.map(|vectors| (columns, vectors)))
+    }
+
+    /// Selects columns of which none depends on others, without constants that have no effect.
+    fn columns(
+        &self,
+        system: &LinearSystem,
+        first: usize,
+    ) -> Result<Option<Vec<usize>>, SearchError> {
+        let Some(at) = system.at(0, 0) else { return Ok(None) };
+        let each = (system.columns.len() - first) / self.family.ways();
+        let starts = (0..self.family.ways()).map(|way| first + way * each);
+        let mut columns = Vec::new();
+        let forces = starts.map(|start| start..start + each);
+        for range in std::iter::once(0..first).chain(forces) {
+            let own: Vec<usize> = range.collect();
+            let Some(distinct) = system.distinct(&at, &own)? else { return Ok(None) };
+            let is_idle = own[0] < first || matches!(self.family.entry, ForceEntry::Potential(_));
+            columns.extend(distinct.into_iter().filter(|column| !is_idle || *column != own[0]));
+        }
+        Ok(Some(columns))
+    }
+
+    /// Writes the force and the gain that a null vector consists of.
+    fn written(
+        &self,
+        system: &LinearSystem,
+        support: &[usize],
+        first: usize,
+        coefficients: &PrimitiveVector,
+    ) -> Result<SurvivingForce, SearchError> {
+        let derivation = |k: &usize| match &system.columns[support[*k]] {
+            Column::Product { derivation, .. } => *derivation,
+            Column::Given(_) => usize::MAX,
+        };
+        let all: Vec<usize> = (0..support.len()).collect();
+        let sum = |own: &[usize]| -> Result<Option<Formula>, FormulaError> {
+            let function = |k: &usize| match &system.columns[support[*k]] {
+                Column::Product { factor, exponents, .. } => {
+                    self.family.written(*factor, exponents)
+                }
+                Column::Given(_) => Ok(Ratio::of(one())),
+            };
+            let functions: Vec<Ratio> = own.iter().map(function).collect::<Result<_, _>>()?;
+            coefficients.sum(own, &functions)
+        };
+        let parts = (0..self.family.ways()).map(|way| {
+            let own: Vec<usize> = all
+                .iter()
+                .copied()
+                .filter(|k| support[*k] >= first && derivation(k) == way)
+                .collect();
+            sum(&own)
+        });
+        let parts: Vec<Option<Formula>> = parts.collect::<Result<_, FormulaError>>()?;
+        let (gains, forces): (Vec<usize>, Vec<usize>) =
+            all.iter().copied().partition(|k| support[*k] < first);
+        let key = |k: &usize| match &system.columns[support[*k]] {
+            Column::Product { factor, exponents, .. } => (*factor, exponents.clone()),
+            Column::Given(_) => (usize::MAX, Vec::new()),
+        };
+        let ratio = coefficients.ratio(&gains, &forces, &key)?;
+        Ok(SurvivingForce { parts, gain: sum(&gains)?, ratio })
+    }
+
+    /// Reports the integral with all forces, each with a free constant or function, and keeps those that
+    /// are proved; returns whether these are all functions.
+    fn tell(
+        &self,
+        found: &mut Vec<SurvivingForce>,
+        report: &mut SearchReport,
+    ) -> Result<bool, SearchError> {
+        // Where not all are proved together, those are told that are proved alone.
+        for attempt in 0..2 {
+            if found.is_empty() {
+                return Ok(false);
+            }
+            let Some((forced, verdict)) = self.judged(found)? else { break };
+            if holds(&verdict) {
+                let model = &forced.case.model;
+                let texts = (forced.integral, forced.force);
+                let judged = [&forced.judged];
+                let mut one = Found::of_several("integral", texts.0, &judged, verdict, model);
+                one.with = vec![(self.word(), texts.1)];
+                report.found.push(one);
+                return Ok(forced.is_whole);
+            }
+            report.remark(format!(
+                "found, but not proved ({}): {} with the {} {}",
+                verdict.verdict.word(),
+                forced.integral,
+                self.word(),
+                forced.force
+            ));
+            if attempt == 0 {
+                let mut kept = Vec::new();
+                for own in found.drain(..) {
+                    let alone = self.judged(std::slice::from_ref(&own))?;
+                    if alone.is_some_and(|(_, verdict)| holds(&verdict)) {
+                        kept.push(own);
+                    }
+                }
+                *found = kept;
+            }
+        }
+        found.clear();
+        Ok(false)
+    }
+
+    /// Judges the integral with forces.
+    fn judged(
+        &self,
+        found: &[SurvivingForce],
+    ) -> Result<Option<(ForcedIntegral, ClaimReport)>, SearchError> {
+        let Self { case, family, integral, effort, .. } = self;
+        let Some(forced) = ForcedIntegral::of(case, family, integral, found, effort)? else {
+            return Ok(None);
+        };
+        let verdict = judged_alone(&forced.case, Claim::integral(&forced.judged), effort)?;
+        Ok(verdict.map(|verdict| (forced, verdict)))
+    }
+
+    fn theorem(&self, dimension: usize, told: usize) -> Excluded {
+        let ForceFamily { below, degree, gain, names, .. } = self.family;
+        let over: Vec<&str> = below.iter().map(Formula::text).collect();
+        let over = over.join(", ");
+        let (symbol, aside) = match self.family.entry {
+            ForceEntry::Potential(_) => ("U", ", constants aside,"),
+            ForceEntry::Rates(_) => ("Q", ""),
+        };
+        let kind = self.kind();
+        Excluded {
+            ansatz: format!(
+                "{kind} {symbol} = Σ p/d, p a polynomial in {names} of degree at most {degree}, d one of {over}"
+            ),
             dimension,
             known: told,
             error_log2: None,
             theorem: format!(
-                "For generic values of the free parameters, and the given values of the fixed ones, at most {dimension} independent potentials of this form, \
-                 constants aside, allow an integral {} + G(γ) with G = Σ p/d, p of degree at most {GAIN}{}.",
+                "For generic values of the free parameters, and the given values of the fixed ones, at most {dimension} independent {kind} of this form{aside} \
+                 allow an integral {} + G({names}) with G = Σ p/d, p of degree at most {gain}{}.",
                 self.integral,
                 if told == dimension && told > 0 { ": those listed here" } else { "" }
             ),
-        });
-        Ok(())
-    }
-
-    /// Records derivatives along γ → γ + tP with P_i = (∂F/∂ω, A(e_i)), and along the motion.
-    fn recorded(&self, over: &[Formula]) -> Result<LinearSystem, SearchError> {
-        let Self { case, effort, variables, .. } = self;
-        LinearSystem::record(case, effort, |jet, recording| {
-            let state = jet.phase.state();
-            let field = jet.phase.field();
-            let gains = self.unit.iter().map(|model| {
-                let beside: Phase<'_, _> = jet.phase.in_model(model, &state);
-                let moved = beside.field().iter().zip(field);
-                let direction: Vec<_> = moved.map(|(with, without)| *with - *without).collect();
-                jet.phase.lift(&direction).scalar(&self.integral).eps
-            });
-            let gains: Vec<Expr> = gains.collect();
-            let velocities = state.len() - gains.len();
-            let mut direction = vec![Expr::rational(&Rational::from(0)); velocities];
-            direction.extend(gains);
-            recording.derive(&jet.phase.lift(&direction), &variables.terms, over);
-            recording.derive(jet.along_field(), &variables.terms, over);
-        })
-    }
-
-    /// Reports all potentials together, each with a free constant, and the integral with all of
-    /// them; returns the number proved.
-    fn tell(
-        &self,
-        found: &[(Formula, Option<Formula>)],
-        report: &mut SearchReport,
-    ) -> Result<usize, SearchError> {
-        if found.is_empty() {
-            return Ok(0);
         }
-        let (mut extended, names) = with_constants(self.case, "ε", found.len())?;
-        let potential = combination(names.iter().zip(found.iter().map(|(u, _)| u)))?;
-        let gains = names.iter().zip(found).filter_map(|(name, (_, g))| Some((name, g.as_ref()?)));
-        let Some(potential) = potential else { return Ok(0) };
-        let Some(model) = with_potential(&extended.model, &potential) else { return Ok(0) };
-        extended.model = model;
-        let formula = appended(Some(&self.integral), gains)?;
-        let formula = formula.unwrap_or_else(|| self.integral.clone());
-        let verdict = judged_alone(&extended, Claim::integral(&formula), self.effort)?;
-        let Some(verdict) = verdict else { return Ok(0) };
-        if !holds(&verdict) {
-            report.remark(format!(
-                "found, but not proved ({}): {formula} with U = {potential}",
-                verdict.verdict.word()
-            ));
-            return Ok(0);
-        }
-        let mut one = Found::new("integral", &formula, None, verdict, &extended.model);
-        one.with = vec![("potential", potential.to_string())];
-        report.found.push(one);
-        Ok(found.len())
     }
 }

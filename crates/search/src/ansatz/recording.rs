@@ -53,6 +53,27 @@ impl Recording {
         self.derivations.len() - 1
     }
 
+    /// Adds variables and factors that are multiplied by `by` in place of being differentiated; returns
+    /// the direction's index.
+    pub fn multiply(
+        &mut self,
+        at: &Phase<'_, Expr>,
+        variables: &[Formula],
+        factors: &[Formula],
+        by: Expr,
+    ) -> usize {
+        let start = self.outputs.len();
+        let zero = Expr::rational(&Rational::from(0));
+        self.outputs.extend(variables.iter().map(|term| at.scalar(term)));
+        self.outputs.extend(vec![zero; variables.len()]);
+        let values: Vec<Expr> = factors.iter().map(|term| at.scalar(term)).collect();
+        self.outputs.extend(values.iter().copied());
+        self.outputs.extend(values.iter().map(|value| *value * by));
+        let (variables, factors) = (variables.len(), factors.len());
+        self.derivations.push(Derivation { start, variables, factors });
+        self.derivations.len() - 1
+    }
+
     /// Adds variables with an additional rate of growth `growth`; returns the direction's index. The
     /// derivative of x^a is v(x^a) + growth·x^a.
     pub fn derive_growing(

@@ -16,6 +16,7 @@ use super::super::{SearchError, SearchReport};
 use super::adjoin::{self, PolynomialField};
 use super::known::IndependentIntegrals;
 use super::lattice::ExponentLattice;
+use super::leading::LeadingField;
 use super::relations::combined_gradient;
 use super::setting::OrbitSetting;
 use super::sparse::sparse;
@@ -71,12 +72,14 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
     }
 
     /// Searches the polynomials of one degree in some variables, within a number of steps; returns the
-    /// steps taken, or `None` if there are too many.
+    /// steps taken, or `None` if there are too many. `counted` is the number of independent integrals of
+    /// the degrees before, those that could not be written among them.
     pub fn of_degree(
         &self,
         variables: &[usize],
         degree: u32,
         steps: f64,
+        counted: usize,
         known: &mut IndependentIntegrals,
         report: &mut SearchReport,
     ) -> Result<Option<f64>, SearchError> {
@@ -113,9 +116,19 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
         let product = |exponents| Column::Product { derivation: 0, factor: 0, exponents };
         system.columns = all.iter().cloned().map(product).collect();
         let Some(at) = system.at(0, 0) else { return Ok(Some(cost)) };
+        let leading = LeadingField::of(setting, &self.field, variables)?;
         let mut found = Vec::new();
         for places in classes {
             setting.effort.halt.check()?;
+            if let Some(leading) = &leading {
+                let forms: Vec<&Vec<u32>> = places.iter().map(|place| &all[*place]).collect();
+                let is_highest = |own: &&Vec<u32>| own.iter().sum::<u32>() == degree;
+                let forms: Vec<&Vec<u32>> = forms.into_iter().filter(is_highest).collect();
+                // An integral of lower degree was found before.
+                if 2 * forms.len() <= places.len() && leading.excludes(variables, &forms)? {
+                    continue;
+                }
+            }
             let columns = match setting.is_on_level() {
                 false => places,
                 true => match system.distinct(&at, &places)? {
@@ -134,7 +147,7 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
                 found.push(ClassVectors { columns, vectors: sparse(&at.modulus, vectors) });
             }
         }
-        self.tell(&system, &at, &all, (variables, degree), found, (known, report))?;
+        self.tell(&system, &at, &all, (variables, degree, counted), found, (known, report))?;
         Ok(Some(cost))
     }
 
@@ -144,7 +157,7 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
         system: &LinearSystem,
         at: &PrimePoint,
         all: &[Vec<u32>],
-        (variables, degree): (&[usize], u32),
+        (variables, degree, counted): (&[usize], u32, usize),
         found: Vec<ClassVectors>,
         (known, report): (&mut IndependentIntegrals, &mut SearchReport),
     ) -> Result<(), SearchError> {
@@ -158,6 +171,17 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
         }
         candidates.sort_by_key(|(support, _)| support.len());
         let Some((point, mut gradients)) = known.gradients(setting, at)? else { return Ok(()) };
+        let gradient = |(support, values): &(Vec<usize>, Vec<u64>)| {
+            let own: Vec<Vec<u32>> = support.iter().map(|k| all[*k].clone()).collect();
+            combined_gradient(at, &own, values, &point)
+        };
+        // Functions of integrals that could not be written are no easier to write; on a level others are,
+        // as polynomials that are equal there to fractions.
+        let mut together = gradients.clone();
+        let new = candidates.iter().filter(|own| together.push(at, gradient(own))).count();
+        if !setting.is_on_level() && known.within(variables) + new <= counted {
+            return Ok(());
+        }
         let mut unwritten = None;
         for (support, values) in candidates {
             setting.effort.halt.check()?;

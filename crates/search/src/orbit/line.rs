@@ -258,3 +258,12 @@ fn determinants(
     }
     Ok((m.mul(product, rows[size - 1][size - 1]), m.mul(product, rows[size][size - 1])))
 }
+
+/// Degree of a field in the state; `None` if it is not a polynomial of low degree.
+pub fn degree_of_field(setting: &OrbitSetting<'_>) -> Result<Option<usize>, SearchError> {
+    let Some(at) = setting.at(0, 0) else { return Ok(None) };
+    match RandomLine::draw(setting, &at, 0) {
+        Some(line) => line.degree(),
+        None => Ok(None),
+    }
+}

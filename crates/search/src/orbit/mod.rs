@@ -7,6 +7,7 @@
 //! tangents     directions of the state itself, where its functions are variables
 //! polynomials  polynomial integrals
 //! lattice      exponents that a field does not mix
+//! leading      parts of highest degree that no polynomial integral has
 //! graded       polynomial integrals of higher degree, class by class
 //! sparse       combinations of integrals with few terms
 //! rational     rational ones, as P and Q of the relations P − c Q
@@ -42,6 +43,7 @@ mod graded;
 mod images;
 mod known;
 mod lattice;
+mod leading;
 mod line;
 mod map_densities;
 mod map_integrals;
@@ -67,8 +69,9 @@ use liouville::mechanics::System;
 use liouville::number::rational::Rational;
 use liouville::verdict::Verdict;
 
+pub use self::adjoin::root_steps;
 use self::known::IndependentIntegrals;
-use self::line::RandomLine;
+use self::line::degree_of_field;
 use self::part::VariableSet;
 use self::setting::OrbitSetting;
 use super::ask::proved_energy;
@@ -387,13 +390,4 @@ fn rounds(
         }
     }
     Ok(())
-}
-
-/// Degree of a field in the state; `None` if it is not a polynomial of low degree.
-fn degree_of_field(setting: &OrbitSetting<'_>) -> Result<Option<usize>, SearchError> {
-    let Some(at) = setting.at(0, 0) else { return Ok(None) };
-    match RandomLine::draw(setting, &at, 0) {
-        Some(line) => line.degree(),
-        None => Ok(None),
-    }
 }

@@ -169,7 +169,8 @@ impl VariableSet {
         while self.next_graded <= limits.degree && !is_complete(setting, known) {
             let degree = self.next_graded;
             progress(&format!("polynomial integrals of degree {degree}, class by class"));
-            let done = search.of_degree(&self.variables, degree, left, known, report)?;
+            let counted = self.done.last().map_or(0, |own| own.integrals);
+            let done = search.of_degree(&self.variables, degree, left, counted, known, report)?;
             let Some(steps) = done else { break };
             left -= steps;
             self.next_graded += 1;

@@ -28,8 +28,18 @@ impl Description {
                 own.function("k", Some(&body.curvature));
                 own.function("z", Some(&body.height));
                 own.function("S", body.gyrostat.as_ref());
+                if let Some(Potential::Formula(potential)) = &body.potential {
+                    own.function("U", Some(potential));
+                }
                 own.equations.push(
-                    "Ĩω' = (Ĩω + S)×ω − m r×(ω×r') + λγ, with r = (r₁, r₂, z), γ = e₃".to_string(),
+                    match body.potential {
+                        None => "Ĩω' = (Ĩω + S)×ω − m r×(ω×r') + λγ, with r = (r₁, r₂, z), γ = e₃",
+                        Some(_) => {
+                            "Ĩω' = (Ĩω + S)×ω − m r×(ω×r') + (∂U/∂r₂, −∂U/∂r₁, 0)/k + λγ, with \
+                             r = (r₁, r₂, z), γ = e₃"
+                        }
+                    }
+                    .to_string(),
                 );
             }
             System::Ball(ball) => {

@@ -136,7 +136,7 @@ impl Geometry {
                 let forces = system.potential().is_some() || system.moment().is_some();
                 (forces, system.gyrostat().is_some())
             }
-            System::FlatBase(body) => (false, body.gyrostat.is_some()),
+            System::FlatBase(body) => (body.potential.is_some(), body.gyrostat.is_some()),
             System::Ball(ball) => {
                 match ball.surface {
                     Surface::Support(_) => note("support", "the surface has a support function"),

@@ -54,7 +54,7 @@ pub fn sentence(case: &Case, facts: &[GeometryFact]) -> String {
         }
         System::FlatBase(body) => format!(
             "A body with a flat base rolls on a sphere without slipping or spinning{}.",
-            with(body.gyrostat.is_some(), false)
+            with(body.gyrostat.is_some(), body.potential.is_some())
         ),
         System::Ball(ball) => {
             let surface =

@@ -3,6 +3,7 @@
 
 mod brackets;
 mod conditions;
+mod forces;
 mod levels;
 
 use std::path::Path;

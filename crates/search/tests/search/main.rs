@@ -3,3 +3,5 @@
 mod ansatz;
 mod growth;
 mod orbits;
+mod plants;
+mod shapes;

@@ -102,42 +102,6 @@ impl Numbers {
     }
 }
 
-fn written(form: [i64; 3]) -> String {
-    format!("(({})*x + ({})*y + ({})*z)", form[0], form[1], form[2])
-}
-
-#[test]
-fn planted_integrals_are_never_excluded() {
-    // v = ∇F × w G² keeps F = A/B in coordinates turned at random: ∇(A/B) = (B ∇A − A ∇B)/B².
-    let mut numbers = Numbers(17);
-    for plant in 0..40 {
-        let (a, b, c, w) = (numbers.form(), numbers.form(), numbers.form(), numbers.form());
-        let shift = numbers.next();
-        let (above, below) =
-            (format!("({} + {shift})", written(a)), format!("({} + 1)", written(b)));
-        // A = α γ with two forms, B = β: degree 2 over 1.
-        let third = format!("({} − 2)", written(c));
-        let slope = |k: usize| {
-            format!(
-                "({below}*(({})*{third} + ({})*{above}) − {above}*{third}*({}))",
-                a[k], c[k], b[k]
-            )
-        };
-        let (i, j) = ([1, 2, 0], [2, 0, 1]);
-        let rates: Vec<String> = (0..3)
-            .map(|k| format!("{}*({}) − {}*({})", slope(i[k]), w[j[k]], slope(j[k]), w[i[k]]))
-            .collect();
-        let rates: Vec<&str> = rates.iter().map(String::as_str).collect();
-        let effort = Effort::default();
-        let Ok(case) = Case::parse(&field("", &rates), &[]) else { continue };
-        let Ok(report) = search(&case, &effort, &mut |_| {}) else { continue };
-        assert!(
-            excluded(&report).is_none_or(|degree| degree < 2),
-            "plant {plant}: {above}*{third}/{below} is an integral of {rates:?}"
-        );
-    }
-}
-
 /// A field without parameters in its variables, in the order given.
 fn any_field(rates: &[(&str, &str)]) -> String {
     let state: String = rates

@@ -1,0 +1,130 @@
+//! Vectors whose components are integrals that were found.
+//!
+//! An integral that is Σ c (a × b)ᵢ + Σ c aᵢ with one index i, for vectors a, b of the state, is compared
+//! with the other two components: the vector Σ c a × b + Σ c a is judged as a whole.
+
+use super::ansatz::coefficients::{PrimitiveVector, Ratio};
+use super::ansatz::positions;
+use super::ansatz::system::{Column, LinearSystem};
+use super::ask::judged_alone;
+use super::{Effort, Found, SearchError, SearchReport};
+use liouville::case::Case;
+use liouville::claim::Claim;
+use liouville::formula::{Formula, Type};
+use liouville::mechanics::System;
+use liouville::verdict::Verdict;
+
+/// Largest number of vectors.
+const MOST_VECTORS: usize = 8;
+/// Smallest number of components among the integrals found.
+const COMPONENTS: usize = 2;
+
+/// Adds the vectors to a report of which at least two components were found.
+pub fn gather(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<(), SearchError> {
+    let vectors = vectors(case, effort)?;
+    let is_scalar = |found: &&Found| {
+        found.kind == "integral" && found.with.is_empty() && found.verdict == Verdict::Proved
+    };
+    let own: Vec<Formula> =
+        report.found.iter().filter(is_scalar).filter_map(|found| found.function.clone()).collect();
+    if vectors.is_empty() || own.len() < COMPONENTS {
+        return Ok(());
+    }
+    let mut terms = vectors.clone();
+    for (k, first) in vectors.iter().enumerate() {
+        for second in &vectors[k + 1..] {
+            terms.push(case.formula(&format!("{first} × {second}"))?);
+        }
+    }
+    let mut found: Vec<(Formula, Vec<Formula>)> = Vec::new();
+    for integral in own {
+        effort.halt.check()?;
+        let vector = match vector(case, effort, &terms, &integral) {
+            Err(SearchError::NoChart) => return Ok(()),
+            other => other?,
+        };
+        let Some(vector) = vector else { continue };
+        match found.iter_mut().find(|(own, _)| own.text() == vector.text()) {
+            Some((_, components)) => components.push(integral),
+            None => found.push((vector, vec![integral])),
+        }
+    }
+    for (vector, components) in found {
+        if components.len() < COMPONENTS {
+            continue;
+        }
+        let verdict = judged_alone(case, Claim::integral(&vector), effort)?;
+        let Some(verdict) = verdict.filter(|report| report.verdict == Verdict::Proved) else {
+            continue;
+        };
+        let text = vector.to_string();
+        let mut one = Found::of_several("vector-integral", text, &[&vector], verdict, &case.model);
+        one.with = components.iter().map(|own| ("component", own.to_string())).collect();
+        report.found.push(one);
+    }
+    Ok(())
+}
+
+/// Vectors of the state in space: its variables, or three scalar positions and the three others.
+fn vectors(case: &Case, effort: &Effort) -> Result<Vec<Formula>, SearchError> {
+    let model = &case.model;
+    let own = model.state.iter().filter(|variable| variable.kind == Type::VECTOR);
+    let mut texts: Vec<String> = own.map(|variable| variable.name.clone()).collect();
+    let is_own =
+        matches!(model.system, System::Field(_) | System::Hamiltonian(_) | System::Lagrangian(_));
+    let has_six = texts.is_empty() && is_own && model.dimension() == 6 && model.level.is_empty();
+    if has_six
+        && let Ok(places) = positions(case, effort)?
+        && places.len() == 3
+    {
+        let list = |is_position: bool| {
+            let kept = (0..6).filter(|place| places.contains(place) == is_position);
+            let names: Vec<String> = kept.map(|place| model.component_name(place)).collect();
+            format!("[{}]", names.join(", "))
+        };
+        texts = vec![list(true), list(false)];
+    }
+    if texts.len() > MOST_VECTORS {
+        return Ok(Vec::new());
+    }
+    Ok(texts.iter().map(|text| case.formula(text)).collect::<Result<_, _>>()?)
+}
+
+/// The vector of which an integral is a component, up to a factor.
+fn vector(
+    case: &Case,
+    effort: &Effort,
+    terms: &[Formula],
+    integral: &Formula,
+) -> Result<Option<Formula>, SearchError> {
+    let mut system = LinearSystem::record(case, effort, |jet, recording| {
+        for term in terms {
+            jet.phase.evaluate(term).components().into_iter().for_each(|own| {
+                recording.give(own);
+            });
+        }
+        recording.give(jet.phase.scalar(integral));
+    })?;
+    let count = 3 * terms.len();
+    system.columns = (0..=count).map(Column::Given).collect();
+    let Some(at) = system.at(0, 0) else { return Ok(None) };
+    for axis in 0..3 {
+        let columns: Vec<usize> = (0..terms.len()).map(|k| 3 * k + axis).chain([count]).collect();
+        let Some(vectors) = system.null_space(&at, &columns)? else { return Ok(None) };
+        let Some(own) = vectors.last().filter(|own| own.last() != Some(&0)) else { continue };
+        let kept: Vec<usize> = (0..own.len()).filter(|k| own[*k] != 0).collect();
+        let support: Vec<usize> = kept.iter().map(|k| columns[*k]).collect();
+        let Some(coefficients) = PrimitiveVector::of(&system, &support)? else { continue };
+        let places: Vec<usize> = (0..kept.len() - 1).collect();
+        let functions: Vec<Ratio> =
+            places.iter().map(|k| Ratio::of(terms[kept[*k]].clone())).collect();
+        // The sign of the integral is free: the first term has a plus.
+        let sum = coefficients.sum(&places, &functions)?;
+        let is_negative = |sum: &Formula| sum.text().starts_with(['−', '-']);
+        return Ok(match sum.filter(|sum| !is_negative(sum)) {
+            Some(sum) => Some(sum),
+            None => coefficients.negative().sum(&places, &functions)?,
+        });
+    }
+    Ok(None)
+}
