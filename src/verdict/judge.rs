@@ -1,6 +1,8 @@
 //! Judgement of all claims of a case: recorded once, then taken up the ladder until each is
 //! decided.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use super::claim_state::ClaimState;
 use super::conclude::report;
 use super::evidence::ClaimReport;
@@ -207,10 +209,40 @@ fn recording(case: &Case) -> Result<(Graph, (Vec<RecordedClaim<'_>>, SharedTerms
 /// Judges all claims of a case except those about motion and those of absence, which need to follow
 /// motions and to count invariants.
 pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
+    judge_telling(case, options, &|_| ())
+}
+
+/// Judges the same claims, and tells how many more are decided; in all, as many as there are.
+pub fn judge_telling(
+    case: &Case,
+    options: &Options,
+    progress: &(dyn Fn(f64) + Sync),
+) -> Result<CaseReport, JudgeError> {
+    let count = case.claims.len() as u64;
+    let told = AtomicU64::new(0);
+    // A claim may be decided on several parts of its place. The last one waits for the end, since
+    // conditions and wider places follow.
+    let decided = |more: usize| {
+        let after = |told: u64| (told + more as u64).min(count.saturating_sub(1)).max(told);
+        let before =
+            told.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |told| Some(after(told)));
+        let before = before.unwrap_or(count);
+        progress((after(before) - before) as f64);
+    };
+    let report = judge_all(case, options, &decided)?;
+    progress(count.saturating_sub(told.into_inner()) as f64);
+    Ok(report)
+}
+
+fn judge_all(
+    case: &Case,
+    options: &Options,
+    decided: &(dyn Fn(usize) + Sync),
+) -> Result<CaseReport, JudgeError> {
     let model = &case.model;
     let inputs = model.free_components() + model.dimension();
     let (graph, (recorded, common)) = recording(case)?;
-    let bench = Judging::new(case, &common, options, &graph, inputs);
+    let bench = Judging::new(case, &common, options, &graph, inputs).telling(decided);
     let mut statuses: Vec<ClaimState> = recorded.iter().map(|_| ClaimState::default()).collect();
     let warnings = [case.warnings.clone(), bench.check()?].concat();
     let mut places: Vec<&LevelSubset> = Vec::new();

@@ -88,6 +88,8 @@ impl Judging<'_> {
             status.evidence.operations = self.graph.operations(&item.residual);
         }
         self.first_states(sampler, open);
+        let settled = open.iter().filter(|(_, status)| status.settled.is_some());
+        self.decided()(settled.count());
         if self.options.trust != Trust::Float {
             self.fields(place, sampler, open)?;
         }
@@ -197,7 +199,7 @@ impl Judging<'_> {
             presence: item.presence.clone(),
         }));
         let field = PrimeFieldStates::new(self, sampler);
-        let mut answers = field.test(&queries)?.into_iter();
+        let mut answers = field.test_telling(&queries, self.decided())?.into_iter();
         let ground = answers.next();
         if ground.as_ref().is_some_and(Answer::is_nonzero) {
             self.name_the_error(place, sampler)?;

@@ -15,6 +15,7 @@ use crate::taylor::batch::{MOTION_LANES, Queue, in_batches};
 use crate::taylor::lanes::Lanes;
 use crate::taylor::program::TaylorProgram;
 use crate::taylor::stepper::{Accuracy, Stepper};
+use crate::told::ToldShare;
 use liouville::graph::{Evaluator, Expr, Tape, record};
 use liouville::mechanics::calculus::DualPoint;
 use liouville::mechanics::{Model, Phase};
@@ -73,7 +74,7 @@ impl Shadowed {
         begins: &[Result<ShadowStart, FlowError>],
         time: f64,
         threads: usize,
-        progress: &(dyn Fn() + Sync),
+        progress: &(dyn Fn(f64) + Sync),
     ) -> Vec<Result<Exponents, FlowError>> {
         in_batches(begins.len(), threads, |queue, _| {
             Worker::new(self, begins, time).run(queue, progress)
@@ -89,6 +90,8 @@ struct Running {
     record: Record,
     distance: f64,
     volume: f64,
+    /// Share of the motion that was told.
+    told: ToldShare,
 }
 
 /// Motions of one thread.
@@ -114,7 +117,7 @@ impl<'w> Worker<'w> {
         Self { equations, begins, time, stepper, divergence, running, done: Vec::new() }
     }
 
-    fn run(mut self, queue: &Queue, progress: &(dyn Fn() + Sync)) -> Done {
+    fn run(mut self, queue: &Queue, progress: &(dyn Fn(f64) + Sync)) -> Done {
         loop {
             for couple in 0..self.running.len() {
                 while self.running[couple].is_none() {
@@ -136,7 +139,7 @@ impl<'w> Worker<'w> {
             self.integrate_divergence();
             self.stepper.advance();
             for couple in 0..self.running.len() {
-                if self.measure(couple) {
+                if self.measure(couple, progress) {
                     self.finish(couple, None, progress);
                 }
             }
@@ -144,12 +147,12 @@ impl<'w> Worker<'w> {
     }
 
     /// Puts a motion and its shadow into two lanes; one without a start ends immediately.
-    fn fill(&mut self, couple: usize, index: usize, progress: &(dyn Fn() + Sync)) {
+    fn fill(&mut self, couple: usize, index: usize, progress: &(dyn Fn(f64) + Sync)) {
         let ShadowStart { state, loose } = match &self.begins[index] {
             Ok(begin) => begin,
             Err(problem) => {
                 self.done.push((index, Err(problem.clone())));
-                progress();
+                progress(1.0);
                 return;
             }
         };
@@ -162,7 +165,8 @@ impl<'w> Worker<'w> {
         let shadow: Vec<DoubleDouble> = beside.chain(loose.iter().copied()).collect();
         self.stepper.start(COUPLE * couple, &[state.as_slice(), loose].concat(), end);
         self.stepper.start(COUPLE * couple + 1, &shadow, end);
-        self.running[couple] = Some(Running { index, record, distance, volume: 0.0 });
+        self.running[couple] =
+            Some(Running { index, record, distance, volume: 0.0, told: ToldShare::default() });
     }
 
     /// Adds the contribution of the present steps to ∫ div v.
@@ -183,9 +187,10 @@ impl<'w> Worker<'w> {
     }
 
     /// Measures the distance of the shadow after a step. Returns whether the motion is done.
-    fn measure(&mut self, couple: usize) -> bool {
+    fn measure(&mut self, couple: usize, progress: &(dyn Fn(f64) + Sync)) -> bool {
         let Some(running) = &mut self.running[couple] else { return false };
         let (own, other) = (COUPLE * couple, COUPLE * couple + 1);
+        running.told.reach(self.stepper.time(own).hi / self.time, progress);
         let (state, shadow) = (self.stepper.pairs(own), self.stepper.pairs(other));
         let apart: Vec<DoubleDouble> = shadow.iter().zip(&state).map(|(x, y)| *x - *y).collect();
         let length = apart.iter().map(|x| x.hi * x.hi).sum::<f64>().sqrt();
@@ -213,13 +218,18 @@ impl<'w> Worker<'w> {
         }
     }
 
-    fn finish(&mut self, couple: usize, problem: Option<FlowError>, progress: &(dyn Fn() + Sync)) {
-        let Some(running) = self.running[couple].take() else { return };
+    fn finish(
+        &mut self,
+        couple: usize,
+        problem: Option<FlowError>,
+        progress: &(dyn Fn(f64) + Sync),
+    ) {
+        let Some(mut running) = self.running[couple].take() else { return };
         let found = match problem {
             Some(problem) => Err(problem),
             None => Ok(running.record.exponents()),
         };
         self.done.push((running.index, found));
-        progress();
+        running.told.finish(progress);
     }
 }

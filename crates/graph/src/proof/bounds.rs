@@ -253,7 +253,8 @@ impl FactorLists {
         let (left, right) = (self.ranges[x as usize].clone(), self.ranges[y as usize].clone());
         let (mut i, mut j) = (left.start, right.start);
         while i < left.end || j < right.end {
-            let name_at = |at: usize, end: usize| if at < end { self.entries[at].0 } else { u32::MAX };
+            let name_at =
+                |at: usize, end: usize| if at < end { self.entries[at].0 } else { u32::MAX };
             let (a, b) = (name_at(i, left.end), name_at(j, right.end));
             let name = a.min(b);
             let (mut e, mut g) = (0.0, 0.0);

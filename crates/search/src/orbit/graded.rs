@@ -114,8 +114,12 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
         system.columns = all.iter().cloned().map(product).collect();
         let Some(at) = system.at(0, 0) else { return Ok(Some(cost)) };
         let mut found = Vec::new();
+        let work = |own: &Vec<usize>| own.len().pow(2);
+        let (mut done, all_work) = (0, classes.iter().map(work).sum());
         for places in classes {
             setting.effort.halt.check()?;
+            setting.effort.halt.meter().set(done, all_work);
+            done += work(&places);
             let columns = match setting.is_on_level() {
                 false => places,
                 true => match system.distinct(&at, &places)? {
