@@ -1,7 +1,7 @@
 //! Judgement of all claims of a case: recorded once, then taken up the ladder until each is
 //! decided.
 
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use super::claim_state::ClaimState;
 use super::conclude::report;
@@ -212,32 +212,35 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
     judge_telling(case, options, &|_| ())
 }
 
+/// Part of a claim that is left to the end of a judgement.
+const REST: f64 = 1.0 / 128.0;
+
 /// Judges the same claims, and tells how many more are decided; in all, as many as there are.
 pub fn judge_telling(
     case: &Case,
     options: &Options,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<CaseReport, JudgeError> {
-    let count = case.claims.len() as u64;
-    let told = AtomicU64::new(0);
-    // A claim may be decided on several parts of its place. The last one waits for the end, since
-    // conditions and wider places follow.
-    let decided = |more: usize| {
-        let after = |told: u64| (told + more as u64).min(count.saturating_sub(1)).max(told);
-        let before =
-            told.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |told| Some(after(told)));
-        let before = before.unwrap_or(count);
-        progress((after(before) - before) as f64);
+    // A claim may be decided on several parts of its place, and conditions and wider places follow: the
+    // last bit is told at the end.
+    let most = case.claims.len() as f64 - REST;
+    let told = Mutex::new(0.0);
+    let lock = || told.lock().unwrap_or_else(PoisonError::into_inner);
+    let decided = |more: f64| {
+        let mut told = lock();
+        let after = f64::min(*told + more, most).max(*told);
+        progress(after - *told);
+        *told = after;
     };
     let report = judge_all(case, options, &decided)?;
-    progress(count.saturating_sub(told.into_inner()) as f64);
+    progress(case.claims.len() as f64 - *lock());
     Ok(report)
 }
 
 fn judge_all(
     case: &Case,
     options: &Options,
-    decided: &(dyn Fn(usize) + Sync),
+    decided: &(dyn Fn(f64) + Sync),
 ) -> Result<CaseReport, JudgeError> {
     let model = &case.model;
     let inputs = model.free_components() + model.dimension();

@@ -31,8 +31,8 @@ pub struct Judging<'a> {
     pub options: &'a Options,
     pub graph: &'a Graph,
     pub inputs: usize,
-    /// Takes numbers of claims that are decided.
-    decided: &'a (dyn Fn(usize) + Sync),
+    /// Takes numbers of claims that are decided, also fractions.
+    pub(super) decided: &'a (dyn Fn(f64) + Sync),
     /// Reasons why the states of a place may miss a part of it, by the equations that hold there.
     pub(super) missed: RefCell<FxHashMap<Vec<bool>, Option<String>>>,
     /// Parts of a place, by the equations that hold there.
@@ -53,13 +53,13 @@ impl<'a> Judging<'a> {
     }
 
     /// Tells how many claims more are decided.
-    pub fn telling(self, decided: &'a (dyn Fn(usize) + Sync)) -> Self {
+    pub fn telling(self, decided: &'a (dyn Fn(f64) + Sync)) -> Self {
         Self { decided, ..self }
     }
 
-    /// Function that is told how many claims more are decided.
-    pub(super) fn decided(&self) -> &'a (dyn Fn(usize) + Sync) {
-        self.decided
+    /// Says that so many claims more are decided, for those who watch.
+    pub(super) fn tell(&self, decided: f64) {
+        (self.decided)(decided);
     }
 }
 

@@ -4,8 +4,7 @@
     /tmp/peers/bin/python chaos.py ../../../target/release/liouville [another liouville ...]
 
 Exponents: motions from many starts to one time, each with two tangent vectors and the integral of
-div v, in f64. heyoka integrates the same 19 equations, whose variational part it differentiates by
-itself, for eight motions in a batch, and is given fresh vectors of length 1 at intervals.
+div v, in f64. heyoka integrates the same 19 equations for eight motions in a batch, and is given fresh vectors of length 1 at intervals.
 Chart: a plane of starts, each motion with one exponent and the mean divergence, to the accuracy of a
 chart. heyoka has 13 equations for each motion, with one tangent vector, or, as liouville, a shadow
 beside each motion that is brought back at intervals; its best counts.
@@ -43,23 +42,63 @@ def run_liouville(program, command, options):
     return own() - begin, json.loads(run.stdout)
 
 
-def divergence(rates, variables):
-    return sum(hk.diff(rate, variable) for rate, variable in zip(rates, variables))
+class Dual:
+    """A value with its derivative, over expressions: shorter than what `hk.diff` makes."""
+
+    def __init__(self, value, slope):
+        self.value, self.slope = value, slope
+
+    def __add__(self, other):
+        other = lifted(other)
+        return Dual(self.value + other.value, self.slope + other.slope)
+
+    def __sub__(self, other):
+        other = lifted(other)
+        return Dual(self.value - other.value, self.slope - other.slope)
+
+    def __rsub__(self, other):
+        return lifted(other) - self
+
+    def __neg__(self):
+        return Dual(-self.value, -self.slope)
+
+    def __mul__(self, other):
+        other = lifted(other)
+        slope = self.slope * other.value + self.value * other.slope
+        return Dual(self.value * other.value, slope)
+
+    def __truediv__(self, other):
+        ratio = self.value / other.value
+        return Dual(ratio, (self.slope - ratio * other.slope) / other.value)
+
+    __radd__, __rmul__ = __add__, __mul__
+
+
+def lifted(value):
+    return value if isinstance(value, Dual) else Dual(value, 0.0)
+
+
+def along(variables, vector):
+    """Derivatives of the rates along a vector."""
+    point = [Dual(x, t) for x, t in zip(variables, vector)]
+    return [rate.slope for rate in field(point[:3], point[3:])]
+
+
+def divergence(variables):
+    unit = lambda axis: [1.0 if k == axis else 0.0 for k in range(6)]
+    return sum(along(variables, unit(axis))[axis] for axis in range(3))
 
 
 def integrator(vectors, tolerance):
-    """A batch of motions with tangent vectors; with any there is the integral of div v."""
+    """A batch of motions with tangent vectors, and the integral of div v."""
     variables = list(hk.make_vars(*VARIABLES))
     rates = field(variables[:3], variables[3:])
     equations = list(zip(variables, rates))
     for number in range(vectors):
         vector = list(hk.make_vars(*(f"t{number}{k}" for k in range(6))))
-        slopes = [[hk.diff(rate, x) for x in variables] for rate in rates]
-        changes = [sum(s * t for s, t in zip(row, vector)) for row in slopes]
-        equations += zip(vector, changes)
-    if vectors:
-        # On the level |y| = 1, which the motion keeps, the divergence is that in all of space.
-        equations.append((hk.make_vars("volume"), divergence(rates, variables)))
+        equations += zip(vector, along(variables, vector))
+    # y' = y × w has no divergence.
+    equations.append((hk.make_vars("volume"), divergence(variables)))
     return hk.taylor_adaptive_batch(
         equations, np.ones((len(equations), BATCH)), tol=tolerance, force_avx512=True,
         fast_math=True)
@@ -111,15 +150,16 @@ def with_shadows(ta, states, until):
     for first in range(0, len(states), half):
         batch = [np.array(states[min(first + k, len(states) - 1)]) for k in range(half)]
         for lane, state in enumerate(batch):
-            ta.state[:, lane] = state
-            ta.state[:, half + lane] = state + DISTANCE * tangents(state, 1, rng)[0]
+            ta.state[:6, lane] = state
+            ta.state[:6, half + lane] = state + DISTANCE * tangents(state, 1, rng)[0]
+        ta.state[6] = 0.0
         ta.set_time([0.0] * BATCH)
         growth = np.zeros(half)
         for stop in np.arange(INTERVAL, until + INTERVAL / 2, INTERVAL):
             ta.propagate_until(float(stop))
-            apart = ta.state[:, half:] - ta.state[:, :half]
+            apart = ta.state[:6, half:] - ta.state[:6, :half]
             lengths = np.linalg.norm(apart, axis=0) / DISTANCE
-            ta.state[:, half:] = ta.state[:, :half] + apart / lengths
+            ta.state[:6, half:] = ta.state[:6, :half] + apart / lengths
             growth += np.log(lengths)
         exponents += list(growth / until)
     return time.process_time() - begin, exponents[:len(states)]

@@ -24,6 +24,8 @@ use liouville::number::float::Float;
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 
+/// Number of states at which div v is computed together.
+const STATES: usize = 64;
 /// Lanes of a motion and its shadow.
 const COUPLE: usize = 2;
 /// Distance of a shadow, relative to the state; rounding is 10⁻¹⁰ of it.
@@ -100,7 +102,13 @@ struct Worker<'w> {
     begins: &'w [Result<ShadowStart, FlowError>],
     time: f64,
     stepper: Stepper<Lanes<MOTION_LANES>>,
-    divergence: Evaluator<'w, Float<MOTION_LANES>>,
+    divergence: Evaluator<'w, Float<STATES>>,
+    /// States at which div v is still to be computed, row by row.
+    inputs: Vec<[f64; STATES]>,
+    /// Couple of each of these states, and its weight in ∫ div v.
+    weights: Vec<(usize, f64)>,
+    /// States within the present steps.
+    within: Vec<Lanes<MOTION_LANES>>,
     running: Vec<Option<Running>>,
     done: Done,
 }
@@ -112,9 +120,20 @@ impl<'w> Worker<'w> {
         time: f64,
     ) -> Self {
         let stepper = Stepper::new(&equations.program, Accuracy::ROUGH);
-        let divergence = Evaluator::new(&equations.divergence, Float::<MOTION_LANES>);
-        let running = (0..MOTION_LANES / COUPLE).map(|_| None).collect();
-        Self { equations, begins, time, stepper, divergence, running, done: Vec::new() }
+        let divergence = Evaluator::new(&equations.divergence, Float::<STATES>);
+        let inputs = vec![[0.0; STATES]; equations.divergence.inputs()];
+        Self {
+            equations,
+            begins,
+            time,
+            stepper,
+            divergence,
+            inputs,
+            weights: Vec::new(),
+            within: Vec::new(),
+            running: (0..MOTION_LANES / COUPLE).map(|_| None).collect(),
+            done: Vec::new(),
+        }
     }
 
     fn run(mut self, queue: &Queue, progress: &(dyn Fn(f64) + Sync)) -> Done {
@@ -169,19 +188,34 @@ impl<'w> Worker<'w> {
             Some(Running { index, record, distance, volume: 0.0, told: ToldShare::default() });
     }
 
-    /// Adds the contribution of the present steps to ∫ div v.
+    /// Notes the contribution of the present steps to ∫ div v, by Gauss's rule with two points.
     fn integrate_divergence(&mut self) {
         let away = 0.5 / 3f64.sqrt();
         for share in [0.5 - away, 0.5 + away] {
-            let inputs: Vec<[f64; MOTION_LANES]> =
-                self.stepper.within(share).into_iter().map(|lanes| lanes.0).collect();
-            self.divergence.run(&inputs);
-            let values = self.divergence.output(0);
-            for (couple, running) in self.running.iter_mut().enumerate() {
-                if let Some(running) = running {
-                    let lane = COUPLE * couple;
-                    running.volume += 0.5 * self.stepper.step(lane) * values[lane];
+            if self.weights.len() + self.running.len() > STATES {
+                self.collect_divergence();
+            }
+            self.stepper.within(share, &mut self.within);
+            for couple in (0..self.running.len()).filter(|couple| self.running[*couple].is_some()) {
+                let lane = COUPLE * couple;
+                for (input, state) in self.inputs.iter_mut().zip(&self.within) {
+                    input[self.weights.len()] = state.0[lane];
                 }
+                self.weights.push((couple, 0.5 * self.stepper.step(lane)));
+            }
+        }
+    }
+
+    /// Adds what was noted to ∫ div v, in the order in which it was.
+    fn collect_divergence(&mut self) {
+        if self.weights.is_empty() {
+            return;
+        }
+        self.divergence.run(&self.inputs);
+        let values = self.divergence.output(0);
+        for ((couple, weight), value) in self.weights.drain(..).zip(values) {
+            if let Some(running) = &mut self.running[couple] {
+                running.volume += weight * value;
             }
         }
     }
@@ -207,6 +241,8 @@ impl<'w> Worker<'w> {
         if !is_done {
             return false;
         }
+        self.collect_divergence();
+        let Some(running) = &mut self.running[couple] else { return false };
         running.record.finish_block(running.volume);
         match running.record.end() {
             Some(end) => {
@@ -224,6 +260,7 @@ impl<'w> Worker<'w> {
         problem: Option<FlowError>,
         progress: &(dyn Fn(f64) + Sync),
     ) {
+        self.collect_divergence();
         let Some(mut running) = self.running[couple].take() else { return };
         let found = match problem {
             Some(problem) => Err(problem),

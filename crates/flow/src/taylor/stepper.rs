@@ -152,11 +152,11 @@ impl<T: SeriesNumber> Stepper<T> {
         }
     }
 
-    /// States of all motions after a fraction of their steps, without the rounding remainders.
-    pub fn within(&self, share: f64) -> Vec<T> {
-        let steps = T::from_lanes(|lane| self.lanes[lane].step * T::One::float(share));
-        let rows = self.state.iter().enumerate();
-        rows.map(|(row, state)| *state + increment(self.series.component(row), steps)).collect()
+    /// Puts the states of all motions after a fraction of their steps into `states`, without the
+    /// rounding remainders.
+    pub fn within(&self, share: f64, states: &mut Vec<T>) {
+        states.clear();
+        with_widest_vectors(Within { stepper: self, share, states });
     }
 
     /// Present step of a motion.
@@ -334,6 +334,24 @@ impl<T: SeriesNumber> Kernel for Advance<'_, T> {
         for (row, (state, rest)) in stepper.state.iter_mut().zip(&mut stepper.rest).enumerate() {
             let coefficients = stepper.series.component(row);
             T::advance(state, rest, increment(coefficients, steps));
+        }
+    }
+}
+
+/// Work of finding states within the steps.
+struct Within<'s, T: SeriesNumber> {
+    stepper: &'s Stepper<T>,
+    share: f64,
+    states: &'s mut Vec<T>,
+}
+
+impl<T: SeriesNumber> Kernel for Within<'_, T> {
+    #[inline(always)]
+    fn run(self) {
+        let Self { stepper, share, states } = self;
+        let steps = T::from_lanes(|lane| stepper.lanes[lane].step * T::One::float(share));
+        for (row, state) in stepper.state.iter().enumerate() {
+            states.push(*state + increment(stepper.series.component(row), steps));
         }
     }
 }
