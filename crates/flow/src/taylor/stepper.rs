@@ -152,11 +152,10 @@ impl<T: SeriesNumber> Stepper<T> {
         }
     }
 
-    /// Puts the states of all motions after a fraction of their steps into `states`, without the
-    /// rounding remainders.
+    /// Puts all states after a fraction of their steps into `states`, without the remainders.
     pub fn within(&self, share: f64, states: &mut Vec<T>) {
         states.clear();
-        with_widest_vectors(Within { stepper: self, share, states });
+        with_widest_vectors(Within(self, share, states));
     }
 
     /// Present step of a motion.
@@ -242,8 +241,9 @@ impl<T: SeriesNumber> Stepper<T> {
 
     /// Velocity of a motion at its present state.
     pub fn velocity(&self, lane: usize) -> Vec<f64> {
-        let rows = 0..self.state.len();
-        rows.map(|row| self.series.component(row)[1].lane(lane).leading()).collect()
+        (0..self.state.len())
+            .map(|row| self.series.component(row)[1].lane(lane).leading())
+            .collect()
     }
 
     /// Whether a motion stands still: its velocity is exactly 0.
@@ -339,16 +339,12 @@ impl<T: SeriesNumber> Kernel for Advance<'_, T> {
 }
 
 /// Work of finding states within the steps.
-struct Within<'s, T: SeriesNumber> {
-    stepper: &'s Stepper<T>,
-    share: f64,
-    states: &'s mut Vec<T>,
-}
+struct Within<'s, T: SeriesNumber>(&'s Stepper<T>, f64, &'s mut Vec<T>);
 
 impl<T: SeriesNumber> Kernel for Within<'_, T> {
     #[inline(always)]
     fn run(self) {
-        let Self { stepper, share, states } = self;
+        let Self(stepper, share, states) = self;
         let steps = T::from_lanes(|lane| stepper.lanes[lane].step * T::One::float(share));
         for (row, state) in stepper.state.iter().enumerate() {
             states.push(*state + increment(stepper.series.component(row), steps));
