@@ -12,7 +12,7 @@ use crate::halt::Halt;
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::pace::{Lane, Lost};
 use crate::taylor::program::TaylorProgram;
-use crate::taylor::series::Series;
+use crate::taylor::series::{Series, increment};
 use crate::taylor::watch::{Edge, Presence};
 use liouville::graph::{Kernel, with_widest_vectors};
 use liouville::number::double_double::DoubleDouble;
@@ -350,16 +350,6 @@ impl<T: SeriesNumber> Kernel for Within<'_, T> {
             states.push(*state + increment(stepper.series.component(row), steps));
         }
     }
-}
-
-/// Returns Σ x_k h^k from k = 1 on.
-#[inline(always)]
-fn increment<T: SeriesNumber>(coefficients: &[T], step: T) -> T {
-    let mut sum = T::ZERO;
-    for coefficient in coefficients[1..].iter().rev() {
-        sum = coefficient.fused(sum, step).settled();
-    }
-    sum * step
 }
 
 /// A motion between two steps, as polynomials in the time since the first.

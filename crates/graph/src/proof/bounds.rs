@@ -8,8 +8,6 @@
 //!
 //! docs/soundness.md, "Degrees".
 
-use std::ops::Range;
-
 use rustc_hash::FxHashMap;
 
 use crate::graph::{Graph, Step};
@@ -57,7 +55,8 @@ pub struct Bounds {
 /// Lists of factors with their exponents, by increasing factor, one behind the other.
 struct FactorLists {
     entries: Vec<(u32, f64)>,
-    ranges: Vec<Range<usize>>,
+    /// Begin and end of each list.
+    ranges: Vec<[usize; 2]>,
     /// Lists combined so far: values of one formula mostly have the same few lists.
     combined: FxHashMap<(u32, u32, Combination), u32>,
 }
@@ -218,12 +217,13 @@ impl FactorLists {
     /// Makes the list without factors.
     fn new() -> Self {
         let combined = FxHashMap::default();
-        Self { entries: Vec::new(), ranges: vec![0..0], combined }
+        Self { entries: Vec::new(), ranges: vec![[0; 2]], combined }
     }
 
     /// Returns a list.
     fn at(&self, list: u32) -> &[(u32, f64)] {
-        &self.entries[self.ranges[list as usize].clone()]
+        let [start, end] = self.ranges[list as usize];
+        &self.entries[start..end]
     }
 
     /// Adds a list.
@@ -238,7 +238,7 @@ impl FactorLists {
         if start == self.entries.len() {
             return NONE;
         }
-        self.ranges.push(start..self.entries.len());
+        self.ranges.push([start, self.entries.len()]);
         self.ranges.len() as u32 - 1
     }
 
@@ -250,12 +250,11 @@ impl FactorLists {
             return *list;
         }
         let start = self.entries.len();
-        let (left, right) = (self.ranges[x as usize].clone(), self.ranges[y as usize].clone());
-        let (mut i, mut j) = (left.start, right.start);
-        while i < left.end || j < right.end {
+        let ([mut i, left], [mut j, right]) = (self.ranges[x as usize], self.ranges[y as usize]);
+        while i < left || j < right {
             let name_at =
                 |at: usize, end: usize| if at < end { self.entries[at].0 } else { u32::MAX };
-            let (a, b) = (name_at(i, left.end), name_at(j, right.end));
+            let (a, b) = (name_at(i, left), name_at(j, right));
             let name = a.min(b);
             let (mut e, mut g) = (0.0, 0.0);
             if a == name {
