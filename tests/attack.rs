@@ -85,6 +85,7 @@ fn main() -> ExitCode {
     let trials = vec![
         Trial::test("derivatives are what differences show", own::derivatives),
         Trial::test("values agree in f64 and in 640 bits", own::two_precisions),
+        Trial::test("logarithms are those of the library", own::logarithms),
         Trial::test("enclosures hold what is printed", own::enclosures),
         Trial::test("the oracle knows what is known", own::known_truths),
         Trial::test("the oracle notices spoilt verdicts", lies::noticed),

@@ -177,6 +177,8 @@ def read_program(program, at="program"):
 
 def times(x, y, p):
     """Product in F_p(i), i² = -1."""
+    if not x[1] and not y[1]:
+        return x[0] * y[0] % p, 0
     return (x[0] * y[0] - x[1] * y[1]) % p, (x[0] * y[1] + x[1] * y[0]) % p
 
 
@@ -297,6 +299,8 @@ def bounds(steps, zero):
             if name == "product":
                 powers = {f: x.get(f, 0) + y.get(f, 0) for f in names}
                 bound = (d + e, h + i, {f: n for f, n in powers.items() if n})
+            elif x == y:
+                bound = (max(d, e), max(h, i) + 1, x)
             else:
                 powers = {f: min(x.get(f, 0), y.get(f, 0)) for f in names}
                 (kd, kh), (xd, xh), (yd, yh) = weight(powers), weight(x), weight(y)

@@ -304,10 +304,32 @@ pub fn log(a: &Real) -> Found<Real> {
         1 if a.value == whole(1).value && a.error == EXACT => Ok(whole(0)),
         1 => {
             let error = (a.error - height(a) + 3).max(EXACT);
-            Real::rounded(a.value.ln(), error).settled(1)
+            Real::rounded(logarithm(&a.value), error).settled(1)
         }
         _ => Err(Lack::Value),
     }
+}
+
+/// Computes ln x = y + 2 artanh((t − 1)/(t + 1)) with t = x/e^y and y = ln x in f64: faster than the
+/// library's series, which it leaves to numbers near 1 and out of the range of f64.
+fn logarithm(x: &Float) -> Float {
+    const GUARD: usize = 64;
+    let near = x.to_f64().value().ln();
+    if !(1e-6..700.0).contains(&near.abs()) {
+        return x.ln();
+    }
+    let wide = |x: Float| x.with_precision(bits() + GUARD).value();
+    let near = wide(Float::try_from(near).expect("finite"));
+    let quotient = wide(x.clone()) / near.exp();
+    let small = (&quotient - Float::ONE) / (quotient + Float::ONE);
+    let square = &small * &small;
+    let (mut power, mut sum) = (small.clone(), small);
+    // Each term is at most 2^-80 times the one before it.
+    for odd in 1..=(bits() + GUARD) / 80 {
+        power *= &square;
+        sum += &power / Float::from(2 * odd + 1);
+    }
+    (near + sum * Float::from(2)).with_precision(bits()).value()
 }
 
 /// Computes sin, or cos: 0 at multiples of a quarter turn.
@@ -334,4 +356,11 @@ pub fn to_the(a: &Real, n: i64) -> Found<Real> {
     }
     let product = (0..n.unsigned_abs()).fold(whole(1), |product, _| product * a);
     if n < 0 { Ok(whole(1) / product) } else { Ok(product) }
+}
+
+/// Number of bits in which a logarithm differs from the library's.
+pub fn difference_of_logarithms(x: f64) -> isize {
+    let x = Float::try_from(x).expect("finite").with_precision(bits()).value();
+    let ours = logarithm(&x);
+    tall(&(&ours - x.ln())) - tall(&ours) + bits() as isize
 }
