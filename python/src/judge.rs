@@ -123,7 +123,7 @@ pub fn report(
     let digest = CaseDigest::of(&case.text);
     let written = work.shared(py, move || {
         let options = Options { seed, ..Options::default() };
-        let found = survey::survey(&inner, &options, &mut |_| ())?;
+        let found = survey::survey(&inner, &options, &Halt::default(), &mut |_| ())?;
         let origin = digest.line();
         Ok(match format.as_str() {
             "html" => {

@@ -95,7 +95,7 @@ pub fn orbits<'py>(
         let sampling = Sampling { columns: &columns, every };
         let followed = (&time, precision);
         let sampling = Some(&sampling);
-        liouville_flow::orbits(&inner, &starts, followed, sampling, count, &|| ())
+        liouville_flow::orbits(&inner, &starts, followed, sampling, count, &|_| ())
     })?;
     let mut all = Vec::new();
     for (index, one) in found.into_iter().enumerate() {
@@ -150,7 +150,8 @@ pub fn section<'py>(
     let request = choice.request(&inner).map_err(|error| errors::of_choice(py, &error))?;
     let work = Work::on(threads);
     let count = work.threads();
-    let found = work.alone(py, move || liouville_flow::section(&inner, &request, count, &|| ()))?;
+    let found =
+        work.alone(py, move || liouville_flow::section(&inner, &request, count, &|_| ()))?;
     let found = found.map_err(|error| errors::of_flow(py, &error))?;
     Ok(of_section(py, &found))
 }
@@ -228,7 +229,7 @@ pub fn surface<'py>(
             skip,
             backwards,
         };
-        liouville_flow::surface_section(&inner, &request, &starts, count, &|| ())
+        liouville_flow::surface_section(&inner, &request, &starts, count, &|_| ())
     })?;
     let found = found.map_err(|error| errors::of_flow(py, &error))?;
     Ok(of_surface(py, titles, &found))
@@ -291,7 +292,7 @@ pub fn chart<'py>(
     let request = PlaneRequest { axes: axes.clone(), launch, time, seed };
     let work = Work::on(threads);
     let count = work.threads();
-    let cells = work.alone(py, move || liouville_flow::plane(&inner, &request, count, &|| ()))?;
+    let cells = work.alone(py, move || liouville_flow::plane(&inner, &request, count, &|_| ()))?;
     let cells = cells.map_err(|error| errors::of_flow(py, &error))?;
     Ok(of_chart(py, [x_name, y_name], &axes, &cells))
 }
@@ -346,14 +347,14 @@ pub fn exponents(
     let found = work.alone(py, move || {
         let title = &inner.title;
         if spectrum {
-            let found = liouville_flow::spectra(&inner.model, &starts, time, count, &|| ())?;
+            let found = liouville_flow::spectra(&inner.model, &starts, time, count, &|_| ())?;
             return Ok(written::spectra_json(title, &names, &found));
         }
         let parameters = starts.iter().flatten().next().map(|start| start.parameters.clone());
         let parameters: Vec<Rational> = parameters.unwrap_or_default();
         let motions = Variational::all(&inner.model, &parameters, &starts)?;
-        let forward = motions.all_exponents(time, count, &|| ());
-        let backward = both_ways.then(|| motions.all_exponents(-time, count, &|| ()));
+        let forward = motions.all_exponents(time, count, &|_| ());
+        let backward = both_ways.then(|| motions.all_exponents(-time, count, &|_| ()));
         Ok(written::json(title, &written::rows(names, forward, backward)))
     })?;
     let found = found.map_err(|error: FlowError| errors::of_flow(py, &error))?;

@@ -92,6 +92,15 @@ impl<'a> PrimeFieldStates<'a> {
 
     /// Tests whether each group of values is zero at all states of the place, for all parameters.
     pub fn test(&self, queries: &[Query]) -> Result<Vec<Answer>, Fault> {
+        self.test_telling(queries, &|_| ())
+    }
+
+    /// Tests the same, and tells each time how many groups more are decided.
+    pub fn test_telling(
+        &self,
+        queries: &[Query],
+        decided: &(dyn Fn(usize) + Sync),
+    ) -> Result<Vec<Answer>, Fault> {
         let silent = |reason: &str| Ok(vec![Answer::Silent(reason.to_string()); queries.len()]);
         if queries.is_empty() {
             return Ok(Vec::new());
@@ -117,7 +126,7 @@ impl<'a> PrimeFieldStates<'a> {
         let mut answers: Vec<Option<Answer>> = vec![None; queries.len()];
         for fixed in combinations {
             let (graph, groups) = self.sampler.compose_groups(graph, &groups, &fixed)?;
-            let outcomes = prover.prove(&graph, &groups)?;
+            let outcomes = prover.prove_telling(&graph, &groups, decided)?;
             let graph = Arc::new(graph);
             for ((all, one), group) in answers.iter_mut().zip(outcomes).zip(&groups) {
                 let is_void = group.required.iter().any(|value| graph.is_nowhere_defined(*value));

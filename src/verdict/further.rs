@@ -34,6 +34,7 @@ impl Judging<'_> {
             let Some((run, layout, _)) = &laid_out else { return };
             let mut statuses: Vec<&mut ClaimState> =
                 left.iter_mut().map(|(_, status)| &mut **status).collect();
+            let share = (blocks.end - blocks.start) as f64 / self.blocks() as f64;
             match run.pass(sampler, blocks.clone(), layout) {
                 Some(passed) => {
                     let passed = blocks.zip(passed);
@@ -46,6 +47,7 @@ impl Judging<'_> {
                     }
                 }
             }
+            self.tell(share * left.len() as f64);
         }
     }
 

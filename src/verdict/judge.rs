@@ -1,6 +1,8 @@
 //! Judgement of all claims of a case: recorded once, then taken up the ladder until each is
 //! decided.
 
+use std::sync::{Mutex, PoisonError};
+
 use super::claim_state::ClaimState;
 use super::conclude::report;
 use super::evidence::ClaimReport;
@@ -207,10 +209,43 @@ fn recording(case: &Case) -> Result<(Graph, (Vec<RecordedClaim<'_>>, SharedTerms
 /// Judges all claims of a case except those about motion and those of absence, which need to follow
 /// motions and to count invariants.
 pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
+    judge_telling(case, options, &|_| ())
+}
+
+/// Part of a claim that is left to the end of a judgement.
+const REST: f64 = 1.0 / 128.0;
+
+/// Judges the same claims, and tells how many more are decided; in all, as many as there are.
+pub fn judge_telling(
+    case: &Case,
+    options: &Options,
+    progress: &(dyn Fn(f64) + Sync),
+) -> Result<CaseReport, JudgeError> {
+    // A claim may be decided on several parts of its place, and conditions and wider places follow: the
+    // last bit is told at the end.
+    let most = case.claims.len() as f64 - REST;
+    let told = Mutex::new(0.0);
+    let lock = || told.lock().unwrap_or_else(PoisonError::into_inner);
+    let decided = |more: f64| {
+        let mut told = lock();
+        let after = f64::min(*told + more, most).max(*told);
+        progress(after - *told);
+        *told = after;
+    };
+    let report = judge_all(case, options, &decided)?;
+    progress(case.claims.len() as f64 - *lock());
+    Ok(report)
+}
+
+fn judge_all(
+    case: &Case,
+    options: &Options,
+    decided: &(dyn Fn(f64) + Sync),
+) -> Result<CaseReport, JudgeError> {
     let model = &case.model;
     let inputs = model.free_components() + model.dimension();
     let (graph, (recorded, common)) = recording(case)?;
-    let bench = Judging::new(case, &common, options, &graph, inputs);
+    let bench = Judging::new(case, &common, options, &graph, inputs).telling(decided);
     let mut statuses: Vec<ClaimState> = recorded.iter().map(|_| ClaimState::default()).collect();
     let warnings = [case.warnings.clone(), bench.check()?].concat();
     let mut places: Vec<&LevelSubset> = Vec::new();

@@ -31,6 +31,8 @@ pub struct Judging<'a> {
     pub options: &'a Options,
     pub graph: &'a Graph,
     pub inputs: usize,
+    /// Takes numbers of claims that are decided, also fractions.
+    pub(super) decided: &'a (dyn Fn(f64) + Sync),
     /// Reasons why the states of a place may miss a part of it, by the equations that hold there.
     pub(super) missed: RefCell<FxHashMap<Vec<bool>, Option<String>>>,
     /// Parts of a place, by the equations that hold there.
@@ -47,7 +49,17 @@ impl<'a> Judging<'a> {
         inputs: usize,
     ) -> Self {
         let (missed, pieces) = (RefCell::default(), RefCell::default());
-        Self { case, common, options, graph, inputs, missed, pieces }
+        Self { case, common, options, graph, inputs, decided: &|_| (), missed, pieces }
+    }
+
+    /// Tells how many claims more are decided.
+    pub fn telling(self, decided: &'a (dyn Fn(f64) + Sync)) -> Self {
+        Self { decided, ..self }
+    }
+
+    /// Says that so many claims more are decided, for those who watch.
+    pub(super) fn tell(&self, decided: f64) {
+        (self.decided)(decided);
     }
 }
 

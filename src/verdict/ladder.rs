@@ -88,6 +88,8 @@ impl Judging<'_> {
             status.evidence.operations = self.graph.operations(&item.residual);
         }
         self.first_states(sampler, open);
+        let settled = open.iter().filter(|(_, status)| status.settled.is_some());
+        self.tell(settled.count() as f64);
         if self.options.trust != Trust::Float {
             self.fields(place, sampler, open)?;
         }
@@ -197,7 +199,9 @@ impl Judging<'_> {
             presence: item.presence.clone(),
         }));
         let field = PrimeFieldStates::new(self, sampler);
-        let mut answers = field.test(&queries)?.into_iter();
+        let decided = self.decided;
+        let tell = |count: usize| decided(count as f64);
+        let mut answers = field.test_telling(&queries, &tell)?.into_iter();
         let ground = answers.next();
         if ground.as_ref().is_some_and(Answer::is_nonzero) {
             self.name_the_error(place, sampler)?;

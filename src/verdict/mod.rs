@@ -47,7 +47,9 @@ pub use evidence::{
     ClaimReport, DensitySign, Evidence, Independence, Measurement, Method, Proof, Rung, Verdict,
     Witness,
 };
-pub use judge::{CaseReport, JudgeError, Options, RecordedSize, Trust, judge, recorded_size};
+pub use judge::{
+    CaseReport, JudgeError, Options, RecordedSize, Trust, judge, judge_telling, recorded_size,
+};
 pub use mutants::{MutantReport, MutationReport};
 pub(crate) use point::named;
 pub use point::{Digits, Enclosed, NamedValue, PointReport, evaluate, evaluate_digits};

@@ -75,7 +75,9 @@ where
     fn run(self) {
         let Self { states, output, layout, found } = self;
         let mut common = [0.0; TAPE_LANES];
-        states.for_each(|block| trace(&mut common, block));
+        for block in states {
+            trace(&mut common, block);
+        }
         trace_all(&mut common, &output, layout.common.clone());
         for (found, span) in found.iter_mut().zip(&layout.spans) {
             let mut traces = common;

@@ -1,5 +1,6 @@
 //! Details of verdicts besides true and false: place, novelty, sign, and reasons for silence.
 
+mod progress;
 mod steady;
 
 use liouville::case::Case;

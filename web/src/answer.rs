@@ -10,7 +10,7 @@ use liouville_report::{
     CaseDigest, FileFailure, FileOutcome, Heading, RunReport, diagnostic, json, names,
 };
 use liouville_search::survey::{self, TestedClaim};
-use liouville_search::{Ansatz, Effort};
+use liouville_search::{Ansatz, Effort, Halt};
 use serde_json::{Value, json};
 
 use crate::page::Shown;
@@ -134,7 +134,7 @@ fn of_whole(source: &Source, message: &str, help: &str) -> Vec<FileFailure> {
 /// The page of `report`, without the motion.
 fn report(source: &Source) -> Result<Value, Vec<FileFailure>> {
     let case = read(source)?;
-    let found = survey::survey(&case, &Options::default(), &mut |_| ())
+    let found = survey::survey(&case, &Options::default(), &Halt::default(), &mut |_| ())
         .map_err(|error| of_whole(source, &error.to_string(), error.help()))?;
     let origin = CaseDigest::of(&source.text).line();
     Ok(json!({ "page": written::document(&found, &origin).html() }))

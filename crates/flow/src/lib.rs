@@ -17,6 +17,7 @@ pub mod observe;
 mod record;
 mod section;
 mod taylor;
+mod told;
 mod validated;
 
 pub use chaos::basins::{Attractor, BasinRequest, Basins, Destiny, StateAxis, basins};

@@ -73,6 +73,11 @@ impl<'e> Budget<'e> {
         Self { halt, steps: f64::INFINITY, bytes: f64::INFINITY }
     }
 
+    /// Tells how many rows an elimination has taken up.
+    pub fn tell(&self, done: usize, all: usize) {
+        self.halt.meter().set(done, all);
+    }
+
     /// Fails where so many entries of equations are too many to make or to keep.
     pub fn admits(&self, unknowns: usize, entries: f64) -> Result<(), SearchError> {
         if entries > self.steps {

@@ -136,6 +136,11 @@ impl<'c> CountedMotion<'c> {
         let Some(locals) = locals(self.case, report)? else { return Ok(()) };
         let Some(first) = locals.first() else { return Ok(()) };
         let mut motions: Vec<MotionAtPoint<'_>> = locals.iter().map(MotionAtPoint::new).collect();
+        let cost = |degree: u32| size(first, degree, self.mixed).1 * locals.len() as f64;
+        let last = degrees.clone().take_while(|degree| cost(*degree) <= effort.seconds).last();
+        if let Some(degree) = last.filter(|_| !self.ends_at_excess) {
+            motions.iter_mut().for_each(|motion| motion.foresee(degree));
+        }
         for degree in degrees {
             let (unknowns, seconds) = size(first, degree, self.mixed);
             let seconds = seconds * locals.len() as f64;

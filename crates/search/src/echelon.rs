@@ -12,6 +12,7 @@ pub struct Echelon {
     steps: u64,
     /// Number of entries kept.
     entries: usize,
+    rank: usize,
 }
 
 /// A row with 1 at its pivot and 0 before it; rows stay sparse for long.
@@ -33,7 +34,7 @@ impl SparseRow {
 impl Echelon {
     /// Makes an echelon form without rows.
     pub fn new(columns: usize, modulus: Modulus) -> Self {
-        Self { modulus, rows: vec![None; columns], steps: 0, entries: 0 }
+        Self { modulus, rows: vec![None; columns], steps: 0, entries: 0, rank: 0 }
     }
 
     /// Adds a row; returns `false` if it depends on those before it.
@@ -86,6 +87,7 @@ impl Echelon {
             }
         }
         self.entries += columns.len() + 1;
+        self.rank += 1;
         SparseRow { columns: columns.into(), values: values.into() }
     }
 
@@ -93,6 +95,11 @@ impl Echelon {
     /// the same on every machine.
     pub fn steps(&self) -> u64 {
         self.steps
+    }
+
+    /// Number of independent rows.
+    pub fn rank(&self) -> usize {
+        self.rank
     }
 
     /// Number of bytes that the rows take.

@@ -4,8 +4,8 @@
 use super::SearchError;
 use super::echelon::Echelon;
 use super::local::Local;
+use super::rates::SplitRates;
 use super::series::TruncatedSeries;
-use liouville::graph::{Evaluator, Tape};
 use liouville::number::prime::Modulus;
 use liouville::proof::ProofRng;
 
@@ -50,15 +50,16 @@ pub struct Taylor<'l> {
     pub order: u32,
     /// Domain of the series.
     pub series: TruncatedSeries,
-    tape: Tape,
+    rates: SplitRates,
 }
 
 impl<'l> Taylor<'l> {
     /// Prepares series modulo a prime.
     pub fn new(local: &'l Local, modulus: Modulus, order: u32) -> Self {
         let series = TruncatedSeries::new(modulus, local.coordinates.positions, order);
-        let tape = Tape::new(&local.graph, &local.rates);
-        Self { local, modulus, order, series, tape }
+        let before = local.draws.len() + local.coordinates.positions;
+        let rates = SplitRates::new(&local.graph, &local.rates, before);
+        Self { local, modulus, order, series, rates }
     }
 
     /// Draws random positions.
@@ -75,14 +76,12 @@ impl<'l> Taylor<'l> {
     ) -> Result<Option<FieldExpansion>, SearchError> {
         let (modulus, series) = (self.modulus, &self.series);
         let velocities = self.local.coordinates.velocities;
-        let mut evaluator = Evaluator::new(&self.tape, series.clone());
         let mut inputs: Vec<Vec<u64>> = parameters.iter().map(|x| series.number(*x)).collect();
         inputs.extend(positions.iter().enumerate().map(|(k, x)| series.variable(k, *x)));
+        let mut rates = self.rates.at(series, &inputs);
         let mut rates_at = |point: &[u64]| -> Option<Vec<Vec<u64>>> {
-            let mut inputs = inputs.clone();
-            inputs.extend(point.iter().map(|w| series.number(*w)));
-            evaluator.run(&inputs);
-            let found: Vec<Vec<u64>> = evaluator.outputs().cloned().collect();
+            let point: Vec<Vec<u64>> = point.iter().map(|w| series.number(*w)).collect();
+            let found = rates(&point);
             found.iter().all(|rate| !rate.is_empty()).then_some(found)
         };
         let check: Vec<u64> = (0..velocities).map(|_| rng.element(&modulus)).collect();

@@ -4,14 +4,15 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use super::SearchError;
+use super::{Meter, SearchError};
 
-/// A limit on the duration of a search, by time or by a signal; results reached until then are
-/// reported.
+/// A limit on the duration of a search, by time or by a signal, with the progress until then; results
+/// reached until then are reported.
 #[derive(Clone, Debug, Default)]
 pub struct Halt {
     deadline: Option<Instant>,
     told: Arc<AtomicBool>,
+    meter: Meter,
 }
 
 impl Halt {
@@ -25,6 +26,11 @@ impl Halt {
     /// Returns the flag that stops the search, to be set from a signal handler or another thread.
     pub fn switch(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.told)
+    }
+
+    /// Returns the share of the present step that is done.
+    pub fn meter(&self) -> &Meter {
+        &self.meter
     }
 
     /// Whether the duration is limited.

@@ -50,8 +50,9 @@ impl Equations {
     pub fn solved(&self, budget: &Budget<'_>) -> Result<(Echelon, Vec<RowKey>), SearchError> {
         let mut echelon = Echelon::new(self.columns.len(), self.modulus);
         let mut keys = Vec::new();
-        for (key, row) in self.rows() {
+        for (place, (key, row)) in self.rows().enumerate() {
             budget.check(&echelon)?;
+            budget.tell(place, self.rows.len());
             if echelon.push(row) {
                 keys.push(key.clone());
             }
@@ -68,8 +69,10 @@ impl Equations {
         rows.retain(|row| !row.is_empty());
         rows.sort_by_key(|row| (std::cmp::Reverse(row[0].0), row.len()));
         let mut reduced = ReducedEchelon::new(self.columns.len(), self.modulus);
-        for row in rows {
+        let count = rows.len();
+        for (place, row) in rows.into_iter().enumerate() {
             budget.check(&reduced)?;
+            budget.tell(place, count);
             reduced.push(&row);
         }
         Ok(reduced)
@@ -142,6 +145,7 @@ impl Equations {
             (0..taylor.local.coordinates.positions).map(|k| series.lowered(k)).collect();
         for (column, (a, k)) in columns.iter().enumerate() {
             halt.check()?;
+            halt.meter().set(column, columns.len());
             for (block, factor, term) in &met[*a] {
                 let (from, factor) = match term.along {
                     None => (*k, *factor),

@@ -43,12 +43,19 @@ pub struct DimensionCount {
 pub struct MotionAtPoint<'l> {
     local: &'l Local,
     expanded: Option<(Taylor<'l>, FieldExpansion)>,
+    /// Order that will be needed, so that one expansion is enough.
+    foreseen: u32,
 }
 
 impl<'l> MotionAtPoint<'l> {
     /// Takes up a motion; nothing is expanded yet.
     pub fn new(local: &'l Local) -> Self {
-        Self { local, expanded: None }
+        Self { local, expanded: None, foreseen: 0 }
+    }
+
+    /// Foresees a count of this degree.
+    pub fn foresee(&mut self, degree: u32) {
+        self.foreseen = self.foreseen.max(lowest_order(degree));
     }
 
     /// Counts the polynomials P with L_vP + α div v P = 0, of which at least `least` are known;
@@ -61,7 +68,7 @@ impl<'l> MotionAtPoint<'l> {
         effort: &Effort,
     ) -> Result<DimensionCount, SearchError> {
         let mut last = None;
-        let lowest = 2 * asked.degree + 2;
+        let lowest = lowest_order(asked.degree);
         for order in [lowest, lowest + 1, lowest + 3, lowest + 5] {
             let found = self.count_to_order(asked, weight, order, effort)?;
             if found.dimension <= least || last == Some(found.dimension) {
@@ -97,7 +104,7 @@ impl<'l> MotionAtPoint<'l> {
     ) -> Result<&(Taylor<'l>, FieldExpansion), SearchError> {
         let expanded = match self.expanded.take() {
             Some(expanded) if expanded.0.order >= order => expanded,
-            _ => self.expand(order, effort)?,
+            _ => self.expand(order.max(self.foreseen), effort)?,
         };
         Ok(self.expanded.insert(expanded))
     }
@@ -119,6 +126,11 @@ impl<'l> MotionAtPoint<'l> {
         }
         Err(SearchError::NoSeries)
     }
+}
+
+/// Order from which on polynomials of a degree are counted.
+fn lowest_order(degree: u32) -> u32 {
+    2 * degree + 2
 }
 
 /// Number of unknowns of the equations, and an estimate of the number of their entries, by the degrees

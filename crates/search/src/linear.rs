@@ -136,6 +136,7 @@ impl SampledFunctions {
         self.visit(64 * (columns + SPARE_ROWS), &mut |row| {
             if !row.contains(&UNDEFINED) {
                 dependent = if echelon.push(row) { 0 } else { dependent + 1 };
+                halt.meter().set(echelon.rank(), columns + 1);
             }
             dependent < SPARE_ROWS && halt.check().is_ok()
         });

@@ -2,31 +2,10 @@
 
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
 
 use crate::report::{FileFailure, diagnostic};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::source;
-
-/// Delay before a progress bar appears.
-const BLINK: Duration = Duration::from_millis(300);
-
-/// Advances the bar by one file; the bar appears after a delay.
-pub(super) fn advance(bar: &ProgressBar, started: Instant) {
-    if bar.is_hidden() && std::io::stderr().is_terminal() && started.elapsed() > BLINK {
-        bar.set_draw_target(ProgressDrawTarget::stderr());
-    }
-    bar.inc(1);
-}
-
-pub(super) fn bar(length: u64) -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::hidden());
-    match ProgressStyle::with_template("{bar:40} {pos}/{len} cases") {
-        Ok(style) => bar.with_style(style),
-        Err(_) => bar,
-    }
-}
 
 pub(super) type Found = Result<PathBuf, (PathBuf, FileFailure)>;
 

@@ -14,6 +14,7 @@ use rayon::prelude::*;
 
 use super::files::{self, Found, coloured, plain};
 use super::limits::{LimitArgs, Stop, signals};
+use super::progress::Progress;
 use super::source;
 use super::threads::pool;
 
@@ -68,26 +69,27 @@ pub fn judge(work: JudgingJob) -> Result<RunReport, String> {
     let signal = signals()?;
     let files = files::collect(&work.paths);
     let slots: Arc<Vec<Mutex<Slot>>> = Arc::new(files.into_iter().map(Slot::new).collect());
-    let threads = work.threads.unwrap_or(0).min(slots.len().max(1));
-    let pool = pool(threads)?;
-    let bar = files::bar(slots.len() as u64);
+    let pool = pool(work.threads.unwrap_or(0))?;
     let (sender, receiver) = channel();
-    let (own, shown) = (Arc::clone(&slots), bar.clone());
+    let bar = Arc::new(Progress::of(slots.len() as u64, "files"));
+    let (own, shown) = (Arc::clone(&slots), Arc::clone(&bar));
     std::thread::Builder::new()
         .spawn(move || {
             pool.install(|| {
-                own.par_iter().for_each(|slot| read(slot, &work));
                 own.par_iter().for_each(|slot| {
-                    decide(slot, &work);
-                    files::advance(&shown, started);
+                    read(slot, &work);
+                    shown.add(1.0);
                 });
+                let claims = own.iter().map(|slot| locked(slot).stated.len() as u64).sum();
+                shown.begin(claims, "claims");
+                own.par_iter().for_each(|slot| decide(slot, &work, &shown));
             });
             // nobody waits any more if this fails
             _ = sender.send(());
         })
         .map_err(|error| format!("error: cannot start a thread: {error}"))?;
     let stop = limits.wait(&receiver, &signal).err();
-    bar.finish_and_clear();
+    bar.finish();
     let outcomes = slots.iter().map(|slot| locked(slot).outcome(stop)).collect();
     Ok(RunReport { seed, outcomes, elapsed: started.elapsed() })
 }
@@ -190,15 +192,17 @@ fn read(slot: &Mutex<Slot>, work: &JudgingJob) {
 }
 
 /// Judges the case of a slot.
-fn decide(slot: &Mutex<Slot>, work: &JudgingJob) {
+fn decide(slot: &Mutex<Slot>, work: &JudgingJob, bar: &Progress) {
     let (path, text, case) = {
         let mut slot = locked(slot);
         let Some(case) = slot.case.take() else { return };
         (slot.path.clone(), std::mem::take(&mut slot.text), case)
     };
     let keep = |report: &CaseReport| locked(slot).partial = Some(report.clone());
+    let progress = |share: f64| bar.add(share);
+    let watch = VerdictWatch { keep: &keep, progress: &progress };
     let found =
-        catch_unwind(AssertUnwindSafe(|| verdicts(&case, &work.options, work.motions, &keep)));
+        catch_unwind(AssertUnwindSafe(|| verdicts(&case, &work.options, work.motions, watch)));
     let shown = path.display().to_string();
     let result = match found {
         Err(panic) => Err(vec![fault(&path, panic.as_ref())]),
@@ -209,18 +213,33 @@ fn decide(slot: &Mutex<Slot>, work: &JudgingJob) {
     locked(slot).result = Some(result);
 }
 
+/// Watch over the verdicts on a case.
+#[derive(Clone, Copy)]
+pub(super) struct VerdictWatch<'w> {
+    /// Takes what was reached so far.
+    pub keep: &'w (dyn Fn(&CaseReport) + Sync),
+    /// Takes numbers of claims that are decided, also fractions.
+    pub progress: &'w (dyn Fn(f64) + Sync),
+}
+
+impl VerdictWatch<'_> {
+    /// Nobody watches.
+    pub const NOBODY: Self = Self { keep: &|_| (), progress: &|_| () };
+}
+
 /// Judges the claims of a case in stages, and hands over what each stage reached.
 pub(super) fn verdicts(
     case: &Case,
     options: &Options,
     motions: bool,
-    keep: &dyn Fn(&CaseReport),
+    VerdictWatch { keep, progress }: VerdictWatch<'_>,
 ) -> Result<CaseReport, JudgeError> {
-    let mut report = verdict::judge(case, options)?;
+    let mut report = verdict::judge_telling(case, options, progress)?;
     if !case.absences.is_empty() {
         keep(&report);
     }
     liouville_search::complete(case, options, &mut report)?;
+    progress(case.absences.len() as f64);
     if motions {
         if !case.motions.is_empty() {
             keep(&report);
@@ -228,6 +247,7 @@ pub(super) fn verdicts(
         liouville_flow::observe::observe_each(case, options, &mut |claim| {
             report.claims.push(claim);
             keep(&report);
+            progress(1.0);
         });
         report.motions_left = 0;
     }

@@ -19,6 +19,7 @@ pub mod merge;
 pub mod names;
 pub mod new;
 mod out;
+mod progress;
 mod run;
 mod sampling;
 pub mod schema;

@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 
 use crate::report::motion_certificate::{HORSESHOES, ORBITS, verify};
 use clap::Args;
+use liouville_search::Meter;
 
 use super::eval::read_settings;
-use super::explore::progress::telling;
+use super::progress::telling;
 use super::threads::pool;
 use super::{CommandOutput, LimitArgs, SamplingArgs, source};
 
@@ -28,7 +29,7 @@ pub fn run(options: &Verify) -> Result<CommandOutput, String> {
     let pool = pool(options.sampling.threads.unwrap_or(0))?;
     let (mut text, mut refused) = (String::new(), 0);
     for path in &options.certificates {
-        let told = telling(|tell| {
+        let told = telling(Meter::default(), |tell| {
             tell(&format!("replaying {}", path.display()));
             pool.install(|| one(path, options))
         });

@@ -8,7 +8,7 @@ use super::terminal::Style;
 use liouville::graph::vector_features;
 use liouville::verdict::TAPE_LANES;
 use liouville_lab::bench::{
-    BenchOptions, ClaimMeasurements, DifferentiationMethod, MethodMeasurements, StateValue,
+    BenchOptions, ClaimMeasurements, DifferentiationMethod, MethodMeasurements, NATIVE, StateValue,
 };
 
 /// Results of a benchmark run.
@@ -65,8 +65,11 @@ struct ItemEntry<'a> {
     floor_ns_per_state: Option<f64>,
     /// Time of num-dual by hand, where there is such code.
     num_dual_ns_per_state: Option<f64>,
+    /// The same of code compiled for the processor at hand.
+    num_dual_native_ns_per_state: Option<f64>,
     /// Time of the quickest engine divided by that of num-dual by hand.
     ratio_to_num_dual: Option<f64>,
+    ratio_to_num_dual_native: Option<f64>,
     operations: Option<usize>,
     merged_operations: Option<usize>,
     max_error: Option<f64>,
@@ -154,7 +157,11 @@ fn item(measured: &ClaimMeasurements) -> ItemEntry<'_> {
         engine_ns_per_state: measured.quickest().map(|row| row.ns_per_state),
         floor_ns_per_state: time(DifferentiationMethod::Floor),
         num_dual_ns_per_state: time(DifferentiationMethod::NumDualByHand),
-        ratio_to_num_dual: measured.ratio_to_num_dual(),
+        num_dual_native_ns_per_state: measured
+            .row(DifferentiationMethod::NumDualByHand, NATIVE)
+            .map(|row| row.ns_per_state),
+        ratio_to_num_dual: measured.ratio_to_num_dual("f64"),
+        ratio_to_num_dual_native: measured.ratio_to_num_dual(NATIVE),
         operations: tape.and_then(|row| row.operations),
         merged_operations: merged.and_then(|row| row.operations),
         max_error: tape.and_then(|row| row.max_error),
@@ -168,8 +175,13 @@ pub fn text(run: &BenchRun, style: Style) -> String {
         out.push_str(&format!("{}  {} ({})\n", measured.item, measured.claim, measured.kind));
         out.push_str(&table(measured, style));
         out.push('\n');
-        if let Some(ratio) = measured.ratio_to_num_dual() {
-            out.push_str(&format!("   quickest engine / num-dual by hand: {ratio:.4}\n"));
+        let ratios = [("f64", ""), (NATIVE, ", built natively")];
+        for (domain, built) in ratios {
+            if let Some(ratio) = measured.ratio_to_num_dual(domain) {
+                out.push_str(&format!(
+                    "   quickest engine / num-dual by hand{built}: {ratio:.4}\n"
+                ));
+            }
         }
         for (method, reason) in &measured.skipped {
             out.push_str(&format!("   {} skipped: {reason}\n", method.name()));

@@ -7,7 +7,8 @@ use std::path::PathBuf;
 
 use assert_cmd::Command;
 use liouville_lab::bench::{
-    BenchOptions, ClaimMeasurements, DifferentiationMethod, measure_item, work_items,
+    BenchOptions, ClaimMeasurements, DifferentiationMethod, NATIVE, PlainCode, measure_item,
+    work_items,
 };
 use predicates::str::contains;
 use serde_json::Value;
@@ -37,7 +38,7 @@ fn scratch(name: &str) -> PathBuf {
 fn measured() -> Vec<ClaimMeasurements> {
     let options = BenchOptions { blocks: 2, rounds: 1, ..BenchOptions::default() };
     let items = work_items().expect("the work items are cases");
-    items.iter().flat_map(|item| measure_item(item, &options).expect("measured")).collect()
+    items.iter().flat_map(|item| measure_item(item, &options, &|_| ()).expect("measured")).collect()
 }
 
 fn error(measured: &ClaimMeasurements, method: DifferentiationMethod, domain: &str) -> f64 {
@@ -110,7 +111,7 @@ fn json_has_the_documented_form() {
     let names: Vec<&Value> = items.iter().map(|item| &item["name"]).collect();
     assert_eq!(names, ["W1", "W2", "W3"], "the work items");
     for item in items {
-        for key in ["ns_per_state", "num_dual_ns_per_state"] {
+        for key in ["ns_per_state", "num_dual_ns_per_state", "num_dual_native_ns_per_state"] {
             assert!(item[key].as_f64().is_some_and(|time| time > 0.0), "{key} in {item}");
         }
         assert!(item["operations"].is_u64() && item["max_error"].is_f64(), "{item}");
@@ -154,9 +155,18 @@ fn values_of_the_engine_are_those_of_code_by_hand() {
             let state: Vec<f64> =
                 entry["state"].as_array().expect("a state").iter().map(number).collect();
             let (found, scale) = (number(&entry["value"]), number(&entry["scale"]));
-            for (method, by_hand) in &item.by_hand {
-                let error = (found - by_hand(&state)).abs() / scale;
-                assert!(error < 1e-14, "{}, {method:?}: {error:e} of the scale", item.name);
+            let by_hand = |code: &PlainCode| {
+                let mut result = [f64::NAN];
+                (code.residual)(std::slice::from_ref(&state), &mut result);
+                result[0]
+            };
+            for both in item.by_hand.chunks(2) {
+                let (code, value) = (&both[0], by_hand(&both[0]));
+                let error = (found - value).abs() / scale;
+                assert!(error < 1e-14, "{}, {code:?}: {error:e} of the scale", item.name);
+                let native = by_hand(&both[1]);
+                assert_eq!((both[1].method, both[1].domain), (code.method, NATIVE));
+                assert_eq!(native.to_bits(), value.to_bits(), "{code:?}: the same bits natively");
             }
         }
     }

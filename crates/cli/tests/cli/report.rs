@@ -7,6 +7,7 @@ use liouville::case::Case;
 use liouville::verdict::Options;
 use liouville_cli::report::survey as written;
 use liouville_flow::portrait;
+use liouville_search::Halt;
 use liouville_search::survey::{HierarchyClass, Integrals, MeasureStatus, Survey, survey};
 use predicates::str::contains;
 
@@ -19,7 +20,7 @@ fn body(system: &str, parameters: &str, body: &str) -> String {
 
 fn surveyed(text: &str) -> Survey {
     let case = Case::parse(text, &[]).unwrap_or_else(|error| panic!("{error:?}\n{text}"));
-    survey(&case, &Options::default(), &mut |_| {}).expect("a survey")
+    survey(&case, &Options::default(), &Halt::default(), &mut |_| {}).expect("a survey")
 }
 
 const TRIAXIAL: &str = "I = \"inertia(0.5..5)\"\n";
@@ -288,7 +289,8 @@ fn planes_of_symmetry_may_be_turned() {
                 n = 'vector(-0.4..0.4)'\np = 'vector(-0.4..0.4)'\na = '1..2'\nb = '1..2'\n\
                 I = 'a*E + b*n⊗n'\nc = 'n × p'\n[body]\nshape = 'ball'\n";
     let case = Case::parse(text, &[]).expect("a case");
-    let found = survey(&case, &Options::default(), &mut |_| {}).expect("a survey");
+    let found =
+        survey(&case, &Options::default(), &Halt::default(), &mut |_| {}).expect("a survey");
     let reversor = |name: &str| found.reversors.iter().find(|one| one.claim.name == name);
     let across = reversor("Σ\u{303}(n)").expect("the plane across n holds c");
     assert!(across.holds(), "proved");

@@ -118,7 +118,7 @@ pub fn basins(
     case: &Case,
     request: &BasinRequest<'_>,
     threads: usize,
-    progress: &(dyn Fn() + Sync),
+    progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Basins, FlowError> {
     two_sided(case)?;
     let [across, up] = request.axes;
@@ -149,10 +149,10 @@ pub fn basins(
     if let Some(problem) = found.common_problem() {
         return Err(problem);
     }
-    let later = motions.follow(&found.later(&parameters), request.time, threads, &|| {});
+    let later = motions.follow(&found.later(&parameters), request.time, threads, &|_| {});
     found.join(later);
     let shadowed = Shadowed::new(&case.model, &parameters, &[])?;
-    let exponents = shadowed.follow(&found.begins(), request.time, threads, &|| {});
+    let exponents = shadowed.follow(&found.begins(), request.time, threads, &|_| {});
     Ok(found.told(exponents))
 }
 

@@ -9,6 +9,7 @@ use crate::taylor::batch::{MOTION_LANES, Queue, in_batches};
 use crate::taylor::lanes::Lanes;
 use crate::taylor::program::TaylorProgram;
 use crate::taylor::stepper::{Accuracy, Stepper};
+use crate::told::ToldShare;
 use liouville::case::Case;
 use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
@@ -44,13 +45,14 @@ impl LateMotions {
         Ok(Self { program, gauge: columns.recorded(parameters)? })
     }
 
-    /// Follows motions, and takes samples of each at late times. Calls `progress` after each.
+    /// Follows motions, and takes samples of each at late times. Calls `progress` with shares of a
+    /// motion as they are done.
     pub fn follow(
         &self,
         starts: &[Result<Start, FlowError>],
         time: f64,
         threads: usize,
-        progress: &(dyn Fn() + Sync),
+        progress: &(dyn Fn(f64) + Sync),
     ) -> Vec<Late> {
         in_batches(starts.len(), threads, |queue, _| {
             let stepper = Stepper::new(&self.program, Accuracy::FLOAT);
@@ -66,6 +68,8 @@ struct Running {
     index: usize,
     first: Vec<f64>,
     rows: Vec<Vec<f64>>,
+    /// Share of the motion that was told.
+    told: ToldShare,
 }
 
 /// Motions of one thread.
@@ -79,7 +83,7 @@ struct Worker<'w> {
 }
 
 impl Worker<'_> {
-    fn run(mut self, queue: &Queue, progress: &(dyn Fn() + Sync)) -> Vec<(usize, Late)> {
+    fn run(mut self, queue: &Queue, progress: &(dyn Fn(f64) + Sync)) -> Vec<(usize, Late)> {
         let mut row = self.motions.gauge.rows();
         let mut row = |time: DoubleDouble, state: &[DoubleDouble]| -> Vec<f64> {
             row(time, state).into_iter().map(|x| x.hi).collect()
@@ -93,11 +97,12 @@ impl Worker<'_> {
                             let until = DoubleDouble::from_f64(self.time);
                             self.stepper.start(lane, &start.state, until);
                             let first = row(DoubleDouble::default(), &start.state);
-                            self.running[lane] = Some(Running { index, first, rows: Vec::new() });
+                            let (rows, told) = (Vec::new(), ToldShare::default());
+                            self.running[lane] = Some(Running { index, first, rows, told });
                         }
                         Err(problem) => {
                             self.done.push((index, Err(problem.clone())));
-                            progress();
+                            progress(1.0);
                         }
                     }
                 }
@@ -112,14 +117,17 @@ impl Worker<'_> {
                     Ok(()) => take(&self.stepper, lane, self.time, &mut running.rows, &mut row),
                     Err(problem) => {
                         self.done.push((running.index, Err(problem)));
+                        running.told.finish(progress);
                         self.running[lane] = None;
-                        progress();
                     }
                 }
             }
             self.stepper.advance();
             for lane in 0..MOTION_LANES {
                 if !self.stepper.is_done(lane) {
+                    if let Some(running) = &mut self.running[lane] {
+                        running.told.reach(self.stepper.time(lane).hi / self.time, progress);
+                    }
                     continue;
                 }
                 let Some(mut running) = self.running[lane].take() else { continue };
@@ -135,7 +143,7 @@ impl Worker<'_> {
                     }),
                 };
                 self.done.push((running.index, late));
-                progress();
+                running.told.finish(progress);
             }
         }
     }

@@ -34,7 +34,7 @@ pub fn plane(
     case: &Case,
     request: &PlaneRequest,
     threads: usize,
-    progress: &(dyn Fn() + Sync),
+    progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Vec<Result<Exponents, FlowError>>, FlowError> {
     plane_part(case, request, Part::WHOLE, threads, progress)
 }
@@ -45,7 +45,7 @@ pub fn plane_part(
     request: &PlaneRequest,
     part: Part,
     threads: usize,
-    progress: &(dyn Fn() + Sync),
+    progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Vec<Result<Exponents, FlowError>>, FlowError> {
     two_sided(case)?;
     let indices = request.axes.iter().filter_map(|axis| axis.coordinate.parameter());

@@ -15,6 +15,7 @@ use crate::taylor::batch::{MOTION_LANES, Queue, in_batches};
 use crate::taylor::lanes::Lanes;
 use crate::taylor::program::TaylorProgram;
 use crate::taylor::stepper::{Accuracy, Stepper};
+use crate::told::ToldShare;
 use liouville::graph::{Evaluator, Expr, Tape, record};
 use liouville::mechanics::calculus::DualPoint;
 use liouville::mechanics::{Model, Phase};
@@ -23,6 +24,8 @@ use liouville::number::float::Float;
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 
+/// Number of states at which div v is computed together.
+const STATES: usize = 64;
 /// Lanes of a motion and its shadow.
 const COUPLE: usize = 2;
 /// Distance of a shadow, relative to the state; rounding is 10⁻¹⁰ of it.
@@ -73,7 +76,7 @@ impl Shadowed {
         begins: &[Result<ShadowStart, FlowError>],
         time: f64,
         threads: usize,
-        progress: &(dyn Fn() + Sync),
+        progress: &(dyn Fn(f64) + Sync),
     ) -> Vec<Result<Exponents, FlowError>> {
         in_batches(begins.len(), threads, |queue, _| {
             Worker::new(self, begins, time).run(queue, progress)
@@ -89,6 +92,8 @@ struct Running {
     record: Record,
     distance: f64,
     volume: f64,
+    /// Share of the motion that was told.
+    told: ToldShare,
 }
 
 /// Motions of one thread.
@@ -97,7 +102,13 @@ struct Worker<'w> {
     begins: &'w [Result<ShadowStart, FlowError>],
     time: f64,
     stepper: Stepper<Lanes<MOTION_LANES>>,
-    divergence: Evaluator<'w, Float<MOTION_LANES>>,
+    divergence: Evaluator<'w, Float<STATES>>,
+    /// States at which div v is still to be computed, row by row.
+    inputs: Vec<[f64; STATES]>,
+    /// Couple of each of these states, and its weight in ∫ div v.
+    weights: Vec<(usize, f64)>,
+    /// States within the present steps.
+    within: Vec<Lanes<MOTION_LANES>>,
     running: Vec<Option<Running>>,
     done: Done,
 }
@@ -109,12 +120,23 @@ impl<'w> Worker<'w> {
         time: f64,
     ) -> Self {
         let stepper = Stepper::new(&equations.program, Accuracy::ROUGH);
-        let divergence = Evaluator::new(&equations.divergence, Float::<MOTION_LANES>);
-        let running = (0..MOTION_LANES / COUPLE).map(|_| None).collect();
-        Self { equations, begins, time, stepper, divergence, running, done: Vec::new() }
+        let divergence = Evaluator::new(&equations.divergence, Float::<STATES>);
+        let inputs = vec![[0.0; STATES]; equations.divergence.inputs()];
+        Self {
+            equations,
+            begins,
+            time,
+            stepper,
+            divergence,
+            inputs,
+            weights: Vec::new(),
+            within: Vec::new(),
+            running: (0..MOTION_LANES / COUPLE).map(|_| None).collect(),
+            done: Vec::new(),
+        }
     }
 
-    fn run(mut self, queue: &Queue, progress: &(dyn Fn() + Sync)) -> Done {
+    fn run(mut self, queue: &Queue, progress: &(dyn Fn(f64) + Sync)) -> Done {
         loop {
             for couple in 0..self.running.len() {
                 while self.running[couple].is_none() {
@@ -136,7 +158,7 @@ impl<'w> Worker<'w> {
             self.integrate_divergence();
             self.stepper.advance();
             for couple in 0..self.running.len() {
-                if self.measure(couple) {
+                if self.measure(couple, progress) {
                     self.finish(couple, None, progress);
                 }
             }
@@ -144,12 +166,12 @@ impl<'w> Worker<'w> {
     }
 
     /// Puts a motion and its shadow into two lanes; one without a start ends immediately.
-    fn fill(&mut self, couple: usize, index: usize, progress: &(dyn Fn() + Sync)) {
+    fn fill(&mut self, couple: usize, index: usize, progress: &(dyn Fn(f64) + Sync)) {
         let ShadowStart { state, loose } = match &self.begins[index] {
             Ok(begin) => begin,
             Err(problem) => {
                 self.done.push((index, Err(problem.clone())));
-                progress();
+                progress(1.0);
                 return;
             }
         };
@@ -162,30 +184,47 @@ impl<'w> Worker<'w> {
         let shadow: Vec<DoubleDouble> = beside.chain(loose.iter().copied()).collect();
         self.stepper.start(COUPLE * couple, &[state.as_slice(), loose].concat(), end);
         self.stepper.start(COUPLE * couple + 1, &shadow, end);
-        self.running[couple] = Some(Running { index, record, distance, volume: 0.0 });
+        self.running[couple] =
+            Some(Running { index, record, distance, volume: 0.0, told: ToldShare::default() });
     }
 
-    /// Adds the contribution of the present steps to ∫ div v.
+    /// Notes the contribution of the present steps to ∫ div v, by Gauss's rule with two points.
     fn integrate_divergence(&mut self) {
         let away = 0.5 / 3f64.sqrt();
         for share in [0.5 - away, 0.5 + away] {
-            let inputs: Vec<[f64; MOTION_LANES]> =
-                self.stepper.within(share).into_iter().map(|lanes| lanes.0).collect();
-            self.divergence.run(&inputs);
-            let values = self.divergence.output(0);
-            for (couple, running) in self.running.iter_mut().enumerate() {
-                if let Some(running) = running {
-                    let lane = COUPLE * couple;
-                    running.volume += 0.5 * self.stepper.step(lane) * values[lane];
+            if self.weights.len() + self.running.len() > STATES {
+                self.collect_divergence();
+            }
+            self.stepper.within(share, &mut self.within);
+            for couple in (0..self.running.len()).filter(|couple| self.running[*couple].is_some()) {
+                let lane = COUPLE * couple;
+                for (input, state) in self.inputs.iter_mut().zip(&self.within) {
+                    input[self.weights.len()] = state.0[lane];
                 }
+                self.weights.push((couple, 0.5 * self.stepper.step(lane)));
+            }
+        }
+    }
+
+    /// Adds what was noted to ∫ div v, in the order in which it was.
+    fn collect_divergence(&mut self) {
+        if self.weights.is_empty() {
+            return;
+        }
+        self.divergence.run(&self.inputs);
+        let values = self.divergence.output(0);
+        for ((couple, weight), value) in self.weights.drain(..).zip(values) {
+            if let Some(running) = &mut self.running[couple] {
+                running.volume += weight * value;
             }
         }
     }
 
     /// Measures the distance of the shadow after a step. Returns whether the motion is done.
-    fn measure(&mut self, couple: usize) -> bool {
+    fn measure(&mut self, couple: usize, progress: &(dyn Fn(f64) + Sync)) -> bool {
         let Some(running) = &mut self.running[couple] else { return false };
         let (own, other) = (COUPLE * couple, COUPLE * couple + 1);
+        running.told.reach(self.stepper.time(own).hi / self.time, progress);
         let (state, shadow) = (self.stepper.pairs(own), self.stepper.pairs(other));
         let apart: Vec<DoubleDouble> = shadow.iter().zip(&state).map(|(x, y)| *x - *y).collect();
         let length = apart.iter().map(|x| x.hi * x.hi).sum::<f64>().sqrt();
@@ -202,6 +241,8 @@ impl<'w> Worker<'w> {
         if !is_done {
             return false;
         }
+        self.collect_divergence();
+        let Some(running) = &mut self.running[couple] else { return false };
         running.record.finish_block(running.volume);
         match running.record.end() {
             Some(end) => {
@@ -213,13 +254,19 @@ impl<'w> Worker<'w> {
         }
     }
 
-    fn finish(&mut self, couple: usize, problem: Option<FlowError>, progress: &(dyn Fn() + Sync)) {
-        let Some(running) = self.running[couple].take() else { return };
+    fn finish(
+        &mut self,
+        couple: usize,
+        problem: Option<FlowError>,
+        progress: &(dyn Fn(f64) + Sync),
+    ) {
+        self.collect_divergence();
+        let Some(mut running) = self.running[couple].take() else { return };
         let found = match problem {
             Some(problem) => Err(problem),
             None => Ok(running.record.exponents()),
         };
         self.done.push((running.index, found));
-        progress();
+        running.told.finish(progress);
     }
 }

@@ -10,6 +10,7 @@ use crate::motion::variational::variational_program;
 use crate::taylor::batch::each;
 use crate::taylor::program::TaylorProgram;
 use crate::taylor::stepper::{Accuracy, Stepper};
+use crate::told::ToldShare;
 use liouville::mechanics::Model;
 use liouville::number::double_double::DoubleDouble;
 
@@ -41,13 +42,13 @@ impl Spectrum {
 }
 
 /// Measures the spectra of motions with the same parameters, each for a time, negative for
-/// backwards. Calls `progress` after each.
+/// backwards. Calls `progress` with shares of a motion as they are done.
 pub fn spectra(
     model: &Model,
     starts: &[Result<Start, FlowError>],
     time: f64,
     threads: usize,
-    progress: &(dyn Fn() + Sync),
+    progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Vec<Result<Spectrum, FlowError>>, FlowError> {
     let Some(first) = starts.iter().flatten().next() else {
         return Ok(starts
@@ -63,8 +64,10 @@ pub fn spectra(
     let program = variational_program(model, &first.parameters, count)?;
     Ok(each(starts.len(), threads, &|index| {
         let found = starts[index].as_ref().map_err(Clone::clone);
-        let found = found.and_then(|start| spectrum(&program, model, start, time));
-        progress();
+        let mut told = ToldShare::default();
+        let mut reach = |share| told.reach(share, progress);
+        let found = found.and_then(|start| spectrum(&program, model, start, time, &mut reach));
+        told.finish(progress);
         found
     }))
 }
@@ -84,6 +87,7 @@ fn spectrum(
     model: &Model,
     start: &Start,
     time: f64,
+    reach: &mut dyn FnMut(f64),
 ) -> Result<Spectrum, FlowError> {
     let dimension = model.dimension();
     let basis = level_basis(model, start)?;
@@ -111,6 +115,7 @@ fn spectrum(
         }
         let volume = all.last().map_or(f64::NAN, |volume| volume.hi);
         stepper.place(0, &all);
+        reach(stepper.time(0).hi / time);
         if !stepper.is_done(0) {
             continue;
         }

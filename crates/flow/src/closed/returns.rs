@@ -72,7 +72,7 @@ pub fn crossing_time(
         has_side: false,
     };
     let mut tracks =
-        task.run(1, &|| |_: DoubleDouble, state: &[DoubleDouble]| state.to_vec(), &|| ());
+        task.run(1, &|| |_: DoubleDouble, state: &[DoubleDouble]| state.to_vec(), &|_| ());
     let track = tracks.pop().ok_or(FlowError::NoStart)?;
     let (first, last) = (track.crossings.first(), track.crossings.get(crossings));
     match (first, last, track.problem) {

@@ -55,7 +55,7 @@ pub fn separatrices(
             backwards,
             ..request.clone()
         };
-        section(case, &request, threads, &|| ())
+        section(case, &request, threads, &|_| ())
     };
     let (unstable, stable) = (curve(outward, false)?, curve(inward, true)?);
     Ok(Separatrices { point, unstable, stable })

@@ -160,7 +160,7 @@ fn scanned(
             index: 0,
         },
         request.threads,
-        &|| (),
+        &|_| (),
     )?;
     if let Some(FlowError::Stopped) = orbits.iter().find_map(|orbit| orbit.problem.clone()) {
         return Err(FlowError::Stopped);

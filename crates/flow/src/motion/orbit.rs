@@ -87,20 +87,21 @@ pub fn orbit(
     precision: Precision,
 ) -> Result<Orbit, FlowError> {
     let mut nothing = Samples::nothing();
-    sampled(case, start, time, precision, &mut nothing)
+    sampled(case, start, time, precision, (&mut nothing, &mut |_| ()))
 }
 
-/// Follows a motion, and takes samples of it. Where it ends early, the samples up to there are kept.
+/// Follows a motion, takes samples of it, and tells the share that is done. Where it ends early, the
+/// samples up to there are kept.
 pub(crate) fn sampled(
     case: &Case,
     start: Start,
     time: DoubleDouble,
     precision: Precision,
-    samples: &mut Samples<'_>,
+    seen: (&mut Samples<'_>, &mut dyn FnMut(f64)),
 ) -> Result<Orbit, FlowError> {
     match precision {
-        Precision::Float => orbit_over::<f64>(case, start, time, Accuracy::FLOAT, samples),
-        Precision::Pair => orbit_over::<DoubleDouble>(case, start, time, Accuracy::PAIR, samples),
+        Precision::Float => orbit_over::<f64>(case, start, time, Accuracy::FLOAT, seen),
+        Precision::Pair => orbit_over::<DoubleDouble>(case, start, time, Accuracy::PAIR, seen),
     }
 }
 
@@ -113,10 +114,11 @@ pub(crate) trait Watcher<T: SeriesNumber> {
     fn state(&mut self, now: DoubleDouble, state: &[DoubleDouble]);
 }
 
-/// Observer of a single motion: its drift, and its samples.
+/// Observer of a single motion: its drift, its samples, and the share that is done.
 struct DriftWatcher<'l, 's> {
     watch: Watch,
     samples: &'l mut Samples<'s>,
+    reach: &'l mut dyn FnMut(f64),
     time: DoubleDouble,
     measured: u32,
 }
@@ -127,7 +129,9 @@ impl<T: SeriesNumber<One = T>> Watcher<T> for DriftWatcher<'_, '_> {
     }
 
     fn state(&mut self, now: DoubleDouble, state: &[DoubleDouble]) {
-        let passed = now.hi / self.time.hi * f64::from(MEASUREMENTS);
+        let share = now.hi / self.time.hi;
+        (self.reach)(share);
+        let passed = share * f64::from(MEASUREMENTS);
         if passed >= f64::from(self.measured) {
             self.measured = passed as u32 + 1;
             self.watch.measure(state);
@@ -140,10 +144,10 @@ fn orbit_over<T: SeriesNumber<One = T>>(
     start: Start,
     time: DoubleDouble,
     accuracy: Accuracy,
-    samples: &mut Samples<'_>,
+    (samples, reach): (&mut Samples<'_>, &mut dyn FnMut(f64)),
 ) -> Result<Orbit, FlowError> {
     let watch = Watch::new(case, &start)?;
-    let mut watcher = DriftWatcher { watch, samples, time, measured: 0 };
+    let mut watcher = DriftWatcher { watch, samples, reach, time, measured: 0 };
     let (end, steps, events) = match &case.one_sided {
         Some(rule) => {
             let found = follow::<T>(case, rule, &start, time, accuracy, &mut watcher)?;

@@ -7,6 +7,7 @@ use crate::motion::start::Start;
 use crate::taylor::batch::each;
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::stepper::MotionPiece;
+use crate::told::ToldShare;
 use liouville::case::Case;
 use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
@@ -27,18 +28,21 @@ pub struct SampledOrbit {
     pub rows: Vec<Vec<DoubleDouble>>,
 }
 
-/// Follows several motions, each with samples if these are requested. Calls `progress` after each.
+/// Follows several motions, each with samples if these are requested. Calls `progress` with
+/// shares of a motion as they are done.
 pub fn orbits(
     case: &Case,
     starts: &[Result<Start, FlowError>],
     (time, precision): (&Rational, Precision),
     sampling: Option<&Sampling<'_>>,
     threads: usize,
-    progress: &(dyn Fn() + Sync),
+    progress: &(dyn Fn(f64) + Sync),
 ) -> Vec<SampledOrbit> {
     each(starts.len(), threads, &|index| {
-        let found = one(case, &starts[index], time, precision, sampling);
-        progress();
+        let mut told = ToldShare::default();
+        let mut reach = |share| told.reach(share, progress);
+        let found = one(case, &starts[index], (time, precision), sampling, &mut reach);
+        told.finish(progress);
         found
     })
 }
@@ -46,9 +50,9 @@ pub fn orbits(
 fn one(
     case: &Case,
     start: &Result<Start, FlowError>,
-    time: &Rational,
-    precision: Precision,
+    (time, precision): (&Rational, Precision),
     sampling: Option<&Sampling<'_>>,
+    reach: &mut dyn FnMut(f64),
 ) -> SampledOrbit {
     let failed = |problem| SampledOrbit { orbit: Err(problem), rows: Vec::new() };
     let start = match start {
@@ -64,7 +68,8 @@ fn one(
         Some((sampling, gauge)) => Samples::new(gauge, &sampling.every, time),
         None => Samples::nothing(),
     };
-    let orbit = sampled(case, start, DoubleDouble::from_rational(time), precision, &mut samples);
+    let until = DoubleDouble::from_rational(time);
+    let orbit = sampled(case, start, until, precision, (&mut samples, reach));
     SampledOrbit { orbit, rows: samples.rows }
 }
 

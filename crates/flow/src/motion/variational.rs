@@ -14,6 +14,7 @@ use crate::taylor::lanes::Lanes;
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::program::TaylorProgram;
 use crate::taylor::stepper::{Accuracy, Stepper};
+use crate::told::ToldShare;
 use liouville::mechanics::Model;
 use liouville::mechanics::calculus::DualPoint;
 use liouville::number::double_double::DoubleDouble;
@@ -61,7 +62,7 @@ impl Bundle {
         begins: &[Result<Vec<DoubleDouble>, FlowError>],
         time: f64,
         threads: usize,
-        progress: &(dyn Fn() + Sync),
+        progress: &(dyn Fn(f64) + Sync),
     ) -> Vec<Result<Exponents, FlowError>> {
         let task = VariationalTask { bundle: self, begins, time };
         in_batches(begins.len(), threads, |queue, lockstep| match lockstep {
@@ -103,7 +104,7 @@ type Done = Vec<(usize, Result<Exponents, FlowError>)>;
 struct Worker<'t, T: SeriesNumber<One = f64>> {
     task: &'t VariationalTask<'t>,
     stepper: Stepper<T>,
-    running: Vec<Option<(usize, Record)>>,
+    running: Vec<Option<(usize, Record, ToldShare)>>,
     done: Done,
 }
 
@@ -114,7 +115,7 @@ impl<'t, T: SeriesNumber<One = f64>> Worker<'t, T> {
         Self { task, stepper, running, done: Vec::new() }
     }
 
-    fn run(mut self, queue: &Queue, progress: &(dyn Fn() + Sync)) -> Done {
+    fn run(mut self, queue: &Queue, progress: &(dyn Fn(f64) + Sync)) -> Done {
         loop {
             for lane in 0..T::LANES {
                 while self.running[lane].is_none() {
@@ -133,7 +134,7 @@ impl<'t, T: SeriesNumber<One = f64>> Worker<'t, T> {
             }
             self.stepper.advance();
             for lane in 0..T::LANES {
-                if self.measure(lane) {
+                if self.measure(lane, progress) {
                     self.finish(lane, None, progress);
                 }
             }
@@ -141,24 +142,24 @@ impl<'t, T: SeriesNumber<One = f64>> Worker<'t, T> {
     }
 
     /// Puts a motion into a lane; one without a start ends immediately.
-    fn fill(&mut self, lane: usize, index: usize, progress: &(dyn Fn() + Sync)) {
+    fn fill(&mut self, lane: usize, index: usize, progress: &(dyn Fn(f64) + Sync)) {
         match &self.task.begins[index] {
             Ok(begin) => {
                 let record = Record::new(self.task.time);
                 let end = record.end().unwrap_or(self.task.time);
                 self.stepper.start(lane, begin, DoubleDouble::from_f64(end));
-                self.running[lane] = Some((index, record));
+                self.running[lane] = Some((index, record, ToldShare::default()));
             }
             Err(problem) => {
                 self.done.push((index, Err(problem.clone())));
-                progress();
+                progress(1.0);
             }
         }
     }
 
     /// Measures the vectors after a step. Returns whether the motion is done.
-    fn measure(&mut self, lane: usize) -> bool {
-        let Some((_, record)) = &mut self.running[lane] else { return false };
+    fn measure(&mut self, lane: usize, progress: &(dyn Fn(f64) + Sync)) -> bool {
+        let Some((_, record, told)) = &mut self.running[lane] else { return false };
         let bundle = self.task.bundle;
         let state = self.stepper.pairs(lane);
         let lengths: [f64; VECTORS] = std::array::from_fn(|index| {
@@ -174,7 +175,9 @@ impl<'t, T: SeriesNumber<One = f64>> Worker<'t, T> {
             let parts = both.map(|(x, y)| x.hi / lengths[0] + sign * y.hi / lengths[1]);
             parts.map(|x| x * x).sum::<f64>().sqrt()
         };
-        record.align(self.stepper.time(lane).hi, apart(1.0).min(apart(-1.0)));
+        let time = self.stepper.time(lane).hi;
+        record.align(time, apart(1.0).min(apart(-1.0)));
+        told.reach(time / self.task.time, progress);
         if !self.stepper.is_done(lane) {
             return false;
         }
@@ -188,14 +191,14 @@ impl<'t, T: SeriesNumber<One = f64>> Worker<'t, T> {
         }
     }
 
-    fn finish(&mut self, lane: usize, problem: Option<FlowError>, progress: &(dyn Fn() + Sync)) {
-        let Some((index, record)) = self.running[lane].take() else { return };
+    fn finish(&mut self, lane: usize, problem: Option<FlowError>, progress: &(dyn Fn(f64) + Sync)) {
+        let Some((index, record, mut told)) = self.running[lane].take() else { return };
         let found = match problem {
             Some(problem) => Err(problem),
             None => Ok(record.exponents()),
         };
         self.done.push((index, found));
-        progress();
+        told.finish(progress);
     }
 }
 
@@ -226,16 +229,16 @@ impl Variational {
 
     /// Follows the first motion for a time, negative for backwards.
     pub fn exponents(&self, time: f64) -> Result<Exponents, FlowError> {
-        let mut found = self.bundle.follow(&self.begins[..1], time, 1, &|| ());
+        let mut found = self.bundle.follow(&self.begins[..1], time, 1, &|_| ());
         found.pop().unwrap_or(Err(FlowError::NoStart))
     }
 
-    /// Follows all motions; calls `progress` after each.
+    /// Follows all motions; calls `progress` with shares of a motion as they are done.
     pub fn all_exponents(
         &self,
         time: f64,
         threads: usize,
-        progress: &(dyn Fn() + Sync),
+        progress: &(dyn Fn(f64) + Sync),
     ) -> Vec<Result<Exponents, FlowError>> {
         self.bundle.follow(&self.begins, time, threads, progress)
     }

@@ -38,7 +38,7 @@ pub fn evidence_against_density(case: &Case, options: &Options) -> Option<String
         seed,
         index: 0,
     };
-    let orbits = section(case, &request, 1, &|| ()).ok()?;
+    let orbits = section(case, &request, 1, &|_| ()).ok()?;
     let ends = orbits.iter().filter_map(|orbit| orbit.crossings.last());
     let points = ends.filter_map(|end| map.periodic(end.at, 1).ok());
     // The clearest of them is followed again with twice the digits.

@@ -22,6 +22,12 @@ mod reaches;
 mod scene;
 mod section;
 
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
+
+use rayon::prelude::*;
+
+use crate::halt::Halt;
 use crate::{FlowError, Obstacle, Request};
 use crate::{HorseshoeData, ProofData, ProvedHorseshoe, ProvedOrbit, replay, replay_horseshoe};
 use liouville::case::{Case, Expect, MotionClaim};
@@ -51,12 +57,24 @@ pub fn observe(case: &Case, options: &Options) -> Vec<ClaimReport> {
     reports
 }
 
-/// Judges the claims about motion one after another, and hands over each report as it is made.
-pub fn observe_each(case: &Case, options: &Options, keep: &mut dyn FnMut(ClaimReport)) {
+/// Judges the claims about motion on the threads of the pool at work, and hands over the reports in
+/// the order of the claims, each once those before it are made.
+pub fn observe_each(case: &Case, options: &Options, keep: &mut (dyn FnMut(ClaimReport) + Send)) {
     let scene = FollowedCase::new(case, options.seed);
-    for claim in &case.motions {
-        keep(report(claim, judged(claim, &scene, options), options));
-    }
+    let halt = Halt::current();
+    let waiting: BTreeMap<usize, ClaimReport> = BTreeMap::new();
+    let state = Mutex::new((0, waiting, keep));
+    case.motions.par_iter().with_max_len(1).enumerate().for_each(|(place, claim)| {
+        let judge = || report(claim, judged(claim, &scene, options), options);
+        let found = halt.clone().over(judge);
+        let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
+        let (next, waiting, keep) = &mut *state;
+        waiting.insert(place, found);
+        while let Some(found) = waiting.remove(next) {
+            keep(found);
+            *next += 1;
+        }
+    });
 }
 
 /// Proves a claim about a closed orbit, and returns the report with the orbit and the data of its

@@ -1,6 +1,6 @@
 //! A case whose motions are followed, with data shared by several claims.
 
-use std::cell::{OnceCell, RefCell};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use crate::{
     Exponents, FlowError, SectionMap, SectionOrbit, SectionRequest, Start, Variational,
@@ -15,9 +15,9 @@ use liouville::number::rational::Rational;
 pub struct FollowedCase<'c> {
     pub case: &'c Case,
     pub seed: u64,
-    map: OnceCell<SectionMap<'c>>,
+    map: OnceLock<SectionMap<'c>>,
     /// Exponents of runs, by start and length.
-    exponents: RefCell<Vec<(String, f64, Exponents)>>,
+    exponents: Mutex<Vec<(String, f64, Exponents)>>,
 }
 
 /// Coordinates of a stated point.
@@ -27,7 +27,12 @@ pub fn coordinates(at: &[Stated; 2]) -> [f64; 2] {
 
 impl<'c> FollowedCase<'c> {
     pub fn new(case: &'c Case, seed: u64) -> Self {
-        Self { case, seed, map: OnceCell::new(), exponents: RefCell::default() }
+        Self { case, seed, map: OnceLock::new(), exponents: Mutex::default() }
+    }
+
+    /// Exponents known so far; two threads may find the same ones at once.
+    fn known(&self) -> MutexGuard<'_, Vec<(String, f64, Exponents)>> {
+        self.exponents.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Section of the case.
@@ -72,12 +77,12 @@ impl<'c> FollowedCase<'c> {
     pub fn exponents(&self, beginning: &Beginning, time: f64) -> Result<Exponents, FlowError> {
         let name = beginning.text();
         let is_same = |run: &&(String, f64, Exponents)| run.0 == name && run.1 == time;
-        if let Some((.., found)) = self.exponents.borrow().iter().find(is_same) {
+        if let Some((.., found)) = self.known().iter().find(is_same) {
             return Ok(*found);
         }
         let motion = Variational::new(&self.case.model, &self.start(beginning)?)?;
         let found = motion.exponents(time)?;
-        self.exponents.borrow_mut().push((name, time, found));
+        self.known().push((name, time, found));
         Ok(found)
     }
 
@@ -101,7 +106,7 @@ impl<'c> FollowedCase<'c> {
             seed: self.seed,
             index: 0,
         };
-        let mut orbits = section(self.case, &request, 1, &|| ())?;
+        let mut orbits = section(self.case, &request, 1, &|_| ())?;
         let orbit = orbits.pop().ok_or(FlowError::NoStart)?;
         match orbit.problem {
             Some(problem) => Err(problem),

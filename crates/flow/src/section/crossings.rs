@@ -10,6 +10,7 @@ use crate::taylor::lanes::Lanes;
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::program::TaylorProgram;
 use crate::taylor::stepper::{Accuracy, MotionPiece, Stepper};
+use crate::told::ToldShare;
 use liouville::case::Direction;
 use liouville::number::double_double::DoubleDouble;
 
@@ -59,12 +60,12 @@ pub(crate) struct MotionCrossings<P> {
 
 impl CrossingTask<'_> {
     /// Follows all motions; `observe` makes a function of the times and states of crossings,
-    /// one for each thread. Calls `progress` after each motion.
+    /// one for each thread. Calls `progress` with shares of a motion as they are done.
     pub fn run<P: Send, L: FnMut(DoubleDouble, &[DoubleDouble]) -> P>(
         &self,
         threads: usize,
         observe: &(dyn Fn() -> L + Sync),
-        progress: &(dyn Fn() + Sync),
+        progress: &(dyn Fn(f64) + Sync),
     ) -> Vec<MotionCrossings<P>> {
         in_batches(self.starts.len(), threads, |queue, lockstep| match lockstep {
             Lockstep::One => Worker::<f64, P, L>::new(self, queue, observe()).run(progress),
@@ -94,6 +95,8 @@ struct Running<P> {
     counted: usize,
     /// Steps and crossings in the other direction at the last crossing that counts.
     last_met: (u64, usize),
+    /// Share of the motion that was told.
+    told: ToldShare,
 }
 
 impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDouble]) -> P>
@@ -105,7 +108,7 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
         Self { task, queue, observe, stepper, running, done: Vec::new() }
     }
 
-    fn run(mut self, progress: &(dyn Fn() + Sync)) -> Vec<(usize, MotionCrossings<P>)> {
+    fn run(mut self, progress: &(dyn Fn(f64) + Sync)) -> Vec<(usize, MotionCrossings<P>)> {
         loop {
             for lane in 0..T::LANES {
                 if self.running[lane].is_none() {
@@ -119,8 +122,10 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
             let ends = self.stepper.ends(0);
             for lane in 0..T::LANES {
                 if self.crosses(lane, &ends) {
-                    self.finish(lane);
-                    progress();
+                    self.finish(lane, progress);
+                } else if let Some(running) = &mut self.running[lane] {
+                    let all = self.task.skip + self.task.crossings;
+                    running.told.reach(running.counted as f64 / all as f64, progress);
                 }
             }
             self.stepper.advance();
@@ -128,7 +133,7 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
     }
 
     /// Puts the next motion into a lane; motions without a start are finished at once.
-    fn fill(&mut self, lane: usize, progress: &(dyn Fn() + Sync)) {
+    fn fill(&mut self, lane: usize, progress: &(dyn Fn(f64) + Sync)) {
         while let Some(index) = self.queue.take() {
             let mut track = MotionCrossings {
                 crossings: Vec::new(),
@@ -141,15 +146,15 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
             match &self.task.starts[index] {
                 Ok(start) => {
                     self.stepper.start_open(lane, &start.state, self.task.backwards);
-                    let sides = Sides::default();
+                    let (sides, told) = (Sides::default(), ToldShare::default());
                     self.running[lane] =
-                        Some(Running { index, track, sides, counted: 0, last_met: (0, 0) });
+                        Some(Running { index, track, sides, counted: 0, last_met: (0, 0), told });
                     return;
                 }
                 Err(problem) => {
                     track.problem = Some(problem.clone());
                     self.done.push((index, track));
-                    progress();
+                    progress(1.0);
                 }
             }
         }
@@ -203,11 +208,12 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
         false
     }
 
-    fn finish(&mut self, lane: usize) {
+    fn finish(&mut self, lane: usize, progress: &(dyn Fn(f64) + Sync)) {
         let Some(mut running) = self.running[lane].take() else { return };
         running.track.steps = self.stepper.steps(lane);
         let end = self.stepper.pairs(lane);
         running.track.end = end.iter().all(|x| x.is_finite()).then_some(end);
+        running.told.finish(progress);
         self.done.push((running.index, running.track));
     }
 }

@@ -54,7 +54,7 @@ pub fn diagram(
     case: &Case,
     request: &DiagramRequest<'_>,
     threads: usize,
-    progress: &(dyn Fn() + Sync),
+    progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Vec<Vec<DiagramOrbit>>, FlowError> {
     let parameters = fixed_parameters(case, request.seed, 0)?;
     let begins = request.begins(case)?;
@@ -67,7 +67,7 @@ pub fn diagram(
                 request.through_surface(&case, own, (&begins, energy), &value)
             }
         });
-        progress();
+        progress(1.0);
         match found {
             // The motions of one value fail alone.
             Err(problem) if problem != FlowError::Stopped => {
@@ -112,7 +112,7 @@ impl DiagramRequest<'_> {
             Coordinate::Z => request.starts.iter_mut().for_each(|at| at[1] = value.to_f64().0),
             Coordinate::Parameter { .. } => {}
         }
-        let orbits = section(case, &request, 1, &|| {})?.into_iter();
+        let orbits = section(case, &request, 1, &|_| {})?.into_iter();
         let orbit = |orbit: SectionOrbit| DiagramOrbit {
             crossings: orbit.crossings.iter().map(|met| met.at.to_vec()).collect(),
             problem: orbit.problem,
@@ -136,7 +136,7 @@ impl DiagramRequest<'_> {
         let launches = Launches { case, energy, pad: Some(pad), seed: self.seed, index: 0 };
         let starts: Vec<_> = begins.iter().map(|begin| launches.start(begin)).collect();
         let request = SurfaceRequest { surface: &surface, axes: &axes, ..*own };
-        let orbits = surface_section(case, &request, &starts, 1, &|| {})?.into_iter();
+        let orbits = surface_section(case, &request, &starts, 1, &|_| {})?.into_iter();
         let orbit = |orbit: SurfaceOrbit| DiagramOrbit {
             crossings: orbit.crossings.into_iter().map(|met| met.at).collect(),
             problem: orbit.problem,

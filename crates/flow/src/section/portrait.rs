@@ -53,7 +53,7 @@ pub fn portrait(case: &Case, seed: u64, threads: usize) -> Result<Portrait, Flow
         seed,
         index: 0,
     };
-    let orbits = section(case, &request, threads, &|| ())?;
+    let orbits = section(case, &request, threads, &|_| ())?;
     let problem = orbits.iter().find_map(|orbit| orbit.problem.clone());
     match problem {
         Some(problem) if orbits.iter().all(|orbit| orbit.crossings.is_empty()) => Err(problem),

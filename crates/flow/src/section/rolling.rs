@@ -79,7 +79,7 @@ pub fn section(
     case: &Case,
     request: &SectionRequest,
     threads: usize,
-    progress: &(dyn Fn() + Sync),
+    progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Vec<SectionOrbit>, FlowError> {
     two_sided(case)?;
     if !applies(&case.model) {

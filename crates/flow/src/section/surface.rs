@@ -160,13 +160,13 @@ pub struct SurfaceOrbit {
 }
 
 /// Computes the crossings of a surface: one entry for each start, in their order. All starts have
-/// the same parameters. Calls `progress` after each motion.
+/// the same parameters. Calls `progress` with shares of a motion.
 pub fn surface_section(
     case: &Case,
     request: &SurfaceRequest<'_>,
     starts: &[Result<Start, FlowError>],
     threads: usize,
-    progress: &(dyn Fn() + Sync),
+    progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Vec<SurfaceOrbit>, FlowError> {
     two_sided(case)?;
     let Some(first) = starts.iter().flatten().next() else {

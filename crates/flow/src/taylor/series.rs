@@ -169,3 +169,13 @@ impl<T: SeriesNumber> Series<T> {
         &self.memory[place..place + self.order]
     }
 }
+
+/// Returns Σ x_k h^k from k = 1 on.
+#[inline(always)]
+pub(crate) fn increment<T: SeriesNumber>(coefficients: &[T], step: T) -> T {
+    let mut sum = T::ZERO;
+    for coefficient in coefficients[1..].iter().rev() {
+        sum = coefficient.fused(sum, step).settled();
+    }
+    sum * step
+}

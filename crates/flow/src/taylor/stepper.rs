@@ -12,7 +12,7 @@ use crate::halt::Halt;
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::pace::{Lane, Lost};
 use crate::taylor::program::TaylorProgram;
-use crate::taylor::series::Series;
+use crate::taylor::series::{Series, increment};
 use crate::taylor::watch::{Edge, Presence};
 use liouville::graph::{Kernel, with_widest_vectors};
 use liouville::number::double_double::DoubleDouble;
@@ -152,11 +152,10 @@ impl<T: SeriesNumber> Stepper<T> {
         }
     }
 
-    /// States of all motions after a fraction of their steps, without the rounding remainders.
-    pub fn within(&self, share: f64) -> Vec<T> {
-        let steps = T::from_lanes(|lane| self.lanes[lane].step * T::One::float(share));
-        let rows = self.state.iter().enumerate();
-        rows.map(|(row, state)| *state + increment(self.series.component(row), steps)).collect()
+    /// Puts all states after a fraction of their steps into `states`, without the remainders.
+    pub fn within(&self, share: f64, states: &mut Vec<T>) {
+        states.clear();
+        with_widest_vectors(Within(self, share, states));
     }
 
     /// Present step of a motion.
@@ -242,8 +241,9 @@ impl<T: SeriesNumber> Stepper<T> {
 
     /// Velocity of a motion at its present state.
     pub fn velocity(&self, lane: usize) -> Vec<f64> {
-        let rows = 0..self.state.len();
-        rows.map(|row| self.series.component(row)[1].lane(lane).leading()).collect()
+        (0..self.state.len())
+            .map(|row| self.series.component(row)[1].lane(lane).leading())
+            .collect()
     }
 
     /// Whether a motion stands still: its velocity is exactly 0.
@@ -338,14 +338,18 @@ impl<T: SeriesNumber> Kernel for Advance<'_, T> {
     }
 }
 
-/// Returns Σ x_k h^k from k = 1 on.
-#[inline(always)]
-fn increment<T: SeriesNumber>(coefficients: &[T], step: T) -> T {
-    let mut sum = T::ZERO;
-    for coefficient in coefficients[1..].iter().rev() {
-        sum = coefficient.fused(sum, step).settled();
+/// Work of finding states within the steps.
+struct Within<'s, T: SeriesNumber>(&'s Stepper<T>, f64, &'s mut Vec<T>);
+
+impl<T: SeriesNumber> Kernel for Within<'_, T> {
+    #[inline(always)]
+    fn run(self) {
+        let Self(stepper, share, states) = self;
+        let steps = T::from_lanes(|lane| stepper.lanes[lane].step * T::One::float(share));
+        for (row, state) in stepper.state.iter().enumerate() {
+            states.push(*state + increment(stepper.series.component(row), steps));
+        }
     }
-    sum * step
 }
 
 /// A motion between two steps, as polynomials in the time since the first.

@@ -3,6 +3,7 @@
 mod chaos;
 mod lanes;
 mod presence;
+mod progress;
 mod roots;
 mod sections;
 

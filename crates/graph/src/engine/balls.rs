@@ -98,7 +98,9 @@ impl BallRunner {
     /// Whether all inputs that were said to be exact are.
     pub fn is_exact(&self) -> bool {
         let exact = self.inputs.iter().zip(&self.code.exact).filter(|(_, is_exact)| **is_exact);
-        exact.into_iter().all(|([_, rad], _)| rad.0.iter().fold(0.0, |sum, one| sum + one) == 0.0)
+        // Without the sign no bit of 0 is set; sums of floats would wait for one another.
+        let bits = |rad: &RowBlock| rad.0.iter().fold(0, |bits, one| bits | one.to_bits() << 1);
+        exact.into_iter().all(|([_, rad], _)| bits(rad) == 0)
     }
 
     /// Computes the outputs. Inputs that were said to be exact must be.

@@ -87,6 +87,9 @@ enum Defined {
     Never,
 }
 
+/// Number of nodes for which there is room from the beginning.
+const USUAL: usize = 256;
+
 /// The constant 0, the first node of every graph.
 const ZERO: NodeId = NodeId(0);
 /// The constant 1, the second node of every graph.
@@ -115,8 +118,8 @@ impl Graph {
     fn begin(session: u32) -> Self {
         let mut graph = Self {
             session,
-            nodes: Vec::new(),
-            domains: Vec::new(),
+            nodes: Vec::with_capacity(USUAL),
+            domains: Vec::with_capacity(USUAL),
             literal: false,
             constants: Vec::new(),
             index: Index::new(),

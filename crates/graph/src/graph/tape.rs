@@ -49,19 +49,18 @@ impl Tape {
     pub fn new(graph: &Graph, outputs: &[Expr]) -> Self {
         let roots: Vec<usize> =
             outputs.iter().map(|expr| expr.id().map_or(0, |id| id.0 as usize)).collect();
-        let last_use = last_uses(graph, &roots);
+        let (last_use, used) = last_uses(graph, &roots);
         let mut tape = Tape {
             inputs: graph.inputs(),
             constants: Vec::new(),
             exponents: Vec::new(),
-            instructions: Vec::new(),
+            instructions: Vec::with_capacity(used),
             outputs: Vec::new(),
             slots: 0,
         };
-        let used: Vec<usize> =
-            (0..last_use.len()).filter(|index| last_use[*index] != UNUSED).collect();
+        let used = || (0..last_use.len()).filter(|index| last_use[*index] != UNUSED);
         let mut slot_of: Vec<Slot> = vec![0; last_use.len()];
-        for index in used.iter().copied() {
+        for index in used() {
             if let Node::Constant(constant) = graph.nodes[index] {
                 slot_of[index] = (tape.inputs + tape.constants.len()) as Slot;
                 tape.constants.push(graph.constants[constant as usize].clone());
@@ -69,9 +68,9 @@ impl Tape {
         }
         let mut slots =
             Slots { free: Vec::new(), next: (tape.inputs + tape.constants.len()) as Slot };
-        for index in used {
+        for index in used() {
             let release = |argument: usize, slots: &mut Slots| {
-                if last_use[argument] == index && graph.nodes[argument].is_computed() {
+                if last_use[argument] as usize == index && graph.nodes[argument].is_computed() {
                     slots.free.push(slot_of[argument]);
                 }
             };
@@ -163,17 +162,18 @@ impl Node {
     }
 }
 
-const UNUSED: usize = usize::MAX;
+const UNUSED: u32 = u32::MAX;
 
 /// Finds the index of each node's last user, as far as the last root: past the end for an output,
-/// `UNUSED` for a node without users.
-fn last_uses(graph: &Graph, roots: &[usize]) -> Vec<usize> {
+/// `UNUSED` for a node without users; and the number of operations that have users.
+fn last_uses(graph: &Graph, roots: &[usize]) -> (Vec<u32>, usize) {
     let nodes = graph.nodes.len();
     let end = roots.iter().filter(|root| **root < nodes).max().map_or(0, |last| last + 1);
     let mut last = vec![UNUSED; end];
     for root in roots.iter().filter(|root| **root < nodes) {
-        last[*root] = end;
+        last[*root] = end as u32;
     }
+    let mut used = 0;
     for index in (0..end).rev() {
         if last[index] == UNUSED {
             continue;
@@ -181,19 +181,20 @@ fn last_uses(graph: &Graph, roots: &[usize]) -> Vec<usize> {
         let mut read = |argument: super::NodeId| {
             let entry = &mut last[argument.0 as usize];
             if *entry == UNUSED {
-                *entry = index;
+                *entry = index as u32;
             }
         };
         match graph.nodes[index] {
-            Node::Constant(_) | Node::Input(_) => {}
+            Node::Constant(_) | Node::Input(_) => continue,
             Node::Unary(_, a) | Node::Power(a, _) => read(a),
             Node::Binary(_, a, b) => {
                 read(a);
                 read(b);
             }
         }
+        used += 1;
     }
-    last
+    (last, used)
 }
 
 struct Slots {

@@ -8,7 +8,7 @@
 //!
 //! docs/soundness.md, "Degrees".
 
-use std::rc::Rc;
+use rustc_hash::FxHashMap;
 
 use crate::graph::{Graph, Step};
 use crate::number::{BinaryOperation, UnaryFunction};
@@ -23,15 +23,18 @@ pub enum InputDistribution {
 }
 
 /// Bounds on the numerator of a value, together with its factors.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Bound {
     /// Bound on the degree; half-integers where roots are involved.
     pub degree: f64,
     /// Log₂ of a bound on the sum of the absolute coefficients.
     pub height: f64,
-    /// Pairs of factor and exponent, by increasing factor.
-    factors: Rc<[(u32, f64)]>,
+    /// Number of the list of factors.
+    list: u32,
 }
+
+/// Number of the list without factors.
+const NONE: u32 = 0;
 
 /// Degree and height of a factor.
 #[derive(Clone, Copy, Debug)]
@@ -44,10 +47,27 @@ struct FactorBound {
 pub struct Bounds {
     bounds: Vec<Option<Bound>>,
     factors: Vec<FactorBound>,
-    /// The factors of a value without any.
-    none: Rc<[(u32, f64)]>,
+    lists: FactorLists,
     /// Factor that is the numerator of a step, by place.
-    numerator_of: rustc_hash::FxHashMap<usize, u32>,
+    numerator_of: FxHashMap<usize, u32>,
+}
+
+/// Lists of factors with their exponents, by increasing factor, one behind the other.
+struct FactorLists {
+    entries: Vec<(u32, f64)>,
+    /// Begin and end of each list.
+    ranges: Vec<[usize; 2]>,
+    /// Lists combined so far: values of one formula mostly have the same few lists.
+    combined: FxHashMap<(u32, u32, Combination), u32>,
+}
+
+/// How the exponents of two lists are combined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Combination {
+    /// Those of a product: added.
+    Sum,
+    /// Those of a sum: the smaller one.
+    Least,
 }
 
 impl Bounds {
@@ -56,8 +76,8 @@ impl Bounds {
         let mut all = Self {
             bounds: Vec::with_capacity(reached.len()),
             factors: Vec::new(),
-            none: Rc::new([]),
-            numerator_of: Default::default(),
+            lists: FactorLists::new(),
+            numerator_of: FxHashMap::default(),
         };
         for (place, step) in graph.steps().enumerate() {
             let bound = if reached[place] { all.step(step, sources) } else { None };
@@ -75,7 +95,7 @@ impl Bounds {
     /// positive exponents, as b in 1/(a/b), although a value without b is undefined.
     pub fn numerator(&self, place: usize) -> Option<(f64, f64)> {
         let bound = self.at(place)?;
-        let above = bound.factors.iter().filter(|(_, exponent)| *exponent > 0.0);
+        let above = self.lists.at(bound.list).iter().filter(|(_, exponent)| *exponent > 0.0);
         Some(above.fold((bound.degree, bound.height), |(degree, height), (factor, exponent)| {
             let FactorBound { degree: d, height: h } = self.factors[*factor as usize];
             (degree + exponent * d, height + exponent * h)
@@ -89,7 +109,8 @@ impl Bounds {
     }
 
     fn expanded(&self, bound: &Bound) -> (f64, f64) {
-        bound.factors.iter().fold((bound.degree, bound.height), |(degree, height), (f, e)| {
+        let factors = self.lists.at(bound.list).iter();
+        factors.fold((bound.degree, bound.height), |(degree, height), (f, e)| {
             let FactorBound { degree: d, height: h } = self.factors[*f as usize];
             (degree + e.abs() * d, height + e.abs() * h)
         })
@@ -103,8 +124,7 @@ impl Bounds {
     }
 
     fn step(&mut self, step: Step<'_>, sources: &[InputDistribution]) -> Option<Bound> {
-        let plain =
-            |degree: f64, height: f64| Bound { degree, height, factors: Rc::clone(&self.none) };
+        let plain = |degree: f64, height: f64| Bound { degree, height, list: NONE };
         Some(match step {
             Step::Constant(value) => {
                 let [above, below] = value.part_bits();
@@ -112,7 +132,7 @@ impl Bounds {
                 if below > 1 {
                     // A denominator is a factor of degree 0, so that sums share it.
                     let factor = self.factor(FactorBound { degree: 0.0, height: below as f64 });
-                    bound.factors = Rc::new([(factor, -1.0)]);
+                    bound.list = self.lists.push([(factor, -1.0)]);
                 }
                 bound
             }
@@ -120,7 +140,7 @@ impl Bounds {
                 InputDistribution::Uniform => plain(1.0, 0.0),
                 InputDistribution::Sign => plain(0.0, 0.0),
             },
-            Step::Unary(UnaryFunction::Neg | UnaryFunction::Abs, a) => self.at(a)?.clone(),
+            Step::Unary(UnaryFunction::Neg | UnaryFunction::Abs, a) => *self.at(a)?,
             Step::Unary(UnaryFunction::Recip, a) => self.power(a, -1.0)?,
             Step::Unary(UnaryFunction::Sqrt, a) => self.power(a, 0.5)?,
             Step::Unary(..) | Step::Binary(BinaryOperation::Pow, ..) => return None,
@@ -129,58 +149,57 @@ impl Bounds {
                 exponent.is_finite().then(|| self.power(a, exponent))??
             }
             Step::Binary(BinaryOperation::Mul, a, b) => {
-                let (x, y) = (self.at(a)?, self.at(b)?);
-                let (degree, height) = (x.degree + y.degree, x.height + y.height);
-                let factors = match (x.factors.is_empty(), y.factors.is_empty()) {
-                    (true, _) => Rc::clone(&y.factors),
-                    (_, true) => Rc::clone(&x.factors),
-                    _ => merged(&x.factors, &y.factors, |e, f| e + f),
+                let (x, y) = (*self.at(a)?, *self.at(b)?);
+                let list = match (x.list, y.list) {
+                    (NONE, other) | (other, NONE) => other,
+                    (a, b) => self.lists.combine(a, b, Combination::Sum),
                 };
-                Bound { degree, height, factors }
+                Bound { degree: x.degree + y.degree, height: x.height + y.height, list }
             }
             Step::Binary(BinaryOperation::Add | BinaryOperation::Sub, a, b) => {
-                self.sum(self.at(a)?, self.at(b)?)
+                let (x, y) = (*self.at(a)?, *self.at(b)?);
+                self.sum(x, y)
             }
         })
     }
 
-    fn sum(&self, x: &Bound, y: &Bound) -> Bound {
-        if Rc::ptr_eq(&x.factors, &y.factors) {
-            let factors = Rc::clone(&x.factors);
+    fn sum(&mut self, x: Bound, y: Bound) -> Bound {
+        if x.list == y.list {
             let height = added(x.height, y.height);
-            return Bound { degree: x.degree.max(y.degree), height, factors };
+            return Bound { degree: x.degree.max(y.degree), height, list: x.list };
         }
-        let factors = merged(&x.factors, &y.factors, f64::min);
+        let list = self.lists.combine(x.list, y.list, Combination::Least);
         // The excess of a factor in a term over its exponent in the sum goes into the term's
         // numerator.
-        let weight = |factors: &[(u32, f64)]| {
-            factors.iter().fold((0.0, 0.0), |(degree, height), (factor, exponent)| {
+        let weight = |list: u32| {
+            let factors = self.lists.at(list).iter();
+            factors.fold((0.0, 0.0), |(degree, height), (factor, exponent)| {
                 let FactorBound { degree: d, height: h } = self.factors[*factor as usize];
                 (degree + exponent * d, height + exponent * h)
             })
         };
-        let (kept_degree, kept_height) = weight(&factors);
-        let expanded = |term: &Bound| {
-            let (degree, height) = weight(&term.factors);
+        let (kept_degree, kept_height) = weight(list);
+        let expanded = |term: Bound| {
+            let (degree, height) = weight(term.list);
             (term.degree + degree - kept_degree, term.height + height - kept_height)
         };
         let ((d, h), (e, i)) = (expanded(x), expanded(y));
-        Bound { degree: d.max(e), height: added(h, i), factors }
+        Bound { degree: d.max(e), height: added(h, i), list }
     }
 
     /// Bounds the value of the step at `place` to a power, which may be negative or fractional.
     fn power(&mut self, place: usize, exponent: f64) -> Option<Bound> {
-        let base = self.at(place)?.clone();
+        let base = *self.at(place)?;
         let next = self.factors.len() as u32;
         let name = *self.numerator_of.entry(place).or_insert(next);
         if name == next {
             self.factor(FactorBound { degree: base.degree, height: base.height });
         }
-        let mut factors: Vec<(u32, f64)> =
-            base.factors.iter().map(|(f, e)| (*f, e * exponent)).collect();
+        let own = self.lists.at(base.list);
+        let mut factors: Vec<(u32, f64)> = own.iter().map(|(f, e)| (*f, e * exponent)).collect();
         let at = factors.partition_point(|(f, _)| *f < name);
         factors.insert(at, (name, exponent));
-        Some(Bound { degree: 0.0, height: 0.0, factors: factors.into() })
+        Some(Bound { degree: 0.0, height: 0.0, list: self.lists.push(factors) })
     }
 
     fn factor(&mut self, factor: FactorBound) -> u32 {
@@ -194,35 +213,70 @@ fn added(a: f64, b: f64) -> f64 {
     a.max(b) + 1.0
 }
 
-/// Combines exponents factor by factor; an absent factor has exponent 0.
-fn merged(
-    x: &Rc<[(u32, f64)]>,
-    y: &Rc<[(u32, f64)]>,
-    f: impl Fn(f64, f64) -> f64,
-) -> Rc<[(u32, f64)]> {
-    let (mut i, mut j) = (0, 0);
-    let mut all = Vec::with_capacity(x.len() + y.len());
-    while i < x.len() || j < y.len() {
-        let (left, right) = (x.get(i), y.get(j));
-        let name = match (left, right) {
-            (Some((a, _)), Some((b, _))) => *a.min(b),
-            (Some((a, _)), None) => *a,
-            (None, Some((b, _))) => *b,
-            (None, None) => break,
-        };
-        let exponent = |side: Option<&(u32, f64)>, at: &mut usize| {
-            side.filter(|(f, _)| *f == name).map_or(0.0, |(_, e)| {
-                *at += 1;
-                *e
-            })
-        };
-        let (e, g) = (exponent(left, &mut i), exponent(right, &mut j));
-        let combined = f(e, g);
-        if combined != 0.0 {
-            all.push((name, combined));
-        }
+impl FactorLists {
+    /// Makes the list without factors.
+    fn new() -> Self {
+        let combined = FxHashMap::default();
+        Self { entries: Vec::new(), ranges: vec![[0; 2]], combined }
     }
-    all.into()
+
+    /// Returns a list.
+    fn at(&self, list: u32) -> &[(u32, f64)] {
+        let [start, end] = self.ranges[list as usize];
+        &self.entries[start..end]
+    }
+
+    /// Adds a list.
+    fn push(&mut self, factors: impl IntoIterator<Item = (u32, f64)>) -> u32 {
+        let start = self.entries.len();
+        self.entries.extend(factors);
+        self.finish(start)
+    }
+
+    /// Makes the entries from `start` on a list.
+    fn finish(&mut self, start: usize) -> u32 {
+        if start == self.entries.len() {
+            return NONE;
+        }
+        self.ranges.push([start, self.entries.len()]);
+        self.ranges.len() as u32 - 1
+    }
+
+    /// Combines exponents factor by factor; an absent factor has exponent 0.
+    fn combine(&mut self, x: u32, y: u32, how: Combination) -> u32 {
+        // Both ways of combining are symmetric.
+        let key = (x.min(y), x.max(y), how);
+        if let Some(list) = self.combined.get(&key) {
+            return *list;
+        }
+        let start = self.entries.len();
+        let ([mut i, left], [mut j, right]) = (self.ranges[x as usize], self.ranges[y as usize]);
+        while i < left || j < right {
+            let name_at =
+                |at: usize, end: usize| if at < end { self.entries[at].0 } else { u32::MAX };
+            let (a, b) = (name_at(i, left), name_at(j, right));
+            let name = a.min(b);
+            let (mut e, mut g) = (0.0, 0.0);
+            if a == name {
+                e = self.entries[i].1;
+                i += 1;
+            }
+            if b == name {
+                g = self.entries[j].1;
+                j += 1;
+            }
+            let combined = match how {
+                Combination::Sum => e + g,
+                Combination::Least => f64::min(e, g),
+            };
+            if combined != 0.0 {
+                self.entries.push((name, combined));
+            }
+        }
+        let list = self.finish(start);
+        self.combined.insert(key, list);
+        list
+    }
 }
 
 #[cfg(test)]

@@ -80,6 +80,8 @@ pub use rewrite::conditions;
 pub use rng::ProofRng;
 pub use trial::{Certificate, fewest};
 
+use rayon::prelude::*;
+
 use crate::graph::{Expr, Fault, Graph};
 
 use buckets::{Bucket, buckets, combined, part};
@@ -90,6 +92,9 @@ use lower::Algebraic;
 use relations::RelationSearch;
 use symbols::Symbols;
 use trial::{Roots, Trial, TrialResult};
+
+/// Number of steps, counted once for each bucket, from which on threads share the buckets.
+const LARGE: usize = 1 << 14;
 
 /// A prover of statements about values of a graph.
 pub struct Prover<'a> {
@@ -124,29 +129,63 @@ impl Group {
 impl Prover<'_> {
     /// Decides for each group of outputs whether all of them vanish identically.
     pub fn prove(&self, graph: &Graph, groups: &[Group]) -> Result<Vec<GroupOutcome>, Fault> {
+        self.prove_telling(graph, groups, &|_| ())
+    }
+
+    /// Decides the same, and tells each time how many groups more are decided. Large graphs are
+    /// proved on all threads; the outcomes are those of one.
+    pub fn prove_telling(
+        &self,
+        graph: &Graph,
+        groups: &[Group],
+        decided: &(dyn Fn(usize) + Sync),
+    ) -> Result<Vec<GroupOutcome>, Fault> {
         let outputs: Vec<Vec<Expr>> = groups.iter().map(|group| group.outputs.clone()).collect();
         let digest = SeedDigest::of(self.seed, graph, &outputs);
         let question = QuestionData { graph, sources: self.sources_of(graph), digest };
         let mut outcomes: Vec<Option<GroupOutcome>> = vec![None; groups.len()];
-        for bucket in buckets(graph, groups, &question.sources) {
-            let members = &bucket.members;
-            let asked: Vec<&[Expr]> =
-                members.iter().map(|index| groups[*index].outputs.as_slice()).collect();
-            let found = match bucket.special.is_empty() {
-                true => self.prove_plain(&question, &asked),
-                false => combined(self.explore(&question, &asked, &bucket)?, &bucket),
-            };
-            for (index, (outcome, is_partial)) in members.iter().zip(found) {
-                let is_doubtful = is_partial || !groups[*index].presence.is_empty();
-                outcomes[*index] = Some(match (is_doubtful, &outcome) {
-                    (true, GroupOutcome::Zero(_) | GroupOutcome::Void) => {
-                        self.on_all_parts(&question, &groups[*index], outcome)?
-                    }
-                    _ => outcome,
-                });
+        let buckets = buckets(graph, groups, &question.sources);
+        let prove = |bucket: &Bucket| {
+            let found = self.prove_bucket(&question, groups, bucket);
+            decided(bucket.members.len());
+            found
+        };
+        let is_large = buckets.len() > 1 && buckets.len() * graph.len() >= LARGE;
+        let found: Vec<_> = match is_large {
+            true => buckets.par_iter().with_max_len(1).map(prove).collect(),
+            false => buckets.iter().map(prove).collect(),
+        };
+        for (bucket, found) in buckets.iter().zip(found) {
+            for (index, outcome) in bucket.members.iter().zip(found?) {
+                outcomes[*index] = Some(outcome);
             }
         }
         Ok(outcomes.into_iter().flatten().collect())
+    }
+
+    /// Decides the groups of a bucket, in the order of its members.
+    fn prove_bucket(
+        &self,
+        question: &QuestionData<'_>,
+        groups: &[Group],
+        bucket: &Bucket,
+    ) -> Result<Vec<GroupOutcome>, Fault> {
+        let members = bucket.members.iter().map(|index| &groups[*index]);
+        let asked: Vec<&[Expr]> = members.clone().map(|group| group.outputs.as_slice()).collect();
+        let found = match bucket.special.is_empty() {
+            true => self.prove_plain(question, &asked),
+            false => combined(self.explore(question, &asked, bucket)?, bucket),
+        };
+        let outcome = |(group, (outcome, is_partial)): (&Group, (GroupOutcome, bool))| {
+            let is_doubtful = is_partial || !group.presence.is_empty();
+            match (is_doubtful, &outcome) {
+                (true, GroupOutcome::Zero(_) | GroupOutcome::Void) => {
+                    self.on_all_parts(question, group, outcome)
+                }
+                _ => Ok(outcome),
+            }
+        };
+        members.zip(found).map(outcome).collect()
     }
 
     /// Whether a value is proved to be not identically zero on every cell of signs that may contain

@@ -1,6 +1,6 @@
 //! Work items written by hand with num-dual, without formulas or graphs: the yardstick for the cost
 //! of the generic code. Plain code over arrays, not tuned; W3 has a second form, derived with
-//! pencil and paper.
+//! pencil and paper. All is inlined, so that a caller compiled for wider vectors gets code for them.
 //!
 //! ```text
 //! Ĩω' = K + λγ,  K = Ĩω×ω - m r×(ω×r'),  γ' = γ×ω,  Ĩ = I + m r²E - m r⊗r
@@ -30,6 +30,7 @@ const SQUARES: [f64; 3] = [1.0, 2.0, 3.5];
 const INERTIA_MB_MU: [f64; 3] = [MASS + 2.0, 2.0 * MASS + 2.0, 3.5 * MASS + 2.0];
 
 /// Residual W1: v at f64, then F₂ at `Dual64` along v.
+#[inline(always)]
 pub fn second_integral_along_field(state: &[f64]) -> f64 {
     let (omega, gamma) = split(state);
     let rate = cross(gamma, omega);
@@ -39,6 +40,7 @@ pub fn second_integral_along_field(state: &[f64]) -> f64 {
 }
 
 /// Residual W2: ρ at `Dual64` along v, and v at `Dual64` along each axis of ω.
+#[inline(always)]
 pub fn liouville_residual(state: &[f64]) -> f64 {
     let (omega, gamma) = split(state);
     let rate = cross(gamma, omega);
@@ -50,6 +52,7 @@ pub fn liouville_residual(state: &[f64]) -> f64 {
 
 /// Residual W3: div v = (χ,ω), so χ by v at duals along each axis of ω, for each unit vector ω;
 /// then (γ, rot(γ×χ)) by all of this at duals along each axis of γ.
+#[inline(always)]
 pub fn criterion(state: &[f64]) -> f64 {
     let (_, gamma) = split(state);
     let slopes = [0, 1, 2].map(|axis| {
@@ -66,6 +69,7 @@ pub fn criterion(state: &[f64]) -> f64 {
 }
 
 /// Residual W3 from a formula: a = Ĩ⁻¹γ/(γ,Ĩ⁻¹γ) at `Dual64` along each axis, and (γ, rot a).
+#[inline(always)]
 pub fn criterion_in_closed_form(state: &[f64]) -> f64 {
     let (_, gamma) = split(state);
     let slopes = [0, 1, 2].map(|axis| {
@@ -79,7 +83,7 @@ pub fn criterion_in_closed_form(state: &[f64]) -> f64 {
 }
 
 /// Returns (γ, rot w) from ∂w/∂γ₁, ∂w/∂γ₂, ∂w/∂γ₃.
-#[inline]
+#[inline(always)]
 fn rotation_about(gamma: Vector<f64>, slopes: [Vector<f64>; 3]) -> f64 {
     gamma[0] * (slopes[1][2] - slopes[2][1])
         + gamma[1] * (slopes[2][0] - slopes[0][2])
@@ -87,7 +91,7 @@ fn rotation_about(gamma: Vector<f64>, slopes: [Vector<f64>; 3]) -> f64 {
 }
 
 /// Returns Σ ∂ω'_i/∂ω_i of an ellipsoid; γ' has no divergence.
-#[inline]
+#[inline(always)]
 fn divergence<T: DualOrFloat>(omega: Vector<T>, gamma: Vector<T>, central: [f64; 3]) -> T {
     let along = |axis: usize| {
         let mut omega = omega.map(Dual::from_re);
@@ -99,38 +103,38 @@ fn divergence<T: DualOrFloat>(omega: Vector<T>, gamma: Vector<T>, central: [f64;
     along(0) + along(1) + along(2)
 }
 
-#[inline]
+#[inline(always)]
 fn split(state: &[f64]) -> (Vector<f64>, Vector<f64>) {
     let at = |k: usize| state.get(k).copied().unwrap_or(f64::NAN);
     ([at(0), at(1), at(2)], [at(3), at(4), at(5)])
 }
 
-#[inline]
+#[inline(always)]
 fn dot<T: DualOrFloat>(a: Vector<T>, b: Vector<T>) -> T {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-#[inline]
+#[inline(always)]
 fn cross<T: DualOrFloat>(a: Vector<T>, b: Vector<T>) -> Vector<T> {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-#[inline]
+#[inline(always)]
 fn scaled<T: DualOrFloat>(a: Vector<T>, factor: f64) -> Vector<T> {
     a.map(|x| x * factor)
 }
 
-#[inline]
+#[inline(always)]
 fn image<T: DualOrFloat>(matrix: Matrix<T>, a: Vector<T>) -> Vector<T> {
     matrix.map(|row| dot(row, a))
 }
 
-#[inline]
+#[inline(always)]
 fn ball<T: DualOrFloat>(gamma: Vector<T>) -> Vector<T> {
     from_fn(|k| gamma[k] * -RADIUS - CENTRE[k])
 }
 
-#[inline]
+#[inline(always)]
 fn ellipsoid<T: DualOrFloat>(gamma: Vector<T>) -> Vector<T> {
     let image: Vector<T> = from_fn(|k| gamma[k] * SQUARES[k]);
     let scale = -dot(gamma, image).sqrt().recip();
@@ -138,7 +142,7 @@ fn ellipsoid<T: DualOrFloat>(gamma: Vector<T>) -> Vector<T> {
 }
 
 /// Returns r' of the ellipsoid for γ' = `rate`.
-#[inline]
+#[inline(always)]
 fn ellipsoid_slide<T: DualOrFloat>(gamma: Vector<T>, rate: Vector<T>) -> Vector<T> {
     let image: Vector<T> = from_fn(|k| gamma[k] * SQUARES[k]);
     let image_rate: Vector<T> = from_fn(|k| rate[k] * SQUARES[k]);
@@ -148,7 +152,7 @@ fn ellipsoid_slide<T: DualOrFloat>(gamma: Vector<T>, rate: Vector<T>) -> Vector<
     from_fn(|k| (image_rate[k] - image[k] * along) * scale)
 }
 
-#[inline]
+#[inline(always)]
 fn inertia_at<T: DualOrFloat>(r: Vector<T>, central: [f64; 3]) -> Matrix<T> {
     let square = dot(r, r);
     let entry = |i: usize, j: usize| {
@@ -160,14 +164,14 @@ fn inertia_at<T: DualOrFloat>(r: Vector<T>, central: [f64; 3]) -> Matrix<T> {
 }
 
 /// Adjugate of a symmetric matrix.
-#[inline]
+#[inline(always)]
 fn adjugate<T: DualOrFloat>(a: Matrix<T>) -> Matrix<T> {
     let minor = |i: usize, j: usize, k: usize, l: usize| a[i][j] * a[k][l] - a[i][l] * a[k][j];
     let (xy, xz, yz) = (minor(0, 2, 2, 1), minor(0, 1, 1, 2), minor(0, 2, 1, 0));
     [[minor(1, 1, 2, 2), xy, xz], [xy, minor(0, 0, 2, 2), yz], [xz, yz, minor(0, 0, 1, 1)]]
 }
 
-#[inline]
+#[inline(always)]
 fn acceleration<T: DualOrFloat>(
     omega: Vector<T>,
     gamma: Vector<T>,
@@ -187,7 +191,7 @@ fn acceleration<T: DualOrFloat>(
 }
 
 /// Integral |Ĩω × γ|² - 2mR(γ,c)(Ĩω,ω).
-#[inline]
+#[inline(always)]
 fn second_integral<T: DualOrFloat>(omega: Vector<T>, gamma: Vector<T>) -> T {
     let momentum = image(inertia_at(ball(gamma), INERTIA), omega);
     let turned = cross(momentum, gamma);

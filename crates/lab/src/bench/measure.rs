@@ -24,6 +24,7 @@ const FEW_BLOCKS: usize = 4;
 pub fn measure(
     subject: &BenchClaim<'_>,
     options: &BenchOptions,
+    progress: &dyn Fn(f64),
 ) -> Result<Vec<MethodMeasurements>, BenchError> {
     let blocks = subject.states().len();
     let compared = match options.selection {
@@ -33,7 +34,7 @@ pub fn measure(
     let truth = reference(subject.residual(), &subject.states()[..compared]);
     let scales = subject.scales(compared)?.concat();
     let mut entries = subject.entries(options.selection);
-    let times = times(&mut entries, blocks, options.rounds);
+    let times = times(&mut entries, blocks, options.rounds, progress);
     let rows = entries.iter_mut().zip(times).map(|(entry, samples)| {
         let found = values(entry.candidate.as_mut(), compared);
         let errors =
@@ -80,7 +81,12 @@ fn values(
 
 /// Nanoseconds per state in increasing order, a list for each candidate. In each round every
 /// candidate runs in turn, so that a change of the machine's speed affects them all.
-fn times(entries: &mut [BenchCandidate<'_>], blocks: usize, rounds: usize) -> Vec<Vec<f64>> {
+fn times(
+    entries: &mut [BenchCandidate<'_>],
+    blocks: usize,
+    rounds: usize,
+    progress: &dyn Fn(f64),
+) -> Vec<Vec<f64>> {
     let repeats: Vec<u32> = entries.iter_mut().map(|entry| calibrate(entry, blocks)).collect();
     let mut samples: Vec<Vec<f64>> = vec![Vec::with_capacity(rounds); entries.len()];
     let mut spent = vec![Duration::ZERO; entries.len()];
@@ -94,6 +100,7 @@ fn times(entries: &mut [BenchCandidate<'_>], blocks: usize, rounds: usize) -> Ve
             let states = f64::from(repeats[k]) * TAPE_LANES as f64;
             samples[k].push(time.as_secs_f64() * 1e9 / states);
         }
+        progress(1.0 / rounds as f64);
     }
     samples.iter_mut().for_each(|samples| samples.sort_by(f64::total_cmp));
     samples

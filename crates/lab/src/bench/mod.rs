@@ -37,10 +37,14 @@ mod underived;
 use serde::Serialize;
 
 pub use candidate::Candidate;
-pub use items::{BenchItem, Residual, work_items};
+pub use items::{BenchItem, PlainCode, work_items};
+pub use one_by_one::BlockResidual;
 pub use subject::{BenchCandidate, BenchClaim, record_merged, record_residual};
 
 use liouville::graph::Fault;
+
+/// Name of f64 in code compiled for the processor at hand.
+pub const NATIVE: &str = "f64, native";
 
 /// Method of differentiation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
@@ -186,9 +190,10 @@ impl ClaimMeasurements {
         engines.iter().find_map(|engine| self.row(DifferentiationMethod::MergedTape, engine))
     }
 
-    /// Time of the quickest engine divided by that of plain num-dual code.
-    pub fn ratio_to_num_dual(&self) -> Option<f64> {
-        let plain = self.row(DifferentiationMethod::NumDualByHand, "f64")?;
+    /// Time of the quickest engine divided by that of plain num-dual code, compiled by default (`f64`)
+    /// or natively ([`NATIVE`]).
+    pub fn ratio_to_num_dual(&self, domain: &str) -> Option<f64> {
+        let plain = self.row(DifferentiationMethod::NumDualByHand, domain)?;
         Some(self.quickest()?.ns_per_state / plain.ns_per_state)
     }
 
@@ -219,18 +224,20 @@ impl BenchError {
     }
 }
 
-/// Measures every claim of an item.
+/// Measures every claim of an item; `progress` is told shares of the whole as they are done.
 pub fn measure_item(
     item: &BenchItem,
     options: &BenchOptions,
+    progress: &dyn Fn(f64),
 ) -> Result<Vec<ClaimMeasurements>, BenchError> {
+    let claims = item.case.claims.len().max(1) as f64;
     let one = |claim| {
         let subject = BenchClaim::new(item, claim, options.seed, options.blocks)?;
         Ok(ClaimMeasurements {
             item: item.name.clone(),
             claim: subject.claim.name.clone(),
             kind: subject.claim.kind.name(),
-            rows: measure::measure(&subject, options)?,
+            rows: measure::measure(&subject, options, &|share| progress(share / claims))?,
             skipped: subject.skipped(),
             values: if options.keep_values { subject.values()? } else { Vec::new() },
         })

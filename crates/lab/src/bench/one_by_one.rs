@@ -1,20 +1,55 @@
-//! Functions written by hand, run one state at a time.
+//! Functions written by hand, run one state at a time: as the compiler makes them for the baseline of
+//! the architecture, and natively, for the widest vectors of this processor.
 
 use super::candidate::{Block, Candidate};
+use liouville::graph::Kernel;
 use liouville::number::arb::Approximation;
 use liouville::verdict::TAPE_LANES;
 
-/// Function of one state, run over blocks.
-pub struct OneByOne<F> {
-    residual: F,
+/// Function over a block of states; each state is a list of components.
+pub type BlockResidual = fn(&[Vec<f64>], &mut [f64]);
+
+/// A function at one state after the other, as the compiler makes it by default and natively; both
+/// give the same bits, for no sums are fused or reordered.
+macro_rules! one_by_one {
+    ($residual:path) => {
+        [
+            |states, results| OneAfterOther { states, results, residual: $residual }.run(),
+            |states, results| {
+                with_widest_vectors(OneAfterOther { states, results, residual: $residual });
+            },
+        ]
+    };
+}
+pub(super) use one_by_one;
+
+/// A pass over a block of states, to be compiled for several instruction sets.
+pub(super) struct OneAfterOther<'p, R> {
+    pub states: &'p [Vec<f64>],
+    pub results: &'p mut [f64],
+    pub residual: R,
+}
+
+impl<R: Fn(&[f64]) -> f64> Kernel for OneAfterOther<'_, R> {
+    #[inline(always)]
+    fn run(self) {
+        for (state, result) in self.states.iter().zip(self.results) {
+            *result = (self.residual)(state);
+        }
+    }
+}
+
+/// Function run over blocks.
+pub struct OneByOne {
+    residual: BlockResidual,
     /// Inputs for each block and lane.
     states: Vec<Vec<Vec<f64>>>,
     results: [f64; TAPE_LANES],
 }
 
-impl<F: Fn(&[f64]) -> f64> OneByOne<F> {
+impl OneByOne {
     /// Prepares a function and the states, lane by lane.
-    pub fn new(residual: F, states: &[Block]) -> Self {
+    pub fn new(residual: BlockResidual, states: &[Block]) -> Self {
         let lane = |block: &Block, lane: usize| block.iter().map(|input| input[lane]).collect();
         let states = states
             .iter()
@@ -24,11 +59,9 @@ impl<F: Fn(&[f64]) -> f64> OneByOne<F> {
     }
 }
 
-impl<F: Fn(&[f64]) -> f64> Candidate for OneByOne<F> {
+impl Candidate for OneByOne {
     fn run(&mut self, block: usize) {
-        for (state, result) in self.states[block].iter().zip(&mut self.results) {
-            *result = (self.residual)(state);
-        }
+        (self.residual)(&self.states[block], &mut self.results);
     }
 
     fn value(&self, lane: usize) -> Option<Approximation> {

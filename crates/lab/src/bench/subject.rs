@@ -89,9 +89,9 @@ impl<'i> BenchClaim<'i> {
             entries.push(BenchCandidate { method, domain, operations, set_up, candidate });
         };
         let none = Duration::ZERO;
-        for (method, by_hand) in &self.item.by_hand {
-            let candidate = Box::new(OneByOne::new(by_hand, &self.states));
-            at_f64(*method, "f64", None, none, candidate);
+        for code in &self.item.by_hand {
+            let candidate = Box::new(OneByOne::new(code.residual, &self.states));
+            at_f64(code.method, code.domain, None, none, candidate);
         }
         if let (Ok((underived, time)), Selection::All) = (&self.underived, selection) {
             let candidate = Box::new(ComplexStep::new(underived, &self.states));

@@ -273,6 +273,7 @@ impl LinearSystem {
         let enough = self.visit(at, 1, 64 * (width + SPARE_ROWS), &mut |values| {
             if let Some(row) = row(values) {
                 dependent = if echelon.push(row) { 0 } else { dependent + 1 };
+                self.halt.meter().set(echelon.rank(), width + 1);
             }
             dependent < SPARE_ROWS && self.halt.check().is_ok()
         });

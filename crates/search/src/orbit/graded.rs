@@ -118,8 +118,12 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
         let Some(at) = system.at(0, 0) else { return Ok(Some(cost)) };
         let leading = LeadingField::of(setting, &self.field, variables)?;
         let mut found = Vec::new();
+        let work = |own: &Vec<usize>| own.len().pow(2);
+        let (mut done, all_work) = (0, classes.iter().map(work).sum());
         for places in classes {
             setting.effort.halt.check()?;
+            setting.effort.halt.meter().set(done, all_work);
+            done += work(&places);
             if let Some(leading) = &leading {
                 let forms: Vec<&Vec<u32>> = places.iter().map(|place| &all[*place]).collect();
                 let is_highest = |own: &&Vec<u32>| own.iter().sum::<u32>() == degree;

@@ -44,6 +44,7 @@ pub fn at_points(
     for place in 0..orbit.first().map_or(0, Vec::len) {
         if place % 16 == 15 {
             halt.check()?;
+            halt.meter().set(place, orbit[0].len());
         }
         let point: Vec<u64> = orbit.iter().map(|variable| variable[place]).collect();
         rows.push(monomials.iter().map(|own| value(m, &point, own)).collect());
@@ -108,6 +109,7 @@ impl<'o> MonomialSeries<'o> {
         for (place, own) in monomials.iter().enumerate() {
             if place % 16 == 15 {
                 halt.check()?;
+                halt.meter().set(place, monomials.len());
             }
             columns.push(self.series(own));
         }

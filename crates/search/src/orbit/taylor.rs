@@ -129,6 +129,7 @@ impl Flow {
         for k in 0..count.saturating_sub(1) {
             if k % 64 == 63 {
                 halt.check()?;
+                halt.meter().set(k, count);
             }
             for (place, step) in self.steps.iter().enumerate() {
                 let value = match step {
@@ -168,6 +169,7 @@ impl Flow {
         for k in 0..orders.saturating_sub(1) {
             if k % 64 == 63 {
                 halt.check()?;
+                halt.meter().set(k, orders);
             }
             by_order.push(m.inverse(m.integer(k as u64 + 2)));
             for (place, step) in self.steps.iter().enumerate() {

@@ -52,6 +52,7 @@ pub use unknown::{SearchOutcome, of_search};
 pub use wireframe::Wireframe;
 pub use words::GivenParameter;
 
+use crate::Halt;
 use geometry::Geometry;
 use question::SurveyQuestion;
 
@@ -116,10 +117,12 @@ pub struct Survey {
     pub warnings: Vec<String>,
 }
 
-/// Tries all known formulas on a case; `progress` is called with a description of the next part.
+/// Tries all known formulas on a case; `progress` is called with a description of the next part, whose
+/// share that is done is told by the meter of `halt`.
 pub fn survey(
     case: &Case,
     options: &Options,
+    halt: &Halt,
     progress: &mut dyn FnMut(&str),
 ) -> Result<Survey, JudgeError> {
     if case.model.system.is_map() {
@@ -135,14 +138,14 @@ pub fn survey(
         .collect();
     progress("the geometry");
     let geometry = Geometry::of(case, options)?;
-    let (mut all, implied) = tried(case, options, &geometry, progress)?;
+    let (mut all, implied) = tried(case, options, &geometry, halt, progress)?;
     all.extend(claimed.iter().filter(|one| one.is("integral") || one.is("density")).cloned());
     progress("symmetries and reversors");
     let (reversors, symmetries) = involutions::find(case, options)?
         .into_iter()
         .partition::<Vec<TestedClaim>, _>(|found| found.is("reversor"));
     progress("further integrals");
-    let mut search = SearchOutcome::of(case, options, progress);
+    let mut search = SearchOutcome::of(case, options, halt, progress);
     all.append(&mut search.tested);
     progress("classification");
     let mut sorted = Sorted::of(all);
@@ -229,10 +232,15 @@ fn tried(
     case: &Case,
     options: &Options,
     geometry: &Geometry,
+    halt: &Halt,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(Vec<TestedClaim>, Vec<String>), JudgeError> {
     let (mut all, mut implied) = (Vec::new(), Vec::new());
-    for family in family::all() {
+    let families = family::all();
+    let count = families.len();
+    progress("known formulas");
+    for (place, family) in families.into_iter().enumerate() {
+        halt.meter().set(place, count);
         let axes: Vec<Option<&axis::RevolutionAxis>> = match family.around {
             true => geometry.axes.iter().map(Some).collect(),
             false => vec![None],
@@ -242,7 +250,6 @@ fn tried(
                 continue;
             }
             let family = axis.map_or(family.clone(), |axis| family.with(&axis.words()));
-            progress(&family.name);
             let question = SurveyQuestion::of(&family, &geometry.bindings);
             let found = question.ask(case, options)?.unwrap_or_default();
             if !found.is_empty() && found.iter().all(TestedClaim::holds) {

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::definitions::define;
 use super::question::TestedClaim;
-use crate::{CountReport, Effort, Excluded, Found, search};
+use crate::{CountReport, Effort, Excluded, Found, Halt, search};
 use liouville::case::Case;
 use liouville::case::Expect;
 use liouville::mechanics::System;
@@ -32,12 +32,13 @@ pub struct SearchOutcome {
 
 impl SearchOutcome {
     /// Runs the search; its failures become remarks.
-    pub fn of(case: &Case, options: &Options, progress: &mut dyn FnMut(&str)) -> Self {
+    pub fn of(case: &Case, options: &Options, halt: &Halt, progress: &mut dyn FnMut(&str)) -> Self {
         let effort = Effort {
             degree: DEGREE,
             blind: true,
             seconds: SECONDS,
             options: *options,
+            halt: halt.clone(),
             ..Effort::default()
         };
         // The families contain the symmetry fields of bodies.

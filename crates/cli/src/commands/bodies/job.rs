@@ -8,6 +8,7 @@ use std::sync::OnceLock;
 use liouville::case::{Case, Expect, Setting};
 use liouville::part::Part;
 use liouville::verdict::{ClaimReport, JudgeError, Options};
+use liouville_search::Halt;
 use liouville_search::survey::{self, Survey, TestedClaim};
 use rayon::prelude::*;
 
@@ -16,11 +17,11 @@ use super::{BodiesArgs, RowFormat};
 use crate::commands::check::RequestedClaims;
 use crate::commands::eval::Opened;
 use crate::commands::explore::output::{Ending, Output};
-use crate::commands::explore::progress::progress;
 use crate::commands::explore::report::ReportArgs;
 use crate::commands::explore::share::Share;
-use crate::commands::judging::{stated, verdicts};
+use crate::commands::judging::{VerdictWatch, stated, verdicts};
 use crate::commands::out::write;
+use crate::commands::progress::Progress;
 use crate::commands::threads::pool;
 use crate::commands::{CheckArgs, CommandOutput, eval, source};
 use crate::parts::{Form, Identity, Job, json_line, json_unit};
@@ -196,11 +197,13 @@ impl BodiesJob {
         match &self.question {
             Question::Claims { wanted, motions } => {
                 wanted.prepare(&mut case);
-                let report = verdicts(&case, &self.options, *motions, &|_| ()).map_err(wrong)?;
+                let report = verdicts(&case, &self.options, *motions, VerdictWatch::NOBODY)
+                    .map_err(wrong)?;
                 self.judged(&report.claims.iter().collect::<Vec<_>>(), None)
             }
             Question::Invariants => {
-                let found = survey::survey(&case, &self.options, &mut |_| ()).map_err(wrong)?;
+                let found = survey::survey(&case, &self.options, &Halt::default(), &mut |_| ())
+                    .map_err(wrong)?;
                 let claims: Vec<&ClaimReport> =
                     found.claimed.iter().map(|own| &own.claim).collect();
                 self.judged(&claims, Some(invariants(&found)))
@@ -294,17 +297,18 @@ impl Job for BodiesJob {
         let range = part.range(table.rows.len() as u64);
         let rows = part.of(&table.rows);
         let pool = pool(threads.min(rows.len().max(1)))?;
-        let bar = progress(rows.len() as u64, "bodies");
+        let bar = Progress::of(rows.len() as u64, "bodies");
         let is_stopped = liouville_flow::stop_request();
         let bodies: Option<Vec<Body>> = pool.install(|| {
             let judged = rows.par_iter().enumerate().map(|(k, row)| {
-                bar.inc(1);
                 let place = range.start + k as u64;
-                (!is_stopped()).then(|| self.body(place, row, &given, table))
+                let body = (!is_stopped()).then(|| self.body(place, row, &given, table));
+                bar.add(1.0);
+                body
             });
             judged.collect()
         });
-        bar.finish_and_clear();
+        bar.finish();
         bodies.ok_or_else(|| "error: stopped before all bodies were judged".to_string())
     }
 

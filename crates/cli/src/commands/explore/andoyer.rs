@@ -13,8 +13,8 @@ use liouville::part::Part;
 use liouville_draw::{Plot, Text};
 use liouville_flow::{FlowError, Precision, SectionChoice, SectionOrbit, SectionRequest};
 
+use super::Progress;
 use super::motion::{MotionArgs, whole, wrong_choice};
-use super::progress::progress;
 use super::section::{Drawn, SectionArgs, Unit, Wish};
 use super::starts::GivenStart;
 
@@ -41,9 +41,10 @@ pub fn compute(
         return Ok(Vec::new());
     }
     let follow = |request: &SectionRequest| {
-        let bar = progress(request.starts.len() as u64, "orbits");
-        let found = liouville_flow::section(case, request, threads, &|| bar.inc(1)).map_err(told);
-        bar.finish_and_clear();
+        let bar = Progress::of(request.starts.len() as u64, "orbits");
+        let found =
+            liouville_flow::section(case, request, threads, &|share| bar.add(share)).map_err(told);
+        bar.finish();
         found
     };
     let orbits = follow(&request)?;
@@ -194,7 +195,7 @@ fn mark_claimed(plot: &mut Plot, case: &Case, request: &SectionRequest) -> Resul
             let (starts, crossings, skip) = (vec![at], point.period - 1, 0);
             let request =
                 SectionRequest { starts, crossings, skip, backwards: false, ..request.clone() };
-            let images = liouville_flow::section(case, &request, 1, &|| ())?;
+            let images = liouville_flow::section(case, &request, 1, &|_| ())?;
             all.extend(images.iter().flat_map(|orbit| &orbit.crossings).map(|met| met.at));
         }
         drawing::mark(plot, stability, &all);
@@ -219,10 +220,10 @@ fn classes(
     let parameters = liouville_flow::fixed_parameters(case, request.seed, request.index)?;
     let motions = liouville_flow::Variational::all(&case.model, &parameters, &starts)?;
     let time = if request.backwards { -time } else { time };
-    let bar = progress(2 * starts.len() as u64, "motions");
-    let follow = |time| motions.all_exponents(time, threads, &|| bar.inc(1));
+    let bar = Progress::of(2 * starts.len() as u64, "motions");
+    let follow = |time| motions.all_exponents(time, threads, &|share| bar.add(share));
     let (forward, backward) = (follow(time), follow(-time));
-    bar.finish_and_clear();
+    bar.finish();
     let names = request.starts.iter().map(|[l, z]| format!("({l}, {z})")).collect();
     Ok(exponents::rows(names, forward, Some(backward)))
 }
@@ -247,7 +248,7 @@ fn images(
             let (skip, direction) = (0, Direction::Both);
             let request =
                 SectionRequest { starts, crossings, skip, direction, backwards, ..request.clone() };
-            both.extend(liouville_flow::section(case, &request, threads, &|| ())?);
+            both.extend(liouville_flow::section(case, &request, threads, &|_| ())?);
         }
         Ok((*line, both))
     };

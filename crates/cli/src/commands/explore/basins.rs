@@ -7,11 +7,11 @@ use liouville::number::rational::Rational;
 use liouville_flow::{BasinRequest, Columns, FlowError, Lexicon, StateAxis, basins};
 
 use super::CommandOutput;
+use super::Progress;
 use super::chart::parse_size;
 use super::ink::{Ink, Sheet};
 use super::motion::{MotionArgs, Threads, wrong_formula};
 use super::output::Ending;
-use super::progress::progress;
 use super::starts::{GivenStart, example, given, misfit};
 use crate::report::basins::BasinReport;
 
@@ -84,9 +84,9 @@ pub fn run(options: &BasinArgs) -> Result<CommandOutput, String> {
         time: options.time,
         seed: options.subject.seed,
     };
-    let bar = progress(count as u64, "motions");
-    let found = basins(&case, &request, options.threads.count(), &|| bar.inc(1));
-    bar.finish_and_clear();
+    let bar = Progress::of(count as u64, "motions");
+    let found = basins(&case, &request, options.threads.count(), &|share| bar.add(share));
+    bar.finish();
     let found = found.map_err(|error| options.subject.told(&error))?;
     let report = BasinReport { case: &case, request: &request, found: &found };
     options.ink.save(

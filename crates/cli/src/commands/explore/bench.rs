@@ -2,7 +2,6 @@
 
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use crate::report::bench::{self, BenchRun};
 use crate::report::{FileFailure, diagnostic, diagram, terminal};
@@ -12,7 +11,7 @@ use liouville_lab::bench::{
     BenchItem, BenchOptions, ClaimMeasurements, Selection, measure_item, work_items,
 };
 
-use super::{CommandOutput, LimitArgs, colour, files, out, source, width};
+use super::{CommandOutput, LimitArgs, Progress, colour, files, out, source, width};
 
 #[derive(Debug, Args)]
 pub struct BenchArgs {
@@ -57,19 +56,19 @@ pub fn run(options: &BenchArgs) -> Result<CommandOutput, String> {
         let inputs: Vec<&Path> = found.iter().map(|(path, _)| Path::new(path)).collect();
         out::check(path, "--svg", &inputs)?;
     }
-    let (started, bar) = (Instant::now(), files::bar(found.len() as u64));
+    let bar = Progress::of(found.len() as u64, "cases");
     for (path, item) in found {
         // One thread, one item at a time: candidates do not compete for the machine.
-        let measured = item.and_then(|item| measured(&item, &amount));
+        bar.tell(&path);
+        let measured = item.and_then(|item| measured(&item, &amount, &|share| bar.add(share)));
         match measured {
             Ok(measured) => run.measured.extend(measured),
             Err(failures) => {
                 run.errors.extend(failures.into_iter().map(|failure| (path.clone(), failure)));
             }
         }
-        files::advance(&bar, started);
     }
-    bar.finish_and_clear();
+    bar.finish();
     for (_, failure) in &run.errors {
         anstream::eprintln!("{}", failure.rendered);
     }
@@ -123,8 +122,9 @@ fn item(path: &Path) -> Result<BenchItem, Vec<FileFailure>> {
 fn measured(
     item: &BenchItem,
     amount: &BenchOptions,
+    progress: &dyn Fn(f64),
 ) -> Result<Vec<ClaimMeasurements>, Vec<FileFailure>> {
-    measure_item(item, amount).map_err(|error| {
+    measure_item(item, amount, progress).map_err(|error| {
         vec![files::plain(Path::new(&item.name), &error.to_string(), error.help())]
     })
 }

@@ -18,10 +18,11 @@ use super::ink::{Ink, Sheet};
 use super::motion::wrong_formula;
 use super::output::Ending;
 use super::periodic::OrbitSearch;
-use super::progress::telling;
 use super::surface::read_surface;
+use super::telling;
 use super::{CommandOutput, LimitArgs};
 use crate::report::branch::BranchReport;
+use liouville_search::Meter;
 
 #[derive(Debug, Args)]
 pub struct ContinueArgs {
@@ -222,7 +223,7 @@ impl ContinueArgs {
             count: self.count as usize,
             longest: self.step,
         };
-        let found = telling(|tell| {
+        let found = telling(Meter::default(), |tell| {
             let tell = std::cell::RefCell::new(tell);
             let progress = |point: &BranchPoint| {
                 let words = format!("{} = {}", self.parameter, point.value);

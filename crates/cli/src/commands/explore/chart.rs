@@ -14,11 +14,11 @@ use liouville_flow::{
 };
 
 use super::CommandOutput;
+use super::Progress;
 use super::eval::Opened;
 use super::ink::{Ink, Sheet};
 use super::motion::{MotionArgs, SectionPlaneArgs, Threads, parse_start, wrong_choice};
 use super::output::{Ending, Output};
-use super::progress::progress;
 use super::share::{Share, Target, carry_out};
 
 #[derive(Clone, Debug, Args)]
@@ -167,10 +167,11 @@ impl Job for ChartJob {
 
     fn compute(&self, part: Part, threads: usize) -> Result<Vec<Cell>, String> {
         let range = part.range(self.count() as u64);
-        let bar = progress(range.end - range.start, "motions");
+        let bar = Progress::of(range.end - range.start, "motions");
         let (case, request) = (&self.opened.case, &self.request);
-        let cells = liouville_flow::plane_part(case, request, part, threads, &|| bar.inc(1));
-        bar.finish_and_clear();
+        let cells =
+            liouville_flow::plane_part(case, request, part, threads, &|share| bar.add(share));
+        bar.finish();
         cells.map_err(|error| self.options.subject.told(&error))
     }
 

@@ -8,10 +8,10 @@ use liouville_flow::{
 };
 
 use super::CommandOutput;
+use super::Progress;
 use super::ink::{Ink, Sheet};
 use super::motion::{CrossingArgs, MotionArgs, Threads, parse_count, wrong_choice};
 use super::output::Ending;
-use super::progress::progress;
 use super::starts::{GivenStart, Starts, misfit};
 use super::surface::{begin, read_axes, read_surface};
 use crate::report::bifurcations::{DiagramReport, OrbitsAtValue};
@@ -206,8 +206,8 @@ fn follow(
             axis.count
         ));
     }
-    let bar = progress(axis.count as u64, "values");
-    let found = diagram(case, &request, options.threads.count(), &|| bar.inc(1));
-    bar.finish_and_clear();
+    let bar = Progress::of(axis.count as u64, "values");
+    let found = diagram(case, &request, options.threads.count(), &|share| bar.add(share));
+    bar.finish();
     found.map_err(|error| options.subject.told(&error))
 }

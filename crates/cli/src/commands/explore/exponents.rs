@@ -12,10 +12,10 @@ use liouville::verdict;
 use liouville_flow::{Begin, FlowError, Launches, Spectrum, Start};
 use serde::{Deserialize, Serialize};
 
+use super::Progress;
 use super::eval::Opened;
 use super::motion::{MotionArgs, SectionPlaneArgs, Threads};
 use super::output::{Ending, Output};
-use super::progress::progress;
 use super::share::{Share, Target, carry_out};
 use super::starts::{GivenStart, Starts, misfit};
 use super::{CommandOutput, write};
@@ -158,10 +158,10 @@ impl ExponentsJob {
         starts: &[Result<Start, FlowError>],
         threads: usize,
     ) -> Result<Vec<Unit>, String> {
-        let bar = progress(starts.len() as u64, "motions");
+        let bar = Progress::of(starts.len() as u64, "motions");
         let (model, time) = (&self.opened.case.model, self.options.time);
-        let found = liouville_flow::spectra(model, starts, time, threads, &|| bar.inc(1));
-        bar.finish_and_clear();
+        let found = liouville_flow::spectra(model, starts, time, threads, &|share| bar.add(share));
+        bar.finish();
         let found = found.map_err(|error| self.options.subject.told(&error))?;
         let named = names.into_iter().zip(found);
         Ok(named.map(|(start, found)| Unit::Spectrum { start, found }).collect())
@@ -202,13 +202,13 @@ impl Job for ExponentsJob {
         let parameters = liouville_flow::fixed_parameters(case, seed, 0).map_err(told)?;
         let (time, one_way) = (self.options.time, self.options.one_way);
         let ways = if one_way { 1 } else { 2 };
-        let bar = progress((ways * starts.len()) as u64, "motions");
+        let bar = Progress::of((ways * starts.len()) as u64, "motions");
         let motions =
             liouville_flow::Variational::all(&case.model, &parameters, &starts).map_err(told)?;
-        let follow = |time| motions.all_exponents(time, threads, &|| bar.inc(1));
+        let follow = |time| motions.all_exponents(time, threads, &|share| bar.add(share));
         let forward = follow(time);
         let backward = (!one_way).then(|| follow(-time));
-        bar.finish_and_clear();
+        bar.finish();
         Ok(exponents::rows(names, forward, backward).into_iter().map(Unit::Largest).collect())
     }
 

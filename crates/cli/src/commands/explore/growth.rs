@@ -9,7 +9,7 @@ use liouville_lab::growth::{
     CaseFamily, FAMILIES, FamilyGrowth as Measured, SizePoint, measure, measure_one,
 };
 
-use super::{CommandOutput, pool};
+use super::{CommandOutput, Progress, pool};
 
 #[derive(Debug, Args)]
 pub struct GrowthArgs {
@@ -95,13 +95,26 @@ pub fn run(options: &GrowthArgs) -> Result<CommandOutput, String> {
         options.families.is_empty() || options.families.iter().any(|name| name == family.name)
     };
     let meant = FAMILIES.iter().filter(is_meant);
+    let bar = Progress::of(meant.clone().count() as u64, "families");
+    let told =
+        |family: &CaseFamily, size: u64| bar.tell(&format!("{} of size {size}", family.name));
     let measured: Vec<Measured> = match options.size {
         Some(size) => meant.map(|family| pool.install(|| measure_one(family, size))).collect(),
         None => {
             let within = Duration::from_secs_f64(options.within);
-            meant.map(|family| measure(family, within, |f, n| apart(f, n, options))).collect()
+            let at_size = |family: &CaseFamily, size: u64| {
+                told(family, size);
+                apart(family, size, options)
+            };
+            let each = |family| {
+                let growth = measure(family, within, at_size);
+                bar.add(1.0);
+                growth
+            };
+            meant.map(each).collect()
         }
     };
+    bar.finish();
     let text = match options.format {
         Format::Text => growth::text(&measured),
         Format::Json => growth::json(&measured).map_err(|error| format!("error: {error}"))? + "\n",

@@ -13,7 +13,6 @@ pub(super) mod motion;
 mod orbit;
 pub(super) mod output;
 mod periodic;
-pub(super) mod progress;
 pub(super) mod report;
 mod rotation;
 mod search;
@@ -30,6 +29,7 @@ mod track;
 use clap::Subcommand;
 
 use super::out::{self, write};
+use super::progress::{Progress, telling};
 use super::threads::pool;
 use super::{
     CommandOutput, LimitArgs, SamplingArgs, bodies, check, colour, eval, files, source, width,

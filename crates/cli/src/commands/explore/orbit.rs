@@ -12,11 +12,11 @@ use liouville_flow::{
     Begin, Columns, FlowError, Launches, Lexicon, Precision, SampledOrbit, Sampling, Start,
 };
 
+use super::Progress;
 use super::eval::wrong_state;
 use super::ink::Ink;
 use super::motion::{MotionArgs, Threads, rendered, wrong_formula};
 use super::output::{Ending, Output};
-use super::progress::progress;
 use super::starts::{GivenStart, Named, Starts, misfit};
 use super::track;
 use super::{CommandOutput, write};
@@ -102,12 +102,12 @@ pub fn run(options: &OrbitArgs) -> Result<CommandOutput, String> {
     let (names, starts): (Vec<_>, Vec<_>) = starts(&case, options)?.into_iter().unzip();
     let every = interval(options, starts.len(), columns.titles().len())?;
     let precision = options.precision.precision();
-    let bar = progress(starts.len() as u64, "orbits");
+    let bar = Progress::of(starts.len() as u64, "orbits");
     let threads = options.threads.count();
     let (found, tracks): (Vec<SampledOrbit>, _) = match options.track {
         true => {
             let times = (&options.time, &every);
-            let followed = track::follow(&case, &starts, times, threads, &|| bar.inc(1))?;
+            let followed = track::follow(&case, &starts, times, threads, &|share| bar.add(share))?;
             let rows = followed.rows(&options.time, &every);
             let points: Vec<Vec<[f64; 2]>> =
                 followed.tracks.into_iter().map(|track| track.points).collect();
@@ -119,11 +119,11 @@ pub fn run(options: &OrbitArgs) -> Result<CommandOutput, String> {
             let sampling = Sampling { columns: &columns, every };
             let sampling = out.is_some().then_some(&sampling);
             let followed = (&options.time, precision);
-            let progress = || bar.inc(1);
+            let progress = |share| bar.add(share);
             (liouville_flow::orbits(&case, &starts, followed, sampling, threads, &progress), None)
         }
     };
-    bar.finish_and_clear();
+    bar.finish();
     let titles = match options.track {
         true => ["t", "X", "Y"].map(str::to_string).to_vec(),
         false => columns.titles().to_vec(),

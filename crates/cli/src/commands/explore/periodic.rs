@@ -13,7 +13,7 @@ use serde_json::json;
 use super::motion::{MotionArgs, SectionPlaneArgs, Threads};
 use super::starts::{GivenStart, Starts, misfit};
 use super::surface::read_surface;
-use super::{CommandOutput, symmetric};
+use super::{CommandOutput, Progress, symmetric};
 
 /// Case, section and start of a closed orbit.
 #[derive(Debug, Args)]
@@ -85,9 +85,14 @@ pub fn run(options: &Periodic) -> Result<CommandOutput, String> {
     }
     let time = options.time.as_ref();
     let found = search.starts(&case)?;
-    let found =
-        found.into_iter().map(|given| options.proved(&case, search.orbit(&case, given, time)?));
+    let bar = Progress::of(found.len() as u64, "orbits");
+    let found = found.into_iter().map(|given| {
+        let found = options.proved(&case, search.orbit(&case, given, time)?);
+        bar.add(1.0);
+        found
+    });
     let found: Vec<FoundOrbit> = found.collect::<Result<_, _>>()?;
+    bar.finish();
     let text = match search.subject.json {
         true => {
             let points: Vec<_> = found.iter().map(cycle::entry).collect();

@@ -6,13 +6,14 @@ use std::path::PathBuf;
 use crate::report::{CaseDigest, diagnostic, survey as written};
 use clap::{Args, ValueEnum};
 use liouville::case::Case;
+use liouville_search::Halt;
 use liouville_search::survey::{self, Survey};
 
 use super::bodies::{self, BodiesArgs};
 use super::eval::open_signed;
 use super::motion::Threads;
-use super::progress::telling;
 use super::share::Share;
+use super::telling;
 use super::{CommandOutput, LimitArgs, SamplingArgs, colour, out, width};
 
 #[derive(Debug, Args)]
@@ -82,7 +83,10 @@ pub fn run(options: &ReportArgs) -> Result<CommandOutput, String> {
         }
     }
     let (case, digest) = open_signed(&options.case, &options.settings)?;
-    let found = telling(|progress| survey::survey(&case, &options.sampling.options(), progress));
+    let halt = Halt::default();
+    let found = telling(halt.meter().clone(), |progress| {
+        survey::survey(&case, &options.sampling.options(), &halt, progress)
+    });
     let found = found.map_err(|error| {
         let shown = options.case.display().to_string();
         let coloured = colour(std::io::stderr().is_terminal());

@@ -9,10 +9,10 @@ use liouville_flow::{
 };
 
 use super::CommandOutput;
+use super::Progress;
 use super::ink::{Ink, Sheet};
 use super::motion::{CrossingArgs, MotionArgs, Threads, wrong_choice, wrong_formula};
 use super::output::Ending;
-use super::progress::progress;
 use super::starts::{GivenStart, given};
 use super::surface::{begin, read_axes, read_surface};
 use crate::report::rotation::{RotationReport, RotationRow};
@@ -260,9 +260,10 @@ fn through_angle(options: &RotationArgs, case: &Case, line: &Line) -> Result<Fol
         ..options.crossing.plane.choice()
     };
     let request = choice.request(case).map_err(|error| wrong_choice(&error))?;
-    let bar = progress(line.count as u64, "motions");
-    let orbits = liouville_flow::section(case, &request, options.threads.count(), &|| bar.inc(1));
-    bar.finish_and_clear();
+    let bar = Progress::of(line.count as u64, "motions");
+    let orbits =
+        liouville_flow::section(case, &request, options.threads.count(), &|share| bar.add(share));
+    bar.finish();
     let orbits = orbits.map_err(|error| options.subject.told(&error))?.into_iter();
     let course = |orbit: liouville_flow::SectionOrbit| Course {
         at: orbit.crossings.iter().map(|met| met.at.to_vec()).collect(),
@@ -317,9 +318,10 @@ fn through_surface(
         skip: options.crossing.skip.unwrap_or(0),
         backwards: false,
     };
-    let bar = progress(line.count as u64, "motions");
-    let orbits = surface_section(case, &request, &starts, options.threads.count(), &|| bar.inc(1));
-    bar.finish_and_clear();
+    let bar = Progress::of(line.count as u64, "motions");
+    let orbits =
+        surface_section(case, &request, &starts, options.threads.count(), &|share| bar.add(share));
+    bar.finish();
     let orbits = orbits.map_err(|error| options.subject.told(&error))?.into_iter();
     let course = |orbit: liouville_flow::SurfaceOrbit| Course {
         at: orbit.crossings.into_iter().map(|met| met.at).collect(),

@@ -13,7 +13,7 @@ use signal_hook::flag;
 
 use super::super::limits::{STOPPED, parse_seconds};
 use super::eval::open_signed;
-use super::progress::telling;
+use super::telling;
 use super::{CommandOutput, colour};
 
 /// Exit code of a program ended by Ctrl-C.
@@ -111,7 +111,8 @@ pub fn run(options: &SearchArgs) -> Result<CommandOutput, String> {
     flag::register_conditional_shutdown(SIGINT, INTERRUPTED, Arc::clone(&switch))
         .and_then(|_| flag::register(SIGINT, switch))
         .map_err(|error| format!("error: cannot listen to Ctrl-C: {error}"))?;
-    let report = telling(|progress| liouville_search::search(&case, &effort, progress));
+    let meter = effort.halt.meter().clone();
+    let report = telling(meter, |progress| liouville_search::search(&case, &effort, progress));
     let report = report.map_err(|error| {
         let shown = options.case.display().to_string();
         let coloured = colour(std::io::stderr().is_terminal());

@@ -5,19 +5,18 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Instant;
 
 use crate::report::{CaseDigest, FileFailure, VERSION, diagnostic, survey as written};
 use clap::Args;
 use liouville::case::Case;
 use liouville::verdict::{JudgeError, Options};
 use liouville_report::site::{Page, SiteGroup, SiteOrder, SiteOutcome, index, way_back};
-use liouville_search::survey;
+use liouville_search::{Halt, survey};
 use rayon::prelude::*;
 
 use super::super::files::{self, Found, plain};
 use super::super::limits::{STOPPED, signals};
-use super::{CommandOutput, LimitArgs, SamplingArgs, out, pool, source};
+use super::{CommandOutput, LimitArgs, Progress, SamplingArgs, out, pool, source};
 
 #[derive(Debug, Args)]
 pub struct Site {
@@ -52,7 +51,6 @@ struct SiteBuild {
 
 pub fn run(options: &Site) -> Result<CommandOutput, String> {
     options.limits.check()?;
-    let started = Instant::now();
     std::fs::create_dir_all(&options.out)
         .map_err(|error| format!("error: cannot make {}: {error}", options.out.display()))?;
     let signal = signals()?;
@@ -63,16 +61,16 @@ pub fn run(options: &Site) -> Result<CommandOutput, String> {
         is_open: Mutex::new(true),
     });
     let pool = pool(options.sampling.threads.unwrap_or(0).min(work.tasks.len().max(1)))?;
-    let bar = files::bar(work.tasks.len() as u64);
+    let bar = Arc::new(Progress::of(work.tasks.len() as u64, "cases"));
     let (sender, receiver) = channel();
-    let (own, shown) = (Arc::clone(&work), bar.clone());
+    let (own, shown) = (Arc::clone(&work), Arc::clone(&bar));
     std::thread::Builder::new()
         .spawn(move || {
             pool.install(|| {
                 // cases of a folder take different times: each is a piece of work
                 own.tasks.par_iter().with_max_len(1).for_each(|task| {
                     own.report(task);
-                    files::advance(&shown, started);
+                    shown.add(1.0);
                 });
             });
             // nobody waits any more if this fails
@@ -81,7 +79,7 @@ pub fn run(options: &Site) -> Result<CommandOutput, String> {
         .map_err(|error| format!("error: cannot start a thread: {error}"))?;
     let stop = options.limits.wait(&receiver, &signal).err();
     *locked(&work.is_open) = false;
-    bar.finish_and_clear();
+    bar.finish();
     let pages: Vec<Page> = work.tasks.iter().map(|task| locked(&task.page).clone()).collect();
     for order in SiteOrder::ALL {
         let text = index(&title(&options.folder), &format!("liouville {VERSION}"), &pages, order);
@@ -233,7 +231,7 @@ impl SiteBuild {
             let document = written::of_claims(case, &report, self.options.seed, origin);
             return Ok((document, SiteGroup::Claims));
         }
-        let found = survey::survey(case, &self.options, &mut |_| ())?;
+        let found = survey::survey(case, &self.options, &Halt::default(), &mut |_| ())?;
         // one thread: the others have cases of their own
         let motion = liouville_flow::portrait(case, self.options.seed, 1);
         let document = written::with_motion(&found, origin, motion.as_ref());

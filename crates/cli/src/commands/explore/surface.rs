@@ -13,8 +13,8 @@ use liouville_flow::{
     SurfaceOrbit, SurfaceRequest,
 };
 
+use super::Progress;
 use super::motion::{MotionArgs, whole, wrong_formula};
-use super::progress::progress;
 use super::section::{Drawn, SectionArgs, Unit, Wish};
 use super::starts::{GivenStart, misfit};
 
@@ -55,10 +55,11 @@ pub fn compute(
         });
         return Ok(names.zip(ended).map(|(start, orbit)| Unit::Surface { start, orbit }).collect());
     }
-    let bar = progress(starts.len() as u64, "orbits");
+    let bar = Progress::of(starts.len() as u64, "orbits");
     let request = plan.request(options);
-    let orbits = liouville_flow::surface_section(case, &request, &starts, threads, &|| bar.inc(1));
-    bar.finish_and_clear();
+    let orbits =
+        liouville_flow::surface_section(case, &request, &starts, threads, &|share| bar.add(share));
+    bar.finish();
     let orbits = orbits.map_err(told)?;
     Ok(names.zip(orbits).map(|(start, orbit)| Unit::Surface { start, orbit }).collect())
 }

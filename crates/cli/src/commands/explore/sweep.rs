@@ -12,10 +12,10 @@ use serde::{Deserialize, Serialize};
 use crate::parts::{Form, Identity, Job, json_line, json_unit};
 use crate::report::sweep::{Found, SweepReport};
 
+use super::Progress;
 use super::eval::Opened;
 use super::motion::{MotionArgs, Threads};
 use super::output::{Ending, Output};
-use super::progress::progress;
 use super::share::{Share, Target, carry_out};
 use super::{CommandOutput, check, eval, pool, write};
 
@@ -170,11 +170,11 @@ impl Job for SweepJob {
     fn compute(&self, part: Part, threads: usize) -> Result<Vec<Unit>, String> {
         let range = part.range(self.options.states);
         let pool = pool(threads)?;
-        let bar = progress((range.end - range.start) * self.claims.len() as u64, "states");
-        let tick = |count| bar.inc(count);
+        let bar = Progress::of((range.end - range.start) * self.claims.len() as u64, "states");
+        let tick = |count: u64| bar.add(count as f64);
         let units = pool
             .install(|| self.claims.iter().map(|place| self.sweep(*place, part, &tick)).collect());
-        bar.finish_and_clear();
+        bar.finish();
         Ok(units)
     }
 

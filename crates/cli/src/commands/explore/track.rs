@@ -42,7 +42,7 @@ pub fn follow(
     starts: &[Result<Start, FlowError>],
     (time, every): (&Rational, &Rational),
     threads: usize,
-    progress: &(dyn Fn() + Sync),
+    progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Tracks, String> {
     let columns = Columns::read(Lexicon::new(case), COLUMNS)
         .map_err(|mistake| format!("error: {}", mistake.message))?;

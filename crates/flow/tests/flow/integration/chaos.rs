@@ -95,8 +95,8 @@ fn a_chart_agrees_with_the_exact_exponents_and_does_not_depend_on_threads() {
     let launch = Launch::Section { g0: g0.clone(), energy: energy.clone(), at: [0.0, 0.0] };
     let axes = [axis(Coordinate::L, 0.2, 5.0, 3), axis(Coordinate::Z, -0.8, 1.2, 3)];
     let request = PlaneRequest { axes, launch, time: 400.0, seed: 1 };
-    let found = plane(&case, &request, 1, &|| ()).expect("a plane");
-    let again = plane(&case, &request, 3, &|| ()).expect("a plane");
+    let found = plane(&case, &request, 1, &|_| ()).expect("a plane");
+    let again = plane(&case, &request, 3, &|_| ()).expect("a plane");
     assert_eq!(found, again, "bit for bit");
     let points: Vec<[f64; 2]> = (0..9)
         .map(|k| [(k % 3, 0), (k / 3, 1)].map(|(k, i)| request.axes[i].value(k).to_f64().0))
@@ -126,7 +126,7 @@ fn a_chart_of_parameters_has_the_motions_of_its_points() {
     let launch = Launch::Section { g0: g0.clone(), energy: energy.clone(), at: [3.4, 0.4] };
     let axes = [axis(parameter("c", 2), 0.0, 1.0, 2), axis(parameter("a_g", 0), 4.0, 28.0, 2)];
     let request = PlaneRequest { axes, launch, time: 20.0, seed: 1 };
-    let found = plane(&case, &request, 2, &|| ()).expect("a plane");
+    let found = plane(&case, &request, 2, &|_| ()).expect("a plane");
     for (k, found) in found.iter().enumerate() {
         let (c3, a_g) = ([0.25, 0.75][k % 2], [10.0, 22.0][k / 2]);
         let set = |name: &str, value: String| Setting { name: name.to_string(), value };

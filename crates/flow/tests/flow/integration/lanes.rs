@@ -74,7 +74,7 @@ fn crossed(
         skip: 1,
         backwards: false,
     };
-    surface_section(case, &request, starts, threads, &|| ()).expect("a section")
+    surface_section(case, &request, starts, threads, &|_| ()).expect("a section")
 }
 
 /// All that is known of an orbit, with the bits of its numbers.
@@ -167,7 +167,7 @@ fn exponents_do_not_show_the_lanes() {
         let parameters: Vec<Rational> = Vec::new();
         let measured = |starts: &[Result<Start, FlowError>], threads| {
             let motions = Variational::all(&case.model, &parameters, starts).expect("equations");
-            let found = motions.all_exponents(20.0, threads, &|| ());
+            let found = motions.all_exponents(20.0, threads, &|_| ());
             found.into_iter().map(|one| format!("{one:?}")).collect::<Vec<_>>()
         };
         let alone: Vec<String> =

@@ -30,8 +30,8 @@ fn sections_do_not_depend_on_threads_and_lie_on_level_lines() {
     let mut starts = spread(20);
     starts.push([1.0, 1.5]);
     let request = request(&case, &starts, 40);
-    let one = section(&case, &request, 1, &|| ()).expect("a section");
-    let three = section(&case, &request, 3, &|| ()).expect("a section");
+    let one = section(&case, &request, 1, &|_| ()).expect("a section");
+    let three = section(&case, &request, 3, &|_| ()).expect("a section");
     let bits = |orbits: &[SectionOrbit]| -> Vec<u64> {
         let crossings = orbits.iter().flat_map(|orbit| &orbit.crossings);
         crossings.flat_map(|c| c.at.map(f64::to_bits)).collect()
@@ -59,7 +59,7 @@ fn the_strange_attractor_fills_the_left_half() {
     let mut request = request(&case, &[[1.26685, -0.04083]], 2000);
     request.skip = 1500;
     request.crossings = 500;
-    let orbits = section(&case, &request, 1, &|| ()).expect("a section");
+    let orbits = section(&case, &request, 1, &|_| ()).expect("a section");
     let range = orbits[0].crossings.iter().map(|c| c.at[0]);
     let (low, high) = range.fold((f64::MAX, f64::MIN), |(a, b), l| (a.min(l), b.max(l)));
     assert!(low > 0.3 && high < 3.0, "0.4 < l < 2.9: {low}, {high}");
@@ -145,7 +145,7 @@ fn through(case: &Case, state: &str, surface: &str, axes: &str, crossings: usize
         backwards: false,
     };
     let starts = [Ok(start(case, state))];
-    let mut found = surface_section(case, &request, &starts, 1, &|| ()).expect("a section");
+    let mut found = surface_section(case, &request, &starts, 1, &|_| ()).expect("a section");
     found.remove(0)
 }
 
@@ -210,7 +210,7 @@ fn crossings_are_counted_once_where_operands_cancel() {
         backwards: false,
     };
     let begin = start(&case, "x=1 y=0");
-    let found = surface_section(&case, &request, &[Ok(begin)], 1, &|| ()).expect("a section");
+    let found = surface_section(&case, &request, &[Ok(begin)], 1, &|_| ()).expect("a section");
     let crossings = &found[0].crossings;
     assert_eq!(crossings.len(), 3000);
     for pair in crossings.windows(2) {

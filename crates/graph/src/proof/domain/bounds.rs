@@ -12,15 +12,26 @@ use super::Region;
 /// Number of passes over the steps, forwards and backwards.
 const PASSES: usize = 3;
 
+/// Intersects a bound with another, and tells whether it has changed.
+fn narrow(bound: &mut Extent, other: Extent) -> bool {
+    let common = bound.common(other);
+    let is_narrower = common != *bound;
+    *bound = common;
+    is_narrower
+}
+
 impl Region<'_> {
     /// Bounds the reached values, by place; `None` where a fact cannot hold.
     pub(super) fn bounds(&self, reached: &[usize], part: &[Extent]) -> Option<Vec<Extent>> {
         let mut bounds = vec![Extent::ALL; self.graph.len()];
         for pass in 0..PASSES {
             self.forward(reached, part, &mut bounds);
+            let mut is_narrower = false;
             for (place, fact) in self.facts {
                 let bound = &mut bounds[*place];
-                *bound = bound.within(true);
+                let within = bound.within(true);
+                is_narrower |= within != *bound;
+                *bound = within;
                 let holds = match fact {
                     SignFact::Positive => bound.reaches_above_zero(),
                     SignFact::NotNegative => !bound.is_empty(),
@@ -29,11 +40,10 @@ impl Region<'_> {
                     return None;
                 }
             }
-            if !self.share(reached, &mut bounds) {
-                return None;
-            }
-            if pass + 1 < PASSES {
-                self.backward(reached, &mut bounds);
+            is_narrower |= self.share(reached, &mut bounds)?;
+            // Where no bound has changed, a further pass changes none.
+            if pass + 1 == PASSES || !(self.backward(reached, &mut bounds) || is_narrower) {
+                break;
             }
         }
         let is_contradicted = |(place, fact): &(usize, SignFact)| match fact {
@@ -72,12 +82,13 @@ impl Region<'_> {
         }
     }
 
-    /// Intersects the bounds of equal and opposite values; `false` if nothing is left for a value
-    /// that exists.
-    fn share(&self, reached: &[usize], bounds: &mut [Extent]) -> bool {
+    /// Intersects the bounds of equal and opposite values, and tells whether one has changed; `None` if
+    /// nothing is left for a value that exists.
+    fn share(&self, reached: &[usize], bounds: &mut [Extent]) -> Option<bool> {
         if self.classes.of.is_empty() {
-            return true;
+            return Some(false);
         }
+        let mut is_narrower = false;
         let mut common: FxHashMap<u32, Extent> = FxHashMap::default();
         let class = |place: usize| self.classes.of.get(place).copied().flatten();
         let turned = |extent: Extent, opposite: bool| match opposite {
@@ -99,15 +110,16 @@ impl Region<'_> {
                 continue;
             };
             if shared.is_empty() {
-                return false;
+                return None;
             }
-            bounds[*place] = bounds[*place].common(turned(*shared, opposite));
+            is_narrower |= narrow(&mut bounds[*place], turned(*shared, opposite));
         }
-        true
+        Some(is_narrower)
     }
 
-    /// Bounds arguments from values.
-    fn backward(&self, reached: &[usize], bounds: &mut [Extent]) {
+    /// Bounds arguments from values; returns whether a bound has changed.
+    fn backward(&self, reached: &[usize], bounds: &mut [Extent]) -> bool {
+        let mut is_narrower = false;
         for place in reached.iter().rev() {
             let value = bounds[*place];
             if value.is_empty() {
@@ -146,9 +158,10 @@ impl Region<'_> {
                 _ => [None, None],
             };
             for (argument, extent) in found.into_iter().flatten() {
-                bounds[argument] = bounds[argument].common(extent);
+                is_narrower |= narrow(&mut bounds[argument], extent);
             }
         }
+        is_narrower
     }
 
     /// Bounds one factor of a product from the product and the other factor.
