@@ -41,6 +41,8 @@ mod levels;
 mod lies;
 #[path = "attack/limits.rs"]
 mod limits;
+#[path = "attack/lines.rs"]
+mod lines;
 #[path = "attack/oracle.rs"]
 mod oracle;
 #[path = "attack/own.rs"]

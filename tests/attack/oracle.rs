@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::claim::{At, Claim};
 use super::expr::{Expr, Function, Tree};
 use super::jet::Place;
+use super::lines;
 use super::point::Point;
 use super::random::Stream;
 use super::real::{self, LADDER, Lack, with_bits};
@@ -31,9 +32,12 @@ pub struct Survey {
 
 /// Number of states at which zeros are tested in more bits.
 const SHARPENED: usize = 2;
+/// Effort of a search that follows lines, before a verdict counts as wrong.
+const THOROUGH: usize = 6;
 /// Distances from a state, in shares of the ranges, at which it is asked whether it is alone; with
 /// the number of directions.
-const AROUND: [f64; 6] = [1e-14, 1e-11, 1e-8, 1e-6, 1e-4, 1e-3];
+const AROUND: [f64; 12] =
+    [1e-14, 1e-11, 1e-8, 1e-6, 1e-4, 1e-3, 1e-17, 1e-21, 1e-26, 1e-32, 1e-38, 1e-45];
 const DIRECTIONS: u64 = 48;
 
 /// Whether a state at which the claim fails has no states around it at which it fails, so that it
@@ -174,6 +178,14 @@ pub fn in_cells(scene: &Scene, claim: &Claim, stream: &mut Stream, effort: usize
             }
         }
     }
+    if effort >= THOROUGH {
+        for point in lines::between_zeros(scene, &trees(scene, claim), stream, effort) {
+            survey.look(scene, claim, &point);
+            if survey.off > 0 {
+                return survey;
+            }
+        }
+    }
     if effort > 1 {
         survey.sharpen(scene, claim);
     }
@@ -300,8 +312,13 @@ pub fn thin_signs(
         all.negative += found.negative;
         all.undecided += found.undecided;
         if all.positive.min(all.negative) > 0 {
-            break;
+            return all;
         }
+    }
+    if starts >= THOROUGH {
+        let found = signs_at(scene, tree, &lines::between_zeros(scene, &[tree], stream, THOROUGH));
+        all.positive += found.positive;
+        all.negative += found.negative;
     }
     all
 }

@@ -7,7 +7,12 @@ pub struct Point {
     pub picks: Vec<usize>,
     /// Position of each symbol in its range, from 0 to 1.
     pub cube: Vec<f64>,
+    /// What is added to each position, far below its last digit.
+    pub fine: Vec<f64>,
 }
+
+/// Steps below this size are added to the fine part of a position.
+const FINE: f64 = 1e-14;
 
 impl Point {
     /// Returns the midpoint of two points of the same branch and choice of lists.
@@ -28,8 +33,20 @@ impl Point {
     /// stays inside the range.
     pub fn beside(&self, place: usize, by: f64) -> Self {
         let mut point = self.clone();
+        if by.abs() < FINE {
+            let at_end = if point.cube[place] == 0.0 { by.abs() } else { by };
+            point.fine[place] += if point.cube[place] == 1.0 { -by.abs() } else { at_end };
+            return point;
+        }
         let there = point.cube[place] + by;
         point.cube[place] = if (0.0..=1.0).contains(&there) { there } else { there - 2.0 * by };
+        point
+    }
+
+    /// Returns the point with another position of one symbol, in two parts.
+    pub fn at(&self, place: usize, (cube, fine): (f64, f64)) -> Self {
+        let mut point = self.clone();
+        (point.cube[place], point.fine[place]) = (cube, fine);
         point
     }
 }

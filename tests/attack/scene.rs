@@ -130,7 +130,7 @@ impl Scene {
             }
         };
         let cube = self.symbols.iter().map(|_| coordinate(stream)).collect();
-        Point { branch, picks, cube }
+        Point { branch, picks, cube, fine: vec![0.0; self.symbols.len()] }
     }
 
     /// Computes the values of all symbols at a point; `None` if it is not a state.
@@ -138,7 +138,11 @@ impl Scene {
         let within = |a: &Number, b: &Number, place: usize| {
             let (low, high) = (number(*a), number(*b));
             let width = &high - &low;
-            Ok(low + width * exactly(point.cube[place]))
+            let share = exactly(point.cube[place]);
+            Ok(match point.fine[place] {
+                0.0 => low + width * share,
+                fine => low + width * (share + exactly(fine)),
+            })
         };
         let mut values: Vec<Found<Real>> = Vec::new();
         for (place, symbol) in self.symbols.iter().enumerate() {

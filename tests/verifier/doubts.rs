@@ -1,6 +1,7 @@
 //! Cases that must not receive a verdict: charts off the level, undefined formulas, quadratures of
 //! other functions, places that the motion leaves.
 
+mod absent;
 mod jumps;
 mod levels;
 mod parts;

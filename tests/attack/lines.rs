@@ -1,0 +1,179 @@
+//! Search for cells of any width along lines: all zeros of the parts of formulas on a line through a
+//! state, in full precision, and the states between them.
+
+use std::collections::BTreeSet;
+
+use super::expr::{Expr, Function, Tree};
+use super::jet::Place;
+use super::point::Point;
+use super::random::Stream;
+use super::real::sure_sign;
+use super::scene::Scene;
+use super::seek;
+
+/// A position in a range: a number and what is far below its last digit.
+type Position = (f64, f64);
+
+/// Number of intervals into which a line is divided evenly.
+const EVENLY: u32 = 48;
+/// Smallest distance, as a power of ten, from the ends, from the state and from 0.
+const NEAREST: i32 = 44;
+/// Largest number of parts, and of zeros on a line.
+const PARTS: usize = 32;
+const ZEROS: usize = 40;
+/// Number of halvings.
+const HALVINGS: usize = 260;
+/// Largest number of states through which lines are laid.
+const STATES: usize = 12;
+
+/// Finds states between the zeros of divisors and of the arguments of roots, moduli and powers on
+/// lines along the coordinates, through states found by so many descents.
+pub fn between_zeros(
+    scene: &Scene,
+    trees: &[&Tree],
+    stream: &mut Stream,
+    starts: usize,
+) -> Vec<Point> {
+    let mut parts: Vec<Tree> = Vec::new();
+    for tree in trees {
+        collect(tree, &mut parts);
+    }
+    parts.truncate(PARTS);
+    let mut states: Vec<Point> = (0..starts).map(|k| scene.point(stream, k % 2 == 1)).collect();
+    states.extend(seek::thin(scene, trees, stream, (starts, 60)));
+    states.retain(|state| scene.values(state).is_some());
+    // Those found last are the farthest from where the search began.
+    let states = states.iter().rev().take(STATES);
+    let free = scene.free();
+    let lines = states.flat_map(|state| free.iter().map(move |place| (state, *place)));
+    lines.flat_map(|(from, place)| Line { scene, parts: &parts, from, place }.states()).collect()
+}
+
+/// Collects divisors and the arguments of what has a corner or an end.
+fn collect(tree: &Tree, parts: &mut Vec<Tree>) {
+    let part = match &**tree {
+        Expr::Div(_, b) => Some(b),
+        Expr::Power(a, ..) | Expr::PowerTo(a, _) => Some(a),
+        Expr::Of(Function::Root | Function::Modulus | Function::Log, a) => Some(a),
+        _ => None,
+    };
+    if let Some(part) = part
+        && !parts.contains(part)
+    {
+        parts.push(part.clone());
+    }
+    for inner in tree.parts() {
+        collect(inner, parts);
+    }
+}
+
+/// A line along a coordinate through a point.
+struct Line<'l> {
+    scene: &'l Scene,
+    parts: &'l [Tree],
+    from: &'l Point,
+    place: usize,
+}
+
+impl Line<'_> {
+    /// Finds the states between all zeros that are seen.
+    fn states(&self) -> Vec<Point> {
+        let grid = self.grid();
+        let marks: Vec<Vec<i32>> = grid.iter().map(|at| self.marks(*at)).collect();
+        let mut zeros = vec![(0.0, 0.0), (1.0, 0.0)];
+        for (ends, seen) in grid.windows(2).zip(marks.windows(2)) {
+            for part in 0..=self.parts.len() {
+                if seen[0][part] != seen[1][part] && zeros.len() < ZEROS {
+                    zeros.push(self.halved(ends[0], ends[1], part, seen[0][part]));
+                }
+            }
+        }
+        let zeros = sorted(zeros);
+        let middles = zeros.windows(2).map(|ends| middle(ends[0], ends[1]));
+        middles.map(|at| self.from.at(self.place, at)).collect()
+    }
+
+    /// Lists positions, close to each other near the ends, the state and 0.
+    fn grid(&self) -> Vec<Position> {
+        let (low, high) = self.scene.ends(self.place);
+        let zero = -low / (high - low);
+        let rest = -zero.mul_add(high - low, low) / (high - low);
+        let own = (self.from.cube[self.place], self.from.fine[self.place]);
+        let mut all: Vec<Position> =
+            (0..=EVENLY).map(|k| (f64::from(k) / f64::from(EVENLY), 0.0)).collect();
+        for anchor in [(0.0, 0.0), (1.0, 0.0), own, (zero, rest)] {
+            all.push(anchor);
+            for power in (2..=NEAREST).step_by(3) {
+                for sign in [-1.0, 1.0] {
+                    all.push(sum(anchor, sign * 10f64.powi(-power)));
+                }
+            }
+        }
+        sorted(all)
+    }
+
+    /// Returns the signs of the parts, 2 for those without one, and whether there is a state.
+    fn marks(&self, at: Position) -> Vec<i32> {
+        (0..=self.parts.len()).map(|part| self.mark(at, part)).collect()
+    }
+
+    fn mark(&self, at: Position, part: usize) -> i32 {
+        let Some(values) = self.scene.values(&self.from.at(self.place, at)) else { return 3 };
+        let Some(tree) = self.parts.get(part) else { return 0 };
+        let value = (Place { values: &values, along: &[] }).value(tree);
+        value.and_then(|value| sure_sign(&value)).unwrap_or(2)
+    }
+
+    /// Finds where the mark of a part changes between two positions.
+    fn halved(&self, mut a: Position, mut b: Position, part: usize, first: i32) -> Position {
+        for _ in 0..HALVINGS {
+            let between = middle(a, b);
+            if between == a || between == b {
+                break;
+            }
+            if self.mark(between, part) == first { a = between } else { b = between }
+        }
+        b
+    }
+}
+
+/// Adds two floats without an error, in two parts.
+fn exact(a: f64, b: f64) -> Position {
+    let total = a + b;
+    let part = total - a;
+    (total, (a - (total - part)) + (b - part))
+}
+
+/// Adds a number to a position.
+fn sum((cube, fine): Position, more: f64) -> Position {
+    let (total, rest) = exact(cube, more);
+    exact(total, rest + fine)
+}
+
+fn middle(a: Position, b: Position) -> Position {
+    let (total, rest) = exact(a.0 / 2.0, b.0 / 2.0);
+    exact(total, rest + a.1 / 2.0 + b.1 / 2.0)
+}
+
+/// Sorts positions inside the range, without those that are there twice.
+fn sorted(all: Vec<Position>) -> Vec<Position> {
+    let key = |at: &Position| (at.0.to_bits(), order(at.1));
+    let inside = |at: &&Position| {
+        at.0 >= 0.0 && at.0 <= 1.0 && (at.0 > 0.0 || at.1 >= 0.0) && (at.0 < 1.0 || at.1 <= 0.0)
+    };
+    // Positive floats are in the order of their bits.
+    let keys: BTreeSet<(u64, i64)> =
+        all.iter().filter(inside).map(|at| (at.0 + 0.0, at.1)).map(|at| key(&at)).collect();
+    keys.into_iter().map(|(cube, fine)| (f64::from_bits(cube), unordered(fine))).collect()
+}
+
+/// Maps floats to integers in the same order.
+fn order(x: f64) -> i64 {
+    let bits = (x + 0.0).to_bits() as i64;
+    if bits < 0 { i64::MIN - bits } else { bits }
+}
+
+fn unordered(order: i64) -> f64 {
+    let bits = if order < 0 { i64::MIN - order } else { order };
+    f64::from_bits(bits as u64)
+}
