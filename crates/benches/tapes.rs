@@ -18,7 +18,7 @@ fn tapes(criterion: &mut Criterion) {
         println!("{}: {} operations a state", item.name, subject.residual().operations());
         let measured = measure_item(&item, &Amount::default(), &|_| ()).expect("it is measured");
         if let [Some(ratio)] =
-            measured.iter().map(|m| m.ratio_to_num_dual()).collect::<Vec<_>>()[..]
+            measured.iter().map(|m| m.ratio_to_num_dual("f64")).collect::<Vec<_>>()[..]
         {
             println!("{}: merged tape / num-dual by hand: {ratio:.4}", item.name);
         }

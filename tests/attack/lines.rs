@@ -21,37 +21,44 @@ const NEAREST: i32 = 44;
 /// Largest number of parts, and of zeros on a line.
 const PARTS: usize = 32;
 const ZEROS: usize = 40;
+/// Number of points drawn for each state.
+const DRAWS: usize = 40;
 /// Number of halvings.
 const HALVINGS: usize = 260;
-/// Largest number of states through which lines are laid.
+/// Largest number of states of either kind through which lines are laid.
 const STATES: usize = 12;
 
 /// Finds states between the zeros of divisors and of the arguments of roots, moduli and powers on
-/// lines along the coordinates, through states found by so many descents.
+/// lines along the coordinates, through so many states drawn, and as many found by descents; with
+/// `sums`, also between the zeros of sums.
 pub fn between_zeros(
     scene: &Scene,
     trees: &[&Tree],
     stream: &mut Stream,
-    starts: usize,
+    (starts, sums): (usize, bool),
 ) -> Vec<Point> {
     let mut parts: Vec<Tree> = Vec::new();
     for tree in trees {
-        collect(tree, &mut parts);
+        collect(tree, sums, &mut parts);
     }
     parts.truncate(PARTS);
-    let mut states: Vec<Point> = (0..starts).map(|k| scene.point(stream, k % 2 == 1)).collect();
+    let drawn = (0..DRAWS * starts).map(|k| scene.point(stream, k % 2 == 1));
+    let mut states: Vec<Point> =
+        drawn.filter(|state| scene.rough_values(state).is_some()).take(starts).collect();
     states.extend(seek::thin(scene, trees, stream, (starts, 60)));
-    states.retain(|state| scene.values(state).is_some());
-    // Those found last are the farthest from where the search began.
-    let states = states.iter().rev().take(STATES);
+    // Those found last are the farthest from where a search began.
+    let half = starts.min(states.len());
+    let (drawn, found) = states.split_at(half);
+    let states = drawn.iter().take(STATES).chain(found.iter().rev().take(STATES));
     let free = scene.free();
     let lines = states.flat_map(|state| free.iter().map(move |place| (state, *place)));
     lines.flat_map(|(from, place)| Line { scene, parts: &parts, from, place }.states()).collect()
 }
 
 /// Collects divisors and the arguments of what has a corner or an end.
-fn collect(tree: &Tree, parts: &mut Vec<Tree>) {
+fn collect(tree: &Tree, sums: bool, parts: &mut Vec<Tree>) {
     let part = match &**tree {
+        Expr::Add(..) | Expr::Sub(..) if sums => Some(tree),
         Expr::Div(_, b) => Some(b),
         Expr::Power(a, ..) | Expr::PowerTo(a, _) => Some(a),
         Expr::Of(Function::Root | Function::Modulus | Function::Log, a) => Some(a),
@@ -63,7 +70,7 @@ fn collect(tree: &Tree, parts: &mut Vec<Tree>) {
         parts.push(part.clone());
     }
     for inner in tree.parts() {
-        collect(inner, parts);
+        collect(inner, sums, parts);
     }
 }
 
@@ -82,9 +89,10 @@ impl Line<'_> {
         let marks: Vec<Vec<i32>> = grid.iter().map(|at| self.marks(*at)).collect();
         let mut zeros = vec![(0.0, 0.0), (1.0, 0.0)];
         for (ends, seen) in grid.windows(2).zip(marks.windows(2)) {
-            for part in 0..=self.parts.len() {
-                if seen[0][part] != seen[1][part] && zeros.len() < ZEROS {
-                    zeros.push(self.halved(ends[0], ends[1], part, seen[0][part]));
+            let pairs = seen[0].iter().zip(&seen[1]).enumerate();
+            for (part, (before, _)) in pairs.filter(|(_, (before, after))| before != after) {
+                if zeros.len() < ZEROS {
+                    zeros.push(self.halved(ends[0], ends[1], part, *before));
                 }
             }
         }

@@ -179,7 +179,7 @@ pub fn in_cells(scene: &Scene, claim: &Claim, stream: &mut Stream, effort: usize
         }
     }
     if effort >= THOROUGH {
-        for point in lines::between_zeros(scene, &trees(scene, claim), stream, effort) {
+        for point in lines::between_zeros(scene, &trees(scene, claim), stream, (effort, false)) {
             survey.look(scene, claim, &point);
             if survey.off > 0 {
                 return survey;
@@ -316,7 +316,8 @@ pub fn thin_signs(
         }
     }
     if starts >= THOROUGH {
-        let found = signs_at(scene, tree, &lines::between_zeros(scene, &[tree], stream, THOROUGH));
+        let found =
+            signs_at(scene, tree, &lines::between_zeros(scene, &[tree], stream, (THOROUGH, true)));
         all.positive += found.positive;
         all.negative += found.negative;
     }
