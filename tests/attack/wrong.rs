@@ -278,8 +278,10 @@ fn beside(
                 survey = evenly(scene, &claim, stream, MANY_STATES);
             }
             let wrong = match independence {
+                // On a branch on which |X| has its corner the oracle knows no slope.
                 Independence::Independent => {
-                    survey.off == 0 && survey.zero > 0 && survey.unsure == 0
+                    let is_seen = survey.zero > 0 && survey.unsure == 0;
+                    survey.off == 0 && is_seen && !may_be_flat(scene, &claim)
                 }
                 // What accompanies a confirmed integral was seen at the states tried.
                 _ if report.verdict == Verdict::Confirmed => {
