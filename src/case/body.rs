@@ -124,7 +124,7 @@ pub fn flat_base(section: &CaseTable<'_>, vocabulary: &Vocabulary) -> Option<Sys
         curvature: curvature?,
         height: height?,
         gyrostat: gyrostat?,
-        potential: potential?.map(Potential::Formula),
+        potential: potential?,
     })))
 }
 

@@ -200,8 +200,12 @@ impl Dynamics for BallOnSurface {
         self.rotation.is_none().then(free)
     }
 
-    fn potential(&self) -> Option<&Potential> {
-        self.potential.as_ref()
+    fn has_potential(&self) -> bool {
+        self.potential.is_some()
+    }
+
+    fn potential_formula(&self) -> Option<&Formula> {
+        self.potential.as_ref().and_then(Potential::formula)
     }
 
     fn has_arbitrary_function(&self) -> bool {

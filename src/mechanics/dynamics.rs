@@ -62,9 +62,14 @@ pub(super) trait Dynamics {
         None
     }
 
-    /// Returns the potential, where the system takes one by a formula of its own.
-    fn potential(&self) -> Option<&Potential> {
-        self.body().and_then(|body| body.potential.as_ref())
+    /// Whether a body or a ball has a potential.
+    fn has_potential(&self) -> bool {
+        self.body().is_some_and(|body| body.potential.is_some())
+    }
+
+    /// Returns the formula of this potential; `None` if it is arbitrary.
+    fn potential_formula(&self) -> Option<&Formula> {
+        self.body().and_then(|body| body.potential.as_ref()).and_then(Potential::formula)
     }
 
     /// Returns the angular momentum of a rotor.

@@ -19,7 +19,6 @@ use super::dynamics::Dynamics;
 use super::linear::point_mass;
 use super::phase::Phase;
 use super::quantity::Quantity;
-use super::rubber::Potential;
 use super::system::System;
 use crate::formula::{Formula, Value};
 use crate::scalar::Scalar;
@@ -41,7 +40,7 @@ pub struct FlatBase {
     /// Constant angular momentum S of a rotor.
     pub gyrostat: Option<Formula>,
     /// Potential U of the place (r₁,r₂) of the contact.
-    pub potential: Option<Potential>,
+    pub potential: Option<Formula>,
 }
 
 /// Constants of the equations of motion over one scalar.
@@ -76,14 +75,6 @@ impl FlatBase {
         [constants.xi1([still(r1), along(r2)]).eps, constants.xi2([along(r1), still(r2)]).eps]
     }
 
-    /// The potential, where it is given by a formula.
-    fn potential_formula(&self) -> Option<&Formula> {
-        match &self.potential {
-            Some(Potential::Formula(formula)) => Some(formula),
-            _ => None,
-        }
-    }
-
     fn total_energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
         match self.potential {
             None => self.kinetic_energy(phase),
@@ -92,12 +83,12 @@ impl FlatBase {
     }
 
     fn potential_energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> T {
-        self.potential_formula().map_or_else(T::zero, |formula| phase.configuration.scalar(formula))
+        self.potential.as_ref().map_or_else(T::zero, |formula| phase.configuration.scalar(formula))
     }
 
     /// Moment of the potential about the axes in the face.
     fn moment<T: Scalar>(&self, phase: &Phase<'_, T>, curvature: T) -> [T; 2] {
-        let Some(formula) = self.potential_formula() else { return [T::zero(); 2] };
+        let Some(formula) = &self.potential else { return [T::zero(); 2] };
         let slope = |index: usize| {
             let moved = phase.configuration.lift(index, Value::Scalar(T::one()));
             moved.scalar(formula).eps / curvature
@@ -115,7 +106,7 @@ impl FlatBase {
 
 impl Dynamics for FlatBase {
     fn functions(&self) -> Vec<&Formula> {
-        self.potential_formula().into_iter().collect()
+        self.potential.iter().collect()
     }
 
     /// Returns the rates (ω₁', ω₂', r₁', r₂').
@@ -141,7 +132,11 @@ impl Dynamics for FlatBase {
         Some(System::FlatBase(Box::new(free)))
     }
 
-    fn potential(&self) -> Option<&Potential> {
+    fn has_potential(&self) -> bool {
+        self.potential.is_some()
+    }
+
+    fn potential_formula(&self) -> Option<&Formula> {
         self.potential.as_ref()
     }
 

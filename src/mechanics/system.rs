@@ -10,7 +10,7 @@ use super::lagrangian::Lagrangian;
 use super::phase::Phase;
 use super::quantity::Quantity;
 use super::rigid::RigidBody;
-use super::rubber::{Potential, Rubber};
+use super::rubber::Rubber;
 use super::spinning::Spinning;
 use crate::formula::{Formula, Value};
 use crate::scalar::Scalar;
@@ -74,9 +74,14 @@ impl System {
         for_each_kind!(self, one => one.body_mut())
     }
 
-    /// Returns the potential of a body or a ball.
-    pub fn potential(&self) -> Option<&Potential> {
-        for_each_kind!(self, one => one.potential())
+    /// Whether a body or a ball has a potential.
+    pub fn has_potential(&self) -> bool {
+        for_each_kind!(self, one => one.has_potential())
+    }
+
+    /// Returns the formula of this potential; `None` if it is arbitrary.
+    pub fn potential_formula(&self) -> Option<&Formula> {
+        for_each_kind!(self, one => one.potential_formula())
     }
 
     /// Returns the angular momentum of a rotor.

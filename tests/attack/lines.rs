@@ -7,12 +7,15 @@ use super::expr::{Expr, Function, Tree};
 use super::jet::Place;
 use super::point::Point;
 use super::random::Stream;
-use super::real::sure_sign;
+use super::real::{Found, Real, sure_sign};
 use super::scene::Scene;
 use super::seek;
 
 /// A position in a range: a number and what is far below its last digit.
 type Position = (f64, f64);
+
+/// Sign of a part at a position, if it has one that is known, where there is a state.
+type Mark = Option<Option<i32>>;
 
 /// Number of intervals into which a line is divided evenly.
 const EVENLY: u32 = 48;
@@ -86,7 +89,7 @@ impl Line<'_> {
     /// Finds the states between all zeros that are seen.
     fn states(&self) -> Vec<Point> {
         let grid = self.grid();
-        let marks: Vec<Vec<i32>> = grid.iter().map(|at| self.marks(*at)).collect();
+        let marks: Vec<Vec<Mark>> = grid.iter().map(|at| self.marks(*at)).collect();
         let mut zeros = vec![(0.0, 0.0), (1.0, 0.0)];
         for (ends, seen) in grid.windows(2).zip(marks.windows(2)) {
             let pairs = seen[0].iter().zip(&seen[1]).enumerate();
@@ -120,26 +123,31 @@ impl Line<'_> {
         sorted(all)
     }
 
-    /// Returns the signs of the parts, 2 for those without one, and whether there is a state.
-    fn marks(&self, at: Position) -> Vec<i32> {
-        (0..=self.parts.len()).map(|part| self.mark(at, part)).collect()
+    /// Returns the marks of all parts; without parts, still one, which tells where states are.
+    fn marks(&self, at: Position) -> Vec<Mark> {
+        let values = self.values(at);
+        let own = values.as_deref();
+        (0..=self.parts.len()).map(|part| own.map(|values| self.sign(values, part))).collect()
     }
 
-    fn mark(&self, at: Position, part: usize) -> i32 {
-        let Some(values) = self.scene.values(&self.from.at(self.place, at)) else { return 3 };
-        let Some(tree) = self.parts.get(part) else { return 0 };
-        let value = (Place { values: &values, along: &[] }).value(tree);
-        value.and_then(|value| sure_sign(&value)).unwrap_or(2)
+    fn values(&self, at: Position) -> Option<Vec<Found<Real>>> {
+        self.scene.values(&self.from.at(self.place, at))
+    }
+
+    fn sign(&self, values: &[Found<Real>], part: usize) -> Option<i32> {
+        let value = (Place { values, along: &[] }).value(self.parts.get(part)?);
+        value.and_then(|value| sure_sign(&value)).ok()
     }
 
     /// Finds where the mark of a part changes between two positions.
-    fn halved(&self, mut a: Position, mut b: Position, part: usize, first: i32) -> Position {
+    fn halved(&self, mut a: Position, mut b: Position, part: usize, first: Mark) -> Position {
         for _ in 0..HALVINGS {
             let between = middle(a, b);
             if between == a || between == b {
                 break;
             }
-            if self.mark(between, part) == first { a = between } else { b = between }
+            let mark = self.values(between).map(|values| self.sign(&values, part));
+            if mark == first { a = between } else { b = between }
         }
         b
     }

@@ -283,6 +283,14 @@ pub struct Signs {
     pub undecided: usize,
 }
 
+impl Signs {
+    fn add(&mut self, other: Self) {
+        self.positive += other.positive;
+        self.negative += other.negative;
+        self.undecided += other.undecided;
+    }
+}
+
 /// Counts the signs of an expression at random states.
 pub fn signs(
     scene: &Scene,
@@ -308,9 +316,7 @@ pub fn thin_signs(
         let from = scene.point(stream, start % 3 == 2);
         let points = seek::of_each_sign(scene, tree, from, steps);
         let found = signs_at(scene, tree, &points);
-        all.positive += found.positive;
-        all.negative += found.negative;
-        all.undecided += found.undecided;
+        all.add(found);
         if all.positive.min(all.negative) > 0 {
             return all;
         }
@@ -318,8 +324,7 @@ pub fn thin_signs(
     if starts >= THOROUGH {
         let found =
             signs_at(scene, tree, &lines::between_zeros(scene, &[tree], stream, (THOROUGH, true)));
-        all.positive += found.positive;
-        all.negative += found.negative;
+        all.add(found);
     }
     all
 }

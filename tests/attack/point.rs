@@ -7,7 +7,7 @@ pub struct Point {
     pub picks: Vec<usize>,
     /// Position of each symbol in its range, from 0 to 1.
     pub cube: Vec<f64>,
-    /// What is added to each position, far below its last digit.
+    /// Addition to each position, far below its last digit.
     pub fine: Vec<f64>,
 }
 
@@ -34,8 +34,11 @@ impl Point {
     pub fn beside(&self, place: usize, by: f64) -> Self {
         let mut point = self.clone();
         if by.abs() < FINE {
-            let at_end = if point.cube[place] == 0.0 { by.abs() } else { by };
-            point.fine[place] += if point.cube[place] == 1.0 { -by.abs() } else { at_end };
+            point.fine[place] += match point.cube[place] {
+                0.0 => by.abs(),
+                1.0 => -by.abs(),
+                _ => by,
+            };
             return point;
         }
         let there = point.cube[place] + by;

@@ -280,8 +280,8 @@ fn beside(
             let wrong = match independence {
                 // On a branch on which |X| has its corner the oracle knows no slope.
                 Independence::Independent => {
-                    let is_seen = survey.zero > 0 && survey.unsure == 0;
-                    survey.off == 0 && is_seen && !may_be_flat(scene, &claim)
+                    let is_open = survey.lacking > 0 && may_be_flat(scene, &claim);
+                    survey.off == 0 && survey.zero > 0 && survey.unsure == 0 && !is_open
                 }
                 // What accompanies a confirmed integral was seen at the states tried.
                 _ if report.verdict == Verdict::Confirmed => {

@@ -10,8 +10,8 @@ pub(crate) struct ToldShare(f64);
 impl ToldShare {
     /// Tells that this share of the motion is done, if that is news.
     pub fn reach(&mut self, share: f64, progress: &dyn Fn(f64)) {
-        // The rest is told by `finish`.
-        let share = share.min(1.0 - LEAST);
+        // The rest is told by `finish`. NaN stays NaN, and is not told.
+        let share = share.clamp(0.0, 1.0 - LEAST);
         if share - self.0 >= LEAST {
             progress(share - self.0);
             self.0 = share;
@@ -41,10 +41,10 @@ mod tests {
         };
         let mut told = ToldShare::default();
         for step in 0..10_000 {
-            // Lost time, as of a step that is taken back, and no number, change nothing.
+            // A step that is taken back, and a share that is NaN, change nothing.
             told.reach(f64::from(step) / 9_000.0, &progress);
             told.reach(0.0, &progress);
-            told.reach(f64::NAN.max(-1.0), &progress);
+            told.reach(f64::NAN, &progress);
         }
         assert!(sum.get() > 0.99 && sum.get() < 1.0, "{} before the end", sum.get());
         assert!(times.get() <= 256, "{} times", times.get());

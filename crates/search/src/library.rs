@@ -34,8 +34,7 @@ fn kept(made: impl IntoIterator<Item = FormulaResult>) -> Vec<Formula> {
 
 /// Scalar parameters in the formula of a potential.
 fn potential_parameters(model: &Model) -> Vec<Formula> {
-    use liouville::mechanics::Potential;
-    let Some(Potential::Formula(formula)) = model.system.potential() else { return Vec::new() };
+    let Some(formula) = model.system.potential_formula() else { return Vec::new() };
     let bodily = ["m", "R", "I", "B", "J", "c", "k", "μ"];
     let names = formula
         .symbols()
@@ -186,7 +185,7 @@ fn pieces(model: &Model) -> Pieces {
             weights.extend(["m*r²", "m*(r,γ)²"]);
             pieces.weights.extend(scalars(model, &weights));
             potential_terms(model, &mut pieces, constant);
-            let has_potential = model.system.potential().is_some();
+            let has_potential = model.system.has_potential();
             if let (true, Some(potential)) = (has_potential, model_name(model, "U")) {
                 let weighted = pieces.weights.iter().map(|weight| product(&potential, weight));
                 pieces.free.extend(kept(weighted.collect::<Vec<_>>()));

@@ -105,7 +105,8 @@ impl Sums {
             let functions: Vec<Ratio> =
                 own.iter().map(|k| Ratio::of(terms[kept[*k]].clone())).collect();
             let places: Vec<usize> = (0..own.len()).collect();
-            formulas.extend(with_plus(&coefficients, &places, &functions)?);
+            let sum = coefficients.sum_with_plus(&places, &functions)?;
+            formulas.extend(sum.map(|(sum, _)| sum));
         }
         formulas.sort_by_key(|formula| formula.text().chars().count());
         let all: Vec<&Formula> = formulas.iter().chain(others).collect();
@@ -137,20 +138,6 @@ impl Sums {
     fn rank(&self, rows: &[&Vec<u64>]) -> usize {
         let mut echelon = Echelon::new(self.dimension, self.at.modulus);
         rows.iter().filter(|row| echelon.push(row.to_vec())).count()
-    }
-}
-
-/// Σ coefficient · function, or its negative where that begins with a plus.
-fn with_plus(
-    coefficients: &PrimitiveVector,
-    places: &[usize],
-    functions: &[Ratio],
-) -> Result<Option<Formula>, FormulaError> {
-    match coefficients.sum(places, functions)? {
-        Some(sum) if sum.text().starts_with(['−', '-']) => {
-            coefficients.negative().sum(places, functions)
-        }
-        other => Ok(other),
     }
 }
 
@@ -320,16 +307,11 @@ fn shorter(
     let Some(coefficients) = PrimitiveVector::of(&system, &support)? else { return Ok(None) };
     let (own, last): (Vec<usize>, usize) = ((0..support.len() - 1).collect(), support.len() - 1);
     let functions: Vec<Ratio> = own.iter().map(|k| Ratio::of(terms[support[*k]].clone())).collect();
-    let Some(sum) = coefficients.sum(&own, &functions)? else { return Ok(None) };
     // F times its coefficient is minus the sum; an integral may have either sign.
-    let is_negative = sum.text().starts_with(['−', '-']);
-    let (sum, equal) = match is_negative {
-        true => match coefficients.negative().sum(&own, &functions)? {
-            Some(negative) => (negative.clone(), negative),
-            None => return Ok(None),
-        },
-        false => (sum.clone(), -&sum.bracketed()),
+    let Some((sum, is_negative)) = coefficients.sum_with_plus(&own, &functions)? else {
+        return Ok(None);
     };
+    let equal = if is_negative { sum.clone() } else { -&sum.bracketed() };
     if sum.text().chars().count() >= function.text().chars().count() {
         return Ok(None);
     }

@@ -119,12 +119,7 @@ fn vector(
         let functions: Vec<Ratio> =
             places.iter().map(|k| Ratio::of(terms[kept[*k]].clone())).collect();
         // The sign of the integral is free: the first term has a plus.
-        let sum = coefficients.sum(&places, &functions)?;
-        let is_negative = |sum: &Formula| sum.text().starts_with(['−', '-']);
-        return Ok(match sum.filter(|sum| !is_negative(sum)) {
-            Some(sum) => Some(sum),
-            None => coefficients.negative().sum(&places, &functions)?,
-        });
+        return Ok(coefficients.sum_with_plus(&places, &functions)?.map(|(sum, _)| sum));
     }
     Ok(None)
 }

@@ -28,7 +28,7 @@ pub struct Progress {
     ticker: Mutex<Option<(Sender<()>, JoinHandle<()>)>>,
 }
 
-/// What is known of a run.
+/// Progress of a run, as its threads share it.
 struct RunState {
     phase: Mutex<Phase>,
     /// Millionths of units that are done.
@@ -108,7 +108,7 @@ impl Progress {
     pub fn finish(&self) {
         if let Some((stop, thread)) = locked(&self.ticker).take() {
             drop(stop);
-            // a panic of the thread that shows progress is no fault of the work
+            // A panic of the thread that shows progress is no fault of the work
             _ = thread.join();
         }
     }

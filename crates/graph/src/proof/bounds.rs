@@ -61,7 +61,7 @@ struct FactorLists {
     combined: FxHashMap<(u32, u32, Combination), u32>,
 }
 
-/// How the exponents of two lists are combined.
+/// Rule by which the exponents of two lists are combined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Combination {
     /// Those of a product: added.

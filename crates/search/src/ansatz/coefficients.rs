@@ -139,8 +139,21 @@ impl PrimitiveVector {
         Ok(sum.total())
     }
 
+    /// The same sum, or its negative where that begins with a plus; and whether it is the negative.
+    pub fn sum_with_plus(
+        &self,
+        own: &[usize],
+        functions: &[Ratio],
+    ) -> Result<Option<(Formula, bool)>, FormulaError> {
+        let Some(sum) = self.sum(own, functions)? else { return Ok(None) };
+        match sum.text().starts_with(['−', '-']) {
+            true => Ok(self.negative().sum(own, functions)?.map(|negative| (negative, true))),
+            false => Ok(Some((sum, false))),
+        }
+    }
+
     /// The same vector with the other sign.
-    pub fn negative(&self) -> Self {
+    fn negative(&self) -> Self {
         let mut other = self.clone();
         let all = other.polynomials.iter_mut().flatten();
         all.for_each(|(_, multiple)| *multiple = -multiple.clone());

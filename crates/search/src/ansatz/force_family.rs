@@ -29,7 +29,7 @@ const UNKNOWNS: usize = 1200;
 /// Largest number of positions with denominators of two of them.
 const FEW: usize = 3;
 
-/// How unknown forces enter the equations of motion.
+/// Form in which unknown forces enter the equations of motion.
 #[derive(Debug)]
 pub enum ForceEntry {
     /// By a potential: the models have an additional potential xᵢ, for each position in turn.
@@ -51,7 +51,7 @@ pub struct ForceFamily {
     pub degree: u32,
     /// Highest degree of p in the terms added to an integral.
     pub gain: u32,
-    /// How they enter.
+    /// Form in which they enter.
     pub entry: ForceEntry,
     /// Name of the positions.
     pub names: String,

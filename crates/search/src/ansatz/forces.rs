@@ -24,11 +24,10 @@ pub fn with_potential(model: &Model, further: &Formula) -> Option<Model> {
             return Some(changed);
         }
         System::FlatBase(own) => {
-            own.potential = Some(Potential::Formula(match &own.potential {
+            own.potential = Some(match &own.potential {
                 None => further.clone(),
-                Some(Potential::Formula(before)) => (before + further).ok()?,
-                Some(Potential::Arbitrary(_)) => return None,
-            }));
+                Some(before) => (before + further).ok()?,
+            });
             return Some(changed);
         }
         _ => {}

@@ -28,9 +28,7 @@ impl Description {
                 own.function("k", Some(&body.curvature));
                 own.function("z", Some(&body.height));
                 own.function("S", body.gyrostat.as_ref());
-                if let Some(Potential::Formula(potential)) = &body.potential {
-                    own.function("U", Some(potential));
-                }
+                own.function("U", body.potential.as_ref());
                 own.equations.push(
                     match body.potential {
                         None => "Ĩω' = (Ĩω + S)×ω − m r×(ω×r') + λγ, with r = (r₁, r₂, z), γ = e₃",

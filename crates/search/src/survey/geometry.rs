@@ -133,7 +133,7 @@ impl Geometry {
         };
         let (forces, rotor) = match &case.model.system {
             system @ (System::Rubber(_) | System::Spinning(_)) => {
-                let forces = system.potential().is_some() || system.moment().is_some();
+                let forces = system.has_potential() || system.moment().is_some();
                 (forces, system.gyrostat().is_some())
             }
             System::FlatBase(body) => (body.potential.is_some(), body.gyrostat.is_some()),

@@ -44,7 +44,7 @@ pub fn sentence(case: &Case, facts: &[GeometryFact]) -> String {
                 None => "a plane".to_string(),
                 Some(curvature) => format!("a sphere of curvature {}", curvature.text()),
             };
-            let forces = system.potential().is_some() || system.moment().is_some();
+            let forces = system.has_potential() || system.moment().is_some();
             let with = with(system.gyrostat().is_some(), forces);
             let way = match system {
                 System::Spinning(_) => "without slipping, free to spin",

@@ -177,7 +177,7 @@ fn last_degree(words: &str) -> Option<u32> {
     words.split([' ', ',']).rev().find_map(|word| word.parse().ok())
 }
 
-/// What is wrong with the theorems about a plant.
+/// Faults of the theorems about a plant.
 fn mistakes(case: &Case, plant: &Plant, report: &SearchReport) -> Vec<String> {
     let mut wrong = Vec::new();
     let is_proved = |claim: Claim| {
