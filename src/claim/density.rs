@@ -23,6 +23,8 @@ pub struct Density(pub Formula);
 impl Statement for Density {
     const NAME: &'static str = "density";
     const OF_MAPS: bool = true;
+    const UNDEFINED: &'static str = ": ∇ln ρ is needed, which has no value where ρ is 0 or has no \
+                                     gradient";
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         from.required(Self::NAME, Some(Type::Scalar)).map(Self)

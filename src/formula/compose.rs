@@ -4,7 +4,7 @@
 //! builder of the parser: reading the text in the same names gives the same tree.
 
 use std::fmt;
-use std::ops::{Add, Div, Mul, Neg, Range, Sub};
+use std::ops::{Add, Div, Mul, Range, Sub};
 
 use super::Formula;
 use super::arena::{Arena, NodeId, NodeOperation};
@@ -57,18 +57,50 @@ impl Draft {
         map: &mut Vec<NodeId>,
     ) {
         let leading = formula.leading();
-        for node in &formula.arena.nodes[nodes] {
-            let moved = |place: usize| (place + start).saturating_sub(leading);
-            let span = moved(node.span.start)..moved(node.span.end);
-            map.push(match &node.operation {
-                NodeOperation::Symbol(slot) => {
-                    let (symbol, kind) = formula.arena.symbols[*slot];
-                    let name = || formula.arena.names[*slot].clone();
-                    self.arena.push_symbol(symbol, kind, span, name)
-                }
-                other => self.arena.push(other.on(|own| map[own]), node.value_type, span),
-            });
+        for node in nodes {
+            self.graft_node(formula, node, |place| (place + start).saturating_sub(leading), map);
         }
+    }
+
+    /// Appends a node, with the places of its text moved.
+    fn graft_node(
+        &mut self,
+        formula: &Formula,
+        node: NodeId,
+        moved: impl Fn(usize) -> usize,
+        map: &mut Vec<NodeId>,
+    ) {
+        let node = &formula.arena.nodes[node];
+        let span = moved(node.span.start)..moved(node.span.end);
+        map.push(match &node.operation {
+            NodeOperation::Symbol(slot) => {
+                let (symbol, kind) = formula.arena.symbols[*slot];
+                let name = || formula.arena.names[*slot].clone();
+                self.arena.push_symbol(symbol, kind, span, name)
+            }
+            other => self.arena.push(other.on(|own| map[own]), node.value_type, span),
+        });
+    }
+
+    /// Appends all nodes of a formula but one, in whose place another stands, and whose text is cut
+    /// off at its beginning.
+    pub(super) fn graft_without(
+        &mut self,
+        formula: &Formula,
+        left_out: NodeId,
+        other: NodeId,
+        cut: usize,
+    ) {
+        let mut map = Vec::new();
+        for node in 0..formula.arena.nodes.len() {
+            match node == left_out {
+                true => map.push(map[other]),
+                false => {
+                    self.graft_node(formula, node, |place| place.saturating_sub(cut), &mut map);
+                }
+            }
+        }
+        self.fix(formula);
     }
 
     /// Takes over the symbols whose values are written into a formula.
@@ -173,49 +205,6 @@ impl Formula {
         draft.led(other, |builder, leaf| builder.infix(Infix::Multiply, &factor, leaf))
     }
 
-    /// Negative; of a product that of its first factor.
-    fn negative(&self) -> Formula {
-        let mut draft = Draft::default();
-        draft.write("−");
-        if self.bond() == Bond::Product {
-            let negate = |builder: &mut Builder<'_>, leaf: &Operand| {
-                Ok(builder.negate(leaf, 0..leaf.span.end))
-            };
-            if let Ok(negative) = draft.led(self, negate) {
-                return negative;
-            }
-            // a negative always exists; brackets are the other way to write it
-            return self.bracketed().negative();
-        }
-        let a = draft.place(self, self.bond() < Bond::Prefix);
-        let Draft { text, arena } = draft;
-        let mut builder = Builder { arena, text: &text };
-        builder.negate(&a, 0..a.span.end);
-        let arena = builder.arena;
-        Formula { text, arena }
-    }
-
-    /// First factor of a product without brackets, as the node whose text begins the formula.
-    fn first_factor(&self) -> NodeId {
-        let nodes = &self.arena.nodes;
-        let mut at = nodes.len() - 1;
-        loop {
-            let (a, b) = match nodes[at].operation {
-                NodeOperation::Multiply(a, b)
-                | NodeOperation::Scale(a, b)
-                | NodeOperation::Apply(a, b)
-                | NodeOperation::Compose(a, b)
-                | NodeOperation::Divide(a, b) => (a, b),
-                _ => return at,
-            };
-            let begins = |node: &NodeId| nodes[*node].span.start == nodes[at].span.start;
-            match [a, b].into_iter().find(begins) {
-                Some(first) => at = first,
-                None => return at,
-            }
-        }
-    }
-
     /// Power with a formula as its exponent.
     pub fn power(&self, exponent: &Formula) -> FormulaResult {
         let mut draft = Draft::default();
@@ -266,7 +255,7 @@ impl Formula {
 impl Draft {
     /// Appends a product whose first factor is changed by `lead`, which sees what was written
     /// before.
-    fn led(
+    pub(super) fn led(
         mut self,
         product: &Formula,
         lead: impl FnOnce(&mut Builder<'_>, &Operand) -> Built,
@@ -370,20 +359,4 @@ operators! {
     Sub sub = |a, b| a.joined(Infix::Subtract, b);
     Mul mul = |a, b| a.times(b);
     Div div = |a, b| a.joined(Infix::Divide, b);
-}
-
-impl Neg for &Formula {
-    type Output = Formula;
-
-    fn neg(self) -> Formula {
-        self.negative()
-    }
-}
-
-impl Neg for Formula {
-    type Output = Formula;
-
-    fn neg(self) -> Formula {
-        self.negative()
-    }
 }

@@ -154,7 +154,7 @@ impl Parser<'_> {
                     .with_help(NO_EQUATION)
             }
             TokenKind::Range => FormulaError::new(span, format!("`{found}` has no meaning here"))
-                .with_help("a range is written in `sum(i, 1..n, …)` and similar forms"),
+                .with_help("a range is written in [parameters] and [state], and in `sum(i, 1..n, …)`; a formula has one value"),
             TokenKind::Comma if self.is_decimal(&span) => {
                 FormulaError::new(span, "a decimal number has a point, not a comma")
                     .with_help("write 0.5 in place of 0,5")

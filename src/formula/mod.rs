@@ -58,6 +58,7 @@ mod lexer;
 mod logarithm;
 mod mutation;
 mod names;
+mod negative;
 mod operands;
 mod parser;
 mod partial;

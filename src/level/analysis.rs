@@ -241,7 +241,13 @@ impl<'m> OrderSearch<'m> {
         let (axis, point) = found?;
         let last = components.remove(axis);
         components.push(last);
-        Some(SolutionStep::Quadric { equation: derivatives.equation, components, point })
+        let is_bounded = quadric.is_bounded();
+        Some(SolutionStep::Quadric {
+            equation: derivatives.equation,
+            components,
+            point,
+            is_bounded,
+        })
     }
 
     /// Finds a remaining equation with a scalar parameter that enters it linearly, with a constant

@@ -28,6 +28,25 @@ impl Quadric {
         n >= 2 && !determinant_vanishes(rows)
     }
 
+    /// Whether the quadric is bounded: its quadratic form is definite.
+    pub fn is_bounded(&self) -> bool {
+        let mut rows = self.bends.clone();
+        let mut signs: Vec<bool> = Vec::new();
+        for column in 0..rows.len() {
+            let (above, below) = rows.split_at_mut(column + 1);
+            let pivot = &above[column];
+            let Some(inverse) = pivot[column].recip() else { return false };
+            signs.push(pivot[column].is_negative());
+            for row in below {
+                let factor = &row[column] * &inverse;
+                for (entry, above) in row.iter_mut().zip(pivot).skip(column) {
+                    *entry = &*entry - &(&factor * above);
+                }
+            }
+        }
+        signs.windows(2).all(|pair| pair[0] == pair[1])
+    }
+
     /// Finds the lower intersection with an axis, if it is rational and the slope there is not 0.
     pub fn on_axis(&self, axis: usize) -> Option<Rational> {
         let (a, b) = (&self.bends[axis][axis], &self.slopes[axis]);
@@ -79,9 +98,13 @@ mod tests {
     fn spheres_and_hyperbolas_are_irreducible() {
         let sphere = quadric(-4, &[0, 0, 0], &[&[2, 0, 0], &[0, 2, 0], &[0, 0, 2]]);
         assert!(sphere.is_irreducible(), "x² + y² + z² = 4");
+        assert!(sphere.is_bounded(), "x² + y² + z² = 4");
         assert_eq!(sphere.on_axis(2), Some(Rational::from(-2)), "the lower pole");
         let hyperbola = quadric(-1, &[0, 0], &[&[2, 0], &[0, -2]]);
         assert!(hyperbola.is_irreducible(), "x² − y² = 1");
+        assert!(!hyperbola.is_bounded(), "x² − y² = 1");
+        let crossed = quadric(-1, &[0, 0], &[&[2, 3], &[3, 2]]);
+        assert!(!crossed.is_bounded(), "x² + 3xy + y² = 1 is a hyperbola");
         assert_eq!(hyperbola.on_axis(0), Some(Rational::from(-1)));
         assert_eq!(hyperbola.on_axis(1), None, "−y² = 1 has no real root");
         let lines = quadric(0, &[0, 0], &[&[2, 0], &[0, -2]]);

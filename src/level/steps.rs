@@ -23,6 +23,8 @@ pub enum SolutionStep {
         components: Vec<usize>,
         /// Coordinate of the rational point on the axis.
         point: Rational,
+        /// Whether the equation has a definite quadratic form.
+        is_bounded: bool,
     },
     /// Equations that are jointly linear in some components.
     Linear {
@@ -126,8 +128,8 @@ impl SolutionStep {
     /// Completes a point and returns the pivot if it may vanish; `sign` chooses a root.
     pub fn complete(&self, point: &mut PartialPoint<'_>, sign: Option<Expr>) -> Option<Pivot> {
         match self {
-            SolutionStep::Quadric { equation, components, point: start } => {
-                quadric(point, *equation, components, start);
+            SolutionStep::Quadric { equation, components, point: start, is_bounded } => {
+                quadric(point, *equation, components, start, *is_bounded);
                 None
             }
             SolutionStep::Linear { equations, components, all } => {
@@ -156,17 +158,27 @@ impl SolutionStep {
     }
 }
 
-/// Makes x₀ − 2B(x₀,u)/q(u) · u for the direction u in the components, 1 along the axis.
+/// Makes x₀ − 2B(x₀,u)/q(u) · u for the direction u in the components, 1 along the axis. On a
+/// quadric that is not bounded, where a branch may take steep directions alone, u is 2v in the
+/// components and 1 − v² along the axis, so that all directions come from a bounded range.
 fn quadric(
     point: &mut PartialPoint<'_>,
     equation: Equation,
     components: &[usize],
     start: &Rational,
+    is_bounded: bool,
 ) {
     let Some((axis, others)) = components.split_last() else { return };
     let mut direction: Vec<(usize, Expr)> =
         others.iter().map(|component| (*component, point.state[*component])).collect();
-    direction.push((*axis, Expr::one()));
+    let mut along = Expr::one();
+    if !is_bounded {
+        for (_, drawn) in &mut direction {
+            along -= *drawn * *drawn;
+            *drawn = *drawn + *drawn;
+        }
+    }
+    direction.push((*axis, along));
     for component in others {
         point.state[*component] = Expr::zero();
     }

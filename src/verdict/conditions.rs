@@ -1,6 +1,7 @@
 //! Conditions that claims presuppose.
 
 use super::claim_state::{are_zero, undecide};
+use super::evidence::Verdict;
 use super::field::{Answer, PrimeFieldStates, Query, combinations};
 use super::judging::Judging;
 use super::ladder::Open;
@@ -38,6 +39,34 @@ impl Judging<'_> {
                     undecide(status, failure);
                 }
             }
+        }
+        Ok(())
+    }
+
+    /// Leaves densities of maps undecided that fail state by state, where two states have one image:
+    /// the measure of a set is that of all states whose images lie in it, and 1 is a density for
+    /// x − 1/x though |det DΦ| > 1 everywhere.
+    pub(super) fn settle_images(
+        &self,
+        sampler: &Sampler,
+        open: &mut Open<'_, '_>,
+    ) -> Result<(), Fault> {
+        let is_asked = |item: &RecordedClaim<'_>| {
+            item.conditions.iter().any(|condition| matches!(condition.need, Need::OneToOne))
+        };
+        for (item, status) in open.iter_mut() {
+            if status.settled != Some(Verdict::Refuted) || !is_asked(item) {
+                continue;
+            }
+            let Some(both) = self.second_preimage(sampler, item)? else { continue };
+            status.evidence.witness = None;
+            undecide(
+                status,
+                format!(
+                    "Φ takes {both} to one state, so that the measure of a set is that of several sets \
+                     of states; |ρ(Φ(x)) det DΦ(x)| = |ρ(x)| fails, but it is not needed there"
+                ),
+            );
         }
         Ok(())
     }

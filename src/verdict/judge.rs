@@ -93,7 +93,9 @@ pub enum JudgeError {
         dimension: usize,
     },
     /// The level equations are not independent.
-    #[error("`{0}` follows from the equations before it, or contains no state variable")]
+    #[error(
+        "`{0}` follows from the equations before it, contradicts them, or contains no state variable"
+    )]
     Dependent(String),
     /// An ∫ of the equations of motion or of `[variables]` is not a function of its variable.
     #[error("an ∫ in `{0}` has an integrand that depends on more than its variable")]
@@ -147,7 +149,9 @@ impl JudgeError {
             JudgeError::PartialChart { .. } => {
                 "a claim would be tested on a part of the level only: give [level.chart] more inputs"
             }
-            JudgeError::Dependent(_) => "leave it out: it adds nothing to the others",
+            JudgeError::Dependent(_) => {
+                "leave it out if it follows from the others, and correct it if it contradicts them"
+            }
             JudgeError::Quadrature(_) => {
                 "∫(f, x) is a function of x with derivative f: f may contain x and the parameters"
             }

@@ -67,6 +67,7 @@ impl Judging<'_> {
         }
         self.decide(place, sampler, missed.as_deref(), &mut open)?;
         self.settle_parts(sampler, &mut open)?;
+        self.settle_images(sampler, &mut open)?;
         let mut holding: Open<'_, '_> =
             open.into_iter().filter(|(_, status)| status.holds()).collect();
         self.settle_novelty(sampler, &mut holding)?;

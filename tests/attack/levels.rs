@@ -40,13 +40,14 @@ pub fn on_a_level(stream: &mut Stream) -> (Scene, Vec<Made>) {
         };
         scene.symbols.push(own(name, origin));
     }
-    let (level, round) = match stream.below(12) {
+    let (level, round) = match stream.below(14) {
         0..=2 => (graph(&mut scene, stream), false),
         3..=4 => (product(stream), false),
-        5 => (sphere(stream), true),
-        6..=7 => charted(&mut scene, stream),
-        8 => (lines(stream), false),
-        9..=10 => (branching(&mut scene, stream), false),
+        5..=6 => (sphere(&mut scene, stream), true),
+        7 => (two_sheets(&mut scene, stream), false),
+        8..=9 => charted(&mut scene, stream),
+        10 => (lines(stream), false),
+        11..=12 => (branching(&mut scene, stream), false),
         _ => (empty(stream), false),
     };
     // A rotation preserves the circles about the z axis and the spheres.
@@ -140,19 +141,51 @@ fn product(stream: &mut Stream) -> Level {
     Level { equations: vec![equation], branches, chart: None }
 }
 
-/// Draws the unit sphere, a cylinder or a hyperbola by its equation.
-fn sphere(stream: &mut Stream) -> Level {
-    let (x, y, z) = (symbol(X), symbol(Y), symbol(Z));
-    let (function, value, rest) = match stream.below(3) {
+/// Draws the unit sphere or a cylinder by its equation, in half of them with a range of one sign.
+fn sphere(scene: &mut Scene, stream: &mut Stream) -> Level {
+    let (place, other) = *stream.pick(&[(X, Y), (Y, X)]);
+    let (a, b, z) = (symbol(place), symbol(other), symbol(Z));
+    let (function, value, place, rest) = match stream.below(5) {
         0 => {
-            let all = add(&add(&square(&x), &square(&y)), &square(&z));
-            (all, whole(1), sub(&sub(&whole(1), &square(&y)), &square(&z)))
+            let all = add(&add(&square(&a), &square(&b)), &square(&z));
+            (all, whole(1), place, sub(&sub(&whole(1), &square(&b)), &square(&z)))
         }
-        1 => (add(&square(&x), &square(&y)), whole(2), sub(&whole(2), &square(&y))),
-        _ => (add(&square(&x), &square(&y)), ratio(1, 4), sub(&ratio(1, 4), &square(&y))),
+        1 => {
+            let all = add(&add(&square(&a), &square(&b)), &square(&z));
+            (all, whole(2), Z, sub(&sub(&whole(2), &square(&a)), &square(&b)))
+        }
+        2 => (add(&square(&a), &square(&b)), whole(2), place, sub(&whole(2), &square(&b))),
+        3 => (add(&square(&a), &square(&b)), whole(3), place, sub(&whole(3), &square(&b))),
+        _ => (add(&square(&a), &square(&b)), ratio(1, 4), place, sub(&ratio(1, 4), &square(&b))),
     };
-    let branches = vec![vec![(X, root(&rest))], vec![(X, neg(&root(&rest)))]];
+    one_sided(scene, place, stream);
+    let branches = vec![vec![(place, root(&rest))], vec![(place, neg(&root(&rest)))]];
     Level { equations: vec![(function, value)], branches, chart: None }
+}
+
+/// Draws the two sheets of a² = g(b), as a hyperbola and a cubic curve have them, in half of them
+/// with a range that contains one alone.
+fn two_sheets(scene: &mut Scene, stream: &mut Stream) -> Level {
+    let (place, other) = *stream.pick(&[(X, Y), (Y, X), (Z, X)]);
+    let (a, b) = (symbol(place), symbol(other));
+    let rest = match stream.below(6) {
+        0 => add(&whole(1), &mul(&square(&b), &b)),
+        1 => add(&whole(1), &square(&b)),
+        2 => sub(&square(&b), &whole(1)),
+        3 => add(&whole(1), &mul(&whole(2), &square(&b))),
+        4 => b.clone(),
+        _ => add(&whole(2), &mul(&whole(3), &b)),
+    };
+    one_sided(scene, place, stream);
+    let branches = vec![vec![(place, root(&rest))], vec![(place, neg(&root(&rest)))]];
+    Level { equations: vec![(square(&a), rest)], branches, chart: None }
+}
+
+/// Restricts the range of a state variable to one sign, half of the time.
+fn one_sided(scene: &mut Scene, place: usize, stream: &mut Stream) {
+    let number = |top: i64| Number { top, bottom: 10, tens: 0 };
+    let (low, high) = *stream.pick(&[(1, 30), (-30, -1), (0, 30), (-20, 20), (-20, 20), (-40, 40)]);
+    scene.symbols[place].origin = Origin::State(number(low), number(high));
 }
 
 /// Draws a sphere, a cylinder or a graph with a given chart.

@@ -5,6 +5,7 @@ mod absent;
 mod jumps;
 mod levels;
 mod parts;
+mod signs;
 mod vacuous;
 
 use liouville::case::Case;

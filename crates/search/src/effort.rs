@@ -1,6 +1,6 @@
 //! Scope and limits of a search.
 
-use liouville::formula::Formula;
+use liouville::formula::{Formula, Type};
 use liouville::mechanics::Model;
 use liouville::verdict::Options;
 
@@ -82,8 +82,13 @@ impl FurtherTerm {
         match self {
             FurtherTerm::Formula(formula) => Ok(formula.clone()),
             FurtherTerm::Text(text) => {
-                let read = super::terms::read([text.as_str()], &model.vocabulary).pop();
-                read.ok_or_else(|| SearchError::NoTerm(text.clone()))
+                let unread = |reason: String| SearchError::NoTerm(text.clone(), reason);
+                let read = Formula::parse(text, &model.vocabulary);
+                let formula = read.map_err(|error| unread(error.to_string()))?;
+                match formula.value_type() {
+                    Type::Scalar => Ok(formula),
+                    _ => Err(unread("it is not a scalar".to_string())),
+                }
             }
         }
     }

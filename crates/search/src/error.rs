@@ -27,8 +27,8 @@ pub enum SearchError {
     #[error("the equations are not fractions of low degree in the parameter")]
     NoFraction,
     /// A term given by the user cannot be read.
-    #[error("the term `{0}` is not a scalar in the names of the case")]
-    NoTerm(String),
+    #[error("the term `{0}` cannot be read: {1}")]
+    NoTerm(String, String),
     /// The case has no claim of this name.
     #[error("the case has no claim `{0}`")]
     NoClaim(String),
@@ -93,7 +93,9 @@ impl SearchError {
             SearchError::NoChart => "give [level.chart], or level equations that can be solved",
             SearchError::NoClaim(_) => "name a claim as `liouville check` prints it",
             SearchError::Unsettled(_) => "ask for a lower --degree",
-            SearchError::NoTerm(_) => "write a scalar; `liouville names` lists the names of a case",
+            SearchError::NoTerm(..) => {
+                "write a scalar; `liouville names` lists the names of a case"
+            }
             SearchError::NoSeries | SearchError::NoPoints => {
                 "make such functions state variables, as in s' = c*φ', c' = −s*φ' for the sine and \
                  the cosine of φ, and r' = (x*x' + y*y')/r for r = √(x² + y²)"

@@ -243,7 +243,9 @@ fn forms_with_indices_say_what_is_missing() {
         "1..n",
         "`..` has no meaning here",
         "..",
-        Some("a range is written in `sum(i, 1..n, …)` and similar forms"),
+        Some(
+            "a range is written in [parameters] and [state], and in `sum(i, 1..n, …)`; a formula has one value",
+        ),
     );
     error(
         "γ x ω",

@@ -44,12 +44,6 @@ impl Explorer<'_> {
         let Question { graph, groups, special, .. } = self.question;
         let outputs = groups.iter().flat_map(|group| group.iter().copied());
         let reached = graph.reached(outputs);
-        let mut signs = special.iter().filter_map(|place| match graph.step(*place) {
-            Step::Input(input) if cell.fixed.iter().all(|(fixed, _)| *fixed != input) => {
-                Some((*place, input))
-            }
-            _ => None,
-        });
         let is_root = |place: usize| {
             let own = special.iter().position(|own| *own == place);
             own.and_then(|own| algebraic.values[cell.graph.place(cell.values[own])])
@@ -65,7 +59,21 @@ impl Explorer<'_> {
                 _ => false,
             })
         };
+        let mut signs = self.free_signs(cell);
         signs.find(|(place, _)| !is_absorbed(*place)).map(|(_, input)| Next::DivideInput(input))
+    }
+
+    /// Lists the sign inputs that the cell leaves free, by place and index. What is zero for all of
+    /// them together is zero for each; what is not may still be zero for the one that counts:
+    /// s√A = √A fails for s = −1 alone.
+    pub fn free_signs(&self, cell: &Cell) -> impl Iterator<Item = (usize, usize)> {
+        let Question { graph, special, .. } = self.question;
+        special.iter().filter_map(|place| match graph.step(*place) {
+            Step::Input(input) if cell.fixed.iter().all(|(fixed, _)| *fixed != input) => {
+                Some((*place, input))
+            }
+            _ => None,
+        })
     }
 
     /// Finds a sign input, not yet chosen, on which roots or moduli depend that are not known to be

@@ -244,9 +244,11 @@ impl Explorer<'_> {
         let tested = self.test(cell, algebraic, &trial, &tower, &loose, known)?;
         let is_zero =
             |result: &Option<TrialResult>| matches!(result, None | Some(TrialResult::Zero(_)));
-        Ok(match (&tested, self.sign_of(cell, algebraic, &loose)) {
-            (Next::Tested(results), Some(input)) if !results.iter().all(is_zero) => {
-                Next::DivideInput(input)
+        Ok(match &tested {
+            Next::Tested(results) if !results.iter().all(is_zero) => {
+                let sign = self.sign_of(cell, algebraic, &loose);
+                let sign = sign.or_else(|| Some(self.free_signs(cell).next()?.1));
+                sign.map_or(tested, Next::DivideInput)
             }
             _ => tested,
         })
@@ -349,6 +351,9 @@ impl Explorer<'_> {
         if cell.is_part() && !results.iter().all(is_zero) {
             // Find out first whether the cell is empty.
             if let Some(empty) = self.empty(cell, algebraic, trial, tower, known) {
+                return Ok(empty);
+            }
+            if let Some(empty) = self.opposed(cell, algebraic, tower, known)? {
                 return Ok(empty);
             }
         }

@@ -99,8 +99,10 @@ impl<'g> FreeSymbols<'g> {
         for place in (0..graph.len()).filter(|place| free.reached[*place]) {
             let step = graph.step(place);
             free.has_symbol[place] = step.arguments().any(|argument| free.has_symbol[argument]);
-            let is_input = matches!(step, Step::Input(_));
-            if !is_special[place] || is_input {
+            // Sums are there for their signs.
+            let is_rational =
+                matches!(step, Step::Input(_) | Step::Binary(BinaryOperation::Add, ..));
+            if !is_special[place] || is_rational {
                 continue;
             }
             let is_plain =

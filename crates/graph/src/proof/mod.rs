@@ -35,6 +35,7 @@ mod digest;
 mod division;
 mod domain;
 mod elimination;
+mod evident;
 mod explore;
 mod extent;
 mod fact;
@@ -44,6 +45,7 @@ mod lower;
 mod nested;
 mod next;
 mod numbers;
+mod opposed;
 mod outcome;
 mod plain;
 mod polynomial;
@@ -87,6 +89,7 @@ use crate::graph::{Expr, Fault, Graph};
 use buckets::{Bucket, buckets, combined, part};
 use cells::{Cell, Leaf};
 use digest::SeedDigest;
+use evident::{has_root, with_evident_signs};
 use explore::{Explored, Explorer, Question};
 use lower::Algebraic;
 use relations::RelationSearch;
@@ -174,7 +177,7 @@ impl Prover<'_> {
         let asked: Vec<&[Expr]> = members.clone().map(|group| group.outputs.as_slice()).collect();
         let found = match bucket.special.is_empty() {
             true => self.prove_plain(question, &asked),
-            false => combined(self.explore(question, &asked, bucket)?, bucket),
+            false => self.prove_special(question, &asked, bucket)?,
         };
         let outcome = |(group, (outcome, is_partial)): (&Group, (GroupOutcome, bool))| {
             let is_doubtful = is_partial || !group.presence.is_empty();
@@ -186,6 +189,33 @@ impl Prover<'_> {
             }
         };
         members.zip(found).map(outcome).collect()
+    }
+
+    /// Decides groups with non-rational steps; those that do not vanish on all cells are tried again
+    /// with the signs of sums, which may show that some of these are empty.
+    fn prove_special(
+        &self,
+        question: &QuestionData<'_>,
+        asked: &[&[Expr]],
+        bucket: &Bucket,
+    ) -> Result<Vec<(GroupOutcome, bool)>, Fault> {
+        let mut found = combined(self.explore(question, asked, bucket)?, bucket);
+        let is_open = |(outcome, _): &(GroupOutcome, bool)| {
+            !matches!(outcome, GroupOutcome::Zero(_) | GroupOutcome::Void)
+        };
+        if !found.iter().any(is_open) || !has_root(question.graph, &bucket.special) {
+            return Ok(found);
+        }
+        let wider = with_evident_signs(question.graph, &asked.concat(), self.extents, bucket);
+        if let Some(wider) = wider {
+            let again = combined(self.explore(question, asked, &wider)?, &wider);
+            for (own, again) in found.iter_mut().zip(again) {
+                if is_open(own) {
+                    *own = again;
+                }
+            }
+        }
+        Ok(found)
     }
 
     /// Whether a value is proved to be not identically zero on every cell of signs that may contain
@@ -225,6 +255,7 @@ impl Prover<'_> {
         let Some(bucket) = buckets(graph, &[wide], &question.sources).pop() else {
             return Ok(Vec::new());
         };
+        let bucket = with_evident_signs(graph, outputs, self.extents, &bucket).unwrap_or(bucket);
         let leaves = self.explore(&question, &[outputs.as_slice()], &bucket)?.leaves;
         let is_nonzero =
             |leaf: &Leaf| matches!(leaf.results.first(), Some(Some(TrialResult::NonZero)));

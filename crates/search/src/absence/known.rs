@@ -49,6 +49,21 @@ impl ProvedIntegrals {
         Ok(Self { formulas, has_energy })
     }
 
+    /// Returns those of which something is true, without the energy where it is not true of it.
+    pub fn filtered(
+        &self,
+        is_kept: impl Fn(&Formula) -> Result<bool, SearchError>,
+    ) -> Result<Self, SearchError> {
+        let (mut formulas, mut has_energy) = (Vec::new(), false);
+        for (index, own) in self.formulas.iter().enumerate() {
+            if is_kept(own)? {
+                has_energy |= self.has_energy && index == 0;
+                formulas.push(own.clone());
+            }
+        }
+        Ok(Self { formulas, has_energy })
+    }
+
     /// Formulas of the integrals.
     pub fn formulas(&self) -> &[Formula] {
         &self.formulas

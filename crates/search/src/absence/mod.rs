@@ -145,6 +145,23 @@ impl<'a> AbsenceCase<'a> {
     }
 
     fn judge(&self, kind: &Absence) -> Result<AbsenceOutcome, SearchError> {
+        let outcome = self.judge_beside(kind)?;
+        if !matches!(outcome, AbsenceOutcome::Open(_)) || self.effort.terms.is_empty() {
+            return Ok(outcome);
+        }
+        // Known integrals with branches need not be among those counted. Without them nothing is
+        // refuted: what is found may be a function of one of them.
+        let known = self.known.filtered(|own| Ok(!has_branches(self.case, own)?))?;
+        let effort = Effort { terms: Vec::new(), ..self.effort.clone() };
+        let fewer = AbsenceCase { known: &known, effort, ..*self };
+        Ok(match fewer.judge_beside(kind)? {
+            excluded @ AbsenceOutcome::Excluded { .. } => excluded,
+            _ => outcome,
+        })
+    }
+
+    /// Judges a claim beside the known integrals.
+    fn judge_beside(&self, kind: &Absence) -> Result<AbsenceOutcome, SearchError> {
         let system = &self.case.model.system;
         if system.has_arbitrary_function() {
             let reason = "a function of the body is arbitrary, and a count needs a given one";

@@ -1,7 +1,7 @@
 //! Absence of Darboux polynomials, whose zeros are invariant relations.
 
 use super::super::orbit::{self, no_others};
-use super::super::{SearchError, SearchReport};
+use super::super::{Effort, SearchError, SearchReport};
 use super::{AbsenceCase, AbsenceOutcome};
 use liouville::claim::ClaimKind;
 use liouville::formula::Formula;
@@ -16,7 +16,9 @@ pub fn no_invariant_relation(
     asked: &AbsenceCase<'_>,
     degree: u32,
 ) -> Result<AbsenceOutcome, SearchError> {
-    let (case, effort) = (asked.case, &asked.effort);
+    // Known integrals are not polynomials that are counted here.
+    let effort = &Effort { terms: Vec::new(), ..asked.effort.clone() };
+    let case = asked.case;
     let mut known: Vec<Formula> = Vec::new();
     for (claim, report) in case.claims.iter().zip(asked.reports) {
         if let (ClaimKind::Relation(own), Verdict::Proved) = (&claim.kind, report.verdict) {
@@ -40,7 +42,10 @@ pub fn no_invariant_relation(
         Err(reason) => reason,
     };
     let mut report = SearchReport::default();
-    match orbit::search(case, effort, false, &mut report, &mut |_| {}) {
+    // Functions in other claims would be adjoined to the polynomials.
+    let mut alone = case.clone();
+    alone.claims.retain(|claim| matches!(claim.kind, ClaimKind::Relation(_)));
+    match orbit::search(&alone, effort, false, &mut report, &mut |_| {}) {
         Err(SearchError::Stopped) => {}
         other => other?,
     }

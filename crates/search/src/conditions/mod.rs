@@ -202,8 +202,7 @@ fn condition(
             );
             return told(systems, grounds);
         }
-        let coordinates = variety::varying(&points).len();
-        if points.len() >= variety::needed(coordinates, tried + 1) {
+        if points.len() >= variety::needed(names.len(), tried + 1) {
             tried += 1;
             if let Some(found) = variety::equations(names, &points, &lines.modulus(), tried) {
                 equations.extend(found.into_iter().map(|text| (text, points.len())));

@@ -18,8 +18,7 @@ pub fn equations(
     modulus: &Modulus,
     most: u32,
 ) -> Option<Vec<String>> {
-    let varying = varying(points);
-    let names: Vec<&str> = varying.iter().map(|k| names[*k].as_str()).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
     for degree in 1..=most {
         let monomials: Vec<Vec<u32>> =
             (0..=degree).flat_map(|total| exponents(names.len(), total)).collect();
@@ -28,8 +27,7 @@ pub fn equations(
         }
         let mut echelon = Echelon::new(monomials.len(), *modulus);
         for point in points {
-            let coordinates: Vec<u64> = varying.iter().map(|k| point[*k]).collect();
-            echelon.push(monomials.iter().map(|e| power(&coordinates, e, modulus)).collect());
+            echelon.push(monomials.iter().map(|e| power(point, e, modulus)).collect());
         }
         let texts: Vec<String> = monomials.iter().map(|e| monomial(&names, e)).collect();
         let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
@@ -52,14 +50,6 @@ pub fn equations(
 /// Number of points needed for equations of this degree.
 pub fn needed(coordinates: usize, degree: u32) -> usize {
     (0..=degree).map(|total| exponents(coordinates, total).len()).sum::<usize>() + SPARE_POINTS
-}
-
-/// Returns the components that differ between points, and from those before them.
-pub fn varying(points: &[Vec<u64>]) -> Vec<usize> {
-    let Some(first) = points.first() else { return Vec::new() };
-    let constant = |k: usize| points.iter().all(|point| point[k] == first[k]);
-    let copy = |k: usize| (0..k).any(|j| points.iter().all(|point| point[j] == point[k]));
-    (0..first.len()).filter(|k| !constant(*k) && !copy(*k)).collect()
 }
 
 /// Evaluates a monomial.
@@ -110,16 +100,24 @@ mod tests {
     fn a_hyperbola_is_found_from_its_points() {
         let mut rng = ProofRng::new(3, 0);
         let m = rng.prime(&[], &[]);
-        let names: Vec<String> = ["k", "R", "two"].map(str::to_string).to_vec();
+        let names: Vec<String> = ["k", "R"].map(str::to_string).to_vec();
         let points: Vec<Vec<u64>> = (0..20)
             .map(|_| {
                 let radius = rng.element(&m);
                 let curvature = m.mul(m.sub(0, m.integer(2)), m.inverse(radius));
-                vec![curvature, radius, m.integer(2)]
+                vec![curvature, radius]
             })
             .collect();
         let found = equations(&names, &points, &m, 3).expect("there is one");
         assert_eq!(found, ["2 + k*R = 0"]);
+        let mut point = |x: fn(&Modulus, u64) -> u64| {
+            let radius = rng.element(&m);
+            vec![x(&m, radius), radius]
+        };
+        let equal: Vec<Vec<u64>> = (0..20).map(|_| point(|_, x| x)).collect();
+        assert_eq!(equations(&names, &equal, &m, 3).expect("there is one"), ["k − R = 0"]);
+        let fixed: Vec<Vec<u64>> = (0..20).map(|_| point(|m, _| m.integer(2))).collect();
+        assert_eq!(equations(&names, &fixed, &m, 3).expect("there is one"), ["2 − k = 0"]);
         assert_eq!(simple(&names, &[0, 5, 5], &[0, 1]), ["k = 0"]);
     }
 }
