@@ -165,19 +165,22 @@ impl<'c> Sweep<'c> {
                 let size = residual.modulus();
                 scale.map_or(size, |square| size / num_dual::DualNum::sqrt(&square))
             };
-            vec![residual.into_iter().map(ratio).collect(), inputs.to_vec()]
+            [residual.into_iter().map(ratio).collect::<Vec<_>>(), inputs.to_vec()]
         })?;
-        if groups[0].is_empty() {
+        let [ratios, inputs] = groups;
+        if ratios.is_empty() {
             return Err(SweepError::NoResidual);
         }
         let recipes = sampler.recipes();
-        let (graph, groups) = sampler.compose(&graph, &groups, &vec![None; recipes.len()])?;
+        let (own, points) = sampler.compose(&graph, &[inputs], &vec![None; recipes.len()])?;
+        let point = Tape::new(&own, &points.concat());
+        let (graph, ratios) = sampler.compose_in_ranges(&graph, &ratios)?;
         Ok(Self {
             case,
             generator: Generator::new(recipes, seed),
-            engine: Engine::new(&Tape::new(&graph, &groups[0]), means),
-            components: groups[0].len(),
-            point: Tape::new(&graph, &groups[1]),
+            engine: Engine::new(&Tape::new(&graph, &ratios), means),
+            components: ratios.len(),
+            point,
         })
     }
 

@@ -84,3 +84,14 @@ fn many_states_give_the_verdict_of_few() {
     assert_eq!((few[0].1, many[0].1), (256, 20_032), "at all states, in blocks of 64");
     assert_eq!((few[1].0, many[1].0), (Verdict::Refuted, Verdict::Refuted), "the slip");
 }
+
+#[test]
+fn solved_variables_keep_their_ranges() {
+    let text = "title = 't'\n[state]\nx = '-1..1'\ny = '0.5..3'\n[field]\n\"x'\" = 'y'\n\"y'\" = '-x'\n\
+                [level]\nequations = ['x² + y² = 3']\n[[claim]]\nidentity = 'y = |y|'\n";
+    let case = Case::parse(text, &[]).expect("a case");
+    let found = sweep(&case, 0, Backend::Quickest).run(0..4096, f64::INFINITY);
+    assert_eq!(found.states, 4096);
+    assert!((1000..3000).contains(&found.defined), "half of the states have y < 0: {found:?}");
+    assert_eq!(found.peak.map(|peak| peak.ratio), Some(0.0));
+}

@@ -6,6 +6,7 @@ use crate::proof::Group;
 use crate::scalar::Scalar;
 
 use super::Sampler;
+use super::ranges::guarded;
 
 impl Sampler {
     /// Composes values of `graph`, a function of parameters and states, with the map from draws,
@@ -26,6 +27,28 @@ impl Sampler {
                 group.iter().map(|value| values[graph.place(*value)]).collect::<Option<Vec<Expr>>>()
             };
             groups.iter().map(group).collect::<Option<Vec<Vec<Expr>>>>()
+        })?;
+        values.map(|values| (composed, values)).ok_or(Fault::ForeignValue)
+    }
+
+    /// Composes the same; the values have none where a variable that the level is solved for is out of
+    /// its range.
+    pub fn compose_in_ranges(
+        &self,
+        graph: &Graph,
+        values: &[Expr],
+    ) -> Result<(Graph, Vec<Expr>), Fault> {
+        let fixed = vec![None; self.draws.len()];
+        let (composed, values) = record(self.draws.len(), |draws| {
+            let (inputs, own) = self.inputs_from(graph, draws, &fixed)?;
+            let reached = graph.reached(values.iter().copied());
+            let made = graph.replay(&reached, &inputs, |_, _, _| None);
+            let values = values.iter().map(|value| made[graph.place(*value)]);
+            let values = values.collect::<Option<Vec<Expr>>>()?;
+            let facts = self.facts.iter().map(|value| own[self.graph.place(*value)]);
+            let facts = facts.collect::<Option<Vec<Expr>>>()?;
+            let guard = |value: &Expr| guarded(&[*value], facts.iter().copied());
+            Some(values.iter().flat_map(guard).collect())
         })?;
         values.map(|values| (composed, values)).ok_or(Fault::ForeignValue)
     }
