@@ -73,6 +73,19 @@ pub fn with_rates(model: &Model, further: &[(usize, Formula)]) -> Option<Model> 
     Some(changed)
 }
 
+/// Adds a term that is linear in the velocities or momenta to the function that the equations of motion
+/// are made of; `None` if they are not made of one.
+pub fn with_gyroscopic(model: &Model, further: &Formula) -> Option<Model> {
+    let mut changed = model.clone();
+    let function = match &mut changed.system {
+        System::Lagrangian(own) => &mut own.kinetic,
+        System::Hamiltonian(own) => &mut own.function,
+        _ => return None,
+    };
+    *function = (function.bracketed() + further).ok()?;
+    Some(changed)
+}
+
 /// Adds a rotor to a model; `None` if it has one already, or admits none.
 pub fn with_gyrostat(model: &Model, rotor: &Formula) -> Option<Model> {
     let mut changed = model.clone();

@@ -1,0 +1,128 @@
+//! Rotors and gyroscopic terms in the places where they enter the equations of motion: *slots*.
+
+use super::forces::{appended, with_gyroscopic, with_gyrostat, with_rates};
+use super::gyro_family::{GyroEntry, GyroFamily};
+use crate::terms::{TermSum, is_one};
+use liouville::formula::{Formula, FormulaError, FormulaResult};
+use liouville::mechanics::Model;
+
+/// Terms by slot.
+pub type Slots = Vec<Option<Formula>>;
+
+impl GyroFamily {
+    /// Lists what enters the equations if each generator has a coefficient: the rotor; the term; or the
+    /// terms of the rates of the velocities.
+    pub fn slots(&self, parts: &[Option<Formula>]) -> Result<Vec<Option<Formula>>, FormulaError> {
+        let times = |part: &Formula, head: &Formula| -> FormulaResult {
+            if is_one(part) { Ok(head.clone()) } else { part * head }
+        };
+        match &self.entry {
+            GyroEntry::Rotor => {
+                let zero = Formula::number(0);
+                let all: Vec<&Formula> =
+                    parts.iter().map(|part| part.as_ref().unwrap_or(&zero)).collect();
+                Ok(vec![Some(Formula::vector(&all)?)])
+            }
+            GyroEntry::Term => {
+                let mut sum = TermSum::default();
+                for (part, head) in parts.iter().zip(&self.heads) {
+                    if let Some(part) = part {
+                        sum.add(false, &times(part, head)?)?;
+                    }
+                }
+                Ok(vec![sum.total()])
+            }
+            GyroEntry::Pairs(pairs) => {
+                let mut sums: Vec<TermSum> = self.heads.iter().map(|_| TermSum::default()).collect();
+                for (part, [i, j]) in parts.iter().zip(pairs) {
+                    if let Some(part) = part {
+                        sums[*i].add(false, &times(part, &self.heads[*j])?)?;
+                        sums[*j].add(true, &times(part, &self.heads[*i])?)?;
+                    }
+                }
+                Ok(sums.into_iter().map(TermSum::total).collect())
+            }
+        }
+    }
+
+    /// Adds a rotor or terms to a model; `None` if it does not take them.
+    pub fn with(&self, model: &Model, slots: &[Option<Formula>]) -> Option<Model> {
+        match (&self.entry, slots.first()?) {
+            (GyroEntry::Rotor, Some(rotor)) => with_gyrostat(model, rotor),
+            (GyroEntry::Term, Some(term)) => with_gyroscopic(model, term),
+            (GyroEntry::Rotor | GyroEntry::Term, None) => None,
+            (GyroEntry::Pairs(_), _) => {
+                let terms: Option<Vec<(usize, Formula)>> =
+                    self.rates(slots).map(|(head, slot)| Some((self.place(head)?, slot))).collect();
+                with_rates(model, &terms?)
+            }
+        }
+    }
+
+    fn rates<'a>(
+        &'a self,
+        slots: &'a [Option<Formula>],
+    ) -> impl Iterator<Item = (&'a Formula, Formula)> {
+        let own = self.heads.iter().zip(slots);
+        own.filter_map(|(head, slot)| Some((head, slot.clone()?)))
+    }
+
+    fn place(&self, head: &Formula) -> Option<usize> {
+        self.variables.terms.iter().position(|term| term.text() == head.text())
+    }
+
+    /// Text of what was added.
+    pub fn text(&self, slots: &[Option<Formula>]) -> String {
+        match self.entry {
+            GyroEntry::Rotor | GyroEntry::Term => {
+                slots.iter().flatten().map(ToString::to_string).collect()
+            }
+            GyroEntry::Pairs(_) => {
+                let own = self.rates(slots).map(|(head, slot)| format!("{slot} in the rate of {head}"));
+                own.collect::<Vec<_>>().join(", ")
+            }
+        }
+    }
+
+    /// Word for what was added.
+    pub fn word(&self) -> &'static str {
+        match self.entry {
+            GyroEntry::Rotor => "gyrostat",
+            GyroEntry::Term => "gyroscopic term",
+            GyroEntry::Pairs(_) => "force",
+        }
+    }
+
+    /// Σ constant · slot, slot by slot.
+    pub fn combined<'t>(
+        &self,
+        parts: &[(&'t Formula, &'t [Option<Formula>])],
+    ) -> Result<Vec<Option<Formula>>, FormulaError> {
+        let count = parts.first().map_or(0, |(_, slots)| slots.len());
+        (0..count)
+            .map(|slot| {
+                let own = parts.iter().filter_map(|(by, slots)| Some((*by, slots[slot].as_ref()?)));
+                match &self.entry {
+                    GyroEntry::Rotor => appended(None, own),
+                    GyroEntry::Term | GyroEntry::Pairs(_) => summed(own),
+                }
+            })
+            .collect()
+    }
+}
+
+/// Σ constant · part; `None` for an empty sum.
+pub fn summed<'t>(
+    parts: impl Iterator<Item = (&'t Formula, &'t Formula)>,
+) -> Result<Option<Formula>, FormulaError> {
+    let mut sum = TermSum::default();
+    for (by, part) in parts {
+        let term = match (is_one(by), is_one(part)) {
+            (true, _) => part.clone(),
+            (_, true) => by.clone(),
+            _ => (by * part)?,
+        };
+        sum.add(false, &term)?;
+    }
+    Ok(sum.total())
+}
