@@ -138,7 +138,8 @@ impl GyroFamily {
         let heads: Vec<Formula> = velocities.iter().map(term).collect();
         let mut below = vec![one()];
         if let (true, 2..=FEW) = (*has_functions, own.len()) {
-            let mut squares = own.iter().map(|term| term.raised(2)).collect::<Result<Vec<_>, _>>()?;
+            let mut squares =
+                own.iter().map(|term| term.raised(2)).collect::<Result<Vec<_>, _>>()?;
             let last = squares.remove(0);
             let sum = squares.iter().try_fold(last, |sum, own| &sum + own)?;
             below.push(sum.bracketed());
@@ -214,7 +215,7 @@ impl GyroFamily {
         function: &Formula,
     ) -> Result<Option<Model>, FormulaError> {
         let mut parts = vec![None; self.count()];
-        parts[generator] = Some(function.clone());
+        parts[generator] = Some((false, function.clone()));
         Ok(self.with(&case.model, &self.slots(&parts)?))
     }
 
@@ -232,9 +233,8 @@ impl GyroFamily {
     /// this degree in the velocities less one, by the direction after the generators'.
     pub fn gains(&self, degree: u32) -> Vec<Column> {
         let lowest = if Self::is_rotor(&self.entry) { degree } else { 0 };
-        let all = (lowest..=degree).flat_map(|own| {
-            self.products(self.generators.len(), own, self.gain, self.below.len())
-        });
+        let all = (lowest..=degree)
+            .flat_map(|own| self.products(self.generators.len(), own, self.gain, self.below.len()));
         all.collect()
     }
 

@@ -94,8 +94,7 @@ fn changed_momenta(
     })?;
     let derivation = family.count();
     let functions = family.variables.monomials(0, 1..=family.degree + 1).into_iter();
-    let functions =
-        functions.map(|exponents| Column::Product { derivation, factor: 0, exponents });
+    let functions = functions.map(|exponents| Column::Product { derivation, factor: 0, exponents });
     system.columns = functions.collect();
     let first = system.columns.len();
     system.columns.extend_from_slice(all);

@@ -12,7 +12,7 @@ use super::coefficients::PrimitiveVector;
 use super::factors;
 use super::forces::{with_constants, with_potential};
 use super::gyro_family::GyroEntry;
-use super::gyro_slots::{Slots, summed};
+use super::gyro_slots::{Part, Slots, multiple, summed};
 use super::gyrostats::GyroSearch;
 use super::system::{Column, LinearSystem, PrimePoint};
 use crate::echelon::Echelon;
@@ -28,8 +28,10 @@ use liouville::scalar::Scalar;
 pub struct GyroDirection {
     /// What enters the equations.
     pub slots: Slots,
-    /// Terms of first order.
-    pub linear: Formula,
+    /// Coefficients of the generators; none of a combination of directions.
+    pub parts: Vec<Part>,
+    /// Terms of first order, if there are any.
+    pub linear: Option<Formula>,
 }
 
 /// Terms of second order for a product of two directions.
@@ -128,15 +130,18 @@ impl Survivors<'_> {
             if !family.potentials.is_empty() {
                 let zero = Expr::rational(&Rational::from(0));
                 let mut direction = vec![zero; state.len()];
-                for (place, model) in family.variables.positions().into_iter().zip(&family.potentials)
+                for (place, model) in
+                    family.variables.positions().into_iter().zip(&family.potentials)
                 {
                     direction[place] = jet.phase.lift(&shift(model)).scalar(integral).eps;
                 }
                 recording.derive(&jet.phase.lift(&direction), &family.variables.terms, &over);
             }
             let shifts: Vec<Vec<Expr>> = models.iter().map(shift).collect();
+            let zero = Formula::number(0);
             let gain = |k: usize, l: usize| {
-                jet.phase.lift(&shifts[l]).scalar(&directions[k].linear).eps
+                let linear = directions[k].linear.as_ref().unwrap_or(&zero);
+                jet.phase.lift(&shifts[l]).scalar(linear).eps
             };
             given = pairs
                 .iter()
@@ -169,15 +174,21 @@ impl Survivors<'_> {
     ) -> Result<bool, SearchError> {
         let GyroSearch { case, effort, family, integral, .. } = self.search;
         let (mut extended, names) = with_constants(case, "s", own.len())?;
-        let linear = summed(names.iter().zip(own.iter().map(|one| &one.linear)))?;
-        let mut formula = plus(integral, linear.as_ref())?;
+        let mut formula = integral.clone();
+        for (name, own) in names.iter().zip(own) {
+            if let Some(linear) = &own.linear {
+                formula = (formula + &multiple(name, linear)?)?;
+            }
+        }
         let mut potential: Option<Formula> = None;
         for ((k, l), term) in pairs(own.len()).iter().zip(terms) {
             let by = (&names[*k] * &names[*l])?;
             let times = |own: &Option<Formula>| -> Result<Option<Formula>, FormulaError> {
-                own.as_ref().map(|own| &by * own).transpose()
+                own.as_ref().map(|own| multiple(&by, own)).transpose()
             };
-            formula = plus(&formula, times(&term.gain)?.as_ref())?;
+            if let Some(own) = times(&term.gain)? {
+                formula = (formula + &own)?;
+            }
             if let Some(own) = times(&term.potential)? {
                 potential = Some(potential.map_or(Ok(own.clone()), |before| before + &own)?);
             }
@@ -207,39 +218,6 @@ impl Survivors<'_> {
         let mut one = Found::new("integral", &formula, None, verdict, &extended.model);
         one.with = vec![(family.word(), family.text(&slots))];
         one.with.extend(potential.map(|own| ("potential", own.to_string())));
-        report.found.push(one);
-        Ok(true)
-    }
-
-    /// Reports forces with any coefficients that change nothing about the integral; returns whether
-    /// they are proved.
-    pub fn tell_free(
-        &self,
-        generators: &[usize],
-        report: &mut SearchReport,
-    ) -> Result<bool, SearchError> {
-        let GyroSearch { case, effort, family, integral, .. } = self.search;
-        let (mut extended, names) = with_constants(case, "f", generators.len())?;
-        let mut parts = vec![None; family.count()];
-        for (generator, name) in generators.iter().zip(&names) {
-            parts[*generator] = Some(name.clone());
-        }
-        let slots = family.slots(&parts)?;
-        let Some(model) = family.with(&extended.model, &slots) else { return Ok(false) };
-        extended.model = model;
-        let verdict = judged_alone(&extended, Claim::integral(integral), effort)?;
-        let Some(verdict) = verdict.filter(holds) else { return Ok(false) };
-        let positions = family.variables.positions().into_iter();
-        let positions: Vec<&str> = positions.map(|k| family.variables.terms[k].text()).collect();
-        let call = format!("({})", positions.join(", "));
-        let names: Vec<String> = names.iter().map(|own| format!("{own}{call}")).collect();
-        let functions = if let [only] = names.as_slice() {
-            format!("any function {only}")
-        } else {
-            format!("any functions {}", names.join(", "))
-        };
-        let mut one = Found::new("integral", integral, None, verdict, &extended.model);
-        one.with = vec![(family.word(), format!("{} for {functions}", family.text(&slots)))];
         report.found.push(one);
         Ok(true)
     }
@@ -279,7 +257,10 @@ impl SecondOrder {
             for l in 0..count {
                 let entry = |k: usize| {
                     let place = place(k, l);
-                    matrix.iter().find(|(own, _)| Some(*own) == place).map_or(0, |(_, value)| *value)
+                    matrix
+                        .iter()
+                        .find(|(own, _)| Some(*own) == place)
+                        .map_or(0, |(_, value)| *value)
                 };
                 if echelon.push((0..count).map(entry).collect()) {
                     chosen.push((matrix, l));
@@ -303,13 +284,13 @@ impl SecondOrder {
                 }
             }
             let slots = (0..directions[0].slots.len()).map(|slot| {
-                let own = weights.iter().filter_map(|(by, own)| Some((by, own.slots[slot].as_ref()?)));
+                let own =
+                    weights.iter().filter_map(|(by, own)| Some((by, own.slots[slot].as_ref()?)));
                 summed(own)
             });
             let slots = slots.collect::<Result<Slots, FormulaError>>()?;
-            let linear = summed(weights.iter().map(|(by, own)| (by, &own.linear)))?;
-            let linear = linear.unwrap_or_else(|| Formula::number(0));
-            found.push(GyroDirection { slots, linear });
+            let linear = weights.iter().filter_map(|(by, own)| Some((by, own.linear.as_ref()?)));
+            found.push(GyroDirection { slots, parts: Vec::new(), linear: summed(linear)? });
         }
         Ok(Some(found))
     }
@@ -342,15 +323,6 @@ impl SecondOrder {
             sum.map(|sum| if is_one { Ok(sum) } else { &sum / &below }).transpose()
         };
         Ok(Some(SecondTerm { gain: divided(&gains)?, potential: divided(&potentials)? }))
-    }
-}
-
-/// A formula with another one added, unless that is 0.
-fn plus(first: &Formula, further: Option<&Formula>) -> Result<Formula, FormulaError> {
-    let is_zero = |own: &&Formula| own.constant().is_some_and(|value| value.is_zero());
-    match further.filter(|own| !is_zero(own)) {
-        None => Ok(first.clone()),
-        Some(own) => first + own,
     }
 }
 

@@ -9,35 +9,43 @@ use liouville::mechanics::Model;
 /// Terms by slot.
 pub type Slots = Vec<Option<Formula>>;
 
+/// Coefficient of a generator: whether it is the negative of a formula, and this formula.
+pub type Part = Option<(bool, Formula)>;
+
 impl GyroFamily {
     /// Lists what enters the equations if each generator has a coefficient: the rotor; the term; or the
     /// terms of the rates of the velocities.
-    pub fn slots(&self, parts: &[Option<Formula>]) -> Result<Vec<Option<Formula>>, FormulaError> {
+    pub fn slots(&self, parts: &[Part]) -> Result<Slots, FormulaError> {
         let times = |part: &Formula, head: &Formula| -> FormulaResult {
             if is_one(part) { Ok(head.clone()) } else { part * head }
         };
         match &self.entry {
             GyroEntry::Rotor => {
                 let zero = Formula::number(0);
-                let all: Vec<&Formula> =
-                    parts.iter().map(|part| part.as_ref().unwrap_or(&zero)).collect();
-                Ok(vec![Some(Formula::vector(&all)?)])
+                let signed = |part: &Part| match part {
+                    None => zero.clone(),
+                    Some((false, own)) => own.clone(),
+                    Some((true, own)) => -own,
+                };
+                let all: Vec<Formula> = parts.iter().map(signed).collect();
+                Ok(vec![Some(Formula::vector(&all.iter().collect::<Vec<_>>())?)])
             }
             GyroEntry::Term => {
                 let mut sum = TermSum::default();
                 for (part, head) in parts.iter().zip(&self.heads) {
-                    if let Some(part) = part {
-                        sum.add(false, &times(part, head)?)?;
+                    if let Some((is_negative, part)) = part {
+                        sum.add(*is_negative, &times(part, head)?)?;
                     }
                 }
                 Ok(vec![sum.total()])
             }
             GyroEntry::Pairs(pairs) => {
-                let mut sums: Vec<TermSum> = self.heads.iter().map(|_| TermSum::default()).collect();
+                let mut sums: Vec<TermSum> =
+                    self.heads.iter().map(|_| TermSum::default()).collect();
                 for (part, [i, j]) in parts.iter().zip(pairs) {
-                    if let Some(part) = part {
-                        sums[*i].add(false, &times(part, &self.heads[*j])?)?;
-                        sums[*j].add(true, &times(part, &self.heads[*i])?)?;
+                    if let Some((is_negative, part)) = part {
+                        sums[*i].add(*is_negative, &times(part, &self.heads[*j])?)?;
+                        sums[*j].add(!is_negative, &times(part, &self.heads[*i])?)?;
                     }
                 }
                 Ok(sums.into_iter().map(TermSum::total).collect())
@@ -78,7 +86,8 @@ impl GyroFamily {
                 slots.iter().flatten().map(ToString::to_string).collect()
             }
             GyroEntry::Pairs(_) => {
-                let own = self.rates(slots).map(|(head, slot)| format!("{slot} in the rate of {head}"));
+                let own =
+                    self.rates(slots).map(|(head, slot)| format!("{slot} in the rate of {head}"));
                 own.collect::<Vec<_>>().join(", ")
             }
         }
@@ -111,18 +120,26 @@ impl GyroFamily {
     }
 }
 
-/// Σ constant · part; `None` for an empty sum.
+/// Σ constant · part, with brackets around each part but a name; `None` for an empty sum.
 pub fn summed<'t>(
     parts: impl Iterator<Item = (&'t Formula, &'t Formula)>,
 ) -> Result<Option<Formula>, FormulaError> {
     let mut sum = TermSum::default();
     for (by, part) in parts {
-        let term = match (is_one(by), is_one(part)) {
-            (true, _) => part.clone(),
-            (_, true) => by.clone(),
-            _ => (by * part)?,
-        };
-        sum.add(false, &term)?;
+        sum.add(false, &multiple(by, part)?)?;
     }
     Ok(sum.total())
+}
+
+/// A constant times a part, with brackets around it unless it is a name.
+pub fn multiple(by: &Formula, part: &Formula) -> FormulaResult {
+    let is_name = |part: &Formula| {
+        part.text().chars().all(|letter| letter.is_alphanumeric() || "_'[]".contains(letter))
+    };
+    match (is_one(by), is_one(part)) {
+        (true, _) => Ok(part.clone()),
+        (_, true) => Ok(by.clone()),
+        _ if is_name(part) => by * part,
+        _ => by * part.bracketed(),
+    }
 }

@@ -166,8 +166,7 @@ fn velocities(
     };
     let start = case.model.free_components();
     let others = others(&case.model, positions);
-    let velocity = |place: &usize| {
-        others.iter().copied().find(|other| inputs[start + other] == rates[*place])
-    };
+    let velocity =
+        |place: &usize| others.iter().copied().find(|other| inputs[start + other] == rates[*place]);
     Ok(positions.iter().map(velocity).collect())
 }

@@ -20,6 +20,7 @@ use super::coefficients::{PrimitiveVector, Ratio};
 use super::gyro_family::{GyroEntry, GyroFamily};
 use super::gyro_quotient::representatives;
 use super::gyro_second::{GyroDirection, Survivors};
+use super::gyro_slots::Part;
 use super::size::SystemSize;
 use super::system::{Column, LinearSystem};
 use super::{factors, note_unwritten, written};
@@ -30,6 +31,8 @@ use liouville::mechanics::Draw;
 
 /// Largest number of directions that are written out.
 const LISTED: usize = 8;
+/// Largest number of forces without terms added to the integral that are compared.
+const FREE: usize = 64;
 
 /// Finds, for each known integral of degree 1 or 2, the rotors or terms under which it persists.
 pub fn gyrostats(
@@ -59,14 +62,12 @@ pub fn gyrostats(
         let generators = Generators::all(case, effort, report)?;
         generators.each().map(|(formula, degree)| (formula.clone(), degree)).collect()
     };
-    let is_wanted = |(formula, degree): &(Formula, u32)| {
-        !is_energy(formula) && (1..=2).contains(degree)
-    };
+    let is_wanted =
+        |(formula, degree): &(Formula, u32)| !is_energy(formula) && (1..=2).contains(degree);
     let integrals: Vec<(Formula, u32)> = integrals.into_iter().filter(is_wanted).collect();
     if integrals.is_empty() {
         let what = if is_own { "gyroscopic terms" } else { "a rotor" };
-        report
-            .remark(format!("no integral of degree 1 or 2 is known that could survive {what}"));
+        report.remark(format!("no integral of degree 1 or 2 is known that could survive {what}"));
         return Ok(());
     }
     let terms = match representatives(case, effort, &family) {
@@ -139,27 +140,14 @@ impl GyroSearch<'_> {
         }
         let Some(supports) = self.supports(&system, first)? else { return Ok(()) };
         let dimension = supports.len();
+        let is_pairs = matches!(self.family.entry, GyroEntry::Pairs(_));
+        let has_gain = |own: &Vec<usize>| own.first().is_some_and(|column| *column < first);
         let (free, others): (Vec<_>, Vec<_>) =
-            supports.into_iter().partition(|own| self.is_free(&system, own));
-        let heads: Vec<usize> = free.iter().filter_map(|own| self.head(&system, own)).collect();
+            supports.into_iter().partition(|own| is_pairs && !has_gain(own));
         let survivors = Survivors { search: self };
-        let mut told = 0;
-        if !heads.is_empty() && survivors.tell_free(&heads, report)? {
-            told += free.len();
-        }
-        let mut directions = Vec::new();
-        for support in others.iter().take(LISTED) {
-            match PrimitiveVector::of(&system, support)? {
-                Some(coefficients) => {
-                    directions.push(self.direction(&system, support, first, &coefficients)?);
-                }
-                None => {
-                    let what = format!("a {} with {} terms", self.family.word(), support.len());
-                    note_unwritten(self.case, &what, report);
-                }
-            }
-        }
-        told += survivors.tell(directions, report)?;
+        let free = self.directions(&system, free.iter().take(FREE), first, report)?;
+        let others = self.directions(&system, others.iter().take(LISTED), first, report)?;
+        let told = survivors.tell_free(&free, report)? + survivors.tell(others, report)?;
         if self.has_theorem {
             report.excluded.push(self.theorem(dimension, told)?);
         }
@@ -213,24 +201,27 @@ impl GyroSearch<'_> {
         Ok(Some(found))
     }
 
-    /// Whether a direction is one force that changes nothing about the integral, whatever its
-    /// coefficient is.
-    fn is_free(&self, system: &LinearSystem, support: &[usize]) -> bool {
-        matches!(self.family.entry, GyroEntry::Pairs(_))
-            && matches!((support, support.first().map(|k| &system.columns[*k])),
-                ([_], Some(Column::Product { derivation, .. })) if *derivation < self.family.count())
-    }
-
-    /// Generator of a free direction with the coefficient 1.
-    fn head(&self, system: &LinearSystem, support: &[usize]) -> Option<usize> {
-        match &system.columns[*support.first()?] {
-            Column::Product { derivation, factor: 0, exponents }
-                if exponents.iter().all(|own| *own == 0) =>
-            {
-                Some(*derivation)
+    /// Writes directions; what cannot be written is noted.
+    fn directions<'s>(
+        &self,
+        system: &LinearSystem,
+        supports: impl Iterator<Item = &'s Vec<usize>>,
+        first: usize,
+        report: &mut SearchReport,
+    ) -> Result<Vec<GyroDirection>, SearchError> {
+        let mut found = Vec::new();
+        for support in supports {
+            match PrimitiveVector::of(system, support)? {
+                Some(coefficients) => {
+                    found.push(self.direction(system, support, first, &coefficients)?);
+                }
+                None => {
+                    let what = format!("a {} with {} terms", self.family.word(), support.len());
+                    note_unwritten(self.case, &what, report);
+                }
             }
-            _ => None,
         }
+        Ok(found)
     }
 
     /// Writes the direction that a null vector is.
@@ -244,18 +235,27 @@ impl GyroSearch<'_> {
         let places = |keep: &dyn Fn(usize) -> bool| -> Vec<usize> {
             (0..support.len()).filter(|k| keep(support[*k])).collect()
         };
-        let sum = |own: &[usize]| self.sum(system, coefficients, support, own);
-        let part = |generator: usize| {
+        let part = |generator: usize| -> Result<Part, FormulaError> {
             let is_own = |column: usize| matches!(&system.columns[column], Column::Product { derivation, .. } if *derivation == generator);
-            sum(&places(&|column| column >= first && is_own(column)))
+            let own = places(&|column| column >= first && is_own(column));
+            let functions = self.functions(system, support, &own)?;
+            let sum = coefficients.sum_with_plus(&own, &functions)?;
+            Ok(sum.map(|(formula, is_negative)| (is_negative, formula)))
         };
-        let parts: Vec<Option<Formula>> =
-            (0..self.family.count()).map(part).collect::<Result<_, _>>()?;
-        let linear = sum(&places(&|column| column < first))?;
-        Ok(GyroDirection {
-            slots: self.family.slots(&parts)?,
-            linear: linear.unwrap_or_else(|| Formula::number(0)),
-        })
+        let parts: Vec<Part> = (0..self.family.count()).map(part).collect::<Result<_, _>>()?;
+        let linear = self.sum(system, coefficients, support, &places(&|column| column < first))?;
+        Ok(GyroDirection { slots: self.family.slots(&parts)?, parts, linear })
+    }
+
+    /// Functions of some columns of a support.
+    fn functions(
+        &self,
+        system: &LinearSystem,
+        support: &[usize],
+        own: &[usize],
+    ) -> Result<Vec<Ratio>, FormulaError> {
+        let GyroFamily { variables, below, .. } = self.family;
+        own.iter().map(|k| written(variables, below, &system.columns[support[*k]])).collect()
     }
 
     /// Σ coefficient · function over some columns of a support; `None` where all are 0.
@@ -266,11 +266,7 @@ impl GyroSearch<'_> {
         support: &[usize],
         own: &[usize],
     ) -> Result<Option<Formula>, FormulaError> {
-        let GyroFamily { variables, below, .. } = self.family;
-        let function = |k: &usize| written(variables, below, &system.columns[support[*k]]);
-        let functions: Vec<Ratio> =
-            own.iter().map(function).collect::<Result<_, FormulaError>>()?;
-        coefficients.sum(own, &functions)
+        coefficients.sum(own, &self.functions(system, support, own)?)
     }
 
     /// A term as it enters the equations.
@@ -280,7 +276,7 @@ impl GyroSearch<'_> {
         match column {
             Column::Product { derivation, .. } => {
                 let parts = (0..heads.len())
-                    .map(|k| (k == *derivation).then(|| coefficient.clone()))
+                    .map(|k| (k == *derivation).then(|| (false, coefficient.clone())))
                     .collect::<Vec<_>>();
                 let term = self.family.slots(&parts)?.into_iter().flatten().next();
                 Ok(term.unwrap_or_else(|| Formula::number(0)))
@@ -309,13 +305,18 @@ impl GyroSearch<'_> {
         let lower = self.degree - 1;
         let gained = match positions.is_empty() {
             true => "constant coefficients".to_string(),
+            false if below.len() == 1 => {
+                format!("coefficients that are polynomials in {positions} of degree at most {gain}")
+            }
             false => format!(
                 "coefficients Σ p/d, p polynomials in {positions} of degree at most {gain}, d one of {over}"
             ),
         };
         let (ansatz, theorem) = match self.family.entry {
             GyroEntry::Rotor => (
-                format!("rotors that preserve {integral} with terms of degree at most {gain} in the positions"),
+                format!(
+                    "rotors that preserve {integral} with terms of degree at most {gain} in the positions"
+                ),
                 format!(
                     "{at} {dimension} independent directions of a rotor allow, to first order in it, \
                      an integral {integral} + F₁ with F₁ of degree {lower} in the velocities and coefficients that are polynomials of degree at most {gain} in the positions over {over}{then}."

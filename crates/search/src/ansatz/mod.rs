@@ -29,6 +29,7 @@ mod force_split;
 mod force_text;
 mod forces;
 mod gyro_family;
+mod gyro_free;
 mod gyro_quotient;
 mod gyro_second;
 mod gyro_slots;

@@ -85,8 +85,7 @@ impl Recording {
         let direction = self.derive(moved, variables, factors);
         let (end, count) = (self.outputs.len(), factors.len());
         for k in 0..count {
-            let (value, slope) =
-                (self.outputs[end - 2 * count + k], self.outputs[end - count + k]);
+            let (value, slope) = (self.outputs[end - 2 * count + k], self.outputs[end - count + k]);
             self.outputs[end - count + k] = slope + growth * value;
         }
         direction
