@@ -134,29 +134,3 @@ pub fn with_numbers(case: &Case, names: &[String]) -> Result<(Case, Vec<Formula>
     let constants = constants?;
     Ok((extended, constants))
 }
-
-/// Σ constant · part, with brackets around each part that is a scalar; `None` without parts.
-pub fn combination<'t>(
-    parts: impl Iterator<Item = (&'t Formula, &'t Formula)>,
-) -> Result<Option<Formula>, FormulaError> {
-    appended(None, parts)
-}
-
-/// A formula plus Σ constant · part; `None` for an empty sum.
-pub fn appended<'t>(
-    first: Option<&Formula>,
-    parts: impl Iterator<Item = (&'t Formula, &'t Formula)>,
-) -> Result<Option<Formula>, FormulaError> {
-    let mut sum: Option<Formula> = first.cloned();
-    for (constant, part) in parts {
-        let term = match part.value_type() {
-            Type::Scalar => (constant * part.bracketed())?,
-            _ => (constant * part)?,
-        };
-        sum = Some(match sum {
-            None => term,
-            Some(before) => (before + &term)?,
-        });
-    }
-    Ok(sum)
-}

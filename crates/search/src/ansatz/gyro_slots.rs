@@ -1,9 +1,9 @@
 //! Rotors and gyroscopic terms in the places where they enter the equations of motion: *slots*.
 
-use super::forces::{appended, with_gyroscopic, with_gyrostat, with_rates};
+use super::forces::{with_gyroscopic, with_gyrostat, with_rates};
 use super::gyro_family::{GyroEntry, GyroFamily};
 use crate::terms::{TermSum, is_one};
-use liouville::formula::{Formula, FormulaError, FormulaResult};
+use liouville::formula::{Formula, FormulaError, FormulaResult, Type};
 use liouville::mechanics::Model;
 
 /// Terms by slot.
@@ -111,16 +111,13 @@ impl GyroFamily {
         (0..count)
             .map(|slot| {
                 let own = parts.iter().filter_map(|(by, slots)| Some((*by, slots[slot].as_ref()?)));
-                match &self.entry {
-                    GyroEntry::Rotor => appended(None, own),
-                    GyroEntry::Term | GyroEntry::Pairs(_) => summed(own),
-                }
+                summed(own)
             })
             .collect()
     }
 }
 
-/// Σ constant · part, with brackets around each part but a name; `None` for an empty sum.
+/// Σ constant · part, with brackets around each part but names and vectors; `None` for an empty sum.
 pub fn summed<'t>(
     parts: impl Iterator<Item = (&'t Formula, &'t Formula)>,
 ) -> Result<Option<Formula>, FormulaError> {
@@ -131,8 +128,11 @@ pub fn summed<'t>(
     Ok(sum.total())
 }
 
-/// A constant times a part, with brackets around it unless it is a name.
+/// A constant times a part, with brackets around it unless it is a name or a vector.
 pub fn multiple(by: &Formula, part: &Formula) -> FormulaResult {
+    if part.value_type() != Type::Scalar {
+        return by * part;
+    }
     let is_name = |part: &Formula| {
         part.text().chars().all(|letter| letter.is_alphanumeric() || "_'[]".contains(letter))
     };

@@ -301,6 +301,10 @@ impl GyroSearch<'_> {
                  these say nothing"
             ),
         };
+        let aside = match self.terms.len() == self.family.coefficients().len() {
+            true => "",
+            false => ", up to rotors without effect,",
+        };
         let at = "For generic values of the free parameters, and the given values of the fixed ones, at most";
         let lower = self.degree - 1;
         let gained = match positions.is_empty() {
@@ -318,7 +322,7 @@ impl GyroSearch<'_> {
                     "rotors that preserve {integral} with terms of degree at most {gain} in the positions"
                 ),
                 format!(
-                    "{at} {dimension} independent directions of a rotor allow, to first order in it, \
+                    "{at} {dimension} independent directions of a rotor{aside} allow, to first order in it, \
                      an integral {integral} + F₁ with F₁ of degree {lower} in the velocities and coefficients that are polynomials of degree at most {gain} in the positions over {over}{then}."
                 ),
             ),
