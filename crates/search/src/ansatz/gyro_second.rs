@@ -4,7 +4,8 @@
 //! order are Σ s_k s_l R_kl, R_kl = (∂F_k, A(S_l)) + (∂F_l, A(S_k)), once for k = l. They must be
 //! −L_v F₀, or with a potential U of second order −L_v F₀ − (∂F, A(∇U)). The matrices T with
 //! Σ T_kl R_kl of this form are a space, and s sᵀ is in it for each s that survives: s is in the span
-//! of their columns. Directions are replaced by this span first.
+//! of their columns. Directions are replaced by this span first. Those of third order,
+//! (∂F₀, A(S)) + (∂F₁, A(∇U)) = 0, are linear in F₀ and U for one direction.
 
 use super::super::ask::{holds, judged_alone};
 use super::super::{Found, SearchError, SearchReport};
@@ -86,7 +87,26 @@ impl Survivors<'_> {
                 kept.remove(index);
                 continue;
             }
-            let terms: Vec<SecondTerm> = terms.into_iter().flatten().collect();
+            let mut terms: Vec<SecondTerm> = terms.into_iter().flatten().collect();
+            if kept.len() > 1 && self.moves_positions() {
+                // Alone, those of third order are respected.
+                match self.squares(&kept)? {
+                    Err(without) => {
+                        kept.remove(without);
+                        continue;
+                    }
+                    Ok(squares) => {
+                        let mut squares = squares.into_iter();
+                        for ((k, l), term) in pairs.iter().zip(&mut terms) {
+                            if k == l
+                                && let Some(square) = squares.next()
+                            {
+                                *term = square;
+                            }
+                        }
+                    }
+                }
+            }
             if self.prove(&kept, &terms, report)? {
                 return Ok(kept.len());
             }
@@ -111,7 +131,30 @@ impl Survivors<'_> {
         Ok(0)
     }
 
-    /// Sets up the equations of second order; `None` where states have no values.
+    /// Whether there are terms of third order.
+    fn moves_positions(&self) -> bool {
+        !self.search.family.potentials.is_empty()
+    }
+
+    /// Terms of second order of each direction alone; or a direction without such.
+    fn squares(
+        &self,
+        directions: &[GyroDirection],
+    ) -> Result<Result<Vec<SecondTerm>, usize>, SearchError> {
+        let mut found = Vec::new();
+        for (k, direction) in directions.iter().enumerate() {
+            let second = self.second(std::slice::from_ref(direction))?;
+            let term = second.map(|own| own.term(self.search, 0)).transpose()?.flatten();
+            match term {
+                Some(term) => found.push(term),
+                None => return Ok(Err(k)),
+            }
+        }
+        Ok(Ok(found))
+    }
+
+    /// Sets up the equations of second order, and for one direction those of third order with them:
+    /// their degrees in the velocities differ by one. `None` where states have no values.
     fn second(&self, directions: &[GyroDirection]) -> Result<Option<SecondOrder>, SearchError> {
         let GyroSearch { case, effort, family, integral, degree, .. } = self.search;
         let over = factors(&family.below)?;
@@ -121,24 +164,34 @@ impl Survivors<'_> {
         let pairs = pairs(directions.len());
         let mut given = Vec::new();
         let mut system = LinearSystem::record(case, effort, |jet, recording| {
-            recording.derive(jet.along_field(), &family.variables.terms, &over);
             let (state, field) = (jet.phase.state(), jet.phase.field());
+            let zero = Formula::number(0);
+            let alone = match directions {
+                [only] if self.moves_positions() => Some(only),
+                _ => None,
+            };
             let shift = |model: &Model| -> Vec<Expr> {
                 let beside = jet.phase.in_model(model, &state);
                 beside.field().iter().zip(field).map(|(with, without)| *with - *without).collect()
             };
-            if !family.potentials.is_empty() {
-                let zero = Expr::rational(&Rational::from(0));
-                let mut direction = vec![zero; state.len()];
+            let shifts: Vec<Vec<Expr>> = models.iter().map(shift).collect();
+            let terms = &family.variables.terms;
+            let whole: Vec<Expr> = match (alone, shifts.first()) {
+                (Some(_), Some(own)) => field.iter().zip(own).map(|(v, own)| *v + *own).collect(),
+                _ => field.to_vec(),
+            };
+            recording.derive(&jet.phase.lift(&whole), terms, &over);
+            if self.moves_positions() {
+                let mut direction = vec![Expr::rational(&Rational::from(0)); state.len()];
+                let further = alone.and_then(|own| own.linear.as_ref()).unwrap_or(&zero);
                 for (place, model) in
                     family.variables.positions().into_iter().zip(&family.potentials)
                 {
-                    direction[place] = jet.phase.lift(&shift(model)).scalar(integral).eps;
+                    let moved = jet.phase.lift(&shift(model));
+                    direction[place] = moved.scalar(integral).eps + moved.scalar(further).eps;
                 }
-                recording.derive(&jet.phase.lift(&direction), &family.variables.terms, &over);
+                recording.derive(&jet.phase.lift(&direction), terms, &over);
             }
-            let shifts: Vec<Vec<Expr>> = models.iter().map(shift).collect();
-            let zero = Formula::number(0);
             let gain = |k: usize, l: usize| {
                 let linear = directions[k].linear.as_ref().unwrap_or(&zero);
                 jet.phase.lift(&shifts[l]).scalar(linear).eps
@@ -209,6 +262,9 @@ impl Survivors<'_> {
             _ => format!("the {} {}", family.word(), family.text(&slots)),
         };
         if !holds(&verdict) {
+            if own.len() > 1 {
+                return Ok(false);
+            }
             report.remark(format!(
                 "found, but not proved ({}): {formula} with {text}",
                 verdict.verdict.word()
