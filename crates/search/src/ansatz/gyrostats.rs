@@ -297,8 +297,8 @@ impl GyroSearch<'_> {
             (0, _) => String::new(),
             (n, told) if n == told => ": those listed here".to_string(),
             _ => format!(
-                "; {told} of them are listed here, with terms of second order, and about the others \
-                 these say nothing"
+                "; {told} of them are listed here, with terms of second order, and nothing is stated about \
+                 the others"
             ),
         };
         let aside = match self.terms.len() == self.family.coefficients().len() {
