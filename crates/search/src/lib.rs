@@ -76,9 +76,9 @@ pub struct Found {
     /// Abbreviations used in the formula that the case does not define, in order.
     #[serde(rename = "let", skip_serializing_if = "Vec::is_empty")]
     pub abbreviations: Vec<(&'static str, &'static str)>,
-    /// Additional data under which it holds: a `potential`, `force` or `gyrostat` that the case does
-    /// not have, the `value` of a parameter or a `condition` on several; for a vector each `component`
-    /// that was found; for a bracket its `Hamiltonian` and each known `Casimir`.
+    /// Additional data under which it holds: a `potential`, `force`, `gyrostat` or `gyroscopic term`
+    /// that the case does not have, the `value` of a parameter or a `condition` on several; for a
+    /// vector each `component` that was found; for a bracket its `Hamiltonian` and each known `Casimir`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub with: Vec<(&'static str, String)>,
     /// Whether it is a function of the energy and the level. Such finds are not reported, so this

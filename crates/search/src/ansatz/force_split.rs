@@ -22,6 +22,8 @@ use liouville::proof::statement_seed;
 
 /// Largest number of variables of which all sets are tried.
 const MOST_VARIABLES: usize = 12;
+/// Reason why Hamilton's equations on a level take no further terms.
+pub const NO_CASIMIRS: &str = "the functions of the level set are no Casimir functions";
 /// Number of multiples of the velocities at which rates are compared.
 const MULTIPLES: usize = 4;
 /// Number of random states that are tried, as roots exist at some only.
@@ -36,10 +38,11 @@ pub fn positions(case: &Case, effort: &Effort) -> Result<Result<Vec<usize>, Stri
             Err("the Lagrangian has a level set; write it in coordinates of the level")
         }
         System::Lagrangian(own) => coordinates(model, own),
-        System::Hamiltonian(_) if !has_casimirs(case, effort)? => {
-            Err("the functions of the level set are no Casimir functions")
-        }
-        System::Hamiltonian(own) => commuting(model, own),
+        System::Hamiltonian(_) if !has_casimirs(case, effort)? => Err(NO_CASIMIRS),
+        System::Hamiltonian(own) => match commuting(model, own) {
+            Ok(set) if set.is_empty() => Err("no two variables commute"),
+            other => other,
+        },
         System::Field(_) => driven(case, effort)?,
         _ => Err("the system admits none, or has one with free coefficients"),
     };
@@ -61,19 +64,32 @@ fn coordinates(model: &Model, own: &Lagrangian) -> Result<Vec<usize>, &'static s
     if found.is_empty() { Err("the Lagrangian has no coordinates") } else { Ok(found) }
 }
 
-fn commuting(model: &Model, own: &HamiltonianSystem) -> Result<Vec<usize>, &'static str> {
-    let count = model.state.len().min(own.blocks.len());
-    let commute = |a: usize, b: usize| own.blocks[a].get(b).is_none_or(Option::is_none);
+/// Variables of which each is the first of a canonical pair.
+fn firsts(model: &Model, own: &HamiltonianSystem) -> Vec<usize> {
     let has_unit =
         |a: usize| own.blocks[a].iter().any(|block| matches!(block, Some(BracketBlock::Unit)));
-    let may = |index: usize| own.clock != Some(index) && index < count;
-    // The first of each canonical pair.
-    let first: Vec<usize> = (0..count).filter(|k| may(*k) && has_unit(*k)).collect();
-    if first.iter().all(|a| first.iter().all(|b| commute(*a, *b)))
+    let count = model.state.len().min(own.blocks.len());
+    (0..count).filter(|k| own.clock != Some(*k) && has_unit(*k)).collect()
+}
+
+/// Whether all variables but the time are those of canonical pairs.
+pub fn is_canonical(model: &Model, own: &HamiltonianSystem) -> bool {
+    let count = model.state.len().min(own.blocks.len());
+    let commute = |a: usize, b: usize| own.blocks[a].get(b).is_none_or(Option::is_none);
+    let first = firsts(model, own);
+    first.iter().all(|a| first.iter().all(|b| commute(*a, *b)))
         && 2 * first.len() + usize::from(own.clock.is_some()) == count
-    {
+}
+
+/// The largest set of variables that commute; empty if there is none.
+pub fn commuting(model: &Model, own: &HamiltonianSystem) -> Result<Vec<usize>, &'static str> {
+    if is_canonical(model, own) {
+        let first = firsts(model, own);
         return Ok(components(model, |index| first.contains(&index)));
     }
+    let count = model.state.len().min(own.blocks.len());
+    let commute = |a: usize, b: usize| own.blocks[a].get(b).is_none_or(Option::is_none);
+    let may = |index: usize| own.clock != Some(index) && index < count;
     let sets = sets(count, may).ok_or("the system has too many variables")?;
     let is_free = |set: &&Vec<usize>| set.iter().all(|a| set.iter().all(|b| commute(*a, *b)));
     let size = |set: &Vec<usize>| set.iter().map(|k| model.state[*k].len()).sum::<usize>();
@@ -83,15 +99,12 @@ fn commuting(model: &Model, own: &HamiltonianSystem) -> Result<Vec<usize>, &'sta
             best = Some(set);
         }
     }
-    match best {
-        Some(set) if !set.is_empty() => Ok(components(model, |index| set.contains(&index))),
-        _ => Err("no two variables commute"),
-    }
+    Ok(best.map(|set| components(model, |index| set.contains(&index))).unwrap_or_default())
 }
 
 /// Whether the level functions of Hamilton's equations change nothing as Hamiltonians, modulo a prime.
 /// Then potentials that are equal on the level make the same field.
-fn has_casimirs(case: &Case, effort: &Effort) -> Result<bool, SearchError> {
+pub fn has_casimirs(case: &Case, effort: &Effort) -> Result<bool, SearchError> {
     let model = &case.model;
     let mut formulas = Vec::new();
     for own in &model.level {

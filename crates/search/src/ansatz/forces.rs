@@ -73,6 +73,19 @@ pub fn with_rates(model: &Model, further: &[(usize, Formula)]) -> Option<Model> 
     Some(changed)
 }
 
+/// Adds a term that is linear in the velocities or momenta to the function that the equations of motion
+/// are made of; `None` if they are not made of one.
+pub fn with_gyroscopic(model: &Model, further: &Formula) -> Option<Model> {
+    let mut changed = model.clone();
+    let function = match &mut changed.system {
+        System::Lagrangian(own) => &mut own.kinetic,
+        System::Hamiltonian(own) => &mut own.function,
+        _ => return None,
+    };
+    *function = (function.bracketed() + further).ok()?;
+    Some(changed)
+}
+
 /// Adds a rotor to a model; `None` if it has one already, or admits none.
 pub fn with_gyrostat(model: &Model, rotor: &Formula) -> Option<Model> {
     let mut changed = model.clone();
@@ -120,30 +133,4 @@ pub fn with_numbers(case: &Case, names: &[String]) -> Result<(Case, Vec<Formula>
         names.iter().map(|name| Formula::name(name, &model.vocabulary)).collect();
     let constants = constants?;
     Ok((extended, constants))
-}
-
-/// Σ constant · part, with brackets around each part that is a scalar; `None` without parts.
-pub fn combination<'t>(
-    parts: impl Iterator<Item = (&'t Formula, &'t Formula)>,
-) -> Result<Option<Formula>, FormulaError> {
-    appended(None, parts)
-}
-
-/// A formula plus Σ constant · part; `None` for an empty sum.
-pub fn appended<'t>(
-    first: Option<&Formula>,
-    parts: impl Iterator<Item = (&'t Formula, &'t Formula)>,
-) -> Result<Option<Formula>, FormulaError> {
-    let mut sum: Option<Formula> = first.cloned();
-    for (constant, part) in parts {
-        let term = match part.value_type() {
-            Type::Scalar => (constant * part.bracketed())?,
-            _ => (constant * part)?,
-        };
-        sum = Some(match sum {
-            None => term,
-            Some(before) => (before + &term)?,
-        });
-    }
-    Ok(sum)
 }

@@ -14,7 +14,7 @@
 //! ```
 //!
 //! [`potentials`] and [`gyrostats`] start from the leading form of an integral: then a potential,
-//! or the direction of a rotor, enters linearly together with the terms added to the integral.
+//! or a rotor or gyroscopic term, enters linearly together with the terms added to the integral.
 //! [`poisson`] starts from a Hamiltonian: then the entries of a bracket enter linearly, and so do the
 //! exponents of functions by which it is multiplied.
 
@@ -28,6 +28,12 @@ mod force_family;
 mod force_split;
 mod force_text;
 mod forces;
+mod gyro_family;
+mod gyro_free;
+mod gyro_quotient;
+mod gyro_second;
+mod gyro_slots;
+mod gyro_split;
 mod gyrostats;
 mod integrals;
 pub mod monomials;
@@ -66,7 +72,7 @@ pub struct Ansatz {
     pub positions: u32,
     /// Whether to search for potentials that preserve an integral.
     pub potentials: bool,
-    /// Whether to search for rotors that preserve an integral.
+    /// Whether to search for rotors and gyroscopic terms that preserve an integral.
     pub gyrostats: bool,
     /// Largest size of a matrix in megabytes.
     pub megabytes: u64,
@@ -86,13 +92,13 @@ pub fn search(
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
     integrals::integrals(case, effort, report, progress)?;
-    if effort.ansatz.gyrostats {
+    if effort.ansatz.gyrostats && !gyro_family::GyroFamily::is_own(&case.model) {
         gyrostats::gyrostats(case, effort, report, progress)?;
     }
     Ok(())
 }
 
-/// Searches for potentials and forces that the known integrals survive.
+/// Searches for potentials, forces and gyroscopic terms that the known integrals survive.
 pub fn forces(
     case: &Case,
     effort: &Effort,
@@ -101,6 +107,10 @@ pub fn forces(
 ) -> Result<(), SearchError> {
     if effort.ansatz.potentials {
         potentials::potentials(case, effort, report, progress)?;
+    }
+    // Integrals of these are known only after the search along orbits.
+    if effort.ansatz.gyrostats && gyro_family::GyroFamily::is_own(&case.model) {
+        gyrostats::gyrostats(case, effort, report, progress)?;
     }
     Ok(())
 }

@@ -74,6 +74,23 @@ impl Recording {
         self.derivations.len() - 1
     }
 
+    /// Adds variables and factors whose products W x^a grow at an additional rate `growth`; returns the
+    /// direction's index. Their derivative is v(W x^a) + growth·W x^a.
+    pub fn derive_growing_over(
+        &mut self,
+        moved: &Phase<'_, Dual<Expr>>,
+        (variables, factors): (&[Formula], &[Formula]),
+        growth: Expr,
+    ) -> usize {
+        let direction = self.derive(moved, variables, factors);
+        let (end, count) = (self.outputs.len(), factors.len());
+        for k in 0..count {
+            let (value, slope) = (self.outputs[end - 2 * count + k], self.outputs[end - count + k]);
+            self.outputs[end - count + k] = slope + growth * value;
+        }
+        direction
+    }
+
     /// Adds variables with an additional rate of growth `growth`; returns the direction's index. The
     /// derivative of x^a is v(x^a) + growth·x^a.
     pub fn derive_growing(

@@ -4,6 +4,7 @@
 mod brackets;
 mod conditions;
 mod forces;
+mod gyroscopic;
 mod levels;
 
 use std::path::Path;

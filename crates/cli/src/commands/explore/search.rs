@@ -47,7 +47,8 @@ pub struct SearchArgs {
     /// Find the potentials under which the known integrals survive
     #[arg(long)]
     pub potentials: bool,
-    /// Find the rotors under which the known integrals survive
+    /// Find the rotors, and the magnetic and other terms linear in the velocities, under which the
+    /// known integrals survive
     #[arg(long)]
     pub gyrostats: bool,
     /// Find a Poisson bracket with polynomial entries, for each known integral as the Hamiltonian,

@@ -1,0 +1,172 @@
+//! Positions and velocities of a system of the user's own, for terms that are linear in the velocities.
+//!
+//! ```text
+//! Lagrangian    its coordinates, and its velocities
+//! Hamiltonian   the first of each canonical pair, and the second; of another bracket the largest set of
+//!               variables that commute, if their brackets with the others depend on this set only
+//! field         variables with rates x' = u, and these u
+//! ```
+
+use super::force_split::{NO_CASIMIRS, commuting, has_casimirs, is_canonical, positions};
+use super::forces::with_potential;
+use crate::streams::SearchStream;
+use crate::terms::{read, recorded};
+use crate::{Effort, SearchError};
+use liouville::case::Case;
+use liouville::graph::{Evaluator, Expr, Graph, Tape};
+use liouville::mechanics::{Model, System, VariableRole};
+use liouville::number::prime::{Prime, UNDEFINED};
+use liouville::proof::statement_seed;
+
+/// Number of states that are compared.
+const STATES: usize = 4;
+/// Number of random choices that are tried, as roots exist at some only.
+const TRIALS: usize = 64;
+
+/// Components of the state by their part in terms that are linear in the velocities.
+#[derive(Debug)]
+pub struct GyroSplit {
+    /// Components that the coefficients of the terms depend on.
+    pub positions: Vec<usize>,
+    /// Components that the terms are linear in; of a field one for each position, in the same order.
+    pub velocities: Vec<usize>,
+    /// Whether coefficients are functions of the positions, not only numbers.
+    pub has_functions: bool,
+}
+
+/// Divides a system of the user's own; the text is the reason why it takes no such terms.
+pub fn split(case: &Case, effort: &Effort) -> Result<Result<GyroSplit, String>, SearchError> {
+    let model = &case.model;
+    if !model.extension.is_empty() {
+        return Ok(Err("variables were added to the system".to_string()));
+    }
+    match &model.system {
+        System::Lagrangian(own) => {
+            if let Some(reason) = own.roles.iter().find_map(unfit) {
+                return Ok(Err(reason.to_string()));
+            }
+            let velocities = own.velocities(&model.state);
+            let found = positions(case, effort)?;
+            Ok(found.map(|positions| GyroSplit { positions, velocities, has_functions: true }))
+        }
+        System::Hamiltonian(own) => {
+            if own.clock.is_some() {
+                return Ok(Err("time is a variable of the system".to_string()));
+            }
+            if !has_casimirs(case, effort)? {
+                return Ok(Err(NO_CASIMIRS.to_string()));
+            }
+            let mut positions = match commuting(model, own) {
+                Ok(positions) => positions,
+                Err(reason) => return Ok(Err(reason.to_string())),
+            };
+            let has_functions = is_canonical(model, own);
+            if !has_functions && !are_closed(case, &positions, effort)? {
+                positions.clear();
+            }
+            let velocities = others(model, &positions);
+            Ok(Ok(GyroSplit { positions, velocities, has_functions }))
+        }
+        System::Field(_) => {
+            let positions = match positions(case, effort)? {
+                Ok(positions) => positions,
+                Err(reason) => return Ok(Err(reason)),
+            };
+            let reason = "the field is not of the form x' = u, u' = …, with one velocity for each \
+                          position; write the equations with [hamiltonian] or [lagrangian]";
+            let velocities = velocities(case, &positions, effort)?;
+            Ok(velocities
+                .filter(|own| own.len() == others(model, &positions).len())
+                .map(|velocities| GyroSplit { positions, velocities, has_functions: true })
+                .ok_or_else(|| reason.to_string()))
+        }
+        _ => Ok(Err("the system admits none".to_string())),
+    }
+}
+
+/// Reason why a Lagrangian with a variable of this role takes no such terms.
+fn unfit(role: &VariableRole) -> Option<&'static str> {
+    match role {
+        VariableRole::Time => Some("time is a variable of the system"),
+        VariableRole::Multiplier => Some(
+            "the system is vakonomic; write it in coordinates without constraints, or as nonholonomic",
+        ),
+        VariableRole::Coordinate(_) | VariableRole::Carried(_) | VariableRole::Velocity => None,
+    }
+}
+
+fn others(model: &Model, positions: &[usize]) -> Vec<usize> {
+    (0..model.dimension()).filter(|place| !positions.contains(place)).collect()
+}
+
+/// Values at states that differ in the velocities only, modulo a prime: one list of inputs and one of
+/// outputs; `None` where there are none.
+fn compared(
+    (graph, outputs): (&Graph, &[Expr]),
+    is_shared: impl Fn(usize) -> bool,
+    effort: &Effort,
+) -> Option<[Vec<[u64; STATES]>; 2]> {
+    let mut rng =
+        SearchStream::Equations.under(statement_seed(effort.options.seed, graph, outputs));
+    let modulus = rng.prime(&[3, 5], &[2, 3]);
+    let tape = Tape::new(graph, outputs);
+    let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; STATES]));
+    for _ in 0..TRIALS {
+        let inputs: Vec<[u64; STATES]> = (0..graph.inputs())
+            .map(|input| {
+                let first = rng.element(&modulus);
+                let rest: [u64; STATES] = std::array::from_fn(|_| rng.element(&modulus));
+                if is_shared(input) { [first; STATES] } else { rest }
+            })
+            .collect();
+        evaluator.run(&inputs);
+        let values: Vec<[u64; STATES]> = evaluator.outputs().copied().collect();
+        if !values.iter().flatten().any(|value| *value == UNDEFINED) {
+            return Some([inputs, values]);
+        }
+    }
+    None
+}
+
+/// Whether the brackets of some variables with all others depend on these variables alone.
+fn are_closed(case: &Case, positions: &[usize], effort: &Effort) -> Result<bool, SearchError> {
+    let model = &case.model;
+    let names: Vec<String> = positions.iter().map(|k| model.component_name(*k)).collect();
+    let terms = read(names.iter().map(String::as_str), &model.vocabulary);
+    let changed: Option<Vec<Model>> = terms.iter().map(|own| with_potential(model, own)).collect();
+    let Some(changed) = changed.filter(|own| own.len() == positions.len()) else {
+        return Ok(false);
+    };
+    let (graph, values) = recorded(case, |jet| {
+        let (state, field) = (jet.phase.state(), jet.phase.field());
+        let mut values = Vec::new();
+        for model in &changed {
+            let beside = jet.phase.in_model(model, &state);
+            values.extend(beside.field().iter().zip(field).map(|(with, without)| *with - *without));
+        }
+        values
+    })?;
+    let start = model.free_components();
+    let is_shared = |input: usize| input < start || positions.contains(&(input - start));
+    let found = compared((&graph, &values), is_shared, effort);
+    Ok(found.is_some_and(|[_, values]| {
+        values.iter().all(|own| own.iter().all(|value| *value == own[0]))
+    }))
+}
+
+/// Velocity that is the rate of each position, in order; `None` if some rate is no variable.
+fn velocities(
+    case: &Case,
+    positions: &[usize],
+    effort: &Effort,
+) -> Result<Option<Vec<usize>>, SearchError> {
+    let (graph, field) = recorded(case, |jet| jet.phase.field().to_vec())?;
+    let Some([inputs, rates]) = compared((&graph, &field), |_| false, effort) else {
+        return Ok(None);
+    };
+    let start = case.model.free_components();
+    let others = others(&case.model, positions);
+    let velocity =
+        |place: &usize| others.iter().copied().find(|other| inputs[start + other] == rates[*place]);
+    Ok(positions.iter().map(velocity).collect())
+}
