@@ -22,6 +22,8 @@ use liouville::formula::{Formula, FormulaError};
 use liouville::mechanics::Draw;
 use liouville::verdict::ClaimReport;
 
+/// Largest number of products of integrals of degree 1.
+const PRODUCTS: usize = 6;
 /// Largest number of forces that are written out.
 const LISTED: usize = 24;
 
@@ -40,13 +42,17 @@ pub fn potentials(
         }
     };
     let coordinates = family.coordinates(case);
-    let mut own = Vec::new();
-    for formula in told(case, effort, report)? {
+    let (mut own, mut linear) = (Vec::new(), Vec::new());
+    for formula in told(case, effort, report)?.into_iter().filter(|own| !is_energy(own)) {
         let degree = degree_in(case, &formula, &coordinates, effort.options.seed)?;
-        if !is_energy(&formula) && degree.is_some_and(|degree| (1..=2).contains(&degree)) {
+        if degree == Some(1) {
+            linear.push(formula.clone());
+        }
+        if degree.is_some_and(|degree| (1..=2).contains(&degree)) {
             own.push(formula);
         }
     }
+    own.extend(products(&linear)?);
     if own.is_empty() {
         report.remark(
             "no integral of degree 1 or 2 in the velocities is known that could survive a potential"
@@ -67,6 +73,15 @@ pub fn potentials(
         }
     }
     Ok(())
+}
+
+/// Products of two of some integrals of degree 1, squares first: under a potential that separates the
+/// variables the square of a momentum survives with an added function, and the momentum does not.
+fn products(linear: &[Formula]) -> Result<Vec<Formula>, FormulaError> {
+    let squares = linear.iter().map(|own| own.raised(2));
+    let pairs = (0..linear.len()).flat_map(|j| (0..j).map(move |i| (i, j)));
+    let products = pairs.map(|(i, j)| &linear[i] * &linear[j]);
+    squares.chain(products).take(PRODUCTS).collect()
 }
 
 /// Columns of the unknowns, and a basis of the relations between them.
@@ -156,6 +171,15 @@ impl ForceSearch<'_> {
 
     fn kind(&self) -> String {
         format!("{}s", self.word())
+    }
+
+    /// Products of two of some integrals of degree 1, squares first: under a potential that separates the
+    /// variables the square of a momentum survives with an added function, and the momentum does not.
+    fn products(linear: &[Formula]) -> Result<Vec<Formula>, FormulaError> {
+        let squares = linear.iter().map(|own| own.raised(2));
+        let pairs = (0..linear.len()).flat_map(|j| (0..j).map(move |i| (i, j)));
+        let products = pairs.map(|(i, j)| &linear[i] * &linear[j]);
+        squares.chain(products).take(PRODUCTS).collect()
     }
 
     /// Columns of the unknowns, and a basis of the relations between them; `None` without values.

@@ -347,6 +347,14 @@ fn along_orbits(
     if let Some(whole) = parts.last() {
         whole.conclude(setting, report)?;
     }
+    let counted = report.orbits.last().map_or(0, |own| own.integrals);
+    if setting.has_lists() && counted > found(setting.case, setting.effort, report)?.len() {
+        report.remark(
+            "an integral is written only if one formula holds for all listed values of the parameters: \
+             give one value of each list, as with --set a=1"
+                .to_string(),
+        );
+    }
     match outcome {
         Err(error) if error.is_of_count() => {
             report.remark(format!("no relations along orbits: {error}"));

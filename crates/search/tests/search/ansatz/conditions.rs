@@ -75,6 +75,27 @@ fn a_claim_that_fails_in_general_is_given_its_condition() {
 }
 
 #[test]
+fn parameters_that_are_equal_or_numbers_are_conditions() {
+    let oscillator = |rate: &str| {
+        format!(
+            "title = 'x'\n[parameters]\na = '0.5..4'\nb = '0.5..4'\n[state]\nx = '-1..1'\ny = '-1..1'\n\
+             p = '-1..1'\nq = '-1..1'\n[field]\n\"x'\" = 'p'\n\"y'\" = 'q'\n\"p'\" = '-a*x'\n\"q'\" = '{rate}'\n\
+             [[claim]]\nname = 'area'\nintegral = 'x*q - y*p'\nexpect = 'fails'\n"
+        )
+    };
+    let mut wanted = effort(0);
+    wanted.conditions = Some(ConditionTarget::Claim("area".to_string()));
+    let conditions = |rate| {
+        let case = Case::parse(&oscillator(rate), &[]).expect("a case");
+        let report = search(&case, &wanted, &mut |_| {}).expect("it can be searched");
+        report.conditions[0].equations.clone()
+    };
+    assert_eq!(conditions("-b*y"), ["a − b = 0"]);
+    assert_eq!(conditions("-3/2*y"), ["3/2 − a = 0"]);
+    assert_eq!(conditions("-(1+b²)*y"), ["1 − a + b² = 0"]);
+}
+
+#[test]
 fn irrational_values_are_not_excluded() {
     // x y is an integral where a² = a b + b², b = 1 included.
     let golden = "title = 'golden'\n[parameters]\na = '1..2'\n[state]\nx = '1..2'\ny = '1..2'\n[field]\n\

@@ -55,6 +55,20 @@ fn potentials_of_a_lagrangian_are_found() {
 }
 
 #[test]
+fn squares_of_momenta_survive_what_separates() {
+    let free = forced(&particle("(x'² + y'²)/2", "0*x", "x'"));
+    let found = told(&free);
+    let separate = ("x'² + 2*f2(x)", "f1(y) + f2(x) for any functions f1, f2");
+    assert!(found.contains(&separate), "{found:?}");
+    assert!(found.contains(&("x'", "f1(y) for any function f1")), "{found:?}");
+    let area = forced(&particle("(x'² + y'²)/2", "0*x", "x*y' − y*x'"));
+    let polar = |(integral, potential): &(&str, &str)| {
+        integral.starts_with("(x*y' − y*x')² +") && potential.contains("ε1*(1/x²)")
+    };
+    assert!(told(&area).iter().any(polar), "1/x² is (1 + tan²φ)/r²: {:?}", told(&area));
+}
+
+#[test]
 fn potentials_of_hamiltons_equations_are_found() {
     let plane = |function: &str, claims: &str| {
         format!(
