@@ -105,12 +105,13 @@ fn listed(scene: &mut Scene) -> (Tree, Tree) {
     let number = |top: i64| Number { top, bottom: 1, tens: 0 };
     let list = Origin::List(vec![number(0), number(1)]);
     scene.symbols.push(Symbol { name: "a".to_string(), origin: list });
-    (symbol(place), input(scene, "s"))
+    (symbol(place), input(scene, "s", X))
 }
 
-fn input(scene: &mut Scene, name: &str) -> Tree {
+/// Adds an input of the oracle with the range of a state variable.
+fn input(scene: &mut Scene, name: &str, of: usize) -> Tree {
     let place = scene.symbols.len();
-    if let Origin::State(low, high) = wide(2) {
+    if let Origin::State(low, high) = scene.symbols[of].origin {
         scene.symbols.push(Symbol { name: name.to_string(), origin: Origin::Input(low, high) });
     }
     symbol(place)
@@ -119,7 +120,7 @@ fn input(scene: &mut Scene, name: &str) -> Tree {
 /// a x + (1 − a) y = 0 for a = 0 and a = 1.
 fn listed_pair(scene: &mut Scene, stream: &mut Stream) -> Level {
     let (a, s) = listed(scene);
-    let t = input(scene, "t");
+    let t = input(scene, "t", Y);
     let (x, y) = (symbol(X), symbol(Y));
     let other = sub(&whole(1), &a);
     let equation = add(&mul(&a, &x), &mul(&mul(&some(stream), &other), &y));
@@ -130,7 +131,7 @@ fn listed_pair(scene: &mut Scene, stream: &mut Stream) -> Level {
 /// (a − 1) x + y z = 0 for a = 0 and a = 1.
 fn listed_slope(scene: &mut Scene, stream: &mut Stream) -> Level {
     let (a, s) = listed(scene);
-    let t = input(scene, "t");
+    let t = input(scene, "t", Y);
     let (x, y, z) = (symbol(X), symbol(Y), symbol(Z));
     let other = sub(&whole(1), &a);
     let equation = match stream.once_in(2) {

@@ -24,6 +24,8 @@ const NEAREST: i32 = 44;
 /// Largest number of parts, and of zeros on a line.
 const PARTS: usize = 32;
 const ZEROS: usize = 40;
+/// Largest number of places on a line where states begin or end that are looked at closely.
+const ENDS: usize = 6;
 /// Number of points drawn for each state.
 const DRAWS: usize = 40;
 /// Number of halvings.
@@ -88,20 +90,34 @@ struct Line<'l> {
 impl Line<'_> {
     /// Finds the states between all zeros that are seen.
     fn states(&self) -> Vec<Point> {
-        let grid = self.grid();
-        let marks: Vec<Vec<Mark>> = grid.iter().map(|at| self.marks(*at)).collect();
-        let mut zeros = vec![(0.0, 0.0), (1.0, 0.0)];
-        for (ends, seen) in grid.windows(2).zip(marks.windows(2)) {
-            let pairs = seen[0].iter().zip(&seen[1]).enumerate();
-            for (part, (before, _)) in pairs.filter(|(_, (before, after))| before != after) {
-                if zeros.len() < ZEROS {
-                    zeros.push(self.halved(ends[0], ends[1], part, *before));
-                }
-            }
+        let (mut zeros, ends) = self.zeros(&self.grid());
+        // Near the end of what exists another zero may be close.
+        for end in ends.into_iter().take(ENDS) {
+            zeros.extend(self.zeros(&sorted(near(end).collect())).0);
         }
+        zeros.extend([(0.0, 0.0), (1.0, 0.0)]);
         let zeros = sorted(zeros);
         let middles = zeros.windows(2).map(|ends| middle(ends[0], ends[1]));
         middles.map(|at| self.from.at(self.place, at)).collect()
+    }
+
+    /// Finds zeros between positions, and the places where states begin or end.
+    fn zeros(&self, grid: &[Position]) -> (Vec<Position>, Vec<Position>) {
+        let marks: Vec<Vec<Mark>> = grid.iter().map(|at| self.marks(*at)).collect();
+        let (mut zeros, mut ends) = (Vec::new(), Vec::new());
+        for (sides, seen) in grid.windows(2).zip(marks.windows(2)) {
+            let pairs = seen[0].iter().zip(&seen[1]).enumerate();
+            for (part, (before, after)) in pairs.filter(|(_, (before, after))| before != after) {
+                if zeros.len() < ZEROS {
+                    let zero = self.halved(sides[0], sides[1], part, *before);
+                    zeros.push(zero);
+                    if (before.is_none() || after.is_none()) && !ends.contains(&zero) {
+                        ends.push(zero);
+                    }
+                }
+            }
+        }
+        (zeros, ends)
     }
 
     /// Lists positions, close to each other near the ends, the state and 0.
@@ -112,14 +128,7 @@ impl Line<'_> {
         let own = (self.from.cube[self.place], self.from.fine[self.place]);
         let mut all: Vec<Position> =
             (0..=EVENLY).map(|k| (f64::from(k) / f64::from(EVENLY), 0.0)).collect();
-        for anchor in [(0.0, 0.0), (1.0, 0.0), own, (zero, rest)] {
-            all.push(anchor);
-            for power in (2..=NEAREST).step_by(3) {
-                for sign in [-1.0, 1.0] {
-                    all.push(sum(anchor, sign * 10f64.powi(-power)));
-                }
-            }
-        }
+        all.extend([(0.0, 0.0), (1.0, 0.0), own, (zero, rest)].into_iter().flat_map(near));
         sorted(all)
     }
 
@@ -151,6 +160,13 @@ impl Line<'_> {
         }
         b
     }
+}
+
+/// Lists positions close to one.
+fn near(anchor: Position) -> impl Iterator<Item = Position> {
+    let offsets = (2..=NEAREST).step_by(3).map(|power| 10f64.powi(-power));
+    let both = offsets.flat_map(|offset| [-offset, offset]);
+    std::iter::once(anchor).chain(both.map(move |offset| sum(anchor, offset)))
 }
 
 /// Adds two floats without an error, in two parts.
