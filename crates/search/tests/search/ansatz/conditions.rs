@@ -91,7 +91,7 @@ fn parameters_that_are_equal_or_numbers_are_conditions() {
         report.conditions[0].equations.clone()
     };
     assert_eq!(conditions("-b*y"), ["a − b = 0"]);
-    assert_eq!(conditions("-3/2*y"), ["3/2 − a = 0"]);
+    assert_eq!(conditions("-3/2*y"), ["3 − 2*a = 0"]);
     assert_eq!(conditions("-(1+b²)*y"), ["1 − a + b² = 0"]);
 }
 
