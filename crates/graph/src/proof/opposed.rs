@@ -31,7 +31,7 @@ impl Explorer<'_> {
                 tower.is_clean(algebraic, value).then_some((value, *fact))
             })
         };
-        // The facts that were chosen come last.
+        // The signs chosen last and the radicands of the roots that are left come last.
         let facts: Vec<(Expr, SignFact)> = facts().rev().take(MOST_FACTS).collect();
         if facts.len() < 3 || cell.signs().next().is_none() {
             return Ok(None);

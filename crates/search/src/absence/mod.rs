@@ -145,7 +145,7 @@ impl<'a> AbsenceCase<'a> {
     }
 
     fn judge(&self, kind: &Absence) -> Result<AbsenceOutcome, SearchError> {
-        let outcome = self.judge_beside(kind)?;
+        let outcome = self.judge_once(kind)?;
         if !matches!(outcome, AbsenceOutcome::Open(_)) || self.effort.terms.is_empty() {
             return Ok(outcome);
         }
@@ -154,14 +154,14 @@ impl<'a> AbsenceCase<'a> {
         let known = self.known.filtered(|own| Ok(!has_branches(self.case, own)?))?;
         let effort = Effort { terms: Vec::new(), ..self.effort.clone() };
         let fewer = AbsenceCase { known: &known, effort, ..*self };
-        Ok(match fewer.judge_beside(kind)? {
+        Ok(match fewer.judge_once(kind)? {
             excluded @ AbsenceOutcome::Excluded { .. } => excluded,
             _ => outcome,
         })
     }
 
-    /// Judges a claim beside the known integrals.
-    fn judge_beside(&self, kind: &Absence) -> Result<AbsenceOutcome, SearchError> {
+    /// Judges a claim with the known integrals as they are.
+    fn judge_once(&self, kind: &Absence) -> Result<AbsenceOutcome, SearchError> {
         let system = &self.case.model.system;
         if system.has_arbitrary_function() {
             let reason = "a function of the body is arbitrary, and a count needs a given one";
