@@ -116,8 +116,11 @@ pub fn run(plan: &Plan) -> Outcome {
         let cases = fates.iter().filter(|fate| fate.number == 0);
         let total: f64 = cases.map(|fate| fate.seconds).sum();
         let weighing: f64 = fates.iter().map(|fate| fate.weighing).sum();
+        let heaviest = fates.iter().max_by(|a, b| a.weighing.total_cmp(&b.weighing));
+        let (heaviest, longest) = heaviest.map_or((0, 0.0), |fate| (fate.index, fate.weighing));
         outcome.text.push_str(&format!(
-            "\n{} claims, {:.1} s; judged in {total:.1} s, the slowest in {:.1} s (case {}); weighed in {weighing:.1} s\n",
+            "\n{} claims, {:.1} s; judged in {total:.1} s, the slowest in {:.1} s (case {}); weighed in \
+             {weighing:.1} s, the slowest in {longest:.1} s (case {heaviest})\n",
             fates.len(),
             start.elapsed().as_secs_f64(),
             slowest.seconds,

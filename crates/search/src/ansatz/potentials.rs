@@ -173,15 +173,6 @@ impl ForceSearch<'_> {
         format!("{}s", self.word())
     }
 
-    /// Products of two of some integrals of degree 1, squares first: under a potential that separates the
-    /// variables the square of a momentum survives with an added function, and the momentum does not.
-    fn products(linear: &[Formula]) -> Result<Vec<Formula>, FormulaError> {
-        let squares = linear.iter().map(|own| own.raised(2));
-        let pairs = (0..linear.len()).flat_map(|j| (0..j).map(move |i| (i, j)));
-        let products = pairs.map(|(i, j)| &linear[i] * &linear[j]);
-        squares.chain(products).take(PRODUCTS).collect()
-    }
-
     /// Columns of the unknowns, and a basis of the relations between them; `None` without values.
     fn solved(
         &self,
