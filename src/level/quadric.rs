@@ -33,15 +33,9 @@ impl Quadric {
         let mut rows = self.bends.clone();
         let mut signs: Vec<bool> = Vec::new();
         for column in 0..rows.len() {
-            let (above, below) = rows.split_at_mut(column + 1);
-            let pivot = &above[column];
-            let Some(inverse) = pivot[column].recip() else { return false };
-            signs.push(pivot[column].is_negative());
-            for row in below {
-                let factor = &row[column] * &inverse;
-                for (entry, above) in row.iter_mut().zip(pivot).skip(column) {
-                    *entry = &*entry - &(&factor * above);
-                }
+            signs.push(rows[column][column].is_negative());
+            if clear_below(&mut rows, column).is_none() {
+                return false;
             }
         }
         signs.windows(2).all(|pair| pair[0] == pair[1])
@@ -68,17 +62,26 @@ fn determinant_vanishes(mut rows: Vec<Vec<Rational>>) -> bool {
             return true;
         };
         rows.swap(column, found);
-        let (above, below) = rows.split_at_mut(column + 1);
-        let pivot = &above[column];
-        let Some(inverse) = pivot[column].recip() else { return true };
-        for row in below {
-            let factor = &row[column] * &inverse;
-            for (entry, above) in row.iter_mut().zip(pivot).skip(column) {
-                *entry = &*entry - &(&factor * above);
-            }
+        if clear_below(&mut rows, column).is_none() {
+            return true;
         }
     }
     false
+}
+
+/// Subtracts multiples of a row from those below it, so that their entries in its column become 0;
+/// `None` if its own entry there is 0.
+fn clear_below(rows: &mut [Vec<Rational>], column: usize) -> Option<()> {
+    let (above, below) = rows.split_at_mut(column + 1);
+    let pivot = &above[column];
+    let inverse = pivot[column].recip()?;
+    for row in below {
+        let factor = &row[column] * &inverse;
+        for (entry, above) in row.iter_mut().zip(pivot).skip(column) {
+            *entry = &*entry - &(&factor * above);
+        }
+    }
+    Some(())
 }
 
 #[cfg(test)]

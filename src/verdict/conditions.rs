@@ -63,8 +63,8 @@ impl Judging<'_> {
             undecide(
                 status,
                 format!(
-                    "Φ takes {both} to one state, so that the measure of a set is that of several sets \
-                     of states; |ρ(Φ(x)) det DΦ(x)| = |ρ(x)| fails, but it is not needed there"
+                    "Φ takes {both} to one state: |ρ(Φ(x)) det DΦ(x)| = |ρ(x)| fails, but the measure may \
+                     still be invariant, as the measures of several preimages add up"
                 ),
             );
         }

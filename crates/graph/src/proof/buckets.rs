@@ -16,7 +16,7 @@ use super::trial::{self, Certificate, TrialResult};
 
 /// Groups that are proved together.
 pub struct Bucket {
-    /// Places of the non-rational steps that they need.
+    /// Places of the non-rational steps that they need, and of sums whose signs are facts.
     pub special: Vec<usize>,
     /// Values that exist wherever the claim is to hold.
     pub required: Vec<Expr>,

@@ -55,8 +55,8 @@ pub fn with_evident_signs(
     Some(Bucket { special, required, facts: [&bucket.facts[..], &found].concat(), members })
 }
 
-/// Whether a group of steps has a root, whose radicand may be a square.
-pub fn has_root(graph: &Graph, special: &[usize]) -> bool {
+/// Whether some steps are roots or moduli, for which signs of sums may matter.
+pub fn has_roots(graph: &Graph, special: &[usize]) -> bool {
     special.iter().any(|place| match graph.step(*place) {
         Step::Unary(function, _) => matches!(function, UnaryFunction::Sqrt | UnaryFunction::Abs),
         Step::Power(..) => true,

@@ -45,7 +45,8 @@ pub struct Question<'q> {
     pub graph: &'q Graph,
     /// Values that are tested together.
     pub groups: Vec<&'q [Expr]>,
-    /// Places of roots, moduli, signs and functions that the groups need.
+    /// Places of roots, moduli, signs and functions that the groups need, and of sums whose signs are
+    /// facts.
     pub special: &'q [usize],
     /// Values that exist wherever the groups are asked for.
     pub required: &'q [Expr],

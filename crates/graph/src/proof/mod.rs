@@ -89,7 +89,7 @@ use crate::graph::{Expr, Fault, Graph};
 use buckets::{Bucket, buckets, combined, part};
 use cells::{Cell, Leaf};
 use digest::SeedDigest;
-use evident::{has_root, with_evident_signs};
+use evident::{has_roots, with_evident_signs};
 use explore::{Explored, Explorer, Question};
 use lower::Algebraic;
 use relations::RelationSearch;
@@ -203,7 +203,7 @@ impl Prover<'_> {
         let is_open = |(outcome, _): &(GroupOutcome, bool)| {
             !matches!(outcome, GroupOutcome::Zero(_) | GroupOutcome::Void)
         };
-        if !found.iter().any(is_open) || !has_root(question.graph, &bucket.special) {
+        if !found.iter().any(is_open) || !has_roots(question.graph, &bucket.special) {
             return Ok(found);
         }
         let wider = with_evident_signs(question.graph, &asked.concat(), self.extents, bucket);

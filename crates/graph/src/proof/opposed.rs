@@ -25,14 +25,13 @@ impl Explorer<'_> {
         tower: &Tower,
         known: &[(usize, SignFact)],
     ) -> Result<Option<Next>, Fault> {
-        let facts = || {
-            known.iter().filter_map(|(place, fact)| {
-                let value = algebraic.values.get(*place).copied().flatten()?;
-                tower.is_clean(algebraic, value).then_some((value, *fact))
-            })
+        let of_value = |(place, fact): &(usize, SignFact)| {
+            let value = algebraic.values.get(*place).copied().flatten()?;
+            tower.is_clean(algebraic, value).then_some((value, *fact))
         };
         // The signs chosen last and the radicands of the roots that are left come last.
-        let facts: Vec<(Expr, SignFact)> = facts().rev().take(MOST_FACTS).collect();
+        let facts = known.iter().rev().filter_map(of_value).take(MOST_FACTS);
+        let facts: Vec<(Expr, SignFact)> = facts.collect();
         if facts.len() < 3 || cell.signs().next().is_none() {
             return Ok(None);
         }

@@ -49,7 +49,7 @@ impl ProvedIntegrals {
         Ok(Self { formulas, has_energy })
     }
 
-    /// Returns those of which something is true, without the energy where it is not true of it.
+    /// Returns the integrals, the energy among them, that pass a test.
     pub fn filtered(
         &self,
         is_kept: impl Fn(&Formula) -> Result<bool, SearchError>,

@@ -8,12 +8,14 @@
 //! field         the largest set whose rates are linear in the other variables, without a constant
 //! ```
 
+use super::at_random::values_at_random;
 use super::forces::with_potential;
 use crate::streams::SearchStream;
 use crate::terms::recorded;
 use crate::{Effort, SearchError};
 use liouville::case::Case;
-use liouville::graph::{Evaluator, Tape};
+use liouville::graph::{Evaluator, Expr, Tape};
+use liouville::mechanics::calculus::DualPoint;
 use liouville::mechanics::{
     BracketBlock, HamiltonianSystem, Lagrangian, LevelFunction, Model, System, VariableRole,
 };
@@ -116,30 +118,19 @@ pub fn has_casimirs(case: &Case, effort: &Effort) -> Result<bool, SearchError> {
     let changed: Option<Vec<Model>> =
         formulas.into_iter().map(|formula| with_potential(model, formula)).collect();
     let Some(changed) = changed else { return Ok(false) };
-    let (graph, values) = recorded(case, |jet| {
-        let (state, field) = (jet.phase.state(), jet.phase.field());
-        let mut values = Vec::new();
-        for model in &changed {
-            let beside = jet.phase.in_model(model, &state);
-            values.extend(beside.field().iter().zip(field).map(|(with, without)| *with - *without));
-        }
-        values
-    })?;
-    let mut rng =
-        SearchStream::Equations.under(statement_seed(effort.options.seed, &graph, &values));
-    let modulus = rng.prime(&[3, 5], &[2, 3]);
-    let tape = Tape::new(&graph, &values);
-    let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; MULTIPLES]));
-    for _ in 0..TRIALS {
-        let inputs: Vec<[u64; MULTIPLES]> =
-            (0..graph.inputs()).map(|_| std::array::from_fn(|_| rng.element(&modulus))).collect();
-        evaluator.run(&inputs);
-        let values: Vec<u64> = evaluator.outputs().flatten().copied().collect();
-        if !values.contains(&UNDEFINED) {
-            return Ok(values.iter().all(|value| *value == 0));
-        }
-    }
-    Ok(false)
+    let (graph, values) = recorded(case, |jet| added(jet, &changed))?;
+    let found = values_at_random::<MULTIPLES>(&graph, &values, SearchStream::Equations, effort);
+    Ok(found.is_some_and(|(_, values)| values.iter().flatten().all(|value| *value == 0)))
+}
+
+/// Differences between the fields of some models and that of the case at a state, one after the other.
+pub fn added(jet: &DualPoint<'_, Expr>, changed: &[Model]) -> Vec<Expr> {
+    let (state, field) = (jet.phase.state(), jet.phase.field());
+    let of_model = |model: &Model| {
+        let other = jet.phase.in_model(model, &state);
+        other.field().iter().zip(field).map(|(with, without)| *with - *without).collect::<Vec<_>>()
+    };
+    changed.iter().flat_map(of_model).collect()
 }
 
 /// Sets of the first `count` numbers that are allowed, early ones first; `None` if there are too many.

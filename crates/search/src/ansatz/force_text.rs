@@ -4,6 +4,7 @@
 //! with c f for each smooth f: A(∇f) = Σ ∂f/∂hₖ A(∇hₖ) and L_v f = Σ ∂f/∂hₖ L_v hₖ. If a force Q has no
 //! gain, then f Q survives for each function f of the positions.
 
+use super::at_random::values_at_random;
 use super::force_family::{ForceEntry, ForceFamily};
 use super::forces::{free_names, with_constants, with_numbers, with_potential, with_rates};
 use crate::echelon::Echelon;
@@ -12,14 +13,9 @@ use crate::terms::recorded;
 use crate::{Effort, SearchError};
 use liouville::case::Case;
 use liouville::formula::{Formula, FormulaError};
-use liouville::graph::{Evaluator, Expr, Tape};
-use liouville::number::prime::{Prime, UNDEFINED};
+use liouville::graph::Expr;
 use liouville::number::rational::Rational;
-use liouville::proof::statement_seed;
 use liouville::scalar::Scalar;
-
-/// Number of random states that are tried, as roots exist at some only.
-const TRIALS: usize = 64;
 
 /// A force under which an integral survives.
 #[derive(Clone, Debug)]
@@ -309,30 +305,19 @@ fn rank(
             parts.map(|part| jet.phase.scalar(part.as_ref().unwrap_or(&zero))).collect::<Vec<_>>()
         }
     })?;
-    let seed = statement_seed(effort.options.seed, &graph, &values);
-    let mut rng = SearchStream::Gradients.under(seed);
-    let modulus = rng.prime(&[3, 5], &[2, 3]);
-    let tape = Tape::new(&graph, &values);
-    let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; 1]));
     let (width, level) = match family.entry {
         ForceEntry::Potential(_) => (dimension, case.model.level.len()),
         ForceEntry::Rates(_) => (family.ways(), 0),
     };
-    for _ in 0..TRIALS {
-        let inputs: Vec<[u64; 1]> = (0..graph.inputs()).map(|_| [rng.element(&modulus)]).collect();
-        evaluator.run(&inputs);
-        let values: Vec<u64> = evaluator.outputs().map(|value| value[0]).collect();
-        if values.contains(&UNDEFINED) {
-            continue;
-        }
-        let mut echelon = Echelon::new(width, modulus);
-        let mut push = |row: &&[u64]| echelon.push(row.to_vec());
-        let all: Vec<&[u64]> = values.chunks(width).collect();
-        let is_of_positions =
-            |row: &&&[u64]| row.iter().enumerate().all(|(k, x)| *x == 0 || positions.contains(&k));
-        let level = all[..level].iter().filter(is_of_positions).filter(|row| push(row)).count();
-        let others = all[all.len() - rows.len()..].iter().filter(|row| push(row)).count();
-        return Ok(Some(Ranks { all: level + others, level }));
-    }
-    Ok(None)
+    let found = values_at_random::<1>(&graph, &values, SearchStream::Gradients, effort);
+    let Some((modulus, values)) = found else { return Ok(None) };
+    let values = values.concat();
+    let mut echelon = Echelon::new(width, modulus);
+    let mut push = |row: &&[u64]| echelon.push(row.to_vec());
+    let all: Vec<&[u64]> = values.chunks(width).collect();
+    let is_of_positions =
+        |row: &&&[u64]| row.iter().enumerate().all(|(k, x)| *x == 0 || positions.contains(&k));
+    let level = all[..level].iter().filter(is_of_positions).filter(|row| push(row)).count();
+    let others = all[all.len() - rows.len()..].iter().filter(|row| push(row)).count();
+    Ok(Some(Ranks { all: level + others, level }))
 }

@@ -7,8 +7,8 @@
 //! field x' = u         forces b u_j in the rate of u_i and −b u_i in that of u_j, for i < j
 //! ```
 //!
-//! What a term f g adds to the field, for a generator g and a function f of the positions, is
-//! f D(1) + Σ ∂_kf (D(q_k) − q_k D(1)), where D(f) is what f g adds.
+//! The part of the field that a term f g adds, for a generator g and a function f of the positions, is
+//! f D(1) + Σ ∂_kf (D(q_k) − q_k D(1)), where D(f) is the part that f g adds.
 
 use super::factors;
 use super::forces::{with_gyrostat, with_potential};
@@ -54,7 +54,7 @@ struct Generator {
     moved: Vec<Model>,
 }
 
-/// What generators add to the field at a point.
+/// Parts of the field that generators add at a point.
 pub struct Shift {
     unit: Vec<Expr>,
     /// D(q_k) − q_k D(1) for each position.
@@ -261,7 +261,7 @@ impl GyroFamily {
         (0..count).flat_map(|own| self.products(own, 0, self.degree, self.over)).collect()
     }
 
-    /// What each generator adds to the field.
+    /// Part of the field that each generator adds.
     pub fn shifts(&self, jet: &DualPoint<'_, Expr>) -> Vec<Shift> {
         let (state, field) = (jet.phase.state(), jet.phase.field());
         let shift = |model: &Model| -> Vec<Expr> {

@@ -5,6 +5,7 @@
 
 use super::super::ask::{holds, judged_alone};
 use super::super::{Found, SearchError, SearchReport};
+use super::at_random::values_at_random;
 use super::forces::with_constants;
 use super::gyro_second::{GyroDirection, Survivors};
 use super::gyrostats::GyroSearch;
@@ -13,12 +14,6 @@ use crate::streams::SearchStream;
 use crate::terms::recorded;
 use liouville::claim::Claim;
 use liouville::formula::Formula;
-use liouville::graph::{Evaluator, Tape};
-use liouville::number::prime::{Prime, UNDEFINED};
-use liouville::proof::statement_seed;
-
-/// Number of random states that are tried, as roots exist at some only.
-const TRIALS: usize = 64;
 
 impl Survivors<'_> {
     /// Reports the forces that change nothing with arbitrary functions, if they are proved; returns
@@ -75,24 +70,11 @@ impl Survivors<'_> {
             };
             parts.map(value).collect::<Vec<_>>()
         })?;
-        let seed = statement_seed(effort.options.seed, &graph, &values);
-        let mut rng = SearchStream::Gradients.under(seed);
-        let modulus = rng.prime(&[3, 5], &[2, 3]);
-        let tape = Tape::new(&graph, &values);
-        let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; 1]));
-        for _ in 0..TRIALS {
-            let inputs: Vec<[u64; 1]> =
-                (0..graph.inputs()).map(|_| [rng.element(&modulus)]).collect();
-            evaluator.run(&inputs);
-            let values: Vec<u64> = evaluator.outputs().map(|value| value[0]).collect();
-            if values.contains(&UNDEFINED) {
-                continue;
-            }
-            let mut echelon = Echelon::new(family.count(), modulus);
-            let rows = directions.iter().zip(values.chunks(family.count()));
-            let heads = rows.filter(|(_, row)| echelon.push(row.to_vec()));
-            return Ok(heads.map(|(own, _)| own).collect());
-        }
-        Ok(Vec::new())
+        let found = values_at_random::<1>(&graph, &values, SearchStream::Gradients, effort);
+        let Some((modulus, values)) = found else { return Ok(Vec::new()) };
+        let values = values.concat();
+        let mut echelon = Echelon::new(family.count(), modulus);
+        let rows = directions.iter().zip(values.chunks(family.count()));
+        Ok(rows.filter(|(_, row)| echelon.push(row.to_vec())).map(|(own, _)| own).collect())
     }
 }

@@ -27,7 +27,7 @@ use liouville::scalar::Scalar;
 /// A direction of the rotor or term, with the terms added to the integral.
 #[derive(Clone, Debug)]
 pub struct GyroDirection {
-    /// What enters the equations.
+    /// Formulas that enter the equations.
     pub slots: Slots,
     /// Coefficients of the generators; none of a combination of directions.
     pub parts: Vec<Part>,

@@ -7,7 +7,7 @@
 //! field         variables with rates x' = u, and these u
 //! ```
 
-use super::force_split::{NO_CASIMIRS, commuting, has_casimirs, is_canonical, positions};
+use super::force_split::{NO_CASIMIRS, added, commuting, has_casimirs, is_canonical, positions};
 use super::forces::with_potential;
 use crate::streams::SearchStream;
 use crate::terms::{read, recorded};
@@ -137,15 +137,7 @@ fn are_closed(case: &Case, positions: &[usize], effort: &Effort) -> Result<bool,
     let Some(changed) = changed.filter(|own| own.len() == positions.len()) else {
         return Ok(false);
     };
-    let (graph, values) = recorded(case, |jet| {
-        let (state, field) = (jet.phase.state(), jet.phase.field());
-        let mut values = Vec::new();
-        for model in &changed {
-            let beside = jet.phase.in_model(model, &state);
-            values.extend(beside.field().iter().zip(field).map(|(with, without)| *with - *without));
-        }
-        values
-    })?;
+    let (graph, values) = recorded(case, |jet| added(jet, &changed))?;
     let start = model.free_components();
     let is_shared = |input: usize| input < start || positions.contains(&(input - start));
     let found = compared((&graph, &values), is_shared, effort);

@@ -18,6 +18,7 @@
 //! [`poisson`] starts from a Hamiltonian: then the entries of a bracket enter linearly, and so do the
 //! exponents of functions by which it is multiplied.
 
+mod at_random;
 mod bracket_absence;
 mod bracket_family;
 mod bracket_system;

@@ -349,11 +349,7 @@ fn along_orbits(
     }
     let counted = report.orbits.last().map_or(0, |own| own.integrals);
     if setting.has_lists() && counted > found(setting.case, setting.effort, report)?.len() {
-        report.remark(
-            "an integral is written only if one formula holds for all listed values of the parameters: \
-             give one value of each list, as with --set a=1"
-                .to_string(),
-        );
+        report.remark(setting::OF_LISTS.to_string());
     }
     match outcome {
         Err(error) if error.is_of_count() => {

@@ -25,6 +25,15 @@ fn searched(path: &str, effort: &Effort) -> SearchReport {
     search(&case, effort, &mut |_| {}).expect("it can be searched")
 }
 
+/// Integrals with the potentials, forces or terms that they survive; all are proved.
+fn told(report: &SearchReport) -> Vec<(&str, &str)> {
+    let own = report.found.iter().filter(|found| !found.with.is_empty());
+    let own = own.filter(|found| found.kind == "integral");
+    own.inspect(|found| assert_eq!(found.verdict, Verdict::Proved, "{found:?}"))
+        .map(|found| (found.formula.as_str(), found.with[0].1.as_str()))
+        .collect()
+}
+
 fn case(text: &str) -> Case {
     Case::parse(text, &[]).expect("a case")
 }

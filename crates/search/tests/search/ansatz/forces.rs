@@ -5,21 +5,12 @@ use liouville::claim::Claim;
 use liouville::verdict::{Options, Verdict, judge};
 use liouville_search::{SearchReport, search};
 
-use super::{case, effort};
+use super::{case, effort, told};
 
 fn forced(text: &str) -> SearchReport {
     let mut wanted = effort(2);
     wanted.ansatz.potentials = true;
     search(&case(text), &wanted, &mut |_| {}).expect("it can be searched")
-}
-
-/// Potentials or forces, with the integrals that survive them; all are proved.
-fn told(report: &SearchReport) -> Vec<(&str, &str)> {
-    let own = report.found.iter().filter(|found| !found.with.is_empty());
-    let own = own.filter(|found| found.kind == "integral");
-    own.inspect(|found| assert_eq!(found.verdict, Verdict::Proved, "{found:?}"))
-        .map(|found| (found.formula.as_str(), found.with[0].1.as_str()))
-        .collect()
 }
 
 /// Dimension of the space of potentials or forces by the theorem on an integral, and how many are told.

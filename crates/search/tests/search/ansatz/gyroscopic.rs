@@ -4,21 +4,12 @@ use liouville::claim::Claim;
 use liouville::verdict::{Options, Verdict};
 use liouville_search::{SearchReport, search};
 
-use super::{case, effort, searched};
+use super::{case, effort, searched, told};
 
 fn turned(text: &str) -> SearchReport {
     let mut wanted = effort(2);
     wanted.ansatz.gyrostats = true;
     search(&case(text), &wanted, &mut |_| {}).expect("it can be searched")
-}
-
-/// Integrals with the terms that they survive; all are proved.
-fn told(report: &SearchReport) -> Vec<(&str, &str)> {
-    let own = report.found.iter().filter(|found| !found.with.is_empty());
-    let own = own.filter(|found| found.kind == "integral");
-    own.inspect(|found| assert_eq!(found.verdict, Verdict::Proved, "{found:?}"))
-        .map(|found| (found.formula.as_str(), found.with[0].1.as_str()))
-        .collect()
 }
 
 /// Number of directions by the theorem on an integral, and how many are told.
