@@ -5,8 +5,8 @@ use std::ops::Range;
 use toml::de::DeValue;
 
 use super::complex;
+use super::equations::sides;
 use super::error::{Mistake, Problem};
-use super::field::sides;
 use super::formulas::formula;
 use super::section::{CaseTable, SpannedStr};
 use crate::claim::{ComplexFormula, Reader};

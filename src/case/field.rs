@@ -1,13 +1,10 @@
-//! The tables `[field]` and `[level]`: rates, and the equations that the motion preserves.
+//! The table `[field]`: the rates of the variables.
 
 use super::error::{Mistake, Problem};
 use super::family::{Key, Rates, Unreadable};
-use super::formulas::formula;
-use super::section::{CaseTable, SpannedStr};
+use super::section::CaseTable;
 use crate::formula::{Formula, Type, excerpt, look_alike, skeleton};
-use crate::mechanics::{
-    Dependence, LevelEquation, LevelFunction, RootEquation, TIME, Variable, Vocabulary,
-};
+use crate::mechanics::{Dependence, TIME, Variable, Vocabulary};
 
 /// Reads the formulas of each variable whose rate is given, under its name with or without a prime.
 pub fn given_rates(
@@ -148,98 +145,4 @@ fn all_of(
 /// Rate of time.
 fn one(vocabulary: &Vocabulary) -> Result<Formula, Mistake> {
     Formula::parse("1", vocabulary).map_err(|error| Mistake::whole(Problem::Formula(error)))
-}
-
-/// Reads `equations = ["(γ,γ) = 1", …]`; `None` if one is wrong.
-pub fn equations(section: &CaseTable<'_>, vocabulary: &Vocabulary) -> Option<Vec<LevelEquation>> {
-    let read = equations_in(section, "equations", vocabulary, Dependence::Phase)?.into_iter();
-    let equation = |(text, function): (String, Formula)| {
-        let sides = both_sides(&text, vocabulary);
-        level_equation(text, function, sides)
-    };
-    Some(read.map(equation).collect())
-}
-
-/// Reads the two sides of an equation, each as a formula.
-pub fn both_sides(text: &str, vocabulary: &Vocabulary) -> Option<(Formula, Formula)> {
-    let (left, right, _) = sides(text)?;
-    let read = |side| Formula::parse(side, vocabulary).ok();
-    Some((read(left)?, read(right)?))
-}
-
-/// Builds an equation of the level from its sides, of which one may be a root.
-pub fn level_equation(
-    text: String,
-    function: Formula,
-    sides: Option<(Formula, Formula)>,
-) -> LevelEquation {
-    let root = sides.and_then(|(left, right)| {
-        let ((radicand, is_modulus), other_side) = match (left.radicand(), right.radicand()) {
-            (Some(root), _) => (root, right),
-            (None, Some(root)) => (root, left),
-            (None, None) => return None,
-        };
-        Some(RootEquation { radicand, is_modulus, other_side })
-    });
-    LevelEquation { text, function: LevelFunction::Formula(function), root }
-}
-
-/// Reads a list of equations as texts and differences of both sides, which may depend on no more
-/// than `reach`; `None` if one is wrong.
-pub fn equations_in(
-    section: &CaseTable<'_>,
-    key: &'static str,
-    vocabulary: &Vocabulary,
-    reach: Dependence,
-) -> Option<Vec<(String, Formula)>> {
-    let texts = section.keep(section.texts(key))?;
-    let read: Vec<Option<(String, Formula)>> =
-        texts.iter().map(|text| section.keep(equation(text, key, vocabulary, reach))).collect();
-    read.into_iter().collect()
-}
-
-/// Both sides of an equation, with the place where the right one begins.
-pub fn sides(text: &str) -> Option<(&str, &str, usize)> {
-    let mut depth = 0;
-    for (place, letter) in text.char_indices() {
-        match letter {
-            '(' | '[' => depth += 1,
-            ')' | ']' => depth -= 1,
-            // inside brackets it is a condition on indices
-            '=' if depth == 0 => return Some((&text[..place], &text[place + 1..], place + 1)),
-            _ => {}
-        }
-    }
-    None
-}
-
-fn equation(
-    text: &SpannedStr,
-    key: &str,
-    vocabulary: &Vocabulary,
-    reach: Dependence,
-) -> Result<(String, Formula), Mistake> {
-    let Some((left, right, second)) = sides(&text.value) else {
-        let message = format!("each of `{key}` has two sides");
-        let remedy = match key {
-            "constraints" => "write \"x'*sin(φ) − y'*cos(φ) = 0\"".to_string(),
-            _ => format!("write \"{} = 1\", or another value", excerpt(text.value.trim())),
-        };
-        return Err(Mistake::at(text.span.clone(), Problem::Other { message, remedy }));
-    };
-    for (side, start) in [(left, 0), (right, second)] {
-        Formula::parse(side, vocabulary).map_err(|error| {
-            let inner = error.span();
-            let place = text.locate(start + inner.start..start + inner.end);
-            Mistake::at(place, Problem::Formula(error))
-        })?;
-    }
-    let difference = match right.trim() {
-        "0" => left.trim().to_string(),
-        _ => format!("({left}) − ({right})"),
-    };
-    let difference = SpannedStr::made(difference, text.span.clone());
-    let scalar = Some(Type::Scalar);
-    let function = formula(&difference, vocabulary, "each side", scalar, reach)?;
-    Ok((text.value.trim().to_string(), function))
 }

@@ -1,5 +1,6 @@
 //! The table `[lagrangian]`: kinetic energy, potential, constraints.
 
+use super::equations;
 use super::error::{Mistake, Problem};
 use super::field::{self, GivenRate};
 use super::formulas::{formula, inside};
@@ -31,7 +32,8 @@ pub fn read(
     let read =
         |text: Option<SpannedStr>| text.map(|text| scalar(&text, "the potential")).transpose();
     let potential = section.keep(potential.and_then(read));
-    let level = field::equations_in(section, "constraints", vocabulary, Dependence::Configuration);
+    let level =
+        equations::equations_in(section, "constraints", vocabulary, Dependence::Configuration);
     let variables = &reading.state.variables;
     let names = |key| section.keep(named(section, key, variables));
     let (quasi, multipliers) = (names("quasi-velocities"), names("multipliers"));
@@ -54,8 +56,8 @@ pub fn read(
     reading.level = level
         .into_iter()
         .map(|(text, function)| {
-            let sides = field::both_sides(&text, &reading.vocabulary);
-            field::level_equation(text, function, sides)
+            let sides = equations::both_sides(&text, &reading.vocabulary);
+            equations::level_equation(text, function, sides)
         })
         .collect();
     Some(system)

@@ -13,6 +13,7 @@ mod claim_error;
 mod claims;
 mod complex;
 mod entries;
+mod equations;
 mod error;
 mod family;
 mod feedback;

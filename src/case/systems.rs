@@ -4,6 +4,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::arbitrary::Arbitrary;
 use super::build::Assumed;
+use super::equations;
 use super::error::{Mistake, Problem};
 use super::field;
 use super::mistakes::Mistakes;
@@ -174,7 +175,7 @@ impl<'r, 's> Reading<'r, 's> {
     /// Reads the equations of `[level]`; `None` if one is wrong.
     pub fn read_level(&self) -> Option<Vec<LevelEquation>> {
         match self.root.table("level") {
-            Some(section) => field::equations(&section, &self.vocabulary),
+            Some(section) => equations::level_equations(&section, &self.vocabulary),
             None => Some(Vec::new()),
         }
     }

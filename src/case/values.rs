@@ -1,7 +1,7 @@
 //! Claims, names and variables that a case takes as values, with the checks of the file's reader.
 
 use super::claim_error::ClaimError;
-use super::field::both_sides;
+use super::equations::both_sides;
 use super::{Case, PlacedClaim, TABLE_ROWS};
 use crate::claim::{
     Claim, ClaimEntry, ClaimKind, ComplexFormula, LevelSubset, Locus, Reader, STATEMENTS, jets,

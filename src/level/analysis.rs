@@ -14,7 +14,7 @@ use crate::graph::Expr;
 use crate::mechanics::{Model, ParameterOrigin, components};
 
 /// Largest number of equations of a level.
-const MOST_EQUATIONS: usize = 16;
+const MOST_EQUATIONS: usize = 64;
 /// Largest number of equations that are solved together.
 const MOST_TOGETHER: usize = 6;
 /// Largest number of choices of unknowns examined in one block.

@@ -5,7 +5,7 @@ use num_traits::{One, Zero};
 
 use super::equation::{Equation, PartialPoint, determinant};
 use crate::graph::Expr;
-use crate::mechanics::elimination::gram_determinant;
+use crate::mechanics::elimination::{gram, gram_determinant};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
@@ -68,6 +68,8 @@ pub struct Pivot {
     /// Gram determinant of the equations' slopes along all unknowns that the divisor does not
     /// depend on.
     pub slope: Expr,
+    /// Gram matrix of these slopes.
+    pub gram: Vec<Vec<Expr>>,
     /// Minors of these slopes, if there are few: all of them vanish where `slope` does.
     pub minors: Vec<Expr>,
     /// Sum of squares of the divisor and of the terms that remain where it vanishes.
@@ -114,12 +116,12 @@ impl SolutionStep {
                 let equations = self.equations();
                 let mut rows: Vec<Vec<Expr>> =
                     equations.iter().map(|equation| point.slopes(*equation, all)).collect();
-                let slope = gram_determinant(&rows);
+                let (slope, gram) = (gram_determinant(&rows), gram(&rows));
                 if *is_of_degree_2 {
                     let column = along_itself(point, linear, *quadratic, all);
                     rows.iter_mut().zip(column).for_each(|(row, value)| row.push(value));
                 }
-                Pivot { slope, minors: minors(&rows), ..pivot }
+                Pivot { slope, gram, minors: minors(&rows), ..pivot }
             }
             _ => pivot,
         })
@@ -142,6 +144,7 @@ impl SolutionStep {
                     equations: self.equations().iter().map(|equation| equation.index).collect(),
                     divisor,
                     slope: whole,
+                    gram: Vec::new(),
                     minors: Vec::new(),
                     whole,
                     entries: Vec::new(),
@@ -286,7 +289,7 @@ fn linear(
     // Components that could be solved for as well count as unknown for the pivot.
     let kept: Vec<Expr> = all.iter().map(|component| point.state[*component]).collect();
     let (mut rows, rest) = system(point, equations, all);
-    let (slope, minors) = (gram_determinant(&rows), minors(&rows));
+    let (slope, gram, minors) = (gram_determinant(&rows), gram(&rows), minors(&rows));
     rows.iter_mut().zip(&rest).for_each(|(row, m)| row.push(*m));
     let whole = gram_determinant(&rows);
     let entries = if let [row] = &rows[..] { row.clone() } else { Vec::new() };
@@ -301,6 +304,7 @@ fn linear(
         equations: equations.iter().map(|equation| equation.index).collect(),
         divisor: determinant(&rows),
         slope,
+        gram,
         minors,
         whole,
         entries,

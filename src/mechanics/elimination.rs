@@ -108,8 +108,9 @@ pub fn trace_of_quotient<T: Scalar>(a: &[Vec<T>], b: &[Vec<T>]) -> T {
     (0..a.len()).map(solved).sum()
 }
 
+/// Computes the inner products of some vectors.
 #[inline(never)]
-fn gram<T: Scalar>(vectors: &[Vec<T>]) -> Vec<Vec<T>> {
+pub fn gram<T: Scalar>(vectors: &[Vec<T>]) -> Vec<Vec<T>> {
     vectors.iter().map(|a| vectors.iter().map(|b| dot(a, b)).collect()).collect()
 }
 

@@ -8,17 +8,15 @@ use std::cell::LazyCell;
 
 use super::field::combinations;
 use super::judging::Judging;
-use super::sampler::{Sampler, extent};
-use crate::case::Case;
+use super::pivot_space::PivotSpace;
+use super::sampler::Sampler;
 use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, record};
-use crate::level::{Pivot, Solution};
-use crate::mechanics::{Draw, Phase};
+use crate::level::Solution;
+use crate::mechanics::Draw;
 use crate::number::Enclosing;
 use crate::number::mixed::{Mixed, Number};
 use crate::number::rational::Rational;
-use crate::proof::{
-    Extent, Group, Prover, are_coprime, are_polynomials, is_nowhere_zero, is_single_valued,
-};
+use crate::proof::{Group, Prover, are_coprime, are_polynomials, is_single_valued};
 use crate::scalar::Scalar;
 
 /// Number of states at which a divisor is tried.
@@ -100,7 +98,7 @@ impl Judging<'_> {
                             || self.is_number(sampler, pivot.whole)?
                             || (is_complete && is_coprime()?)))
                     || *is_strong
-                    || (is_thin && space.is_definite(own));
+                    || (is_thin && space.is_definite(own, self.options.seed)?);
                 if !is_whole {
                     open.push(index);
                 }
@@ -228,72 +226,6 @@ impl Judging<'_> {
         let prover = Prover { sources: &sources, extents: &extents, seed: self.options.seed };
         let outcomes = prover.prove(&graph, &[Group::of(vec![difference])])?;
         Ok(outcomes.iter().all(|outcome| outcome.is_zero()))
-    }
-}
-
-/// The pivots as functions of the coordinates of phase space.
-///
-/// Values at computed states do not suffice: these may approach a point of the level without
-/// reaching it, as a stereographic projection approaches its pole.
-struct PivotSpace {
-    graph: Graph,
-    pivots: Vec<Pivot>,
-    /// Level functions and their negatives, neither of which is negative on the level.
-    level: Vec<Expr>,
-    extents: Vec<Extent>,
-}
-
-impl PivotSpace {
-    fn of(case: &Case, sampler: &Sampler, solution: &Solution) -> Result<Self, Fault> {
-        let (model, first) = (&case.model, sampler.parameter_draws());
-        let (graph, (pivots, level)) = record(first + model.dimension(), |inputs| {
-            let (parameters, state) = model.make_parameters(inputs);
-            let phase = Phase::new(model, &parameters, state);
-            let equations = model.level.iter().zip(sampler.kept()).filter(|(_, kept)| **kept);
-            let level = equations.flat_map(|(equation, _)| {
-                let value = phase.level_function(&equation.function);
-                [value, -value]
-            });
-            let level: Vec<Expr> = level.collect();
-            (solution.pivots(model, &parameters, state), level)
-        })?;
-        let mut extents = sampler.extents();
-        extents.truncate(first);
-        extents.extend(case.free_draws.iter().map(extent));
-        // Listed values lie between the smallest and the largest.
-        for (extent, draw) in extents.iter_mut().zip(sampler.recipes()).take(first) {
-            if let Draw::OneOf(values) = draw
-                && let (Some(least), Some(most)) = (values.iter().min(), values.iter().max())
-            {
-                *extent = Extent::between(least, most);
-            }
-        }
-        Ok(Self { graph, pivots, level, extents })
-    }
-
-    /// Whether a pivot is known to vanish at no real point of the level.
-    fn is_definite(&self, pivot: &Pivot) -> bool {
-        let slopes = [&pivot.minors[..], &[pivot.slope]].concat();
-        self.have_no_zero(&slopes) || self.have_no_zero(&[pivot.whole])
-    }
-
-    /// Whether values are known to have no common zero at any real point of the level.
-    fn have_no_zero(&self, values: &[Expr]) -> bool {
-        // Equations among the dependencies of the values first.
-        let inputs: Vec<usize> = values.iter().flat_map(|x| self.inputs_of(*x)).collect();
-        let is_near = |x: &&Expr| self.inputs_of(**x).iter().all(|k| inputs.contains(k));
-        let near: Vec<Expr> = self.level.iter().filter(is_near).copied().collect();
-        let have_none = |level: &[Expr]| is_nowhere_zero(&self.graph, &self.extents, level, values);
-        have_none(&near) || (near.len() < self.level.len() && have_none(&self.level))
-    }
-
-    fn inputs_of(&self, value: Expr) -> Vec<usize> {
-        let reached = self.graph.reached([value]);
-        let inputs = self.graph.steps().zip(reached).filter_map(|(step, reached)| match step {
-            Step::Input(input) if reached => Some(input),
-            _ => None,
-        });
-        inputs.collect()
     }
 }
 

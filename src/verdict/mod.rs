@@ -29,6 +29,7 @@ mod parts;
 mod pass;
 mod physics;
 mod pieces;
+mod pivot_space;
 mod point;
 mod preimages;
 mod recorded;

@@ -1,7 +1,7 @@
 //! Declaration of names, level equations and parts of a body.
 
 use super::super::ClaimError;
-use super::super::field::level_equation;
+use super::super::equations::{entries, level_equation};
 use super::super::parameters::{NO_NAME, origin_of};
 use super::super::shapes::{GivenValue, list, state_draws};
 use super::super::value::{FormulaSource, ValueSpec};
@@ -9,6 +9,9 @@ use super::super::values::stranger;
 use super::{BodyPart, Build, ModelBuilder};
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{Dependence, Meaning, Parameter, ParameterOrigin};
+
+/// Remedy where the sides of an equation are of different types.
+const SIDES: &str = "compare scalars, or vectors or matrices of one size";
 
 impl ModelBuilder {
     /// Carries out a step for a canonical name, unless an earlier one failed.
@@ -104,17 +107,23 @@ impl ModelBuilder {
             let message = "the level set of this system is fixed";
             return Err(ClaimError::new("level", message, "leave the equation out"));
         }
-        let scalar = Some(Type::Scalar);
-        let left = self.read("the left side", left, scalar, Dependence::Phase)?;
-        let right = self.read("the right side", right, scalar, Dependence::Phase)?;
+        let left = self.read("the left side", left, None, Dependence::Phase)?;
+        let right = self.read("the right side", right, None, Dependence::Phase)?;
         let is_zero = right.constant().is_some_and(|value| value.is_zero());
         let function = match is_zero {
             true => left.clone(),
             false => (left.bracketed() - right.bracketed())
-                .map_err(|error| ClaimError::new("level", error.to_string(), "compare scalars"))?,
+                .map_err(|error| ClaimError::new("level", error.to_string(), SIDES))?,
         };
         let text = format!("{left} = {right}");
-        self.level.push(level_equation(text, function, Some((left, right))));
+        if function.value_type() == Type::Scalar {
+            self.level.push(level_equation(text, function, Some((left, right))));
+            return Ok(());
+        }
+        let entries = entries(&text, function, &self.vocabulary)
+            .map_err(|error| ClaimError::new("level", error.to_string(), SIDES))?;
+        let each = entries.into_iter().map(|(text, entry)| level_equation(text, entry, None));
+        self.level.extend(each);
         Ok(())
     }
 

@@ -30,6 +30,7 @@ mod cells;
 mod characters;
 mod choices;
 mod classes;
+mod combination;
 mod coprime;
 mod digest;
 mod division;
@@ -67,6 +68,7 @@ mod trial;
 mod tests;
 
 pub use bounds::InputDistribution;
+pub use combination::combinations;
 pub use coprime::{are_coprime, are_polynomials, is_single_valued};
 pub use digest::statement_seed;
 pub use domain::{KnownSign, is_nowhere_zero, narrowed, point, sign};
