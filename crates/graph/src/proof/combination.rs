@@ -52,7 +52,10 @@ fn guessed(
     seed: u64,
 ) -> Option<Vec<Vec<Rational>>> {
     let all = [basis, values].concat();
-    let mut rng = ProofRng::of(SeedDigest::of(seed, graph, &[all.clone()]), ProofStream::Relations);
+    let mut rng = ProofRng::of(
+        SeedDigest::of(seed, graph, std::slice::from_ref(&all)),
+        ProofStream::Relations,
+    );
     let modulus = rng.prime(&[], &[]);
     let tape = Tape::new(graph, &all);
     let mut evaluator = Evaluator::new(&tape, Prime::new([modulus]));
