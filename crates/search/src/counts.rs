@@ -4,18 +4,23 @@ use std::ops::RangeInclusive;
 
 use serde::Serialize;
 
+use super::ansatz::monomials::AnsatzVariables;
 use super::budget::STEPS;
 use super::jets::{DimensionCount, MotionAtPoint, VelocityPolynomials};
 use super::local::Local;
 use super::products::Generators;
 use super::{Effort, Excluded, SearchError, SearchReport};
 use liouville::case::Case;
-use liouville::formula::Formula;
 use liouville::mechanics::Draw;
 use liouville::number::rational::Rational;
 
 /// Largest number of combinations of listed values that are counted one by one.
 const MOST_LISTED: usize = 64;
+
+/// Beginning of the name of what a count excludes.
+const OF_COUNTS: &str = "polynomials in the velocities of degree up to";
+/// Beginning of the remark on integrals that are counted, and not found.
+const MORE: &str = "more integrals of degree";
 
 /// Number of integrals of one degree.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -271,7 +276,8 @@ fn binomial(n: u32, k: u32) -> u64 {
     (1..=u64::from(k)).fold(1, |product, i| product * (u64::from(n - k) + i) / i)
 }
 
-/// States the theorems of absence that follow from the counts and the known integrals.
+/// States the theorem of absence that follows from the counts and the integrals known so far, in
+/// place of an earlier one.
 pub fn conclude(
     case: &Case,
     effort: &Effort,
@@ -284,6 +290,7 @@ pub fn conclude(
     for count in report.counts.iter_mut().filter(|count| !count.free) {
         count.known = all.products(count.degree, count.mixed);
     }
+    note_missing(case, effort, report);
     let free_only = report.counts.iter().all(|count| count.free);
     let complete = |count: &&CountReport| count.dimension == count.known;
     let relevant = report.counts.iter().filter(|count| count.free == free_only);
@@ -296,7 +303,8 @@ pub fn conclude(
         (false, true) => " Potential, gyrostat and moments are those of the case.",
         (false, false) => "",
     };
-    let names: Vec<&str> = all.formulas().map(Formula::text).collect();
+    let generators = all.each().filter(|(_, own)| *own <= degree);
+    let names: Vec<&str> = generators.map(|(formula, _)| formula.text()).collect();
     let what = match names.as_slice() {
         [] => format!(
             "there is no integral polynomial in the velocities of degree at most {degree}, constants aside."
@@ -309,16 +317,34 @@ pub fn conclude(
             several.join(" and ")
         ),
     };
-    report.excluded.push(Excluded {
-        ansatz: format!(
-            "polynomials in the velocities of degree up to {degree}, with any smooth coefficients in the positions"
-        ),
+    let stated = Excluded {
+        ansatz: format!("{OF_COUNTS} {degree}, with any smooth coefficients in the positions"),
         dimension: last.dimension,
         known: last.known,
         error_log2: None,
         theorem: format!(
             "For generic values of the free parameters, and the given values of the fixed ones, {what}{forces}"
         ),
-    });
+    };
+    match report.excluded.iter_mut().find(|own| own.ansatz.starts_with(OF_COUNTS)) {
+        Some(earlier) => *earlier = stated,
+        None => report.excluded.push(stated),
+    }
     Ok(())
+}
+
+/// Tells the first degree at which more integrals are counted than known, in place of an earlier one,
+/// where an ansatz may find them that was not asked for.
+fn note_missing(case: &Case, effort: &Effort, report: &mut SearchReport) {
+    report.remarks.retain(|remark| !remark.starts_with(MORE));
+    if effort.ansatz.wanted || AnsatzVariables::of(case).is_none() {
+        return;
+    }
+    let counts = report.counts.iter().filter(|count| !count.free);
+    let missing = counts.filter(|count| count.dimension > count.known).map(|count| count.degree);
+    if let Some(degree) = missing.min() {
+        report.remark(format!(
+            "{MORE} {degree} are counted than known: --ansatz looks for them among polynomials"
+        ));
+    }
 }

@@ -291,9 +291,13 @@ pub fn search(
     }
     branches::withdraw(case, effort, &mut report)?;
     // Theorems on orbits hold for both signs of each root, and are about fields without moduli.
+    let known = report.functions("integral").count();
     report.stage("relations along an orbit", effort, |report| {
         orbit::search(case, effort, effort.halt.is_timed(), report, progress)
     })?;
+    if report.functions("integral").count() > known {
+        counts::conclude(case, effort, &mut report)?;
+    }
     report.stage("forces that integrals survive", effort, |report| {
         ansatz::forces(case, effort, report, progress)
     })?;

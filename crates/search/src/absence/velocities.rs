@@ -4,7 +4,7 @@ use super::super::counts::{self, CountReport, Degrees};
 use super::super::local::Local;
 use super::super::products::degree;
 use super::super::{
-    Effort, Found, SearchError, SearchReport, ansatz, densities, integrals, multipliers,
+    Effort, Found, SearchError, SearchReport, ansatz, densities, integrals, multipliers, orbit,
 };
 use super::{AbsenceCase, AbsenceOutcome, Counted, claimed_densities, generated};
 use liouville::verdict::Verdict;
@@ -95,17 +95,21 @@ fn no_integral(asked: &AbsenceCase<'_>, most: u32) -> Result<AbsenceOutcome, Sea
             ),
         });
     }
-    let mut found = |run: &mut dyn FnMut(&mut SearchReport) -> Result<(), SearchError>| {
-        run(&mut report)?;
-        witness(asked, most, &report)
-    };
-    let exhibit = match found(&mut |report| densities::densities(case, effort, report))? {
-        Some(found) => Some(found),
-        None => match found(&mut |report| integrals::integrals(case, effort, report))? {
-            Some(found) => Some(found),
-            None => found(&mut |report| ansatz::search(case, effort, report, &mut |_| {}))?,
-        },
-    };
+    type Part<'p> = &'p mut dyn FnMut(&mut SearchReport) -> Result<(), SearchError>;
+    let parts: [Part<'_>; 4] = [
+        &mut |report| densities::densities(case, effort, report),
+        &mut |report| integrals::integrals(case, effort, report),
+        &mut |report| orbit::search(case, effort, false, report, &mut |_| {}),
+        &mut |report| ansatz::search(case, effort, report, &mut |_| {}),
+    ];
+    let mut exhibit = None;
+    for part in parts {
+        part(&mut report)?;
+        exhibit = witness(asked, most, &report)?;
+        if exhibit.is_some() {
+            break;
+        }
+    }
     Ok(exhibit.map(AbsenceOutcome::Exhibited).unwrap_or_else(|| {
         AbsenceOutcome::Open(format!(
             "at most {dimension} independent integrals exist, constants included; {} are known, and no \

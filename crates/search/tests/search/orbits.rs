@@ -2,6 +2,7 @@
 //! densities, and theorems that never exclude what was planted.
 
 mod benchmark;
+mod counts;
 mod factors;
 mod functions;
 mod maps;

@@ -1,0 +1,43 @@
+//! Counts of integrals polynomial in the velocities, with those that are found along orbits.
+
+use liouville_search::Effort;
+
+use super::searched;
+
+fn lagrangian(potential: &str) -> String {
+    format!(
+        "title = 'x'\nsystem = 'nonholonomic'\n[state]\nx = '0.5..2'\ny = '0.5..2'\n\"x'\" = '-1..1'\n\
+         \"y'\" = '-1..1'\n[lagrangian]\nkinetic = \"(x'² + y'²)/2\"\npotential = '{potential}'\n"
+    )
+}
+
+#[test]
+fn a_count_is_explained_by_what_an_orbit_shows() {
+    // The quartic integral of the third integrable case of Hénon and Heiles.
+    let potential = "(x² + 16*y²)/2 + x²*y + 16/3*y³";
+    let report = searched(&lagrangian(potential), &Effort::default());
+    let last = report.counts.last().expect("counts");
+    assert_eq!((last.degree, last.dimension, last.known), (4, 4, 4), "1, E, E², F");
+    let theorem = report.excluded.iter().find(|own| own.theorem.contains("degree at most 4"));
+    let theorem = &theorem.expect("all integrals of degree 4").theorem;
+    assert!(theorem.contains(" in energy and "), "{theorem}");
+    let counted = |remark: &&String| remark.contains("are counted than known");
+    assert_eq!(report.remarks.iter().find(counted), None);
+}
+
+#[test]
+fn what_an_orbit_does_not_show_is_left_open() {
+    // One component of Laplace's vector is a function of the other, the area and the energy.
+    let report = searched(&lagrangian("−1/√(x² + y²)"), &Effort::default());
+    let two = report.counts.iter().find(|count| count.degree == 2).expect("a count");
+    assert_eq!((two.dimension, two.known), (6, 5), "1, L, L², E, A_y, and A_x");
+    let theorem = report.excluded.iter().find(|own| own.theorem.contains("degree at most"));
+    let theorem = &theorem.expect("of degree 1").theorem;
+    assert!(
+        theorem.contains("degree at most 1 is a polynomial in energy")
+            || theorem.contains("in x*y")
+    );
+    assert!(!theorem.contains('√'), "no integral of degree 2: {theorem}");
+    let counted = report.remarks.iter().find(|remark| remark.contains("are counted than known"));
+    assert!(counted.expect("a remark").contains("degree 2"), "the first degree");
+}
