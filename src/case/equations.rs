@@ -61,6 +61,17 @@ pub fn equations_in(
     Some(read.into_iter().collect::<Option<Vec<_>>>()?.concat())
 }
 
+/// Counts the equations that some texts stand for, one for each text that cannot be read.
+pub fn number(texts: &[SpannedStr], vocabulary: &Vocabulary) -> usize {
+    let own = |text: &SpannedStr| {
+        let (left, right) = both_sides(&text.value, vocabulary)?;
+        let is_zero = right.constant().is_some_and(|value| value.is_zero());
+        let function = if is_zero { left } else { (left.bracketed() - right.bracketed()).ok()? };
+        Some(entries("", function, vocabulary).ok()?.len())
+    };
+    texts.iter().map(|text| own(text).unwrap_or(1)).sum()
+}
+
 /// Both sides of an equation, with the place where the right one begins.
 pub fn sides(text: &str) -> Option<(&str, &str, usize)> {
     let mut depth = 0;

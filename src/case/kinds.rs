@@ -5,7 +5,7 @@ use toml::de::DeTable;
 use super::order::Stage;
 use super::section::SpannedStr;
 use super::systems::Reading;
-use super::{ball, body, feedback, field, hamiltonian, lagrangian, map};
+use super::{ball, body, equations, feedback, field, hamiltonian, lagrangian, map};
 use crate::formula::Type;
 use crate::mechanics::{
     BallSurface, Chart, Dependence, Draw, LevelEquation, LevelFunction, Meaning, NumberLine,
@@ -162,7 +162,8 @@ impl Reading<'_, '_> {
             self.mistakes().add(missing);
         }
         let section = section?;
-        let constraints = section.texts("constraints").map_or(0, |texts| texts.len());
+        let texts = section.texts("constraints").unwrap_or_default();
+        let constraints = equations::number(&texts, &self.vocabulary);
         for (name, quantity, kind, reach) in of_lagrangian(constraints) {
             self.name(&name, quantity, kind, reach);
         }

@@ -4,11 +4,13 @@ use super::equations;
 use super::error::{Mistake, Problem};
 use super::field::{self, GivenRate};
 use super::formulas::{formula, inside};
+use super::holonomic;
 use super::section::{CaseTable, SpannedStr};
 use super::systems::Reading;
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{
-    Algebra, Dependence, Lagrangian, System, TIME, Variable, VariableRole, Vocabulary,
+    Algebra, Dependence, Lagrangian, LevelEquation, System, TIME, Variable, VariableRole,
+    Vocabulary,
 };
 
 fn other(text: &SpannedStr, message: String, remedy: &str) -> Mistake {
@@ -43,7 +45,7 @@ pub fn read(
     let roles = roles(section, variables, &quasi, &multipliers, carried)?;
     let algebra = section.keep(algebra(section, variables, &quasi, &roles));
     let forces = forces(section, vocabulary, variables, &roles);
-    let constraints: Vec<Formula> = level.iter().map(|(_, function)| function.clone()).collect();
+    let (constraints, level) = section.keep(constraints(level, reading, &roles, vakonomic))?;
     let system = System::Lagrangian(Box::new(Lagrangian {
         kinetic: kinetic?,
         potential: potential?,
@@ -53,14 +55,32 @@ pub fn read(
         forces: forces?,
         vakonomic,
     }));
-    reading.level = level
-        .into_iter()
-        .map(|(text, function)| {
-            let sides = equations::both_sides(&text, &reading.vocabulary);
-            equations::level_equation(text, function, sides)
-        })
-        .collect();
+    reading.level = level;
     Some(system)
+}
+
+/// Lists the constraints on the velocities, and the equations of the level: a constraint on the
+/// coordinates alone is one of these, and its rate is both.
+fn constraints(
+    given: Vec<(String, Formula)>,
+    reading: &Reading<'_, '_>,
+    roles: &[VariableRole],
+    vakonomic: bool,
+) -> Result<(Vec<Formula>, Vec<LevelEquation>), Mistake> {
+    let (mut constraints, mut level) = (Vec::new(), Vec::new());
+    for (text, function) in given {
+        let rate = match vakonomic {
+            true => None,
+            false => holonomic::rate(&function, reading, roles)
+                .map_err(|error| Mistake::new(None, Problem::Formula(error)))?,
+        };
+        let sides = equations::both_sides(&text, &reading.vocabulary);
+        constraints.push(rate.clone().unwrap_or_else(|| function.clone()));
+        let derivative = rate.map(|rate| (format!("rate of {text}"), rate));
+        level.push(equations::level_equation(text, function, sides));
+        level.extend(derivative.map(|(text, rate)| equations::level_equation(text, rate, None)));
+    }
+    Ok((constraints, level))
 }
 
 /// Checks that a vakonomic system has a multiplier for each constraint, and others have none.

@@ -22,6 +22,7 @@ mod foreign;
 mod formulas;
 mod frame;
 mod hamiltonian;
+mod holonomic;
 mod homogeneous;
 mod kinds;
 mod labels;

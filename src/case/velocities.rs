@@ -7,7 +7,9 @@ use super::error::{Mistake, Problem};
 use super::section::CaseTable;
 use crate::formula::canonical_name;
 use crate::graph::{Expr, record};
-use crate::mechanics::{Algebra, Lagrangian, Model, Phase, System, VariableRole};
+use crate::mechanics::{
+    Algebra, Lagrangian, LevelEquation, LevelFunction, Model, Phase, System, VariableRole,
+};
 
 /// Rejects a rate that is not linear in the velocities although the equations of motion need it.
 /// Returns a warning for each constraint whose reaction is a matter of definition.
@@ -23,11 +25,10 @@ pub fn check(root: &CaseTable<'_>, model: &Model) -> Result<Vec<String>, Mistake
         return Err(Mistake::new(place_of_rate(root, name), problem));
     }
     if let Some(index) = nonlinear.still.first() {
-        let text = model.level.get(*index).map_or("", |equation| equation.text.as_str());
+        let text = text_of(lagrangian, model, *index);
         let span = root.find(text).map(|start| start..start + text.len());
-        let message = "this constraint contains no velocity".to_string();
-        let remedy = "write its derivative, such as x*x' + y*y' = 0 for x² + y² = 1, or choose \
-                      coordinates that satisfy it";
+        let message = "this constraint contains neither a velocity nor a coordinate".to_string();
+        let remedy = "write one such as x*x' + y*y' = 0, or x² + y² = 1";
         let problem = Problem::Sense { message, remedy: remedy.to_string() };
         return Err(Mistake::new(span, problem));
     }
@@ -35,10 +36,19 @@ pub fn check(root: &CaseTable<'_>, model: &Model) -> Result<Vec<String>, Mistake
         format!(
             "the constraint `{}` is not linear in the velocities: its reaction is taken by Chetaev's \
              rule, along its slope by the velocities",
-            model.level[*index].text
+            text_of(lagrangian, model, *index)
         )
     };
     Ok(nonlinear.constraints.iter().map(warning).collect())
+}
+
+/// Text of a constraint as the file writes it.
+fn text_of<'m>(lagrangian: &Lagrangian, model: &'m Model, index: usize) -> &'m str {
+    let own = |equation: &&LevelEquation| match &equation.function {
+        LevelFunction::Formula(function) => function.text() == lagrangian.constraints[index].text(),
+        _ => false,
+    };
+    model.level.iter().find(own).map_or("", |equation| equation.text.as_str())
 }
 
 /// Formulas that are not linear in the velocities.

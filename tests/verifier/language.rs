@@ -5,6 +5,7 @@
 
 mod brackets;
 mod derivatives;
+mod holonomic;
 mod matrices;
 mod mistakes;
 mod names;

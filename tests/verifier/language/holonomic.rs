@@ -1,0 +1,60 @@
+//! Constraints on the coordinates of a Lagrangian.
+
+use liouville::case::Case;
+
+use super::settled;
+
+fn pendulum(constraint: &str, claims: &str) -> String {
+    format!(
+        "title = 'x'\nsystem = 'nonholonomic'\n[parameters]\ng = '0.5..2'\nl = '0.5..2'\n[state]\n\
+         x = '-2..2'\ny = '-2..2'\nz = '-2..2'\n\"x'\" = '-2..2'\n\"y'\" = '-2..2'\n\"z'\" = '-2..2'\n\
+         [let]\nr = 'x² + y² + z²'\n[lagrangian]\nkinetic = \"(x'² + y'² + z'²)/2\"\npotential = 'g*z'\n\
+         constraints = [{constraint}]\n{claims}"
+    )
+}
+
+/// Claims that hold for a pendulum of length l, and one that fails: 2μq is the pull of the rod.
+const CLAIMS: &str = "[[claim]]\nidentity = \"x*x' + y*y' + z*z' = 0\"\n[[claim]]\nidentity = 'r = l²'\n\
+                      [[claim]]\nintegral = 'energy'\n[[claim]]\nintegral = \"x*y' − y*x'\"\n\
+                      [[claim]]\nidentity = \"2*μ*l² = g*z − (x'² + y'² + z'²)\"\n\
+                      [[claim]]\nidentity = \"2*μ*l² = g*z + (x'² + y'² + z'²)\"\nexpect = 'fails'\n";
+
+#[test]
+fn a_constraint_on_the_coordinates_holds_with_its_rate() {
+    for constraint in ["'x² + y² + z² = l²'", "'r = l²'", "'l² − r = 0'"] {
+        let claims = match constraint.starts_with("'l²") {
+            true => CLAIMS.replace("2*μ", "−2*μ"),
+            false => CLAIMS.to_string(),
+        };
+        settled(&pendulum(constraint, &claims));
+    }
+    let text = pendulum("'r = l²', \"y' = x'\"", "");
+    let case = Case::parse(&text, &[]).expect("a case");
+    let texts: Vec<&str> = case.model.level.iter().map(|own| own.text.as_str()).collect();
+    assert_eq!(texts, ["r = l²", "rate of r = l²", "y' = x'"]);
+}
+
+#[test]
+fn entries_of_a_constraint_each_have_a_reaction() {
+    settled(
+        "title = 'x'\nsystem = 'nonholonomic'\n[parameters]\nD = 'diag(1..3)'\n[state]\n\
+         Q = 'matrix(-1..1)'\n\"Q'\" = 'matrix(-1..1)'\n[lagrangian]\nkinetic = \"tr(Q'*D*Q'ᵀ)/2\"\n\
+         constraints = ['Qᵀ*Q = E']\n[[claim]]\nintegral = 'energy'\n[[claim]]\n\
+         integral = \"Q*D*Q'ᵀ − Q'*D*Qᵀ\"\n[[claim]]\nidentity = 'μ1 = μ6'\nexpect = 'fails'\n[[claim]]\n\
+         identity = 'det(Q)² = 1'\n",
+    );
+}
+
+#[test]
+fn a_bead_on_a_moving_wire_gains_energy() {
+    let wire = |claims: &str| {
+        format!(
+            "title = 'x'\nsystem = 'nonholonomic'\n[parameters]\na = '0.5..2'\n[state]\nx = '-2..2'\n\
+             y = '-2..2'\n\"x'\" = '-2..2'\n\"y'\" = '-2..2'\n[lagrangian]\nkinetic = \"(x'² + y'²)/2\"\n\
+             constraints = ['y = a*t²/2']\n{claims}"
+        )
+    };
+    let claims = "[[claim]]\nidentity = \"y' = a*t\"\n[[claim]]\nidentity = 'μ1 = a'\n[[claim]]\n\
+                  rate = \"(x'² + y'²)/2\"\nequals = 'a²*t'\n[[claim]]\nintegral = \"(x'² + y'²)/2\"\nexpect = 'fails'\n";
+    settled(&wire(claims));
+}
