@@ -54,7 +54,7 @@ fn a_branch_over_the_energy_goes_through_the_points_at_single_energies() {
     }
     assert!(marks.iter().any(|(_, point)| point.at[1].abs() < 1e-6), "it turns at L = 0");
     let ordinary = found.points.iter().filter(|point| point.bifurcation.is_none());
-    for point in ordinary.step_by(4) {
+    for point in ordinary.step_by(6) {
         let energy = Rational::from_f64(point.value).expect("a number");
         let map = SectionMap::new(&case, &plan.g0, &energy, 1).expect("a map");
         let single = map.closed([point.at[0], point.at[1]], 1).expect("a periodic point");
