@@ -19,6 +19,8 @@ use super::spoil::{spoilt, unsigned};
 pub const X: usize = 0;
 pub const Y: usize = 1;
 pub const Z: usize = 2;
+/// A fourth variable, which few scenes have.
+const W: usize = 3;
 
 /// A range of a state variable, symmetric about 0.
 pub fn wide(n: i64) -> Origin {
@@ -40,7 +42,7 @@ pub fn on_a_level(stream: &mut Stream) -> (Scene, Vec<Made>) {
         };
         scene.symbols.push(own(name, origin));
     }
-    let (level, round) = match stream.below(14) {
+    let (level, round) = match stream.below(15) {
         0..=2 => (graph(&mut scene, stream), false),
         3..=4 => (product(stream), false),
         5..=6 => (sphere(&mut scene, stream), true),
@@ -48,6 +50,7 @@ pub fn on_a_level(stream: &mut Stream) -> (Scene, Vec<Made>) {
         8..=9 => charted(&mut scene, stream),
         10 => (lines(stream), false),
         11..=12 => (branching(&mut scene, stream), false),
+        13 => (pair(&mut scene, stream), false),
         _ => (empty(stream), false),
     };
     // A rotation preserves the circles about the z axis and the spheres.
@@ -242,6 +245,38 @@ fn curve(u: &Tree, v: &Tree) -> Level {
     Level { equations: vec![(symbol(Z), whole(0))], branches: vec![plane], chart: Some(chart) }
 }
 
+/// Draws two vectors (x, y) and (z, w) of given lengths at a given angle.
+fn pair(scene: &mut Scene, stream: &mut Stream) -> Level {
+    scene.symbols.push(Symbol { name: "w".to_string(), origin: wide(3) });
+    let (x, y, z, w) = (symbol(X), symbol(Y), symbol(Z), symbol(W));
+    let (a, b, c) = match stream.below(5) {
+        0 => (whole(1), whole(1), whole(0)),
+        1 => (whole(2), whole(1), whole(0)),
+        2 => (whole(1), whole(4), ratio(-1, 2)),
+        3 => (ratio(1, 4), whole(9), whole(1)),
+        _ => (whole(3), whole(2), whole(-2)),
+    };
+    // The second vector is (c (x, y) ± √(ab − c²) (−y, x))/a.
+    let across = root(&sub(&mul(&a, &b), &square(&c)));
+    let solved = |y: &Tree, across: &Tree| {
+        let second = [sub(&mul(&c, &x), &mul(across, y)), add(&mul(&c, y), &mul(across, &x))];
+        let [z, w] = second.map(|own| div(&own, &a));
+        vec![(Y, y.clone()), (Z, z), (W, w)]
+    };
+    let half = root(&sub(&a, &square(&x)));
+    let halves = [half.clone(), neg(&half)];
+    let both = |y: &Tree| [solved(y, &across), solved(y, &neg(&across))];
+    let branches = halves.iter().flat_map(both).collect();
+    let mut equations = vec![
+        (add(&square(&x), &square(&y)), a.clone()),
+        (add(&square(&z), &square(&w)), b),
+        (add(&mul(&x, &z), &mul(&y, &w)), c.clone()),
+    ];
+    let turn = stream.below(3);
+    equations.rotate_left(turn);
+    Level { equations, branches, chart: None }
+}
+
 /// Draws two linear equations in the same variables.
 fn lines(stream: &mut Stream) -> Level {
     let (x, y, z) = (symbol(X), symbol(Y), symbol(Z));
@@ -288,8 +323,8 @@ fn claim(scene: &Scene, known: &Known, stream: &mut Stream) -> Made {
         made.vanishes &= !matches!(made.claim, Claim::SymmetryField(_));
         return made;
     }
-    let garden =
-        Garden { scene, symbols: vec![X, Y, Z], functions: false, roots: !stream.once_in(3) };
+    let symbols = scene.states();
+    let garden = Garden { scene, symbols, functions: false, roots: !stream.once_in(3) };
     let ranges = scene.intervals();
     let depth = 1 + stream.below(2);
     let tree = garden.tree(stream, depth);
@@ -329,7 +364,7 @@ fn compared(
     let branches = scene.level.as_ref().map_or(&[][..], |level| &level.branches);
     // Symbols drawn by the oracle alone are unknown to claims.
     let typed =
-        |(_, value): &&(usize, Tree)| (Z + 1..scene.symbols.len()).all(|place| !value.has(place));
+        |(_, value): &&(usize, Tree)| (W..scene.symbols.len()).all(|place| !value.has(place));
     match (stream.below(8), branches.iter().flatten().find(typed)) {
         // Equal on one branch.
         (0, Some((place, value))) => {

@@ -7,7 +7,7 @@ use super::expr::{Expr, Function, Tree};
 use super::jet::Place;
 use super::point::Point;
 use super::random::Stream;
-use super::real::{Found, Real, sure_sign};
+use super::real::{Found, Real, sure_sign, with_bits};
 use super::scene::Scene;
 use super::seek;
 
@@ -28,6 +28,8 @@ const ZEROS: usize = 40;
 const ENDS: usize = 6;
 /// Number of points drawn for each state.
 const DRAWS: usize = 40;
+/// Number of bits in which a sign is asked for first.
+const ROUGH: usize = 160;
 /// Number of halvings.
 const HALVINGS: usize = 260;
 /// Largest number of states of either kind through which lines are laid.
@@ -134,9 +136,16 @@ impl Line<'_> {
 
     /// Returns the marks of all parts; without parts, still one, which tells where states are.
     fn marks(&self, at: Position) -> Vec<Mark> {
-        let values = self.values(at);
-        let own = values.as_deref();
-        (0..=self.parts.len()).map(|part| own.map(|values| self.sign(values, part))).collect()
+        let signs = || -> Option<Vec<Option<i32>>> {
+            let values = self.values(at)?;
+            Some((0..self.parts.len()).map(|part| self.sign(&values, part)).collect())
+        };
+        let are_known = |signs: &Vec<Option<i32>>| signs.iter().all(Option::is_some);
+        let found = with_bits(ROUGH, signs).filter(are_known).or_else(signs);
+        match found {
+            Some(signs) => signs.into_iter().chain([None]).map(Some).collect(),
+            None => vec![None; self.parts.len() + 1],
+        }
     }
 
     fn values(&self, at: Position) -> Option<Vec<Found<Real>>> {
@@ -148,6 +157,13 @@ impl Line<'_> {
         value.and_then(|value| sure_sign(&value)).ok()
     }
 
+    /// Returns the mark of one part: in few bits where these tell the sign.
+    fn mark(&self, at: Position, part: usize) -> Mark {
+        let of = |values: Vec<Found<Real>>| self.sign(&values, part);
+        let rough = with_bits(ROUGH, || self.values(at).and_then(of));
+        if rough.is_some() { Some(rough) } else { self.values(at).map(of) }
+    }
+
     /// Finds where the mark of a part changes between two positions.
     fn halved(&self, mut a: Position, mut b: Position, part: usize, first: Mark) -> Position {
         for _ in 0..HALVINGS {
@@ -155,8 +171,7 @@ impl Line<'_> {
             if between == a || between == b {
                 break;
             }
-            let mark = self.values(between).map(|values| self.sign(&values, part));
-            if mark == first { a = between } else { b = between }
+            if self.mark(between, part) == first { a = between } else { b = between }
         }
         b
     }
