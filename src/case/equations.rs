@@ -61,6 +61,41 @@ pub fn equations_in(
     Some(read.into_iter().collect::<Option<Vec<_>>>()?.concat())
 }
 
+/// Writes the rate of an equation: `(q,q)' = 0` for `(q,q) = l²`.
+pub fn rate_text(text: &str, vocabulary: &Vocabulary) -> String {
+    let (equation, entry) = match text.split_once(ENTRY) {
+        Some((equation, entry)) => (equation, format!("{ENTRY}{entry}")),
+        None => (text, String::new()),
+    };
+    let rate = |side: &Formula| match vocabulary.reach(side) {
+        Some(entry) if entry.reach > Dependence::Parameters => match is_whole(side.text()) {
+            true => format!("{side}'"),
+            false => format!("({side})'"),
+        },
+        _ => "0".to_string(),
+    };
+    match both_sides(equation, vocabulary) {
+        Some((left, right)) => format!("{} = {}{entry}", rate(&left), rate(&right)),
+        None => format!("rate of {text}"),
+    }
+}
+
+/// Whether a text is a name, or stands in brackets.
+fn is_whole(text: &str) -> bool {
+    let mut depth = 0;
+    let closes = |letter: char| {
+        depth += match letter {
+            '(' => 1,
+            ')' => -1,
+            _ => 0,
+        };
+        depth == 0
+    };
+    let first = text.chars().map(closes).position(|closes| closes);
+    text.chars().all(char::is_alphanumeric)
+        || (text.starts_with('(') && first == Some(text.chars().count() - 1))
+}
+
 /// Counts the equations that some texts stand for, one for each text that cannot be read.
 pub fn number(texts: &[SpannedStr], vocabulary: &Vocabulary) -> usize {
     let own = |text: &SpannedStr| {
@@ -121,6 +156,9 @@ fn equation(
 /// Largest number of entries among which repetitions are sought, of which there are n² pairs.
 const MOST_COMPARED: usize = 64;
 
+/// Text between an equation and the place of an entry.
+const ENTRY: &str = ", entry ";
+
 /// Splits an equation into those of its entries, each with its text.
 ///
 /// Entries that hold by themselves are left out, and those that say what one before says: six of the
@@ -140,7 +178,7 @@ pub fn entries(
     let kept = independent(&function, vocabulary).unwrap_or_else(|| (0..all.len()).collect());
     let word = |place: &[usize]| {
         let indices: Vec<String> = place.iter().map(usize::to_string).collect();
-        format!("{text}, entry {}", indices.join(","))
+        format!("{text}{ENTRY}{}", indices.join(","))
     };
     Ok(kept.into_iter().map(|k| (word(&places[k]), all[k].clone())).collect())
 }

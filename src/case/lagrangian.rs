@@ -76,7 +76,7 @@ fn constraints(
         };
         let sides = equations::both_sides(&text, &reading.vocabulary);
         constraints.push(rate.clone().unwrap_or_else(|| function.clone()));
-        let derivative = rate.map(|rate| (format!("rate of {text}"), rate));
+        let derivative = rate.map(|rate| (equations::rate_text(&text, &reading.vocabulary), rate));
         level.push(equations::level_equation(text, function, sides));
         level.extend(derivative.map(|(text, rate)| equations::level_equation(text, rate, None)));
     }

@@ -28,10 +28,13 @@ fn a_constraint_on_the_coordinates_holds_with_its_rate() {
         };
         settled(&pendulum(constraint, &claims));
     }
+    let text = pendulum("'x*y + z = l*y'", "");
+    let case = Case::parse(&text, &[]).expect("a case");
+    assert_eq!(case.model.level[1].text, "(x*y + z)' = (l*y)'");
     let text = pendulum("'r = l²', \"y' = x'\"", "");
     let case = Case::parse(&text, &[]).expect("a case");
     let texts: Vec<&str> = case.model.level.iter().map(|own| own.text.as_str()).collect();
-    assert_eq!(texts, ["r = l²", "rate of r = l²", "y' = x'"]);
+    assert_eq!(texts, ["r = l²", "r' = 0", "y' = x'"]);
 }
 
 #[test]
