@@ -50,6 +50,7 @@ pub fn read(
         algebra: algebra?,
         forces: forces?,
         vakonomic,
+        is_indefinite: false,
     }));
     reading.level = level
         .into_iter()
