@@ -4,6 +4,7 @@
 mod benchmark;
 mod factors;
 mod functions;
+mod irrational;
 mod maps;
 mod parameters;
 
