@@ -82,3 +82,16 @@ fn an_ansatz_for_a_lagrangian_has_roots_as_coefficients() {
     let theorems: Vec<&String> = report.excluded.iter().map(|own| &own.theorem).collect();
     assert!(theorems.iter().all(|own| !own.contains("not known")), "{theorems:?}");
 }
+
+#[test]
+fn logarithms_of_a_part_do_not_hide_integrals_of_the_whole() {
+    // x and y alone have an integral with logarithms, and x² + a y + z is kept too.
+    for (parameters, a) in [("a = '1..2'", "a"), ("", "√5")] {
+        let rates = [format!("{a}*x − 1"), "y − 2*x²".to_string(), format!("2*x − {a}*y")];
+        let report =
+            searched(&field(parameters, &rates.each_ref().map(String::as_str)), &Effort::default());
+        let found: Vec<&str> = report.formulas("integral").collect();
+        assert_eq!(found.len(), 2, "{found:?}");
+        assert!(found.iter().any(|own| own.contains("x²") && !own.contains("ln")), "{found:?}");
+    }
+}
