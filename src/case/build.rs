@@ -152,6 +152,9 @@ fn read(
         root.keep(no_open_level(root, &parts.model));
     }
     read_chart(root, &mut parts);
+    if is_whole && mistakes.is_empty() {
+        note_masses(&mut parts);
+    }
     let section = poincare::read(root);
     let plan_is_whole = section.is_some() || root.value("section").is_none();
     let context = ClaimContext {
@@ -275,6 +278,18 @@ pub fn extend_support(model: &mut Model) {
                 body.shape = extended;
             }
         }
+    }
+}
+
+/// Notes whether the masses of a Lagrangian have both signs.
+fn note_masses(parts: &mut ModelParts) {
+    let ModelParts { model, chart, free_draws, .. } = parts;
+    let is_indefinite = match &model.system {
+        System::Lagrangian(own) => own.has_indefinite_masses(model, chart, free_draws),
+        _ => false,
+    };
+    if let System::Lagrangian(own) = &mut model.system {
+        own.is_indefinite = is_indefinite;
     }
 }
 

@@ -54,6 +54,7 @@ pub fn read(
         algebra: algebra?,
         forces: forces?,
         vakonomic,
+        is_indefinite: false,
     }));
     reading.level = level;
     Some(system)

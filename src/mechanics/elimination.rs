@@ -1,4 +1,4 @@
-//! Linear algebra over any scalar: projections, determinants, traces, and positive systems.
+//! Linear algebra over any scalar: projections, determinants, traces, positive systems and others.
 
 use crate::scalar::Scalar;
 
@@ -157,9 +157,135 @@ pub fn solve_positive<T: Scalar>(mut a: Vec<Vec<T>>, mut b: Vec<T>) -> Vec<T> {
     b
 }
 
+/// Largest size of an inverse computed by minors; larger ones come from the characteristic
+/// polynomial.
+const MOST_COFACTORS: usize = 6;
+
+/// Solves A x = b for several b and any A, without pivots: x = adj(A) b / det A has a value exactly
+/// where det A ≠ 0, also where a leading minor of A is 0.
+#[inline(never)]
+pub fn solve_by_minors<T: Scalar>(a: &[Vec<T>], sides: &[Vec<T>]) -> Vec<Vec<T>> {
+    let n = a.len();
+    if n > MOST_COFACTORS {
+        return sides.iter().map(|b| solved_by_powers(a, b)).collect();
+    }
+    let inverse = determinant(a).recip();
+    let without = |row: usize, column: usize| {
+        let rows = (0..n).filter(|i| *i != row);
+        let minor: Vec<Vec<T>> =
+            rows.map(|i| (0..n).filter(|j| *j != column).map(|j| a[i][j]).collect()).collect();
+        let minor = determinant(&minor);
+        if (row + column).is_multiple_of(2) { minor } else { -minor }
+    };
+    let adjugate: Vec<Vec<T>> = (0..n).map(|i| (0..n).map(|j| without(j, i)).collect()).collect();
+    let solved = |b: &Vec<T>| adjugate.iter().map(|row| dot(row, b) * inverse).collect();
+    sides.iter().map(solved).collect()
+}
+
+/// The same by Cayley and Hamilton's theorem: Aⁿ + c₁Aⁿ⁻¹ + … + c_n E = 0.
+fn solved_by_powers<T: Scalar>(a: &[Vec<T>], b: &[T]) -> Vec<T> {
+    // The transpose has the same polynomial, so that rows may serve as columns.
+    let mut coefficients = characteristic_polynomial(a);
+    let last = coefficients.pop().unwrap_or_else(T::one);
+    let mut sum = b.to_vec();
+    for coefficient in coefficients {
+        let next = a.iter().map(|row| dot(row, &sum));
+        sum = next.zip(b).map(|(x, b)| x + coefficient * *b).collect();
+    }
+    let inverse = -last.recip();
+    sum.into_iter().map(|x| x * inverse).collect()
+}
+
+/// Part of the largest entry below which a pivot counts as 0.
+const NEGLIGIBLE: f64 = 1e-9;
+
+/// Whether a symmetric matrix has eigenvalues of both signs, as far as rounding shows; `false` where
+/// an entry is no number.
+pub fn is_indefinite(matrix: &[Vec<f64>]) -> bool {
+    let mut rest = matrix.to_vec();
+    let largest = |rest: &[Vec<f64>]| {
+        rest.iter().flatten().fold(0.0, |most: f64, entry| most.max(entry.abs()))
+    };
+    let least = largest(matrix) * NEGLIGIBLE;
+    if !matrix.iter().flatten().all(|entry| entry.is_finite()) {
+        return false;
+    }
+    let (mut has_positive, mut has_negative) = (false, false);
+    while !rest.is_empty() {
+        let Some(pivot) =
+            (0..rest.len()).max_by(|i, j| rest[*i][*i].abs().total_cmp(&rest[*j][*j].abs()))
+        else {
+            break;
+        };
+        let row = rest.remove(pivot);
+        let value = row[pivot];
+        if value.abs() <= least {
+            // 2 a x y with a diagonal of zeros takes both signs.
+            return (has_positive && has_negative) || largest(&rest).max(largest(&[row])) > least;
+        }
+        has_positive |= value > 0.0;
+        has_negative |= value < 0.0;
+        for own in &mut rest {
+            let factor = own[pivot] / value;
+            own.iter_mut().zip(&row).for_each(|(entry, pivot)| *entry -= factor * pivot);
+            own.remove(pivot);
+        }
+    }
+    has_positive && has_negative
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    #[inline(never)]
+    fn minors_solve_where_leading_minors_vanish() {
+        let exchange = vec![vec![0.0, 1.0], vec![1.0, 0.0]];
+        assert_eq!(solve_by_minors(&exchange, &[vec![2.0, 3.0]]), [[3.0, 2.0]]);
+        // Leading minors 0, 0, … up to the determinant, by minors and by powers.
+        for n in 1..10usize {
+            let entry = |i: usize, j: usize| if i + j + 1 == n { 2.0 } else { 0.0 };
+            let matrix: Vec<Vec<f64>> =
+                (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect();
+            let side: Vec<f64> = (1..=n).map(|k| k as f64).collect();
+            let solution = solve_by_minors(&matrix, std::slice::from_ref(&side)).remove(0);
+            for (row, expected) in matrix.iter().zip(&side) {
+                assert!((dot(row, &solution) - expected).abs() < 1e-12, "{n} rows");
+            }
+        }
+        let skewed: Vec<Vec<f64>> = (0..8)
+            .map(|i| (0..8).map(|j| f64::from((i * 5 + j * 3) % 7) + f64::from(i == j)).collect())
+            .collect();
+        let side = vec![1.0; 8];
+        let solution = solve_by_minors(&skewed, std::slice::from_ref(&side)).remove(0);
+        assert!(skewed.iter().all(|row| (dot(row, &solution) - 1.0).abs() < 1e-8));
+        let singular = vec![vec![1.0, 2.0], vec![2.0, 4.0]];
+        assert!(!solve_by_minors(&singular, &[vec![1.0, 1.0]])[0][0].is_finite());
+    }
+
+    #[test]
+    fn indefinite_matrices_are_told() {
+        let matrix = |rows: &[&[f64]]| rows.iter().map(|row| row.to_vec()).collect::<Vec<_>>();
+        for own in [
+            matrix(&[&[0.0, 1.0], &[1.0, 0.0]]),
+            matrix(&[&[1.0, 1.0], &[1.0, 0.0]]),
+            matrix(&[&[1.0, 1.0, 1.0], &[1.0, 1.0, -1.0], &[1.0, -1.0, 1.0]]),
+            matrix(&[&[1.0, 0.0], &[0.0, -1e-3]]),
+        ] {
+            assert!(is_indefinite(&own), "{own:?}");
+        }
+        for own in [
+            matrix(&[&[4.0, 1.0], &[1.0, 3.0]]),
+            matrix(&[&[-4.0, 1.0], &[1.0, -3.0]]),
+            matrix(&[&[1.0, 1.0], &[1.0, 1.0]]),
+            matrix(&[&[0.0, 0.0], &[0.0, 2.0]]),
+            matrix(&[&[f64::NAN, 1.0], &[1.0, 0.0]]),
+            matrix(&[]),
+        ] {
+            assert!(!is_indefinite(&own), "{own:?}");
+        }
+    }
 
     #[test]
     #[inline(never)]

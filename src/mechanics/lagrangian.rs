@@ -12,6 +12,8 @@
 //! coordinates w = q', X_i = ∂/∂q_i and c = 0. Kozlov, Dynamics of systems with nonintegrable
 //! constraints II: (27), (28), (33).
 
+mod masses;
+
 use num_dual::Dual;
 
 use super::calculus::MANY;
@@ -41,6 +43,8 @@ pub struct Lagrangian {
     pub forces: Vec<(usize, Formula)>,
     /// Whether the motion is vakonomic, with multipliers in the state.
     pub vakonomic: bool,
+    /// Whether ∂²L/∂w² is known to have eigenvalues of both signs at some states.
+    pub is_indefinite: bool,
 }
 
 /// The role of a state variable.
@@ -219,17 +223,19 @@ impl Lagrangian {
         let Terms { mass, drive, slopes } = terms;
         let moving = at.lift_state(&drift);
         let slope = |at: &Configuration<'_, Dual<T>>, f| at.scalar(f).eps;
-        let free = solve_positive(mass.clone(), drive);
-        let responses: Vec<Vec<T>> =
-            slopes.iter().map(|a| solve_positive(mass.clone(), a.clone())).collect();
-        let gram = slopes.iter().map(|a| responses.iter().map(|b| dot(a, b)).collect()).collect();
+        let is_definite = self.may_be_definite(&mass);
+        let sides = [drive].into_iter().chain(slopes.iter().cloned()).collect();
+        let mut responses = self.solved(is_definite, &mass, sides);
+        let free = responses.remove(0);
+        let gram: Vec<Vec<T>> =
+            slopes.iter().map(|a| responses.iter().map(|b| dot(a, b)).collect()).collect();
         let defects = self
             .constraints
             .iter()
             .zip(&slopes)
             .map(|(f, a)| -(slope(&moving, f) + dot(a, &free)))
             .collect();
-        let reactions = solve_positive(gram, defects);
+        let reactions = self.solved(is_definite, &gram, vec![defects]).remove(0);
         let acceleration = free
             .iter()
             .enumerate()

@@ -16,6 +16,7 @@ mod lanes;
 mod language;
 mod local;
 mod many_variables;
+mod masses;
 mod mutated;
 mod newton_euler;
 #[path = "../common/random.rs"]

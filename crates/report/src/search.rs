@@ -86,6 +86,9 @@ pub fn text(title: &str, report: &SearchReport) -> String {
         for equation in &condition.equations {
             out.push_str(&format!("  {equation}\n"));
         }
+        if condition.equations.is_empty() {
+            out.push_str("  no equation was found\n");
+        }
         out.push_str(&format!("  ({})\n", condition.grounds));
     }
     for remark in &report.remarks {

@@ -149,12 +149,16 @@ impl Coordinates {
         let mut rng = SearchStream::Moduli.numbered(seed, number);
         loop {
             let modulus = rng.prime(&[3, 5], &[2, 3]);
-            let has_root =
-                |own: &Rational| modulus.rational(own).is_some_and(|x| modulus.is_square(x));
-            if radicands.iter().all(has_root) {
+            if Self::has_roots(radicands, &modulus) {
                 return modulus;
             }
         }
+    }
+
+    /// Whether all numbers are squares modulo a prime.
+    pub fn has_roots(numbers: &[Rational], modulus: &Modulus) -> bool {
+        let has_root = |own: &Rational| modulus.rational(own).is_some_and(|x| modulus.is_square(x));
+        numbers.iter().all(has_root)
     }
 }
 

@@ -106,15 +106,12 @@ impl ClearedField {
         let Some(rates) = fractions_of(&graph, &places) else { return Ok(None) };
         let mut below: Below = Vec::new();
         rates.iter().for_each(|own| below = joined(&below, &own.below));
-        let total: u32 = below.iter().map(|(base, power)| power * degree(base)).sum();
+        let degrees = below.iter().map(|(base, power)| power.saturating_mul(degree(base)));
+        let total = degrees.fold(0, u32::saturating_add);
         if total > MOST_DEGREE {
             return Ok(None);
         }
-        let parameters = model
-            .free_parameters()
-            .flat_map(|own| (0..own.kind.size()).map(|place| own.kind.component(&own.name, place)));
-        let state = (0..model.dimension()).map(|k| model.component_name(k));
-        let names: Vec<String> = parameters.chain(state).collect();
+        let names = input_names(case);
         let formula = |own: &RingPolynomial| case.formula(&polynomial_text(own, &names)).ok();
         let cleared: Option<Vec<Formula>> =
             rates.iter().map(|own| formula(&own.over(&below)?)).collect();
@@ -218,6 +215,16 @@ impl ClearedField {
     }
 }
 
+/// Names of the inputs of a recording: components of the free parameters, and of the state.
+pub fn input_names(case: &Case) -> Vec<String> {
+    let model = &case.model;
+    let parameters = model
+        .free_parameters()
+        .flat_map(|own| (0..own.kind.size()).map(|place| own.kind.component(&own.name, place)));
+    let state = (0..model.dimension()).map(|k| model.component_name(k));
+    parameters.chain(state).collect()
+}
+
 /// The cofactor along the field itself, where it is a polynomial of low degree.
 fn polynomial_cofactor(
     setting: &OrbitSetting<'_>,
@@ -266,24 +273,27 @@ impl Fraction {
 
     fn times(&self, other: &Self) -> Option<Self> {
         let mut below = self.below.clone();
-        other.below.iter().for_each(|(base, power)| add(&mut below, base, *power));
+        for (base, power) in &other.below {
+            match below.iter_mut().find(|(own, _)| own == base) {
+                Some((_, own)) => *own = own.checked_add(*power)?,
+                None => below.push((base.clone(), *power)),
+            }
+        }
         Some(Self { above: self.above.times(&other.above)?, below })
     }
 
     fn raised(&self, power: u32) -> Option<Self> {
-        (0..power).try_fold(Self::of(number(1)), |made, _| made.times(self))
+        if power == 0 {
+            return Some(Self::of(number(1)));
+        }
+        let below =
+            self.below.iter().map(|(base, own)| Some((base.clone(), own.checked_mul(power)?)));
+        Some(Self { above: self.above.raised(power)?, below: below.collect::<Option<_>>()? })
     }
 }
 
 fn number(value: i64) -> RingPolynomial {
     RingPolynomial::constant(Rational::from(value))
-}
-
-fn add(below: &mut Below, base: &RingPolynomial, power: u32) {
-    match below.iter_mut().find(|(own, _)| own == base) {
-        Some((_, own)) => *own += power,
-        None => below.push((base.clone(), power)),
-    }
 }
 
 /// Least common multiple of two denominators.
@@ -303,7 +313,10 @@ fn product(below: &Below) -> Option<RingPolynomial> {
 }
 
 fn degree(own: &RingPolynomial) -> u32 {
-    own.terms().map(|(a, _)| a.iter().map(|(_, power)| power).sum()).max().unwrap_or(0)
+    let of = |powers: &[(usize, u32)]| {
+        powers.iter().fold(0, |sum: u32, (_, power)| sum.saturating_add(*power))
+    };
+    own.terms().map(|(a, _)| of(a)).max().unwrap_or(0)
 }
 
 /// Reads steps of a recording as fractions; `None` if one is none.

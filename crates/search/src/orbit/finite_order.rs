@@ -1,5 +1,7 @@
 //! Maps of finite order, Φⁿ = id: each sum Σ f∘Φᵏ over k = 0, …, n − 1 is an integral.
 
+use num_integer::Integer;
+
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::formula::{Formula, FormulaError};
@@ -43,18 +45,26 @@ pub fn finite_order(
     sums(setting, &iterates[..order], report)
 }
 
-/// Smallest n with Φⁿ = id at some points modulo a prime.
+/// Smallest n with Φⁿ = id at some points modulo a prime, for all listed values of the parameters.
 fn observed(setting: &OrbitSetting<'_>) -> Result<Option<usize>, SearchError> {
     let mut order = None;
     for number in 0..POINTS {
         let Some(at) = setting.at(0, number) else { return Ok(None) };
-        let Some((_, orbit)) = setting.orbit(&at, number, MOST_ORDER)? else { return Ok(None) };
-        let is_back = |n: &usize| orbit.iter().all(|own| own.get(*n) == own.first());
-        let own = (1..=MOST_ORDER).find(is_back);
-        if own.is_none() || (number > 0 && own != order) {
+        let Some(all) = setting.with_listed(&at) else { return Ok(None) };
+        let mut own = 1;
+        for at in all {
+            setting.effort.halt.check()?;
+            let Some((_, orbit)) = setting.orbit(&at, number, MOST_ORDER + 1)? else {
+                return Ok(None);
+            };
+            let is_back = |n: &usize| orbit.iter().all(|own| own.get(*n) == own.first());
+            let Some(one) = (1..=MOST_ORDER).find(is_back) else { return Ok(None) };
+            own = own.lcm(&one);
+        }
+        if own > MOST_ORDER || (number > 0 && Some(own) != order) {
             return Ok(None);
         }
-        order = own;
+        order = Some(own);
     }
     Ok(order)
 }

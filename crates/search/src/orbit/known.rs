@@ -1,6 +1,8 @@
 //! Independent integrals found so far.
 
-use liouville::graph::Tape;
+use liouville::case::Case;
+use liouville::graph::{Step, Tape};
+use liouville::number::{BinaryOperation, UnaryFunction};
 
 use super::super::ansatz::system::PrimePoint;
 use super::super::ask::energy;
@@ -21,12 +23,16 @@ struct KnownIntegral {
     /// Degree of a polynomial.
     degree: Option<u32>,
     variables: Vec<usize>,
+    /// Whether it is an algebraic function of the state, as those that relations along an orbit count.
+    is_algebraic: bool,
 }
 
 /// Independent integrals found so far.
 #[derive(Clone, Debug, Default)]
 pub struct IndependentIntegrals {
     all: Vec<KnownIntegral>,
+    /// Case in whose names they are written.
+    case: Option<Box<Case>>,
     /// Numerators and denominators of rational ones, with their degrees.
     pub parts: Vec<(Formula, u32)>,
 }
@@ -34,7 +40,8 @@ pub struct IndependentIntegrals {
 impl IndependentIntegrals {
     /// Collects what the search has found before, and the energy where it is conserved.
     pub fn of(setting: &OrbitSetting<'_>, report: &SearchReport) -> Result<Self, SearchError> {
-        let mut known = Self::default();
+        let case = Some(Box::new(setting.case.clone()));
+        let mut known = Self { case, ..Self::default() };
         if let Some(origin) = setting.origin {
             for formula in &origin.extension.known {
                 known.add(formula.clone(), None, &used(setting, formula)?);
@@ -56,7 +63,10 @@ impl IndependentIntegrals {
 
     /// Adds an integral that is independent of the others.
     pub fn add(&mut self, formula: Formula, degree: Option<u32>, variables: &[usize]) {
-        self.all.push(KnownIntegral { formula, degree, variables: variables.to_vec() });
+        let is_algebraic = degree.is_some()
+            || self.case.as_deref().is_none_or(|case| is_algebraic(case, &formula));
+        let variables = variables.to_vec();
+        self.all.push(KnownIntegral { formula, degree, variables, is_algebraic });
     }
 
     /// A random point, and the gradients of the level and of the known integrals there; `None` where there
@@ -85,17 +95,23 @@ impl IndependentIntegrals {
         self.all.iter().map(|one| &one.formula)
     }
 
-    /// Number of integrals in these variables alone.
-    pub fn within(&self, variables: &[usize]) -> usize {
-        let inside = |one: &&KnownIntegral| one.variables.iter().all(|k| variables.contains(k));
-        self.all.iter().filter(inside).count()
+    /// Iterates over those that are algebraic functions.
+    pub fn algebraic(&self) -> impl Iterator<Item = &Formula> {
+        self.all.iter().filter(|one| one.is_algebraic).map(|one| &one.formula)
     }
 
-    /// Lists the products that are polynomials of at most this degree, as exponents; an integral of
-    /// unknown degree counts as of degree 1, since products beyond the wanted ones do no harm.
+    /// Number of algebraic integrals in these variables alone.
+    pub fn within(&self, variables: &[usize]) -> usize {
+        let inside = |one: &&KnownIntegral| one.variables.iter().all(|k| variables.contains(k));
+        self.all.iter().filter(inside).filter(|one| one.is_algebraic).count()
+    }
+
+    /// Lists the products of algebraic integrals that are polynomials of at most this degree, as
+    /// exponents; an integral of unknown degree counts as of degree 1, since products beyond the wanted
+    /// ones do no harm.
     pub fn products(&self, degree: u32) -> Vec<Vec<u32>> {
         let mut found: Vec<(u32, Vec<u32>)> = vec![(0, Vec::new())];
-        for one in &self.all {
+        for one in self.all.iter().filter(|one| one.is_algebraic) {
             let own = one.degree.unwrap_or(1).max(1);
             let raised = |(total, powers): (u32, Vec<u32>)| {
                 (0..=(degree - total) / own).map(move |power| {
@@ -110,6 +126,38 @@ impl IndependentIntegrals {
             .filter(|own| own.iter().any(|a| *a > 0))
             .collect()
     }
+}
+
+/// Whether a formula contains no exponentials, logarithms, angles and general powers of the state.
+fn is_algebraic(case: &Case, formula: &Formula) -> bool {
+    if formula.value_type() != Type::Scalar {
+        return true;
+    }
+    let Ok((graph, value)) = recorded(case, |jet| jet.phase.scalar(formula)) else { return true };
+    let parameters = case.model.free_components();
+    let reached = graph.reached([value]);
+    let mut varies = vec![false; graph.len()];
+    for (place, step) in graph.steps().enumerate() {
+        varies[place] = match step {
+            Step::Input(input) => input >= parameters,
+            _ => step.arguments().any(|argument| varies[argument]),
+        };
+        let is_other = match step {
+            Step::Unary(function, _) => !matches!(
+                function,
+                UnaryFunction::Neg
+                    | UnaryFunction::Recip
+                    | UnaryFunction::Sqrt
+                    | UnaryFunction::Abs
+            ),
+            Step::Binary(operation, ..) => operation == BinaryOperation::Pow,
+            Step::Constant(_) | Step::Input(_) | Step::Power(..) => false,
+        };
+        if is_other && varies[place] && reached[place] {
+            return false;
+        }
+    }
+    true
 }
 
 /// Variables that a formula contains.

@@ -14,6 +14,7 @@
 //! line         points of a line whose orbits satisfy an additional relation
 //! darboux      Darboux polynomials: the relations at these points
 //! cleared      Darboux polynomials of fields of fractions
+//! own_factors  variables that divide their own rates
 //! angle        angles between conjugate Darboux polynomials
 //! no_others    theorem that the Darboux polynomials found are all
 //! finite_order   maps with Φⁿ = id, and sums over their orbits
@@ -49,6 +50,7 @@ mod map_densities;
 mod map_integrals;
 pub mod monomials;
 pub mod no_others;
+mod own_factors;
 mod part;
 mod polynomials;
 mod primes;
@@ -66,10 +68,9 @@ use serde::Serialize;
 use liouville::case::Case;
 use liouville::formula::Formula;
 use liouville::mechanics::System;
-use liouville::number::rational::Rational;
 use liouville::verdict::Verdict;
 
-pub use self::adjoin::root_steps;
+pub use self::adjoin::{root_steps, roots};
 use self::known::IndependentIntegrals;
 use self::line::degree_of_field;
 use self::part::VariableSet;
@@ -295,14 +296,6 @@ fn with_functions(
     Ok(Some(extension.halves()))
 }
 
-/// Lists the square roots of parameters and numbers in a field, with the numbers.
-pub fn roots(case: &Case) -> Result<Vec<(Formula, Option<Rational>)>, SearchError> {
-    match case.model.system {
-        System::Field(_) | System::Hamiltonian(_) => adjoin::roots(case),
-        _ => Ok(Vec::new()),
-    }
-}
-
 /// Lists the denominators, radicands and other factors of the functions in a field and in `further`,
 /// in the names of the case.
 pub fn factors(
@@ -335,14 +328,15 @@ fn along_orbits(
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
     let mut known = IndependentIntegrals::of(setting, report)?;
-    let has_line = !setting.is_on_level() && setting.flow.is_rational && !setting.flow.is_map;
+    let has_line = setting.has_lines();
     let degree = if has_line { degree_of_field(setting)? } else { None };
     let part = |variables| VariableSet::new(variables, degree);
     let mut parts: Vec<VariableSet> = blocks::closed(setting.case)?.into_iter().map(part).collect();
     let limits = if setting.origin.is_some() { EXTENDED } else { MODEST };
     let mut outcome = rounds(setting, &mut parts, (limits, next), &mut known, report, progress);
     if has_line && degree.is_none() && setting.origin.is_none() && outcome.is_ok() {
-        outcome = cleared::search(setting, limits.steps, &mut known, report, progress);
+        outcome = cleared::search(setting, limits.steps, &mut known, report, progress)
+            .and_then(|()| own_factors::search(setting, &mut known, report));
     }
     if let Some(whole) = parts.last() {
         whole.conclude(setting, report)?;

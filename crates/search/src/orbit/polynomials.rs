@@ -28,7 +28,7 @@ pub fn polynomials(
     report: &mut SearchReport,
 ) -> Result<bool, SearchError> {
     let (case, effort) = (setting.case, setting.effort);
-    let given: Vec<Formula> = known.formulas().cloned().collect();
+    let given: Vec<Formula> = known.algebraic().cloned().collect();
     let mut outputs = Vec::new();
     let mut system = LinearSystem::record(case, effort, |jet, recording| {
         recording.derive(jet.along_field(), &setting.terms, &[one()]);

@@ -34,6 +34,8 @@ pub const SPARE_ORDERS: usize = 8;
 const PRIMES: u64 = 8;
 /// Number of points drawn until an orbit has a series.
 const TRIES: u64 = 16;
+/// Largest number of combinations of listed values.
+const MOST_COMBINATIONS: usize = 64;
 /// Number of points drawn until one has a value, roots included.
 const DRAWS: usize = 512;
 
@@ -137,7 +139,7 @@ impl<'c> OrbitSetting<'c> {
         let seed = effort.options.seed;
         let prime = |number| Coordinates::prime(&radicands, seed, number);
         let primes = (0..PRIMES).map(prime).collect();
-        let split_primes = primes::split(seed, PRIMES as usize);
+        let split_primes = primes::split(seed, PRIMES as usize, &radicands);
         Ok(Ok(Self {
             case,
             origin: None,
@@ -162,6 +164,12 @@ impl<'c> OrbitSetting<'c> {
         !self.case.model.level.is_empty()
     }
 
+    /// Whether polynomials are found on lines of states: the field is rational there. Roots of numbers
+    /// and parameters are coefficients like others; theorems ask for a rational field themselves.
+    pub fn has_lines(&self) -> bool {
+        !self.is_on_level() && self.flow.is_rational_in_state && !self.flow.is_map
+    }
+
     /// Whether a parameter has a list of several values.
     pub fn has_lists(&self) -> bool {
         let draws = self.case.model.parameter_draws();
@@ -174,7 +182,7 @@ impl<'c> OrbitSetting<'c> {
     }
 
     /// Makes choice `index` of the parameters modulo the prime p = 1 mod 840 with number `prime`, in
-    /// whose field the roots of −1, 2, 3, 5 and 7 exist.
+    /// whose field the roots of −1, 2, 3, 5 and 7 exist, and those of the numbers under roots.
     pub fn split(&self, prime: u64, index: u64) -> Option<PrimePoint> {
         self.within(*self.split_primes.get(prime as usize)?, index)
     }
@@ -197,6 +205,31 @@ impl<'c> OrbitSetting<'c> {
             }
         }
         None
+    }
+
+    /// The same choice of the parameters with each combination of listed values; `None` if these are
+    /// many, or have no images.
+    pub fn with_listed(&self, at: &PrimePoint) -> Option<Vec<PrimePoint>> {
+        let mut all = vec![at.clone()];
+        for (place, draw) in self.points.draws[..self.points.of_parameters].iter().enumerate() {
+            let values: Vec<u64> = match draw {
+                Draw::OneOf(values) => {
+                    values.iter().map(|own| at.modulus.rational(own)).collect::<Option<_>>()?
+                }
+                Draw::Sign => vec![at.modulus.one(), at.modulus.sub(0, at.modulus.one())],
+                Draw::Within(_) | Draw::Of(..) => continue,
+            };
+            if all.len() * values.len() > MOST_COMBINATIONS {
+                return None;
+            }
+            let with = |own: &PrimePoint, value: u64| {
+                let mut own = own.clone();
+                own.parameters[place] = value;
+                own
+            };
+            all = all.iter().flat_map(|own| values.iter().map(move |x| with(own, *x))).collect();
+        }
+        Some(all)
     }
 
     /// The parameters' coordinates.

@@ -5,6 +5,7 @@ mod benchmark;
 mod counts;
 mod factors;
 mod functions;
+mod irrational;
 mod maps;
 mod parameters;
 

@@ -178,12 +178,45 @@ impl Modulus {
         }
     }
 
-    /// Returns the root of x that is itself a square, if x is a nonzero square (for p = 3 mod 4).
+    /// Returns a root of x, the same each time, if x is a nonzero square. For p = 3 mod 4 it is the
+    /// one that is itself a square, so that √x √y = √(xy); for p = 1 mod 4 there is no such rule.
     pub fn root(&self, x: u64) -> Option<u64> {
+        if self.prime & 3 == 1 {
+            return self.is_square(x).then(|| self.some_root(x));
+        }
         // x^((p-3)/4): times x it is the root, and times the root it is χ(x).
         let power = self.power(x, (self.prime - 3) / 4);
         let root = self.mul(power, x);
         (self.mul(power, root) == self.one).then_some(root)
+    }
+
+    /// Computes a root of a nonzero square, for any p (Tonelli, Shanks).
+    fn some_root(&self, x: u64) -> u64 {
+        let twos = (self.prime - 1).trailing_zeros();
+        let odd = (self.prime - 1) >> twos;
+        let power = self.power(x, odd / 2);
+        let mut root = self.mul(power, x);
+        // root² = rest x, where rest is of order 2^k, k < twos.
+        let mut rest = self.mul(root, power);
+        let other = (2..self.prime).map(|n| self.integer(n)).find(|n| !self.is_square(*n));
+        let mut factor = self.power(other.unwrap_or(self.one), odd);
+        let mut order = twos;
+        while rest != self.one {
+            let mut square = rest;
+            let mut k = 0;
+            while square != self.one {
+                square = self.mul(square, square);
+                k += 1;
+            }
+            for _ in k + 1..order {
+                factor = self.mul(factor, factor);
+            }
+            root = self.mul(root, factor);
+            factor = self.mul(factor, factor);
+            rest = self.mul(rest, factor);
+            order = k;
+        }
+        root
     }
 
     /// Whether x is a nonzero square.

@@ -75,6 +75,25 @@ fn roots_are_squares_and_multiply() {
 }
 
 #[test]
+fn squares_have_roots_modulo_other_primes_too() {
+    for (modulus, rest) in [(8, 5), (16, 9), (840, 1), (1 << 20, 1)] {
+        let start = (1u64 << 60) / modulus * modulus + rest;
+        let prime =
+            (start..).step_by(modulus as usize).find(|p| is_prime(*p)).expect("there is one");
+        let m = Modulus::new(prime);
+        for n in 1..200 {
+            let x = m.integer(n * n * n + 7);
+            assert_eq!(m.root(x).is_some(), m.is_square(x), "{n} modulo {prime}");
+            if let Some(root) = m.root(x) {
+                assert_eq!(m.mul(root, root), x, "{n} modulo {prime}");
+            }
+        }
+        assert_eq!(m.root(0), None, "√0 is refused here too");
+        assert!(m.root(m.sub(0, m.one())).is_some(), "√−1 exists");
+    }
+}
+
+#[test]
 fn roots_of_odd_index_need_a_suitable_prime() {
     // 2^61 - 2 is divisible by 3, so cube roots are not unique there.
     let x = Modulus::new(MERSENNE).integer(4);

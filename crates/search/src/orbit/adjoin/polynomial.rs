@@ -8,6 +8,8 @@ use liouville::number::rational::Rational;
 
 /// Largest number of terms; longer polynomials are not made.
 const MOST_TERMS: usize = 400;
+/// Largest number of bits of a power of a coefficient.
+const MOST_BITS: u64 = 1 << 14;
 
 /// Powers of variables, by increasing variables, without powers 0.
 pub type Monomial = Vec<(usize, u32)>;
@@ -102,7 +104,7 @@ impl RingPolynomial {
         let mut terms = BTreeMap::new();
         for (a, x) in &self.0 {
             for (b, y) in &other.0 {
-                add(&mut terms, product(a, b), &(x * y));
+                add(&mut terms, product(a, b)?, &(x * y));
             }
             if terms.len() > MOST_TERMS {
                 return None;
@@ -112,9 +114,21 @@ impl RingPolynomial {
     }
 
     /// Power; `None` if it is too long.
+    ///
+    /// That of one term is written at once. The n-th power of two or more has n + 1 terms at least:
+    /// along an edge of Newton's polytope it is the power of a polynomial in one variable, with a root
+    /// of multiplicity n other than 0. So the number of products is bounded by that of terms.
     pub fn raised(&self, power: u32) -> Option<Self> {
         let one = Self::constant(Rational::from(1));
-        (0..power).try_fold(one, |made, _| made.times(self))
+        if power == 0 || self.is_zero() {
+            return Some(if power == 0 { one } else { self.clone() });
+        }
+        let Some((monomial, value)) = self.single() else {
+            let is_short = (power as usize) < MOST_TERMS;
+            return is_short.then(|| (0..power).try_fold(one, |made, _| made.times(self)))?;
+        };
+        let own = monomial.iter().map(|(variable, own)| Some((*variable, own.checked_mul(power)?)));
+        Some(Self::term(own.collect::<Option<_>>()?, number_power(value, power)?))
     }
 
     /// Derivative along a motion in which each variable has a rate.
@@ -182,7 +196,7 @@ impl RingPolynomial {
         let mut made = Self::term(first.clone(), value);
         for (own, _) in parts {
             // The coefficient in the product with the first term has the sign.
-            let Some(value) = self.0.get(&product(&first, &own)) else { continue };
+            let Some(value) = self.0.get(&product(&first, &own)?) else { continue };
             made = made.plus(&Self::term(own, value * &twice), &Rational::from(1))?;
         }
         (made.times(&made)? == *self).then_some(made)
@@ -221,12 +235,24 @@ fn add(terms: &mut BTreeMap<Monomial, Rational>, own: Monomial, value: &Rational
     }
 }
 
-fn product(a: &Monomial, b: &Monomial) -> Monomial {
+/// Product; `None` if an exponent is too large.
+fn product(a: &Monomial, b: &Monomial) -> Option<Monomial> {
     let mut all: BTreeMap<usize, u32> = a.iter().copied().collect();
     for (variable, power) in b {
-        *all.entry(*variable).or_insert(0) += power;
+        let own = all.entry(*variable).or_insert(0);
+        *own = own.checked_add(*power)?;
     }
-    all.into_iter().collect()
+    Some(all.into_iter().collect())
+}
+
+/// Power of a number; `None` if it is very long.
+fn number_power(value: &Rational, power: u32) -> Option<Rational> {
+    let (above, below) = value.parts();
+    let bits = above.bits().max(below.bits());
+    // 1 and −1 have one bit.
+    let power = if bits == 1 { 2 - power % 2 } else { power };
+    (bits * u64::from(power) <= MOST_BITS)
+        .then(|| Rational::from_parts(above.pow(power), below.pow(power)))
 }
 
 fn quotient(a: &Monomial, b: &Monomial) -> Monomial {
@@ -306,6 +332,23 @@ mod tests {
             _ => Some(RingPolynomial::constant(Rational::from(1))),
         });
         assert_eq!(rate, RingPolynomial::variable(1, 2).plus(&x(0), &one));
+    }
+
+    #[test]
+    fn powers_of_high_degree_are_short_or_none() {
+        let minus = Rational::from(-1);
+        let term = RingPolynomial::term(vec![(0, 2), (3, 1)], minus.clone());
+        let raised = term.raised(1_000_000_007).expect("one term");
+        let expected = vec![(0, 2_000_000_014), (3, 1_000_000_007)];
+        assert_eq!(raised, RingPolynomial::term(expected, minus.clone()));
+        assert_eq!(term.raised(4_000_000_000), None, "no exponent of that size");
+        assert_eq!(raised.times(&raised).and_then(|own| own.times(&raised)), None);
+        assert_eq!(x(0).times_number(&2.into()).raised(1_000_000_007), None, "2^1000000007");
+        let sum = x(0).plus(&x(1), &minus).expect("short");
+        assert_eq!(sum.raised(1_000_000_007), None, "too many terms");
+        assert_eq!(sum.raised(399).map(|own| own.terms().count()), Some(400));
+        assert_eq!(sum.raised(0), RingPolynomial::default().raised(0));
+        assert!(RingPolynomial::default().raised(1_000_000_007).is_some_and(|own| own.is_zero()));
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use liouville::case::Case;
 use liouville::formula::Formula;
 use liouville::graph::Step;
+use liouville::mechanics::System;
 use liouville::number::UnaryFunction;
 use liouville::number::rational::Rational;
 
@@ -39,9 +40,16 @@ pub fn has_independent_roots(
         && absence::has_independent_roots(&case.model, &ring, effort.options.seed))
 }
 
-/// Lists the square roots of functions of the parameters in a field, with the number under a root of a
-/// number.
+/// Lists the square roots of functions of the parameters in a field or map, or in a Lagrangian's
+/// equations of motion, with the number under a root of a number.
 pub fn roots(case: &Case) -> Result<Vec<(Formula, Option<Rational>)>, SearchError> {
+    let is_written = matches!(
+        case.model.system,
+        System::Field(_) | System::Hamiltonian(_) | System::Map(_) | System::Lagrangian(_)
+    );
+    if !is_written {
+        return Ok(Vec::new());
+    }
     let parameters = case.model.free_components();
     let (graph, field) = recorded(case, |jet| jet.phase.field().to_vec())?;
     let reached = graph.reached(field);

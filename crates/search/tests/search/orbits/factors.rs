@@ -4,7 +4,8 @@ use liouville_search::{Effort, SearchReport};
 
 use super::{excluded, field, searched};
 
-fn cofactor<'r>(report: &'r SearchReport, formula: &str) -> Option<&'r str> {
+/// Cofactor of a Darboux polynomial that was found.
+pub fn cofactor<'r>(report: &'r SearchReport, formula: &str) -> Option<&'r str> {
     let own = report
         .found
         .iter()
@@ -85,6 +86,31 @@ fn factors_of_the_whole_field_are_found() {
     );
     for line in ["x − 2*y", "1 − x − y"] {
         assert!(cofactor(&lines, line).is_some(), "{line}: {:?}", lines.found);
+    }
+}
+
+#[test]
+fn variables_that_divide_their_rates_are_found_at_any_degree() {
+    let fields = [
+        ("", ["x^1000000007*y", "y"], ("x", "x^1000000006*y"), "x^(−1000000007)*y^(−1)"),
+        ("", ["x^30*y", "y"], ("x", "x^29*y"), "x^(−30)*y^(−1)"),
+        ("", ["(2*x)^1000000007*y", "y"], ("y", "1"), "x^(−1000000007)*y^(−1)"),
+        ("", ["x^4000000000*x^4000000000*y", "y"], ("y", "1"), "x^(−8000000000)*y^(−1)"),
+        ("", ["(x + y + 1)^300", "y*(x + y + 1)^7"], ("y", "(1 + (x + y))^7"), ""),
+        ("", ["(x + 1)^1000000007*y", "y - 3*y"], ("y", "1 − 3"), ""),
+        ("a = '1..2'", ["a*x^31*(y + x^40)", "1 + y²"], ("x", "x^30*a*(y + x^40)"), ""),
+    ];
+    for (parameters, rates, (variable, own), density) in fields {
+        let report = searched(&field(parameters, &rates), &Effort::default());
+        assert_eq!(cofactor(&report, variable), Some(own), "{rates:?}: {:?}", report.found);
+        assert_eq!(report.formulas("density").next().unwrap_or(""), density, "{rates:?}");
+    }
+    // x² + x y − y divides nothing, and 1/x has a pole where x is 0.
+    for rates in [["x^30 + y", "y^40 + x"], ["y^30/x", "x^30/y"]] {
+        let report = searched(&field("", &rates), &Effort::default());
+        for variable in ["x", "y"] {
+            assert_eq!(cofactor(&report, variable), None, "{rates:?}: {:?}", report.found);
+        }
     }
 }
 

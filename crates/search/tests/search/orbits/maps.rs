@@ -8,7 +8,7 @@ use liouville_search::{Ansatz, ConditionTarget, Effort, Hamiltonians, SearchRepo
 use super::{excluded, searched};
 
 /// A map in as many of x, y, z as there are images.
-fn map(parameters: &str, images: &[&str]) -> String {
+pub fn map(parameters: &str, images: &[&str]) -> String {
     let names = ["x", "y", "z"];
     let each = |line: &dyn Fn(&str, &str) -> String| -> String {
         names.iter().zip(images).map(|(name, image)| line(name, image)).collect()
@@ -156,6 +156,9 @@ fn the_order_of_a_map_is_told_with_sums_over_its_orbits() {
         ("a rotation by a quarter", map("", &["-y", "x"]), Some("Φ^4 = id, proved"), 2),
         ("Lyness", map("a = '0.5..2'", &["y", "(a + y)/x"]), None, 1),
         ("a shear", map("", &["x + y", "y"]), None, 1),
+        ("signs", map("k = 'one of 1, -1'", &["k*x", "k*y"]), Some("Φ^2 = id, proved"), 2),
+        ("roots", map("k = 'one of 1, 0'", &["-y", "x + k*y"]), Some("Φ^12 = id, proved"), 0),
+        ("a list with a shear", map("k = 'one of 0, 1'", &["x + k*y", "y"]), None, 1),
     ];
     for (name, text, order, count) in cases {
         let report = searched(&text, &Effort::default());

@@ -122,7 +122,16 @@ fn planted_equations_between_parameters_are_found() {
     assert!(grounds.ends_with("none is added up to degree 3"), "{:?}", report.conditions);
     let report = planted_in(&["a", "b"], "1 + 0*a*b");
     assert_eq!(equations(&report), [""; 0]);
-    assert!(report.conditions[0].grounds.contains("no other equation"), "{:?}", report.conditions);
+    assert!(report.conditions[0].grounds.contains("no equation gives"), "{:?}", report.conditions);
+}
+
+#[test]
+fn the_absence_of_conditions_is_told_as_such() {
+    let rates = ["y*z + (b²*a³ − 2)*x²", "x*z + (a² − a − 1)*(a − 5*b)*y*z", "x*y + (a² + 1)*z*x"];
+    let report = conditions(&field("a = '0.5..1.3'\nb = '1..2'", &rates), 2);
+    assert_eq!(equations(&report), [""; 0]);
+    let grounds = &report.conditions[0].grounds;
+    assert!(grounds.ends_with("modulo a prime of 61 bits no equation gives more"), "{grounds}");
 }
 
 #[test]

@@ -1,0 +1,105 @@
+//! Lagrangians whose masses ∂²T/∂w² are not definite: the equations of motion have a value wherever
+//! the matrix is regular, also where a leading minor of it is 0.
+
+use liouville::case::Case;
+use liouville::mechanics::System;
+use liouville::verdict::{Options, Verdict, judge};
+
+/// Verdicts of claims about a Lagrangian; `None` if it has no equations of motion.
+fn verdicts(
+    parameters: &str,
+    state: &[&str],
+    lagrangian: &str,
+    claims: &[&str],
+) -> Option<Vec<Verdict>> {
+    let state: String = state.iter().map(|name| format!("\"{name}\" = '-1..1'\n")).collect();
+    let claims: String = claims.iter().map(|claim| format!("[[claim]]\n{claim}\n")).collect();
+    let text = format!(
+        "title = 'x'\n[parameters]\n{parameters}\n[state]\n{state}[lagrangian]\n{lagrangian}\n{claims}"
+    );
+    let case = Case::parse(&text, &[]).expect("a case");
+    let reports = judge(&case, &Options::default()).ok()?;
+    Some(reports.claims.into_iter().map(|report| report.verdict).collect())
+}
+
+const PLANE: [&str; 4] = ["x", "y", "x'", "y'"];
+const SPACE: [&str; 6] = ["x", "y", "z", "x'", "y'", "z'"];
+
+#[test]
+fn regular_masses_of_any_sign_have_equations_of_motion() {
+    use Verdict::{Proved, Refuted};
+    let swapped =
+        ["rate = \"x'\"\nequals = '-x'", "rate = \"y'\"\nequals = '-y'", "integral = 'energy'"];
+    let own = "kinetic = \"x'*y'\"\npotential = 'x*y'";
+    assert_eq!(verdicts("", &PLANE, own, &swapped), Some(vec![Proved; 3]), "x'' = −x, y'' = −y");
+    let wrong = ["rate = \"x'\"\nequals = '-y'", "integral = 'x*y'"];
+    assert_eq!(verdicts("", &PLANE, own, &wrong), Some(vec![Refuted; 2]));
+    let own = "kinetic = \"x'*y' + z'²/2\"\npotential = 'x*y + z²'";
+    let third =
+        ["rate = \"z'\"\nequals = '-2*z'", "integral = 'energy'", "integral = \"z'² + 2*z²\""];
+    assert_eq!(verdicts("", &SPACE, own, &third), Some(vec![Proved; 3]));
+    // A pivot m − m·m/m that is 0 without being folded.
+    let own = "kinetic = \"m*(x' + y')²/2 + (x' - y')*z' + z'²/2\"\npotential = 'x*y*z'";
+    let energy = ["integral = 'energy'", "integral = \"x'² + y'²\""];
+    let found = verdicts("m = '1..2'", &SPACE, own, &energy);
+    assert_eq!(found, Some(vec![Proved, Refuted]), "a second minor that is 0");
+    let own = "kinetic = \"-(x'² + y'²)/2\"\npotential = 'x*y'";
+    let negative = ["rate = \"x'\"\nequals = 'y'", "integral = 'energy'"];
+    assert_eq!(verdicts("", &PLANE, own, &negative), Some(vec![Proved; 2]), "all masses negative");
+}
+
+#[test]
+fn equations_of_motion_hold_where_a_leading_minor_vanishes() {
+    use Verdict::{Proved, Refuted};
+    // The determinant is −1 everywhere, and the first minor x is 0 at the point of rest.
+    let own = "kinetic = \"x*x'²/2 + x'*y'\"\npotential = 'x*y'";
+    let rests = ["fixed-point = { x = '0' }", "fixed-point = { x = '1' }", "integral = 'energy'"];
+    assert_eq!(verdicts("", &PLANE, own, &rests), Some(vec![Proved, Refuted, Proved]));
+}
+
+#[test]
+fn singular_masses_are_refused() {
+    for kinetic in ["(x' + y')²/2", "x'²/2", "x'*y' - x'*y'", "m*(x' + y')²/2"] {
+        let own = format!("kinetic = \"{kinetic}\"\npotential = 'x*y'");
+        let found = verdicts("m = '1..2'", &PLANE, &own, &["integral = 'energy'"]);
+        assert_eq!(found, None, "{kinetic}");
+    }
+}
+
+#[test]
+fn reactions_are_those_of_masses_of_both_signs() {
+    // With x' = y' the motion along the line has L = x'² − x², for any signs of the masses.
+    let own = "kinetic = \"x'*y'\"\npotential = 'x*y'\nconstraints = [\"x' - y' = 0\"]";
+    let text = format!(
+        "title = 'x'\nsystem = 'nonholonomic'\n[state]\nx = '-1..1'\ny = '-1..1'\n\"x'\" = '-1..1'\n\
+         \"y'\" = '-1..1'\n[lagrangian]\n{own}\n[[claim]]\nrate = \"x'\"\nequals = '-(x + y)/2'\n\
+         [[claim]]\nintegral = 'energy'\n[[claim]]\nintegral = 'x - y'\n"
+    );
+    let case = Case::parse(&text, &[]).expect("a case");
+    let reports = judge(&case, &Options::default()).expect("it has equations of motion");
+    for report in &reports.claims {
+        assert_eq!(report.verdict, Verdict::Proved, "{report:?}");
+    }
+}
+
+#[test]
+fn definite_masses_are_eliminated_as_before() {
+    let is_indefinite = |kinetic: &str, ranges: &str| {
+        let text = format!(
+            "title = 'x'\n[parameters]\nm = '{ranges}'\n[state]\nx = '0.1..1'\ny = '-1..1'\n\
+             \"x'\" = '-1..1'\n\"y'\" = '-1..1'\n[lagrangian]\nkinetic = \"{kinetic}\"\n"
+        );
+        let case = Case::parse(&text, &[]).expect("a case");
+        let System::Lagrangian(own) = &case.model.system else { panic!("a Lagrangian") };
+        own.is_indefinite
+    };
+    for kinetic in ["m*(x'² + x²*y'²)/2", "m*x'² + x'*y' + y'²", "(x' + y')²", "-m*(x'² + y'²)"]
+    {
+        assert!(!is_indefinite(kinetic, "1..2"), "{kinetic}");
+    }
+    for (kinetic, ranges) in
+        [("m*x'² + x'*y' + y'²", "-2..2"), ("x'²/2 + m*x'*y'", "1..2"), ("x'² - m*y'²", "1..2")]
+    {
+        assert!(is_indefinite(kinetic, ranges), "{kinetic} for m in {ranges}");
+    }
+}
