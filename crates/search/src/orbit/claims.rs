@@ -48,13 +48,13 @@ impl OrbitStatement {
 }
 
 /// Case about which finds are claims.
-fn judged_case<'c>(setting: &OrbitSetting<'c>) -> &'c Case {
+pub fn judged_case<'c>(setting: &OrbitSetting<'c>) -> &'c Case {
     setting.origin.map_or(setting.case, |origin| origin.case)
 }
 
 /// Writes a formula in the names of the case that is judged; `None` if it is too long or too deep for
 /// the reader of formulas.
-fn written(setting: &OrbitSetting<'_>, formula: &Formula) -> Option<Formula> {
+pub fn written(setting: &OrbitSetting<'_>, formula: &Formula) -> Option<Formula> {
     match setting.origin {
         None => setting.case.formula(formula.text()).ok().map(|_| formula.clone()),
         Some(origin) => origin.case.formula(&origin.extension.back(formula)).ok(),

@@ -1,7 +1,7 @@
 //! Densities and integrals Π f^α e^g from factors with known cofactors.
 //!
 //! v(ln Π f^α e^g) = Σ α K + v(g) is linear in the exponents α and the coefficients of g, which may
-//! contain angles of conjugate factors. With β div v and a constant λ added, one linear system has
+//! contain angles of conjugate factors, and fractions h/f^m where nothing is found without them. With β div v and a constant λ added, one linear system has
 //! densities (β = 1), integrals with powers, logarithms and exponentials, and functions of constant
 //! rate λ as its null vectors.
 
@@ -16,7 +16,8 @@ use super::claims::{self, OrbitStatement};
 use super::factor::RatedPolynomial;
 use super::images::{self, Images};
 use super::known::IndependentIntegrals;
-use super::monomials::{self, value};
+use super::monomials;
+use super::quotients::{self, Quotient, rate_of_monomial};
 use super::setting::{OrbitSetting, SPARE_ORDERS, run};
 
 /// Largest number of monomials of g.
@@ -32,6 +33,8 @@ const CONSTANT_RATE: &str = "function-of-constant-rate";
 pub enum RateTerm {
     /// Rate of a monomial.
     Monomial(Vec<u32>),
+    /// Rate of a monomial over a power of a factor.
+    Quotient(Quotient),
     /// Cofactor of a factor.
     Factor(usize),
     /// Rate of the angle of conjugate factors.
@@ -45,7 +48,7 @@ pub enum RateTerm {
 /// A way to write a function.
 #[derive(Clone, Copy, Debug)]
 pub struct Style {
-    /// Whether logarithms and roots are those of moduli.
+    /// Whether logarithms and roots are those of moduli, where the sign is not known.
     pub has_moduli: bool,
     /// Form of the angles.
     pub angle: AngleForm,
@@ -113,19 +116,23 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         let m = at.modulus;
         let Some((point, orbit)) = self.setting.orbit(at, number, 2)? else { return Ok(None) };
         let inputs = [point.parameters.as_slice(), &point.state].concat();
-        let entry = |column: &usize| match &self.columns[*column] {
-            RateTerm::Monomial(own) => {
-                let slope = |k: usize| {
-                    let mut lower = own.clone();
-                    lower[k] -= 1;
-                    let factor = m.mul(m.integer(u64::from(own[k])), orbit[k][1]);
-                    m.mul(factor, value(&m, &point.state, &lower))
-                };
-                let used = (0..own.len()).filter(|k| own[*k] > 0);
-                Some(used.fold(0, |sum, k| m.add(sum, slope(k))))
+        let rates = |k: usize| orbit[k][1];
+        let mut values: Vec<Option<(u64, u64)>> = vec![None; self.factors.len()];
+        for column in columns {
+            let place = match &self.columns[*column] {
+                RateTerm::Factor(place) => *place,
+                RateTerm::Quotient(own) => own.factor,
+                _ => continue,
+            };
+            if values[place].is_none() {
+                values[place] = self.factors[place].at(at, &point);
             }
+        }
+        let entry = |column: &usize| match &self.columns[*column] {
+            RateTerm::Monomial(own) => Some(rate_of_monomial(at, &point, &rates, own)),
+            RateTerm::Quotient(own) => own.rate(at, &point, &rates, values[own.factor]?),
             RateTerm::Factor(place) => {
-                let (own, rate) = self.factors[*place].at(at, &point)?;
+                let (own, rate) = values[*place]?;
                 (own != 0).then(|| m.mul(rate, m.inverse(own)))
             }
             RateTerm::Angle(place) => self.pairs[*place].rate(at, &point),
@@ -135,21 +142,51 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         Ok(columns.iter().map(entry).collect())
     }
 
-    /// Solves the system, and adds proved finds to the report.
+    /// Searches without fractions, and then with them if there may be more; proved finds go into the
+    /// report.
     pub fn search(
+        mut self,
+        known: &mut IndependentIntegrals,
+        report: &mut SearchReport,
+    ) -> Result<(), SearchError> {
+        self.solve(known, report)?;
+        let variables = self.variables.len();
+        let most = self.setting.origin.map_or(variables, |own| own.case.model.dimension());
+        let has_density = report.formulas("density").next().is_some();
+        if has_density && known.within(self.variables) + 1 >= most {
+            return Ok(());
+        }
+        let own = quotients::terms(self.setting, self.variables, self.factors);
+        if own.is_empty() {
+            return Ok(());
+        }
+        let is_monomial = |column: &RateTerm| matches!(column, RateTerm::Monomial(_));
+        let place = self.columns.iter().take_while(|column| is_monomial(column)).count();
+        self.columns.splice(place..place, own);
+        self.solve(known, report)
+    }
+
+    /// Solves the system, and adds proved finds to the report.
+    fn solve(
         &self,
         known: &mut IndependentIntegrals,
         report: &mut SearchReport,
     ) -> Result<(), SearchError> {
         let Some(at) = self.setting.at(0, 0) else { return Ok(()) };
         let all: Vec<usize> = (0..self.columns.len()).collect();
+        let is_quotient = |column: &usize| matches!(self.columns[*column], RateTerm::Quotient(_));
+        let has_quotients = all.iter().any(is_quotient);
         for vector in self.relations(&at, &all)? {
             self.setting.effort.halt.check()?;
             let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
             let Some(last) = support.last() else { continue };
+            // Without fractions it has been found before.
+            if has_quotients && !support.iter().any(is_quotient) {
+                continue;
+            }
             match self.columns[*last] {
-                // A polynomial integral, which the search for these has found.
-                RateTerm::Monomial(_) => {}
+                // A polynomial or rational integral, for which there is a search of its own; or 0.
+                RateTerm::Monomial(_) | RateTerm::Quotient(_) => {}
                 RateTerm::Factor(_) | RateTerm::Angle(_) => {
                     self.integral(&support, known, report)?;
                 }
@@ -181,7 +218,7 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
             false => &[AngleForm::Circular],
         };
         let with =
-            |angle: &AngleForm| [false, true].map(|has_moduli| Style { has_moduli, angle: *angle });
+            |angle: &AngleForm| [true, false].map(|has_moduli| Style { has_moduli, angle: *angle });
         forms.iter().flat_map(with).collect()
     }
 

@@ -17,9 +17,9 @@
 //! angle        angles between conjugate Darboux polynomials
 //! no_others    theorem that the Darboux polynomials found are all
 //! finite_order   maps with Φⁿ = id, and sums over their orbits
-//! map_densities  densities of maps, from discrete Darboux polynomials
-//! map_integrals  polynomial integrals of maps
+//! map_densities  densities of maps; map_integrals  their polynomial integrals
 //! exponents    densities, and integrals with powers, logarithms and exponentials, from cofactors
+//! quotients    fractions over powers of factors in these; magnitude  f or |f| under a logarithm
 //! adjoin       functions of the state as further variables
 //! part         all of these in the variables of a part of the field
 //! fractions    for claims of absence: relations that known integrals do not explain
@@ -45,6 +45,7 @@ mod known;
 mod lattice;
 mod leading;
 mod line;
+mod magnitude;
 mod map_densities;
 mod map_integrals;
 pub mod monomials;
@@ -53,6 +54,7 @@ mod part;
 mod polynomials;
 mod primes;
 mod products;
+mod quotients;
 mod rational;
 mod relations;
 mod setting;
