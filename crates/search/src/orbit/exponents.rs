@@ -142,14 +142,12 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         Ok(columns.iter().map(entry).collect())
     }
 
-    /// Searches without fractions, and then with them if there may be more; proved finds go into the
-    /// report.
-    pub fn search(
+    /// Searches with fractions as well if there may be more.
+    pub fn search_with_fractions(
         mut self,
         known: &mut IndependentIntegrals,
         report: &mut SearchReport,
     ) -> Result<(), SearchError> {
-        self.solve(known, report)?;
         let variables = self.variables.len();
         let most = self.setting.origin.map_or(variables, |own| own.case.model.dimension());
         let has_density = report.formulas("density").next().is_some();
@@ -163,11 +161,11 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         let is_monomial = |column: &RateTerm| matches!(column, RateTerm::Monomial(_));
         let place = self.columns.iter().take_while(|column| is_monomial(column)).count();
         self.columns.splice(place..place, own);
-        self.solve(known, report)
+        self.search(known, report)
     }
 
     /// Solves the system, and adds proved finds to the report.
-    fn solve(
+    pub fn search(
         &self,
         known: &mut IndependentIntegrals,
         report: &mut SearchReport,
@@ -176,6 +174,8 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         let all: Vec<usize> = (0..self.columns.len()).collect();
         let is_quotient = |column: &usize| matches!(self.columns[*column], RateTerm::Quotient(_));
         let has_quotients = all.iter().any(is_quotient);
+        // In some of the variables there may be a simpler one with the others.
+        let is_whole = self.variables.len() == self.setting.dimension();
         for vector in self.relations(&at, &all)? {
             self.setting.effort.halt.check()?;
             let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
@@ -191,10 +191,17 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
                     self.integral(&support, known, report)?;
                 }
                 // Others differ from the first by integrals.
+                RateTerm::Constant if has_quotients => {
+                    let is_told = report.found.iter().any(|own| own.kind == CONSTANT_RATE);
+                    if is_whole && !is_told {
+                        self.rate(&support, report)?;
+                    }
+                }
                 RateTerm::Constant if report.formulas(CONSTANT_RATE).next().is_none() => {
                     self.rate(&support, report)?;
                 }
                 RateTerm::Constant => {}
+                RateTerm::Divergence if has_quotients && !is_whole => {}
                 RateTerm::Divergence if support.len() > 1 => self.density(&support, report)?,
                 RateTerm::Divergence => {}
             }

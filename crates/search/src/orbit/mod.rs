@@ -61,6 +61,7 @@ mod setting;
 mod sparse;
 mod tangents;
 mod taylor;
+mod unbound;
 mod univariate;
 
 use serde::Serialize;

@@ -11,7 +11,7 @@ use super::rational::RationalSearch;
 use super::setting::{ExtendedCase, OrbitSetting};
 use super::{
     OrbitReport, RoundLimits, fractions, map_integrals, monomials, no_others, polynomials,
-    relations,
+    relations, unbound,
 };
 use liouville::formula::Formula;
 
@@ -39,6 +39,10 @@ pub struct VariableSet {
     combined: Option<usize>,
     /// Numbers of factors and of pairs at the last search with angles.
     with_angles: Option<(usize, usize)>,
+    /// The same at the last search with fractions.
+    with_fractions: Option<(usize, usize)>,
+    /// Whether factors without the relations between the functions have been searched.
+    is_unbound: bool,
     /// Relations of each degree that has been searched.
     done: Vec<OrbitReport>,
 }
@@ -56,6 +60,8 @@ impl VariableSet {
             pairs: Vec::new(),
             combined: None,
             with_angles: None,
+            with_fractions: None,
+            is_unbound: false,
             done: Vec::new(),
         }
     }
@@ -106,6 +112,10 @@ impl VariableSet {
                         self.factors.extend(RatedPolynomial::of(setting, formula, 1)?);
                     }
                 }
+                if !self.is_unbound && !is_complete(setting, known) {
+                    self.is_unbound = true;
+                    unbound::search(setting, limits, &mut self.factors, report, progress)?;
+                }
                 self.combined =
                     combine(setting, variables, &self.factors, self.combined, known, report)?;
                 for [even, odd, square] in &origin.extension.circles {
@@ -116,6 +126,7 @@ impl VariableSet {
                     self.pairs.extend(pair.filter(is_new));
                 }
                 self.with_angles(setting, known, report)?;
+                self.with_fractions(setting, known, report)?;
             }
             return Ok(());
         };
@@ -131,7 +142,24 @@ impl VariableSet {
         }
         search.parts(known, &mut self.factors, report)?;
         self.combined = combine(setting, variables, &self.factors, self.combined, known, report)?;
-        self.with_angles(setting, known, report)
+        self.with_angles(setting, known, report)?;
+        self.with_fractions(setting, known, report)
+    }
+
+    /// Searches for what has fractions over powers of factors in exponents.
+    fn with_fractions(
+        &mut self,
+        setting: &OrbitSetting<'_>,
+        known: &mut IndependentIntegrals,
+        report: &mut SearchReport,
+    ) -> Result<(), SearchError> {
+        let counts = (self.factors.len(), self.pairs.len());
+        if self.with_fractions != Some(counts) {
+            let system = ExponentSystem::of(setting, &self.variables, &self.factors, &self.pairs)?;
+            system.search_with_fractions(known, report)?;
+            self.with_fractions = Some(counts);
+        }
+        Ok(())
     }
 
     /// Searches for integrals with angles; these jump by π, so what can be written without them is.

@@ -7,9 +7,9 @@ use super::super::ansatz::coefficients::Ratio;
 use super::super::ansatz::monomials::power_product;
 use super::super::terms::{is_one, one};
 use super::exponents::{ExponentSystem, RateTerm, Style};
-use super::quotients::Quotient;
 use super::images;
 use super::magnitude::magnitude;
+use super::quotients::Quotient;
 
 impl ExponentSystem<'_, '_> {
     /// Argument of a factor that is an exponential.
@@ -32,7 +32,7 @@ impl ExponentSystem<'_, '_> {
         let formula = &self.factors[own.factor].formula;
         let below = match own.power {
             1 => formula.clone(),
-            power => formula.bracketed().raised(power)?,
+            power => formula.raised(power)?,
         };
         let above = power_product(&self.setting.terms, &own.monomial)?;
         Ok(Ratio { above, below: Some(below) })

@@ -74,8 +74,10 @@ pub fn terms(
     let is_exponential = |own: &RatedPolynomial| {
         setting.origin.is_some_and(|origin| origin.extension.exponent(&own.formula).is_some())
     };
-    let chosen: Vec<usize> =
-        (0..factors.len()).filter(|place| !is_exponential(&factors[*place])).take(FACTORS).collect();
+    let chosen: Vec<usize> = (0..factors.len())
+        .filter(|place| !is_exponential(&factors[*place]))
+        .take(FACTORS)
+        .collect();
     let mut all = Vec::new();
     for power in 1..=POWER {
         for factor in &chosen {

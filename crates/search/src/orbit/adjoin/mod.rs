@@ -83,6 +83,8 @@ pub struct Extension {
     angles: Vec<RingPolynomial>,
     /// Monomials of the extended state that relations between the functions write in others.
     leading: Vec<Monomial>,
+    /// Text of the extended field without its level.
+    field: String,
 }
 
 impl Extension {
@@ -111,6 +113,20 @@ impl Extension {
             own.iter().all(|(variable, power)| monomial[*variable] >= *power)
         };
         !self.leading.iter().any(|own| divides(own))
+    }
+
+    /// The extended field without the relations between its functions, where these are sines, cosines
+    /// and exponentials.
+    pub fn unbound(&self) -> Option<Case> {
+        let is_plain = |atom: &Atom| {
+            is_constant(atom)
+                || matches!(
+                    atom,
+                    Atom::State | Atom::Exponential(_) | Atom::Sine(_) | Atom::Cosine(_)
+                )
+        };
+        let is_unbound = !self.angles.is_empty() && self.ring.atoms.iter().all(is_plain);
+        is_unbound.then(|| Case::parse(&self.field, &[]).ok()).flatten()
     }
 
     /// Half of each argument of a sine or cosine.
@@ -260,7 +276,7 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
     let ReadParts { field, divergence, known, level } = read.parts;
     let Some(rates) = ring.rates(&field) else { return Ok(None) };
     let Some(text) = write::case(case, ring, (&rates, &level), &names) else { return Ok(None) };
-    let Ok(extended) = Case::parse(&text, &[]) else { return Ok(None) };
+    let Ok(extended) = Case::parse(&text.concat(), &[]) else { return Ok(None) };
     let formula =
         |own: &RingPolynomial| extended.formula(&write::written(own, &names.extended)).ok();
     let Some(divergence) = formula(&divergence) else { return Ok(None) };
@@ -283,6 +299,7 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
         back: Back::of(ring, &names),
         exponentials: exponentials.collect(),
         case: extended,
+        field: text.into_iter().next().unwrap_or_default(),
         read: known,
         ring: read.ring,
     }))
