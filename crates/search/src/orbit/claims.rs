@@ -107,6 +107,23 @@ pub fn integral(
     Ok(report.found.len() > before)
 }
 
+/// Adds the integral ρP, with a density ρ in the names of the case that is judged, to the report if it
+/// is proved; returns whether it was added.
+pub fn weighted_integral(
+    setting: &OrbitSetting<'_>,
+    density: &Formula,
+    polynomial: &Formula,
+    report: &mut SearchReport,
+) -> Result<bool, SearchError> {
+    let Some(polynomial) = written(setting, polynomial) else { return Ok(false) };
+    let formula = (density * &polynomial.bracketed())?;
+    let statement = OrbitStatement::Integral(formula.clone());
+    let Some(found) = judged_here(setting, &statement)? else { return Ok(false) };
+    let before = report.found.len();
+    tell(judged_case(setting), &formula, found, setting.effort, report)?;
+    Ok(report.found.len() > before)
+}
+
 /// Adds another find to the report if it is proved.
 pub fn other(
     setting: &OrbitSetting<'_>,

@@ -54,6 +54,15 @@ pub struct Style {
     pub angle: AngleForm,
 }
 
+/// Records the divergence of a field; of an extended one that of the field itself.
+pub fn divergence(setting: &OrbitSetting<'_>) -> Result<Tape, SearchError> {
+    let own = setting.origin.map(|origin| &origin.extension.divergence);
+    let (graph, divergence) = recorded(setting.case, |jet| {
+        own.map_or_else(|| jet.divergence(), |formula| jet.phase.scalar(formula))
+    })?;
+    Ok(Tape::new(&graph, &[divergence]))
+}
+
 /// The linear system for some factors.
 pub struct ExponentSystem<'s, 'c> {
     /// Case with its points.
@@ -76,10 +85,6 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         factors: &'s [RatedPolynomial],
         pairs: &'s [ConjugatePair],
     ) -> Result<Self, SearchError> {
-        let own = setting.origin.map(|origin| &origin.extension.divergence);
-        let (graph, divergence) = recorded(setting.case, |jet| {
-            own.map_or_else(|| jet.divergence(), |formula| jet.phase.scalar(formula))
-        })?;
         let fits = |degree: &u32| monomials::count(variables.len(), *degree) <= MONOMIALS;
         let degree = (1..=DEGREE).rev().find(fits).unwrap_or(1);
         let all = monomials::up_to(variables, setting.dimension(), degree);
@@ -88,7 +93,7 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         let angles = (0..pairs.len()).map(RateTerm::Angle);
         let last = [RateTerm::Constant, RateTerm::Divergence];
         let columns = monomials.chain(own).chain(angles).chain(last).collect();
-        let divergence = Tape::new(&graph, &[divergence]);
+        let divergence = divergence(setting)?;
         Ok(Self { setting, variables, factors, pairs, columns, divergence })
     }
 

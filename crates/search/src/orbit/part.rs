@@ -11,7 +11,7 @@ use super::rational::RationalSearch;
 use super::setting::{ExtendedCase, OrbitSetting};
 use super::{
     OrbitReport, RoundLimits, fractions, map_integrals, monomials, no_others, polynomials,
-    relations, unbound,
+    relations, unbound, weighted,
 };
 use liouville::formula::Formula;
 
@@ -158,6 +158,9 @@ impl VariableSet {
             let system = ExponentSystem::of(setting, &self.variables, &self.factors, &self.pairs)?;
             system.search_with_fractions(known, report)?;
             self.with_fractions = Some(counts);
+            if self.variables.len() == setting.dimension() {
+                weighted::search(setting, known, report)?;
+            }
         }
         Ok(())
     }
