@@ -14,6 +14,7 @@ use liouville::claim::{Claim, LevelSubset};
 use liouville::formula::{Formula, FormulaResult};
 use liouville::graph::{Expr, Graph};
 use liouville::number::rational::Rational;
+use liouville::verdict::Verdict;
 
 /// Factors, exponents, and their rates along the motion.
 struct Logarithms {
@@ -49,8 +50,14 @@ pub fn densities(
     })?;
     let logarithms = Logarithms { factors, exponents, graph, rates };
     match logarithms.solve(case, divergence, effort)? {
-        Exponents::Found(product) => tell_density(case, &multiplied(&product)?, effort, report)?,
-        Exponents::Unknown => tell_density(case, &one(), effort, report)?,
+        Exponents::Found(product) => {
+            let formula = multiplied(&product)?;
+            let judged = judged_alone(case, Claim::density(&formula), effort)?;
+            if let Some(found) = judged.filter(holds) {
+                report.found.push(Found::new("density", &formula, None, found, model));
+            }
+        }
+        Exponents::Unknown => tell_volume(case, effort, report)?,
         Exponents::None => {}
     }
     for (form, rate) in forms.into_iter().zip(moving) {
@@ -64,16 +71,15 @@ pub fn densities(
     Ok(())
 }
 
-/// Adds a density to the report if it holds.
-pub fn tell_density(
+/// Adds the density 1 to the report if it is proved.
+pub fn tell_volume(
     case: &Case,
-    formula: &Formula,
     effort: &Effort,
     report: &mut SearchReport,
 ) -> Result<(), SearchError> {
-    let judged = judged_alone(case, Claim::density(formula), effort)?;
-    if let Some(found) = judged.filter(holds) {
-        report.found.push(Found::new("density", formula, None, found, &case.model));
+    let judged = judged_alone(case, Claim::density(&one()), effort)?;
+    if let Some(found) = judged.filter(|own| own.verdict == Verdict::Proved) {
+        report.found.push(Found::new("density", &one(), None, found, &case.model));
     }
     Ok(())
 }

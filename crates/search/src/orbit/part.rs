@@ -159,7 +159,7 @@ impl VariableSet {
             system.search_with_fractions(known, report)?;
             self.with_fractions = Some(counts);
             if self.variables.len() == setting.dimension() {
-                weighted::search(setting, known, report)?;
+                weighted::search(setting, report)?;
             }
         }
         Ok(())

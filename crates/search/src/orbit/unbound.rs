@@ -14,6 +14,8 @@ use super::{RoundLimits, blocks, degree_of_field, monomials};
 
 /// Number of points at which a polynomial must not vanish, and must change.
 const POINTS: u64 = 2;
+/// Largest number of coefficients of a cofactor.
+const MOST_COFACTOR: usize = 60;
 /// Share of the steps of other searches on a line.
 const SHARE: f64 = 0.25;
 
@@ -33,6 +35,9 @@ pub fn search(
     let (mut all, mut pairs) = (Vec::new(), Vec::new());
     let mut own = SearchReport::default();
     for variables in blocks::closed(&case)? {
+        if monomials::count(variables.len(), degree.saturating_sub(1) as u32) > MOST_COFACTOR {
+            continue;
+        }
         let search = DarbouxSearch { setting: &unbound, variables: &variables, degree };
         let fits =
             |next: &u32| monomials::steps(variables.len(), *next, degree) <= SHARE * limits.steps;

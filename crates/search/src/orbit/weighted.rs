@@ -15,7 +15,6 @@ use super::super::{SearchError, SearchReport};
 use super::claims;
 use super::exponents::divergence;
 use super::images::{self, Images};
-use super::known::IndependentIntegrals;
 use super::monomials::{self, value};
 use super::quotients::rate_of_monomial;
 use super::setting::{OrbitSetting, SPARE_ORDERS, run};
@@ -27,14 +26,10 @@ const DEGREE: u32 = 8;
 
 /// Searches a field in the plane of which a density, and no integral, is known; what is proved goes
 /// into the report.
-pub fn search(
-    setting: &OrbitSetting<'_>,
-    known: &mut IndependentIntegrals,
-    report: &mut SearchReport,
-) -> Result<(), SearchError> {
+pub fn search(setting: &OrbitSetting<'_>, report: &mut SearchReport) -> Result<(), SearchError> {
     let dimension =
         setting.origin.map_or(setting.dimension(), |origin| origin.case.model.dimension());
-    if dimension != 2 || known.formulas().next().is_some() {
+    if dimension != 2 || report.formulas("integral").next().is_some() {
         return Ok(());
     }
     let density = report.functions("density").find(|own| !is_one(own)).cloned();
@@ -50,7 +45,6 @@ pub fn search(
         for vector in rates.null_vectors(&at, &all)? {
             let Some(polynomial) = rates.polynomial(&all, &vector)? else { continue };
             if claims::weighted_integral(setting, &density, &polynomial, report)? {
-                known.add(polynomial, None, &variables);
                 return Ok(());
             }
         }
