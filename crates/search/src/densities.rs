@@ -77,7 +77,7 @@ pub fn tell_volume(
     effort: &Effort,
     report: &mut SearchReport,
 ) -> Result<(), SearchError> {
-    let judged = judged_alone(case, Claim::density(&one()), effort)?;
+    let judged = judged_alone(case, Claim::density(one()), effort)?;
     if let Some(found) = judged.filter(|own| own.verdict == Verdict::Proved) {
         report.found.push(Found::new("density", &one(), None, found, &case.model));
     }

@@ -121,11 +121,9 @@ impl Extension {
     /// The extended field without the relations between its functions; `None` if these are exponentials
     /// and denominators alone.
     pub fn unbound(&self) -> Option<Case> {
-        let is_bound = |atom: &Atom| match atom {
-            Atom::Parameter | Atom::State | Atom::Constant(_) => false,
-            Atom::Exponential(_) | Atom::Inverse(..) => false,
-            _ => true,
-        };
+        let is_free = |atom: &Atom| matches!(atom, Atom::Exponential(_) | Atom::Inverse(..));
+        let is_bound =
+            |atom: &Atom| !is_constant(atom) && !is_free(atom) && !matches!(atom, Atom::State);
         let is_unbound = self.ring.atoms.iter().any(is_bound);
         is_unbound.then(|| Case::parse(&self.field, &[]).ok()).flatten()
     }
