@@ -251,7 +251,10 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
             };
             let Some(formula) = formula else { continue };
             if claims::integral(self.setting, &formula, report)? {
-                known.add(formula, None, self.variables);
+                match is_product {
+                    true => known.add(formula, None, self.variables),
+                    false => known.add_transcendental(formula, self.variables),
+                }
                 break;
             }
         }

@@ -21,6 +21,8 @@ struct KnownIntegral {
     /// Degree of a polynomial.
     degree: Option<u32>,
     variables: Vec<usize>,
+    /// Whether relations between monomials may imply it.
+    is_algebraic: bool,
 }
 
 /// Independent integrals found so far.
@@ -56,7 +58,14 @@ impl IndependentIntegrals {
 
     /// Adds an integral that is independent of the others.
     pub fn add(&mut self, formula: Formula, degree: Option<u32>, variables: &[usize]) {
-        self.all.push(KnownIntegral { formula, degree, variables: variables.to_vec() });
+        let variables = variables.to_vec();
+        self.all.push(KnownIntegral { formula, degree, variables, is_algebraic: true });
+    }
+
+    /// Adds one that is no algebraic function, as one with logarithms.
+    pub fn add_transcendental(&mut self, formula: Formula, variables: &[usize]) {
+        let variables = variables.to_vec();
+        self.all.push(KnownIntegral { formula, degree: None, variables, is_algebraic: false });
     }
 
     /// A random point, and the gradients of the level and of the known integrals there; `None` where there
@@ -87,8 +96,16 @@ impl IndependentIntegrals {
 
     /// Number of integrals in these variables alone.
     pub fn within(&self, variables: &[usize]) -> usize {
-        let inside = |one: &&KnownIntegral| one.variables.iter().all(|k| variables.contains(k));
-        self.all.iter().filter(inside).count()
+        self.inside(variables).count()
+    }
+
+    /// Number of algebraic integrals in these variables alone.
+    pub fn algebraic_within(&self, variables: &[usize]) -> usize {
+        self.inside(variables).filter(|one| one.is_algebraic).count()
+    }
+
+    fn inside(&self, variables: &[usize]) -> impl Iterator<Item = &KnownIntegral> {
+        self.all.iter().filter(|one| one.variables.iter().all(|k| variables.contains(k)))
     }
 
     /// Lists the products that are polynomials of at most this degree, as exponents; an integral of

@@ -245,7 +245,7 @@ impl VariableSet {
             integrals: step.integrals,
         });
         let variables = &self.variables;
-        if step.integrals > known.within(variables) {
+        if step.integrals > known.algebraic_within(variables) {
             match setting.flow.is_map {
                 true => map_integrals::polynomials(
                     setting, variables, monomials, degree, known, report,
@@ -255,12 +255,12 @@ impl VariableSet {
                 }
             }
         }
-        if step.integrals > known.within(variables) {
+        if step.integrals > known.algebraic_within(variables) {
             let rational = RationalSearch { setting, variables, monomials, degree };
             rational.search(&at, &step.relations, step.integrals, known, report)?;
         }
         // The reduced relations depend on the order, and another may have shorter ones.
-        if step.integrals > known.within(variables) && setting.flow.is_map {
+        if step.integrals > known.algebraic_within(variables) && setting.flow.is_map {
             let mut monomials = monomials.to_vec();
             monomials.sort_by_key(|own| (own.iter().sum::<u32>(), own.clone()));
             if let Some(relations) = setting.relations(&at, 0, &monomials)? {

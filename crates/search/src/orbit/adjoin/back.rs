@@ -240,8 +240,7 @@ fn is_bracketed(text: &str) -> bool {
 
 /// Whether a text is a modulus as a whole.
 fn is_modulus(text: &str) -> bool {
-    let inner = text.strip_prefix('|').and_then(|text| text.strip_suffix('|'));
-    inner.is_some_and(|inner| !inner.contains('|'))
+    text.starts_with('|') && closes(text)
 }
 
 fn unbracketed(text: &str) -> &str {
