@@ -20,9 +20,8 @@
 //! exponents    densities, and integrals with powers, logarithms and exponentials, from cofactors
 //! quotients    fractions over factors in these; weighted, magnitude  densities times P; f or |f|
 //! adjoin       functions of the state as further variables
-//! part         all of these in the variables of a part of the field
+//! part, claims   all of these in the variables of a part of the field; judgement of each find
 //! fractions    for claims of absence: relations that known integrals do not explain
-//! claims       judgement of each find
 //! ```
 //!
 //! The degree grows as the number of monomials allows, and further while there is time.

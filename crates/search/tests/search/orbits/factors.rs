@@ -135,6 +135,11 @@ fn fractions_with_factors_in_exponents_are_found() {
     }
     let report = searched(&field("", &["x²", "-2*x*y + y + 1"]), &Effort::default());
     assert_eq!(report.formulas("density").collect::<Vec<_>>(), ["exp(1/x)"]);
+    // One with a logarithm, in y and z alone, does not take the place of a rational one.
+    let report = searched(&field("", &["y", "z - 1", "z²"]), &Effort::default());
+    let with_logarithm = report.formulas("integral").filter(|own| own.contains("ln("));
+    assert_eq!(with_logarithm.count(), 1, "{:?}", report.found);
+    assert_eq!(report.formulas("integral").count(), 2, "{:?}", report.found);
     // What needs no fraction is written without one.
     let report = searched(&field("", &["x²", "y"]), &Effort::default());
     assert_eq!(report.formulas("density").collect::<Vec<_>>(), ["x^(−2)*y^(−1)"]);
