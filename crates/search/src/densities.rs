@@ -14,6 +14,7 @@ use liouville::claim::{Claim, LevelSubset};
 use liouville::formula::{Formula, FormulaResult};
 use liouville::graph::{Expr, Graph};
 use liouville::number::rational::Rational;
+use liouville::verdict::Verdict;
 
 /// Factors, exponents, and their rates along the motion.
 struct Logarithms {
@@ -48,15 +49,19 @@ pub fn densities(
         (vec![jet.divergence() - jet.level_cofactor(&kept)], rates, moving)
     })?;
     let logarithms = Logarithms { factors, exponents, graph, rates };
-    if let Some(product) = logarithms.solve(case, divergence, effort)? {
-        let formula = multiplied(&product)?;
-        let judged = judged_alone(case, Claim::density(&formula), effort)?;
-        if let Some(found) = judged.filter(holds) {
-            report.found.push(Found::new("density", &formula, None, found, model));
+    match logarithms.solve(case, divergence, effort)? {
+        Exponents::Found(product) => {
+            let formula = multiplied(&product)?;
+            let judged = judged_alone(case, Claim::density(&formula), effort)?;
+            if let Some(found) = judged.filter(holds) {
+                report.found.push(Found::new("density", &formula, None, found, model));
+            }
         }
+        Exponents::Unknown => tell_volume(case, effort, report)?,
+        Exponents::None => {}
     }
     for (form, rate) in forms.into_iter().zip(moving) {
-        let Some(product) = logarithms.solve(case, rate, effort)? else { continue };
+        let Exponents::Found(product) = logarithms.solve(case, rate, effort)? else { continue };
         let formula = multiplied(&[vec![form], product].concat())?;
         let judged = judged_alone(case, Claim::integral(&formula), effort)?;
         if let Some(found) = judged.filter(holds) {
@@ -64,6 +69,29 @@ pub fn densities(
         }
     }
     Ok(())
+}
+
+/// Adds the density 1 to the report if it is proved.
+pub fn tell_volume(
+    case: &Case,
+    effort: &Effort,
+    report: &mut SearchReport,
+) -> Result<(), SearchError> {
+    let judged = judged_alone(case, Claim::density(one()), effort)?;
+    if let Some(found) = judged.filter(|own| own.verdict == Verdict::Proved) {
+        report.found.push(Found::new("density", &one(), None, found, &case.model));
+    }
+    Ok(())
+}
+
+/// Exponents for which rates add up to 0.
+enum Exponents {
+    /// The factors with their exponents.
+    Found(Vec<Formula>),
+    /// There are none.
+    None,
+    /// The target has no values modulo a prime.
+    Unknown,
 }
 
 /// Product of some factors; 1 of none.
@@ -81,28 +109,28 @@ impl Logarithms {
         case: &Case,
         target: Vec<Expr>,
         effort: &Effort,
-    ) -> Result<Option<Vec<Formula>>, SearchError> {
+    ) -> Result<Exponents, SearchError> {
         let columns: Vec<Vec<Expr>> = self.rates.iter().cloned().chain([target]).collect();
         let mut functions = SampledFunctions::new(case, &self.graph, &columns, effort)?;
         let defined = functions.defined();
         if defined.last() != Some(&self.rates.len()) {
-            return Ok(None);
+            return Ok(Exponents::Unknown);
         }
         functions.restrict(&defined);
         let relations = match functions.relations() {
-            Err(SearchError::NoPoints) => return Ok(None),
+            Err(SearchError::NoPoints) => return Ok(Exponents::Unknown),
             other => other?,
         };
         // The target is the last column: if it depends on the others, one vector has 1 there.
         let one = Rational::from(1);
         let vectors = relations.rational()?.0;
         let Some(vector) = vectors.iter().find(|vector| vector.last() == Some(&one)) else {
-            return Ok(None);
+            return Ok(Exponents::None);
         };
         let mut exponents = vec![Rational::from(0); self.rates.len()];
         for (place, value) in defined.iter().zip(&vector[..vector.len() - 1]) {
             exponents[*place] = value.clone();
         }
-        Ok(Some(powers(&exponents, &self.factors, &self.exponents)?))
+        Ok(Exponents::Found(powers(&exponents, &self.factors, &self.exponents)?))
     }
 }

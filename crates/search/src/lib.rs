@@ -255,9 +255,13 @@ pub fn search(
     let case = &abbreviated(case)?;
     report.claimed = ask::claimed(case, effort)?;
     if case.model.system.is_map() {
+        report.stage("components that the map keeps", effort, |report| {
+            maps::kept(case, effort, report)
+        })?;
         report.stage("relations along an orbit", effort, |report| {
             orbit::search_map(case, effort, effort.halt.is_timed(), report, progress)
         })?;
+        report.stage("the density 1", effort, |report| maps::volume(case, effort, report))?;
         maps::note_fields_only(effort, &mut report);
         return Ok(report);
     }

@@ -1,6 +1,41 @@
-//! Parts of a search that maps do not have.
+//! What a map shows by itself, and parts of a search that maps do not have.
 
-use super::{Effort, SearchReport};
+use super::ask::judged_alone;
+use super::densities::tell_volume;
+use super::integrals::tell;
+use super::terms::{read, recorded};
+use super::{Effort, SearchError, SearchReport};
+use liouville::case::Case;
+use liouville::claim::Claim;
+use liouville::graph::Step;
+use liouville::verdict::Verdict;
+
+/// Tells the components of the state that a map keeps.
+pub fn kept(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<(), SearchError> {
+    let model = &case.model;
+    let first = model.free_components();
+    let (graph, images) = recorded(case, |jet| jet.phase.field().to_vec())?;
+    for (component, image) in images.iter().enumerate() {
+        match graph.step(graph.place(*image)) {
+            Step::Input(input) if input == first + component => {}
+            _ => continue,
+        }
+        let name = model.component_name(component);
+        for formula in read([name.as_str()], &model.vocabulary) {
+            let judged = judged_alone(case, Claim::integral(&formula), effort)?;
+            if let Some(found) = judged.filter(|own| own.verdict == Verdict::Proved) {
+                tell(case, &formula, found, effort, report)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Tells the density 1 of a map for which no density was found.
+pub fn volume(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<(), SearchError> {
+    let has_density = report.formulas("density").next().is_some();
+    if has_density { Ok(()) } else { tell_volume(case, effort, report) }
+}
 
 /// Notes the parts asked for that a search of a map does not have.
 pub fn note_fields_only(effort: &Effort, report: &mut SearchReport) {

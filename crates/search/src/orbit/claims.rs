@@ -48,13 +48,13 @@ impl OrbitStatement {
 }
 
 /// Case about which finds are claims.
-fn judged_case<'c>(setting: &OrbitSetting<'c>) -> &'c Case {
+pub fn judged_case<'c>(setting: &OrbitSetting<'c>) -> &'c Case {
     setting.origin.map_or(setting.case, |origin| origin.case)
 }
 
 /// Writes a formula in the names of the case that is judged; `None` if it is too long or too deep for
 /// the reader of formulas.
-fn written(setting: &OrbitSetting<'_>, formula: &Formula) -> Option<Formula> {
+pub fn written(setting: &OrbitSetting<'_>, formula: &Formula) -> Option<Formula> {
     match setting.origin {
         None => setting.case.formula(formula.text()).ok().map(|_| formula.clone()),
         Some(origin) => origin.case.formula(&origin.extension.back(formula)).ok(),
@@ -100,6 +100,23 @@ pub fn integral(
     report: &mut SearchReport,
 ) -> Result<bool, SearchError> {
     let Some(formula) = written_integral(setting, formula) else { return Ok(false) };
+    let statement = OrbitStatement::Integral(formula.clone());
+    let Some(found) = judged_here(setting, &statement)? else { return Ok(false) };
+    let before = report.found.len();
+    tell(judged_case(setting), &formula, found, setting.effort, report)?;
+    Ok(report.found.len() > before)
+}
+
+/// Adds the integral ρP, with a density ρ in the names of the case that is judged, to the report if it
+/// is proved; returns whether it was added.
+pub fn weighted_integral(
+    setting: &OrbitSetting<'_>,
+    density: &Formula,
+    polynomial: &Formula,
+    report: &mut SearchReport,
+) -> Result<bool, SearchError> {
+    let Some(polynomial) = written(setting, polynomial) else { return Ok(false) };
+    let formula = (density * &polynomial.bracketed())?;
     let statement = OrbitStatement::Integral(formula.clone());
     let Some(found) = judged_here(setting, &statement)? else { return Ok(false) };
     let before = report.found.len();

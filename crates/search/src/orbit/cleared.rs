@@ -90,6 +90,8 @@ pub fn search(
     if !pairs.is_empty() {
         ExponentSystem::of(setting, &all, &rated, &pairs)?.search(known, report)?;
     }
+    let system = ExponentSystem::of(setting, &all, &rated, &pairs)?;
+    system.search_with_fractions(known, report)?;
     let curves: Vec<Formula> = factors.into_iter().map(|own| own.formula).collect();
     cleared.conclude(&curves, (1..=highest).rev(), (effort, most_steps), setting, report)
 }

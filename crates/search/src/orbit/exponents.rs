@@ -1,7 +1,7 @@
 //! Densities and integrals Π f^α e^g from factors with known cofactors.
 //!
 //! v(ln Π f^α e^g) = Σ α K + v(g) is linear in the exponents α and the coefficients of g, which may
-//! contain angles of conjugate factors. With β div v and a constant λ added, one linear system has
+//! contain angles of conjugate factors, and fractions h/f^m where nothing is found without them. With β div v and a constant λ added, one linear system has
 //! densities (β = 1), integrals with powers, logarithms and exponentials, and functions of constant
 //! rate λ as its null vectors.
 
@@ -16,7 +16,8 @@ use super::claims::{self, OrbitStatement};
 use super::factor::RatedPolynomial;
 use super::images::{self, Images};
 use super::known::IndependentIntegrals;
-use super::monomials::{self, value};
+use super::monomials;
+use super::quotients::{self, Quotient, rate_of_monomial};
 use super::setting::{OrbitSetting, SPARE_ORDERS, run};
 
 /// Largest number of monomials of g.
@@ -32,6 +33,8 @@ const CONSTANT_RATE: &str = "function-of-constant-rate";
 pub enum RateTerm {
     /// Rate of a monomial.
     Monomial(Vec<u32>),
+    /// Rate of a monomial over a power of a factor.
+    Quotient(Quotient),
     /// Cofactor of a factor.
     Factor(usize),
     /// Rate of the angle of conjugate factors.
@@ -45,10 +48,19 @@ pub enum RateTerm {
 /// A way to write a function.
 #[derive(Clone, Copy, Debug)]
 pub struct Style {
-    /// Whether logarithms and roots are those of moduli.
+    /// Whether logarithms and roots are those of moduli, where the sign is not known.
     pub has_moduli: bool,
     /// Form of the angles.
     pub angle: AngleForm,
+}
+
+/// Records the divergence of a field; of an extended one that of the field itself.
+pub fn divergence(setting: &OrbitSetting<'_>) -> Result<Tape, SearchError> {
+    let own = setting.origin.map(|origin| &origin.extension.divergence);
+    let (graph, divergence) = recorded(setting.case, |jet| {
+        own.map_or_else(|| jet.divergence(), |formula| jet.phase.scalar(formula))
+    })?;
+    Ok(Tape::new(&graph, &[divergence]))
 }
 
 /// The linear system for some factors.
@@ -73,10 +85,6 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         factors: &'s [RatedPolynomial],
         pairs: &'s [ConjugatePair],
     ) -> Result<Self, SearchError> {
-        let own = setting.origin.map(|origin| &origin.extension.divergence);
-        let (graph, divergence) = recorded(setting.case, |jet| {
-            own.map_or_else(|| jet.divergence(), |formula| jet.phase.scalar(formula))
-        })?;
         let fits = |degree: &u32| monomials::count(variables.len(), *degree) <= MONOMIALS;
         let degree = (1..=DEGREE).rev().find(fits).unwrap_or(1);
         let all = monomials::up_to(variables, setting.dimension(), degree);
@@ -85,7 +93,7 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         let angles = (0..pairs.len()).map(RateTerm::Angle);
         let last = [RateTerm::Constant, RateTerm::Divergence];
         let columns = monomials.chain(own).chain(angles).chain(last).collect();
-        let divergence = Tape::new(&graph, &[divergence]);
+        let divergence = divergence(setting)?;
         Ok(Self { setting, variables, factors, pairs, columns, divergence })
     }
 
@@ -113,19 +121,23 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         let m = at.modulus;
         let Some((point, orbit)) = self.setting.orbit(at, number, 2)? else { return Ok(None) };
         let inputs = [point.parameters.as_slice(), &point.state].concat();
-        let entry = |column: &usize| match &self.columns[*column] {
-            RateTerm::Monomial(own) => {
-                let slope = |k: usize| {
-                    let mut lower = own.clone();
-                    lower[k] -= 1;
-                    let factor = m.mul(m.integer(u64::from(own[k])), orbit[k][1]);
-                    m.mul(factor, value(&m, &point.state, &lower))
-                };
-                let used = (0..own.len()).filter(|k| own[*k] > 0);
-                Some(used.fold(0, |sum, k| m.add(sum, slope(k))))
+        let rates = |k: usize| orbit[k][1];
+        let mut values: Vec<Option<(u64, u64)>> = vec![None; self.factors.len()];
+        for column in columns {
+            let place = match &self.columns[*column] {
+                RateTerm::Factor(place) => *place,
+                RateTerm::Quotient(own) => own.factor,
+                _ => continue,
+            };
+            if values[place].is_none() {
+                values[place] = self.factors[place].at(at, &point);
             }
+        }
+        let entry = |column: &usize| match &self.columns[*column] {
+            RateTerm::Monomial(own) => Some(rate_of_monomial(at, &point, &rates, own)),
+            RateTerm::Quotient(own) => own.rate(at, &point, &rates, values[own.factor]?),
             RateTerm::Factor(place) => {
-                let (own, rate) = self.factors[*place].at(at, &point)?;
+                let (own, rate) = values[*place]?;
                 (own != 0).then(|| m.mul(rate, m.inverse(own)))
             }
             RateTerm::Angle(place) => self.pairs[*place].rate(at, &point),
@@ -133,6 +145,28 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
             RateTerm::Divergence => run(&self.divergence, m, &inputs).map(|values| values[0]),
         };
         Ok(columns.iter().map(entry).collect())
+    }
+
+    /// Searches with fractions as well if there may be more.
+    pub fn search_with_fractions(
+        mut self,
+        known: &mut IndependentIntegrals,
+        report: &mut SearchReport,
+    ) -> Result<(), SearchError> {
+        let variables = self.variables.len();
+        let most = self.setting.origin.map_or(variables, |own| own.case.model.dimension());
+        let has_density = report.formulas("density").next().is_some();
+        if has_density && known.within(self.variables) + 1 >= most {
+            return Ok(());
+        }
+        let own = quotients::terms(self.setting, self.variables, self.factors);
+        if own.is_empty() {
+            return Ok(());
+        }
+        let is_monomial = |column: &RateTerm| matches!(column, RateTerm::Monomial(_));
+        let place = self.columns.iter().take_while(|column| is_monomial(column)).count();
+        self.columns.splice(place..place, own);
+        self.search(known, report)
     }
 
     /// Solves the system, and adds proved finds to the report.
@@ -143,21 +177,36 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
     ) -> Result<(), SearchError> {
         let Some(at) = self.setting.at(0, 0) else { return Ok(()) };
         let all: Vec<usize> = (0..self.columns.len()).collect();
+        let is_quotient = |column: &usize| matches!(self.columns[*column], RateTerm::Quotient(_));
+        let has_quotients = all.iter().any(is_quotient);
+        // In some of the variables there may be a simpler one with the others.
+        let is_whole = self.variables.len() == self.setting.dimension();
         for vector in self.relations(&at, &all)? {
             self.setting.effort.halt.check()?;
             let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
             let Some(last) = support.last() else { continue };
+            // Without fractions it has been found before.
+            if has_quotients && !support.iter().any(is_quotient) {
+                continue;
+            }
             match self.columns[*last] {
-                // A polynomial integral, which the search for these has found.
-                RateTerm::Monomial(_) => {}
+                // A polynomial or rational integral, for which there is a search of its own; or 0.
+                RateTerm::Monomial(_) | RateTerm::Quotient(_) => {}
                 RateTerm::Factor(_) | RateTerm::Angle(_) => {
                     self.integral(&support, known, report)?;
                 }
                 // Others differ from the first by integrals.
+                RateTerm::Constant if has_quotients => {
+                    let is_told = report.found.iter().any(|own| own.kind == CONSTANT_RATE);
+                    if is_whole && !is_told {
+                        self.rate(&support, report)?;
+                    }
+                }
                 RateTerm::Constant if report.formulas(CONSTANT_RATE).next().is_none() => {
                     self.rate(&support, report)?;
                 }
                 RateTerm::Constant => {}
+                RateTerm::Divergence if has_quotients && !is_whole => {}
                 RateTerm::Divergence if support.len() > 1 => self.density(&support, report)?,
                 RateTerm::Divergence => {}
             }
@@ -181,7 +230,7 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
             false => &[AngleForm::Circular],
         };
         let with =
-            |angle: &AngleForm| [false, true].map(|has_moduli| Style { has_moduli, angle: *angle });
+            |angle: &AngleForm| [true, false].map(|has_moduli| Style { has_moduli, angle: *angle });
         forms.iter().flat_map(with).collect()
     }
 

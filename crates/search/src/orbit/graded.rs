@@ -183,7 +183,7 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
         // as polynomials that are equal there to fractions.
         let mut together = gradients.clone();
         let new = candidates.iter().filter(|own| together.push(at, gradient(own))).count();
-        if !setting.is_on_level() && known.within(variables) + new <= counted {
+        if !setting.is_on_level() && known.algebraic_within(variables) + new <= counted {
             return Ok(());
         }
         let mut unwritten = None;

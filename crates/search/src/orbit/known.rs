@@ -100,10 +100,18 @@ impl IndependentIntegrals {
         self.all.iter().filter(|one| one.is_algebraic).map(|one| &one.formula)
     }
 
-    /// Number of algebraic integrals in these variables alone.
+    /// Number of integrals in these variables alone.
     pub fn within(&self, variables: &[usize]) -> usize {
-        let inside = |one: &&KnownIntegral| one.variables.iter().all(|k| variables.contains(k));
-        self.all.iter().filter(inside).filter(|one| one.is_algebraic).count()
+        self.inside(variables).count()
+    }
+
+    /// Number of algebraic integrals in these variables alone.
+    pub fn algebraic_within(&self, variables: &[usize]) -> usize {
+        self.inside(variables).filter(|one| one.is_algebraic).count()
+    }
+
+    fn inside(&self, variables: &[usize]) -> impl Iterator<Item = &KnownIntegral> {
+        self.all.iter().filter(|one| one.variables.iter().all(|k| variables.contains(k)))
     }
 
     /// Lists the products of algebraic integrals that are polynomials of at most this degree, as

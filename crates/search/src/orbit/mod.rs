@@ -8,23 +8,21 @@
 //! polynomials  polynomial integrals
 //! lattice      exponents that a field does not mix
 //! leading      parts of highest degree that no polynomial integral has
-//! graded       polynomial integrals of higher degree, class by class
-//! sparse       combinations of integrals with few terms
+//! graded, sparse   polynomial integrals of higher degree, class by class; those with few terms
 //! rational     rational ones, as P and Q of the relations P − c Q
 //! line         points of a line whose orbits satisfy an additional relation
 //! darboux      Darboux polynomials: the relations at these points
-//! cleared      Darboux polynomials of fields of fractions
+//! cleared      those of fields of fractions; unbound  those with functions
 //! own_factors  variables that divide their own rates
 //! angle        angles between conjugate Darboux polynomials
 //! no_others    theorem that the Darboux polynomials found are all
 //! finite_order   maps with Φⁿ = id, and sums over their orbits
-//! map_densities  densities of maps, from discrete Darboux polynomials
-//! map_integrals  polynomial integrals of maps
+//! map_densities, map_integrals  densities and polynomial integrals of maps
 //! exponents    densities, and integrals with powers, logarithms and exponentials, from cofactors
+//! quotients    fractions over factors in these; weighted, magnitude  densities times P; f or |f|
 //! adjoin       functions of the state as further variables
-//! part         all of these in the variables of a part of the field
+//! part, claims   all of these in the variables of a part of the field; judgement of each find
 //! fractions    for claims of absence: relations that known integrals do not explain
-//! claims       each find is judged as a claim like any other
 //! ```
 //!
 //! The degree grows as the number of monomials allows, and further while there is time.
@@ -46,6 +44,7 @@ mod known;
 mod lattice;
 mod leading;
 mod line;
+mod magnitude;
 mod map_densities;
 mod map_integrals;
 pub mod monomials;
@@ -55,13 +54,16 @@ mod part;
 mod polynomials;
 mod primes;
 mod products;
+mod quotients;
 mod rational;
 mod relations;
 mod setting;
 mod sparse;
 mod tangents;
 mod taylor;
+mod unbound;
 mod univariate;
+mod weighted;
 
 use serde::Serialize;
 

@@ -11,7 +11,7 @@ use super::rational::RationalSearch;
 use super::setting::{ExtendedCase, OrbitSetting};
 use super::{
     OrbitReport, RoundLimits, fractions, map_integrals, monomials, no_others, polynomials,
-    relations,
+    relations, unbound, weighted,
 };
 use liouville::formula::Formula;
 
@@ -39,6 +39,10 @@ pub struct VariableSet {
     combined: Option<usize>,
     /// Numbers of factors and of pairs at the last search with angles.
     with_angles: Option<(usize, usize)>,
+    /// The same at the last search with fractions.
+    with_fractions: Option<(usize, usize)>,
+    /// Whether factors without the relations between the functions have been searched.
+    is_unbound: bool,
     /// Relations of each degree that has been searched.
     done: Vec<OrbitReport>,
 }
@@ -56,6 +60,8 @@ impl VariableSet {
             pairs: Vec::new(),
             combined: None,
             with_angles: None,
+            with_fractions: None,
+            is_unbound: false,
             done: Vec::new(),
         }
     }
@@ -106,6 +112,10 @@ impl VariableSet {
                         self.factors.extend(RatedPolynomial::of(setting, formula, 1)?);
                     }
                 }
+                if !self.is_unbound && !is_complete(setting, known) {
+                    self.is_unbound = true;
+                    unbound::search(setting, limits, &mut self.factors, report, progress)?;
+                }
                 self.combined =
                     combine(setting, variables, &self.factors, self.combined, known, report)?;
                 for [even, odd, square] in &origin.extension.circles {
@@ -116,6 +126,7 @@ impl VariableSet {
                     self.pairs.extend(pair.filter(is_new));
                 }
                 self.with_angles(setting, known, report)?;
+                self.with_fractions(setting, known, report)?;
             }
             return Ok(());
         };
@@ -131,7 +142,27 @@ impl VariableSet {
         }
         search.parts(known, &mut self.factors, report)?;
         self.combined = combine(setting, variables, &self.factors, self.combined, known, report)?;
-        self.with_angles(setting, known, report)
+        self.with_angles(setting, known, report)?;
+        self.with_fractions(setting, known, report)
+    }
+
+    /// Searches for what has fractions over powers of factors in exponents.
+    fn with_fractions(
+        &mut self,
+        setting: &OrbitSetting<'_>,
+        known: &mut IndependentIntegrals,
+        report: &mut SearchReport,
+    ) -> Result<(), SearchError> {
+        let counts = (self.factors.len(), self.pairs.len());
+        if self.with_fractions != Some(counts) {
+            let system = ExponentSystem::of(setting, &self.variables, &self.factors, &self.pairs)?;
+            system.search_with_fractions(known, report)?;
+            self.with_fractions = Some(counts);
+            if self.variables.len() == setting.dimension() {
+                weighted::search(setting, report)?;
+            }
+        }
+        Ok(())
     }
 
     /// Searches for integrals with angles; these jump by π, so what can be written without them is.
@@ -214,7 +245,7 @@ impl VariableSet {
             integrals: step.integrals,
         });
         let variables = &self.variables;
-        if step.integrals > known.within(variables) {
+        if step.integrals > known.algebraic_within(variables) {
             match setting.flow.is_map {
                 true => map_integrals::polynomials(
                     setting, variables, monomials, degree, known, report,
@@ -224,12 +255,12 @@ impl VariableSet {
                 }
             }
         }
-        if step.integrals > known.within(variables) {
+        if step.integrals > known.algebraic_within(variables) {
             let rational = RationalSearch { setting, variables, monomials, degree };
             rational.search(&at, &step.relations, step.integrals, known, report)?;
         }
         // The reduced relations depend on the order, and another may have shorter ones.
-        if step.integrals > known.within(variables) && setting.flow.is_map {
+        if step.integrals > known.algebraic_within(variables) && setting.flow.is_map {
             let mut monomials = monomials.to_vec();
             monomials.sort_by_key(|own| (own.iter().sum::<u32>(), own.clone()));
             if let Some(relations) = setting.relations(&at, 0, &monomials)? {

@@ -1,12 +1,15 @@
-//! Π f^α e^g and its logarithm, as formulas.
+//! Π f^α e^(g + Σ h/f^m) and its logarithm, as formulas.
 
 use liouville::formula::{Formula, FormulaError};
 
+use super::super::SearchError;
 use super::super::ansatz::coefficients::Ratio;
 use super::super::ansatz::monomials::power_product;
 use super::super::terms::{is_one, one};
 use super::exponents::{ExponentSystem, RateTerm, Style};
 use super::images;
+use super::magnitude::magnitude;
+use super::quotients::Quotient;
 
 impl ExponentSystem<'_, '_> {
     /// Argument of a factor that is an exponential.
@@ -15,24 +18,46 @@ impl ExponentSystem<'_, '_> {
         origin.extension.exponent(&self.factors[factor].formula)
     }
 
-    /// Makes the logarithm Σ α ln f + g; `None` if an angle is not real.
+    /// A factor under a logarithm or a root.
+    fn base(&self, factor: usize, style: Style) -> Result<Formula, SearchError> {
+        let formula = &self.factors[factor].formula;
+        match style.has_moduli {
+            true => magnitude(self.setting, formula),
+            false => Ok(formula.clone()),
+        }
+    }
+
+    /// A monomial over a power of a factor.
+    fn quotient(&self, own: &Quotient) -> Result<Ratio, FormulaError> {
+        let formula = &self.factors[own.factor].formula;
+        let below = match own.power {
+            1 => formula.clone(),
+            power => formula.raised(power)?,
+        };
+        let above = power_product(&self.setting.terms, &own.monomial)?;
+        Ok(Ratio { above, below: Some(below) })
+    }
+
+    /// Makes the logarithm Σ α ln f + g + Σ h/f^m; `None` if an angle is not real.
     pub fn logarithm(
         &self,
         support: &[usize],
         vector: &images::ParametricVector,
         style: Style,
-    ) -> Result<Option<Formula>, FormulaError> {
+    ) -> Result<Option<Formula>, SearchError> {
         let mut functions = Vec::new();
         let mut places = Vec::new();
         for (place, column) in support.iter().enumerate() {
             let function = match &self.columns[*column] {
                 RateTerm::Monomial(own) => power_product(&self.setting.terms, own)?,
+                RateTerm::Quotient(own) => {
+                    functions.push(self.quotient(own)?);
+                    places.push(place);
+                    continue;
+                }
                 RateTerm::Factor(own) => match self.exponent(*own) {
                     Some(argument) => argument.clone(),
-                    None if style.has_moduli => {
-                        Formula::call("ln", &[&self.factors[*own].formula.modulus()?])?
-                    }
-                    None => Formula::call("ln", &[&self.factors[*own].formula])?,
+                    None => Formula::call("ln", &[&self.base(*own, style)?])?,
                 },
                 RateTerm::Angle(own) => match self.pairs[*own].formula(style.angle)? {
                     Some(angle) => angle,
@@ -47,13 +72,13 @@ impl ExponentSystem<'_, '_> {
         Ok(Some(sum.unwrap_or_else(|| Formula::number(0))))
     }
 
-    /// Makes Π f^α e^g; `None` if an angle is not real.
+    /// Makes Π f^α e^(g + Σ h/f^m); `None` if an angle is not real.
     pub fn product(
         &self,
         support: &[usize],
         vector: &images::ParametricVector,
         style: Style,
-    ) -> Result<Option<Formula>, FormulaError> {
+    ) -> Result<Option<Formula>, SearchError> {
         let mut powers: Vec<Formula> = Vec::new();
         let mut exponent = (Vec::new(), Vec::new());
         for (place, column) in support.iter().enumerate() {
@@ -62,16 +87,19 @@ impl ExponentSystem<'_, '_> {
                     exponent.0.push(place);
                     exponent.1.push(Ratio::of(power_product(&self.setting.terms, own)?));
                 }
+                RateTerm::Quotient(own) => {
+                    exponent.0.push(place);
+                    exponent.1.push(self.quotient(own)?);
+                }
                 RateTerm::Factor(own) => {
                     if let Some(argument) = self.exponent(*own) {
                         exponent.0.push(place);
                         exponent.1.push(Ratio::of(argument.clone()));
                         continue;
                     }
-                    let formula = &self.factors[*own].formula;
-                    let base = match style.has_moduli && !vector.is_whole(place) {
-                        true => formula.modulus()?,
-                        false => formula.clone(),
+                    let base = match vector.is_whole(place) {
+                        true => self.factors[*own].formula.clone(),
+                        false => self.base(*own, style)?,
                     };
                     let power = vector.exponent(place)?;
                     powers.push(match is_one(&power) {

@@ -51,7 +51,7 @@ impl RationalSearch<'_, '_> {
         let mut found = false;
         for interpolated in [false, true] {
             for (vector, own) in first.vectors.iter().zip(&first.free) {
-                if known.within(self.variables) >= wanted {
+                if known.algebraic_within(self.variables) >= wanted {
                     return Ok(found);
                 }
                 let divides = |k: &usize| {

@@ -143,6 +143,11 @@ impl Back {
 
     /// Rewrites what stands in the brackets of a factor.
     fn inside(&self, factor: &str) -> String {
+        if let Some(body) = factor.strip_prefix('|').and_then(|own| own.strip_suffix('|'))
+            && closes(factor)
+        {
+            return format!("|{}|", self.rewritten(body));
+        }
         let is_letter = |c: char| c.is_alphanumeric() || c == '_' || c == '√';
         let start = factor.find('(').filter(|start| factor[..*start].chars().all(is_letter));
         match (start, factor.strip_suffix(')')) {
@@ -235,8 +240,7 @@ fn is_bracketed(text: &str) -> bool {
 
 /// Whether a text is a modulus as a whole.
 fn is_modulus(text: &str) -> bool {
-    let inner = text.strip_prefix('|').and_then(|text| text.strip_suffix('|'));
-    inner.is_some_and(|inner| !inner.contains('|'))
+    text.starts_with('|') && closes(text)
 }
 
 fn unbracketed(text: &str) -> &str {
@@ -258,19 +262,39 @@ fn base_and_power(factor: &str) -> (&str, i64) {
 
 /// Whether the first bracket is closed by the last letter only.
 fn closes(text: &str) -> bool {
-    let mut depth = 0usize;
+    let mut depth = Depth::default();
     let last = text.chars().count() - 1;
     for (place, letter) in text.chars().enumerate() {
-        match letter {
-            '(' | '[' => depth += 1,
-            ')' | ']' => depth = depth.saturating_sub(1),
-            _ => {}
-        }
-        if depth == 0 {
+        depth.pass(letter);
+        if depth.open == 0 {
             return place == last;
         }
     }
     false
+}
+
+/// Number of open brackets and bars in a text that is passed letter by letter.
+#[derive(Default)]
+struct Depth {
+    open: usize,
+    /// Whether a value has ended before the next letter, so that a bar closes.
+    is_after_value: bool,
+}
+
+impl Depth {
+    fn pass(&mut self, letter: char) {
+        match letter {
+            '(' | '[' => self.open += 1,
+            '|' if !self.is_after_value => self.open += 1,
+            ')' | ']' | '|' => self.open = self.open.saturating_sub(1),
+            _ => {}
+        }
+        let is_of_value = letter.is_alphanumeric() || matches!(letter, ')' | ']' | '\'' | '_');
+        // A bar that opens follows no value, and one that closes follows one.
+        if !matches!(letter, ' ' | '|') {
+            self.is_after_value = is_of_value;
+        }
+    }
 }
 
 /// Text inside of brackets that enclose all of it.
@@ -281,14 +305,12 @@ fn inside(text: &str) -> Option<&str> {
 
 /// Places outside of brackets at which a letter of a set stands.
 fn places(text: &str, letters: &[char]) -> Vec<(usize, char)> {
-    let mut depth = 0usize;
+    let mut depth = Depth::default();
     let mut found = Vec::new();
     for (place, letter) in text.char_indices() {
-        match letter {
-            '(' | '[' => depth += 1,
-            ')' | ']' => depth = depth.saturating_sub(1),
-            _ if depth == 0 && letters.contains(&letter) => found.push((place, letter)),
-            _ => {}
+        depth.pass(letter);
+        if depth.open == 0 && letters.contains(&letter) {
+            found.push((place, letter));
         }
     }
     found
@@ -350,6 +372,8 @@ mod tests {
             ("−aux6² + 2*aux4", "−1/x² + 2*exp(q1 − q2)"),
             ("x*aux5³ + aux5²", "x/(x² + y²)^(3/2) + 1/(x² + y²)"),
             ("(u*aux5 − 1)/(aux4² + 1)", "(u/√(x² + y²) − 1)/(exp(q1 − q2)² + 1)"),
+            ("y*ln(|x*aux6 − aux4*aux6|)", "y*ln(|1 − exp(q1 − q2)/x|)"),
+            ("|x|*aux6 + |y − |x|*aux4|", "|x|/x + |y − |x|*exp(q1 − q2)|"),
             ("ln(|aux4|) − x^(-2)", "ln(|exp(q1 − q2)|) − (x^(-2))"),
             ("aux41 + aux5^4", "aux41 + 1/(x² + y²)²"),
             ("(2*aux6 − x³*u²)/(x^5)", "2/x^6 − u²/x²"),

@@ -6,6 +6,7 @@
 //! ring         which functions are adjoined, and what is written in them
 //! rates        rates of the functions, and monomials that relations make superfluous
 //! read         recorded formulas as polynomials of the ring
+//! bases        denominators, radicands and other functions as factors
 //! absence      the polynomials that a theorem of absence covers
 //! implied      relations between these that known integrals imply
 //! write        the extended field as a case, with the functions' relations as a level set
@@ -19,6 +20,7 @@
 
 pub mod absence;
 mod back;
+mod bases;
 mod implied;
 mod plain;
 mod polynomial;
@@ -39,6 +41,7 @@ use liouville::number::rational::Rational;
 use self::absence::AdjoinedPolynomials;
 use self::back::Back;
 pub use self::back::with_signs;
+use self::bases::{circles, factors};
 pub use self::plain::{PolynomialField, polynomial_field, reduced};
 use self::polynomial::Monomial;
 pub use self::polynomial::RingPolynomial;
@@ -52,8 +55,6 @@ use super::super::{Effort, FurtherTerm, SearchError};
 
 /// Largest number of variables.
 const VARIABLES: usize = 18;
-/// Largest number of factors.
-const FACTORS: usize = 40;
 /// Largest number of times that arguments are divided.
 const TRIES: usize = 8;
 
@@ -83,6 +84,10 @@ pub struct Extension {
     angles: Vec<RingPolynomial>,
     /// Monomials of the extended state that relations between the functions write in others.
     leading: Vec<Monomial>,
+    /// Names of inverses.
+    inverses: Vec<String>,
+    /// Text of the extended field without its level.
+    field: String,
 }
 
 impl Extension {
@@ -111,6 +116,21 @@ impl Extension {
             own.iter().all(|(variable, power)| monomial[*variable] >= *power)
         };
         !self.leading.iter().any(|own| divides(own))
+    }
+
+    /// The extended field without the relations between its functions; `None` if these are exponentials
+    /// and denominators alone.
+    pub fn unbound(&self) -> Option<Case> {
+        let is_free = |atom: &Atom| matches!(atom, Atom::Exponential(_) | Atom::Inverse(..));
+        let is_bound =
+            |atom: &Atom| !is_constant(atom) && !is_free(atom) && !matches!(atom, Atom::State);
+        let is_unbound = self.ring.atoms.iter().any(is_bound);
+        is_unbound.then(|| Case::parse(&self.field, &[]).ok()).flatten()
+    }
+
+    /// Whether a formula contains a denominator as a variable.
+    pub fn has_inverse(&self, formula: &Formula) -> bool {
+        self.inverses.iter().any(|name| formula.uses(name))
     }
 
     /// Half of each argument of a sine or cosine.
@@ -260,7 +280,7 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
     let ReadParts { field, divergence, known, level } = read.parts;
     let Some(rates) = ring.rates(&field) else { return Ok(None) };
     let Some(text) = write::case(case, ring, (&rates, &level), &names) else { return Ok(None) };
-    let Ok(extended) = Case::parse(&text, &[]) else { return Ok(None) };
+    let Ok(extended) = Case::parse(&text.concat(), &[]) else { return Ok(None) };
     let formula =
         |own: &RingPolynomial| extended.formula(&write::written(own, &names.extended)).ok();
     let Some(divergence) = formula(&divergence) else { return Ok(None) };
@@ -268,10 +288,15 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
     let written = known.iter().filter_map(|(_, own)| formula(own)).collect();
     let exponentials =
         ring.atoms.iter().zip(&names.extended).filter_map(|(atom, name)| match atom {
-            Atom::Exponential(argument) => Some((name.clone(), formula(argument)?)),
+            Atom::Exponential(argument) | Atom::ExponentialOf(argument, _) => {
+                Some((name.clone(), formula(argument)?))
+            }
             _ => None,
         });
+    let is_inverse = |atom: &Atom| matches!(atom, Atom::Inverse(..));
+    let inverses = ring.atoms.iter().zip(&names.extended).filter(|(atom, _)| is_inverse(atom));
     Ok(Some(Extension {
+        inverses: inverses.map(|(_, name)| name.clone()).collect(),
         axes,
         divergence,
         known: written,
@@ -283,6 +308,7 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
         back: Back::of(ring, &names),
         exponentials: exponentials.collect(),
         case: extended,
+        field: text.into_iter().next().unwrap_or_default(),
         read: known,
         ring: read.ring,
     }))
@@ -322,66 +348,4 @@ fn angles(ring: &AdjoinedRing) -> Vec<RingPolynomial> {
         _ => None,
     };
     ring.atoms.iter().filter_map(argument).collect()
-}
-
-/// Parts g, h and D of bases of denominators and roots that are multiples of g² − D h².
-fn circles(
-    ring: &AdjoinedRing,
-    formula: impl Fn(&RingPolynomial) -> Option<Formula>,
-) -> Vec<[Formula; 3]> {
-    let mut all: Vec<(usize, usize, Rational)> = Vec::new();
-    for atom in &ring.atoms {
-        let (Atom::Root(base, _) | Atom::Inverse(base, _)) = atom else { continue };
-        let squares = base.terms().map(|(own, value)| match own.as_slice() {
-            [(variable, 2)] if matches!(ring.atoms[*variable], Atom::State) => {
-                Some((*variable, value))
-            }
-            _ => None,
-        });
-        let Some(squares) = squares.collect::<Option<Vec<_>>>() else { continue };
-        let [(g, a), (h, b)] = squares[..] else { continue };
-        let Some(inverse) = a.recip() else { continue };
-        let own = (g, h, &-b * &inverse);
-        if !all.contains(&own) {
-            all.push(own);
-        }
-    }
-    let variable = |place| formula(&RingPolynomial::variable(place, 1));
-    let parts = all.into_iter().map(|(g, h, square)| {
-        Some([variable(g)?, variable(h)?, formula(&RingPolynomial::constant(square))?])
-    });
-    parts.flatten().collect()
-}
-
-/// Bases of denominators and roots, sines and cosines, and the sums of a root and a variable.
-fn factors(
-    ring: &AdjoinedRing,
-    names: &RingNames,
-    formula: impl Fn(&RingPolynomial) -> Option<Formula>,
-) -> Vec<Formula> {
-    let mut all: Vec<RingPolynomial> = Vec::new();
-    let state = (0..ring.atoms.len()).filter(|k| matches!(ring.atoms[*k], Atom::State));
-    let state: Vec<usize> = state.collect();
-    for (place, atom) in ring.atoms.iter().enumerate() {
-        let this = RingPolynomial::variable(place, 1);
-        match atom {
-            Atom::Root(base, _) => {
-                all.push(base.clone());
-                let sum = |k: &usize| this.plus(&RingPolynomial::variable(*k, 1), &1.into());
-                all.extend(state.iter().filter_map(sum));
-            }
-            Atom::Inverse(base, 1) => all.push(base.clone()),
-            Atom::Sine(_) | Atom::Cosine(_) | Atom::Logarithm(..) => all.push(this),
-            _ => {}
-        }
-    }
-    let mut texts: Vec<String> = Vec::new();
-    all.retain(|own| {
-        let text = write::written(own, &names.extended);
-        let is_new = !texts.contains(&text);
-        texts.push(text);
-        is_new
-    });
-    all.truncate(FACTORS);
-    all.iter().filter_map(formula).collect()
 }

@@ -123,14 +123,14 @@ pub fn written(own: &RingPolynomial, names: &[String]) -> String {
     }
 }
 
-/// Writes the case whose state has the adjoined functions, with their relations as a level set; that
+/// Writes the case whose state has the adjoined functions, and then their relations as a level set; that
 /// of the case comes before these, and then no chart is written.
 pub fn case(
     case: &Case,
     ring: &AdjoinedRing,
     (rates, own_level): (&[RingPolynomial], &[RingPolynomial]),
     names: &RingNames,
-) -> Option<String> {
+) -> Option<[String; 2]> {
     let model = &case.model;
     let names = &names.extended;
     let mut text = "title = \"extended field\"\nsystem = \"field\"\n[parameters]\n".to_string();
@@ -176,8 +176,9 @@ pub fn case(
     let of_case = own_level.iter().map(|own| format!("{} = 0", written(own, names)));
     let equations: Vec<String> =
         of_case.chain(level.equations.iter().cloned()).map(|own| format!("\"{own}\"")).collect();
+    let mut relations = String::new();
     if equations.is_empty() {
-        return Some(text);
+        return Some([text, relations]);
     }
     let free = level.inputs.iter().map(|name| (name.clone(), RANGE.to_string()));
     let inputs: Vec<String> = ranges
@@ -185,13 +186,12 @@ pub fn case(
         .chain(free)
         .map(|(name, own)| format!("\"{name}\" = \"{own}\""))
         .collect();
-    let _ = writeln!(text, "[level]\nequations = [{}]", equations.join(", "));
-    if !own_level.is_empty() {
-        return Some(text);
+    let _ = writeln!(relations, "[level]\nequations = [{}]", equations.join(", "));
+    if own_level.is_empty() {
+        let _ = writeln!(relations, "[level.chart]\ninputs = {{ {} }}", inputs.join(", "));
+        level.chart.iter().for_each(|(name, own)| line(&mut relations, name, own));
     }
-    let _ = writeln!(text, "[level.chart]\ninputs = {{ {} }}", inputs.join(", "));
-    level.chart.iter().for_each(|(name, own)| line(&mut text, name, own));
-    Some(text)
+    Some([text, relations])
 }
 
 fn line(text: &mut String, name: &str, value: &str) {

@@ -2,7 +2,7 @@
 
 use liouville_search::{Effort, SearchReport};
 
-use super::{excluded, field, searched};
+use super::{any_field, excluded, field, searched};
 
 /// Cofactor of a Darboux polynomial that was found.
 pub fn cofactor<'r>(report: &'r SearchReport, formula: &str) -> Option<&'r str> {
@@ -139,4 +139,107 @@ fn fields_of_fractions_have_those_of_the_field_times_the_denominator() {
     let says = |own: &String| own.contains("for the field times 1 + y, every Darboux polynomial");
     let theorems: Vec<&String> = report.excluded.iter().map(|own| &own.theorem).collect();
     assert!(theorems.iter().any(|own| says(own)), "{theorems:?}");
+}
+
+#[test]
+fn fractions_with_factors_in_exponents_are_found() {
+    let fields: [(&str, [&str; 2], &str); 8] = [
+        ("", ["y", "-2*y - x"], "x/(x + y) + ln(x + y)"),
+        ("", ["x", "x + y"], "ln(x) − y/x"),
+        ("", ["x²", "y"], "1/x + ln(y)"),
+        ("", ["x³", "y"], "1/x² + 2*ln(y)"),
+        ("", ["x*y", "x² + y²"], "2*ln(x) − y²/x²"),
+        ("", ["(x² + 1)²", "y"], "2*ln(y) + atan(1/x) − x/(1 + x²)"),
+        ("a = '0.5..2'\nb = '0.5..2'", ["a*x²", "b*y"], "b/x + a*ln(y)"),
+        ("a = '0.5..2'", ["y", "-2*a*y - a²*x"], "a*x/(a*x + y) + ln(a*x + y)"),
+    ];
+    for (parameters, rates, integral) in fields {
+        let report = searched(&field(parameters, &rates), &Effort::default());
+        let integrals: Vec<&str> = report.formulas("integral").collect();
+        assert_eq!(integrals, [integral], "{rates:?}");
+        assert!(excluded(&report).is_some(), "no rational integral: {rates:?}");
+    }
+    let report = searched(&field("", &["x²", "-2*x*y + y + 1"]), &Effort::default());
+    assert_eq!(report.formulas("density").collect::<Vec<_>>(), ["exp(1/x)"]);
+    // One with a logarithm, in y and z alone, does not take the place of a rational one.
+    let report = searched(&field("", &["y", "z - 1", "z²"]), &Effort::default());
+    let with_logarithm = report.formulas("integral").filter(|own| own.contains("ln("));
+    assert_eq!(with_logarithm.count(), 1, "{:?}", report.found);
+    assert_eq!(report.formulas("integral").count(), 2, "{:?}", report.found);
+    // What needs no fraction is written without one.
+    let report = searched(&field("", &["x²", "y"]), &Effort::default());
+    assert_eq!(report.formulas("density").collect::<Vec<_>>(), ["x^(−2)*y^(−1)"]);
+}
+
+#[test]
+fn darboux_polynomials_beside_functions_with_relations_are_found() {
+    type Known<'k> = ([(&'k str, &'k str); 2], &'k str, &'k str, &'k str);
+    let fields: [Known<'_>; 7] = [
+        ([("x", "x*cos(t)"), ("t", "1")], "x", "cos(t)", "ln(x) − sin(t)"),
+        ([("x", "x*cos(y)"), ("y", "1")], "x", "cos(y)", "ln(x) − sin(y)"),
+        ([("x", "x*√t"), ("t", "1")], "x", "√(t)", "3*ln(x) − 2*(t)^(3/2)"),
+        ([("x", "x*ln(t)"), ("t", "1")], "x", "ln(t)", "t + ln(x) − t*ln(t)"),
+        (
+            [("x", "-x + cos(y)"), ("y", "1")],
+            "2*x − sin(y) − cos(y)",
+            "−1",
+            "y + ln(|2*x − sin(y) − cos(y)|)",
+        ),
+        (
+            [("x", "y"), ("y", "-sin(x) - y²")],
+            "4*sin(x) − 2*cos(x) + 5*y²",
+            "−2*y",
+            "2*x + ln(|4*sin(x) − 2*cos(x) + 5*y²|)",
+        ),
+        (
+            [("x", "x*(exp(t) + exp(-t))"), ("t", "1")],
+            "x",
+            "exp(t) + exp(−t)",
+            "exp(−t) + ln(x) − exp(t)",
+        ),
+    ];
+    for (rates, formula, own, integral) in fields {
+        let report = searched(&any_field(&rates), &Effort::default());
+        assert_eq!(cofactor(&report, formula), Some(own), "{rates:?}: {:?}", report.found);
+        let integrals: Vec<&str> = report.formulas("integral").collect();
+        assert_eq!(integrals, [integral], "{rates:?}");
+        // Neither a relation between the functions nor a function alone is told.
+        let told = report.found.iter().filter(|found| found.kind == "darboux-polynomial");
+        assert_eq!(told.count(), 1, "{rates:?}: {:?}", report.found);
+    }
+}
+
+#[test]
+fn integrals_in_the_plane_follow_from_a_density() {
+    let report = searched(&any_field(&[("x", "y"), ("y", "-x*sin(x) - y²")]), &Effort::default());
+    let integral = "exp(2*x)*(−6*sin(x) + 8*cos(x) + 20*x*sin(x) − 10*x*cos(x) + 25*y²)";
+    assert_eq!(report.formulas("integral").collect::<Vec<_>>(), [integral]);
+    let only = |own: &liouville_search::Excluded| own.theorem.contains(integral);
+    assert!(report.excluded.iter().all(only), "no other is excluded: {:?}", report.excluded);
+}
+
+#[test]
+fn logarithms_are_those_of_moduli_unless_the_ranges_say_otherwise() {
+    let text = |range: &str, a: &str| {
+        format!(
+            "title = 'x'\nsystem = 'field'\n[parameters]\na = '{a}'\n[state]\nx = '{range}'\n\
+             y = '{range}'\n[field]\n\"x'\" = 'y'\n\"y'\" = '-x³ - a*y²'\n"
+        )
+    };
+    let first = |text: &str| {
+        let report = searched(text, &Effort::default());
+        let own = report.formulas("integral").next().expect("an integral");
+        own.to_string()
+    };
+    let own = "−3 + 6*a*x − 6*a²*x² + 4*a^4*y² + 4*a³*x³";
+    assert_eq!(first(&text("-2..2", "0.1..0.5")), format!("2*a*x + ln(|{own}|)"));
+    assert_eq!(first(&text("5..6", "1..2")), format!("2*a*x + ln({own})"), "positive there");
+    let powers = |range: &str| {
+        let text = field("a = '0.5..0.9'", &["x", "-a*y"]).replace("0.5..2", range);
+        first(&text)
+    };
+    for (range, signs) in [("0.5..2", ["x", "y"]), ("-2..-0.5", ["|x|", "|y|"])] {
+        let [x, y] = signs;
+        assert_eq!(powers(range), format!("a*ln({x}) + ln({y})"), "{range}");
+    }
 }

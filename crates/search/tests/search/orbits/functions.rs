@@ -2,7 +2,7 @@
 
 use liouville_search::{Effort, search};
 
-use super::{field, searched};
+use super::{any_field, field, searched};
 
 #[test]
 fn functions_of_the_state_add_no_integrals() {
@@ -83,4 +83,25 @@ fn fields_with_a_modulus_have_no_theorem() {
     let report = searched(&text, &Effort::default());
     assert_eq!(report.formulas("integral").count(), 1, "{:?}", report.found);
     assert!(report.excluded.is_empty(), "{:?}", report.excluded);
+}
+
+#[test]
+fn fields_without_divergence_have_the_density_1() {
+    let energies = [
+        "1/(2 + cos(q)*p²)",
+        "√(1 + p²*(2 + cos(q)))",
+        "(p²/(2 + sin(q)) + cos(q))/(2 + p*cos(q))",
+        "exp(p*sin(q))*ln(2 + q*p)",
+    ];
+    for energy in energies {
+        let text = format!(
+            "title = 'x'\n[state]\nq = '0.5..1'\np = '0.5..1'\n[hamiltonian]\n\
+             function = '{energy}'\npairs = [['q', 'p']]\n"
+        );
+        let report = searched(&text, &Effort::default());
+        assert_eq!(report.formulas("density").collect::<Vec<_>>(), ["1"], "{energy}");
+    }
+    let growing = any_field(&[("x", "sin(x)/(2 + cos(y))"), ("y", "exp(x)")]);
+    let report = searched(&growing, &Effort::default());
+    assert!(report.formulas("density").all(|own| own != "1"), "{:?}", report.found);
 }

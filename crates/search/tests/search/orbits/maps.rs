@@ -174,3 +174,20 @@ fn the_order_of_a_map_is_told_with_sums_over_its_orbits() {
     let report = searched(level, &Effort::default());
     assert_eq!(report.formulas("integral").count(), 2, "{:?}", report.found);
 }
+
+#[test]
+fn coordinates_that_a_map_keeps_are_integrals() {
+    let maps = [
+        (["x + sin(y)", "y"], vec!["1"]),
+        (["x*exp(y)", "y"], vec![]),
+        (["√(x² + 1)", "y"], vec!["x"]),
+        (["x + sin(y)", "-y"], vec!["1"]),
+    ];
+    for (images, densities) in maps {
+        let report = searched(&map("", &images), &Effort::default());
+        let kept: Vec<&str> = report.formulas("integral").collect();
+        let is_kept = images[1] == "y";
+        assert_eq!(kept, if is_kept { vec!["y"] } else { vec![] }, "{images:?}");
+        assert_eq!(report.formulas("density").collect::<Vec<_>>(), densities, "{images:?}");
+    }
+}

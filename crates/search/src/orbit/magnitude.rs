@@ -1,0 +1,38 @@
+//! The rule for what stands under a logarithm or a root: f where f is known not to be negative at any
+//! state of the declared ranges, and |f| elsewhere.
+
+use liouville::claim::LevelSubset;
+use liouville::formula::Formula;
+use liouville::mechanics::Draw;
+use liouville::proof::{Extent, KnownSign, sign};
+use liouville::verdict::Sampler;
+
+use super::super::SearchError;
+use super::super::terms::recorded;
+use super::claims;
+use super::setting::OrbitSetting;
+
+/// Makes f or |f|.
+pub fn magnitude(setting: &OrbitSetting<'_>, formula: &Formula) -> Result<Formula, SearchError> {
+    match is_positive(setting, formula)? {
+        true => Ok(formula.clone()),
+        false => Ok(formula.modulus()?),
+    }
+}
+
+/// Whether a formula is known not to be negative in the declared ranges.
+fn is_positive(setting: &OrbitSetting<'_>, formula: &Formula) -> Result<bool, SearchError> {
+    let Some(own) = claims::written(setting, formula) else { return Ok(false) };
+    let case = claims::judged_case(setting);
+    let seed = setting.effort.options.seed;
+    let sampler = Sampler::new(case, &LevelSubset::level(&case.model), seed)?;
+    if sampler.is_numerical() {
+        return Ok(false);
+    }
+    let (graph, value) = recorded(case, |jet| jet.phase.scalar(&own))?;
+    let fixed = vec![None; sampler.recipes().len()];
+    let (graph, groups) = sampler.compose(&graph, &[vec![value]], &fixed)?;
+    let extents: Vec<Extent> = sampler.recipes().iter().map(Draw::extent).collect();
+    let known = groups.iter().flatten().map(|value| sign(&graph, &extents, &[], &[], *value));
+    Ok(known.flatten().any(|KnownSign { is_positive, .. }| is_positive))
+}

@@ -1,0 +1,85 @@
+//! Darboux polynomials with functions that satisfy relations, as sin² + cos² = 1.
+//!
+//! The extended field is a polynomial field on the space of all its variables, whether or not they
+//! satisfy these relations. A Darboux polynomial there is one on the level as well. Those of which
+//! this holds only where the relations hold are not found.
+
+use super::super::{SearchError, SearchReport};
+use super::claims::{self, OrbitStatement};
+use super::darboux::DarbouxSearch;
+use super::factor::RatedPolynomial;
+use super::part::DARBOUX;
+use super::setting::{ExtendedCase, OrbitSetting};
+use super::{RoundLimits, blocks, degree_of_field, monomials};
+
+/// Number of points at which a polynomial must not vanish, and must change.
+const POINTS: u64 = 2;
+/// Largest number of coefficients of a cofactor.
+const MOST_COFACTOR: usize = 60;
+/// Share of the steps of other searches on a line.
+const SHARE: f64 = 0.25;
+
+/// Searches the extended field without its level; what is proved about the case itself is added to
+/// the factors.
+pub fn search(
+    setting: &OrbitSetting<'_>,
+    limits: RoundLimits,
+    factors: &mut Vec<RatedPolynomial>,
+    report: &mut SearchReport,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(), SearchError> {
+    let Some(ExtendedCase { extension, .. }) = setting.origin else { return Ok(()) };
+    let Some(case) = extension.unbound() else { return Ok(()) };
+    let Ok(unbound) = OrbitSetting::of(&case, setting.effort)? else { return Ok(()) };
+    let Some(degree) = degree_of_field(&unbound)? else { return Ok(()) };
+    let (mut all, mut pairs) = (Vec::new(), Vec::new());
+    let mut own = SearchReport::default();
+    for variables in blocks::closed(&case)? {
+        if monomials::count(variables.len(), degree.saturating_sub(1) as u32) > MOST_COFACTOR {
+            continue;
+        }
+        let search = DarbouxSearch { setting: &unbound, variables: &variables, degree };
+        let fits =
+            |next: &u32| monomials::steps(variables.len(), *next, degree) <= SHARE * limits.steps;
+        for next in (1..=DARBOUX).take_while(fits) {
+            progress(&format!("Darboux polynomials of degree {next}, with functions as variables"));
+            search.of_degree(next, &mut all, &mut pairs, &mut own)?;
+        }
+    }
+    for found in &own.found {
+        let Some(cofactor) = found.with.iter().find(|(what, _)| *what == "cofactor") else {
+            continue;
+        };
+        let (Ok(formula), Ok(cofactor)) =
+            (setting.case.formula(&found.formula), setting.case.formula(&cofactor.1))
+        else {
+            continue;
+        };
+        let degree = all.iter().find(|own| own.formula.text() == found.formula);
+        let degree = degree.map_or(1, |own| own.degree);
+        let Some(rated) = RatedPolynomial::of(setting, &formula, degree)? else { continue };
+        if extension.has_inverse(&formula) || !changes(setting, &rated) {
+            continue;
+        }
+        if extension.exponent(&formula).is_none() {
+            let rate = (cofactor.bracketed() * &formula.bracketed())?;
+            let statement = OrbitStatement::Rate { function: formula.clone(), rate };
+            let with = vec![("cofactor", &cofactor)];
+            let kind = "darboux-polynomial";
+            if !claims::other(setting, kind, &formula, &statement, with, report)? {
+                continue;
+            }
+        }
+        if factors.iter().all(|own| own.formula.text() != formula.text()) {
+            factors.push(rated);
+        }
+    }
+    Ok(())
+}
+
+/// Whether a polynomial is not 0 on the level, and no integral there.
+fn changes(setting: &OrbitSetting<'_>, rated: &RatedPolynomial) -> bool {
+    let Some(at) = setting.at(0, 0) else { return false };
+    let values = (0..POINTS).filter_map(|number| rated.at(&at, &setting.point(&at, number)?));
+    values.into_iter().any(|(value, rate)| value != 0 && rate != 0)
+}
