@@ -68,9 +68,9 @@ pub fn rate_text(text: &str, vocabulary: &Vocabulary) -> String {
         None => (text, String::new()),
     };
     let rate = |side: &Formula| match vocabulary.reach(side) {
-        Some(entry) if entry.reach > Dependence::Parameters => match is_whole(side.text()) {
-            true => format!("{side}'"),
-            false => format!("({side})'"),
+        Some(entry) if entry.reach > Dependence::Parameters => match side.text().trim() {
+            side if is_whole(side) => format!("{side}'"),
+            side => format!("({side})'"),
         },
         _ => "0".to_string(),
     };
