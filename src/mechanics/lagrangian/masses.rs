@@ -17,11 +17,11 @@ const MOST_VELOCITIES: usize = 32;
 
 impl Lagrangian {
     /// Whether ∂²L/∂w² has eigenvalues of both signs at some of the first drawn states. `false` where
-    /// there are very many velocities, or no value.
+    /// there are no velocities, or very many, or no value.
     pub fn has_indefinite_masses(&self, model: &Model, chart: &Chart, free: &[Draw]) -> bool {
         let velocities = self.velocities(&model.state);
         let count = velocities.len();
-        if count > MOST_VELOCITIES {
+        if count == 0 || count > MOST_VELOCITIES {
             return false;
         }
         let kept = vec![true; model.level.len()];

@@ -61,3 +61,16 @@ fn a_bead_on_a_moving_wire_gains_energy() {
                   rate = \"(x'² + y'²)/2\"\nequals = 'a²*t'\n[[claim]]\nintegral = \"(x'² + y'²)/2\"\nexpect = 'fails'\n";
     settled(&wire(claims));
 }
+
+#[test]
+fn a_lagrangian_without_velocities_is_read_or_refused() {
+    let text = "title = 'x'\nsystem = 'nonholonomic'\n[state]\nx = '0..1'\n[field]\n\"x'\" = '1'\n\
+                [lagrangian]\nkinetic = 'x²'\nconstraints = []\n[[claim]]\nidentity = 'x = x'\n";
+    if let Err(error) = Case::parse(text, &[]) {
+        assert!(!error.mistakes().is_empty(), "with a reason");
+    }
+    let text = text.replace("constraints = []", "constraints = ['x = 1']");
+    if let Err(error) = Case::parse(&text, &[]) {
+        assert!(!error.mistakes().is_empty(), "with a reason");
+    }
+}
