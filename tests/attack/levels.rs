@@ -248,6 +248,10 @@ fn curve(u: &Tree, v: &Tree) -> Level {
 /// Draws two vectors (x, y) and (z, w) of given lengths at a given angle.
 fn pair(scene: &mut Scene, stream: &mut Stream) -> Level {
     scene.symbols.push(Symbol { name: "w".to_string(), origin: wide(3) });
+    // States are drawn by x alone: narrow ranges of the others would leave none of them.
+    for place in [X, Y, Z] {
+        one_sided(scene, place, stream);
+    }
     let (x, y, z, w) = (symbol(X), symbol(Y), symbol(Z), symbol(W));
     let (a, b, c) = match stream.below(5) {
         0 => (whole(1), whole(1), whole(0)),
