@@ -1,4 +1,4 @@
-//! What a map shows by itself, and parts of a search that maps do not have.
+//! Components and volume that a map keeps, and parts of a search that maps do not have.
 
 use super::ask::judged_alone;
 use super::densities::tell_volume;

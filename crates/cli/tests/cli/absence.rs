@@ -388,20 +388,3 @@ fn all_formats_tell_them() {
     assert!(json["summary"].get("absences_left").is_none(), "none is left");
     check(&[top, "--trust", "proof"]);
 }
-
-#[test]
-fn an_integral_found_along_an_orbit_refutes_a_claim() {
-    let kepler = |potential: &str| {
-        format!(
-            "title='t'\nsystem='nonholonomic'\n[state]\nx='0.5..2'\ny='0.5..2'\n\"x'\"='-1..1'\n\"y'\"='-1..1'\n\
-             [lagrangian]\nkinetic=\"(x'² + y'²)/2\"\npotential='{potential}'\n[[claim]]\n\
-             integral = \"x*y' − y*x'\"\n[[claim]]\nno-integral = {{ degree = 2 }}\n"
-        )
-    };
-    let report = only(&kepler("−1/√(x² + y²)"));
-    assert_eq!(report.verdict, Verdict::Refuted, "{:?}", report.evidence);
-    let shown = report.evidence.exhibit.expect("an integral");
-    assert!(shown.contains("√(x² + y²)"), "a component of Laplace's vector: {shown}");
-    let report = only(&kepler("−1/(x² + y²)^2"));
-    assert_eq!(report.verdict, Verdict::Proved, "{:?}", report.evidence);
-}

@@ -87,10 +87,10 @@ pub fn search(
     ExponentSystem::of(setting, &all, &rated, &[])?.search(known, report)?;
     let pairs: Result<Vec<_>, _> = pairs.iter().map(|pair| pair.along(setting)).collect();
     let pairs: Vec<ConjugatePair> = pairs?.into_iter().flatten().collect();
-    if !pairs.is_empty() {
-        ExponentSystem::of(setting, &all, &rated, &pairs)?.search(known, report)?;
-    }
     let system = ExponentSystem::of(setting, &all, &rated, &pairs)?;
+    if !pairs.is_empty() {
+        system.search(known, report)?;
+    }
     system.search_with_fractions(known, report)?;
     let curves: Vec<Formula> = factors.into_iter().map(|own| own.formula).collect();
     cleared.conclude(&curves, (1..=highest).rev(), (effort, most_steps), setting, report)

@@ -1,9 +1,9 @@
 //! Densities and integrals Π f^α e^g from factors with known cofactors.
 //!
 //! v(ln Π f^α e^g) = Σ α K + v(g) is linear in the exponents α and the coefficients of g, which may
-//! contain angles of conjugate factors, and fractions h/f^m where nothing is found without them. With β div v and a constant λ added, one linear system has
-//! densities (β = 1), integrals with powers, logarithms and exponentials, and functions of constant
-//! rate λ as its null vectors.
+//! contain angles of conjugate factors, and fractions h/f^m where nothing is found without them.
+//! With β div v and a constant λ added, one linear system has densities (β = 1), integrals with
+//! powers, logarithms and exponentials, and functions of constant rate λ as its null vectors.
 
 use liouville::graph::Tape;
 

@@ -14,14 +14,14 @@ use super::setting::OrbitSetting;
 
 /// Makes f or |f|.
 pub fn magnitude(setting: &OrbitSetting<'_>, formula: &Formula) -> Result<Formula, SearchError> {
-    match is_positive(setting, formula)? {
+    match is_never_negative(setting, formula)? {
         true => Ok(formula.clone()),
         false => Ok(formula.modulus()?),
     }
 }
 
 /// Whether a formula is known not to be negative in the declared ranges.
-fn is_positive(setting: &OrbitSetting<'_>, formula: &Formula) -> Result<bool, SearchError> {
+fn is_never_negative(setting: &OrbitSetting<'_>, formula: &Formula) -> Result<bool, SearchError> {
     let Some(own) = claims::written(setting, formula) else { return Ok(false) };
     let case = claims::judged_case(setting);
     let seed = setting.effort.options.seed;

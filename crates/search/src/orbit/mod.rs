@@ -12,16 +12,20 @@
 //! rational     rational ones, as P and Q of the relations P − c Q
 //! line         points of a line whose orbits satisfy an additional relation
 //! darboux      Darboux polynomials: the relations at these points
-//! cleared      those of fields of fractions; unbound  those with functions
+//! cleared      Darboux polynomials of fields of fractions
+//! unbound      Darboux polynomials with functions
 //! own_factors  variables that divide their own rates
 //! angle        angles between conjugate Darboux polynomials
 //! no_others    theorem that the Darboux polynomials found are all
 //! finite_order   maps with Φⁿ = id, and sums over their orbits
 //! map_densities, map_integrals  densities and polynomial integrals of maps
 //! exponents    densities, and integrals with powers, logarithms and exponentials, from cofactors
-//! quotients    fractions over factors in these; weighted, magnitude  densities times P; f or |f|
+//! quotients    fractions over powers of factors in these exponents
+//! magnitude    f or |f| under a logarithm
+//! weighted     integrals of fields in the plane that are multiples of a density
 //! adjoin       functions of the state as further variables
-//! part, claims   all of these in the variables of a part of the field; judgement of each find
+//! part         all of these in the variables of a part of the field
+//! claims       judgement of each find as a claim like any other
 //! fractions    for claims of absence: relations that known integrals do not explain
 //! ```
 //!

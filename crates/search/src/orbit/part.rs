@@ -146,7 +146,8 @@ impl VariableSet {
         self.with_fractions(setting, known, report)
     }
 
-    /// Searches for what has fractions over powers of factors in exponents.
+    /// Searches for what has fractions over powers of factors in exponents, and at last for multiples
+    /// of a density.
     fn with_fractions(
         &mut self,
         setting: &OrbitSetting<'_>,
