@@ -33,6 +33,7 @@ pub fn write_all(folder: &Path, run: &RunReport, options: &CheckArgs) -> Result<
         .map(|outcome| Ok((outcome, of_case(outcome, options)?)))
         .collect::<Result<_, String>>()?;
     let inputs: Vec<&Path> = run.outcomes.iter().map(|outcome| Path::new(&outcome.path)).collect();
+    let inputs = out::ReadFiles::new(&inputs);
     let mut taken: BTreeSet<String> = BTreeSet::new();
     let mut written = 0;
     let mut missing: Vec<Missing> = Vec::new();
@@ -42,8 +43,8 @@ pub fn write_all(folder: &Path, run: &RunReport, options: &CheckArgs) -> Result<
                 Ok(text) => {
                     let name = fresh(&mut taken, &outcome.path, claim);
                     let path = folder.join(format!("{name}.json"));
-                    out::check(&path, "--certificate", &inputs)?;
-                    out::write(&path, "--certificate", text)?;
+                    out::check_one(&path, "--certificate", &inputs)?;
+                    out::write_one(&path, "--certificate", text)?;
                     written += 1;
                 }
                 Err(reason) => missing.push(*reason),

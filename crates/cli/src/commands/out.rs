@@ -1,12 +1,42 @@
 //! Files that options name: checked before any work, written whole or not at all.
 
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+/// Files that a command reads, found by any of their names.
+#[derive(Debug, Default)]
+pub struct ReadFiles {
+    paths: BTreeSet<PathBuf>,
+    numbers: BTreeSet<(u64, u64)>,
+}
+
+impl ReadFiles {
+    /// Looks up the files.
+    pub fn new(read: &[&Path]) -> Self {
+        let paths: BTreeSet<_> = read.iter().flat_map(fs::canonicalize).collect();
+        let numbers = paths.iter().filter_map(|path| number(path)).collect();
+        Self { paths, numbers }
+    }
+
+    /// Whether a path leads to one of them.
+    fn contains(&self, path: &Path) -> bool {
+        fs::canonicalize(path).is_ok_and(|real| {
+            self.paths.contains(&real)
+                || number(&real).is_some_and(|own| self.numbers.contains(&own))
+        })
+    }
+}
+
 /// Checks that a file can be written, before any work: its folder is there, it is no folder, and
 /// it is none of the files that are read.
 pub fn check(path: &Path, option: &str, read: &[&Path]) -> Result<(), String> {
+    check_one(path, option, &ReadFiles::new(read))
+}
+
+/// Checks one of many files that a command writes, as `check`.
+pub fn check_one(path: &Path, option: &str, read: &ReadFiles) -> Result<(), String> {
     let shown = path.display();
     if path.is_dir() {
         return Err(format!("error: {shown} is a folder\nhelp: give {option} a file in it"));
@@ -17,7 +47,7 @@ pub fn check(path: &Path, option: &str, read: &[&Path]) -> Result<(), String> {
              help: give {option} a file in a folder that exists"
         ));
     }
-    match read.iter().any(|own| is_same(own, path)) {
+    match read.contains(path) {
         true => Err(format!(
             "error: {shown} is a file that the command reads\nhelp: give {option} another file, or it would be lost"
         )),
@@ -40,10 +70,25 @@ pub fn check_ending(path: &Path, option: &str, known: &[&str]) -> Result<(), Str
 
 /// Writes a file: a new one beside it takes its place when it is complete.
 pub fn write(path: &Path, option: &str, bytes: impl AsRef<[u8]>) -> Result<(), String> {
+    write_to(path, option, bytes.as_ref(), File::sync_all)
+}
+
+/// Writes one of many files, as `write`, without a wait for the disk: it takes longer than the work
+/// on a small file, which can be done again.
+pub fn write_one(path: &Path, option: &str, bytes: impl AsRef<[u8]>) -> Result<(), String> {
+    write_to(path, option, bytes.as_ref(), |_| Ok(()))
+}
+
+fn write_to(
+    path: &Path,
+    option: &str,
+    bytes: &[u8],
+    finish: fn(&File) -> io::Result<()>,
+) -> Result<(), String> {
     let written = match fs::metadata(path) {
         // a device or a pipe has no place that could be taken
-        Ok(metadata) if !metadata.is_file() => fs::write(path, bytes.as_ref()),
-        _ => replace(path, bytes.as_ref()),
+        Ok(metadata) if !metadata.is_file() => fs::write(path, bytes),
+        _ => replace(path, bytes, finish),
     };
     written.map_err(|error| {
         let shown = path.display();
@@ -56,7 +101,7 @@ pub fn write(path: &Path, option: &str, bytes: impl AsRef<[u8]>) -> Result<(), S
     })
 }
 
-fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+fn replace(path: &Path, bytes: &[u8], finish: fn(&File) -> io::Result<()>) -> io::Result<()> {
     // a link stays, and what it points to is replaced
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
     let new = beside(&target);
@@ -65,7 +110,7 @@ fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
         if let Ok(metadata) = fs::metadata(&target) {
             fs::set_permissions(&new, metadata.permissions())?;
         }
-        file.sync_all()
+        finish(&file)
     });
     let done = filled.and_then(|()| fs::rename(&new, &target));
     if done.is_err() {
@@ -88,24 +133,14 @@ fn folder(path: &Path) -> PathBuf {
     }
 }
 
-/// Whether two paths lead to the same file.
-fn is_same(one: &Path, other: &Path) -> bool {
-    let real = |path: &Path| fs::canonicalize(path).ok();
-    match (real(one), real(other)) {
-        (Some(one), Some(other)) => one == other || is_linked(&one, &other),
-        _ => false,
-    }
-}
-
-/// Whether two names stand for one file.
+/// Number that all names of a file share.
 #[cfg(unix)]
-fn is_linked(one: &Path, other: &Path) -> bool {
+fn number(path: &Path) -> Option<(u64, u64)> {
     use std::os::unix::fs::MetadataExt;
-    let number = |path: &Path| fs::metadata(path).ok().map(|file| (file.dev(), file.ino()));
-    number(one).is_some_and(|own| number(other) == Some(own))
+    fs::metadata(path).ok().map(|file| (file.dev(), file.ino()))
 }
 
 #[cfg(not(unix))]
-fn is_linked(_: &Path, _: &Path) -> bool {
-    false
+fn number(_: &Path) -> Option<(u64, u64)> {
+    None
 }
