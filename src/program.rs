@@ -106,7 +106,7 @@ impl Program {
                 let value = claim.kind.formula().map(|f| phase.evaluate(f).components());
                 let residual = claim.kind.residual(&jet, &claim.place.kept);
                 let of_value = requirement::of_formulas(phase, claim.kind.formula());
-                let of_residual = requirement::of_claim(phase, &claim.kind, &of_system);
+                let of_residual = requirement::of_claim(&jet, &claim.kind, &of_system);
                 let own = [
                     (FunctionSubject::Value(index), value.unwrap_or_default(), of_value),
                     (FunctionSubject::Residual(index), residual, of_residual),

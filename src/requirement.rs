@@ -1,12 +1,11 @@
 //! Operations of formulas as written, where recording leaves them out: 0·ln x is recorded as 0, and
 //! has a value for x > 0 alone.
 
-use num_dual::DualNum;
-
 use crate::claim::ClaimKind;
 use crate::formula::Formula;
-use crate::graph::{Expr, literally};
+use crate::graph::Expr;
 use crate::mechanics::Phase;
+use crate::mechanics::calculus::DualPoint;
 
 /// Records some formulas of a case as written, and the parameters that are formulas. Formulas with an
 /// ∫ are left out: as written they could have an antiderivative of their own.
@@ -31,13 +30,9 @@ pub fn of_level(phase: &Phase<'_, Expr>) -> Vec<Expr> {
 }
 
 /// Records what the residual of a claim requires, in a system with this requirement.
-pub fn of_claim(phase: &Phase<'_, Expr>, claim: &ClaimKind, system: &[Expr]) -> Vec<Expr> {
-    let mut values = of_formulas(phase, claim.formulas());
-    // Where ρ is 0, v(ln ρ) has no value.
-    for divisor in claim.divisors() {
-        let divisor = phase.evaluate_literally(divisor).components();
-        values.extend(divisor.iter().map(|value| literally(|| value.recip())));
-    }
+pub fn of_claim(jet: &DualPoint<'_, Expr>, claim: &ClaimKind, system: &[Expr]) -> Vec<Expr> {
+    let mut values = of_formulas(&jet.phase, claim.formulas());
+    values.extend(claim.further_requirement(jet));
     values.extend(system);
     values
 }

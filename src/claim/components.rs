@@ -2,6 +2,7 @@
 
 use super::Reader;
 use crate::formula::Formula;
+use crate::graph::Expr;
 use crate::mechanics::{Meaning, Phase, Vocabulary};
 use crate::scalar::Scalar;
 
@@ -64,6 +65,11 @@ impl Components {
     /// Iterates over the given formulas.
     pub fn formulas(&self) -> impl Iterator<Item = &Formula> {
         self.variables.iter().flatten()
+    }
+
+    /// Records the components as written.
+    pub fn written(&self, phase: &Phase<'_, Expr>) -> Vec<Expr> {
+        phase.literal_values(self.formulas())
     }
 
     /// Evaluates the components at a point, one after another.

@@ -45,6 +45,12 @@ impl Statement for DensityInVariables {
         vec![literally(|| determinant(&columns).recip())]
     }
 
+    fn written_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
+        let there = &jet.in_variables(of(jet.phase.model())).phase;
+        let density = there.evaluate_literally(&self.0).components();
+        density.into_iter().map(|value| literally(|| value.recip())).collect()
+    }
+
     fn quadrature_defects_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
         defects(jet, &[], [&self.0].into_iter())
     }

@@ -52,8 +52,26 @@ impl Statement for FixedPoint {
         Ok(Self { point, spectrum, polynomial: read_polynomial(from, has_rests)? })
     }
 
+    fn remark_on_refutation(&self, model: &Model) -> Option<String> {
+        let has_spectrum = self.spectrum.is_some() || self.polynomial.is_some();
+        (has_spectrum && !model.level.is_empty()).then(|| {
+            "the linear part is that in all of phase space: its eigenvalues across the level belong \
+             to the spectrum, as a does for z' = a*z on z = 0"
+                .to_string()
+        })
+    }
+
     fn objection(&self, model: &Model) -> Option<Objection> {
         never_rests(model, Self::NAME)
+    }
+
+    fn written_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
+        let mut values = self.point.written(&jet.phase);
+        let at = jet.phase.with(&[], &self.point.at(&jet.phase));
+        let eigenvalues = self.spectrum.iter().flatten();
+        let parts = eigenvalues.flat_map(|(real, imaginary)| [real].into_iter().chain(imaginary));
+        values.extend(at.literal_values(parts.chain(self.polynomial.iter().flatten())));
+        values
     }
 
     fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {

@@ -2,6 +2,7 @@
 
 use super::of_bracket::{
     CHOICE, are_not_zero, bracket_of, defects, of, scalar_in, slope, they_vary, turned, variables,
+    written,
 };
 use super::{Condition, Reader, Statement, difference};
 use crate::formula::{Formula, Type};
@@ -46,6 +47,13 @@ impl Statement for Hamiltonian {
         let mut conditions = vec![they_vary(jet, "the new variables obey a relation", false)];
         conditions.extend(are_not_zero(jet, &[self.bracket]));
         conditions
+    }
+
+    fn written_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
+        let variables = of(jet.phase.model());
+        let there = &jet.in_variables(variables).phase;
+        let functions = [&self.hamiltonian].into_iter().chain(&self.multiplier);
+        written(variables, &[self.bracket], functions, there)
     }
 
     fn quadrature_defects_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {

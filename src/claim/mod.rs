@@ -42,11 +42,14 @@ mod symmetry_field;
 mod transformation;
 mod value;
 
+use num_dual::DualNum;
+
 use crate::formula::Formula;
-use crate::graph::Expr;
+use crate::graph::{Expr, literally};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::elimination::rejection;
 use crate::mechanics::{Model, NewVariables};
+use crate::proof::Group;
 use crate::scalar::Scalar;
 
 pub use bracket::Bracket;
@@ -233,6 +236,20 @@ impl ClaimKind {
         of_each!(self, statement => statement.residual(jet, kept))
     }
 
+    /// Computes values as written, besides those of [`formulas`](Self::formulas), that exist wherever
+    /// the claim is to hold.
+    pub fn further_requirement(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
+        let inverses = |divisor: &Formula| {
+            let values = jet.phase.evaluate_literally(divisor).components();
+            values.into_iter().map(|value| literally(|| value.recip())).collect::<Vec<_>>()
+        };
+        // Where ρ is 0 on an open part, div(ρv) is 0, and v(ln ρ) is undefined.
+        let mut values: Vec<Expr> = self.divisors().into_iter().flat_map(inverses).collect();
+        values.extend(of_each!(self, statement => statement.written_elsewhere(jet)));
+        values.retain(|value| !value.is_always_defined());
+        values
+    }
+
     /// Computes values, recorded literally, without which the claim has no meaning.
     pub fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
         of_each!(self, statement => statement.presence(jet))
@@ -263,12 +280,13 @@ impl ClaimKind {
         of_each!(self, statement => statement.conditions(jet, kept))
     }
 
-    /// Computes the residual at given values of the new variables, if it depends on nothing else.
+    /// Computes the residual at given values of the new variables, with its requirement, if it
+    /// depends on nothing else.
     pub fn residual_of_values(
         &self,
         variables: &NewVariables,
         there: &DualPoint<'_, Expr>,
-    ) -> Option<Vec<Expr>> {
+    ) -> Option<Group> {
         of_each!(self, statement => statement.residual_of_values(variables, there))
     }
 

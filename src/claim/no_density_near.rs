@@ -68,6 +68,10 @@ impl Statement for NoDensityNear {
         residual
     }
 
+    fn written_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
+        self.0.written(&jet.phase)
+    }
+
     fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
         system_at(jet, &self.0)
     }

@@ -7,6 +7,7 @@ use crate::formula::{Formula, Type};
 use crate::graph::Expr;
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{Model, NewVariables, Phase, Poisson};
+use crate::proof::Group;
 use crate::scalar::Scalar;
 
 /// A statement about brackets at each value of the new variables, whatever the motion.
@@ -64,8 +65,16 @@ impl<S: OfBracket> Statement for S {
         &self,
         variables: &NewVariables,
         there: &DualPoint<'_, Expr>,
-    ) -> Option<Vec<Expr>> {
-        Some(self.at(variables, there))
+    ) -> Option<Group> {
+        let required =
+            written(variables, &self.brackets(), self.functions().into_iter(), &there.phase);
+        Some(Group { outputs: self.at(variables, there), required, ..Group::default() })
+    }
+
+    fn written_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
+        let variables = of(jet.phase.model());
+        let there = &jet.in_variables(variables).phase;
+        written(variables, &self.brackets(), self.functions().into_iter(), there)
     }
 
     fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
@@ -161,6 +170,17 @@ pub(super) fn slope<T: Scalar>(there: &DualPoint<'_, T>, function: &Formula) -> 
 /// Computes P u.
 pub(super) fn turned<T: Scalar>(tensor: &[Vec<T>], u: &[T]) -> Vec<T> {
     tensor.iter().map(|row| row.iter().zip(u).map(|(p, u)| *p * *u).sum()).collect()
+}
+
+/// Records functions of the new variables, and brackets, as written.
+pub(super) fn written<'f>(
+    variables: &'f NewVariables,
+    brackets: &[usize],
+    functions: impl Iterator<Item = &'f Formula>,
+    there: &Phase<'_, Expr>,
+) -> Vec<Expr> {
+    let brackets = brackets.iter().map(|bracket| &variables.brackets[*bracket]);
+    there.literal_values(functions.chain(brackets.flat_map(Poisson::given_blocks)))
 }
 
 /// Computes values that vanish exactly when each ∫ in functions of the new variables, and in the

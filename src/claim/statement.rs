@@ -5,6 +5,7 @@ use crate::formula::Formula;
 use crate::graph::Expr;
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{Model, NewVariables};
+use crate::proof::Group;
 use crate::scalar::Scalar;
 
 /// The derivatives of its formulas that a claim contains.
@@ -100,6 +101,12 @@ pub trait Statement: Clone {
         Vec::new()
     }
 
+    /// Computes the values as written of the formulas that are not among
+    /// [`formulas`](Statement::formulas): in the names of another model, or of a point.
+    fn written_elsewhere(&self, _: &DualPoint<'_, Expr>) -> Vec<Expr> {
+        Vec::new()
+    }
+
     /// Computes values, recorded literally, without which the claim has no meaning although all that
     /// is written has a value: at another point, for another parameter, or of a determinant's inverse.
     fn presence(&self, _: &DualPoint<'_, Expr>) -> Vec<Expr> {
@@ -132,8 +139,9 @@ pub trait Statement: Clone {
         Vec::new()
     }
 
-    /// Computes the residual at given values of the new variables, if it depends on nothing else.
-    fn residual_of_values(&self, _: &NewVariables, _: &DualPoint<'_, Expr>) -> Option<Vec<Expr>> {
+    /// Computes the residual at given values of the new variables, with its requirement, if it
+    /// depends on nothing else.
+    fn residual_of_values(&self, _: &NewVariables, _: &DualPoint<'_, Expr>) -> Option<Group> {
         None
     }
 

@@ -120,6 +120,14 @@ impl Transformation {
     }
 }
 
+impl Map {
+    /// Returns the point φ(x).
+    fn there<T: Scalar>(&self, phase: &Phase<'_, T>) -> Phase<'_, T> {
+        let images = self.images.iter().flat_map(|image| phase.evaluate(image).components());
+        phase.in_model(&self.target, &images.collect::<Vec<T>>())
+    }
+}
+
 fn unknown<R: Reader>(from: &R, key: &'static str, name: &str) -> R::Error {
     let message = format!("`{name}` is neither a state variable nor a parameter");
     let names: Vec<&str> = from.model().state.iter().map(|own| own.name.as_str()).collect();
@@ -311,9 +319,7 @@ impl Statement for Map {
     }
 
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {
-        let images: Vec<T> =
-            self.images.iter().flat_map(|image| jet.phase.evaluate(image).components()).collect();
-        let there = jet.phase.in_model(&self.target, &images);
+        let there = self.there(&jet.phase);
         let multiplier = self.multiplier.as_ref().map_or_else(T::one, |n| jet.phase.scalar(n));
         let pairs = self.images.iter().zip(&self.rates);
         pairs
@@ -325,10 +331,12 @@ impl Statement for Map {
             .collect()
     }
 
+    fn written_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
+        self.there(&jet.phase).literal_values(&self.rates)
+    }
+
     fn quadrature_defects_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
-        let images = self.images.iter().flat_map(|image| jet.phase.evaluate(image).components());
-        let there =
-            DualPoint::new(jet.phase.in_model(&self.target, &images.collect::<Vec<Expr>>()));
+        let there = DualPoint::new(self.there(&jet.phase));
         self.rates.iter().flat_map(|rate| quadrature_defects(&there, rate, &[])).collect()
     }
 }

@@ -164,11 +164,14 @@ impl Newton {
         let offset: Vec<f64> = (0..self.equations)
             .map(|i| magnitude(i, &|k| functions[k].mid[0].abs() + functions[k].rad[0]) * slack)
             .collect();
+        // A coordinate that is exact is reached by the rounding errors of the others.
+        let largest = offset.iter().copied().fold(SMALLEST, f64::max);
+        let least = 2.0 * (self.equations + 1) as f64 * (slack - 1.0) * largest;
         let mut radii = vec![0.0; state.len()];
         let mut factor = 2.0;
         for _ in 0..BOXES {
             for (i, k) in moved.iter().enumerate() {
-                radii[*k] = factor * offset[i].max(SMALLEST);
+                radii[*k] = factor * offset[i].max(least).max(SMALLEST);
             }
             let there = at(&radii)?;
             let slope = |k: usize, j: usize| &there[self.equations + k * self.dimension + moved[j]];

@@ -5,6 +5,7 @@ use super::evidence::Verdict;
 use super::field::{Answer, PrimeFieldStates, Query, combinations};
 use super::judging::Judging;
 use super::ladder::Open;
+use super::preimages::Second;
 use super::recorded::RecordedClaim;
 use super::sampler::{Sampler, extent};
 use crate::claim::{Condition, Need};
@@ -12,7 +13,7 @@ use crate::graph::{Expr, Fault, Graph, Step, record};
 use crate::mechanics::Phase;
 use crate::mechanics::calculus::DualPoint;
 use crate::number::{BinaryOperation, UnaryFunction};
-use crate::proof::{Extent, Group, GroupOutcome, Prover, are_coprime, is_nowhere_zero, sign};
+use crate::proof::{Extent, GroupOutcome, Prover, are_coprime, is_nowhere_zero, sign};
 use crate::scalar::Scalar;
 
 impl Judging<'_> {
@@ -58,7 +59,9 @@ impl Judging<'_> {
             if status.settled != Some(Verdict::Refuted) || !is_asked(item) {
                 continue;
             }
-            let Some(both) = self.second_preimage(sampler, item)? else { continue };
+            let Some(both) = self.second_preimage(sampler, item, Second::Anywhere)? else {
+                continue;
+            };
             status.evidence.witness = None;
             undecide(
                 status,
@@ -122,7 +125,7 @@ impl Judging<'_> {
                 Ok(has_none.then(|| otherwise.clone()))
             }
             Need::OneToOne => {
-                let both = self.second_preimage(sampler, item)?;
+                let both = self.second_preimage(sampler, item, Second::InRanges)?;
                 Ok(both.map(|both| format!("Φ takes {both} to one state: {otherwise}")))
             }
             Need::Continuous { values } => {
@@ -190,8 +193,8 @@ impl Judging<'_> {
                 let there = Phase::new(&variables.model, &parameters, values);
                 item.claim.kind.residual_of_values(variables, &DualPoint::new(there))
             })?;
-            let Some(residual) = residual else { return Ok(false) };
-            if !prover.prove(&graph, &[Group::of(residual)])?.iter().all(GroupOutcome::is_zero) {
+            let Some(group) = residual else { return Ok(false) };
+            if !prover.prove(&graph, &[group])?.iter().all(GroupOutcome::is_zero) {
                 return Ok(false);
             }
         }

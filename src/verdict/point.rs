@@ -169,7 +169,7 @@ impl<'c> PointScene<'c> {
                 let of_value = requirement::of_formulas(phase, claim.kind.formula());
                 groups.push([value.unwrap_or_default(), of_value]);
                 let residual = claim.kind.residual(&jet, &claim.place.kept);
-                groups.push([residual, requirement::of_claim(phase, &claim.kind, &of_system)]);
+                groups.push([residual, requirement::of_claim(&jet, &claim.kind, &of_system)]);
             }
             counts = groups.iter().map(|group| group.each_ref().map(Vec::len)).collect();
             groups.as_flattened().concat()

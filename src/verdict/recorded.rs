@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use num_dual::DualNum;
 use num_traits::Zero;
 
 use super::physics;
@@ -60,11 +59,7 @@ impl<'c> RecordedClaim<'c> {
             presence,
             requirement: {
                 let mut values = jet.phase.literal_values(claim.kind.formulas());
-                // Where ρ is 0 on an open part, div(ρv) is 0, and v(ln ρ) is undefined.
-                for divisor in claim.kind.divisors() {
-                    let divisor = jet.phase.evaluate_literally(divisor).components();
-                    values.extend(divisor.iter().map(|value| literally(|| value.recip())));
-                }
+                values.extend(claim.kind.further_requirement(jet));
                 values
             },
             context: claim.kind.context(jet, &claim.place.kept),

@@ -101,15 +101,54 @@ fn sums_of_squares_have_a_sign_however_they_are_written() {
 
 #[test]
 fn maps_that_take_two_states_to_one_may_keep_more_measures() {
-    let text = |map: &str, density: &str| {
+    let text = |range: &str, map: &str, density: &str| {
         format!(
-            "title = 't'\n[state]\nx = '-3..3'\n[map]\nx = '{map}'\n[[claim]]\ndensity = '{density}'\n\
+            "title = 't'\n[state]\nx = '{range}'\n[map]\nx = '{map}'\n[[claim]]\ndensity = '{density}'\n\
              expect = 'open'\n"
         )
     };
-    let own = |map, density| claims(&text(map, density)).remove(0).verdict;
+    let own = |map, density| claims(&text("-3..3", map, density)).remove(0).verdict;
     // Boole: the lengths of two intervals add up to that of their image.
     assert_eq!(own("x − 1/x", "1"), Verdict::Undecided);
     assert_eq!(own("x³ + x", "1"), Verdict::Refuted, "this one takes no two states to one");
     assert_eq!(own("x + 1", "1"), Verdict::Proved);
+    // The other state need not lie in the ranges.
+    let within = |range, map| claims(&text(range, map, "1")).remove(0).verdict;
+    assert_eq!(within("1..2", "x − 1/x"), Verdict::Undecided);
+    assert_eq!(within("0..1/2", "4*x*(1 − x)"), Verdict::Undecided);
+    assert_eq!(within("1..2", "x³ + x"), Verdict::Refuted);
+}
+
+#[test]
+fn maps_of_a_level_that_take_two_states_to_one_are_seen() {
+    let own = |map: [&str; 3], level: &str, density: &str| {
+        let [x, y, z] = map;
+        let text = format!(
+            "title = 't'\n[state]\nx = '-1..1'\ny = '-1..1'\nz = '-1..1'\n\
+             [map]\nx = '{x}'\ny = '{y}'\nz = '{z}'\n[level]\nequations = [{level}]\n\
+             [[claim]]\ndensity = '{density}'\nexpect = 'open'\n"
+        );
+        let report = claims(&text).remove(0);
+        (report.verdict, report.evidence.reason.unwrap_or_default())
+    };
+    let (circle, sphere) = ("'x² + y² = 1', 'z = 0'", "'x² + y² + z² = 1'");
+    for (map, level, density) in [
+        (["|x|", "y", "z"], circle, "1"),
+        (["|x|", "y", "z"], circle, "1/|y|"),
+        (["|x|", "y", "|z|"], sphere, "1"),
+        (["|x|", "y", "z"], "'z = x²'", "1"),
+        // The angle is doubled, and lengths add up.
+        (["x² − y²", "2*x*y", "z"], circle, "1"),
+        // So it is by a map that goes along the radius to the circle.
+        (["(x² − y²)/(x² + y²)", "2*x*y/(x² + y²)", "z"], circle, "1"),
+    ] {
+        let (verdict, reason) = own(map, level, density);
+        assert_eq!(verdict, Verdict::Undecided, "{map:?} on {level}");
+        assert!(reason.contains("to one state"), "{map:?} on {level}: {reason}");
+    }
+    let turned = ["3/5*x − 4/5*y", "4/5*x + 3/5*y", "z"];
+    assert_eq!(own(turned, circle, "1").0, Verdict::Proved);
+    assert_eq!(own(turned, sphere, "1").0, Verdict::Proved);
+    assert_eq!(own(turned, sphere, "2 + x").0, Verdict::Refuted);
+    assert_eq!(own(["−x", "−y", "−z"], sphere, "1").0, Verdict::Proved);
 }
