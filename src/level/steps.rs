@@ -339,12 +339,19 @@ fn quadratic_step(
     }
     direction.push((*last, Expr::one()));
     let [c, b, a] = point.along(quadratic, &direction);
-    // Without a sign the positive root is taken.
-    let root = (b * b - a * c).sqrt() * sign.unwrap_or_else(Expr::one);
-    let length = (root - b) / a;
+    // On a line along a generator of a cone the equation is linear, as x² + y² = z² is for x + y +
+    // z = 1.
+    let (length, divisor) = match a.is_zero() {
+        true => (-(c / (b + b)), b),
+        // Without a sign the positive root is taken.
+        false => {
+            let root = (b * b - a * c).sqrt() * sign.unwrap_or_else(Expr::one);
+            ((root - b) / a, a)
+        }
+    };
     for (component, slope) in direction {
         let base = point.state[component];
         point.state[component] = base + length * slope;
     }
-    (a * determinants, (a * a + b * b + c * c) * determinants)
+    (divisor * determinants, (a * a + b * b + c * c) * determinants)
 }

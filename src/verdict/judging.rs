@@ -75,14 +75,18 @@ impl Judging<'_> {
         let level = LevelSubset::level(&self.case.model);
         let sampler = Sampler::new(self.case, &level, self.options.seed)?;
         let Some(pieces) = self.pieces(&sampler)? else { return self.check_on(&sampler) };
-        // A part may have no states in the declared ranges.
+        // A part may have no states in the declared ranges, or none at which the field exists, as the
+        // apex of a cone.
         let (mut warnings, mut lacking) = (None, None);
         for sampler in pieces.iter().flatten() {
             match self.check_on(sampler) {
                 Ok(found) => warnings = warnings.or(Some(found)),
-                Err(error @ (JudgeError::Unreachable(_) | JudgeError::Overflow(_))) => {
-                    lacking = Some(error);
-                }
+                Err(
+                    error @ (JudgeError::Unreachable(_)
+                    | JudgeError::Overflow(_)
+                    | JudgeError::Singular(_)
+                    | JudgeError::FieldOverflow(_)),
+                ) => lacking = Some(error),
                 Err(error) => return Err(error),
             }
         }
