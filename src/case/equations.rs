@@ -96,15 +96,15 @@ fn is_whole(text: &str) -> bool {
         || (text.starts_with('(') && first == Some(text.chars().count() - 1))
 }
 
-/// Counts the equations that some texts stand for, one for each text that cannot be read.
-pub fn number(texts: &[SpannedStr], vocabulary: &Vocabulary) -> usize {
+/// Counts the equations that each text stands for; `None` for one that cannot be read.
+pub fn numbers(texts: &[SpannedStr], vocabulary: &Vocabulary) -> Vec<Option<usize>> {
     let own = |text: &SpannedStr| {
         let (left, right) = both_sides(&text.value, vocabulary)?;
         let is_zero = right.constant().is_some_and(|value| value.is_zero());
         let function = if is_zero { left } else { (left.bracketed() - right.bracketed()).ok()? };
         Some(entries("", function, vocabulary).ok()?.len())
     };
-    texts.iter().map(|text| own(text).unwrap_or(1)).sum()
+    texts.iter().map(own).collect()
 }
 
 /// Both sides of an equation, with the place where the right one begins.
@@ -212,7 +212,7 @@ fn independent(function: &Formula, vocabulary: &Vocabulary) -> Option<Vec<usize>
 }
 
 /// Evaluates a formula with an input for each component of each name but abbreviations.
-fn valued(formula: &Formula, vocabulary: &Vocabulary, inputs: &[Expr]) -> Value<Expr> {
+pub fn valued(formula: &Formula, vocabulary: &Vocabulary, inputs: &[Expr]) -> Value<Expr> {
     formula.evaluate_literally(&mut |symbol| {
         let entry = vocabulary.entry(symbol);
         if let SymbolOrigin::Defined(definition) = vocabulary.origin(symbol) {

@@ -3,6 +3,7 @@
 use super::error::{Mistake, Problem};
 use super::family::{Key, Rates, Unreadable};
 use super::section::CaseTable;
+use super::shaped;
 use crate::formula::{Formula, Type, excerpt, look_alike, skeleton};
 use crate::mechanics::{Dependence, TIME, Variable, Vocabulary};
 
@@ -13,20 +14,22 @@ pub fn given_rates(
     vocabulary: &Vocabulary,
     reach: Dependence,
 ) -> Vec<GivenRate> {
+    // A matrix that is made of components is written as such.
+    let written: Vec<Variable> = variables.iter().map(shaped::written).collect();
     let mut rates: Vec<Rates> = variables.iter().map(|_| Rates::default()).collect();
     let mut broken = vec![false; variables.len()];
     for (key, value) in section.entries() {
-        let (index, read) = match Key::read(key.get_ref(), variables, vocabulary) {
+        let (index, read) = match Key::read(key.get_ref(), &written, vocabulary) {
             Ok(found) => found,
             Err(Unreadable::Unknown(name)) if section.mistakes().has_failed(&name) => continue,
             Err(unreadable) => {
                 // the rate of a name that looks like this one is not missing too
                 if let Unreadable::Unknown(name) = &unreadable {
-                    let mut own = variables.iter().map(|own| skeleton(&own.name));
+                    let mut own = written.iter().map(|own| skeleton(&own.name));
                     let place = own.position(|own| own == skeleton(name));
                     place.into_iter().for_each(|place| broken[place] = true);
                 }
-                let problem = unknown_rate(key.get_ref(), unreadable, variables);
+                let problem = unknown_rate(key.get_ref(), unreadable, &written);
                 section.mistakes().add(Mistake::at(key.span(), problem));
                 continue;
             }
@@ -48,10 +51,21 @@ pub fn given_rates(
     let read = |((variable, rates), broken): ((&Variable, Rates), bool)| match rates.is_empty() {
         true if broken => GivenRate::Broken,
         true => GivenRate::Missing,
-        false => match section.keep(rates.formulas(variable, vocabulary, reach)) {
-            Some(formulas) => GivenRate::Given(formulas),
-            None => GivenRate::Broken,
-        },
+        false => {
+            let whole = rates.formulas(&shaped::written(variable), vocabulary, reach);
+            let formulas = whole.and_then(|whole| match &variable.shape {
+                Some(shape) => {
+                    let place = rates.place();
+                    shaped::components(shape, whole, vocabulary)
+                        .map_err(|problem| Mistake::new(place, problem))
+                }
+                None => Ok(whole),
+            });
+            match section.keep(formulas) {
+                Some(formulas) => GivenRate::Given(formulas),
+                None => GivenRate::Broken,
+            }
+        }
     };
     variables.iter().zip(rates).zip(broken).map(read).collect()
 }
@@ -119,7 +133,7 @@ fn all_of(
                 section.keep(one(vocabulary).map(|one| vec![one]))
             }
             GivenRate::Missing => {
-                let name = &variable.name;
+                let name = &shaped::written(variable).name;
                 let (message, remedy) = match are_rates {
                     true => (
                         format!("[field] has no rate for `{name}`"),

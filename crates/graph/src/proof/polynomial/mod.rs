@@ -169,6 +169,40 @@ impl Polynomial {
         all
     }
 
+    /// Returns the coefficients of the products of powers of some variables.
+    pub fn collected(&self, variables: &[u32]) -> BTreeMap<Vec<u32>, Self> {
+        let mut all: BTreeMap<Vec<u32>, Self> = BTreeMap::new();
+        for (monomial, value) in &self.terms {
+            let mut powers = vec![0; variables.len()];
+            let mut rest = Vec::new();
+            for (variable, exponent) in &monomial.0 {
+                match variables.iter().position(|own| own == variable) {
+                    Some(place) => powers[place] = *exponent,
+                    None => rest.push((*variable, *exponent)),
+                }
+            }
+            all.entry(powers).or_default().add_term(Monomial(rest), value);
+        }
+        all
+    }
+
+    /// Writes the polynomial with names of the variables.
+    pub fn text(&self, names: &[String]) -> String {
+        let power = |(variable, exponent): &(u32, u32)| {
+            let name = &names[*variable as usize];
+            if *exponent == 1 { name.clone() } else { format!("{name}^{exponent}") }
+        };
+        let term = |(monomial, value): (&Monomial, &Rational)| {
+            let mut factors: Vec<String> = monomial.0.iter().map(power).collect();
+            if factors.is_empty() || *value != Rational::from(1) {
+                factors.insert(0, value.to_string());
+            }
+            factors.join("*")
+        };
+        let terms: Vec<String> = self.terms.iter().rev().map(term).collect();
+        if terms.is_empty() { "0".to_string() } else { terms.join(" + ") }
+    }
+
     /// Records the value from the values of the variables.
     pub fn value(&self, of: &impl Fn(u32) -> Option<Expr>) -> Option<Expr> {
         let mut sum = Expr::rational(&Rational::from(0));
