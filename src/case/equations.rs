@@ -212,7 +212,7 @@ fn independent(function: &Formula, vocabulary: &Vocabulary) -> Option<Vec<usize>
 }
 
 /// Evaluates a formula with an input for each component of each name but abbreviations.
-pub fn valued(formula: &Formula, vocabulary: &Vocabulary, inputs: &[Expr]) -> Value<Expr> {
+fn valued(formula: &Formula, vocabulary: &Vocabulary, inputs: &[Expr]) -> Value<Expr> {
     formula.evaluate_literally(&mut |symbol| {
         let entry = vocabulary.entry(symbol);
         if let SymbolOrigin::Defined(definition) = vocabulary.origin(symbol) {

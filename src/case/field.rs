@@ -5,15 +5,23 @@ use super::family::{Key, Rates, Unreadable};
 use super::section::CaseTable;
 use super::shaped;
 use crate::formula::{Formula, Type, excerpt, look_alike, skeleton};
-use crate::mechanics::{Dependence, TIME, Variable, Vocabulary};
+use crate::mechanics::{Dependence, Parameter, TIME, Variable, Vocabulary};
+
+/// Names of a file, and its parameters.
+#[derive(Clone, Copy)]
+pub struct Names<'n> {
+    pub vocabulary: &'n Vocabulary,
+    pub parameters: &'n [Parameter],
+}
 
 /// Reads the formulas of each variable whose rate is given, under its name with or without a prime.
 pub fn given_rates(
     section: &CaseTable<'_>,
     variables: &[Variable],
-    vocabulary: &Vocabulary,
+    names: Names<'_>,
     reach: Dependence,
 ) -> Vec<GivenRate> {
+    let vocabulary = names.vocabulary;
     // A matrix that is made of components is written as such.
     let written: Vec<Variable> = variables.iter().map(shaped::written).collect();
     let mut rates: Vec<Rates> = variables.iter().map(|_| Rates::default()).collect();
@@ -56,7 +64,7 @@ pub fn given_rates(
             let formulas = whole.and_then(|whole| match &variable.shape {
                 Some(shape) => {
                     let place = rates.place();
-                    shaped::components(shape, whole, vocabulary)
+                    shaped::components(shape, whole, names)
                         .map_err(|problem| Mistake::new(place, problem))
                 }
                 None => Ok(whole),
@@ -101,27 +109,27 @@ fn unknown_rate(key: &str, unreadable: Unreadable, variables: &[Variable]) -> Pr
 pub fn rates(
     section: &CaseTable<'_>,
     variables: &[Variable],
-    vocabulary: &Vocabulary,
+    names: Names<'_>,
 ) -> Option<Vec<Formula>> {
-    all_of(section, variables, vocabulary, true)
+    all_of(section, variables, names, true)
 }
 
 /// Reads the images of all variables under a map; nothing if one is missing, or wrong.
 pub fn images(
     section: &CaseTable<'_>,
     variables: &[Variable],
-    vocabulary: &Vocabulary,
+    names: Names<'_>,
 ) -> Option<Vec<Formula>> {
-    all_of(section, variables, vocabulary, false)
+    all_of(section, variables, names, false)
 }
 
 fn all_of(
     section: &CaseTable<'_>,
     variables: &[Variable],
-    vocabulary: &Vocabulary,
+    names: Names<'_>,
     are_rates: bool,
 ) -> Option<Vec<Formula>> {
-    let given = given_rates(section, variables, vocabulary, Dependence::Phase);
+    let given = given_rates(section, variables, names, Dependence::Phase);
     let mut all = Some(Vec::new());
     for (variable, rate) in variables.iter().zip(given) {
         let formulas = match rate {
@@ -130,7 +138,7 @@ fn all_of(
             GivenRate::Missing
                 if are_rates && variable.name == TIME && variable.kind == Type::Scalar =>
             {
-                section.keep(one(vocabulary).map(|one| vec![one]))
+                section.keep(one(names.vocabulary).map(|one| vec![one]))
             }
             GivenRate::Missing => {
                 let name = &shaped::written(variable).name;

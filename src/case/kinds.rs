@@ -206,7 +206,7 @@ impl Reading<'_, '_> {
         }
         self.settle(Stage::State);
         let variables = &self.state.variables;
-        let rates = section.and_then(|section| field::rates(&section, variables, &self.vocabulary));
+        let rates = section.and_then(|section| field::rates(&section, variables, self.names()));
         let level = self.read_level();
         self.level = level?;
         Some((System::Field(rates?), Chart::Free))

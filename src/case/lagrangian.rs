@@ -172,8 +172,7 @@ fn carried(reading: &Reading<'_, '_>) -> Vec<GivenRate> {
     let variables = &reading.state.variables;
     match reading.root.table("field") {
         Some(section) => {
-            let names = &reading.vocabulary;
-            field::given_rates(&section, variables, names, Dependence::Configuration)
+            field::given_rates(&section, variables, reading.names(), Dependence::Configuration)
         }
         None => variables.iter().map(|_| GivenRate::Missing).collect(),
     }

@@ -175,6 +175,11 @@ impl<'r, 's> Reading<'r, 's> {
         }
     }
 
+    /// Names and parameters that formulas use.
+    pub fn names(&self) -> field::Names<'_> {
+        field::Names { vocabulary: &self.vocabulary, parameters: &self.parameters }
+    }
+
     /// Reads the equations of `[level]`; `None` if one is wrong.
     pub fn read_level(&self) -> Option<Vec<LevelEquation>> {
         match self.root.table("level") {
@@ -286,7 +291,7 @@ impl<'r, 's> Reading<'r, 's> {
         let is_told = self.root.value("field").is_none()
             && further.iter().any(|variable| variable.name != TIME);
         if !is_told {
-            let rates = field::rates(&section, further, &self.vocabulary);
+            let rates = field::rates(&section, further, self.names());
             self.extension.extend(rates.unwrap_or_default());
         }
     }

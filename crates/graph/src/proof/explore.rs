@@ -373,7 +373,10 @@ impl Explorer<'_> {
         let classes = Classes::of(algebraic, trial, tower, self.digest);
         let inputs = self.prover.extents;
         let region = Region { graph: &cell.graph, inputs, facts: known, classes: &classes };
-        region.is_empty().then_some(Next::Empty(classes.certificate))
+        if region.is_empty() {
+            return Some(Next::Empty(classes.certificate));
+        }
+        region.is_beyond_bounds().then_some(Next::Empty(None))
     }
 }
 

@@ -23,6 +23,7 @@
 //! | `elimination`, `rank`, `reconstruct`, `coprime` | linear algebra and polynomials modulo a prime |
 
 mod angles;
+mod bounded;
 mod bounds;
 mod branches;
 mod buckets;
@@ -44,6 +45,7 @@ mod forms;
 mod free_symbols;
 mod logarithms;
 mod lower;
+mod monomial_roots;
 mod nested;
 mod next;
 mod numbers;

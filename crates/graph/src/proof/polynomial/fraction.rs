@@ -19,7 +19,8 @@ pub struct Fraction {
 }
 
 impl Fraction {
-    fn whole(above: Polynomial) -> Self {
+    /// Makes a fraction of a polynomial.
+    pub fn whole(above: Polynomial) -> Self {
         Self { above, below: Polynomial::constant(&Rational::from(1)) }
     }
 
@@ -95,6 +96,15 @@ pub fn fraction(
     place: usize,
     given: &impl Fn(usize, Step<'_>) -> Option<Polynomial>,
 ) -> Option<Fraction> {
+    fraction_of(graph, place, &|at, step| given(at, step).map(Fraction::whole))
+}
+
+/// Reads the value in the same way from fractions.
+pub fn fraction_of(
+    graph: &Graph,
+    place: usize,
+    given: &impl Fn(usize, Step<'_>) -> Option<Fraction>,
+) -> Option<Fraction> {
     let reached = graph.reached_from(&[place]);
     let mut work = MOST_WORK;
     let mut values: Vec<Option<Fraction>> = Vec::with_capacity(place + 1);
@@ -102,7 +112,7 @@ pub fn fraction(
         let value = match reached[at] {
             false => None,
             true => match given(at, step) {
-                Some(polynomial) => Some(Fraction::whole(polynomial)),
+                Some(own) => Some(own),
                 None => of_step(step, &values, &mut work),
             },
         };

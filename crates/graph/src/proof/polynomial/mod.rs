@@ -4,13 +4,14 @@
 //! roots, symbols). Large ones are given up: the aim is to find b in √(x² + 2x + 1) = |x + 1|, not
 //! a normal form.
 
+mod bound;
 mod fraction;
 mod monomial;
 
 #[cfg(test)]
 mod tests;
 
-pub use fraction::{Fraction, fraction};
+pub use fraction::{Fraction, fraction, fraction_of};
 
 use std::collections::BTreeMap;
 
@@ -44,6 +45,19 @@ impl Polynomial {
     /// Makes a variable.
     pub fn variable(number: u32) -> Self {
         Self { terms: [(Monomial(vec![(number, 1)]), Rational::from(1))].into() }
+    }
+
+    /// Makes a number times a product of powers of variables.
+    pub fn of_term(value: &Rational, exponents: impl IntoIterator<Item = (u32, u32)>) -> Self {
+        let mut term = Self::default();
+        term.add_term(Monomial(exponents.into_iter().collect()), value);
+        term
+    }
+
+    /// Returns the number and the exponents of a polynomial of one term.
+    pub fn as_term(&self) -> Option<(&Rational, &[(u32, u32)])> {
+        let ((monomial, value), 1) = (self.leading()?, self.size()) else { return None };
+        Some((value, &monomial.0))
     }
 
     /// Returns the value of a constant polynomial.
