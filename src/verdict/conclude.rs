@@ -11,10 +11,6 @@ use crate::claim::ClaimKind;
 const ON_A_PART: &str = "shown on a part of the states only: where a modulus, or a root that depends on \
                          others, has another sign, or on another branch of the level, it may fail";
 
-/// Reason why an inequality is undecided that holds at all states tried.
-pub(super) const NO_SIGN: &str = "it holds at all states that were tried, and bounds over the ranges do not show more: \
-     give the rate by equals, as a formula whose sign is seen";
-
 /// Makes the report on a claim, with its verdict compared with the expectation.
 pub fn report(
     case: &Case,
@@ -42,7 +38,9 @@ pub fn report(
     }
     if claim.kind.is_inequality() && verdict == Verdict::Confirmed {
         verdict = Verdict::Undecided;
-        evidence.reason = Some(NO_SIGN.to_string());
+        let reason = "it holds at all states that were tried, and bounds over the ranges do not show more: \
+                      give the rate by equals, as a formula whose sign is seen";
+        evidence.reason = Some(reason.to_string());
         evidence.holds.clear();
     }
     let holds = matches!(verdict, Verdict::Proved | Verdict::Confirmed);

@@ -4,7 +4,6 @@
 use std::collections::BTreeSet;
 
 use super::branches::simple;
-use super::conclude::NO_SIGN;
 use super::evidence::{ClaimReport, Verdict};
 use super::judge::{JudgeError, Options, Trust, judge};
 use super::run::{Doubles, Run};
@@ -34,9 +33,7 @@ pub(super) fn find_rates(
 ) -> Result<(), JudgeError> {
     for (claim, report) in case.claims.iter().zip(reports) {
         let ClaimKind::Lyapunov(own) = &claim.kind else { continue };
-        let is_open = report.verdict == Verdict::Undecided
-            && report.evidence.reason.as_deref() == Some(NO_SIGN)
-            && options.trust != Trust::Float;
+        let is_open = report.verdict == Verdict::Undecided && options.trust != Trust::Float;
         let (true, Some(function)) = (is_open, own.without_rate()) else { continue };
         for text in rates(case, claim, own, function, options.seed)? {
             let Ok(rate) = case.formula(&text) else { continue };
@@ -102,9 +99,8 @@ fn rates(
         .filter(|row: &Vec<f64>| row.iter().all(|x| x.is_finite()))
         .collect();
     let squares: Vec<String> = vectors.iter().map(|(vector, _)| square_of(vector)).collect();
-    all.extend(multiples(&table, &squares, &numbers));
-    let is_rate: Vec<bool> = vectors.iter().map(|(_, is_rate)| *is_rate).collect();
-    all.extend(sums(&table, &squares, &is_rate));
+    let kinds: Vec<VectorKind> = vectors.iter().map(|(_, kind)| *kind).collect();
+    all.extend(sums(&table, &squares, &kinds, &numbers));
     let mut seen = BTreeSet::new();
     all.retain(|text| seen.insert(text.clone()));
     all.truncate(MOST_RATES);
@@ -162,24 +158,33 @@ fn names(case: &Case) -> (Vec<String>, Vec<Source>) {
     (names, sources)
 }
 
-/// Lists vectors, and scalars, whose squares the rate may consist of: rates of variables, slopes of
-/// F, and vectors in the formulas of the file. The second value tells rates.
-fn vectors(case: &Case, function: &Formula) -> Vec<(Formula, bool)> {
+/// Source of a vector.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum VectorKind {
+    /// Rate of a variable.
+    Rate,
+    /// Slope of F along a variable.
+    Slope,
+    /// Part of a formula of the file.
+    Part,
+}
+
+/// Lists vectors, and scalars, whose squares the rate may consist of.
+fn vectors(case: &Case, function: &Formula) -> Vec<(Formula, VectorKind)> {
     let model = &case.model;
-    let mut texts: Vec<(String, bool)> = Vec::new();
+    let mut texts: Vec<(String, VectorKind)> = Vec::new();
     for variable in &model.state {
         let name = &variable.name;
-        texts.push((format!("{name}'"), true));
-        texts.push((format!("∂({})/∂{name}", function.text()), false));
+        texts.push((format!("{name}'"), VectorKind::Rate));
+        texts.push((format!("∂({})/∂{name}", function.text()), VectorKind::Slope));
     }
     let formulas = model.dynamics().into_iter().chain(&model.abbreviations).chain([function]);
     let parts = formulas.flat_map(Formula::parts);
-    texts.extend(parts.map(|text| (text.trim().to_string(), false)));
+    texts.extend(parts.map(|text| (text.trim().to_string(), VectorKind::Part)));
     let mut seen = BTreeSet::new();
     texts.retain(|(text, _)| seen.insert(text.clone()));
-    let read =
-        texts.into_iter().filter_map(|(text, is_rate)| Some((case.formula(&text).ok()?, is_rate)));
-    read.take(MOST_VECTORS).collect()
+    let read = |(text, kind): (String, VectorKind)| Some((case.formula(&text).ok()?, kind));
+    texts.into_iter().filter_map(read).take(MOST_VECTORS).collect()
 }
 
 /// Writes the sum of the squares of the components.
@@ -197,83 +202,78 @@ fn numbers(case: &Case) -> Vec<Formula> {
     scalars.filter_map(|own| case.formula(&own.name).ok()).collect()
 }
 
-/// Lists squares of which the rate is a negative multiple, by a number or by a parameter and a number.
-fn multiples(table: &[Vec<f64>], squares: &[String], numbers: &[Formula]) -> Vec<String> {
-    let constant = |ratio: &dyn Fn(&[f64]) -> f64| {
-        let first = table.first().map(|row| ratio(row))?;
-        let is_equal = |row: &Vec<f64>| (ratio(row) - first).abs() <= 1e-9 * first.abs();
-        let found = simple(first).filter(|number| number.is_negative())?;
-        (table.len() > 1 && table.iter().all(is_equal)).then_some(found)
-    };
+/// Lists sums of squares, with numbers as negative factors, that the rate is equal to, up to a
+/// parameter as a further factor: of one square or two, of all rates, and of all slopes.
+fn sums(
+    table: &[Vec<f64>],
+    squares: &[String],
+    kinds: &[VectorKind],
+    numbers: &[Formula],
+) -> Vec<String> {
+    let of_kind = |kind: VectorKind| (0..kinds.len()).filter(|k| kinds[*k] == kind).collect();
+    let single = (0..squares.len()).map(|k| vec![k]);
+    let pairs = (0..squares.len()).flat_map(|i| (0..i).map(move |j| vec![j, i]));
+    let whole = [VectorKind::Rate, VectorKind::Slope].map(of_kind);
+    let choices: Vec<Vec<usize>> = single.chain(whole).chain(pairs).collect();
+    let mut factors: Vec<(String, Vec<f64>)> = vec![(String::new(), vec![1.0; table.len()])];
+    for (p, number) in numbers.iter().enumerate() {
+        let column = squares.len() + 1 + p;
+        let name = number.text();
+        factors.push((format!("{name}*"), table.iter().map(|row| row[column]).collect()));
+        factors.push((format!("1/{name}*"), table.iter().map(|row| 1.0 / row[column]).collect()));
+    }
     let mut all = Vec::new();
-    for (k, square) in squares.iter().enumerate() {
-        if let Some(factor) = constant(&|row| row[0] / row[k + 1]) {
-            all.push(format!("({factor})*{square}"));
-        }
-        for (p, number) in numbers.iter().enumerate() {
-            let (value, name) = (squares.len() + 1 + p, number.text());
-            if let Some(factor) = constant(&|row| row[0] / (row[k + 1] * row[value])) {
-                all.push(format!("({factor})*{name}*{square}"));
-            }
-            if let Some(factor) = constant(&|row| row[0] * row[value] / row[k + 1]) {
-                all.push(format!("({factor})/{name}*{square}"));
-            }
-        }
+    for (factor, values) in &factors {
+        let target: Vec<f64> =
+            table.iter().zip(values).map(|(row, value)| row[0] / value).collect();
+        let written = |chosen: &Vec<usize>| {
+            let multiples = fitted(table, &target, chosen)?;
+            let term = |(k, multiple): (&usize, &f64)| match multiple.abs() < 1e-9 {
+                true => Some(String::new()),
+                false => {
+                    let multiple = simple(*multiple).filter(|multiple| multiple.is_negative())?;
+                    Some(format!("({multiple})*{factor}{}", squares[*k]))
+                }
+            };
+            let terms: Vec<String> =
+                chosen.iter().zip(&multiples).map(term).collect::<Option<_>>()?;
+            let terms: Vec<String> = terms.into_iter().filter(|term| !term.is_empty()).collect();
+            (terms.len() == chosen.len()).then(|| terms.join(" + "))
+        };
+        all.extend(choices.iter().filter_map(written).take(MOST_RATES));
     }
     all
 }
 
-/// Lists sums of squares, with numbers as negative factors, that the rate is equal to: of the rates
-/// of all variables, or of any two squares.
-fn sums(table: &[Vec<f64>], squares: &[String], is_rate: &[bool]) -> Vec<String> {
-    let rates: Vec<usize> = (0..squares.len()).filter(|k| is_rate[*k]).collect();
-    let pairs = (0..squares.len()).flat_map(|i| (0..i).map(move |j| vec![j, i]));
-    let choices = [rates].into_iter().chain(pairs);
-    let written = |chosen: Vec<usize>| {
-        let factors = fitted(table, &chosen)?;
-        let term = |(k, factor): (&usize, &f64)| match factor.abs() < 1e-9 {
-            true => Some(String::new()),
-            false => {
-                let factor = simple(*factor).filter(|factor| factor.is_negative())?;
-                Some(format!("({factor})*{}", squares[*k]))
-            }
-        };
-        let terms: Vec<String> = chosen.iter().zip(&factors).map(term).collect::<Option<_>>()?;
-        let terms: Vec<String> = terms.into_iter().filter(|term| !term.is_empty()).collect();
-        (terms.len() > 1).then(|| terms.join(" + "))
-    };
-    choices.filter_map(written).collect()
-}
-
-/// Finds factors with which the first column is a sum of some others, at all rows.
-fn fitted(table: &[Vec<f64>], chosen: &[usize]) -> Option<Vec<f64>> {
+/// Finds factors with which a column of values is a sum of some columns of squares, at all rows.
+fn fitted(table: &[Vec<f64>], target: &[f64], chosen: &[usize]) -> Option<Vec<f64>> {
     let count = chosen.len();
-    if count < 2 || table.len() < 2 * count {
+    if count == 0 || table.len() < 2 * count {
         return None;
     }
-    let equation = |row: &Vec<f64>| -> Vec<f64> {
-        chosen.iter().map(|k| row[k + 1]).chain([row[0]]).collect()
+    let equation = |(row, value): (&Vec<f64>, &f64)| -> Vec<f64> {
+        chosen.iter().map(|k| row[k + 1]).chain([*value]).collect()
     };
-    let mut rows: Vec<Vec<f64>> = table[..count].iter().map(equation).collect();
+    let mut rows: Vec<Vec<f64>> = table.iter().zip(target).take(count).map(equation).collect();
     for column in 0..count {
-        let best = (column..count)
-            .max_by(|a, b| rows[*a][column].abs().total_cmp(&rows[*b][column].abs()))?;
+        let largest =
+            |a: &usize, b: &usize| rows[*a][column].abs().total_cmp(&rows[*b][column].abs());
+        let best = (column..count).max_by(largest)?;
         rows.swap(column, best);
         let pivot = rows[column].clone();
         if pivot[column].abs() < 1e-12 {
             return None;
         }
-        for (index, row) in rows.iter_mut().enumerate().filter(|(index, _)| *index != column) {
-            debug_assert!(index < count);
+        for row in rows.iter_mut().enumerate().filter(|(at, _)| *at != column).map(|(_, row)| row) {
             let factor = row[column] / pivot[column];
             row.iter_mut().zip(&pivot).for_each(|(x, y)| *x -= factor * y);
         }
     }
     let factors: Vec<f64> = (0..count).map(|k| rows[k][count] / rows[k][k]).collect();
-    let fits = |row: &Vec<f64>| {
+    let fits = |(row, value): (&Vec<f64>, &f64)| {
         let terms = chosen.iter().zip(&factors).map(|(k, factor)| factor * row[k + 1]);
-        let size: f64 = terms.clone().map(f64::abs).sum::<f64>() + row[0].abs();
-        (terms.sum::<f64>() - row[0]).abs() <= 1e-9 * size
+        let size: f64 = terms.clone().map(f64::abs).sum::<f64>() + value.abs();
+        (terms.sum::<f64>() - value).abs() <= 1e-9 * size
     };
-    table.iter().all(fits).then_some(factors)
+    table.iter().zip(target).all(fits).then_some(factors)
 }

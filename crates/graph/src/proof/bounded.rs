@@ -1,6 +1,6 @@
 //! Cells that bounds by squares exclude.
 //!
-//! Where m² − Σ q² is not negative, |q| ≤ |m|. So m + q > 0 fails nowhere inside, and −(m + q) > 0
+//! Where m² − Σ q² is not negative, it is not if some q² are left out, and |q| ≤ |m|. So m + q > 0 fails nowhere inside, and −(m + q) > 0
 //! everywhere, for a monomial m that is not negative. Intervals do not see it: m + q comes near 0 on
 //! the way to the end, where all boxes contain it.
 
@@ -42,11 +42,12 @@ impl Region<'_> {
         })
     }
 
-    /// Lists values m ± q that are not negative where the value at a place is not, and its root.
+    /// Lists values m² − Σ q² and m ± q that are not negative where the value at a place is not.
     fn bounds_of(&self, place: usize, value: &Polynomial) -> Vec<Polynomial> {
         let Some(bound) = value.square_bound() else { return Vec::new() };
+        let mut all = bound.differences();
         let (scale, whole) = bound.whole;
-        let Some(is_positive) = self.sign_of_term(&whole) else { return Vec::new() };
+        let Some(is_positive) = self.sign_of_term(&whole) else { return all };
         let whole = whole.scaled(&Rational::from(if is_positive { 1 } else { -1 }));
         // √c m ± √c_k m_k, divided by √c.
         let ratio = |own: &Rational| square_root(&(own * &scale.recip()?));
@@ -59,7 +60,8 @@ impl Region<'_> {
             let part = part.scaled(&ratio(&own)?);
             Some([1, -1].map(|sign| whole.plus(&part.scaled(&Rational::from(sign)))))
         };
-        parts.into_iter().filter_map(both).flatten().collect()
+        all.extend(parts.into_iter().filter_map(both).flatten());
+        all
     }
 
     /// Finds the sign of a term by those of its variables, where 0 counts as either.
@@ -107,6 +109,11 @@ mod tests {
         assert!(contradicts(|x| (vec![disc(x)], vec![x[2] - x[0]])), "y − l > 0");
         assert!(contradicts(|x| (vec![disc(x)], vec![x[0] * x[2] * 2.0 - x[0] * x[0] * 2.0])));
         assert!(contradicts(|x| (vec![disc(x)], vec![disc(x).apply(UnaryFunction::Sqrt) - x[0]])));
+        assert!(contradicts(|x| (vec![disc(x)], vec![x[2] * x[2] - x[0] * x[0]])), "y² > l²");
+        assert!(!contradicts(|x| (
+            vec![disc(x)],
+            vec![x[2] * x[2] + x[1] * x[1] * 2.0 - x[0] * x[0]]
+        )));
         assert!(!contradicts(|x| (vec![disc(x)], vec![x[0] - x[1]])), "l − x > 0");
         assert!(!contradicts(|x| (vec![disc(x)], vec![x[1] + x[2] - x[0]])), "x + y is larger");
         assert!(!contradicts(|x| (vec![-disc(x)], vec![-x[0] - x[1]])), "outside");

@@ -169,14 +169,36 @@ fn first_of_sum(
     let difference = a.times(a, &mut work)?.plus(&product.scaled(&Rational::from(-1)));
     let root = match difference.is_zero() {
         true => difference,
-        false => root_of(&difference)
-            .or_else(|| roots.iter().find_map(|root| root_by(&difference, root)))?,
+        false => match root_of(&difference) {
+            Some(root) => root,
+            None => return roots.iter().find_map(|own| half_with(a, &difference, own, roots)),
+        },
     };
-    let halves = [1, -1]
-        .map(|sign| a.plus(&root.scaled(&Rational::from(sign))).scaled(&Rational::new(1, 2)));
+    let halves = halves(a, &root);
     // A square needs no further root.
     let order = |u: &Polynomial| (u.square().is_none(), u.size());
     halves.into_iter().filter(|u| !u.is_zero()).min_by_key(order)
+}
+
+/// Returns (a + d)/2 and (a − d)/2.
+fn halves(a: &Polynomial, d: &Polynomial) -> [Polynomial; 2] {
+    [1, -1].map(|sign| a.plus(&d.scaled(&Rational::from(sign))).scaled(&Rational::new(1, 2)))
+}
+
+/// Finds u = (a ± d)/2 for the root d of a difference by another one, if √u is a multiple of a
+/// further root: otherwise roots would be written by each other.
+fn half_with(
+    a: &Polynomial,
+    difference: &Polynomial,
+    own: &(u32, Polynomial),
+    roots: &[(u32, Polynomial)],
+) -> Option<Polynomial> {
+    let halves = halves(a, &root_by(difference, own)?);
+    let is_known = |u: &Polynomial| {
+        let ratio = |(_, radicand): &(u32, Polynomial)| radicand.term_over(u)?.number();
+        roots.iter().filter_map(ratio).any(|ratio| !ratio.is_negative())
+    };
+    halves.into_iter().find(|u| !u.is_zero() && is_known(u))
 }
 
 /// Finds d with d² = p.

@@ -12,6 +12,30 @@ pub struct SquareBound {
     pub parts: Vec<(Rational, Polynomial)>,
 }
 
+/// Largest number of squares of which all choices are left out.
+const MOST_SQUARES: usize = 4;
+
+impl SquareBound {
+    /// Lists the polynomials c m² − Σ c_k m_k² with some squares, but not all, left out.
+    pub fn differences(&self) -> Vec<Polynomial> {
+        let square = |(value, root): &(Rational, Polynomial)| {
+            Some(root.times(root, &mut { super::MOST_WORK })?.scaled(value))
+        };
+        let (Some(whole), Some(parts)) =
+            (square(&self.whole), self.parts.iter().map(square).collect::<Option<Vec<_>>>())
+        else {
+            return Vec::new();
+        };
+        let kept = parts.len().min(MOST_SQUARES);
+        let sets = 1u32..1 << kept;
+        let difference = |set: u32| {
+            let chosen = parts.iter().take(kept).enumerate().filter(|(k, _)| set >> k & 1 == 1);
+            chosen.fold(whole.clone(), |rest, (_, part)| rest.plus(&part.negated()))
+        };
+        sets.map(difference).collect()
+    }
+}
+
 impl Polynomial {
     /// Returns the polynomial in this form; `None` if it has another.
     pub fn square_bound(&self) -> Option<SquareBound> {
