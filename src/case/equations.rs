@@ -154,7 +154,7 @@ fn equation(
 }
 
 /// Largest number of entries among which repetitions are sought, of which there are n² pairs.
-const MOST_COMPARED: usize = 64;
+const MOST_COMPARED: usize = 96;
 
 /// Text between an equation and the place of an entry.
 const ENTRY: &str = ", entry ";

@@ -153,7 +153,7 @@ impl Frame {
             for (along, factor) in reflections.iter().rev() {
                 let products = along.iter().zip(&own).map(|(a, b)| *a * *b);
                 let length = *factor * products.fold(Expr::zero(), |sum, x| sum + x);
-                own.iter_mut().zip(along).for_each(|(x, d)| *x = *x - length * *d);
+                own.iter_mut().zip(along).for_each(|(x, d)| *x -= length * *d);
             }
             orthonormal.push(own);
         }

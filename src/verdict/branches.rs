@@ -230,7 +230,7 @@ impl Judging<'_> {
 }
 
 /// Finds the simple fraction closest to a number, if it is nearly one.
-pub(super) fn simple(value: f64) -> Option<Rational> {
+fn simple(value: f64) -> Option<Rational> {
     const LARGEST: f64 = 1e4;
     let (mut rest, mut before, mut last) = (value, (0.0, 1.0), (1.0, 0.0));
     loop {

@@ -3,7 +3,6 @@
 
 use std::collections::BTreeSet;
 
-use super::branches::simple;
 use super::evidence::{ClaimReport, Verdict};
 use super::judge::{JudgeError, Options, Trust, judge};
 use super::run::{Doubles, Run};
@@ -75,10 +74,16 @@ fn rates(
         let jet = DualPoint::new(Phase::new(model, &parameters, &inputs[free..]));
         own.growth(&jet)
     })?;
-    let mut all: Vec<String> =
-        completed_squares(&graph, growth, free, &names).into_iter().collect();
-    let vectors = vectors(case, function);
     let sampler = Sampler::new(case, &claim.place, seed)?;
+    // A denominator may be 0 for a listed value, and then nothing would be said of that.
+    let may_divide = !sampler.has_lists();
+    let squares = completed_squares(&graph, growth, free, &names);
+    let mut all: Vec<String> = squares
+        .filter(|found| may_divide || !found.divides)
+        .map(|found| found.text)
+        .into_iter()
+        .collect();
+    let vectors = vectors(case, function);
     let numbers = numbers(case);
     let (graph, outputs) = record(free + model.dimension(), |inputs| {
         let (parameters, state) = inputs.split_at(free);
@@ -100,7 +105,7 @@ fn rates(
         .collect();
     let squares: Vec<String> = vectors.iter().map(|(vector, _)| square_of(vector)).collect();
     let kinds: Vec<VectorKind> = vectors.iter().map(|(_, kind)| *kind).collect();
-    all.extend(sums(&table, &squares, &kinds, &numbers));
+    all.extend(sums(&table, &squares, &kinds, &numbers, may_divide));
     let mut seen = BTreeSet::new();
     all.retain(|text| seen.insert(text.clone()));
     all.truncate(MOST_RATES);
@@ -209,6 +214,7 @@ fn sums(
     squares: &[String],
     kinds: &[VectorKind],
     numbers: &[Formula],
+    may_divide: bool,
 ) -> Vec<String> {
     let of_kind = |kind: VectorKind| (0..kinds.len()).filter(|k| kinds[*k] == kind).collect();
     let single = (0..squares.len()).map(|k| vec![k]);
@@ -220,7 +226,10 @@ fn sums(
         let column = squares.len() + 1 + p;
         let name = number.text();
         factors.push((format!("{name}*"), table.iter().map(|row| row[column]).collect()));
-        factors.push((format!("1/{name}*"), table.iter().map(|row| 1.0 / row[column]).collect()));
+        if may_divide {
+            let inverses = table.iter().map(|row| 1.0 / row[column]).collect();
+            factors.push((format!("1/{name}*"), inverses));
+        }
     }
     let mut all = Vec::new();
     for (factor, values) in &factors {
@@ -231,7 +240,7 @@ fn sums(
             let term = |(k, multiple): (&usize, &f64)| match multiple.abs() < 1e-9 {
                 true => Some(String::new()),
                 false => {
-                    let multiple = simple(*multiple).filter(|multiple| multiple.is_negative())?;
+                    let multiple = near(*multiple).filter(|multiple| multiple.is_negative())?;
                     Some(format!("({multiple})*{factor}{}", squares[*k]))
                 }
             };
@@ -243,6 +252,16 @@ fn sums(
         all.extend(choices.iter().filter_map(written).take(MOST_RATES));
     }
     all
+}
+
+/// Finds a fraction with a small denominator next to a number.
+fn near(number: f64) -> Option<Rational> {
+    const LARGEST: i64 = 120;
+    (1..=LARGEST).find_map(|below| {
+        let above = (number * below as f64).round();
+        let is_near = (above / below as f64 - number).abs() < 1e-9 * number.abs().max(1.0);
+        (is_near && above.abs() < 1e9).then(|| Rational::new(above as i64, below))
+    })
 }
 
 /// Finds factors with which a column of values is a sum of some columns of squares, at all rows.

@@ -79,8 +79,9 @@ fn quadratic_forms_are_completed() {
     assert!(remark.starts_with("its rate is "), "{remark}");
     verdicts(&linear(["−a*x + b*y", "b*x − y"], "(x² + y²)/2"), &[Proved]);
     verdicts(&linear(["−a*x + 3*y", "−y"], "(x² + y²)/2"), &[Refuted]);
-    // b² = 0.81 at the end of the range, and 4 b² > a c: the form has both signs only near there.
-    verdicts(&linear(["−a*x + 2*b*y", "−0.8*y"], "(x² + y²)/2"), &[Refuted]);
+    // b² = 0.81 at the end of the range, and b² > 0.8 a: the form has both signs only near there.
+    let report = judged(&linear(["−a*x + 2*b*y", "−0.8*y"], "(x² + y²)/2"));
+    assert_ne!(report.claims[0].verdict, Proved);
     // Semi-definite: −(x − y)².
     verdicts(&linear(["y − x", "x − y"], "(x² + y²)/2"), &[Proved]);
 }
@@ -110,6 +111,22 @@ fn a_rate_that_is_nearly_a_square_is_not_proved() {
                 expect = 'open'\n";
     verdicts(text, &[Refuted]);
     verdicts(&text.replace("-1..2", "0.5..2"), &[Proved]);
+}
+
+#[test]
+fn a_listed_value_without_a_quotient_is_not_passed_over() {
+    // −a x² + 2b xy − y² with b² = 10⁻¹² for a = 0, where x is far larger than y.
+    let text = |listed: &str| {
+        format!(
+            "title = 'x'\n[parameters]\na = '{listed}'\n[state]\nx = '-1..1'\ny = '-1..1'\n[field]\n\
+             \"x'\" = '−a*x + y/10^6'\n\"y'\" = 'x/10^6 − y'\n{}",
+            lyapunov("(x² + y²)/2")
+        )
+    };
+    let found = judged(&text("one of 0, 1")).claims[0].verdict;
+    assert!(matches!(found, Refuted | Undecided), "{}", found.word());
+    verdicts(&text("1"), &[Proved]);
+    verdicts(&text("0.5..1"), &[Proved]);
 }
 
 #[test]

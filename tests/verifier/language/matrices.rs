@@ -90,7 +90,7 @@ fn a_level_with_a_regular_gram_matrix_misses_nothing() {
 fn body(rate: &str, claims: &str) -> String {
     format!(
         "title = 'x'\n[parameters]\nJ = 'vector(4, 0.5..2)'\n[state]\nM = 'skew(4, -1..1)'\n[let]\n\
-         Ω = 'matrix(i, 1..4, j, 1..4, M[i,j]/(J[i] + J[j]))'\n[field]\n\"M'\" = \"{rate}\"\n{claims}"
+         \"Ω\" = 'matrix(i, 1..4, j, 1..4, M[i,j]/(J[i] + J[j]))'\n[field]\n\"M'\" = \"{rate}\"\n{claims}"
     )
 }
 

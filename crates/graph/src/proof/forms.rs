@@ -12,6 +12,14 @@ const MOST_VARIABLES: usize = 24;
 /// Longest text.
 const MOST_LETTERS: usize = 20_000;
 
+/// A value as a sum of squares with factors.
+pub struct CompletedSquares {
+    /// Text of the sum.
+    pub text: String,
+    /// Whether a factor divides by more than a number.
+    pub divides: bool,
+}
+
 /// Writes a value as Σ d (x + l y + …)², where x, y, … are the inputs from `first` on, and d and l
 /// are quotients of polynomials in the inputs before; `names` are those of the inputs.
 ///
@@ -22,7 +30,7 @@ pub fn completed_squares(
     value: Expr,
     first: usize,
     names: &[String],
-) -> Option<String> {
+) -> Option<CompletedSquares> {
     let input = |_: usize, step: Step<'_>| match step {
         Step::Input(number) => u32::try_from(number).ok().map(Polynomial::variable),
         _ => None,
@@ -42,6 +50,7 @@ pub fn completed_squares(
     let mut open: BTreeSet<usize> = (0..=own.len()).collect();
     let variable = |k: usize| own.get(k).map_or("1", |number| names[*number as usize].as_str());
     let mut terms: Vec<String> = Vec::new();
+    let mut divides = scale.number().is_none();
     while let Some(pivot) = form.pivot(&open)? {
         open.remove(&pivot);
         let own = form.entries[pivot][pivot].clone();
@@ -53,13 +62,15 @@ pub fn completed_squares(
         let sum = format!("{}{}", variable(pivot), rest.collect::<String>());
         terms.push(format!("{}*({sum})^2", quotient(&own, &scale, names)));
         if !others.is_empty() {
+            divides |= own.number().is_none();
             form.complete(pivot, &open, &mut scale)?;
         }
         if terms.iter().map(String::len).sum::<usize>() > MOST_LETTERS {
             return None;
         }
     }
-    Some(if terms.is_empty() { "0".to_string() } else { terms.join(" + ") })
+    let text = if terms.is_empty() { "0".to_string() } else { terms.join(" + ") };
+    Some(CompletedSquares { text, divides })
 }
 
 /// Writes a quotient in brackets.
@@ -154,7 +165,9 @@ mod tests {
 
     fn squares(build: impl FnOnce(&[Expr]) -> Expr) -> Option<String> {
         let (graph, value) = record(3, build).expect("records");
-        completed_squares(&graph, value, 1, &["a", "x", "y"].map(String::from))
+        let found = completed_squares(&graph, value, 1, &["a", "x", "y"].map(String::from))?;
+        assert_eq!(found.divides, found.text.contains("/(a"), "{}", found.text);
+        Some(found.text)
     }
 
     #[test]

@@ -12,6 +12,9 @@
 //! the left side has a value and u ≠ 0: u and a - u have the sum a and a product that is not
 //! negative, so both are negative only where a + b y = -(√-u ± √(u - a))² is.
 
+#[cfg(test)]
+mod tests;
+
 use crate::graph::{Expr, Graph, Step};
 use crate::number::exact::square_root;
 use crate::number::rational::Rational;
@@ -123,7 +126,7 @@ pub fn written(graph: &Graph, places: &[usize], others: &[usize]) -> Option<Dene
         let factors: Option<Vec<Fraction>> =
             places.iter().map(|place| fraction_of(graph, *place, &given)).collect();
         let (scale, root) = Fraction::product(factors?.iter())?.square()?;
-        Some(DenestedRoot::Square(scale, root))
+        Some(DenestedRoot::Square(scale, root.without_common_terms()?))
     });
     // (a + b√C)(a − b√C) contains no root.
     sum.or_else(|| {

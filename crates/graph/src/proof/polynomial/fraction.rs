@@ -31,6 +31,13 @@ impl Fraction {
         Some((scale, Self { above: root, below: self.below.clone() }))
     }
 
+    /// Returns the fraction without powers of variables that divide p and q.
+    pub fn without_common_terms(&self) -> Option<Self> {
+        let (above, below) = (self.above.common_term(), self.below.common_term());
+        let both = above.plus(&below.scaled(&Rational::from(2))).common_term();
+        Some(Self { above: self.above.over_term(&both)?, below: self.below.over_term(&both)? })
+    }
+
     /// Returns p such that the fraction is p/q².
     pub fn over_square(&self) -> Option<Polynomial> {
         self.above.times(&self.below, &mut { MOST_WORK })

@@ -54,6 +54,21 @@ impl Polynomial {
         term
     }
 
+    /// Returns the product of powers of variables that divides all terms.
+    pub fn common_term(&self) -> Self {
+        let mut keys = self.terms.keys();
+        let mut common = keys.next().cloned().unwrap_or_default();
+        keys.for_each(|own| common = common.common(own));
+        Self { terms: [(common, Rational::from(1))].into() }
+    }
+
+    /// Divides by a product of powers of variables, if it divides all terms.
+    pub fn over_term(&self, divisor: &Self) -> Option<Self> {
+        let (divisor, _) = divisor.leading()?;
+        let terms = self.terms.iter().map(|(own, value)| Some((own.over(divisor)?, value.clone())));
+        Some(Self { terms: terms.collect::<Option<_>>()? })
+    }
+
     /// Returns the number and the exponents of a polynomial of one term.
     pub fn as_term(&self) -> Option<(&Rational, &[(u32, u32)])> {
         let ((monomial, value), 1) = (self.leading()?, self.size()) else { return None };
