@@ -373,10 +373,8 @@ impl Explorer<'_> {
         let classes = Classes::of(algebraic, trial, tower, self.digest);
         let inputs = self.prover.extents;
         let region = Region { graph: &cell.graph, inputs, facts: known, classes: &classes };
-        if region.is_empty() {
-            return Some(Next::Empty(classes.certificate));
-        }
-        region.is_beyond_bounds().then_some(Next::Empty(None))
+        let is_empty = region.is_empty() || region.is_beyond_bounds();
+        is_empty.then_some(Next::Empty(classes.certificate))
     }
 }
 
