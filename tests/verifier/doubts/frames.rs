@@ -55,6 +55,16 @@ fn both_orientations_are_states() {
 }
 
 #[test]
+fn free_bodies_keep_their_momentum_in_space() {
+    let text = "title = 'x'\n[parameters]\nJ = 'vector(6, 0.5..2)'\n[state]\nR = 'matrix(6, 6, -1..1)'\n\
+                M = 'skew(6, -1..1)'\n[level]\nequations = ['Rᵀ*R = E(6)']\n[let]\n\
+                \"Ω\" = 'matrix(i, 1..6, j, 1..6, M[i,j]/(J[i] + J[j]))'\n[field]\n\"R'\" = 'R*Ω'\n\
+                \"M'\" = 'M*Ω − Ω*M'\n[[claim]]\nintegral = 'R*M*Rᵀ'\n[[claim]]\n\
+                integral = 'Rᵀ*M*R'\nexpect = 'fails'\n[[claim]]\ndensity = '1'\n";
+    settled(text);
+}
+
+#[test]
 fn fewer_vectors_than_dimensions_are_connected() {
     let equations = "'(x,x) = 1', '(y,y) = 1', '(x,y) = 0'";
     let claims = [
