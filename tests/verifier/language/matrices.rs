@@ -100,7 +100,7 @@ fn skew_matrices_are_vectors_of_the_state() {
                   identity = \"M' = M*Ω − Ω*M\"\n[[claim]]\nidentity = 'M12 = −M[2,1]'\n[[claim]]\n\
                   identity = 'M[1,2] = M_[1]'\n[[claim]]\nidentity = 'M[3,4] = M_[6]'\n[[claim]]\n\
                   integral = 'M'\nexpect = 'fails'\n[[claim]]\nidentity = 'M12 = M[2,1]'\n\
-                  expect = 'fails'\n[[claim]]\nidentity = '∂tr(M*M)/∂M_ = −4*M_'\n";
+                  expect = 'fails'\n[[claim]]\nidentity = '∂(tr(M*M))/∂M_ = −4*M_'\n";
     let text = body("M*Ω − Ω*M", claims);
     settled(&text);
     let case = Case::parse(&text, &[]).expect("a case");
