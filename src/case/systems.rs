@@ -12,7 +12,7 @@ use super::order::{Stage, WaitingName};
 use super::parameters::Setting;
 use super::section::{CaseTable, SpannedStr};
 use super::state::{self, State};
-use super::{kinds, shadows};
+use super::{kinds, shadows, shaped};
 use crate::formula::{Formula, Scope, Symbol, Type, canonical_name, names_in};
 use crate::mechanics::{
     Chart, Dependence, Draw, LevelEquation, Meaning, Model, Parameter, Quantity, System, TIME,
@@ -273,7 +273,8 @@ impl<'r, 's> Reading<'r, 's> {
         if let Some(variable) = added.find(|variable| variable.name != TIME)
             && self.root.value("field").is_none()
         {
-            let remedy = format!("add \"{}'\" = \"…\" under [field]", variable.name);
+            let name = shaped::written(variable).name;
+            let remedy = format!("add \"{name}'\" = \"…\" under [field]");
             self.mistakes().add(self.root.missing("field", &remedy));
         }
         self.add_time(Dependence::Phase);
