@@ -30,6 +30,33 @@ impl Reading<'_, '_> {
         }
     }
 
+    /// Lists the matrices that are made of components of the state, and their rates.
+    pub(super) fn list_shapes(&mut self) {
+        let variables = self.state.variables.clone();
+        let is_declared = |name: &str| {
+            variables.iter().any(|own| own.shape.as_ref().is_some_and(|shape| shape.name == name))
+        };
+        for own in &variables {
+            let Some(shape) = &own.shape else { continue };
+            let rate = format!("{}'", shape.name);
+            let rates = (!is_declared(&rate)).then(|| (rate, format!("{}'", own.name)));
+            let both = [(shape.name.clone(), own.name.clone())].into_iter().chain(rates);
+            for (name, vector) in both {
+                let is_known = self.items.iter().any(|item| item.name == name);
+                if is_known && name != shape.name {
+                    continue;
+                }
+                let text = SpannedStr::made(shape.text(&vector), 0..0);
+                if is_known {
+                    self.taken(&name, 0..0);
+                } else {
+                    let kind = ItemKind::Abbreviation(text);
+                    self.items.push(WaitingName::new(name, 0..0, kind));
+                }
+            }
+        }
+    }
+
     fn taken(&self, name: &str, place: std::ops::Range<usize>) {
         let (name, reason) = (name.to_string(), "it is taken already".to_string());
         self.mistakes().add(Mistake::at(place, Problem::BadName { name, reason }));

@@ -29,6 +29,13 @@ pub fn chart(section: &CaseTable<'_>, model: &Model, draws: &[Draw]) -> Option<C
         entry.reach == Dependence::Parameters && !is_input
     });
     let mut inputs = state::state(&table, &mut names, Dependence::Phase);
+    if inputs.variables.iter().any(|input| input.shape.is_some()) {
+        section.mistakes().add(table.complaint(Problem::Other {
+            message: "an input of a chart is a scalar, a vector or a matrix".to_string(),
+            remedy: "give the entries of a symmetric or skew matrix as a vector".to_string(),
+        }));
+        return None;
+    }
     add_time(section, model, &mut names, &mut inputs, draws);
     let mut formulas: Vec<Option<Formula>> = vec![None; model.state.len()];
     let mut broken = false;

@@ -17,7 +17,7 @@ pub fn read(text: &SpannedStr, names: &Vocabulary) -> Result<ComplexFormula, Mis
     let Some((place, length)) = sign else { return Ok((scalar(text, names)?, None)) };
     let behind = place + length;
     let (real, imaginary) = (written[..place].trim(), written[behind..].trim());
-    let Some(factor) = factor_of_i(imaginary) else {
+    let Some(factor) = factor_of_i(imaginary).filter(|factor| !is_sum(factor)) else {
         let message = "the term after ± is not a multiple of i".to_string();
         let remedy = "write a ± b*i for two conjugate numbers, and list two real ones separately"
             .to_string();
@@ -45,6 +45,28 @@ fn factor_of_i(text: &str) -> Option<&str> {
         (None, Some(length)) => Some(&text[text.len() - length..]),
         (None, None) => None,
     }
+}
+
+/// Whether a text has a sign between two terms outside of brackets: `1 + 2*i` is not 3 i.
+fn is_sum(text: &str) -> bool {
+    let letters: Vec<char> = text.chars().filter(|letter| !letter.is_whitespace()).collect();
+    let (mut depth, mut is_in_bars) = (0, false);
+    letters.iter().enumerate().any(|(place, letter)| {
+        match letter {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            '|' => is_in_bars = !is_in_bars,
+            _ => {}
+        }
+        // A sign of its own stands first, or behind another sign, as in 2*−3; 1e-3 is a number.
+        let is_number =
+            |before: &[char]| matches!(before, [.., d, 'e' | 'E'] if d.is_ascii_digit());
+        let is_between = match letters[..place].last() {
+            None => false,
+            Some(before) => !"+-−*·/^".contains(*before) && !is_number(&letters[..place]),
+        };
+        "+-−±".contains(*letter) && depth == 0 && !is_in_bars && is_between
+    })
 }
 
 fn scalar(text: &SpannedStr, names: &Vocabulary) -> Result<Formula, Mistake> {

@@ -96,15 +96,15 @@ fn is_whole(text: &str) -> bool {
         || (text.starts_with('(') && first == Some(text.chars().count() - 1))
 }
 
-/// Counts the equations that some texts stand for, one for each text that cannot be read.
-pub fn number(texts: &[SpannedStr], vocabulary: &Vocabulary) -> usize {
+/// Counts the equations that each text stands for; `None` for one that cannot be read.
+pub fn numbers(texts: &[SpannedStr], vocabulary: &Vocabulary) -> Vec<Option<usize>> {
     let own = |text: &SpannedStr| {
         let (left, right) = both_sides(&text.value, vocabulary)?;
         let is_zero = right.constant().is_some_and(|value| value.is_zero());
         let function = if is_zero { left } else { (left.bracketed() - right.bracketed()).ok()? };
         Some(entries("", function, vocabulary).ok()?.len())
     };
-    texts.iter().map(|text| own(text).unwrap_or(1)).sum()
+    texts.iter().map(own).collect()
 }
 
 /// Both sides of an equation, with the place where the right one begins.
@@ -154,7 +154,7 @@ fn equation(
 }
 
 /// Largest number of entries among which repetitions are sought, of which there are n² pairs.
-const MOST_COMPARED: usize = 64;
+const MOST_COMPARED: usize = 96;
 
 /// Text between an equation and the place of an entry.
 const ENTRY: &str = ", entry ";

@@ -151,6 +151,12 @@ impl Rates {
         self.whole.is_none() && self.pieces.is_empty()
     }
 
+    /// Place of the first key.
+    pub fn place(&self) -> Option<Range<usize>> {
+        let whole = self.whole.iter().map(|(place, _)| place.clone());
+        whole.chain(self.pieces.iter().map(|piece| piece.key.clone())).next()
+    }
+
     /// Formulas whose components, concatenated, are the rate of the variable.
     pub fn formulas(
         &self,

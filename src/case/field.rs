@@ -3,30 +3,41 @@
 use super::error::{Mistake, Problem};
 use super::family::{Key, Rates, Unreadable};
 use super::section::CaseTable;
+use super::shaped;
 use crate::formula::{Formula, Type, excerpt, look_alike, skeleton};
-use crate::mechanics::{Dependence, TIME, Variable, Vocabulary};
+use crate::mechanics::{Dependence, Parameter, TIME, Variable, Vocabulary};
+
+/// Names of a file, and its parameters.
+#[derive(Clone, Copy)]
+pub struct Names<'n> {
+    pub vocabulary: &'n Vocabulary,
+    pub parameters: &'n [Parameter],
+}
 
 /// Reads the formulas of each variable whose rate is given, under its name with or without a prime.
 pub fn given_rates(
     section: &CaseTable<'_>,
     variables: &[Variable],
-    vocabulary: &Vocabulary,
+    names: Names<'_>,
     reach: Dependence,
 ) -> Vec<GivenRate> {
+    let vocabulary = names.vocabulary;
+    // A matrix that is made of components is written as such.
+    let written: Vec<Variable> = variables.iter().map(shaped::written).collect();
     let mut rates: Vec<Rates> = variables.iter().map(|_| Rates::default()).collect();
     let mut broken = vec![false; variables.len()];
     for (key, value) in section.entries() {
-        let (index, read) = match Key::read(key.get_ref(), variables, vocabulary) {
+        let (index, read) = match Key::read(key.get_ref(), &written, vocabulary) {
             Ok(found) => found,
             Err(Unreadable::Unknown(name)) if section.mistakes().has_failed(&name) => continue,
             Err(unreadable) => {
                 // the rate of a name that looks like this one is not missing too
                 if let Unreadable::Unknown(name) = &unreadable {
-                    let mut own = variables.iter().map(|own| skeleton(&own.name));
+                    let mut own = written.iter().map(|own| skeleton(&own.name));
                     let place = own.position(|own| own == skeleton(name));
                     place.into_iter().for_each(|place| broken[place] = true);
                 }
-                let problem = unknown_rate(key.get_ref(), unreadable, variables);
+                let problem = unknown_rate(key.get_ref(), unreadable, &written);
                 section.mistakes().add(Mistake::at(key.span(), problem));
                 continue;
             }
@@ -48,10 +59,21 @@ pub fn given_rates(
     let read = |((variable, rates), broken): ((&Variable, Rates), bool)| match rates.is_empty() {
         true if broken => GivenRate::Broken,
         true => GivenRate::Missing,
-        false => match section.keep(rates.formulas(variable, vocabulary, reach)) {
-            Some(formulas) => GivenRate::Given(formulas),
-            None => GivenRate::Broken,
-        },
+        false => {
+            let whole = rates.formulas(&shaped::written(variable), vocabulary, reach);
+            let formulas = whole.and_then(|whole| match &variable.shape {
+                Some(shape) => {
+                    let place = rates.place();
+                    shaped::components(shape, whole, names)
+                        .map_err(|problem| Mistake::new(place, problem))
+                }
+                None => Ok(whole),
+            });
+            match section.keep(formulas) {
+                Some(formulas) => GivenRate::Given(formulas),
+                None => GivenRate::Broken,
+            }
+        }
     };
     variables.iter().zip(rates).zip(broken).map(read).collect()
 }
@@ -87,27 +109,27 @@ fn unknown_rate(key: &str, unreadable: Unreadable, variables: &[Variable]) -> Pr
 pub fn rates(
     section: &CaseTable<'_>,
     variables: &[Variable],
-    vocabulary: &Vocabulary,
+    names: Names<'_>,
 ) -> Option<Vec<Formula>> {
-    all_of(section, variables, vocabulary, true)
+    all_of(section, variables, names, true)
 }
 
 /// Reads the images of all variables under a map; nothing if one is missing, or wrong.
 pub fn images(
     section: &CaseTable<'_>,
     variables: &[Variable],
-    vocabulary: &Vocabulary,
+    names: Names<'_>,
 ) -> Option<Vec<Formula>> {
-    all_of(section, variables, vocabulary, false)
+    all_of(section, variables, names, false)
 }
 
 fn all_of(
     section: &CaseTable<'_>,
     variables: &[Variable],
-    vocabulary: &Vocabulary,
+    names: Names<'_>,
     are_rates: bool,
 ) -> Option<Vec<Formula>> {
-    let given = given_rates(section, variables, vocabulary, Dependence::Phase);
+    let given = given_rates(section, variables, names, Dependence::Phase);
     let mut all = Some(Vec::new());
     for (variable, rate) in variables.iter().zip(given) {
         let formulas = match rate {
@@ -116,10 +138,10 @@ fn all_of(
             GivenRate::Missing
                 if are_rates && variable.name == TIME && variable.kind == Type::Scalar =>
             {
-                section.keep(one(vocabulary).map(|one| vec![one]))
+                section.keep(one(names.vocabulary).map(|one| vec![one]))
             }
             GivenRate::Missing => {
-                let name = &variable.name;
+                let name = &shaped::written(variable).name;
                 let (message, remedy) = match are_rates {
                     true => (
                         format!("[field] has no rate for `{name}`"),

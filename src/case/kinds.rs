@@ -163,17 +163,32 @@ impl Reading<'_, '_> {
         }
         let section = section?;
         let texts = section.texts("constraints").unwrap_or_default();
-        let constraints = equations::number(&texts, &self.vocabulary);
-        for (name, quantity, kind, reach) in of_lagrangian(constraints) {
-            self.name(&name, quantity, kind, reach);
+        let counted = equations::numbers(&texts, &self.vocabulary);
+        self.awaits_reactions = counted.contains(&None);
+        if !self.awaits_reactions {
+            self.name_reactions(&counted);
         }
         self.settle(Stage::State);
+        if self.awaits_reactions {
+            // Constraints in names of [let] can be counted now.
+            self.name_reactions(&equations::numbers(&texts, &self.vocabulary));
+            self.awaits_reactions = false;
+            self.settle(Stage::State);
+        }
         let system = lagrangian::read(self, &section, vakonomic);
         section.finish();
         let own = self.read_level();
         let system = system?;
         self.level.extend(own?);
         Some((system, Chart::Free))
+    }
+
+    /// Names the reaction of each constraint.
+    fn name_reactions(&mut self, counted: &[Option<usize>]) {
+        let constraints = counted.iter().map(|count| count.unwrap_or(1)).sum();
+        for (name, quantity, kind, reach) in of_lagrangian(constraints) {
+            self.name(&name, quantity, kind, reach);
+        }
     }
 
     fn field(&mut self) -> Read {
@@ -191,7 +206,7 @@ impl Reading<'_, '_> {
         }
         self.settle(Stage::State);
         let variables = &self.state.variables;
-        let rates = section.and_then(|section| field::rates(&section, variables, &self.vocabulary));
+        let rates = section.and_then(|section| field::rates(&section, variables, self.names()));
         let level = self.read_level();
         self.level = level?;
         Some((System::Field(rates?), Chart::Free))

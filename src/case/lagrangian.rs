@@ -6,6 +6,7 @@ use super::field::{self, GivenRate};
 use super::formulas::{formula, inside};
 use super::holonomic;
 use super::section::{CaseTable, SpannedStr};
+use super::shaped;
 use super::systems::Reading;
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{
@@ -127,7 +128,7 @@ fn roles(
             }
             _ if variable.name == TIME && variable.kind == Type::Scalar => Some(VariableRole::Time),
             _ => {
-                let name = &variable.name;
+                let name = &shaped::written(variable).name;
                 if !section.mistakes().has_failed(&format!("{name}'")) {
                     section.mistakes().add(section.complaint(Problem::Other {
                         message: format!("`{name}` is not a velocity, and has none"),
@@ -172,8 +173,7 @@ fn carried(reading: &Reading<'_, '_>) -> Vec<GivenRate> {
     let variables = &reading.state.variables;
     match reading.root.table("field") {
         Some(section) => {
-            let names = &reading.vocabulary;
-            field::given_rates(&section, variables, names, Dependence::Configuration)
+            field::given_rates(&section, variables, reading.names(), Dependence::Configuration)
         }
         None => variables.iter().map(|_| GivenRate::Missing).collect(),
     }

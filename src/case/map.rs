@@ -18,7 +18,7 @@ pub(super) fn system(reading: &mut Reading<'_, '_>) -> Option<(System, Chart)> {
         root.mistakes().add(root.missing("map", remedy));
     }
     reading.settle(Stage::State);
-    let (variables, names) = (&reading.state.variables, &reading.vocabulary);
+    let (variables, names) = (&reading.state.variables, reading.names());
     let images = section.and_then(|section| field::images(&section, variables, names));
     let level = reading.read_level();
     reading.level = level?;

@@ -38,6 +38,7 @@ mod poincare;
 mod remarks;
 mod section;
 mod shadows;
+mod shaped;
 mod shapes;
 mod state;
 mod synonyms;

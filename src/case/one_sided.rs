@@ -41,7 +41,10 @@ pub(super) fn read(root: &CaseTable<'_>, model: &Model) -> Option<OneSided> {
         let remedy = "add a table [one-sided.field] with the rates in contact";
         field.ok_or_else(|| section.missing("field", remedy))
     }));
-    let contact = rates.and_then(|rates| field::rates(&rates, &model.state, names));
+    let contact = rates.and_then(|rates| {
+        let names = field::Names { vocabulary: names, parameters: &model.parameters };
+        field::rates(&rates, &model.state, names)
+    });
     section.finish();
     Some(OneSided { function: function?, reaction: reaction?, contact: contact? })
 }

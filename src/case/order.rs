@@ -54,6 +54,12 @@ enum WaitingState {
     Later,
 }
 
+/// Whether a name is that of a reaction, if there are as many constraints.
+fn is_reaction(name: &str) -> bool {
+    let name = canonical_name(name).unwrap_or_default();
+    name.strip_prefix('μ').is_some_and(|index| index.chars().all(|c| c.is_ascii_digit()))
+}
+
 impl<'s> WaitingName<'s> {
     /// A name that has not been read yet.
     pub fn new(name: String, key: Range<usize>, kind: ItemKind<'s>) -> Self {
@@ -165,7 +171,9 @@ impl Reading<'_, '_> {
         let waits = match stage {
             // the state may define the name
             Stage::Parameters => is_abbreviation && mistake.unknown_name().is_some(),
-            Stage::State => mistake.unknown_name().is_some_and(is_rate),
+            Stage::State => mistake
+                .unknown_name()
+                .is_some_and(|name| is_rate(name) || (self.awaits_reactions && is_reaction(name))),
             Stage::Rates => false,
         };
         if waits {

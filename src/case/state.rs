@@ -10,7 +10,9 @@ use super::parameters::named;
 use super::section::CaseTable;
 use super::shapes::{GivenValue, Refusal, given, state_draws};
 use crate::formula::Type;
-use crate::mechanics::{Dependence, Draw, Meaning, Range, TIME, Variable, Vocabulary};
+use crate::mechanics::{
+    Dependence, Draw, MatrixShape, Meaning, Range, SamplerSpec, TIME, Variable, Vocabulary,
+};
 
 /// State variables with the draws of their components.
 #[derive(Clone, Debug)]
@@ -38,7 +40,20 @@ pub fn add_state(
     for (key, value) in section.entries() {
         let Some(name) = section.keep(named(key)) else { continue };
         match variable(section, &name, (key, value), vocabulary) {
-            Ok((kind, draws)) => state.add(&name, kind, draws, vocabulary, reach),
+            Ok((kind, draws, None)) => state.add(&name, kind, draws, vocabulary, reach),
+            Ok((kind, draws, Some(shape))) => {
+                let vector = vector_of(&name);
+                if vocabulary.find(&vector).is_some() {
+                    let reason = format!("it is the vector that `{name}` is made of");
+                    let problem = Problem::BadName { name: vector, reason };
+                    section.mistakes().add(Mistake::at(key.span(), problem));
+                    continue;
+                }
+                state.add(&vector, kind, draws, vocabulary, reach);
+                if let Some(own) = state.variables.last_mut() {
+                    own.shape = Some(shape);
+                }
+            }
             Err(mistake) => {
                 section.mistakes().add(mistake);
                 if vocabulary.find(&name).is_none() {
@@ -47,6 +62,12 @@ pub fn add_state(
             }
         }
     }
+}
+
+/// Name of the vector of the entries of a matrix: `M_` for M, `M_'` for M'.
+fn vector_of(name: &str) -> String {
+    let end = name.trim_end_matches('\'').len();
+    format!("{}_{}", &name[..end], &name[end..])
 }
 
 impl State {
@@ -60,7 +81,7 @@ impl State {
         reach: Dependence,
     ) {
         vocabulary.add(name, Meaning::State(self.variables.len()), kind, reach);
-        self.variables.push(Variable { name: name.to_string(), kind });
+        self.variables.push(Variable { name: name.to_string(), kind, shape: None });
         self.draws.extend(draws);
     }
 
@@ -73,20 +94,20 @@ impl State {
 
 type Entry<'a> = (&'a Spanned<Cow<'a, str>>, &'a Spanned<DeValue<'a>>);
 
-/// Type of a state variable, and the draws of its components.
+/// Type of a state variable, the draws of its components, and the shape of the matrix made of them.
 fn variable(
     section: &CaseTable<'_>,
     name: &str,
     key: Entry<'_>,
     vocabulary: &Vocabulary,
-) -> Result<(Type, Vec<Draw>), Mistake> {
+) -> Result<(Type, Vec<Draw>, Option<MatrixShape>), Mistake> {
     let (key, value) = key;
     if vocabulary.find(name).is_some() {
         let (name, reason) = (name.to_string(), "it is taken already".to_string());
         return Err(Mistake::at(key.span(), Problem::BadName { name, reason }));
     }
-    let remedy =
-        "write \"-2..2\", \"vector(-1..1)\", \"vector(5, -1..1)\" or \"matrix(4, 4, -1..1)\"";
+    let remedy = "write \"-2..2\", \"vector(-1..1)\", \"vector(5, -1..1)\", \"matrix(4, 4, -1..1)\" or \
+         \"skew(4, -1..1)\"";
     let wrong = |message: String| {
         Mistake::at(value.span(), Problem::Other { message, remedy: remedy.to_string() })
     };
@@ -102,7 +123,22 @@ fn variable(
             Mistake::at(place, Problem::Formula(error))
         }
     })?;
-    state_draws(&given).ok_or_else(|| match given {
+    let (rows, is_skew) = match &given {
+        GivenValue::Drawn(SamplerSpec::Skew(rows, _)) => (*rows, true),
+        GivenValue::Drawn(SamplerSpec::Symmetric(rows, _)) => (*rows, false),
+        _ => (0, false),
+    };
+    if let (GivenValue::Drawn(recipe), true) = (&given, rows > 0) {
+        let draws = recipe.draws();
+        return match draws.len() {
+            0 => Err(wrong(format!("`{name}` has no entry that is not 0"))),
+            count => {
+                let shape = MatrixShape { name: name.to_string(), rows, is_skew };
+                Ok((Type::Vector(count), draws, Some(shape)))
+            }
+        };
+    }
+    state_draws(&given).map(|(kind, draws)| (kind, draws, None)).ok_or_else(|| match given {
         GivenValue::Drawn(_) => wrong(format!(
             "`{name}` has components that depend on each other: states are drawn component by component"
         )),

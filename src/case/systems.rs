@@ -12,7 +12,7 @@ use super::order::{Stage, WaitingName};
 use super::parameters::Setting;
 use super::section::{CaseTable, SpannedStr};
 use super::state::{self, State};
-use super::{kinds, shadows};
+use super::{kinds, shadows, shaped};
 use crate::formula::{Formula, Scope, Symbol, Type, canonical_name, names_in};
 use crate::mechanics::{
     Chart, Dependence, Draw, LevelEquation, Meaning, Model, Parameter, Quantity, System, TIME,
@@ -50,6 +50,8 @@ pub(super) struct Reading<'r, 's> {
     pub state: State,
     /// Names of `[parameters]` and `[let]`, whether read or pending.
     pub items: Vec<WaitingName<'s>>,
+    /// Whether names may stand for reactions of constraints that are not counted yet.
+    pub awaits_reactions: bool,
     pub abbreviations: Vec<Formula>,
     pub level: Vec<LevelEquation>,
     pub extension: Vec<Formula>,
@@ -71,6 +73,7 @@ impl<'r, 's> Reading<'r, 's> {
             sizes: Vec::new(),
             state: State { variables: Vec::new(), draws: Vec::new() },
             items: Vec::new(),
+            awaits_reactions: false,
             abbreviations: Vec::new(),
             level: Vec::new(),
             extension: Vec::new(),
@@ -172,6 +175,11 @@ impl<'r, 's> Reading<'r, 's> {
         }
     }
 
+    /// Names and parameters that formulas use.
+    pub fn names(&self) -> field::Names<'_> {
+        field::Names { vocabulary: &self.vocabulary, parameters: &self.parameters }
+    }
+
     /// Reads the equations of `[level]`; `None` if one is wrong.
     pub fn read_level(&self) -> Option<Vec<LevelEquation>> {
         match self.root.table("level") {
@@ -183,7 +191,10 @@ impl<'r, 's> Reading<'r, 's> {
     /// Reads the variables of a system without built-in ones.
     pub fn own_state(&mut self, reach: Dependence, remedy: &str) {
         match self.root.table("state") {
-            Some(ranges) => self.state = state::state(&ranges, &mut self.vocabulary, reach),
+            Some(ranges) => {
+                self.state = state::state(&ranges, &mut self.vocabulary, reach);
+                self.list_shapes();
+            }
             None => {
                 if self.root.value("state").is_none() {
                     self.mistakes().add(self.root.missing("state", remedy));
@@ -227,7 +238,11 @@ impl<'r, 's> Reading<'r, 's> {
             let position = matches!(*name, "γ" | "r" | "r1" | "r2");
             let reach = if position { Dependence::Configuration } else { Dependence::Phase };
             self.vocabulary.add(name, Meaning::State(index), *kind, reach);
-            self.state.variables.push(Variable { name: name.to_string(), kind: *kind });
+            self.state.variables.push(Variable {
+                name: name.to_string(),
+                kind: *kind,
+                shape: None,
+            });
         }
         self.state.draws.extend(draws.iter().cloned());
         for (name, quantity, kind, reach) in quantities {
@@ -252,12 +267,14 @@ impl<'r, 's> Reading<'r, 's> {
         let first = self.state.variables.len();
         if let Some(section) = self.root.table("state") {
             state::add_state(&section, &mut self.vocabulary, Dependence::Phase, &mut self.state);
+            self.list_shapes();
         }
         let mut added = self.state.variables[first..].iter();
         if let Some(variable) = added.find(|variable| variable.name != TIME)
             && self.root.value("field").is_none()
         {
-            let remedy = format!("add \"{}'\" = \"…\" under [field]", variable.name);
+            let name = shaped::written(variable).name;
+            let remedy = format!("add \"{name}'\" = \"…\" under [field]");
             self.mistakes().add(self.root.missing("field", &remedy));
         }
         self.add_time(Dependence::Phase);
@@ -275,7 +292,7 @@ impl<'r, 's> Reading<'r, 's> {
         let is_told = self.root.value("field").is_none()
             && further.iter().any(|variable| variable.name != TIME);
         if !is_told {
-            let rates = field::rates(&section, further, &self.vocabulary);
+            let rates = field::rates(&section, further, self.names());
             self.extension.extend(rates.unwrap_or_default());
         }
     }

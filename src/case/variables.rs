@@ -38,7 +38,7 @@ pub fn read(root: &CaseTable<'_>, model: &mut Model) -> bool {
         });
         match section.keep(read) {
             Some((name, image)) => {
-                state.push(Variable { name, kind: image.value_type() });
+                state.push(Variable { name, kind: image.value_type(), shape: None });
                 images.push(image);
             }
             None => broken = true,
@@ -285,7 +285,7 @@ impl Case {
             if state.iter().any(|variable| variable.name == canonical) {
                 return Err(ClaimError::new(name, "it is given twice", "give each variable once"));
             }
-            state.push(Variable { name: canonical, kind: image.value_type() });
+            state.push(Variable { name: canonical, kind: image.value_type(), shape: None });
         }
         let images: Vec<Formula> = images.iter().map(|(_, image)| image.clone()).collect();
         let target = target(model, state, &images);

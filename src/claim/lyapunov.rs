@@ -18,8 +18,18 @@ pub struct Lyapunov {
 }
 
 impl Lyapunov {
+    /// Returns F, if no rate is given.
+    pub(crate) fn without_rate(&self) -> Option<&Formula> {
+        self.rate.is_none().then_some(&self.function)
+    }
+
+    /// Returns the same claim with a rate.
+    pub(crate) fn with_rate(&self, rate: Formula) -> Self {
+        Self { function: self.function.clone(), rate: Some(rate) }
+    }
+
     /// Computes L_vF, or F∘Φ - F.
-    fn growth<T: Scalar>(&self, jet: &DualPoint<'_, T>) -> T {
+    pub(crate) fn growth<T: Scalar>(&self, jet: &DualPoint<'_, T>) -> T {
         match jet.phase.model().system.is_map() {
             true => jet.image().scalar(&self.function) - jet.phase.scalar(&self.function),
             false => jet.lie_derivative(|at| at.scalar(&self.function)),

@@ -281,7 +281,7 @@ impl Statement for Map {
         for (index, (name, image)) in names.iter().zip(&images).enumerate() {
             let kind = image.value_type();
             vocabulary.add(name, Meaning::State(index), kind, Dependence::Phase);
-            state.push(Variable { name: name.clone(), kind });
+            state.push(Variable { name: name.clone(), kind, shape: None });
         }
         let target = model.with_names(vocabulary, state);
         let mut rates = vec![None; names.len()];

@@ -211,6 +211,13 @@ impl Formula {
         Some((Formula { text: self.text.clone(), arena }, is_modulus))
     }
 
+    /// Lists the texts of the vectors and matrices that the formula is made of, the largest first.
+    pub(crate) fn parts(&self) -> Vec<&str> {
+        let nodes = self.arena.nodes.iter().rev();
+        let parts = nodes.filter(|node| node.value_type != Type::Scalar);
+        parts.filter_map(|node| self.text.get(node.span.clone())).collect()
+    }
+
     /// Whether the formula contains an `∫`.
     pub fn has_antiderivative(&self) -> bool {
         let integral = |node: &Node| matches!(node.operation, NodeOperation::Antiderivative(..));

@@ -7,6 +7,7 @@
 
 use super::derivatives::{EquationDerivatives, MOST_COMPONENTS, Set, bit, members};
 use super::equation::Equation;
+use super::frame::Frame;
 use super::quadric::Quadric;
 use super::solution::Solution;
 use super::steps::{SolutionStep, choices};
@@ -38,11 +39,15 @@ pub fn solve(model: &Model, kept: &[bool]) -> Option<Solution> {
         all
     };
     // √A = e is solved as A = e² where it cannot be solved as it stands.
-    let plain =
-        derivatives(false).and_then(|derivatives| OrderSearch::of(model, derivatives).steps());
+    let plain = derivatives(false).and_then(|derivatives| {
+        let search = OrderSearch::of(model, derivatives);
+        let frames = Frame::all(&search.derivatives);
+        let framed = (!frames.is_empty()).then(|| search.steps(frames)).flatten();
+        framed.or_else(|| search.steps(Vec::new()))
+    });
     let steps = plain.or_else(|| {
         let has_roots = equations.iter().any(|index| model.level[*index].root.is_some());
-        OrderSearch::of(model, derivatives(true).filter(|_| has_roots)?).steps()
+        OrderSearch::of(model, derivatives(true).filter(|_| has_roots)?).steps(Vec::new())
     })?;
     Some(Solution { steps })
 }
@@ -58,12 +63,20 @@ impl<'m> OrderSearch<'m> {
         Self { model, derivatives }
     }
 
-    fn steps(&self) -> Option<Vec<SolutionStep>> {
-        let mut left: Vec<usize> = (0..self.derivatives.len()).collect();
+    /// Solves the equations, with those of some frames first.
+    fn steps(&self, frames: Vec<Frame>) -> Option<Vec<SolutionStep>> {
+        let is_left = |index: &usize| {
+            let equation = &self.derivatives[*index].equation;
+            !frames.iter().any(|frame| frame.equations.contains(equation))
+        };
+        let mut left: Vec<usize> = (0..self.derivatives.len()).filter(is_left).collect();
         // Components that are solved for, or free because an equation was solved for another
         // component.
         let (mut settled, mut solved): (Set, Set) = (0, 0);
-        let mut steps = Vec::new();
+        let mut steps: Vec<SolutionStep> = frames.into_iter().map(SolutionStep::Frame).collect();
+        for component in steps.iter().flat_map(SolutionStep::components) {
+            (settled, solved) = (settled | bit(component), solved | bit(component));
+        }
         while !left.is_empty() {
             let unknown = |index: &usize| self.derivatives[*index].contained() & !settled;
             let mut blocks: Vec<Set> = left.iter().map(unknown).collect();
@@ -85,7 +98,7 @@ impl<'m> OrderSearch<'m> {
                 }
             };
             settled |= block;
-            solved |= step.components().iter().fold(0, |set, k| set | bit(*k));
+            solved |= step.components().into_iter().fold(0, |set, k| set | bit(k));
             left.retain(|index| !members.contains(index));
             steps.push(step);
         }

@@ -4,6 +4,7 @@
 //! ```text
 //! quadric     one equation of degree 2 with numbers as coefficients and a rational point x₀:
 //!             x = x₀ − 2B(x₀,u)/q(u) · u, without a root
+//! frame       vectors whose products are numbers: reflections of unit vectors, without a root
 //! linear      j equations jointly linear in j unknowns, given the rest: Cramer's rule
 //! quadratic   the same, and one of degree 2 on the line left by the others: both roots
 //! parameter   F(x) = c for a free parameter c that occurs nowhere else: c = F(x)
@@ -16,6 +17,7 @@ mod analysis;
 mod cover;
 mod derivatives;
 mod equation;
+mod frame;
 mod newton;
 mod quadric;
 mod solution;

@@ -23,14 +23,14 @@ pub struct Solved {
 }
 
 impl Solution {
-    /// Number of roots, each with two signs.
+    /// Number of choices between two signs.
     pub fn signs(&self) -> usize {
-        self.steps.iter().filter(|step| matches!(step, SolutionStep::Quadratic { .. })).count()
+        self.steps.iter().filter(|step| step.has_sign()).count()
     }
 
     /// Returns the components of the state that are solved for rather than drawn.
     pub fn components(&self) -> Vec<usize> {
-        self.steps.iter().flat_map(|step| step.components().iter().copied()).collect()
+        self.steps.iter().flat_map(SolutionStep::components).collect()
     }
 
     /// Returns the components of the free parameters that are solved for.
@@ -45,12 +45,8 @@ impl Solution {
     /// Returns the draws of the state's components and of the signs, given those of the components.
     pub fn draws(&self, free: &[Draw]) -> Vec<Draw> {
         let mut draws = free.to_vec();
-        for step in &self.steps {
-            let SolutionStep::Quadric { components, .. } = step else { continue };
-            // The directions of lines through the rational point.
-            for component in &components[..components.len() - 1] {
-                draws[*component] = Draw::Of(NumberLine::All, Range::between((-8, 5), (8, 5)));
-            }
+        for component in self.steps.iter().flat_map(SolutionStep::directions) {
+            draws[component] = Draw::Of(NumberLine::All, Range::between((-8, 5), (8, 5)));
         }
         draws.extend(vec![Draw::Sign; self.signs()]);
         draws
@@ -70,10 +66,7 @@ impl Solution {
         let mut point = PartialPoint { model, parameters, state: state.to_vec() };
         let mut pivots = Vec::new();
         for step in &self.steps {
-            let sign = match step {
-                SolutionStep::Quadratic { .. } => signs.next(),
-                _ => None,
-            };
+            let sign = if step.has_sign() { signs.next() } else { None };
             pivots.extend(step.complete(&mut point, sign));
         }
         let phase = Phase::new(model, &point.parameters, &point.state);

@@ -4,6 +4,7 @@ use num_dual::DualNum;
 use num_traits::{One, Zero};
 
 use super::equation::{Equation, PartialPoint, determinant};
+use super::frame::Frame;
 use crate::graph::Expr;
 use crate::mechanics::elimination::{gram, gram_determinant};
 use crate::number::rational::Rational;
@@ -26,6 +27,8 @@ pub enum SolutionStep {
         /// Whether the equation has a definite quadratic form.
         is_bounded: bool,
     },
+    /// Equations of all products of some vectors.
+    Frame(Frame),
     /// Equations that are jointly linear in some components.
     Linear {
         /// Equations to solve.
@@ -83,12 +86,31 @@ pub struct Pivot {
 
 impl SolutionStep {
     /// Returns the components of the state that the step makes.
-    pub fn components(&self) -> &[usize] {
+    pub fn components(&self) -> Vec<usize> {
         match self {
             SolutionStep::Quadric { components, .. }
             | SolutionStep::Linear { components, .. }
-            | SolutionStep::Quadratic { components, .. } => components,
-            SolutionStep::Parameter { .. } => &[],
+            | SolutionStep::Quadratic { components, .. } => components.clone(),
+            SolutionStep::Frame(frame) => frame.vectors.concat(),
+            SolutionStep::Parameter { .. } => Vec::new(),
+        }
+    }
+
+    /// Returns the components whose draws are directions, of which all count.
+    pub fn directions(&self) -> Vec<usize> {
+        match self {
+            SolutionStep::Quadric { components, .. } => components[..components.len() - 1].to_vec(),
+            SolutionStep::Frame(frame) => frame.drawn().collect(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// Whether the step makes two points of the same draws.
+    pub fn has_sign(&self) -> bool {
+        match self {
+            SolutionStep::Quadratic { .. } => true,
+            SolutionStep::Frame(frame) => frame.is_basis(),
+            _ => false,
         }
     }
 
@@ -99,6 +121,7 @@ impl SolutionStep {
                 vec![*equation]
             }
             SolutionStep::Linear { equations, .. } => equations.clone(),
+            SolutionStep::Frame(frame) => frame.equations.clone(),
             SolutionStep::Quadratic { linear, quadratic, .. } => {
                 linear.iter().copied().chain([*quadratic]).collect()
             }
@@ -132,6 +155,10 @@ impl SolutionStep {
         match self {
             SolutionStep::Quadric { equation, components, point: start, is_bounded } => {
                 quadric(point, *equation, components, start, *is_bounded);
+                None
+            }
+            SolutionStep::Frame(frame) => {
+                frame.make(&mut point.state, sign);
                 None
             }
             SolutionStep::Linear { equations, components, all } => {

@@ -44,8 +44,8 @@ pub use flat_base::FlatBase;
 pub use hamiltonian::HamiltonianSystem;
 pub use lagrangian::{Algebra, Lagrangian, VariableRole};
 pub use model::{
-    LevelEquation, LevelFunction, Model, Parameter, ParameterOrigin, RootEquation, TIME, Variable,
-    components,
+    LevelEquation, LevelFunction, MatrixShape, Model, Parameter, ParameterOrigin, RootEquation,
+    TIME, Variable, components,
 };
 pub use parts::EquationPart;
 pub use phase::Phase;

@@ -42,6 +42,49 @@ pub struct Variable {
     pub name: String,
     /// Type of the value: scalar, vector or matrix.
     pub kind: Type,
+    /// Matrix that the file declares, and that is made of the components of this vector.
+    pub shape: Option<MatrixShape>,
+}
+
+/// A symmetric or skew matrix whose entries on and above the diagonal are the components of a
+/// vector, row by row; a skew one has none on the diagonal.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MatrixShape {
+    /// Name of the matrix.
+    pub name: String,
+    /// Number of rows.
+    pub rows: usize,
+    /// Whether it is skew, rather than symmetric.
+    pub is_skew: bool,
+}
+
+impl MatrixShape {
+    /// Returns the place of the component that an entry above the diagonal, or on it, is.
+    fn place(&self, i: usize, j: usize) -> Option<usize> {
+        let mut places = self.places();
+        places.position(|place| place == (i, j))
+    }
+
+    /// Lists the entries that are components, in their order.
+    pub fn places(&self) -> impl Iterator<Item = (usize, usize)> {
+        let (rows, first) = (self.rows, usize::from(self.is_skew));
+        (0..rows).flat_map(move |i| (i + first..rows).map(move |j| (i, j)))
+    }
+
+    /// Writes the matrix with the components of a vector of this name.
+    pub fn text(&self, vector: &str) -> String {
+        let entry = |i: usize, j: usize| match self.place(i.min(j), i.max(j)) {
+            Some(k) if self.is_skew && i > j => format!("−{vector}[{}]", k + 1),
+            Some(k) => format!("{vector}[{}]", k + 1),
+            None => "0".to_string(),
+        };
+        let row = |i: usize| {
+            let entries: Vec<String> = (0..self.rows).map(|j| entry(i, j)).collect();
+            format!("[{}]", entries.join(", "))
+        };
+        let rows: Vec<String> = (0..self.rows).map(row).collect();
+        format!("[{}]", rows.join(", "))
+    }
 }
 
 impl Variable {

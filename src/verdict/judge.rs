@@ -5,6 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use super::claim_state::ClaimState;
 use super::conclude::report;
+use super::dissipation::find_rates;
 use super::evidence::ClaimReport;
 use super::judging::Judging;
 use super::mutants::{MutationReport, mutate};
@@ -264,11 +265,12 @@ fn judge_all(
         bench.climb(place, at_place.collect())?;
     }
     bench.extend_domain(&recorded, &mut statuses)?;
-    let claims: Vec<ClaimReport> = recorded
+    let mut claims: Vec<ClaimReport> = recorded
         .iter()
         .zip(statuses)
         .map(|(item, status)| report(case, item, status, options))
         .collect();
+    find_rates(case, options, &mut claims)?;
     let mutants = options.mutants.then(|| mutate(case, &claims, options)).transpose()?;
     let (motions_left, absences_left) = (case.motions.len(), case.absences.len());
     let remarks = case.remarks.clone();

@@ -11,6 +11,7 @@ mod claim_state;
 mod conclude;
 mod conditions;
 mod coverage;
+mod dissipation;
 mod equations;
 mod evidence;
 mod examine;

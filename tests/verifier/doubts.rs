@@ -2,6 +2,7 @@
 //! other functions, places that the motion leaves.
 
 mod absent;
+mod frames;
 mod jumps;
 mod levels;
 mod parts;

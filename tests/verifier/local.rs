@@ -124,6 +124,11 @@ fn mistakes_in_eigenvalues_are_told() {
     let at = |rest: &str| mistake(&format!("fixed-point = {{ x = '0' }}\n{rest}"));
     assert!(at("spectrum = ['1 ± 2']").0.contains("not a multiple of i"));
     assert!(at("spectrum = ['1 ± q*i']").0.contains('q'));
+    for sum in ["1 + 2*i", "i*1 + 2", "5 - 2*i", "1 − a + 2*i", "(1) + (2)*i"] {
+        let told = at(&format!("spectrum = ['± {sum}']")).0;
+        assert!(told.contains("not a multiple of i"), "{sum}: {told}");
+    }
+    assert!(at("spectrum = ['± −(1 + q)*i']").0.contains('q'), "a product with a sum in brackets");
     assert!(at("spectrum = ['± i', '± 2*i']").0.contains("4 eigenvalues are too many"));
     assert!(at("spectrum = ['[1, 2]']").0.contains("vector"));
     assert!(at("characteristic-polynomial = ['1', '2']").0.contains("2 coefficients"));

@@ -4,6 +4,7 @@ mod bodies;
 #[path = "../common/mod.rs"]
 mod common;
 mod derivatives;
+mod dissipation;
 mod documents;
 mod domains;
 mod doubts;

@@ -49,6 +49,26 @@ fn entries_of_a_constraint_each_have_a_reaction() {
 }
 
 #[test]
+fn a_constraint_in_a_name_has_all_its_reactions() {
+    let text = |names: &str, claims: &str| {
+        format!(
+            "title = 'x'\nsystem = 'nonholonomic'\n[parameters]\nD = 'diag(1..3)'\n[state]\n\
+             Q = 'matrix(-1..1)'\n\"Q'\" = 'matrix(-1..1)'\n[lagrangian]\nkinetic = \"tr(Q'*D*Q'ᵀ)/2\"\n\
+             constraints = ['S = E']\n[let]\n{names}S = 'Qᵀ*Q'\n{claims}"
+        )
+    };
+    let claims = "[[claim]]\nintegral = 'energy'\n[[claim]]\nidentity = 'F = μ1 + μ6'\n[[claim]]\n\
+                  identity = 'μ6 = μ1'\nexpect = 'fails'\n";
+    settled(&text("F = 'μ6 + μ1'\n", claims));
+    settled(&text("G = 'F/2'\nF = 'μ6 + μ1'\n", claims));
+    let told = super::error(&text("F = 'μ7 + μ1'\n", ""));
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(told[0].1.contains("unknown name `μ7`"), "{told:?}");
+    let told = super::error(&text("F = 'μ + 1'\n", ""));
+    assert!(told[0].1.contains("unknown name `μ`"), "of one constraint alone: {told:?}");
+}
+
+#[test]
 fn a_bead_on_a_moving_wire_gains_energy() {
     let wire = |claims: &str| {
         format!(

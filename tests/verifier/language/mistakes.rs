@@ -119,5 +119,5 @@ fn sizes_are_bounded_and_say_so() {
     assert_eq!(state("vector(0, 0..1)").1, "a size is positive, this is 0");
     assert_eq!(state("vector(n, 0..1)").1, "unknown name `n`");
     assert_eq!(state("matrix(4, 0..1)").1, "a matrix has two sizes: matrix(4, 4, a..b)");
-    assert!(state("symmetric(4, 0..1)").1.contains("depend on each other"), "not a state");
+    assert!(state("spherical(4, 0..1)").1.contains("depend on each other"), "not a state");
 }

@@ -6,6 +6,7 @@ mod functions;
 mod known;
 mod primes;
 mod relations;
+mod twins;
 
 use crate::common::case;
 use assert_cmd::Command;

@@ -373,7 +373,8 @@ impl Explorer<'_> {
         let classes = Classes::of(algebraic, trial, tower, self.digest);
         let inputs = self.prover.extents;
         let region = Region { graph: &cell.graph, inputs, facts: known, classes: &classes };
-        region.is_empty().then_some(Next::Empty(classes.certificate))
+        let is_empty = region.is_empty() || region.is_beyond_bounds();
+        is_empty.then_some(Next::Empty(classes.certificate))
     }
 }
 

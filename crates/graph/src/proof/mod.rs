@@ -23,6 +23,7 @@
 //! | `elimination`, `rank`, `reconstruct`, `coprime` | linear algebra and polynomials modulo a prime |
 
 mod angles;
+mod bounded;
 mod bounds;
 mod branches;
 mod buckets;
@@ -40,9 +41,11 @@ mod evident;
 mod explore;
 mod extent;
 mod fact;
+mod forms;
 mod free_symbols;
 mod logarithms;
 mod lower;
+mod monomial_roots;
 mod nested;
 mod next;
 mod numbers;
@@ -75,6 +78,7 @@ pub use domain::{KnownSign, is_nowhere_zero, narrowed, point, sign};
 pub use elimination::reduce;
 pub use extent::Extent;
 pub use fact::SignFact;
+pub use forms::completed_squares;
 pub use nested::SquareRoot;
 pub use outcome::{GroupOutcome, InputRegion, InputRegions};
 pub use plain::plain_bounds;

@@ -8,9 +8,12 @@
 //! √(a + b y) = |√u + b y/(2√u)|
 //! ```
 //!
-//! since the square of the right side is u + b y + b²C/(4u), and b²C/4 = u (a - u). It holds where
+//! where d may be a multiple of another root, since the square of the right side is u + b y + b²C/(4u), and b²C/4 = u (a - u). It holds where
 //! the left side has a value and u ≠ 0: u and a - u have the sum a and a product that is not
 //! negative, so both are negative only where a + b y = -(√-u ± √(u - a))² is.
+
+#[cfg(test)]
+mod tests;
 
 use crate::graph::{Expr, Graph, Step};
 use crate::number::exact::square_root;
@@ -18,7 +21,8 @@ use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
 use crate::scalar::Scalar;
 
-use super::polynomial::{Fraction, MOST_WORK, Polynomial, fraction};
+use super::monomial_roots::inputs_by_roots;
+use super::polynomial::{Fraction, MOST_WORK, Polynomial, fraction, fraction_of};
 
 /// A denested root, with variables that stand for values at places.
 #[derive(Clone, Debug)]
@@ -74,7 +78,9 @@ impl SquareRoot {
 
 /// Denests the root of the product of the values at some places, if it is a square or has the form
 /// of a sum.
-pub fn written(graph: &Graph, places: &[usize]) -> Option<DenestedRoot> {
+///
+/// `others` are the places of roots that the value may be expressed by.
+pub fn written(graph: &Graph, places: &[usize], others: &[usize]) -> Option<DenestedRoot> {
     let roots = roots_of_inputs(graph, places);
     let by_roots = |place: usize, step: Step<'_>| match step {
         // x is y² if y = √x occurs too.
@@ -97,12 +103,30 @@ pub fn written(graph: &Graph, places: &[usize]) -> Option<DenestedRoot> {
         Step::Unary(UnaryFunction::Sqrt, a) => fraction(graph, a, &variable)?.polynomial(),
         _ => None,
     };
+    let roots: Vec<(u32, Polynomial)> =
+        others.iter().filter_map(|root| Some((*root as u32, square_of(*root as u32)?))).collect();
     let sum = above.variables().into_iter().rev().find_map(|root| {
         let square = square_of(root)?;
         let [even, odd] = above.split(root, &square)?;
-        let first = first_of_sum(&even, &odd, &square)?;
+        let first = first_of_sum(&even, &odd, &square, &roots)?;
         let (root, below) = (root as usize, below.clone());
         Some(DenestedRoot::Sum { first, factor: odd, root, below })
+    });
+    let sum = sum.or_else(|| {
+        let by_roots = inputs_by_roots(graph, places);
+        let given = |at: usize, step: Step<'_>| match step {
+            Step::Input(_) => Some(
+                by_roots
+                    .get(&at)
+                    .cloned()
+                    .unwrap_or_else(|| Fraction::whole(Polynomial::variable(at as u32))),
+            ),
+            step => variable(at, step).map(Fraction::whole),
+        };
+        let factors: Option<Vec<Fraction>> =
+            places.iter().map(|place| fraction_of(graph, *place, &given)).collect();
+        let (scale, root) = Fraction::product(factors?.iter())?.square()?;
+        Some(DenestedRoot::Square(scale, root.without_common_terms()?))
     });
     // (a + b√C)(a − b√C) contains no root.
     sum.or_else(|| {
@@ -134,7 +158,12 @@ fn without_roots(
 }
 
 /// Finds u = (a + d)/2 with d² = a² - b² C, u ≠ 0.
-fn first_of_sum(a: &Polynomial, b: &Polynomial, square: &Polynomial) -> Option<Polynomial> {
+fn first_of_sum(
+    a: &Polynomial,
+    b: &Polynomial,
+    square: &Polynomial,
+    roots: &[(u32, Polynomial)],
+) -> Option<Polynomial> {
     if b.is_zero() {
         return None;
     }
@@ -143,16 +172,49 @@ fn first_of_sum(a: &Polynomial, b: &Polynomial, square: &Polynomial) -> Option<P
     let difference = a.times(a, &mut work)?.plus(&product.scaled(&Rational::from(-1)));
     let root = match difference.is_zero() {
         true => difference,
-        false => {
-            let (scale, root) = difference.square()?;
-            root.scaled(&square_root(&scale)?)
-        }
+        false => match root_of(&difference) {
+            Some(root) => root,
+            None => return roots.iter().find_map(|own| half_with(a, &difference, own, roots)),
+        },
     };
-    let halves = [1, -1]
-        .map(|sign| a.plus(&root.scaled(&Rational::from(sign))).scaled(&Rational::new(1, 2)));
+    let halves = halves(a, &root);
     // A square needs no further root.
     let order = |u: &Polynomial| (u.square().is_none(), u.size());
     halves.into_iter().filter(|u| !u.is_zero()).min_by_key(order)
+}
+
+/// Returns (a + d)/2 and (a − d)/2.
+fn halves(a: &Polynomial, d: &Polynomial) -> [Polynomial; 2] {
+    [1, -1].map(|sign| a.plus(&d.scaled(&Rational::from(sign))).scaled(&Rational::new(1, 2)))
+}
+
+/// Finds u = (a ± d)/2 for the root d of a difference by another one, if √u is a multiple of a
+/// further root: otherwise roots would be written by each other.
+fn half_with(
+    a: &Polynomial,
+    difference: &Polynomial,
+    own: &(u32, Polynomial),
+    roots: &[(u32, Polynomial)],
+) -> Option<Polynomial> {
+    let halves = halves(a, &root_by(difference, own)?);
+    let is_known = |u: &Polynomial| {
+        let ratio = |(_, radicand): &(u32, Polynomial)| radicand.term_over(u)?.number();
+        roots.iter().filter_map(ratio).any(|ratio| !ratio.is_negative())
+    };
+    halves.into_iter().find(|u| !u.is_zero() && is_known(u))
+}
+
+/// Finds d with d² = p.
+fn root_of(polynomial: &Polynomial) -> Option<Polynomial> {
+    let (scale, root) = polynomial.square()?;
+    Some(root.scaled(&square_root(&scale)?))
+}
+
+/// Finds d = q y with d² = p, for a root y with a given square and a term q.
+fn root_by(polynomial: &Polynomial, (root, square): &(u32, Polynomial)) -> Option<Polynomial> {
+    // p y² = (q y²)²
+    let factor = root_of(&polynomial.times(square, &mut { MOST_WORK })?)?.term_over(square)?;
+    factor.times(&Polynomial::variable(*root), &mut { MOST_WORK })
 }
 
 /// Lists the inputs under a root among the places that some others need, each with one of its
@@ -171,7 +233,7 @@ fn roots_of_inputs(graph: &Graph, places: &[usize]) -> Vec<(usize, usize)> {
 }
 
 /// Makes a variable for a step that is not a rational operation.
-fn variable(place: usize, step: Step<'_>) -> Option<Polynomial> {
+pub fn variable(place: usize, step: Step<'_>) -> Option<Polynomial> {
     let is_rational = match step {
         Step::Constant(_) | Step::Unary(UnaryFunction::Neg | UnaryFunction::Recip, _) => true,
         Step::Binary(operation, ..) => operation != BinaryOperation::Pow,

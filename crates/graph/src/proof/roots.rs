@@ -1,6 +1,7 @@
 //! Dependent roots and their expressions in terms of other roots.
 
-use crate::graph::{Expr, Fault, Graph};
+use crate::graph::{Expr, Fault, Graph, Step};
+use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
@@ -15,6 +16,8 @@ use super::trial::{Certificate, Roots, Trial, TrialResult};
 
 /// Largest number of other radicands of either kind multiplied with a nested radicand.
 const MOST_FACTORS: usize = 4;
+/// Largest number of roots by which another one is expressed.
+const MOST_ROOTS: usize = 16;
 /// Largest number of sets of such radicands.
 const MOST_SETS: usize = 40;
 
@@ -145,10 +148,22 @@ impl RootFinder<'_> {
         }
         let own = own.arguments.first().copied();
         let places: Vec<usize> = own.into_iter().chain(over.iter().copied()).collect();
-        Ok(written(self.graph, &places).map(|written| match &written {
+        Ok(written(self.graph, &places, &self.roots_before(base)).map(|written| match &written {
             DenestedRoot::Square(scale, _) if scale.is_negative() => RootSearch::NeverReal(None),
             _ => RootSearch::Rewrite(rewrite(Root::Written(written)), None),
         }))
+    }
+
+    /// Lists the steps before the root of a base that are independent roots.
+    fn roots_before(&self, base: usize) -> Vec<usize> {
+        let (bases, standings) = (&self.algebraic.bases, &self.tower.standings);
+        let independent = bases.iter().zip(standings).take(base);
+        let independent = independent.filter(|(_, standing)| **standing == RootStatus::Independent);
+        let arguments: Vec<usize> =
+            independent.flat_map(|(base, _)| base.arguments.iter().copied()).collect();
+        let steps = self.graph.steps().enumerate().take(bases[base].first);
+        let is_root = |(_, step): &(usize, Step<'_>)| matches!(step, Step::Unary(UnaryFunction::Sqrt, a) if arguments.contains(a));
+        steps.filter(is_root).map(|(place, _)| place).take(MOST_ROOTS).collect()
     }
 
     fn samples(&mut self) -> Option<&RootSamples> {

@@ -9,7 +9,7 @@ use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
 /// Proves over inputs in 1..2, or in -2..-1 for the negative ones.
-fn prove(negative: &[bool], build: impl FnOnce(&[Expr]) -> Expr) -> GroupOutcome {
+pub(super) fn prove(negative: &[bool], build: impl FnOnce(&[Expr]) -> Expr) -> GroupOutcome {
     let (graph, value) = record(negative.len(), build).expect("records");
     let [one, two] = [1, 2].map(Rational::from);
     let extent = |negative: &bool| match negative {
@@ -21,7 +21,7 @@ fn prove(negative: &[bool], build: impl FnOnce(&[Expr]) -> Expr) -> GroupOutcome
     prover.prove(&graph, &[Group::of(vec![value])]).expect("records").remove(0)
 }
 
-fn is_proved(outcome: &GroupOutcome) -> bool {
+pub(super) fn is_proved(outcome: &GroupOutcome) -> bool {
     matches!(outcome, GroupOutcome::Zero(certificate) if certificate.error_log2 < -100.0)
 }
 

@@ -19,7 +19,8 @@ pub struct Fraction {
 }
 
 impl Fraction {
-    fn whole(above: Polynomial) -> Self {
+    /// Makes a fraction of a polynomial.
+    pub fn whole(above: Polynomial) -> Self {
         Self { above, below: Polynomial::constant(&Rational::from(1)) }
     }
 
@@ -28,6 +29,13 @@ impl Fraction {
         let mut work = MOST_WORK;
         let (scale, root) = self.above.times(&self.below, &mut work)?.square()?;
         Some((scale, Self { above: root, below: self.below.clone() }))
+    }
+
+    /// Returns the fraction without powers of variables that divide p and q.
+    pub fn without_common_terms(&self) -> Option<Self> {
+        let (above, below) = (self.above.common_term(), self.below.common_term());
+        let both = above.plus(&below.scaled(&Rational::from(2))).common_term();
+        Some(Self { above: self.above.over_term(&both)?, below: self.below.over_term(&both)? })
     }
 
     /// Returns p such that the fraction is p/q².
@@ -95,6 +103,15 @@ pub fn fraction(
     place: usize,
     given: &impl Fn(usize, Step<'_>) -> Option<Polynomial>,
 ) -> Option<Fraction> {
+    fraction_of(graph, place, &|at, step| given(at, step).map(Fraction::whole))
+}
+
+/// Reads the value in the same way from fractions.
+pub fn fraction_of(
+    graph: &Graph,
+    place: usize,
+    given: &impl Fn(usize, Step<'_>) -> Option<Fraction>,
+) -> Option<Fraction> {
     let reached = graph.reached_from(&[place]);
     let mut work = MOST_WORK;
     let mut values: Vec<Option<Fraction>> = Vec::with_capacity(place + 1);
@@ -102,7 +119,7 @@ pub fn fraction(
         let value = match reached[at] {
             false => None,
             true => match given(at, step) {
-                Some(polynomial) => Some(Fraction::whole(polynomial)),
+                Some(own) => Some(own),
                 None => of_step(step, &values, &mut work),
             },
         };

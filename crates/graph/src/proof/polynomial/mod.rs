@@ -4,13 +4,14 @@
 //! roots, symbols). Large ones are given up: the aim is to find b in √(x² + 2x + 1) = |x + 1|, not
 //! a normal form.
 
+mod bound;
 mod fraction;
 mod monomial;
 
 #[cfg(test)]
 mod tests;
 
-pub use fraction::{Fraction, fraction};
+pub use fraction::{Fraction, fraction, fraction_of};
 
 use std::collections::BTreeMap;
 
@@ -44,6 +45,34 @@ impl Polynomial {
     /// Makes a variable.
     pub fn variable(number: u32) -> Self {
         Self { terms: [(Monomial(vec![(number, 1)]), Rational::from(1))].into() }
+    }
+
+    /// Makes a number times a product of powers of variables.
+    pub fn of_term(value: &Rational, exponents: impl IntoIterator<Item = (u32, u32)>) -> Self {
+        let mut term = Self::default();
+        term.add_term(Monomial(exponents.into_iter().collect()), value);
+        term
+    }
+
+    /// Returns the product of powers of variables that divides all terms.
+    pub fn common_term(&self) -> Self {
+        let mut keys = self.terms.keys();
+        let mut common = keys.next().cloned().unwrap_or_default();
+        keys.for_each(|own| common = common.common(own));
+        Self { terms: [(common, Rational::from(1))].into() }
+    }
+
+    /// Divides by a product of powers of variables, if it divides all terms.
+    pub fn over_term(&self, divisor: &Self) -> Option<Self> {
+        let (divisor, _) = divisor.leading()?;
+        let terms = self.terms.iter().map(|(own, value)| Some((own.over(divisor)?, value.clone())));
+        Some(Self { terms: terms.collect::<Option<_>>()? })
+    }
+
+    /// Returns the number and the exponents of a polynomial of one term.
+    pub fn as_term(&self) -> Option<(&Rational, &[(u32, u32)])> {
+        let ((monomial, value), 1) = (self.leading()?, self.size()) else { return None };
+        Some((value, &monomial.0))
     }
 
     /// Returns the value of a constant polynomial.
@@ -167,6 +196,40 @@ impl Polynomial {
         all.sort_unstable();
         all.dedup();
         all
+    }
+
+    /// Returns the coefficients of the products of powers of some variables.
+    pub fn collected(&self, variables: &[u32]) -> BTreeMap<Vec<u32>, Self> {
+        let mut all: BTreeMap<Vec<u32>, Self> = BTreeMap::new();
+        for (monomial, value) in &self.terms {
+            let mut powers = vec![0; variables.len()];
+            let mut rest = Vec::new();
+            for (variable, exponent) in &monomial.0 {
+                match variables.iter().position(|own| own == variable) {
+                    Some(place) => powers[place] = *exponent,
+                    None => rest.push((*variable, *exponent)),
+                }
+            }
+            all.entry(powers).or_default().add_term(Monomial(rest), value);
+        }
+        all
+    }
+
+    /// Writes the polynomial with names of the variables.
+    pub fn text(&self, names: &[String]) -> String {
+        let power = |(variable, exponent): &(u32, u32)| {
+            let name = &names[*variable as usize];
+            if *exponent == 1 { name.clone() } else { format!("{name}^{exponent}") }
+        };
+        let term = |(monomial, value): (&Monomial, &Rational)| {
+            let mut factors: Vec<String> = monomial.0.iter().map(power).collect();
+            if factors.is_empty() || *value != Rational::from(1) {
+                factors.insert(0, value.to_string());
+            }
+            factors.join("*")
+        };
+        let terms: Vec<String> = self.terms.iter().rev().map(term).collect();
+        if terms.is_empty() { "0".to_string() } else { terms.join(" + ") }
     }
 
     /// Records the value from the values of the variables.

@@ -47,6 +47,13 @@ impl Monomial {
         Some(Self(exponents.into_iter().filter(|(_, exponent)| *exponent > 0).collect()))
     }
 
+    /// Returns the largest monomial that divides both.
+    pub fn common(&self, other: &Self) -> Self {
+        let own = |variable: u32| other.0.iter().find(|(v, _)| *v == variable).map(|(_, e)| *e);
+        let least = self.0.iter().filter_map(|(v, e)| Some((*v, *e.min(&own(*v)?))));
+        Self(least.collect())
+    }
+
     /// Returns the square root; `None` if an exponent is odd.
     pub fn root(&self) -> Option<Self> {
         let halved = self.0.iter().map(|(variable, exponent)| {

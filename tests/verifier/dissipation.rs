@@ -1,0 +1,144 @@
+//! Lyapunov functions whose rates are sums of squares, and others that nearly are.
+
+use liouville::case::Case;
+use liouville::verdict::{CaseReport, Options, Verdict, judge};
+
+fn judged(text: &str) -> CaseReport {
+    let case = Case::parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    judge(&case, &Options::default()).unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+/// Asserts the verdicts of the claims, in their order, and returns the remark of the first.
+#[track_caller]
+fn verdicts(text: &str, expected: &[Verdict]) -> String {
+    let report = judged(text);
+    let found: Vec<Verdict> = report.claims.iter().map(|claim| claim.verdict).collect();
+    assert_eq!(found, expected, "{text}");
+    report.claims[0].evidence.remark.clone().unwrap_or_default()
+}
+
+use Verdict::{Proved, Refuted, Undecided};
+
+/// Writes a flow on the unit sphere of ℝⁿ.
+fn on_sphere(size: usize, field: &str, claims: &str) -> String {
+    format!(
+        "title = 'x'\n[parameters]\nA = 'symmetric({size}, -1..1)'\nD = 'diag({size}, 1..3)'\n[state]\n\
+         x = 'vector({size}, -1..1)'\n[level]\nequations = ['(x,x) = 1']\n[field]\n\"x'\" = '{field}'\n\
+         {claims}"
+    )
+}
+
+fn lyapunov(function: &str) -> String {
+    format!("[[claim]]\nlyapunov = '{function}'\nexpect = 'open'\n")
+}
+
+#[test]
+fn gradient_flows_on_spheres_are_seen() {
+    let both = lyapunov("(x, A*x)") + &lyapunov("−(x, A*x)");
+    for size in [2, 3, 5] {
+        let remark = verdicts(&on_sphere(size, "−A*x + (x, A*x)*x", &both), &[Proved, Refuted]);
+        assert!(remark.contains("(-2)*"), "{remark}");
+        verdicts(&on_sphere(size, "A*x − (x, A*x)*x", &both), &[Refuted, Proved]);
+    }
+    // Not along the gradient: A² in place of A.
+    let other = on_sphere(3, "−A*A*x + (x, A*A*x)*x", &lyapunov("(x, A*x)"));
+    verdicts(&other, &[Refuted]);
+}
+
+#[test]
+fn double_brackets_are_gradient_flows() {
+    let flow = |sign: &str| {
+        format!(
+            "title = 'x'\n[parameters]\nN = 'diag(3, 1..3)'\n[state]\nL = 'symmetric(3, -1..1)'\n[let]\n\
+             B = 'L*N − N*L'\n[field]\n\"L'\" = '{sign}(L*B − B*L)'\n{}{}[[claim]]\n\
+             integral = 'tr(L*L*L)'\n",
+            lyapunov("−tr(L*N)"),
+            lyapunov("tr(L*N)")
+        )
+    };
+    let remark = verdicts(&flow(""), &[Proved, Refuted, Proved]);
+    assert!(remark.contains("tr("), "{remark}");
+    verdicts(&flow("−"), &[Refuted, Proved, Proved]);
+}
+
+/// Writes a linear field in the plane.
+fn linear(rates: [&str; 2], function: &str) -> String {
+    format!(
+        "title = 'x'\n[parameters]\na = '1..2'\nb = '0.5..0.9'\n[state]\nx = '-1..1'\ny = '-1..1'\n[field]\n\
+         \"x'\" = '{}'\n\"y'\" = '{}'\n{}",
+        rates[0],
+        rates[1],
+        lyapunov(function)
+    )
+}
+
+#[test]
+fn quadratic_forms_are_completed() {
+    // −2x² + 2xy − 3y², and with parameters −a x² + 2b xy − y² with b² < a.
+    let remark = verdicts(&linear(["−2*x + y", "y*(−3) + x"], "(x² + y²)/2"), &[Proved]);
+    assert!(remark.starts_with("its rate is "), "{remark}");
+    verdicts(&linear(["−a*x + b*y", "b*x − y"], "(x² + y²)/2"), &[Proved]);
+    verdicts(&linear(["−a*x + 3*y", "−y"], "(x² + y²)/2"), &[Refuted]);
+    // b² = 0.81 at the end of the range, and b² > 0.8 a: the form has both signs only near there.
+    let report = judged(&linear(["−a*x + 2*b*y", "−0.8*y"], "(x² + y²)/2"));
+    assert_ne!(report.claims[0].verdict, Proved);
+    // Semi-definite: −(x − y)².
+    verdicts(&linear(["y − x", "x − y"], "(x² + y²)/2"), &[Proved]);
+}
+
+#[test]
+fn forms_on_a_level_are_bounded() {
+    let on = |function: &str| {
+        format!(
+            "title = 'x'\n[parameters]\nD = 'diag(3, 1..3)'\n[state]\nX = 'matrix(3, 2, -1..1)'\ns = '-1..1'\n\
+             [level]\nequations = ['Xᵀ*X = E(2)']\n[field]\n\"X'\" = '0*X'\n\"s'\" = 'tr(Xᵀ*D*X)'\n{}",
+            lyapunov(function)
+        )
+    };
+    verdicts(&on("−s"), &[Proved]);
+    verdicts(&on("s"), &[Refuted]);
+}
+
+#[test]
+fn a_rate_that_is_nearly_a_square_is_not_proved() {
+    // The rate is −(x − y)² + x⁴/10⁹ , positive on x = y.
+    let text = linear(["y − x + x^3/10^9", "x − y"], "(x² + y²)/2");
+    let found = judged(&text).claims[0].verdict;
+    assert!(matches!(found, Refuted | Undecided), "{}", found.word());
+    // With a factor that a parameter turns: −k|v|² for k of both signs.
+    let text = "title = 'x'\n[parameters]\nk = '-1..2'\n[state]\nx = '-1..1'\ny = '-1..1'\n[field]\n\
+                \"x'\" = '−k*(x − y)'\n\"y'\" = '−k*(y − x)'\n[[claim]]\nlyapunov = '(x − y)²'\n\
+                expect = 'open'\n";
+    verdicts(text, &[Refuted]);
+    verdicts(&text.replace("-1..2", "0.5..2"), &[Proved]);
+}
+
+#[test]
+fn a_listed_value_without_a_quotient_is_not_passed_over() {
+    // −a x² + 2b xy − y² with b² = 10⁻¹² for a = 0, where x is far larger than y.
+    let text = |listed: &str| {
+        format!(
+            "title = 'x'\n[parameters]\na = '{listed}'\n[state]\nx = '-1..1'\ny = '-1..1'\n[field]\n\
+             \"x'\" = '−a*x + y/10^6'\n\"y'\" = 'x/10^6 − y'\n{}",
+            lyapunov("(x² + y²)/2")
+        )
+    };
+    let found = judged(&text("one of 0, 1")).claims[0].verdict;
+    assert!(matches!(found, Refuted | Undecided), "{}", found.word());
+    verdicts(&text("1"), &[Proved]);
+    verdicts(&text("0.5..1"), &[Proved]);
+}
+
+#[test]
+fn descent_of_a_potential_is_seen() {
+    let flow = |sign: &str| {
+        format!(
+            "title = 'x'\n[parameters]\nk = '0.5..2'\n[state]\nx = '-1..1'\ny = '-1..1'\n[let]\n\
+             V = 'x^4 + x*y^3 − x²*y + y²'\n[field]\n\"x'\" = '−k*∂V/∂x'\n\
+             \"y'\" = '{sign}k*∂V/∂y'\n{}",
+            lyapunov("V")
+        )
+    };
+    verdicts(&flow("−"), &[Proved]);
+    verdicts(&flow("2*"), &[Refuted]);
+}
