@@ -95,7 +95,8 @@ pub enum JudgeError {
     },
     /// The level equations are not independent.
     #[error(
-        "`{0}` follows from the equations before it, contradicts them, or contains no state variable"
+        "`{0}` follows from the equations before it, contradicts them, chooses one of their parts, or \
+         contains no state variable"
     )]
     Dependent(String),
     /// An ∫ of the equations of motion or of `[variables]` is not a function of its variable.
@@ -151,7 +152,8 @@ impl JudgeError {
                 "a claim would be tested on a part of the level only: give [level.chart] more inputs"
             }
             JudgeError::Dependent(_) => {
-                "leave it out if it follows from the others, and correct it if it contradicts them"
+                "leave it out if it follows from the others, and correct it if it contradicts them; a part \
+                 is chosen by the ranges of [state], and det(R) = 1 by R = \"rotation\""
             }
             JudgeError::Quadrature(_) => {
                 "∫(f, x) is a function of x with derivative f: f may contain x and the parameters"

@@ -59,12 +59,28 @@ impl Judging<'_> {
             let recipes: Vec<Draw> =
                 pairs.map(|(draw, fixed)| draw.fixed(fixed.as_ref())).collect();
             let of_part = |part| sampler.on_part(part, recipes.clone());
-            let own: Vec<Sampler> = parts.iter().map(of_part).collect::<Result<_, Fault>>()?;
+            let mut own: Vec<Sampler> = parts.iter().map(of_part).collect::<Result<_, Fault>>()?;
+            let moves = own.iter().map(|own| self.moves(own)).collect::<Result<Vec<_>, Fault>>()?;
+            let mut moves = moves.into_iter();
+            own.retain(|_| moves.next().unwrap_or(true));
             if !own.is_empty() {
                 pieces.push(own);
             }
         }
         Ok((!pieces.is_empty()).then(|| pieces.into()))
+    }
+
+    /// Whether there may be a motion on a part: at the apex of a cone its reactions are 0/0.
+    fn moves(&self, sampler: &Sampler) -> Result<bool, Fault> {
+        let Some(choices) = combinations(sampler.recipes()) else { return Ok(true) };
+        let field = std::slice::from_ref(&self.common.field);
+        for fixed in choices {
+            let (graph, values) = sampler.compose(self.graph, field, &fixed)?;
+            if !values.concat().into_iter().any(|value| graph.is_nowhere_defined(value)) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// Returns the samplers whose states fill a place together, one for each of its parts.

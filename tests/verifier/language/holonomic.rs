@@ -94,3 +94,14 @@ fn a_lagrangian_without_velocities_is_read_or_refused() {
         assert!(!error.mistakes().is_empty(), "with a reason");
     }
 }
+
+#[test]
+fn the_apex_of_a_cone_is_no_state_of_a_motion() {
+    let claims = "[[claim]]\nintegral = 'energy'\n[[claim]]\nintegral = \"x*y' − y*x'\"\n\
+                  [[claim]]\nintegral = \"x*y' − 2*y*x'\"\nexpect = 'fails'\n";
+    settled(&pendulum("'z² = x² + y²'", claims));
+    // Two planes: a motion stays on one of them.
+    let planes = "[[claim]]\nintegral = \"energy\"\n[[claim]]\nintegral = \"x'*y'\"\n\
+                  [[claim]]\nintegral = \"x'\"\nexpect = 'fails'\n";
+    settled(&pendulum("'x*y = 0'", &planes.replace("\"x'\"", "\"z'\"")));
+}
