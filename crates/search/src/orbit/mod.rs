@@ -25,6 +25,7 @@
 //! weighted     integrals of fields in the plane that are multiples of a density
 //! adjoin       functions of the state as further variables
 //! part         all of these in the variables of a part of the field
+//! closure      brackets of integrals, and their derivatives along symmetry fields
 //! claims       judgement of each find as a claim like any other
 //! fractions    for claims of absence: relations that known integrals do not explain
 //! ```
@@ -36,6 +37,7 @@ mod angle;
 mod blocks;
 mod claims;
 mod cleared;
+mod closure;
 mod darboux;
 mod exponents;
 mod factor;
@@ -77,6 +79,7 @@ use liouville::mechanics::System;
 use liouville::verdict::Verdict;
 
 pub use self::adjoin::{root_steps, roots};
+pub use self::closure::{FURTHER_INTEGRAL, close};
 use self::known::IndependentIntegrals;
 use self::line::degree_of_field;
 use self::part::VariableSet;

@@ -167,7 +167,7 @@ impl AdjoinedRing {
     }
 
     /// Writes squares of sines and of square roots in other variables.
-    fn reduced(&self, own: &RingPolynomial) -> Option<RingPolynomial> {
+    pub(super) fn reduced(&self, own: &RingPolynomial) -> Option<RingPolynomial> {
         let mut made = own.clone();
         for place in own.variables() {
             let Some(square) = self.square(place) else { continue };
