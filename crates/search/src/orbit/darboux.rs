@@ -57,7 +57,9 @@ impl DarbouxSearch<'_, '_> {
         pairs: &mut Vec<ConjugatePair>,
         report: &mut SearchReport,
     ) -> Result<(), SearchError> {
-        let all = monomials::up_to(self.variables, self.setting.dimension(), degree);
+        let setting = self.setting;
+        let all = monomials::up_to(self.variables, setting.dimension(), degree);
+        let all = setting.standard(all);
         let mut seen: Vec<Vec<Vec<u32>>> = Vec::new();
         for prime in 0..PRIMES[usize::from(degree > 2)] {
             let Some(at) = self.setting.split(prime, 0) else { return Ok(()) };

@@ -11,6 +11,7 @@
 //! graded, sparse   polynomial integrals of higher degree, class by class; those with few terms
 //! rational     rational ones, as P and Q of the relations P − c Q
 //! line         points of a line whose orbits satisfy an additional relation
+//! conic        conics in place of lines, where functions satisfy relations
 //! darboux      Darboux polynomials: the relations at these points
 //! cleared      Darboux polynomials of fields of fractions
 //! unbound      Darboux polynomials with functions
@@ -38,6 +39,7 @@ mod blocks;
 mod claims;
 mod cleared;
 mod closure;
+mod conic;
 mod darboux;
 mod exponents;
 mod factor;

@@ -18,6 +18,7 @@ use super::super::streams::SearchStream;
 use super::super::terms::{read, recorded};
 use super::super::{Effort, SearchError};
 use super::adjoin::Extension;
+use super::conic::ConicShape;
 use super::monomials::{self, MonomialSeries};
 use super::primes;
 use super::tangents::Tangents;
@@ -62,6 +63,8 @@ pub struct OrbitSetting<'c> {
     pub tangents: Tangents,
     /// Components of the state as terms.
     pub terms: Vec<Formula>,
+    /// Relations between adjoined functions, where they are circles and hyperbolas alone.
+    pub conic: Option<ConicShape>,
     points: Points,
     coordinates: Vec<Formula>,
     primes: Vec<Modulus>,
@@ -102,7 +105,8 @@ impl<'c> OrbitSetting<'c> {
         let made = Self::of(&extension.case, effort)?;
         let tangents = Tangents::of(&extension.case, &extension.axes)?;
         let origin = Some(ExtendedCase { case, extension });
-        Ok(made.map(|own| Self { origin, tangents, ..own }))
+        let conic = extension.conic();
+        Ok(made.map(|own| Self { origin, tangents, conic, ..own }))
     }
 
     /// Records a case; the text is the reason why it has no orbits modulo primes.
@@ -147,6 +151,7 @@ impl<'c> OrbitSetting<'c> {
             flow,
             tangents: Tangents::of(case, &[])?,
             terms,
+            conic: None,
             points,
             coordinates: named,
             primes,
@@ -162,6 +167,14 @@ impl<'c> OrbitSetting<'c> {
     /// Whether states are restricted to a level.
     pub fn is_on_level(&self) -> bool {
         !self.case.model.level.is_empty()
+    }
+
+    /// Keeps the monomials that no relation between adjoined functions writes in others.
+    pub fn standard(&self, mut monomials: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
+        if let Some(origin) = self.origin {
+            monomials.retain(|own| origin.extension.is_standard(own));
+        }
+        monomials
     }
 
     /// Whether polynomials are found on lines of states: the field is rational there. Roots of numbers

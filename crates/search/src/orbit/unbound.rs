@@ -2,7 +2,8 @@
 //!
 //! The extended field is a polynomial field on the space of all its variables, whether or not they
 //! satisfy these relations. A Darboux polynomial there is one on the level as well. Those of which
-//! this holds only where the relations hold are not found.
+//! this holds only where the relations hold are not found. Where the relations are sin² + cos² = 1 and
+//! e^u e^(−u) = 1 alone, conics on the level take the place of lines, and nothing is missed.
 
 use super::super::{SearchError, SearchReport};
 use super::claims::{self, OrbitStatement};
@@ -32,6 +33,9 @@ pub fn search(
     let Some(case) = extension.unbound() else { return Ok(()) };
     let Ok(unbound) = OrbitSetting::of(&case, setting.effort)? else { return Ok(()) };
     let Some(degree) = degree_of_field(&unbound)? else { return Ok(()) };
+    if setting.conic.is_some() {
+        return on_conics(setting, degree, limits, factors, report, progress);
+    }
     let (mut all, mut pairs) = (Vec::new(), Vec::new());
     let mut own = SearchReport::default();
     for variables in blocks::closed(&case)? {
@@ -72,6 +76,36 @@ pub fn search(
         }
         if factors.iter().all(|own| own.formula.text() != formula.text()) {
             factors.push(rated);
+        }
+    }
+    Ok(())
+}
+
+/// Searches the extended field, of this degree, on its level.
+fn on_conics(
+    setting: &OrbitSetting<'_>,
+    degree: usize,
+    limits: RoundLimits,
+    factors: &mut Vec<RatedPolynomial>,
+    report: &mut SearchReport,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(), SearchError> {
+    let mut pairs = Vec::new();
+    for variables in blocks::closed(setting.case)? {
+        let count = |degree: u32| {
+            let all = monomials::up_to(&variables, setting.dimension(), degree);
+            setting.standard(all).len()
+        };
+        if count(degree.saturating_sub(1) as u32) > MOST_COFACTOR {
+            continue;
+        }
+        let search = DarbouxSearch { setting, variables: &variables, degree };
+        // A polynomial has twice as many zeros on a conic.
+        let fits =
+            |next: &u32| monomials::steps_of(count(*next), *next, degree) <= SHARE * limits.steps;
+        for next in (1..=DARBOUX).take_while(fits) {
+            progress(&format!("Darboux polynomials of degree {next}, with functions as variables"));
+            search.of_degree(next, factors, &mut pairs, report)?;
         }
     }
     Ok(())

@@ -54,6 +54,7 @@ use self::ring::{AdjoinedRing, Atom};
 pub use self::roots::{has_independent_roots, root_steps, roots};
 use self::write::RingNames;
 use super::super::{Effort, SearchError};
+use super::conic::{ConicRole, ConicShape};
 
 /// Largest number of variables.
 const VARIABLES: usize = 18;
@@ -90,6 +91,8 @@ pub struct Extension {
     field: String,
     /// Names of the variables of the ring in the extended case.
     names: Vec<String>,
+    /// Whether the case itself has a level.
+    has_level: bool,
 }
 
 impl Extension {
@@ -128,6 +131,29 @@ impl Extension {
             |atom: &Atom| !is_constant(atom) && !is_free(atom) && !matches!(atom, Atom::State);
         let is_unbound = self.ring.atoms.iter().any(is_bound);
         is_unbound.then(|| Case::parse(&self.field, &[]).ok()).flatten()
+    }
+
+    /// The relations between the functions of a case without a level, if they are circles and hyperbolas
+    /// alone, and some.
+    pub fn conic(&self) -> Option<ConicShape> {
+        let atoms = &self.ring.atoms;
+        let shifted =
+            |place: usize| place - atoms[..place].iter().filter(|a| is_constant(a)).count();
+        let role = |atom: &Atom| match atom {
+            Atom::State => Some(ConicRole::Free),
+            Atom::Sine(_) => Some(ConicRole::Sine),
+            Atom::Cosine(_) => Some(ConicRole::Cosine),
+            Atom::Exponential(_) => Some(ConicRole::Exponential),
+            Atom::ExponentialOf(_, powers) => match powers.as_slice() {
+                [(other, -1)] => Some(ConicRole::InverseOf(shifted(*other))),
+                _ => None,
+            },
+            _ => None,
+        };
+        let varying = atoms.iter().filter(|atom| !is_constant(atom));
+        let roles: Vec<ConicRole> = varying.map(role).collect::<Option<_>>()?;
+        let binds = |own: &ConicRole| matches!(own, ConicRole::Sine | ConicRole::InverseOf(_));
+        (!self.has_level && roles.iter().any(binds)).then_some(ConicShape(roles))
     }
 
     /// Names of the variables of the ring in the extended case.
@@ -232,6 +258,7 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
         field: text.into_iter().next().unwrap_or_default(),
         read: known,
         names: names.extended,
+        has_level: !case.model.level.is_empty(),
         ring: read.ring,
     }))
 }
