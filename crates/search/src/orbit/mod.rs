@@ -20,6 +20,8 @@
 //! no_others    theorem that the Darboux polynomials found are all
 //! finite_order   maps with Φⁿ = id, and sums over their orbits
 //! map_densities, map_integrals  densities and polynomial integrals of maps
+//! map_fractions  densities of maps that are fractions
+//! logarithms   integrals of maps by monomials
 //! exponents    densities, and integrals with powers, logarithms and exponentials, from cofactors
 //! quotients    fractions over powers of factors in these exponents
 //! magnitude    f or |f| under a logarithm
@@ -52,8 +54,10 @@ mod known;
 mod lattice;
 mod leading;
 mod line;
+mod logarithms;
 mod magnitude;
 mod map_densities;
+mod map_fractions;
 mod map_integrals;
 pub mod monomials;
 pub mod no_others;
@@ -247,7 +251,7 @@ pub fn search_map(
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    match OrbitSetting::of(case, effort)? {
+    let rational = match OrbitSetting::of(case, effort)? {
         Ok(setting) => {
             map_densities::densities(&setting, report, progress)?;
             finite_order::finite_order(&setting, report)?;
@@ -269,7 +273,8 @@ pub fn search_map(
             report.remark(format!("no relations along orbits: {reason}"));
             Ok(())
         }
-    }
+    };
+    rational.and_then(|()| logarithms::search(case, effort, report, progress))
 }
 
 /// Limits that follow the first ones: none, unless the time of a search is limited.

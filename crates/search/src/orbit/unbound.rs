@@ -90,7 +90,7 @@ fn on_conics(
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    let mut pairs = Vec::new();
+    let (mut all, mut pairs) = (Vec::new(), Vec::new());
     for variables in blocks::closed(setting.case)? {
         let count = |degree: u32| {
             let all = monomials::up_to(&variables, setting.dimension(), degree);
@@ -105,7 +105,18 @@ fn on_conics(
             |next: &u32| monomials::steps_of(count(*next), *next, degree) <= SHARE * limits.steps;
         for next in (1..=DARBOUX).take_while(fits) {
             progress(&format!("Darboux polynomials of degree {next}, with functions as variables"));
-            search.of_degree(next, factors, &mut pairs, report)?;
+            search.of_degree(next, &mut all, &mut pairs, report)?;
+        }
+    }
+    // They have no zeros.
+    for name in setting.origin.iter().flat_map(|origin| origin.extension.exponentials()) {
+        if let Ok(formula) = setting.case.formula(name) {
+            all.extend(RatedPolynomial::of(setting, &formula, 1)?);
+        }
+    }
+    for own in all {
+        if factors.iter().all(|other| other.formula.text() != own.formula.text()) {
+            factors.push(own);
         }
     }
     Ok(())

@@ -113,7 +113,7 @@ impl Extension {
         let mut values = Vec::new();
         for atom in &self.ring.atoms {
             let value = match atom {
-                Atom::Parameter => *parameters.next()?,
+                Atom::Parameter | Atom::Constant(Of::Function(..)) => *parameters.next()?,
                 Atom::Constant(Of::Inverse(base)) => {
                     let base = base.residue(m, &values).filter(|value| *value != 0)?;
                     m.inverse(base)

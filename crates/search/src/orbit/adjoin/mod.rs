@@ -11,6 +11,7 @@
 //! absence      the polynomials that a theorem of absence covers
 //! implied      relations between these that known integrals imply
 //! derivations  derivatives of integrals along symmetry fields and the fields of other integrals
+//! logarithmic  maps by monomials, in the logarithms of the state
 //! write        the extended field as a case, with the functions' relations as a level set
 //! back         formulas of the extended case in the names of the case itself
 //! ```
@@ -25,6 +26,7 @@ mod back;
 mod bases;
 mod derivations;
 mod implied;
+mod logarithmic;
 mod parts;
 mod plain;
 mod polynomial;
@@ -45,12 +47,13 @@ use self::back::Back;
 pub use self::back::with_signs;
 use self::bases::{circles, factors};
 pub use self::derivations::{FieldComponents, IntegralAlgebra};
+pub use self::logarithmic::MonomialMap;
 use self::parts::{Read, ReadParts, read};
 pub use self::plain::{PolynomialField, polynomial_field, reduced};
 use self::polynomial::Monomial;
 pub use self::polynomial::RingPolynomial;
 pub use self::ring::Divided;
-use self::ring::{AdjoinedRing, Atom};
+use self::ring::{AdjoinedRing, Atom, Of};
 pub use self::roots::{has_independent_roots, root_steps, roots};
 use self::write::RingNames;
 use super::super::{Effort, SearchError};
@@ -156,6 +159,11 @@ impl Extension {
         (!self.has_level && roles.iter().any(binds)).then_some(ConicShape(roles))
     }
 
+    /// Adjoined exponentials.
+    pub fn exponentials(&self) -> impl Iterator<Item = &str> {
+        self.exponentials.iter().map(|(name, _)| name.as_str())
+    }
+
     /// Names of the variables of the ring in the extended case.
     pub fn names(&self) -> &[String] {
         &self.names
@@ -211,11 +219,12 @@ pub fn extended(
     }
 }
 
-/// Number of functions of the state that are adjoined.
+/// Number of functions that are adjoined.
 fn functions(ring: &AdjoinedRing) -> usize {
-    let is_function =
-        |atom: &&Atom| !matches!(atom, Atom::Parameter | Atom::State | Atom::Constant(_));
-    ring.atoms.iter().filter(is_function).count()
+    let is_plain = |atom: &&Atom| {
+        matches!(atom, Atom::Parameter | Atom::State | Atom::Constant(Of::Inverse(_) | Of::Root(_)))
+    };
+    ring.atoms.len() - ring.atoms.iter().filter(is_plain).count()
 }
 
 fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, SearchError> {

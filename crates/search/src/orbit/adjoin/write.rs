@@ -8,7 +8,7 @@ use liouville::number::rational::Rational;
 
 use super::names_are_foreign;
 use super::polynomial::RingPolynomial;
-use super::ring::{AdjoinedRing, Atom, Of};
+use super::ring::{AdjoinedRing, Atom, ConstantFunction, Of};
 
 /// Beginning of the names of adjoined functions.
 const PREFIX: &str = "aux";
@@ -43,7 +43,7 @@ impl RingNames {
                     let name = given.next().unwrap_or_default();
                     (name.clone(), name)
                 }
-                Atom::Constant(_) => {
+                Atom::Constant(Of::Inverse(_) | Of::Root(_)) => {
                     (defined(atom, &names.extended), defined(atom, &names.original))
                 }
                 _ => (format!("{PREFIX}{place}"), defined(atom, &names.original)),
@@ -66,6 +66,19 @@ fn defined(atom: &Atom, names: &[String]) -> String {
         Atom::Parameter | Atom::State => String::new(),
         Atom::Constant(Of::Inverse(own)) => format!("(1/{})", inside(own)),
         Atom::Constant(Of::Root(own)) => format!("√({})", text(own)),
+        Atom::Constant(Of::Function(function, own)) => {
+            let name = match function {
+                ConstantFunction::Exponential => "exp",
+                ConstantFunction::Sine => "sin",
+                ConstantFunction::Cosine => "cos",
+                ConstantFunction::Logarithm => "ln",
+                ConstantFunction::Arctangent => "atan",
+                ConstantFunction::Power(power) => {
+                    return format!("(({})^({}))", text(own), text(power));
+                }
+            };
+            format!("{name}({})", text(own))
+        }
         Atom::Exponential(own) | Atom::ExponentialOf(own, _) => format!("exp({})", text(own)),
         Atom::Sine(own) => format!("sin({})", text(own)),
         Atom::Cosine(own) => format!("cos({})", text(own)),
@@ -137,6 +150,11 @@ pub fn case(
     for own in model.free_parameters() {
         let liouville::mechanics::ParameterOrigin::Free(recipe) = &own.origin else { return None };
         line(&mut text, &own.name, &recipe.text());
+    }
+    for (place, atom) in ring.atoms.iter().enumerate() {
+        if let Atom::Constant(Of::Function(..)) = atom {
+            line(&mut text, &names[place], RANGE);
+        }
     }
     text.push_str("[state]\n");
     let is_foreign = names_are_foreign(case);
