@@ -2,7 +2,8 @@
 //!
 //! Searches along orbits end where the number of independent integrals is reached: of Laplace's vector
 //! they find one component. The others are functions of the integrals, and no polynomials in them.
-//! They are told as further integrals, each proved like any other find.
+//! They are told as further integrals, each proved like any other find, if they are of no higher degree
+//! than those from which they come, not much longer, and contain no other functions than the field.
 
 use liouville::case::Case;
 use liouville::formula::Formula;
@@ -26,8 +27,8 @@ const MOST_INTEGRALS: usize = 12;
 const MOST_FURTHER: usize = 12;
 /// Largest number of brackets and derivatives that are tried.
 const MOST_TRIED: usize = 400;
-/// Largest number of terms of one.
-const MOST_TERMS: usize = 80;
+/// Largest number of terms of one, and of one that is a function of those known.
+const MOST_TERMS: [usize; 2] = [80, 40];
 /// Largest number of products with which one is compared.
 const MOST_PRODUCTS: usize = 300;
 /// Number of points at which one must have the rate 0.
@@ -44,11 +45,18 @@ struct OwnIntegral {
     text: String,
 }
 
+impl OwnIntegral {
+    /// Degree and number of terms.
+    fn size(&self) -> (u32, usize) {
+        (self.degree, self.polynomial.terms().count())
+    }
+}
+
 /// A function that may be an integral.
 struct Candidate {
     polynomial: RingPolynomial,
-    /// Largest degree of one that is no polynomial in the known ones.
-    most_degree: u32,
+    /// Largest degree and number of terms of one that is a function of those known.
+    most: (u32, usize),
     /// How it comes from others.
     origin: (&'static str, String),
 }
@@ -119,15 +127,17 @@ impl Closure<'_, '_> {
             let polynomial = self.algebra.along(symmetry, &own.polynomial)?;
             let text = format!("{} of {}", symmetries[symmetry].0, own.text);
             let origin = ("derivative along", text);
-            Some(Candidate { polynomial, most_degree: own.degree, origin })
+            Some(Candidate { polynomial, most: own.size(), origin })
         };
         let bracket = |other: &OwnIntegral| {
             let polynomial = self.algebra.bracket(&other.polynomial, &own.polynomial)?;
             let origin = ("bracket", format!("{{{}, {}}}", other.text, own.text));
-            Some(Candidate { polynomial, most_degree: own.degree.max(other.degree), origin })
+            let (size, of_other) = (own.size(), other.size());
+            let most = (size.0.max(of_other.0), size.1.max(of_other.1));
+            Some(Candidate { polynomial, most, origin })
         };
         let derived = self.algebra.symmetries().filter_map(along);
-        let is_short = |own: &Candidate| own.polynomial.terms().count() <= MOST_TERMS;
+        let is_short = |own: &Candidate| own.polynomial.terms().count() <= MOST_TERMS[0];
         self.all[..place].iter().filter_map(bracket).chain(derived).filter(is_short).collect()
     }
 
@@ -147,7 +157,12 @@ impl Closure<'_, '_> {
             return Ok(false);
         }
         let is_independent = self.is_independent(&formula)?;
-        if !is_independent && degree > candidate.most_degree {
+        let terms = candidate.polynomial.terms().count();
+        let (most_degree, most_terms) = candidate.most;
+        let is_component = degree <= most_degree
+            && terms <= (2 * most_terms).min(MOST_TERMS[1])
+            && self.algebra.is_of_field(&candidate.polynomial);
+        if !is_independent && !is_component {
             return Ok(false);
         }
         let is_told = match is_independent {

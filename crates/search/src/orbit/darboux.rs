@@ -24,6 +24,9 @@ use super::line::RandomLine;
 use super::monomials::{self, value};
 use super::setting::{ExtendedCase, OrbitSetting, PrimePhasePoint, SPARE_ORDERS};
 
+/// Kind of a find.
+pub const KIND: &str = "darboux-polynomial";
+
 /// Number of primes tried until all special places of a line lie in the field, for polynomials of
 /// degree up to 2, and of higher degree.
 const PRIMES: [u64; 2] = [4, 4];
@@ -46,7 +49,8 @@ pub struct DarbouxSearch<'s, 'c> {
     pub degree: usize,
 }
 
-type Terms = Vec<(Vec<u32>, u64)>;
+/// Coefficients of a polynomial modulo a prime by monomials.
+pub type Terms = Vec<(Vec<u32>, u64)>;
 
 impl DarbouxSearch<'_, '_> {
     /// Searches the polynomials of one degree; new ones are added to the factors.
@@ -77,8 +81,16 @@ impl DarbouxSearch<'_, '_> {
                     continue;
                 }
                 let same = |other: &&Terms| other.iter().map(|(own, _)| own).eq(support.iter());
-                let count = open.iter().filter(same).count();
+                let mut count = open.iter().filter(same).count();
                 seen.push(support.clone());
+                for formula in self.separate(&support, count, factors)? {
+                    let before = factors.len();
+                    self.tell(&formula, degree, factors, report)?;
+                    count -= factors.len() - before;
+                }
+                if count == 0 {
+                    continue;
+                }
                 if count <= CONJUGATES
                     && let Some(formula) = self.conjugates(&support, count, factors)?
                 {
@@ -97,7 +109,7 @@ impl DarbouxSearch<'_, '_> {
     }
 
     /// Candidates in these monomials for one choice of the parameters, and whether they are all.
-    fn candidates(
+    pub fn candidates(
         &self,
         at: &PrimePoint,
         all: &[Vec<u32>],
@@ -310,9 +322,8 @@ impl DarbouxSearch<'_, '_> {
             let is_adjoined =
                 |origin: ExtendedCase<'_>| origin.extension.exponent(formula).is_some();
             let with = vec![("cofactor", &cofactor)];
-            let kind = "darboux-polynomial";
             if !self.setting.origin.is_some_and(is_adjoined)
-                && !claims::other(self.setting, kind, formula, &statement, with, report)?
+                && !claims::other(self.setting, KIND, formula, &statement, with, report)?
             {
                 return Ok(());
             }

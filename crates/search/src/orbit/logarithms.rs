@@ -69,9 +69,9 @@ fn of_eigenvectors(matrix: &[Vec<Rational>], coefficients: &[Option<String>]) ->
         let share = Rational::new(1, value - 1);
         let mut terms = Vec::new();
         for (k, weight) in vector.iter().enumerate().filter(|(_, weight)| !weight.is_zero()) {
-            terms.push(format!("({})*aux{k}", number(weight)));
+            terms.push(multiple(weight, &format!("aux{k}")));
             if coefficients[k].is_some() {
-                terms.push(format!("({})*shift{k}", number(&(weight * &share))));
+                terms.push(multiple(&(weight * &share), &format!("shift{k}")));
             }
         }
         all.push((value, format!("ln(|{}|)", terms.join(" + "))));
@@ -83,9 +83,15 @@ fn of_eigenvectors(matrix: &[Vec<Rational>], coefficients: &[Option<String>]) ->
     others.iter().map(pair).collect()
 }
 
-fn number(value: &Rational) -> String {
+/// Multiple of a name.
+fn multiple(value: &Rational, name: &str) -> String {
     let (above, below) = value.parts();
-    if below == 1.into() { above.to_string() } else { format!("{above}/{below}") }
+    match (value.is_one(), below == 1.into(), value.is_negative()) {
+        (true, ..) => name.to_string(),
+        (_, true, false) => format!("{above}*{name}"),
+        (_, true, true) => format!("({above})*{name}"),
+        _ => format!("({above}/{below})*{name}"),
+    }
 }
 
 /// A vector w with wA = λw, if there is one up to a factor.

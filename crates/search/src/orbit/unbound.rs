@@ -36,7 +36,7 @@ pub fn search(
     if setting.conic.is_some() {
         return on_conics(setting, degree, limits, factors, report, progress);
     }
-    let (mut all, mut pairs) = (Vec::new(), Vec::new());
+    let (mut all, mut pairs) = (found_before(setting, &unbound)?, Vec::new());
     let mut own = SearchReport::default();
     for variables in blocks::closed(&case)? {
         if monomials::count(variables.len(), degree.saturating_sub(1) as u32) > MOST_COFACTOR {
@@ -90,7 +90,7 @@ fn on_conics(
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    let (mut all, mut pairs) = (Vec::new(), Vec::new());
+    let (mut all, mut pairs) = (found_before(setting, setting)?, Vec::new());
     for variables in blocks::closed(setting.case)? {
         let count = |degree: u32| {
             let all = monomials::up_to(&variables, setting.dimension(), degree);
@@ -115,11 +115,26 @@ fn on_conics(
         }
     }
     for own in all {
-        if factors.iter().all(|other| other.formula.text() != own.formula.text()) {
+        let is_new = factors.iter().all(|other| other.formula.text() != own.formula.text());
+        if is_new && changes(setting, &own) {
             factors.push(own);
         }
     }
     Ok(())
+}
+
+/// Darboux polynomials of the case that were found with other functions.
+fn found_before(
+    setting: &OrbitSetting<'_>,
+    along: &OrbitSetting<'_>,
+) -> Result<Vec<RatedPolynomial>, SearchError> {
+    let mut all = Vec::new();
+    for (formula, degree) in setting.origin.iter().flat_map(|own| &own.extension.curves) {
+        if let Ok(formula) = along.case.formula(formula.text()) {
+            all.extend(RatedPolynomial::of(along, &formula, *degree)?);
+        }
+    }
+    Ok(all)
 }
 
 /// Whether a polynomial is not 0 on the level, and no integral there.

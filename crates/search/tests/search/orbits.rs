@@ -2,7 +2,9 @@
 //! densities, and theorems that never exclude what was planted.
 
 mod benchmark;
+mod closure;
 mod counts;
+mod exponentials;
 mod factors;
 mod functions;
 mod irrational;

@@ -33,6 +33,8 @@ pub struct IntegralAlgebra {
     tensor: Option<Vec<Vec<RingPolynomial>>>,
     /// Rates of all variables along each component of the state.
     axes: Vec<Vec<RingPolynomial>>,
+    /// Number of variables of the ring that the field needs.
+    of_field: usize,
 }
 
 impl IntegralAlgebra {
@@ -78,9 +80,12 @@ impl IntegralAlgebra {
         let Some(axes) = (0..dimension).map(axis).collect::<Option<Vec<_>>>() else {
             return Ok(None);
         };
-        let integrals = read.parts.known.clone();
+        let ring = &read.ring;
+        let short = |(place, own): &(usize, RingPolynomial)| Some((*place, ring.short(own)?));
+        let integrals = read.parts.known.iter().filter_map(short).collect();
+        let of_field = read.parts.of_field;
         let made = written(case, read, effort.options.seed)?;
-        Ok(made.map(|extension| Self { extension, integrals, symmetries, tensor, axes }))
+        Ok(made.map(|extension| Self { extension, integrals, symmetries, tensor, axes, of_field }))
     }
 
     /// Places of the symmetry fields.
@@ -115,13 +120,12 @@ impl IntegralAlgebra {
 
     /// Degree in the variables that are no parameters or functions of these.
     pub fn degree(&self, own: &RingPolynomial) -> u32 {
-        let ring = &self.extension.ring;
-        let varies = |variable: usize| !is_constant(&ring.atoms[variable]);
-        let degree = |term: &Monomial| {
-            let own = term.iter().filter(|(variable, _)| varies(*variable));
-            own.fold(0u32, |sum, (_, power)| sum.saturating_add(*power))
-        };
-        own.terms().map(|(term, _)| degree(term)).max().unwrap_or(0)
+        self.extension.ring.degree(own)
+    }
+
+    /// Whether a polynomial contains only functions that the field contains.
+    pub fn is_of_field(&self, own: &RingPolynomial) -> bool {
+        own.variables().iter().all(|variable| *variable < self.of_field)
     }
 }
 
@@ -150,6 +154,16 @@ fn of_pairs(pairs: &[(usize, usize)], dimension: usize) -> Option<Vec<RingPolyno
 }
 
 impl AdjoinedRing {
+    /// Degree in the variables that are no parameters or functions of these.
+    pub fn degree(&self, own: &RingPolynomial) -> u32 {
+        let varies = |variable: usize| !is_constant(&self.atoms[variable]);
+        let degree = |term: &Monomial| {
+            let own = term.iter().filter(|(variable, _)| varies(*variable));
+            own.fold(0u32, |sum, (_, power)| sum.saturating_add(*power))
+        };
+        own.terms().map(|(term, _)| degree(term)).max().unwrap_or(0)
+    }
+
     /// A polynomial by its shortest form that is seen, without a common factor that is a number or a
     /// function of the parameters; `None` if it is too long.
     fn short(&self, own: &RingPolynomial) -> Option<RingPolynomial> {

@@ -3,6 +3,8 @@
 //! ```text
 //! plain        exponents of a field that is polynomial without further functions
 //! polynomial   sparse polynomials with rational coefficients
+//! atom         variables of the ring
+//! odd_powers   polynomials that are odd powers of others
 //! ring         which functions are adjoined, and what is written in them
 //! rates        rates of the functions, and monomials that relations make superfluous
 //! parts        what is read from a recording of the case
@@ -22,11 +24,13 @@
 //! it; nothing rests on the extension but the theorem of absence.
 
 pub mod absence;
+mod atom;
 mod back;
 mod bases;
 mod derivations;
 mod implied;
 mod logarithmic;
+mod odd_powers;
 mod parts;
 mod plain;
 mod polynomial;
@@ -40,6 +44,8 @@ pub use self::write::written as polynomial_text;
 
 use liouville::case::Case;
 use liouville::formula::Formula;
+use liouville::graph::Expr;
+use liouville::mechanics::calculus::DualPoint;
 use liouville::number::rational::Rational;
 
 use self::absence::AdjoinedPolynomials;
@@ -48,7 +54,7 @@ pub use self::back::with_signs;
 use self::bases::{circles, factors};
 pub use self::derivations::{FieldComponents, IntegralAlgebra};
 pub use self::logarithmic::MonomialMap;
-use self::parts::{Read, ReadParts, read};
+use self::parts::{Read, ReadParts, read, read_with};
 pub use self::plain::{PolynomialField, polynomial_field, reduced};
 use self::polynomial::Monomial;
 pub use self::polynomial::RingPolynomial;
@@ -72,6 +78,8 @@ pub struct Extension {
     pub divergence: Formula,
     /// Integrals that are known.
     pub known: Vec<Formula>,
+    /// Darboux polynomials that are known, with their degrees.
+    pub curves: Vec<(Formula, u32)>,
     /// Polynomials that a theorem of absence covers.
     pub class: Option<AdjoinedPolynomials>,
     /// The known integrals as polynomials of the ring, by their places among those given.
@@ -205,14 +213,20 @@ pub fn always_extended(
 }
 
 /// Adjoins the functions of a field; `None` if it is polynomial, or contains functions whose rates are
-/// not polynomials in them. Functions in the integrals `known` are adjoined as well.
+/// not polynomials in them. Functions in the integrals `known` are adjoined as well; `curves` are Darboux
+/// polynomials.
 pub fn extended(
     case: &Case,
     effort: &Effort,
     known: &[Formula],
+    curves: &[Formula],
     divided: Vec<Divided>,
 ) -> Result<Option<Extension>, SearchError> {
-    let Some(made) = read(case, effort, (known, true), divided)? else { return Ok(None) };
+    let further = |jet: &DualPoint<'_, Expr>| -> Vec<Expr> {
+        curves.iter().map(|own| jet.phase.scalar(own)).collect()
+    };
+    let made = read_with(case, effort, (known, true), divided, &further)?;
+    let Some(made) = made else { return Ok(None) };
     match functions(&made.ring) > 0 || names_are_foreign(case) {
         true => written(case, made, effort.options.seed),
         false => Ok(None),
@@ -233,7 +247,7 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
         return Ok(None);
     }
     let names = RingNames::of(case, ring);
-    let ReadParts { field, divergence, known, level, .. } = read.parts;
+    let ReadParts { field, divergence, known, level, further, .. } = read.parts;
     let Some(rates) = ring.rates(&field) else { return Ok(None) };
     let Some(text) = write::case(case, ring, (&rates, &level), &names) else { return Ok(None) };
     let Ok(extended) = Case::parse(&text.concat(), &[]) else { return Ok(None) };
@@ -242,6 +256,8 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
     let Some(divergence) = formula(&divergence) else { return Ok(None) };
     let Some(axes) = axes(ring, case.model.dimension(), formula) else { return Ok(None) };
     let written = known.iter().filter_map(|(_, own)| formula(own)).collect();
+    let curves = further.iter().flatten().filter_map(|own| Some((formula(own)?, ring.degree(own))));
+    let curves = curves.collect();
     let exponentials =
         ring.atoms.iter().zip(&names.extended).filter_map(|(atom, name)| match atom {
             Atom::Exponential(argument) | Atom::ExponentialOf(argument, _) => {
@@ -256,6 +272,7 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
         axes,
         divergence,
         known: written,
+        curves,
         class: AdjoinedPolynomials::of(&case.model, ring, seed),
         factors: factors(ring, &names, formula),
         circles: circles(ring, formula),

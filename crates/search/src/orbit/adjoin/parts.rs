@@ -37,6 +37,8 @@ pub struct ReadParts {
     pub level: Vec<RingPolynomial>,
     /// Further functions; `None` for those that are no polynomials of the ring.
     pub further: Vec<Option<RingPolynomial>>,
+    /// Number of variables of the ring that the field and its divergence need.
+    pub of_field: usize,
     /// Components of the state whose rates are others, with these.
     pub moved_by: Vec<(usize, usize)>,
 }
@@ -95,6 +97,7 @@ pub fn read_with(
         };
         let (field, level) = (each(&field, ring)?, each(&level, ring)?);
         let divergence = reader.read(place(&divergence), ring)?;
+        let of_field = ring.atoms.len();
         for own in &typed {
             reader.read(place(own), ring);
         }
@@ -111,7 +114,8 @@ pub fn read_with(
         }
         let further = further.iter().map(|own| reader.read(place(own), ring)).collect();
         let moved_by = Vec::new();
-        Some(ReadParts { field, divergence, known: integrals, level, further, moved_by })
+        let known = integrals;
+        Some(ReadParts { field, divergence, known, level, further, of_field, moved_by })
     };
     let mut made = None;
     for _ in 0..TRIES {

@@ -8,67 +8,11 @@
 
 use liouville::number::rational::Rational;
 
+pub use super::atom::{Atom, ConstantFunction, Of};
 use super::polynomial::{Monomial, RingPolynomial, combination};
 
 /// Largest power of a function that is written out.
 const HIGHEST: i64 = 24;
-
-/// A variable of the ring.
-#[derive(Clone, Debug)]
-pub enum Atom {
-    /// Component of a parameter.
-    Parameter,
-    /// Component of the state.
-    State,
-    /// Function of the parameters alone.
-    Constant(Of),
-    /// e^u with u independent of other arguments.
-    Exponential(RingPolynomial),
-    /// e^u as a product of powers of other exponentials, some negative.
-    ExponentialOf(RingPolynomial, Vec<(usize, i64)>),
-    /// sin u, where the next variable is cos u.
-    Sine(RingPolynomial),
-    /// cos u, where the variable before is sin u.
-    Cosine(RingPolynomial),
-    /// b^(1/n), where the next variable is its inverse.
-    Root(RingPolynomial, u32),
-    /// b^(−1/n), where the variable before is its inverse, if n > 1.
-    Inverse(RingPolynomial, u32),
-    /// ln b, with 1/b.
-    Logarithm(RingPolynomial, RingPolynomial),
-    /// atan u, with 1/(1 + u²).
-    Arctangent(RingPolynomial, RingPolynomial),
-    /// b^e with a constant e, with 1/b.
-    Power(RingPolynomial, RingPolynomial, RingPolynomial),
-}
-
-/// A function of the parameters.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Of {
-    /// 1/b.
-    Inverse(RingPolynomial),
-    /// √b.
-    Root(RingPolynomial),
-    /// Another function, of which nothing is known but its name.
-    Function(ConstantFunction, RingPolynomial),
-}
-
-/// A function of parameters that becomes a parameter.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum ConstantFunction {
-    /// e^u.
-    Exponential,
-    /// sin u.
-    Sine,
-    /// cos u.
-    Cosine,
-    /// ln u.
-    Logarithm,
-    /// atan u.
-    Arctangent,
-    /// u^e.
-    Power(RingPolynomial),
-}
 
 /// A reason to begin anew: an argument has to be divided.
 #[derive(Clone, Debug)]
@@ -195,6 +139,10 @@ impl AdjoinedRing {
         if let Some(argument) = self.exponent(base) {
             let power = Rational::new(above, i64::from(order));
             return self.exponential(&argument.times_number(&power));
+        }
+        // √(g³) is g √g, as g³ and g have one sign.
+        if let Some((own, power)) = base.odd_root() {
+            return self.power(&own, &Rational::new(above * i64::from(power), i64::from(order)));
         }
         let same = |atom: &Atom| matches!(atom, Atom::Root(own, n) if own == base && *n == order);
         let place = match self.atoms.iter().position(same) {

@@ -243,3 +243,24 @@ fn logarithms_are_those_of_moduli_unless_the_ranges_say_otherwise() {
         assert_eq!(powers(range), format!("a*ln({x}) + ln({y})"), "{range}");
     }
 }
+
+#[test]
+fn factors_with_parameters_are_told_one_by_one() {
+    let found = |parameters: &str, rates: &[&str]| -> Vec<String> {
+        let report = searched(&field(parameters, rates), &Effort::default());
+        let own = report.found.iter().filter(|own| own.kind == "darboux-polynomial");
+        own.map(|own| own.formula.clone()).collect()
+    };
+    // x ± a y.
+    let own = found("a = '1..2'", &["a²*y", "x"]);
+    assert_eq!(own.len(), 2, "{own:?}");
+    assert!(own.iter().all(|one| !one.contains('²')), "{own:?}");
+    // (x + a y)(x² + a x y + b y²), of which the second factor has no rational coefficients.
+    let rate = "(x + a*y)*(x² + a*x*y + b*y²)";
+    let own = found("a = '1..2'\nb = '3..4'", &[rate, "0"]);
+    assert!(own.iter().any(|one| one == "x + a*y"), "{own:?}");
+    assert!(own.iter().all(|one| !one.contains("a²")), "{own:?}");
+    // Irreducible ones stay.
+    let own = found("a = '1..2'", &["a*y", "x"]);
+    assert_eq!(own.len(), 1, "{own:?}");
+}
