@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use serde::Serialize;
 
-use super::absence::rank;
+use super::absence::{has_lists, rank};
 use super::ansatz::monomials::AnsatzVariables;
 use super::budget::STEPS;
 use super::jets::{DimensionCount, MotionAtPoint, VelocityPolynomials};
@@ -289,7 +289,11 @@ pub fn conclude(
         return Ok(());
     }
     let all = Generators::all(case, effort, report)?;
-    let further = all.with_further(case, effort, report)?;
+    // A rank is that for one of the listed values.
+    let further = match has_lists(case) {
+        true => None,
+        false => all.with_further(case, effort, report)?,
+    };
     for count in report.counts.iter_mut().filter(|count| !count.free) {
         count.known = all.products(count.degree, count.mixed);
         // These satisfy relations.

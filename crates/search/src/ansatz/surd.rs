@@ -11,6 +11,11 @@ const ROUNDS: usize = 20_000;
 /// the order of their number; they are unique up to a factor where they exist.
 pub fn surd(residue: &BigInt, roots: &[BigInt], modulus: &BigInt) -> Option<Vec<BigInt>> {
     let width = roots.len() + 2;
+    // A vector of this length is there by chance once in 2¹², or less often.
+    let bound = modulus.nth_root(width as u32) >> 4u32;
+    if bound.is_zero() {
+        return None;
+    }
     // The lattice of all (a₀, a₁, …, d) with a₀ + Σ a_k r_k − d c = 0 modulo M.
     let row = |first: BigInt, place: usize| {
         let mut own = vec![BigInt::ZERO; width];
@@ -25,8 +30,6 @@ pub fn surd(residue: &BigInt, roots: &[BigInt], modulus: &BigInt) -> Option<Vec<
     basis.push(row(residue.clone(), width - 1));
     let basis = reduced(basis)?;
     let shortest = basis.into_iter().min_by_key(|own| product(own, own))?;
-    // A vector of this length is there by chance once in 2¹², or less often.
-    let bound = modulus.nth_root(width as u32) >> 4u32;
     let is_short = shortest.iter().all(|entry| entry.abs() <= bound);
     let last = &shortest[width - 1];
     let sign = if last.is_negative() { -1 } else { 1 };

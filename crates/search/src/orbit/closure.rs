@@ -83,6 +83,8 @@ pub fn close(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<
         let text = known[*place].text().to_string();
         closure.all.extend(closure.integral(polynomial.clone(), text));
     }
+    // Products of those of low degree are not new.
+    closure.all.sort_by_key(|own| own.degree);
     let (mut next, mut tried, mut told) = (0, 0, 0);
     while next < closure.all.len() && told < MOST_FURTHER {
         let candidates = closure.candidates(next, &symmetries);
@@ -138,7 +140,10 @@ impl Closure<'_, '_> {
         };
         let derived = self.algebra.symmetries().filter_map(along);
         let is_short = |own: &Candidate| own.polynomial.terms().count() <= MOST_TERMS[0];
-        self.all[..place].iter().filter_map(bracket).chain(derived).filter(is_short).collect()
+        let all = self.all[..place].iter().filter_map(bracket).chain(derived);
+        let mut all: Vec<Candidate> = all.filter(is_short).collect();
+        all.sort_by_key(|own| self.algebra.degree(&own.polynomial));
+        all
     }
 
     /// Tells a candidate that is proved to be an integral and is no polynomial in those known; returns

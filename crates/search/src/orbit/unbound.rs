@@ -3,7 +3,7 @@
 //! The extended field is a polynomial field on the space of all its variables, whether or not they
 //! satisfy these relations. A Darboux polynomial there is one on the level as well. Those of which
 //! this holds only where the relations hold are not found. Where the relations are sin² + cos² = 1 and
-//! e^u e^(−u) = 1 alone, conics on the level take the place of lines, and nothing is missed.
+//! e^u e^(−u) = 1 alone, conics on the level take the place of lines, and these are found too.
 
 use super::super::{SearchError, SearchReport};
 use super::claims::{self, OrbitStatement};

@@ -11,7 +11,7 @@ use super::{BARREN, PRIMES, PrimitiveVector, Vectors};
 use liouville::formula::Formula;
 
 /// Largest number of roots whose products are taken as well.
-const MOST_MULTIPLIED: usize = 3;
+const MOST_MULTIPLIED: usize = 4;
 
 /// A number a/d, or (a + Σ b √n)/d with the places of the roots whose product √n is among those of a
 /// field.
@@ -53,13 +53,13 @@ pub struct Roots {
 }
 
 impl Roots {
-    /// Selects the roots among the coordinates.
-    pub fn of(names: &[Formula]) -> Self {
+    /// Selects the roots among the coordinates, with their products if wanted.
+    pub fn of(names: &[Formula], with_products: bool) -> Self {
         let is_root = |k: &usize| Coordinates::is_root(&names[*k]);
         let places: Vec<usize> = (0..names.len()).filter(is_root).collect();
         let count = places.len();
         let mut products: Vec<Vec<usize>> = (0..count).map(|root| vec![root]).collect();
-        if count <= MOST_MULTIPLIED {
+        if with_products && count <= MOST_MULTIPLIED {
             // Without these the sums of multiples of several roots are no field.
             let all = 1usize..1 << count;
             let chosen = all.map(|set| (0..count).filter(|k| set >> k & 1 == 1).collect());
@@ -79,7 +79,7 @@ impl Roots {
     pub fn number(&self, images: &[(&PrimePoint, u64)]) -> Option<Number> {
         let mut single = (0..self.places.len()).map(|root| vec![vec![root]]);
         single.find_map(|own| self.combination(images, &own)).or_else(|| {
-            let has_several = self.places.len() > 1;
+            let has_several = self.products.len() > 1;
             has_several.then(|| self.combination(images, &self.products)).flatten()
         })
     }
@@ -161,7 +161,7 @@ impl Residue {
 
 /// Finds coefficients that are numbers, confirmed modulo one further prime.
 pub fn numbers(source: &dyn Vectors) -> Option<PrimitiveVector> {
-    let roots = Roots::of(source.names());
+    let roots = Roots::of(source.names(), source.multiplies_roots());
     let mut seen: Vec<(PrimePoint, Vec<u64>)> = Vec::new();
     for prime in 0..PRIMES {
         let found = (0..BARREN).find_map(|index| source.image(prime, index));

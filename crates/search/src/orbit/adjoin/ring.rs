@@ -136,7 +136,10 @@ impl AdjoinedRing {
             let root = self.constant(root);
             return self.power(&root, &Rational::from(above));
         }
-        if let Some(argument) = self.exponent(base) {
+        // Square roots are functions of their own in proofs.
+        if order % 2 == 1
+            && let Some(argument) = self.exponent(base)
+        {
             let power = Rational::new(above, i64::from(order));
             return self.exponential(&argument.times_number(&power));
         }
