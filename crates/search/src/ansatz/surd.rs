@@ -128,7 +128,11 @@ mod tests {
             let image: BigInt = (BigInt::from(a) + BigInt::from(b) * &root) * inverse;
             let image = image.mod_floor(&p);
             let expected = [a, b, d].map(BigInt::from).to_vec();
-            assert_eq!(surd(&image, &[root.clone()], &p), Some(expected), "{a} + {b} √2");
+            assert_eq!(
+                surd(&image, std::slice::from_ref(&root), &p),
+                Some(expected),
+                "{a} + {b} √2"
+            );
         }
         let none = BigInt::from(1_234_567_890_123_456_789u64);
         assert_eq!(surd(&none, &[root], &p), None, "a random number is none");

@@ -9,6 +9,7 @@ use liouville::case::Case;
 use liouville::formula::Formula;
 
 use super::super::absence::rank;
+use super::super::integrals::claimed_by;
 use super::super::products::Generators;
 use super::super::{Effort, Found, SearchError, SearchReport};
 use super::adjoin::{FieldComponents, IntegralAlgebra, RingPolynomial, polynomial_text};
@@ -196,8 +197,9 @@ impl Closure<'_, '_> {
         };
         let statement = OrbitStatement::Integral(formula.clone());
         let Some(found) = claims::judged_here(self.setting, &statement)? else { return Ok(false) };
-        let model = &claims::judged_case(self.setting).model;
-        let found = Found::new(FURTHER_INTEGRAL, &formula, None, found, model);
+        let case = claims::judged_case(self.setting);
+        let known = claimed_by(case, &formula, self.setting.effort, report)?;
+        let found = Found::new(FURTHER_INTEGRAL, &formula, known, found, &case.model);
         report.found.push(Found { with: vec![(what, from)], ..found });
         Ok(true)
     }
@@ -221,7 +223,7 @@ impl Closure<'_, '_> {
         let terms: Vec<Formula> = generators.formulas().cloned().collect();
         let (case, effort) = (self.setting.case, self.setting.effort);
         let rank = |further: &[Formula]| rank(case, &terms, &products, further, effort);
-        let (Some(before), Some(after)) = (rank(&[])?, rank(&[formula.clone()])?) else {
+        let (Some(before), Some(after)) = (rank(&[])?, rank(std::slice::from_ref(formula))?) else {
             return Ok(false);
         };
         Ok(after > before)

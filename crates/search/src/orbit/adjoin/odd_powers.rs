@@ -20,7 +20,7 @@ impl RingPolynomial {
     fn root(&self, power: u32) -> Option<Self> {
         let width = self.variables().last()? + 1;
         let (first, value) = self.leading(width)?;
-        let share = |own: &u32| (own % power == 0).then_some(own / power);
+        let share = |own: &u32| own.is_multiple_of(power).then_some(own / power);
         let lead: Vec<u32> = first.iter().map(share).collect::<Option<_>>()?;
         let value = number_root(&value, power)?;
         let below: Vec<u32> = lead.iter().map(|own| own * (power - 1)).collect();
