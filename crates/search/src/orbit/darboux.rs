@@ -86,7 +86,7 @@ impl DarbouxSearch<'_, '_> {
                 for formula in self.separate(&support, count, factors)? {
                     let before = factors.len();
                     self.tell(&formula, degree, factors, report)?;
-                    count -= factors.len() - before;
+                    count = count.saturating_sub(factors.len() - before);
                 }
                 if count == 0 {
                     continue;
