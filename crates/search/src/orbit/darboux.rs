@@ -22,7 +22,6 @@ use super::images::{self, Images};
 use super::known::IndependentIntegrals;
 use super::line::RandomLine;
 use super::monomials::{self, value};
-use super::quotients::rate_of_monomial;
 use super::setting::{ExtendedCase, OrbitSetting, PrimePhasePoint, SPARE_ORDERS};
 
 /// Kind of a find.
@@ -167,17 +166,12 @@ impl DarbouxSearch<'_, '_> {
             let own = all.iter().cloned().zip(vector).filter(|(_, entry)| *entry != 0);
             own.collect::<Terms>()
         };
-        let mut found: Vec<Terms> = vectors.into_iter().map(terms).collect();
-        // A level of an integral on which there are more is no new factor.
-        if self.setting.conic.is_some()
-            && let Some((point, orbit)) = self.setting.orbit(at, 0, 2)?
-        {
-            let m = at.modulus;
-            let rates = |k: usize| orbit[k][1];
-            let rate = |(own, factor): &(Vec<u32>, u64)| {
-                m.mul(*factor, rate_of_monomial(at, &point, &rates, own))
-            };
-            found.retain(|own| own.iter().map(rate).fold(0, |sum, own| m.add(sum, own)) != 0);
+        let mut found = Vec::new();
+        for own in vectors.into_iter().map(terms) {
+            // On a conic there are relations on levels of known integrals as well.
+            if self.setting.conic.is_none() || self.has_cofactor(at, &own)? {
+                found.push(own);
+            }
         }
         Ok((found, is_whole))
     }

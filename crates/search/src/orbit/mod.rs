@@ -13,6 +13,7 @@
 //! line         points of a line whose orbits satisfy an additional relation
 //! conic        conics in place of lines, where functions satisfy relations
 //! darboux      Darboux polynomials: the relations at these points
+//! cofactors    whether a polynomial modulo a prime is one
 //! separate     those whose coefficients depend on the parameters, one by one
 //! cleared      Darboux polynomials of fields of fractions
 //! unbound      Darboux polynomials with functions
@@ -42,6 +43,7 @@ mod blocks;
 mod claims;
 mod cleared;
 mod closure;
+mod cofactors;
 mod conic;
 mod darboux;
 mod exponents;
