@@ -3,7 +3,7 @@
 use super::super::SearchError;
 use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
-use super::darboux::{DarbouxSearch, Terms};
+use super::darboux::{CONJUGATES, DarbouxSearch, Terms, product};
 use super::monomials::{self, value};
 use super::quotients::rate_of_monomial;
 use super::setting::SPARE_ORDERS;
@@ -33,5 +33,24 @@ impl DarbouxSearch<'_, '_> {
             own[all.len()] != 0 && own[..all.len()].iter().any(|entry| *entry != 0)
         };
         Ok(echelon.null_space().iter().any(is_cofactor))
+    }
+
+    /// Whether the product of the candidates with this support has a cofactor, where that is asked:
+    /// on a conic, levels of known integrals have conjugate factors.
+    pub fn is_factor_together(
+        &self,
+        at: &PrimePoint,
+        open: &[Terms],
+        support: &[Vec<u32>],
+    ) -> Result<bool, SearchError> {
+        if self.setting.conic.is_none() {
+            return Ok(true);
+        }
+        let same = |other: &&Terms| other.iter().map(|(own, _)| own).eq(support.iter());
+        let all: Vec<Terms> = open.iter().filter(same).take(CONJUGATES).cloned().collect();
+        let mut all: Terms =
+            product(&at.modulus, &all, self.setting.dimension()).into_iter().collect();
+        all.sort_unstable();
+        self.has_cofactor(at, &all)
     }
 }

@@ -33,7 +33,7 @@ const PRIMES: [u64; 2] = [4, 4];
 /// Number of further lines on which points are looked for that share a relation with those of the first.
 const FURTHER_LINES: u64 = 3;
 /// Largest number of conjugate factors that are multiplied.
-const CONJUGATES: usize = 4;
+pub const CONJUGATES: usize = 4;
 /// Largest number of ways to choose points of rest, one on each line.
 const MOST_WAYS: f64 = 4096.0;
 /// Largest number of candidates of one degree.
@@ -88,7 +88,7 @@ impl DarbouxSearch<'_, '_> {
                     self.tell(&formula, degree, factors, report)?;
                     count = count.saturating_sub(factors.len() - before);
                 }
-                if count == 0 {
+                if count == 0 || !self.is_factor_together(&at, &open, &support)? {
                     continue;
                 }
                 if count <= CONJUGATES
@@ -364,7 +364,7 @@ impl DarbouxSearch<'_, '_> {
 }
 
 /// Product of polynomials modulo a prime.
-fn product(m: &Modulus, all: &[Terms], dimension: usize) -> FxHashMap<Vec<u32>, u64> {
+pub fn product(m: &Modulus, all: &[Terms], dimension: usize) -> FxHashMap<Vec<u32>, u64> {
     let mut made = FxHashMap::default();
     made.insert(vec![0; dimension], m.one());
     for terms in all {
