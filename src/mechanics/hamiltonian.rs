@@ -46,10 +46,14 @@ impl HamiltonianSystem {
         (0..dimension).map(slope).collect()
     }
 
+    /// Returns the tensor P, by rows.
+    pub fn tensor<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<Vec<T>> {
+        tensor(&phase.model().state, &self.blocks, phase)
+    }
+
     /// Computes P + Pᵀ, which vanishes where P is a bracket.
     pub fn symmetric_part<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
-        let state = &phase.model().state;
-        symmetric_part(state, &tensor(state, &self.blocks, phase))
+        symmetric_part(&phase.model().state, &self.tensor(phase))
     }
 }
 

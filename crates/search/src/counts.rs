@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 
 use serde::Serialize;
 
+use super::absence::{has_lists, rank};
 use super::ansatz::monomials::AnsatzVariables;
 use super::budget::STEPS;
 use super::jets::{DimensionCount, MotionAtPoint, VelocityPolynomials};
@@ -11,6 +12,7 @@ use super::local::Local;
 use super::products::Generators;
 use super::{Effort, Excluded, SearchError, SearchReport};
 use liouville::case::Case;
+use liouville::formula::Formula;
 use liouville::mechanics::Draw;
 use liouville::number::rational::Rational;
 
@@ -287,9 +289,23 @@ pub fn conclude(
         return Ok(());
     }
     let all = Generators::all(case, effort, report)?;
+    // A rank is that for one of the listed values.
+    let further = match has_lists(case) {
+        true => None,
+        false => all.with_further(case, effort, report)?,
+    };
     for count in report.counts.iter_mut().filter(|count| !count.free) {
         count.known = all.products(count.degree, count.mixed);
+        // These satisfy relations.
+        if let Some(further) = &further {
+            let products = further.exponents(count.degree, count.mixed);
+            let formulas: Vec<Formula> = further.formulas().cloned().collect();
+            if let Some(rank) = rank(case, &formulas, &products, &[], effort)? {
+                count.known = count.known.max(rank);
+            }
+        }
     }
+    let all = further.unwrap_or(all);
     note_missing(case, effort, report);
     let free_only = report.counts.iter().all(|count| count.free);
     let complete = |count: &&CountReport| count.dimension == count.known;

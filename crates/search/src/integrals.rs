@@ -65,16 +65,25 @@ pub fn tell(
     if independent(case, &told, formula, effort)?.is_none() {
         return Ok(());
     }
-    let mut known = None;
+    let known = claimed_by(case, formula, effort, report)?;
+    report.found.push(Found::new("integral", formula, known, found, &case.model));
+    Ok(())
+}
+
+/// Name of a claim of the case of which an integral is a function.
+pub fn claimed_by(
+    case: &Case,
+    formula: &Formula,
+    effort: &Effort,
+    report: &SearchReport,
+) -> Result<Option<String>, SearchError> {
     for own in &report.claimed {
         let formulas = std::slice::from_ref(&own.formula);
         if independent(case, formulas, formula, effort)?.is_none() {
-            known = Some(own.name.clone());
-            break;
+            return Ok(Some(own.name.clone()));
         }
     }
-    report.found.push(Found::new("integral", formula, known, found, &case.model));
-    Ok(())
+    Ok(None)
 }
 
 /// Lists the terms given by the user and offered by the system, without those that depend on

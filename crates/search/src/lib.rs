@@ -7,6 +7,7 @@
 //! densities  relations between div v and L_v ln f for factors f; powers of polynomials, counted
 //! verdict    each find is judged as a claim like any other
 //! orbit      relations between monomials along an orbit mod p: rational integrals of any field
+//! closure    brackets of integrals, and their derivatives along symmetry fields
 //! absence    claims that there is no other invariant: proved by counts, refuted by a find
 //! ```
 
@@ -69,7 +70,8 @@ pub use second_opinion::SecondOpinion;
 /// An invariant that was found.
 #[derive(Clone, Debug, Serialize)]
 pub struct Found {
-    /// Kind of the invariant: `integral`, `vector-integral`, `density`, `symmetry-field` or `bracket`.
+    /// Kind of the invariant: `integral`, `further-integral`, `vector-integral`, `density`,
+    /// `symmetry-field` or `bracket`.
     pub kind: &'static str,
     /// Formula in the names of the case.
     pub formula: String,
@@ -78,7 +80,8 @@ pub struct Found {
     pub abbreviations: Vec<(&'static str, &'static str)>,
     /// Additional data under which it holds: a `potential`, `force`, `gyrostat` or `gyroscopic term`
     /// that the case does not have, the `value` of a parameter or a `condition` on several; for a
-    /// vector each `component` that was found; for a bracket its `Hamiltonian` and each known `Casimir`.
+    /// vector each `component` that was found; for a bracket its `Hamiltonian` and each known `Casimir`;
+    /// for a further integral how it comes from others.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub with: Vec<(&'static str, String)>,
     /// Whether it is a function of the energy and the level. Such finds are not reported, so this
@@ -94,6 +97,9 @@ pub struct Found {
     /// The invariant itself, where it is one function.
     #[serde(skip)]
     pub function: Option<Formula>,
+    /// Components of a symmetry field by variable.
+    #[serde(skip)]
+    fields: Vec<(String, Formula)>,
 }
 
 impl Found {
@@ -135,6 +141,7 @@ impl Found {
             kind,
             formula: text,
             function: None,
+            fields: Vec::new(),
             abbreviations,
             with: Vec::new(),
             trivial: false,
@@ -299,7 +306,12 @@ pub fn search(
     report.stage("relations along an orbit", effort, |report| {
         orbit::search(case, effort, effort.halt.is_timed(), report, progress)
     })?;
-    if report.functions("integral").count() > known {
+    report.stage("brackets of integrals", effort, |report| {
+        progress("brackets and derivatives of integrals");
+        orbit::close(case, effort, report)
+    })?;
+    let is_further = |own: &Found| own.kind == orbit::FURTHER_INTEGRAL;
+    if report.functions("integral").count() > known || report.found.iter().any(is_further) {
         counts::conclude(case, effort, &mut report)?;
     }
     report.stage("forces that integrals survive", effort, |report| {

@@ -6,6 +6,7 @@ use num_dual::Dual;
 use super::SearchError;
 use super::echelon::Echelon;
 use super::local::Coordinates;
+use super::orbit::FURTHER_INTEGRAL;
 use super::{Effort, SearchReport, ask};
 use liouville::case::Case;
 use liouville::formula::Formula;
@@ -50,6 +51,21 @@ impl Generators {
             generators.add(case, &formula, effort.options.seed)?;
         }
         Ok(generators)
+    }
+
+    /// The same with further integrals that are functions of these; `None` if there are none.
+    pub fn with_further(
+        &self,
+        case: &Case,
+        effort: &Effort,
+        report: &SearchReport,
+    ) -> Result<Option<Self>, SearchError> {
+        let mut with = self.clone();
+        let own = report.found.iter().filter(|found| found.kind == FURTHER_INTEGRAL);
+        for formula in own.filter_map(|found| found.function.as_ref()) {
+            with.add(case, formula, effort.options.seed)?;
+        }
+        Ok((with.0.len() > self.0.len()).then_some(with))
     }
 
     /// Adds an integral if its degree can be determined: that in the velocities, or in all variables of

@@ -72,7 +72,8 @@ pub fn symmetries(
         }
         if let Some(found) = judged_alone(case, claim, effort)?.filter(holds) {
             let parts: Vec<&Formula> = entries.iter().map(|(_, value)| value).collect();
-            report.found.push(Found::of_several("symmetry-field", shown, &parts, found, model));
+            let found = Found::of_several("symmetry-field", shown, &parts, found, model);
+            report.found.push(Found { fields: entries, ..found });
         }
     }
     Ok(())

@@ -32,6 +32,7 @@ use super::local::Coordinates;
 use super::terms::recorded;
 use super::{Ansatz, Effort, Halt, SearchError, abbreviated, branches};
 use known::ProvedIntegrals;
+pub use known::{has_lists, rank};
 use liouville::case::{AbsenceClaim, Case, Expect};
 use liouville::claim::absence::Absence;
 use liouville::formula::Formula;

@@ -191,6 +191,10 @@ pub trait Vectors {
     fn halt(&self) -> &Halt;
     /// Number of entries.
     fn width(&self) -> usize;
+    /// Whether products of roots are among its numbers.
+    fn multiplies_roots(&self) -> bool {
+        true
+    }
     /// Image for choice `index` of the parameters modulo the prime with number `prime`, 1 at its
     /// last entry; `None` where there is none.
     fn image(&self, prime: u64, index: u64) -> Option<(PrimePoint, Vec<u64>)>;
@@ -291,7 +295,7 @@ impl VectorSamples<'_> {
                 }
                 found.push(above.scaled(m, m.inverse(below.images[0].1)));
             }
-            let roots = Roots::of(self.source.names());
+            let roots = Roots::of(self.source.names(), self.source.multiplies_roots());
             let at = &self.known.first()?.0;
             let numbers = |fitted: &Fitted| {
                 let part = |(a, image): &(Vec<u32>, u64)| {

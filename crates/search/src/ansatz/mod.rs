@@ -8,7 +8,7 @@
 //!               consists of the integrals
 //! subspace      the complement of functions of known integrals
 //! coefficients  numbers, or functions of the parameters, by interpolation
-//! surd          numbers a + b √n
+//! surd          numbers a + b √n + c √m + …
 //! theorem       what an ansatz shows, in words
 //! verdict       each find is judged as a claim like any other
 //! ```
@@ -167,7 +167,7 @@ pub fn note_unwritten(case: &Case, what: &str, report: &mut SearchReport) {
     let is_fixed = |draw: &Draw| matches!(draw, Draw::OneOf(_));
     let reason = match case.model.parameter_draws().iter().all(is_fixed) {
         true => {
-            "has coefficients that are neither fractions nor a + b√n with a root √n in the field"
+            "has coefficients that are neither fractions nor sums of multiples of roots in the field"
         }
         false => {
             "has coefficients that are not fractions of low degree in the parameters; give values with \

@@ -62,7 +62,7 @@ pub fn written(setting: &OrbitSetting<'_>, formula: &Formula) -> Option<Formula>
 }
 
 /// Writes an integral, up to a factor, in the names of the case that is judged.
-fn written_integral(setting: &OrbitSetting<'_>, formula: &Formula) -> Option<Formula> {
+pub fn written_integral(setting: &OrbitSetting<'_>, formula: &Formula) -> Option<Formula> {
     match setting.origin {
         None => match adjoin::with_signs(formula.text()) {
             Some(text) => setting.case.formula(&text).ok(),
@@ -84,7 +84,7 @@ pub fn proved(
 }
 
 /// Judges a statement in the names of the case that is judged.
-fn judged_here(
+pub fn judged_here(
     setting: &OrbitSetting<'_>,
     statement: &OrbitStatement,
 ) -> Result<Option<ClaimReport>, SearchError> {

@@ -24,13 +24,16 @@ use super::line::RandomLine;
 use super::monomials::{self, value};
 use super::setting::{ExtendedCase, OrbitSetting, PrimePhasePoint, SPARE_ORDERS};
 
+/// Kind of a find.
+pub const KIND: &str = "darboux-polynomial";
+
 /// Number of primes tried until all special places of a line lie in the field, for polynomials of
 /// degree up to 2, and of higher degree.
 const PRIMES: [u64; 2] = [4, 4];
 /// Number of further lines on which points are looked for that share a relation with those of the first.
 const FURTHER_LINES: u64 = 3;
 /// Largest number of conjugate factors that are multiplied.
-const CONJUGATES: usize = 4;
+pub const CONJUGATES: usize = 4;
 /// Largest number of ways to choose points of rest, one on each line.
 const MOST_WAYS: f64 = 4096.0;
 /// Largest number of candidates of one degree.
@@ -46,7 +49,8 @@ pub struct DarbouxSearch<'s, 'c> {
     pub degree: usize,
 }
 
-type Terms = Vec<(Vec<u32>, u64)>;
+/// Coefficients of a polynomial modulo a prime by monomials.
+pub type Terms = Vec<(Vec<u32>, u64)>;
 
 impl DarbouxSearch<'_, '_> {
     /// Searches the polynomials of one degree; new ones are added to the factors.
@@ -57,7 +61,9 @@ impl DarbouxSearch<'_, '_> {
         pairs: &mut Vec<ConjugatePair>,
         report: &mut SearchReport,
     ) -> Result<(), SearchError> {
-        let all = monomials::up_to(self.variables, self.setting.dimension(), degree);
+        let setting = self.setting;
+        let all = monomials::up_to(self.variables, setting.dimension(), degree);
+        let all = setting.standard(all);
         let mut seen: Vec<Vec<Vec<u32>>> = Vec::new();
         for prime in 0..PRIMES[usize::from(degree > 2)] {
             let Some(at) = self.setting.split(prime, 0) else { return Ok(()) };
@@ -75,8 +81,16 @@ impl DarbouxSearch<'_, '_> {
                     continue;
                 }
                 let same = |other: &&Terms| other.iter().map(|(own, _)| own).eq(support.iter());
-                let count = open.iter().filter(same).count();
+                let mut count = open.iter().filter(same).count();
                 seen.push(support.clone());
+                for formula in self.separate(&support, count, factors)? {
+                    let before = factors.len();
+                    self.tell(&formula, degree, factors, report)?;
+                    count = count.saturating_sub(factors.len() - before);
+                }
+                if count == 0 || !self.is_factor_together(&at, &open, &support)? {
+                    continue;
+                }
                 if count <= CONJUGATES
                     && let Some(formula) = self.conjugates(&support, count, factors)?
                 {
@@ -95,7 +109,7 @@ impl DarbouxSearch<'_, '_> {
     }
 
     /// Candidates in these monomials for one choice of the parameters, and whether they are all.
-    fn candidates(
+    pub fn candidates(
         &self,
         at: &PrimePoint,
         all: &[Vec<u32>],
@@ -152,7 +166,14 @@ impl DarbouxSearch<'_, '_> {
             let own = all.iter().cloned().zip(vector).filter(|(_, entry)| *entry != 0);
             own.collect::<Terms>()
         };
-        Ok((vectors.into_iter().map(terms).collect(), is_whole))
+        let mut found = Vec::new();
+        for own in vectors.into_iter().map(terms) {
+            // On a conic there are relations on levels of known integrals as well.
+            if self.setting.conic.is_none() || self.has_cofactor(at, &own)? {
+                found.push(own);
+            }
+        }
+        Ok((found, is_whole))
     }
 
     /// Polynomials in these monomials on whose zeros the variables do not change, if they are unique.
@@ -308,9 +329,8 @@ impl DarbouxSearch<'_, '_> {
             let is_adjoined =
                 |origin: ExtendedCase<'_>| origin.extension.exponent(formula).is_some();
             let with = vec![("cofactor", &cofactor)];
-            let kind = "darboux-polynomial";
             if !self.setting.origin.is_some_and(is_adjoined)
-                && !claims::other(self.setting, kind, formula, &statement, with, report)?
+                && !claims::other(self.setting, KIND, formula, &statement, with, report)?
             {
                 return Ok(());
             }
@@ -344,7 +364,7 @@ impl DarbouxSearch<'_, '_> {
 }
 
 /// Product of polynomials modulo a prime.
-fn product(m: &Modulus, all: &[Terms], dimension: usize) -> FxHashMap<Vec<u32>, u64> {
+pub fn product(m: &Modulus, all: &[Terms], dimension: usize) -> FxHashMap<Vec<u32>, u64> {
     let mut made = FxHashMap::default();
     made.insert(vec![0; dimension], m.one());
     for terms in all {

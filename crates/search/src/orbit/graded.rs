@@ -90,9 +90,7 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
         let Some(lattice) = self.lattice(variables) else { return Ok(None) };
         let mut all = monomials::up_to(variables, dimension, degree);
         all.remove(0);
-        if let Some(origin) = setting.origin {
-            all.retain(|own| origin.extension.is_standard(own));
-        }
+        all = setting.standard(all);
         let mut classes: BTreeMap<Vec<i64>, Vec<usize>> = BTreeMap::new();
         for (place, own) in all.iter().enumerate() {
             let own = own.iter().map(|power| i64::from(*power)).collect();

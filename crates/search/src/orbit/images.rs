@@ -6,6 +6,7 @@ use liouville::formula::{Formula, FormulaResult};
 use liouville::number::rational::Rational;
 use num_traits::ToPrimitive;
 
+use super::super::ansatz::Coordinates;
 use super::super::ansatz::coefficients::{PrimitiveVector, Vectors};
 use super::super::ansatz::system::PrimePoint;
 use super::super::terms::{is_one, numeric_exponent};
@@ -62,6 +63,7 @@ struct Limited<'v> {
     support: Vec<usize>,
     /// Place in the support of the entry that is 1.
     unit: usize,
+    multiplies_roots: bool,
     images: &'v RefCell<Vec<Image>>,
 }
 
@@ -98,6 +100,10 @@ impl Vectors for Limited<'_> {
         self.support.len()
     }
 
+    fn multiplies_roots(&self) -> bool {
+        self.multiplies_roots
+    }
+
     fn image(&self, prime: u64, index: u64) -> Option<(PrimePoint, Vec<u64>)> {
         let (at, vector) = self.own(prime, index)?;
         let m = at.modulus;
@@ -118,9 +124,14 @@ pub fn coefficients(source: &dyn Vectors) -> Result<Option<PrimitiveVector>, Sea
     };
     let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
     let images = RefCell::default();
-    // A common factor with the entry that is 1 lowers the degrees of the others.
-    for unit in (0..support.len()).rev().take(MOST_UNITS) {
-        let limited = Limited { source, support: support.clone(), unit, images: &images };
+    let roots = source.names().iter().filter(|name| Coordinates::is_root(name)).count();
+    let units = || (0..support.len()).rev().take(MOST_UNITS);
+    let with_products = units().filter(|_| roots > 1).map(|unit| (unit, true));
+    // A common factor with the entry that is 1 lowers the degrees of the others, and numbers without
+    // products of roots are shorter.
+    for (unit, multiplies_roots) in units().map(|unit| (unit, false)).chain(with_products) {
+        let own = support.clone();
+        let limited = Limited { source, support: own, unit, multiplies_roots, images: &images };
         let Some(mut found) = PrimitiveVector::through(&limited)? else { continue };
         let mut own = support.into_iter().zip(std::mem::take(&mut found.polynomials)).peekable();
         let next =

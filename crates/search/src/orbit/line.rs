@@ -5,12 +5,17 @@
 //! determinants are polynomials in the place t on the line q₀ + t q₁, and the common roots of two
 //! of them are places on such f. (In the plane these are Lagutinskii's and Pereira's extactic
 //! curves; Chèze, Bostan, Cluzeau and Weil compute with them.)
+//!
+//! Where states satisfy sin² + cos² = 1, or e^u e^(−u) = 1, a conic (q₀ + t q₁ + t² q₂)/D(t) within these
+//! equations takes the place of the line: polynomials of degree n times D^n are polynomials of degree
+//! 2n in t.
 
 use liouville::number::prime::Modulus;
 
 use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
 use super::super::{Halt, SearchError};
+use super::conic::Conic;
 use super::factor::RatedPolynomial;
 use super::monomials::MonomialSeries;
 use super::setting::{OrbitSetting, PrimePhasePoint, SPARE_ORDERS};
@@ -19,7 +24,7 @@ use super::univariate::{gcd, interpolated, roots, without};
 /// Largest degree of a field in the state.
 const DEGREE: usize = 24;
 
-/// A random line in the space of states.
+/// A random line in the space of states, or a conic on their level.
 pub struct RandomLine<'s, 'c> {
     /// Case with its points.
     pub setting: &'s OrbitSetting<'c>,
@@ -27,6 +32,7 @@ pub struct RandomLine<'s, 'c> {
     pub at: &'s PrimePoint,
     start: PrimePhasePoint,
     direction: Vec<u64>,
+    conic: Option<Conic>,
 }
 
 /// The special places of a line.
@@ -51,25 +57,63 @@ pub struct Special {
 }
 
 impl<'s, 'c> RandomLine<'s, 'c> {
-    /// Draws a line.
+    /// Draws a line, or a conic where the states lie on one.
     pub fn draw(setting: &'s OrbitSetting<'c>, at: &'s PrimePoint, number: u64) -> Option<Self> {
         let start = setting.point(at, (number << 1) | (1 << 40))?;
         let direction = setting.point(at, (number << 1) | (1 << 40) | 1)?.state;
-        Some(Self { setting, at, start, direction })
+        let conic = match &setting.conic {
+            Some(shape) => Some(shape.draw(&at.modulus, &start.state, &direction)?),
+            None => None,
+        };
+        Some(Self { setting, at, start, direction, conic })
     }
 
     fn point(&self, place: u64) -> PrimePhasePoint {
         let m = &self.at.modulus;
-        let state = self.start.state.iter().zip(&self.direction);
-        let state = state.map(|(x, u)| m.add(*x, m.mul(place, *u))).collect();
+        let state = match &self.conic {
+            Some(conic) => conic.state(m, place),
+            None => {
+                let state = self.start.state.iter().zip(&self.direction);
+                state.map(|(x, u)| m.add(*x, m.mul(place, *u))).collect()
+            }
+        };
         PrimePhasePoint { parameters: self.start.parameters.clone(), state }
+    }
+
+    /// Degree of the states in the place, times their denominator.
+    fn order(&self) -> usize {
+        if self.conic.is_some() { 2 } else { 1 }
+    }
+
+    /// Multiplies a value of a polynomial of some degree by that power of the denominator.
+    fn cleared(&self, value: u64, place: u64, degree: usize) -> u64 {
+        let m = &self.at.modulus;
+        match &self.conic {
+            Some(conic) => m.mul(value, m.power(conic.below(m, place), degree as u64)),
+            None => value,
+        }
+    }
+
+    /// Removes the zeros of the denominator, at which states are infinite.
+    fn without_poles(&self, mut own: Vec<u64>) -> Result<Vec<u64>, SearchError> {
+        let m = &self.at.modulus;
+        for pole in self.conic.iter().flat_map(|conic| conic.poles) {
+            own = self.without(own, &[m.sub(0, pole), m.one()])?;
+        }
+        Ok(own)
     }
 
     /// Restriction of a polynomial to the line.
     fn restricted(&self, factor: &RatedPolynomial) -> Result<Option<Vec<u64>>, SearchError> {
         let m = &self.at.modulus;
-        let value = |t: u64| factor.at(self.at, &self.point(m.integer(t))).map(|(value, _)| value);
-        let values: Option<Vec<u64>> = (0..=u64::from(factor.degree)).map(value).collect();
+        let degree = factor.degree as usize;
+        let value = |t: u64| {
+            let t = m.integer(t);
+            let (value, _) = factor.at(self.at, &self.point(t))?;
+            Some(self.cleared(value, t, degree))
+        };
+        let last = (self.order() * degree) as u64;
+        let values: Option<Vec<u64>> = (0..=last).map(value).collect();
         let halt = &self.setting.effort.halt;
         values.map(|values| interpolated(m, &values, halt)).transpose()
     }
@@ -89,7 +133,8 @@ impl<'s, 'c> RandomLine<'s, 'c> {
         factor: &RatedPolynomial,
         others: &[RatedPolynomial],
     ) -> Result<bool, SearchError> {
-        let Some(mut rest) = self.restricted(factor)? else { return Ok(false) };
+        let Some(rest) = self.restricted(factor)? else { return Ok(false) };
+        let mut rest = self.without_poles(rest)?;
         for other in others {
             if let Some(other) = self.restricted(other)? {
                 rest = self.without(rest, &other)?;
@@ -100,19 +145,23 @@ impl<'s, 'c> RandomLine<'s, 'c> {
 
     /// Degree of the field in the state; `None` if it is not a polynomial of low degree.
     pub fn degree(&self) -> Result<Option<usize>, SearchError> {
-        let Some(rates) = self.rates(DEGREE + SPARE_ORDERS)? else { return Ok(None) };
+        let Some(rates) = self.rates(DEGREE + SPARE_ORDERS, 0)? else { return Ok(None) };
         let degree = rates.iter().map(|own| own.len().saturating_sub(1)).max();
         Ok(degree.filter(|degree| *degree <= DEGREE))
     }
 
-    /// Components of the field on the line, as polynomials with at most `count` coefficients.
-    fn rates(&self, count: usize) -> Result<Option<Vec<Vec<u64>>>, SearchError> {
+    /// Components of a field of this degree on the line, as polynomials with at most `count` coefficients.
+    fn rates(&self, count: usize, degree: usize) -> Result<Option<Vec<Vec<u64>>>, SearchError> {
         let m = &self.at.modulus;
         let mut rates = vec![Vec::new(); self.direction.len()];
         for t in 0..count as u64 {
-            let point = self.point(m.integer(t));
-            let Some(orbit) = self.setting.along(self.at, &point, 2)? else { return Ok(None) };
-            rates.iter_mut().zip(orbit).for_each(|(own, series)| own.push(series[1]));
+            let t = m.integer(t);
+            let Some(orbit) = self.setting.along(self.at, &self.point(t), 2)? else {
+                return Ok(None);
+            };
+            for (own, series) in rates.iter_mut().zip(orbit) {
+                own.push(self.cleared(series[1], t, degree));
+            }
         }
         let halt = &self.setting.effort.halt;
         rates.iter().map(|own| interpolated(m, own, halt)).collect::<Result<_, _>>().map(Some)
@@ -127,11 +176,14 @@ impl<'s, 'c> RandomLine<'s, 'c> {
         known: &[RatedPolynomial],
     ) -> Result<Vec<PrimePhasePoint>, SearchError> {
         let (m, halt) = (&self.at.modulus, &self.setting.effort.halt);
-        let Some(rates) = self.rates(degree + 1)? else { return Ok(Vec::new()) };
+        let Some(rates) = self.rates(self.order() * degree + 1, degree)? else {
+            return Ok(Vec::new());
+        };
         let mut common = Vec::new();
         for own in variables {
             common = gcd(m, &common, &rates[*own], halt)?;
         }
+        common = self.without_poles(common)?;
         for factor in known {
             if let Some(own) = self.restricted(factor)? {
                 common = self.without(common, &own)?;
@@ -174,19 +226,21 @@ impl<'s, 'c> RandomLine<'s, 'c> {
         }
         let total: usize = own.iter().map(|a| a.iter().sum::<u32>() as usize).sum();
         let growth = degree.saturating_sub(1);
-        let count = total + growth * (rank * (rank + 1) / 2) + 2;
+        let count = self.order() * (total + growth * (rank * (rank + 1) / 2)) + 2;
+        // Degrees in the state of the two determinants.
+        let degrees = [0, 1].map(|more| total + growth * (rank * (rank - 1) / 2 + more));
         let (mut first, mut second) = (Vec::new(), Vec::new());
         for t in 0..count as u64 {
             halt.check()?;
             let Some(rows) = self.rows(m.integer(t), &own, rank + 1)? else { return Ok(none) };
             let (a, b) = determinants(&m, rows, halt)?;
-            first.push(a);
-            second.push(b);
+            first.push(self.cleared(a, m.integer(t), degrees[0]));
+            second.push(self.cleared(b, m.integer(t), degrees[1]));
         }
         let first = interpolated(&m, &first, halt)?;
         let second = interpolated(&m, &second, halt)?;
         let is_full = rank == monomials.len() && !first.is_empty();
-        let mut rest = gcd(&m, &first, &second, halt)?;
+        let mut rest = self.without_poles(gcd(&m, &first, &second, halt)?)?;
         for factor in known {
             if let Some(own) = self.restricted(factor)? {
                 rest = self.without(rest, &own)?;

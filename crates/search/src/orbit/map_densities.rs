@@ -1,4 +1,4 @@
-//! Densities of maps: P or 1/P with a polynomial P.
+//! Densities of maps: P or 1/P with a polynomial P; fractions P/Q are sought at last.
 //!
 //! ρ is the density of a measure that a map Φ preserves if |ρ∘Φ det DΦ| = |ρ|. For ρ = 1/P this is
 //! P∘Φ = ±det DΦ P: P is a discrete Darboux polynomial with the cofactor ±det DΦ (Celledoni, Evripidou,
@@ -17,6 +17,7 @@ use super::super::terms::{one, recorded};
 use super::super::{SearchError, SearchReport};
 use super::claims::{self, OrbitStatement};
 use super::images::{self, Images};
+use super::map_fractions;
 use super::monomials;
 use super::setting::{OrbitSetting, SPARE_ORDERS, run};
 
@@ -72,7 +73,7 @@ pub fn densities(
             }
         }
     }
-    Ok(())
+    map_fractions::density(setting, &tape, report, progress).map(|_| ())
 }
 
 /// Searches for a density of one form; returns whether it was written and proved, `None` if there is

@@ -11,7 +11,10 @@
 //! graded, sparse   polynomial integrals of higher degree, class by class; those with few terms
 //! rational     rational ones, as P and Q of the relations P − c Q
 //! line         points of a line whose orbits satisfy an additional relation
+//! conic        conics in place of lines, where functions satisfy relations
 //! darboux      Darboux polynomials: the relations at these points
+//! cofactors    whether a polynomial modulo a prime is one
+//! separate     those whose coefficients depend on the parameters, one by one
 //! cleared      Darboux polynomials of fields of fractions
 //! unbound      Darboux polynomials with functions
 //! own_factors  variables that divide their own rates
@@ -19,12 +22,15 @@
 //! no_others    theorem that the Darboux polynomials found are all
 //! finite_order   maps with Φⁿ = id, and sums over their orbits
 //! map_densities, map_integrals  densities and polynomial integrals of maps
+//! map_fractions  densities of maps that are fractions
+//! logarithms   integrals of maps by monomials
 //! exponents    densities, and integrals with powers, logarithms and exponentials, from cofactors
 //! quotients    fractions over powers of factors in these exponents
 //! magnitude    f or |f| under a logarithm
 //! weighted     integrals of fields in the plane that are multiples of a density
 //! adjoin       functions of the state as further variables
 //! part         all of these in the variables of a part of the field
+//! closure      brackets of integrals, and their derivatives along symmetry fields
 //! claims       judgement of each find as a claim like any other
 //! fractions    for claims of absence: relations that known integrals do not explain
 //! ```
@@ -36,6 +42,9 @@ mod angle;
 mod blocks;
 mod claims;
 mod cleared;
+mod closure;
+mod cofactors;
+mod conic;
 mod darboux;
 mod exponents;
 mod factor;
@@ -47,9 +56,12 @@ mod images;
 mod known;
 mod lattice;
 mod leading;
+mod limits;
 mod line;
+mod logarithms;
 mod magnitude;
 mod map_densities;
+mod map_fractions;
 mod map_integrals;
 pub mod monomials;
 pub mod no_others;
@@ -61,6 +73,7 @@ mod products;
 mod quotients;
 mod rational;
 mod relations;
+mod separate;
 mod setting;
 mod sparse;
 mod tangents;
@@ -77,44 +90,19 @@ use liouville::mechanics::System;
 use liouville::verdict::Verdict;
 
 pub use self::adjoin::{root_steps, roots};
+pub use self::closure::{FURTHER_INTEGRAL, close};
 use self::known::IndependentIntegrals;
+use self::limits::{EXTENDED, FURTHER, MODEST, RoundLimits};
 use self::line::degree_of_field;
 use self::part::VariableSet;
 use self::setting::OrbitSetting;
 use super::ask::proved_energy;
 use super::{Effort, SearchError, SearchReport, branches};
 
-/// Limits of one round of a search.
-#[derive(Clone, Copy)]
-struct RoundLimits {
-    /// Largest number of monomials of a relation.
-    monomials: usize,
-    /// Largest degree of a relation.
-    degree: u32,
-    /// Largest number of steps of an elimination on a line.
-    steps: f64,
-    /// Largest number of steps for polynomial integrals class by class.
-    graded: f64,
-}
-
-/// Limits without a limit of time.
-const MODEST: RoundLimits = RoundLimits { monomials: 300, degree: 8, steps: 4e7, graded: 4e8 };
-
-/// The same where functions are further variables.
-const EXTENDED: RoundLimits = RoundLimits { monomials: 400, degree: 8, steps: 4e7, graded: 4e8 };
-
-/// Limits that follow while there is time.
-const FURTHER: [RoundLimits; 4] = [
-    RoundLimits { monomials: 500, degree: 16, steps: 2e8, graded: 2e9 },
-    RoundLimits { monomials: 900, degree: 24, steps: 2e9, graded: 2e10 },
-    RoundLimits { monomials: 1700, degree: 24, steps: 2e10, graded: 2e11 },
-    RoundLimits { monomials: 3200, degree: 24, steps: 2e11, graded: 2e12 },
-];
-
 /// Largest number of roots whose signs at all states are compared with those modulo a prime.
 const FEW_ROOTS: usize = 4;
 
-/// Number of these with functions as variables, before the field is searched without them.
+/// Number of the further limits with functions as variables, before the field is searched without them.
 const WITH_FUNCTIONS: usize = 2;
 
 /// Relations between monomials of at most a degree along one orbit.
@@ -242,7 +230,7 @@ pub fn search_map(
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    match OrbitSetting::of(case, effort)? {
+    let rational = match OrbitSetting::of(case, effort)? {
         Ok(setting) => {
             map_densities::densities(&setting, report, progress)?;
             finite_order::finite_order(&setting, report)?;
@@ -264,7 +252,8 @@ pub fn search_map(
             report.remark(format!("no relations along orbits: {reason}"));
             Ok(())
         }
-    }
+    };
+    rational.and_then(|()| logarithms::search(case, effort, report, progress))
 }
 
 /// Limits that follow the first ones: none, unless the time of a search is limited.
@@ -292,7 +281,10 @@ fn with_functions(
     progress: &mut dyn FnMut(&str),
 ) -> Result<Option<Vec<adjoin::Divided>>, SearchError> {
     let known = found(case, effort, report)?;
-    let Some(extension) = adjoin::extended(case, effort, &known, scope.divided)? else {
+    let curves = report.found.iter().filter(|own| own.kind == darboux::KIND);
+    let curves: Vec<Formula> = curves.filter_map(|own| own.function.clone()).collect();
+    let made = adjoin::extended(case, effort, &known, &curves, scope.divided)?;
+    let Some(extension) = made else {
         return Ok(None);
     };
     let Ok(setting) = OrbitSetting::extended(case, &extension, effort)? else { return Ok(None) };
@@ -312,7 +304,7 @@ pub fn factors(
     if !matches!(case.model.system, System::Field(_) | System::Hamiltonian(_)) {
         return Ok(Vec::new());
     }
-    let Some(extension) = adjoin::extended(case, effort, further, Vec::new())? else {
+    let Some(extension) = adjoin::extended(case, effort, further, &[], Vec::new())? else {
         return Ok(Vec::new());
     };
     let own = extension.factors.iter().map(|factor| case.formula(&extension.back(factor)));

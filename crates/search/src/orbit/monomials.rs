@@ -27,7 +27,12 @@ pub fn count(variables: usize, degree: u32) -> usize {
 /// Number of steps of the eliminations on a line, for monomials up to a degree along a field of
 /// degree `field`.
 pub fn steps(variables: usize, degree: u32, field: usize) -> f64 {
-    let count = count(variables, degree) as f64;
+    steps_of(count(variables, degree), degree, field)
+}
+
+/// The same for this number of monomials.
+pub fn steps_of(count: usize, degree: u32, field: usize) -> f64 {
+    let count = count as f64;
     let places = f64::from(degree) * count + field.saturating_sub(1) as f64 * count * count / 2.0;
     places * count * count * (count / 3.0 + 4.0)
 }

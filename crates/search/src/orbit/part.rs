@@ -212,11 +212,7 @@ impl VariableSet {
 
     /// Monomials of the relations that come next; none if there are very many.
     fn monomials(&self, setting: &OrbitSetting<'_>) -> Vec<Vec<u32>> {
-        let mut all = monomials::up_to(&self.variables, setting.dimension(), self.next);
-        if let Some(origin) = setting.origin {
-            all.retain(|own| origin.extension.is_standard(own));
-        }
-        all
+        setting.standard(monomials::up_to(&self.variables, setting.dimension(), self.next))
     }
 
     /// Searches one degree.

@@ -18,6 +18,7 @@ use super::super::streams::SearchStream;
 use super::super::terms::{read, recorded};
 use super::super::{Effort, SearchError};
 use super::adjoin::Extension;
+use super::conic::ConicShape;
 use super::monomials::{self, MonomialSeries};
 use super::primes;
 use super::tangents::Tangents;
@@ -36,6 +37,8 @@ const PRIMES: u64 = 8;
 const TRIES: u64 = 16;
 /// Largest number of combinations of listed values.
 const MOST_COMBINATIONS: usize = 64;
+/// Number of values of a parameter that is a small whole number.
+const SMALL: u64 = 64;
 /// Number of points drawn until one has a value, roots included.
 const DRAWS: usize = 512;
 
@@ -62,6 +65,8 @@ pub struct OrbitSetting<'c> {
     pub tangents: Tangents,
     /// Components of the state as terms.
     pub terms: Vec<Formula>,
+    /// Relations between adjoined functions, where they are circles and hyperbolas alone.
+    pub conic: Option<ConicShape>,
     points: Points,
     coordinates: Vec<Formula>,
     primes: Vec<Modulus>,
@@ -102,7 +107,8 @@ impl<'c> OrbitSetting<'c> {
         let made = Self::of(&extension.case, effort)?;
         let tangents = Tangents::of(&extension.case, &extension.axes)?;
         let origin = Some(ExtendedCase { case, extension });
-        Ok(made.map(|own| Self { origin, tangents, ..own }))
+        let conic = extension.conic();
+        Ok(made.map(|own| Self { origin, tangents, conic, ..own }))
     }
 
     /// Records a case; the text is the reason why it has no orbits modulo primes.
@@ -147,6 +153,7 @@ impl<'c> OrbitSetting<'c> {
             flow,
             tangents: Tangents::of(case, &[])?,
             terms,
+            conic: None,
             points,
             coordinates: named,
             primes,
@@ -164,6 +171,14 @@ impl<'c> OrbitSetting<'c> {
         !self.case.model.level.is_empty()
     }
 
+    /// Keeps the monomials that no relation between adjoined functions writes in others.
+    pub fn standard(&self, mut monomials: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
+        if let Some(origin) = self.origin {
+            monomials.retain(|own| origin.extension.is_standard(own));
+        }
+        monomials
+    }
+
     /// Whether polynomials are found on lines of states: the field is rational there. Roots of numbers
     /// and parameters are coefficients like others; theorems ask for a rational field themselves.
     pub fn has_lines(&self) -> bool {
@@ -178,22 +193,32 @@ impl<'c> OrbitSetting<'c> {
 
     /// Makes choice `index` of the parameters modulo the prime with number `prime`.
     pub fn at(&self, prime: u64, index: u64) -> Option<PrimePoint> {
-        self.within(*self.primes.get(prime as usize)?, index)
+        self.within(*self.primes.get(prime as usize)?, index, false)
     }
 
     /// Makes choice `index` of the parameters modulo the prime p = 1 mod 840 with number `prime`, in
     /// whose field the roots of −1, 2, 3, 5 and 7 exist, and those of the numbers under roots.
     pub fn split(&self, prime: u64, index: u64) -> Option<PrimePoint> {
-        self.within(*self.split_primes.get(prime as usize)?, index)
+        self.within(*self.split_primes.get(prime as usize)?, index, false)
+    }
+
+    /// The same with small whole numbers as parameters, each in a range of its own.
+    pub fn small(&self, prime: u64, index: u64) -> Option<PrimePoint> {
+        self.within(*self.split_primes.get(prime as usize)?, index, true)
     }
 
     /// Makes choice `index` of the parameters in a given field.
-    fn within(&self, modulus: Modulus, index: u64) -> Option<PrimePoint> {
+    fn within(&self, modulus: Modulus, index: u64, is_small: bool) -> Option<PrimePoint> {
         let seed = self.effort.options.seed ^ index.wrapping_mul(0x9e37_79b9_7f4a_7c15);
         let mut rng = SearchStream::Orbits.under(seed);
         let own = &self.points.draws[..self.points.of_parameters];
         for _ in 0..TRIES {
-            let parameters = random(own, &modulus, &mut rng);
+            let mut parameters = random(own, &modulus, &mut rng);
+            let is_free = |draw: &Draw| matches!(draw, Draw::Within(_) | Draw::Of(..));
+            for place in (0..own.len()).filter(|place| is_small && is_free(&own[*place])) {
+                let drawn = modulus.to_integer(parameters[place]) % SMALL;
+                parameters[place] = modulus.integer(SMALL * (place as u64 + 1) + drawn);
+            }
             let mut at = PrimePoint { modulus, parameters, coordinates: Vec::new() };
             let Some(point) = self.point(&at, u64::MAX) else { continue };
             let inputs = [point.parameters, point.state].concat();

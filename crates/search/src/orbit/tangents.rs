@@ -66,6 +66,11 @@ impl Tangents {
 }
 
 impl LocalGradients {
+    /// Number of independent gradients.
+    pub fn rank(&self) -> usize {
+        self.echelon.rank()
+    }
+
     /// Adds a gradient by all variables; returns whether it is independent of those before along the
     /// components of the state.
     pub fn push(&mut self, at: &PrimePoint, gradient: Vec<u64>) -> bool {

@@ -38,7 +38,7 @@ pub fn search(setting: &OrbitSetting<'_>, report: &mut SearchReport) -> Result<(
     let variables: Vec<usize> = (0..setting.dimension()).collect();
     for degree in 1..=DEGREE {
         let mut all = monomials::up_to(&variables, setting.dimension(), degree);
-        all.retain(|own| setting.origin.is_none_or(|origin| origin.extension.is_standard(own)));
+        all = setting.standard(all);
         if all.len() > MONOMIALS {
             break;
         }

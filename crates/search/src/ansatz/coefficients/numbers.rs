@@ -1,4 +1,4 @@
-//! Coefficients as numbers: fractions, and a + b √n with a root in the field.
+//! Coefficients as numbers: fractions, and sums of multiples of roots in the field and of their products.
 
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -10,18 +10,26 @@ use super::super::system::PrimePoint;
 use super::{BARREN, PRIMES, PrimitiveVector, Vectors};
 use liouville::formula::Formula;
 
-/// A number a/d, or (a + b √n)/d with the place of the root among those of a field.
+/// Largest number of roots whose products are taken as well.
+const MOST_MULTIPLIED: usize = 4;
+
+/// A number a/d, or (a + Σ b √n)/d with the places of the roots whose product √n is among those of a
+/// field.
 #[derive(Clone, Debug)]
 pub struct Number {
     above: BigInt,
     below: BigInt,
-    root: Option<(usize, BigInt)>,
+    roots: Vec<(Vec<usize>, BigInt)>,
 }
 
 impl Number {
     /// Makes a fraction.
     pub fn fraction(above: BigInt, below: BigInt) -> Self {
-        Self { above, below, root: None }
+        Self { above, below, roots: Vec::new() }
+    }
+
+    fn is_zero(&self) -> bool {
+        self.above.is_zero() && self.roots.is_empty()
     }
 
     /// Whether a number has this image.
@@ -29,8 +37,8 @@ impl Number {
         let prime = BigInt::from(at.modulus.prime());
         let value = BigInt::from(at.modulus.to_integer(image));
         let mut rest = &self.above - &self.below * value;
-        if let Some((root, multiple)) = &self.root {
-            rest += multiple * roots.value(at, *root);
+        for (product, multiple) in &self.roots {
+            rest += multiple * roots.value(at, product);
         }
         rest.mod_floor(&prime).is_zero()
     }
@@ -40,32 +48,63 @@ impl Number {
 pub struct Roots {
     places: Vec<usize>,
     names: Vec<Formula>,
+    /// Products of different roots, single ones first.
+    products: Vec<Vec<usize>>,
 }
 
 impl Roots {
-    /// Selects the roots among the coordinates.
-    pub fn of(names: &[Formula]) -> Self {
+    /// Selects the roots among the coordinates, with their products if wanted.
+    pub fn of(names: &[Formula], with_products: bool) -> Self {
         let is_root = |k: &usize| Coordinates::is_root(&names[*k]);
         let places: Vec<usize> = (0..names.len()).filter(is_root).collect();
-        Self { names: places.iter().map(|k| names[*k].clone()).collect(), places }
+        let count = places.len();
+        let mut products: Vec<Vec<usize>> = (0..count).map(|root| vec![root]).collect();
+        if with_products && count <= MOST_MULTIPLIED {
+            // Without these the sums of multiples of several roots are no field.
+            let all = 1usize..1 << count;
+            let chosen = all.map(|set| (0..count).filter(|k| set >> k & 1 == 1).collect());
+            products.extend(chosen.filter(|own: &Vec<usize>| own.len() > 1));
+        }
+        Self { names: places.iter().map(|k| names[*k].clone()).collect(), places, products }
     }
 
-    fn value(&self, at: &PrimePoint, root: usize) -> BigInt {
-        BigInt::from(at.modulus.to_integer(at.coordinates[self.places[root]]))
+    /// Value of a product of roots.
+    fn value(&self, at: &PrimePoint, product: &[usize]) -> BigInt {
+        let m = at.modulus;
+        let own = product.iter().map(|root| at.coordinates[self.places[*root]]);
+        BigInt::from(m.to_integer(own.fold(m.one(), |made, root| m.mul(made, root))))
     }
 
-    /// Finds a number with these images modulo different primes.
+    /// Finds a number with these images modulo different primes: of one root if there is one.
     pub fn number(&self, images: &[(&PrimePoint, u64)]) -> Option<Number> {
-        (0..self.places.len()).find_map(|root| {
-            let (mut residue, mut square) = (Residue::default(), Residue::default());
-            for (at, image) in images {
-                let prime = BigInt::from(at.modulus.prime());
-                residue.add(&BigInt::from(at.modulus.to_integer(*image)), &prime)?;
-                square.add(&self.value(at, root), &prime)?;
-            }
-            let [above, multiple, below] = surd(&residue.value, &square.value, &residue.modulus)?;
-            Some(Number { above, below, root: Some((root, multiple)) })
+        let mut single = (0..self.places.len()).map(|root| vec![vec![root]]);
+        single.find_map(|own| self.combination(images, &own)).or_else(|| {
+            let has_several = self.products.len() > 1;
+            has_several.then(|| self.combination(images, &self.products)).flatten()
         })
+    }
+
+    /// Finds a sum of multiples of 1 and of some products of roots with these images.
+    fn combination(
+        &self,
+        images: &[(&PrimePoint, u64)],
+        products: &[Vec<usize>],
+    ) -> Option<Number> {
+        let mut residue = Residue::default();
+        let mut squares: Vec<Residue> = products.iter().map(|_| Residue::default()).collect();
+        for (at, image) in images {
+            let prime = BigInt::from(at.modulus.prime());
+            residue.add(&BigInt::from(at.modulus.to_integer(*image)), &prime)?;
+            for (square, product) in squares.iter_mut().zip(products) {
+                square.add(&self.value(at, product), &prime)?;
+            }
+        }
+        let squares: Vec<BigInt> = squares.into_iter().map(|own| own.value).collect();
+        let mut found = surd(&residue.value, &squares, &residue.modulus)?.into_iter();
+        let above = found.next()?;
+        let roots = products.iter().cloned().zip(found.by_ref().take(products.len()));
+        let roots = roots.filter(|(_, multiple)| !multiple.is_zero()).collect();
+        Some(Number { above, roots, below: found.next()? })
     }
 
     /// Coefficients over a common denominator.
@@ -77,19 +116,18 @@ impl Roots {
         let all = || numbers.iter().flatten().map(|(_, own)| own);
         let below = all().fold(BigInt::one(), |lcm, own| lcm.lcm(&own.below));
         let is_used =
-            |root: &usize| all().any(|own| own.root.as_ref().is_some_and(|(used, _)| used == root));
+            |root: &usize| all().any(|own| own.roots.iter().any(|(used, _)| used.contains(root)));
         let used: Vec<usize> = (0..self.names.len()).filter(is_used).collect();
         names.extend(used.iter().map(|root| self.names[*root].clone()));
         let part = |(monomial, own): &(Vec<u32>, Number)| {
             let scale = &below / &own.below;
-            let powers = |of: Option<usize>| -> Vec<u32> {
-                let extra = used.iter().map(|root| u32::from(of == Some(*root)));
+            let powers = |of: &[usize]| -> Vec<u32> {
+                let extra = used.iter().map(|root| u32::from(of.contains(root)));
                 monomial.iter().copied().chain(extra).collect()
             };
-            let mut terms = vec![(powers(None), &own.above * &scale)];
-            if let Some((root, multiple)) = &own.root {
-                terms.push((powers(Some(*root)), multiple * &scale));
-            }
+            let mut terms = vec![(powers(&[]), &own.above * &scale)];
+            let roots = own.roots.iter();
+            terms.extend(roots.map(|(product, multiple)| (powers(product), multiple * &scale)));
             terms.retain(|(_, value)| !value.is_zero());
             terms
         };
@@ -123,7 +161,7 @@ impl Residue {
 
 /// Finds coefficients that are numbers, confirmed modulo one further prime.
 pub fn numbers(source: &dyn Vectors) -> Option<PrimitiveVector> {
-    let roots = Roots::of(source.names());
+    let roots = Roots::of(source.names(), source.multiplies_roots());
     let mut seen: Vec<(PrimePoint, Vec<u64>)> = Vec::new();
     for prime in 0..PRIMES {
         let found = (0..BARREN).find_map(|index| source.image(prime, index));
@@ -141,7 +179,7 @@ pub fn numbers(source: &dyn Vectors) -> Option<PrimitiveVector> {
             };
             let columns: Option<Vec<Number>> = (0..source.width()).map(number).collect();
             if let Some(columns) = columns {
-                let polynomial = |own: Number| match own.above.is_zero() && own.root.is_none() {
+                let polynomial = |own: Number| match own.is_zero() {
                     true => Vec::new(),
                     false => vec![(Vec::new(), own)],
                 };

@@ -127,8 +127,13 @@ pub fn has_independent_roots(model: &Model, ring: &AdjoinedRing, seed: u64) -> b
 }
 
 /// Radicands of the roots of parameters; `None` if a root of a number may be a number, or depend on
-/// another: its sign modulo a prime may then differ from that of the real root.
+/// another: its sign modulo a prime may then differ from that of the real root. `None` with other
+/// functions of the parameters too, which have been made parameters.
 fn constants(ring: &AdjoinedRing) -> Option<Vec<&RingPolynomial>> {
+    // A function of the parameters, as ln 2, is not independent of others because it has no relation.
+    if ring.atoms.iter().any(|atom| matches!(atom, Atom::Constant(Of::Function(..)))) {
+        return None;
+    }
     let all = || {
         ring.atoms.iter().filter_map(|atom| match atom {
             Atom::Constant(Of::Root(base)) => Some(base),

@@ -5,7 +5,7 @@
 use num_integer::Integer;
 
 use super::polynomial::RingPolynomial;
-use super::ring::{AdjoinedRing, Atom};
+use super::ring::{AdjoinedRing, Atom, Of};
 use super::write::{RingNames, written};
 
 /// A function by its name in the extended case.
@@ -54,7 +54,7 @@ impl Back {
             }
         };
         let is_other = |place: usize, atom: &Atom| match atom {
-            Atom::Constant(_) => false,
+            Atom::Constant(Of::Inverse(_) | Of::Root(_)) => false,
             _ => names.extended[place] != names.original[place],
         };
         let all = ring.atoms.iter().enumerate().filter(|(place, atom)| is_other(*place, atom));

@@ -113,7 +113,7 @@ impl Extension {
         let mut values = Vec::new();
         for atom in &self.ring.atoms {
             let value = match atom {
-                Atom::Parameter => *parameters.next()?,
+                Atom::Parameter | Atom::Constant(Of::Function(..)) => *parameters.next()?,
                 Atom::Constant(Of::Inverse(base)) => {
                     let base = base.residue(m, &values).filter(|value| *value != 0)?;
                     m.inverse(base)
@@ -167,7 +167,7 @@ impl AdjoinedRing {
     }
 
     /// Writes squares of sines and of square roots in other variables.
-    fn reduced(&self, own: &RingPolynomial) -> Option<RingPolynomial> {
+    pub(super) fn reduced(&self, own: &RingPolynomial) -> Option<RingPolynomial> {
         let mut made = own.clone();
         for place in own.variables() {
             let Some(square) = self.square(place) else { continue };

@@ -3,12 +3,17 @@
 //! ```text
 //! plain        exponents of a field that is polynomial without further functions
 //! polynomial   sparse polynomials with rational coefficients
+//! atom         variables of the ring
+//! odd_powers   polynomials that are odd powers of others
 //! ring         which functions are adjoined, and what is written in them
 //! rates        rates of the functions, and monomials that relations make superfluous
+//! parts        what is read from a recording of the case
 //! read         recorded formulas as polynomials of the ring
 //! bases        denominators, radicands and other functions as factors
 //! absence      the polynomials that a theorem of absence covers
 //! implied      relations between these that known integrals imply
+//! derivations  derivatives of integrals along symmetry fields and the fields of other integrals
+//! logarithmic  maps by monomials, in the logarithms of the state
 //! write        the extended field as a case, with the functions' relations as a level set
 //! back         formulas of the extended case in the names of the case itself
 //! ```
@@ -19,9 +24,14 @@
 //! it; nothing rests on the extension but the theorem of absence.
 
 pub mod absence;
+mod atom;
 mod back;
 mod bases;
+mod derivations;
 mod implied;
+mod logarithmic;
+mod odd_powers;
+mod parts;
 mod plain;
 mod polynomial;
 mod rates;
@@ -33,30 +43,30 @@ mod write;
 pub use self::write::written as polynomial_text;
 
 use liouville::case::Case;
-use liouville::formula::{Formula, Type};
+use liouville::formula::Formula;
 use liouville::graph::Expr;
-use liouville::mechanics::Chart;
+use liouville::mechanics::calculus::DualPoint;
 use liouville::number::rational::Rational;
 
 use self::absence::AdjoinedPolynomials;
 use self::back::Back;
 pub use self::back::with_signs;
 use self::bases::{circles, factors};
+pub use self::derivations::{FieldComponents, IntegralAlgebra};
+pub use self::logarithmic::MonomialMap;
+use self::parts::{Read, ReadParts, read, read_with};
 pub use self::plain::{PolynomialField, polynomial_field, reduced};
 use self::polynomial::Monomial;
 pub use self::polynomial::RingPolynomial;
-use self::read::StepReader;
 pub use self::ring::Divided;
-use self::ring::{AdjoinedRing, Atom};
+use self::ring::{AdjoinedRing, Atom, Of};
 pub use self::roots::{has_independent_roots, root_steps, roots};
 use self::write::RingNames;
-use super::super::terms::recorded;
-use super::super::{Effort, FurtherTerm, SearchError};
+use super::super::{Effort, SearchError};
+use super::conic::{ConicRole, ConicShape};
 
 /// Largest number of variables.
 const VARIABLES: usize = 18;
-/// Largest number of times that arguments are divided.
-const TRIES: usize = 8;
 
 /// A case whose state has the functions of its field as further components.
 pub struct Extension {
@@ -68,6 +78,8 @@ pub struct Extension {
     pub divergence: Formula,
     /// Integrals that are known.
     pub known: Vec<Formula>,
+    /// Darboux polynomials that are known, with their degrees.
+    pub curves: Vec<(Formula, u32)>,
     /// Polynomials that a theorem of absence covers.
     pub class: Option<AdjoinedPolynomials>,
     /// The known integrals as polynomials of the ring, by their places among those given.
@@ -88,6 +100,10 @@ pub struct Extension {
     inverses: Vec<String>,
     /// Text of the extended field without its level.
     field: String,
+    /// Names of the variables of the ring in the extended case.
+    names: Vec<String>,
+    /// Whether the case itself has a level.
+    has_level: bool,
 }
 
 impl Extension {
@@ -128,6 +144,39 @@ impl Extension {
         is_unbound.then(|| Case::parse(&self.field, &[]).ok()).flatten()
     }
 
+    /// The relations between the functions of a case without a level, if they are circles and hyperbolas
+    /// alone, and some.
+    pub fn conic(&self) -> Option<ConicShape> {
+        let atoms = &self.ring.atoms;
+        let shifted =
+            |place: usize| place - atoms[..place].iter().filter(|a| is_constant(a)).count();
+        let role = |atom: &Atom| match atom {
+            Atom::State => Some(ConicRole::Free),
+            Atom::Sine(_) => Some(ConicRole::Sine),
+            Atom::Cosine(_) => Some(ConicRole::Cosine),
+            Atom::Exponential(_) => Some(ConicRole::Exponential),
+            Atom::ExponentialOf(_, powers) => match powers.as_slice() {
+                [(other, -1)] => Some(ConicRole::InverseOf(shifted(*other))),
+                _ => None,
+            },
+            _ => None,
+        };
+        let varying = atoms.iter().filter(|atom| !is_constant(atom));
+        let roles: Vec<ConicRole> = varying.map(role).collect::<Option<_>>()?;
+        let binds = |own: &ConicRole| matches!(own, ConicRole::Sine | ConicRole::InverseOf(_));
+        (!self.has_level && roles.iter().any(binds)).then_some(ConicShape(roles))
+    }
+
+    /// Adjoined exponentials.
+    pub fn exponentials(&self) -> impl Iterator<Item = &str> {
+        self.exponentials.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// Names of the variables of the ring in the extended case.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
     /// Whether a formula contains a denominator as a variable.
     pub fn has_inverse(&self, formula: &Formula) -> bool {
         self.inverses.iter().any(|name| formula.uses(name))
@@ -144,21 +193,6 @@ impl Extension {
         let own = self.exponentials.iter().find(|(name, _)| name == formula.text());
         own.map(|(_, argument)| argument)
     }
-}
-
-/// A ring with the polynomials that are read from one recording.
-struct Read {
-    ring: AdjoinedRing,
-    parts: ReadParts,
-}
-
-/// Polynomials that are read from one recording.
-struct ReadParts {
-    field: Vec<RingPolynomial>,
-    divergence: RingPolynomial,
-    known: Vec<(usize, RingPolynomial)>,
-    /// Functions that are 0 on the level set of the case.
-    level: Vec<RingPolynomial>,
 }
 
 /// Adjoins the functions of a field and of known integrals, if there are any, without integrals of whose
@@ -179,96 +213,32 @@ pub fn always_extended(
 }
 
 /// Adjoins the functions of a field; `None` if it is polynomial, or contains functions whose rates are
-/// not polynomials in them. Functions in the integrals `known` are adjoined as well.
+/// not polynomials in them. Functions in the integrals `known` are adjoined as well; `curves` are Darboux
+/// polynomials.
 pub fn extended(
     case: &Case,
     effort: &Effort,
     known: &[Formula],
+    curves: &[Formula],
     divided: Vec<Divided>,
 ) -> Result<Option<Extension>, SearchError> {
-    let Some(made) = read(case, effort, (known, true), divided)? else { return Ok(None) };
+    let further = |jet: &DualPoint<'_, Expr>| -> Vec<Expr> {
+        curves.iter().map(|own| jet.phase.scalar(own)).collect()
+    };
+    let made = read_with(case, effort, (known, true), divided, &further)?;
+    let Some(made) = made else { return Ok(None) };
     match functions(&made.ring) > 0 || names_are_foreign(case) {
         true => written(case, made, effort.options.seed),
         false => Ok(None),
     }
 }
 
-/// Reads the field and known integrals as polynomials; unless `all`, without integrals that contain
-/// functions of which nothing can be counted.
-fn read(
-    case: &Case,
-    effort: &Effort,
-    (known, all): (&[Formula], bool),
-    mut divided: Vec<Divided>,
-) -> Result<Option<Read>, SearchError> {
-    let model = &case.model;
-    if !matches!(case.chart, Chart::Free | Chart::Equations) {
-        return Ok(None);
-    }
-    let known: Vec<(usize, &Formula)> =
-        known.iter().enumerate().filter(|(_, own)| own.value_type() == Type::Scalar).collect();
-    let typed: Vec<Formula> = effort
-        .terms
-        .iter()
-        .filter_map(|term: &FurtherTerm| term.read(model).ok())
-        .filter(|formula| formula.value_type() == Type::Scalar)
-        .collect();
-    let (graph, (field, divergence, (known, typed, level))) = recorded(case, |jet| {
-        let known: Vec<_> =
-            known.iter().map(|(place, own)| (*place, jet.phase.scalar(own))).collect();
-        let typed: Vec<_> = typed.iter().map(|own| jet.phase.scalar(own)).collect();
-        let level = model.level.iter().map(|own| jet.phase.level_function(&own.function));
-        let level: Vec<_> = level.collect();
-        (jet.phase.field().to_vec(), jet.divergence(), (known, typed, level))
-    })?;
-    let parameters = model.free_components();
-    if graph.inputs() > parameters + model.dimension() {
-        return Ok(None);
-    }
-    let place = |own: &_| graph.place(*own);
-    let read = |ring: &mut AdjoinedRing| -> Option<ReadParts> {
-        let mut reader = StepReader::new(&graph);
-        let mut each = |own: &[Expr], ring: &mut AdjoinedRing| -> Option<Vec<RingPolynomial>> {
-            own.iter().map(|own| reader.read(place(own), ring)).collect()
-        };
-        let (field, level) = (each(&field, ring)?, each(&level, ring)?);
-        let divergence = reader.read(place(&divergence), ring)?;
-        for own in &typed {
-            reader.read(place(own), ring);
-        }
-        let mut integrals = Vec::new();
-        for (k, own) in &known {
-            let before = (ring.clone(), reader.clone());
-            let made = reader.read(place(own), ring);
-            let added = &ring.atoms[before.0.atoms.len()..];
-            if !ring.is_refined && !all && added.iter().any(absence::is_beyond) {
-                (*ring, reader) = before;
-                continue;
-            }
-            integrals.extend(made.map(|made| (*k, made)));
-        }
-        Some(ReadParts { field, divergence, known: integrals, level })
-    };
-    let mut made = None;
-    for _ in 0..TRIES {
-        let mut ring =
-            AdjoinedRing::new(parameters, model.dimension(), std::mem::take(&mut divided));
-        let found = read(&mut ring);
-        if ring.is_refined {
-            divided = ring.divided;
-            continue;
-        }
-        made = found.map(|parts| Read { ring, parts });
-        break;
-    }
-    Ok(made)
-}
-
-/// Number of functions of the state that are adjoined.
+/// Number of functions that are adjoined.
 fn functions(ring: &AdjoinedRing) -> usize {
-    let is_function =
-        |atom: &&Atom| !matches!(atom, Atom::Parameter | Atom::State | Atom::Constant(_));
-    ring.atoms.iter().filter(is_function).count()
+    let is_plain = |atom: &&Atom| {
+        matches!(atom, Atom::Parameter | Atom::State | Atom::Constant(Of::Inverse(_) | Of::Root(_)))
+    };
+    ring.atoms.len() - ring.atoms.iter().filter(is_plain).count()
 }
 
 fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, SearchError> {
@@ -277,7 +247,7 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
         return Ok(None);
     }
     let names = RingNames::of(case, ring);
-    let ReadParts { field, divergence, known, level } = read.parts;
+    let ReadParts { field, divergence, known, level, further, .. } = read.parts;
     let Some(rates) = ring.rates(&field) else { return Ok(None) };
     let Some(text) = write::case(case, ring, (&rates, &level), &names) else { return Ok(None) };
     let Ok(extended) = Case::parse(&text.concat(), &[]) else { return Ok(None) };
@@ -286,6 +256,8 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
     let Some(divergence) = formula(&divergence) else { return Ok(None) };
     let Some(axes) = axes(ring, case.model.dimension(), formula) else { return Ok(None) };
     let written = known.iter().filter_map(|(_, own)| formula(own)).collect();
+    let curves = further.iter().flatten().filter_map(|own| Some((formula(own)?, ring.degree(own))));
+    let curves = curves.collect();
     let exponentials =
         ring.atoms.iter().zip(&names.extended).filter_map(|(atom, name)| match atom {
             Atom::Exponential(argument) | Atom::ExponentialOf(argument, _) => {
@@ -300,6 +272,7 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
         axes,
         divergence,
         known: written,
+        curves,
         class: AdjoinedPolynomials::of(&case.model, ring, seed),
         factors: factors(ring, &names, formula),
         circles: circles(ring, formula),
@@ -310,6 +283,8 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
         case: extended,
         field: text.into_iter().next().unwrap_or_default(),
         read: known,
+        names: names.extended,
+        has_level: !case.model.level.is_empty(),
         ring: read.ring,
     }))
 }

@@ -2,52 +2,17 @@
 //!
 //! A function is adjoined once: exponentials by arguments that are linearly independent over the
 //! rational numbers, sines and cosines of such arguments in pairs, roots with their inverses. What
-//! depends on them is written in them: e^(2x) = (e^x)², sin 2φ = 2 sin φ cos φ, x/r³ = x (1/r)³.
+//! depends on them is written in them: e^(2x) = (e^x)², sin 2φ = 2 sin φ cos φ, x/r³ = x (1/r)³,
+//! (e^x)^a = e^(a x), 2^x = e^(x ln 2). Functions of the parameters alone that are no fractions or
+//! square roots, such as ln 2, take the place of further parameters.
 
 use liouville::number::rational::Rational;
 
+pub use super::atom::{Atom, ConstantFunction, Of};
 use super::polynomial::{Monomial, RingPolynomial, combination};
 
 /// Largest power of a function that is written out.
 const HIGHEST: i64 = 24;
-
-/// A variable of the ring.
-#[derive(Clone, Debug)]
-pub enum Atom {
-    /// Component of a parameter.
-    Parameter,
-    /// Component of the state.
-    State,
-    /// Function of the parameters alone.
-    Constant(Of),
-    /// e^u with u independent of other arguments.
-    Exponential(RingPolynomial),
-    /// e^u as a product of powers of other exponentials, some negative.
-    ExponentialOf(RingPolynomial, Vec<(usize, i64)>),
-    /// sin u, where the next variable is cos u.
-    Sine(RingPolynomial),
-    /// cos u, where the variable before is sin u.
-    Cosine(RingPolynomial),
-    /// b^(1/n), where the next variable is its inverse.
-    Root(RingPolynomial, u32),
-    /// b^(−1/n), where the variable before is its inverse, if n > 1.
-    Inverse(RingPolynomial, u32),
-    /// ln b, with 1/b.
-    Logarithm(RingPolynomial, RingPolynomial),
-    /// atan u, with 1/(1 + u²).
-    Arctangent(RingPolynomial, RingPolynomial),
-    /// b^e with a constant e, with 1/b.
-    Power(RingPolynomial, RingPolynomial, RingPolynomial),
-}
-
-/// A function of the parameters.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Of {
-    /// 1/b.
-    Inverse(RingPolynomial),
-    /// √b.
-    Root(RingPolynomial),
-}
 
 /// A reason to begin anew: an argument has to be divided.
 #[derive(Clone, Debug)]
@@ -94,6 +59,7 @@ impl AdjoinedRing {
         polynomial.variables().iter().all(is_constant)
     }
 
+    /// A function of the parameters as a variable.
     fn constant(&mut self, own: Of) -> RingPolynomial {
         let same = |atom: &Atom| matches!(atom, Atom::Constant(of) if *of == own);
         let place = self.atoms.iter().position(same);
@@ -160,11 +126,26 @@ impl AdjoinedRing {
     /// b^(above/order) with order > 1.
     fn root(&mut self, base: &RingPolynomial, above: i64, order: u32) -> Made {
         if self.is_constant(base) {
-            if order != 2 {
-                return None;
-            }
-            let root = self.constant(Of::Root(base.clone()));
+            let root = match order {
+                2 => Of::Root(base.clone()),
+                _ => {
+                    let share = RingPolynomial::constant(Rational::new(1, i64::from(order)));
+                    Of::Function(ConstantFunction::Power(share), base.clone())
+                }
+            };
+            let root = self.constant(root);
             return self.power(&root, &Rational::from(above));
+        }
+        // Square roots are functions of their own in proofs.
+        if order % 2 == 1
+            && let Some(argument) = self.exponent(base)
+        {
+            let power = Rational::new(above, i64::from(order));
+            return self.exponential(&argument.times_number(&power));
+        }
+        // √(g³) is g √g, as g³ and g have one sign.
+        if let Some((own, power)) = base.odd_root() {
+            return self.power(&own, &Rational::new(above * i64::from(power), i64::from(order)));
         }
         let same = |atom: &Atom| matches!(atom, Atom::Root(own, n) if own == base && *n == order);
         let place = match self.atoms.iter().position(same) {
@@ -225,7 +206,8 @@ impl AdjoinedRing {
             return Some(RingPolynomial::constant(Rational::from(1)));
         }
         if self.is_constant(argument) {
-            return None;
+            let own = Of::Function(ConstantFunction::Exponential, argument.clone());
+            return Some(self.constant(own));
         }
         let add = |ring: &mut Self, own: &RingPolynomial| ring.push(Atom::Exponential(own.clone()));
         let multiples = self.multiples(0, argument, add)?;
@@ -252,6 +234,24 @@ impl AdjoinedRing {
         Some(RingPolynomial::variable(place, power))
     }
 
+    /// The exponent of a product of exponentials; `None` of another polynomial.
+    fn exponent(&self, own: &RingPolynomial) -> Made {
+        let (monomial, value) = own.single()?;
+        if !value.is_one() || monomial.is_empty() {
+            return None;
+        }
+        let mut sum = RingPolynomial::default();
+        for (variable, power) in monomial {
+            let argument = match &self.atoms[*variable] {
+                Atom::Exponential(argument) | Atom::ExponentialOf(argument, _) => argument,
+                Atom::Constant(Of::Function(ConstantFunction::Exponential, argument)) => argument,
+                _ => return None,
+            };
+            sum = sum.plus(argument, &Rational::from(i64::from(*power)))?;
+        }
+        Some(sum)
+    }
+
     /// cos u and sin u.
     pub fn circular(&mut self, argument: &RingPolynomial) -> Option<[RingPolynomial; 2]> {
         let one = RingPolynomial::constant(Rational::from(1));
@@ -259,7 +259,8 @@ impl AdjoinedRing {
             return Some([one, RingPolynomial::default()]);
         }
         if self.is_constant(argument) {
-            return None;
+            let own = [ConstantFunction::Cosine, ConstantFunction::Sine];
+            return Some(own.map(|own| self.constant(Of::Function(own, argument.clone()))));
         }
         let add = |ring: &mut Self, own: &RingPolynomial| {
             let sine = ring.push(Atom::Sine(own.clone()));
@@ -290,6 +291,15 @@ impl AdjoinedRing {
 
     /// ln b.
     pub fn logarithm(&mut self, own: &RingPolynomial) -> Made {
+        if let Some(argument) = self.exponent(own) {
+            return Some(argument);
+        }
+        if self.is_constant(own) {
+            return match own.value() {
+                Some(value) if value.is_one() => Some(RingPolynomial::default()),
+                _ => Some(self.constant(Of::Function(ConstantFunction::Logarithm, own.clone()))),
+            };
+        }
         self.function(
             own,
             |atom| matches!(atom, Atom::Logarithm(base, _) if base == own),
@@ -299,6 +309,14 @@ impl AdjoinedRing {
 
     /// atan u.
     pub fn arctangent(&mut self, own: &RingPolynomial) -> Made {
+        if self.is_constant(own) {
+            return match own.is_zero() {
+                true => Some(RingPolynomial::default()),
+                false => {
+                    Some(self.constant(Of::Function(ConstantFunction::Arctangent, own.clone())))
+                }
+            };
+        }
         self.function(
             own,
             |atom| matches!(atom, Atom::Arctangent(base, _) if base == own),
@@ -310,10 +328,18 @@ impl AdjoinedRing {
         )
     }
 
-    /// b^e with an exponent made of parameters.
+    /// b^e.
     pub fn general_power(&mut self, base: &RingPolynomial, exponent: &RingPolynomial) -> Made {
+        if let Some(argument) = self.exponent(base) {
+            return self.exponential(&argument.times(exponent)?);
+        }
         if !self.is_constant(exponent) {
-            return None;
+            let argument = self.logarithm(base)?;
+            return self.exponential(&argument.times(exponent)?);
+        }
+        if self.is_constant(base) {
+            let own = ConstantFunction::Power(exponent.clone());
+            return Some(self.constant(Of::Function(own, base.clone())));
         }
         for place in 0..self.atoms.len() {
             let Atom::Power(own, other, _) = &self.atoms[place] else { continue };

@@ -7,10 +7,12 @@ use liouville::mechanics::System;
 use liouville::number::UnaryFunction;
 use liouville::number::rational::Rational;
 
+use super::super::super::terms::recorded;
+use super::parts::{Read, read};
 use super::read::StepReader;
 use super::ring::{AdjoinedRing, Atom, Of};
 use super::write::RingNames;
-use super::{Effort, Read, SearchError, absence, read, recorded};
+use super::{Effort, SearchError, absence};
 
 /// Number of roots and moduli in a field or map, as it is recorded.
 pub fn root_steps(case: &Case) -> Result<usize, SearchError> {

@@ -8,7 +8,7 @@ use liouville::number::rational::Rational;
 
 use super::names_are_foreign;
 use super::polynomial::RingPolynomial;
-use super::ring::{AdjoinedRing, Atom, Of};
+use super::ring::{AdjoinedRing, Atom, ConstantFunction, Of};
 
 /// Beginning of the names of adjoined functions.
 const PREFIX: &str = "aux";
@@ -43,10 +43,10 @@ impl RingNames {
                     let name = given.next().unwrap_or_default();
                     (name.clone(), name)
                 }
-                Atom::Constant(_) => {
-                    (defined(atom, &names.extended), defined(atom, &names.original))
+                Atom::Constant(Of::Inverse(_) | Of::Root(_)) => {
+                    (defined(ring, atom, &names.extended), defined(ring, atom, &names.original))
                 }
-                _ => (format!("{PREFIX}{place}"), defined(atom, &names.original)),
+                _ => (format!("{PREFIX}{place}"), defined(ring, atom, &names.original)),
             };
             names.extended.push(extended);
             names.original.push(original);
@@ -56,7 +56,7 @@ impl RingNames {
 }
 
 /// Definition of a function by the names before it.
-fn defined(atom: &Atom, names: &[String]) -> String {
+fn defined(ring: &AdjoinedRing, atom: &Atom, names: &[String]) -> String {
     let text = |own: &RingPolynomial| written(own, names);
     let inside = |own: &RingPolynomial| match own.single() {
         Some((monomial, value)) if value.is_one() && monomial.len() == 1 => text(own),
@@ -66,7 +66,22 @@ fn defined(atom: &Atom, names: &[String]) -> String {
         Atom::Parameter | Atom::State => String::new(),
         Atom::Constant(Of::Inverse(own)) => format!("(1/{})", inside(own)),
         Atom::Constant(Of::Root(own)) => format!("√({})", text(own)),
-        Atom::Exponential(own) | Atom::ExponentialOf(own, _) => format!("exp({})", text(own)),
+        Atom::Constant(Of::Function(function, own)) => {
+            let name = match function {
+                ConstantFunction::Exponential => "exp",
+                ConstantFunction::Sine => "sin",
+                ConstantFunction::Cosine => "cos",
+                ConstantFunction::Logarithm => "ln",
+                ConstantFunction::Arctangent => "atan",
+                ConstantFunction::Power(power) => {
+                    return format!("(({})^({}))", text(own), text(power));
+                }
+            };
+            format!("{name}({})", text(own))
+        }
+        Atom::Exponential(own) | Atom::ExponentialOf(own, _) => {
+            general_power(ring, own, names).unwrap_or_else(|| format!("exp({})", text(own)))
+        }
         Atom::Sine(own) => format!("sin({})", text(own)),
         Atom::Cosine(own) => format!("cos({})", text(own)),
         Atom::Root(own, 2) => match own.square_root() {
@@ -84,6 +99,30 @@ fn defined(atom: &Atom, names: &[String]) -> String {
         Atom::Arctangent(own, _) => format!("atan({})", text(own)),
         Atom::Power(own, exponent, _) => format!("({})^({})", text(own), text(exponent)),
     }
+}
+
+/// b^e for e^(e ln b).
+fn general_power(ring: &AdjoinedRing, own: &RingPolynomial, names: &[String]) -> Option<String> {
+    let (monomial, value) = own.single()?;
+    let base = |(place, power): &(usize, u32)| match &ring.atoms[*place] {
+        Atom::Constant(Of::Function(ConstantFunction::Logarithm, base))
+        | Atom::Logarithm(base, _)
+            if *power == 1 =>
+        {
+            Some((*place, base))
+        }
+        _ => None,
+    };
+    let (place, base) = monomial.iter().find_map(base)?;
+    let rest = monomial.iter().filter(|(other, _)| *other != place).copied().collect();
+    let tight = |own: &RingPolynomial| {
+        let text = written(own, names);
+        match text.chars().all(char::is_alphanumeric) && !text.ends_with(['²', '³']) {
+            true => text,
+            false => format!("({text})"),
+        }
+    };
+    Some(format!("({}^{})", tight(base), tight(&RingPolynomial::term(rest, value.clone()))))
 }
 
 /// Writes a polynomial.
@@ -137,6 +176,11 @@ pub fn case(
     for own in model.free_parameters() {
         let liouville::mechanics::ParameterOrigin::Free(recipe) = &own.origin else { return None };
         line(&mut text, &own.name, &recipe.text());
+    }
+    for (place, atom) in ring.atoms.iter().enumerate() {
+        if let Atom::Constant(Of::Function(..)) = atom {
+            line(&mut text, &names[place], RANGE);
+        }
     }
     text.push_str("[state]\n");
     let is_foreign = names_are_foreign(case);

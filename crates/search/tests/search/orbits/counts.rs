@@ -26,18 +26,27 @@ fn a_count_is_explained_by_what_an_orbit_shows() {
 }
 
 #[test]
-fn what_an_orbit_does_not_show_is_left_open() {
+fn further_integrals_are_known_to_a_count() {
     // One component of Laplace's vector is a function of the other, the area and the energy.
     let report = searched(&lagrangian("−1/√(x² + y²)"), &Effort::default());
     let two = report.counts.iter().find(|count| count.degree == 2).expect("a count");
-    assert_eq!((two.dimension, two.known), (6, 5), "1, L, L², E, A_y, and A_x");
+    assert_eq!((two.dimension, two.known), (6, 6), "1, L, L², E, A_y, and A_x");
+    let theorem = report.excluded.iter().find(|own| own.theorem.contains("degree at most 4"));
+    let theorem = &theorem.expect("of degree 4").theorem;
+    assert_eq!(theorem.matches("√(x² + y²)").count(), 2, "both components: {theorem}");
+}
+
+#[test]
+fn what_an_orbit_does_not_show_is_left_open() {
+    // Laplace's vector is not one formula for all listed values, and not written.
+    let text = lagrangian("−k/√(x² + y²)");
+    let text = text.replace("[state]", "[parameters]\nk = 'one of 1, 2'\n[state]");
+    let report = searched(&text, &Effort::default());
+    let two = report.counts.iter().find(|count| count.degree == 2).expect("a count");
+    assert_eq!((two.dimension, two.known), (6, 4), "1, L, L², E, and A_y, A_x");
     let theorem = report.excluded.iter().find(|own| own.theorem.contains("degree at most"));
     let theorem = &theorem.expect("of degree 1").theorem;
-    assert!(
-        theorem.contains("degree at most 1 is a polynomial in energy")
-            || theorem.contains("in x*y")
-    );
-    assert!(!theorem.contains('√'), "no integral of degree 2: {theorem}");
+    assert!(theorem.contains("degree at most 1"), "no integral of degree 2: {theorem}");
     let counted = report.remarks.iter().find(|remark| remark.contains("are counted than known"));
     assert!(counted.expect("a remark").contains("degree 2"), "the first degree");
 }

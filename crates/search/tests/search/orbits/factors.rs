@@ -212,8 +212,13 @@ fn darboux_polynomials_beside_functions_with_relations_are_found() {
 #[test]
 fn integrals_in_the_plane_follow_from_a_density() {
     let report = searched(&any_field(&[("x", "y"), ("y", "-x*sin(x) - y²")]), &Effort::default());
-    let integral = "exp(2*x)*(−6*sin(x) + 8*cos(x) + 20*x*sin(x) − 10*x*cos(x) + 25*y²)";
+    let integral = "2*x + ln(|6*sin(x) − 8*cos(x) − 20*x*sin(x) + 10*x*cos(x) − 25*y²|)";
     assert_eq!(report.formulas("integral").collect::<Vec<_>>(), [integral]);
+    // Without a Darboux polynomial, which has too many terms.
+    let report = searched(&any_field(&[("x", "y"), ("y", "-x²*sin(x) - y²")]), &Effort::default());
+    let own: Vec<&str> = report.formulas("integral").collect();
+    let [integral] = own[..] else { panic!("{own:?}") };
+    assert!(integral.starts_with("exp(2*x)*("), "{integral}");
     let only = |own: &liouville_search::Excluded| own.theorem.contains(integral);
     assert!(report.excluded.iter().all(only), "no other is excluded: {:?}", report.excluded);
 }
@@ -242,4 +247,25 @@ fn logarithms_are_those_of_moduli_unless_the_ranges_say_otherwise() {
         let [x, y] = signs;
         assert_eq!(powers(range), format!("a*ln({x}) + ln({y})"), "{range}");
     }
+}
+
+#[test]
+fn factors_with_parameters_are_told_one_by_one() {
+    let found = |parameters: &str, rates: &[&str]| -> Vec<String> {
+        let report = searched(&field(parameters, rates), &Effort::default());
+        let own = report.found.iter().filter(|own| own.kind == "darboux-polynomial");
+        own.map(|own| own.formula.clone()).collect()
+    };
+    // x ± a y.
+    let own = found("a = '1..2'", &["x + a²*y", "x + y"]);
+    assert_eq!(own.len(), 2, "{own:?}");
+    assert!(own.iter().all(|one| !one.contains('²')), "{own:?}");
+    // (x + a y)(x² + a x y + b y²), of which the second factor has no rational coefficients.
+    let rate = "(x + a*y)*(x² + a*x*y + b*y²)";
+    let own = found("a = '1..2'\nb = '3..4'", &[rate, "0"]);
+    assert!(own.iter().any(|one| one == "x + a*y"), "{own:?}");
+    assert!(own.iter().all(|one| !one.contains("a²")), "{own:?}");
+    // Irreducible ones stay.
+    let own = found("a = '1..2'", &["x + a*y", "x + y"]);
+    assert_eq!(own.len(), 1, "{own:?}");
 }

@@ -24,6 +24,7 @@ fn darboux_polynomials_with_roots_of_numbers_and_parameters_are_found() {
         ("", ["(1 + √5)/2*x", "-y/((1 + √5)/2)"], "(3 − √(5))*ln(x) + 2*ln(y)"),
         ("", ["x*(1 - √11*y)", "-√11*y*(1 - x)"], "√(11)*ln(y) + 11*ln(x) − 11*x − 11*y"),
         ("", ["x*(1 - √2*y)", "-√3*y*(1 - x)"], "ln(y) + √(3)*ln(x) − √(3)*x − √(2)*y"),
+        ("", ["√2*x*(1 - y)", "-√3*y*(1 - x)"], "√(2)*√(3)*ln(y) + 3*ln(x) − 3*x − √(2)*√(3)*y"),
         ("a = '1..2'", ["x*(1 - y)", "-√a*y*(1 - x)"], "√(a)*ln(y) + a*ln(x) − a*x − √(a)*y"),
     ];
     for (parameters, rates, expected) in fields {
@@ -33,6 +34,23 @@ fn darboux_polynomials_with_roots_of_numbers_and_parameters_are_found() {
         assert_eq!(integral(&report), Some(expected), "{rates:?}");
         assert!(!excludes(&report), "{rates:?}: {:?}", report.excluded);
     }
+}
+
+#[test]
+fn products_of_roots_are_coefficients() {
+    let fields = [
+        ("", ["√2*x*(1 - √5*y)", "-√3*y*(1 - √7*x)"]),
+        ("", ["√2*x*(1 + √3 - y)", "-(√3 + √2)*y*(1 - x)"]),
+        ("a = '1..2'\nb = '1..2'", ["√a*x*(1 - y)", "-√b*y*(1 - x)"]),
+        ("a = '1..2'", ["√a*x*(1 - √2*y)", "-√3*y*(1 - x)"]),
+    ];
+    for (parameters, rates) in fields {
+        let report = searched(&field(parameters, &rates), &Effort::default());
+        assert!(integral(&report).is_some(), "{rates:?}: {:?} {:?}", report.found, report.remarks);
+    }
+    // x² − √6 x y + y² is kept.
+    let rotation = searched(&map("", &["y", "-x + √2*√3*y"]), &Effort::default());
+    assert!(integral(&rotation).is_some(), "{:?}", rotation.remarks);
 }
 
 #[test]

@@ -191,3 +191,54 @@ fn coordinates_that_a_map_keeps_are_integrals() {
         assert_eq!(report.formulas("density").collect::<Vec<_>>(), densities, "{images:?}");
     }
 }
+
+#[test]
+fn maps_by_monomials_have_integrals_with_logarithms() {
+    let maps = [
+        ("", vec!["x²", "y²"], 1),
+        ("", vec!["x²*y", "x*y"], 1),
+        ("", vec!["x²", "y³"], 1),
+        ("", vec!["x²", "1/y²"], 1),
+        ("", vec!["1/(x²*y)", "1/(x*y)"], 1),
+        ("c = '0.5..2'", vec!["c*x²", "y²"], 1),
+        ("c = '0.5..2'", vec!["c*x²", "y³/c"], 1),
+        ("a = '2..3'", vec!["x^a", "y^a"], 1),
+        ("", vec!["√x", "√y"], 1),
+        ("", vec!["y*z", "z*x", "x*y"], 2),
+    ];
+    for (parameters, images, count) in maps {
+        let report = searched(&map(parameters, &images), &Effort::default());
+        assert_eq!(report.formulas("integral").count(), count, "{images:?}: {:?}", report.found);
+    }
+    let square = searched(&map("", &["x²", "y²"]), &Effort::default());
+    let own: Vec<&str> = square.formulas("integral").collect();
+    assert!(own == ["ln(y)/ln(x)"] || own == ["ln(x)/ln(y)"], "{own:?}");
+    // Sums are no monomials.
+    let other = searched(&map("", &["x² + 1", "y²"]), &Effort::default());
+    assert_eq!(other.formulas("integral").count(), 0, "{:?}", other.found);
+}
+
+#[test]
+fn logarithms_are_those_of_moduli_where_signs_are_open() {
+    let text = "title = 'x'\n[state]\nx = '-2..2'\ny = '-2..2'\n[map]\nx = 'x³*y'\ny = 'y³'\n";
+    let report = searched(text, &Effort::default());
+    assert!(report.formulas("integral").all(|own| own.contains("|x|")), "{:?}", report.found);
+    let text = text.replace("x³*y", "x³");
+    let report = searched(&text, &Effort::default());
+    assert_eq!(report.formulas("integral").count(), 1, "{:?}", report.found);
+}
+
+#[test]
+fn densities_of_maps_may_be_fractions() {
+    // X = x, Y = y (1 + x²)/x with a map of X, Y that keeps areas.
+    let forward = "(y*(1 + x²)/x)";
+    let images = [forward.to_string(), format!("(-x + {forward}²)*{forward}/(1 + {forward}²)")];
+    let report = searched(&map("", &[&images[0], &images[1]]), &Effort::default());
+    assert_eq!(densities(&report).len(), 1, "{:?} {:?}", report.found, report.remarks);
+    assert!(densities(&report)[0].contains('/'), "{:?}", densities(&report));
+    let forward = "(y*(k + x)/(1 + x))";
+    let images =
+        [forward.to_string(), format!("(-x + {forward}²)*(1 + {forward})/(k + {forward})")];
+    let report = searched(&map("k = '2..3'", &[&images[0], &images[1]]), &Effort::default());
+    assert_eq!(densities(&report).len(), 1, "{:?} {:?}", report.found, report.remarks);
+}

@@ -1,0 +1,29 @@
+//! Limits of the searches along orbits.
+
+/// Limits of one round of a search.
+#[derive(Clone, Copy)]
+pub struct RoundLimits {
+    /// Largest number of monomials of a relation.
+    pub monomials: usize,
+    /// Largest degree of a relation.
+    pub degree: u32,
+    /// Largest number of steps of an elimination on a line.
+    pub steps: f64,
+    /// Largest number of steps for polynomial integrals class by class.
+    pub graded: f64,
+}
+
+/// Limits without a limit of time.
+pub const MODEST: RoundLimits = RoundLimits { monomials: 300, degree: 8, steps: 4e7, graded: 4e8 };
+
+/// The same where functions are further variables.
+pub const EXTENDED: RoundLimits =
+    RoundLimits { monomials: 400, degree: 8, steps: 4e7, graded: 4e8 };
+
+/// Limits that follow while there is time.
+pub const FURTHER: [RoundLimits; 4] = [
+    RoundLimits { monomials: 500, degree: 16, steps: 2e8, graded: 2e9 },
+    RoundLimits { monomials: 900, degree: 24, steps: 2e9, graded: 2e10 },
+    RoundLimits { monomials: 1700, degree: 24, steps: 2e10, graded: 2e11 },
+    RoundLimits { monomials: 3200, degree: 24, steps: 2e11, graded: 2e12 },
+];
