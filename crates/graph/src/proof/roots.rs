@@ -135,10 +135,10 @@ impl RootFinder<'_> {
             over: over.clone(),
         };
         let before = own.first;
-        if let Some((scale, square)) =
-            self.samples().and_then(|samples| samples.square(base, others, before))
-            && let Some(certificate) = self.is_square(base, others, &scale, square)?
-        {
+        let squares = self.samples().map(|samples| samples.squares(base, others, before));
+        for (scale, square) in squares.unwrap_or_default() {
+            // A modulus, whose sign is known, may be one of those that are not settled.
+            let Some(certificate) = self.is_square(base, others, &scale, square)? else { continue };
             return Ok(Some(match scale.is_negative() {
                 true => RootSearch::NeverReal(Some(certificate)),
                 false => {

@@ -149,28 +149,30 @@ impl RootSamples {
     }
 
     /// Finds b and c with A Π A_i = c b² at all points, for a base and others by their indices: b
-    /// from the places before `before`, preferably with a known sign.
-    pub fn square(
-        &self,
-        base: usize,
-        others: &[usize],
-        before: usize,
-    ) -> Option<(Rational, Square)> {
-        let mut target = *self.radicands.get(base)?;
-        for other in others {
-            target = self.product(&target, self.radicands.get(*other)?);
-        }
+    /// from the places before `before`, first with a known sign, then with any.
+    pub fn squares(&self, base: usize, others: &[usize], before: usize) -> Vec<(Rational, Square)> {
+        let radicands = [base].into_iter().chain(others.iter().copied());
+        let radicands: Option<Vec<&Values>> =
+            radicands.map(|own| self.radicands.get(own)).collect();
+        let Some((first, rest)) = radicands.as_deref().and_then(<[&Values]>::split_first) else {
+            return Vec::new();
+        };
+        let target = rest.iter().fold(**first, |target, own| self.product(&target, own));
         if target.iter().any(|x| x[0] == UNDEFINED || *x == [0, 0]) {
-            return None;
+            return Vec::new();
         }
         let ones: Values = self.moduli.map(|m| [m.one(), 0]);
         if self.is_multiple(&target, &ones) {
-            return Some((self.number(&target, &ones)?, Square::One));
+            let number = self.number(&target, &ones);
+            return number.map(|number| (number, Square::One)).into_iter().collect();
         }
-        [true, false].into_iter().find_map(|only_known| {
+        let found = [true, false].into_iter().filter_map(|only_known| {
             let (square, values) = self.find(&target, only_known, before)?;
             Some((self.number(&target, &values)?, square))
-        })
+        });
+        let mut found: Vec<(Rational, Square)> = found.collect();
+        found.dedup();
+        found
     }
 
     /// Finds b such that b² is a constant multiple of the target; returns b and the values of b².
