@@ -334,7 +334,8 @@ pub(super) fn call(
             FormulaError::new(arguments[place].span.clone(), message)
         }
         None => {
-            let counts: Vec<String> = overloads(name).map(|f| f.arguments.count()).collect();
+            let mut counts: Vec<String> = overloads(name).map(|f| f.arguments.count()).collect();
+            counts.dedup();
             let counts = counts.join(" or ");
             let plural = if counts == "1" { "" } else { "s" };
             FormulaError::new(
