@@ -151,7 +151,7 @@ fn functions_check_their_arguments() {
         "solve(B)",
         "`solve` takes 2 arguments, not 1",
         "solve(B)",
-        Some("write `solve(matrix, vector)`"),
+        Some("write `solve(matrix, vector)` or `solve(matrix, matrix)`"),
     );
     let filled = Some("give 4, 9, 16, … entries, or the rows: `mat([a,b,c],[d,e,f])`");
     error("mat(1,2,3)", "3 entries do not fill a square matrix", "mat(1,2,3)", filled);
