@@ -1,8 +1,9 @@
 //! Code in languages that the machine may not run, as it is printed; wrong requests.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 /// A field with all operations, names that languages reserve, and names that look alike in ASCII.
 const CASE: &str = "\
@@ -29,15 +30,18 @@ integral = \"J*cos(E)/L2^3\"
 expect   = \"fails\"
 ";
 
-fn folder() -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("export");
-    fs::create_dir_all(&path).expect("a scratch folder");
-    path
+/// Returns the folder of the case, which is written once: tests run at the same time.
+fn folder() -> &'static Path {
+    static FOLDER: OnceLock<PathBuf> = OnceLock::new();
+    FOLDER.get_or_init(|| {
+        let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("export");
+        fs::create_dir_all(&path).expect("a scratch folder");
+        fs::write(path.join("all.toml"), CASE).expect("a file");
+        path
+    })
 }
 
 fn export(arguments: &[&str]) -> (Option<i32>, String, String) {
-    let path = folder().join("all.toml");
-    fs::write(&path, CASE).expect("a file");
     let mut command = Command::new(env!("CARGO_BIN_EXE_liouville"));
     let output = command.arg("export").args(arguments).current_dir(folder()).output();
     let output = output.expect("it runs");
