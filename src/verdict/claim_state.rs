@@ -41,6 +41,8 @@ pub struct ClaimState {
     pub is_unseen: bool,
     /// Whether the states are a part of lower dimension than the place.
     pub is_thin: bool,
+    /// Whether the part has states, though perhaps none at which the claim has a value.
+    pub has_states: bool,
     /// Message that the residual has no value on a part of the states that count, if so.
     pub partial: Option<String>,
     /// Whether a value that does not vanish is shown not to on a part of the states only.

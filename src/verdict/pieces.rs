@@ -9,7 +9,7 @@ use super::judge::JudgeError;
 use super::judging::Judging;
 use super::ladder::Open;
 use super::recorded::RecordedClaim;
-use super::sampler::Sampler;
+use super::sampler::{Sampler, TAPE_LANES};
 use crate::claim::LevelSubset;
 use crate::graph::Fault;
 use crate::level::Cover;
@@ -111,8 +111,11 @@ impl Judging<'_> {
                     |item: &RecordedClaim<'_>| !(sampler.is_thin() && item.claim.kind.is_negated());
                 let items = items.filter(|(item, _)| is_asked(item));
                 self.climb_on(place, sampler, items.collect())?;
-                if sampler.is_thin() {
-                    states.iter_mut().for_each(|state| state.is_thin = true);
+                let drawn = sampler.balls(0);
+                let is_state = |lane: usize| drawn.iter().all(|block| block.is_defined(lane));
+                let (is_thin, has_states) = (sampler.is_thin(), (0..TAPE_LANES).any(is_state));
+                for state in &mut states {
+                    (state.is_thin, state.has_states) = (is_thin, has_states);
                 }
                 own.push(states);
             }
@@ -172,6 +175,11 @@ fn on_all(states: Vec<ClaimState>) -> ClaimState {
     let (void, mut states): (Vec<_>, Vec<_>) = states.into_iter().partition(is_void);
     if states.is_empty() {
         return first(void, |_| true);
+    }
+    // No state of a thin part counts if the claim has no value at the states around it.
+    let is_without_value = |state: &ClaimState| !state.is_thin && state.has_states;
+    if states.iter().all(|state| state.is_thin) && void.iter().any(is_without_value) {
+        return first(void, is_without_value);
     }
     if states.iter().any(|state| state.settled == Some(Verdict::Refuted)) {
         return first(states, |state| state.settled == Some(Verdict::Refuted));
