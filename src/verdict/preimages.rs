@@ -94,6 +94,11 @@ impl Judging<'_> {
         let lane = |k: usize| -> Vec<Balls<1>> {
             drawn.iter().map(|block| Balls::new([block.mid[k]], [block.rad[k]])).collect()
         };
+        // The second state may lie on another part of the level.
+        let parts: Vec<Vec<Balls<TAPE_LANES>>> = match self.pieces.borrow().get(kept) {
+            Some(Some(pieces)) => pieces.iter().flatten().map(|part| part.balls(0)).collect(),
+            _ => Vec::new(),
+        };
         let set = TAPE_LANES / PARAMETER_SETS;
         for k in 0..TAPE_LANES {
             let here = lane(k);
@@ -104,9 +109,15 @@ impl Judging<'_> {
                 Second::Anywhere => &MULTIPLES[..],
             };
             let others = (1..=STARTS).map(|step| k - k % set + (k + step) % set);
-            for (other, by) in others.flat_map(|other| multiples.iter().map(move |by| (other, *by)))
+            let drawn = others.map(|other| lane(other));
+            let of_parts = parts.iter().map(|part| {
+                part.iter().map(|block| Balls::new([block.mid[k]], [block.rad[k]])).collect()
+            });
+            let starts: Vec<Vec<Balls<1>>> = drawn.chain(of_parts).collect();
+            for (other, by) in
+                starts.iter().flat_map(|other| multiples.iter().map(move |by| (other, *by)))
             {
-                let start: Vec<f64> = lane(other)[free..].iter().map(|x| by * x.mid[0]).collect();
+                let start: Vec<f64> = other[free..].iter().map(|x| by * x.mid[0]).collect();
                 let Some(there) = newton.enclose(&target, &start) else { continue };
                 let is_other = here[free..]
                     .iter()

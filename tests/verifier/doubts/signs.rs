@@ -141,6 +141,10 @@ fn maps_of_a_level_that_take_two_states_to_one_are_seen() {
         (["x² − y²", "2*x*y", "z"], circle, "1"),
         // So it is by a map that goes along the radius to the circle.
         (["(x² − y²)/(x² + y²)", "2*x*y/(x² + y²)", "z"], circle, "1"),
+        // One part of the level is laid on the other.
+        (["x + y", "0", "z"], "'x*y = 0'", "1"),
+        (["x + y", "0", "z + x"], "'x*y = 0'", "x + y"),
+        (["x", "0", "z"], "'y*(y − x) = 0'", "1"),
     ] {
         let (verdict, reason) = own(map, level, density);
         assert_eq!(verdict, Verdict::Undecided, "{map:?} on {level}");
