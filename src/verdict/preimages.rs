@@ -109,7 +109,7 @@ impl Judging<'_> {
                 Second::Anywhere => &MULTIPLES[..],
             };
             let others = (1..=STARTS).map(|step| k - k % set + (k + step) % set);
-            let drawn = others.map(|other| lane(other));
+            let drawn = others.map(lane);
             let of_parts = parts.iter().map(|part| {
                 part.iter().map(|block| Balls::new([block.mid[k]], [block.rad[k]])).collect()
             });
