@@ -12,9 +12,9 @@ use super::sampler::{Sampler, TAPE_LANES, inside};
 use super::witness::briefly;
 use crate::graph::{Evaluator, Expr, Fault, Tape, record};
 use crate::level::Newton;
-use crate::mechanics::Phase;
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::elimination::transversals;
+use crate::mechanics::{Model, Phase};
 use crate::number::ball::{Ball, Balls};
 
 /// Number of parameter sets that are tried.
@@ -52,29 +52,7 @@ impl Judging<'_> {
             return Ok(None);
         }
         let kept = sampler.kept();
-        let (graph, (values, slopes)) = record(free + 2 * dimension, |inputs| {
-            let (parameters, rest) = inputs.split_at(free);
-            let (image, state) = rest.split_at(dimension);
-            let jet = DualPoint::new(Phase::new(model, parameters, state));
-            let there = DualPoint::new(Phase::new(model, parameters, image));
-            let across = transversals(&there.level_gradients(kept));
-            let functions = model.level.iter().zip(kept).filter(|(_, kept)| **kept);
-            let functions: Vec<Expr> =
-                functions.map(|(own, _)| jet.phase.level_function(&own.function)).collect();
-            let (columns, gradients) = (jet.derivative(), jet.level_gradients(kept));
-            let moved = |of: &dyn Fn(usize) -> Expr, i: usize| -> Expr {
-                (0..across.len()).map(|j| Expr::from(ACROSS) * across[j][i] * of(j)).sum()
-            };
-            let value = |i: usize| jet.phase.field()[i] - image[i] + moved(&|j| functions[j], i);
-            let slope = |i: usize, k: usize| columns[k][i] + moved(&|j| gradients[j][k], i);
-            let values: Vec<Expr> = (0..dimension).map(value).collect();
-            let slopes: Vec<Expr> = (0..dimension)
-                .flat_map(|i| (0..dimension).map(move |k| (i, k)))
-                .map(|(i, k)| slope(i, k))
-                .collect();
-            (values, slopes)
-        })?;
-        let newton = Newton::of(&graph, &values, &slopes, free + dimension);
+        let newton = equation(model, kept)?;
         let mut outputs = self.common.field.clone();
         let on_level = self.common.level.iter().zip(kept).filter(|(_, kept)| **kept);
         outputs.extend(on_level.map(|(function, _)| *function));
@@ -140,4 +118,33 @@ impl Judging<'_> {
         }
         Ok(None)
     }
+}
+
+/// Records the equation for a state y on the level with the image z; its parameters are those of the model
+/// and z.
+fn equation(model: &Model, kept: &[bool]) -> Result<Newton, Fault> {
+    let (free, dimension) = (model.free_components(), model.dimension());
+    let (graph, (values, slopes)) = record(free + 2 * dimension, |inputs| {
+        let (parameters, rest) = inputs.split_at(free);
+        let (image, state) = rest.split_at(dimension);
+        let jet = DualPoint::new(Phase::new(model, parameters, state));
+        let there = DualPoint::new(Phase::new(model, parameters, image));
+        let across = transversals(&there.level_gradients(kept));
+        let functions = model.level.iter().zip(kept).filter(|(_, kept)| **kept);
+        let functions: Vec<Expr> =
+            functions.map(|(own, _)| jet.phase.level_function(&own.function)).collect();
+        let (columns, gradients) = (jet.derivative(), jet.level_gradients(kept));
+        let moved = |of: &dyn Fn(usize) -> Expr, i: usize| -> Expr {
+            (0..across.len()).map(|j| Expr::from(ACROSS) * across[j][i] * of(j)).sum()
+        };
+        let value = |i: usize| jet.phase.field()[i] - image[i] + moved(&|j| functions[j], i);
+        let slope = |i: usize, k: usize| columns[k][i] + moved(&|j| gradients[j][k], i);
+        let values: Vec<Expr> = (0..dimension).map(value).collect();
+        let slopes: Vec<Expr> = (0..dimension)
+            .flat_map(|i| (0..dimension).map(move |k| (i, k)))
+            .map(|(i, k)| slope(i, k))
+            .collect();
+        (values, slopes)
+    })?;
+    Ok(Newton::of(&graph, &values, &slopes, free + dimension))
 }

@@ -58,7 +58,7 @@ struct Candidate {
     polynomial: RingPolynomial,
     /// Largest degree and number of terms of one that is a function of those known.
     most: (u32, usize),
-    /// How it comes from others.
+    /// Its origin in others.
     origin: (&'static str, String),
 }
 

@@ -1,4 +1,4 @@
-//! What is read from a recording of a case: its field, known integrals and further functions, as
+//! Parts read from the recording of a case: its field, known integrals and further functions, as
 //! polynomials of one ring.
 
 use liouville::case::Case;
