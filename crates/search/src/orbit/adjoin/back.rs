@@ -160,23 +160,28 @@ impl Back {
 
     /// Replaces the names that are left.
     fn replaced(&self, text: &str) -> String {
-        let mut made = String::new();
-        let mut word = String::new();
-        for letter in text.chars().chain([' ']) {
-            if letter.is_alphanumeric() && !"²³".contains(letter) {
-                word.push(letter);
-                continue;
-            }
-            match self.entries.iter().find(|entry| entry.name == word) {
-                Some(entry) => made.push_str(&entry.text),
-                None => made.push_str(&word),
-            }
-            word.clear();
-            made.push(letter);
-        }
-        made.truncate(made.len() - 1);
-        made
+        with_words(text, &|word| {
+            let entry = self.entries.iter().find(|entry| entry.name == word);
+            entry.map(|entry| entry.text.clone())
+        })
     }
+}
+
+/// Replaces the words of a text for which there is another.
+pub(super) fn with_words(text: &str, other: &dyn Fn(&str) -> Option<String>) -> String {
+    let mut made = String::new();
+    let mut word = String::new();
+    for letter in text.chars().chain([' ']) {
+        if letter.is_alphanumeric() && !"²³".contains(letter) {
+            word.push(letter);
+            continue;
+        }
+        made.push_str(&other(&word).unwrap_or_else(|| word.clone()));
+        word.clear();
+        made.push(letter);
+    }
+    made.truncate(made.len() - 1);
+    made
 }
 
 /// Sum of terms with their signs.

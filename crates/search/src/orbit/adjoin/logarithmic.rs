@@ -8,6 +8,7 @@ use liouville::number::rational::Rational;
 
 use super::super::super::SearchError;
 use super::super::super::terms::recorded;
+use super::back::with_words;
 use super::is_constant;
 use super::polynomial::RingPolynomial;
 use super::read::StepReader;
@@ -94,26 +95,15 @@ impl MonomialMap {
     /// Writes a formula of the logarithms in the names of the map; `logarithms` are those of the state,
     /// and `parameters` the names of the parameters' components.
     pub fn back(&self, text: &str, logarithms: &[String], parameters: &[String]) -> String {
-        let mut made = String::new();
-        let mut word = String::new();
-        for letter in text.chars().chain([' ']) {
-            if letter.is_alphanumeric() && !"²³".contains(letter) {
-                word.push(letter);
-                continue;
-            }
+        with_words(text, &|word| {
             let number = |prefix: &str| word.strip_prefix(prefix)?.parse::<usize>().ok();
             let own = number(NAMES[0]).and_then(|k| logarithms.get(k).cloned());
             let own = own.or_else(|| {
                 let coefficient = self.coefficients.get(number(NAMES[1])?)?.as_ref()?;
                 Some(format!("ln(|{coefficient}|)"))
             });
-            let own = own.or_else(|| parameters.get(number("own")?).cloned());
-            made.push_str(&own.unwrap_or_else(|| word.clone()));
-            word.clear();
-            made.push(letter);
-        }
-        made.truncate(made.len() - 1);
-        made
+            own.or_else(|| parameters.get(number("own")?).cloned())
+        })
     }
 
     /// Coefficients c_i in the names of the map, where they are not 1.
