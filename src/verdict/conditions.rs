@@ -26,6 +26,10 @@ impl Judging<'_> {
     ) -> Result<(), Fault> {
         for (item, status) in holding.iter_mut() {
             for condition in &item.conditions {
+                let asks_one_to_one = matches!(condition.need, Need::OneToOne);
+                if asks_one_to_one && self.is_one_to_one(sampler)? {
+                    continue;
+                }
                 let failure = match (&condition.need, sampler.is_numerical()) {
                     (Need::NotZero { .. } | Need::Positive { .. }, true) => {
                         Some(condition.otherwise.clone())
@@ -33,7 +37,13 @@ impl Judging<'_> {
                     (_, true) => None,
                     (_, false) => self.failure(sampler, item, condition)?,
                 };
-                let Some(failure) = failure else { continue };
+                let Some(failure) = failure else {
+                    if asks_one_to_one {
+                        let remark = format!("{}, which is not proved", condition.otherwise);
+                        status.evidence.add_remark(remark);
+                    }
+                    continue;
+                };
                 if !condition.is_essential {
                     status.evidence.add_remark(failure);
                 } else if !self.holds_of_all_values(item)? {

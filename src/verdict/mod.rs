@@ -25,6 +25,7 @@ mod jumps;
 mod ladder;
 mod mutants;
 mod novelty;
+mod one_to_one;
 mod overflow;
 mod parts;
 mod pass;

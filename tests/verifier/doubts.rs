@@ -5,6 +5,7 @@ mod absent;
 mod frames;
 mod jumps;
 mod levels;
+mod maps;
 mod parts;
 mod signs;
 mod vacuous;

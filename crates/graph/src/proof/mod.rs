@@ -21,6 +21,7 @@
 //! | `explore`, `division`, `next`, `cells`, `rewrite` | the cells of signs, and proofs on each |
 //! | `domain`, `fact`, `classes`, `extent` | signs of values over the ranges of the inputs |
 //! | `elimination`, `rank`, `reconstruct`, `coprime` | linear algebra and polynomials modulo a prime |
+//! | `determined` | values that others determine |
 
 mod angles;
 mod bounded;
@@ -33,6 +34,7 @@ mod choices;
 mod classes;
 mod combination;
 mod coprime;
+mod determined;
 mod digest;
 mod division;
 mod domain;
@@ -73,6 +75,7 @@ mod tests;
 pub use bounds::InputDistribution;
 pub use combination::combinations;
 pub use coprime::{are_coprime, are_polynomials, is_single_valued};
+pub use determined::Determination;
 pub use digest::statement_seed;
 pub use domain::{KnownSign, is_nowhere_zero, narrowed, point, sign};
 pub use elimination::reduce;

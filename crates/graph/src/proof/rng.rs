@@ -33,6 +33,8 @@ pub enum ProofStream {
     Logarithms = 9,
     /// Primes and lines for common factors.
     Factors = 10,
+    /// Points for relations that determine values.
+    Inverses = 11,
 }
 
 /// Random numbers for tests in fields, disjoint from all streams of states.

@@ -1,0 +1,77 @@
+//! Densities of maps that are proved to be one-to-one, and of maps that are not.
+
+use super::claims;
+use liouville::verdict::Verdict;
+
+/// The remark on the density 1 of a map, which is proved.
+fn remark(rest: &str) -> String {
+    let report = claims(&format!("title = 't'\n{rest}\n[[claim]]\ndensity = '1'\n")).remove(0);
+    assert_eq!(report.verdict, Verdict::Proved, "{rest}: {:?}", report.evidence);
+    report.evidence.remark.unwrap_or_default()
+}
+
+/// The remark on the density 1 of a map of x and y with parameters a and b.
+fn of_plane(x: &str, y: &str, more: &str) -> String {
+    remark(&format!(
+        "[parameters]\na = '0.5..2'\nb = 'one of 1, 2'\n[state]\nx = '-2..2'\ny = '-2..2'\n\
+         [map]\nx = '{x} + 0*a*b'\ny = '{y}'\n{more}"
+    ))
+}
+
+#[test]
+fn a_map_whose_image_determines_the_state_needs_no_remark() {
+    for [x, y] in [
+        ["x + y + a*sin(x)", "y + a*sin(x)"],
+        ["1 − a*|x| + y", "−x"],
+        ["y", "b − x + √(1 + y²)"],
+        ["x + a*b*y³", "y"],
+        ["y", "−x + 2*a*y/(1 + y²)"],
+        ["x*exp(a*y)", "−exp(−a*y)/a"],
+    ] {
+        assert_eq!(of_plane(x, y, ""), "", "{x}, {y}");
+    }
+}
+
+#[test]
+fn a_map_that_is_not_known_to_be_one_to_one_gets_a_remark() {
+    let of_line =
+        |range: &str, map: &str| remark(&format!("[state]\nx = '{range}'\n[map]\nx = '{map}'"));
+    // A second state with the same image is found for few states only.
+    assert!(of_line("0..1000", "|x − 1|").contains("not proved"));
+    assert_eq!(of_line("1..1000", "x − 1"), "");
+    assert_eq!(of_line("0..1000", "−x"), "");
+    // One image of (x, y) and (−x, y), for a few x < 0.
+    let folded = "[state]\nx = '-0.001..2'\ny = '-2..2'\n[map]\nx = '|x|'\ny = 'y + x²'";
+    assert!(remark(folded).contains("not proved"));
+}
+
+#[test]
+fn a_map_of_one_variable_is_one_to_one_where_it_is_monotone() {
+    let own = |range: &str, map: &str, density: &str| {
+        let text = format!(
+            "title = 't'\n[state]\nx = '{range}'\n[map]\nx = '{map}'\n\
+             [[claim]]\ndensity = '{density}'\nexpect = 'open'\n"
+        );
+        let report = claims(&text).remove(0);
+        (report.verdict, report.evidence.remark.unwrap_or_default())
+    };
+    // ln|ln x| is moved by ln 2.
+    assert_eq!(own("0.5..2", "x²", "1/(x*|ln(x)|)"), (Verdict::Proved, String::new()));
+    // tan, written as sin/cos, is monotone on no range with a pole.
+    let (verdict, remark) = own("0..3", "arctan(tan(x))", "1");
+    assert!(verdict != Verdict::Proved || remark.contains("not proved"), "{verdict:?}: {remark}");
+    assert_eq!(own("0..1", "arctan(tan(x))", "1"), (Verdict::Proved, String::new()));
+}
+
+#[test]
+fn a_map_of_a_level_is_one_to_one_on_the_level() {
+    let sphere = "[level]\nequations = ['x² + y² + z² = 1']";
+    let state = "[state]\nx = '-1..1'\ny = '-1..1'\nz = '-1..1'";
+    let turned = "[map]\nx = 'x*cos(z) − y*sin(z)'\ny = 'x*sin(z) + y*cos(z)'\nz = 'z'";
+    assert_eq!(remark(&format!("{state}\n{turned}\n{sphere}")), "");
+    // x² is determined by the image, and x is not.
+    let folded = "[map]\nx = 'x'\ny = 'y + |x| − x'\nz = 'z'";
+    let plane = "[level]\nequations = ['z = x²']";
+    let text = format!("{}\n{folded}\n{plane}", state.replace("'-1..1'\ny", "'-0.001..1'\ny"));
+    assert_eq!(remark(&text), "", "x is its own image");
+}
