@@ -43,6 +43,7 @@ mod potentials;
 pub mod recording;
 mod scales;
 mod size;
+mod states;
 pub mod subspace;
 mod surd;
 pub mod system;

@@ -10,6 +10,7 @@ use super::super::terms::recorded;
 use super::super::{Effort, Halt, SearchError};
 use super::Coordinates;
 use super::recording::{Derivation, Recording};
+use super::states::KeptStates;
 use crate::streams::SearchStream;
 use liouville::case::Case;
 use liouville::claim::LevelSubset;
@@ -19,7 +20,7 @@ use liouville::mechanics::Draw;
 use liouville::mechanics::calculus::DualPoint;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
 use liouville::number::rational::Rational;
-use liouville::proof::statement_seed;
+use liouville::proof::{ProofRng, statement_seed};
 use liouville::verdict::Sampler;
 
 /// Number of lanes of the evaluation.
@@ -77,6 +78,7 @@ pub struct LinearSystem {
     seed: u64,
     /// Condition for an early end of eliminations.
     halt: Halt,
+    states: KeptStates,
 }
 
 impl LinearSystem {
@@ -117,12 +119,18 @@ impl LinearSystem {
             radicands,
             seed,
             halt: effort.halt.clone(),
+            states: KeptStates::default(),
         })
     }
 
     /// Condition for an early end.
     pub fn halt(&self) -> &Halt {
         &self.halt
+    }
+
+    /// Number of outputs of the tape.
+    fn outputs(&self) -> usize {
+        self.own + self.coordinates.len()
     }
 
     /// Returns the parameters' coordinates.
@@ -141,7 +149,7 @@ impl LinearSystem {
             let mut at = PrimePoint { modulus, parameters, coordinates: Vec::new() };
             let mut seen = None;
             self.visit(&at, index, 4, &mut |values| {
-                seen = Some(values[self.own..].to_vec());
+                seen = Some(values[self.own..self.outputs()].to_vec());
                 false
             });
             if let Some(coordinates) = seen {
@@ -152,8 +160,8 @@ impl LinearSystem {
         None
     }
 
-    /// Passes the outputs at random states that have values to `is_done` until it has seen enough;
-    /// `false` if it has not within the limit of blocks.
+    /// Passes the outputs at random states that have values, with the growth of the variables, to
+    /// `is_done` until it has seen enough; `false` if it has not within the limit of blocks.
     fn visit(
         &self,
         at: &PrimePoint,
@@ -161,28 +169,55 @@ impl LinearSystem {
         blocks: usize,
         is_done: &mut dyn FnMut(&[u64]) -> bool,
     ) -> bool {
-        let mut rng = SearchStream::Combinations.under(self.seed.wrapping_add(stream));
-        let mut evaluator = Evaluator::new(&self.tape, Prime::new([at.modulus; SYSTEM_LANES]));
-        for _ in 0..blocks {
-            let inputs: Vec<[u64; SYSTEM_LANES]> = (0..self.inputs)
-                .map(|input| match at.parameters.get(input) {
-                    Some(value) => [*value; SYSTEM_LANES],
-                    None if matches!(self.draws.get(input), Some(Draw::Sign)) => {
-                        std::array::from_fn(|_| sign(&at.modulus, &mut rng))
-                    }
-                    None => std::array::from_fn(|_| rng.element(&at.modulus)),
-                })
-                .collect();
-            evaluator.run(&inputs);
-            let values: Vec<[u64; SYSTEM_LANES]> = evaluator.outputs().copied().collect();
-            for lane in 0..SYSTEM_LANES {
-                let row: Vec<u64> = values.iter().map(|block| block[lane]).collect();
-                if !row.contains(&UNDEFINED) && !is_done(&row) {
-                    return true;
-                }
+        let mut states = self.states.take(at, stream, self.seed);
+        let mut evaluator = None;
+        let mut seen = 0;
+        let mut is_enough = false;
+        for block in 0..blocks {
+            if block == states.blocks() {
+                let evaluator = evaluator.get_or_insert_with(|| {
+                    Evaluator::new(&self.tape, Prime::new([at.modulus; SYSTEM_LANES]))
+                });
+                evaluator.run(&self.inputs_of(at, states.rng()));
+                let values: Vec<[u64; SYSTEM_LANES]> = evaluator.outputs().copied().collect();
+                states.push((0..SYSTEM_LANES).filter_map(|lane| {
+                    let row: Vec<u64> = values.iter().map(|block| block[lane]).collect();
+                    (!row.contains(&UNDEFINED)).then(|| self.with_growth(&at.modulus, row))
+                }));
+            }
+            let rows = states.rows_before(block + 1);
+            is_enough = rows[seen..].iter().any(|row| !is_done(row));
+            seen = rows.len();
+            if is_enough {
+                break;
             }
         }
-        false
+        self.states.keep(states);
+        is_enough
+    }
+
+    /// Draws the inputs of one block of states.
+    fn inputs_of(&self, at: &PrimePoint, rng: &mut ProofRng) -> Vec<[u64; SYSTEM_LANES]> {
+        (0..self.inputs)
+            .map(|input| match at.parameters.get(input) {
+                Some(value) => [*value; SYSTEM_LANES],
+                None if matches!(self.draws.get(input), Some(Draw::Sign)) => {
+                    std::array::from_fn(|_| sign(&at.modulus, rng))
+                }
+                None => std::array::from_fn(|_| rng.element(&at.modulus)),
+            })
+            .collect()
+    }
+
+    /// Appends dx/x for the variables of all derivations, 0 where x is 0.
+    fn with_growth(&self, m: &Modulus, mut row: Vec<u64>) -> Vec<u64> {
+        for own in &self.derivations {
+            for k in own.start..own.start + own.variables {
+                let (x, dx) = (row[k], row[k + own.variables]);
+                row.push(if x == 0 { 0 } else { m.mul(dx, m.inverse(x)) });
+            }
+        }
+        row
     }
 
     /// Finds a basis of the relations between some columns, each vector being 1 at a free column, 0
@@ -233,12 +268,12 @@ impl LinearSystem {
         let highest = self.highest(&columns);
         self.relations(at, combinations.len() + further.len(), &mut |values| {
             let value = |column: &Column, powers: &VariablePowers<'_>| powers.value(m, column);
-            let all = self.row(m, values, (&columns, highest), &value)?;
+            let all = self.row(m, values, (&columns, highest), &value);
             let sum =
                 |c: &Vec<u64>| c.iter().zip(&all).fold(0, |sum, (a, x)| m.add(sum, m.mul(*a, *x)));
             let product =
                 |p: &Vec<usize>| p.iter().fold(m.one(), |product, k| m.mul(product, values[*k]));
-            Some(combinations.iter().map(sum).chain(further.iter().map(product)).collect())
+            combinations.iter().map(sum).chain(further.iter().map(product)).collect()
         })
     }
 
@@ -256,7 +291,7 @@ impl LinearSystem {
         let enough = self.visit(at, stream, 1 + count, &mut |values| {
             let derivative =
                 |column: &Column, powers: &VariablePowers<'_>| powers.derivative(m, column);
-            rows.extend(self.row(m, values, (columns, highest), &derivative));
+            rows.push(self.row(m, values, (columns, highest), &derivative));
             rows.len() < count
         });
         enough.then_some(rows)
@@ -266,15 +301,13 @@ impl LinearSystem {
         &self,
         at: &PrimePoint,
         width: usize,
-        row: &mut dyn FnMut(&[u64]) -> Option<Vec<u64>>,
+        row: &mut dyn FnMut(&[u64]) -> Vec<u64>,
     ) -> Found {
         let mut echelon = Echelon::new(width, at.modulus);
         let mut dependent = 0;
         let enough = self.visit(at, 1, 64 * (width + SPARE_ROWS), &mut |values| {
-            if let Some(row) = row(values) {
-                dependent = if echelon.push(row) { 0 } else { dependent + 1 };
-                self.halt.meter().set(echelon.rank(), width + 1);
-            }
+            dependent = if echelon.push(row(values)) { 0 } else { dependent + 1 };
+            self.halt.meter().set(echelon.rank(), width + 1);
             dependent < SPARE_ROWS && self.halt.check().is_ok()
         });
         self.halt.check()?;
@@ -285,26 +318,26 @@ impl LinearSystem {
         echelon.free().into_iter().map(vector).collect::<Result<_, _>>().map(Some)
     }
 
-    /// Computes the entries of some columns, with their highest exponent, at a state; `None` where a
-    /// variable is 0.
+    /// Computes the entries of some columns, with their highest exponent, at a state.
     fn row(
         &self,
         m: &Modulus,
         values: &[u64],
         (columns, highest): (&[usize], u32),
         entry: &dyn Fn(&Column, &VariablePowers<'_>) -> u64,
-    ) -> Option<Vec<u64>> {
-        let powers: Option<Vec<VariablePowers<'_>>> = self
-            .derivations
-            .iter()
-            .map(|own| VariablePowers::of(m, own, values, highest))
-            .collect();
-        let powers = powers?;
+    ) -> Vec<u64> {
+        let mut growth = &values[self.outputs()..];
+        let mut powers = Vec::with_capacity(self.derivations.len());
+        for own in &self.derivations {
+            let (first, rest) = growth.split_at(own.variables);
+            powers.push(VariablePowers::of(m, own, values, first, highest));
+            growth = rest;
+        }
         let one = |index: &usize| match &self.columns[*index] {
             Column::Given(output) => values[*output],
             column @ Column::Product { derivation, .. } => entry(column, &powers[*derivation]),
         };
-        Some(columns.iter().map(one).collect())
+        columns.iter().map(one).collect()
     }
 
     fn highest(&self, columns: &[usize]) -> u32 {
@@ -316,30 +349,36 @@ impl LinearSystem {
     }
 }
 
-/// Powers and logarithmic derivatives of the variables at a state, with the factors.
+/// Powers, rates and logarithmic derivatives of the variables at a state, with the factors.
 struct VariablePowers<'v> {
     powers: Vec<Vec<u64>>,
-    growth: Vec<u64>,
+    rates: &'v [u64],
+    growth: &'v [u64],
     factors: &'v [u64],
     slopes: &'v [u64],
+    /// Variables that are 0, as on a level u = 0.
+    zeros: Vec<usize>,
 }
 
 impl<'v> VariablePowers<'v> {
-    fn of(m: &Modulus, own: &Derivation, values: &'v [u64], highest: u32) -> Option<Self> {
+    fn of(
+        m: &Modulus,
+        own: &Derivation,
+        values: &'v [u64],
+        growth: &'v [u64],
+        highest: u32,
+    ) -> Self {
         let (x, rest) = values[own.start..].split_at(own.variables);
-        let (dx, rest) = rest.split_at(own.variables);
+        let (rates, rest) = rest.split_at(own.variables);
         let (factors, rest) = rest.split_at(own.factors);
-        if x.contains(&0) {
-            return None;
-        }
-        let growth = x.iter().zip(dx).map(|(x, dx)| m.mul(*dx, m.inverse(*x))).collect();
         let powers = |x: &u64| {
             std::iter::successors(Some(m.one()), |power| Some(m.mul(*power, *x)))
                 .take(highest as usize + 1)
                 .collect()
         };
         let powers = x.iter().map(powers).collect();
-        Some(Self { powers, growth, factors, slopes: &rest[..own.factors] })
+        let zeros = (0..x.len()).filter(|k| x[*k] == 0).collect();
+        Self { powers, rates, growth, factors, slopes: &rest[..own.factors], zeros }
     }
 
     fn monomial(&self, m: &Modulus, exponents: &[u32]) -> u64 {
@@ -349,6 +388,16 @@ impl<'v> VariablePowers<'v> {
 
     fn derivative(&self, m: &Modulus, column: &Column) -> u64 {
         let Column::Product { factor, exponents, .. } = column else { return 0 };
+        // At x = 0 the derivative of x y^a is y^a dx, and that of x^a y^b is 0 for a > 1.
+        let mut vanishing = self.zeros.iter().filter(|k| exponents[**k] > 0);
+        if let Some(k) = vanishing.next() {
+            if exponents[*k] > 1 || vanishing.next().is_some() {
+                return 0;
+            }
+            let mut rest = exponents.clone();
+            rest[*k] = 0;
+            return m.mul(m.mul(self.monomial(m, &rest), self.rates[*k]), self.factors[*factor]);
+        }
         let used = self.growth.iter().zip(exponents).filter(|(_, a)| **a > 0);
         let growth = used.fold(0, |sum, (g, a)| m.add(sum, m.mul(*g, m.integer(u64::from(*a)))));
         let slope = m.add(m.mul(self.factors[*factor], growth), self.slopes[*factor]);

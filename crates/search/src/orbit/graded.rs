@@ -114,7 +114,7 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
         let product = |exponents| Column::Product { derivation: 0, factor: 0, exponents };
         system.columns = all.iter().cloned().map(product).collect();
         let Some(at) = system.at(0, 0) else { return Ok(Some(cost)) };
-        let leading = LeadingField::of(setting, &self.field, variables)?;
+        let mut leading = LeadingField::of(setting, &self.field, variables)?;
         let mut found = Vec::new();
         let work = |own: &Vec<usize>| own.len().pow(2);
         let (mut done, all_work) = (0, classes.iter().map(work).sum());
@@ -122,7 +122,7 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
             setting.effort.halt.check()?;
             setting.effort.halt.meter().set(done, all_work);
             done += work(&places);
-            if let Some(leading) = &leading {
+            if let Some(leading) = &mut leading {
                 let forms: Vec<&Vec<u32>> = places.iter().map(|place| &all[*place]).collect();
                 let is_highest = |own: &&Vec<u32>| own.iter().sum::<u32>() == degree;
                 let forms: Vec<&Vec<u32>> = forms.into_iter().filter(is_highest).collect();

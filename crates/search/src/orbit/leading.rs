@@ -13,7 +13,7 @@ use crate::streams::SearchStream;
 use liouville::graph::{Evaluator, Tape, record};
 use liouville::mechanics::Phase;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
-use liouville::proof::statement_seed;
+use liouville::proof::{ProofRng, statement_seed};
 
 /// Number of multiples of a state: the highest degree of a field is one less.
 const MULTIPLES: usize = 8;
@@ -28,8 +28,34 @@ pub struct LeadingField {
     parameters: Vec<u64>,
     dimension: usize,
     degree: usize,
-    seed: u64,
+    rng: ProofRng,
+    /// States so far, which all monomials share.
+    states: Vec<LeadingState>,
     halt: Halt,
+}
+
+/// A state, with the leading field there.
+struct LeadingState {
+    /// v_d(x)/x for each variable.
+    growth: Vec<u64>,
+    /// Powers of each variable so far.
+    powers: Vec<Vec<u64>>,
+}
+
+impl LeadingState {
+    /// Computes the derivative of the monomial with these exponents along the leading field.
+    fn derivative(&mut self, m: &Modulus, exponents: impl Iterator<Item = u32>) -> u64 {
+        let (mut monomial, mut slope) = (m.one(), 0);
+        for ((powers, growth), exponent) in self.powers.iter_mut().zip(&self.growth).zip(exponents)
+        {
+            while powers.len() <= exponent as usize {
+                powers.push(m.mul(powers[powers.len() - 1], powers[1]));
+            }
+            monomial = m.mul(monomial, powers[exponent as usize]);
+            slope = m.add(slope, m.mul(m.integer(exponent.into()), *growth));
+        }
+        m.mul(monomial, slope)
+    }
 }
 
 impl LeadingField {
@@ -58,41 +84,34 @@ impl LeadingField {
         let modulus = rng.prime(&[3, 5], &[2, 3]);
         let parameters = random(&draws, &modulus, &mut rng);
         let (tape, halt) = (Tape::new(&graph, &rates), setting.effort.halt.clone());
-        Ok(Some(Self { tape, modulus, parameters, dimension, degree, seed, halt }))
+        let rng = SearchStream::Combinations.under(seed);
+        let states = Vec::new();
+        Ok(Some(Self { tape, modulus, parameters, dimension, degree, rng, states, halt }))
     }
 
     /// Whether no form of these monomials, all of one degree in the variables, is an integral of the
     /// leading field.
-    pub fn excludes(&self, variables: &[usize], forms: &[&Vec<u32>]) -> Result<bool, SearchError> {
-        let m = &self.modulus;
-        let mut rng = SearchStream::Combinations.under(self.seed);
-        let mut evaluator = Evaluator::new(&self.tape, Prime::new([*m; MULTIPLES]));
-        let mut echelon = Echelon::new(forms.len(), *m);
+    pub fn excludes(
+        &mut self,
+        variables: &[usize],
+        forms: &[&Vec<u32>],
+    ) -> Result<bool, SearchError> {
+        let m = self.modulus;
+        let mut echelon = Echelon::new(forms.len(), m);
         let (mut rank, mut dependent) = (0, 0);
-        while rank < forms.len() && dependent < SPARE_ROWS {
-            self.halt.check()?;
-            let state: Vec<u64> = (0..self.dimension).map(|_| rng.element(m)).collect();
-            let multiples = |x: &u64| std::array::from_fn(|s| m.mul(m.integer(s as u64), *x));
-            let given = self.parameters.iter().map(|value| [*value; MULTIPLES]);
-            let inputs: Vec<[u64; MULTIPLES]> = given.chain(state.iter().map(multiples)).collect();
-            evaluator.run(&inputs);
-            let rates: Vec<u64> = evaluator.outputs().map(|own| self.highest(own)).collect();
-            if rates.contains(&UNDEFINED) || variables.iter().any(|k| state[*k] == 0) {
-                return Ok(false);
+        for place in 0.. {
+            if rank == forms.len() || dependent == SPARE_ROWS {
+                break;
             }
-            let growth: Vec<u64> = variables
-                .iter()
-                .zip(&rates)
-                .map(|(k, rate)| m.mul(*rate, m.inverse(state[*k])))
-                .collect();
+            self.halt.check()?;
+            if place == self.states.len() {
+                let Some(next) = self.next_state(variables) else { return Ok(false) };
+                self.states.push(next);
+            }
+            let state = &mut self.states[place];
             let entry = |exponents: &&Vec<u32>| {
-                let powers = variables.iter().map(|k| m.power(state[*k], exponents[*k].into()));
-                let monomial = powers.fold(m.one(), |all, power| m.mul(all, power));
-                let slopes = variables.iter().zip(&growth);
-                let slope = slopes.fold(0, |sum, (k, growth)| {
-                    m.add(sum, m.mul(m.integer(exponents[*k].into()), *growth))
-                });
-                m.mul(monomial, slope)
+                let own = variables.iter().map(|k| exponents[*k]);
+                state.derivative(&m, own)
             };
             match echelon.push(forms.iter().map(entry).collect()) {
                 true => (rank, dependent) = (rank + 1, 0),
@@ -100,6 +119,25 @@ impl LeadingField {
             }
         }
         Ok(rank == forms.len())
+    }
+
+    /// Draws the next state; `None` if the field has no value there.
+    fn next_state(&mut self, variables: &[usize]) -> Option<LeadingState> {
+        let m = self.modulus;
+        let state: Vec<u64> = (0..self.dimension).map(|_| self.rng.element(&m)).collect();
+        let multiples = |x: &u64| std::array::from_fn(|s| m.mul(m.integer(s as u64), *x));
+        let given = self.parameters.iter().map(|value| [*value; MULTIPLES]);
+        let inputs: Vec<[u64; MULTIPLES]> = given.chain(state.iter().map(multiples)).collect();
+        let mut evaluator = Evaluator::new(&self.tape, Prime::new([m; MULTIPLES]));
+        evaluator.run(&inputs);
+        let rates: Vec<u64> = evaluator.outputs().map(|own| self.highest(own)).collect();
+        if rates.contains(&UNDEFINED) || variables.iter().any(|k| state[*k] == 0) {
+            return None;
+        }
+        let growth = |(k, rate): (&usize, &u64)| m.mul(*rate, m.inverse(state[*k]));
+        let growth = variables.iter().zip(&rates).map(growth).collect();
+        let powers = variables.iter().map(|k| vec![m.one(), state[*k]]).collect();
+        Some(LeadingState { growth, powers })
     }
 
     /// Coefficient of the highest power of s of a polynomial with the values at s = 0, 1, 2, …, up to a

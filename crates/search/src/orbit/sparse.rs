@@ -11,11 +11,14 @@ const ROUNDS: usize = 6;
 /// those with few entries first; the space that they span stays.
 pub fn sparse(m: &Modulus, mut vectors: Vec<Vec<u64>>) -> Vec<Vec<u64>> {
     if vectors.len() <= MOST {
+        let mut inverses: Vec<Vec<u64>> = vectors.iter().map(|own| inverses(m, own)).collect();
         for _ in 0..ROUNDS {
             let mut is_changed = false;
             for place in 0..vectors.len() {
                 for other in (0..vectors.len()).filter(|other| *other != place) {
-                    if let Some(made) = shorter(m, &vectors[place], &vectors[other]) {
+                    let by = (&vectors[other][..], &inverses[other][..]);
+                    if let Some(made) = shorter(m, &vectors[place], by) {
+                        inverses[place] = self::inverses(m, &made);
                         vectors[place] = made;
                         is_changed = true;
                     }
@@ -34,17 +37,25 @@ fn entries(own: &[u64]) -> usize {
     own.iter().filter(|entry| **entry != 0).count()
 }
 
+/// Inverses of the entries that are not 0.
+fn inverses(m: &Modulus, own: &[u64]) -> Vec<u64> {
+    let mut inverses = vec![0; own.len()];
+    m.inverses(own, &mut inverses);
+    inverses
+}
+
 /// A vector minus the multiple of another, not longer one that removes most entries; `None` if it adds as
-/// many.
-fn shorter(m: &Modulus, own: &[u64], other: &[u64]) -> Option<Vec<u64>> {
+/// many. The inverses of the other's entries are given.
+fn shorter(m: &Modulus, own: &[u64], (other, inverses): (&[u64], &[u64])) -> Option<Vec<u64>> {
     let pairs = || own.iter().zip(other);
     let added = pairs().filter(|(a, b)| **a == 0 && **b != 0).count();
     let both = pairs().filter(|(a, b)| **a != 0 && **b != 0).count();
     if both <= added || entries(other) > entries(own) {
         return None;
     }
-    let ratio = |(a, b): (&u64, &u64)| (*a != 0 && *b != 0).then(|| m.mul(*a, m.inverse(*b)));
-    let mut ratios: Vec<u64> = pairs().filter_map(ratio).collect();
+    let ratio =
+        |((a, b), inverse): ((&u64, &u64), &u64)| (*a != 0 && *b != 0).then(|| m.mul(*a, *inverse));
+    let mut ratios: Vec<u64> = pairs().zip(inverses).filter_map(ratio).collect();
     ratios.sort_unstable();
     let runs = ratios.chunk_by(|a, b| a == b).map(|run| (run.len(), run[0]));
     let (removed, factor) = runs.max()?;

@@ -6,7 +6,8 @@ use super::{case, effort};
 use liouville_search::search;
 
 fn fields(text: &str) -> Vec<String> {
-    let report = search(&case(text), &effort(1), &mut |_| {}).expect("it can be searched");
+    let effort = Effort { by_class: false, ..effort(1) };
+    let report = search(&case(text), &effort, &mut |_| {}).expect("it can be searched");
     report.formulas("symmetry-field").map(str::to_string).collect()
 }
 
