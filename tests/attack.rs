@@ -27,6 +27,8 @@ mod derive;
 mod draw;
 #[path = "attack/expr.rs"]
 mod expr;
+#[path = "attack/float.rs"]
+mod float;
 #[path = "attack/flow.rs"]
 mod flow;
 #[path = "attack/grow.rs"]
@@ -37,6 +39,8 @@ mod interval;
 mod jet;
 #[path = "attack/levels.rs"]
 mod levels;
+#[path = "attack/library.rs"]
+mod library;
 #[path = "attack/lies.rs"]
 mod lies;
 #[path = "attack/limits.rs"]
@@ -65,6 +69,8 @@ mod scene;
 mod scout;
 #[path = "attack/seek.rs"]
 mod seek;
+#[path = "attack/series.rs"]
+mod series;
 #[path = "attack/sheets.rs"]
 mod sheets;
 #[path = "attack/shrink.rs"]
@@ -87,7 +93,8 @@ fn main() -> ExitCode {
     let trials = vec![
         Trial::test("derivatives are what differences show", own::derivatives),
         Trial::test("values agree in f64 and in 640 bits", own::two_precisions),
-        Trial::test("logarithms are those of the library", own::logarithms),
+        Trial::test("arithmetic is that of the library", library::operations),
+        Trial::test("logarithms and exponentials are those of the library", library::functions),
         Trial::test("enclosures hold what is printed", own::enclosures),
         Trial::test("the oracle knows what is known", own::known_truths),
         Trial::test("the oracle notices spoilt verdicts", lies::noticed),

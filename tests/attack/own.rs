@@ -14,8 +14,7 @@ use super::oracle::searched;
 use super::print::Hand;
 use super::random::Stream;
 use super::real::{
-    Lack, difference, difference_of_logarithms, exactly, height, modulus as size, nearest, sign,
-    whole as number,
+    Lack, difference, exactly, height, modulus as size, nearest, sign, whole as number,
 };
 use super::scene::Scene;
 use super::scout;
@@ -30,21 +29,6 @@ fn grown(index: u64) -> (Scene, Tree, Stream) {
     let depth = 1 + stream.below(4);
     let tree = garden.tree(&mut stream, depth);
     (scene, tree, stream)
-}
-
-/// Compares logarithms with those of the library, from numbers near 1 to the ends of the range.
-pub fn logarithms() -> Result<(), Failed> {
-    let mut stream = Stream::new(4713, 0);
-    let numbers = (0..200).map(|k| match k % 4 {
-        0 => 1.0 + 2f64.powi(-(k / 4)) * stream.unit(),
-        1 => (1400.0 * (stream.unit() - 0.5)).exp(),
-        2 => 2f64.powi(k - 100),
-        _ => stream.unit() + 0.01,
-    });
-    match numbers.into_iter().find(|x| *x != 1.0 && difference_of_logarithms(*x) > 1) {
-        Some(x) => Err(Failed::from(format!("another logarithm of {x:e}"))),
-        None => Ok(()),
-    }
 }
 
 /// Compares derivatives with differences.
