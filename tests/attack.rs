@@ -33,6 +33,8 @@ mod float;
 mod flow;
 #[path = "attack/grow.rs"]
 mod grow;
+#[path = "attack/hint.rs"]
+mod hint;
 #[path = "attack/interval.rs"]
 mod interval;
 #[path = "attack/jet.rs"]

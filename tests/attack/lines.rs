@@ -4,10 +4,11 @@
 use std::collections::BTreeSet;
 
 use super::expr::{Expr, Function, Tree};
+use super::hint::{Hints, Unseen};
 use super::jet::Place;
 use super::point::Point;
 use super::random::Stream;
-use super::real::{Found, Real, sure_sign, with_bits};
+use super::real::{Found, LADDER, Real, sure_sign, with_bits};
 use super::scene::Scene;
 use super::seek;
 
@@ -59,7 +60,7 @@ pub fn between_zeros(
     let states = drawn.iter().take(STATES).chain(found.iter().rev().take(STATES));
     let free = scene.free();
     let lines = states.flat_map(|state| free.iter().map(move |place| (state, *place)));
-    lines.flat_map(|(from, place)| Line { scene, parts: &parts, from, place }.states()).collect()
+    lines.flat_map(|(from, place)| Line::new(scene, &parts, from, place).states()).collect()
 }
 
 /// Collects divisors and the arguments of what has a corner or an end.
@@ -87,9 +88,18 @@ struct Line<'l> {
     parts: &'l [Tree],
     from: &'l Point,
     place: usize,
+    /// What f64 shows.
+    hints: Hints<'l>,
+    /// Values of what is drawn at the state, in few and in more bits.
+    drawn: [Vec<Found<Real>>; 2],
 }
 
-impl Line<'_> {
+impl<'l> Line<'l> {
+    fn new(scene: &'l Scene, parts: &'l [Tree], from: &'l Point, place: usize) -> Self {
+        let drawn = [with_bits(ROUGH, || scene.drawn(from)), scene.drawn(from)];
+        Self { scene, parts, from, place, hints: Hints::new(scene, from, place), drawn }
+    }
+
     /// Finds the states between all zeros that are seen.
     fn states(&self) -> Vec<Point> {
         let (mut zeros, ends) = self.zeros(&self.grid());
@@ -136,20 +146,39 @@ impl Line<'_> {
 
     /// Returns the marks of all parts; without parts, still one, which tells where states are.
     fn marks(&self, at: Position) -> Vec<Mark> {
-        let signs = || -> Option<Vec<Option<i32>>> {
-            let values = self.values(at)?;
-            Some((0..self.parts.len()).map(|part| self.sign(&values, part)).collect())
+        let count = self.parts.len();
+        let open = Err(Unseen::Open);
+        let (seen, is_state) = match self.hints.signs(at, self.parts.iter()) {
+            Err(Unseen::Lack) => return vec![None; count + 1],
+            Err(Unseen::Open) => (vec![open; count], false),
+            Ok(seen) => (seen, true),
         };
+        if is_state && !seen.contains(&open) {
+            return seen.into_iter().map(|sign| Some(sign.ok())).chain([Some(None)]).collect();
+        }
+        // What f64 shows, more bits would show as well.
+        let signs = |bits: usize| -> Option<Vec<Option<i32>>> {
+            let values = self.values(at, bits)?;
+            let sign = |(part, seen): (usize, &Result<i32, Unseen>)| match *seen {
+                Err(Unseen::Open) => self.sign(&values, part),
+                seen => seen.ok(),
+            };
+            Some(with_bits(bits, || seen.iter().enumerate().map(sign).collect()))
+        };
+        let is_known = !seen.contains(&Err(Unseen::Lack));
         let are_known = |signs: &Vec<Option<i32>>| signs.iter().all(Option::is_some);
-        let found = with_bits(ROUGH, signs).filter(are_known).or_else(signs);
-        match found {
+        let rough = if is_known { signs(ROUGH).filter(are_known) } else { None };
+        match rough.or_else(|| signs(LADDER[0])) {
             Some(signs) => signs.into_iter().chain([None]).map(Some).collect(),
-            None => vec![None; self.parts.len() + 1],
+            None => vec![None; count + 1],
         }
     }
 
-    fn values(&self, at: Position) -> Option<Vec<Found<Real>>> {
-        self.scene.values(&self.from.at(self.place, at))
+    fn values(&self, at: Position, bits: usize) -> Option<Vec<Found<Real>>> {
+        let drawn = &self.drawn[usize::from(bits != ROUGH)];
+        with_bits(bits, || {
+            self.scene.values_beside(drawn, &self.from.at(self.place, at), self.place)
+        })
     }
 
     fn sign(&self, values: &[Found<Real>], part: usize) -> Option<i32> {
@@ -159,9 +188,23 @@ impl Line<'_> {
 
     /// Returns the mark of one part: in few bits where these tell the sign.
     fn mark(&self, at: Position, part: usize) -> Mark {
-        let of = |values: Vec<Found<Real>>| self.sign(&values, part);
-        let rough = with_bits(ROUGH, || self.values(at).and_then(of));
-        if rough.is_some() { Some(rough) } else { self.values(at).map(of) }
+        match self.hints.signs(at, self.parts.iter().skip(part).take(1)) {
+            Err(Unseen::Lack) => return None,
+            Err(Unseen::Open) => {}
+            Ok(seen) => match seen[..] {
+                [Err(Unseen::Open)] => {}
+                [sign] => return Some(sign.ok()),
+                _ => return Some(None),
+            },
+        }
+        let of = |bits: usize| {
+            let values = self.values(at, bits)?;
+            Some(with_bits(bits, || self.sign(&values, part)))
+        };
+        match of(ROUGH) {
+            Some(Some(sign)) => Some(Some(sign)),
+            _ => of(LADDER[0]),
+        }
     }
 
     /// Finds where the mark of a part changes between two positions.

@@ -80,11 +80,13 @@ pub fn both<A, B>(a: Found<A>, b: Found<B>) -> Found<(A, B)> {
 }
 
 impl Real {
+    #[inline]
     fn exact(value: Float) -> Self {
         Self { value: value.with_bits(bits()), error: EXACT }
     }
 
     /// Adds the error of one rounding to those of the operands.
+    #[inline]
     fn rounded(value: Float, error: isize) -> Self {
         let rounding = tall(&value) - bits() as isize + 1;
         Self { value, error: error.max(rounding) + 1 }
@@ -101,11 +103,13 @@ impl Real {
     }
 
     /// Whether the number is 0, or certainly is not.
+    #[inline]
     fn is_sure(&self) -> bool {
         tall(&self.value) > self.error + SURE || (is_zero(self) && self.error == EXACT)
     }
 
     /// Returns the number if it is known whether it is 0, with terms of this height in it.
+    #[inline]
     fn settled(self, terms: isize) -> Found<Self> {
         match self.is_sure() {
             true => Ok(self),
@@ -116,10 +120,12 @@ impl Real {
 }
 
 /// Returns the place of the leading bit of a float; the least of all for 0.
+#[inline]
 fn tall(x: &Float) -> isize {
     x.top().unwrap_or(EXACT)
 }
 
+#[inline]
 fn plus(a: &Real, b: &Real) -> Real {
     if [a, b].iter().all(|own| is_zero(own) && own.error == EXACT) {
         return whole(0);
@@ -127,10 +133,12 @@ fn plus(a: &Real, b: &Real) -> Real {
     Real::rounded(a.value.plus(&b.value, bits()), a.error.max(b.error) + 1)
 }
 
+#[inline]
 fn minus(a: &Real, b: &Real) -> Real {
     Real::rounded(a.value.minus(&b.value, bits()), a.error.max(b.error) + 1)
 }
 
+#[inline]
 fn times(a: &Real, b: &Real) -> Real {
     if is_zero(a) && a.error == EXACT || is_zero(b) && b.error == EXACT {
         return whole(0);
@@ -154,24 +162,28 @@ macro_rules! operator {
     ($name:ident, $method:ident, $by:ident) => {
         impl $name<&Real> for &Real {
             type Output = Real;
+            #[inline]
             fn $method(self, other: &Real) -> Real {
                 $by(self, other)
             }
         }
         impl $name<Real> for &Real {
             type Output = Real;
+            #[inline]
             fn $method(self, other: Real) -> Real {
                 $by(self, &other)
             }
         }
         impl $name<&Real> for Real {
             type Output = Real;
+            #[inline]
             fn $method(self, other: &Real) -> Real {
                 $by(&self, other)
             }
         }
         impl $name<Real> for Real {
             type Output = Real;
+            #[inline]
             fn $method(self, other: Real) -> Real {
                 $by(&self, &other)
             }
@@ -198,6 +210,7 @@ impl Neg for Real {
     }
 }
 
+#[inline]
 pub fn whole(n: i64) -> Real {
     Real::exact(Float::whole(n))
 }
@@ -254,6 +267,7 @@ pub fn height(x: &Real) -> isize {
 }
 
 /// Computes a + b, or 0 where they cancel.
+#[inline]
 pub fn sum(a: &Real, b: &Real) -> Found<Real> {
     if is_zero(a) && a.error == EXACT {
         return Ok(b.clone());

@@ -1,10 +1,9 @@
 //! A system of the attack: symbols with ranges, a field, a level, and states.
 
-use super::expr::{Expr, Number, Tree};
+use super::expr::{Number, Tree};
 use super::interval::Interval;
 use super::jet::Place;
 use super::point::Point;
-use super::print::Hand;
 use super::random::Stream;
 use super::real::{Found, Real, both, difference, exactly, number, sign};
 use super::scout;
@@ -54,8 +53,12 @@ pub struct Scene {
     pub level: Option<Level>,
 }
 
-fn rough(n: &Number) -> f64 {
-    n.top as f64 / n.bottom as f64 * 10f64.powi(n.tens)
+/// Returns a number in f64.
+pub fn rough(n: &Number) -> f64 {
+    match (n.bottom, n.tens) {
+        (1, 0) => n.top as f64,
+        (bottom, tens) => n.top as f64 / bottom as f64 * 10f64.powi(tens),
+    }
 }
 
 impl Scene {
@@ -135,27 +138,57 @@ impl Scene {
 
     /// Computes the values of all symbols at a point; `None` if it is not a state.
     pub fn values(&self, point: &Point) -> Option<Vec<Found<Real>>> {
-        let within = |a: &Number, b: &Number, place: usize| {
-            let (low, high) = (number(*a), number(*b));
-            let width = &high - &low;
-            let share = exactly(point.cube[place]);
-            Ok(match point.fine[place] {
-                0.0 => low + width * share,
-                fine => low + width * (share + exactly(fine)),
-            })
-        };
-        let mut values: Vec<Found<Real>> = Vec::new();
-        for (place, symbol) in self.symbols.iter().enumerate() {
-            let value = match &symbol.origin {
-                Origin::State(a, b) | Origin::Range(a, b) | Origin::Input(a, b) => {
-                    within(a, b, place)
-                }
-                Origin::Fixed(n) => Ok(number(*n)),
-                Origin::List(list) => Ok(number(list[point.picks[place]])),
-                Origin::Formula(tree) => Place { values: &values, along: &[] }.value(tree),
-            };
+        self.on_branch(self.drawn(point), point)
+    }
+
+    /// Computes the values at a point that differs in one coordinate from that of which the drawn
+    /// values are known.
+    pub fn values_beside(
+        &self,
+        drawn: &[Found<Real>],
+        point: &Point,
+        place: usize,
+    ) -> Option<Vec<Found<Real>>> {
+        let mut values = drawn.to_vec();
+        values[place] = self.value(place, point, &values);
+        for (place, symbol) in self.symbols.iter().enumerate().skip(place) {
+            if let Origin::Formula(tree) = &symbol.origin {
+                values[place] = Place { values: &values, along: &[] }.value(tree);
+            }
+        }
+        self.on_branch(values, point)
+    }
+
+    /// Computes the values of all symbols at a point off the level.
+    pub fn drawn(&self, point: &Point) -> Vec<Found<Real>> {
+        let mut values: Vec<Found<Real>> = Vec::with_capacity(self.symbols.len());
+        for place in 0..self.symbols.len() {
+            let value = self.value(place, point, &values);
             values.push(value);
         }
+        values
+    }
+
+    /// Computes the value of a symbol from those before it.
+    fn value(&self, place: usize, point: &Point, values: &[Found<Real>]) -> Found<Real> {
+        match &self.symbols[place].origin {
+            Origin::State(a, b) | Origin::Range(a, b) | Origin::Input(a, b) => {
+                let low = number(*a);
+                let width = number(*b) - &low;
+                let share = exactly(point.cube[place]);
+                Ok(match point.fine[place] {
+                    0.0 => low + width * share,
+                    fine => low + width * (share + exactly(fine)),
+                })
+            }
+            Origin::Fixed(n) => Ok(number(*n)),
+            Origin::List(list) => Ok(number(list[point.picks[place]])),
+            Origin::Formula(tree) => Place { values, along: &[] }.value(tree),
+        }
+    }
+
+    /// Puts the values of dependent variables in their places.
+    fn on_branch(&self, mut values: Vec<Found<Real>>, point: &Point) -> Option<Vec<Found<Real>>> {
         let Some(level) = &self.level else { return Some(values) };
         for (place, tree) in level.branches.get(point.branch)? {
             let value = Place { values: &values, along: &[] }.value(tree).ok()?;
@@ -311,68 +344,5 @@ impl Scene {
             all = both(all, part).map(|_| ());
         }
         all
-    }
-
-    /// Writes the case file with these claims, each the body of a table.
-    pub fn text(&self, claims: &[String], hand: Hand) -> String {
-        let names = self.names();
-        let quoted = |tree: &Tree| format!("\"{}\"", hand.text(tree, &names));
-        let plain = |n: &Number| Hand(2).text(&std::rc::Rc::new(Expr::Number(*n)), &names);
-        let range = |a: &Number, b: &Number| format!("\"{}..{}\"", plain(a), plain(b));
-        let mut text = String::from("title = \"t\"\n");
-        let parameter = |symbol: &Symbol| match &symbol.origin {
-            Origin::Range(a, b) => Some(range(a, b)),
-            Origin::Fixed(n) => Some(format!("\"{}\"", plain(n))),
-            Origin::List(list) => {
-                let list: Vec<String> = list.iter().map(plain).collect();
-                Some(format!("\"one of {}\"", list.join(", ")))
-            }
-            Origin::Formula(tree) => Some(quoted(tree)),
-            Origin::State(..) | Origin::Input(..) => None,
-        };
-        let parameters: Vec<(&String, String)> = self
-            .symbols
-            .iter()
-            .filter_map(|symbol| Some((&symbol.name, parameter(symbol)?)))
-            .collect();
-        if !parameters.is_empty() {
-            text.push_str("[parameters]\n");
-        }
-        for (name, value) in parameters {
-            text.push_str(&format!("\"{name}\" = {value}\n"));
-        }
-        text.push_str("[state]\n");
-        for symbol in &self.symbols {
-            if let Origin::State(a, b) = &symbol.origin {
-                text.push_str(&format!("{} = {}\n", symbol.name, range(a, b)));
-            }
-        }
-        text.push_str("[field]\n");
-        for place in self.states() {
-            let rate = self.rate(place).map_or("\"0\"".to_string(), quoted);
-            text.push_str(&format!("\"{}'\" = {rate}\n", names[place]));
-        }
-        if let Some(level) = &self.level {
-            let side = |(a, b): &(Tree, Tree)| {
-                format!("\"{} = {}\"", hand.text(a, &names), hand.text(b, &names))
-            };
-            let equations: Vec<String> = level.equations.iter().map(side).collect();
-            text.push_str(&format!("[level]\nequations = [{}]\n", equations.join(", ")));
-            if let Some(chart) = &level.chart {
-                let input = |symbol: &Symbol| match &symbol.origin {
-                    Origin::Input(a, b) => Some(format!("{} = {}", symbol.name, range(a, b))),
-                    _ => None,
-                };
-                let inputs: Vec<String> = self.symbols.iter().filter_map(input).collect();
-                text.push_str(&format!("[level.chart]\ninputs = {{ {} }}\n", inputs.join(", ")));
-                for (place, tree) in chart {
-                    text.push_str(&format!("{} = {}\n", names[*place], quoted(tree)));
-                }
-            }
-        }
-        for claim in claims {
-            text.push_str(&format!("[[claim]]\n{claim}\nexpect = \"open\"\n"));
-        }
-        text
     }
 }
