@@ -49,13 +49,21 @@ fn length(bits: usize) -> usize {
 fn rounded(negative: bool, mut top: isize, mut buffer: &mut [u64], bits: usize) -> Float {
     let Some(first) = buffer.iter().position(|limb| *limb != 0) else { return Float::ZERO };
     buffer = &mut buffer[first..];
+    // What is beyond the digits counts only if it is not 0.
+    let most = bits / 64 + 2;
+    if buffer.len() > most {
+        let (kept, beyond) = buffer.split_at_mut(most);
+        kept[most - 1] |= u64::from(beyond.iter().any(|limb| *limb != 0));
+        buffer = kept;
+    }
     let shift = buffer[0].leading_zeros();
     top -= 64 * first as isize + shift as isize;
     if shift > 0 {
-        for k in 0..buffer.len() {
-            let next = buffer.get(k + 1).map_or(0, |next| next >> (64 - shift));
-            buffer[k] = buffer[k] << shift | next;
+        let last = buffer.len() - 1;
+        for k in 0..last {
+            buffer[k] = buffer[k] << shift | buffer[k + 1] >> (64 - shift);
         }
+        buffer[last] <<= shift;
     }
     if bits < 64 * buffer.len() {
         let (limb, bit) = (bits / 64, bits % 64);

@@ -2,8 +2,8 @@
 
 use super::expr::{Expr, Function, Tree};
 use super::real::{
-    Found, Lack, Real, atan, both, cos, difference, exactly, exp, is_zero, log, modulus, nearest,
-    number, quotient, root, sin, sum, sure_sign, to_the, whole,
+    Found, Lack, Real, atan, both, difference, exactly, exp, is_zero, log, modulus, nearest,
+    number, quotient, root, sum, sure_sign, to_the, waves, whole,
 };
 
 /// A value with its partial derivatives.
@@ -129,14 +129,10 @@ impl Place<'_> {
             Function::Exp => chained(inner, exp(x)?, Real::clone),
             Function::Log => chained(inner, log(x)?, |_| whole(1) / x),
             Function::Sin | Function::Cos if nearest(x).abs() > 1e6 => return Err(Lack::Decision),
-            Function::Sin => {
-                let slope = cos(x)?;
-                chained(inner, sin(x)?, |_| slope)
-            }
-            Function::Cos => {
-                let slope = -sin(x)?;
-                chained(inner, cos(x)?, |_| slope)
-            }
+            Function::Sin | Function::Cos => match (function, waves(x)?) {
+                (Function::Sin, (sin, cos)) => chained(inner, sin, |_| cos),
+                (_, (sin, cos)) => chained(inner, cos, |_| -sin),
+            },
             Function::Atan => chained(inner, atan(x), |_| whole(1) / (whole(1) + x * x)),
         })
     }

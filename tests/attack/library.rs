@@ -4,7 +4,7 @@ use libtest_mimic::Failed;
 
 use super::float::{Float, drawn};
 use super::random::Stream;
-use super::series::{Foreign, exp, foreign, log};
+use super::series::{Foreign, atan, exp, foreign, log, waves};
 
 /// Precisions in bits, with the number of pairs compared.
 const PRECISIONS: [(usize, usize); 9] = [
@@ -68,7 +68,8 @@ fn close(name: &str, ours: &Float, theirs: &Foreign, bits: usize) -> Result<(), 
     }
 }
 
-/// Compares logarithms, from numbers near 1 to those beyond the range of f64, and exponentials.
+/// Compares logarithms, from numbers near 1 to those beyond the range of f64, exponentials, and
+/// sines and cosines, near multiples of a quarter turn as well.
 pub fn functions() -> Result<(), Failed> {
     let mut stream = Stream::new(4713, 0);
     for bits in [64, 160, 640, 2048] {
@@ -89,6 +90,15 @@ pub fn functions() -> Result<(), Failed> {
                 _ => drawn(&mut stream, bits).scaled(-(bits as isize) - 1),
             };
             close("an exponential", &exp(&x, bits), &foreign(&x, bits + 64).exp(), bits)?;
+            let x = match k % 4 {
+                0 => Float::exactly(2e6 * (stream.unit() - 0.5)),
+                1 => Float::exactly(2f64.powi(-k)),
+                2 => atan(&Float::whole(1), bits).times(&Float::whole(2 * i64::from(k)), bits),
+                _ => Float::exactly(std::f64::consts::FRAC_PI_2 * f64::from(k)),
+            };
+            let ((sin, cos), wide) = (waves(&x, bits), foreign(&x, 3 * bits));
+            close("a sine", &sin, &wide.sin(), bits)?;
+            close("a cosine", &cos, &wide.cos(), bits)?;
         }
     }
     Ok(())

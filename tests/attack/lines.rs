@@ -8,7 +8,7 @@ use super::hint::{Hints, Unseen};
 use super::jet::Place;
 use super::point::Point;
 use super::random::Stream;
-use super::real::{Found, LADDER, Real, sure_sign, with_bits};
+use super::real::{Found, Lack, Real, guessed, sure_sign, with_bits};
 use super::scene::Scene;
 use super::seek;
 
@@ -92,12 +92,16 @@ struct Line<'l> {
     hints: Hints<'l>,
     /// Values of what is drawn at the state, in few and in more bits.
     drawn: [Vec<Found<Real>>; 2],
+    /// Whether few bits take a sum in them for 0.
+    is_guess: bool,
 }
 
 impl<'l> Line<'l> {
     fn new(scene: &'l Scene, parts: &'l [Tree], from: &'l Point, place: usize) -> Self {
-        let drawn = [with_bits(ROUGH, || scene.drawn(from)), scene.drawn(from)];
-        Self { scene, parts, from, place, hints: Hints::new(scene, from, place), drawn }
+        let (rough, is_guess) = guessed(|| with_bits(ROUGH, || scene.drawn(from)));
+        let drawn = [rough, scene.drawn(from)];
+        let hints = Hints::new(scene, from, place);
+        Self { scene, parts, from, place, hints, drawn, is_guess }
     }
 
     /// Finds the states between all zeros that are seen.
@@ -157,33 +161,47 @@ impl<'l> Line<'l> {
             return seen.into_iter().map(|sign| Some(sign.ok())).chain([Some(None)]).collect();
         }
         // What f64 shows, more bits would show as well.
-        let signs = |bits: usize| -> Option<Vec<Option<i32>>> {
-            let values = self.values(at, bits)?;
-            let sign = |(part, seen): (usize, &Result<i32, Unseen>)| match *seen {
-                Err(Unseen::Open) => self.sign(&values, part),
-                seen => seen.ok(),
-            };
-            Some(with_bits(bits, || seen.iter().enumerate().map(sign).collect()))
+        let sign = |values: &[Found<Real>], part: usize| match seen[part] {
+            Ok(sign) => Ok(sign),
+            Err(Unseen::Lack) => Err(Lack::Value),
+            Err(Unseen::Open) => self.sign(values, part),
         };
-        let is_known = !seen.contains(&Err(Unseen::Lack));
-        let are_known = |signs: &Vec<Option<i32>>| signs.iter().all(Option::is_some);
-        let rough = if is_known { signs(ROUGH).filter(are_known) } else { None };
-        match rough.or_else(|| signs(LADDER[0])) {
-            Some(signs) => signs.into_iter().chain([None]).map(Some).collect(),
-            None => vec![None; count + 1],
+        match self.seen(at, |values| (0..count).map(|part| sign(values, part)).collect()) {
+            Ok(signs) => {
+                signs.into_iter().map(|sign| Some(sign.ok())).chain([Some(None)]).collect()
+            }
+            Err(_) => vec![None; count + 1],
         }
     }
 
-    fn values(&self, at: Position, bits: usize) -> Option<Vec<Found<Real>>> {
-        let drawn = &self.drawn[usize::from(bits != ROUGH)];
-        with_bits(bits, || {
-            self.scene.values_beside(drawn, &self.from.at(self.place, at), self.place)
-        })
+    /// Asks for signs at a position in few bits, and in more where these leave something open: the
+    /// lack of a value counts if no sum was taken for 0.
+    fn seen(
+        &self,
+        at: Position,
+        signs: impl Fn(&[Found<Real>]) -> Vec<Found<i32>>,
+    ) -> Found<Vec<Found<i32>>> {
+        let of = |drawn: &[Found<Real>]| {
+            let point = self.from.at(self.place, at);
+            Ok(signs(&self.scene.values_beside(drawn, &point, self.place)?))
+        };
+        let [few, more] = &self.drawn;
+        let (rough, is_guess) = guessed(|| with_bits(ROUGH, || of(few)));
+        let is_known = |lack: Option<Lack>| match lack {
+            None => true,
+            Some(lack) => lack == Lack::Value && !is_guess && !self.is_guess,
+        };
+        let is_final = match &rough {
+            Ok(signs) => signs.iter().all(|sign| is_known(sign.err())),
+            Err(lack) => is_known(Some(*lack)),
+        };
+        if is_final { rough } else { of(more) }
     }
 
-    fn sign(&self, values: &[Found<Real>], part: usize) -> Option<i32> {
-        let value = (Place { values, along: &[] }).value(self.parts.get(part)?);
-        value.and_then(|value| sure_sign(&value)).ok()
+    fn sign(&self, values: &[Found<Real>], part: usize) -> Found<i32> {
+        // A part that is not there has no sign, where there is a state.
+        let Some(part) = self.parts.get(part) else { return Err(Lack::Value) };
+        (Place { values, along: &[] }).value(part).and_then(|value| sure_sign(&value))
     }
 
     /// Returns the mark of one part: in few bits where these tell the sign.
@@ -197,14 +215,8 @@ impl<'l> Line<'l> {
                 _ => return Some(None),
             },
         }
-        let of = |bits: usize| {
-            let values = self.values(at, bits)?;
-            Some(with_bits(bits, || self.sign(&values, part)))
-        };
-        match of(ROUGH) {
-            Some(Some(sign)) => Some(Some(sign)),
-            _ => of(LADDER[0]),
-        }
+        let found = self.seen(at, |values| vec![self.sign(values, part)]).ok()?;
+        found.first().map(|sign| sign.ok())
     }
 
     /// Finds where the mark of a part changes between two positions.

@@ -11,7 +11,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::expr::Number;
 use super::float::Float;
-use super::series::{self, Foreign};
+use super::series;
 
 /// Precisions in bits; each is used where the one before it does not decide.
 pub const LADDER: [usize; 3] = [640, 2048, 6144];
@@ -26,6 +26,8 @@ const EXACT: isize = isize::MIN / 4;
 
 thread_local! {
     static BITS: Cell<usize> = const { Cell::new(LADDER[0]) };
+    /// Whether a sum was taken for 0.
+    static GUESSED: Cell<bool> = const { Cell::new(false) };
     /// Powers of ten by precision.
     static TENS: RefCell<BTreeMap<(usize, u32), Real>> = const { RefCell::new(BTreeMap::new()) };
 }
@@ -41,6 +43,15 @@ pub fn with_bits<T>(bits: usize, act: impl FnOnce() -> T) -> T {
     let found = act();
     BITS.set(before);
     found
+}
+
+/// Computes something, and tells whether a sum in it was taken for 0.
+pub fn guessed<T>(act: impl FnOnce() -> T) -> (T, bool) {
+    let before = GUESSED.replace(false);
+    let found = act();
+    let guessed = GUESSED.replace(before);
+    GUESSED.set(before | guessed);
+    (found, guessed)
 }
 
 /// Number of bits by which the error of a sum must be below its terms for it to be 0.
@@ -113,7 +124,10 @@ impl Real {
     fn settled(self, terms: isize) -> Found<Self> {
         match self.is_sure() {
             true => Ok(self),
-            false if self.error <= terms - margin() => Ok(whole(0)),
+            false if self.error <= terms - margin() => {
+                GUESSED.set(true);
+                Ok(whole(0))
+            }
             false => Err(Lack::Digits),
         }
     }
@@ -327,24 +341,21 @@ pub fn log(a: &Real) -> Found<Real> {
     }
 }
 
-/// Computes sin, or cos: 0 at multiples of a quarter turn.
-fn wave(a: &Real, of: fn(&Foreign) -> Foreign) -> Found<Real> {
-    Real::rounded(series::by_library(&a.value, of, bits()), a.error).settled(height(a).max(0))
-}
-
-pub fn sin(a: &Real) -> Found<Real> {
-    if is_zero(a) { Ok(whole(0)) } else { wave(a, Foreign::sin) }
-}
-
-pub fn cos(a: &Real) -> Found<Real> {
-    if is_zero(a) { Ok(whole(1)) } else { wave(a, Foreign::cos) }
+/// Computes sin and cos: 0 at multiples of a quarter turn.
+pub fn waves(a: &Real) -> Found<(Real, Real)> {
+    if is_zero(a) {
+        return Ok((whole(0), whole(1)));
+    }
+    let (sin, cos) = series::waves(&a.value, bits());
+    let settled = |value: Float| Real::rounded(value, a.error).settled(height(a).max(0));
+    both(settled(sin), settled(cos))
 }
 
 pub fn atan(a: &Real) -> Real {
     if is_zero(a) {
         return whole(0);
     }
-    Real::rounded(series::by_library(&a.value, Foreign::atan, bits()), a.error)
+    Real::rounded(series::atan(&a.value, bits()), a.error)
 }
 
 /// Computes an integer power.

@@ -5,7 +5,7 @@ use super::interval::Interval;
 use super::jet::Place;
 use super::point::Point;
 use super::random::Stream;
-use super::real::{Found, Real, both, difference, exactly, number, sign};
+use super::real::{Found, Lack, Real, both, difference, exactly, number, sign, sure_sign};
 use super::scout;
 
 /// The source of the values of a symbol.
@@ -138,17 +138,17 @@ impl Scene {
 
     /// Computes the values of all symbols at a point; `None` if it is not a state.
     pub fn values(&self, point: &Point) -> Option<Vec<Found<Real>>> {
-        self.on_branch(self.drawn(point), point)
+        self.on_branch(self.drawn(point), point).ok()
     }
 
     /// Computes the values at a point that differs in one coordinate from that of which the drawn
-    /// values are known.
+    /// values are known; `Lack::Value` if it certainly is not a state.
     pub fn values_beside(
         &self,
         drawn: &[Found<Real>],
         point: &Point,
         place: usize,
-    ) -> Option<Vec<Found<Real>>> {
+    ) -> Found<Vec<Found<Real>>> {
         let mut values = drawn.to_vec();
         values[place] = self.value(place, point, &values);
         for (place, symbol) in self.symbols.iter().enumerate().skip(place) {
@@ -187,27 +187,28 @@ impl Scene {
         }
     }
 
-    /// Puts the values of dependent variables in their places.
-    fn on_branch(&self, mut values: Vec<Found<Real>>, point: &Point) -> Option<Vec<Found<Real>>> {
-        let Some(level) = &self.level else { return Some(values) };
-        for (place, tree) in level.branches.get(point.branch)? {
-            let value = Place { values: &values, along: &[] }.value(tree).ok()?;
-            if !self.is_in_range(*place, &value) {
-                return None;
-            }
+    /// Puts the values of dependent variables in their places; `Lack::Value` if the point certainly
+    /// is not a state.
+    fn on_branch(&self, mut values: Vec<Found<Real>>, point: &Point) -> Found<Vec<Found<Real>>> {
+        let Some(level) = &self.level else { return Ok(values) };
+        for (place, tree) in level.branches.get(point.branch).ok_or(Lack::Value)? {
+            let value = Place { values: &values, along: &[] }.value(tree)?;
+            self.check_range(*place, &value)?;
             values[*place] = Ok(value);
         }
-        Some(values)
+        Ok(values)
     }
 
-    /// Whether the value is inside the declared range, ends included.
-    pub fn is_in_range(&self, place: usize, value: &Real) -> bool {
-        match &self.symbols[place].origin {
-            Origin::State(a, b) | Origin::Range(a, b) => {
-                sign(&(value - number(*a))) >= 0 && sign(&(number(*b) - value)) >= 0
+    /// Checks that a value is inside the declared range, ends included.
+    fn check_range(&self, place: usize, value: &Real) -> Found<()> {
+        if let Origin::State(a, b) | Origin::Range(a, b) = &self.symbols[place].origin {
+            for gap in [value - number(*a), number(*b) - value] {
+                if sign(&gap) < 0 {
+                    return Err(sure_sign(&gap).map_or(Lack::Digits, |_| Lack::Value));
+                }
             }
-            _ => true,
         }
+        Ok(())
     }
 
     /// Whether intervals show that no state lies on the level.
