@@ -124,6 +124,21 @@ fn place(limbs: &[u64], by: usize, buffer: &mut [u64]) {
     }
 }
 
+/// Adds `by` · `limbs` to as many limbs, and returns the carry.
+#[inline]
+fn add_product(row: &mut [u64], limbs: &[u64], by: u64) -> u64 {
+    let count = row.len().min(limbs.len());
+    let (row, limbs) = (&mut row[..count], &limbs[..count]);
+    let (mut carry, mut k) = (0u64, count);
+    while k > 0 {
+        k -= 1;
+        let product = u128::from(by).wrapping_mul(u128::from(limbs[k]));
+        let sum = product.wrapping_add(u128::from(row[k])).wrapping_add(u128::from(carry));
+        (row[k], carry) = (sum as u64, (sum >> 64) as u64);
+    }
+    carry
+}
+
 /// Subtracts `by` · `limbs` from a buffer that is one limb longer; tells whether it was too much.
 fn is_overdrawn(buffer: &mut [u64], limbs: &[u64], by: u64) -> bool {
     let mut carry: u64 = 0;
@@ -142,6 +157,7 @@ fn is_overdrawn(buffer: &mut [u64], limbs: &[u64], by: u64) -> bool {
 impl Float {
     pub const ZERO: Self = Self { top: 0, negative: false, count: 0, few: [0; FEW], many: None };
 
+    #[inline]
     fn limbs(&self) -> &[u64] {
         match &self.many {
             Some(limbs) => limbs,
@@ -150,7 +166,12 @@ impl Float {
     }
 
     pub fn whole(n: i64) -> Self {
-        rounded(n < 0, 64, &mut [n.unsigned_abs()], 64)
+        if n == 0 {
+            return Self::ZERO;
+        }
+        let (mut few, shift) = ([0; FEW], n.unsigned_abs().leading_zeros());
+        few[0] = n.unsigned_abs() << shift;
+        Self { top: 64 - shift as isize, negative: n < 0, count: 1, few, many: None }
     }
 
     /// Converts a finite f64 exactly.
@@ -172,11 +193,13 @@ impl Float {
         (self.negative, self.top, self.limbs())
     }
 
+    #[inline]
     pub fn is_zero(&self) -> bool {
         self.count == 0
     }
 
     /// Returns -1, 0 or 1.
+    #[inline]
     pub fn sign(&self) -> i32 {
         match (self.count, self.negative) {
             (0, _) => 0,
@@ -186,6 +209,7 @@ impl Float {
     }
 
     /// Returns the place of the leading bit, except for 0.
+    #[inline]
     pub fn top(&self) -> Option<isize> {
         (self.count > 0).then_some(self.top)
     }
@@ -201,14 +225,22 @@ impl Float {
         if self.negative { -size } else { size }
     }
 
+    /// Returns the number in so many bits.
+    pub fn cut(self, bits: usize) -> Self {
+        if 64 * self.count <= bits { self } else { self.with_bits(bits) }
+    }
+
     pub fn with_bits(&self, bits: usize) -> Self {
-        match 64 * self.count <= bits {
-            true => self.clone(),
-            false => buffered(self.count, |buffer| {
-                buffer.copy_from_slice(self.limbs());
-                rounded(self.negative, self.top, buffer, bits)
-            }),
-        }
+        // One limb more than there are bits is rounded, and what is further down tilts it.
+        let most = bits / 64 + 2;
+        let limbs = &self.limbs()[..self.count.min(most)];
+        buffered(limbs.len(), |buffer| {
+            buffer.copy_from_slice(limbs);
+            if self.count > most {
+                buffer[most - 1] |= 1;
+            }
+            rounded(self.negative, self.top, buffer, bits)
+        })
     }
 
     pub fn negated(&self) -> Self {
@@ -220,6 +252,7 @@ impl Float {
         Self { top: if self.count > 0 { self.top + by } else { 0 }, ..self.clone() }
     }
 
+    #[inline]
     pub fn plus(&self, other: &Self, bits: usize) -> Self {
         self.signed_sum(other, other.negative, bits)
     }
@@ -280,13 +313,8 @@ impl Float {
         let (a, b) = (self.limbs(), other.limbs());
         buffered(a.len() + b.len(), |buffer| {
             for (k, by) in a.iter().enumerate().rev() {
-                let mut carry: u64 = 0;
-                for (there, limb) in buffer[k + 1..=k + b.len()].iter_mut().zip(b).rev() {
-                    let product = u128::from(*by).wrapping_mul(u128::from(*limb));
-                    let product = product.wrapping_add((*there).into()).wrapping_add(carry.into());
-                    (*there, carry) = (product as u64, (product >> 64) as u64);
-                }
-                buffer[k] = carry;
+                let row = &mut buffer[k..=k + b.len()];
+                row[0] = add_product(&mut row[1..], b, *by);
             }
             rounded(self.negative != other.negative, self.top + other.top, buffer, bits)
         })

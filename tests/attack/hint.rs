@@ -266,3 +266,15 @@ impl<'h> Hints<'h> {
         Ok(parts.map(|part| look(part, &values)?.sign()).collect())
     }
 }
+
+/// Returns the sign of a formula at a point, where f64 shows that it is a state, and that all have
+/// values that belong to every claim.
+pub fn sign(scene: &Scene, point: &Point, tree: &Tree) -> Option<i32> {
+    let hints = Hints::new(scene, point, scene.symbols.len());
+    let values = hints.values((0.0, 0.0)).ok()?;
+    let rates = scene.field.iter().map(|(_, rate)| look(rate, &values));
+    match values.iter().copied().chain(rates).all(|found| found.is_ok()) {
+        true => look(tree, &values).and_then(Ball::sign).ok(),
+        false => None,
+    }
+}

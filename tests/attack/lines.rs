@@ -9,7 +9,7 @@ use super::jet::Place;
 use super::point::Point;
 use super::random::Stream;
 use super::real::{Found, Lack, Real, guessed, sure_sign, with_bits};
-use super::scene::Scene;
+use super::scene::{Known, Scene};
 use super::seek;
 
 /// A position in a range: a number and what is far below its last digit.
@@ -90,18 +90,18 @@ struct Line<'l> {
     place: usize,
     /// What f64 shows.
     hints: Hints<'l>,
-    /// Values of what is drawn at the state, in few and in more bits.
-    drawn: [Vec<Found<Real>>; 2],
+    /// Values at the state, in few and in more bits.
+    known: [Known; 2],
     /// Whether few bits take a sum in them for 0.
     is_guess: bool,
 }
 
 impl<'l> Line<'l> {
     fn new(scene: &'l Scene, parts: &'l [Tree], from: &'l Point, place: usize) -> Self {
-        let (rough, is_guess) = guessed(|| with_bits(ROUGH, || scene.drawn(from)));
-        let drawn = [rough, scene.drawn(from)];
+        let (rough, is_guess) = guessed(|| with_bits(ROUGH, || scene.known(from, place)));
+        let known = [rough, scene.known(from, place)];
         let hints = Hints::new(scene, from, place);
-        Self { scene, parts, from, place, hints, drawn, is_guess }
+        Self { scene, parts, from, place, hints, known, is_guess }
     }
 
     /// Finds the states between all zeros that are seen.
@@ -181,11 +181,11 @@ impl<'l> Line<'l> {
         at: Position,
         signs: impl Fn(&[Found<Real>]) -> Vec<Found<i32>>,
     ) -> Found<Vec<Found<i32>>> {
-        let of = |drawn: &[Found<Real>]| {
+        let of = |known: &Known| {
             let point = self.from.at(self.place, at);
-            Ok(signs(&self.scene.values_beside(drawn, &point, self.place)?))
+            Ok(signs(&self.scene.values_beside(known, &point, self.place)?))
         };
-        let [few, more] = &self.drawn;
+        let [few, more] = &self.known;
         let (rough, is_guess) = guessed(|| with_bits(ROUGH, || of(few)));
         let is_known = |lack: Option<Lack>| match lack {
             None => true,

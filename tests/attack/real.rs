@@ -93,7 +93,7 @@ pub fn both<A, B>(a: Found<A>, b: Found<B>) -> Found<(A, B)> {
 impl Real {
     #[inline]
     fn exact(value: Float) -> Self {
-        Self { value: value.with_bits(bits()), error: EXACT }
+        Self { value: value.cut(bits()), error: EXACT }
     }
 
     /// Adds the error of one rounding to those of the operands.
@@ -292,8 +292,16 @@ pub fn sum(a: &Real, b: &Real) -> Found<Real> {
     plus(a, b).settled(height(a).max(height(b)))
 }
 
+/// Computes a − b, or 0 where they cancel.
+#[inline]
 pub fn difference(a: &Real, b: &Real) -> Found<Real> {
-    sum(a, &-b)
+    if is_zero(a) && a.error == EXACT {
+        return Ok(-b);
+    }
+    if is_zero(b) && b.error == EXACT {
+        return Ok(a.clone());
+    }
+    minus(a, b).settled(height(a).max(height(b)))
 }
 
 pub fn modulus(a: &Real) -> Real {

@@ -53,6 +53,14 @@ pub struct Scene {
     pub level: Option<Level>,
 }
 
+/// Values that are the same at points that differ in one coordinate.
+pub enum Known {
+    /// Those drawn, on which those of formulas and of dependent variables depend.
+    Drawn(Vec<Found<Real>>),
+    /// All others.
+    All(Found<Vec<Found<Real>>>),
+}
+
 /// Returns a number in f64.
 pub fn rough(n: &Number) -> f64 {
     match (n.bottom, n.tens) {
@@ -141,17 +149,33 @@ impl Scene {
         self.on_branch(self.drawn(point), point).ok()
     }
 
-    /// Computes the values at a point that differs in one coordinate from that of which the drawn
-    /// values are known; `Lack::Value` if it certainly is not a state.
+    /// Computes what is known about the values at points that differ from one in one coordinate.
+    pub fn known(&self, point: &Point, place: usize) -> Known {
+        let values = self.drawn(point);
+        let mut trees = self.branch(point).iter().map(|(_, tree)| tree).chain(self.formulas());
+        match trees.any(|tree| tree.has(place)) {
+            true => Known::Drawn(values),
+            false => Known::All(self.on_branch(values, point)),
+        }
+    }
+
+    /// Computes the values at a point that differs in one coordinate from that of which something is
+    /// known; `Lack::Value` if it certainly is not a state.
     pub fn values_beside(
         &self,
-        drawn: &[Found<Real>],
+        known: &Known,
         point: &Point,
         place: usize,
     ) -> Found<Vec<Found<Real>>> {
-        let mut values = drawn.to_vec();
+        let mut values = match known {
+            Known::Drawn(drawn) => drawn.clone(),
+            Known::All(all) => all.clone()?,
+        };
         values[place] = self.value(place, point, &values);
-        for (place, symbol) in self.symbols.iter().enumerate().skip(place) {
+        if let Known::All(_) = known {
+            return Ok(values);
+        }
+        for (place, symbol) in self.symbols.iter().enumerate() {
             if let Origin::Formula(tree) = &symbol.origin {
                 values[place] = Place { values: &values, along: &[] }.value(tree);
             }
@@ -159,8 +183,16 @@ impl Scene {
         self.on_branch(values, point)
     }
 
+    /// Returns the formulas of parameters.
+    pub fn formulas(&self) -> impl Iterator<Item = &Tree> {
+        self.symbols.iter().filter_map(|symbol| match &symbol.origin {
+            Origin::Formula(tree) => Some(tree),
+            _ => None,
+        })
+    }
+
     /// Computes the values of all symbols at a point off the level.
-    pub fn drawn(&self, point: &Point) -> Vec<Found<Real>> {
+    fn drawn(&self, point: &Point) -> Vec<Found<Real>> {
         let mut values: Vec<Found<Real>> = Vec::with_capacity(self.symbols.len());
         for place in 0..self.symbols.len() {
             let value = self.value(place, point, &values);
