@@ -34,28 +34,21 @@ impl Place<'_> {
             Expr::Number(known) => Ok(self.constant(number(*known))),
             Expr::Symbol(place) => {
                 let slope = |by: &usize| whole(i64::from(by == place));
+                let value = self.values[*place].as_ref().map_err(|lack| *lack)?;
                 let slopes = self.along.iter().map(slope).collect();
-                Ok(Jet { value: self.values[*place].clone()?, slopes })
+                Ok(Jet { value: value.clone(), slopes })
             }
             Expr::Neg(a) => self.jet(a).map(|a| scaled(&a, &whole(-1))),
-            Expr::Add(a, b) => {
-                let (a, b) = both(self.jet(a), self.jet(b))?;
-                combined(&a, &b, sum)
-            }
+            Expr::Add(a, b) => together(&self.jet(a), &self.jet(b), |a, b| combined(a, b, sum)),
             Expr::Sub(a, b) => {
-                let (a, b) = both(self.jet(a), self.jet(b))?;
-                combined(&a, &b, difference)
+                together(&self.jet(a), &self.jet(b), |a, b| combined(a, b, difference))
             }
-            Expr::Mul(a, b) => {
-                let (a, b) = both(self.jet(a), self.jet(b))?;
-                product(&a, &b)
-            }
-            Expr::Div(a, b) => {
-                let (a, b) = both(self.jet(a), self.jet(b))?;
+            Expr::Mul(a, b) => together(&self.jet(a), &self.jet(b), product),
+            Expr::Div(a, b) => together(&self.jet(a), &self.jet(b), |a, b| {
                 let inverse = quotient(&whole(1), &b.value)?;
                 let slope = |inverse: &Real| -(inverse * inverse);
-                product(&a, &chained(&b, inverse, slope))
-            }
+                product(a, &chained(b, inverse, slope))
+            }),
             Expr::Power(a, top, 1) => {
                 let inner = self.jet(a)?;
                 let value = to_the(&inner.value, *top)?;
@@ -175,6 +168,21 @@ impl Place<'_> {
     }
 }
 
+/// Combines two parts: an undefined part leaves the whole undefined.
+fn together(
+    a: &Found<Jet>,
+    b: &Found<Jet>,
+    by: impl FnOnce(&Jet, &Jet) -> Found<Jet>,
+) -> Found<Jet> {
+    match (a, b) {
+        (Ok(a), Ok(b)) => by(a, b),
+        (a, b) => {
+            let lack = |found: &Found<Jet>| found.as_ref().map(|_| ()).map_err(|lack| *lack);
+            Err(both(lack(a), lack(b)).err().unwrap_or(Lack::Decision))
+        }
+    }
+}
+
 /// Applies the chain rule to f(a), with f' computed from the value where there are slopes.
 fn chained(a: &Jet, value: Real, slope: impl FnOnce(&Real) -> Real) -> Jet {
     if a.slopes.is_empty() {
@@ -201,12 +209,18 @@ fn times(a: &Real, b: &Real) -> Real {
     if is_zero(a) || is_zero(b) { whole(0) } else { a * b }
 }
 
-fn combined(a: &Jet, b: &Jet, by: fn(&Real, &Real) -> Found<Real>) -> Found<Jet> {
+fn combined(a: &Jet, b: &Jet, by: impl Fn(&Real, &Real) -> Found<Real>) -> Found<Jet> {
+    if a.slopes.is_empty() {
+        return Ok(Jet { value: by(&a.value, &b.value)?, slopes: Vec::new() });
+    }
     let slopes: Found<Vec<Real>> = a.slopes.iter().zip(&b.slopes).map(|(a, b)| by(a, b)).collect();
     Ok(Jet { value: by(&a.value, &b.value)?, slopes: slopes? })
 }
 
 fn product(a: &Jet, b: &Jet) -> Found<Jet> {
+    if a.slopes.is_empty() {
+        return Ok(Jet { value: times(&a.value, &b.value), slopes: Vec::new() });
+    }
     let slope = |(x, y): (&Real, &Real)| sum(&times(x, &b.value), &times(&a.value, y));
     let slopes: Found<Vec<Real>> = a.slopes.iter().zip(&b.slopes).map(slope).collect();
     Ok(Jet { value: times(&a.value, &b.value), slopes: slopes? })

@@ -53,12 +53,39 @@ pub struct Scene {
     pub level: Option<Level>,
 }
 
-/// Values that are the same at points that differ in one coordinate.
-pub enum Known {
-    /// Those drawn, on which those of formulas and of dependent variables depend.
-    Drawn(Vec<Found<Real>>),
-    /// All others.
-    All(Found<Vec<Found<Real>>>),
+/// What is the same at points that differ in one coordinate.
+pub struct Known {
+    /// Values of what is drawn, or of all.
+    values: Found<Vec<Found<Real>>>,
+    /// Whether no other value depends on the coordinate.
+    is_fixed: bool,
+    /// Range of the coordinate, and those of dependent variables.
+    own: Option<Range>,
+    ends: Vec<Option<Range>>,
+}
+
+/// A range with its width.
+struct Range {
+    low: Real,
+    high: Real,
+    width: Real,
+}
+
+impl Range {
+    fn new(low: &Number, high: &Number) -> Self {
+        let (low, high) = (number(*low), number(*high));
+        let width = &high - &low;
+        Self { low, high, width }
+    }
+
+    /// Computes the value of a symbol from its position in its range.
+    fn at(&self, point: &Point, place: usize) -> Real {
+        let share = exactly(point.cube[place]);
+        match point.fine[place] {
+            0.0 => &self.low + &self.width * share,
+            fine => &self.low + &self.width * (share + exactly(fine)),
+        }
+    }
 }
 
 /// Returns a number in f64.
@@ -146,17 +173,19 @@ impl Scene {
 
     /// Computes the values of all symbols at a point; `None` if it is not a state.
     pub fn values(&self, point: &Point) -> Option<Vec<Found<Real>>> {
-        self.on_branch(self.drawn(point), point).ok()
+        self.on_branch(self.drawn(point), point, &self.ranges(point)).ok()
     }
 
     /// Computes what is known about the values at points that differ from one in one coordinate.
     pub fn known(&self, point: &Point, place: usize) -> Known {
-        let values = self.drawn(point);
         let mut trees = self.branch(point).iter().map(|(_, tree)| tree).chain(self.formulas());
-        match trees.any(|tree| tree.has(place)) {
-            true => Known::Drawn(values),
-            false => Known::All(self.on_branch(values, point)),
+        let is_fixed = !trees.any(|tree| tree.has(place));
+        let ends = self.ranges(point);
+        let mut values = Ok(self.drawn(point));
+        if is_fixed {
+            values = values.and_then(|values| self.on_branch(values, point, &ends));
         }
+        Known { values, is_fixed, own: self.range(place), ends }
     }
 
     /// Computes the values at a point that differs in one coordinate from that of which something is
@@ -167,12 +196,11 @@ impl Scene {
         point: &Point,
         place: usize,
     ) -> Found<Vec<Found<Real>>> {
-        let mut values = match known {
-            Known::Drawn(drawn) => drawn.clone(),
-            Known::All(all) => all.clone()?,
-        };
-        values[place] = self.value(place, point, &values);
-        if let Known::All(_) = known {
+        let mut values = known.values.clone()?;
+        if let Some(range) = &known.own {
+            values[place] = Ok(range.at(point, place));
+        }
+        if known.is_fixed {
             return Ok(values);
         }
         for (place, symbol) in self.symbols.iter().enumerate() {
@@ -180,7 +208,22 @@ impl Scene {
                 values[place] = Place { values: &values, along: &[] }.value(tree);
             }
         }
-        self.on_branch(values, point)
+        self.on_branch(values, point, &known.ends)
+    }
+
+    /// Returns the ranges of the dependent variables on a point's branch.
+    fn ranges(&self, point: &Point) -> Vec<Option<Range>> {
+        self.branch(point).iter().map(|(place, _)| self.range(*place)).collect()
+    }
+
+    /// Returns the range of a symbol, if it has one.
+    fn range(&self, place: usize) -> Option<Range> {
+        match &self.symbols[place].origin {
+            Origin::State(a, b) | Origin::Range(a, b) | Origin::Input(a, b) => {
+                Some(Range::new(a, b))
+            }
+            _ => None,
+        }
     }
 
     /// Returns the formulas of parameters.
@@ -205,13 +248,7 @@ impl Scene {
     fn value(&self, place: usize, point: &Point, values: &[Found<Real>]) -> Found<Real> {
         match &self.symbols[place].origin {
             Origin::State(a, b) | Origin::Range(a, b) | Origin::Input(a, b) => {
-                let low = number(*a);
-                let width = number(*b) - &low;
-                let share = exactly(point.cube[place]);
-                Ok(match point.fine[place] {
-                    0.0 => low + width * share,
-                    fine => low + width * (share + exactly(fine)),
-                })
+                Ok(Range::new(a, b).at(point, place))
             }
             Origin::Fixed(n) => Ok(number(*n)),
             Origin::List(list) => Ok(number(list[point.picks[place]])),
@@ -220,27 +257,26 @@ impl Scene {
     }
 
     /// Puts the values of dependent variables in their places; `Lack::Value` if the point certainly
-    /// is not a state.
-    fn on_branch(&self, mut values: Vec<Found<Real>>, point: &Point) -> Found<Vec<Found<Real>>> {
-        let Some(level) = &self.level else { return Ok(values) };
-        for (place, tree) in level.branches.get(point.branch).ok_or(Lack::Value)? {
-            let value = Place { values: &values, along: &[] }.value(tree)?;
-            self.check_range(*place, &value)?;
-            values[*place] = Ok(value);
+    /// is not a state. The ends of ranges belong to them.
+    fn on_branch(
+        &self,
+        mut values: Vec<Found<Real>>,
+        point: &Point,
+        ends: &[Option<Range>],
+    ) -> Found<Vec<Found<Real>>> {
+        if self.level.as_ref().is_some_and(|level| point.branch >= level.branches.len()) {
+            return Err(Lack::Value);
         }
-        Ok(values)
-    }
-
-    /// Checks that a value is inside the declared range, ends included.
-    fn check_range(&self, place: usize, value: &Real) -> Found<()> {
-        if let Origin::State(a, b) | Origin::Range(a, b) = &self.symbols[place].origin {
-            for gap in [value - number(*a), number(*b) - value] {
+        for ((place, tree), range) in self.branch(point).iter().zip(ends) {
+            let value = Place { values: &values, along: &[] }.value(tree)?;
+            for gap in range.iter().flat_map(|own| [&value - &own.low, &own.high - &value]) {
                 if sign(&gap) < 0 {
                     return Err(sure_sign(&gap).map_or(Lack::Digits, |_| Lack::Value));
                 }
             }
+            values[*place] = Ok(value);
         }
-        Ok(())
+        Ok(values)
     }
 
     /// Whether intervals show that no state lies on the level.
