@@ -83,6 +83,8 @@ mod spoil;
 mod table;
 #[path = "attack/told.rs"]
 mod told;
+#[path = "attack/values.rs"]
+mod values;
 #[path = "attack/witness.rs"]
 mod witness;
 #[path = "attack/wrong.rs"]
@@ -97,6 +99,7 @@ fn main() -> ExitCode {
         Trial::test("values agree in f64 and in 640 bits", own::two_precisions),
         Trial::test("arithmetic is that of the library", library::operations),
         Trial::test("logarithms and exponentials are those of the library", library::functions),
+        Trial::test("signs in f64 are those in 160 and in 640 bits", own::hints),
         Trial::test("enclosures hold what is printed", own::enclosures),
         Trial::test("the oracle knows what is known", own::known_truths),
         Trial::test("the oracle notices spoilt verdicts", lies::noticed),

@@ -3,8 +3,6 @@
 
 use std::cmp::Ordering;
 
-use super::random::Stream;
-
 /// Number of limbs that are stored in place: 768 bits.
 const FEW: usize = 12;
 /// Number of limbs of intermediate results that are computed in place.
@@ -165,6 +163,7 @@ impl Float {
         }
     }
 
+    #[inline]
     pub fn whole(n: i64) -> Self {
         if n == 0 {
             return Self::ZERO;
@@ -226,6 +225,7 @@ impl Float {
     }
 
     /// Returns the number in so many bits.
+    #[inline]
     pub fn cut(self, bits: usize) -> Self {
         if 64 * self.count <= bits { self } else { self.with_bits(bits) }
     }
@@ -394,17 +394,4 @@ fn quotient([a, b, c]: [u64; 3], [by, next]: [u64; 2]) -> u64 {
         rest += by;
     }
     guess as u64
-}
-
-/// Draws a number of so many bits, with runs of equal digits.
-pub fn drawn(stream: &mut Stream, bits: usize) -> Float {
-    let limb = |stream: &mut Stream| match stream.below(4) {
-        0 => 0,
-        1 => u64::MAX,
-        _ => stream.bits() >> stream.below(64),
-    };
-    let mut limbs: Vec<u64> = (0..length(bits)).map(|_| limb(stream)).collect();
-    let top = stream.below(2 * bits) as isize - bits as isize;
-    let top = if stream.once_in(3) { 0 } else { top };
-    rounded(stream.once_in(2), top, &mut limbs, bits)
 }

@@ -2,7 +2,7 @@
 
 use libtest_mimic::Failed;
 
-use super::float::{Float, drawn};
+use super::float::Float;
 use super::random::Stream;
 use super::series::{Foreign, atan, exp, foreign, log, waves};
 
@@ -18,6 +18,19 @@ const PRECISIONS: [(usize, usize); 9] = [
     (2048, 400),
     (6144, 100),
 ];
+
+/// Draws a number of so many bits, with runs of equal digits.
+fn drawn(stream: &mut Stream, bits: usize) -> Float {
+    let limb = |stream: &mut Stream| match stream.below(4) {
+        0 => 0,
+        1 => u64::MAX,
+        _ => stream.bits() >> stream.below(64),
+    };
+    let mut limbs: Vec<u64> = (0..bits.div_ceil(64)).map(|_| limb(stream)).collect();
+    let top = stream.below(2 * bits) as isize - bits as isize;
+    let top = if stream.once_in(3) { 0 } else { top };
+    Float::of_limbs(stream.once_in(2), top, &mut limbs, bits)
+}
 
 /// Compares sums, products, quotients and roots with what the library computes in many bits.
 pub fn operations() -> Result<(), Failed> {

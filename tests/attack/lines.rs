@@ -9,8 +9,9 @@ use super::jet::Place;
 use super::point::Point;
 use super::random::Stream;
 use super::real::{Found, Lack, Real, guessed, sure_sign, with_bits};
-use super::scene::{Known, Scene};
+use super::scene::Scene;
 use super::seek;
+use super::values::Known;
 
 /// A position in a range: a number and what is far below its last digit.
 type Position = (f64, f64);
