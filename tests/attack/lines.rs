@@ -1,7 +1,9 @@
 //! Search for cells of any width along lines: all zeros of the parts of formulas on a line through a
 //! state, in full precision, and the states between them.
 
-use std::collections::BTreeSet;
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
 use super::expr::{Expr, Function, Tree};
 use super::hint::{Hints, Unseen};
@@ -15,6 +17,12 @@ use super::values::Known;
 
 /// A position in a range: a number and what is far below its last digit.
 type Position = (f64, f64);
+
+/// The bits of a position, and whether few bits are asked.
+type Address = (u64, u64, bool);
+
+/// Values at a position, and whether a sum in them was taken for 0.
+type Beside = Rc<(Found<Vec<Found<Real>>>, bool)>;
 
 /// Sign of a part at a position, if it has one that is known, where there is a state.
 type Mark = Option<Option<i32>>;
@@ -95,6 +103,8 @@ struct Line<'l> {
     known: [Known; 2],
     /// Whether few bits take a sum in them for 0.
     is_guess: bool,
+    /// Values at positions between two, at which several parts may be asked for.
+    beside: RefCell<BTreeMap<Address, Beside>>,
 }
 
 impl<'l> Line<'l> {
@@ -102,7 +112,8 @@ impl<'l> Line<'l> {
         let (rough, is_guess) = guessed(|| with_bits(ROUGH, || scene.known(from, place)));
         let known = [rough, scene.known(from, place)];
         let hints = Hints::new(scene, from, place);
-        Self { scene, parts, from, place, hints, known, is_guess }
+        let beside = RefCell::default();
+        Self { scene, parts, from, place, hints, known, is_guess, beside }
     }
 
     /// Finds the states between all zeros that are seen.
@@ -123,6 +134,7 @@ impl<'l> Line<'l> {
         let marks: Vec<Vec<Mark>> = grid.iter().map(|at| self.marks(*at)).collect();
         let (mut zeros, mut ends) = (Vec::new(), Vec::new());
         for (sides, seen) in grid.windows(2).zip(marks.windows(2)) {
+            self.beside.borrow_mut().clear();
             let pairs = seen[0].iter().zip(&seen[1]).enumerate();
             for (part, (before, after)) in pairs.filter(|(_, (before, after))| before != after) {
                 if zeros.len() < ZEROS {
@@ -182,21 +194,37 @@ impl<'l> Line<'l> {
         at: Position,
         signs: impl Fn(&[Found<Real>]) -> Vec<Found<i32>>,
     ) -> Found<Vec<Found<i32>>> {
-        let of = |known: &Known| {
-            let point = self.from.at(self.place, at);
-            Ok(signs(&self.scene.values_beside(known, &point, self.place)?))
-        };
-        let [few, more] = &self.known;
-        let (rough, is_guess) = guessed(|| with_bits(ROUGH, || of(few)));
+        let few = self.beside(at, true);
+        let (rough, is_guess) = guessed(|| with_bits(ROUGH, || few.0.as_deref().map(&signs)));
+        let is_guess = is_guess || few.1 || self.is_guess;
         let is_known = |lack: Option<Lack>| match lack {
             None => true,
-            Some(lack) => lack == Lack::Value && !is_guess && !self.is_guess,
+            Some(lack) => lack == Lack::Value && !is_guess,
         };
         let is_final = match &rough {
             Ok(signs) => signs.iter().all(|sign| is_known(sign.err())),
-            Err(lack) => is_known(Some(*lack)),
+            Err(lack) => is_known(Some(**lack)),
         };
-        if is_final { rough } else { of(more) }
+        if is_final {
+            return rough.map_err(|lack| *lack);
+        }
+        let more = self.beside(at, false);
+        more.0.as_deref().map(signs).map_err(|lack| *lack)
+    }
+
+    /// Returns the values at a position in few bits, or in more.
+    fn beside(&self, at: Position, few: bool) -> Beside {
+        let address = (at.0.to_bits(), at.1.to_bits(), few);
+        if let Some(known) = self.beside.borrow().get(&address) {
+            return known.clone();
+        }
+        let point = self.from.at(self.place, at);
+        let of = |known: &Known| self.scene.values_beside(known, &point, self.place);
+        let [rough, fine] = &self.known;
+        let found = guessed(|| if few { with_bits(ROUGH, || of(rough)) } else { of(fine) });
+        let found = Rc::new(found);
+        self.beside.borrow_mut().insert(address, found.clone());
+        found
     }
 
     fn sign(&self, values: &[Found<Real>], part: usize) -> Found<i32> {
