@@ -27,16 +27,22 @@ mod derive;
 mod draw;
 #[path = "attack/expr.rs"]
 mod expr;
+#[path = "attack/float.rs"]
+mod float;
 #[path = "attack/flow.rs"]
 mod flow;
 #[path = "attack/grow.rs"]
 mod grow;
+#[path = "attack/hint.rs"]
+mod hint;
 #[path = "attack/interval.rs"]
 mod interval;
 #[path = "attack/jet.rs"]
 mod jet;
 #[path = "attack/levels.rs"]
 mod levels;
+#[path = "attack/library.rs"]
+mod library;
 #[path = "attack/lies.rs"]
 mod lies;
 #[path = "attack/limits.rs"]
@@ -65,6 +71,8 @@ mod scene;
 mod scout;
 #[path = "attack/seek.rs"]
 mod seek;
+#[path = "attack/series.rs"]
+mod series;
 #[path = "attack/sheets.rs"]
 mod sheets;
 #[path = "attack/shrink.rs"]
@@ -75,6 +83,8 @@ mod spoil;
 mod table;
 #[path = "attack/told.rs"]
 mod told;
+#[path = "attack/values.rs"]
+mod values;
 #[path = "attack/witness.rs"]
 mod witness;
 #[path = "attack/wrong.rs"]
@@ -87,7 +97,9 @@ fn main() -> ExitCode {
     let trials = vec![
         Trial::test("derivatives are what differences show", own::derivatives),
         Trial::test("values agree in f64 and in 640 bits", own::two_precisions),
-        Trial::test("logarithms are those of the library", own::logarithms),
+        Trial::test("arithmetic is that of the library", library::operations),
+        Trial::test("logarithms and exponentials are those of the library", library::functions),
+        Trial::test("signs in f64 are those in 160 and in 640 bits", own::hints),
         Trial::test("enclosures hold what is printed", own::enclosures),
         Trial::test("the oracle knows what is known", own::known_truths),
         Trial::test("the oracle notices spoilt verdicts", lies::noticed),

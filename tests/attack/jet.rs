@@ -2,8 +2,8 @@
 
 use super::expr::{Expr, Function, Tree};
 use super::real::{
-    Found, Lack, Real, atan, both, cos, difference, exactly, exp, is_zero, log, modulus, nearest,
-    number, quotient, root, sin, sum, sure_sign, to_the, whole,
+    Found, Lack, Real, atan, both, difference, exactly, exp, is_zero, log, modulus, nearest,
+    number, quotient, root, sum, sure_sign, to_the, waves, whole,
 };
 
 /// A value with its partial derivatives.
@@ -34,36 +34,30 @@ impl Place<'_> {
             Expr::Number(known) => Ok(self.constant(number(*known))),
             Expr::Symbol(place) => {
                 let slope = |by: &usize| whole(i64::from(by == place));
+                let value = self.values[*place].as_ref().map_err(|lack| *lack)?;
                 let slopes = self.along.iter().map(slope).collect();
-                Ok(Jet { value: self.values[*place].clone()?, slopes })
+                Ok(Jet { value: value.clone(), slopes })
             }
             Expr::Neg(a) => self.jet(a).map(|a| scaled(&a, &whole(-1))),
-            Expr::Add(a, b) => {
-                let (a, b) = both(self.jet(a), self.jet(b))?;
-                combined(&a, &b, sum)
-            }
+            Expr::Add(a, b) => together(&self.jet(a), &self.jet(b), |a, b| combined(a, b, sum)),
             Expr::Sub(a, b) => {
-                let (a, b) = both(self.jet(a), self.jet(b))?;
-                combined(&a, &b, difference)
+                together(&self.jet(a), &self.jet(b), |a, b| combined(a, b, difference))
             }
-            Expr::Mul(a, b) => {
-                let (a, b) = both(self.jet(a), self.jet(b))?;
-                product(&a, &b)
-            }
-            Expr::Div(a, b) => {
-                let (a, b) = both(self.jet(a), self.jet(b))?;
+            Expr::Mul(a, b) => together(&self.jet(a), &self.jet(b), product),
+            Expr::Div(a, b) => together(&self.jet(a), &self.jet(b), |a, b| {
                 let inverse = quotient(&whole(1), &b.value)?;
-                let slope = -(&inverse * &inverse);
-                product(&a, &chained(&b, inverse, &slope))
-            }
+                let slope = |inverse: &Real| -(inverse * inverse);
+                product(a, &chained(b, inverse, slope))
+            }),
             Expr::Power(a, top, 1) => {
                 let inner = self.jet(a)?;
                 let value = to_the(&inner.value, *top)?;
-                let slope = match top {
+                let below = match top {
                     0 => whole(0),
-                    n => whole(*n) * to_the(&inner.value, n - 1)?,
+                    _ if self.along.is_empty() => whole(0),
+                    n => to_the(&inner.value, n - 1)?,
                 };
-                Ok(chained(&inner, value, &slope))
+                Ok(chained(&inner, value, |_| whole(*top) * below))
             }
             Expr::Power(a, top, bottom) => {
                 let inner = self.jet(a)?;
@@ -77,10 +71,10 @@ impl Place<'_> {
                     0 => return Err(Lack::Decision),
                     _ => {}
                 }
-                let logarithm = chained(&a, log(&a.value)?, &quotient(&whole(1), &a.value)?);
+                let logarithm = chained(&a, log(&a.value)?, |_| whole(1) / &a.value);
                 let exponent = product(&b, &logarithm)?;
                 let value = exp(&exponent.value)?;
-                Ok(chained(&exponent, value.clone(), &value))
+                Ok(chained(&exponent, value, Real::clone))
             }
             Expr::Of(function, a) => {
                 let inner = self.jet(a)?;
@@ -118,26 +112,22 @@ impl Place<'_> {
 
     fn of(&self, function: Function, a: &Tree, inner: &Jet) -> Found<Jet> {
         let x = &inner.value;
-        let (value, slope) = match function {
-            Function::Root if is_zero(x) => return self.corner(a),
-            Function::Root => {
-                let value = root(x)?;
-                let slope = quotient(&whole(1), &(&value * whole(2)))?;
-                (value, slope)
+        Ok(match function {
+            Function::Root | Function::Modulus if is_zero(x) => return self.corner(a),
+            Function::Root => rooted(inner)?,
+            Function::Modulus => {
+                let sign = whole(i64::from(sure_sign(x)?));
+                chained(inner, modulus(x), |_| sign)
             }
-            Function::Modulus if is_zero(x) => return self.corner(a),
-            Function::Modulus => (modulus(x), whole(i64::from(sure_sign(x)?))),
-            Function::Exp => {
-                let value = exp(x)?;
-                (value.clone(), value)
-            }
-            Function::Log => (log(x)?, quotient(&whole(1), x)?),
+            Function::Exp => chained(inner, exp(x)?, Real::clone),
+            Function::Log => chained(inner, log(x)?, |_| whole(1) / x),
             Function::Sin | Function::Cos if nearest(x).abs() > 1e6 => return Err(Lack::Decision),
-            Function::Sin => (sin(x)?, cos(x)?),
-            Function::Cos => (cos(x)?, -sin(x)?),
-            Function::Atan => (atan(x), whole(1) / (whole(1) + x * x)),
-        };
-        Ok(chained(inner, value, &slope))
+            Function::Sin | Function::Cos => match (function, waves(x)?) {
+                (Function::Sin, (sin, cos)) => chained(inner, sin, |_| cos),
+                (_, (sin, cos)) => chained(inner, cos, |_| -sin),
+            },
+            Function::Atan => chained(inner, atan(x), |_| whole(1) / (whole(1) + x * x)),
+        })
     }
 
     /// Computes x^(top/bottom), for x > 0; at 0 too if only roots are taken.
@@ -157,8 +147,7 @@ impl Place<'_> {
             _ => exp(&(log(x)? / whole(bottom)))?,
         };
         let value = to_the(&base, top)?;
-        let slope = &value * whole(top) / (x * whole(bottom));
-        Ok(chained(inner, value, &slope))
+        Ok(chained(inner, value, |value| value * whole(top) / (x * whole(bottom))))
     }
 
     fn norm(&self, whole_norm: &Tree, parts: &[Tree; 3]) -> Found<Jet> {
@@ -174,18 +163,42 @@ impl Place<'_> {
         match lack {
             Some(lack) => Err(lack),
             None if is_zero(&total.value) => self.corner(whole_norm),
-            None => {
-                let value = root(&total.value)?;
-                let slope = quotient(&whole(1), &(&value * whole(2)))?;
-                Ok(chained(&total, value, &slope))
-            }
+            None => rooted(&total),
         }
     }
 }
 
-/// Applies the chain rule to f(a), with f' given as `slope`.
-fn chained(a: &Jet, value: Real, slope: &Real) -> Jet {
-    Jet { value, slopes: a.slopes.iter().map(|by| times(by, slope)).collect() }
+/// Combines two parts: an undefined part leaves the whole undefined.
+fn together(
+    a: &Found<Jet>,
+    b: &Found<Jet>,
+    by: impl FnOnce(&Jet, &Jet) -> Found<Jet>,
+) -> Found<Jet> {
+    match (a, b) {
+        (Ok(a), Ok(b)) => by(a, b),
+        (a, b) => {
+            let lack = |found: &Found<Jet>| found.as_ref().map(|_| ()).map_err(|lack| *lack);
+            Err(both(lack(a), lack(b)).err().unwrap_or(Lack::Decision))
+        }
+    }
+}
+
+/// Applies the chain rule to f(a), with f' computed from the value where there are slopes.
+fn chained(a: &Jet, value: Real, slope: impl FnOnce(&Real) -> Real) -> Jet {
+    if a.slopes.is_empty() {
+        return Jet { value, slopes: Vec::new() };
+    }
+    let slope = slope(&value);
+    Jet { value, slopes: a.slopes.iter().map(|by| times(by, &slope)).collect() }
+}
+
+/// Computes the root of a positive value.
+fn rooted(a: &Jet) -> Found<Jet> {
+    let value = root(&a.value)?;
+    let twice = &value * whole(2);
+    // The error of a root may hide it.
+    sure_sign(&twice)?;
+    Ok(chained(a, value, |_| whole(1) / twice))
 }
 
 fn scaled(a: &Jet, by: &Real) -> Jet {
@@ -196,12 +209,18 @@ fn times(a: &Real, b: &Real) -> Real {
     if is_zero(a) || is_zero(b) { whole(0) } else { a * b }
 }
 
-fn combined(a: &Jet, b: &Jet, by: fn(&Real, &Real) -> Found<Real>) -> Found<Jet> {
+fn combined(a: &Jet, b: &Jet, by: impl Fn(&Real, &Real) -> Found<Real>) -> Found<Jet> {
+    if a.slopes.is_empty() {
+        return Ok(Jet { value: by(&a.value, &b.value)?, slopes: Vec::new() });
+    }
     let slopes: Found<Vec<Real>> = a.slopes.iter().zip(&b.slopes).map(|(a, b)| by(a, b)).collect();
     Ok(Jet { value: by(&a.value, &b.value)?, slopes: slopes? })
 }
 
 fn product(a: &Jet, b: &Jet) -> Found<Jet> {
+    if a.slopes.is_empty() {
+        return Ok(Jet { value: times(&a.value, &b.value), slopes: Vec::new() });
+    }
     let slope = |(x, y): (&Real, &Real)| sum(&times(x, &b.value), &times(&a.value, y));
     let slopes: Found<Vec<Real>> = a.slopes.iter().zip(&b.slopes).map(slope).collect();
     Ok(Jet { value: times(&a.value, &b.value), slopes: slopes? })

@@ -1,18 +1,28 @@
 //! Search for cells of any width along lines: all zeros of the parts of formulas on a line through a
 //! state, in full precision, and the states between them.
 
-use std::collections::BTreeSet;
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
 use super::expr::{Expr, Function, Tree};
+use super::hint::{Hints, Unseen};
 use super::jet::Place;
 use super::point::Point;
 use super::random::Stream;
-use super::real::{Found, Real, sure_sign, with_bits};
+use super::real::{Found, Lack, Real, guessed, sure_sign, with_bits};
 use super::scene::Scene;
 use super::seek;
+use super::values::Known;
 
 /// A position in a range: a number and what is far below its last digit.
 type Position = (f64, f64);
+
+/// The bits of a position, and whether few bits are asked.
+type Address = (u64, u64, bool);
+
+/// Values at a position, and whether a sum in them was taken for 0.
+type Beside = Rc<(Found<Vec<Found<Real>>>, bool)>;
 
 /// Sign of a part at a position, if it has one that is known, where there is a state.
 type Mark = Option<Option<i32>>;
@@ -59,7 +69,7 @@ pub fn between_zeros(
     let states = drawn.iter().take(STATES).chain(found.iter().rev().take(STATES));
     let free = scene.free();
     let lines = states.flat_map(|state| free.iter().map(move |place| (state, *place)));
-    lines.flat_map(|(from, place)| Line { scene, parts: &parts, from, place }.states()).collect()
+    lines.flat_map(|(from, place)| Line::new(scene, &parts, from, place).states()).collect()
 }
 
 /// Collects divisors and the arguments of what has a corner or an end.
@@ -87,9 +97,25 @@ struct Line<'l> {
     parts: &'l [Tree],
     from: &'l Point,
     place: usize,
+    /// What f64 shows.
+    hints: Hints<'l>,
+    /// Values at the state, in few and in more bits.
+    known: [Known; 2],
+    /// Whether few bits take a sum in them for 0.
+    is_guess: bool,
+    /// Values at positions between two, at which several parts may be asked for.
+    beside: RefCell<BTreeMap<Address, Beside>>,
 }
 
-impl Line<'_> {
+impl<'l> Line<'l> {
+    fn new(scene: &'l Scene, parts: &'l [Tree], from: &'l Point, place: usize) -> Self {
+        let (rough, is_guess) = guessed(|| with_bits(ROUGH, || scene.known(from, place)));
+        let known = [rough, scene.known(from, place)];
+        let hints = Hints::new(scene, from, place);
+        let beside = RefCell::default();
+        Self { scene, parts, from, place, hints, known, is_guess, beside }
+    }
+
     /// Finds the states between all zeros that are seen.
     fn states(&self) -> Vec<Point> {
         let (mut zeros, ends) = self.zeros(&self.grid());
@@ -108,6 +134,7 @@ impl Line<'_> {
         let marks: Vec<Vec<Mark>> = grid.iter().map(|at| self.marks(*at)).collect();
         let (mut zeros, mut ends) = (Vec::new(), Vec::new());
         for (sides, seen) in grid.windows(2).zip(marks.windows(2)) {
+            self.beside.borrow_mut().clear();
             let pairs = seen[0].iter().zip(&seen[1]).enumerate();
             for (part, (before, after)) in pairs.filter(|(_, (before, after))| before != after) {
                 if zeros.len() < ZEROS {
@@ -136,32 +163,89 @@ impl Line<'_> {
 
     /// Returns the marks of all parts; without parts, still one, which tells where states are.
     fn marks(&self, at: Position) -> Vec<Mark> {
-        let signs = || -> Option<Vec<Option<i32>>> {
-            let values = self.values(at)?;
-            Some((0..self.parts.len()).map(|part| self.sign(&values, part)).collect())
+        let count = self.parts.len();
+        let open = Err(Unseen::Open);
+        let (seen, is_state) = match self.hints.signs(at, self.parts.iter()) {
+            Err(Unseen::Lack) => return vec![None; count + 1],
+            Err(Unseen::Open) => (vec![open; count], false),
+            Ok(seen) => (seen, true),
         };
-        let are_known = |signs: &Vec<Option<i32>>| signs.iter().all(Option::is_some);
-        let found = with_bits(ROUGH, signs).filter(are_known).or_else(signs);
-        match found {
-            Some(signs) => signs.into_iter().chain([None]).map(Some).collect(),
-            None => vec![None; self.parts.len() + 1],
+        if is_state && !seen.contains(&open) {
+            return seen.into_iter().map(|sign| Some(sign.ok())).chain([Some(None)]).collect();
+        }
+        // What f64 shows, more bits would show as well.
+        let sign = |values: &[Found<Real>], part: usize| match seen[part] {
+            Ok(sign) => Ok(sign),
+            Err(Unseen::Lack) => Err(Lack::Value),
+            Err(Unseen::Open) => self.sign(values, part),
+        };
+        match self.seen(at, |values| (0..count).map(|part| sign(values, part)).collect()) {
+            Ok(signs) => {
+                signs.into_iter().map(|sign| Some(sign.ok())).chain([Some(None)]).collect()
+            }
+            Err(_) => vec![None; count + 1],
         }
     }
 
-    fn values(&self, at: Position) -> Option<Vec<Found<Real>>> {
-        self.scene.values(&self.from.at(self.place, at))
+    /// Asks for signs at a position in few bits, and in more where these leave something open: the
+    /// lack of a value counts if no sum was taken for 0.
+    fn seen(
+        &self,
+        at: Position,
+        signs: impl Fn(&[Found<Real>]) -> Vec<Found<i32>>,
+    ) -> Found<Vec<Found<i32>>> {
+        let few = self.beside(at, true);
+        let (rough, is_guess) = guessed(|| with_bits(ROUGH, || few.0.as_deref().map(&signs)));
+        let is_guess = is_guess || few.1 || self.is_guess;
+        let is_known = |lack: Option<Lack>| match lack {
+            None => true,
+            Some(lack) => lack == Lack::Value && !is_guess,
+        };
+        let is_final = match &rough {
+            Ok(signs) => signs.iter().all(|sign| is_known(sign.err())),
+            Err(lack) => is_known(Some(**lack)),
+        };
+        if is_final {
+            return rough.map_err(|lack| *lack);
+        }
+        let more = self.beside(at, false);
+        more.0.as_deref().map(signs).map_err(|lack| *lack)
     }
 
-    fn sign(&self, values: &[Found<Real>], part: usize) -> Option<i32> {
-        let value = (Place { values, along: &[] }).value(self.parts.get(part)?);
-        value.and_then(|value| sure_sign(&value)).ok()
+    /// Returns the values at a position in few bits, or in more.
+    fn beside(&self, at: Position, few: bool) -> Beside {
+        let address = (at.0.to_bits(), at.1.to_bits(), few);
+        if let Some(known) = self.beside.borrow().get(&address) {
+            return known.clone();
+        }
+        let point = self.from.at(self.place, at);
+        let of = |known: &Known| self.scene.values_beside(known, &point, self.place);
+        let [rough, fine] = &self.known;
+        let found = guessed(|| if few { with_bits(ROUGH, || of(rough)) } else { of(fine) });
+        let found = Rc::new(found);
+        self.beside.borrow_mut().insert(address, found.clone());
+        found
+    }
+
+    fn sign(&self, values: &[Found<Real>], part: usize) -> Found<i32> {
+        // A part that is not there has no sign, where there is a state.
+        let Some(part) = self.parts.get(part) else { return Err(Lack::Value) };
+        (Place { values, along: &[] }).value(part).and_then(|value| sure_sign(&value))
     }
 
     /// Returns the mark of one part: in few bits where these tell the sign.
     fn mark(&self, at: Position, part: usize) -> Mark {
-        let of = |values: Vec<Found<Real>>| self.sign(&values, part);
-        let rough = with_bits(ROUGH, || self.values(at).and_then(of));
-        if rough.is_some() { Some(rough) } else { self.values(at).map(of) }
+        match self.hints.signs(at, self.parts.iter().skip(part).take(1)) {
+            Err(Unseen::Lack) => return None,
+            Err(Unseen::Open) => {}
+            Ok(seen) => match seen[..] {
+                [Err(Unseen::Open)] => {}
+                [sign] => return Some(sign.ok()),
+                _ => return Some(None),
+            },
+        }
+        let found = self.seen(at, |values| vec![self.sign(values, part)]).ok()?;
+        found.first().map(|sign| sign.ok())
     }
 
     /// Finds where the mark of a part changes between two positions.

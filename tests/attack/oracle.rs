@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 
 use super::claim::{At, Claim};
 use super::expr::{Expr, Function, Tree};
+use super::hint;
 use super::jet::Place;
 use super::lines;
 use super::point::Point;
 use super::random::Stream;
 use super::real::{self, LADDER, Lack, with_bits};
-use super::scene::{Origin, Scene};
+use super::scene::Scene;
 use super::scout::{self, Sight};
 use super::seek;
 
@@ -266,12 +267,8 @@ fn cells(scene: &Scene, claim: &Claim, stream: &mut Stream, effort: usize) -> Ve
 fn trees<'t>(scene: &'t Scene, claim: &'t Claim) -> Vec<&'t Tree> {
     let level = scene.level.iter().flat_map(|level| &level.equations);
     let field = scene.field.iter().map(|(_, rate)| rate);
-    let parameters = scene.symbols.iter().filter_map(|symbol| match &symbol.origin {
-        Origin::Formula(tree) => Some(tree),
-        _ => None,
-    });
     let own = claim.trees().into_iter();
-    own.chain(field).chain(parameters).chain(level.flat_map(|(a, b)| [a, b])).collect()
+    own.chain(field).chain(scene.formulas()).chain(level.flat_map(|(a, b)| [a, b])).collect()
 }
 
 /// Numbers of states at which an expression is certainly positive, certainly negative, and of a sign
@@ -332,6 +329,17 @@ pub fn thin_signs(
 fn signs_at(scene: &Scene, tree: &Tree, points: &[Point]) -> Signs {
     let mut all = Signs::default();
     for point in points {
+        match hint::sign(scene, point, tree) {
+            Some(1) => {
+                all.positive += 1;
+                continue;
+            }
+            Some(_) => {
+                all.negative += 1;
+                continue;
+            }
+            None => {}
+        }
         let Some(values) = scene.values(point) else { continue };
         let value = (Place { values: &values, along: &[] }).value(tree);
         if scene.lack_elsewhere(&values).is_err() {

@@ -9,13 +9,14 @@ use super::claim::{At, Claim};
 use super::draw::{drawn, plain};
 use super::expr::{Tree, add, modulus, mul, root, square, sub, symbol, whole};
 use super::grow::Garden;
+use super::hint::{Hints, Unseen};
 use super::jet::Place;
 use super::oracle::searched;
 use super::print::Hand;
 use super::random::Stream;
 use super::real::{
-    Lack, difference, difference_of_logarithms, exactly, height, modulus as size, nearest, sign,
-    whole as number,
+    LADDER, Lack, difference, exactly, height, modulus as size, nearest, sign, sure_sign,
+    whole as number, with_bits,
 };
 use super::scene::Scene;
 use super::scout;
@@ -30,21 +31,6 @@ fn grown(index: u64) -> (Scene, Tree, Stream) {
     let depth = 1 + stream.below(4);
     let tree = garden.tree(&mut stream, depth);
     (scene, tree, stream)
-}
-
-/// Compares logarithms with those of the library, from numbers near 1 to the ends of the range.
-pub fn logarithms() -> Result<(), Failed> {
-    let mut stream = Stream::new(4713, 0);
-    let numbers = (0..200).map(|k| match k % 4 {
-        0 => 1.0 + 2f64.powi(-(k / 4)) * stream.unit(),
-        1 => (1400.0 * (stream.unit() - 0.5)).exp(),
-        2 => 2f64.powi(k - 100),
-        _ => stream.unit() + 0.01,
-    });
-    match numbers.into_iter().find(|x| *x != 1.0 && difference_of_logarithms(*x) > 1) {
-        Some(x) => Err(Failed::from(format!("another logarithm of {x:e}"))),
-        None => Ok(()),
-    }
 }
 
 /// Compares derivatives with differences.
@@ -104,6 +90,56 @@ pub fn two_precisions() -> Result<(), Failed> {
     match (compared, without) {
         (1000.., 100..) => Ok(()),
         _ => Err(Failed::from(format!("{compared} values, {without} without"))),
+    }
+}
+
+/// Compares what f64 shows about the formulas of random cases with what more bits show, at states and
+/// close to the ends of ranges.
+pub fn hints() -> Result<(), Failed> {
+    let (mut signs, mut lacks, mut away) = (0, 0, 0);
+    for index in 0..3000 {
+        let case = drawn(6, index);
+        let (scene, mut stream) = (&case.scene, Stream::new(4715, index));
+        let trees: Vec<&Tree> = case.made.iter().flat_map(|made| made.claim.trees()).collect();
+        let point = scene.point(&mut stream, false);
+        let Some(place) = scene.free().first().copied() else { continue };
+        for power in [0, 3, 9, 17, 25, 40] {
+            let near = 10f64.powi(-power) * stream.unit();
+            let at = if stream.once_in(2) { (near, 0.0) } else { (1.0, -near) };
+            let seen = Hints::new(scene, &point, place).signs(at, trees.iter().copied());
+            for bits in [160, LADDER[0]] {
+                let known = with_bits(bits, || {
+                    let values = scene.values(&point.at(place, at))?;
+                    let place = Place { values: &values, along: &[] };
+                    let sign = |tree: &&Tree| place.value(tree).and_then(|value| sure_sign(&value));
+                    Some(trees.iter().map(sign).collect::<Vec<_>>())
+                });
+                let is_right = match (&seen, &known) {
+                    (Err(Unseen::Open), _) => true,
+                    (Err(Unseen::Lack), known) => known.is_none(),
+                    (Ok(_), None) => false,
+                    (Ok(seen), Some(known)) => seen.iter().zip(known).all(|pair| match pair {
+                        // Few bits may leave it open.
+                        (Ok(_), Err(Lack::Digits)) if bits < LADDER[0] => true,
+                        (Ok(seen), known) => *known == Ok(*seen),
+                        (Err(Unseen::Lack), known) => known.is_err(),
+                        (Err(Unseen::Open), _) => true,
+                    }),
+                };
+                if !is_right {
+                    return Err(Failed::from(format!("case {index}: {seen:?}, not {known:?}")));
+                }
+            }
+            for sign in seen.iter().flatten() {
+                signs += usize::from(sign.is_ok());
+                lacks += usize::from(*sign == Err(Unseen::Lack));
+            }
+            away += usize::from(matches!(seen, Err(Unseen::Lack)));
+        }
+    }
+    match (signs, lacks, away) {
+        (10_000.., 500.., 100..) => Ok(()),
+        few => Err(Failed::from(format!("only {few:?} signs, lacks and points off"))),
     }
 }
 

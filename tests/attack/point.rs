@@ -22,13 +22,6 @@ impl Point {
         same.then(|| Self { cube: middle.collect(), ..self.clone() })
     }
 
-    /// Returns the point with one coordinate changed, inside the range.
-    pub fn moved(&self, place: usize, by: f64) -> Self {
-        let mut point = self.clone();
-        point.cube[place] = (point.cube[place] + by).clamp(0.0, 1.0);
-        point
-    }
-
     /// Returns the point with one coordinate changed by a step of this size, in the direction that
     /// stays inside the range.
     pub fn beside(&self, place: usize, by: f64) -> Self {

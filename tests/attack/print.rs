@@ -1,6 +1,7 @@
-//! Expressions in the language of case files, in one of several notations.
+//! Expressions and systems in the language of case files, in one of several notations.
 
 use super::expr::{Expr, Function, Number, Tree};
+use super::scene::{Origin, Scene, Symbol};
 
 /// Binding strength of the text of an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -110,5 +111,70 @@ impl Hand {
             1 => (format!("{top}{tens}"), Hold::Atom),
             bottom => (format!("{sign}{top}{tens}/{bottom}"), Hold::Product),
         }
+    }
+}
+
+impl Scene {
+    /// Writes the case file with these claims, each the body of a table.
+    pub fn text(&self, claims: &[String], hand: Hand) -> String {
+        let names = self.names();
+        let quoted = |tree: &Tree| format!("\"{}\"", hand.text(tree, &names));
+        let plain = |n: &Number| Hand(2).text(&std::rc::Rc::new(Expr::Number(*n)), &names);
+        let range = |a: &Number, b: &Number| format!("\"{}..{}\"", plain(a), plain(b));
+        let mut text = String::from("title = \"t\"\n");
+        let parameter = |symbol: &Symbol| match &symbol.origin {
+            Origin::Range(a, b) => Some(range(a, b)),
+            Origin::Fixed(n) => Some(format!("\"{}\"", plain(n))),
+            Origin::List(list) => {
+                let list: Vec<String> = list.iter().map(plain).collect();
+                Some(format!("\"one of {}\"", list.join(", ")))
+            }
+            Origin::Formula(tree) => Some(quoted(tree)),
+            Origin::State(..) | Origin::Input(..) => None,
+        };
+        let parameters: Vec<(&String, String)> = self
+            .symbols
+            .iter()
+            .filter_map(|symbol| Some((&symbol.name, parameter(symbol)?)))
+            .collect();
+        if !parameters.is_empty() {
+            text.push_str("[parameters]\n");
+        }
+        for (name, value) in parameters {
+            text.push_str(&format!("\"{name}\" = {value}\n"));
+        }
+        text.push_str("[state]\n");
+        for symbol in &self.symbols {
+            if let Origin::State(a, b) = &symbol.origin {
+                text.push_str(&format!("{} = {}\n", symbol.name, range(a, b)));
+            }
+        }
+        text.push_str("[field]\n");
+        for place in self.states() {
+            let rate = self.rate(place).map_or("\"0\"".to_string(), quoted);
+            text.push_str(&format!("\"{}'\" = {rate}\n", names[place]));
+        }
+        if let Some(level) = &self.level {
+            let side = |(a, b): &(Tree, Tree)| {
+                format!("\"{} = {}\"", hand.text(a, &names), hand.text(b, &names))
+            };
+            let equations: Vec<String> = level.equations.iter().map(side).collect();
+            text.push_str(&format!("[level]\nequations = [{}]\n", equations.join(", ")));
+            if let Some(chart) = &level.chart {
+                let input = |symbol: &Symbol| match &symbol.origin {
+                    Origin::Input(a, b) => Some(format!("{} = {}", symbol.name, range(a, b))),
+                    _ => None,
+                };
+                let inputs: Vec<String> = self.symbols.iter().filter_map(input).collect();
+                text.push_str(&format!("[level.chart]\ninputs = {{ {} }}\n", inputs.join(", ")));
+                for (place, tree) in chart {
+                    text.push_str(&format!("{} = {}\n", names[*place], quoted(tree)));
+                }
+            }
+        }
+        for claim in claims {
+            text.push_str(&format!("[[claim]]\n{claim}\nexpect = \"open\"\n"));
+        }
+        text
     }
 }

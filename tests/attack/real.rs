@@ -5,15 +5,13 @@
 //! it is blurred, and more bits decide. Claims contain numbers above 10^-40 and their powers, which
 //! are far above the error in the highest precision.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeMap;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use dashu_float::FBig;
-use dashu_float::round::mode::HalfEven;
-
 use super::expr::Number;
-
-type Float = FBig<HalfEven, 2>;
+use super::float::Float;
+use super::series;
 
 /// Precisions in bits; each is used where the one before it does not decide.
 pub const LADDER: [usize; 3] = [640, 2048, 6144];
@@ -28,6 +26,10 @@ const EXACT: isize = isize::MIN / 4;
 
 thread_local! {
     static BITS: Cell<usize> = const { Cell::new(LADDER[0]) };
+    /// Whether a sum was taken for 0.
+    static GUESSED: Cell<bool> = const { Cell::new(false) };
+    /// Powers of ten by precision.
+    static TENS: RefCell<BTreeMap<(usize, u32), Real>> = const { RefCell::new(BTreeMap::new()) };
 }
 
 /// Precision in which this thread computes.
@@ -41,6 +43,15 @@ pub fn with_bits<T>(bits: usize, act: impl FnOnce() -> T) -> T {
     let found = act();
     BITS.set(before);
     found
+}
+
+/// Computes something, and tells whether a sum in it was taken for 0.
+pub fn guessed<T>(act: impl FnOnce() -> T) -> (T, bool) {
+    let before = GUESSED.replace(false);
+    let found = act();
+    let guessed = GUESSED.replace(before);
+    GUESSED.set(before | guessed);
+    (found, guessed)
 }
 
 /// Number of bits by which the error of a sum must be below its terms for it to be 0.
@@ -80,11 +91,13 @@ pub fn both<A, B>(a: Found<A>, b: Found<B>) -> Found<(A, B)> {
 }
 
 impl Real {
+    #[inline]
     fn exact(value: Float) -> Self {
-        Self { value: value.with_precision(bits()).value(), error: EXACT }
+        Self { value: value.cut(bits()), error: EXACT }
     }
 
     /// Adds the error of one rounding to those of the operands.
+    #[inline]
     fn rounded(value: Float, error: isize) -> Self {
         let rounding = tall(&value) - bits() as isize + 1;
         Self { value, error: error.max(rounding) + 1 }
@@ -101,45 +114,51 @@ impl Real {
     }
 
     /// Whether the number is 0, or certainly is not.
+    #[inline]
     fn is_sure(&self) -> bool {
         tall(&self.value) > self.error + SURE || (is_zero(self) && self.error == EXACT)
     }
 
     /// Returns the number if it is known whether it is 0, with terms of this height in it.
+    #[inline]
     fn settled(self, terms: isize) -> Found<Self> {
         match self.is_sure() {
             true => Ok(self),
-            false if self.error <= terms - margin() => Ok(whole(0)),
+            false if self.error <= terms - margin() => {
+                GUESSED.set(true);
+                Ok(whole(0))
+            }
             false => Err(Lack::Digits),
         }
     }
 }
 
 /// Returns the place of the leading bit of a float; the least of all for 0.
+#[inline]
 fn tall(x: &Float) -> isize {
-    match x.repr().significand().is_zero() {
-        true => EXACT,
-        false => x.repr().exponent() + x.repr().digits() as isize,
-    }
+    x.top().unwrap_or(EXACT)
 }
 
+#[inline]
 fn plus(a: &Real, b: &Real) -> Real {
     if [a, b].iter().all(|own| is_zero(own) && own.error == EXACT) {
         return whole(0);
     }
-    Real::rounded(&a.value + &b.value, a.error.max(b.error) + 1)
+    Real::rounded(a.value.plus(&b.value, bits()), a.error.max(b.error) + 1)
 }
 
+#[inline]
 fn minus(a: &Real, b: &Real) -> Real {
-    Real::rounded(&a.value - &b.value, a.error.max(b.error) + 1)
+    Real::rounded(a.value.minus(&b.value, bits()), a.error.max(b.error) + 1)
 }
 
+#[inline]
 fn times(a: &Real, b: &Real) -> Real {
     if is_zero(a) && a.error == EXACT || is_zero(b) && b.error == EXACT {
         return whole(0);
     }
     let error = [height(a) + b.error, height(b) + a.error, a.error + b.error];
-    Real::rounded(&a.value * &b.value, error.into_iter().fold(EXACT, isize::max) + 2)
+    Real::rounded(a.value.times(&b.value, bits()), error.into_iter().fold(EXACT, isize::max) + 2)
 }
 
 /// Computes a/b for b that is certainly not 0.
@@ -150,31 +169,35 @@ fn over(a: &Real, b: &Real) -> Real {
     // |b| is above 2^(height - 2) within its error.
     let down = height(b) - 2;
     let error = (a.error - down).max(height(a) + b.error - 2 * down).max(EXACT);
-    Real::rounded(&a.value / &b.value, error + 1)
+    Real::rounded(a.value.over(&b.value, bits()), error + 1)
 }
 
 macro_rules! operator {
     ($name:ident, $method:ident, $by:ident) => {
         impl $name<&Real> for &Real {
             type Output = Real;
+            #[inline]
             fn $method(self, other: &Real) -> Real {
                 $by(self, other)
             }
         }
         impl $name<Real> for &Real {
             type Output = Real;
+            #[inline]
             fn $method(self, other: Real) -> Real {
                 $by(self, &other)
             }
         }
         impl $name<&Real> for Real {
             type Output = Real;
+            #[inline]
             fn $method(self, other: &Real) -> Real {
                 $by(&self, other)
             }
         }
         impl $name<Real> for Real {
             type Output = Real;
+            #[inline]
             fn $method(self, other: Real) -> Real {
                 $by(&self, &other)
             }
@@ -190,7 +213,7 @@ operator!(Div, div, over);
 impl Neg for &Real {
     type Output = Real;
     fn neg(self) -> Real {
-        Real { value: -&self.value, error: self.error }
+        Real { value: self.value.negated(), error: self.error }
     }
 }
 
@@ -201,17 +224,18 @@ impl Neg for Real {
     }
 }
 
+#[inline]
 pub fn whole(n: i64) -> Real {
-    Real::exact(Float::from(n))
+    Real::exact(Float::whole(n))
 }
 
 /// Converts a finite f64 exactly.
 pub fn exactly(x: f64) -> Real {
-    Real::exact(Float::try_from(x).expect("a finite number"))
+    Real::exact(Float::exactly(x))
 }
 
 pub fn nearest(x: &Real) -> f64 {
-    x.value.to_f64().value()
+    x.value.nearest()
 }
 
 pub fn number(number: Number) -> Real {
@@ -219,25 +243,31 @@ pub fn number(number: Number) -> Real {
     if number.bottom != 1 {
         value = value / whole(number.bottom);
     }
-    let tens = (0..number.tens.unsigned_abs()).fold(whole(1), |product, _| product * whole(10));
     match number.tens {
         0 => value,
-        1.. => value * tens,
-        _ => value / tens,
+        1.. => value * tens(number.tens.unsigned_abs()),
+        _ => value / tens(number.tens.unsigned_abs()),
     }
 }
 
+/// Returns a power of ten.
+fn tens(power: u32) -> Real {
+    let address = (bits(), power);
+    if let Some(known) = TENS.with_borrow(|known| known.get(&address).cloned()) {
+        return known;
+    }
+    let found = (0..power).fold(whole(1), |product, _| product * whole(10));
+    TENS.with_borrow_mut(|known| known.insert(address, found.clone()));
+    found
+}
+
 pub fn is_zero(x: &Real) -> bool {
-    x.value.repr().significand().is_zero()
+    x.value.is_zero()
 }
 
 /// Returns -1, 0 or 1.
 pub fn sign(x: &Real) -> i32 {
-    match is_zero(x) {
-        true => 0,
-        false if x.value.repr().significand() < &dashu_int::IBig::ZERO => -1,
-        false => 1,
-    }
+    x.value.sign()
 }
 
 /// Returns the sign, if it is certain.
@@ -251,6 +281,7 @@ pub fn height(x: &Real) -> isize {
 }
 
 /// Computes a + b, or 0 where they cancel.
+#[inline]
 pub fn sum(a: &Real, b: &Real) -> Found<Real> {
     if is_zero(a) && a.error == EXACT {
         return Ok(b.clone());
@@ -261,8 +292,16 @@ pub fn sum(a: &Real, b: &Real) -> Found<Real> {
     plus(a, b).settled(height(a).max(height(b)))
 }
 
+/// Computes a − b, or 0 where they cancel.
+#[inline]
 pub fn difference(a: &Real, b: &Real) -> Found<Real> {
-    sum(a, &-b)
+    if is_zero(a) && a.error == EXACT {
+        return Ok(-b);
+    }
+    if is_zero(b) && b.error == EXACT {
+        return Ok(a.clone());
+    }
+    minus(a, b).settled(height(a).max(height(b)))
 }
 
 pub fn modulus(a: &Real) -> Real {
@@ -275,7 +314,7 @@ pub fn root(a: &Real) -> Found<Real> {
         -1 => Err(Lack::Value),
         0 => Ok(whole(0)),
         _ => {
-            let value = a.value.sqrt();
+            let value = a.value.root(bits());
             let error = (a.error - tall(&value) + 2).max(EXACT);
             Ok(Real::rounded(value, error))
         }
@@ -290,7 +329,7 @@ pub fn exp(a: &Real) -> Found<Real> {
     match nearest(a).abs() {
         _ if is_zero(a) => Ok(whole(1)),
         0.0..STEEP if a.error < 0 => {
-            let value = a.value.exp();
+            let value = series::exp(&a.value, bits());
             let error = (tall(&value) + a.error + 1).max(EXACT);
             Ok(Real::rounded(value, error))
         }
@@ -304,49 +343,27 @@ pub fn log(a: &Real) -> Found<Real> {
         1 if a.value == whole(1).value && a.error == EXACT => Ok(whole(0)),
         1 => {
             let error = (a.error - height(a) + 3).max(EXACT);
-            Real::rounded(logarithm(&a.value), error).settled(1)
+            Real::rounded(series::log(&a.value, bits()), error).settled(1)
         }
         _ => Err(Lack::Value),
     }
 }
 
-/// Computes ln x = y + 2 artanh((t − 1)/(t + 1)) with t = x/e^y and y = ln x in f64: faster than the
-/// library's series, which it leaves to numbers near 1 and out of the range of f64.
-fn logarithm(x: &Float) -> Float {
-    const GUARD: usize = 64;
-    let near = x.to_f64().value().ln();
-    if !(1e-6..700.0).contains(&near.abs()) {
-        return x.ln();
+/// Computes sin and cos: 0 at multiples of a quarter turn.
+pub fn waves(a: &Real) -> Found<(Real, Real)> {
+    if is_zero(a) {
+        return Ok((whole(0), whole(1)));
     }
-    let wide = |x: Float| x.with_precision(bits() + GUARD).value();
-    let near = wide(Float::try_from(near).expect("finite"));
-    let quotient = wide(x.clone()) / near.exp();
-    let small = (&quotient - Float::ONE) / (quotient + Float::ONE);
-    let square = &small * &small;
-    let (mut power, mut sum) = (small.clone(), small);
-    // Each term is at most 2^-80 times the one before it.
-    for odd in 1..=(bits() + GUARD) / 80 {
-        power *= &square;
-        sum += &power / Float::from(2 * odd + 1);
-    }
-    (near + sum * Float::from(2)).with_precision(bits()).value()
-}
-
-/// Computes sin, or cos: 0 at multiples of a quarter turn.
-fn wave(a: &Real, of: fn(&Float) -> Float) -> Found<Real> {
-    Real::rounded(of(&a.value), a.error).settled(height(a).max(0))
-}
-
-pub fn sin(a: &Real) -> Found<Real> {
-    if is_zero(a) { Ok(whole(0)) } else { wave(a, Float::sin) }
-}
-
-pub fn cos(a: &Real) -> Found<Real> {
-    if is_zero(a) { Ok(whole(1)) } else { wave(a, Float::cos) }
+    let (sin, cos) = series::waves(&a.value, bits());
+    let settled = |value: Float| Real::rounded(value, a.error).settled(height(a).max(0));
+    both(settled(sin), settled(cos))
 }
 
 pub fn atan(a: &Real) -> Real {
-    if is_zero(a) { whole(0) } else { Real::rounded(a.value.atan(), a.error) }
+    if is_zero(a) {
+        return whole(0);
+    }
+    Real::rounded(series::atan(&a.value, bits()), a.error)
 }
 
 /// Computes an integer power.
@@ -356,11 +373,4 @@ pub fn to_the(a: &Real, n: i64) -> Found<Real> {
     }
     let product = (0..n.unsigned_abs()).fold(whole(1), |product, _| product * a);
     if n < 0 { Ok(whole(1) / product) } else { Ok(product) }
-}
-
-/// Number of bits in which a logarithm differs from the library's.
-pub fn difference_of_logarithms(x: f64) -> isize {
-    let x = Float::try_from(x).expect("finite").with_precision(bits()).value();
-    let ours = logarithm(&x);
-    tall(&(&ours - x.ln())) - tall(&ours) + bits() as isize
 }

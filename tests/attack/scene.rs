@@ -1,10 +1,9 @@
 //! A system of the attack: symbols with ranges, a field, a level, and states.
 
-use super::expr::{Expr, Number, Tree};
+use super::expr::{Number, Tree};
 use super::interval::Interval;
 use super::jet::Place;
 use super::point::Point;
-use super::print::Hand;
 use super::random::Stream;
 use super::real::{Found, Real, both, difference, exactly, number, sign};
 use super::scout;
@@ -54,8 +53,12 @@ pub struct Scene {
     pub level: Option<Level>,
 }
 
-fn rough(n: &Number) -> f64 {
-    n.top as f64 / n.bottom as f64 * 10f64.powi(n.tens)
+/// Returns a number in f64.
+pub fn rough(n: &Number) -> f64 {
+    match (n.bottom, n.tens) {
+        (1, 0) => n.top as f64,
+        (bottom, tens) => n.top as f64 / bottom as f64 * 10f64.powi(tens),
+    }
 }
 
 impl Scene {
@@ -133,48 +136,12 @@ impl Scene {
         Point { branch, picks, cube, fine: vec![0.0; self.symbols.len()] }
     }
 
-    /// Computes the values of all symbols at a point; `None` if it is not a state.
-    pub fn values(&self, point: &Point) -> Option<Vec<Found<Real>>> {
-        let within = |a: &Number, b: &Number, place: usize| {
-            let (low, high) = (number(*a), number(*b));
-            let width = &high - &low;
-            let share = exactly(point.cube[place]);
-            Ok(match point.fine[place] {
-                0.0 => low + width * share,
-                fine => low + width * (share + exactly(fine)),
-            })
-        };
-        let mut values: Vec<Found<Real>> = Vec::new();
-        for (place, symbol) in self.symbols.iter().enumerate() {
-            let value = match &symbol.origin {
-                Origin::State(a, b) | Origin::Range(a, b) | Origin::Input(a, b) => {
-                    within(a, b, place)
-                }
-                Origin::Fixed(n) => Ok(number(*n)),
-                Origin::List(list) => Ok(number(list[point.picks[place]])),
-                Origin::Formula(tree) => Place { values: &values, along: &[] }.value(tree),
-            };
-            values.push(value);
-        }
-        let Some(level) = &self.level else { return Some(values) };
-        for (place, tree) in level.branches.get(point.branch)? {
-            let value = Place { values: &values, along: &[] }.value(tree).ok()?;
-            if !self.is_in_range(*place, &value) {
-                return None;
-            }
-            values[*place] = Ok(value);
-        }
-        Some(values)
-    }
-
-    /// Whether the value is inside the declared range, ends included.
-    pub fn is_in_range(&self, place: usize, value: &Real) -> bool {
-        match &self.symbols[place].origin {
-            Origin::State(a, b) | Origin::Range(a, b) => {
-                sign(&(value - number(*a))) >= 0 && sign(&(number(*b) - value)) >= 0
-            }
-            _ => true,
-        }
+    /// Returns the formulas of parameters.
+    pub fn formulas(&self) -> impl Iterator<Item = &Tree> {
+        self.symbols.iter().filter_map(|symbol| match &symbol.origin {
+            Origin::Formula(tree) => Some(tree),
+            _ => None,
+        })
     }
 
     /// Whether intervals show that no state lies on the level.
@@ -311,68 +278,5 @@ impl Scene {
             all = both(all, part).map(|_| ());
         }
         all
-    }
-
-    /// Writes the case file with these claims, each the body of a table.
-    pub fn text(&self, claims: &[String], hand: Hand) -> String {
-        let names = self.names();
-        let quoted = |tree: &Tree| format!("\"{}\"", hand.text(tree, &names));
-        let plain = |n: &Number| Hand(2).text(&std::rc::Rc::new(Expr::Number(*n)), &names);
-        let range = |a: &Number, b: &Number| format!("\"{}..{}\"", plain(a), plain(b));
-        let mut text = String::from("title = \"t\"\n");
-        let parameter = |symbol: &Symbol| match &symbol.origin {
-            Origin::Range(a, b) => Some(range(a, b)),
-            Origin::Fixed(n) => Some(format!("\"{}\"", plain(n))),
-            Origin::List(list) => {
-                let list: Vec<String> = list.iter().map(plain).collect();
-                Some(format!("\"one of {}\"", list.join(", ")))
-            }
-            Origin::Formula(tree) => Some(quoted(tree)),
-            Origin::State(..) | Origin::Input(..) => None,
-        };
-        let parameters: Vec<(&String, String)> = self
-            .symbols
-            .iter()
-            .filter_map(|symbol| Some((&symbol.name, parameter(symbol)?)))
-            .collect();
-        if !parameters.is_empty() {
-            text.push_str("[parameters]\n");
-        }
-        for (name, value) in parameters {
-            text.push_str(&format!("\"{name}\" = {value}\n"));
-        }
-        text.push_str("[state]\n");
-        for symbol in &self.symbols {
-            if let Origin::State(a, b) = &symbol.origin {
-                text.push_str(&format!("{} = {}\n", symbol.name, range(a, b)));
-            }
-        }
-        text.push_str("[field]\n");
-        for place in self.states() {
-            let rate = self.rate(place).map_or("\"0\"".to_string(), quoted);
-            text.push_str(&format!("\"{}'\" = {rate}\n", names[place]));
-        }
-        if let Some(level) = &self.level {
-            let side = |(a, b): &(Tree, Tree)| {
-                format!("\"{} = {}\"", hand.text(a, &names), hand.text(b, &names))
-            };
-            let equations: Vec<String> = level.equations.iter().map(side).collect();
-            text.push_str(&format!("[level]\nequations = [{}]\n", equations.join(", ")));
-            if let Some(chart) = &level.chart {
-                let input = |symbol: &Symbol| match &symbol.origin {
-                    Origin::Input(a, b) => Some(format!("{} = {}", symbol.name, range(a, b))),
-                    _ => None,
-                };
-                let inputs: Vec<String> = self.symbols.iter().filter_map(input).collect();
-                text.push_str(&format!("[level.chart]\ninputs = {{ {} }}\n", inputs.join(", ")));
-                for (place, tree) in chart {
-                    text.push_str(&format!("{} = {}\n", names[*place], quoted(tree)));
-                }
-            }
-        }
-        for claim in claims {
-            text.push_str(&format!("[[claim]]\n{claim}\nexpect = \"open\"\n"));
-        }
-        text
     }
 }

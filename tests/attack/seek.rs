@@ -4,7 +4,7 @@
 use super::expr::{Expr, Function, Tree};
 use super::point::Point;
 use super::random::Stream;
-use super::scene::{Origin, Scene};
+use super::scene::{Origin, Scene, Symbol, rough};
 
 /// Factor of a step after a failure.
 const FRACTION: f64 = 0.3;
@@ -96,49 +96,25 @@ impl Seeker<'_> {
     /// Descends from a point by steps along one or two coordinates, and tells whether the goal is
     /// reached.
     fn descent(&self, from: Point, goal: Goal) -> (Point, bool) {
-        let height = |point: &Point| -> Height {
-            let (strain, parts) = self.look(point);
-            let value = match goal {
-                Goal::Value => 0.0,
-                Goal::Sign(part, sign) | Goal::End(part, sign) => {
-                    -sign * parts.get(part).copied().unwrap_or(0.0)
-                }
-            };
-            (strain, value)
-        };
-        let is_reached = |height: Height| match goal {
-            Goal::Value => height.0 == 0.0,
-            Goal::Sign(..) => height.0 == 0.0 && height.1 < 0.0,
-            Goal::End(..) => false,
-        };
-        let mut point = from;
-        let mut best = height(&point);
+        let mut slope = Slope::new(self, from, goal);
         let free = self.scene.free();
         let mut step = 0.3;
         for _ in 0..self.steps {
-            if is_reached(best) || step < LEAST {
+            if slope.is_reached() || step < LEAST {
                 break;
             }
             let mut helped = false;
-            let mut attempt = |point: &mut Point, there: Point| {
-                let reached = height(&there);
-                if reached < best {
-                    (*point, best, helped) = (there, reached, true);
-                }
-                helped
-            };
             for place in &free {
                 for by in [step, -step] {
-                    let there = point.moved(*place, by);
-                    attempt(&mut point, there);
+                    helped |= slope.attempt([(*place, by)]);
                 }
             }
             // A valley may lie between two axes.
             for (k, first) in free.iter().enumerate() {
                 for second in &free[..k] {
                     for (by, across) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
-                        let there = point.moved(*first, by * step).moved(*second, across * step);
-                        if attempt(&mut point, there) {
+                        helped |= slope.attempt([(*first, by * step), (*second, across * step)]);
+                        if helped {
                             break;
                         }
                     }
@@ -146,29 +122,122 @@ impl Seeker<'_> {
             }
             step = if helped { (2.0 * step).min(0.5) } else { FRACTION * step };
         }
-        (point, is_reached(best))
+        let is_reached = slope.is_reached();
+        (slope.point, is_reached)
     }
 
     /// Returns how far a point is from a state at which some formulas have values, 0 for such a state;
     /// with the arguments of roots, moduli and powers, and with the value of the first formula.
     fn look(&self, point: &Point) -> (f64, Vec<f64>) {
-        let Self { scene, trees, sums, .. } = *self;
-        let mut relaxed = Relaxed { values: Vec::new(), strain: 0.0, parts: Vec::new(), sums };
-        for (place, symbol) in scene.symbols.iter().enumerate() {
-            let value = match &symbol.origin {
-                Origin::Formula(tree) => relaxed.look(tree),
-                _ => scene.given(point, place),
+        let mut slope = Slope::new(self, point.clone(), Goal::Value);
+        (slope.strain(f64::INFINITY), slope.relaxed.parts)
+    }
+}
+
+/// The source of the value of a symbol at points of one branch and choice of lists.
+#[derive(Clone, Copy, Debug)]
+enum Source<'s> {
+    /// Low end and width of a range.
+    Range(f64, f64),
+    Given(f64),
+    Formula(&'s Tree),
+}
+
+/// The best point of a descent, with space for the evaluation of others.
+struct Slope<'s> {
+    seeker: &'s Seeker<'s>,
+    point: Point,
+    goal: Goal,
+    best: Height,
+    sources: Vec<Source<'s>>,
+    /// Ranges of dependent variables.
+    ends: Vec<(f64, f64)>,
+    relaxed: Relaxed,
+}
+
+impl<'s> Slope<'s> {
+    fn new(seeker: &'s Seeker<'s>, point: Point, goal: Goal) -> Self {
+        let scene = seeker.scene;
+        let source = |(place, symbol): (usize, &'s Symbol)| match &symbol.origin {
+            Origin::State(..) | Origin::Range(..) | Origin::Input(..) => {
+                let (low, high) = scene.ends(place);
+                Source::Range(low, high - low)
+            }
+            Origin::Fixed(_) | Origin::List(_) => Source::Given(scene.given(&point, place)),
+            Origin::Formula(tree) => Source::Formula(tree),
+        };
+        let sources = scene.symbols.iter().enumerate().map(source).collect();
+        let ends = scene.branch(&point).iter().map(|(place, _)| scene.ends(*place)).collect();
+        let sums = seeker.sums;
+        let relaxed = Relaxed { values: Vec::new(), strain: 0.0, parts: Vec::new(), sums };
+        let best = (f64::INFINITY, f64::INFINITY);
+        let mut slope = Self { seeker, point, goal, best, sources, ends, relaxed };
+        slope.best = slope.height();
+        slope
+    }
+
+    fn height(&mut self) -> Height {
+        let strain = self.strain(self.best.0);
+        let value = match self.goal {
+            Goal::Value => 0.0,
+            Goal::Sign(part, sign) | Goal::End(part, sign) => {
+                -sign * self.relaxed.parts.get(part).copied().unwrap_or(0.0)
+            }
+        };
+        (strain, value)
+    }
+
+    fn is_reached(&self) -> bool {
+        match self.goal {
+            Goal::Value => self.best.0 == 0.0,
+            Goal::Sign(..) => self.best.0 == 0.0 && self.best.1 < 0.0,
+            Goal::End(..) => false,
+        }
+    }
+
+    /// Moves the point by steps along coordinates inside their ranges, if that is better.
+    fn attempt<const N: usize>(&mut self, steps: [(usize, f64); N]) -> bool {
+        let before = steps.map(|(place, _)| self.point.cube[place]);
+        for (place, by) in steps {
+            self.point.cube[place] = (self.point.cube[place] + by).clamp(0.0, 1.0);
+        }
+        let reached = self.height();
+        let is_better = reached < self.best;
+        if is_better {
+            self.best = reached;
+        } else {
+            for ((place, _), before) in steps.into_iter().zip(before) {
+                self.point.cube[place] = before;
+            }
+        }
+        is_better
+    }
+
+    /// Returns the strain of the point, or of a part of the formulas if that is above a bound.
+    fn strain(&mut self, most: f64) -> f64 {
+        let Seeker { scene, trees, .. } = *self.seeker;
+        let relaxed = &mut self.relaxed;
+        relaxed.values.clear();
+        relaxed.parts.clear();
+        relaxed.strain = 0.0;
+        for (place, source) in self.sources.iter().enumerate() {
+            let value = match source {
+                Source::Range(low, width) => low + width * self.point.cube[place],
+                Source::Given(value) => *value,
+                Source::Formula(tree) => relaxed.look(tree),
             };
             relaxed.values.push(value);
         }
-        for (place, tree) in scene.branch(point) {
+        for ((place, tree), (low, high)) in scene.branch(&self.point).iter().zip(&self.ends) {
             let value = relaxed.look(tree);
-            let (low, high) = scene.ends(*place);
             relaxed.strain += (low - value).max(0.0) + (value - high).max(0.0);
             relaxed.values[*place] = value;
         }
         let mut first = None;
         for tree in trees {
+            if relaxed.strain > most {
+                return relaxed.strain;
+            }
             let value = relaxed.look(tree);
             first.get_or_insert(value);
         }
@@ -176,8 +245,7 @@ impl Seeker<'_> {
             relaxed.look(rate);
         }
         relaxed.parts.extend(first);
-        let strain = if relaxed.strain.is_nan() { f64::INFINITY } else { relaxed.strain };
-        (strain, relaxed.parts)
+        if relaxed.strain.is_nan() { f64::INFINITY } else { relaxed.strain }
     }
 }
 
@@ -192,7 +260,7 @@ struct Relaxed {
 impl Relaxed {
     fn look(&mut self, tree: &Tree) -> f64 {
         match &**tree {
-            Expr::Number(n) => n.top as f64 / n.bottom as f64 * 10f64.powi(n.tens),
+            Expr::Number(n) => rough(n),
             Expr::Symbol(place) => self.values[*place],
             Expr::Neg(a) => -self.look(a),
             Expr::Add(a, b) => {
