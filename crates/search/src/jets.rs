@@ -16,6 +16,7 @@ use super::series::exponents;
 use super::streams::SearchStream;
 use super::{Effort, SearchError};
 use liouville::number::rational::Rational;
+use liouville::proof::root_numbers;
 
 /// Largest number of points drawn until the field has a Taylor series at one.
 const MOST_POINTS: usize = 4096;
@@ -115,7 +116,7 @@ impl<'l> MotionAtPoint<'l> {
         effort: &Effort,
     ) -> Result<(Taylor<'l>, FieldExpansion), SearchError> {
         let mut rng = SearchStream::Jets.under(effort.options.seed);
-        let modulus = rng.prime(&[], &[]);
+        let modulus = rng.prime_for(&root_numbers(&self.local.graph));
         let mut taylor = Taylor::new(self.local, modulus, order);
         for _ in 0..MOST_POINTS {
             let parameters = self.local.parameters(&modulus, &mut rng);

@@ -14,7 +14,7 @@ use liouville::number::ball::Ball;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
 use liouville::number::rational::Rational;
 use liouville::number::{Domain, Enclosing};
-use liouville::proof::{ProofRng, reconstruct};
+use liouville::proof::{ProofRng, reconstruct, root_numbers};
 use liouville::verdict::Sampler;
 
 /// Number of rows beyond the number of columns: each false relation survives one with probability
@@ -54,7 +54,7 @@ impl SampledFunctions {
         let fixed = vec![None; sampler.recipes().len()];
         let (graph, outputs) = sampler.compose(graph, functions, &fixed)?;
         let mut rng = SearchStream::Relations.under(seed);
-        let modulus = rng.prime(&[3, 5], &[2, 3]);
+        let modulus = rng.prime_for(&root_numbers(&graph));
         let (draws, halt) = (sampler.recipes().to_vec(), effort.halt.clone());
         Ok(Self { graph, outputs, draws, modulus, rng, halt, has_symbols: false })
     }

@@ -13,7 +13,7 @@ use liouville::formula::Formula;
 use liouville::graph::{Evaluator, Expr, Tape, record};
 use liouville::mechanics::Phase;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
-use liouville::proof::statement_seed;
+use liouville::proof::{root_numbers, statement_seed};
 
 /// Highest degree that is recognised.
 const MOST_DEGREE: usize = 16;
@@ -214,9 +214,9 @@ fn on_lines(
     }
     // No constant of the formula can be chosen to vanish modulo the prime.
     let mut rng = SearchStream::Products.under(statement_seed(seed, &graph, &[slope]));
-    let tape = Tape::new(&graph, &[slope]);
+    let (tape, numbers) = (Tape::new(&graph, &[slope]), root_numbers(&graph));
     let mut degrees = (0..DEGREE_PRIMES).map(|_| {
-        let modulus = rng.prime(&[3, 5], &[2, 3]);
+        let modulus = rng.prime_for(&numbers);
         let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; SLOPE_POINTS]));
         (0..TRIALS).find_map(|_| {
             let mut values: Vec<[u64; SLOPE_POINTS]> =

@@ -23,6 +23,7 @@ mod presence;
 mod scaled;
 mod simplify;
 mod steps;
+mod surd;
 mod tally;
 mod tape;
 

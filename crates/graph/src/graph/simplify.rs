@@ -196,6 +196,11 @@ impl Graph {
         if self.is_undefined(a) {
             return self.intern(Node::Unary(function, a));
         }
+        if function == UnaryFunction::Sqrt
+            && let Some(root) = self.denested(a)
+        {
+            return root;
+        }
         let inner = match self.node(a) {
             Node::Unary(inner, x) => Some((inner, x)),
             _ => None,

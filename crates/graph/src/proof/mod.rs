@@ -10,7 +10,7 @@
 //! | `lower`, `numbers` | functions that fields lack are replaced by signs and symbols |
 //! | `symbols`, `relations` | one symbol for each element of a basis of arguments |
 //! | `bounds`, `plain` | degree and height on the graph, denominators kept in factors |
-//! | `rng`, `digest` | random primes and points, drawn from the seed and the statement |
+//! | `rng`, `root_numbers`, `digest` | random primes and points, drawn from the seed and the statement |
 //! | `trial` | the test of Theorem 1 |
 //! | `tower`, `characters` | certificates of independence for roots |
 //! | `roots`, `squares`, `nested`, `polynomial` | dependent roots and their expressions |
@@ -63,6 +63,7 @@ mod refusals;
 mod relations;
 mod rewrite;
 mod rng;
+mod root_numbers;
 mod roots;
 mod squares;
 mod symbols;
@@ -89,6 +90,7 @@ pub use polynomials::{PolynomialBounds, polynomial_bounds};
 pub use reconstruct::reconstruct;
 pub use rewrite::conditions;
 pub use rng::ProofRng;
+pub use root_numbers::root_numbers;
 pub use trial::{Certificate, fewest};
 
 use rayon::prelude::*;

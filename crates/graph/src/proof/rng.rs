@@ -7,6 +7,7 @@ use num_integer::Integer;
 use num_traits::ToPrimitive;
 
 use super::digest::SeedDigest;
+use super::root_numbers::SMALL_PRIMES;
 use crate::number::prime::{Modulus, is_prime};
 use crate::number::rational::Rational;
 
@@ -71,6 +72,8 @@ fn jacobi(integer: &Rational, odd: u64) -> i32 {
     if n == 1 { symbol } else { 0 }
 }
 
+/// Number of odd primes modulo which residues of random primes are chosen: up to 23.
+const CHOSEN: usize = 8;
 /// Lower bound of the random primes.
 const LEAST: u64 = 1 << 60;
 
@@ -119,6 +122,50 @@ impl ProofRng {
         }
     }
 
+    /// Draws a random prime between 2^60 and 2^61 modulo which cube roots and fifth roots are unique,
+    /// and the roots of a graph with these [`root_numbers`](super::root_numbers()) keep their ratios: the
+    /// numbers and all primes up to 47 are squares, and −1 is none.
+    pub fn prime_for(&mut self, numbers: &[Rational]) -> Modulus {
+        if numbers.is_empty() {
+            return self.prime(&[3, 5], &[2, 3]);
+        }
+        // The residues modulo 8 and the first odd primes are chosen, those of the others are tested.
+        let (chosen, tested) = SMALL_PRIMES[1..].split_at(CHOSEN);
+        let step = 8 * chosen.iter().product::<u64>();
+        let tested: Vec<Rational> = tested.iter().map(|q| Rational::from(*q as i64)).collect();
+        loop {
+            let mut residue = 7;
+            let mut modulus = 8;
+            for q in chosen {
+                let own = self.residue(*q);
+                while residue % q != own {
+                    residue += modulus;
+                }
+                modulus *= q;
+            }
+            let candidate =
+                LEAST - LEAST % step + residue + step * (self.0.next_u64() % (LEAST / step));
+            let has_root = |n: &Rational| jacobi(n, candidate) == 1;
+            let all = tested.iter().chain(numbers);
+            if candidate >= LEAST && all.into_iter().all(has_root) && is_prime(candidate) {
+                return Modulus::new(candidate);
+            }
+        }
+    }
+
+    /// Draws a residue modulo an odd prime q of the primes p = 3 mod 4 modulo which q is a square; other
+    /// than 1 for q = 5.
+    fn residue(&mut self, q: u64) -> u64 {
+        loop {
+            let residue = 1 + self.0.next_u64() % (q - 1);
+            // (q/p) = (p/q), with the other sign if q = 3 mod 4.
+            let symbol = if q % 4 == 3 { -1 } else { 1 };
+            if jacobi(&Rational::from(residue as i64), q) == symbol && (q, residue) != (5, 1) {
+                return residue;
+            }
+        }
+    }
+
     /// Draws a uniform element, in Montgomery form (which is a permutation of the elements).
     pub fn element(&mut self, modulus: &Modulus) -> u64 {
         loop {
@@ -148,6 +195,17 @@ mod tests {
             assert!(p % 3 == 2 && p % 5 != 1, "cube and fifth roots are unique");
             let m = Modulus::new(*p);
             assert!(m.is_square(m.integer(2)) && m.is_square(m.integer(3)), "√2 and √3 exist");
+        }
+        for numbers in [vec![2], vec![2, 53, 1_000_003]] {
+            let numbers: Vec<Rational> = numbers.into_iter().map(Rational::from).collect();
+            let m = rng.prime_for(&numbers);
+            let p = m.prime();
+            assert!(is_prime(p) && p % 8 == 7 && p % 3 == 2 && p % 5 == 4, "{p}");
+            assert!((LEAST..2 * LEAST).contains(&p), "{p}");
+            for k in SMALL_PRIMES.iter().copied().chain([53]).take(14 + numbers.len()) {
+                let square = m.integer(k * k);
+                assert_eq!(m.root(square), Some(m.integer(k)), "√{k}² modulo {p}");
+            }
         }
         let again = ProofRng::new(1, 0).prime(&[3, 5], &[2, 3]).prime();
         assert_eq!(again, primes[0], "the same seed gives the same primes");

@@ -7,7 +7,8 @@ use liouville::formula::Formula;
 use liouville::graph::{Evaluator, Expr, Tape, record};
 use liouville::mechanics::{Draw, Phase};
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
-use liouville::proof::{ProofRng, statement_seed};
+use liouville::number::rational::Rational;
+use liouville::proof::{ProofRng, root_numbers, statement_seed};
 
 use super::super::SearchError;
 use super::super::local::{Coordinates, random};
@@ -29,6 +30,8 @@ pub struct Gradients {
     dimension: usize,
     count: usize,
     rng: ProofRng,
+    /// Numbers that are squares modulo primes.
+    numbers: Vec<Rational>,
 }
 
 /// Points at which gradients are taken.
@@ -73,12 +76,13 @@ impl Gradients {
         })?;
         let rng = SearchStream::Gradients.under(statement_seed(seed, &graph, &slopes));
         let (tape, inputs) = (Tape::new(&graph, &slopes), graph.inputs());
-        Ok(Some(Self { tape, inputs, draws, dimension, count: formulas.len(), rng }))
+        let (count, numbers) = (formulas.len(), root_numbers(&graph));
+        Ok(Some(Self { tape, inputs, draws, dimension, count, rng, numbers }))
     }
 
     /// Gradients at random points modulo the next prime; `None` if none has values.
     pub fn next(&mut self, points: Points) -> Option<(Slopes, Modulus)> {
-        let modulus = self.rng.prime(&[3, 5], &[2, 3]);
+        let modulus = self.rng.prime_for(&self.numbers);
         let mut evaluator = Evaluator::new(&self.tape, Prime::new([modulus; SCALES]));
         for _ in 0..TRIALS {
             let rng = &mut self.rng;

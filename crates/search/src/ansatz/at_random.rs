@@ -4,7 +4,7 @@ use crate::Effort;
 use crate::streams::SearchStream;
 use liouville::graph::{Evaluator, Expr, Graph, Tape};
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
-use liouville::proof::statement_seed;
+use liouville::proof::{root_numbers, statement_seed};
 
 /// Number of blocks of points that are tried, as roots exist at some only.
 const TRIALS: usize = 64;
@@ -18,7 +18,7 @@ pub fn values_at_random<const N: usize>(
     effort: &Effort,
 ) -> Option<(Modulus, Vec<[u64; N]>)> {
     let mut rng = stream.under(statement_seed(effort.options.seed, graph, values));
-    let modulus = rng.prime(&[3, 5], &[2, 3]);
+    let modulus = rng.prime_for(&root_numbers(graph));
     let tape = Tape::new(graph, values);
     let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; N]));
     for _ in 0..TRIALS {

@@ -13,6 +13,7 @@ use liouville::claim::LevelSubset;
 use liouville::formula::Formula;
 use liouville::graph::{Evaluator, Tape, record};
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
+use liouville::proof::root_numbers;
 use liouville::verdict::Sampler;
 
 /// Number of states at which a symmetry is tested.
@@ -48,7 +49,7 @@ impl SignChanges {
         let fixed = vec![None; sampler.recipes().len()];
         let (made, outputs) = sampler.compose(&identity, &[same], &fixed)?;
         let mut rng = SearchStream::Characters.under(seed);
-        let modulus = rng.prime(&[3, 5], &[2, 3]);
+        let modulus = rng.prime_for(&root_numbers(&made));
         let tape = Tape::new(&made, &outputs.concat());
         let mut states = Evaluator::new(&tape, Prime::new([modulus; TEST_STATES]));
         let draws: Vec<[u64; TEST_STATES]> =

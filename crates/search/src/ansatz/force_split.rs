@@ -20,7 +20,8 @@ use liouville::mechanics::{
     BracketBlock, HamiltonianSystem, Lagrangian, LevelFunction, Model, System, VariableRole,
 };
 use liouville::number::prime::{Prime, UNDEFINED};
-use liouville::proof::statement_seed;
+use liouville::number::rational::Rational;
+use liouville::proof::{root_numbers, statement_seed};
 
 /// Largest number of variables of which all sets are tried.
 const MOST_VARIABLES: usize = 12;
@@ -179,6 +180,8 @@ struct ScaledRates {
     parameters: usize,
     dimension: usize,
     seed: u64,
+    /// Numbers that are squares modulo the prime.
+    numbers: Vec<Rational>,
 }
 
 impl ScaledRates {
@@ -186,13 +189,14 @@ impl ScaledRates {
         let (graph, field) = recorded(case, |jet| jet.phase.field().to_vec())?;
         let seed = statement_seed(effort.options.seed, &graph, &field);
         let (parameters, dimension) = (case.model.free_components(), case.model.dimension());
-        Ok(Self { tape: Tape::new(&graph, &field), parameters, dimension, seed })
+        let numbers = root_numbers(&graph);
+        Ok(Self { tape: Tape::new(&graph, &field), parameters, dimension, seed, numbers })
     }
 
     /// Whether the rates of some components are linear in the other ones, and none of them is 0.
     fn are_linear(&self, positions: &[usize]) -> bool {
         let mut rng = SearchStream::Equations.under(self.seed);
-        let modulus = rng.prime(&[3, 5], &[2, 3]);
+        let modulus = rng.prime_for(&self.numbers);
         let m = &modulus;
         let mut evaluator = Evaluator::new(&self.tape, Prime::new([modulus; MULTIPLES]));
         let multiples: [u64; MULTIPLES] = std::array::from_fn(|k| m.integer(k as u64 + 1));

@@ -16,7 +16,7 @@ use liouville::case::Case;
 use liouville::graph::{Evaluator, Expr, Graph, Tape};
 use liouville::mechanics::{Model, System, VariableRole};
 use liouville::number::prime::{Prime, UNDEFINED};
-use liouville::proof::statement_seed;
+use liouville::proof::{root_numbers, statement_seed};
 
 /// Number of states that are compared.
 const STATES: usize = 4;
@@ -108,7 +108,7 @@ fn compared(
 ) -> Option<[Vec<[u64; STATES]>; 2]> {
     let mut rng =
         SearchStream::Equations.under(statement_seed(effort.options.seed, graph, outputs));
-    let modulus = rng.prime(&[3, 5], &[2, 3]);
+    let modulus = rng.prime_for(&root_numbers(graph));
     let tape = Tape::new(graph, outputs);
     let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; STATES]));
     for _ in 0..TRIALS {

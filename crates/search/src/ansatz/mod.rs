@@ -52,7 +52,7 @@ mod theorem;
 use super::conditions::components;
 use super::orbit::roots;
 use super::streams::SearchStream;
-use super::terms::{is_one, one, read};
+use super::terms::{is_one, one, read, recorded};
 use super::{Effort, SearchError, SearchReport};
 use coefficients::Ratio;
 pub use force_split::positions;
@@ -61,6 +61,7 @@ use liouville::formula::{Formula, FormulaError};
 use liouville::mechanics::Draw;
 use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
+use liouville::proof::root_numbers;
 use monomials::AnsatzVariables;
 pub use poisson::{Hamiltonians, brackets};
 use system::Column;
@@ -132,7 +133,9 @@ impl Coordinates {
     /// Lists the coordinates of a case.
     pub fn of(case: &Case) -> Result<Self, SearchError> {
         let tensor = read(TENSOR, &case.model.vocabulary);
-        let mut own = Self { names: [components(case), tensor].concat(), radicands: Vec::new() };
+        let (graph, _) = recorded(case, |jet| jet.phase.field().to_vec())?;
+        let radicands = root_numbers(&graph);
+        let mut own = Self { names: [components(case), tensor].concat(), radicands };
         for (root, number) in roots(case)? {
             own.names.push(root);
             own.radicands.extend(number);
@@ -145,11 +148,11 @@ impl Coordinates {
         name.text().starts_with('√')
     }
 
-    /// Draws a prime modulo which the numbers under roots are squares.
+    /// Draws a prime modulo which the numbers under roots are squares, and roots keep their ratios.
     pub fn prime(radicands: &[Rational], seed: u64, number: u64) -> Modulus {
         let mut rng = SearchStream::Moduli.numbered(seed, number);
         loop {
-            let modulus = rng.prime(&[3, 5], &[2, 3]);
+            let modulus = rng.prime_for(radicands);
             if Self::has_roots(radicands, &modulus) {
                 return modulus;
             }

@@ -58,7 +58,7 @@ impl<'r> Lines<'r> {
     /// Draws under a root stay fixed along a line if the residual is not a fraction otherwise.
     pub fn new(residual: &'r Residual, effort: &Effort) -> Result<Option<Self>, SearchError> {
         let mut rng = SearchStream::Lines.under(effort.options.seed);
-        let modulus = rng.prime(&[3, 5], &[2, 3]);
+        let modulus = residual.prime(&mut rng);
         let evaluator = residual.evaluator(modulus);
         let free: Vec<bool> = residual.free().collect();
         let (moving, halt) = (free.clone(), effort.halt.clone());

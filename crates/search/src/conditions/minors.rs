@@ -17,7 +17,7 @@ use crate::{Effort, Halt, SearchError};
 use liouville::case::Case;
 use liouville::mechanics::{Draw, ParameterOrigin, SamplerSpec};
 use liouville::number::prime::Modulus;
-use liouville::proof::{ProofRng, reconstruct};
+use liouville::proof::{ProofRng, reconstruct, root_numbers};
 
 /// Number of points whose minors are compared.
 const MINOR_POINTS: usize = 2;
@@ -122,7 +122,7 @@ impl<'l> Minors<'l> {
         effort: &'l Effort,
     ) -> Self {
         let mut rng = SearchStream::Minors.under(effort.options.seed.wrapping_add(round));
-        let modulus = rng.prime(&[], &[]);
+        let modulus = rng.prime_for(&root_numbers(&local.graph));
         let small = |rng: &mut ProofRng| 2 + modulus.to_integer(rng.element(&modulus)) % 97;
         let parameters = local.parameters(&modulus, &mut rng);
         let parameters = parameters

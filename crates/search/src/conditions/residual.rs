@@ -10,7 +10,8 @@ use liouville::claim::LevelSubset;
 use liouville::graph::{Evaluator, Expr, Tape};
 use liouville::mechanics::Draw;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
-use liouville::proof::ProofRng;
+use liouville::number::rational::Rational;
+use liouville::proof::{ProofRng, root_numbers};
 use liouville::verdict::Sampler;
 
 /// Number of points evaluated at a time.
@@ -27,6 +28,8 @@ pub struct Residual {
     height: usize,
     /// Draws of the parameters; those of the state follow.
     parameters: Vec<Draw>,
+    /// Numbers that are squares modulo primes.
+    numbers: Vec<Rational>,
 }
 
 /// One point of an evaluation: the residual, and the parameters' components.
@@ -69,8 +72,9 @@ impl Residual {
         let names = terms.iter().map(ToString::to_string).collect();
         let parameters = model.parameter_draws();
         let laid_out = |outputs: &[Vec<Expr>]| Tape::new(&graph, &outputs.concat());
+        let (inputs, numbers) = (graph.inputs(), root_numbers(&graph));
         let mut residual =
-            Self { tape: laid_out(&outputs), names, height, parameters, inputs: graph.inputs() };
+            Self { tape: laid_out(&outputs), names, height, parameters, inputs, numbers };
         let varying = residual.varying(seed);
         let keep = |k: &usize| outputs[1][*k];
         residual.tape = laid_out(&[outputs[0].clone(), varying.iter().map(keep).collect()]);
@@ -78,10 +82,15 @@ impl Residual {
         Ok(Some(residual))
     }
 
+    /// Draws a prime modulo which the roots of the residual keep their ratios.
+    pub fn prime(&self, rng: &mut ProofRng) -> Modulus {
+        rng.prime_for(&self.numbers)
+    }
+
     /// Returns the components that differ between draws, and from those before them.
     fn varying(&self, seed: u64) -> Vec<usize> {
         let mut rng = SearchStream::Residuals.under(seed);
-        let modulus = rng.prime(&[3, 5], &[2, 3]);
+        let modulus = self.prime(&mut rng);
         let mut evaluator = self.evaluator(modulus);
         let mut point = || {
             let parameters = self.parameters(&modulus, &mut rng);

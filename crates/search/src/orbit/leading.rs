@@ -13,7 +13,7 @@ use crate::streams::SearchStream;
 use liouville::graph::{Evaluator, Tape, record};
 use liouville::mechanics::Phase;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
-use liouville::proof::{ProofRng, statement_seed};
+use liouville::proof::{ProofRng, root_numbers, statement_seed};
 
 /// Number of multiples of a state: the highest degree of a field is one less.
 const MULTIPLES: usize = 8;
@@ -81,7 +81,7 @@ impl LeadingField {
         })?;
         let seed = statement_seed(setting.effort.options.seed, &graph, &rates);
         let mut rng = SearchStream::Equations.under(seed);
-        let modulus = rng.prime(&[3, 5], &[2, 3]);
+        let modulus = rng.prime_for(&root_numbers(&graph));
         let parameters = random(&draws, &modulus, &mut rng);
         let (tape, halt) = (Tape::new(&graph, &rates), setting.effort.halt.clone());
         let rng = SearchStream::Combinations.under(seed);
