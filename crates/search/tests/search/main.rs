@@ -4,4 +4,5 @@ mod ansatz;
 mod growth;
 mod orbits;
 mod plants;
+mod ratios;
 mod shapes;

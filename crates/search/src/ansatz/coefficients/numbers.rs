@@ -159,6 +159,12 @@ impl Residue {
     }
 }
 
+/// Whether coefficients with roots are looked for with this number of primes, 1, 2, 3, 4, 6, 8, 12, …:
+/// the reduction of a lattice takes a time that grows with its third power.
+fn is_tried(primes: usize) -> bool {
+    primes.is_power_of_two() || (primes.is_multiple_of(3) && (primes / 3).is_power_of_two())
+}
+
 /// Finds coefficients that are numbers, confirmed modulo one further prime.
 pub fn numbers(source: &dyn Vectors) -> Option<PrimitiveVector> {
     let roots = Roots::of(source.names(), source.multiplies_roots());
@@ -170,12 +176,14 @@ pub fn numbers(source: &dyn Vectors) -> Option<PrimitiveVector> {
             continue;
         }
         if !seen.is_empty() {
+            let tries_roots = is_tried(seen.len());
             let number = |column: usize| {
                 let images: Vec<(&PrimePoint, u64)> =
                     seen.iter().map(|(at, own)| (at, own[column])).collect();
                 let agrees = |own: &Number| own.has_image(&roots, &at, vector[column]);
                 let plain = rational(&images).filter(agrees);
-                plain.or_else(|| roots.number(&images).filter(agrees))
+                let with_roots = || roots.number(&images).filter(agrees);
+                plain.or_else(|| if tries_roots { with_roots() } else { None })
             };
             let columns: Option<Vec<Number>> = (0..source.width()).map(number).collect();
             if let Some(columns) = columns {
