@@ -72,6 +72,7 @@ impl Judging<'_> {
             open.into_iter().filter(|(_, status)| status.holds()).collect();
         self.settle_novelty(sampler, &mut holding)?;
         self.settle_conditions(sampler, &mut holding)?;
+        self.remark_voids(sampler, &mut holding)?;
         self.settle_signs(sampler, holding.into_iter().filter(|(_, status)| status.holds()))?;
         Ok(())
     }

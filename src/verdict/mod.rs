@@ -42,6 +42,7 @@ mod signs;
 mod state;
 mod statement;
 mod values;
+mod voids;
 mod wider_domain;
 mod witness;
 

@@ -44,3 +44,32 @@ fn claims_that_say_something_are_not() {
         assert_eq!(remark(claim), "", "{claim}");
     }
 }
+
+#[test]
+fn listed_values_for_which_a_formula_has_no_value_are_named() {
+    let text = |a: &str, claim: &str| {
+        format!(
+            "title = 't'\n[parameters]\na = 'one of {a}'\n[state]\nx = '-1..1'\ny = '-1..1'\n[field]\n\
+             \"x'\" = 'y'\n\"y'\" = '−x'\n[[claim]]\n{claim}\n"
+        )
+    };
+    for claim in [
+        "integral = '(x² + y²)*a/a'",
+        "lyapunov = 'x² + y²'\nequals = '0*a/a'",
+        "rate = 'x²'\nequals = '2*x*y*a/a'",
+        "identity = 'x*a/a = x'",
+        "density = '1 + 0/a'",
+    ] {
+        let remark = |a: &str| {
+            let report = claims(&text(a, claim)).remove(0);
+            assert_eq!(report.verdict, Verdict::Proved, "{claim}");
+            report.evidence.remark.unwrap_or_default()
+        };
+        assert!(
+            remark("0, 1").contains("nothing is said for a = 0,"),
+            "{claim}: {}",
+            remark("0, 1")
+        );
+        assert!(!remark("1, 2").contains("nothing is said"), "{claim}: {}", remark("1, 2"));
+    }
+}
