@@ -47,6 +47,21 @@ impl RationalSearch<'_, '_> {
         if below.constant().is_some_and(|value| value.is_zero()) {
             return Ok(false);
         }
+        let degree = |own: &[Vec<u32>]| own.iter().map(|a| a.iter().sum()).max().unwrap_or(0);
+        let degrees = [degree(&fraction.above), degree(&fraction.below)];
+        // Of two integrals P and Q the fraction is none that a person would write.
+        if degrees.iter().all(|own| *own > 0) {
+            let mut is_new = false;
+            for (part, degree) in [(&above, degrees[0]), (&below, degrees[1])] {
+                if claims::integral(self.setting, part, report)? {
+                    known.add(part.clone(), Some(degree), self.variables);
+                    is_new = true;
+                }
+            }
+            if is_new {
+                return Ok(true);
+            }
+        }
         let formula = match is_one(&below) {
             true => above.clone(),
             false => (&above / &below)?,
@@ -54,8 +69,7 @@ impl RationalSearch<'_, '_> {
         let is_new = claims::integral(self.setting, &formula, report)?;
         if is_new {
             known.add(formula, None, self.variables);
-            let degree = |own: &[Vec<u32>]| own.iter().map(|a| a.iter().sum()).max().unwrap_or(0);
-            let parts = [(above, degree(&fraction.above)), (below, degree(&fraction.below))];
+            let parts = [above, below].into_iter().zip(degrees);
             known.parts.extend(parts.into_iter().filter(|(_, degree)| *degree > 0));
         }
         Ok(is_new)

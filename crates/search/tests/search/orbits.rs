@@ -331,3 +331,15 @@ fn searches_stop_in_time() {
     assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
     assert!(report.formulas("integral").count() > 1, "what was found before is told");
 }
+
+#[test]
+fn two_integrals_are_told_in_place_of_their_fraction() {
+    let text = "title = 't'\n[state]\nx = '-2..2'\ny = '-2..2'\n\"x'\" = '-2..2'\n\"y'\" = '-2..2'\n\
+                [lagrangian]\nkinetic = \"(x'² + y'²)/2\"\npotential = '(x² + 4*y²)/2'\n";
+    let report = searched(text, &Effort { by_class: false, ..Effort::default() });
+    let integrals: Vec<&str> = report.formulas("integral").collect();
+    assert!(integrals.iter().all(|own| !own.contains('/')), "{integrals:?}");
+    assert!(integrals.iter().any(|own| own.contains("y*(x')²")), "{integrals:?}");
+    let counted = report.counts.iter().find(|own| own.degree == 2).expect("counted");
+    assert_eq!(counted.known, counted.dimension, "{integrals:?}");
+}
