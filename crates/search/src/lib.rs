@@ -29,6 +29,7 @@ mod jet_equations;
 mod jets;
 mod library;
 mod linear;
+mod lists;
 mod local;
 mod maps;
 mod meter;
@@ -116,6 +117,17 @@ impl Found {
         found.known = known;
         found.function = Some(function.clone());
         found
+    }
+
+    /// Whether another find says the same: the same formula or, for brackets, one with the same
+    /// Hamiltonian.
+    fn says(&self, other: &Self) -> bool {
+        let hamiltonian = |own: &Self| own.with.first().cloned();
+        self.kind == other.kind
+            && match self.kind {
+                "bracket" => hamiltonian(self) == hamiltonian(other),
+                _ => self.formula == other.formula && self.with == other.with,
+            }
     }
 
     /// Makes a find that consists of several formulas, with its text.
@@ -319,7 +331,15 @@ pub fn search(
     })?;
     if let Some(wanted) = &effort.poisson {
         report.stage("brackets", effort, |report| {
-            ansatz::brackets(case, wanted, effort, report, progress)
+            lists::by_values(
+                case,
+                effort,
+                report,
+                progress,
+                &mut |case, effort, report, progress| {
+                    ansatz::brackets(case, wanted, effort, report, progress)
+                },
+            )
         })?;
     }
     if effort.conditions == Some(ConditionTarget::Existence) {

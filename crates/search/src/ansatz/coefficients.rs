@@ -29,6 +29,10 @@ const MOST_COEFFICIENTS: usize = 640;
 const SPARE_SAMPLES: usize = 8;
 /// Number of choices of parameters beyond those wanted, since some have no value.
 const BARREN: u64 = 64;
+/// Largest number of elementary steps for the coefficients of one vector.
+const STEPS: f64 = 4e9;
+/// Elementary steps for a power modulo the prime.
+const POWER: usize = 8;
 
 /// A polynomial in the coordinates of the parameters, by exponents.
 pub type Polynomial = Vec<(Vec<u32>, BigInt)>;
@@ -75,7 +79,7 @@ impl PrimitiveVector {
     }
 
     fn fitted(source: &dyn Vectors) -> Option<Self> {
-        let mut samples = VectorSamples { source, next: 0, known: Vec::new() };
+        let mut samples = VectorSamples { source, next: 0, known: Vec::new(), left: STEPS };
         let varying = samples.varying()?;
         if varying.is_empty() {
             return numbers(source);
@@ -191,6 +195,10 @@ pub trait Vectors {
     fn halt(&self) -> &Halt;
     /// Number of entries.
     fn width(&self) -> usize;
+    /// Takes elementary steps from those that the search may take; `false` if none are left.
+    fn takes(&self, _steps: f64) -> bool {
+        true
+    }
     /// Whether products of roots are among its numbers.
     fn multiplies_roots(&self) -> bool {
         true
@@ -236,9 +244,17 @@ struct VectorSamples<'s> {
     next: u64,
     /// Choices of the parameters with the vector there.
     known: Vec<(PrimePoint, Vec<u64>)>,
+    /// Number of elementary steps that may still be taken.
+    left: f64,
 }
 
 impl VectorSamples<'_> {
+    /// Takes elementary steps; `None` if there are none left.
+    fn takes(&mut self, steps: f64) -> Option<()> {
+        self.left -= steps;
+        (self.source.takes(steps) && self.left > 0.0).then_some(())
+    }
+
     fn extend(&mut self, count: usize) -> Option<()> {
         let last = self.next + count as u64 + BARREN;
         while self.known.len() < count {
@@ -344,6 +360,9 @@ impl VectorSamples<'_> {
             self.extend(unknowns + SPARE_SAMPLES)?;
             let m = self.known[0].0.modulus;
             let (upper, lower) = (monomials(above, 1), monomials(below, 0));
+            let terms = unknowns + denominators.iter().map(|own| own.images.len()).sum::<usize>();
+            let rows = unknowns + SPARE_SAMPLES;
+            self.takes((rows * (terms * kept.len() * POWER + unknowns * unknowns / 2)) as f64)?;
             let mut echelon = Echelon::new(unknowns, m);
             for (at, vector) in &self.known[..unknowns + SPARE_SAMPLES] {
                 self.source.halt().check().ok()?;

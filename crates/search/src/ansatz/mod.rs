@@ -53,7 +53,7 @@ use super::conditions::components;
 use super::orbit::roots;
 use super::streams::SearchStream;
 use super::terms::{is_one, one, read};
-use super::{Effort, SearchError, SearchReport};
+use super::{Effort, SearchError, SearchReport, lists};
 use coefficients::Ratio;
 pub use force_split::positions;
 use liouville::case::Case;
@@ -93,9 +93,9 @@ pub fn search(
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    integrals::integrals(case, effort, report, progress)?;
+    lists::by_values(case, effort, report, progress, &mut integrals::integrals)?;
     if effort.ansatz.gyrostats && !gyro_family::GyroFamily::is_own(&case.model) {
-        gyrostats::gyrostats(case, effort, report, progress)?;
+        lists::name_first(case, effort, report, progress, &mut gyrostats::gyrostats)?;
     }
     Ok(())
 }

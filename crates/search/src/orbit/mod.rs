@@ -97,7 +97,7 @@ use self::line::degree_of_field;
 use self::part::VariableSet;
 use self::setting::OrbitSetting;
 use super::ask::proved_energy;
-use super::{Effort, SearchError, SearchReport, branches};
+use super::{Effort, SearchError, SearchReport, branches, lists};
 
 /// Largest number of roots whose signs at all states are compared with those modulo a prime.
 const FEW_ROOTS: usize = 4;
@@ -325,6 +325,7 @@ fn along_orbits(
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
+    let before = report.orbits.len();
     let mut known = IndependentIntegrals::of(setting, report)?;
     let has_line = setting.has_lines();
     let degree = if has_line { degree_of_field(setting)? } else { None };
@@ -338,6 +339,15 @@ fn along_orbits(
     }
     if let Some(whole) = parts.last() {
         whole.conclude(setting, report)?;
+    }
+    if !setting.steps.takes(0.0) {
+        report.remark(setting::OF_STEPS.to_string());
+    }
+    if setting.has_lists() && report.orbits.len() > before {
+        report.remark(format!(
+            "relations along an orbit are counted for {}",
+            lists::first_values(setting.case).unwrap_or_default()
+        ));
     }
     let counted = report.orbits.last().map_or(0, |own| own.integrals);
     if setting.has_lists() && counted > found(setting.case, setting.effort, report)?.len() {
@@ -379,6 +389,7 @@ fn rounds(
         fractions::conclude(setting.case, setting.effort, &known, false, report)?;
     }
     for limits in next {
+        setting.steps.lift();
         match run(parts, *limits, report) {
             // The time limit of the user is reached.
             Err(SearchError::Stopped) => break,

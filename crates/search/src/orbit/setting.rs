@@ -19,6 +19,7 @@ use super::super::terms::{read, recorded};
 use super::super::{Effort, SearchError};
 use super::adjoin::Extension;
 use super::conic::ConicShape;
+use super::limits::StepsLeft;
 use super::monomials::{self, MonomialSeries};
 use super::primes;
 use super::tangents::Tangents;
@@ -28,6 +29,10 @@ use liouville::formula::Formula;
 /// Remark where integrals are counted and lists keep them from being written.
 pub const OF_LISTS: &str = "an integral is written only if one formula holds for all listed values of the \
     parameters: give one value of each list, as with --set a=1";
+
+/// Remark where the steps for coefficients that depend on the parameters are spent.
+pub const OF_STEPS: &str = "coefficients that depend on the parameters, or are no fractions, are not all \
+    sought: that takes longer than a quarter of --seconds; give values with --set, or more time";
 
 /// Number of orders beyond those that the unknowns take: accidents have probability p⁻⁸.
 pub const SPARE_ORDERS: usize = 8;
@@ -67,6 +72,8 @@ pub struct OrbitSetting<'c> {
     pub terms: Vec<Formula>,
     /// Relations between adjoined functions, where they are circles and hyperbolas alone.
     pub conic: Option<ConicShape>,
+    /// Steps that may still be taken for coefficients which depend on the parameters.
+    pub steps: StepsLeft,
     points: Points,
     coordinates: Vec<Formula>,
     primes: Vec<Modulus>,
@@ -154,6 +161,7 @@ impl<'c> OrbitSetting<'c> {
             tangents: Tangents::of(case, &[])?,
             terms,
             conic: None,
+            steps: StepsLeft::of(effort),
             points,
             coordinates: named,
             primes,
@@ -347,6 +355,8 @@ impl<'c> OrbitSetting<'c> {
                 break;
             }
         }
+        let series = (all.len() * orders) as f64 * orders as f64 / 2.0;
+        self.steps.takes(series + echelon.steps() as f64);
         let free = echelon.free();
         let mut vectors = Vec::with_capacity(free.len());
         for own in &free {
