@@ -68,6 +68,10 @@ pub use multipliers::MultiplierReport;
 pub use orbit::OrbitReport;
 pub use second_opinion::SecondOpinion;
 
+/// End of a theorem of absence where a function of the case is arbitrary.
+const GENERIC_FUNCTION: &str = " The arbitrary function of the case is a generic one here: for special \
+    ones there may be more.";
+
 /// An invariant that was found.
 #[derive(Clone, Debug, Serialize)]
 pub struct Found {
@@ -240,6 +244,31 @@ impl SearchReport {
         }
     }
 
+    /// Takes over what a search along orbits of higher degrees has found besides, and its theorems, unless
+    /// it was stopped before it came as far as the one before.
+    fn grow(&mut self, grown: Self) {
+        let degree = |own: &Self| own.orbits.last().map_or(0, |last| last.degree);
+        if degree(&grown) < degree(self) {
+            return;
+        }
+        self.orbits = grown.orbits;
+        for found in grown.found {
+            if !self.found.iter().any(|own| own.says(&found)) {
+                self.found.push(found);
+            }
+        }
+        let is_graded = |own: &Excluded| orbit::is_graded(&own.ansatz);
+        if grown.excluded.iter().any(is_graded) {
+            self.excluded.retain(|own| !is_graded(own));
+        }
+        for theorem in grown.excluded {
+            match self.excluded.iter_mut().find(|own| own.ansatz == theorem.ansatz) {
+                Some(own) => *own = theorem,
+                None => self.excluded.push(theorem),
+            }
+        }
+    }
+
     /// Runs a part of a search; a part that is stopped is noted by its name.
     fn stage(
         &mut self,
@@ -313,19 +342,14 @@ pub fn search(
         })?;
     }
     branches::withdraw(case, effort, &mut report)?;
-    // Theorems on orbits hold for both signs of each root, and are about fields without moduli.
-    let known = report.functions("integral").count();
-    report.stage("relations along an orbit", effort, |report| {
-        orbit::search(case, effort, effort.halt.is_timed(), report, progress)
-    })?;
-    report.stage("brackets of integrals", effort, |report| {
-        progress("brackets and derivatives of integrals");
-        orbit::close(case, effort, report)
-    })?;
-    let is_further = |own: &Found| own.kind == orbit::FURTHER_INTEGRAL;
-    if report.functions("integral").count() > known || report.found.iter().any(is_further) {
-        counts::conclude(case, effort, &mut report)?;
-    }
+    // What was asked for by an option comes before degrees grow until the time is spent.
+    let grows = effort.halt.is_timed();
+    let is_asked = effort.conditions.is_some()
+        || effort.poisson.is_some()
+        || effort.ansatz.potentials
+        || effort.ansatz.gyrostats;
+    let ungrown = report.clone();
+    along_orbits(case, effort, grows && !is_asked, &mut report, progress)?;
     report.stage("forces that integrals survive", effort, |report| {
         ansatz::forces(case, effort, report, progress)
     })?;
@@ -347,10 +371,19 @@ pub fn search(
             conditions::several::conditions(case, effort, report, progress)
         })?;
     }
+    if grows && is_asked {
+        report.stage("relations of higher degree along an orbit", effort, |report| {
+            let mut grown = ungrown;
+            along_orbits(case, effort, true, &mut grown, progress)?;
+            report.grow(grown);
+            effort.halt.check()
+        })?;
+    }
     report.stage("shorter formulas", effort, |report| {
         recognised::rewrite(case, effort, report)?;
         vectors::gather(case, effort, report)
     })?;
+    note_generic_functions(case, &mut report);
     if !report.orbits.is_empty() {
         // The search along orbits has these as well.
         report.remarks.retain(|remark| !remark.ends_with(integrals::IRRATIONAL));
@@ -359,6 +392,45 @@ pub fn search(
         report.remark(remark);
     }
     Ok(report)
+}
+
+/// Says in theorems of absence that an arbitrary function of the case is a generic one there: they come
+/// from one choice of its Taylor coefficients.
+fn note_generic_functions(case: &Case, report: &mut SearchReport) {
+    if !case.model.system.has_arbitrary_function() {
+        return;
+    }
+    let is_potential_alone =
+        counts::free_motion(case).is_some_and(|free| !free.model.system.has_arbitrary_function());
+    for own in &mut report.excluded {
+        if !(is_potential_alone && own.theorem.contains(counts::FOR_EVERY_POTENTIAL)) {
+            own.theorem.push_str(GENERIC_FUNCTION);
+        }
+    }
+}
+
+/// Searches along orbits, and for brackets of what is found.
+fn along_orbits(
+    case: &Case,
+    effort: &Effort,
+    grows: bool,
+    report: &mut SearchReport,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(), SearchError> {
+    // Theorems on orbits hold for both signs of each root, and are about fields without moduli.
+    let known = report.functions("integral").count();
+    report.stage("relations along an orbit", effort, |report| {
+        orbit::search(case, effort, grows, report, progress)
+    })?;
+    report.stage("brackets of integrals", effort, |report| {
+        progress("brackets and derivatives of integrals");
+        orbit::close(case, effort, report)
+    })?;
+    let is_further = |own: &Found| own.kind == orbit::FURTHER_INTEGRAL;
+    if report.functions("integral").count() > known || report.found.iter().any(is_further) {
+        counts::conclude(case, effort, report)?;
+    }
+    Ok(())
 }
 
 /// Extends the case by the names that the library's terms use.

@@ -41,6 +41,7 @@ pub fn integrals(
     let mixed = case.model.system.energy_is_inhomogeneous();
     let degrees = if variables.have_velocities() { 1..=effort.degree } else { 0..=0 };
     let mut generators = Generators::all(case, effort, report)?;
+    let mut dependent = DependentIntegrals::default();
     for degree in degrees {
         let known = generators.products(degree, mixed);
         let count = report.counts.iter().find(|count| !count.free && count.degree == degree);
@@ -57,13 +58,55 @@ pub fn integrals(
                 mixed,
                 below,
                 known: &mut generators,
+                dependent: &mut dependent,
             };
             if search.run(dimension, report, progress)? {
                 break;
             }
         }
     }
+    dependent.note(report);
     Ok(())
+}
+
+/// Integrals that are not shown to be independent of those listed.
+#[derive(Default)]
+struct DependentIntegrals(Vec<Dependent>);
+
+/// Those with one verdict on their independence: their number, and the shortest.
+struct Dependent {
+    verdict: &'static str,
+    count: usize,
+    shortest: Formula,
+}
+
+impl DependentIntegrals {
+    fn add(&mut self, verdict: &'static str, formula: &Formula) {
+        let length = |own: &Formula| own.text().chars().count();
+        match self.0.iter_mut().find(|own| own.verdict == verdict) {
+            Some(own) => {
+                own.count += 1;
+                if length(formula) < length(&own.shortest) {
+                    own.shortest = formula.clone();
+                }
+            }
+            None => self.0.push(Dependent { verdict, count: 1, shortest: formula.clone() }),
+        }
+    }
+
+    /// Notes them once for each verdict.
+    fn note(&self, report: &mut SearchReport) {
+        for Dependent { verdict, count, shortest } in &self.0 {
+            report.remark(match count {
+                1 => format!(
+                    "an integral, whose independence of those listed is {verdict}: {shortest}"
+                ),
+                count => format!(
+                    "{count} integrals, whose independence of those listed is {verdict}; the shortest is {shortest}"
+                ),
+            });
+        }
+    }
 }
 
 /// Lists denominators of polynomials, simple ones first: all that a pole of the field allows.
@@ -91,6 +134,7 @@ struct IntegralSearch<'a> {
     below: Formula,
     /// Known integrals, including those found so far.
     known: &'a mut Generators,
+    dependent: &'a mut DependentIntegrals,
 }
 
 impl IntegralSearch<'_> {
@@ -228,9 +272,7 @@ impl IntegralSearch<'_> {
             }
             other => {
                 let word = other.map_or("undecided", |verdict| verdict.word());
-                report.remark(format!(
-                    "an integral, whose independence of those listed is {word}: {formula}"
-                ));
+                self.dependent.add(word, &formula);
                 Ok(Outcome::Dependent)
             }
         }

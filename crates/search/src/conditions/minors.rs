@@ -232,6 +232,11 @@ impl<'l> Minors<'l> {
             let (echelon, rows) = self.solved(&equations)?;
             let rows: FxHashSet<RowKey> = rows.into_iter().collect();
             let dimension = equations.dimension(&echelon);
+            let (unknowns, count) = equations.size();
+            let each = (unknowns * count) as f64 + echelon.steps() as f64;
+            if self.left.is_some_and(|left| each * LEAST as f64 > left.get()) {
+                return Err(SearchError::Long { unknowns, seconds: self.effort.seconds });
+            }
             let columns: Vec<usize> =
                 (0..echelon.columns()).filter(|column| echelon.has_pivot(*column)).collect();
             let mut values = Vec::new();

@@ -118,6 +118,11 @@ pub struct OrbitReport {
     pub integrals: usize,
 }
 
+/// Whether the family of a theorem is one of a search along orbits, up to a degree that grows.
+pub fn is_graded(family: &str) -> bool {
+    family.starts_with(part::DARBOUX_THEOREM) || family.starts_with("fractions of polynomials")
+}
+
 /// Searches a field for integrals; proved ones go into the report. If `further`, the limits grow while
 /// there is time.
 pub fn search(
