@@ -25,6 +25,7 @@ mod bracket_system;
 mod brackets;
 mod characters;
 pub mod coefficients;
+mod dependent;
 mod force_family;
 mod force_split;
 mod force_text;

@@ -73,6 +73,7 @@ mod products;
 mod quotients;
 mod rational;
 mod relations;
+mod remarks;
 mod separate;
 mod setting;
 mod sparse;
@@ -97,7 +98,7 @@ use self::line::degree_of_field;
 use self::part::VariableSet;
 use self::setting::OrbitSetting;
 use super::ask::proved_energy;
-use super::{Effort, SearchError, SearchReport, branches, lists};
+use super::{Effort, SearchError, SearchReport, branches};
 
 /// Largest number of roots whose signs at all states are compared with those modulo a prime.
 const FEW_ROOTS: usize = 4;
@@ -345,19 +346,10 @@ fn along_orbits(
     if let Some(whole) = parts.last() {
         whole.conclude(setting, report)?;
     }
-    if !setting.steps.takes(0.0) {
-        report.remark(setting::OF_STEPS.to_string());
-    }
-    if setting.has_lists() && report.orbits.len() > before {
-        report.remark(format!(
-            "relations along an orbit are counted for {}",
-            lists::first_values(setting.case).unwrap_or_default()
-        ));
-    }
-    let counted = report.orbits.last().map_or(0, |own| own.integrals);
-    if setting.has_lists() && counted > found(setting.case, setting.effort, report)?.len() {
-        report.remark(setting::OF_LISTS.to_string());
-    }
+    let counted = report.orbits.len() > before && setting.has_lists();
+    let integrals = report.orbits.last().map_or(0, |own| own.integrals);
+    let is_open = counted && integrals > found(setting.case, setting.effort, report)?.len();
+    remarks::note(setting, counted, is_open, report);
     match outcome {
         Err(error) if error.is_of_count() => {
             report.remark(format!("no relations along orbits: {error}"));

@@ -26,14 +26,6 @@ use super::tangents::Tangents;
 use super::taylor::Flow;
 use liouville::formula::Formula;
 
-/// Remark where integrals are counted and lists keep them from being written.
-pub const OF_LISTS: &str = "an integral is written only if one formula holds for all listed values of the \
-    parameters: give one value of each list, as with --set a=1";
-
-/// Remark where the steps for coefficients that depend on the parameters are spent.
-pub const OF_STEPS: &str = "coefficients that depend on the parameters, or are no fractions, are not all \
-    sought: that takes longer than a quarter of --seconds; give values with --set, or more time";
-
 /// Number of orders beyond those that the unknowns take: accidents have probability p⁻⁸.
 pub const SPARE_ORDERS: usize = 8;
 /// Number of primes of each kind.
