@@ -7,12 +7,16 @@ use super::arena::{NodeId, NodeOperation};
 use super::bond::Bond;
 use super::compose::Draft;
 use super::typing::{Builder, Operand};
+use crate::number::rational::Rational;
 
 impl Formula {
     /// Negative; of a product that of its first factor.
     fn negative(&self) -> Formula {
         if let Some(positive) = self.without_sign() {
             return positive;
+        }
+        if let Some(number) = self.constant().filter(Rational::is_negative) {
+            return Formula::number(-&number);
         }
         let mut draft = Draft::default();
         draft.write("−");

@@ -21,6 +21,8 @@ const MOST_LISTED: usize = 64;
 
 /// Beginning of the name of what a count excludes.
 const OF_COUNTS: &str = "polynomials in the velocities of degree up to";
+/// Words of theorems that come from the free motion.
+pub const FOR_EVERY_POTENTIAL: &str = "for every gyrostat and every potential";
 /// Beginning of the remark on integrals that are counted, and not found.
 const MORE: &str = "more integrals of degree";
 

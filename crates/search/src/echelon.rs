@@ -38,10 +38,16 @@ impl Echelon {
     }
 
     /// Adds a row; returns `false` if it depends on those before it.
+    pub fn push(&mut self, row: Vec<u64>) -> bool {
+        self.pivot(row).is_some()
+    }
+
+    /// Adds a row; returns the column of its pivot, with its entry there before it is scaled; `None` if
+    /// it depends on those before it.
     ///
     /// Entries are sums of products that are reduced when they are needed, or when a further product
     /// might not fit: that takes one multiplication a product instead of three.
-    pub fn push(&mut self, row: Vec<u64>) -> bool {
+    pub fn pivot(&mut self, row: Vec<u64>) -> Option<(usize, u64)> {
         let m = self.modulus;
         let mut wide: Vec<u128> = row.iter().map(|entry| m.widened(*entry)).collect();
         let (mut pending, most) = (0, m.most_products());
@@ -57,7 +63,7 @@ impl Echelon {
             let Some(pivot) = &self.rows[column] else {
                 self.steps += 1;
                 self.rows[column] = Some(self.scaled(&wide, column, entry));
-                return true;
+                return Some((column, entry));
             };
             self.steps += pivot.columns.len() as u64 + 1;
             if pending == most {
@@ -71,7 +77,7 @@ impl Echelon {
                 wide[other] = wide[other].wrapping_add(factor.wrapping_mul(u128::from(value)));
             }
         }
-        false
+        None
     }
 
     /// Makes a row with 1 at its pivot, where its entry is `entry`.

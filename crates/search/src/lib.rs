@@ -29,6 +29,7 @@ mod jet_equations;
 mod jets;
 mod library;
 mod linear;
+mod lists;
 mod local;
 mod maps;
 mod meter;
@@ -38,6 +39,7 @@ mod products;
 mod rates;
 mod recognised;
 mod reduced;
+mod report;
 mod second_opinion;
 mod series;
 mod streams;
@@ -47,13 +49,7 @@ mod symmetries;
 mod terms;
 mod vectors;
 
-use serde::Serialize;
-
-use self::ask::Claimed;
 use liouville::case::Case;
-use liouville::formula::Formula;
-use liouville::mechanics::{Meaning, Model};
-use liouville::verdict::{ClaimReport, Evidence, Verdict};
 
 pub use absence::{complete, judge};
 pub use ansatz::{Ansatz, Hamiltonians};
@@ -65,189 +61,8 @@ pub use halt::Halt;
 pub use meter::Meter;
 pub use multipliers::MultiplierReport;
 pub use orbit::OrbitReport;
+pub use report::{Excluded, Found, SearchReport};
 pub use second_opinion::SecondOpinion;
-
-/// An invariant that was found.
-#[derive(Clone, Debug, Serialize)]
-pub struct Found {
-    /// Kind of the invariant: `integral`, `further-integral`, `vector-integral`, `density`,
-    /// `symmetry-field` or `bracket`.
-    pub kind: &'static str,
-    /// Formula in the names of the case.
-    pub formula: String,
-    /// Abbreviations used in the formula that the case does not define, in order.
-    #[serde(rename = "let", skip_serializing_if = "Vec::is_empty")]
-    pub abbreviations: Vec<(&'static str, &'static str)>,
-    /// Additional data under which it holds: a `potential`, `force`, `gyrostat` or `gyroscopic term`
-    /// that the case does not have, the `value` of a parameter or a `condition` on several; for a
-    /// vector each `component` that was found; for a bracket its `Hamiltonian` and each known `Casimir`;
-    /// for a further integral how it comes from others.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub with: Vec<(&'static str, String)>,
-    /// Whether it is a function of the energy and the level. Such finds are not reported, so this
-    /// is always `false`.
-    pub trivial: bool,
-    /// Name of the claim of the case that implies it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub known: Option<String>,
-    /// Verdict on the claim.
-    pub verdict: Verdict,
-    /// Evidence for the verdict.
-    pub evidence: Evidence,
-    /// The invariant itself, where it is one function.
-    #[serde(skip)]
-    pub function: Option<Formula>,
-    /// Components of a symmetry field by variable.
-    #[serde(skip)]
-    fields: Vec<(String, Formula)>,
-}
-
-impl Found {
-    /// Makes a find from a function and its evidence.
-    fn new(
-        kind: &'static str,
-        function: &Formula,
-        known: Option<String>,
-        report: ClaimReport,
-        model: &Model,
-    ) -> Self {
-        let text = function.to_string();
-        let mut found = Self::of_several(kind, text, &[function], report, model);
-        found.known = known;
-        found.function = Some(function.clone());
-        found
-    }
-
-    /// Makes a find that consists of several formulas, with its text.
-    fn of_several(
-        kind: &'static str,
-        text: String,
-        formulas: &[&Formula],
-        report: ClaimReport,
-        model: &Model,
-    ) -> Self {
-        let mut needed = formulas.to_vec();
-        let mut abbreviations = library::abbreviations(model);
-        abbreviations.reverse();
-        abbreviations.retain(|(name, _)| {
-            let used = needed.iter().any(|formula| formula.uses(name));
-            if let (true, Some(own)) = (used, abbreviation(model, name)) {
-                needed.push(own);
-            }
-            used
-        });
-        abbreviations.reverse();
-        Self {
-            kind,
-            formula: text,
-            function: None,
-            fields: Vec::new(),
-            abbreviations,
-            with: Vec::new(),
-            trivial: false,
-            known: None,
-            verdict: report.verdict,
-            evidence: report.evidence,
-        }
-    }
-}
-
-/// Formula of an abbreviation, by its name.
-fn abbreviation<'m>(model: &'m Model, name: &str) -> Option<&'m Formula> {
-    match model.vocabulary.find(name)?.meaning {
-        Meaning::Abbreviation(index) => model.abbreviations.get(index),
-        _ => None,
-    }
-}
-
-/// A theorem of absence: a family of candidates, and a bound on its invariants.
-#[derive(Clone, Debug, Serialize)]
-pub struct Excluded {
-    /// Family that was examined.
-    pub ansatz: String,
-    /// Dimension of the invariants in the family.
-    pub dimension: usize,
-    /// Number of these that are functions of known invariants.
-    pub known: usize,
-    /// Log₂ of the error probability; absent if there is no error.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub error_log2: Option<f64>,
-    /// Theorem with its hypotheses.
-    pub theorem: String,
-}
-
-/// The outcome of a search.
-#[derive(Clone, Debug, Default, Serialize)]
-pub struct SearchReport {
-    /// Numbers of integrals, degree by degree.
-    pub counts: Vec<CountReport>,
-    /// Numbers of polynomials whose powers are densities.
-    pub multipliers: Vec<MultiplierReport>,
-    /// Relations along an orbit, degree by degree.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub orbits: Vec<OrbitReport>,
-    /// Invariants that were found.
-    pub found: Vec<Found>,
-    /// Theorems of absence.
-    pub excluded: Vec<Excluded>,
-    /// Singular values of the matrices of the search for integrals.
-    pub opinions: Vec<SecondOpinion>,
-    /// Parameter conditions for claims that fail in general.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub conditions: Vec<ParameterCondition>,
-    /// Parts that could not be carried out, with reasons.
-    pub remarks: Vec<String>,
-    /// Parts that a stopped search did not reach; empty for a complete search.
-    pub unreached: Vec<String>,
-    /// Parts that could not be carried out as no terms have values modulo a prime.
-    #[serde(skip)]
-    without_points: Vec<String>,
-    /// Integrals claimed by the case, with which finds are compared.
-    #[serde(skip)]
-    claimed: Vec<Claimed>,
-}
-
-impl SearchReport {
-    /// Returns the formulas of one kind found for the case without additional data.
-    pub fn formulas(&self, kind: &str) -> impl Iterator<Item = &str> {
-        self.of_case(kind).map(|found| found.formula.as_str())
-    }
-
-    /// Returns the functions of one kind found for the case without additional data.
-    pub fn functions(&self, kind: &str) -> impl Iterator<Item = &Formula> {
-        self.of_case(kind).filter_map(|found| found.function.as_ref())
-    }
-
-    fn of_case(&self, kind: &str) -> impl Iterator<Item = &Found> {
-        self.found.iter().filter(move |found| found.kind == kind && found.with.is_empty())
-    }
-
-    fn remark(&mut self, remark: String) {
-        if !self.remarks.contains(&remark) {
-            self.remarks.push(remark);
-        }
-    }
-
-    /// Runs a part of a search; a part that is stopped is noted by its name.
-    fn stage(
-        &mut self,
-        name: &str,
-        effort: &Effort,
-        run: impl FnOnce(&mut Self) -> Result<(), SearchError>,
-    ) -> Result<(), SearchError> {
-        match effort.halt.check().and_then(|()| run(self)) {
-            Err(SearchError::Stopped) => {
-                self.unreached.push(name.to_string());
-                Ok(())
-            }
-            Err(error @ SearchError::NoPoints) => {
-                self.without_points.push(format!("not searched: {name}: {error}"));
-                Ok(())
-            }
-            other => other,
-        }
-    }
-}
 
 /// Searches a case for integrals, densities and symmetries; a map for integrals and a density.
 ///
@@ -301,25 +116,28 @@ pub fn search(
         })?;
     }
     branches::withdraw(case, effort, &mut report)?;
-    // Theorems on orbits hold for both signs of each root, and are about fields without moduli.
-    let known = report.functions("integral").count();
-    report.stage("relations along an orbit", effort, |report| {
-        orbit::search(case, effort, effort.halt.is_timed(), report, progress)
-    })?;
-    report.stage("brackets of integrals", effort, |report| {
-        progress("brackets and derivatives of integrals");
-        orbit::close(case, effort, report)
-    })?;
-    let is_further = |own: &Found| own.kind == orbit::FURTHER_INTEGRAL;
-    if report.functions("integral").count() > known || report.found.iter().any(is_further) {
-        counts::conclude(case, effort, &mut report)?;
-    }
+    // What was asked for by an option comes before degrees grow until the time is spent.
+    let grows = effort.halt.is_timed();
+    let is_asked = effort.conditions.is_some()
+        || effort.poisson.is_some()
+        || effort.ansatz.potentials
+        || effort.ansatz.gyrostats;
+    let ungrown = report.clone();
+    along_orbits(case, effort, grows && !is_asked, &mut report, progress)?;
     report.stage("forces that integrals survive", effort, |report| {
         ansatz::forces(case, effort, report, progress)
     })?;
     if let Some(wanted) = &effort.poisson {
         report.stage("brackets", effort, |report| {
-            ansatz::brackets(case, wanted, effort, report, progress)
+            lists::by_values(
+                case,
+                effort,
+                report,
+                progress,
+                &mut |case, effort, report, progress| {
+                    ansatz::brackets(case, wanted, effort, report, progress)
+                },
+            )
         })?;
     }
     if effort.conditions == Some(ConditionTarget::Existence) {
@@ -327,10 +145,19 @@ pub fn search(
             conditions::several::conditions(case, effort, report, progress)
         })?;
     }
+    if grows && is_asked {
+        report.stage("relations of higher degree along an orbit", effort, |report| {
+            let mut grown = ungrown;
+            along_orbits(case, effort, true, &mut grown, progress)?;
+            report.grow(grown);
+            effort.halt.check()
+        })?;
+    }
     report.stage("shorter formulas", effort, |report| {
         recognised::rewrite(case, effort, report)?;
         vectors::gather(case, effort, report)
     })?;
+    report::note_generic_functions(case, &mut report);
     if !report.orbits.is_empty() {
         // The search along orbits has these as well.
         report.remarks.retain(|remark| !remark.ends_with(integrals::IRRATIONAL));
@@ -339,6 +166,30 @@ pub fn search(
         report.remark(remark);
     }
     Ok(report)
+}
+
+/// Searches along orbits, and for brackets of what is found.
+fn along_orbits(
+    case: &Case,
+    effort: &Effort,
+    grows: bool,
+    report: &mut SearchReport,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(), SearchError> {
+    // Theorems on orbits hold for both signs of each root, and are about fields without moduli.
+    let known = report.functions("integral").count();
+    report.stage("relations along an orbit", effort, |report| {
+        orbit::search(case, effort, grows, report, progress)
+    })?;
+    report.stage("brackets of integrals", effort, |report| {
+        progress("brackets and derivatives of integrals");
+        orbit::close(case, effort, report)
+    })?;
+    let is_further = |own: &Found| own.kind == orbit::FURTHER_INTEGRAL;
+    if report.functions("integral").count() > known || report.found.iter().any(is_further) {
+        counts::conclude(case, effort, report)?;
+    }
+    Ok(())
 }
 
 /// Extends the case by the names that the library's terms use.

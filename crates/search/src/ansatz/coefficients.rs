@@ -9,10 +9,10 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{Signed, Zero};
 
+use super::super::SearchError;
 use super::super::echelon::Echelon;
 use super::super::series::exponents;
 use super::super::terms::{TermSum, combined, is_one};
-use super::super::{Halt, SearchError};
 use super::monomials::power_product;
 use super::system::{LinearSystem, PrimePoint};
 use super::{Coordinates, TENSOR};
@@ -20,6 +20,7 @@ use fitted::{Fitted, evaluate};
 use liouville::formula::{Formula, FormulaError, FormulaResult};
 use liouville::proof::reconstruct;
 use numbers::{Number, Roots, numbers};
+pub use vectors::{NullVector, Vectors};
 
 /// Number of primes after which rational coefficients are given up.
 const PRIMES: u64 = 8;
@@ -29,6 +30,10 @@ const MOST_COEFFICIENTS: usize = 640;
 const SPARE_SAMPLES: usize = 8;
 /// Number of choices of parameters beyond those wanted, since some have no value.
 const BARREN: u64 = 64;
+/// Largest number of elementary steps for the coefficients of one vector.
+const STEPS: f64 = 4e9;
+/// Elementary steps for a power modulo the prime.
+const POWER: usize = 8;
 
 /// A polynomial in the coordinates of the parameters, by exponents.
 pub type Polynomial = Vec<(Vec<u32>, BigInt)>;
@@ -75,7 +80,7 @@ impl PrimitiveVector {
     }
 
     fn fitted(source: &dyn Vectors) -> Option<Self> {
-        let mut samples = VectorSamples { source, next: 0, known: Vec::new() };
+        let mut samples = VectorSamples { source, next: 0, known: Vec::new(), left: STEPS };
         let varying = samples.varying()?;
         if varying.is_empty() {
             return numbers(source);
@@ -183,62 +188,23 @@ impl PrimitiveVector {
     }
 }
 
-/// A vector whose entries are rational functions of the parameters, known by its images.
-pub trait Vectors {
-    /// The parameters' coordinates.
-    fn names(&self) -> &[Formula];
-    /// Condition for an early end.
-    fn halt(&self) -> &Halt;
-    /// Number of entries.
-    fn width(&self) -> usize;
-    /// Whether products of roots are among its numbers.
-    fn multiplies_roots(&self) -> bool {
-        true
-    }
-    /// Image for choice `index` of the parameters modulo the prime with number `prime`, 1 at its
-    /// last entry; `None` where there is none.
-    fn image(&self, prime: u64, index: u64) -> Option<(PrimePoint, Vec<u64>)>;
-}
-
-/// The null vector on some columns of a system.
-pub struct NullVector<'s> {
-    /// System of equations.
-    pub system: &'s LinearSystem,
-    /// Columns of the vector.
-    pub columns: &'s [usize],
-}
-
-impl Vectors for NullVector<'_> {
-    fn names(&self) -> &[Formula] {
-        self.system.coordinates()
-    }
-
-    fn halt(&self) -> &Halt {
-        self.system.halt()
-    }
-
-    fn width(&self) -> usize {
-        self.columns.len()
-    }
-
-    fn image(&self, prime: u64, index: u64) -> Option<(PrimePoint, Vec<u64>)> {
-        let at = self.system.at(prime, index)?;
-        let vectors = self.system.null_space(&at, self.columns).ok()??;
-        let one = at.modulus.one();
-        let last = vectors.into_iter().next_back().filter(|own| own.last() == Some(&one))?;
-        Some((at, last))
-    }
-}
-
 /// Values of the vector for choices of the parameters, computed on demand.
 struct VectorSamples<'s> {
     source: &'s dyn Vectors,
     next: u64,
     /// Choices of the parameters with the vector there.
     known: Vec<(PrimePoint, Vec<u64>)>,
+    /// Number of elementary steps that may still be taken.
+    left: f64,
 }
 
 impl VectorSamples<'_> {
+    /// Takes elementary steps; `None` if there are none left.
+    fn takes(&mut self, steps: f64) -> Option<()> {
+        self.left -= steps;
+        (self.source.takes(steps) && self.left > 0.0).then_some(())
+    }
+
     fn extend(&mut self, count: usize) -> Option<()> {
         let last = self.next + count as u64 + BARREN;
         while self.known.len() < count {
@@ -344,6 +310,9 @@ impl VectorSamples<'_> {
             self.extend(unknowns + SPARE_SAMPLES)?;
             let m = self.known[0].0.modulus;
             let (upper, lower) = (monomials(above, 1), monomials(below, 0));
+            let terms = unknowns + denominators.iter().map(|own| own.images.len()).sum::<usize>();
+            let rows = unknowns + SPARE_SAMPLES;
+            self.takes((rows * (terms * kept.len() * POWER + unknowns * unknowns / 2)) as f64)?;
             let mut echelon = Echelon::new(unknowns, m);
             for (at, vector) in &self.known[..unknowns + SPARE_SAMPLES] {
                 self.source.halt().check().ok()?;
@@ -389,3 +358,4 @@ mod numbers;
 mod ratio;
 #[cfg(test)]
 mod tests;
+mod vectors;

@@ -8,6 +8,7 @@ use super::super::terms::{is_one, read};
 use super::super::{Effort, Excluded, SearchError, SearchReport, library};
 use super::characters::SignChanges;
 use super::coefficients::{PrimitiveVector, Ratio};
+use super::dependent::DependentIntegrals;
 use super::monomials::AnsatzVariables;
 use super::size::SystemSize;
 use super::subspace::complement;
@@ -41,6 +42,7 @@ pub fn integrals(
     let mixed = case.model.system.energy_is_inhomogeneous();
     let degrees = if variables.have_velocities() { 1..=effort.degree } else { 0..=0 };
     let mut generators = Generators::all(case, effort, report)?;
+    let mut dependent = DependentIntegrals::default();
     for degree in degrees {
         let known = generators.products(degree, mixed);
         let count = report.counts.iter().find(|count| !count.free && count.degree == degree);
@@ -57,12 +59,14 @@ pub fn integrals(
                 mixed,
                 below,
                 known: &mut generators,
+                dependent: &mut dependent,
             };
             if search.run(dimension, report, progress)? {
                 break;
             }
         }
     }
+    dependent.note(report);
     Ok(())
 }
 
@@ -91,6 +95,7 @@ struct IntegralSearch<'a> {
     below: Formula,
     /// Known integrals, including those found so far.
     known: &'a mut Generators,
+    dependent: &'a mut DependentIntegrals,
 }
 
 impl IntegralSearch<'_> {
@@ -228,9 +233,7 @@ impl IntegralSearch<'_> {
             }
             other => {
                 let word = other.map_or("undecided", |verdict| verdict.word());
-                report.remark(format!(
-                    "an integral, whose independence of those listed is {word}: {formula}"
-                ));
+                self.dependent.add(word, &formula);
                 Ok(Outcome::Dependent)
             }
         }

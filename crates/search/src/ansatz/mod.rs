@@ -25,6 +25,7 @@ mod bracket_system;
 mod brackets;
 mod characters;
 pub mod coefficients;
+mod dependent;
 mod force_family;
 mod force_split;
 mod force_text;
@@ -53,7 +54,7 @@ use super::conditions::components;
 use super::orbit::roots;
 use super::streams::SearchStream;
 use super::terms::{is_one, one, read, recorded};
-use super::{Effort, SearchError, SearchReport};
+use super::{Effort, SearchError, SearchReport, lists};
 use coefficients::Ratio;
 pub use force_split::positions;
 use liouville::case::Case;
@@ -94,9 +95,9 @@ pub fn search(
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    integrals::integrals(case, effort, report, progress)?;
+    lists::by_values(case, effort, report, progress, &mut integrals::integrals)?;
     if effort.ansatz.gyrostats && !gyro_family::GyroFamily::is_own(&case.model) {
-        gyrostats::gyrostats(case, effort, report, progress)?;
+        lists::name_first(case, effort, report, progress, &mut gyrostats::gyrostats)?;
     }
     Ok(())
 }

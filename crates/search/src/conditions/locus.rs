@@ -86,8 +86,10 @@ fn found(
         return Ok(Ok(found));
     }
     let Some(components) = planes.components(&first)? else { return Ok(Ok(found)) };
-    let images: Vec<PrimeTerms> =
-        components.iter().filter_map(|own| planes.coefficients(own)).collect();
+    let mut images: Vec<PrimeTerms> = Vec::new();
+    for own in &components {
+        images.extend(planes.coefficients(own)?);
+    }
     let modulus = planes.lines.modulus();
     for own in joined(images, &modulus) {
         let is_told = match is_special(equations, draws, &own, 1..=PRIMES)? {
@@ -200,14 +202,15 @@ struct Planes<'p, 'l, 'e> {
     directions: Vec<Vec<u64>>,
     /// Number of lines that may still be examined.
     left: usize,
-    /// Number of elementary steps so far.
+    /// Number of elementary steps so far, and the largest number.
     spent: f64,
+    most: f64,
 }
 
 impl<'p, 'l, 'e> Planes<'p, 'l, 'e> {
     fn new(mut lines: ParameterLines<'l, 'e>, known: &'p [Hypersurface]) -> Self {
         let (origin, slope) = (lines.random(), lines.random());
-        Self { lines, known, origin, slope, directions: Vec::new(), left: 0, spent: 0.0 }
+        Self { lines, known, origin, slope, directions: Vec::new(), left: 0, spent: 0.0, most: 0.0 }
     }
 
     fn ring(&self) -> PrimePolynomials {
@@ -222,6 +225,7 @@ impl<'p, 'l, 'e> Planes<'p, 'l, 'e> {
         }
         let origin = self.origin.clone();
         let found = self.special(&origin)?;
+        self.most = steps;
         let most = steps / self.lines.steps().max(1.0);
         self.left = (most as usize).saturating_sub(1);
         Ok(found)
@@ -308,10 +312,7 @@ impl<'p, 'l, 'e> Planes<'p, 'l, 'e> {
             let lifted = ring.lifted(&plane, &starts);
             components.iter_mut().zip(lifted).for_each(|(own, plane)| own.planes.push(plane));
             // The plane of the whole space says everything.
-            let is_open = |own: &Component| {
-                own.unknowns(dimension) <= COEFFICIENTS && self.coefficients(own).is_none()
-            };
-            if dimension == 2 || !components.iter().any(is_open) {
+            if dimension == 2 || !self.has_open(&components)? {
                 break;
             }
             let direction = match number < dimension {
@@ -327,9 +328,22 @@ impl<'p, 'l, 'e> Planes<'p, 'l, 'e> {
         Ok(Some(components))
     }
 
+    /// Whether further planes may determine the coefficients of a factor that is not known, within the
+    /// number of steps.
+    fn has_open(&mut self, components: &[Component]) -> Result<bool, SearchError> {
+        let dimension = self.lines.dimension();
+        for own in components {
+            if own.unknowns(dimension) <= COEFFICIENTS && self.coefficients(own)?.is_none() {
+                return Ok(self.spent <= self.most);
+            }
+        }
+        Ok(false)
+    }
+
     /// Finds the coefficients of a factor from its values on planes; `None` if these do not determine
-    /// them.
-    fn coefficients(&self, own: &Component) -> Option<PrimeTerms> {
+    /// them, or the steps are spent.
+    fn coefficients(&mut self, own: &Component) -> Result<Option<PrimeTerms>, SearchError> {
+        self.lines.check()?;
         let (m, ring) = (self.lines.modulus(), self.ring());
         let dimension = self.lines.dimension();
         // A factor that is constant along a coordinate does not contain it.
@@ -341,13 +355,18 @@ impl<'p, 'l, 'e> Planes<'p, 'l, 'e> {
             })
         };
         let present: Vec<usize> = (0..dimension).filter(|place| !is_absent(place)).collect();
-        if monomials::count(present.len(), own.degree as u32) > COEFFICIENTS {
-            return None;
+        let unknowns = monomials::count(present.len(), own.degree as u32);
+        // The values on a plane are those of a polynomial in two variables.
+        let known = own.planes.len() * monomials::count(2, own.degree as u32);
+        if unknowns > COEFFICIENTS || known < unknowns || self.spent > self.most {
+            return Ok(None);
         }
         let all = monomials::up_to(&present, dimension, own.degree as u32);
         let mut echelon = Echelon::new(all.len() + 1, m);
         for (direction, plane) in self.directions.iter().zip(&own.planes) {
-            for (i, j) in (0..=own.degree).flat_map(|i| (0..=own.degree).map(move |j| (i, j))) {
+            self.lines.check()?;
+            // A polynomial of this degree in two variables is known by its values at these points.
+            for (i, j) in (0..=own.degree).flat_map(|i| (0..=own.degree - i).map(move |j| (i, j))) {
                 let (t, s) = (m.integer(i as u64 + 1), m.integer(j as u64));
                 let point = moved(&m, &moved(&m, &self.origin, &self.slope, t), direction, s);
                 let rows = plane.iter().rev().map(|own| ring.evaluate(own, t));
@@ -356,10 +375,19 @@ impl<'p, 'l, 'e> Planes<'p, 'l, 'e> {
                 echelon.push(row.chain([m.sub(0, value)]).collect());
             }
         }
+        let points = known as f64;
+        self.spent += echelon.steps() as f64 + points * (unknowns * dimension) as f64;
+        if unknowns > echelon.rank() {
+            return Ok(None);
+        }
         let mut vectors = echelon.null_space();
-        let mut vector = vectors.pop().filter(|_| vectors.is_empty())?;
-        vector.pop().filter(|last| *last == m.one())?;
-        Some(all.into_iter().zip(vector).filter(|(_, image)| *image != 0).collect())
+        let Some(mut vector) = vectors.pop().filter(|_| vectors.is_empty()) else {
+            return Ok(None);
+        };
+        if vector.pop() != Some(m.one()) {
+            return Ok(None);
+        }
+        Ok(Some(all.into_iter().zip(vector).filter(|(_, image)| *image != 0).collect()))
     }
 }
 

@@ -5,9 +5,14 @@
 //! minor vanish, so it is a root of the common divisor of minors at several points. All such values
 //! are found, including complex ones; those in the field are confirmed by a count.
 
+use std::cell::Cell;
+
+use rustc_hash::FxHashSet;
+
 use super::polynomial::{Polynomial, PrimePolynomials};
 use super::relation::{Explained, Round, ScalarParameter, explained, is_short};
 use crate::budget::Budget;
+use crate::echelon::Echelon;
 use crate::expansion::{FieldExpansion, Taylor};
 use crate::jet_equations::{Equations, RowKey};
 use crate::jets::VelocityPolynomials;
@@ -27,7 +32,12 @@ const MOST_MINORS: usize = 2048;
 /// Number of draws of a point, or of a value, until the field has a series there.
 const DRAWS: usize = 64;
 /// Number of choices of the other parameters under which a relation must persist.
-const ROUNDS: u64 = 2;
+pub const ROUNDS: u64 = 2;
+
+/// Smallest number of values of a parameter at which equations are set up.
+pub fn least_values(rounds: u64) -> usize {
+    rounds as usize * MINOR_POINTS * LEAST
+}
 
 /// Lists the scalar parameters drawn from a range.
 pub fn scalars(case: &Case) -> Vec<ScalarParameter> {
@@ -44,17 +54,20 @@ pub fn scalars(case: &Case) -> Vec<ScalarParameter> {
 }
 
 /// Finds the relations under which there are more integrals of a degree, for one parameter; the
-/// others are random small integers. `None` if no value has more.
+/// others are random small integers, chosen a number of times. `None` if no value has more; the steps
+/// taken are subtracted from those that are left, and it fails when none are.
 pub fn relations(
     case: &Case,
     local: &Local,
     asked: VelocityPolynomials,
     parameter: &ScalarParameter,
+    (count, left): (u64, &Cell<f64>),
     effort: &Effort,
 ) -> Result<Option<Explained>, SearchError> {
     let mut rounds: Vec<Round> = Vec::new();
-    for round in 0..ROUNDS {
+    for round in 0..count {
         let mut search = Minors::new(local, asked, parameter.draw, round, effort);
+        search.left = Some(left);
         let values = search.special_values()?;
         if round == 0 && values.is_empty() {
             return Ok(None);
@@ -111,6 +124,8 @@ struct Minors<'l> {
     parameters: Vec<u64>,
     modulus: Modulus,
     rng: ProofRng,
+    /// Number of elementary steps that may still be taken, if limited.
+    left: Option<&'l Cell<f64>>,
 }
 
 impl<'l> Minors<'l> {
@@ -135,7 +150,7 @@ impl<'l> Minors<'l> {
             })
             .collect();
         let taylor = Taylor::new(local, modulus, 2 * asked.degree + 2);
-        Self { taylor, effort, asked, draw, parameters, modulus, rng }
+        Self { taylor, effort, asked, draw, parameters, modulus, rng, left: None }
     }
 
     /// Sets up the equations at a value of the parameter; `None` where the field has no series.
@@ -149,7 +164,29 @@ impl<'l> Minors<'l> {
         let expansion = self.taylor.at(&parameters, positions, &mut self.rng)?;
         let (taylor, halt) = (&self.taylor, &self.effort.halt);
         let made = |e: FieldExpansion| Equations::of(&e, taylor, taylor.order, self.asked, 0, halt);
-        expansion.map(made).transpose()
+        let made = expansion.map(made).transpose()?;
+        if let Some(made) = &made {
+            let (unknowns, equations) = made.size();
+            self.spend(unknowns, (unknowns * equations) as f64)?;
+        }
+        Ok(made)
+    }
+
+    /// Fails where more steps are taken than are left.
+    fn spend(&self, unknowns: usize, steps: f64) -> Result<(), SearchError> {
+        let Some(left) = self.left else { return Ok(()) };
+        left.set(left.get() - steps);
+        match left.get() < 0.0 {
+            true => Err(SearchError::Long { unknowns, seconds: self.effort.seconds }),
+            false => Ok(()),
+        }
+    }
+
+    /// Brings equations into echelon form.
+    fn solved(&self, equations: &Equations) -> Result<(Echelon, Vec<RowKey>), SearchError> {
+        let solved = equations.solved(&Budget::unlimited(&self.effort.halt))?;
+        self.spend(equations.size().0, solved.0.steps() as f64)?;
+        Ok(solved)
     }
 
     /// Finds the values at which there are more integrals.
@@ -169,13 +206,13 @@ impl<'l> Minors<'l> {
                 self.effort.halt.check()?;
                 let positions = self.taylor.positions(&mut self.rng);
                 let own = match self.equations(value, &positions) {
-                    Err(error @ SearchError::Stopped) => return Err(error),
+                    Err(error @ (SearchError::Stopped | SearchError::Long { .. })) => {
+                        return Err(error);
+                    }
                     own => own,
                 };
                 let Ok(Some(equations)) = own else { continue };
-                if equations.dimension(&equations.solved(&Budget::unlimited(&self.effort.halt))?.0)
-                    > dimension
-                {
+                if equations.dimension(&self.solved(&equations)?.0) > dimension {
                     found.push(value);
                 }
                 break;
@@ -192,8 +229,14 @@ impl<'l> Minors<'l> {
             let positions = self.taylor.positions(&mut self.rng);
             let value = self.rng.element(&self.modulus);
             let Some(equations) = self.equations(value, &positions)? else { continue };
-            let (echelon, rows) = equations.solved(&Budget::unlimited(&self.effort.halt))?;
+            let (echelon, rows) = self.solved(&equations)?;
+            let rows: FxHashSet<RowKey> = rows.into_iter().collect();
             let dimension = equations.dimension(&echelon);
+            let (unknowns, count) = equations.size();
+            let each = (unknowns * count) as f64 + echelon.steps() as f64;
+            if self.left.is_some_and(|left| each * LEAST as f64 > left.get()) {
+                return Err(SearchError::Long { unknowns, seconds: self.effort.seconds });
+            }
             let columns: Vec<usize> =
                 (0..echelon.columns()).filter(|column| echelon.has_pivot(*column)).collect();
             let mut values = Vec::new();
@@ -218,23 +261,50 @@ impl<'l> Minors<'l> {
         Err(SearchError::NoFraction)
     }
 
-    /// Computes the determinant of some rows and columns.
+    /// Computes the determinant of some rows and columns; the rows are sparse.
     fn determinant(
         &self,
         equations: &Equations,
-        rows: &[RowKey],
+        rows: &FxHashSet<RowKey>,
         columns: &[usize],
     ) -> Result<u64, SearchError> {
-        let matrix: Vec<Vec<u64>> = equations
-            .rows()
-            .filter(|(key, _)| rows.contains(key))
-            .map(|(_, row)| columns.iter().map(|column| row[*column]).collect())
-            .collect();
-        if matrix.len() < columns.len() {
-            return Ok(0);
+        let m = &self.modulus;
+        let mut echelon = Echelon::new(columns.len(), *m);
+        let (mut product, mut places) = (m.one(), Vec::with_capacity(columns.len()));
+        for (_, row) in equations.rows().filter(|(key, _)| rows.contains(key)) {
+            self.effort.halt.check()?;
+            let row = columns.iter().map(|column| row[*column]).collect();
+            let Some((place, entry)) = echelon.pivot(row) else { break };
+            product = m.mul(product, entry);
+            places.push(place);
         }
-        determinant(&self.modulus, matrix, &self.effort.halt)
+        self.spend(columns.len(), echelon.steps() as f64)?;
+        Ok(match (places.len() < columns.len(), is_odd(&places)) {
+            (true, _) => 0,
+            (false, true) => m.sub(0, product),
+            (false, false) => product,
+        })
     }
+}
+
+/// Whether a permutation of 0, …, n − 1 is odd.
+fn is_odd(places: &[usize]) -> bool {
+    let mut seen = vec![false; places.iter().max().map_or(0, |last| last + 1)];
+    let mut odd = false;
+    for start in places {
+        let mut next = *start;
+        while !seen[next] {
+            seen[next] = true;
+            match places.get(next) {
+                Some(other) if !seen[*other] => {
+                    odd = !odd;
+                    next = *other;
+                }
+                _ => break,
+            }
+        }
+    }
+    odd
 }
 
 /// Computes the determinant of a square matrix.
@@ -265,4 +335,24 @@ pub fn determinant(
         }
     }
     Ok(determinant)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn permutations_have_their_sign() {
+        for (places, odd) in [
+            (&[][..], false),
+            (&[0], false),
+            (&[1, 0], true),
+            (&[1, 2, 0], false),
+            (&[0, 2, 1], true),
+            (&[3, 2, 1, 0], false),
+            (&[1, 2, 3, 0], true),
+        ] {
+            assert_eq!(is_odd(places), odd, "{places:?}");
+        }
+    }
 }

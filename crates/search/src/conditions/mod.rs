@@ -4,7 +4,9 @@
 //! line      points on a random line of parameters where the residual vanishes for all states
 //! variety   the equations of least degree at the points found on many lines
 //! small     conditions of codimension two, by random sampling in small fields
-//! minors    values of one parameter for which there are more integrals
+//! velocities  values of single parameters for which there are more integrals polynomial in the
+//!           velocities
+//! minors    such values, by minors of the equations for Taylor coefficients
 //! relation  numbers that such values are, or their relations to one other parameter
 //! several   equations between the parameters of a field for which it has more polynomial integrals
 //! values    values of its only parameter
@@ -44,17 +46,16 @@ mod small;
 mod split;
 mod values;
 mod variety;
+mod velocities;
 
 use serde::Serialize;
 
-use super::jets::VelocityPolynomials;
+use super::lists::{self, ListedCase};
 use super::{Effort, SearchError, SearchReport};
 pub use coordinates::components;
 use line::{LineResult, Lines};
 use liouville::case::{Case, PlacedClaim};
 use residual::Residual;
-
-use super::local::Local;
 
 /// Highest degree of an equation.
 const DEGREE: u32 = 5;
@@ -64,6 +65,10 @@ const LINES: usize = 4000;
 const BARREN: usize = 24;
 /// Number of points that establish a simple condition shared by them.
 const REPEATED: usize = 2;
+/// Largest number of combinations of listed values that are treated one by one.
+const MOST_LISTED: usize = 8;
+/// Statement of the criterion.
+const CRITERION: &str = "a density ρ of the configuration exists";
 
 /// A condition on the parameters under which a statement holds.
 #[derive(Clone, Debug, Serialize)]
@@ -99,53 +104,41 @@ pub fn conditions(
             let named = case.claims.iter().find(|claim| &claim.name == name);
             let claim = named.ok_or_else(|| SearchError::NoClaim(name.clone()))?;
             progress(&format!("conditions for {name}"));
-            report.conditions.extend(condition(case, Some(claim), effort)?);
+            by_values(case, Some(claim), effort, report)
         }
         ConditionTarget::Existence => {
             if case.model.system.has_criterion() {
                 progress("conditions for a density of the configuration");
-                report.conditions.extend(condition(case, None, effort)?);
+                by_values(case, None, effort, report)?;
             }
-            integrals(case, effort, report, progress)?;
+            velocities::conditions(case, effort, report, progress)
         }
     }
-    Ok(())
 }
 
-/// Finds the values of single parameters for which there are more integrals of degree 1 or 2.
-fn integrals(
+/// Finds the conditions for one claim, or for the criterion, for each combination of listed values.
+fn by_values(
     case: &Case,
+    claim: Option<&PlacedClaim>,
     effort: &Effort,
     report: &mut SearchReport,
-    progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    let mixed = case.model.system.energy_is_inhomogeneous();
-    let local = match Local::of(case, &[]) {
-        Err(SearchError::Unsplit(_)) => return Ok(()),
-        local => local?,
-    };
-    for degree in 1..=effort.degree.min(2) {
-        for parameter in minors::scalars(case) {
-            let of = format!("more integrals of degree {degree}");
-            progress(&format!("{of}, by {}", parameter.name));
-            let asked = VelocityPolynomials { degree, mixed };
-            let (equations, grounds) =
-                match minors::relations(case, &local, asked, &parameter, effort) {
-                    Ok(None) => continue,
-                    Ok(Some(found)) => {
-                        let grounds = "minors of the equations for Taylor coefficients".to_string();
-                        let grounds = match found.unexplained {
-                            0 => grounds,
-                            n => format!("{grounds}; {}", relation::unexplained(n, &parameter)),
-                        };
-                        (found.relations.iter().map(ToString::to_string).collect(), grounds)
-                    }
-                    Err(error @ SearchError::NoFraction) => (Vec::new(), error.to_string()),
-                    Err(error) => return Err(error),
-                };
-            let of = format!("{of}, by the value of {}", parameter.name);
-            report.conditions.push(ParameterCondition { of, equations, grounds });
+    let mut always = Vec::new();
+    let own = lists::each_or_first(case, MOST_LISTED);
+    for ListedCase { case, values } in &own {
+        match condition(case, claim, effort)? {
+            Some(mut own) => {
+                if !values.is_empty() {
+                    own.of = format!("{}, for {values}", own.of);
+                }
+                report.conditions.push(own);
+            }
+            None => always.extend(Some(values.as_str()).filter(|values| !values.is_empty())),
         }
+    }
+    if !always.is_empty() {
+        let of = claim.map_or(CRITERION, |claim| &claim.name);
+        report.remark(format!("{of}: no condition is needed for {}", always.join(", or ")));
     }
     Ok(())
 }
@@ -156,7 +149,7 @@ fn condition(
     claim: Option<&PlacedClaim>,
     effort: &Effort,
 ) -> Result<Option<ParameterCondition>, SearchError> {
-    let of = claim.map_or("a density ρ of the configuration exists", |claim| &claim.name);
+    let of = claim.map_or(CRITERION, |claim| &claim.name);
     let told = |equations: Vec<String>, grounds: String| {
         Ok(Some(ParameterCondition { of: of.to_string(), equations, grounds }))
     };

@@ -57,6 +57,11 @@ impl<'l, 'e> ParameterLines<'l, 'e> {
         Ok(Some(Self { equations, draws, base, columns, general, rng, number: 0, degree: 1 }))
     }
 
+    /// Fails once the search is to stop.
+    pub fn check(&self) -> Result<(), SearchError> {
+        self.equations.effort.halt.check()
+    }
+
     /// Returns the prime modulus.
     pub fn modulus(&self) -> Modulus {
         self.base.modulus

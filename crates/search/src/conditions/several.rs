@@ -69,7 +69,8 @@ fn in_all(
         return Ok(false);
     }
     let left = effort.seconds * STEPS;
-    let mut search = ConditionSearch { whole, effort, report, progress, found: Vec::new(), left };
+    let (found, open) = (Vec::new(), Vec::new());
+    let mut search = ConditionSearch { whole, effort, report, progress, found, open, left };
     let none = SimpleEquations::none(whole.scalars.len());
     if !search.examined(&none, whole)? {
         return Ok(false);
@@ -136,6 +137,9 @@ struct ConditionSearch<'s> {
     report: &'s mut SearchReport,
     progress: &'s mut dyn FnMut(&str),
     found: Vec<FoundCondition>,
+    /// Statements with simple equations where further ones may give more: the statement, the degree of
+    /// these together, and the simple equations.
+    open: Vec<(String, usize, Vec<String>)>,
     /// Number of elementary steps that may still be taken.
     left: f64,
 }
@@ -257,19 +261,17 @@ impl ConditionSearch<'_> {
             return Ok(());
         }
         let of = format!("{of}, by several equations");
-        let more = match locus.unexplained {
-            0 => String::new(),
-            n => {
-                format!("; where {}, {}", simple.texts(&self.whole.scalars).join(" and "), rest(n))
+        if locus.unexplained > 0 {
+            let texts = simple.texts(&self.whole.scalars).join(" and ");
+            match self.open.iter_mut().find(|own| own.0 == of && own.1 == locus.unexplained) {
+                Some((_, _, all)) => all.push(texts),
+                None => self.open.push((of.clone(), locus.unexplained, vec![texts])),
             }
-        };
+        }
         match self.report.conditions.iter_mut().find(|own| own.of == of) {
-            Some(own) => {
-                own.equations.extend(equations);
-                own.grounds.push_str(&more);
-            }
+            Some(own) => own.equations.extend(equations),
             None => {
-                let grounds = format!("{GROUNDS}{reservation}{more}");
+                let grounds = format!("{GROUNDS}{reservation}");
                 self.report.conditions.push(ParameterCondition { of, equations, grounds });
             }
         }
@@ -305,6 +307,15 @@ impl ConditionSearch<'_> {
             }
             if let Some(split) = simple.applied(self.whole) {
                 self.examined(simple, &split)?;
+            }
+        }
+        for (of, degree, texts) in &self.open {
+            if let Some(own) = self.report.conditions.iter_mut().find(|own| &own.of == of) {
+                own.grounds.push_str(&format!(
+                    "; {}, where {}",
+                    rest(*degree),
+                    texts.join("; or ")
+                ));
             }
         }
         let scope = match (admitted == sets.len(), admitted >= all.len()) {

@@ -42,15 +42,40 @@ pub fn conditions(
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
+    let before = report.conditions.len();
+    let last = up_to(split, effort, report, progress)?;
+    if last > 0 && report.conditions.len() == before {
+        let names: Vec<&str> = split.scalars.iter().map(|own| own.name.as_str()).collect();
+        report.conditions.push(ParameterCondition {
+            of: format!("more polynomial integrals of degree at most {last}, by {}", names.join(", or ")),
+            equations: Vec::new(),
+            grounds: format!(
+                "minors of the equations for the coefficients; modulo a prime of 61 bits no value has \
+                 more{}",
+                split.reservation()
+            ),
+        });
+    }
+    Ok(())
+}
+
+/// Finds the values degree by degree; returns the last degree of which all were sought.
+fn up_to(
+    split: &SplitCase,
+    effort: &Effort,
+    report: &mut SearchReport,
+    progress: &mut dyn FnMut(&str),
+) -> Result<u32, SearchError> {
     let SplitCase { case, scalars: all, .. } = split;
     let mut told: Vec<String> = Vec::new();
+    let mut is_sought = true;
     let left = Cell::new(effort.seconds * STEPS);
     for degree in 1..=effort.degree {
         for (place, parameter) in all.iter().enumerate() {
             let name = &parameter.name;
             progress(&format!("values of {name} with more integrals of degree {degree}"));
             let Some(equations) = ParametricEquations::new(case, degree, effort)? else {
-                return Ok(());
+                return Ok(degree - 1);
             };
             let search = OneParameter { equations, draw: parameter.draw, left: &left };
             let rounds = if all.len() > 1 { 2 } else { 1 };
@@ -60,7 +85,7 @@ pub fn conditions(
                         "values of {name} with more integrals of degree {degree}, and what comes after, \
                          are not sought: the bound is {seconds} s, see --seconds"
                     ));
-                    return Ok(());
+                    return Ok(degree - 1);
                 }
                 found => found?,
             };
@@ -69,6 +94,7 @@ pub fn conditions(
                     "values of {name} with more integrals are not sought: the equations are not \
                      fractions of low degree in it"
                 ));
+                is_sought = false;
                 continue;
             };
             let explained = explained(parameter, all, &found.rounds);
@@ -112,7 +138,7 @@ pub fn conditions(
             });
         }
     }
-    Ok(())
+    Ok(if is_sought { effort.degree } else { 0 })
 }
 
 /// Numbers of values that are not written as relations.

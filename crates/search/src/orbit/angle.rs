@@ -199,7 +199,10 @@ fn of_functions(vector: &ParametricVector, monomials: &[Formula]) -> Result<Part
     let of_even: Vec<usize> = (0..count).chain([2 * count + 1]).collect();
     let even = vector.coefficients.sum(&of_even, &terms)?;
     let odd = vector.coefficients.sum(&(count..2 * count).collect::<Vec<_>>(), &terms[..count])?;
-    let square = (vector.exponent(2 * count)?, vector.number(2 * count));
+    let square = vector.exponent(2 * count)?;
+    // A number may be too large to be an entry.
+    let number = vector.number(2 * count).or_else(|| square.constant());
+    let square = (square, number);
     Ok(even.zip(odd).map(|(even, odd)| (even, odd, square)))
 }
 

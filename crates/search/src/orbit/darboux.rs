@@ -77,7 +77,7 @@ impl DarbouxSearch<'_, '_> {
             }
             for terms in &open {
                 let support: Vec<Vec<u32>> = terms.iter().map(|(own, _)| own.clone()).collect();
-                if seen.contains(&support) {
+                if seen.contains(&support) || !setting.steps.takes(0.0) {
                     continue;
                 }
                 let same = |other: &&Terms| other.iter().map(|(own, _)| own).eq(support.iter());
@@ -118,6 +118,8 @@ impl DarbouxSearch<'_, '_> {
         let Some(line) = RandomLine::draw(self.setting, at, 0) else {
             return Ok((Vec::new(), true));
         };
+        let degree = all.iter().map(|own| own.iter().sum()).max().unwrap_or(0);
+        self.setting.steps.takes(monomials::steps_of(all.len(), degree, self.degree));
         let special = line.special(all, self.degree, factors)?;
         let is_whole = special.is_whole;
         let mut vectors: Vec<Vec<u64>> = Vec::new();

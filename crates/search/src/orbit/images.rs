@@ -45,6 +45,10 @@ impl<F: Fn(&PrimePoint) -> Option<Vec<u64>>> Vectors for Images<'_, '_, F> {
         self.width + 1
     }
 
+    fn takes(&self, steps: f64) -> bool {
+        self.setting.steps.takes(steps)
+    }
+
     fn image(&self, prime: u64, index: u64) -> Option<(PrimePoint, Vec<u64>)> {
         let at = match self.is_split {
             true => self.setting.split(prime, index)?,
@@ -77,7 +81,7 @@ impl Limited<'_> {
         if let Some((_, known)) = images.iter().find(|(own, _)| *own == (prime, index)) {
             return known.clone();
         }
-        if images.len() == MOST_CHOICES {
+        if images.len() == MOST_CHOICES || !self.takes(0.0) {
             return None;
         }
         self.halt().check().ok()?;
@@ -98,6 +102,10 @@ impl Vectors for Limited<'_> {
 
     fn width(&self) -> usize {
         self.support.len()
+    }
+
+    fn takes(&self, steps: f64) -> bool {
+        self.source.takes(steps)
     }
 
     fn multiplies_roots(&self) -> bool {

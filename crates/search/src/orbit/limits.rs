@@ -1,5 +1,34 @@
 //! Limits of the searches along orbits.
 
+use std::cell::Cell;
+
+use super::super::Effort;
+use super::super::budget::STEPS;
+
+/// Share of the time of a count that coefficients may take which depend on the parameters.
+const SHARE: f64 = 0.25;
+
+/// Elementary steps that the search for coefficients which depend on the parameters may take.
+pub struct StepsLeft(Cell<f64>);
+
+impl StepsLeft {
+    /// Those of an effort.
+    pub fn of(effort: &Effort) -> Self {
+        Self(Cell::new(SHARE * effort.seconds * STEPS))
+    }
+
+    /// Takes some; `false` if none are left.
+    pub fn takes(&self, steps: f64) -> bool {
+        self.0.set(self.0.get() - steps);
+        self.0.get() > 0.0
+    }
+
+    /// Lifts the limit, where the time of the search is limited.
+    pub fn lift(&self) {
+        self.0.set(f64::INFINITY);
+    }
+}
+
 /// Limits of one round of a search.
 #[derive(Clone, Copy)]
 pub struct RoundLimits {

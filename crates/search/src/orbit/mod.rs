@@ -73,6 +73,7 @@ mod products;
 mod quotients;
 mod rational;
 mod relations;
+mod remarks;
 mod separate;
 mod setting;
 mod sparse;
@@ -116,6 +117,11 @@ pub struct OrbitReport {
     pub relations: usize,
     /// Number of independent algebraic integrals to which they belong.
     pub integrals: usize,
+}
+
+/// Whether the family of a theorem is one of a search along orbits, up to a degree that grows.
+pub fn is_graded(family: &str) -> bool {
+    family.starts_with(part::DARBOUX_THEOREM) || family.starts_with("fractions of polynomials")
 }
 
 /// Searches a field for integrals; proved ones go into the report. If `further`, the limits grow while
@@ -325,6 +331,7 @@ fn along_orbits(
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
+    let before = report.orbits.len();
     let mut known = IndependentIntegrals::of(setting, report)?;
     let has_line = setting.has_lines();
     let degree = if has_line { degree_of_field(setting)? } else { None };
@@ -339,10 +346,10 @@ fn along_orbits(
     if let Some(whole) = parts.last() {
         whole.conclude(setting, report)?;
     }
-    let counted = report.orbits.last().map_or(0, |own| own.integrals);
-    if setting.has_lists() && counted > found(setting.case, setting.effort, report)?.len() {
-        report.remark(setting::OF_LISTS.to_string());
-    }
+    let counted = report.orbits.len() > before && setting.has_lists();
+    let integrals = report.orbits.last().map_or(0, |own| own.integrals);
+    let is_open = counted && integrals > found(setting.case, setting.effort, report)?.len();
+    remarks::note(setting, counted, is_open, report);
     match outcome {
         Err(error) if error.is_of_count() => {
             report.remark(format!("no relations along orbits: {error}"));
@@ -379,6 +386,7 @@ fn rounds(
         fractions::conclude(setting.case, setting.effort, &known, false, report)?;
     }
     for limits in next {
+        setting.steps.lift();
         match run(parts, *limits, report) {
             // The time limit of the user is reached.
             Err(SearchError::Stopped) => break,

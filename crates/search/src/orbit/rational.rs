@@ -168,6 +168,9 @@ impl LeadingRelations<'_, '_, '_> {
         let mut found = false;
         for place in (0..last).filter(|k| !constant(k)) {
             setting.effort.halt.check()?;
+            if !setting.steps.takes(0.0) {
+                break;
+            }
             // The others have the same degree, or more.
             let Some((above, below)) = self.lowest(at, place)? else { break };
             let make = |at: &PrimePoint| self.fraction(at, place, &above, &below).ok().flatten();

@@ -97,6 +97,10 @@ impl<F: Fn(&PrimePoint) -> Option<Vec<u64>>> Vectors for SmallImages<'_, '_, '_,
         self.width + 1
     }
 
+    fn takes(&self, steps: f64) -> bool {
+        self.search.setting.steps.takes(steps)
+    }
+
     fn image(&self, prime: u64, index: u64) -> Option<(PrimePoint, Vec<u64>)> {
         let at = self.search.setting.small(prime, index)?;
         let mut vector = (self.make)(&at)?;

@@ -19,15 +19,12 @@ use super::super::terms::{read, recorded};
 use super::super::{Effort, SearchError};
 use super::adjoin::Extension;
 use super::conic::ConicShape;
+use super::limits::StepsLeft;
 use super::monomials::{self, MonomialSeries};
 use super::primes;
 use super::tangents::Tangents;
 use super::taylor::Flow;
 use liouville::formula::Formula;
-
-/// Remark where integrals are counted and lists keep them from being written.
-pub const OF_LISTS: &str = "an integral is written only if one formula holds for all listed values of the \
-    parameters: give one value of each list, as with --set a=1";
 
 /// Number of orders beyond those that the unknowns take: accidents have probability p⁻⁸.
 pub const SPARE_ORDERS: usize = 8;
@@ -67,6 +64,8 @@ pub struct OrbitSetting<'c> {
     pub terms: Vec<Formula>,
     /// Relations between adjoined functions, where they are circles and hyperbolas alone.
     pub conic: Option<ConicShape>,
+    /// Steps that may still be taken for coefficients which depend on the parameters.
+    pub steps: StepsLeft,
     points: Points,
     coordinates: Vec<Formula>,
     primes: Vec<Modulus>,
@@ -154,6 +153,7 @@ impl<'c> OrbitSetting<'c> {
             tangents: Tangents::of(case, &[])?,
             terms,
             conic: None,
+            steps: StepsLeft::of(effort),
             points,
             coordinates: named,
             primes,
@@ -347,6 +347,8 @@ impl<'c> OrbitSetting<'c> {
                 break;
             }
         }
+        let series = (all.len() * orders) as f64 * orders as f64 / 2.0;
+        self.steps.takes(series + echelon.steps() as f64);
         let free = echelon.free();
         let mut vectors = Vec::with_capacity(free.len());
         for own in &free {

@@ -6,6 +6,8 @@ mod conditions;
 mod forces;
 mod gyroscopic;
 mod levels;
+mod limits;
+mod lists;
 
 use std::path::Path;
 

@@ -1,0 +1,249 @@
+//! Parameters with a list of values, of which a search modulo primes takes the first.
+//!
+//! A find is proved for all listed values. A theorem of absence holds for the values of its count: so it
+//! is computed for each combination of values, or names those for which it is stated.
+
+use super::{Effort, Excluded, Found, SearchError, SearchReport};
+use liouville::case::Case;
+use liouville::mechanics::{Draw, ParameterOrigin, SamplerSpec};
+use liouville::number::rational::Rational;
+
+/// Largest number of combinations of listed values that are searched one by one.
+const MOST: usize = 64;
+
+/// Beginning of a remark on a find that does not hold for all listed values.
+pub const UNPROVED: &str = "found, but not proved";
+
+/// A case with one value in place of each list.
+pub struct ListedCase {
+    /// The case.
+    pub case: Case,
+    /// The values, as `a = 1 and b = 2`.
+    pub values: String,
+}
+
+/// Parameters with a list of several values, by place, with the values of those that are scalars.
+fn lists(case: &Case) -> Vec<(usize, Option<Vec<Rational>>)> {
+    let several = |draw: &Draw| matches!(draw, Draw::OneOf(values) if values.len() > 1);
+    let own = |(place, origin): (usize, &ParameterOrigin)| match origin {
+        ParameterOrigin::Free(SamplerSpec::Scalar(Draw::OneOf(values))) if values.len() > 1 => {
+            Some((place, Some(values.clone())))
+        }
+        ParameterOrigin::Free(recipe) if recipe.draws().iter().any(several) => Some((place, None)),
+        _ => None,
+    };
+    let origins = case.model.parameters.iter().map(|parameter| &parameter.origin);
+    origins.enumerate().filter_map(own).collect()
+}
+
+/// Names the first listed values, for which a search without regard to lists holds; `None` if no
+/// parameter has a list of several.
+pub fn first_values(case: &Case) -> Option<String> {
+    let own = lists(case);
+    let name = |place: usize| &case.model.parameters[place].name;
+    let text = |(place, values): &(usize, Option<Vec<Rational>>)| match values {
+        Some(values) => format!("{} = {}", name(*place), values[0]),
+        None => format!("the first listed values of {}", name(*place)),
+    };
+    let texts: Vec<String> = own.iter().map(text).collect();
+    match own.as_slice() {
+        [] => None,
+        [(_, Some(_))] => Some(format!("{}, the first of its values", texts[0])),
+        [(_, None)] => Some(texts[0].clone()),
+        _ => Some(format!("{}, the first listed values", texts.join(" and "))),
+    }
+}
+
+/// Lists the cases with each combination of listed values; `None` if these are many, or belong to a
+/// parameter that is no scalar.
+pub fn combinations(case: &Case) -> Option<Vec<ListedCase>> {
+    let mut all = vec![ListedCase { case: case.clone(), values: String::new() }];
+    for (place, values) in lists(case) {
+        let mut values = values?;
+        values.dedup();
+        if all.len() * values.len() > MOST {
+            return None;
+        }
+        let name = &case.model.parameters[place].name;
+        let with = |own: &ListedCase, value: &Rational| {
+            let mut fixed = own.case.clone();
+            fixed.model.parameters[place].origin = ParameterOrigin::Fixed(vec![value.clone()]);
+            let before = match own.values.as_str() {
+                "" => String::new(),
+                before => format!("{before} and "),
+            };
+            ListedCase { case: fixed, values: format!("{before}{name} = {value}") }
+        };
+        all = all.iter().flat_map(|own| values.iter().map(|value| with(own, value))).collect();
+    }
+    Some(all)
+}
+
+/// Lists the cases with each combination of up to `most` listed values; of more, the case alone with the
+/// first values.
+pub fn each_or_first(case: &Case, most: usize) -> Vec<ListedCase> {
+    match combinations(case).filter(|all| all.len() <= most) {
+        Some(all) => all,
+        None => {
+            let values = first_values(case).unwrap_or_default();
+            vec![ListedCase { case: case.clone(), values }]
+        }
+    }
+}
+
+/// A part of a search.
+type Run<'r> = &'r mut dyn FnMut(
+    &Case,
+    &Effort,
+    &mut SearchReport,
+    &mut dyn FnMut(&str),
+) -> Result<(), SearchError>;
+
+/// Runs a part of a search whose theorems hold for one value of each list: what holds for all values is
+/// found first, and then the search is repeated for each combination, whose theorems and finds name
+/// it.
+pub fn by_values(
+    case: &Case,
+    effort: &Effort,
+    report: &mut SearchReport,
+    progress: &mut dyn FnMut(&str),
+    run: Run<'_>,
+) -> Result<(), SearchError> {
+    if first_values(case).is_none() {
+        return run(case, effort, report, progress);
+    }
+    let (before, remarks) = (report.excluded.len(), report.remarks.len());
+    name_first(case, effort, report, progress, run)?;
+    let Some(all) = combinations(case) else { return Ok(()) };
+    let effort = Effort { seconds: effort.seconds / all.len() as f64, ..effort.clone() };
+    let mut theorems: Vec<(Excluded, Vec<&str>)> = Vec::new();
+    let mut finds = Vec::new();
+    for ListedCase { case, values } in &all {
+        let mut own = SearchReport {
+            counts: report.counts.clone(),
+            found: report.found.clone(),
+            claimed: report.claimed.clone(),
+            ..SearchReport::default()
+        };
+        let known = own.found.len();
+        run(case, &effort, &mut own, &mut |part| progress(&format!("{part}, for {values}")))?;
+        for theorem in own.excluded {
+            let is_same = |(other, _): &&mut (Excluded, Vec<&str>)| {
+                (&other.ansatz, &other.theorem) == (&theorem.ansatz, &theorem.theorem)
+            };
+            match theorems.iter_mut().find(is_same) {
+                Some((_, known)) => known.push(values),
+                None => theorems.push((theorem, vec![values])),
+            }
+        }
+        finds.extend(own.found.into_iter().skip(known).map(|found| (found, values.clone())));
+        for remark in own.remarks.iter().filter(|own| own.contains("not tried")) {
+            report.remark(format!("{remark} (for {values})"));
+        }
+    }
+    // What is stated for the first values only is kept where nothing is known for each.
+    let first = all.first().map(|own| own.values.as_str());
+    let is_repeated = |own: &Excluded| {
+        theorems.iter().any(|(other, values)| {
+            values.first().copied() == first
+                && own.ansatz.starts_with(&format!("{}, for ", other.ansatz))
+        })
+    };
+    let kept: Vec<Excluded> =
+        report.excluded.split_off(before).into_iter().filter(|own| !is_repeated(own)).collect();
+    for (theorem, values) in theorems {
+        report.excluded.push(match values.len() == all.len() {
+            true => Excluded {
+                theorem: headed("For each of the listed values", &theorem.theorem),
+                ..theorem
+            },
+            false => named(theorem, &values.join(", or ")),
+        });
+    }
+    report.excluded.extend(kept);
+    let is_new = |(found, _): &(Found, String)| !report.found.iter().any(|own| own.says(found));
+    let finds: Vec<(Found, String)> = finds.into_iter().filter(is_new).collect();
+    for (mut found, values) in finds {
+        found.with.push(("value", values));
+        report.found.push(found);
+    }
+    // What holds for some values only is told with them.
+    let mut place = 0;
+    report.remarks.retain(|remark| {
+        place += 1;
+        place <= remarks || !remark.starts_with(UNPROVED)
+    });
+    Ok(())
+}
+
+/// Runs a part of a search whose theorems hold for the first value of each list, and names these values.
+pub fn name_first(
+    case: &Case,
+    effort: &Effort,
+    report: &mut SearchReport,
+    progress: &mut dyn FnMut(&str),
+    run: Run<'_>,
+) -> Result<(), SearchError> {
+    let before = report.excluded.len();
+    let outcome = run(case, effort, report, progress);
+    if let Some(values) = first_values(case) {
+        let stated = report.excluded.split_off(before);
+        report.excluded.extend(stated.into_iter().map(|own| named(own, &values)));
+    }
+    outcome
+}
+
+/// States a theorem for some values.
+fn named(theorem: Excluded, values: &str) -> Excluded {
+    Excluded {
+        ansatz: format!("{}, for {values}", theorem.ansatz),
+        theorem: headed(&format!("For {values}"), &theorem.theorem),
+        ..theorem
+    }
+}
+
+/// Puts a hypothesis before a theorem.
+fn headed(hypothesis: &str, theorem: &str) -> String {
+    if let Some(rest) = theorem.strip_prefix("For ") {
+        return format!("{hypothesis}, and {rest}");
+    }
+    let mut letters = theorem.chars();
+    let first: String = letters.next().into_iter().flat_map(char::to_lowercase).collect();
+    format!("{hypothesis}, {first}{}", letters.as_str())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn case(parameters: &str) -> Case {
+        let text = format!(
+            "title='x'\n[parameters]\n{parameters}\n[state]\nx='1..2'\n[field]\n\"x'\"='x'\n"
+        );
+        Case::parse(&text, &[]).expect("a case")
+    }
+
+    #[test]
+    fn values_are_combined_and_named() {
+        let none = case("a='1..2'\nb=3");
+        assert_eq!(first_values(&none), None);
+        assert_eq!(combinations(&none).map(|all| all.len()), Some(1));
+        let two = case("a='one of 1, 0'\nb='one of 2, 3, 1/2'");
+        let first = first_values(&two).expect("there are lists");
+        assert_eq!(first, "a = 1 and b = 2, the first listed values");
+        let all = combinations(&two).expect("there are few");
+        let values: Vec<&str> = all.iter().map(|own| own.values.as_str()).collect();
+        assert_eq!(values.len(), 6);
+        assert_eq!((values[0], values[4]), ("a = 1 and b = 2", "a = 0 and b = 3"));
+        let many = case("a='one of 1, 2, 3, 4, 5'\nb='one of 1, 2, 3, 4'\nc='one of 1, 2, 3, 4'");
+        assert!(combinations(&many).is_none(), "80 are too many");
+    }
+
+    #[test]
+    fn hypotheses_come_first() {
+        let own = headed("For a = 0", "For generic values of b, there is none.");
+        assert_eq!(own, "For a = 0, and generic values of b, there is none.");
+        let own = headed("For a = 0", "There is none.");
+        assert_eq!(own, "For a = 0, there is none.");
+    }
+}

@@ -1,0 +1,252 @@
+//! Outcome of a search: finds, theorems of absence, counts and remarks.
+
+use serde::Serialize;
+
+use super::ask::Claimed;
+use super::conditions::ParameterCondition;
+use super::counts::{self, CountReport};
+use super::multipliers::MultiplierReport;
+use super::orbit::{self, OrbitReport};
+use super::second_opinion::SecondOpinion;
+use super::{Effort, SearchError, library};
+use liouville::case::Case;
+use liouville::formula::Formula;
+use liouville::mechanics::{Meaning, Model};
+use liouville::verdict::{ClaimReport, Evidence, Verdict};
+
+/// End of a theorem of absence where a function of the case is arbitrary.
+const GENERIC_FUNCTION: &str = " The arbitrary function of the case is a generic one here: for special \
+    ones there may be more.";
+
+/// An invariant that was found.
+#[derive(Clone, Debug, Serialize)]
+pub struct Found {
+    /// Kind of the invariant: `integral`, `further-integral`, `vector-integral`, `density`,
+    /// `symmetry-field` or `bracket`.
+    pub kind: &'static str,
+    /// Formula in the names of the case.
+    pub formula: String,
+    /// Abbreviations used in the formula that the case does not define, in order.
+    #[serde(rename = "let", skip_serializing_if = "Vec::is_empty")]
+    pub abbreviations: Vec<(&'static str, &'static str)>,
+    /// Additional data under which it holds: a `potential`, `force`, `gyrostat` or `gyroscopic term`
+    /// that the case does not have, the `value` of a parameter or a `condition` on several; for a
+    /// vector each `component` that was found; for a bracket its `Hamiltonian` and each known `Casimir`;
+    /// for a further integral how it comes from others.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub with: Vec<(&'static str, String)>,
+    /// Whether it is a function of the energy and the level. Such finds are not reported, so this
+    /// is always `false`.
+    pub trivial: bool,
+    /// Name of the claim of the case that implies it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub known: Option<String>,
+    /// Verdict on the claim.
+    pub verdict: Verdict,
+    /// Evidence for the verdict.
+    pub evidence: Evidence,
+    /// The invariant itself, where it is one function.
+    #[serde(skip)]
+    pub function: Option<Formula>,
+    /// Components of a symmetry field by variable.
+    #[serde(skip)]
+    pub(crate) fields: Vec<(String, Formula)>,
+}
+
+impl Found {
+    /// Makes a find from a function and its evidence.
+    pub(crate) fn new(
+        kind: &'static str,
+        function: &Formula,
+        known: Option<String>,
+        report: ClaimReport,
+        model: &Model,
+    ) -> Self {
+        let text = function.to_string();
+        let mut found = Self::of_several(kind, text, &[function], report, model);
+        found.known = known;
+        found.function = Some(function.clone());
+        found
+    }
+
+    /// Whether another find says the same: the same formula or, for brackets, one with the same
+    /// Hamiltonian.
+    pub(crate) fn says(&self, other: &Self) -> bool {
+        let hamiltonian = |own: &Self| own.with.first().cloned();
+        self.kind == other.kind
+            && match self.kind {
+                "bracket" => hamiltonian(self) == hamiltonian(other),
+                _ => self.formula == other.formula && self.with == other.with,
+            }
+    }
+
+    /// Makes a find that consists of several formulas, with its text.
+    pub(crate) fn of_several(
+        kind: &'static str,
+        text: String,
+        formulas: &[&Formula],
+        report: ClaimReport,
+        model: &Model,
+    ) -> Self {
+        let mut needed = formulas.to_vec();
+        let mut abbreviations = library::abbreviations(model);
+        abbreviations.reverse();
+        abbreviations.retain(|(name, _)| {
+            let used = needed.iter().any(|formula| formula.uses(name));
+            if let (true, Some(own)) = (used, abbreviation(model, name)) {
+                needed.push(own);
+            }
+            used
+        });
+        abbreviations.reverse();
+        Self {
+            kind,
+            formula: text,
+            function: None,
+            fields: Vec::new(),
+            abbreviations,
+            with: Vec::new(),
+            trivial: false,
+            known: None,
+            verdict: report.verdict,
+            evidence: report.evidence,
+        }
+    }
+}
+
+/// Formula of an abbreviation, by its name.
+fn abbreviation<'m>(model: &'m Model, name: &str) -> Option<&'m Formula> {
+    match model.vocabulary.find(name)?.meaning {
+        Meaning::Abbreviation(index) => model.abbreviations.get(index),
+        _ => None,
+    }
+}
+
+/// A theorem of absence: a family of candidates, and a bound on its invariants.
+#[derive(Clone, Debug, Serialize)]
+pub struct Excluded {
+    /// Family that was examined.
+    pub ansatz: String,
+    /// Dimension of the invariants in the family.
+    pub dimension: usize,
+    /// Number of these that are functions of known invariants.
+    pub known: usize,
+    /// Log₂ of the error probability; absent if there is no error.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error_log2: Option<f64>,
+    /// Theorem with its hypotheses.
+    pub theorem: String,
+}
+
+/// The outcome of a search.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct SearchReport {
+    /// Numbers of integrals, degree by degree.
+    pub counts: Vec<CountReport>,
+    /// Numbers of polynomials whose powers are densities.
+    pub multipliers: Vec<MultiplierReport>,
+    /// Relations along an orbit, degree by degree.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub orbits: Vec<OrbitReport>,
+    /// Invariants that were found.
+    pub found: Vec<Found>,
+    /// Theorems of absence.
+    pub excluded: Vec<Excluded>,
+    /// Singular values of the matrices of the search for integrals.
+    pub opinions: Vec<SecondOpinion>,
+    /// Parameter conditions for claims that fail in general.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub conditions: Vec<ParameterCondition>,
+    /// Parts that could not be carried out, with reasons.
+    pub remarks: Vec<String>,
+    /// Parts that a stopped search did not reach; empty for a complete search.
+    pub unreached: Vec<String>,
+    /// Parts that could not be carried out as no terms have values modulo a prime.
+    #[serde(skip)]
+    pub(crate) without_points: Vec<String>,
+    /// Integrals claimed by the case, with which finds are compared.
+    #[serde(skip)]
+    pub(crate) claimed: Vec<Claimed>,
+}
+
+impl SearchReport {
+    /// Returns the formulas of one kind found for the case without additional data.
+    pub fn formulas(&self, kind: &str) -> impl Iterator<Item = &str> {
+        self.of_case(kind).map(|found| found.formula.as_str())
+    }
+
+    /// Returns the functions of one kind found for the case without additional data.
+    pub fn functions(&self, kind: &str) -> impl Iterator<Item = &Formula> {
+        self.of_case(kind).filter_map(|found| found.function.as_ref())
+    }
+
+    pub(crate) fn of_case(&self, kind: &str) -> impl Iterator<Item = &Found> {
+        self.found.iter().filter(move |found| found.kind == kind && found.with.is_empty())
+    }
+
+    pub(crate) fn remark(&mut self, remark: String) {
+        if !self.remarks.contains(&remark) {
+            self.remarks.push(remark);
+        }
+    }
+
+    /// Takes over what a search along orbits of higher degrees has found besides, and its theorems, unless
+    /// it was stopped before it came as far as the one before.
+    pub(crate) fn grow(&mut self, grown: Self) {
+        let degree = |own: &Self| own.orbits.last().map_or(0, |last| last.degree);
+        if degree(&grown) < degree(self) {
+            return;
+        }
+        self.orbits = grown.orbits;
+        for found in grown.found {
+            if !self.found.iter().any(|own| own.says(&found)) {
+                self.found.push(found);
+            }
+        }
+        let is_graded = |own: &Excluded| orbit::is_graded(&own.ansatz);
+        if grown.excluded.iter().any(is_graded) {
+            self.excluded.retain(|own| !is_graded(own));
+        }
+        for theorem in grown.excluded {
+            match self.excluded.iter_mut().find(|own| own.ansatz == theorem.ansatz) {
+                Some(own) => *own = theorem,
+                None => self.excluded.push(theorem),
+            }
+        }
+    }
+
+    /// Runs a part of a search; a part that is stopped is noted by its name.
+    pub(crate) fn stage(
+        &mut self,
+        name: &str,
+        effort: &Effort,
+        run: impl FnOnce(&mut Self) -> Result<(), SearchError>,
+    ) -> Result<(), SearchError> {
+        match effort.halt.check().and_then(|()| run(self)) {
+            Err(SearchError::Stopped) => {
+                self.unreached.push(name.to_string());
+                Ok(())
+            }
+            Err(error @ SearchError::NoPoints) => {
+                self.without_points.push(format!("not searched: {name}: {error}"));
+                Ok(())
+            }
+            other => other,
+        }
+    }
+}
+
+/// Says in theorems of absence that an arbitrary function of the case is a generic one there: they come
+/// from one choice of its Taylor coefficients.
+pub(crate) fn note_generic_functions(case: &Case, report: &mut SearchReport) {
+    if !case.model.system.has_arbitrary_function() {
+        return;
+    }
+    let is_potential_alone =
+        counts::free_motion(case).is_some_and(|free| !free.model.system.has_arbitrary_function());
+    for own in &mut report.excluded {
+        if !(is_potential_alone && own.theorem.contains(counts::FOR_EVERY_POTENTIAL)) {
+            own.theorem.push_str(GENERIC_FUNCTION);
+        }
+    }
+}
