@@ -9,10 +9,10 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{Signed, Zero};
 
+use super::super::SearchError;
 use super::super::echelon::Echelon;
 use super::super::series::exponents;
 use super::super::terms::{TermSum, combined, is_one};
-use super::super::SearchError;
 use super::monomials::power_product;
 use super::system::{LinearSystem, PrimePoint};
 use super::{Coordinates, TENSOR};
