@@ -17,6 +17,7 @@ use crate::expansion::{FieldExpansion, Taylor};
 use crate::jet_equations::{Equations, RowKey};
 use crate::jets::VelocityPolynomials;
 use crate::local::Local;
+use crate::orbit::monomials;
 use crate::streams::SearchStream;
 use crate::{Effort, Halt, SearchError};
 use liouville::case::Case;
@@ -29,6 +30,10 @@ const MINOR_POINTS: usize = 2;
 /// Smallest number of values of a minor, followed by the largest.
 const LEAST: usize = 64;
 const MOST_MINORS: usize = 2048;
+/// Elementary steps of a multiplication modulo a prime and what belongs to it.
+const STEP: f64 = 3.0;
+/// Share of the values of a field that depend on the velocities, roughly.
+const MOVING: f64 = 0.3;
 /// Number of draws of a point, or of a value, until the field has a series there.
 const DRAWS: usize = 64;
 /// Number of choices of the other parameters under which a relation must persist.
@@ -161,15 +166,25 @@ impl<'l> Minors<'l> {
     ) -> Result<Option<Equations>, SearchError> {
         let mut parameters = self.parameters.clone();
         parameters[self.draw] = value;
+        self.spend(0, self.expansion_steps())?;
         let expansion = self.taylor.at(&parameters, positions, &mut self.rng)?;
         let (taylor, halt) = (&self.taylor, &self.effort.halt);
         let made = |e: FieldExpansion| Equations::of(&e, taylor, taylor.order, self.asked, 0, halt);
         let made = expansion.map(made).transpose()?;
         if let Some(made) = &made {
             let (unknowns, equations) = made.size();
-            self.spend(unknowns, (unknowns * equations) as f64)?;
+            self.spend(unknowns, STEP * (unknowns * equations) as f64)?;
         }
         Ok(made)
+    }
+
+    /// Number of elementary steps for the series of the field: those of the values that depend on the
+    /// velocities are computed for each of the points from which their coefficients are read.
+    fn expansion_steps(&self) -> f64 {
+        let Local { graph, coordinates, .. } = self.taylor.local;
+        let products = monomials::count(2 * coordinates.positions, self.taylor.order);
+        let points = (coordinates.velocities + 1) * (coordinates.velocities + 2) / 2;
+        STEP * (graph.len() * products) as f64 * (1.0 + MOVING * points as f64)
     }
 
     /// Fails where more steps are taken than are left.
@@ -233,7 +248,8 @@ impl<'l> Minors<'l> {
             let rows: FxHashSet<RowKey> = rows.into_iter().collect();
             let dimension = equations.dimension(&echelon);
             let (unknowns, count) = equations.size();
-            let each = (unknowns * count) as f64 + echelon.steps() as f64;
+            let own = STEP * (unknowns * count) as f64 + echelon.steps() as f64;
+            let each = own + self.expansion_steps();
             if self.left.is_some_and(|left| each * LEAST as f64 > left.get()) {
                 return Err(SearchError::Long { unknowns, seconds: self.effort.seconds });
             }

@@ -85,29 +85,30 @@ impl ValueSearch<'_> {
     ) -> Result<(), SearchError> {
         let local = Local::of(self.case, &[])?;
         let all = minors::scalars(self.case);
-        let before = report.conditions.len();
+        let mut told: Vec<ToldValues> = all.iter().map(|_| ToldValues::default()).collect();
         let mut last = 0;
-        for degree in 1..=self.effort.degree {
-            for parameter in &all {
+        'degrees: for degree in 1..=self.effort.degree {
+            for (parameter, told) in all.iter().zip(&mut told) {
                 progress(&format!("more integrals of degree {degree}, by {}", parameter.name));
-                match self.of_degree(&local, degree, parameter, all.len())? {
-                    Some(own) => report.conditions.extend(own),
-                    None => {
-                        report.remark(format!(
-                            "values of {} with more integrals of degree {degree}, and what comes after, \
-                             are not sought{}: the bound is {} s, see --seconds",
-                            parameter.name,
-                            self.reservation,
-                            SHARE * self.effort.seconds
-                        ));
-                        self.conclude(before, last, &all, report);
-                        return Ok(());
-                    }
+                let Some(own) = self.of_degree(&local, degree, parameter, all.len())? else {
+                    report.remark(format!(
+                        "values of {} with more integrals of degree {degree}, and what comes after, \
+                         are not sought{}: the bound is {} s, see --seconds",
+                        parameter.name,
+                        self.reservation,
+                        SHARE * self.effort.seconds
+                    ));
+                    break 'degrees;
+                };
+                if let Some(own) =
+                    own.and_then(|own| told.add(own, degree, report.conditions.len()))
+                {
+                    report.conditions.push(own.condition(degree, parameter, &self.reservation));
                 }
             }
             last = degree;
         }
-        self.conclude(before, last, &all, report);
+        self.conclude(&told, last, &all, report);
         Ok(())
     }
 
@@ -118,7 +119,7 @@ impl ValueSearch<'_> {
         degree: u32,
         parameter: &ScalarParameter,
         count: usize,
-    ) -> Result<Option<Option<ParameterCondition>>, SearchError> {
+    ) -> Result<Option<Option<FoundValues>>, SearchError> {
         let mixed = self.case.model.system.energy_is_inhomogeneous();
         let asked = VelocityPolynomials { degree, mixed };
         let rounds = if count > 1 { minors::ROUNDS } else { 1 };
@@ -134,49 +135,104 @@ impl ValueSearch<'_> {
             (rounds, &self.left),
             self.effort,
         );
-        let (equations, grounds) = match found {
-            Ok(None) => return Ok(Some(None)),
-            Ok(Some(found)) => {
-                let grounds = match found.unexplained {
-                    0 => GROUNDS.to_string(),
-                    n => format!("{GROUNDS}; {}", relation::unexplained(n, parameter)),
-                };
-                (found.relations.iter().map(ToString::to_string).collect(), grounds)
+        Ok(Some(match found {
+            Ok(None) => None,
+            Ok(Some(found)) => Some(FoundValues {
+                equations: found.relations.iter().map(ToString::to_string).collect(),
+                unexplained: found.unexplained,
+                reason: None,
+            }),
+            Err(error @ SearchError::NoFraction) => {
+                Some(FoundValues { reason: Some(error.to_string()), ..FoundValues::default() })
             }
-            Err(error @ SearchError::NoFraction) => (Vec::new(), error.to_string()),
             Err(SearchError::Long { .. } | SearchError::Large { .. }) => return Ok(None),
             Err(error) => return Err(error),
-        };
-        let of = format!(
-            "more integrals of degree {degree}, by the value of {}{}",
-            parameter.name, self.reservation
-        );
-        Ok(Some(Some(ParameterCondition { of, equations, grounds })))
+        }))
     }
 
     /// Says of which parameters no value has more, up to the last degree.
     fn conclude(
         &self,
-        before: usize,
+        told: &[ToldValues],
         last: u32,
         all: &[ScalarParameter],
         report: &mut SearchReport,
     ) {
-        let own = &report.conditions[before..];
-        let ends = |name: &str| format!("by the value of {name}{}", self.reservation);
-        let is_told = |name: &str| own.iter().any(|known| known.of.ends_with(&ends(name)));
-        let silent: Vec<&str> =
-            all.iter().map(|own| own.name.as_str()).filter(|name| !is_told(name)).collect();
-        if last == 0 || silent.is_empty() {
-            return;
+        for (degree, place) in told.iter().filter_map(|own| own.last) {
+            if degree < last {
+                let grounds = &mut report.conditions[place].grounds;
+                grounds.push_str(&format!("; none is added up to degree {last}"));
+            }
         }
-        report.conditions.push(ParameterCondition {
-            of: format!(
-                "more integrals of degree at most {last}, {}",
-                ends(&silent.join(", or of "))
-            ),
-            equations: Vec::new(),
-            grounds: format!("{GROUNDS}; {NO_VALUE}"),
-        });
+        let silent = all.iter().zip(told).filter(|(_, told)| told.last.is_none());
+        let silent: Vec<&str> = silent.map(|(own, _)| own.name.as_str()).collect();
+        if last > 0 && !silent.is_empty() {
+            report.conditions.push(ParameterCondition {
+                of: format!(
+                    "more integrals of degree at most {last}, by the value of {}{}",
+                    silent.join(", or of "),
+                    self.reservation
+                ),
+                equations: Vec::new(),
+                grounds: format!("{GROUNDS}; {NO_VALUE}"),
+            });
+        }
+    }
+}
+
+/// Values of a parameter with more integrals of a degree.
+#[derive(Default)]
+struct FoundValues {
+    equations: Vec<String>,
+    /// Number of values that no equation describes.
+    unexplained: usize,
+    /// Reason why none are found.
+    reason: Option<String>,
+}
+
+impl FoundValues {
+    fn condition(
+        self,
+        degree: u32,
+        parameter: &ScalarParameter,
+        reservation: &str,
+    ) -> ParameterCondition {
+        let grounds = match (self.reason, self.unexplained) {
+            (Some(reason), _) => reason,
+            (None, 0) => GROUNDS.to_string(),
+            (None, n) => format!("{GROUNDS}; {}", relation::unexplained(n, parameter)),
+        };
+        let name = &parameter.name;
+        ParameterCondition {
+            of: format!("more integrals of degree {degree}, by the value of {name}{reservation}"),
+            equations: self.equations,
+            grounds,
+        }
+    }
+}
+
+/// What has been told of a parameter.
+#[derive(Default)]
+struct ToldValues {
+    equations: Vec<String>,
+    unexplained: usize,
+    /// Last degree with a condition, and its place in the report.
+    last: Option<(u32, usize)>,
+}
+
+impl ToldValues {
+    /// Leaves out the values told at lower degrees; `None` if there are no others.
+    fn add(&mut self, mut found: FoundValues, degree: u32, place: usize) -> Option<FoundValues> {
+        found.equations.retain(|own| !self.equations.contains(own));
+        let is_new = !found.equations.is_empty()
+            || found.unexplained > self.unexplained
+            || found.reason.is_some();
+        if !is_new {
+            return None;
+        }
+        self.equations.extend(found.equations.iter().cloned());
+        self.unexplained = self.unexplained.max(found.unexplained);
+        self.last = Some((degree, place));
+        Some(found)
     }
 }

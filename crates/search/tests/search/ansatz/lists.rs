@@ -64,6 +64,18 @@ fn theorems_on_a_body_agree_with_its_counts() {
 }
 
 #[test]
+fn rotors_are_counted_for_the_first_values() {
+    let ball = "title = 'b'\nsystem = 'rubber-plane'\n[parameters]\nm = 'one of 1, 2'\nR = 1\nI = [1,2,3]\n\
+                [body]\nshape = 'ball'\n";
+    let ansatz = Ansatz { gyrostats: true, ..Ansatz::default() };
+    let report = searched(ball, &Effort { ansatz, ..effort(2) });
+    let own = report.excluded.iter().filter(|own| own.ansatz.starts_with("rotors"));
+    let rotors: Vec<&str> = own.map(|own| own.theorem.as_str()).collect();
+    assert_eq!(rotors.len(), 1, "{rotors:?}");
+    assert!(rotors[0].starts_with("For m = 1, the first of its values, and generic"), "{rotors:?}");
+}
+
+#[test]
 fn brackets_are_excluded_for_their_values() {
     let field = "title = 'x'\n[parameters]\na = 'one of 1, 0'\n[state]\nx = '0.5..2'\ny = '0.5..2'\n[field]\n\
                  \"x'\" = 'y'\n\"y'\" = 'a'\n";
