@@ -41,6 +41,7 @@ mod integrals;
 pub mod monomials;
 mod poisson;
 mod potentials;
+mod powers;
 pub mod recording;
 mod scales;
 mod size;

@@ -9,6 +9,7 @@ use super::super::local::{random, sign};
 use super::super::terms::recorded;
 use super::super::{Effort, Halt, SearchError};
 use super::Coordinates;
+use super::powers::VariablePowers;
 use super::recording::{Derivation, Recording};
 use super::states::KeptStates;
 use crate::streams::SearchStream;
@@ -346,66 +347,5 @@ impl LinearSystem {
             Column::Product { exponents, .. } => exponents.as_slice(),
         });
         exponents.max().copied().unwrap_or(0)
-    }
-}
-
-/// Powers, rates and logarithmic derivatives of the variables at a state, with the factors.
-struct VariablePowers<'v> {
-    powers: Vec<Vec<u64>>,
-    rates: &'v [u64],
-    growth: &'v [u64],
-    factors: &'v [u64],
-    slopes: &'v [u64],
-    /// Variables that are 0, as on a level u = 0.
-    zeros: Vec<usize>,
-}
-
-impl<'v> VariablePowers<'v> {
-    fn of(
-        m: &Modulus,
-        own: &Derivation,
-        values: &'v [u64],
-        growth: &'v [u64],
-        highest: u32,
-    ) -> Self {
-        let (x, rest) = values[own.start..].split_at(own.variables);
-        let (rates, rest) = rest.split_at(own.variables);
-        let (factors, rest) = rest.split_at(own.factors);
-        let powers = |x: &u64| {
-            std::iter::successors(Some(m.one()), |power| Some(m.mul(*power, *x)))
-                .take(highest as usize + 1)
-                .collect()
-        };
-        let powers = x.iter().map(powers).collect();
-        let zeros = (0..x.len()).filter(|k| x[*k] == 0).collect();
-        Self { powers, rates, growth, factors, slopes: &rest[..own.factors], zeros }
-    }
-
-    fn monomial(&self, m: &Modulus, exponents: &[u32]) -> u64 {
-        let powers = self.powers.iter().zip(exponents).map(|(row, a)| row[*a as usize]);
-        powers.fold(m.one(), |product, power| m.mul(product, power))
-    }
-
-    fn derivative(&self, m: &Modulus, column: &Column) -> u64 {
-        let Column::Product { factor, exponents, .. } = column else { return 0 };
-        // At x = 0 the derivative of x y^a is y^a dx, and that of x^a y^b is 0 for a > 1.
-        let mut vanishing = self.zeros.iter().filter(|k| exponents[**k] > 0);
-        if let Some(k) = vanishing.next() {
-            if exponents[*k] > 1 || vanishing.next().is_some() {
-                return 0;
-            }
-            let mut rest = exponents.clone();
-            rest[*k] = 0;
-            return m.mul(m.mul(self.monomial(m, &rest), self.rates[*k]), self.factors[*factor]);
-        }
-        let used = self.growth.iter().zip(exponents).filter(|(_, a)| **a > 0);
-        let growth = used.fold(0, |sum, (g, a)| m.add(sum, m.mul(*g, m.integer(u64::from(*a)))));
-        let slope = m.add(m.mul(self.factors[*factor], growth), self.slopes[*factor]);
-        m.mul(self.monomial(m, exponents), slope)
-    }
-
-    fn value(&self, m: &Modulus, column: &Column) -> u64 {
-        let Column::Product { factor, exponents, .. } = column else { return 0 };
-        m.mul(self.monomial(m, exponents), self.factors[*factor])
     }
 }
