@@ -25,8 +25,32 @@ use crate::proof::{Extent, InputRegion};
 const MOST_MISSING: usize = 16;
 /// Largest number of choices of signs with which a state is sought.
 const MOST_SIGNS: usize = 16;
+/// Number of steps through a range, of which states beside another are a few away.
+const BESIDE: i64 = 1 << 30;
 /// Share of doubtful states above which a claim is not confirmed: one in this many.
 const MAX_DOUBTFUL: usize = 4;
+
+/// Lists draws of two states beside a drawn one, on opposite sides of it, in the ranges.
+fn beside(sampler: &Sampler, index: u64) -> [Vec<Rational>; 2] {
+    let exact = sampler.drawn(&Mixed::new(LADDER_BITS[0]), 1, index);
+    [1, -1].map(|side| {
+        let moved = |(k, (value, draw)): (usize, (&Number, &Draw))| {
+            let Number::Exact(value) = value else { return Rational::from(0) };
+            let step = Rational::new(side * (k as i64 % 7 + 1), BESIDE);
+            match draw {
+                Draw::Within(range) => {
+                    let away = &step * &(&range.high - &range.low);
+                    let moved = value + &away;
+                    let is_inside = moved >= range.low && moved <= range.high;
+                    if is_inside { moved } else { value - &away }
+                }
+                Draw::Of(..) => value + &step,
+                Draw::OneOf(_) | Draw::Sign => value.clone(),
+            }
+        };
+        exact.iter().zip(sampler.recipes()).enumerate().map(moved).collect()
+    })
+}
 
 impl Judging<'_> {
     /// Examines states of the first block at which a required value is undefined in f64: √0 exists.
@@ -91,6 +115,16 @@ impl Judging<'_> {
                 }
                 let residual = values.existing(&[residual]);
                 match (existing[0], residual[0]) {
+                    // √0 may exist at this state alone: then the claim says nothing.
+                    (true, true) if status.is_zero => {
+                        let beside = beside(sampler, index).into_iter().any(|numbers| {
+                            let values = run.at(&domain, &sampler.made_from(&domain, &numbers));
+                            layout.existing(&values, span)[0]
+                        });
+                        if beside {
+                            status.undefined = None;
+                        }
+                    }
                     (true, true) => status.undefined = None,
                     // Where √X is 0 on an open set, its derivative is not X'/(2√X).
                     (true, false) => partial = partial.or(Some(index)),

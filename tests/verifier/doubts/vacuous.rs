@@ -1,7 +1,8 @@
 //! Claims that hold and say nothing.
 
 use super::claims;
-use liouville::verdict::Verdict;
+use liouville::case::Case;
+use liouville::verdict::{Options, Verdict, judge};
 
 fn remark(claim: &str) -> String {
     let text = format!(
@@ -71,5 +72,21 @@ fn listed_values_for_which_a_formula_has_no_value_are_named() {
             remark("0, 1")
         );
         assert!(!remark("1, 2").contains("nothing is said"), "{claim}: {}", remark("1, 2"));
+    }
+}
+
+#[test]
+fn a_claim_with_a_value_at_single_states_says_nothing() {
+    // x ≤ 1 on the circle, and x = 1 at u = 1.
+    for seed in [1, 944_288] {
+        let text = "title = 't'\n[state]\nx = '-1..1'\ny = '-1..1'\nz = '-1..1'\n[field]\n\"x'\" = '0'\n\
+                    \"y'\" = '0'\n\"z'\" = '0'\n[level]\nequations = ['x² + y² = 1']\n[level.chart]\n\
+                    inputs = { u = '1/2..2', v = '-1/2..2' }\nx = '2*u/(1 + u²)'\n\
+                    y = '(1 - u²)/(1 + u²)'\nz = 'v'\n[[claim]]\nidentity = '0*√(x − 1) = 0'\n\
+                    [[claim]]\nidentity = '0*√(1 − x) = 0'\n[[claim]]\nidentity = '√(x² + y² − 1) = 0'\n";
+        let case = Case::parse(text, &[]).expect("a case");
+        let report = judge(&case, &Options { seed, ..Options::default() }).expect("judged");
+        let verdicts: Vec<Verdict> = report.claims.iter().map(|claim| claim.verdict).collect();
+        assert_eq!(verdicts, [Verdict::Undecided, Verdict::Proved, Verdict::Proved], "{seed}");
     }
 }

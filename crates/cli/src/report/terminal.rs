@@ -252,7 +252,7 @@ fn remark(claim: &ClaimReport) -> String {
                     words.push(evidence.method.to_string());
                 }
             } else {
-                words.push(format!("at almost every state, {}", evidence.method));
+                words.push(format!("on an open set of states, {}", evidence.method));
             }
             words.extend(evidence.remark.clone());
         }
