@@ -23,6 +23,11 @@ const PARAMETER_SETS: usize = 4;
 const STARTS: usize = 4;
 /// Multiples of these states from which it starts as well, where any second state will do.
 const MULTIPLES: [f64; 5] = [1.0, -1.0, 4.0, -0.25, 0.25];
+/// Largest power of 2^10 by which a state is scaled, up and down, where any second state will do: near a
+/// pole it may be very small.
+const SCALES: i32 = 12;
+/// Number of states that are scaled so.
+const SCALED: usize = 8;
 /// Factor c of the level functions, which no map is likely to have across a level.
 const ACROSS: f64 = 2.5;
 
@@ -92,9 +97,14 @@ impl Judging<'_> {
                 part.iter().map(|block| Balls::new([block.mid[k]], [block.rad[k]])).collect()
             });
             let starts: Vec<Vec<Balls<1>>> = drawn.chain(of_parts).collect();
-            for (other, by) in
-                starts.iter().flat_map(|other| multiples.iter().map(move |by| (other, *by)))
-            {
+            let near = starts.iter().flat_map(|other| multiples.iter().map(move |by| (other, *by)));
+            let is_scaled = second == Second::Anywhere && k < SCALED;
+            let scales = (1..=SCALES).flat_map(|n| [-10 * n, 10 * n]).map(|n| 2f64.powi(n));
+            let far = starts
+                .iter()
+                .take(usize::from(is_scaled))
+                .flat_map(|other| scales.clone().flat_map(move |by| [(other, by), (other, -by)]));
+            for (other, by) in near.chain(far) {
                 let start: Vec<f64> = other[free..].iter().map(|x| by * x.mid[0]).collect();
                 let Some(there) = newton.enclose(&target, &start) else { continue };
                 let is_other = here[free..]

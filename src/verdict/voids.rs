@@ -3,6 +3,7 @@
 use super::field::combinations;
 use super::judging::Judging;
 use super::ladder::Open;
+use super::recorded::RecordedClaim;
 use super::sampler::Sampler;
 use crate::graph::{Expr, Fault};
 
@@ -21,8 +22,9 @@ impl Judging<'_> {
             return Ok(());
         }
         let Some(combinations) = combinations(sampler.recipes()) else { return Ok(()) };
-        let written: Vec<Vec<Expr>> =
-            holding.iter().map(|(item, _)| item.requirement.clone()).collect();
+        let common = self.common.required_at(sampler.kept());
+        let all = |item: &RecordedClaim<'_>| [&item.requirement[..], &common].concat();
+        let written: Vec<Vec<Expr>> = holding.iter().map(|(item, _)| all(item)).collect();
         let mut voids: Vec<Vec<String>> = vec![Vec::new(); written.len()];
         for fixed in combinations {
             let (graph, values) = sampler.compose(self.graph, &written, &fixed)?;

@@ -17,7 +17,7 @@ use super::judging::Judging;
 use super::recorded::{RecordedClaim, Wider};
 use super::run::{Doubles, Values};
 use super::sampler::{Sampler, TAPE_LANES};
-use crate::claim::LevelSubset;
+use crate::claim::{LevelSubset, Need};
 use crate::graph::{Expr, Step};
 use crate::number::UnaryFunction;
 use crate::number::ball::Ball;
@@ -105,6 +105,13 @@ impl Judging<'_> {
         let sampler = Sampler::new(self.case, place, self.options.seed)?;
         if self.missed_part(&sampler)?.is_some() {
             return Ok(());
+        }
+        // A map may be one-to-one on a level alone.
+        let asks = |own: &Candidate<'_, '_>| {
+            own.item.conditions.iter().any(|condition| matches!(condition.need, Need::OneToOne))
+        };
+        if candidates.iter().any(asks) && !self.is_one_to_one(&sampler)? {
+            candidates.retain(|own| !asks(own));
         }
         let values = self.run(&outputs).at(&Ball::<TAPE_LANES>, &sampler.balls(0));
         let all = values.existing(std::slice::from_ref(&common));

@@ -7,6 +7,8 @@ use super::{Effort, FurtherTerm, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::claim::LevelSubset;
 use liouville::formula::Formula;
+use liouville::graph::{Expr, Graph, Step};
+use liouville::number::{BinaryOperation, UnaryFunction};
 use liouville::proof::Prover;
 use liouville::verdict::Sampler;
 
@@ -27,8 +29,8 @@ pub fn withdraw(
     report.conditions.clear();
     report.remark(
         "nothing is counted or excluded: the formulas contain a modulus, a root that depends on \
-         others, or a function such as atan; write a modulus or a root as what it is on the given \
-         ranges, as x for |x| or √(x²) where x > 0"
+         others or has an irrational number under it, or a function such as atan; write a modulus or \
+         a root as what it is on the given ranges, as x for |x| or √(x²) where x > 0"
             .to_string(),
     );
     Ok(())
@@ -60,5 +62,34 @@ pub fn are_true(case: &Case, effort: &Effort) -> Result<bool, SearchError> {
     let (graph, groups) = sampler.compose(&graph, &[outputs], &fixed)?;
     let (extents, sources) = (sampler.extents(), sampler.sources());
     let prover = Prover { sources: &sources, extents: &extents, seed: effort.options.seed };
-    Ok(prover.is_true_to_branches(&graph, &groups.concat())?)
+    let outputs = groups.concat();
+    Ok(!has_irrational_radicand(&graph, &outputs)
+        && prover.is_true_to_branches(&graph, &outputs)?)
+}
+
+/// Whether an irrational number stands under a root or a modulus: the root of (1 + √2)² y is (1 + √2) √y,
+/// and modulo a prime it may be −(1 + √2) √y at every point.
+fn has_irrational_radicand(graph: &Graph, outputs: &[Expr]) -> bool {
+    let reached = graph.reached(outputs.iter().copied());
+    let mut is_number = vec![false; reached.len()];
+    let mut is_irrational = vec![false; reached.len()];
+    for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
+        let is_root = match step {
+            Step::Unary(function, _) => {
+                !matches!(function, UnaryFunction::Neg | UnaryFunction::Recip)
+            }
+            Step::Power(_, exponent) => exponent.to_integer().is_none(),
+            Step::Binary(operation, ..) => operation == BinaryOperation::Pow,
+            Step::Constant(_) | Step::Input(_) => false,
+        };
+        let mut arguments = step.arguments().collect::<Vec<_>>().into_iter();
+        is_irrational[place] = arguments.any(|argument| is_irrational[argument]);
+        if is_root && is_irrational[place] {
+            return true;
+        }
+        is_number[place] = !matches!(step, Step::Input(_))
+            && step.arguments().collect::<Vec<_>>().into_iter().all(|k| is_number[k]);
+        is_irrational[place] |= is_root && is_number[place];
+    }
+    false
 }

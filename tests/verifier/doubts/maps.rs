@@ -75,3 +75,29 @@ fn a_map_of_a_level_is_one_to_one_on_the_level() {
     let text = format!("{}\n{folded}\n{plane}", state.replace("'-1..1'\ny", "'-0.001..1'\ny"));
     assert_eq!(remark(&text), "", "x is its own image");
 }
+
+#[test]
+fn a_map_that_is_one_to_one_on_a_level_alone_is_proved_there() {
+    // For z < 0 it is |x|.
+    let text = "title = 't'\n[state]\nx = '-2..2'\nz = '-1..3'\n[level]\nequations = ['z = 2']\n[map]\n\
+                x = '(x + |x|)/2 + z/|z|*(x − |x|)/2'\nz = 'z'\n[[claim]]\ndensity = '1'\n";
+    let report = claims(text).remove(0);
+    assert_eq!(
+        (report.verdict, report.evidence.holds),
+        (Verdict::Proved, vec!["level".to_string()])
+    );
+}
+
+#[test]
+fn a_second_state_near_a_pole_is_found() {
+    for [range, map] in
+        [["-2..2", "x − 1/10^4/x"], ["-2..2", "x − 1/10^18/x"], ["1e6..2e6", "x − 1/x"]]
+    {
+        let text = format!(
+            "title = 't'\n[state]\nx = '{range}'\n[map]\nx = '{map}'\n[[claim]]\ndensity = '1'\n\
+             expect = 'open'\n"
+        );
+        let report = claims(&text).remove(0);
+        assert_eq!(report.verdict, Verdict::Undecided, "{map} on {range}");
+    }
+}

@@ -73,6 +73,10 @@ fn listed_values_for_which_a_formula_has_no_value_are_named() {
         );
         assert!(!remark("1, 2").contains("nothing is said"), "{claim}: {}", remark("1, 2"));
     }
+    let field = "title = 't'\n[parameters]\na = 'one of 0, 1'\n[state]\nx = '-1..1'\ny = '-1..1'\n[field]\n\
+                 \"x'\" = 'y/a'\n\"y'\" = '−x/a'\n[[claim]]\nintegral = 'x² + y²'\n";
+    let remark = claims(field).remove(0).evidence.remark.unwrap_or_default();
+    assert!(remark.contains("nothing is said for a = 0,"), "the field: {remark}");
 }
 
 #[test]

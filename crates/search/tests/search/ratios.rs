@@ -50,6 +50,10 @@ fn forces_that_cancel_leave_all_integrals() {
             "(x² + y²)/2 + (√(121*x) − 11*√x)*y",
             "(√(3 + 2*√2) − √2)*x²/2 + y²/2",
             "|x + 1| + |y − 0*x| − √(1369*(x + 1)²)/37 − y + (x² + y²)/2",
+            "√((1 + √2)^2*x) − (1 + √2)*√x + (x² + y²)/2",
+            "√((2 + √3)*x) − (√6 + √2)/2*√x + (x² + y²)/2",
+            "√(3*y + √8*y) − √y − √(2*y) + (x² + y²)/2",
+            "√((1 + 2^(1/3))^2*y) − (1 + 2^(1/3))*√y + (x² + y²)/2",
         ] {
             let text = motion(&format!("potential = '{potential}'"));
             let (theorems, _) = told(&text, &of_seed(seed));
@@ -83,6 +87,15 @@ fn brackets_and_sums_with_such_roots_are_not_excluded() {
         let is_false = |own: &String| own.contains("dimension at most") && !own.contains("most 6");
         assert!(!theorems.iter().any(is_false), "x and y: {theorems:?}");
     }
+}
+
+#[test]
+fn numbers_under_roots_that_are_no_ratio_leave_theorems() {
+    // Kepler's problem with √2 in place of the mass: energy, angular momentum and Laplace's vector.
+    let text = "title = 't'\n[state]\nx = '0.5..2'\ny = '0.5..2'\n\"x'\" = '-1..1'\n\"y'\" = '-1..1'\n\
+                [lagrangian]\nkinetic = \"(x'² + y'²)/2\"\npotential = '-√2/√(x² + y²)'\n";
+    let (theorems, _) = told(text, &of_seed(1));
+    assert!(!theorems.is_empty(), "√2 is not under the root of the state");
 }
 
 #[test]
