@@ -97,7 +97,7 @@ struct Line<'l> {
     parts: &'l [Tree],
     from: &'l Point,
     place: usize,
-    /// What f64 shows.
+    /// Signs and lacks that f64 shows.
     hints: Hints<'l>,
     /// Values at the state, in few and in more bits.
     known: [Known; 2],

@@ -6,7 +6,7 @@ use super::point::Point;
 use super::real::{Found, Lack, Real, exactly, number, sign, sure_sign};
 use super::scene::{Origin, Scene};
 
-/// What is the same at points that differ in one coordinate.
+/// Values that are the same at points that differ in one coordinate.
 pub struct Known {
     /// Values of what is drawn, or of all.
     values: Found<Vec<Found<Real>>>,

@@ -8,7 +8,6 @@ use liouville::case::Case;
 use liouville::claim::LevelSubset;
 use liouville::formula::Formula;
 use liouville::graph::{Expr, Graph, Step};
-use liouville::number::{BinaryOperation, UnaryFunction};
 use liouville::proof::Prover;
 use liouville::verdict::Sampler;
 
@@ -74,14 +73,7 @@ fn has_irrational_radicand(graph: &Graph, outputs: &[Expr]) -> bool {
     let mut is_number = vec![false; reached.len()];
     let mut is_irrational = vec![false; reached.len()];
     for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
-        let is_root = match step {
-            Step::Unary(function, _) => {
-                !matches!(function, UnaryFunction::Neg | UnaryFunction::Recip)
-            }
-            Step::Power(_, exponent) => exponent.to_integer().is_none(),
-            Step::Binary(operation, ..) => operation == BinaryOperation::Pow,
-            Step::Constant(_) | Step::Input(_) => false,
-        };
+        let is_root = !step.is_rational();
         let mut arguments = step.arguments().collect::<Vec<_>>().into_iter();
         is_irrational[place] = arguments.any(|argument| is_irrational[argument]);
         if is_root && is_irrational[place] {

@@ -32,6 +32,18 @@ impl Step<'_> {
         first.into_iter().chain(second)
     }
 
+    /// Whether the step is an input, a constant, a sum, a product, a quotient or a whole power.
+    pub fn is_rational(&self) -> bool {
+        match self {
+            Step::Constant(_) | Step::Input(_) => true,
+            Step::Unary(function, _) => {
+                matches!(function, UnaryFunction::Neg | UnaryFunction::Recip)
+            }
+            Step::Power(_, exponent) => exponent.to_integer().is_some(),
+            Step::Binary(operation, ..) => *operation != BinaryOperation::Pow,
+        }
+    }
+
     /// Repeats a step other than an input in the recording under way, from the values of its
     /// arguments.
     pub fn repeat_from(&self, at: impl Fn(usize) -> Option<Expr>) -> Option<Expr> {

@@ -57,11 +57,7 @@ fn consist_of(graph: &Graph, values: &[Expr], of: impl Fn(Step<'_>) -> bool) -> 
 /// Whether some values, quotients of polynomials in the inputs, are known to have no common factor
 /// other than factors of their denominators.
 pub fn are_coprime(graph: &Graph, values: &[Expr], seed: u64) -> bool {
-    let is_rational = consist_of(graph, values, |step| match step {
-        Step::Unary(function, _) => matches!(function, UnaryFunction::Neg | UnaryFunction::Recip),
-        Step::Power(_, exponent) => exponent.to_integer().is_some(),
-        _ => true,
-    });
+    let is_rational = consist_of(graph, values, |step| step.is_rational());
     if !is_rational {
         return false;
     }

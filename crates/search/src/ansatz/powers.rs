@@ -67,3 +67,28 @@ impl<'v> VariablePowers<'v> {
         m.mul(self.monomial(m, exponents), self.factors[*factor])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn derivatives_exist_where_a_variable_is_0() {
+        let m = Modulus::new((1 << 61) - 1);
+        let own = Derivation { start: 0, variables: 3, factors: 1 };
+        // x = 0, y = 0, z = 5 with the rates 2, 3, 7, and the factor 11 with the rate 13.
+        let values: Vec<u64> = [0, 0, 5, 2, 3, 7, 11, 13].map(|n| m.integer(n)).to_vec();
+        let growth = [0, 0, m.mul(m.integer(7), m.inverse(m.integer(5)))];
+        let at = VariablePowers::of(&m, &own, &values, &growth, 2);
+        let derivative = |exponents: [u32; 3]| {
+            let exponents = exponents.to_vec();
+            let column = Column::Product { derivation: 0, factor: 0, exponents };
+            m.to_integer(at.derivative(&m, &column))
+        };
+        assert_eq!(derivative([1, 0, 1]), 11 * 5 * 2, "W z dx");
+        assert_eq!(derivative([0, 1, 2]), 11 * 25 * 3, "W z² dy");
+        assert_eq!(derivative([2, 0, 1]), 0, "x² z");
+        assert_eq!(derivative([1, 1, 1]), 0, "x y z");
+        assert_eq!(derivative([0, 0, 2]), 11 * 10 * 7 + 25 * 13, "W 2z dz + z² dW");
+    }
+}

@@ -211,7 +211,7 @@ impl FoundValues {
     }
 }
 
-/// What has been told of a parameter.
+/// Values of a parameter that are told already.
 #[derive(Default)]
 struct ToldValues {
     equations: Vec<String>,

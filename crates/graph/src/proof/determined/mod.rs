@@ -22,7 +22,7 @@ use super::bounds::{Bounds, InputDistribution};
 use super::coprime::is_single_valued;
 use super::{Group, Prover};
 use monomials::{Monomial, product};
-use search::{Search, is_function};
+use search::Search;
 use solved::Relation;
 
 /// Largest degree of a value that is tried with random constants.
@@ -53,7 +53,7 @@ impl Prover<'_> {
         let [wanted, given, constants] = [&of.wanted, &of.given, &of.constants].map(|v| places(v));
         let reached = graph.reached_from(&[&wanted[..], &given, &constants].concat());
         let functions: Vec<usize> =
-            (0..reached.len()).filter(|k| reached[*k] && is_function(&graph.step(*k))).collect();
+            (0..reached.len()).filter(|k| reached[*k] && !graph.step(*k).is_rational()).collect();
         let sources = self.sources_of(graph);
         let is_free = |step: Step<'_>| match step {
             Step::Constant(_) => true,

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, record};
+use crate::number::UnaryFunction;
 use crate::number::prime::{Modulus, Prime, UNDEFINED};
-use crate::number::{BinaryOperation, UnaryFunction};
 use crate::proof::Prover;
 use crate::proof::digest::SeedDigest;
 use crate::proof::rng::{ProofRng, ProofStream};
@@ -22,16 +22,6 @@ const MOST_MONOMIALS: usize = 128;
 const SPARE_POINTS: usize = 8;
 /// Largest number of multiplications of all eliminations.
 const MOST_WORK: usize = 1 << 27;
-
-/// Whether a step is no arithmetic.
-pub fn is_function(step: &Step<'_>) -> bool {
-    match step {
-        Step::Unary(function, _) => !matches!(function, UnaryFunction::Neg | UnaryFunction::Recip),
-        Step::Power(_, exponent) => exponent.to_integer().is_none(),
-        Step::Binary(operation, ..) => *operation == BinaryOperation::Pow,
-        Step::Constant(_) | Step::Input(_) => false,
-    }
-}
 
 /// Returns the argument of a function that takes no two arguments to one value.
 fn argument_of_one_to_one(step: &Step<'_>) -> Option<usize> {

@@ -1,4 +1,4 @@
-//! What a search does within its limits, in which order, and what it says of the rest.
+//! Limits of a search: its order within them, and the notes on the rest.
 
 use liouville::formula::Formula;
 use liouville_search::{Ansatz, ConditionTarget, Effort, Halt, SearchReport, search};
