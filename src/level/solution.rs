@@ -46,7 +46,7 @@ impl Solution {
     pub fn draws(&self, free: &[Draw]) -> Vec<Draw> {
         let mut draws = free.to_vec();
         for component in self.steps.iter().flat_map(SolutionStep::directions) {
-            draws[component] = Draw::Of(NumberLine::All, Range::between((-8, 5), (8, 5)));
+            draws[component] = Draw::Of(NumberLine::Directions, Range::between((-8, 5), (8, 5)));
         }
         draws.extend(vec![Draw::Sign; self.signs()]);
         draws

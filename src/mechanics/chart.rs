@@ -47,7 +47,7 @@ impl Chart {
             Chart::Rolling | Chart::Sphere => {
                 let of =
                     |line, low, high, count| vec![Draw::Of(line, Range::between(low, high)); count];
-                let mut draws = of(NumberLine::All, (-8, 5), (8, 5), 2);
+                let mut draws = of(NumberLine::Directions, (-8, 5), (8, 5), 2);
                 draws.extend(of(NumberLine::All, (-2, 1), (2, 1), 3));
                 // The length of γ, followed by the spin.
                 for (kept, line) in kept.iter().zip([NumberLine::Positive, NumberLine::All]) {

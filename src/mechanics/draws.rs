@@ -6,7 +6,7 @@
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 
-use super::recipe::{Draw, Range};
+use super::recipe::{Draw, NumberLine, Range};
 use super::streams::{NUMBERS, Streams, WIDTH};
 use crate::engine::{ROW_STATES, RowBlock};
 use crate::graph::{Kernel, with_widest_vectors};
@@ -15,6 +15,9 @@ use crate::number::rational::Rational;
 
 /// Number of states with short decimals.
 const SHORT: u64 = 64;
+/// Number of states whose first attempt takes directions inside the range alone, so that the first
+/// witnesses are easy to read.
+const INSIDE: u64 = 32;
 
 /// Random numbers for states, strictly inside their ranges and never 0.
 ///
@@ -35,7 +38,24 @@ enum NumberSource {
         grid: Grid,
         /// Ends of the range, rounded inwards.
         ends: [f64; 2],
+        /// Square of the upper end, if numbers outside of the range are drawn as well.
+        square: Option<Rational>,
     },
+}
+
+/// Properties of the numbers of a state that follow from its index.
+#[derive(Clone, Copy)]
+struct Manner {
+    /// Whether they are short decimals.
+    is_short: bool,
+    /// Whether directions may lie outside of their range.
+    reaches_out: bool,
+}
+
+impl Manner {
+    fn of(index: u64, attempt: u32) -> Self {
+        Self { is_short: index < SHORT, reaches_out: index >= INSIDE || attempt > 0 }
+    }
 }
 
 /// A grid of equidistant decimals inside a range.
@@ -112,7 +132,7 @@ impl DrawSource {
         seed: u64,
         index: u64,
         attempt: u32,
-        pick: impl Fn(&NumberSource, u64, bool) -> T,
+        pick: impl Fn(&NumberSource, u64, Manner) -> T,
     ) -> Vec<T> {
         let mut stream = ChaCha8Rng::seed_from_u64(seed);
         stream.set_stream(index);
@@ -120,8 +140,8 @@ impl DrawSource {
             // A number takes two words; each attempt continues where the last one ended.
             stream.set_word_pos(u128::from(attempt) * 2 * self.sources.len() as u128);
         }
-        let is_short = index < SHORT;
-        self.sources.iter().map(|source| pick(source, stream.next_u64(), is_short)).collect()
+        let manner = Manner::of(index, attempt);
+        self.sources.iter().map(|source| pick(source, stream.next_u64(), manner)).collect()
     }
 }
 
@@ -183,12 +203,20 @@ impl NumberSource {
     /// Encloses the numbers of the states from `index` on, made of these bits.
     #[inline(always)]
     fn enclose(&self, index: u64, bits: &[u64; WIDTH], mid: &mut [f64], rad: &mut [f64]) {
-        if let (NumberSource::Range { ends: [low, high], .. }, true) = (self, index >= SHORT) {
+        if let (NumberSource::Range { ends: [low, high], square, .. }, true) =
+            (self, index >= SHORT)
+        {
             let mut values = [0.0; WIDTH];
             let mut inside = true;
             for (value, bits) in values.iter_mut().zip(bits) {
                 *value = at_share([*low, *high], *bits);
                 inside &= (*low < *value) & (*value < *high) & (*value != 0.0);
+            }
+            if let Some(square) = square {
+                let square = square.to_f64().0;
+                for (value, bits) in values.iter_mut().zip(bits) {
+                    *value = if is_outside(*bits) { square / *value } else { *value };
+                }
             }
             if inside {
                 mid.copy_from_slice(&values[..mid.len()]);
@@ -197,8 +225,8 @@ impl NumberSource {
             }
         }
         for (lane, (mid, rad)) in mid.iter_mut().zip(rad).enumerate() {
-            let is_short = index + (lane as u64) < SHORT;
-            (*mid, *rad) = about(self.nearest(bits[lane], is_short));
+            let manner = Manner::of(index + lane as u64, 0);
+            (*mid, *rad) = about(self.nearest(bits[lane], manner));
         }
     }
 
@@ -216,34 +244,47 @@ impl NumberSource {
                     }
                 };
                 let ends = [inwards(&range.low, &range.high), inwards(&range.high, &range.low)];
-                NumberSource::Range { grid: Grid::of(range), ends }
+                let square = matches!(draw, Draw::Of(NumberLine::Directions, _))
+                    .then(|| &range.high * &range.high);
+                NumberSource::Range { grid: Grid::of(range), ends, square }
             }
         }
     }
 
     /// Returns the result of `pick` in f64, without making a rational number where parts are small.
-    fn nearest(&self, bits: u64, is_short: bool) -> (f64, bool) {
+    fn nearest(&self, bits: u64, manner: Manner) -> (f64, bool) {
         match self {
             NumberSource::Sign => (sign(bits) as f64, true),
-            NumberSource::Range { grid, .. } if is_short => grid.nearest(bits),
-            NumberSource::Range { ends, grid } => match between(*ends, bits) {
+            NumberSource::Range { square: Some(_), .. }
+                if manner.reaches_out && is_outside(bits) =>
+            {
+                self.pick(bits, manner).to_f64()
+            }
+            NumberSource::Range { grid, .. } if manner.is_short => grid.nearest(bits),
+            NumberSource::Range { ends, grid, .. } => match between(*ends, bits) {
                 Some(value) => (value, true),
                 None => grid.nearest(bits),
             },
-            NumberSource::List(_) => self.pick(bits, is_short).to_f64(),
+            NumberSource::List(_) => self.pick(bits, manner).to_f64(),
         }
     }
 
-    fn pick(&self, bits: u64, is_short: bool) -> Rational {
+    fn pick(&self, bits: u64, manner: Manner) -> Rational {
         match self {
             NumberSource::List(values) => {
                 let index = scale(bits, values.len() as u64) as usize;
                 values.get(index).cloned().unwrap_or_else(|| Rational::from(0))
             }
             NumberSource::Sign => Rational::from(sign(bits)),
-            NumberSource::Range { grid, .. } if is_short => grid.pick(bits),
-            NumberSource::Range { ends, grid } => {
-                between(*ends, bits).and_then(Rational::from_f64).unwrap_or_else(|| grid.pick(bits))
+            NumberSource::Range { grid, ends, square } => {
+                let inside = if manner.is_short { None } else { between(*ends, bits) };
+                match square.as_ref().filter(|_| manner.reaches_out && is_outside(bits)) {
+                    None => inside.and_then(Rational::from_f64).unwrap_or_else(|| grid.pick(bits)),
+                    Some(square) => inside
+                        .and_then(|inside| Rational::from_f64(square.to_f64().0 / inside))
+                        .or_else(|| Some(square * &grid.pick(bits).recip()?))
+                        .unwrap_or_else(|| grid.pick(bits)),
+                }
             }
         }
     }
@@ -251,15 +292,16 @@ impl NumberSource {
 
 impl NumberSource {
     /// Draws a number near one of both ends or 0, or any number, up to a thousandth of the range.
-    fn edge(&self, bits: u64, is_short: bool) -> Rational {
+    /// The ends of directions are at infinity.
+    fn edge(&self, bits: u64, manner: Manner) -> Rational {
         let (near, bits) = self.near(bits);
-        near.and_then(Rational::from_f64).unwrap_or_else(|| self.pick(bits, is_short))
+        near.and_then(Rational::from_f64).unwrap_or_else(|| self.pick(bits, manner))
     }
 
     /// Returns the f64 nearest to [`NumberSource::edge`], and whether it is exact.
-    fn nearest_edge(&self, bits: u64, is_short: bool) -> (f64, bool) {
+    fn nearest_edge(&self, bits: u64, manner: Manner) -> (f64, bool) {
         let (near, bits) = self.near(bits);
-        near.map_or_else(|| self.nearest(bits, is_short), |near| (near, true))
+        near.map_or_else(|| self.nearest(bits, manner), |near| (near, true))
     }
 
     /// Draws a number near an end or 0, if one of those is drawn, and the bits that are left.
@@ -267,9 +309,12 @@ impl NumberSource {
         const NEAR: f64 = 1.0 / 1024.0;
         let (place, bits) = (bits % 4, bits >> 2 << 2);
         let near = match self {
-            NumberSource::Range { ends: [low, high], .. } => {
+            NumberSource::Range { ends: [low, high], square, .. } => {
                 let width = NEAR * (high - low);
+                let far = |ends| Some(square.as_ref()?.to_f64().0 / between(ends, bits)?);
                 match place {
+                    0 if square.is_some() => far([-width, 0.0]),
+                    1 if square.is_some() => far([0.0, width]),
                     0 => between([*low, low + width], bits),
                     1 => between([high - width, *high], bits),
                     2 if *low < 0.0 && *high > 0.0 => between([-width, width], bits),
@@ -280,6 +325,12 @@ impl NumberSource {
         };
         (near, bits)
     }
+}
+
+/// Whether a direction is drawn outside of its range: one of four.
+#[inline(always)]
+fn is_outside(bits: u64) -> bool {
+    bits >> 2 & 3 == 0
 }
 
 fn sign(bits: u64) -> i64 {

@@ -47,7 +47,7 @@ impl Draw {
         match self {
             Draw::Within(range) => Extent::between(&range.low, &range.high),
             Draw::Of(NumberLine::Positive, _) => Extent::POSITIVE,
-            Draw::Of(NumberLine::All, _) => Extent::ALL,
+            Draw::Of(NumberLine::All | NumberLine::Directions, _) => Extent::ALL,
             Draw::OneOf(values) => match (values.iter().min(), values.iter().max()) {
                 (Some(least), Some(most)) => Extent::between(least, most),
                 _ => Extent::ALL,
@@ -90,6 +90,9 @@ impl Draw {
 pub enum NumberLine {
     /// All numbers.
     All,
+    /// All numbers, as coordinates of directions or of points of a sphere: since all of them count,
+    /// some are drawn outside of the range, which is -a..a, as a²/x for x inside it.
+    Directions,
     /// All positive numbers.
     Positive,
 }
@@ -271,7 +274,7 @@ impl SamplerSpec {
 }
 
 fn rotation_draws() -> Vec<Draw> {
-    vec![Draw::Of(NumberLine::All, Range::between((-9, 10), (9, 10))); 3]
+    vec![Draw::Of(NumberLine::Directions, Range::between((-9, 10), (9, 10))); 3]
 }
 
 fn diagonal<T: Scalar>(entries: [T; 3]) -> Matrix3<T> {

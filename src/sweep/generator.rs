@@ -13,7 +13,7 @@
 
 use crate::engine::{ROW_STATES, RowBlock};
 use crate::graph::{Kernel, with_widest_vectors};
-use crate::mechanics::Draw;
+use crate::mechanics::{Draw, NumberLine};
 
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 /// The factor 2⁻³².
@@ -29,7 +29,16 @@ pub(super) struct Generator {
 
 #[derive(Clone, Debug)]
 enum InputSource {
-    Range { first: f64, step: f64 },
+    Range {
+        first: f64,
+        step: f64,
+    },
+    /// Numbers of a range -a..a, and a²/x for one x of four.
+    Directions {
+        first: f64,
+        step: f64,
+        square: f64,
+    },
     List(Vec<f64>),
 }
 
@@ -41,7 +50,14 @@ impl Generator {
             Draw::Sign => InputSource::List(vec![1.0, -1.0]),
             Draw::Within(range) | Draw::Of(_, range) => {
                 let step = (&range.high - &range.low).to_f64().0 * UNIT;
-                InputSource::Range { first: range.low.to_f64().0 + step / 2.0, step }
+                let first = range.low.to_f64().0 + step / 2.0;
+                match draw {
+                    Draw::Of(NumberLine::Directions, _) => {
+                        let square = (&range.high * &range.high).to_f64().0;
+                        InputSource::Directions { first, step, square }
+                    }
+                    _ => InputSource::Range { first, step },
+                }
             }
         };
         let key = |pair: usize| mixed(mixed(seed).wrapping_add(pair as u64));
@@ -85,6 +101,13 @@ impl Kernel for Fill<'_> {
                     InputSource::Range { first, step } => {
                         for lane in 0..ROW_STATES {
                             row.0[lane] = first + step * f64::from(number(bits[lane]));
+                        }
+                    }
+                    InputSource::Directions { first, step, square } => {
+                        for lane in 0..ROW_STATES {
+                            let number = number(bits[lane]);
+                            let inside = first + step * f64::from(number);
+                            row.0[lane] = if number % 4 == 0 { square / inside } else { inside };
                         }
                     }
                     InputSource::List(values) => {
@@ -173,5 +196,16 @@ mod tests {
         assert!(spread < 130.0, "χ² = {spread}");
         let fair = |n: i32| (n - 64_000 / 3).abs() < 600;
         assert!(fair(listed[1]) && fair(listed[2]) && fair(listed[5]), "{listed:?}");
+    }
+
+    #[test]
+    fn directions_reach_every_part_of_a_circle() {
+        let range = Range::between((-8, 5), (8, 5));
+        let generator = Generator::new(&[Draw::Of(NumberLine::Directions, range)], 1);
+        let mut sectors = [0; 24];
+        for x in (0..16).flat_map(|block| rows(&generator, 64 * block)[0].0) {
+            sectors[((2.0 * x.atan() / std::f64::consts::PI + 1.0) * 12.0) as usize] += 1;
+        }
+        assert!(sectors.iter().all(|count| *count > 10), "states by sector: {sectors:?}");
     }
 }

@@ -5,7 +5,7 @@ use super::evidence::Verdict;
 use super::field::{Answer, PrimeFieldStates, Query, combinations};
 use super::judging::Judging;
 use super::ladder::Open;
-use super::preimages::Second;
+use super::preimages::SecondState;
 use super::recorded::RecordedClaim;
 use super::sampler::{Sampler, extent};
 use crate::claim::{Condition, Need};
@@ -27,7 +27,7 @@ impl Judging<'_> {
         for (item, status) in holding.iter_mut() {
             for condition in &item.conditions {
                 let asks_one_to_one = matches!(condition.need, Need::OneToOne);
-                if asks_one_to_one && self.is_one_to_one(sampler)? {
+                if asks_one_to_one && self.is_one_to_one(sampler, SecondState::InRanges)? {
                     continue;
                 }
                 let failure = match (&condition.need, sampler.is_numerical()) {
@@ -69,7 +69,15 @@ impl Judging<'_> {
             if status.settled != Some(Verdict::Refuted) || !is_asked(item) {
                 continue;
             }
-            let Some(both) = self.second_preimage(sampler, item, Second::Anywhere)? else {
+            if self.is_one_to_one(sampler, SecondState::Anywhere)? {
+                continue;
+            }
+            let Some(both) = self.second_preimage(sampler, item, SecondState::Anywhere)? else {
+                status.evidence.add_remark(
+                    "if Φ takes no two states to one, inside or outside of the declared \
+                     ranges, which is not proved"
+                        .to_string(),
+                );
                 continue;
             };
             status.evidence.witness = None;
@@ -135,7 +143,7 @@ impl Judging<'_> {
                 Ok(has_none.then(|| otherwise.clone()))
             }
             Need::OneToOne => {
-                let both = self.second_preimage(sampler, item, Second::InRanges)?;
+                let both = self.second_preimage(sampler, item, SecondState::InRanges)?;
                 Ok(both.map(|both| format!("Φ takes {both} to one state: {otherwise}")))
             }
             Need::Continuous { values } => {

@@ -12,6 +12,7 @@ use super::ladder::{LADDER_BITS, PRECISE_STATES};
 use super::overflow;
 use super::physics;
 use super::pieces::Pieces;
+use super::preimages::SecondState;
 use super::recorded::SharedTerms;
 use super::run::{Doubles, Run};
 use super::sampler::{Sampler, TAPE_LANES};
@@ -37,6 +38,9 @@ pub struct Judging<'a> {
     pub(super) missed: RefCell<FxHashMap<Vec<bool>, Option<String>>>,
     /// Parts of a place, by the equations that hold there.
     pub(super) pieces: RefCell<FxHashMap<Vec<bool>, Option<Pieces>>>,
+    /// Whether the map is proved to be one-to-one, by the equations that hold at a place and by the
+    /// states that count.
+    pub(super) one_to_one: RefCell<FxHashMap<(Vec<bool>, SecondState), bool>>,
 }
 
 impl<'a> Judging<'a> {
@@ -48,8 +52,17 @@ impl<'a> Judging<'a> {
         graph: &'a Graph,
         inputs: usize,
     ) -> Self {
-        let (missed, pieces) = (RefCell::default(), RefCell::default());
-        Self { case, common, options, graph, inputs, decided: &|_| (), missed, pieces }
+        Self {
+            case,
+            common,
+            options,
+            graph,
+            inputs,
+            decided: &|_| (),
+            missed: RefCell::default(),
+            pieces: RefCell::default(),
+            one_to_one: RefCell::default(),
+        }
     }
 
     /// Tells how many claims more are decided.

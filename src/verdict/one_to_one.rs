@@ -2,36 +2,89 @@
 
 use super::field::combinations;
 use super::judging::Judging;
-use super::sampler::Sampler;
-use crate::graph::{Expr, Fault, Graph, Step, record};
-use crate::mechanics::Phase;
+use super::preimages::SecondState;
+use super::sampler::{Sampler, TAPE_LANES};
+use crate::claim::LevelSubset;
+use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, record};
 use crate::mechanics::calculus::DualPoint;
+use crate::mechanics::{Chart, Draw, NumberLine, Phase};
+use crate::number::ball::{Ball, Balls};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
-use crate::proof::{Determination, Group, Prover, is_nowhere_zero};
+use crate::proof::{Determination, Group, Prover, is_nowhere_zero, sign};
 
 impl Judging<'_> {
     /// Whether the map is proved to be one-to-one on the states of a place, for each choice of
-    /// listed values: its image determines the state, or it is monotone in one variable.
-    pub(super) fn is_one_to_one(&self, sampler: &Sampler) -> Result<bool, Fault> {
+    /// listed values, in the declared ranges or on all states.
+    pub(super) fn is_one_to_one(
+        &self,
+        sampler: &Sampler,
+        states: SecondState,
+    ) -> Result<bool, Fault> {
+        let key = (sampler.kept().to_vec(), states);
+        if let Some(known) = self.one_to_one.borrow().get(&key) {
+            return Ok(*known);
+        }
         // Each part of a level would have a relation of its own, and parts may have common images.
         let is_whole = !sampler.is_numerical()
             && self.missed_part(sampler)?.is_none()
             && self.pieces(sampler)?.is_none();
-        if !is_whole {
-            return Ok(false);
+        let is_proved = is_whole
+            && match states {
+                SecondState::InRanges => self.has_inverse(sampler)?,
+                SecondState::Anywhere => match self.without_ranges(sampler)? {
+                    Some(unbounded) => self.has_inverse(&unbounded)?,
+                    None => false,
+                },
+            };
+        self.one_to_one.borrow_mut().insert(key, is_proved);
+        Ok(is_proved)
+    }
+
+    /// Makes a sampler of the same place whose variables take all values; `None` if a chart was
+    /// typed for it.
+    fn without_ranges(&self, sampler: &Sampler) -> Result<Option<Sampler>, Fault> {
+        let is_charted = match &self.case.chart {
+            Chart::Free | Chart::Equations => false,
+            Chart::Rolling | Chart::Sphere | Chart::Given(_) => sampler.kept().contains(&true),
+        };
+        if is_charted {
+            return Ok(None);
         }
+        let mut case = self.case.clone();
+        for draw in &mut case.free_draws {
+            if let Draw::Within(range) = draw {
+                *draw = Draw::Of(NumberLine::All, range.clone());
+            }
+        }
+        let place = LevelSubset { kept: sampler.kept().to_vec() };
+        let unbounded = Sampler::new(&case, &place, self.options.seed)?;
+        Ok((!unbounded.is_numerical()).then_some(unbounded))
+    }
+
+    /// Whether the state is proved to be a function of its image and the parameters, outside of a set
+    /// of measure 0.
+    fn has_inverse(&self, sampler: &Sampler) -> Result<bool, Fault> {
         let Some(combinations) = combinations(sampler.recipes()) else { return Ok(false) };
         for fixed in combinations {
-            if !self.is_monotone(sampler, &fixed)? && !self.has_inverse(sampler, &fixed)? {
+            let known = self.monotone_variables(sampler, &fixed)?;
+            if known.len() < self.case.model.dimension()
+                && !self.is_determined(sampler, &fixed, &known)?
+            {
                 return Ok(false);
             }
         }
         Ok(true)
     }
 
-    /// Whether the state is proved to be a function of its image and the parameters.
-    fn has_inverse(&self, sampler: &Sampler, fixed: &[Option<Rational>]) -> Result<bool, Fault> {
+    /// Whether the state is proved to be a function of its image, the parameters and those of its
+    /// components that are known.
+    fn is_determined(
+        &self,
+        sampler: &Sampler,
+        fixed: &[Option<Rational>],
+        known: &[usize],
+    ) -> Result<bool, Fault> {
         let model = &self.case.model;
         let mut inputs: Vec<Option<Expr>> = vec![None; self.graph.inputs()];
         for (place, step) in self.graph.steps().enumerate() {
@@ -50,9 +103,11 @@ impl Judging<'_> {
         let groups = [states, group(&self.common.field), group(constants)];
         let (graph, groups) = sampler.compose_groups(self.graph, &groups, fixed)?;
         let [states, images, constants] = groups.try_into().map_err(|_| Fault::ForeignValue)?;
+        let mut given = images.outputs;
+        given.extend(known.iter().map(|component| states.outputs[*component]));
         let question = Determination {
             wanted: states.outputs,
-            given: images.outputs,
+            given,
             constants: constants.outputs,
             required: states.required,
             facts: states.facts,
@@ -62,26 +117,88 @@ impl Judging<'_> {
         prover.is_determined(&graph, &question)
     }
 
-    /// Whether the map of one variable is proved to be monotone on its range: it is differentiable
-    /// there, and its slope is not 0.
-    fn is_monotone(&self, sampler: &Sampler, fixed: &[Option<Rational>]) -> Result<bool, Fault> {
-        let model = &self.case.model;
-        if model.dimension() != 1 || sampler.kept().contains(&true) {
-            return Ok(false);
-        }
-        let free = model.free_components();
-        let (graph, values) = record(free + 1, |inputs| {
+    /// Lists the variables found one after another from components of the image, each of which is
+    /// proved to be monotone in one variable and to contain no other that is not known.
+    fn monotone_variables(
+        &self,
+        sampler: &Sampler,
+        fixed: &[Option<Rational>],
+    ) -> Result<Vec<usize>, Fault> {
+        let (model, mut known) = (&self.case.model, Vec::new());
+        let (free, dimension) = (model.free_components(), model.dimension());
+        let draw = |value: &Expr| match sampler.graph().step(sampler.graph().place(*value)) {
+            Step::Input(draw) => Some(draw),
+            _ => None,
+        };
+        let is_free = !sampler.kept().contains(&true);
+        let draws: Option<Vec<usize>> = sampler.made()[free..].iter().map(draw).collect();
+        let Some(draws) = draws.filter(|_| is_free) else { return Ok(known) };
+        let (graph, values) = record(free + dimension, |inputs| {
             let (parameters, state) = inputs.split_at(free);
             let jet = DualPoint::new(Phase::new(model, parameters, state));
-            let slopes = jet.derivative().concat();
-            [jet.phase.field().to_vec(), slopes]
+            let mut values = vec![jet.phase.field().to_vec()];
+            values.extend(jet.derivative());
+            values
         })?;
-        let (graph, values) = sampler.compose(&graph, &values, fixed)?;
-        let extents = sampler.extents();
-        let is_nonzero = |value: Expr| is_nowhere_zero(&graph, &extents, &[], &[value]);
-        let Some(edges) = edges(&graph, &values[0]) else { return Ok(false) };
-        Ok(edges.into_iter().chain(values[1].iter().copied()).all(is_nonzero))
+        let (graph, mut values) = sampler.compose(&graph, &values, fixed)?;
+        let slopes = values.split_off(1);
+        let images: Vec<Vec<usize>> = values
+            .concat()
+            .iter()
+            .map(|image| {
+                let reached = graph.reached([*image]);
+                let is_used = |input: &usize| {
+                    graph
+                        .steps()
+                        .zip(&reached)
+                        .any(|(step, reached)| *reached && step == Step::Input(*input))
+                };
+                (0..dimension).filter(|k| is_used(&draws[*k])).collect()
+            })
+            .collect();
+        let mut open: Vec<usize> = (0..images.len()).collect();
+        while let Some((place, variable)) = open.iter().enumerate().find_map(|(place, image)| {
+            let mut unknown = images[*image].iter().filter(|k| !known.contains(*k));
+            let variable = unknown.next().filter(|_| unknown.next().is_none())?;
+            Some((place, *variable))
+        }) {
+            let image = open.swap_remove(place);
+            let slope = slopes[variable][image];
+            if is_monotone(&graph, sampler, fixed, values[0][image], slope) {
+                known.push(variable);
+            }
+        }
+        Ok(known)
     }
+}
+
+/// Whether a value is proved to be differentiable at all draws and strictly monotone, for almost all
+/// values of the others, in that draw along which it has the given slope.
+fn is_monotone(
+    graph: &Graph,
+    sampler: &Sampler,
+    fixed: &[Option<Rational>],
+    value: Expr,
+    slope: Expr,
+) -> bool {
+    let extents = sampler.extents();
+    let is_nonzero = |value: Expr| is_nowhere_zero(graph, &extents, &[], &[value]);
+    let Some(edges) = edges(graph, &[value]) else { return false };
+    edges.into_iter().all(is_nonzero)
+        && (is_nonzero(slope)
+            || sign(graph, &extents, &[], &[], slope).is_some()
+                && is_nonzero_somewhere(graph, &sampler.with(fixed), slope))
+}
+
+/// Whether a value is proved to be other than 0 at some draws of the first block.
+fn is_nonzero_somewhere(graph: &Graph, sampler: &Sampler, value: Expr) -> bool {
+    let tape = Tape::new(graph, &[value]);
+    let mut evaluator = Evaluator::new(&tape, Ball::<TAPE_LANES>);
+    evaluator.run(&sampler.drawn(&Ball::<TAPE_LANES>, TAPE_LANES, 0));
+    let is_nonzero = |block: &Balls<TAPE_LANES>| {
+        (0..TAPE_LANES).any(|lane| block.is_defined(lane) && block.excludes_zero(lane))
+    };
+    evaluator.outputs().all(is_nonzero)
 }
 
 /// Lists the values that must not be 0 for others to be differentiable on the whole range; `None`

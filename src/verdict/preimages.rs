@@ -32,8 +32,8 @@ const SCALED: usize = 8;
 const ACROSS: f64 = 2.5;
 
 /// States that count as a second one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Second {
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum SecondState {
     /// Those in the declared ranges.
     InRanges,
     /// Any: the measure of a set is that of all states whose images lie in it.
@@ -49,7 +49,7 @@ impl Judging<'_> {
         &self,
         sampler: &Sampler,
         item: &RecordedClaim<'_>,
-        second: Second,
+        second: SecondState,
     ) -> Result<Option<String>, Fault> {
         let model = &self.case.model;
         let (free, dimension) = (model.free_components(), model.dimension());
@@ -88,8 +88,8 @@ impl Judging<'_> {
             let Some(image) = images(&here) else { continue };
             let target = [&here[..free], &image].concat();
             let multiples = match second {
-                Second::InRanges => &MULTIPLES[..1],
-                Second::Anywhere => &MULTIPLES[..],
+                SecondState::InRanges => &MULTIPLES[..1],
+                SecondState::Anywhere => &MULTIPLES[..],
             };
             let others = (1..=STARTS).map(|step| k - k % set + (k + step) % set);
             let drawn = others.map(lane);
@@ -98,7 +98,7 @@ impl Judging<'_> {
             });
             let starts: Vec<Vec<Balls<1>>> = drawn.chain(of_parts).collect();
             let near = starts.iter().flat_map(|other| multiples.iter().map(move |by| (other, *by)));
-            let is_scaled = second == Second::Anywhere && k < SCALED;
+            let is_scaled = second == SecondState::Anywhere && k < SCALED;
             let scales = (1..=SCALES).flat_map(|n| [-10 * n, 10 * n]).map(|n| 2f64.powi(n));
             let far = starts
                 .iter()
@@ -111,7 +111,7 @@ impl Judging<'_> {
                     .iter()
                     .zip(&there)
                     .any(|(a, b)| (a.mid[0] - b.mid[0]).abs() > 2.0 * (a.rad[0] + b.rad[0]));
-                let is_inside = second == Second::Anywhere
+                let is_inside = second == SecondState::Anywhere
                     || there.iter().zip(&self.case.free_draws).all(|(x, draw)| {
                         let (low, high) =
                             inside(draw).unwrap_or((f64::NEG_INFINITY, f64::INFINITY));

@@ -14,6 +14,7 @@ use super::evidence::{Method, Proof, Verdict};
 use super::field::{Answer, PrimeFieldStates, Query};
 use super::judge::{JudgeError, Trust};
 use super::judging::Judging;
+use super::preimages::SecondState;
 use super::recorded::{RecordedClaim, Wider};
 use super::run::{Doubles, Values};
 use super::sampler::{Sampler, TAPE_LANES};
@@ -110,7 +111,7 @@ impl Judging<'_> {
         let asks = |own: &Candidate<'_, '_>| {
             own.item.conditions.iter().any(|condition| matches!(condition.need, Need::OneToOne))
         };
-        if candidates.iter().any(asks) && !self.is_one_to_one(&sampler)? {
+        if candidates.iter().any(asks) && !self.is_one_to_one(&sampler, SecondState::InRanges)? {
             candidates.retain(|own| !asks(own));
         }
         let values = self.run(&outputs).at(&Ball::<TAPE_LANES>, &sampler.balls(0));

@@ -15,7 +15,8 @@ fn the_nearest_f64_is_that_of_the_number() {
     let ends = [(-3, 7, 5, 3), (0, 1, 1, 1), (-1, 1, 1, 1), (1, 1024, 3, 1024), (1, 3, 1 << 40, 9)];
     let ranges = ends.map(|(a, b, c, d)| Draw::Within(Range::between((a, b), (c, d))));
     let list = Draw::OneOf(vec![Rational::new(1, 3), Rational::new(5, 8)]);
-    let draws = DrawSource::new(&[&ranges[..], &[list]].concat());
+    let directions = Draw::Of(NumberLine::Directions, Range::between((-8, 5), (8, 5)));
+    let draws = DrawSource::new(&[&ranges[..], &[list, directions]].concat());
     for index in 0..2000 {
         let exact = draws.state(5, index).iter().map(Rational::to_f64).collect::<Vec<_>>();
         assert_eq!(draws.nearest(5, index, 0), exact, "state {index}");
@@ -79,4 +80,22 @@ fn states_differ_and_do_not_depend_on_each_other() {
     let (four, two) = (DrawSource::new(&draws), DrawSource::new(&draws[..2]));
     assert_ne!(four.state(1, 0), four.state(1, 1), "each state has numbers of its own");
     assert_eq!(four.state(1, 5)[..2], two.state(1, 5)[..], "further draws change nothing");
+}
+
+#[test]
+fn directions_reach_every_part_of_a_circle() {
+    let draws =
+        DrawSource::new(&[Draw::Of(NumberLine::Directions, Range::between((-8, 5), (8, 5)))]);
+    let inside = |index: u64, attempt| draws.nearest(1, index, attempt)[0].0.abs() < 1.6;
+    assert!((0..32).all(|index| inside(index, 0)), "the first states are easy to read");
+    assert!((0..32).any(|index| !inside(index, 1)), "but for further attempts");
+    let mut sectors = [0; 24];
+    for index in 32..1032 {
+        let angle = 2.0 * draws.nearest(1, index, 0)[0].0.atan();
+        sectors[((angle / std::f64::consts::PI + 1.0) * 12.0) as usize] += 1;
+    }
+    assert!(sectors.iter().all(|count| *count > 10), "states by sector: {sectors:?}");
+    let far = |index| draws.nearest_edge(1, index)[0].0;
+    assert!((0..64).any(|index| far(index) > 1e3), "near the upper end of the line");
+    assert!((0..64).any(|index| far(index) < -1e3), "near the lower end");
 }

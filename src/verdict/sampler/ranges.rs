@@ -53,7 +53,7 @@ pub fn inside(draw: &Draw) -> Option<(f64, f64)> {
     match draw {
         Draw::Within(range) => Some((above(&range.low), below(&range.high))),
         Draw::Of(NumberLine::Positive, _) => Some((f64::MIN_POSITIVE, f64::INFINITY)),
-        Draw::Of(NumberLine::All, _) | Draw::OneOf(_) | Draw::Sign => None,
+        Draw::Of(NumberLine::All | NumberLine::Directions, _) | Draw::OneOf(_) | Draw::Sign => None,
     }
 }
 

@@ -101,3 +101,54 @@ fn a_second_state_near_a_pole_is_found() {
         assert_eq!(report.verdict, Verdict::Undecided, "{map} on {range}");
     }
 }
+
+/// The verdict on the density 1 of a map of x and p, and the remark.
+fn of_phase(range: &str, x: &str, p: &str) -> (Verdict, String) {
+    let text = format!(
+        "title = 't'\n[state]\nx = '{range}'\np = '-2..2'\n[map]\nx = '{x}'\np = '{p}'\n\
+         [[claim]]\ndensity = '1'\nexpect = 'open'\n"
+    );
+    let report = claims(&text).remove(0);
+    (report.verdict, report.evidence.remark.unwrap_or_default())
+}
+
+#[test]
+fn variables_are_found_one_after_another_by_monotony() {
+    let proved = (Verdict::Proved, String::new());
+    for [range, x, p] in [
+        ["-2..2", "x³", "p/(3*x²)"],
+        ["0.5..2", "x²", "p/(2*x)"],
+        ["-1..2", "(exp(x) − exp(−x))/2", "2*p/(exp(x) + exp(−x))"],
+        ["-1..1", "tan(x)", "p*cos(x)²"],
+        ["-20..20", "x − sin(x)/2", "p/(1 − cos(x)/2)"],
+        ["-20..20", "x − sin(x)", "x + p/(1 − cos(x))"],
+    ] {
+        assert_eq!(of_phase(range, x, p), proved, "{x}, {p} on {range}");
+    }
+    for [range, x, p] in [
+        ["-2..2", "x²", "p/(2*x)"],
+        ["0..3", "tan(x)", "p*cos(x)²"],
+        ["-2..2", "|x|*x − x/1000", "p/(2*|x| − 1/1000)"],
+        ["-2..2", "x", "|p|"],
+    ] {
+        let (verdict, remark) = of_phase(range, x, p);
+        let is_open = verdict == Verdict::Undecided || remark.contains("not proved");
+        assert!(is_open, "{x}, {p} on {range}: {verdict:?}, {remark}");
+    }
+}
+
+#[test]
+fn a_refuted_density_says_that_the_map_is_not_proved_to_be_one_to_one() {
+    let refuted = |range: &str, x: &str| {
+        let (verdict, remark) = of_phase(range, x, "p");
+        assert_eq!(verdict, Verdict::Refuted, "{x} on {range}: {remark}");
+        remark
+    };
+    for (range, x) in [("-2..2", "2*x"), ("-2..2", "x³"), ("0.5..2", "exp(x)"), ("1..2", "x + x³")]
+    {
+        assert_eq!(refuted(range, x), "", "{x} on {range}");
+    }
+    // Images of a few x near −7003 are those of others.
+    let tooth = "2*x + 15*10^6*(|x + 7003 + 1/1000| − 2*|x + 7003| + |x + 7003 − 1/1000|)";
+    assert!(refuted("1..2", tooth).contains("not proved"));
+}

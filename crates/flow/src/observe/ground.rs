@@ -259,7 +259,7 @@ fn is_inside(case: &Case, state: &[Enclosure]) -> bool {
         let (low, high) = (x.mid - x.rad, x.mid + x.rad);
         match draw {
             Draw::Within(range) => range.low.to_f64().0 < low && high < range.high.to_f64().0,
-            Draw::Of(NumberLine::All, _) => true,
+            Draw::Of(NumberLine::All | NumberLine::Directions, _) => true,
             Draw::Of(NumberLine::Positive, _) => low > 0.0,
             Draw::OneOf(_) | Draw::Sign => false,
         }
