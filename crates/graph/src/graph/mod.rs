@@ -162,6 +162,11 @@ impl Graph {
         expr.id().is_some_and(|id| self.is_undefined(id))
     }
 
+    /// Whether the form shows that a value is defined wherever the inputs are.
+    pub fn is_always_defined(&self, expr: Expr) -> bool {
+        expr.id().is_none_or(|id| self.domains[id.0 as usize] == Defined::Always)
+    }
+
     /// Whether an expression depends on input `input`. Linear in the size of the graph.
     pub fn depends_on(&self, expr: Expr, input: usize) -> bool {
         let Some(root) = expr.id() else { return false };

@@ -22,6 +22,7 @@ use super::rewrite::Rewrite;
 use super::roots::{RootFinder, RootSearch};
 use super::tower::{RootStatus, Tower};
 use super::trial::{Certificate, Roots, Trial, TrialResult, both};
+use super::void::is_lost;
 
 /// Largest number of cells.
 const MOST_CELLS: usize = 64;
@@ -313,8 +314,17 @@ impl Explorer<'_> {
             return all_silent("a function has no value in a prime field");
         };
         let all = self.by_group(&made);
-        let is_void = |group: &[Expr]| group.iter().any(|x| extended.graph.is_nowhere_defined(*x));
-        let asked: Vec<&[Expr]> = all.iter().copied().filter(|group| !is_void(group)).collect();
+        let is_void: Vec<bool> = all
+            .iter()
+            .zip(groups)
+            .map(|(made, group)| {
+                made.iter().any(|value| extended.graph.is_nowhere_defined(*value))
+                    || self.has_void_argument(cell, algebraic, trial, tower, group)
+            })
+            .collect();
+        let pairs = all.iter().zip(&is_void);
+        let asked: Vec<&[Expr]> =
+            pairs.filter(|(_, is_void)| !**is_void).map(|(group, _)| *group).collect();
         let found = for_all_choices(&Trial::new(&extended, self.digest), &asked, tower, loose);
         let mut found = found.into_iter().zip(&asked).map(|(result, group)| match result {
             TrialResult::NonZero => unlike(&extended, group, loose),
@@ -324,7 +334,7 @@ impl Explorer<'_> {
             result => result,
         });
         let mut results: Vec<Option<TrialResult>> =
-            all.iter().map(|group| if is_void(group) { None } else { found.next() }).collect();
+            is_void.iter().map(|is_void| if *is_void { None } else { found.next() }).collect();
         let is_open =
             |result: &TrialResult| matches!(result, TrialResult::NonZero | TrialResult::Silent(_));
         if results.iter().flatten().any(is_open) {
@@ -376,13 +386,6 @@ impl Explorer<'_> {
         let is_empty = region.is_empty() || region.is_beyond_bounds();
         is_empty.then_some(Next::Empty(classes.certificate))
     }
-}
-
-/// Whether a value has none in a prime field, though it has one on the cell.
-fn is_lost(cell: &Cell, algebraic: &Algebraic<'_>, value: Expr) -> bool {
-    let lowered = algebraic.values[cell.graph.place(value)];
-    !cell.graph.is_nowhere_defined(value)
-        && lowered.is_none_or(|lowered| algebraic.graph.is_nowhere_defined(lowered))
 }
 
 impl Explorer<'_> {

@@ -57,6 +57,7 @@ mod plain;
 mod polynomial;
 mod polynomials;
 mod powers;
+mod presence;
 mod rank;
 mod reconstruct;
 mod refusals;
@@ -69,6 +70,7 @@ mod squares;
 mod symbols;
 mod tower;
 mod trial;
+mod void;
 
 #[cfg(test)]
 mod tests;
@@ -107,6 +109,9 @@ use relations::RelationSearch;
 use symbols::Symbols;
 use trial::{Roots, Trial, TrialResult};
 
+/// Reason why a value that is not zero decides nothing.
+const NOT_PRESENT: &str =
+    "it is not known whether what the claim is read off has a value at almost all states";
 /// Number of steps, counted once for each bucket, from which on threads share the buckets.
 const LARGE: usize = 1 << 14;
 
@@ -191,8 +196,14 @@ impl Prover<'_> {
             false => self.prove_special(question, &asked, bucket)?,
         };
         let outcome = |(group, (outcome, is_partial)): (&Group, (GroupOutcome, bool))| {
-            let is_doubtful = is_partial || !group.presence.is_empty();
-            match (is_doubtful, &outcome) {
+            let is_settled = matches!(outcome, GroupOutcome::Zero(_) | GroupOutcome::NonZero(_));
+            if is_settled && !group.presence.is_empty() && !self.are_present(question, group)? {
+                return Ok(match outcome {
+                    GroupOutcome::NonZero(_) => GroupOutcome::Silent(NOT_PRESENT.to_string()),
+                    _ => GroupOutcome::Partial,
+                });
+            }
+            match (is_partial, &outcome) {
                 (true, GroupOutcome::Zero(_) | GroupOutcome::Void) => {
                     self.on_all_parts(question, group, outcome)
                 }
@@ -288,8 +299,7 @@ impl Prover<'_> {
     }
 
     /// Proves values that are undefined on a part of the inputs, as a derivative is where the
-    /// radicand of a root vanishes, or that have no meaning there. The outcome stands if the required
-    /// values are undefined there too.
+    /// radicand of a root vanishes. The outcome stands if the required values are undefined there too.
     fn on_all_parts(
         &self,
         question: &QuestionData<'_>,
@@ -297,18 +307,17 @@ impl Prover<'_> {
         outcome: GroupOutcome,
     ) -> Result<GroupOutcome, Fault> {
         let QuestionData { graph, sources, .. } = question;
-        let Group { outputs, required, facts, presence } = group;
-        if required.is_empty() && presence.is_empty() {
+        let Group { outputs, required, facts, .. } = group;
+        if required.is_empty() {
             return Ok(outcome);
         }
-        let own = [&outputs[..], presence].concat();
         let wide = Group {
-            outputs: [&own[..], required].concat(),
+            outputs: [&outputs[..], required].concat(),
             required: required.clone(),
             facts: facts.clone(),
             presence: Vec::new(),
         };
-        let asked: &[&[Expr]] = if required.is_empty() { &[&own] } else { &[&own, required] };
+        let asked: &[&[Expr]] = &[outputs, required];
         let leaves = match buckets(graph, &[wide], sources).pop() {
             Some(bucket) => self.explore(question, asked, &bucket)?.leaves,
             None => Vec::new(),

@@ -186,9 +186,10 @@ impl Rewrite {
                 _ => None,
             },
             (Rewrite::Angle { argument, angle }, step) => match step {
-                Step::Unary(function @ (UnaryFunction::Sin | UnaryFunction::Cos), a) => {
-                    let is_sine = function == UnaryFunction::Sin;
-                    angle.value(is_sine, values).filter(|_| a == *argument)
+                Step::Unary(function @ (UnaryFunction::Sin | UnaryFunction::Cos), a)
+                    if a == *argument =>
+                {
+                    angle.value(function == UnaryFunction::Sin, values)
                 }
                 _ => None,
             },

@@ -233,8 +233,8 @@ fn quarters(combination: &Combination) -> Option<u8> {
     u8::try_from((halves / 2).rem_euclid(4)).ok()
 }
 
-/// Iterates over the transcendental steps, in order.
-fn transcendental<'g>(
+/// Lists the reached transcendental steps with their places, in order.
+pub fn transcendental<'g>(
     graph: &'g Graph,
     reached: &'g [bool],
 ) -> impl Iterator<Item = (usize, Step<'g>)> {

@@ -131,7 +131,7 @@ impl Prover<'_> {
     }
 
     /// Whether a value is known to be 0 on a set of measure 0 at most.
-    fn is_almost_nowhere_zero(&self, graph: &Graph, value: Expr) -> Result<bool, Fault> {
+    pub(super) fn is_almost_nowhere_zero(&self, graph: &Graph, value: Expr) -> Result<bool, Fault> {
         if let Some(value) = graph.constant_value(value) {
             return Ok(!value.is_zero());
         }
