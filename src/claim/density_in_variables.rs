@@ -39,16 +39,13 @@ impl Statement for DensityInVariables {
         vec![growth + jet.divergence_in_variables(variables) - jet.level_cofactor(kept)]
     }
 
-    /// 1/det dφ: dependent variables have no volume.
-    fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
-        let columns = jet.slopes_of_variables(of(jet.phase.model()));
-        vec![literally(|| determinant(&columns).recip())]
-    }
-
+    /// 1/ρ, and 1/det dφ: dependent variables have no volume.
     fn written_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
-        let there = &jet.in_variables(of(jet.phase.model())).phase;
-        let density = there.evaluate_literally(&self.0).components();
-        density.into_iter().map(|value| literally(|| value.recip())).collect()
+        let variables = of(jet.phase.model());
+        let there = &jet.in_variables(variables).phase;
+        let mut divisors = there.evaluate_literally(&self.0).components();
+        divisors.push(literally(|| determinant(&jet.slopes_of_variables(variables))));
+        divisors.into_iter().map(|value| literally(|| value.recip())).collect()
     }
 
     fn quadrature_defects_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {

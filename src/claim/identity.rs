@@ -138,7 +138,9 @@ impl Statement for Relation {
         let function = jet.phase.scalar(&self.function);
         let factor = jet.phase.evaluate_literally(&self.cofactor).components();
         let inverse = jet.phase.scalar(&self.cofactor).recip();
-        let condition = |factor| Condition {
+        let integrands = jet.phase.integrands(&self.cofactor).into_iter();
+        let integrands = integrands.map(|factor| (factor, factor.recip()));
+        let condition = |(factor, inverse)| Condition {
             need: Need::ValueOnZeros { function, factor, inverse },
             otherwise:
                 "it is not known that the cofactor has a value where F = 0: cancel its denominator"
@@ -152,7 +154,8 @@ impl Statement for Relation {
         };
         let identical = "F is 0 identically: this says nothing";
         let vacuous = [Condition::nonzero(vec![function], identical), zeros];
-        factor.into_iter().map(condition).chain(vacuous).collect()
+        let factors = factor.into_iter().map(|factor| (factor, inverse)).chain(integrands);
+        factors.map(condition).chain(vacuous).collect()
     }
 
     fn remark(&self, model: &Model) -> Option<String> {

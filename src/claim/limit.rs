@@ -113,6 +113,7 @@ impl Statement for Limit {
                     None => presence.push(value),
                 }
             }
+            presence.extend(at.integrands(formula));
         }
         presence
     }

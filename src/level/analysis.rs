@@ -21,8 +21,9 @@ const MOST_TOGETHER: usize = 6;
 /// Largest number of choices of unknowns examined in one block.
 const MOST_CHOICES: usize = 400;
 
-/// Finds steps that solve the kept equations of a model; `None` if there are none.
-pub fn solve(model: &Model, kept: &[bool]) -> Option<Solution> {
+/// Finds steps that solve the kept equations of a model; `None` if there are none. Rational charts of
+/// quadrics and of orthogonal vectors are left out where roots are asked for.
+pub fn solve(model: &Model, kept: &[bool], by_roots: bool) -> Option<Solution> {
     let equations: Vec<usize> = (0..kept.len()).filter(|index| kept[*index]).collect();
     let dimension = model.dimension();
     if equations.is_empty() || equations.len() > MOST_EQUATIONS || dimension > MOST_COMPONENTS {
@@ -40,14 +41,15 @@ pub fn solve(model: &Model, kept: &[bool]) -> Option<Solution> {
     };
     // √A = e is solved as A = e² where it cannot be solved as it stands.
     let plain = derivatives(false).and_then(|derivatives| {
-        let search = OrderSearch::of(model, derivatives);
-        let frames = Frame::all(&search.derivatives);
+        let search = OrderSearch { by_roots, ..OrderSearch::of(model, derivatives) };
+        let frames = if by_roots { Vec::new() } else { Frame::all(&search.derivatives) };
         let framed = (!frames.is_empty()).then(|| search.steps(frames)).flatten();
         framed.or_else(|| search.steps(Vec::new()))
     });
     let steps = plain.or_else(|| {
         let has_roots = equations.iter().any(|index| model.level[*index].root.is_some());
-        OrderSearch::of(model, derivatives(true).filter(|_| has_roots)?).steps(Vec::new())
+        let search = OrderSearch::of(model, derivatives(true).filter(|_| has_roots)?);
+        OrderSearch { by_roots, ..search }.steps(Vec::new())
     })?;
     Some(Solution { steps })
 }
@@ -56,11 +58,13 @@ pub fn solve(model: &Model, kept: &[bool]) -> Option<Solution> {
 struct OrderSearch<'m> {
     model: &'m Model,
     derivatives: Vec<EquationDerivatives>,
+    /// Whether quadrics are solved for a component, with a root.
+    by_roots: bool,
 }
 
 impl<'m> OrderSearch<'m> {
     fn of(model: &'m Model, derivatives: Vec<EquationDerivatives>) -> Self {
-        Self { model, derivatives }
+        Self { model, derivatives, by_roots: false }
     }
 
     /// Solves the equations, with those of some frames first.
@@ -142,7 +146,9 @@ impl<'m> OrderSearch<'m> {
             }
         }
         // A rational parametrisation beats a root.
-        if let ([index], true) = (block, best.as_ref().is_none_or(|(cost, _)| *cost >= 20)) {
+        if let ([index], true, false) =
+            (block, best.as_ref().is_none_or(|(cost, _)| *cost >= 20), self.by_roots)
+        {
             best = self.quadric(*index, unknown, settled).map(|step| (0, step)).or(best);
         }
         best.map(|(_, step)| step)

@@ -42,6 +42,11 @@ impl Solution {
         self.steps.iter().filter_map(component).collect()
     }
 
+    /// Whether some states are made from directions rather than from numbers in the declared ranges.
+    pub fn has_directions(&self) -> bool {
+        self.steps.iter().any(|step| !step.directions().is_empty())
+    }
+
     /// Returns the draws of the state's components and of the signs, given those of the components.
     pub fn draws(&self, free: &[Draw]) -> Vec<Draw> {
         let mut draws = free.to_vec();

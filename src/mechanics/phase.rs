@@ -20,7 +20,7 @@ use super::rolling::RollingTerms;
 use super::rubber::{NORMAL, angular_velocity, normal};
 use super::vocabulary::Meaning;
 use crate::formula::{Formula, Symbol, Value};
-use crate::graph::Expr;
+use crate::graph::{Expr, literally};
 use crate::scalar::Scalar;
 
 /// A point of phase space over the scalar T.
@@ -248,7 +248,25 @@ impl Phase<'_, Expr> {
     /// Records the components of formulas so that they are defined exactly where everything written
     /// is; components that are defined everywhere are omitted.
     pub fn literal_values<'f>(&self, formulas: impl IntoIterator<Item = &'f Formula>) -> Vec<Expr> {
-        let values = formulas.into_iter().flat_map(|f| self.evaluate_literally(f).components());
+        let written = |f: &'f Formula| {
+            let mut values = self.evaluate_literally(f).components();
+            values.extend(self.integrands(f));
+            values
+        };
+        let values = formulas.into_iter().flat_map(written);
         values.filter(|value| !value.is_always_defined()).collect()
+    }
+
+    /// Evaluates the integrand of each ∫ in a formula as written: where it has no value, ∫ has none.
+    pub fn integrands(&self, formula: &Formula) -> Vec<Expr> {
+        let model = self.model();
+        let all = model.vocabulary.with_abbreviations(formula, &model.abbreviations).into_iter();
+        let of = |used: &Formula| {
+            literally(|| used.antiderivatives(&mut |symbol| self.literal_value(symbol)))
+        };
+        all.filter(|used| used.has_antiderivative())
+            .flat_map(of)
+            .map(|(integrand, _)| integrand)
+            .collect()
     }
 }

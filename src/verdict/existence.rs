@@ -255,7 +255,7 @@ impl Judging<'_> {
 
     /// Whether a state is found in a part by dividing the ranges of the draws; a witness decides
     /// the claim.
-    fn state_inside(
+    pub(super) fn state_inside(
         &self,
         item: &RecordedClaim<'_>,
         sampler: &Sampler,

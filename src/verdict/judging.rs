@@ -260,8 +260,9 @@ impl Judging<'_> {
             let seen = BlockResult::at::<Doubles>(&left, None, &[true; TAPE_LANES]);
             // A slope may be undefined where a solution exists, such as that of √(y + |y|) for y <
             // 0.
-            let is_solved =
-                || seen.is_nowhere_defined() && level::solve(&self.case.model, &kept).is_some();
+            let is_solved = || {
+                seen.is_nowhere_defined() && level::solve(&self.case.model, &kept, false).is_some()
+            };
             if !seen.excludes_zero() && !is_solved() {
                 return Err(JudgeError::Dependent(equation.text.clone()));
             }

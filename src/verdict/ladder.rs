@@ -103,6 +103,9 @@ impl Judging<'_> {
             self.missing_states(sampler, open);
             self.unseen_states(sampler, open)?;
             self.real_states(sampler, open)?;
+            if !sampler.is_numerical() {
+                self.states_beside_moduli(sampler, open)?;
+            }
         }
         for (item, status) in open.iter_mut() {
             if status.settled.is_none() {

@@ -23,6 +23,7 @@ mod judge;
 mod judging;
 mod jumps;
 mod ladder;
+mod moduli;
 mod mutants;
 mod novelty;
 mod one_to_one;

@@ -74,10 +74,32 @@ impl Sampler {
             Chart::Given(_) => kept.iter().all(|kept| *kept),
             Chart::Equations => false,
         };
-        let solution = match is_charted || !some {
+        let solution = |by_roots: bool| match is_charted || !some {
             true => None,
-            false => level::solve(model, kept),
+            false => level::solve(model, kept, by_roots),
         };
+        let sampler = Self::of_solution(case, place, seed, is_charted, solution(false))?;
+        // Small ranges of solved components are seldom met from random directions.
+        let has_directions = sampler.solution().is_some_and(Solution::has_directions);
+        if has_directions && !sampler.has_states() {
+            let other = Self::of_solution(case, place, seed, is_charted, solution(true))?;
+            if other.solution.is_some() && other.has_states() {
+                return Ok(other);
+            }
+        }
+        Ok(sampler)
+    }
+
+    /// Makes a sampler of the states that a solution of the level makes, if there is one.
+    fn of_solution(
+        case: &Case,
+        place: &LevelSubset,
+        seed: u64,
+        is_charted: bool,
+        solution: Option<Solution>,
+    ) -> Result<Self, Fault> {
+        let (model, kept) = (&case.model, &place.kept);
+        let some = kept.iter().any(|kept| *kept);
         let newton = (some && !is_charted && solution.is_none())
             .then(|| NumericalLevel::new(case, kept))
             .transpose()?;

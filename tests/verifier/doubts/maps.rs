@@ -152,3 +152,18 @@ fn a_refuted_density_says_that_the_map_is_not_proved_to_be_one_to_one() {
     let tooth = "2*x + 15*10^6*(|x + 7003 + 1/1000| − 2*|x + 7003| + |x + 7003 − 1/1000|)";
     assert!(refuted("1..2", tooth).contains("not proved"));
 }
+
+#[test]
+fn a_claim_says_nothing_where_its_formula_has_no_value_at_the_image() {
+    for (image, function) in [("0*x", "x*exp(1/x)"), ("x − x", "x*log(x)³"), ("0", "x*sin(1/x)")]
+    {
+        let text = format!(
+            "title = 't'\n[state]\nx = '0.5..2'\ny = '-2..2'\n[map]\nx = '{image}'\n\
+             y = 'y + {function}'\n[[claim]]\nintegral = 'y + {function}'\nexpect = 'open'\n\
+             [[claim]]\nfixed-point = {{}}\nexpect = 'open'\n"
+        );
+        for report in claims(&text) {
+            assert_eq!(report.verdict, Verdict::Undecided, "{function}: {:?}", report.evidence);
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! Existence of values without which a claim has no meaning.
+//!
+//! A value written with roots, logarithms, powers and divisions exists where their arguments are as
+//! these operations need them. What is needed is asked of each argument alone, so that no product
+//! with 0 and no symbol in the place of a function hides it. docs/soundness.md, "What R needs
+//! elsewhere".
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::graph::{Expr, Fault, Graph, Step, literally, record};
+use crate::number::rational::Rational;
+use crate::number::{BinaryOperation, UnaryFunction};
+
+use super::cells::Leaf;
+use super::trial::TrialResult;
+use super::{Group, GroupOutcome, Prover, QuestionData, buckets::buckets, is_nowhere_zero, sign};
+
+/// Largest number of terms and factors looked at for a sum of squares.
+const MOST_PARTS: usize = 256;
+
+/// Whether a value is a sum of products in which each factor that is not known to be nowhere negative
+/// occurs an even number of times.
+fn is_sum_of_squares(graph: &Graph, place: usize, is_known: &dyn Fn(usize) -> bool) -> bool {
+    let (mut terms, mut looked) = (vec![place], 0);
+    while let Some(term) = terms.pop() {
+        if let Step::Binary(BinaryOperation::Add, a, b) = graph.step(term) {
+            terms.extend([a, b]);
+            continue;
+        }
+        let (mut factors, mut odd): (Vec<usize>, BTreeSet<usize>) = (vec![term], BTreeSet::new());
+        while let Some(factor) = factors.pop() {
+            looked += 1;
+            if looked > MOST_PARTS {
+                return false;
+            }
+            match graph.step(factor) {
+                Step::Binary(BinaryOperation::Mul, a, b) => factors.extend([a, b]),
+                Step::Unary(UnaryFunction::Recip, a) => factors.push(a),
+                Step::Power(a, exponent) if exponent.to_integer().is_some() => {
+                    let half = exponent * &Rational::new(1, 2);
+                    if half.to_integer().is_none() {
+                        factors.push(a);
+                    }
+                }
+                _ => {
+                    if !odd.remove(&factor) {
+                        odd.insert(factor);
+                    }
+                }
+            }
+        }
+        if !odd.into_iter().all(is_known) && !is_known(term) {
+            return false;
+        }
+    }
+    true
+}
+
+/// Requirements of operations on one argument.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Needs {
+    /// It vanishes on no open set.
+    nonzero: bool,
+    /// It is negative on no open set.
+    not_negative: bool,
+}
+
+impl Needs {
+    /// Returns the argument of a step that may have no value, and what it needs.
+    fn of(step: Step<'_>) -> Option<(usize, Self)> {
+        let needs = |nonzero, not_negative| Self { nonzero, not_negative };
+        match step {
+            Step::Unary(UnaryFunction::Recip, a) => Some((a, needs(true, false))),
+            Step::Unary(UnaryFunction::Sqrt, a) => Some((a, needs(false, true))),
+            Step::Unary(UnaryFunction::Ln, a) | Step::Binary(BinaryOperation::Pow, a, _) => {
+                Some((a, needs(true, true)))
+            }
+            Step::Power(a, exponent) => {
+                let own = needs(exponent.is_negative(), exponent.to_integer().is_none());
+                (own != Self::default()).then_some((a, own))
+            }
+            _ => None,
+        }
+    }
+}
+
+impl Prover<'_> {
+    /// Whether all operations in the values that a group presupposes are proved to have a value
+    /// almost everywhere where the required values exist.
+    pub(super) fn are_present(
+        &self,
+        question: &QuestionData<'_>,
+        group: &Group,
+    ) -> Result<bool, Fault> {
+        let graph = question.graph;
+        if group.presence.iter().any(|value| graph.is_nowhere_defined(*value)) {
+            return Ok(false);
+        }
+        let given = graph.reached(group.required.iter().copied());
+        let asked = graph.reached(group.presence.iter().copied());
+        let mut needs: BTreeMap<usize, Needs> = BTreeMap::new();
+        for (place, step) in graph.steps().enumerate() {
+            if let (true, false, Some((argument, own))) =
+                (asked[place], given[place], Needs::of(step))
+            {
+                let all = needs.entry(argument).or_default();
+                all.nonzero |= own.nonzero;
+                all.not_negative |= own.not_negative;
+            }
+        }
+        for (argument, needs) in needs {
+            let value = graph.at(argument);
+            if needs.not_negative && !self.is_never_negative(graph, group, value)?
+                || needs.nonzero && !self.is_almost_nonzero(question, group, value)?
+            {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// Whether a value is proved to be nowhere negative where the required values exist.
+    fn is_never_negative(&self, graph: &Graph, group: &Group, value: Expr) -> Result<bool, Fault> {
+        let Group { required, facts, .. } = group;
+        let is_positive = |place: usize| {
+            let known = sign(graph, self.extents, required, facts, graph.at(place));
+            known.is_some_and(|known| known.is_positive)
+        };
+        if is_sum_of_squares(graph, graph.place(value), &is_positive) {
+            return Ok(true);
+        }
+        let (made, found) = record(graph.inputs(), |inputs| {
+            let reached = graph.reached([value]);
+            let conditions = graph.reached([&required[..], facts].concat());
+            let value = graph.replay(&reached, inputs, |_, _, _| None)[graph.place(value)]?;
+            let kept = literally(|| graph.replay(&conditions, inputs, |_, _, _| None));
+            let all = |some: &[Expr]| {
+                some.iter().map(|own| kept[graph.place(*own)]).collect::<Option<Vec<Expr>>>()
+            };
+            let (outputs, presence) = (vec![value.apply(UnaryFunction::Abs) - value], Vec::new());
+            Some(Group { outputs, required: all(required)?, facts: all(facts)?, presence })
+        })?;
+        let Some(found) = found else { return Ok(false) };
+        Ok(self.prove(&made, &[found])?.iter().all(GroupOutcome::is_zero))
+    }
+
+    /// Whether a value is proved to vanish on no open set where the required values exist.
+    fn is_almost_nonzero(
+        &self,
+        question: &QuestionData<'_>,
+        group: &Group,
+        value: Expr,
+    ) -> Result<bool, Fault> {
+        let graph = question.graph;
+        if is_nowhere_zero(graph, self.extents, &group.facts, &[value])
+            || self.is_almost_nowhere_zero(graph, value)?
+        {
+            return Ok(true);
+        }
+        let alone = Group { outputs: vec![value], presence: Vec::new(), ..group.clone() };
+        let wide = Group { outputs: [&[value], &group.required[..]].concat(), ..alone.clone() };
+        let Some(bucket) = buckets(graph, &[wide], &question.sources).pop() else {
+            return Ok(false);
+        };
+        if bucket.special.is_empty() {
+            let found = self.prove_plain(question, &[&alone.outputs]);
+            return Ok(found.iter().all(|(outcome, _)| outcome.is_nonzero()));
+        }
+        let leaves = self.explore(question, &[&alone.outputs], &bucket)?.leaves;
+        let is_nonzero =
+            |leaf: &Leaf| matches!(leaf.results.first(), Some(Some(TrialResult::NonZero)));
+        Ok(leaves.iter().all(is_nonzero))
+    }
+}
+
+#[cfg(test)]
+mod tests;
