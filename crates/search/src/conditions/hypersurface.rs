@@ -69,6 +69,29 @@ impl Hypersurface {
         Some(PrimePolynomials(*m).through(&points.collect::<Vec<_>>()).0)
     }
 
+    /// Images of the coefficients; `None` if a denominator is 0 modulo the prime.
+    pub fn images(&self, m: &Modulus) -> Option<PrimeTerms> {
+        self.terms.iter().map(|(own, value)| Some((own.clone(), m.rational(value)?))).collect()
+    }
+
+    /// Value that the equation gives a scalar, if it is x = c.
+    pub fn value(&self, place: usize) -> Option<Rational> {
+        let is_alone =
+            |own: &[u32]| own.iter().enumerate().all(|(k, x)| *x == u32::from(k == place));
+        match self.terms.as_slice() {
+            [(x, _)] if is_alone(x) => Some(Rational::from(0)),
+            [(x, a), (y, b)] if is_alone(x) && degree(y) == 0 => {
+                Some(&Rational::from(0) - &(b * &a.recip()?))
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether a scalar occurs.
+    pub fn contains(&self, place: usize) -> bool {
+        self.terms.iter().any(|(own, _)| own[place] > 0)
+    }
+
     /// Writes the equation: `A = 2*B`, `k = 6`, `a*b − c² = 0`.
     pub fn equation(&self, parameters: &[ScalarParameter]) -> String {
         let names: Vec<&str> = parameters.iter().map(|own| own.name.as_str()).collect();
