@@ -9,6 +9,7 @@
 //! minors    such values, by minors of the equations for Taylor coefficients
 //! relation  numbers that such values are, or their relations to one other parameter
 //! several   equations between the parameters of a field for which it has more polynomial integrals
+//! by_values  such equations for each of listed values
 //! values    values of its only parameter
 //! isolated  values of several parameters that belong to no condition of codimension one
 //! beyond    such values for more polynomial integrals of a field
@@ -32,6 +33,7 @@
 //! confirmed at more points than they have coefficients.
 
 mod beyond;
+pub mod by_values;
 mod coordinates;
 mod equations;
 mod factors;
@@ -47,7 +49,7 @@ mod polynomial;
 mod quotient;
 mod relation;
 mod residual;
-pub mod several;
+mod several;
 mod simple;
 mod small;
 mod split;

@@ -23,6 +23,7 @@
 //! finite_order   maps with Φⁿ = id, and sums over their orbits
 //! map_densities, map_integrals  densities and polynomial integrals of maps
 //! map_fractions  densities of maps that are fractions
+//! map_products  densities of maps, and integrals, as products of powers and exponentials
 //! logarithms   integrals of maps by monomials
 //! exponents    densities, and integrals with powers, logarithms and exponentials, from cofactors
 //! quotients    fractions over powers of factors in these exponents
@@ -63,6 +64,7 @@ mod magnitude;
 mod map_densities;
 mod map_fractions;
 mod map_integrals;
+mod map_products;
 pub mod monomials;
 pub mod no_others;
 mod own_factors;
@@ -96,6 +98,7 @@ use self::known::IndependentIntegrals;
 use self::limits::{EXTENDED, FURTHER, MODEST, RoundLimits};
 use self::line::degree_of_field;
 use self::part::VariableSet;
+pub use self::remarks::OF_LISTS;
 use self::setting::OrbitSetting;
 use super::ask::proved_energy;
 use super::{Effort, SearchError, SearchReport, branches};
@@ -259,7 +262,9 @@ pub fn search_map(
             Ok(())
         }
     };
-    rational.and_then(|()| logarithms::search(case, effort, report, progress))
+    rational
+        .and_then(|()| logarithms::search(case, effort, report, progress))
+        .and_then(|()| map_products::search(case, effort, report, progress))
 }
 
 /// Limits that follow the first ones: none, unless the time of a search is limited.
