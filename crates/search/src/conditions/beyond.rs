@@ -1,5 +1,7 @@
 //! Conditions of several equations on the parameters of a field that belong to none of codimension one.
 
+use std::cell::Cell;
+
 use super::equations::ParametricEquations;
 use super::hypersurface::{Hypersurface, PrimeTerms};
 use super::several::{ConditionSearch, GROUNDS, SEARCH};
@@ -11,9 +13,6 @@ use crate::budget::STEPS;
 use crate::report::Found;
 use crate::streams::SearchStream;
 
-/// Share of the time that these conditions may take, for each degree.
-const ISOLATED: f64 = 0.1;
-
 impl ConditionSearch<'_> {
     /// Finds conditions of several equations that belong to none of codimension one, and says how far
     /// conditions of several equations are sought; `simple` are words for where they are sought besides.
@@ -23,10 +22,10 @@ impl ConditionSearch<'_> {
             (self.progress)(&format!("conditions of several equations, degree {degree}"));
             let equations = ParametricEquations::new(&self.whole.case, degree, self.effort)?;
             let Some(equations) = equations else { break };
-            let mut left = self.left.min(ISOLATED * self.effort.seconds * STEPS);
-            let before = left;
-            let own = isolated::of_integrals(&equations, self.whole, &mut left)?;
-            self.left -= before - left;
+            let before = self.left.min(isolated::SHARE * self.effort.seconds * STEPS);
+            let left = Cell::new(before);
+            let own = isolated::of_integrals(&equations, self.whole, &left)?;
+            self.left -= before - left.get();
             let Some(own) = own else { break };
             let mut found = Vec::new();
             for own in own.written {

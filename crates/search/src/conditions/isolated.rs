@@ -5,6 +5,8 @@
 //! values modulo a prime. Their greatest common divisor is the condition of codimension one; what is left
 //! of them vanishes at the other values ([`ideal`](super::ideal)).
 
+use std::cell::Cell;
+
 use liouville::case::{Case, PlacedClaim};
 use liouville::number::prime::Modulus;
 use liouville::proof::ProofRng;
@@ -19,6 +21,7 @@ use super::quotient::without_common;
 use super::residual::Residual;
 use super::split::SplitCase;
 use super::variety::power;
+use crate::budget::STEPS;
 use crate::echelon::Echelon;
 use crate::orbit::monomials;
 use crate::series::exponents;
@@ -41,6 +44,9 @@ const UNDEFINED: usize = 16;
 const STREAM: u64 = 9000;
 /// Steps of one multiplication modulo a prime and what belongs to it, and for one entry of the equations.
 const STEP: f64 = 3.0;
+
+/// Share of the time of a count that these values may take, for a claim or for one degree.
+pub const SHARE: f64 = 0.1;
 
 /// Fractions of the parameters, by number, at a point.
 type Fractions<'f> = &'f mut dyn FnMut(u64, &[u64]) -> Result<Option<Vec<u64>>, SearchError>;
@@ -78,7 +84,8 @@ pub fn of_claim(
         let [own, ..] = residual.at(&mut evaluator, &std::array::from_fn(|_| inputs.clone()));
         Ok(own.residual)
     };
-    found(&mut values, split.scalars.len(), &m, &mut rng, &effort.halt)
+    let left = Cell::new(SHARE * effort.seconds * STEPS);
+    found(&mut values, split.scalars.len(), (&m, &mut rng), &left, &effort.halt)
 }
 
 /// Finds the values of the parameters for which there are more polynomial integrals, besides those of
@@ -87,7 +94,7 @@ pub fn of_claim(
 pub fn of_integrals(
     equations: &ParametricEquations<'_>,
     split: &SplitCase,
-    left: &mut f64,
+    left: &Cell<f64>,
 ) -> Result<Option<IsolatedValues>, SearchError> {
     let Some(base) = equations.system.at(0, 0) else { return Ok(None) };
     let Some(columns) = equations.columns(&base)? else { return Ok(None) };
@@ -102,11 +109,10 @@ pub fn of_integrals(
     let mut mixed_rng = SearchStream::Minors.under(effort.options.seed.wrapping_add(401));
     let (size, all) = (rank as f64, columns.len() as f64);
     let steps = STEP * (size * size * (size / 3.0 + all)) + ENTRY * size * all;
-    let mut spent = 0.0;
     let mut values = |number: u64, point: &[u64]| {
         effort.halt.check()?;
-        spent += steps;
-        if spent > *left {
+        left.set(left.get() - steps);
+        if left.get() < 0.0 {
             return Err(SearchError::Long { unknowns: rank, seconds: effort.seconds });
         }
         // A minor of random states, and of random combinations of the columns.
@@ -128,9 +134,7 @@ pub fn of_integrals(
         let matrix = rows.into_iter().map(entries).collect();
         Ok(Some(vec![determinant(&m, matrix, &effort.halt)?]))
     };
-    let own = found(&mut values, split.scalars.len(), &m, &mut rng, &effort.halt);
-    *left -= spent;
-    match own {
+    match found(&mut values, split.scalars.len(), (&m, &mut rng), left, &effort.halt) {
         Err(SearchError::Long { .. }) => Ok(None),
         other => other,
     }
@@ -143,17 +147,17 @@ const ENTRY: f64 = super::parameter_line::ENTRY;
 fn found(
     values: Fractions<'_>,
     variables: usize,
-    m: &Modulus,
-    rng: &mut ProofRng,
+    (m, rng): (&Modulus, &mut ProofRng),
+    left: &Cell<f64>,
     halt: &Halt,
 ) -> Result<Option<IsolatedValues>, SearchError> {
-    let Some(all) = numerators(values, variables, m, rng)? else { return Ok(None) };
+    let Some(all) = numerators(values, variables, (m, &mut *rng), left)? else { return Ok(None) };
     let none = IsolatedValues { written: Vec::new(), unwritten: 0 };
     if all.is_empty() {
         return Ok(Some(none));
     }
     let Some((rest, common)) = without_common(&all, m, rng) else { return Ok(None) };
-    let Some(own) = ideal::zeros(&rest, variables, m, rng, halt)? else { return Ok(None) };
+    let Some(own) = ideal::zeros(&rest, variables, (m, rng), left, halt)? else { return Ok(None) };
     let CommonZeros { written, unwritten } = own;
     // On the hypersurfaces it holds anyway.
     let (mut is_new, mut open) = (Vec::new(), 0);
@@ -171,12 +175,12 @@ fn found(
 }
 
 /// Finds the numerators of fractions, until there are no further ones; `None` if one is not of low
-/// degree, or has no values.
+/// degree, or has no values, or the steps that are left are spent.
 fn numerators(
     values: Fractions<'_>,
     variables: usize,
-    m: &Modulus,
-    rng: &mut ProofRng,
+    (m, rng): (&Modulus, &mut ProofRng),
+    left: &Cell<f64>,
 ) -> Result<Option<Vec<PrimeTerms>>, SearchError> {
     let Some(most) = ideal::highest(variables) else { return Ok(None) };
     let all: Vec<Vec<u32>> = (0..=most).flat_map(|total| exponents(variables, total)).collect();
@@ -196,7 +200,8 @@ fn numerators(
         };
         undefined = 0;
         let Some(degrees) = degrees else { return Ok(None) };
-        let Some(own) = interpolated(values, number, (&degrees, &all), m, rng)? else {
+        let Some(own) = interpolated(values, number, (&degrees, &all), (m, &mut *rng), left)?
+        else {
             return Ok(None);
         };
         silent += 1;
@@ -261,15 +266,18 @@ fn interpolated(
     values: Fractions<'_>,
     number: u64,
     (degrees, all): (&[(u32, u32)], &[Vec<u32>]),
-    m: &Modulus,
-    rng: &mut ProofRng,
+    (m, rng): (&Modulus, &mut ProofRng),
+    left: &Cell<f64>,
 ) -> Result<Option<Vec<Vec<u64>>>, SearchError> {
     let variables = all.first().map_or(0, Vec::len);
     let size = |degree: u32| monomials::count(variables, degree);
     let widths = degrees.iter().map(|(above, below)| size(*above) + size(*below));
     let wanted = widths.max().unwrap_or(0);
     let is_large = |(above, below): &(u32, u32)| size(*above).max(size(*below)) > all.len();
-    if wanted > COEFFICIENTS || degrees.iter().any(is_large) {
+    let size_of = |(above, below): &(u32, u32)| (size(*above) + size(*below)) as f64;
+    let steps: f64 = degrees.iter().map(|own| size_of(own).powi(3) / 3.0).sum();
+    left.set(left.get() - steps);
+    if wanted > COEFFICIENTS || degrees.iter().any(is_large) || left.get() < 0.0 {
         return Ok(None);
     }
     let mut echelons: Vec<Echelon> = degrees

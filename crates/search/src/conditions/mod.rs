@@ -13,7 +13,7 @@
 //! values    values of its only parameter
 //! isolated  values of several parameters that belong to no condition of codimension one
 //! beyond    such values for more polynomial integrals of a field
-//! ideal, quotient  common zeros of polynomials in the parameters, and common divisors
+//! ideal, bounded_ideal, quotient  common zeros of polynomials in the parameters, and common divisors
 //! ```
 //!
 //! For fields the minors are those of [`equations`] for the coefficients of a polynomial:
@@ -33,6 +33,7 @@
 //! confirmed at more points than they have coefficients.
 
 mod beyond;
+mod bounded_ideal;
 pub mod by_values;
 mod coordinates;
 mod equations;

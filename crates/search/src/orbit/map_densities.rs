@@ -30,6 +30,9 @@ const MONOMIALS: usize = 300;
 /// Largest degree of P.
 const DEGREE: u32 = 8;
 
+/// Beginning of the note on a density that is not written.
+pub const UNWRITTEN: &str = "a density of degree";
+
 /// The form of a density and the sign of the cofactor.
 #[derive(Clone, Copy)]
 struct DensityForm {
@@ -71,7 +74,7 @@ pub fn densities(
                 if is_told {
                     return Ok(());
                 }
-                let what = format!("a density of degree {degree} with {} terms", all.len());
+                let what = format!("{UNWRITTEN} {degree} with {} terms", all.len());
                 note_unwritten(setting.case, &what, report);
                 return Ok(());
             }

@@ -22,7 +22,7 @@ use super::super::integrals::tell;
 use super::super::linear::SampledFunctions;
 use super::super::terms::{one, powers, read, recorded, sum};
 use super::super::{Effort, Found, SearchError, SearchReport};
-use super::map_densities::note_unproved;
+use super::map_densities::{UNWRITTEN, note_unproved};
 use super::{factors, magnitude, monomials};
 
 /// Largest number of monomials of g.
@@ -112,12 +112,7 @@ fn offered(
         is_new
     });
     found.truncate(FACTORS);
-    // The components of the state come first.
-    let bracketed = |(place, own): (usize, Formula)| match place < state.len() {
-        true => own,
-        false => own.bracketed(),
-    };
-    Ok(found.into_iter().enumerate().map(bracketed).collect())
+    Ok(found)
 }
 
 /// Monomials of g without the constant.
@@ -202,6 +197,7 @@ impl ProductFind<'_> {
         };
         match found.verdict {
             Verdict::Proved => {
+                report.remarks.retain(|own| !own.starts_with(UNWRITTEN));
                 let own = Found::new("density", &density, None, found, &self.case.model);
                 report.found.push(own);
             }
