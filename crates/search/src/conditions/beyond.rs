@@ -7,7 +7,7 @@ use super::hypersurface::{Hypersurface, PrimeTerms};
 use super::several::{ConditionSearch, GROUNDS, SEARCH};
 use super::split::SplitCase;
 use super::values::integrals_with;
-use super::{ParameterCondition, ideal, isolated};
+use super::{ParameterCondition, ideal, isolated, solved};
 use crate::SearchError;
 use crate::budget::STEPS;
 use crate::report::Found;
@@ -59,7 +59,7 @@ impl ConditionSearch<'_> {
             0 => format!("conditions of several equations are sought {simple}"),
             last => format!(
                 "where none of the single equations holds that are told or counted, modulo a prime of \
-                 61 bits no other values of the parameters give more integrals of degree at most {last}; \
+                 61 bits no other real values of the parameters give more integrals of degree at most {last}; \
                  where one holds, and for higher degrees, conditions of several equations are sought \
                  {simple}"
             ),
@@ -100,13 +100,13 @@ impl ConditionSearch<'_> {
         let texts: Vec<String> = own.iter().map(|own| own.equation(&self.whole.scalars)).collect();
         let text = texts.join(" and ");
         let known = |found: &Found| found.with.iter().any(|(_, with)| *with == text);
-        if let Some(fixed) = isolated::with_equations(self.whole, own)
-            && !self.report.found.iter().any(known)
-            && self.left > 0.0
-        {
-            let with = ("condition", text.clone());
-            integrals_with(&fixed.case, with, self.effort, self.report)?;
-            self.left -= SEARCH;
+        let cases = solved::with_equations(self.whole, own).unwrap_or_default();
+        if !self.report.found.iter().any(known) && self.left > 0.0 {
+            for fixed in &cases {
+                let with = ("condition", text.clone());
+                integrals_with(&fixed.case, with, self.effort, self.report)?;
+                self.left -= SEARCH;
+            }
         }
         self.isolated.push(own.to_vec());
         Ok(text)

@@ -95,8 +95,7 @@ impl BoundedIdeal {
         Ok(Some(ideal))
     }
 
-    /// Coefficients of a polynomial of at most the degree, by monomials.
-    pub fn row(&self, own: &PrimeTerms) -> Vec<u64> {
+    fn row(&self, own: &PrimeTerms) -> Vec<u64> {
         let mut row = vec![0; self.monomials.len()];
         let used = own.iter().filter(|(_, image)| *image != 0);
         used.for_each(|(exponents, image)| row[self.places[exponents]] = *image);
@@ -104,7 +103,7 @@ impl BoundedIdeal {
     }
 
     /// Subtracts multiples of the rows until no pivot is left.
-    pub fn reduced(&self, mut row: Vec<u64>) -> Vec<u64> {
+    fn reduced(&self, mut row: Vec<u64>) -> Vec<u64> {
         for pivot in 0..row.len() {
             let Some(own) = self.rows[pivot].as_ref().filter(|_| row[pivot] != 0) else { continue };
             let factor = row[pivot];
@@ -117,6 +116,16 @@ impl BoundedIdeal {
         row
     }
 
+    /// The highest degree.
+    pub fn most(&self) -> u32 {
+        self.monomials.first().map_or(0, |own| own.iter().sum())
+    }
+
+    /// Whether a polynomial of at most the degree is among them.
+    pub fn contains(&self, own: &PrimeTerms) -> bool {
+        self.reduced(self.row(own)).iter().all(|entry| *entry == 0)
+    }
+
     /// Whether 1 is among the polynomials, so that there are no zeros.
     pub fn is_everything(&self) -> bool {
         self.rows.last().is_some_and(Option::is_some)
@@ -124,7 +133,7 @@ impl BoundedIdeal {
 
     /// Finds the polynomial of least degree in one variable.
     pub fn univariate(&self, place: usize) -> Option<Polynomial> {
-        let most = self.monomials.first()?.iter().sum::<u32>();
+        let most = self.most();
         let size = self.monomials.len();
         // Behind each power reduced by the rows stands the power itself.
         let mut echelon = Echelon::new(size + most as usize + 1, self.m);

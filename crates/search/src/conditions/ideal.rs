@@ -13,6 +13,7 @@ use liouville::proof::{ProofRng, reconstruct};
 use super::bounded_ideal::BoundedIdeal;
 use super::hypersurface::{Hypersurface, PrimeTerms};
 use super::polynomial::{Polynomial, PrimePolynomials};
+use super::real::has_real_root;
 use super::relation::is_short;
 use crate::orbit::monomials;
 use crate::{Halt, SearchError};
@@ -24,7 +25,7 @@ const DEGREE: u32 = 32;
 /// Largest number of components.
 const COMPONENTS: usize = 64;
 
-/// Common zeros of polynomials, in components.
+/// Common zeros of polynomials, in components; those without real points are left out.
 #[derive(Default)]
 pub struct CommonZeros {
     /// Components that are written, each by its equations.
@@ -70,7 +71,7 @@ pub fn contains(
     if degree(own) > most {
         return Ok(false);
     }
-    Ok(ideal.reduced(ideal.row(own)).iter().all(|entry| *entry == 0))
+    Ok(ideal.contains(own))
 }
 
 struct ZeroSearch<'z> {
@@ -115,14 +116,56 @@ impl ZeroSearch<'_> {
             let highest = basis.iter().map(degree).max().unwrap_or(0);
             let is_last = most == self.most || !ideal.is_finite() || is_settled.iter().all(|x| *x);
             if 2 * highest <= most && is_last {
-                match basis.iter().map(|own| Hypersurface::of(own, &self.m)).collect() {
-                    Some(own) => self.found.written.push(own),
-                    None => self.found.unwritten.push(basis),
+                if let Some(equal) = self.equal(&ideal, &basis) {
+                    return self.split(&[basis, vec![equal]].concat(), is_settled);
                 }
+                self.tell(basis);
                 return Ok(self.found.written.len() + self.found.unwritten.len() <= COMPONENTS);
             }
         }
         Ok(false)
+    }
+
+    /// Finds a difference of two variables a power of which is in an ideal, and not it itself.
+    fn equal(&self, ideal: &BoundedIdeal, basis: &[PrimeTerms]) -> Option<PrimeTerms> {
+        let m = &self.m;
+        let highest = basis.iter().map(degree).max().unwrap_or(0).min(ideal.most());
+        let pairs = (0..self.variables).flat_map(|i| (0..i).map(move |j| (j, i)));
+        let power = |(first, second): (usize, usize), order: u32| -> PrimeTerms {
+            let mut all = PrimeTerms::new();
+            let mut image = m.one();
+            for k in 0..=order {
+                let exponents = (0..self.variables).map(|place| match place {
+                    place if place == first => order - k,
+                    place if place == second => k,
+                    _ => 0,
+                });
+                all.push((exponents.collect(), image));
+                // The next binomial coefficient, with the other sign.
+                let above = m.mul(image, m.integer(u64::from(order - k)));
+                image = m.sub(0, m.mul(above, m.inverse(m.integer(u64::from(k + 1)))));
+            }
+            all
+        };
+        let holds = |pair, order| ideal.contains(&power(pair, order));
+        let mut thick =
+            pairs.filter(|pair| !holds(*pair, 1) && (2..=highest).any(|order| holds(*pair, order)));
+        thick.next().map(|pair| power(pair, 1))
+    }
+
+    /// Notes a component, unless an equation shows that it has no real points.
+    fn tell(&mut self, basis: Vec<PrimeTerms>) {
+        let written: Option<Vec<Hypersurface>> =
+            basis.iter().map(|own| Hypersurface::of(own, &self.m)).collect();
+        let is_real = |own: &Hypersurface| match own.univariate() {
+            Some((_, coefficients)) => has_real_root(&coefficients),
+            None => true,
+        };
+        match written {
+            Some(own) if own.iter().all(is_real) => self.found.written.push(own),
+            Some(_) => {}
+            None => self.found.unwritten.push(basis),
+        }
     }
 
     /// Divides the zeros by the values of a variable: each short one, and the roots of the rest.
@@ -212,6 +255,17 @@ mod tests {
         texts.sort();
         assert_eq!(texts, ["a = -1 and b = 0", "a = 1 and b = 0", "a = 1 and b = 4"]);
         // A point of multiplicity four, and no point.
+        // a = b = c, as a line of multiplicity above one.
+        let equal: [Given<'_>; 3] = [
+            (&[(&[1, 1, 0], 1), (&[1, 0, 1], -1), (&[0, 2, 0], -1), (&[0, 1, 1], 1)]),
+            (&[(&[0, 1, 1], 1), (&[1, 1, 0], -1), (&[0, 0, 2], -1), (&[1, 0, 1], 1)]),
+            (&[(&[1, 0, 1], 1), (&[2, 0, 0], -1), (&[0, 1, 1], -1), (&[1, 1, 0], 1)]),
+        ];
+        assert_eq!(found(&equal, 3).0, ["a = c and b = c"]);
+        // a² = 1 and b² + b + 1 = 0 has no real points.
+        let complex: [Given<'_>; 2] =
+            [(&[(&[2, 0], 1), (&[0, 0], -1)]), (&[(&[0, 2], 1), (&[0, 1], 1), (&[0, 0], 1)])];
+        assert!(found(&complex, 2).0.is_empty());
         let thick: [Given<'_>; 2] = [(&[(&[2, 0], 1)]), (&[(&[0, 2], 1)])];
         assert_eq!(found(&thick, 2).0, ["a = 0 and b = 0"]);
         let none: [Given<'_>; 2] =

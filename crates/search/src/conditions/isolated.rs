@@ -7,10 +7,9 @@
 
 use std::cell::Cell;
 
-use liouville::case::{Case, PlacedClaim};
+use liouville::case::PlacedClaim;
 use liouville::number::prime::Modulus;
 use liouville::proof::ProofRng;
-use liouville::verdict::{Verdict, judge};
 
 use super::equations::ParametricEquations;
 use super::hypersurface::{Hypersurface, PrimeTerms};
@@ -50,6 +49,9 @@ pub const SHARE: f64 = 0.1;
 
 /// Fractions of the parameters, by number, at a point.
 type Fractions<'f> = &'f mut dyn FnMut(u64, &[u64]) -> Result<Option<Vec<u64>>, SearchError>;
+
+/// A numerator and a denominator.
+type Fraction = [PrimeTerms; 2];
 
 /// Values of the parameters besides those of codimension one.
 pub struct IsolatedValues {
@@ -156,36 +158,49 @@ fn found(
     if all.is_empty() {
         return Ok(Some(none));
     }
-    let Some((rest, common)) = without_common(&all, m, rng) else { return Ok(None) };
+    let (above, below): (Vec<PrimeTerms>, Vec<PrimeTerms>) =
+        all.into_iter().map(|[above, below]| (above, below)).unzip();
+    let Some((rest, common)) = without_common(&above, m, rng) else { return Ok(None) };
+    // On the hypersurfaces it holds anyway, and where all denominators are 0 nothing has a value.
+    let is_left_out = |own: &[PrimeTerms]| -> Result<bool, SearchError> {
+        if ideal::contains(own, &common, variables, m, halt)? {
+            return Ok(true);
+        }
+        for below in &below {
+            if !ideal::contains(own, below, variables, m, halt)? {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    };
     let Some(own) = ideal::zeros(&rest, variables, (m, rng), left, halt)? else { return Ok(None) };
     let CommonZeros { written, unwritten } = own;
-    // On the hypersurfaces it holds anyway.
     let (mut is_new, mut open) = (Vec::new(), 0);
     for own in written {
         let images: Option<Vec<PrimeTerms>> = own.iter().map(|own| own.images(m)).collect();
         let images = images.unwrap_or_default();
-        if !ideal::contains(&images, &common, variables, m, halt)? {
+        if !is_left_out(&images)? {
             is_new.push(own);
         }
     }
     for own in unwritten {
-        open += usize::from(!ideal::contains(&own, &common, variables, m, halt)?);
+        open += usize::from(!is_left_out(&own)?);
     }
     Ok(Some(IsolatedValues { written: is_new, unwritten: open }))
 }
 
-/// Finds the numerators of fractions, until there are no further ones; `None` if one is not of low
-/// degree, or has no values, or the steps that are left are spent.
+/// Finds numerators and denominators of fractions, until there are no further numerators; `None` if one
+/// is not of low degree, or has no values, or the steps that are left are spent.
 fn numerators(
     values: Fractions<'_>,
     variables: usize,
     (m, rng): (&Modulus, &mut ProofRng),
     left: &Cell<f64>,
-) -> Result<Option<Vec<PrimeTerms>>, SearchError> {
+) -> Result<Option<Vec<Fraction>>, SearchError> {
     let Some(most) = ideal::highest(variables) else { return Ok(None) };
     let all: Vec<Vec<u32>> = (0..=most).flat_map(|total| exponents(variables, total)).collect();
     let mut span = Echelon::new(all.len(), *m);
-    let mut found: Vec<PrimeTerms> = Vec::new();
+    let mut found: Vec<Fraction> = Vec::new();
     let (mut silent, mut undefined) = (0, 0);
     for number in 0.. {
         if silent == SILENT || found.len() >= POLYNOMIALS {
@@ -206,12 +221,15 @@ fn numerators(
         };
         silent += 1;
         for own in own {
-            let mut row = own.clone();
+            let mut row = own[0].clone();
             row.resize(all.len(), 0);
             if span.push(row) {
                 silent = 0;
-                let terms = all.iter().cloned().zip(own);
-                found.push(terms.filter(|(_, image)| *image != 0).collect());
+                let terms = |own: Vec<u64>| -> PrimeTerms {
+                    let terms = all.iter().cloned().zip(own);
+                    terms.filter(|(_, image)| *image != 0).collect()
+                };
+                found.push(own.map(terms));
             }
         }
     }
@@ -260,15 +278,15 @@ fn degrees(
     Ok(Some(None))
 }
 
-/// Finds the coefficients of the numerators of fractions with these degrees by the first monomials of a
-/// list; `None` if there are too many, or too few values.
+/// Finds the coefficients of the numerators and denominators of fractions with these degrees by the first
+/// monomials of a list; `None` if there are too many, or too few values.
 fn interpolated(
     values: Fractions<'_>,
     number: u64,
     (degrees, all): (&[(u32, u32)], &[Vec<u32>]),
     (m, rng): (&Modulus, &mut ProofRng),
     left: &Cell<f64>,
-) -> Result<Option<Vec<Vec<u64>>>, SearchError> {
+) -> Result<Option<Vec<[Vec<u64>; 2]>>, SearchError> {
     let variables = all.first().map_or(0, Vec::len);
     let size = |degree: u32| monomials::count(variables, degree);
     let widths = degrees.iter().map(|(above, below)| size(*above) + size(*below));
@@ -301,40 +319,11 @@ fn interpolated(
     if count < wanted + SPARE {
         return Ok(None);
     }
-    let vector = |(echelon, (above, _)): (&Echelon, &(u32, u32))| -> Option<Vec<u64>> {
+    let vector = |(echelon, (above, _)): (&Echelon, &(u32, u32))| -> Option<[Vec<u64>; 2]> {
         let mut vectors = echelon.null_space();
         let mut vector = vectors.pop().filter(|_| vectors.is_empty())?;
-        vector.truncate(size(*above));
-        Some(vector)
+        let below = vector.split_off(size(*above));
+        Some([vector, below])
     };
     Ok(echelons.iter().zip(degrees).map(vector).collect())
-}
-
-/// Writes the case where some equations hold; `None` if they are not solved one by one.
-pub fn with_equations(split: &SplitCase, equations: &[Hypersurface]) -> Option<SplitCase> {
-    let letters = split.letters().ok()?;
-    let mut values = Vec::new();
-    for (number, own) in equations.iter().enumerate() {
-        let (place, value) = own.solved(&letters).ok()??;
-        let others = equations.iter().enumerate().filter(|(other, _)| *other != number);
-        if others.into_iter().any(|(_, other)| other.contains(place)) {
-            return None;
-        }
-        values.push((place, value));
-    }
-    split.with(values)
-}
-
-/// Whether a claim is proved where some equations hold.
-pub fn is_proved(
-    split: &SplitCase,
-    equations: &[Hypersurface],
-    claim: &PlacedClaim,
-    effort: &Effort,
-) -> Result<bool, SearchError> {
-    let Some(fixed) = with_equations(split, equations) else { return Ok(false) };
-    let mut case: Case = fixed.case;
-    case.claims.retain(|own| own.name == claim.name);
-    let report = judge(&case, &effort.options)?;
-    Ok(!report.claims.is_empty() && report.claims.iter().all(|own| own.verdict == Verdict::Proved))
 }

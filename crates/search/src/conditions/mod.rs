@@ -13,6 +13,7 @@
 //! values    values of its only parameter
 //! isolated  values of several parameters that belong to no condition of codimension one
 //! beyond    such values for more polynomial integrals of a field
+//! solved, real  cases where equations hold; real roots
 //! ideal, bounded_ideal, quotient  common zeros of polynomials in the parameters, and common divisors
 //! ```
 //!
@@ -48,11 +49,13 @@ mod parameter_line;
 mod pencil;
 mod polynomial;
 mod quotient;
+mod real;
 mod relation;
 mod residual;
 mod several;
 mod simple;
 mod small;
+mod solved;
 mod split;
 mod values;
 mod variety;
@@ -262,7 +265,7 @@ impl SeveralEquations {
             let texts: Vec<String> = own.iter().map(|own| own.equation(&split.scalars)).collect();
             let text = texts.join(" and ");
             if let Some(claim) = claim
-                && isolated::is_proved(&split, own, claim, effort)?
+                && solved::is_proved(&split, own, claim, effort)?
             {
                 proved.push(text.clone());
             }
@@ -275,8 +278,8 @@ impl SeveralEquations {
     fn grounds(&self, before: &str, scope: &str) -> String {
         let mut text = format!("{before}; {scope} ");
         text.push_str(&match (self.equations.len(), self.unwritten) {
-            (0, 0) => "it holds for no values of the parameters, complex ones included".to_string(),
-            (_, 0) => "it holds for no others than the values told".to_string(),
+            (0, 0) => "it holds for no real values of the parameters".to_string(),
+            (_, 0) => "it holds for no other real values than those told".to_string(),
             (_, n) => format!(
                 "it holds for the values told, and for {n} sets of values whose equations have no short \
                  coefficients"
