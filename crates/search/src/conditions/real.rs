@@ -20,7 +20,7 @@ pub fn has_real_root(coefficients: &[Rational]) -> bool {
     let changes = |is_left: bool| {
         let sign = |own: &Vec<Rational>| {
             let lead = own.last()?;
-            Some(lead.is_negative() ^ (is_left && own.len() % 2 == 0))
+            Some(lead.is_negative() ^ (is_left && own.len().is_multiple_of(2)))
         };
         let signs: Vec<bool> = chain.iter().filter_map(sign).collect();
         signs.windows(2).filter(|pair| pair[0] != pair[1]).count()

@@ -139,12 +139,12 @@ fn relations_along_orbits_are_told_for_each_value() {
     let theorems: Vec<&String> = report.excluded.iter().map(|own| &own.theorem).collect();
     let for_one = |own: &&&String| own.starts_with("For b = 1, and generic values of the free");
     assert!(theorems.iter().filter(for_one).count() > 0, "{theorems:?}");
-    let none = |own: &&String| {
+    let is_false = |own: &&String| {
         own.contains("no fraction P/Q")
             && own.contains("degree at most 8")
             && !own.starts_with("For b = 1,")
     };
-    assert!(!theorems.iter().any(|own| none(&own)), "{theorems:?}");
+    assert!(!theorems.iter().any(is_false), "{theorems:?}");
     // Where all values have as many this is said.
     let report = searched(&field.replace("one of 1, 0", "one of 1, 2"), &effort(0));
     let same = |own: &String| own.starts_with("for each of the listed values there are as many");
