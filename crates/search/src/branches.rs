@@ -3,11 +3,10 @@
 
 use super::ansatz::Hamiltonians;
 use super::terms::recorded;
-use super::{Effort, FurtherTerm, SearchError, SearchReport};
+use super::{Effort, FurtherTerm, SearchError, SearchReport, irrational};
 use liouville::case::Case;
 use liouville::claim::LevelSubset;
 use liouville::formula::Formula;
-use liouville::graph::{Expr, Graph, Step};
 use liouville::proof::Prover;
 use liouville::verdict::Sampler;
 
@@ -62,26 +61,11 @@ pub fn are_true(case: &Case, effort: &Effort) -> Result<bool, SearchError> {
     let (extents, sources) = (sampler.extents(), sampler.sources());
     let prover = Prover { sources: &sources, extents: &extents, seed: effort.options.seed };
     let outputs = groups.concat();
-    Ok(!has_irrational_radicand(&graph, &outputs)
-        && prover.is_true_to_branches(&graph, &outputs)?)
-}
-
-/// Whether an irrational number stands under a root or a modulus: the root of (1 + √2)² y is (1 + √2) √y,
-/// and modulo a prime it may be −(1 + √2) √y at every point.
-fn has_irrational_radicand(graph: &Graph, outputs: &[Expr]) -> bool {
-    let reached = graph.reached(outputs.iter().copied());
-    let mut is_number = vec![false; reached.len()];
-    let mut is_irrational = vec![false; reached.len()];
-    for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
-        let is_root = !step.is_rational();
-        let mut arguments = step.arguments().collect::<Vec<_>>().into_iter();
-        is_irrational[place] = arguments.any(|argument| is_irrational[argument]);
-        if is_root && is_irrational[place] {
-            return true;
+    match irrational::is_absent(&graph, &outputs) {
+        true => Ok(prover.is_true_to_branches(&graph, &outputs)?),
+        false => {
+            let seed = effort.options.seed;
+            Ok(irrational::is_independent(&graph, &outputs, sampler.recipes(), seed))
         }
-        is_number[place] = !matches!(step, Step::Input(_))
-            && step.arguments().collect::<Vec<_>>().into_iter().all(|k| is_number[k]);
-        is_irrational[place] |= is_root && is_number[place];
     }
-    false
 }

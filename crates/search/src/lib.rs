@@ -25,6 +25,7 @@ mod error;
 mod expansion;
 mod halt;
 mod integrals;
+mod irrational;
 mod jet_equations;
 mod jets;
 mod library;
@@ -81,7 +82,17 @@ pub fn search(
             maps::kept(case, effort, report)
         })?;
         report.stage("relations along an orbit", effort, |report| {
-            orbit::search_map(case, effort, effort.halt.is_timed(), report, progress)
+            let grows = effort.halt.is_timed();
+            let mut run = |case: &Case,
+                           effort: &Effort,
+                           report: &mut SearchReport,
+                           progress: &mut dyn FnMut(&str)| {
+                orbit::search_map(case, effort, grows, report, progress)
+            };
+            match grows {
+                true => run(case, effort, report, progress),
+                false => lists::orbits_by_values(case, effort, report, progress, &mut run),
+            }
         })?;
         report.stage("the density 1", effort, |report| maps::volume(case, effort, report))?;
         maps::note_fields_only(effort, &mut report);
@@ -123,7 +134,18 @@ pub fn search(
         || effort.ansatz.potentials
         || effort.ansatz.gyrostats;
     let ungrown = report.clone();
-    along_orbits(case, effort, grows && !is_asked, &mut report, progress)?;
+    match grows && !is_asked {
+        true => along_orbits(case, effort, true, &mut report, progress)?,
+        false => lists::orbits_by_values(
+            case,
+            effort,
+            &mut report,
+            progress,
+            &mut |case, effort, report, progress| {
+                along_orbits(case, effort, false, report, progress)
+            },
+        )?,
+    }
     report.stage("forces that integrals survive", effort, |report| {
         ansatz::forces(case, effort, report, progress)
     })?;
@@ -142,7 +164,7 @@ pub fn search(
     }
     if effort.conditions == Some(ConditionTarget::Existence) {
         report.stage("values of parameters", effort, |report| {
-            conditions::several::conditions(case, effort, report, progress)
+            conditions::by_values::conditions(case, effort, report, progress)
         })?;
     }
     if grows && is_asked {

@@ -3,6 +3,7 @@
 //! A find is proved for all listed values. A theorem of absence holds for the values of its count: so it
 //! is computed for each combination of values, or names those for which it is stated.
 
+use super::orbit::{OF_LISTS, OrbitReport};
 use super::{Effort, Excluded, Found, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::mechanics::{Draw, ParameterOrigin, SamplerSpec};
@@ -10,6 +11,8 @@ use liouville::number::rational::Rational;
 
 /// Largest number of combinations of listed values that are searched one by one.
 const MOST: usize = 64;
+/// The same for searches along orbits.
+const MOST_ORBITS: usize = 8;
 
 /// Beginning of a remark on a find that does not hold for all listed values.
 pub const UNPROVED: &str = "found, but not proved";
@@ -118,6 +121,7 @@ pub fn by_values(
     let effort = Effort { seconds: effort.seconds / all.len() as f64, ..effort.clone() };
     let mut theorems: Vec<(Excluded, Vec<&str>)> = Vec::new();
     let mut finds = Vec::new();
+    let mut orbits = Vec::new();
     for ListedCase { case, values } in &all {
         let mut own = SearchReport {
             counts: report.counts.clone(),
@@ -127,7 +131,12 @@ pub fn by_values(
         };
         let known = own.found.len();
         run(case, &effort, &mut own, &mut |part| progress(&format!("{part}, for {values}")))?;
+        orbits.push((values.as_str(), own.orbits.pop()));
         for theorem in own.excluded {
+            // What is stated for all values is not repeated for one.
+            if report.excluded[..before].iter().any(|known| known.theorem == theorem.theorem) {
+                continue;
+            }
             let is_same = |(other, _): &&mut (Excluded, Vec<&str>)| {
                 (&other.ansatz, &other.theorem) == (&theorem.ansatz, &theorem.theorem)
             };
@@ -167,6 +176,7 @@ pub fn by_values(
         found.with.push(("value", values));
         report.found.push(found);
     }
+    note_orbits(&orbits, report);
     // What holds for some values only is told with them.
     let mut place = 0;
     report.remarks.retain(|remark| {
@@ -174,6 +184,46 @@ pub fn by_values(
         place <= remarks || !remark.starts_with(UNPROVED)
     });
     Ok(())
+}
+
+/// Searches along orbits: for each combination of listed values if they are few, and tells the numbers of
+/// relations for each.
+pub fn orbits_by_values(
+    case: &Case,
+    effort: &Effort,
+    report: &mut SearchReport,
+    progress: &mut dyn FnMut(&str),
+    run: Run<'_>,
+) -> Result<(), SearchError> {
+    match combinations(case).is_some_and(|all| (2..=MOST_ORBITS).contains(&all.len())) {
+        true => by_values(case, effort, report, progress, run),
+        false => run(case, effort, report, progress),
+    }
+}
+
+/// Notes how many relations along orbits there are for listed values, if other numbers are told.
+fn note_orbits(orbits: &[(&str, Option<OrbitReport>)], report: &mut SearchReport) {
+    if orbits.iter().all(|(_, own)| own.is_none()) {
+        return;
+    }
+    report.remarks.retain(|own| own != OF_LISTS);
+    let number = |own: &OrbitReport| (own.degree, own.relations, own.integrals);
+    let told = report.orbits.last().map(number);
+    let text = |(values, own): &(&str, Option<OrbitReport>)| {
+        let own = own.as_ref().filter(|own| Some(number(own)) != told)?;
+        let OrbitReport { degree, relations, integrals, .. } = own;
+        Some(format!(
+            "for {values}, relations of degree at most {degree} along an orbit: {relations}, algebraic \
+             integrals: {integrals}"
+        ))
+    };
+    let others: Vec<String> = orbits.iter().filter_map(text).collect();
+    report.remark(match others.as_slice() {
+        [] => {
+            "for each of the listed values there are as many relations along an orbit".to_string()
+        }
+        others => others.join("; "),
+    });
 }
 
 /// Runs a part of a search whose theorems hold for the first value of each list, and names these values.

@@ -69,6 +69,29 @@ impl Hypersurface {
         Some(PrimePolynomials(*m).through(&points.collect::<Vec<_>>()).0)
     }
 
+    /// Images of the coefficients; `None` if a denominator is 0 modulo the prime.
+    pub fn images(&self, m: &Modulus) -> Option<PrimeTerms> {
+        self.terms.iter().map(|(own, value)| Some((own.clone(), m.rational(value)?))).collect()
+    }
+
+    /// Value that the equation gives a scalar, if it is x = c.
+    pub fn value(&self, place: usize) -> Option<Rational> {
+        let is_alone =
+            |own: &[u32]| own.iter().enumerate().all(|(k, x)| *x == u32::from(k == place));
+        match self.terms.as_slice() {
+            [(x, _)] if is_alone(x) => Some(Rational::from(0)),
+            [(x, a), (y, b)] if is_alone(x) && degree(y) == 0 => {
+                Some(&Rational::from(0) - &(b * &a.recip()?))
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether a scalar occurs.
+    pub fn contains(&self, place: usize) -> bool {
+        self.terms.iter().any(|(own, _)| own[place] > 0)
+    }
+
     /// Writes the equation: `A = 2*B`, `k = 6`, `a*b − c² = 0`.
     pub fn equation(&self, parameters: &[ScalarParameter]) -> String {
         let names: Vec<&str> = parameters.iter().map(|own| own.name.as_str()).collect();
@@ -114,23 +137,45 @@ impl Hypersurface {
     /// Solves for a parameter that occurs linearly: its place, and its value as a formula of the others.
     /// One with a constant factor is preferred, then a late one. `None` if there is none.
     pub fn solved(&self, letters: &[Formula]) -> Result<Option<(usize, Formula)>, FormulaError> {
-        let is_linear =
-            |place: &usize| self.terms.iter().map(|(own, _)| own[*place]).max() == Some(1);
-        let parts = |place: usize| -> (Terms, Terms) {
-            let (mut with, without): (Terms, Terms) =
-                self.terms.iter().cloned().partition(|(own, _)| own[place] == 1);
-            with.iter_mut().for_each(|(own, _)| own[place] = 0);
-            (with, without)
-        };
         let weight = |place: &usize| {
-            let factor = parts(*place).0;
+            let factor = self.parts(*place).0;
             (factor.len(), factor.iter().map(|(own, _)| degree(own)).max(), usize::MAX - place)
         };
-        let Some(place) = (0..letters.len()).filter(is_linear).min_by_key(weight) else {
-            return Ok(None);
-        };
-        let (factor, rest) = parts(place);
-        Ok(Some((place, negative_quotient(&rest, &factor, letters)?)))
+        let linear = (0..letters.len()).filter(|place| self.is_linear(*place));
+        let Some(place) = linear.min_by_key(weight) else { return Ok(None) };
+        Ok(Some((place, self.solved_for(place, letters)?)))
+    }
+
+    /// Whether a scalar occurs to the first power.
+    pub fn is_linear(&self, place: usize) -> bool {
+        self.terms.iter().map(|(own, _)| own[place]).max() == Some(1)
+    }
+
+    /// Value of a scalar that occurs linearly.
+    pub fn solved_for(&self, place: usize, letters: &[Formula]) -> FormulaResult {
+        let (factor, rest) = self.parts(place);
+        negative_quotient(&rest, &factor, letters)
+    }
+
+    /// Factor of a scalar that occurs linearly, and the terms without it.
+    fn parts(&self, place: usize) -> (Terms, Terms) {
+        let (mut with, without): (Terms, Terms) =
+            self.terms.iter().cloned().partition(|(own, _)| own[place] == 1);
+        with.iter_mut().for_each(|(own, _)| own[place] = 0);
+        (with, without)
+    }
+
+    /// The only scalar that occurs, with the coefficients from low to high degree; `None` if there are
+    /// several.
+    pub fn univariate(&self) -> Option<(usize, Vec<Rational>)> {
+        let count = self.terms.first()?.0.len();
+        let mut places = (0..count).filter(|place| self.contains(*place));
+        let (place, None) = (places.next()?, places.next()) else { return None };
+        let mut coefficients = vec![Rational::from(0); self.degree() + 1];
+        for (own, value) in &self.terms {
+            coefficients[own[place] as usize] = value.clone();
+        }
+        Some((place, coefficients))
     }
 
     /// The same polynomial where simple equations hold, in the scalars that remain free; `None` if it

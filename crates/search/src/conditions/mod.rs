@@ -9,7 +9,12 @@
 //! minors    such values, by minors of the equations for Taylor coefficients
 //! relation  numbers that such values are, or their relations to one other parameter
 //! several   equations between the parameters of a field for which it has more polynomial integrals
+//! by_values  such equations for each of listed values
 //! values    values of its only parameter
+//! isolated  values of several parameters that belong to no condition of codimension one
+//! beyond    such values for more polynomial integrals of a field
+//! solved, real  cases where equations hold; real roots
+//! ideal, bounded_ideal, quotient  common zeros of polynomials in the parameters, and common divisors
 //! ```
 //!
 //! For fields the minors are those of [`equations`] for the coefficients of a polynomial:
@@ -28,21 +33,29 @@
 //! without a meeting point there is none; equations come from points modulo one prime, and are
 //! confirmed at more points than they have coefficients.
 
+mod beyond;
+mod bounded_ideal;
+pub mod by_values;
 mod coordinates;
 mod equations;
 mod factors;
 mod hypersurface;
+mod ideal;
+mod isolated;
 mod line;
 mod locus;
 mod minors;
 mod parameter_line;
 mod pencil;
 mod polynomial;
+mod quotient;
+mod real;
 mod relation;
 mod residual;
-pub mod several;
+mod several;
 mod simple;
 mod small;
+mod solved;
 mod split;
 mod values;
 mod variety;
@@ -56,6 +69,7 @@ pub use coordinates::components;
 use line::{LineResult, Lines};
 use liouville::case::{Case, PlacedClaim};
 use residual::Residual;
+use split::SplitCase;
 
 /// Highest degree of an equation.
 const DEGREE: u32 = 5;
@@ -189,6 +203,11 @@ fn condition(
             }
         }
         if line == BARREN && degree == 0 {
+            if let Some(own) = SeveralEquations::of(case, claim, effort)? {
+                let grounds = format!("no condition of codimension one on {BARREN} random lines");
+                let grounds = own.grounds(&grounds, "modulo a prime of 61 bits");
+                return told(own.equations, grounds);
+            }
             let (systems, met) = small::conditions(&residual, effort)?;
             let grounds = format!(
                 "no condition of codimension one on {BARREN} random lines; {met} points found by random sampling modulo 43"
@@ -210,7 +229,65 @@ fn condition(
         }
     }
     equations.retain(|(_, count)| *count >= REPEATED);
-    let grounds =
+    let mut grounds =
         format!("{seen} points on random lines; the condition has degree {degree} along them");
-    told(equations.into_iter().map(|(text, _)| text).collect(), grounds)
+    let mut equations: Vec<String> = equations.into_iter().map(|(text, _)| text).collect();
+    if let Some(own) = SeveralEquations::of(case, claim, effort)? {
+        grounds = own.grounds(&grounds, "besides it, modulo a prime of 61 bits,");
+        equations.extend(own.equations);
+    }
+    told(equations, grounds)
+}
+
+/// Conditions of several equations for one claim, or for the criterion.
+struct SeveralEquations {
+    equations: Vec<String>,
+    /// Those under which the claim is proved.
+    proved: Vec<String>,
+    /// Number of conditions that are not written.
+    unwritten: usize,
+}
+
+impl SeveralEquations {
+    /// Finds them; `None` if the residual is not a fraction of low degree in the parameters.
+    fn of(
+        case: &Case,
+        claim: Option<&PlacedClaim>,
+        effort: &Effort,
+    ) -> Result<Option<Self>, SearchError> {
+        let split = SplitCase::of(case);
+        if split.scalars.is_empty() {
+            return Ok(None);
+        }
+        let Some(found) = isolated::of_claim(&split, claim, effort)? else { return Ok(None) };
+        let (mut equations, mut proved) = (Vec::new(), Vec::new());
+        for own in &found.written {
+            let texts: Vec<String> = own.iter().map(|own| own.equation(&split.scalars)).collect();
+            let text = texts.join(" and ");
+            if let Some(claim) = claim
+                && solved::is_proved(&split, own, claim, effort)?
+            {
+                proved.push(text.clone());
+            }
+            equations.push(text);
+        }
+        Ok(Some(Self { equations, proved, unwritten: found.unwritten }))
+    }
+
+    /// Adds to grounds what is found, proved and left out; `scope` says where.
+    fn grounds(&self, before: &str, scope: &str) -> String {
+        let mut text = format!("{before}; {scope} ");
+        text.push_str(&match (self.equations.len(), self.unwritten) {
+            (0, 0) => "it holds for no real values of the parameters".to_string(),
+            (_, 0) => "it holds for no other real values than those told".to_string(),
+            (_, n) => format!(
+                "it holds for the values told, and for {n} sets of values whose equations have no short \
+                 coefficients"
+            ),
+        });
+        if !self.proved.is_empty() {
+            text.push_str(&format!("; proved where {}", self.proved.join(", or where ")));
+        }
+        text
+    }
 }

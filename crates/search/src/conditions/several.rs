@@ -20,7 +20,7 @@ use crate::budget::STEPS;
 use crate::{Effort, SearchError, SearchReport};
 
 /// Steps of a search for integrals where a condition holds: half a second.
-const SEARCH: f64 = STEPS / 2.0;
+pub const SEARCH: f64 = STEPS / 2.0;
 
 /// Finds the conditions on the parameters of a field under which there are more polynomial integrals of
 /// at most the degree of the search, and the integrals there.
@@ -69,15 +69,17 @@ fn in_all(
         return Ok(false);
     }
     let left = effort.seconds * STEPS;
-    let (found, open) = (Vec::new(), Vec::new());
-    let mut search = ConditionSearch { whole, effort, report, progress, found, open, left };
+    let (found, open, isolated) = (Vec::new(), Vec::new(), Vec::new());
+    let mut search =
+        ConditionSearch { whole, effort, report, progress, found, open, isolated, left };
     let none = SimpleEquations::none(whole.scalars.len());
     if !search.examined(&none, whole)? {
         return Ok(false);
     }
     // Some lines have been examined.
     if search.left < left {
-        search.several(&none)?;
+        let simple = search.several(&none)?;
+        search.isolated(&simple)?;
     }
     Ok(true)
 }
@@ -97,9 +99,11 @@ fn held(whole: &SplitCase, effort: &Effort) -> Result<Vec<String>, SearchError> 
 }
 
 /// A condition: simple equations, and a further one in the scalars that remain free.
-struct FoundCondition {
-    simple: SimpleEquations,
-    further: Option<Hypersurface>,
+pub struct FoundCondition {
+    /// The simple equations.
+    pub simple: SimpleEquations,
+    /// The further one.
+    pub further: Option<Hypersurface>,
 }
 
 impl FoundCondition {
@@ -131,17 +135,24 @@ impl FoundCondition {
 }
 
 /// A search with the conditions found so far.
-struct ConditionSearch<'s> {
-    whole: &'s SplitCase,
-    effort: &'s Effort,
-    report: &'s mut SearchReport,
-    progress: &'s mut dyn FnMut(&str),
-    found: Vec<FoundCondition>,
+pub struct ConditionSearch<'s> {
+    /// The case.
+    pub whole: &'s SplitCase,
+    /// Limits of the search.
+    pub effort: &'s Effort,
+    /// Report of the whole search.
+    pub report: &'s mut SearchReport,
+    /// Told of each part.
+    pub progress: &'s mut dyn FnMut(&str),
+    /// Conditions of codimension one, everywhere or where simple equations hold.
+    pub found: Vec<FoundCondition>,
     /// Statements with simple equations where further ones may give more: the statement, the degree of
     /// these together, and the simple equations.
     open: Vec<(String, usize, Vec<String>)>,
+    /// Conditions of several equations that belong to none of codimension one.
+    pub isolated: Vec<Vec<Hypersurface>>,
     /// Number of elementary steps that may still be taken.
-    left: f64,
+    pub left: f64,
 }
 
 impl ConditionSearch<'_> {
@@ -278,8 +289,8 @@ impl ConditionSearch<'_> {
         Ok(())
     }
 
-    /// Finds conditions where one or two simple equations hold.
-    fn several(&mut self, none: &SimpleEquations) -> Result<(), SearchError> {
+    /// Finds conditions where one or two simple equations hold; returns words for these.
+    fn several(&mut self, none: &SimpleEquations) -> Result<String, SearchError> {
         let all = simple_equations(self.whole);
         let mut sets: Vec<SimpleEquations> = all.iter().map(|own| none.with(*own)).collect();
         for place in 0..all.len() {
@@ -325,15 +336,12 @@ impl ConditionSearch<'_> {
         };
         let texts: Vec<String> =
             all.iter().flat_map(|own| none.with(*own).texts(&self.whole.scalars)).collect();
-        self.report.remark(format!(
-            "conditions of several equations are sought only where {scope} of these hold: {}",
-            texts.join(", ")
-        ));
-        Ok(())
+        Ok(format!("only where {scope} of these hold: {}", texts.join(", ")))
     }
 }
 
-const GROUNDS: &str =
+/// Method by which conditions are found.
+pub const GROUNDS: &str =
     "minors of the equations for the coefficients, on lines and planes of parameters";
 
 /// Grounds where there is no condition.

@@ -49,6 +49,16 @@ impl SimpleEquations {
         (0..self.first.len()).filter(|place| self.first[*place] == Some(*place)).collect()
     }
 
+    /// Lists independent equations.
+    pub fn equations(&self) -> Vec<SimpleEquation> {
+        let own = |(place, first): (usize, &Option<usize>)| match first {
+            None => Some(SimpleEquation::Zero(place)),
+            Some(first) if *first != place => Some(SimpleEquation::Equal(*first, place)),
+            Some(_) => None,
+        };
+        self.first.iter().enumerate().filter_map(own).collect()
+    }
+
     /// Number of independent equations.
     pub fn count(&self) -> usize {
         self.first.len() - self.free().len()

@@ -5,14 +5,18 @@
 //! McLaren, Owren, Quispel, Tapley, van der Kamp, J. Phys. A 52 (2019) 31LT01), and for ρ = P its cofactor
 //! is ±1/det DΦ. Either way the equation is linear in the coefficients of P.
 
+use liouville::claim::Claim;
 use liouville::formula::{Formula, FormulaError};
 use liouville::graph::Tape;
+use liouville::verdict::{ClaimReport, Verdict};
 
 use super::super::ansatz::coefficients::Ratio;
 use super::super::ansatz::monomials::power_product;
 use super::super::ansatz::note_unwritten;
 use super::super::ansatz::system::PrimePoint;
+use super::super::ask::judged_alone;
 use super::super::echelon::Echelon;
+use super::super::lists::UNPROVED;
 use super::super::terms::{one, recorded};
 use super::super::{SearchError, SearchReport};
 use super::claims::{self, OrbitStatement};
@@ -25,6 +29,9 @@ use super::setting::{OrbitSetting, SPARE_ORDERS, run};
 const MONOMIALS: usize = 300;
 /// Largest degree of P.
 const DEGREE: u32 = 8;
+
+/// Beginning of the note on a density that is not written.
+pub const UNWRITTEN: &str = "a density of degree";
 
 /// The form of a density and the sign of the cofactor.
 #[derive(Clone, Copy)]
@@ -67,7 +74,7 @@ pub fn densities(
                 if is_told {
                     return Ok(());
                 }
-                let what = format!("a density of degree {degree} with {} terms", all.len());
+                let what = format!("{UNWRITTEN} {degree} with {} terms", all.len());
                 note_unwritten(setting.case, &what, report);
                 return Ok(());
             }
@@ -76,8 +83,8 @@ pub fn densities(
     map_fractions::density(setting, &tape, report, progress).map(|_| ())
 }
 
-/// Searches for a density of one form; returns whether it was written and proved, `None` if there is
-/// none.
+/// Searches for a density of one form; returns whether it was written, `None` if there is none. One that
+/// is not proved is noted.
 fn density(
     setting: &OrbitSetting<'_>,
     tape: &Tape,
@@ -145,5 +152,20 @@ fn density(
         (_, true) => (one() / &polynomial.bracketed())?,
     };
     let statement = OrbitStatement::Density(density.clone());
-    claims::other(setting, "density", &density, &statement, Vec::new(), report).map(Some)
+    if !claims::other(setting, "density", &density, &statement, Vec::new(), report)? {
+        let claim = Claim::density(&density);
+        if let Some(judged) = judged_alone(setting.case, claim, setting.effort)? {
+            note_unproved(&density, &judged, report);
+        }
+    }
+    Ok(Some(true))
+}
+
+/// Notes a density that satisfies its equation, and is not proved, with the reason.
+pub fn note_unproved(density: &Formula, judged: &ClaimReport, report: &mut SearchReport) {
+    if judged.verdict != Verdict::Refuted {
+        let reason = judged.evidence.reason.as_ref().map(|own| format!(": {own}"));
+        let reason = reason.unwrap_or_default();
+        report.remark(format!("{UNPROVED}: the density {density}{reason}"));
+    }
 }

@@ -1,7 +1,7 @@
 //! Search for any field, and any map, by orbits modulo a prime.
 //!
 //! ```text
-//! taylor       series of the orbit of a random point, or points of that of a map
+//! taylor       series of orbits, and points of the orbits of maps
 //! setting      points, orbits, and the relations between monomials along them
 //! relations    number of algebraic integrals; none is a theorem
 //! tangents     directions of the state itself, where its functions are variables
@@ -17,12 +17,11 @@
 //! separate     those whose coefficients depend on the parameters, one by one
 //! cleared      Darboux polynomials of fields of fractions
 //! unbound      Darboux polynomials with functions
-//! own_factors  variables that divide their own rates
-//! angle        angles between conjugate Darboux polynomials
+//! own_factors, angle  variables that divide their own rates; angles between conjugate factors
 //! no_others    theorem that the Darboux polynomials found are all
 //! finite_order   maps with Φⁿ = id, and sums over their orbits
 //! map_densities, map_integrals  densities and polynomial integrals of maps
-//! map_fractions  densities of maps that are fractions
+//! map_fractions, map_products  densities of maps that are fractions, or products
 //! logarithms   integrals of maps by monomials
 //! exponents    densities, and integrals with powers, logarithms and exponentials, from cofactors
 //! quotients    fractions over powers of factors in these exponents
@@ -63,6 +62,7 @@ mod magnitude;
 mod map_densities;
 mod map_fractions;
 mod map_integrals;
+mod map_products;
 pub mod monomials;
 pub mod no_others;
 mod own_factors;
@@ -96,6 +96,7 @@ use self::known::IndependentIntegrals;
 use self::limits::{EXTENDED, FURTHER, MODEST, RoundLimits};
 use self::line::degree_of_field;
 use self::part::VariableSet;
+pub use self::remarks::OF_LISTS;
 use self::setting::OrbitSetting;
 use super::ask::proved_energy;
 use super::{Effort, SearchError, SearchReport, branches};
@@ -236,7 +237,7 @@ pub fn search_map(
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    let rational = match OrbitSetting::of(case, effort)? {
+    match OrbitSetting::of(case, effort)? {
         Ok(setting) => {
             map_densities::densities(&setting, report, progress)?;
             finite_order::finite_order(&setting, report)?;
@@ -258,8 +259,9 @@ pub fn search_map(
             report.remark(format!("no relations along orbits: {reason}"));
             Ok(())
         }
-    };
-    rational.and_then(|()| logarithms::search(case, effort, report, progress))
+    }?;
+    logarithms::search(case, effort, report, progress)?;
+    map_products::search(case, effort, report, progress)
 }
 
 /// Limits that follow the first ones: none, unless the time of a search is limited.

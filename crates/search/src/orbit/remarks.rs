@@ -4,7 +4,7 @@ use super::super::{SearchReport, lists};
 use super::setting::OrbitSetting;
 
 /// Remark where integrals are counted and lists keep them from being written.
-const OF_LISTS: &str = "an integral is written only if one formula holds for all listed values of the \
+pub const OF_LISTS: &str = "an integral is written only if one formula holds for all listed values of the \
     parameters: give one value of each list, as with --set a=1";
 /// Remark where the steps for coefficients that depend on the parameters are spent.
 const OF_STEPS: &str = "coefficients that depend on the parameters, or are no fractions, are not all \

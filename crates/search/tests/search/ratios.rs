@@ -99,6 +99,25 @@ fn numbers_under_roots_that_are_no_ratio_leave_theorems() {
 }
 
 #[test]
+fn independent_roots_of_irrational_multiples_leave_theorems() {
+    // The roots of √2 x and of y have no ratio, and 1 + √2 is no square.
+    for (potential, is_excluded) in [
+        ("√(√2*x) + (x² + y²)/2", true),
+        ("√(√2*x) + √y*x", true),
+        ("√((1 + √2)*x*y) + √((1 + √2)*x)", true),
+        ("√(√2*x)*√(2*x) − 2^(3/4)*x + (x² + y²)/2", false),
+        ("√(2 + √2)*√(2 − √2)*x²/2 + y²/√2", false),
+        ("√(√2*x + √y) + x*y", false),
+    ] {
+        for seed in 1..=3 {
+            let text = motion(&format!("potential = '{potential}'"));
+            let (theorems, _) = told(&text, &of_seed(seed));
+            assert_eq!(!theorems.is_empty(), is_excluded, "{potential}, {seed}: {theorems:?}");
+        }
+    }
+}
+
+#[test]
 fn a_variable_that_is_zero_on_the_level_hides_no_integral() {
     // The other variables turn; u and its rate are 0.
     let text = "title = 't'\n[state]\nu = '-1..1'\nx = '-1..1'\ny = '-1..1'\n[field]\n\"u'\" = 'u*x'\n\

@@ -112,3 +112,72 @@ fn irrational_values_are_not_excluded() {
         assert!(told.iter().any(|own| *own == equation), "{equation}: {told:?}");
     }
 }
+
+/// A field in x and y with the parameters a, b, c and the claim C.
+fn with_claim(rates: [&str; 2], claim: &str) -> Case {
+    case(&format!(
+        "title = 'x'\n[parameters]\na = '-1..2'\nb = '-1..3'\nc = '1..2'\n[state]\nx = '-2..2'\ny = '-2..2'\n\
+         [field]\n\"x'\" = '{}'\n\"y'\" = '{}'\n[[claim]]\nname = 'C'\nintegral = '{claim}'\n",
+        rates[0], rates[1]
+    ))
+}
+
+#[test]
+fn values_of_several_parameters_that_belong_to_no_curve_are_found_and_proved() {
+    let mut wanted = effort(0);
+    wanted.conditions = Some(ConditionTarget::Claim("C".to_string()));
+    let conditions = |rates, claim| {
+        let report = search(&with_claim(rates, claim), &wanted, &mut |_| {}).expect("searched");
+        let own = report.conditions.into_iter().next().expect("an answer");
+        (own.equations, own.grounds)
+    };
+    let circle = "x² + y²";
+    let (equations, grounds) = conditions(["a*y + b*x", "-x"], circle);
+    assert_eq!(equations, ["a = 1 and b = 0"]);
+    assert!(grounds.contains("no other real values than those told"), "{grounds}");
+    assert!(grounds.ends_with("proved where a = 1 and b = 0"), "{grounds}");
+    let (equations, grounds) = conditions(["(a - 1)*y + (b - 2)*x + (c - a)*x*y", "0*x"], "x");
+    assert_eq!(equations, ["a = 1 and b = 2 and c = 1"]);
+    assert!(grounds.ends_with("proved where a = 1 and b = 2 and c = 1"), "{grounds}");
+    // A curve, and a point beside it; one on it is left out.
+    let (mut equations, grounds) =
+        conditions(["(c - 1)*(a*y + y - b*x)", "(1 - c)*a*x"], "x² − y²");
+    equations.sort();
+    assert_eq!(equations, ["1 − c = 0", "a = -0.5 and b = 0"], "{grounds}");
+    let (equations, _) = conditions(["(c - 1)*((c - 1)*y + b*x)", "0*x"], "x");
+    assert_eq!(equations, ["1 − c = 0"]);
+    // With poles, with irrational values, and for no values at all.
+    let (equations, _) = conditions(["a*y/(b + y) + b*x", "-x/(b + y)"], circle);
+    assert_eq!(equations, ["a = 1 and b = 0"]);
+    let (equations, grounds) = conditions(["y + (a² - 2)*x² + (b - 3*a)*y", "-x"], circle);
+    assert_eq!(equations, ["b = 3*a and b² − 18 = 0"]);
+    assert!(grounds.ends_with("proved where b = 3*a and b² − 18 = 0"), "{grounds}");
+    // Where only a = 5 and b = 0 are zeros of the numerators nothing has a value.
+    let (equations, grounds) = conditions(["y*(1 + (a - 5)) + b*x²/(a - 5)", "-x"], circle);
+    assert!(equations.is_empty(), "{equations:?} {grounds}");
+    let (equations, _) =
+        conditions(["(a - b)*(b - c)*x", "(b - c)*(c - a)*y + (a - b)*(c - a)*x"], circle);
+    assert_eq!(equations, ["a = c and b = c"]);
+    let (equations, grounds) = conditions(["a*y + 1", "-x"], circle);
+    assert!(equations.is_empty(), "{equations:?}");
+    assert!(grounds.ends_with("it holds for no real values of the parameters"));
+}
+
+#[test]
+fn integrals_are_found_at_values_that_belong_to_no_curve() {
+    let mut wanted = effort(0);
+    wanted.degree = 2;
+    wanted.conditions = Some(ConditionTarget::Existence);
+    let rates = ["y + (a - 2)*x² + (b - 3)*y", "-x + (a*b - 6)*x*y² + (a - 2)*y"];
+    let report = search(&with_claim(rates, "x"), &wanted, &mut |_| {}).expect("searched");
+    let with = ("condition", "a = 2 and b = 3".to_string());
+    let found = |formula: &str| {
+        report.found.iter().any(|own| own.formula == formula && own.with.contains(&with))
+    };
+    assert!(found("x² + y²"), "{:?}", report.found);
+    let told = |text: &str| report.remarks.iter().any(|own| own.contains(text));
+    assert!(told("no other real values of the parameters give more integrals of degree at most 2"));
+    let equations: Vec<&String> = report.conditions.iter().flat_map(|own| &own.equations).collect();
+    assert!(equations.contains(&&with.1), "{equations:?}");
+    assert!(equations.iter().all(|own| own.contains(" and ")), "{equations:?}");
+}

@@ -1,0 +1,188 @@
+//! Ideals of polynomials modulo a prime up to a degree.
+
+use rustc_hash::FxHashMap;
+
+use liouville::number::prime::Modulus;
+
+use super::hypersurface::PrimeTerms;
+use super::ideal::degree;
+use super::polynomial::{Polynomial, PrimePolynomials};
+use crate::echelon::Echelon;
+use crate::series::exponents;
+use crate::{Halt, SearchError};
+
+/// The polynomials of at most a degree that some of them generate within it.
+pub struct BoundedIdeal {
+    m: Modulus,
+    variables: usize,
+    /// Monomials, high degrees first.
+    monomials: Vec<Vec<u32>>,
+    places: FxHashMap<Vec<u32>, usize>,
+    /// Reduced row by pivot.
+    rows: Vec<Option<Vec<u64>>>,
+    /// Number of elementary steps that were taken.
+    pub steps: f64,
+}
+
+impl BoundedIdeal {
+    /// Closes polynomials under products; `None` if one has a higher degree.
+    pub fn of(
+        generators: &[PrimeTerms],
+        variables: usize,
+        most: u32,
+        m: Modulus,
+        halt: &Halt,
+    ) -> Result<Option<Self>, SearchError> {
+        if generators.iter().any(|own| degree(own) > most) {
+            return Ok(None);
+        }
+        let monomials: Vec<Vec<u32>> =
+            (0..=most).rev().flat_map(|total| exponents(variables, total)).collect();
+        let places: FxHashMap<Vec<u32>, usize> =
+            monomials.iter().cloned().enumerate().map(|(place, own)| (own, place)).collect();
+        let row_of = |own: &PrimeTerms| {
+            let mut row = vec![0; monomials.len()];
+            own.iter().filter(|(_, x)| *x != 0).for_each(|(e, image)| row[places[e]] = *image);
+            row
+        };
+        let mut echelon = Echelon::new(monomials.len(), m);
+        generators.iter().for_each(|own| _ = echelon.push(row_of(own)));
+        let mut is_multiplied = vec![false; monomials.len()];
+        loop {
+            let total = |own: &[u32]| own.iter().sum::<u32>();
+            let pivots: Vec<usize> =
+                (0..monomials.len()).filter(|place| echelon.has_pivot(*place)).collect();
+            let mut products = Vec::new();
+            for (pivot, row) in pivots.into_iter().zip(echelon.rows()) {
+                if is_multiplied[pivot] || total(&monomials[pivot]) >= most {
+                    continue;
+                }
+                is_multiplied[pivot] = true;
+                for variable in 0..variables {
+                    let mut product = vec![0; monomials.len()];
+                    for (exponents, image) in monomials.iter().zip(&row).filter(|(_, x)| **x != 0) {
+                        let mut raised = exponents.clone();
+                        raised[variable] += 1;
+                        product[places[&raised]] = *image;
+                    }
+                    products.push(product);
+                }
+            }
+            let mut is_larger = false;
+            for product in products {
+                halt.check()?;
+                is_larger |= echelon.push(product);
+            }
+            if !is_larger {
+                break;
+            }
+        }
+        let mut rows: Vec<Option<Vec<u64>>> = vec![None; monomials.len()];
+        let pivots = (0..monomials.len()).filter(|place| echelon.has_pivot(*place));
+        for (pivot, row) in pivots.zip(echelon.rows()) {
+            rows[pivot] = Some(row);
+        }
+        let reduction = (echelon.rank() * echelon.rank() * monomials.len()) as f64;
+        let steps = echelon.steps() as f64 + reduction;
+        let mut ideal = Self { m, variables, monomials, places, rows, steps };
+        // Low degrees come first, so that each is reduced by reduced ones.
+        for pivot in (0..ideal.rows.len()).rev() {
+            halt.check()?;
+            if let Some(row) = ideal.rows[pivot].take() {
+                ideal.rows[pivot] = Some(ideal.reduced(row));
+            }
+        }
+        Ok(Some(ideal))
+    }
+
+    fn row(&self, own: &PrimeTerms) -> Vec<u64> {
+        let mut row = vec![0; self.monomials.len()];
+        let used = own.iter().filter(|(_, image)| *image != 0);
+        used.for_each(|(exponents, image)| row[self.places[exponents]] = *image);
+        row
+    }
+
+    /// Subtracts multiples of the rows until no pivot is left.
+    fn reduced(&self, mut row: Vec<u64>) -> Vec<u64> {
+        for pivot in 0..row.len() {
+            let Some(own) = self.rows[pivot].as_ref().filter(|_| row[pivot] != 0) else { continue };
+            let factor = row[pivot];
+            for (entry, other) in row[pivot..].iter_mut().zip(&own[pivot..]) {
+                if *other != 0 {
+                    *entry = self.m.sub(*entry, self.m.mul(factor, *other));
+                }
+            }
+        }
+        row
+    }
+
+    /// The highest degree.
+    pub fn most(&self) -> u32 {
+        self.monomials.first().map_or(0, |own| own.iter().sum())
+    }
+
+    /// Whether a polynomial of at most the degree is among them.
+    pub fn contains(&self, own: &PrimeTerms) -> bool {
+        self.reduced(self.row(own)).iter().all(|entry| *entry == 0)
+    }
+
+    /// Whether 1 is among the polynomials, so that there are no zeros.
+    pub fn is_everything(&self) -> bool {
+        self.rows.last().is_some_and(Option::is_some)
+    }
+
+    /// Finds the polynomial of least degree in one variable.
+    pub fn univariate(&self, place: usize) -> Option<Polynomial> {
+        let most = self.most();
+        let size = self.monomials.len();
+        // Behind each power reduced by the rows stands the power itself.
+        let mut echelon = Echelon::new(size + most as usize + 1, self.m);
+        for power in 0..=most {
+            let exponents: Vec<u32> =
+                (0..self.variables).map(|k| if k == place { power } else { 0 }).collect();
+            let mut row = vec![0; size];
+            row[self.places[&exponents]] = self.m.one();
+            let mut row = self.reduced(row);
+            row.extend((0..=most).map(|k| if k == power { self.m.one() } else { 0 }));
+            let (pivot, _) = echelon.pivot(row)?;
+            if pivot >= size {
+                let own = echelon.rows().last()?;
+                return Some(PrimePolynomials::trimmed(own[size..].to_vec()));
+            }
+        }
+        None
+    }
+
+    /// Whether a power of each variable is a leading monomial, so that there are finitely many zeros.
+    pub fn is_finite(&self) -> bool {
+        let leading = || {
+            let all = self.monomials.iter().zip(&self.rows);
+            all.filter(|(_, row)| row.is_some()).map(|(own, _)| own)
+        };
+        let is_power = |own: &Vec<u32>, place: usize| {
+            own.iter().enumerate().all(|(k, x)| k == place || *x == 0)
+        };
+        (0..self.variables).all(|place| leading().any(|own| is_power(own, place)))
+    }
+
+    /// Lists the minimal elements, which generate the others.
+    pub fn basis(&self) -> Vec<PrimeTerms> {
+        let divides = |a: &[u32], b: &[u32]| a.iter().zip(b).all(|(x, y)| x <= y);
+        let mut found: Vec<usize> = Vec::new();
+        for pivot in (0..self.rows.len()).rev().filter(|pivot| self.rows[*pivot].is_some()) {
+            let own = &self.monomials[pivot];
+            if !found.iter().any(|known| divides(&self.monomials[*known], own)) {
+                found.push(pivot);
+            }
+        }
+        let terms = |pivot: &usize| -> PrimeTerms {
+            let row = self.rows[*pivot].iter().flatten();
+            let all = self.monomials.iter().cloned().zip(row.copied());
+            all.filter(|(_, image)| *image != 0).collect()
+        };
+        let mut basis: Vec<PrimeTerms> = found.iter().map(terms).collect();
+        // By the first variable that a leading monomial contains.
+        basis.sort_by(|a, b| degree(a).cmp(&degree(b)).then_with(|| b[0].0.cmp(&a[0].0)));
+        basis
+    }
+}
