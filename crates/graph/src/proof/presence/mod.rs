@@ -21,12 +21,20 @@ const MOST_PARTS: usize = 256;
 /// Whether a value is a sum of products in which each factor that is not known to be nowhere negative
 /// occurs an even number of times.
 fn is_sum_of_squares(graph: &Graph, place: usize, is_known: &dyn Fn(usize) -> bool) -> bool {
-    let (mut terms, mut looked) = (vec![place], 0);
-    while let Some(term) = terms.pop() {
-        if let Step::Binary(BinaryOperation::Add, a, b) = graph.step(term) {
-            terms.extend([a, b]);
-            continue;
+    let (mut terms, mut looked) = (vec![(place, true)], 0);
+    while let Some((term, mut is_positive)) = terms.pop() {
+        match graph.step(term) {
+            Step::Binary(BinaryOperation::Add, a, b) => {
+                terms.extend([(a, is_positive), (b, is_positive)]);
+                continue;
+            }
+            Step::Binary(BinaryOperation::Sub, a, b) => {
+                terms.extend([(a, is_positive), (b, !is_positive)]);
+                continue;
+            }
+            _ => {}
         }
+        let is_known_term = is_positive && is_known(term);
         let (mut factors, mut odd): (Vec<usize>, BTreeSet<usize>) = (vec![term], BTreeSet::new());
         while let Some(factor) = factors.pop() {
             looked += 1;
@@ -36,6 +44,11 @@ fn is_sum_of_squares(graph: &Graph, place: usize, is_known: &dyn Fn(usize) -> bo
             match graph.step(factor) {
                 Step::Binary(BinaryOperation::Mul, a, b) => factors.extend([a, b]),
                 Step::Unary(UnaryFunction::Recip, a) => factors.push(a),
+                Step::Unary(UnaryFunction::Neg, a) => {
+                    is_positive = !is_positive;
+                    factors.push(a);
+                }
+                Step::Constant(value) => is_positive ^= value.is_negative(),
                 Step::Power(a, exponent) if exponent.to_integer().is_some() => {
                     let half = exponent * &Rational::new(1, 2);
                     if half.to_integer().is_none() {
@@ -49,7 +62,7 @@ fn is_sum_of_squares(graph: &Graph, place: usize, is_known: &dyn Fn(usize) -> bo
                 }
             }
         }
-        if !odd.into_iter().all(is_known) && !is_known(term) {
+        if !is_known_term && !(is_positive && odd.into_iter().all(is_known)) {
             return false;
         }
     }
@@ -122,13 +135,6 @@ impl Prover<'_> {
     /// Whether a value is proved to be nowhere negative where the required values exist.
     fn is_never_negative(&self, graph: &Graph, group: &Group, value: Expr) -> Result<bool, Fault> {
         let Group { required, facts, .. } = group;
-        let is_positive = |place: usize| {
-            let known = sign(graph, self.extents, required, facts, graph.at(place));
-            known.is_some_and(|known| known.is_positive)
-        };
-        if is_sum_of_squares(graph, graph.place(value), &is_positive) {
-            return Ok(true);
-        }
         let (made, found) = record(graph.inputs(), |inputs| {
             let reached = graph.reached([value]);
             let conditions = graph.reached([&required[..], facts].concat());
@@ -137,11 +143,18 @@ impl Prover<'_> {
             let all = |some: &[Expr]| {
                 some.iter().map(|own| kept[graph.place(*own)]).collect::<Option<Vec<Expr>>>()
             };
-            let (outputs, presence) = (vec![value.apply(UnaryFunction::Abs) - value], Vec::new());
-            Some(Group { outputs, required: all(required)?, facts: all(facts)?, presence })
+            let outputs = vec![value.apply(UnaryFunction::Abs) - value];
+            let (required, facts) = (all(required)?, all(facts)?);
+            Some((value, Group { outputs, required, facts, presence: Vec::new() }))
         })?;
-        let Some(found) = found else { return Ok(false) };
-        Ok(self.prove(&made, &[found])?.iter().all(GroupOutcome::is_zero))
+        let Some((value, group)) = found else { return Ok(false) };
+        let is_known = |place: usize| {
+            let Group { required, facts, .. } = &group;
+            let known = sign(&made, self.extents, required, facts, made.at(place));
+            known.is_some_and(|known| known.is_positive)
+        };
+        Ok(is_sum_of_squares(&made, made.place(value), &is_known)
+            || self.prove(&made, &[group])?.iter().all(GroupOutcome::is_zero))
     }
 
     /// Whether a value is proved to vanish on no open set where the required values exist.

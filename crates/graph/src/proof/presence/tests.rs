@@ -56,10 +56,10 @@ fn broken(kind: u64, v: Expr, x: &[Expr]) -> Expr {
     match kind % 8 {
         0 => hidden_zero(v).recip(),
         1 => v / (abs(x[0]) - x[0]),
-        2 => (-1.0 - square(v)).ln(),
-        3 => (-1.0 - abs(v)).sqrt(),
+        2 => (-square(v) - 1.0).ln(),
+        3 => (-abs(v) - 1.0).sqrt(),
         4 => x[0].ln(),
-        5 => hidden_zero(x[1]).powd(v),
+        5 => hidden_zero(x[1]).powd(x[0]) + v,
         6 => (x[0] + x[1]).sqrt() * 0.0,
         _ => (abs(x[0] + x[1]) + x[0] + x[1]).recip() * v,
     }
