@@ -58,6 +58,7 @@ use crate::graph::{Evaluator, Fault, Tape, record};
 use crate::mechanics::Phase;
 use crate::mechanics::calculus::DualPoint;
 use crate::number::float::Float;
+use crate::requirement;
 use crate::scalar::Scalar;
 use crate::verdict::{NamedValue, Sampler, antiderivative_value, named};
 use generator::Generator;
@@ -165,16 +166,21 @@ impl<'c> Sweep<'c> {
                 let size = residual.modulus();
                 scale.map_or(size, |square| size / num_dual::DualNum::sqrt(&square))
             };
-            [residual.into_iter().map(ratio).collect::<Vec<_>>(), inputs.to_vec()]
+            let ratios = residual.into_iter().map(ratio).collect::<Vec<_>>();
+            let mut system = requirement::of_system(&jet.phase);
+            system.extend(requirement::of_level(&jet.phase));
+            [ratios, inputs.to_vec(), requirement::of_claim(&jet, &claim.kind, &system)]
         })?;
-        let [ratios, inputs] = groups;
+        let [ratios, inputs, required] = groups;
         if ratios.is_empty() {
             return Err(SweepError::NoResidual);
         }
         let recipes = sampler.recipes();
         let (own, points) = sampler.compose(&graph, &[inputs], &vec![None; recipes.len()])?;
         let point = Tape::new(&own, &points.concat());
-        let (graph, ratios) = sampler.compose_in_ranges(&graph, &ratios)?;
+        // What is written and was simplified away still has to have a value.
+        let left_out = graph.left_out(&ratios, &required);
+        let (graph, ratios) = sampler.compose_in_ranges(&graph, &ratios, &left_out)?;
         Ok(Self {
             case,
             generator: Generator::new(recipes, seed),

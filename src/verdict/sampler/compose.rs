@@ -1,5 +1,7 @@
 //! Values of other graphs as functions of draws.
 
+use num_traits::Zero;
+
 use crate::graph::{Expr, Fault, Graph, literally, record};
 use crate::number::rational::Rational;
 use crate::proof::Group;
@@ -32,11 +34,12 @@ impl Sampler {
     }
 
     /// Composes the same; the values have none where a variable that the level is solved for is out of
-    /// its range.
+    /// its range, and the first of them has none where some required values have none.
     pub fn compose_in_ranges(
         &self,
         graph: &Graph,
         values: &[Expr],
+        required: &[Expr],
     ) -> Result<(Graph, Vec<Expr>), Fault> {
         let fixed = vec![None; self.draws.len()];
         let (composed, values) = record(self.draws.len(), |draws| {
@@ -48,7 +51,15 @@ impl Sampler {
             let facts = self.facts.iter().map(|value| own[self.graph.place(*value)]);
             let facts = facts.collect::<Option<Vec<Expr>>>()?;
             let guard = |value: &Expr| guarded(&[*value], facts.iter().copied());
-            Some(values.iter().flat_map(guard).collect())
+            let mut values: Vec<Expr> = values.iter().flat_map(guard).collect();
+            let reached = graph.reached(required.iter().copied());
+            let made = literally(|| graph.replay(&reached, &inputs, |_, _, _| None));
+            let required = required.iter().map(|value| made[graph.place(*value)]);
+            let required = required.collect::<Option<Vec<Expr>>>()?;
+            if let Some(first) = values.first_mut() {
+                literally(|| required.into_iter().for_each(|value| *first += value * Expr::zero()));
+            }
+            Some(values)
         })?;
         values.map(|values| (composed, values)).ok_or(Fault::ForeignValue)
     }
