@@ -50,6 +50,7 @@ mod generator;
 
 use std::ops::Range;
 
+use num_traits::Zero;
 use rayon::prelude::*;
 
 use crate::case::{Case, PlacedClaim};
@@ -161,7 +162,9 @@ impl<'c> Sweep<'c> {
             let (parameters, state) = inputs.split_at(free);
             let jet = DualPoint::new(Phase::new(&case.model, parameters, state));
             let residual = claim.kind.residual(&jet, &claim.place.kept);
+            // Where nothing moves, the scale of a rate is 0.
             let scale = claim.kind.context(&jet, &claim.place.kept).scale;
+            let scale = scale.filter(|scale| !scale.is_zero());
             let ratio = |residual: crate::graph::Expr| {
                 let size = residual.modulus();
                 scale.map_or(size, |square| size / num_dual::DualNum::sqrt(&square))
@@ -275,6 +278,7 @@ fn peak(ratios: &[f64], start: u64) -> Extremes {
         most = if is_defined && *ratio > most { *ratio } else { most };
     }
     let place = ratios.iter().position(|ratio| *ratio == most);
-    let peak = place.map(|lane| Peak { index: start + lane as u64, ratio: most });
+    // 0 without a sign.
+    let peak = place.map(|lane| Peak { index: start + lane as u64, ratio: most + 0.0 });
     Extremes { states: ratios.len() as u64, defined, peak }
 }
