@@ -138,6 +138,8 @@ class Section(np.ndarray):
 
 CLASSES = (
     "regular",
+    "unstable rest",
+    "escape",
     "conservative chaos",
     "dissipative chaos",
     "strange repeller",

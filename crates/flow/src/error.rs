@@ -184,9 +184,21 @@ pub enum FlowError {
     /// Newton's method for a closed orbit does not converge.
     #[error("no closed orbit was found near the start, with a period near {0}")]
     NoClosedOrbit(#[serde(with = "crate::record")] f64),
+    /// Newton's method leaves a distance at which there need be no closed orbit.
+    #[error(
+        "the motion is back after t = {time} to {residual:.1e} only, and Newton's method does not come nearer: there may be no closed orbit, or one with a multiplier near 1"
+    )]
+    NearReturn {
+        /// Time after which it is back.
+        #[serde(with = "crate::record")]
+        time: f64,
+        /// Distance that is left.
+        #[serde(with = "crate::record")]
+        residual: f64,
+    },
     /// The equations of a closed orbit are singular.
     #[error(
-        "the closed orbit near t = {0} is degenerate: it is one of a family, such as those of a further integral"
+        "the equations of a closed orbit near t = {0} are degenerate: it is one of a family, such as those of a further integral, or has another multiplier 1, or there is none"
     )]
     Degenerate(#[serde(with = "crate::record")] f64),
     /// A line is not that of a reversor.
@@ -351,6 +363,10 @@ impl FlowError {
             FlowError::NoPeriodicPoint { .. } => "draw the section, and start nearer to the point",
             FlowError::NoClosedOrbit(_) => {
                 "start nearer to the orbit, or give its period by --time or another --period"
+            }
+            FlowError::NearReturn { .. } => {
+                "start elsewhere, or follow the orbits over a parameter by `motion continue`: near a \
+                 fold two of them meet, and beyond it there is none"
             }
             FlowError::Degenerate(_) => {
                 "where a further integral is kept, closed orbits come in families, and have no \

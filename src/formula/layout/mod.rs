@@ -3,6 +3,7 @@
 //! Brackets appear where the tree needs them; factors stand next to each other; quotients are
 //! stacked, and set in line within exponents.
 
+mod chains;
 mod paper;
 
 use super::Formula;

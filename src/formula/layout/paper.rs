@@ -1,6 +1,7 @@
 //! Boxes of the tree of a formula.
 
 use super::Layout;
+use super::chains::Chains;
 use crate::formula::arena::{Arena, Constant, ElementaryFunction, Extreme, NodeId, NodeOperation};
 use crate::formula::kind::Type;
 use crate::formula::scope::Symbol;
@@ -8,7 +9,7 @@ use crate::number::rational::Rational;
 
 /// Strength with which a box holds together; one looser than its place requires gets brackets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum BoxStrength {
+pub(super) enum BoxStrength {
     Sum,
     Cross,
     Product,
@@ -16,21 +17,41 @@ enum BoxStrength {
     Whole,
 }
 
-type Bonded = (Layout, BoxStrength);
+impl BoxStrength {
+    /// Strength of the right side of a chain of this one.
+    pub(super) fn tighter(self) -> Self {
+        match self {
+            BoxStrength::Sum => BoxStrength::Cross,
+            BoxStrength::Cross => BoxStrength::Product,
+            _ => BoxStrength::Power,
+        }
+    }
+}
 
-struct Paper<'f> {
-    arena: &'f Arena,
+pub(super) type Bonded = (Layout, BoxStrength);
+
+pub(super) struct Paper<'f> {
+    pub(super) arena: &'f Arena,
+    pub(super) chains: Chains,
     names: &'f dyn Fn(Symbol) -> String,
 }
 
 /// Sets the whole formula.
 pub(super) fn set(arena: &Arena, names: &dyn Fn(Symbol) -> String) -> Layout {
-    Paper { arena, names }.set(arena.nodes.len() - 1, false).0
+    Paper { arena, chains: Chains::new(arena), names }.set(arena.nodes.len() - 1, false).0
 }
 
 impl Paper<'_> {
     /// Sets a node; `inline` where fractions would be too high.
     fn set(&self, node: NodeId, inline: bool) -> Bonded {
+        let Some(_level) = self.chains.enter() else {
+            return (Layout::Sign("…"), BoxStrength::Whole);
+        };
+        self.abridged(node, inline).unwrap_or_else(|| self.whole(node, inline))
+    }
+
+    /// Sets a node with all its operands.
+    fn whole(&self, node: NodeId, inline: bool) -> Bonded {
         use NodeOperation::*;
         let whole = |layout| (layout, BoxStrength::Whole);
         match &self.arena.nodes[node].operation {
@@ -130,7 +151,7 @@ impl Paper<'_> {
     }
 
     /// Sets a node in a place that requires this bond.
-    fn at(&self, node: NodeId, least: BoxStrength, inline: bool) -> Layout {
+    pub(super) fn at(&self, node: NodeId, least: BoxStrength, inline: bool) -> Layout {
         match self.set(node, inline) {
             (layout, bond) if bond >= least => layout,
             (layout, _) => layout.fenced(),
@@ -151,11 +172,7 @@ impl Paper<'_> {
         bond: BoxStrength,
         inline: bool,
     ) -> Bonded {
-        let tighter = match bond {
-            BoxStrength::Sum => BoxStrength::Cross,
-            BoxStrength::Cross => BoxStrength::Product,
-            _ => BoxStrength::Power,
-        };
+        let tighter = bond.tighter();
         // A row of vector products needs brackets.
         let left = if bond == BoxStrength::Cross { tighter } else { bond };
         let parts = vec![self.at(a, left, inline), Layout::Sign(sign), self.at(b, tighter, inline)];
@@ -169,13 +186,14 @@ impl Paper<'_> {
             false => Layout::Space,
         };
         // (−a) b is written −a b.
-        match without_minus(self.set(a, inline).0) {
+        let (left, bond) = self.set(a, inline);
+        match without_minus(left) {
             Ok(left) => {
                 let product = Layout::Row(vec![left, sign, right]);
                 (Layout::Row(vec![Layout::Sign("−"), product]), BoxStrength::Sum)
             }
-            Err(_) => {
-                let left = self.at(a, BoxStrength::Product, inline);
+            Err(left) => {
+                let left = if bond >= BoxStrength::Product { left } else { left.fenced() };
                 (Layout::Row(vec![left, sign, right]), BoxStrength::Product)
             }
         }
@@ -293,7 +311,7 @@ impl Paper<'_> {
 }
 
 /// Number of parts above which a list, a sum or a matrix is abridged.
-const MOST_SHOWN: usize = 6;
+pub(super) const MOST_SHOWN: usize = 6;
 
 /// Parts to show: all, or the first two and the last, with a gap between.
 fn shown(parts: &[NodeId]) -> Vec<Option<&NodeId>> {

@@ -48,6 +48,21 @@ fn set(text: &str) -> String {
 }
 
 #[test]
+fn long_chains_are_abridged() {
+    let many = |first: &str, more: &str, count: usize| format!("{first}{}", more.repeat(count));
+    assert_eq!(set(&many("m", " + k − 1", 10_000)), "m+k−…−1", "a sum");
+    assert_eq!(set(&many("m", "*(k + 1)*m", 10_000)), "m·(k+1)·…·m", "a product");
+    assert_eq!(set(&many("J", "*k", 10_000)), "J·k·…·k", "numbers after a matrix");
+    assert_eq!(set(&many("J", "*J", 10_000)), "J·J·…·J", "matrices");
+    assert_eq!(set(&many("m", "/k", 10_000)), "m/k/…/k", "quotients of quotients");
+    let within = format!("2*(m + k)^2 + |{}|", many("m*k", " + k", 5_000));
+    assert_eq!(set(&within), "2 (m+k)^{2}+|m k+k+…+k|", "only the chain that is long");
+    assert_eq!(set(&many("m", "+k", 20)), many("m", "+k", 20), "what is not deep is whole");
+    let nested = format!("{}m{}", "(m + k*".repeat(190), ")".repeat(190));
+    assert_eq!(set(&nested).matches('(').count(), 189, "brackets nest less");
+}
+
+#[test]
 fn brackets_are_those_that_the_tree_needs() {
     assert_eq!(set("|J*ω × ω|²"), "|J ω×ω|^{2}", "a vector product is looser than a product");
     assert_eq!(set("m*(k + 1)²"), "m (k+1)^{2}", "a sum under an exponent");

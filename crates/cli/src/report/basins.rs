@@ -98,6 +98,7 @@ impl BasinReport<'_> {
             (_, true) => "point".to_string(),
             (Ok(found), false) => match found.character {
                 Character::Regular => "cycle or torus".to_string(),
+                Character::UnstableRest => "point".to_string(),
                 chaos => format!("{}, exponent {:.4}", chaos.name(), found.largest.mean),
             },
             (Err(_), false) => "set".to_string(),

@@ -33,8 +33,10 @@ enum PlanePoint {
 }
 
 /// All kinds of points, with colours that the colour-blind tell apart, and that differ in grey.
-const CELLS: [(PlanePoint, Paint); 7] = [
+const CELLS: [(PlanePoint, Paint); 9] = [
     (PlanePoint::Motion(Character::Regular), Paint::Same([0xc6, 0xdf, 0xf2])),
+    (PlanePoint::Motion(Character::UnstableRest), Paint::Same([0xe9, 0xf3, 0xde])),
+    (PlanePoint::Motion(Character::Escape), Paint::Same([0x8c, 0xb3, 0x6a])),
     (PlanePoint::Motion(Character::ConservativeChaos), Paint::Same([0xd5, 0x5e, 0x00])),
     (PlanePoint::Motion(Character::DissipativeChaos), Paint::Same([0xf0, 0xc4, 0x3f])),
     (PlanePoint::Motion(Character::StrangeRepeller), Paint::Same([0xa2, 0x4b, 0x84])),

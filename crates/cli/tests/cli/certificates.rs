@@ -9,6 +9,7 @@ use liouville_cli::report::motion_certificate::{sealed, verify};
 use serde_json::Value;
 
 mod horseshoes;
+mod nearby;
 
 const TOP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 

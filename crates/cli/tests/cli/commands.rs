@@ -7,6 +7,7 @@ mod keys;
 mod limits;
 mod lines;
 mod motion;
+mod near;
 mod orbits;
 mod parts;
 mod pictures;

@@ -32,6 +32,8 @@ const COUPLE: usize = 2;
 const DISTANCE: f64 = 1e-6;
 /// Factor of growth or decay of the distance at which the shadow is put back.
 const FAR: f64 = 30.0;
+/// Factor of growth of the state at which the shadow is put at the distance that belongs to it.
+const LARGER: f64 = 1e3;
 
 /// Start of a motion: its state, and the loose parameters by their positions in their ranges.
 pub(crate) struct ShadowStart {
@@ -45,6 +47,8 @@ pub(crate) struct Shadowed {
     /// div v as a function of the state and the loose parameters.
     divergence: Tape,
     level: LevelFunctions,
+    /// Number of components of the state, before the loose parameters.
+    dimension: usize,
 }
 
 impl Shadowed {
@@ -61,7 +65,8 @@ impl Shadowed {
             jet.divergence() - jet.level_cofactor(&vec![true; model.level.len()])
         })?;
         let level = LevelFunctions::new(model, parameters, loose)?;
-        Ok(Self { program, divergence: Tape::new(&graph, &[divergence]), level })
+        let divergence = Tape::new(&graph, &[divergence]);
+        Ok(Self { program, divergence, level, dimension: model.dimension() })
     }
 
     /// Level set on which motions start.
@@ -82,6 +87,11 @@ impl Shadowed {
             Worker::new(self, begins, time).run(queue, progress)
         })
     }
+}
+
+/// Length of a vector.
+fn size(vector: &[DoubleDouble]) -> f64 {
+    vector.iter().map(|x| x.hi * x.hi).sum::<f64>().sqrt()
 }
 
 type Done = Vec<(usize, Result<Exponents, FlowError>)>;
@@ -177,7 +187,7 @@ impl<'w> Worker<'w> {
         };
         let record = Record::short(self.time);
         let end = DoubleDouble::from_f64(record.end().unwrap_or(self.time));
-        let distance = DISTANCE * state.iter().map(|x| x.hi * x.hi).sum::<f64>().sqrt();
+        let distance = DISTANCE * size(state);
         let along = self.equations.level.along(state, loose, 0);
         let beside =
             state.iter().zip(&along).map(|(x, u)| *x + DoubleDouble::from_f64(distance * u));
@@ -227,14 +237,23 @@ impl<'w> Worker<'w> {
         running.told.reach(self.stepper.time(own).hi / self.time, progress);
         let (state, shadow) = (self.stepper.pairs(own), self.stepper.pairs(other));
         let apart: Vec<DoubleDouble> = shadow.iter().zip(&state).map(|(x, y)| *x - *y).collect();
-        let length = apart.iter().map(|x| x.hi * x.hi).sum::<f64>().sqrt();
+        let length = size(&apart);
         let growth = length / running.distance;
         let is_done = self.stepper.is_done(own);
-        if is_done || !(1.0 / FAR..=FAR).contains(&growth) {
+        running.record.visit(&state[..self.equations.dimension]);
+        let wanted = DISTANCE * size(&state[..self.equations.dimension]);
+        let is_larger = wanted > LARGER * running.distance;
+        if is_done || is_larger || !(1.0 / FAR..=FAR).contains(&growth) {
             running.record.grow(growth);
-            let back = |(x, d): (&DoubleDouble, &DoubleDouble)| {
-                *x + *d * DoubleDouble::from_f64(1.0 / growth)
+            if is_larger && wanted.is_finite() {
+                running.distance = wanted;
+            }
+            let factor = match is_larger {
+                true => running.distance / length,
+                false => 1.0 / growth,
             };
+            let back =
+                |(x, d): (&DoubleDouble, &DoubleDouble)| *x + *d * DoubleDouble::from_f64(factor);
             let shadow: Vec<DoubleDouble> = state.iter().zip(&apart).map(back).collect();
             self.stepper.place(other, &shadow);
         }

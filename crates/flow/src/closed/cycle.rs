@@ -33,6 +33,10 @@ const MOST_ITERATIONS: usize = 40;
 const LONGEST: f64 = 0.2;
 /// Residual, relative to the state, below which double-double takes over.
 const CONVERGED: f64 = 1e-10;
+/// Residual that supports an orbit, relative to the state and to the square of the least singular
+/// value of the equations: by Newton and Kantorovich there is an orbit if the residual times a bound
+/// of the second derivatives is below half this square.
+const SUPPORTED: f64 = 1e-4;
 /// Smallest singular value of a nondegenerate orbit, relative to the largest.
 const DEGENERATE: f64 = 1e-11;
 
@@ -76,6 +80,7 @@ pub(crate) fn cycle(
     search.converge()?;
     let matrix = search.equations()?.0;
     let residual = search.refine(&matrix)?;
+    search.confirm(residual)?;
     let (float, pair) = (
         search.derivative::<f64>(Accuracy::FLOAT)?,
         search.derivative::<DoubleDouble>(Accuracy::PAIR)?,
@@ -281,6 +286,21 @@ impl<'s> CycleSearch<'s> {
         let (distance, start, time) = best.ok_or(FlowError::NoClosedOrbit(self.guess))?;
         (self.start, self.time) = (start, time);
         Ok(distance)
+    }
+
+    /// Whether what is left of the distance is so small that there is an orbit, by the equations at
+    /// the point where Newton's method ended.
+    fn confirm(&self, residual: f64) -> Result<(), FlowError> {
+        let (mut matrix, ..) = self.equations()?;
+        let (size, period) = (self.size(), self.time.hi);
+        if let Some(last) = matrix.ncols().checked_sub(1) {
+            matrix.column_mut(last).scale_mut(period / size);
+        }
+        let least = matrix.singular_values().min().min(1.0);
+        match residual / size <= SUPPORTED * least * least {
+            true => Ok(()),
+            false => Err(FlowError::NearReturn { time: period, residual }),
+        }
     }
 
     fn multipliers(

@@ -68,11 +68,12 @@ impl Columns {
         self.lexicon.model()
     }
 
-    /// Values of the formulas at a point; the time is left out.
+    /// Values of the formulas at a point, none where something written in one has none; the time is
+    /// left out.
     pub(crate) fn values<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         let value = |source: &ColumnSource| match source {
             ColumnSource::Time => Vec::new(),
-            ColumnSource::Formula(formula) => phase.evaluate(formula).components(),
+            ColumnSource::Formula(formula) => phase.evaluate_literally(formula).components(),
         };
         self.sources.iter().flat_map(value).collect()
     }

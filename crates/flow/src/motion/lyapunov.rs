@@ -3,6 +3,7 @@
 //! The time after the first tenth is cut into blocks, whose spread gives the standard error. The
 //! error is reliable only where a block is longer than the slow drift between regions.
 
+use liouville::number::double_double::DoubleDouble;
 use serde::{Deserialize, Serialize};
 
 /// Number of blocks after the transient.
@@ -15,6 +16,14 @@ const ERRORS: f64 = 3.0;
 const PARALLEL: f64 = 1e-8;
 /// Logarithm of the largest volume that a bounded motion gains or loses between its ends.
 const ENDS: f64 = 10.0;
+
+/// Number of blocks before the later half, that of the transient among them.
+const HALF: usize = 1 + BLOCKS / 2;
+/// Distance, relative to the largest state, within which a motion is at rest.
+const STILL: f64 = 1e-12;
+/// Growth of the largest state from the earlier to the later half beyond which a motion escapes; a
+/// turning angle grows by 2.
+const ESCAPED: f64 = 4.0;
 
 /// A mean with its standard error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,6 +44,10 @@ pub struct Estimate {
 pub enum Character {
     /// No positive exponent: periodic, quasiperiodic, or attracted to such a motion.
     Regular,
+    /// A positive exponent at a point at which the motion rests.
+    UnstableRest,
+    /// A positive exponent of a motion that goes farther and farther away.
+    Escape,
     /// A positive exponent; volume is preserved on average.
     ConservativeChaos,
     /// A positive exponent; the divergence changes sign.
@@ -47,8 +60,10 @@ pub enum Character {
 
 impl Character {
     /// All classes, in order of distance from regular motion.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 7] = [
         Character::Regular,
+        Character::UnstableRest,
+        Character::Escape,
         Character::ConservativeChaos,
         Character::DissipativeChaos,
         Character::StrangeRepeller,
@@ -59,11 +74,18 @@ impl Character {
     pub fn name(self) -> &'static str {
         match self {
             Character::Regular => "regular",
+            Character::UnstableRest => "unstable rest",
+            Character::Escape => "escape",
             Character::ConservativeChaos => "conservative chaos",
             Character::DissipativeChaos => "dissipative chaos",
             Character::StrangeAttractor => "strange attractor",
             Character::StrangeRepeller => "strange repeller",
         }
+    }
+
+    /// Whether the motion is chaotic.
+    fn is_chaos(self) -> bool {
+        !matches!(self, Character::Regular | Character::UnstableRest | Character::Escape)
     }
 }
 
@@ -108,7 +130,7 @@ impl Exponents {
             error: libm::hypot(self.divergence.error, backward.divergence.error),
             later: self.divergence.later - backward.divergence.later,
         };
-        let is_chaos = backward.character != Character::Regular;
+        let is_chaos = backward.character.is_chaos();
         match difference.mean < 0.0 && is_chaos && difference.is_settled(self.time) {
             true => StrangeAttractor,
             false if backward.divergence.is_settled(self.time) => DissipativeChaos,
@@ -125,6 +147,49 @@ impl Estimate {
     }
 }
 
+/// Places of a motion, block by block.
+#[derive(Debug, Default)]
+struct Extent {
+    /// Largest size of the state in each block.
+    sizes: Vec<f64>,
+    /// State at which the later half begins, and the largest distance from it since.
+    middle: Vec<f64>,
+    away: f64,
+}
+
+impl Extent {
+    /// Records a state in a block.
+    fn visit(&mut self, block: usize, state: &[DoubleDouble]) {
+        let norm = |parts: &mut dyn Iterator<Item = f64>| parts.map(|x| x * x).sum::<f64>().sqrt();
+        let size = norm(&mut state.iter().map(|x| x.hi));
+        if self.sizes.len() <= block {
+            self.sizes.resize(block + 1, 0.0);
+        }
+        self.sizes[block] = self.sizes[block].max(size);
+        if block < HALF {
+            return;
+        }
+        if self.middle.is_empty() {
+            self.middle = state.iter().map(|x| x.hi).collect();
+        }
+        let gap = norm(&mut state.iter().zip(&self.middle).map(|(x, y)| x.hi - y));
+        self.away = self.away.max(gap);
+    }
+
+    /// Class of a motion with a positive exponent that comes to rest, or goes away for ever.
+    fn character(&self) -> Option<Character> {
+        let (early, late) = self.sizes.split_at(HALF.min(self.sizes.len()));
+        let largest = |sizes: &[f64]| sizes.iter().fold(0.0, |a: f64, b| a.max(*b));
+        let grows = late.windows(2).all(|pair| pair[0] < pair[1]);
+        match late {
+            [] | [_] => None,
+            _ if self.away <= STILL * largest(&self.sizes) => Some(Character::UnstableRest),
+            _ if grows && largest(late) > ESCAPED * largest(early) => Some(Character::Escape),
+            _ => None,
+        }
+    }
+}
+
 /// Sums along one motion, block by block.
 pub(crate) struct Record {
     time: f64,
@@ -134,6 +199,7 @@ pub(crate) struct Record {
     volume: Vec<f64>,
     at_last_end: (f64, f64),
     alignment: Option<Alignment>,
+    extent: Extent,
     /// Smallest exponent that counts as positive, in standard errors.
     errors: f64,
 }
@@ -148,6 +214,7 @@ impl Record {
             volume: Vec::new(),
             at_last_end: (0.0, 0.0),
             alignment: None,
+            extent: Extent::default(),
             errors: ERRORS,
         }
     }
@@ -171,6 +238,11 @@ impl Record {
     /// Records the length of the vector, which is then normalised.
     pub fn grow(&mut self, length: f64) {
         self.expanded += libm::log(length);
+    }
+
+    /// Records a state on the way.
+    pub fn visit(&mut self, state: &[DoubleDouble]) {
+        self.extent.visit(self.growth.len(), state);
     }
 
     /// Records the alignment index of the two unit vectors at a time.
@@ -211,6 +283,9 @@ impl Record {
         let is_aligned = self.alignment.is_none_or(|found| found.index <= expected);
         if largest.mean <= least || largest.later <= least || !is_aligned {
             return Character::Regular;
+        }
+        if let Some(without_chaos) = self.extent.character() {
+            return without_chaos;
         }
         let keeps_sign = divergence.mean * divergence.later > 0.0
             && divergence.later.abs() > ERRORS * divergence.error;

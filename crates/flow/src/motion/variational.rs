@@ -170,6 +170,7 @@ impl<'t, T: SeriesNumber<One = f64>> Worker<'t, T> {
             self.stepper.scale(lane, bundle.vector(index), 1.0 / length);
         }
         record.grow(lengths[0]);
+        record.visit(&state[..bundle.dimension]);
         let apart = |sign: f64| {
             let both = state[bundle.vector(0)].iter().zip(&state[bundle.vector(1)]);
             let parts = both.map(|(x, y)| x.hi / lengths[0] + sign * y.hi / lengths[1]);

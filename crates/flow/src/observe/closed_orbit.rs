@@ -247,14 +247,15 @@ fn theorem(
     if !changes {
         return orbit;
     }
-    let near = match found.kept {
-        0 => "and all near them",
-        _ => "and all near them for which the motion keeps the same functions",
+    let near = match (found.persists, found.kept) {
+        (false, _) => "",
+        (true, 0) => " and all near them",
+        (true, _) => " and all near them for which the motion keeps the same functions",
     };
     let these = if varied.is_empty() { "these parameters" } else { "all these parameters" };
     format!(
         "{orbit}; so no invariant measure has a density that is continuous and positive on it, for \
-         {these} {near}"
+         {these}{near}"
     )
 }
 

@@ -77,8 +77,9 @@ fn theorem(found: &ProvedHorseshoe, excludes_integral: bool) -> String {
     if !excludes_integral {
         return horseshoe;
     }
+    let near = if found.persists { " and all near them" } else { "" };
     format!(
         "{horseshoe}; so every real-analytic integral near its motions depends on the level, the energy \
-         and the integrals that are known, for these parameters and all near them"
+         and the integrals that are known, for these parameters{near}"
     )
 }

@@ -20,6 +20,7 @@ mod laws;
 mod least;
 mod motion;
 mod multipliers;
+mod nearby;
 mod obstacle;
 mod plan;
 mod replay;
@@ -43,6 +44,7 @@ use functions::Functions;
 use guess::Nodes;
 use krawczyk::{Inverse, is_regular};
 use motion::{Boxed, EnclosedMotion, EnclosedPassage, ORDER};
+use nearby::Nearby;
 use request::moved;
 use shooting::{Frames, Shooting, boxes, times};
 
@@ -84,6 +86,9 @@ pub struct ProvedOrbit {
     pub moved: f64,
     /// Number of conserved functions, the level's among them.
     pub kept: usize,
+    /// Whether the field is proved analytic near the orbit for all parameters near those of the case,
+    /// so that the orbit persists.
+    pub persists: bool,
     /// Numbers by which the proof can be replayed.
     pub data: ProofData,
 }
@@ -116,6 +121,8 @@ pub fn prove(request: &Request<'_>) -> Result<ProvedOrbit, Obstacle> {
             Ok(mut found) => {
                 found.moved = moved(&found.start, &state);
                 found.data.values = numbers;
+                let nearby = Nearby::new(&request.laws());
+                found.persists = nearby.is_some_and(|nearby| nearby.is_analytic_along(&found.data));
                 return Ok(found);
             }
             // Shorter segments have better chances.
@@ -256,6 +263,7 @@ impl<'s> OrbitSearch<'s> {
             contraction,
             moved: 0.0,
             kept: shooting.functions.len(),
+            persists: false,
             data: ProofData {
                 order: ORDER,
                 functions: shooting.functions.used().to_vec(),

@@ -240,7 +240,13 @@ fn plan(
     Plan::new(&TaylorProgram::exact(&graph, &rates)?)
 }
 
-fn steps(plan: &Plan, order: usize, starts: &[Boxed], h: &[Enclosure]) -> Vec<Option<End>> {
+/// Encloses the ends of steps, for all states of boxes and all times of `h`.
+pub(super) fn steps(
+    plan: &Plan,
+    order: usize,
+    starts: &[Boxed],
+    h: &[Enclosure],
+) -> Vec<Option<End>> {
     let mut coefficients = Coefficients::new(plan, order);
     let (mut ends, mut hope) = (Vec::new(), tail::FIRST);
     for (group, h) in starts.chunks(BOXES).zip(h.chunks(BOXES)) {

@@ -4,6 +4,7 @@
 mod boxes;
 mod horseshoes;
 mod least;
+mod nearby;
 
 use std::path::Path;
 

@@ -71,6 +71,10 @@ fn samples_are_written_as_csv_npy_and_json() {
         assert!((row[1] * (1.0 - row[0]) - 1.0).abs() < 1e-14, "{row:?}");
         assert_eq!(row[2], row[1] - 1.0);
     }
+    // as written: there is no √(1/2 − x)
+    let unknown = sampled("none.csv", &["--start", "1", "--columns", "sqrt(1/2 − x)^2, 0*ln(−x)"]);
+    let unknown = String::from_utf8(unknown).expect("UTF-8");
+    assert!(unknown.lines().skip(1).all(|line| line == "NaN,NaN"), "{unknown}");
     let several = sampled("two.json", &["--starts", &starts]);
     let several: Value = serde_json::from_slice(&several).expect("JSON");
     assert_eq!(several["columns"], serde_json::json!(["start", "t", "x"]));

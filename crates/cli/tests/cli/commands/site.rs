@@ -99,3 +99,26 @@ fn a_site_needs_cases_and_a_folder_to_write_to() {
     let arguments = ["site", "no/such/folder", "--out", out.to_str().expect("UTF-8")];
     liouville(&arguments).assert().code(2).stdout(contains("0 pages; 1 without a report"));
 }
+
+#[test]
+fn long_sums_and_products_are_abridged() {
+    let claim = |first: &str, more: &str| {
+        format!("[[claim]]\nname = \"long\"\nintegral = \"{first}{}\"\n", more.repeat(3000))
+    };
+    let field = "title = \"long\"\n[state]\nx = \"-1..1\"\ny = \"-1..1\"\n\
+                 [field]\n\"x'\" = \"y\"\n\"y'\" = \"-x\"\n";
+    let sum = format!("{field}{}", claim("x^2 + y^2", " + x − x"));
+    let product = format!("{field}{}expect = \"open\"\n", claim("x", "*(y + 1)"));
+    let cases = folder("site-long", &[("product.toml", &product), ("sum.toml", &sum)]);
+    let (done, out) = site(&cases, "site-of-long", &[]);
+    done.success().stdout(contains("2 pages"));
+    for name in ["sum.html", "product.html"] {
+        let page = fs::read_to_string(out.join(name)).expect("a page");
+        assert!(page.contains("<mo>…</mo>"), "{name}");
+    }
+    let sum = cases.join("sum.toml");
+    for format in ["text", "latex", "html"] {
+        let arguments = ["report", sum.to_str().expect("UTF-8"), "--format", format];
+        liouville(&arguments).assert().success();
+    }
+}

@@ -25,6 +25,7 @@ pub(super) use proved::{entropy, upper};
 use super::enclosure::{Enclosure, raised};
 use super::functions::norm;
 use super::guess::Nodes;
+use super::nearby::Nearby;
 use super::replay::HorseshoeData;
 use super::request::moved;
 use super::shooting::{Shooting, combined};
@@ -316,6 +317,7 @@ impl HorseshoeSearch<'_, '_> {
             entropy: entropy([upper(short), upper(long)]),
             relations: maps.len() + 1 + outer.len(),
             kept: shooting.functions.len(),
+            persists: self.persists(turn.iter().chain([onto]).chain(&away)),
             moved: 0.0,
             trace: Some(HorseshoeTrace {
                 margin: Margin {
@@ -333,6 +335,14 @@ impl HorseshoeSearch<'_, '_> {
                 sets: [ring.sets(&turn, &halves), strand.sets(&away, &lengths)].concat(),
             },
         })
+    }
+
+    /// Whether the field is analytic about legs for all parameters near those of the case.
+    fn persists<'c>(&self, legs: impl Iterator<Item = &'c Crossed>) -> bool {
+        let (starts, times): (Vec<_>, Vec<_>) =
+            legs.map(|leg| (leg.states.clone(), leg.time)).unzip();
+        let nearby = Nearby::new(&self.request.laws());
+        nearby.is_some_and(|one| one.is_analytic(self.shooting.motion.order, &starts, &times))
     }
 }
 

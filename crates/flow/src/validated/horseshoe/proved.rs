@@ -19,6 +19,9 @@ pub struct ProvedHorseshoe {
     pub relations: usize,
     /// Number of conserved functions, the level's among them.
     pub kept: usize,
+    /// Whether the field is proved analytic near its motions for all parameters near those of the
+    /// case, so that it persists.
+    pub persists: bool,
     /// Distance between the state given and the closed orbit's node, relative to the state.
     pub moved: f64,
     /// Course of the search; `None` for a replay, which has none.

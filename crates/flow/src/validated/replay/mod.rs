@@ -23,6 +23,7 @@ use super::enclosure::Enclosure;
 use super::functions::Functions;
 use super::least;
 use super::motion::EnclosedMotion;
+use super::nearby::Nearby;
 use super::request::moved;
 use super::{MOST_UNKNOWNS, Obstacle, ProvedOrbit, Request};
 use course::ReplayedCourse;
@@ -99,6 +100,7 @@ pub fn replay(request: &Request<'_>, data: &ProofData) -> Result<ProvedOrbit, Ob
     }
     let values = request.values(&functions, &data.values)?.iter().map(Wide::of).collect();
     let motion = EnclosedMotion::new(&request.laws())?;
+    let nearby = Nearby::new(&request.laws());
     let (last, radii) = data.radii.split_last().ok_or(Obstacle::Data("there are no radii"))?;
     let n = motion.dimension;
     let boxed = |(node, radii): (&Vec<f64>, &[f64])| {
@@ -108,7 +110,7 @@ pub fn replay(request: &Request<'_>, data: &ProofData) -> Result<ProvedOrbit, Ob
         across: data.nodes.iter().map(|node| functions.complement(node)).collect(),
         boxes: data.nodes.iter().zip(radii.chunks(n)).map(boxed).collect(),
         period: Wide::about(data.period, *last),
-        scripts: Scripts::new(&motion, data.order, data.order),
+        scripts: Scripts::new(&motion, nearby.as_ref(), data.order, data.order),
         data,
         functions,
         values,
@@ -188,6 +190,12 @@ impl Replay<'_> {
             passage,
             shifts,
         })
+    }
+
+    /// Whether the field is analytic about a segment for all parameters near those of the case.
+    fn persists(&self, index: usize) -> bool {
+        let h = Wide::exact(self.data.shares[index]).times(&self.period);
+        self.scripts.persists(&self.boxes[index], &h, self.data.tails[index])
     }
 
     /// Derivatives of the left sides of a segment by a loose parameter.
@@ -323,6 +331,7 @@ impl Replay<'_> {
             radius: images.iter().map(radius).fold(0.0, f64::max),
             contraction: contraction.magnitude(),
             kept: self.functions.len(),
+            persists: (0..count).into_par_iter().all(|index| self.persists(index)),
             data: data.clone(),
         })
     }

@@ -6,6 +6,7 @@ use super::short::Short;
 use super::tails::remainders;
 use crate::validated::functions::Functions;
 use crate::validated::motion::EnclosedMotion;
+use crate::validated::nearby::Nearby;
 
 /// Scripts of the equations of a motion.
 pub struct Scripts<'m> {
@@ -14,6 +15,9 @@ pub struct Scripts<'m> {
     wide: Script<'m, Wide>,
     moved: Script<'m, Short>,
     full: Script<'m, Short>,
+    /// Field near the parameters; `None` where it has no series.
+    nearby: Option<&'m Nearby>,
+    near: Option<Script<'m, Short>>,
 }
 
 /// End of a step from a box, with its derivative by the start and by the loose parameters.
@@ -29,19 +33,33 @@ pub type Values = (Vec<Wide>, Vec<Vec<Wide>>);
 
 impl<'m> Scripts<'m> {
     /// Prepares the plans of a motion for series of these orders, from points and from boxes.
-    pub fn new(motion: &'m EnclosedMotion, points: usize, boxes: usize) -> Self {
+    pub fn new(
+        motion: &'m EnclosedMotion,
+        nearby: Option<&'m Nearby>,
+        points: usize,
+        boxes: usize,
+    ) -> Self {
         Self {
             motion,
             state: Script::new(&motion.state, points),
             wide: Script::new(&motion.wide, 1),
             moved: Script::new(&motion.wide, boxes),
             full: Script::new(&motion.full, boxes),
+            near: nearby.and_then(Nearby::plan).map(|plan| Script::new(plan, boxes)),
+            nearby,
         }
     }
 
     /// Encloses the variables of the loose parameters.
     fn ranges(&self) -> Vec<Wide> {
         vec![Wide::about(0.0, 1.0); self.motion.loose]
+    }
+
+    /// State with the loose parameters and zeros, as the wide plan begins.
+    fn widened(&self, state: &[Wide]) -> Vec<Wide> {
+        let others = self.motion.wide.dimension - self.motion.dimension - self.motion.loose;
+        let zeros = std::iter::repeat_n(Wide::zero(), others);
+        state.iter().cloned().chain(self.ranges()).chain(zeros).collect()
     }
 
     /// Encloses the state after the time `h` from a point, all parameters at their centres.
@@ -72,16 +90,25 @@ impl<'m> Scripts<'m> {
     /// Encloses the states after the time `h` from a box, without derivatives, for all values of the
     /// parameters.
     pub fn states(&self, start: &[Wide], h: &Wide, radius: f64) -> Option<Vec<Wide>> {
-        let ranges = self.ranges();
-        let all: Vec<Short> = start.iter().chain(&ranges).map(Short::of_wide).collect();
+        let all: Vec<Short> = self.widened(start).iter().map(Short::of_wide).collect();
         let found = ends(&self.moved, &all, &Short::of_wide(h), radius)?;
         Some(found[..self.motion.dimension].iter().map(Short::wide).collect())
     }
 
+    /// Whether the field is analytic about the motions from a box over the time `h`, for all
+    /// parameters near those of the case.
+    pub fn persists(&self, start: &[Wide], h: &Wide, radius: f64) -> bool {
+        let Some(nearby) = self.nearby else { return false };
+        // without a plan of its own, by the steps of the proof
+        let Some(near) = &self.near else { return true };
+        let (start, ranges) = (start.iter().map(Short::of_wide), self.ranges());
+        let all = nearby.whole(start, ranges.iter().map(Short::of_wide), Short::zero());
+        ends(near, &all, &Short::of_wide(h), radius).is_some()
+    }
+
     /// Encloses the field over a box, for all values of the parameters.
     pub fn field(&self, state: &[Wide]) -> Vec<Wide> {
-        let all: Vec<Wide> = state.iter().cloned().chain(self.ranges()).collect();
-        let series = self.wide.expand(&all);
+        let series = self.wide.expand(&self.widened(state));
         let rates = &self.motion.wide.rates[..self.motion.dimension];
         rates.iter().map(|row| series.rows[*row][0].clone()).collect()
     }

@@ -50,6 +50,7 @@ fn the_saddles_of_figures_8_and_11_have_horseshoes() {
         let theorem = claim.evidence.theorem.expect("stated");
         assert!(theorem.contains("real-analytic integral"), "{figure}: {theorem}");
         assert!(theorem.contains(least), "{figure}: {theorem}");
+        assert!(theorem.ends_with("and all near them"), "{figure}: {theorem}");
     }
 }
 

@@ -15,6 +15,7 @@ use crate::validated::enclosure::Enclosure;
 use crate::validated::functions::Functions;
 use crate::validated::horseshoe::{ProvedHorseshoe, entropy, upper};
 use crate::validated::motion::EnclosedMotion;
+use crate::validated::nearby::Nearby;
 use crate::validated::request::moved;
 use crate::validated::{Obstacle, Request};
 use cover::{ReplayedMap, is_hyperbolic, product};
@@ -67,8 +68,9 @@ pub fn replay_horseshoe(
     }
     let values = request.values(&functions, &data.values)?.iter().map(Wide::of).collect();
     let motion = EnclosedMotion::new(&request.laws())?;
+    let nearby = Nearby::new(&request.laws());
     let [points, boxes] = data.orders;
-    let scripts = Scripts::new(&motion, points, boxes);
+    let scripts = Scripts::new(&motion, nearby.as_ref(), points, boxes);
     HorseshoeReplay { data, functions, values, scripts }.prove(request)
 }
 
@@ -96,6 +98,12 @@ impl HorseshoeReplay<'_> {
         }
         map.covers(own.half, target.middle, target.half).map_err(refused)?;
         Ok(map)
+    }
+
+    /// Whether the field is analytic about a leg for all parameters near those of the case.
+    fn persists(&self, index: usize, all: &[Covering]) -> bool {
+        let CoveringSet { time: [time, window], tail, .. } = &self.data.sets[index];
+        self.scripts.persists(&all[index].patch.states, &Wide::about(*time, *window), *tail)
     }
 
     /// Checks that two sets have one surface, and no point in common.
@@ -184,6 +192,7 @@ impl HorseshoeReplay<'_> {
             entropy: proved_entropy(times.map(upper)).ok_or_else(no_entropy)?,
             relations: data.relations.len(),
             kept: self.functions.len(),
+            persists: (0..all.len()).into_par_iter().all(|index| self.persists(index, &all)),
             trace: None,
             data: data.clone(),
         })
