@@ -186,16 +186,9 @@ pub enum FlowError {
     NoClosedOrbit(#[serde(with = "crate::record")] f64),
     /// Newton's method leaves a distance at which there need be no closed orbit.
     #[error(
-        "the motion is back after t = {time} to {residual:.1e} only, and Newton's method does not come nearer: there may be no closed orbit, or one with a multiplier near 1"
+        "the motion is back after t = {0} to {1:.1e} only, and Newton's method does not come nearer: there may be no closed orbit, or one with a multiplier near 1"
     )]
-    NearReturn {
-        /// Time after which it is back.
-        #[serde(with = "crate::record")]
-        time: f64,
-        /// Distance that is left.
-        #[serde(with = "crate::record")]
-        residual: f64,
-    },
+    NearReturn(#[serde(with = "crate::record")] f64, #[serde(with = "crate::record")] f64),
     /// The equations of a closed orbit are singular.
     #[error(
         "the equations of a closed orbit near t = {0} are degenerate: it is one of a family, such as those of a further integral, or has another multiplier 1, or there is none"
@@ -364,7 +357,7 @@ impl FlowError {
             FlowError::NoClosedOrbit(_) => {
                 "start nearer to the orbit, or give its period by --time or another --period"
             }
-            FlowError::NearReturn { .. } => {
+            FlowError::NearReturn(..) => {
                 "start elsewhere, or follow the orbits over a parameter by `motion continue`: near a \
                  fold two of them meet, and beyond it there is none"
             }

@@ -52,7 +52,7 @@ fn long_chains_are_abridged() {
     let many = |first: &str, more: &str, count: usize| format!("{first}{}", more.repeat(count));
     assert_eq!(set(&many("m", " + k − 1", 10_000)), "m+k−…−1", "a sum");
     assert_eq!(set(&many("m", "*(k + 1)*m", 10_000)), "m·(k+1)·…·m", "a product");
-    assert_eq!(set(&many("J", "*k", 10_000)), "J·k·…·k", "numbers after a matrix");
+    assert_eq!(set(&many("J", "*k", 10_000)), "k·J·…·k", "numbers and a matrix");
     assert_eq!(set(&many("J", "*J", 10_000)), "J·J·…·J", "matrices");
     assert_eq!(set(&many("m", "/k", 10_000)), "m/k/…/k", "quotients of quotients");
     let within = format!("2*(m + k)^2 + |{}|", many("m*k", " + k", 5_000));

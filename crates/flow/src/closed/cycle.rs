@@ -299,7 +299,7 @@ impl<'s> CycleSearch<'s> {
         let least = matrix.singular_values().min().min(1.0);
         match residual / size <= SUPPORTED * least * least {
             true => Ok(()),
-            false => Err(FlowError::NearReturn { time: period, residual }),
+            false => Err(FlowError::NearReturn(period, residual)),
         }
     }
 
