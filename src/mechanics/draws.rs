@@ -3,21 +3,18 @@
 //! The first states are short decimals, for readability; the others have all digits of f64, so that
 //! a formula that repeats itself on decimals is not taken for a true one.
 
+mod source;
+
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 
-use super::recipe::{Draw, NumberLine, Range};
+use super::recipe::Draw;
 use super::streams::{NUMBERS, Streams, WIDTH};
 use crate::engine::{ROW_STATES, RowBlock};
 use crate::graph::{Kernel, with_widest_vectors};
-use crate::number::ball::{Balls, about};
+use crate::number::ball::Balls;
 use crate::number::rational::Rational;
-
-/// Number of states with short decimals.
-const SHORT: u64 = 64;
-/// Number of states whose first attempt takes directions inside the range alone, so that the first
-/// witnesses are easy to read.
-const INSIDE: u64 = 32;
+use source::{Manner, NumberSource};
 
 /// Random numbers for states, strictly inside their ranges and never 0.
 ///
@@ -25,46 +22,6 @@ const INSIDE: u64 = 32;
 #[derive(Clone, Debug)]
 pub struct DrawSource {
     sources: Vec<NumberSource>,
-}
-
-/// Source of one number.
-#[derive(Clone, Debug)]
-enum NumberSource {
-    List(Vec<Rational>),
-    /// A sign, 1 or −1.
-    Sign,
-    Range {
-        /// Grid of short decimals.
-        grid: Grid,
-        /// Ends of the range, rounded inwards.
-        ends: [f64; 2],
-        /// Square of the upper end, if numbers outside of the range are drawn as well.
-        square: Option<Rational>,
-    },
-}
-
-/// Properties of the numbers of a state that follow from its index.
-#[derive(Clone, Copy)]
-struct Manner {
-    /// Whether they are short decimals.
-    is_short: bool,
-    /// Whether directions may lie outside of their range.
-    reaches_out: bool,
-}
-
-impl Manner {
-    fn of(index: u64, attempt: u32) -> Self {
-        Self { is_short: index < SHORT, reaches_out: index >= INSIDE || attempt > 0 }
-    }
-}
-
-/// A grid of equidistant decimals inside a range.
-#[derive(Clone, Debug)]
-enum Grid {
-    /// The numbers `low + n step` for n in 1..=count.
-    Any { low: Rational, step: Rational, count: u64 },
-    /// The same over a common denominator, where all parts are small: `(low + n step)/denominator`.
-    Small { low: i64, step: i64, denominator: i64, count: u64 },
 }
 
 impl DrawSource {
@@ -197,229 +154,6 @@ impl<C: Column> Kernel for Fill<'_, C> {
             }
         }
     }
-}
-
-impl NumberSource {
-    /// Encloses the numbers of the states from `index` on, made of these bits.
-    #[inline(always)]
-    fn enclose(&self, index: u64, bits: &[u64; WIDTH], mid: &mut [f64], rad: &mut [f64]) {
-        if let (NumberSource::Range { ends: [low, high], square, .. }, true) =
-            (self, index >= SHORT)
-        {
-            let mut values = [0.0; WIDTH];
-            let mut inside = true;
-            for (value, bits) in values.iter_mut().zip(bits) {
-                *value = at_share([*low, *high], *bits);
-                inside &= (*low < *value) & (*value < *high) & (*value != 0.0);
-            }
-            if let Some(square) = square {
-                let square = square.to_f64().0;
-                for (value, bits) in values.iter_mut().zip(bits) {
-                    *value = if is_outside(*bits) { square / *value } else { *value };
-                }
-            }
-            if inside {
-                mid.copy_from_slice(&values[..mid.len()]);
-                rad.fill(0.0);
-                return;
-            }
-        }
-        for (lane, (mid, rad)) in mid.iter_mut().zip(rad).enumerate() {
-            let manner = Manner::of(index + lane as u64, 0);
-            (*mid, *rad) = about(self.nearest(bits[lane], manner));
-        }
-    }
-
-    fn new(draw: &Draw) -> Self {
-        match draw {
-            Draw::OneOf(values) => NumberSource::List(values.clone()),
-            Draw::Sign => NumberSource::Sign,
-            Draw::Within(range) | Draw::Of(_, range) => {
-                let inwards = |end: &Rational, other: &Rational| {
-                    let (nearest, is_exact) = end.to_f64();
-                    match (is_exact, end < other) {
-                        (true, _) => nearest,
-                        (false, true) => nearest.next_up(),
-                        (false, false) => nearest.next_down(),
-                    }
-                };
-                let ends = [inwards(&range.low, &range.high), inwards(&range.high, &range.low)];
-                let square = matches!(draw, Draw::Of(NumberLine::Directions, _))
-                    .then(|| &range.high * &range.high);
-                NumberSource::Range { grid: Grid::of(range), ends, square }
-            }
-        }
-    }
-
-    /// Returns the result of `pick` in f64, without making a rational number where parts are small.
-    fn nearest(&self, bits: u64, manner: Manner) -> (f64, bool) {
-        match self {
-            NumberSource::Sign => (sign(bits) as f64, true),
-            NumberSource::Range { square: Some(_), .. }
-                if manner.reaches_out && is_outside(bits) =>
-            {
-                self.pick(bits, manner).to_f64()
-            }
-            NumberSource::Range { grid, .. } if manner.is_short => grid.nearest(bits),
-            NumberSource::Range { ends, grid, .. } => match between(*ends, bits) {
-                Some(value) => (value, true),
-                None => grid.nearest(bits),
-            },
-            NumberSource::List(_) => self.pick(bits, manner).to_f64(),
-        }
-    }
-
-    fn pick(&self, bits: u64, manner: Manner) -> Rational {
-        match self {
-            NumberSource::List(values) => {
-                let index = scale(bits, values.len() as u64) as usize;
-                values.get(index).cloned().unwrap_or_else(|| Rational::from(0))
-            }
-            NumberSource::Sign => Rational::from(sign(bits)),
-            NumberSource::Range { grid, ends, square } => {
-                let inside = if manner.is_short { None } else { between(*ends, bits) };
-                match square.as_ref().filter(|_| manner.reaches_out && is_outside(bits)) {
-                    None => inside.and_then(Rational::from_f64).unwrap_or_else(|| grid.pick(bits)),
-                    Some(square) => inside
-                        .and_then(|inside| Rational::from_f64(square.to_f64().0 / inside))
-                        .or_else(|| Some(square * &grid.pick(bits).recip()?))
-                        .unwrap_or_else(|| grid.pick(bits)),
-                }
-            }
-        }
-    }
-}
-
-impl NumberSource {
-    /// Draws a number near one of both ends or 0, or any number, up to a thousandth of the range.
-    /// The ends of directions are at infinity.
-    fn edge(&self, bits: u64, manner: Manner) -> Rational {
-        let (near, bits) = self.near(bits);
-        near.and_then(Rational::from_f64).unwrap_or_else(|| self.pick(bits, manner))
-    }
-
-    /// Returns the f64 nearest to [`NumberSource::edge`], and whether it is exact.
-    fn nearest_edge(&self, bits: u64, manner: Manner) -> (f64, bool) {
-        let (near, bits) = self.near(bits);
-        near.map_or_else(|| self.nearest(bits, manner), |near| (near, true))
-    }
-
-    /// Draws a number near an end or 0, if one of those is drawn, and the bits that are left.
-    fn near(&self, bits: u64) -> (Option<f64>, u64) {
-        const NEAR: f64 = 1.0 / 1024.0;
-        let (place, bits) = (bits % 4, bits >> 2 << 2);
-        let near = match self {
-            NumberSource::Range { ends: [low, high], square, .. } => {
-                let width = NEAR * (high - low);
-                let far = |ends| Some(square.as_ref()?.to_f64().0 / between(ends, bits)?);
-                match place {
-                    0 if square.is_some() => far([-width, 0.0]),
-                    1 if square.is_some() => far([0.0, width]),
-                    0 => between([*low, low + width], bits),
-                    1 => between([high - width, *high], bits),
-                    2 if *low < 0.0 && *high > 0.0 => between([-width, width], bits),
-                    _ => None,
-                }
-            }
-            _ => None,
-        };
-        (near, bits)
-    }
-}
-
-/// Whether a direction is drawn outside of its range: one of four.
-#[inline(always)]
-fn is_outside(bits: u64) -> bool {
-    bits >> 2 & 3 == 0
-}
-
-fn sign(bits: u64) -> i64 {
-    if bits >> 63 == 0 { 1 } else { -1 }
-}
-
-/// Draws a number strictly between two ends and not 0, if f64 has one.
-fn between([low, high]: [f64; 2], bits: u64) -> Option<f64> {
-    let value = at_share([low, high], bits);
-    (low < value && value < high && value != 0.0).then_some(value)
-}
-
-/// Computes the number at a random share of the way between two ends.
-#[inline(always)]
-fn at_share([low, high]: [f64; 2], bits: u64) -> f64 {
-    /// The factor 2⁻⁵³.
-    const UNIT: f64 = f64::EPSILON / 2.0;
-    // 53 bits, and a half so that neither end is attained.
-    let share = ((bits >> 11) as f64 + 0.5) * UNIT;
-    low + (high - low) * share
-}
-
-impl Grid {
-    fn of(range: &Range) -> Self {
-        let width = &range.high - &range.low;
-        let (step, count) = grid(&width);
-        let low = range.low.clone();
-        small_grid(&low, &step, count).unwrap_or(Grid::Any { low, step, count })
-    }
-
-    fn nearest(&self, bits: u64) -> (f64, bool) {
-        const EXACT: u64 = 1 << f64::MANTISSA_DIGITS;
-        if let Grid::Small { low, step, denominator, count } = self {
-            let value = numerator(bits, *low, *step, *count);
-            if value.unsigned_abs() <= EXACT {
-                // Both are f64s, and division rounds correctly; a power of two divides exactly.
-                let odd = denominator >> denominator.trailing_zeros();
-                return (value as f64 / *denominator as f64, value % odd == 0);
-            }
-        }
-        self.pick(bits).to_f64()
-    }
-
-    fn pick(&self, bits: u64) -> Rational {
-        match self {
-            Grid::Small { low, step, denominator, count } => {
-                Rational::new(numerator(bits, *low, *step, *count), *denominator)
-            }
-            Grid::Any { low, step, count } => {
-                let value = low + &(step * &Rational::from(1 + scale(bits, *count) as i64));
-                // Some false formulas hold on coordinate planes.
-                if value.is_zero() { &value + step } else { value }
-            }
-        }
-    }
-}
-
-/// Returns a number of a grid, times its denominator.
-fn numerator(bits: u64, low: i64, step: i64, count: u64) -> i64 {
-    let value = low + step * (1 + scale(bits, count) as i64);
-    if value == 0 { step } else { value }
-}
-
-/// Brings both numbers over one denominator, if a grid of them cannot overflow.
-fn small_grid(low: &Rational, step: &Rational, count: u64) -> Option<Grid> {
-    const SMALL: i64 = 1 << 31;
-    let (_, below) = low.parts();
-    let (_, beside) = step.parts();
-    let denominator = i64::try_from(&below * &beside).ok().filter(|d| *d < SMALL)?;
-    let over = |x: &Rational| (x * &Rational::from(denominator)).to_integer();
-    let (low, step) = (over(low)?, over(step)?);
-    let room = low.abs() < SMALL && step < SMALL && count < SMALL as u64;
-    room.then_some(Grid::Small { low, step, denominator, count })
-}
-
-/// Chooses a step of the form 10^k; returns it with the number of points strictly inside `width`,
-/// about a thousand.
-fn grid(width: &Rational) -> (Rational, u64) {
-    let (size, _) = width.to_f64();
-    let exponent = (size.log10().floor() as i32).clamp(-400, 400) - 3;
-    let step = Rational::from(10).powi(exponent).unwrap_or_else(|| Rational::from(1));
-    let (steps, _) = step.recip().map_or((1000.0, true), |inverse| (width * &inverse).to_f64());
-    // One point is reserved for the step away from 0.
-    (step, (steps.ceil() as u64).saturating_sub(2).max(1))
-}
-
-/// Maps 64 random bits to 0..count, by multiplication.
-fn scale(bits: u64, count: u64) -> u64 {
-    ((u128::from(bits) * u128::from(count)) >> 64) as u64
 }
 
 #[cfg(test)]

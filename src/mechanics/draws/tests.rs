@@ -1,4 +1,6 @@
 use super::*;
+use crate::mechanics::recipe::{NumberLine, Range};
+use crate::number::ball::about;
 
 #[test]
 fn the_stream_is_frozen() {

@@ -314,14 +314,11 @@ impl Explorer<'_> {
             return all_silent("a function has no value in a prime field");
         };
         let all = self.by_group(&made);
-        let is_void: Vec<bool> = all
-            .iter()
-            .zip(groups)
-            .map(|(made, group)| {
-                made.iter().any(|value| extended.graph.is_nowhere_defined(*value))
-                    || self.has_void_argument(cell, algebraic, trial, tower, group)
-            })
-            .collect();
+        let is_never = |made: &[Expr]| made.iter().any(|x| extended.graph.is_nowhere_defined(*x));
+        let has_none = |(made, group): (&&[Expr], &&[Expr])| {
+            is_never(made) || self.has_void_argument(cell, algebraic, trial, tower, group)
+        };
+        let is_void: Vec<bool> = all.iter().zip(groups).map(has_none).collect();
         let pairs = all.iter().zip(&is_void);
         let asked: Vec<&[Expr]> =
             pairs.filter(|(_, is_void)| !**is_void).map(|(group, _)| *group).collect();

@@ -62,7 +62,7 @@ fn is_sum_of_squares(graph: &Graph, place: usize, is_known: &dyn Fn(usize) -> bo
                 }
             }
         }
-        if !is_known_term && !(is_positive && odd.into_iter().all(is_known)) {
+        if !(is_known_term || is_positive && odd.into_iter().all(is_known)) {
             return false;
         }
     }
