@@ -23,7 +23,7 @@ const SPARE: usize = 20;
 /// Number of points or primes that are tried for each character.
 const TRIES: usize = 16;
 
-/// What stands under the roots of some formulas.
+/// Radicands of some formulas.
 #[derive(Default)]
 struct Radicands {
     /// Rational numbers.

@@ -62,7 +62,7 @@ pub fn conditions(
     Ok(())
 }
 
-/// What is told, with the values for which it holds.
+/// Findings of a report, with the values for which they hold.
 type Told<'v, T> = Vec<(T, Vec<&'v str>)>;
 
 fn add<'v, T>(told: &mut Told<'v, T>, own: T, values: &'v str, is_same: impl Fn(&T, &T) -> bool) {

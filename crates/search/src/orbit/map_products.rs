@@ -159,7 +159,7 @@ fn slopes(
     Some(logarithmic.chain(plain).chain([scaled(all.len() - 1)]).collect())
 }
 
-/// What the coefficients of a find belong to.
+/// Quantities that the coefficients of a find belong to.
 struct ProductFind<'f> {
     case: &'f Case,
     effort: &'f Effort,
