@@ -12,8 +12,8 @@ use super::section::CaseTable;
 use super::systems::{ModelParts, Reading};
 use super::{
     AbsenceClaim, Case, Column, MotionClaim, PlacedClaim, TABLE_ROWS, absences, charts,
-    homogeneous, lists, map, one_sided, poincare, remarks, shadows, toml_errors, variables,
-    velocities, weights,
+    homogeneous, implied, lists, map, one_sided, poincare, remarks, shadows, toml_errors,
+    variables, velocities, weights,
 };
 use crate::mechanics::{Chart, LevelFunction, Model, Surface, System, TIME};
 
@@ -145,11 +145,12 @@ fn read(
     let has_variables = variables::read(root, &mut parts.model);
     // the parts below are judged only if everything read so far is complete
     let is_whole = parts.is_whole && has_variables && mistakes.is_empty();
-    let mut warnings = Vec::new();
+    let (mut warnings, mut remarks) = (Vec::new(), Vec::new());
     if is_whole {
         extend_support(&mut parts.model);
         warnings.extend(root.keep(velocities::check(root, &parts.model)).unwrap_or_default());
         root.keep(no_open_level(root, &parts.model));
+        remarks.extend(root.keep(no_implied_level(root, &mut parts.model)).unwrap_or_default());
     }
     read_chart(root, &mut parts);
     if is_whole && mistakes.is_empty() {
@@ -179,7 +180,7 @@ fn read(
     let warnings = hidden.chain(alike).chain(warnings).chain(of_chart(&parts)).collect();
     let ModelParts { model, chart, free_draws, .. } = parts;
     let is_without_claims = claims.is_empty() && motions.is_empty() && absences.is_empty();
-    let remarks = remarks::remarks(root, &system, &model, &claims, is_without_claims);
+    remarks.extend(remarks::remarks(root, &system, &model, &claims, is_without_claims));
     Some(Case {
         title: title?.value,
         source,
@@ -260,6 +261,20 @@ fn no_open_level(root: &CaseTable<'_>, model: &Model) -> Result<(), Mistake> {
     Ok(())
 }
 
+/// Leaves out equations of `[level]` that follow from others, and rejects one that contradicts them;
+/// returns remarks.
+fn no_implied_level(root: &CaseTable<'_>, model: &mut Model) -> Result<Vec<String>, Mistake> {
+    let Some(section) = root.table("level") else { return Ok(Vec::new()) };
+    let texts = section.texts("equations").unwrap_or_default();
+    let texts: Vec<String> = texts.iter().map(|text| text.value.trim().to_string()).collect();
+    implied::leave_out(model, |equation| implied::is_one_of(equation, &texts)).map_err(|text| {
+        let span = root.find(&text).map(|start| start..start + text.len());
+        let message = format!("`{text}` contradicts the equations before it");
+        let remedy = "correct one of them: together they have no solution".to_string();
+        Mistake::new(span, Problem::Sense { message, remedy })
+    })
+}
+
 /// Extends a support function that is not homogeneous of degree 1 off the unit sphere.
 pub fn extend_support(model: &mut Model) {
     let surface = |system: &System| match system {
@@ -281,7 +296,7 @@ pub fn extend_support(model: &mut Model) {
     }
 }
 
-/// Notes whether the masses of a Lagrangian have both signs.
+/// Notes whether the masses of a Lagrangian have both signs, and for which listed values nothing moves.
 fn note_masses(parts: &mut ModelParts) {
     let ModelParts { model, chart, free_draws, .. } = parts;
     let is_indefinite = match &model.system {
@@ -291,6 +306,7 @@ fn note_masses(parts: &mut ModelParts) {
     if let System::Lagrangian(own) = &mut model.system {
         own.is_indefinite = is_indefinite;
     }
+    model.undetermined = model.find_undetermined();
 }
 
 /// Reads the chart of a user-defined level set: given, solved for, or none.

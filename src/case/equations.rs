@@ -157,7 +157,7 @@ fn equation(
 const MOST_COMPARED: usize = 96;
 
 /// Text between an equation and the place of an entry.
-const ENTRY: &str = ", entry ";
+pub const ENTRY: &str = ", entry ";
 
 /// Splits an equation into those of its entries, each with its text.
 ///

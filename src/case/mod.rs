@@ -24,6 +24,7 @@ mod frame;
 mod hamiltonian;
 mod holonomic;
 mod homogeneous;
+mod implied;
 mod kinds;
 mod labels;
 mod lagrangian;

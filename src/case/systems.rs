@@ -123,6 +123,7 @@ impl<'r, 's> Reading<'r, 's> {
             abbreviations: self.abbreviations,
             level: self.level,
             fixed,
+            undetermined: Vec::new(),
         };
         let free_draws = self.state.draws;
         Some((text.value, ModelParts { model, chart, free_draws, hidden, alike, is_whole }))

@@ -9,7 +9,7 @@
 use num_traits::One;
 
 use super::rotation::{self, Among};
-use super::{Objection, Reader, ResidualContext, Statement, kinks, rest};
+use super::{Objection, Reader, ResidualContext, Statement, kinks, rest, volume};
 use crate::graph::{Expr, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{Chart, Meaning, Model, NORMAL, Phase, Variable, VocabularyEntry};
@@ -46,8 +46,14 @@ macro_rules! decided_by_criterion {
             ResidualContext { scale: Some(scale), ..ResidualContext::default() }
         }
 
+        fn limit_of_proof(&self, model: &Model) -> Option<String> {
+            volume::limit_of_proof(model)
+        }
+
         fn remark(&self, model: &Model) -> Option<String> {
-            kinks::remark(model)
+            let remarks: Vec<String> =
+                [kinks::remark(model), volume::remark(model)].into_iter().flatten().collect();
+            (!remarks.is_empty()).then(|| remarks.join("; "))
         }
     };
 }

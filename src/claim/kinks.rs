@@ -5,8 +5,8 @@ use num_traits::One;
 
 use crate::graph::{Expr, Graph, Step, record};
 use crate::mechanics::{Draw, Model, NORMAL, Phase};
+use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
-use crate::number::{BinaryOperation, UnaryFunction};
 use crate::proof::{Extent, is_nowhere_zero};
 
 /// Returns the remark for a body whose radii of curvature are not known to be smooth functions of γ.
@@ -43,17 +43,10 @@ pub(super) fn remark(model: &Model) -> Option<String> {
 fn corners(graph: &Graph, values: &[Expr]) -> Vec<Expr> {
     let reached = graph.reached(values.iter().copied());
     let steps = graph.steps().zip(&reached).filter(|(_, reached)| **reached);
-    let corner = |(step, _): (Step<'_>, &bool)| match step {
-        Step::Unary(
-            UnaryFunction::Recip | UnaryFunction::Sqrt | UnaryFunction::Abs | UnaryFunction::Ln,
-            a,
-        )
-        | Step::Binary(BinaryOperation::Pow, a, _) => Some(a),
-        Step::Power(a, exponent) if exponent.to_integer().is_none() || exponent.is_negative() => {
-            Some(a)
-        }
+    let modulus = |(step, _): (Step<'_>, &bool)| match step {
+        Step::Unary(UnaryFunction::Abs, a) => Some(a),
         _ => None,
     };
-    let found = steps.filter_map(corner);
+    let found = graph.needs(&reached).map(|(place, _)| place).chain(steps.filter_map(modulus));
     found.filter(|a| !matches!(graph.step(*a), Step::Constant(_))).map(|a| graph.at(a)).collect()
 }

@@ -41,6 +41,7 @@ mod statement;
 mod symmetry_field;
 mod transformation;
 mod value;
+mod volume;
 
 use num_dual::DualNum;
 
@@ -314,6 +315,11 @@ impl ClaimKind {
     /// Describes what a nonzero residual excludes, where that is less than the whole claim.
     pub fn limit_of_refutation(&self, model: &Model) -> Option<&'static str> {
         of_each!(self, statement => statement.limit_of_refutation(model))
+    }
+
+    /// Returns the reason why a residual that vanishes does not prove the claim, if so.
+    pub fn limit_of_proof(&self, model: &Model) -> Option<String> {
+        of_each!(self, statement => statement.limit_of_proof(model))
     }
 
     /// Returns a remark for a claim that holds.

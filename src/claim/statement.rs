@@ -160,6 +160,11 @@ pub trait Statement: Clone {
         None
     }
 
+    /// Returns the reason why a residual that vanishes does not prove the claim, if so.
+    fn limit_of_proof(&self, _: &Model) -> Option<String> {
+        None
+    }
+
     /// Returns a remark for a claim that holds.
     fn remark(&self, _: &Model) -> Option<String> {
         None

@@ -15,6 +15,7 @@ mod hamiltonian;
 pub mod iterate;
 mod lagrangian;
 mod linear;
+mod listed;
 mod memo;
 mod model;
 mod parts;
@@ -43,6 +44,7 @@ pub use draws::DrawSource;
 pub use flat_base::FlatBase;
 pub use hamiltonian::HamiltonianSystem;
 pub use lagrangian::{Algebra, Lagrangian, VariableRole};
+pub use listed::{ListedValues, combinations};
 pub use model::{
     LevelEquation, LevelFunction, MatrixShape, Model, Parameter, ParameterOrigin, RootEquation,
     TIME, Variable, components,

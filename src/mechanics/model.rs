@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use super::System;
+use super::listed::ListedValues;
 use super::recipe::{Draw, SamplerSpec};
 use super::variables::NewVariables;
 use super::vocabulary::{Dependence, Meaning, Vocabulary};
@@ -159,6 +160,8 @@ pub struct Model {
     pub level: Vec<LevelEquation>,
     /// Names whose values are written into the case outside formulas, as sizes and in keys.
     pub fixed: Vec<Symbol>,
+    /// Choices of listed values for which the equations of motion have no value.
+    pub undetermined: Vec<ListedValues>,
 }
 
 impl Model {
@@ -175,6 +178,7 @@ impl Model {
             abbreviations: self.abbreviations.clone(),
             level: Vec::new(),
             fixed: self.fixed.clone(),
+            undetermined: self.undetermined.clone(),
         };
         for (symbol, entry) in self.vocabulary.iter() {
             let Meaning::Abbreviation(index) = entry.meaning else { continue };

@@ -73,6 +73,23 @@ impl RigidBody {
         self.curvature_at(at).map(|k| make(slope, k, &normal(at)))
     }
 
+    /// Computes D_T, the determinant of Γ across γ; 1 on the plane.
+    pub fn gamma_determinant<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
+        let (_, slope) = self.shape.contact(at);
+        self.gamma_across(at, &slope).map_or_else(T::one, |big_gamma| big_gamma.determinant())
+    }
+
+    /// Computes the leading minors of the central inertia tensor, and the mass.
+    pub fn masses<T: Scalar>(&self, at: &Configuration<'_, T>) -> ([T; 3], T) {
+        let inertia = matrix(at.evaluate(&self.inertia));
+        let entry = |i, j| inertia[(i, j)];
+        let second = entry(0, 0) * entry(1, 1) - entry(0, 1) * entry(1, 0);
+        let third = entry(2, 0) * (entry(0, 1) * entry(1, 2) - entry(0, 2) * entry(1, 1))
+            - entry(2, 1) * (entry(0, 0) * entry(1, 2) - entry(0, 2) * entry(1, 0))
+            + entry(2, 2) * second;
+        ([entry(0, 0), second, third], scalar(at.evaluate(&self.mass)))
+    }
+
     pub(super) fn inertia_at<T: Scalar>(
         &self,
         at: &Configuration<'_, T>,

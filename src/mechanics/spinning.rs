@@ -142,12 +142,6 @@ impl Spinning {
         let determinant = determinant_with(inertia, &adjugate);
         (adjugate * self.torque(phase)).map(|x| x / determinant)
     }
-
-    /// Computes D_T, 1 on the plane.
-    fn gamma_determinant<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
-        let (_, slope) = self.shape.contact(at);
-        self.gamma_across(at, &slope).map_or_else(T::one, |big_gamma| big_gamma.determinant())
-    }
 }
 
 impl Dynamics for Spinning {

@@ -7,13 +7,13 @@ use num_traits::Zero;
 
 use super::antiderivative_value;
 use super::existence::signed_extents;
-use super::field::{DrawnGroup, Where, combinations};
+use super::field::{DrawnGroup, Where};
 use super::judging::Judging;
 use super::ladder::{LADDER_BITS, Open};
 use super::recorded::RecordedClaim;
 use super::sampler::Sampler;
 use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, literally, record};
-use crate::mechanics::Draw;
+use crate::mechanics::{Draw, combinations};
 use crate::number::mixed::{Mixed, Number};
 use crate::number::rational::Rational;
 use crate::number::{Domain, Enclosing, UnaryFunction};

@@ -6,13 +6,12 @@
 
 use std::cell::LazyCell;
 
-use super::field::combinations;
 use super::judging::Judging;
 use super::pivot_space::PivotSpace;
 use super::sampler::Sampler;
 use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, record};
 use crate::level::Solution;
-use crate::mechanics::Draw;
+use crate::mechanics::{Draw, combinations};
 use crate::number::Enclosing;
 use crate::number::mixed::{Mixed, Number};
 use crate::number::rational::Rational;

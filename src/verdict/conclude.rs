@@ -43,6 +43,13 @@ pub fn report(
         evidence.reason = Some(reason.to_string());
         evidence.holds.clear();
     }
+    if matches!(verdict, Verdict::Proved | Verdict::Confirmed)
+        && let Some(limit) = claim.kind.limit_of_proof(&case.model)
+    {
+        verdict = Verdict::Undecided;
+        evidence.reason = Some(limit);
+        evidence.holds.clear();
+    }
     let holds = matches!(verdict, Verdict::Proved | Verdict::Confirmed);
     if holds {
         if let Some(remark) = claim.kind.remark(&case.model) {

@@ -2,17 +2,16 @@
 
 use super::claim_state::{are_zero, undecide};
 use super::evidence::Verdict;
-use super::field::{Answer, PrimeFieldStates, Query, combinations};
+use super::field::{Answer, PrimeFieldStates, Query};
 use super::judging::Judging;
 use super::ladder::Open;
 use super::preimages::SecondState;
 use super::recorded::RecordedClaim;
 use super::sampler::{Sampler, extent};
 use crate::claim::{Condition, Need};
-use crate::graph::{Expr, Fault, Graph, Step, record};
-use crate::mechanics::Phase;
+use crate::graph::{Expr, Fault, Graph, record};
 use crate::mechanics::calculus::DualPoint;
-use crate::number::{BinaryOperation, UnaryFunction};
+use crate::mechanics::{Phase, combinations};
 use crate::proof::{Extent, GroupOutcome, Prover, are_coprime, is_nowhere_zero, sign};
 use crate::scalar::Scalar;
 
@@ -261,12 +260,6 @@ impl Judging<'_> {
 /// Lists the values that must not be 0 for another value to be bounded nearby.
 fn poles(graph: &Graph, value: Expr) -> Vec<Expr> {
     let reached = graph.reached([value]);
-    let steps = graph.steps().zip(&reached).filter(|(_, reached)| **reached);
-    let pole = |(step, _): (Step<'_>, &bool)| match step {
-        Step::Unary(UnaryFunction::Recip | UnaryFunction::Ln, a) => Some(a),
-        Step::Power(a, exponent) if exponent.is_negative() => Some(a),
-        Step::Binary(BinaryOperation::Pow, a, _) => Some(a),
-        _ => None,
-    };
-    steps.filter_map(pole).map(|place| graph.at(place)).collect()
+    let poles = graph.needs(&reached).filter(|(_, need)| need.is_pole);
+    poles.map(|(place, _)| graph.at(place)).collect()
 }

@@ -6,12 +6,10 @@ use std::sync::Arc;
 use super::judging::Judging;
 use super::sampler::Sampler;
 use crate::graph::{Expr, Fault, Graph};
-use crate::mechanics::Draw;
+use crate::mechanics::combinations;
 use crate::number::rational::Rational;
 use crate::proof::{Certificate, Group, GroupOutcome, InputRegions, Prover};
 
-/// Largest number of combinations of listed parameter values that are proved one by one.
-const MOST_COMBINATIONS: usize = 64;
 /// Message for a larger number of combinations.
 pub const TOO_MANY_COMBINATIONS: &str = "the lists of parameter values have too many combinations";
 
@@ -191,27 +189,6 @@ fn both(a: Answer, b: Answer) -> Answer {
         (Answer::Silent(reason), _) | (_, Answer::Silent(reason)) => Answer::Silent(reason),
         (Answer::Partial, _) | (_, Answer::Partial) => Answer::Partial,
     }
-}
-
-/// Lists all choices of listed values: a proof is for one choice at a time.
-pub fn combinations(recipes: &[Draw]) -> Option<Vec<Vec<Option<Rational>>>> {
-    let mut all: Vec<Vec<Option<Rational>>> = vec![Vec::new()];
-    for recipe in recipes {
-        let values: Vec<Option<Rational>> = match recipe {
-            Draw::Within(_) | Draw::Of(..) | Draw::Sign => vec![None],
-            Draw::OneOf(values) => values.iter().cloned().map(Some).collect(),
-        };
-        all = all
-            .into_iter()
-            .flat_map(|chosen| {
-                values.iter().map(move |value| [&chosen[..], std::slice::from_ref(value)].concat())
-            })
-            .collect();
-        if all.len() > MOST_COMBINATIONS {
-            return None;
-        }
-    }
-    Some(all)
 }
 
 #[cfg(test)]

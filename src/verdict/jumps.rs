@@ -3,12 +3,11 @@
 //!
 //! A jump is observed in f64, not proved, and is told in a remark.
 
-use super::field::combinations;
 use super::judging::Judging;
 use super::sampler::Sampler;
 use super::witness::briefly;
 use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape};
-use crate::mechanics::Draw;
+use crate::mechanics::{Draw, combinations};
 use crate::number::float::Float;
 use crate::number::{BinaryOperation, UnaryFunction};
 

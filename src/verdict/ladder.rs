@@ -12,13 +12,14 @@
 use super::claim_state::{ClaimState, NO_QUADRATURE, are_zero, classify, fold, undecide};
 use super::evidence::{Method, Proof, Verdict};
 use super::examine::{BlockValues, complete};
-use super::field::{Answer, PrimeFieldStates, Query, TOO_MANY_COMBINATIONS, combinations};
+use super::field::{Answer, PrimeFieldStates, Query, TOO_MANY_COMBINATIONS};
 use super::judge::{JudgeError, Trust};
 use super::judging::Judging;
 use super::recorded::{OutputLayout, RecordedClaim, Span};
 use super::run::Run;
 use super::sampler::{Sampler, TAPE_LANES};
 use crate::claim::LevelSubset;
+use crate::mechanics::combinations;
 use crate::number::arb::ArbBall;
 use crate::number::ball::Ball;
 use crate::number::double_double_ball::DoubleDoubleBall;

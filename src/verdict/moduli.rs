@@ -1,12 +1,12 @@
 //! States on both sides of moduli, for claims that the fields cannot decide: |X|, max and min may hide
 //! a small part of the states on which a claim fails.
 
-use super::field::combinations;
 use super::judging::Judging;
 use super::ladder::Open;
 use super::recorded::RecordedClaim;
 use super::sampler::Sampler;
 use crate::graph::{Expr, Fault, Step, record};
+use crate::mechanics::combinations;
 use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
 use crate::proof::InputRegion;

@@ -1,16 +1,15 @@
 //! Proofs that a map takes no two states to one image, but for states of measure 0.
 
-use super::field::combinations;
 use super::judging::Judging;
 use super::preimages::SecondState;
 use super::sampler::{Sampler, TAPE_LANES};
 use crate::claim::LevelSubset;
 use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, record};
 use crate::mechanics::calculus::DualPoint;
-use crate::mechanics::{Chart, Draw, NumberLine, Phase};
+use crate::mechanics::{Chart, Draw, NumberLine, Phase, combinations};
+use crate::number::UnaryFunction;
 use crate::number::ball::{Ball, Balls};
 use crate::number::rational::Rational;
-use crate::number::{BinaryOperation, UnaryFunction};
 use crate::proof::{Determination, Group, Prover, is_nowhere_zero, sign};
 
 impl Judging<'_> {
@@ -205,19 +204,8 @@ fn is_nonzero_somewhere(graph: &Graph, sampler: &Sampler, value: Expr) -> bool {
 /// if they contain moduli.
 fn edges(graph: &Graph, values: &[Expr]) -> Option<Vec<Expr>> {
     let reached = graph.reached(values.iter().copied());
-    let mut edges = Vec::new();
-    for (step, _) in graph.steps().zip(&reached).filter(|(_, reached)| **reached) {
-        match step {
-            Step::Unary(UnaryFunction::Abs, _) => return None,
-            Step::Unary(UnaryFunction::Recip | UnaryFunction::Ln | UnaryFunction::Sqrt, a)
-            | Step::Binary(BinaryOperation::Pow, a, _) => edges.push(graph.at(a)),
-            Step::Power(a, exponent)
-                if exponent.is_negative() || exponent.to_integer().is_none() =>
-            {
-                edges.push(graph.at(a));
-            }
-            _ => {}
-        }
-    }
-    Some(edges)
+    let is_modulus = |step: Step<'_>| matches!(step, Step::Unary(UnaryFunction::Abs, _));
+    let mut steps = graph.steps().zip(&reached).filter(|(_, reached)| **reached);
+    let has_moduli = steps.any(|(step, _)| is_modulus(step));
+    (!has_moduli).then(|| graph.needs(&reached).map(|(place, _)| graph.at(place)).collect())
 }

@@ -3,13 +3,12 @@
 
 use super::claim_state::ClaimState;
 use super::evidence::Verdict;
-use super::field::combinations;
 use super::judging::Judging;
 use super::ladder::Open;
 use super::recorded::RecordedClaim;
 use super::sampler::Sampler;
 use crate::graph::{Expr, Fault, Graph, Step};
-use crate::mechanics::Draw;
+use crate::mechanics::{Draw, combinations};
 use crate::number::{BinaryOperation, UnaryFunction};
 use crate::proof::Prover;
 

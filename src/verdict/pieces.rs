@@ -4,16 +4,14 @@ use std::rc::Rc;
 
 use super::claim_state::ClaimState;
 use super::evidence::{DensitySign, Evidence, Independence, Method, Proof, Verdict};
-use super::field::combinations;
 use super::judge::JudgeError;
 use super::judging::Judging;
 use super::ladder::Open;
 use super::recorded::RecordedClaim;
-use super::sampler::{Sampler, TAPE_LANES};
+use super::sampler::{PlaceParts, Sampler, TAPE_LANES};
 use crate::claim::LevelSubset;
 use crate::graph::Fault;
-use crate::level::Cover;
-use crate::mechanics::{Chart, Draw};
+use crate::mechanics::{Chart, combinations};
 use crate::proof::fewest;
 
 /// Samplers of the parts of a place, for each choice of listed parameter values.
@@ -40,24 +38,12 @@ impl Judging<'_> {
         if !matches!(case.chart, Chart::Equations) || is_whole {
             return Ok(None);
         }
-        let draws = [&case.model.parameter_draws()[..], &case.free_draws].concat();
-        let Some(choices) = combinations(&draws) else { return Ok(None) };
-        let extents: Vec<_> = draws.iter().map(super::sampler::extent).collect();
+        let place = PlaceParts::of(case, sampler);
+        let Some(choices) = combinations(&place.draws) else { return Ok(None) };
         let mut pieces = Vec::new();
         for fixed in &choices {
-            let cover = Cover {
-                model: &case.model,
-                kept: sampler.kept(),
-                draws: &draws,
-                parameters: sampler.parameter_draws(),
-                extents: &extents,
-                fixed,
-                seed: self.options.seed,
-            };
-            let Some(parts) = cover.parts()? else { return Ok(None) };
-            let pairs = draws.iter().zip(fixed);
-            let recipes: Vec<Draw> =
-                pairs.map(|(draw, fixed)| draw.fixed(fixed.as_ref())).collect();
+            let Some(parts) = place.divided(case, fixed)? else { return Ok(None) };
+            let recipes = place.recipes(fixed);
             let of_part = |part| sampler.on_part(part, recipes.clone());
             let mut own: Vec<Sampler> = parts.iter().map(of_part).collect::<Result<_, Fault>>()?;
             let moves = own.iter().map(|own| self.moves(own)).collect::<Result<Vec<_>, Fault>>()?;

@@ -85,6 +85,8 @@ pub struct SharedTerms {
     pub field: Vec<Expr>,
     /// Formulas of the system as written: without their values there is no state.
     requirement: Vec<Expr>,
+    /// Values that exist for the listed values for which the equations of motion have one.
+    pub motion: Vec<Expr>,
     /// Formulas of the level functions as written, by equation.
     level_requirement: Vec<Vec<Expr>>,
     /// Level functions, zero on the level.
@@ -121,6 +123,7 @@ impl SharedTerms {
                 let model = phase.model();
                 phase.literal_values(model.parameter_formulas().chain(model.dynamics()))
             },
+            motion: phase.existence_of_motion(),
             level_requirement: {
                 let formula = |equation: &LevelEquation| match &equation.function {
                     LevelFunction::Formula(formula) => phase.literal_values([formula]),
@@ -156,7 +159,7 @@ impl SharedTerms {
     pub fn required_at(&self, kept: &[bool]) -> Vec<Expr> {
         let level = self.level_requirement.iter().zip(kept).filter(|(_, kept)| **kept);
         let level = level.flat_map(|(values, _)| values);
-        self.requirement.iter().chain(level).copied().collect()
+        self.requirement.iter().chain(&self.motion).chain(level).copied().collect()
     }
 }
 

@@ -4,13 +4,13 @@ use std::ops::Range;
 
 use super::claim_state::{ClaimState, undecide};
 use super::evidence::DensitySign;
-use super::field::combinations;
 use super::judging::Judging;
 use super::recorded::RecordedClaim;
 use super::run::{MOST_KEPT, Run, Values, waves};
 use super::sampler::{Maker, Sampler, TAPE_LANES};
 use crate::claim::ClaimKind;
 use crate::graph::{Expr, Fault};
+use crate::mechanics::combinations;
 use crate::number::Enclosing;
 use crate::number::ball::Ball;
 use crate::number::double_double_ball::DoubleDoubleBall;

@@ -1,7 +1,6 @@
 //! Statements behind proofs in prime fields, as programs over the draws of states: for certificates
 //! that are checked outside the program.
 
-use super::field::combinations;
 use super::judging::Judging;
 use super::recorded::SharedTerms;
 use super::sampler::Sampler;
@@ -10,7 +9,7 @@ use crate::case::Case;
 use crate::claim::LevelSubset;
 use crate::graph::{Expr, Graph, record};
 use crate::mechanics::calculus::DualPoint;
-use crate::mechanics::{Draw, Phase, components};
+use crate::mechanics::{Draw, Phase, combinations, components};
 use crate::number::rational::Rational;
 
 /// The values that vanish identically if a claim holds.

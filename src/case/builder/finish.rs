@@ -1,7 +1,7 @@
 //! Construction of the case from its declarations.
 
 use super::super::value::FormulaSource;
-use super::super::{Case, ClaimError, build, shadows};
+use super::super::{Case, ClaimError, build, implied, shadows};
 use super::{BodyPart, Build, ModelBuilder};
 use crate::formula::{Formula, Scope, Symbol, Type, names_in};
 use crate::mechanics::{
@@ -52,6 +52,7 @@ impl ModelBuilder {
             abbreviations: self.abbreviations,
             level: self.level,
             fixed,
+            undetermined: Vec::new(),
         };
         let mut case = Case {
             title: self.title,
@@ -83,8 +84,18 @@ impl ModelBuilder {
             _ => false,
         };
         let open = case.model.level.iter().find(is_open).map(|equation| equation.text.clone());
+        case.model.undetermined = case.model.find_undetermined();
+        let is_written =
+            |equation: &LevelEquation| matches!(equation.function, LevelFunction::Formula(_));
         match open {
-            None => Ok(case),
+            None => {
+                let left_out = implied::leave_out(&mut case.model, is_written);
+                case.remarks = left_out.map_err(|text| {
+                    let message = "a level equation contradicts those before it";
+                    ClaimError::new(&text, message, "correct one of them")
+                })?;
+                Ok(case)
+            }
             Some(text) => {
                 let message = "a level equation cannot contain ∫, whose constant is open";
                 Err(ClaimError::new(&text, message, "write the antiderivative out"))

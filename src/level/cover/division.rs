@@ -20,6 +20,9 @@ impl Cover<'_> {
             if let Some(factors) = node.factors(index) {
                 return Ok(Some(factors));
             }
+            if let Some(factors) = node.polynomial_factors(index)? {
+                return Ok(Some(factors));
+            }
             // The last coordinates are preferred, as where a level has one solution.
             let mut ways: Vec<(usize, Coefficients)> = Vec::new();
             for draw in inputs.into_iter().rev() {
@@ -35,6 +38,9 @@ impl Cover<'_> {
             }
             if let Some(children) = node.by_sign(index)? {
                 return Ok(Some(children));
+            }
+            if let Some(child) = node.without_root(index)? {
+                return Ok(Some(vec![child]));
             }
         }
         Ok(None)

@@ -84,10 +84,10 @@ impl Cover<'_> {
                 Some(equation) if node.solved >= count => {
                     match self.known(&node.graph, *equation, &node.facts)? {
                         Known::Zero => Some(vec![node.without(0)]),
-                        Known::Thin | Known::Open => self.divided(&node)?,
+                        Known::Thin | Known::Open => self.children(&node)?,
                     }
                 }
-                Some(_) => self.divided(&node)?,
+                Some(_) => self.children(&node)?,
             };
             let Some(children) = children else { return Ok(None) };
             open.extend(children.into_iter().rev());
@@ -103,6 +103,21 @@ impl Cover<'_> {
         let (graph, facts) = (&node.graph, &node.facts);
         // 0 vanishes wherever the facts hold.
         is_nowhere_zero(graph, self.extents, facts, &[graph.at(0)])
+    }
+
+    /// Divides a node by one of its equations, unless it is known to have no points.
+    fn children(&self, node: &Node) -> Result<Option<Vec<Node>>, Fault> {
+        Ok(match self.divided(node)? {
+            None if self.has_no_point(node) => Some(Vec::new()),
+            children => children,
+        })
+    }
+
+    /// Whether one of the equations of a node is known to have no zero in the ranges.
+    fn has_no_point(&self, node: &Node) -> bool {
+        let has_none =
+            |equation: &Expr| is_nowhere_zero(&node.graph, self.extents, &node.facts, &[*equation]);
+        node.equations.iter().any(has_none)
     }
 
     /// Returns the node where a fact that is nowhere positive, and 0 on no open set, is 0: the facts

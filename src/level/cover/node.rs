@@ -7,6 +7,7 @@ use crate::graph::{Expr, Fault, Graph, Step, record};
 use crate::mechanics::{Draw, Phase};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
+use crate::proof::{Factors, Rationalised};
 use crate::scalar::Scalar;
 
 /// Points with free coordinates at which equations hold and facts are not negative.
@@ -142,6 +143,36 @@ impl Node {
             node
         };
         is_product.then(|| factors.iter().map(with).collect())
+    }
+
+    /// Divides by the factors of an equation that is written out; `None` if none are found.
+    pub fn polynomial_factors(&self, index: usize) -> Result<Option<Vec<Self>>, Fault> {
+        let Some(factors) = Factors::of(&self.graph, self.equations[index]) else {
+            return Ok(None);
+        };
+        let change = Change { dropped: Some(index), solved: None, replaced: None };
+        let with = |factor: usize| {
+            self.changed(&change, |inputs, _| {
+                let equations = vec![factors.value(factor, inputs)?];
+                Some(Additions { equations, ..Additions::default() })
+            })
+        };
+        (0..factors.count()).map(with).collect::<Result<Vec<Self>, Fault>>().map(Some)
+    }
+
+    /// Writes an equation A + B √C = 0 as A² = B²C, with the fact −A B ≥ 0; `None` if it is none.
+    pub fn without_root(&self, index: usize) -> Result<Option<Self>, Fault> {
+        let Some(other) = Rationalised::of(&self.graph, self.equations[index]) else {
+            return Ok(None);
+        };
+        let change = Change { dropped: Some(index), solved: None, replaced: None };
+        let reached = self.graph.reached([self.equations[index]]);
+        let made = self.changed(&change, |inputs, _| {
+            let own = self.graph.replay(&reached, inputs, |_, _, _| None);
+            let (equation, facts) = other.values(|place| own.get(place).copied().flatten())?;
+            Some(Additions { equations: vec![equation], facts, ..Additions::default() })
+        })?;
+        Ok(Some(made))
     }
 
     /// Divides by the sign of the first modulus in an equation; `None` if there is none.

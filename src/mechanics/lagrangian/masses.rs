@@ -6,8 +6,9 @@
 use super::Lagrangian;
 use crate::graph::{Evaluator, Expr, Tape, record};
 use crate::mechanics::elimination::{is_indefinite, solve_by_minors, solve_positive};
-use crate::mechanics::{Chart, Configuration, Draw, DrawSource, Model, Phase};
+use crate::mechanics::{Chart, Configuration, Draw, DrawSource, Model, Phase, combinations};
 use crate::number::float::Float;
+use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
 /// Number of states at which the signs are looked at.
@@ -16,7 +17,8 @@ const STATES: usize = 16;
 const MOST_VELOCITIES: usize = 32;
 
 impl Lagrangian {
-    /// Whether ∂²L/∂w² has eigenvalues of both signs at some of the first drawn states. `false` where
+    /// Whether ∂²L/∂w² has eigenvalues of both signs at some of the first drawn states, with one choice
+    /// of listed values or another. `false` where
     /// there are no velocities, or very many, or no value.
     pub fn has_indefinite_masses(&self, model: &Model, chart: &Chart, free: &[Draw]) -> bool {
         let velocities = self.velocities(&model.state);
@@ -37,21 +39,28 @@ impl Lagrangian {
         if graph.inputs() > draws.len() {
             return false;
         }
+        let choices = combinations(&draws).unwrap_or_else(|| vec![vec![None; draws.len()]]);
         let source = DrawSource::new(&draws);
         let states: Vec<Vec<(f64, bool)>> =
             (0..STATES as u64).map(|index| source.nearest(0, index, 0)).collect();
-        let inputs: Vec<[f64; STATES]> =
-            (0..draws.len()).map(|draw| std::array::from_fn(|lane| states[lane][draw].0)).collect();
         let tape = Tape::new(&graph, &masses);
         let mut evaluator = Evaluator::new(&tape, Float::<STATES>);
-        evaluator.run(&inputs);
-        let entries: Vec<[f64; STATES]> = evaluator.outputs().copied().collect();
-        (0..STATES).any(|lane| {
-            let matrix: Vec<Vec<f64>> = entries
-                .chunks(count)
-                .map(|row| row.iter().map(|own| own[lane]).collect())
-                .collect();
-            is_indefinite(&matrix)
+        // Few of the states may have the values of one choice.
+        choices.iter().any(|choice| {
+            let input = |(draw, value): (usize, &Option<Rational>)| {
+                let value = value.as_ref().map(|value| value.to_f64().0);
+                std::array::from_fn(|lane| value.unwrap_or(states[lane][draw].0))
+            };
+            let inputs: Vec<[f64; STATES]> = choice.iter().enumerate().map(input).collect();
+            evaluator.run(&inputs);
+            let entries: Vec<[f64; STATES]> = evaluator.outputs().copied().collect();
+            (0..STATES).any(|lane| {
+                let matrix: Vec<Vec<f64>> = entries
+                    .chunks(count)
+                    .map(|row| row.iter().map(|own| own[lane]).collect())
+                    .collect();
+                is_indefinite(&matrix)
+            })
         })
     }
 

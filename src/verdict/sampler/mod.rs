@@ -6,10 +6,12 @@ mod compose;
 mod draw;
 mod maker;
 mod numerical;
+mod place_parts;
 mod print;
 mod ranges;
 
 pub use maker::Maker;
+pub use place_parts::PlaceParts;
 pub use ranges::{extent, inside};
 
 use std::sync::Arc;
@@ -18,7 +20,7 @@ use crate::case::Case;
 use crate::claim::LevelSubset;
 use crate::graph::{Expr, Fault, Graph, Tape, literally, record};
 use crate::level::{self, Part, Pivot, Solution};
-use crate::mechanics::{Chart, Draw, DrawSource};
+use crate::mechanics::{Chart, Draw, DrawSource, combinations};
 use crate::number::rational::Rational;
 use crate::proof::{Extent, InputDistribution};
 
@@ -87,7 +89,29 @@ impl Sampler {
                 return Ok(other);
             }
         }
-        Ok(sampler)
+        let may_be_a_part =
+            sampler.is_numerical() || sampler.solution.is_some() && !sampler.has_states();
+        let part = match may_be_a_part {
+            true => sampler.only_part(case)?,
+            false => None,
+        };
+        Ok(part.unwrap_or(sampler))
+    }
+
+    /// Makes a sampler of the only part of a place that may contain states, as |x| + |y| = 1 has one for
+    /// x, y > 0; `None` where there are several, or the place cannot be divided.
+    fn only_part(&self, case: &Case) -> Result<Option<Self>, Fault> {
+        let cover = PlaceParts::of(case, self);
+        let Some(choices) = combinations(&cover.draws) else { return Ok(None) };
+        let [fixed] = &choices[..] else { return Ok(None) };
+        let Some(parts) = cover.divided(case, fixed)? else { return Ok(None) };
+        match &parts[..] {
+            [part] if !part.is_thin => {
+                let own = self.on_part(part, cover.recipes(fixed))?;
+                Ok(own.has_states().then_some(own))
+            }
+            _ => Ok(None),
+        }
     }
 
     /// Makes a sampler of the states that a solution of the level makes, if there is one.

@@ -66,12 +66,42 @@ fn a_witness_with_a_root_of_nothing_is_printed() {
 
 #[test]
 fn dependent_level_equations_are_told() {
-    for second in ["x = 1", "2*x = 2", "0*x = 0"] {
+    for second in ["x² = 1", "exp(x) = e", "0*x = 0"] {
         let text = format!(
             "title = 'x'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = '0*x'\n\"y'\" = 'x'\n\
              [level]\nequations = ['x = 1', '{second}']\n"
         );
         assert!(matches!(judged(&text), Err(JudgeError::Dependent(_))), "{second}");
+    }
+}
+
+#[test]
+fn level_equations_that_follow_from_others_are_left_out() {
+    let text = |second: &str| {
+        format!(
+            "title = 'x'\n[parameters]\na = '1..2'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\
+             \"x'\" = '0*x'\n\"y'\" = 'x'\n[level]\nequations = ['x = 1', '{second}']\n\
+             [[claim]]\nidentity = 'x² = x'\n"
+        )
+    };
+    for second in ["x = 1", "2*x = 2", "a*x + 2*x = a*x + 2", "(x + 1)² − x² = 3"] {
+        let case = Case::parse(&text(second), &[]).expect("a case");
+        let remark = "follows from the other equations of the level, and is left out";
+        assert!(
+            case.remarks.iter().any(|own| own.contains(remark)),
+            "{second}: {:?}",
+            case.remarks
+        );
+        assert_eq!(case.model.level.len(), 1);
+        let found = judge(&case, &Options::default()).expect("it can be judged").claims.remove(0);
+        assert_eq!(found.verdict, Verdict::Proved, "{second}");
+    }
+    for second in ["x = 2", "x + 1/10^30 = 1", "a*x = a*x + 2"] {
+        assert!(Case::parse(&text(second), &[]).is_err(), "{second}");
+    }
+    for second in ["y = 1", "a*x = a + 1/10^30", "x*y = y + 1"] {
+        let case = Case::parse(&text(second), &[]).expect("a case");
+        assert_eq!(case.model.level.len(), 2, "{second}");
     }
 }
 

@@ -59,6 +59,16 @@ fn answer(text: &str, place: usize, seed: u64) -> Answer {
     }
 }
 
+/// Words before what the remark on a claim contains.
+const REMARK: &str = "remarks: ";
+
+fn remark(answer: &Answer) -> Option<String> {
+    match answer {
+        Answer::Verdict(report) => report.evidence.remark.clone(),
+        Answer::Error(_) => None,
+    }
+}
+
 fn also(claim: &Claim, answer: &Answer) -> Result<(), String> {
     let (sign, independence) = match answer {
         Answer::Verdict(report) => (report.evidence.sign, report.evidence.independence),
@@ -101,6 +111,17 @@ fn also(claim: &Claim, answer: &Answer) -> Result<(), String> {
                 Err(format!("it has the remark {:?}", report.evidence.remark))
             }
             _ => Ok(()),
+        },
+        Some(text) if text.starts_with(REMARK) => {
+            let (wanted, remark) = (&text[REMARK.len()..], remark(answer));
+            match remark.as_deref().unwrap_or_default().contains(wanted) {
+                true => Ok(()),
+                false => Err(format!("it has the remark {remark:?}")),
+            }
+        }
+        Some("has no remark") => match remark(answer) {
+            None => Ok(()),
+            remark => Err(format!("it has the remark {remark:?}")),
         },
         Some("keeps its sign") if sign != Some(DensitySign::Changes) => Ok(()),
         Some("keeps its sign") => Err("it does not change its sign".to_string()),

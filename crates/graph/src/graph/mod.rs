@@ -42,6 +42,7 @@ pub use expr::Expr;
 use index::Index;
 pub use merge::{Choice, Member};
 pub use points::Points;
+pub use presence::Need;
 pub use steps::Step;
 pub(crate) use tape::Instruction;
 pub use tape::Tape;
@@ -86,6 +87,17 @@ enum Defined {
     Partly,
     /// Defined nowhere: 1/0 and everything that contains it.
     Never,
+}
+
+impl Defined {
+    /// Domain of a value that is made from two others.
+    fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Always, Self::Always) => Self::Always,
+            (Self::Never, _) | (_, Self::Never) => Self::Never,
+            _ => Self::Partly,
+        }
+    }
 }
 
 /// Number of nodes for which there is room from the beginning.
@@ -262,36 +274,14 @@ impl Graph {
     /// ln 0 and 0^-1 are undefined.
     #[inline]
     fn domain_of(&self, node: Node) -> Defined {
-        let of = |id: NodeId| self.domains[id.0 as usize];
-        let negative = |a| self.constant_at(a).is_some_and(Rational::is_negative);
-        let partly = |argument: Defined, never: bool| match (argument, never) {
-            (Defined::Never, _) | (_, true) => Defined::Never,
-            _ => Defined::Partly,
-        };
-        match node {
-            Node::Constant(_) | Node::Input(_) => Defined::Always,
-            Node::Unary(function, a) => match function {
-                UnaryFunction::Recip => partly(of(a), a == ZERO),
-                UnaryFunction::Sqrt if self.constant_at(a).is_some() && !negative(a) => {
-                    Defined::Always
-                }
-                UnaryFunction::Sqrt => partly(of(a), negative(a)),
-                UnaryFunction::Ln => partly(of(a), a == ZERO || negative(a)),
-                _ => of(a),
-            },
-            Node::Binary(BinaryOperation::Pow, a, b) => {
-                let never = a == ZERO || negative(a) || of(b) == Defined::Never;
-                partly(of(a), never)
-            }
-            Node::Binary(_, a, b) => match (of(a), of(b)) {
-                (Defined::Always, Defined::Always) => Defined::Always,
-                (Defined::Never, _) | (_, Defined::Never) => Defined::Never,
-                _ => Defined::Partly,
-            },
-            Node::Power(a, exponent) => {
-                let below = self.constants[exponent as usize].is_negative();
-                partly(of(a), negative(a) || (a == ZERO && below))
-            }
+        let step = self.step_of(node);
+        let arguments = step.arguments().map(|place| self.domains[place]);
+        let arguments = arguments.fold(Defined::Always, Defined::and);
+        let Some((place, need)) = step.need() else { return arguments };
+        match self.constant_at(NodeId(place as u32)) {
+            Some(value) if need.is_met_by(value) => arguments,
+            Some(_) => Defined::Never,
+            None => arguments.and(Defined::Partly),
         }
     }
 

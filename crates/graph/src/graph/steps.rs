@@ -77,7 +77,13 @@ impl Graph {
     /// Returns the step at a place.
     #[inline]
     pub fn step(&self, place: usize) -> Step<'_> {
-        match self.nodes[place] {
+        self.step_of(self.nodes[place])
+    }
+
+    /// Returns a node as a step.
+    #[inline]
+    pub(super) fn step_of(&self, node: Node) -> Step<'_> {
+        match node {
             Node::Constant(index) => Step::Constant(&self.constants[index as usize]),
             Node::Input(input) => Step::Input(input as usize),
             Node::Unary(function, a) => Step::Unary(function, a.0 as usize),

@@ -215,7 +215,7 @@ impl Explorer<'_> {
             let argument = graph.step(modulus.place).arguments().next().unwrap_or(modulus.place);
             match region.sign(argument) {
                 Some(positive) => {
-                    let is_implied = !evident[argument];
+                    let is_implied = evident[argument].is_none();
                     let place = modulus.place;
                     rewrites.push(Rewrite::Signed { place, positive, is_implied });
                 }
@@ -256,8 +256,9 @@ impl Explorer<'_> {
         })
     }
 
-    /// Marks the arguments of moduli whose signs follow from the ranges of the inputs, without facts.
-    fn signs_at_sight(&self, cell: &Cell, algebraic: &Algebraic<'_>) -> Vec<bool> {
+    /// Returns the signs of arguments of moduli that follow from the ranges of the inputs, without
+    /// facts.
+    fn signs_at_sight(&self, cell: &Cell, algebraic: &Algebraic<'_>) -> Vec<Option<bool>> {
         let (graph, inputs) = (&cell.graph, self.prover.extents);
         let classes = &Classes::default();
         let moduli = algebraic.moduli.iter();

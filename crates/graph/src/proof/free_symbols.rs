@@ -118,7 +118,7 @@ impl<'g> FreeSymbols<'g> {
                         || match step {
                             // x^y exists where x > 0, and so does ln x.
                             Step::Unary(UnaryFunction::Ln, a) => bases.contains(&a),
-                            Step::Unary(function, _) => is_total(function),
+                            Step::Unary(..) => step.need().is_none(),
                             _ => false,
                         };
                     if !exists {
@@ -237,19 +237,6 @@ impl<'g> FreeSymbols<'g> {
         let values = self.graph.replay(&self.reached, inputs, root);
         let at = |expr: &Expr| values[self.graph.place(*expr)];
         groups.iter().map(|group| group.iter().map(at).collect()).collect()
-    }
-}
-
-/// Whether a function exists wherever its argument does.
-fn is_total(function: UnaryFunction) -> bool {
-    match function {
-        UnaryFunction::Neg
-        | UnaryFunction::Abs
-        | UnaryFunction::Exp
-        | UnaryFunction::Sin
-        | UnaryFunction::Cos
-        | UnaryFunction::Atan => true,
-        UnaryFunction::Recip | UnaryFunction::Sqrt | UnaryFunction::Ln => false,
     }
 }
 

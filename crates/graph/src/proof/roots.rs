@@ -172,6 +172,7 @@ impl RootFinder<'_> {
                 .filter(|place| self.algebraic.values[*place].is_some())
                 .collect();
             let known = self.region.at_sight(&outputs);
+            let known: Vec<bool> = known.iter().map(Option::is_some).collect();
             let bases = 0..self.algebraic.bases.len();
             let is_needed = |index: &usize| {
                 matches!(

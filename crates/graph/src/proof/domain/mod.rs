@@ -113,12 +113,12 @@ impl Region<'_> {
         known.map(|is_positive| KnownSign { is_positive, may_vanish })
     }
 
-    /// Marks the places whose sign follows from bounds on the whole region.
-    pub fn at_sight(&self, outputs: &[usize]) -> Vec<bool> {
+    /// Returns the signs that follow from bounds on the whole region, by place.
+    pub fn at_sight(&self, outputs: &[usize]) -> Vec<Option<bool>> {
         let reached = self.reached(outputs);
-        let mut known = vec![false; self.graph.len()];
+        let mut known = vec![None; self.graph.len()];
         if let Some(bounds) = self.bounds(&reached, &self.whole()) {
-            reached.iter().for_each(|place| known[*place] = bounds[*place].sign().is_some());
+            reached.iter().for_each(|place| known[*place] = bounds[*place].sign());
         }
         known
     }

@@ -6,7 +6,7 @@ use num_traits::One;
 use super::*;
 
 fn is_special(step: Step<'_>) -> bool {
-    let is_function = matches!(step, Step::Unary(function, _) if is_total(function));
+    let is_function = matches!(step, Step::Unary(..)) && step.need().is_none();
     let is_neg = matches!(step, Step::Unary(UnaryFunction::Neg, _));
     half_power(step).is_some() || (is_function && !is_neg)
 }

@@ -5,13 +5,16 @@
 //! a normal form.
 
 mod bound;
+mod divisors;
 mod fraction;
 mod monomial;
+mod span;
 
 #[cfg(test)]
 mod tests;
 
 pub use fraction::{Fraction, fraction, fraction_of};
+pub use span::Span;
 
 use std::collections::BTreeMap;
 

@@ -5,97 +5,15 @@
 //! with 0 and no symbol in the place of a function hides it. docs/soundness.md, "What R needs
 //! elsewhere".
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
-use crate::graph::{Expr, Fault, Graph, Step, literally, record};
-use crate::number::rational::Rational;
-use crate::number::{BinaryOperation, UnaryFunction};
+use crate::graph::{Expr, Fault, Graph, Need, literally, record};
+use crate::number::UnaryFunction;
 
 use super::cells::Leaf;
+use super::evident::is_never_negative;
 use super::trial::TrialResult;
 use super::{Group, GroupOutcome, Prover, QuestionData, buckets::buckets, is_nowhere_zero, sign};
-
-/// Largest number of terms and factors looked at for a sum of squares.
-const MOST_PARTS: usize = 256;
-
-/// Whether a value is a sum of products in which each factor that is not known to be nowhere negative
-/// occurs an even number of times.
-fn is_sum_of_squares(graph: &Graph, place: usize, is_known: &dyn Fn(usize) -> bool) -> bool {
-    let (mut terms, mut looked) = (vec![(place, true)], 0);
-    while let Some((term, mut is_positive)) = terms.pop() {
-        match graph.step(term) {
-            Step::Binary(BinaryOperation::Add, a, b) => {
-                terms.extend([(a, is_positive), (b, is_positive)]);
-                continue;
-            }
-            Step::Binary(BinaryOperation::Sub, a, b) => {
-                terms.extend([(a, is_positive), (b, !is_positive)]);
-                continue;
-            }
-            _ => {}
-        }
-        let is_known_term = is_positive && is_known(term);
-        let (mut factors, mut odd): (Vec<usize>, BTreeSet<usize>) = (vec![term], BTreeSet::new());
-        while let Some(factor) = factors.pop() {
-            looked += 1;
-            if looked > MOST_PARTS {
-                return false;
-            }
-            match graph.step(factor) {
-                Step::Binary(BinaryOperation::Mul, a, b) => factors.extend([a, b]),
-                Step::Unary(UnaryFunction::Recip, a) => factors.push(a),
-                Step::Unary(UnaryFunction::Neg, a) => {
-                    is_positive = !is_positive;
-                    factors.push(a);
-                }
-                Step::Constant(value) => is_positive ^= value.is_negative(),
-                Step::Power(a, exponent) if exponent.to_integer().is_some() => {
-                    let half = exponent * &Rational::new(1, 2);
-                    if half.to_integer().is_none() {
-                        factors.push(a);
-                    }
-                }
-                _ => {
-                    if !odd.remove(&factor) {
-                        odd.insert(factor);
-                    }
-                }
-            }
-        }
-        if !(is_known_term || is_positive && odd.into_iter().all(is_known)) {
-            return false;
-        }
-    }
-    true
-}
-
-/// Requirements of operations on one argument.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Needs {
-    /// It vanishes on no open set.
-    nonzero: bool,
-    /// It is negative on no open set.
-    not_negative: bool,
-}
-
-impl Needs {
-    /// Returns the argument of a step that may have no value, and what it needs.
-    fn of(step: Step<'_>) -> Option<(usize, Self)> {
-        let needs = |nonzero, not_negative| Self { nonzero, not_negative };
-        match step {
-            Step::Unary(UnaryFunction::Recip, a) => Some((a, needs(true, false))),
-            Step::Unary(UnaryFunction::Sqrt, a) => Some((a, needs(false, true))),
-            Step::Unary(UnaryFunction::Ln, a) | Step::Binary(BinaryOperation::Pow, a, _) => {
-                Some((a, needs(true, true)))
-            }
-            Step::Power(a, exponent) => {
-                let own = needs(exponent.is_negative(), exponent.to_integer().is_none());
-                (own != Self::default()).then_some((a, own))
-            }
-            _ => None,
-        }
-    }
-}
 
 impl Prover<'_> {
     /// Whether all operations in the values that a group presupposes are proved to have a value
@@ -111,15 +29,11 @@ impl Prover<'_> {
         }
         let given = graph.reached(group.required.iter().copied());
         let asked = graph.reached(group.presence.iter().copied());
-        let mut needs: BTreeMap<usize, Needs> = BTreeMap::new();
-        for (place, step) in graph.steps().enumerate() {
-            if let (true, false, Some((argument, own))) =
-                (asked[place], given[place], Needs::of(step))
-            {
-                let all = needs.entry(argument).or_default();
-                all.nonzero |= own.nonzero;
-                all.not_negative |= own.not_negative;
-            }
+        let own: Vec<bool> = asked.iter().zip(&given).map(|(own, given)| *own && !given).collect();
+        let mut needs: BTreeMap<usize, Need> = BTreeMap::new();
+        for (argument, need) in graph.needs(&own) {
+            let all = needs.entry(argument).or_default();
+            *all = all.and(need);
         }
         for (argument, needs) in needs {
             let value = graph.at(argument);
@@ -153,7 +67,7 @@ impl Prover<'_> {
             let known = sign(&made, self.extents, required, facts, made.at(place));
             known.is_some_and(|known| known.is_positive)
         };
-        Ok(is_sum_of_squares(&made, made.place(value), &is_known)
+        Ok(is_never_negative(&made, made.place(value), &is_known)
             || self.prove(&made, &[group])?.iter().all(GroupOutcome::is_zero))
     }
 

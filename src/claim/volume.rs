@@ -1,0 +1,188 @@
+//! Zeros of the density ρ₀ relative to which the criterion is taken: D_T det Ĩ of a body that may
+//! spin, D_T (γ, adj Ĩ γ) of one that may not.
+//!
+//! The criterion yields a density ρ₀ N for ρ₀ ≠ 0 on the whole sphere of γ. Where ρ₀ vanishes the
+//! equations of motion have no value, and around such places a closed form need be no differential.
+
+use num_dual::DualNum;
+use num_traits::{One, Zero};
+
+use crate::graph::{Evaluator, Expr, Tape, record};
+use crate::mechanics::{
+    Draw, DrawSource, Model, NORMAL, ParameterOrigin, Phase, SamplerSpec, System,
+};
+use crate::number::Domain;
+use crate::number::ball::{Ball, Balls};
+use crate::number::rational::Rational;
+use crate::proof::{Extent, is_nowhere_zero, sign};
+
+/// Number of bodies of the case that are tried, and the seed by which `eval` draws them too.
+const BODIES: u64 = 4;
+const SEED: u64 = 1;
+
+/// Number of normals of each body that are tried, as lanes of one run.
+const NORMALS: usize = 64;
+
+/// What is known of the zeros of ρ₀.
+enum Zeros {
+    /// There are none.
+    None,
+    /// There is one, as described.
+    Known(String),
+    /// It is not known whether there are any.
+    Possible,
+}
+
+/// Name of ρ₀.
+fn name(model: &Model) -> String {
+    let own = match model.system {
+        System::Rubber(_) => "(γ, adj(Ĩ)γ)",
+        _ => "det Ĩ",
+    };
+    let is_curved = model.system.body().is_some_and(|body| body.curvature.is_some());
+    if is_curved { format!("D_T {own}") } else { own.to_string() }
+}
+
+/// Returns the reason why the criterion proves nothing, if it is known that ρ₀ vanishes.
+pub(super) fn limit_of_proof(model: &Model) -> Option<String> {
+    match zeros(model) {
+        Zeros::Known(place) => Some(format!(
+            "the criterion is 0, and {} is 0 {place}: the equations of motion have no value there, and \
+             the criterion tells of a density only where this is not 0 for all γ",
+            name(model)
+        )),
+        _ => None,
+    }
+}
+
+/// Returns a remark if it is not known whether ρ₀ vanishes.
+pub(super) fn remark(model: &Model) -> Option<String> {
+    matches!(zeros(model), Zeros::Possible).then(|| {
+        format!(
+            "it is not known that {} ≠ 0 for all γ, which the criterion presupposes",
+            name(model)
+        )
+    })
+}
+
+fn zeros(model: &Model) -> Zeros {
+    let Some(body) = model.system.body() else { return Zeros::None };
+    let draws = model.parameter_draws();
+    let mut extents: Vec<Extent> = draws.iter().map(Draw::extent).collect();
+    let unit = Extent::between(&Rational::from(-1), &Rational::from(1));
+    extents.extend([unit; 3]);
+    let recorded = record(extents.len(), |inputs| {
+        let (free, gamma) = model.make_parameters(inputs);
+        let state = |gamma: &[Expr]| {
+            let mut state = vec![Expr::one(); model.dimension()];
+            let place = 3 * NORMAL;
+            state.get_mut(place..place + 3)?.copy_from_slice(gamma);
+            Some(state)
+        };
+        let at = |gamma: &[Expr]| {
+            let phase = Phase::new(model, &free, &state(gamma)?);
+            model.system.reference_density(&phase.configuration)
+        };
+        let on_axes = (0..6).map(|number| {
+            let side = if number % 2 == 0 { Expr::one() } else { -Expr::one() };
+            let mut axis = [Expr::zero(); 3];
+            axis[number / 2] = side;
+            at(&axis)
+        });
+        let on_axes = on_axes.collect::<Option<Vec<Expr>>>()?;
+        // The point of the sphere with stereographic coordinates u and v.
+        let (u, v) = (gamma[0], gamma[1]);
+        let square = u * u + v * v;
+        let turned = [u * 2.0, v * 2.0, Expr::one() - square].map(|x| x / (square + 1.0));
+        let phase = Phase::new(model, &free, &state(gamma)?);
+        let (minors, mass) = body.masses(&phase.configuration);
+        let determinant = body.gamma_determinant(&phase.configuration);
+        let sphere = gamma.iter().fold(-Expr::one(), |sum, x| sum + x.powi(2));
+        let values = [vec![at(gamma)?, at(&turned)?, determinant, mass], minors.to_vec()].concat();
+        Some((values, on_axes, [sphere, -sphere]))
+    });
+    let Ok((graph, Some((values, on_axes, sphere)))) = recorded else { return Zeros::Possible };
+    let [density, turned, determinant, mass, minors @ ..] = &values[..] else {
+        return Zeros::Possible;
+    };
+    let is_zero = |value: &Expr| graph.constant_value(*value).is_some_and(Rational::is_zero);
+    let vanishing: Vec<usize> = (0..6).filter(|number| is_zero(&on_axes[*number])).collect();
+    if !vanishing.is_empty() {
+        return Zeros::Known(format!("at {}", named(&vanishing)));
+    }
+    let is_nonzero = |value: &Expr| is_nowhere_zero(&graph, &extents, &sphere, &[*value]);
+    let is_positive = |value: &Expr, may_vanish: bool| {
+        let known = sign(&graph, &extents, &[], &[], *value);
+        known.is_some_and(|known| known.is_positive && (may_vanish || !known.may_vanish))
+    };
+    // Ĩ = I + m(r²E − r⊗r) is definite where I is, and m is not negative.
+    let is_definite =
+        has_positive_moments(model) || minors.iter().all(|own| is_positive(own, false));
+    if is_definite && is_positive(mass, true) && is_nonzero(determinant) || is_nonzero(density) {
+        return Zeros::None;
+    }
+    let tape = Tape::new(&graph, &[*turned]);
+    match (0..BODIES).find(|body| takes_both_signs(&tape, &draws, *body)) {
+        Some(body) => Zeros::Known(format!("for some γ of the body of state {body}")),
+        None => Zeros::Possible,
+    }
+}
+
+/// Names axes by their numbers.
+fn named(axes: &[usize]) -> String {
+    let one = |number: &usize| {
+        let (axis, is_opposite) = (number / 2, number % 2 == 1);
+        let has_other = axes.contains(&(number ^ 1));
+        match (has_other, is_opposite) {
+            (true, true) => None,
+            (true, false) => Some(format!("γ = ±e{}", axis + 1)),
+            (false, true) => Some(format!("γ = −e{}", axis + 1)),
+            (false, false) => Some(format!("γ = e{}", axis + 1)),
+        }
+    };
+    axes.iter().filter_map(one).collect::<Vec<String>>().join(", ")
+}
+
+/// Whether the inertia tensor is a parameter whose principal moments are drawn, and positive.
+fn has_positive_moments(model: &Model) -> bool {
+    let own = model.parameters.iter().find(|parameter| parameter.name == "I");
+    let is_given = model.system.body().is_some_and(|body| body.inertia.text().trim() == "I");
+    let recipe = own.and_then(|parameter| match &parameter.origin {
+        ParameterOrigin::Free(recipe) => Some(recipe),
+        _ => None,
+    });
+    match recipe {
+        Some(
+            SamplerSpec::Inertia(range)
+            | SamplerSpec::AxisymmetricInertia(range)
+            | SamplerSpec::FullInertia(range),
+        ) => is_given && range.low > Rational::from(0),
+        _ => false,
+    }
+}
+
+/// Whether a value is above 0 for some normals of a body and below 0 for others. It is 0 between them,
+/// or has no value.
+fn takes_both_signs(tape: &Tape, draws: &[Draw], body: u64) -> bool {
+    let domain = Ball::<NORMALS>;
+    let values = DrawSource::new(draws).state(SEED, body);
+    let mut inputs: Vec<Balls<NORMALS>> = values.iter().map(|x| domain.constant(x)).collect();
+    // Points of a grid, whose stereographic images lie on all sides of the sphere.
+    let coordinate = |step: usize| (step as f64 - 3.5) * 0.75;
+    let exact = |of: &dyn Fn(usize) -> f64| Balls::new(std::array::from_fn(of), [0.0; NORMALS]);
+    inputs.push(exact(&|lane| coordinate(lane % 8)));
+    inputs.push(exact(&|lane| coordinate(lane / 8)));
+    inputs.push(exact(&|_| 0.0));
+    inputs.resize(tape.inputs().max(inputs.len()), exact(&|_| f64::NAN));
+    let mut evaluator = Evaluator::new(tape, domain);
+    evaluator.run(&inputs);
+    let found = evaluator.output(0);
+    let has = |is_positive: bool| {
+        (0..NORMALS).any(|lane| {
+            found.is_defined(lane)
+                && found.excludes_zero(lane)
+                && (found.mid[lane] > 0.0) == is_positive
+        })
+    };
+    has(true) && has(false)
+}

@@ -1,0 +1,106 @@
+//! Listed values of parameters: their choices, and those for which nothing moves.
+//!
+//! For a mass that is 0 a Lagrangian determines no accelerations. A state with such a value is no
+//! state of a motion, and does not count: the requirement of every claim contains a value that does
+//! not exist there.
+
+use num_traits::Zero;
+
+use super::model::{Model, ParameterOrigin};
+use super::recipe::{Draw, SamplerSpec};
+use super::{Phase, System};
+use crate::formula::Value;
+use crate::graph::{Expr, literally, record};
+use crate::number::UnaryFunction;
+use crate::number::rational::Rational;
+use crate::scalar::Scalar;
+
+/// Largest number of choices of listed values that are looked at one by one.
+const MOST_CHOICES: usize = 64;
+
+/// Lists all choices of listed values, by draw; `None` if there are too many.
+pub fn combinations(recipes: &[Draw]) -> Option<Vec<Vec<Option<Rational>>>> {
+    let mut all: Vec<Vec<Option<Rational>>> = vec![Vec::new()];
+    for recipe in recipes {
+        let values: Vec<Option<Rational>> = match recipe {
+            Draw::Within(_) | Draw::Of(..) | Draw::Sign => vec![None],
+            Draw::OneOf(values) => values.iter().cloned().map(Some).collect(),
+        };
+        all = all
+            .into_iter()
+            .flat_map(|chosen| {
+                values.iter().map(move |value| [&chosen[..], std::slice::from_ref(value)].concat())
+            })
+            .collect();
+        if all.len() > MOST_CHOICES {
+            return None;
+        }
+    }
+    Some(all)
+}
+
+/// A choice of listed values, by the index of the parameter.
+pub type ListedValues = Vec<(usize, Rational)>;
+
+impl Model {
+    /// Finds the choices of listed values for which the equations of motion have no value by their
+    /// form, as accelerations are 0/0 or 1/0 where a mass is 0. Fields that formulas give are left
+    /// out, as these formulas are required anyway.
+    pub fn find_undetermined(&self) -> Vec<ListedValues> {
+        if matches!(self.system, System::Field(_) | System::Map(_) | System::Hamiltonian(_)) {
+            return Vec::new();
+        }
+        let listed: Vec<usize> = (0..self.parameters.len())
+            .filter(|index| match &self.parameters[*index].origin {
+                ParameterOrigin::Free(SamplerSpec::Scalar(Draw::OneOf(_))) => true,
+                _ => false,
+            })
+            .collect();
+        let draws = self.parameter_draws();
+        let choices = match listed.is_empty() {
+            true => None,
+            false => combinations(&draws),
+        };
+        let is_undetermined = |choice: &Vec<Option<Rational>>| {
+            let count = draws.len() + self.dimension();
+            let recorded = record(count, |inputs| {
+                let fixed = choice.iter().chain(std::iter::repeat(&None));
+                let at = |(input, value): (&Expr, &Option<Rational>)| {
+                    value.as_ref().map_or(*input, Expr::rational)
+                };
+                let inputs: Vec<Expr> = inputs.iter().zip(fixed).map(at).collect();
+                let (parameters, state) = self.make_parameters(&inputs);
+                Phase::new(self, &parameters, state).field().to_vec()
+            });
+            recorded.is_ok_and(|(graph, field)| {
+                field.into_iter().any(|rate| graph.is_nowhere_defined(rate))
+            })
+        };
+        let choices = choices.filter(|all| all.len() > 1).unwrap_or_default();
+        let choices = choices.into_iter().filter(is_undetermined);
+        // Scalars take one draw each, and those of lists are fixed by a choice in their order.
+        choices
+            .map(|choice| listed.iter().copied().zip(choice.into_iter().flatten()).collect())
+            .collect()
+    }
+}
+
+impl Phase<'_, Expr> {
+    /// Records a value for each choice of listed values for which nothing moves: it exists for all
+    /// others.
+    pub fn existence_of_motion(&self) -> Vec<Expr> {
+        let distance = |choice: &ListedValues| {
+            choice.iter().fold(Expr::zero(), |sum, (index, value)| {
+                match self.configuration.parameter(*index) {
+                    Value::Scalar(own) => {
+                        let off = own - Expr::rational(value);
+                        sum + off * off
+                    }
+                    _ => Expr::undefined(),
+                }
+            })
+        };
+        let choices = self.model().undetermined.iter();
+        choices.map(|own| literally(|| distance(own).apply(UnaryFunction::Recip))).collect()
+    }
+}
