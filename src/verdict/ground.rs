@@ -22,10 +22,12 @@ impl Judging<'_> {
             return Ok(());
         }
         let values = self.run(&rates).at(&Ball::<TAPE_LANES>, &sampler.balls(0));
+        let is_state = values.existing(&[]);
         let kept = self.case.model.level.iter().zip(&place.kept).filter(|(_, kept)| **kept);
         for (index, (equation, _)) in kept.enumerate() {
             let rate = values.output(index);
-            if let Some(lane) = (0..TAPE_LANES).find(|lane| rate.excludes_zero(*lane)) {
+            let changes = |lane: &usize| is_state[*lane] && rate.excludes_zero(*lane);
+            if let Some(lane) = (0..TAPE_LANES).find(changes) {
                 let (equation, rate) = (equation.text.clone(), format!("{:e}", rate.mid[lane]));
                 return Err(JudgeError::NotInvariant { equation, rate });
             }

@@ -117,7 +117,9 @@ impl Judging<'_> {
         let defined =
             |blocks: &[&Balls<TAPE_LANES>], lane: usize| blocks.iter().all(|b| b.is_defined(lane));
         let drawn: Vec<&Balls<TAPE_LANES>> = states.iter().collect();
-        let is_nowhere = (0..TAPE_LANES).all(|lane| !defined(&drawn, lane));
+        // Draws that lead to no state leave some of its components without a value.
+        let is_state = |lane: usize| defined(&drawn, lane);
+        let is_nowhere = !(0..TAPE_LANES).any(is_state);
         if is_nowhere && !self.has_field_with_more_digits(sampler) {
             let found = TAPE_LANES as u64;
             return Err(match sampler.is_numerical() || sampler.is_guarded() {
@@ -143,7 +145,8 @@ impl Judging<'_> {
         }
         for (equation, index) in model.level.iter().zip(fields..rates) {
             let off = values.output(index);
-            if let Some(lane) = (0..TAPE_LANES).find(|lane| off.excludes_zero(*lane)) {
+            let is_off = |lane: &usize| is_state(*lane) && off.excludes_zero(*lane);
+            if let Some(lane) = (0..TAPE_LANES).find(is_off) {
                 let (equation, by) = (equation.text.clone(), format!("{:e}", off.mid[lane]));
                 return Err(JudgeError::OffLevel { equation, by });
             }
@@ -162,7 +165,8 @@ impl Judging<'_> {
         }
         for (equation, index) in model.level.iter().zip(rates..physics) {
             let rate = values.output(index);
-            if let Some(lane) = (0..TAPE_LANES).find(|lane| rate.excludes_zero(*lane)) {
+            let changes = |lane: &usize| is_state(*lane) && rate.excludes_zero(*lane);
+            if let Some(lane) = (0..TAPE_LANES).find(changes) {
                 let (equation, rate) = (equation.text.clone(), format!("{:e}", rate.mid[lane]));
                 return Err(match model.system.is_map() {
                     true => JudgeError::NotMapped { equation, by: rate },

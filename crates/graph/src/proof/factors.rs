@@ -155,12 +155,12 @@ mod tests {
         .expect("records");
         let tape = Tape::new(&graph, &[product, value]);
         let mut run = Evaluator::new(&tape, crate::number::exact::Exact);
-        let mut ratio = |x: [i64; 3]| {
+        let mut both = |x: [i64; 3]| {
             run.run(&x.map(|x| Some(Rational::from(x))));
-            let [a, b] = [0, 1].map(|k| run.output(k).clone().expect("a value"));
-            &a * &b.recip().expect("not 0")
+            [0, 1].map(|k| run.output(k).clone().expect("a value"))
         };
-        assert_eq!(ratio([5, -7, 11]), ratio([-3, 8, 2]), "a multiple by a number");
+        let ([a, b], [c, d]) = (both([5, -7, 11]), both([-3, 8, 2]));
+        assert_eq!(&a * &d, &c * &b, "a multiple by a number");
         found.count()
     }
 
@@ -172,9 +172,14 @@ mod tests {
         assert_eq!(factors(|x| x[0].powi(3) + x[0] * x[1] * 2.0 + x[1] * 2.0 + 1.0), 2, "as sums");
         assert_eq!(factors(|x| (x[0] * x[0] + x[1] * x[1] - 1.0) * (x[0] - 3.0)), 2);
         assert_eq!(factors(|x| (x[0] + x[1]) * (x[1] - x[2]) * (x[2] * x[0] - 5.0)), 3);
-        assert_eq!(factors(|x| (x[0] * x[1] - x[2]) * plus(x[2]) / (x[1] - 4.0)), 2, "above");
+        let quotient = |x: &[Expr]| (x[0] * x[1] - x[2]) * plus(x[2]) / (x[1] - 4.0);
+        let quotient = record(3, quotient).expect("records");
+        let found = Factors::of(&quotient.0, quotient.1).map(|found| found.count());
+        assert_eq!(found, Some(2), "above");
         assert_eq!(factors(|x| x[0] * x[0] + x[1] * x[1] - 1.0), 1);
         assert!(Factors::of(&twice.0, twice.1).is_some(), "(x − 1)²");
+        assert_eq!(factors(|x| (x[0] + 1.0) * (x[0] * x[0] - 3.0)), 2, "of one variable");
+        assert_eq!(factors(|x| x[0] * (x[0] + 1.0) * (x[1] * x[1] - x[1])), 4, "of one variable");
         assert_eq!(factors(|x| (x[0] + 2.0).sin() * x[1]), 1, "no polynomial");
     }
 

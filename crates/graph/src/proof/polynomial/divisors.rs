@@ -32,7 +32,7 @@ impl Polynomial {
     }
 
     /// Returns the coefficients by powers of a variable.
-    fn by_powers(&self, variable: u32) -> Vec<(u32, Self)> {
+    pub(super) fn by_powers(&self, variable: u32) -> Vec<(u32, Self)> {
         let all = self.collected(&[variable]).into_iter();
         all.map(|(powers, own)| (powers.first().copied().unwrap_or(0), own)).collect()
     }
@@ -123,8 +123,8 @@ impl Polynomial {
         if repeated.number().is_some() { None } else { self.over(&repeated, work) }
     }
 
-    /// Divides into factors that are no numbers: those that miss a variable of the others, each once.
-    /// The polynomial is 0 where one of them is. Others may remain in one factor.
+    /// Divides into factors that are no numbers: those that miss a variable of the others, and of one
+    /// variable linear ones, each once. The polynomial is 0 where one of them is. Others may remain in one factor.
     pub fn factors(&self) -> Vec<Self> {
         let (mut open, mut factors) = (vec![self.clone()], Vec::new());
         let mut work = MOST_WORK;
@@ -145,9 +145,11 @@ impl Polynomial {
                     let first = own.variables().first().copied();
                     let once = first.and_then(|first| own.without_repetitions(first, &mut work));
                     let once = once.unwrap_or(own);
-                    let once = once.monic().unwrap_or(once);
-                    if !factors.contains(&once) {
-                        factors.push(once);
+                    for factor in once.linear_factors() {
+                        let factor = factor.monic().unwrap_or(factor);
+                        if !factors.contains(&factor) {
+                            factors.push(factor);
+                        }
                     }
                 }
             }

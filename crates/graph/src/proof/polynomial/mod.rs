@@ -7,6 +7,7 @@
 mod bound;
 mod divisors;
 mod fraction;
+mod linear;
 mod monomial;
 mod span;
 
