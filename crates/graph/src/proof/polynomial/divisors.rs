@@ -116,15 +116,21 @@ impl Polynomial {
         sum
     }
 
-    /// Returns the product of the different factors of a polynomial of which each factor contains this
-    /// variable; `None` if none is repeated, or they are too large.
+    /// Returns the product of the different factors; `None` if none is repeated, if a factor does not
+    /// contain the variable, or they are too large.
     fn without_repetitions(&self, variable: u32, work: &mut usize) -> Option<Self> {
-        let repeated = self.common_divisor(&self.derivative(variable), work)?;
+        // A factor without the variable divides the derivative, repeated or not.
+        self.content(variable, work)?.number()?;
+        let slope = self.derivative(variable);
+        let repeated = self.common_divisor(&slope, work)?;
+        // A common divisor of both that contains the variable divides the polynomial twice.
+        slope.over(&repeated, work)?;
         if repeated.number().is_some() { None } else { self.over(&repeated, work) }
     }
 
     /// Divides into factors that are no numbers: those that miss a variable of the others, and of one
-    /// variable linear ones, each once. The polynomial is 0 where one of them is. Others may remain in one factor.
+    /// variable linear ones, each once. The polynomial is 0 where one of them is. Others may remain in
+    /// one factor.
     pub fn factors(&self) -> Vec<Self> {
         let (mut open, mut factors) = (vec![self.clone()], Vec::new());
         let mut work = MOST_WORK;
@@ -161,4 +167,55 @@ impl Polynomial {
 /// Returns the power of a variable, as exponents.
 fn shifted(variable: u32, exponent: u32) -> impl Iterator<Item = (u32, u32)> {
     (exponent > 0).then_some((variable, exponent)).into_iter()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn variable(number: u32) -> Polynomial {
+        Polynomial::variable(number)
+    }
+
+    fn number(value: i64) -> Polynomial {
+        Polynomial::constant(&Rational::from(value))
+    }
+
+    fn product(factors: &[&Polynomial]) -> Polynomial {
+        let times =
+            |all: Polynomial, own: &&Polynomial| all.times(own, &mut { MOST_WORK }).expect("small");
+        factors.iter().fold(number(1), times)
+    }
+
+    #[test]
+    fn repeated_factors_are_taken_once_and_others_are_kept() {
+        let (x, z) = (variable(0), variable(1));
+        let (a, b) = (x.plus(&z), z.plus(&number(2)));
+        let once = |p: &Polynomial, v: u32| p.without_repetitions(v, &mut { MOST_WORK });
+        assert_eq!(once(&product(&[&a, &a]), 0), Some(a.clone()));
+        // z + 2 is not repeated, and divides the derivative by x.
+        assert_eq!(once(&product(&[&a, &a, &b]), 0), None);
+        assert_eq!(once(&product(&[&a, &a, &b]), 1), Some(product(&[&a, &b])));
+        assert_eq!(once(&product(&[&a, &b]), 1), None);
+    }
+
+    #[test]
+    fn common_divisors_are_those_that_were_multiplied_in() {
+        let (x, y, z) = (variable(0), variable(1), variable(2));
+        let square = x.times(&x, &mut { MOST_WORK }).expect("small");
+        let a = square.plus(&y).plus(&number(-3));
+        let b = product(&[&x, &z]).plus(&y);
+        let c = product(&[&y, &z]).plus(&x).plus(&number(5));
+        let common = |p: &Polynomial, q: &Polynomial| p.common_divisor(q, &mut { MOST_WORK });
+        let monic = |p: &Polynomial| p.monic().expect("not 0");
+        assert_eq!(common(&product(&[&a, &b]), &product(&[&a, &c])), Some(monic(&a)));
+        assert_eq!(
+            common(&product(&[&a, &b, &b]), &product(&[&b, &b, &c])),
+            Some(product(&[&b, &b]))
+        );
+        assert_eq!(common(&product(&[&a, &b]), &c), Some(number(1)));
+        assert_eq!(common(&product(&[&a, &y]), &product(&[&y, &z])), Some(y.clone()));
+        assert_eq!(product(&[&a, &b]).over(&b, &mut { MOST_WORK }), Some(a.clone()));
+        assert_eq!(product(&[&a, &b]).plus(&number(1)).over(&b, &mut { MOST_WORK }), None);
+    }
 }
