@@ -50,11 +50,11 @@ impl Model {
         if matches!(self.system, System::Field(_) | System::Map(_) | System::Hamiltonian(_)) {
             return Vec::new();
         }
+        let is_listed = |origin: &ParameterOrigin| {
+            matches!(origin, ParameterOrigin::Free(SamplerSpec::Scalar(Draw::OneOf(_))))
+        };
         let listed: Vec<usize> = (0..self.parameters.len())
-            .filter(|index| match &self.parameters[*index].origin {
-                ParameterOrigin::Free(SamplerSpec::Scalar(Draw::OneOf(_))) => true,
-                _ => false,
-            })
+            .filter(|index| is_listed(&self.parameters[*index].origin))
             .collect();
         let draws = self.parameter_draws();
         let choices = match listed.is_empty() {
