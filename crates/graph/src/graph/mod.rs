@@ -42,6 +42,7 @@ pub use expr::Expr;
 use index::Index;
 pub use merge::{Choice, Member};
 pub use points::Points;
+pub use presence::edges;
 pub use steps::Step;
 pub(crate) use tape::Instruction;
 pub use tape::Tape;
