@@ -188,13 +188,15 @@ impl Graph {
     }
 
     pub(super) fn unary(&mut self, function: UnaryFunction, a: NodeId) -> NodeId {
+        // A root of 0 is the end of a domain.
+        let is_end = self.literal && function == UnaryFunction::Sqrt && a == ZERO;
+        if is_end || self.is_undefined(a) {
+            return self.intern(Node::Unary(function, a));
+        }
         if let Some(value) = self.constant_at(a).cloned()
             && let Some(folded) = fold_unary(function, &value)
         {
             return self.constant(folded);
-        }
-        if self.is_undefined(a) {
-            return self.intern(Node::Unary(function, a));
         }
         if function == UnaryFunction::Sqrt
             && let Some(root) = self.denested(a)

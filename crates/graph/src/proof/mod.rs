@@ -204,6 +204,11 @@ impl Prover<'_> {
                     _ => GroupOutcome::Partial,
                 });
             }
+            // Unless the claim says nothing anyway, what it presupposes is missing.
+            let is_void = matches!(outcome, GroupOutcome::Void);
+            if is_void && group.presence.iter().any(|own| question.graph.is_nowhere_defined(*own)) {
+                return Ok(GroupOutcome::Partial);
+            }
             match (is_partial, &outcome) {
                 (true, GroupOutcome::Zero(_) | GroupOutcome::Void) => {
                     self.on_all_parts(question, group, outcome)
