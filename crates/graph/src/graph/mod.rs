@@ -273,7 +273,9 @@ impl Graph {
             Node::Constant(_) | Node::Input(_) => Defined::Always,
             Node::Unary(function, a) => match function {
                 UnaryFunction::Recip => partly(of(a), a == ZERO),
-                UnaryFunction::Sqrt if self.constant_at(a).is_some() && !negative(a) => {
+                UnaryFunction::Sqrt
+                    if self.constant_at(a).is_some() && !negative(a) && a != ZERO =>
+                {
                     Defined::Always
                 }
                 UnaryFunction::Sqrt => partly(of(a), negative(a)),

@@ -205,9 +205,12 @@ impl Prover<'_> {
                 });
             }
             // Unless the claim says nothing anyway, what it presupposes is missing.
-            let is_void = matches!(outcome, GroupOutcome::Void);
-            if is_void && group.presence.iter().any(|own| question.graph.is_nowhere_defined(*own)) {
-                return Ok(GroupOutcome::Partial);
+            if matches!(outcome, GroupOutcome::Void) && !group.presence.is_empty() {
+                let nothing = question.graph.at(0);
+                let asked = Group { outputs: vec![nothing], presence: Vec::new(), ..group.clone() };
+                let alone = self.prove(question.graph, &[asked])?;
+                let is_void = alone.iter().any(|own| matches!(own, GroupOutcome::Void));
+                return Ok(if is_void { outcome } else { GroupOutcome::Partial });
             }
             match (is_partial, &outcome) {
                 (true, GroupOutcome::Zero(_) | GroupOutcome::Void) => {
