@@ -42,7 +42,7 @@ pub use expr::Expr;
 use index::Index;
 pub use merge::{Choice, Member};
 pub use points::Points;
-pub use presence::Need;
+pub use presence::{Need, edges};
 pub use steps::Step;
 pub(crate) use tape::Instruction;
 pub use tape::Tape;
@@ -279,7 +279,9 @@ impl Graph {
         let arguments = arguments.fold(Defined::Always, Defined::and);
         let Some((place, need)) = step.need() else { return arguments };
         match self.constant_at(NodeId(place as u32)) {
-            Some(value) if need.is_met_by(value) => arguments,
+            // √0 is at the end of a domain.
+            Some(value) if need.is_met_by(value) && !value.is_zero() => arguments,
+            Some(value) if need.is_met_by(value) => arguments.and(Defined::Partly),
             Some(_) => Defined::Never,
             None => arguments.and(Defined::Partly),
         }

@@ -1,7 +1,7 @@
 //! Operations that may have no value: what they need of an argument, and those that were recorded
 //! and that other values do without.
 
-use super::{Expr, Graph, Step};
+use super::{Expr, Graph, Step, literally, with_graph};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
 
@@ -20,6 +20,11 @@ impl Need {
     /// Whether a number is as needed.
     pub(super) fn is_met_by(self, value: &Rational) -> bool {
         !(self.nonzero && value.is_zero() || self.not_negative && value.is_negative())
+    }
+
+    /// Whether an argument that is as needed here is as needed there, too.
+    pub fn includes(self, other: Self) -> bool {
+        (self.nonzero || !other.nonzero) && (self.not_negative || !other.not_negative)
     }
 
     /// What two operations on the same argument need together.
@@ -84,6 +89,23 @@ impl Graph {
             .map(|place| self.at(place))
             .collect()
     }
+}
+
+/// Returns the inverses of the arguments of all roots and fractional powers in some values, recorded
+/// literally: where one of them has no value, what was written is at the end of its domain.
+pub fn edges(values: &[Expr]) -> Vec<Expr> {
+    let arguments: Vec<Expr> = with_graph(|graph| {
+        let reached = graph.reached(values.iter().copied());
+        let argument = |place: usize| match graph.step(place) {
+            step @ (Step::Unary(UnaryFunction::Sqrt, _) | Step::Power(..)) => {
+                let (a, need) = step.need()?;
+                need.not_negative.then(|| graph.at(a))
+            }
+            _ => None,
+        };
+        (0..graph.len()).filter(|place| reached[*place]).filter_map(argument).collect()
+    });
+    literally(|| arguments.into_iter().map(|a| a.apply(UnaryFunction::Recip)).collect())
 }
 
 #[cfg(test)]

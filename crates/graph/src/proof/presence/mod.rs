@@ -15,6 +15,9 @@ use super::evident::is_never_negative;
 use super::trial::TrialResult;
 use super::{Group, GroupOutcome, Prover, QuestionData, buckets::buckets, is_nowhere_zero, sign};
 
+/// Largest number of known arguments with which one is compared.
+const MOST_OTHERS: usize = 16;
+
 impl Prover<'_> {
     /// Whether all operations in the values that a group presupposes are proved to have a value
     /// almost everywhere where the required values exist.
@@ -31,19 +34,58 @@ impl Prover<'_> {
         let asked = graph.reached(group.presence.iter().copied());
         let own: Vec<bool> = asked.iter().zip(&given).map(|(own, given)| *own && !given).collect();
         let mut needs: BTreeMap<usize, Need> = BTreeMap::new();
-        for (argument, need) in graph.needs(&own) {
-            let all = needs.entry(argument).or_default();
-            *all = all.and(need);
+        let mut known: BTreeMap<usize, Need> = BTreeMap::new();
+        for (all, of) in [(&mut needs, &own), (&mut known, &given)] {
+            for (argument, need) in graph.needs(of) {
+                let all = all.entry(argument).or_default();
+                *all = all.and(need);
+            }
         }
         for (argument, needs) in needs {
             let value = graph.at(argument);
-            if needs.not_negative && !self.is_never_negative(graph, group, value)?
-                || needs.nonzero && !self.is_almost_nonzero(question, group, value)?
-            {
+            let is_present = (!needs.not_negative
+                || self.is_never_negative(graph, group, value)?)
+                && (!needs.nonzero || self.is_almost_nonzero(question, group, value)?);
+            if is_present {
+                continue;
+            }
+            let enough = known.iter().filter(|(_, own)| own.includes(needs));
+            let others: Vec<Expr> = enough.map(|(other, _)| graph.at(*other)).collect();
+            if !self.is_one_of(graph, group, value, &others)? {
                 return Ok(false);
             }
         }
         Ok(true)
+    }
+
+    /// Whether a value is proved to be the same as one of some others.
+    fn is_one_of(
+        &self,
+        graph: &Graph,
+        group: &Group,
+        value: Expr,
+        others: &[Expr],
+    ) -> Result<bool, Fault> {
+        let Group { required, facts, .. } = group;
+        for other in others.iter().take(MOST_OTHERS) {
+            let (made, found) = record(graph.inputs(), |inputs| {
+                let reached = graph.reached([value, *other]);
+                let conditions = graph.reached([&required[..], facts].concat());
+                let values = graph.replay(&reached, inputs, |_, _, _| None);
+                let kept = literally(|| graph.replay(&conditions, inputs, |_, _, _| None));
+                let all = |some: &[Expr]| {
+                    some.iter().map(|own| kept[graph.place(*own)]).collect::<Option<Vec<Expr>>>()
+                };
+                let (value, other) = (values[graph.place(value)]?, values[graph.place(*other)]?);
+                let (required, facts) = (all(required)?, all(facts)?);
+                Some(Group { outputs: vec![value - other], required, facts, presence: Vec::new() })
+            })?;
+            let Some(group) = found else { continue };
+            if self.prove(&made, &[group])?.iter().all(GroupOutcome::is_zero) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// Whether a value is proved to be nowhere negative where the required values exist.
