@@ -35,6 +35,7 @@ mod no_density_near;
 mod of_bracket;
 mod place;
 mod point;
+mod quadrature;
 mod reader;
 mod rest;
 mod rotation;
@@ -51,7 +52,6 @@ use elsewhere::{one_antiderivative, written_at};
 use crate::formula::Formula;
 use crate::graph::{Expr, literally};
 use crate::mechanics::calculus::DualPoint;
-use crate::mechanics::elimination::rejection;
 use crate::mechanics::{Model, NewVariables};
 use crate::proof::Group;
 use crate::scalar::Scalar;
@@ -80,6 +80,7 @@ pub use limit::Limit;
 pub use lyapunov::Lyapunov;
 pub use no_density_near::NoDensityNear;
 pub use place::LevelSubset;
+pub use quadrature::quadrature_defects;
 
 pub use reader::{ComplexFormula, Reader};
 pub use statement::{Jets, Objection, Statement};
@@ -376,33 +377,4 @@ pub struct Novelty {
     /// Values that are zero exactly when the integral depends on the level functions and the
     /// energy.
     pub off_general: Vec<Expr>,
-}
-
-/// Computes ∇f minus its projection on ∇x and the gradients of the level functions, for each ∫(f,
-/// x) in a formula.
-pub fn quadrature_defects(
-    jet: &DualPoint<'_, Expr>,
-    formula: &Formula,
-    kept: &[bool],
-) -> Vec<Expr> {
-    let model = jet.phase.model();
-    let mut defects = Vec::new();
-    let all = model.vocabulary.with_abbreviations(formula, &model.abbreviations);
-    for used in all.into_iter().filter(|f| f.has_antiderivative()) {
-        let level = jet.level_gradients(kept);
-        let columns: Vec<_> = jet
-            .along_axes()
-            .iter()
-            .map(|moved| used.antiderivatives(&mut |symbol| moved.value(symbol)))
-            .collect();
-        let count = columns.first().map_or(0, Vec::len);
-        defects.extend((0..count).flat_map(|k| {
-            let integrand: Vec<Expr> = columns.iter().map(|pairs| pairs[k].0.eps).collect();
-            let variable: Vec<Expr> = columns.iter().map(|pairs| pairs[k].1.eps).collect();
-            let mut others = level.clone();
-            others.push(variable);
-            rejection(&integrand, &others)
-        }));
-    }
-    defects
 }

@@ -256,8 +256,7 @@ impl Explorer<'_> {
         })
     }
 
-    /// Returns the signs of arguments of moduli that follow from the ranges of the inputs, without
-    /// facts.
+    /// Returns signs of arguments of moduli that follow from the ranges of the inputs, without facts.
     fn signs_at_sight(&self, cell: &Cell, algebraic: &Algebraic<'_>) -> Vec<Option<bool>> {
         let (graph, inputs) = (&cell.graph, self.prover.extents);
         let classes = &Classes::default();
