@@ -114,7 +114,7 @@ fn planted_integrals_of_constrained_motion_are_never_excluded() {
         assert_ne!(found.verdict, Verdict::Proved, "{kept} is kept:\n{text}");
         refuted += usize::from(found.verdict == Verdict::Refuted);
         // With another force along Y, none is left.
-        let mixed = text.replace("potential = \"", &format!("potential = \"{x}*{y}² + "));
+        let mixed = text.replace("potential = \"", &format!("potential = \"{x}²*{y}³ + "));
         let found = only(&lagrangian(&["x", "y", "z"], &mixed, &claim));
         proved += usize::from(found.verdict == Verdict::Proved);
     }
