@@ -278,7 +278,7 @@ impl Judging<'_> {
             return false;
         }
         // What the claim takes at other points may have none.
-        if !item.presence.is_empty() && !values.existing(&[span.residual.clone()])[0] {
+        if !item.presence.is_empty() && !values.existing(std::slice::from_ref(&span.residual))[0] {
             return false;
         }
         let residuals = values.range(span.residual.clone());
