@@ -347,7 +347,7 @@ impl FlowError {
                 "choose other values, another energy or direction, or give the whole state"
             }
             FlowError::NoSuchClaim(_) => "give the name of a claim of the case",
-            FlowError::OneSided => "follow an orbit by `motion orbit`, or leave out [one_sided]",
+            FlowError::OneSided => "follow an orbit by `motion orbit`, or leave out [one-sided]",
             FlowError::OneSidedBackwards => "give a positive --time",
             FlowError::BehindConstraint { .. } => {
                 "choose a start where the function is not negative"

@@ -48,7 +48,7 @@ pub use motion::one_sided::{Contact, ContactEvent};
 pub use motion::orbit::{Followed, Orbit, Precision, QuantityRole, orbit, value_at};
 pub use motion::recorded::Loose;
 pub use motion::samples::{SampledOrbit, Sampling, orbits};
-pub use motion::start::{Start, fixed_parameters};
+pub use motion::start::{Start, fixed_parameters, two_sided};
 pub use motion::track::{RollingSamples, Track, track};
 pub use motion::variational::Variational;
 pub use section::andoyer::{applies as has_andoyer_section, spread};

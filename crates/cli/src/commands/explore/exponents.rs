@@ -191,6 +191,8 @@ impl Job for ExponentsJob {
         if own.is_empty() {
             return Ok(Vec::new());
         }
+        liouville_flow::two_sided(&self.opened.case)
+            .map_err(|error| self.options.subject.told(&error))?;
         let starts = own.iter().map(|(_, given)| self.start(given.as_ref()));
         let starts = starts.collect::<Result<Vec<_>, String>>()?;
         let names: Vec<String> = own.iter().map(|(name, _)| name.clone()).collect();
