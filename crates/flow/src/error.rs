@@ -43,6 +43,17 @@ pub enum FlowError {
         /// State there, in words.
         place: String,
     },
+    /// A number is beyond the range of f64.
+    #[error("{}", overflow(*.0))]
+    Overflow(#[serde(with = "crate::record")] f64),
+    /// A value that was asked for does not exist at a state of the motion.
+    #[error("`{column}` has no value at a state of the motion, or one too large for f64")]
+    #[serde(skip)]
+    NoColumnValue {
+        /// Formula of the value.
+        #[serde(skip)]
+        column: String,
+    },
     /// The steps have shrunk, and become so many that the end is out of reach.
     #[error("{}", shrinking(*time, *step, state))]
     Shrinking {
@@ -263,6 +274,13 @@ fn without_value(formula: &str, time: f64, place: &str) -> String {
     }
 }
 
+fn overflow(time: f64) -> String {
+    match time == 0.0 {
+        true => "overflow at the start: a number of the equations is too large for f64".to_string(),
+        false => format!("overflow: a number of the motion is too large for f64 from t = {time} on"),
+    }
+}
+
 fn shrinking(time: f64, step: f64, state: &[f64]) -> String {
     let state: Vec<String> = state.iter().map(|x| format!("{x:.3e}")).collect();
     format!(
@@ -323,6 +341,13 @@ impl FlowError {
                 "choose another start, or a shorter time"
             }
             FlowError::Endless { .. } => "give a shorter time",
+            FlowError::Overflow(_) => {
+                "choose another start or a shorter time, or measure in units in which numbers are \
+                 nearer to 1"
+            }
+            FlowError::NoColumnValue { .. } => {
+                "ask for values that exist along all motions, such as |x| and not ln(x)"
+            }
             FlowError::NoAndoyer => {
                 "for other systems give a surface, such as --section 'x = 0', and starts by states"
             }

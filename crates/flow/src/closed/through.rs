@@ -9,6 +9,9 @@
 //!
 //! (Liouville's formula), with tr M = Σ (e_i, M e_i) over an orthonormal basis of the tangent space.
 
+use nalgebra::Matrix2;
+
+use crate::closed::cycle::SUPPORTED;
 use crate::closed::periodic::{ComputedPeriodicPoint, Multipliers, SectionMap, newton_step};
 use crate::error::FlowError;
 use crate::motion::start::{Start, level_basis};
@@ -56,6 +59,15 @@ impl ComputedClosedOrbit {
     ) -> Option<MeasuredNumber> {
         let of = |point: &ComputedPeriodicPoint| number(point.multipliers());
         Some(MeasuredNumber::twice(of(&self.float)?, of(&self.pair)?))
+    }
+
+    /// Whether the distance that Newton's method leaves is so small that there seems to be a point, by
+    /// the least singular value of its equations.
+    pub fn is_supported(&self) -> bool {
+        let [[a, b], [c, d]] = self.pair.derivative;
+        let matrix = Matrix2::new(a - 1.0, b, c, d - 1.0);
+        let least = matrix.singular_values().min().min(1.0);
+        self.pair.residual <= SUPPORTED * least * least
     }
 
     /// The periodic point, computed in double-double and rounded to f64.

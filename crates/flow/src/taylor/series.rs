@@ -158,6 +158,20 @@ impl<T: SeriesNumber> Series<T> {
         self.divisors.iter().map(|place| &self.memory[*place as usize..][..self.order])
     }
 
+    /// Whether the first operation without a finite value at the state has arguments at which it has
+    /// one: the value is too large.
+    pub fn overflows(&self, lane: usize) -> bool {
+        let value = |place: Place| self.memory[place as usize].lane(lane).leading();
+        let mut placed = self.code.operations.iter().zip(&self.code.finishes);
+        let first = placed.find(|(_, finish)| !value(finish.place).is_finite());
+        first.is_some_and(|(operation, _)| match &operation.rule {
+            PlacedRule::Recip(x) => value(*x) != 0.0,
+            PlacedRule::Power { x, .. } => value(*x) > 0.0,
+            PlacedRule::Sqrt(_) | PlacedRule::Ln(_) => false,
+            _ => true,
+        })
+    }
+
     /// Number of further functions.
     pub fn outputs(&self) -> usize {
         self.code.outputs.len()

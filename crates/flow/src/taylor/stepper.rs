@@ -216,6 +216,10 @@ impl<T: SeriesNumber> Stepper<T> {
         {
             return self.without_value(lane, presence, formula);
         }
+        let is_too_large = !state.iter().all(|x| x.is_finite());
+        if is_too_large || self.series.overflows(lane) {
+            return FlowError::Overflow(time);
+        }
         let state = self.own_state(lane).iter().map(|x| x.hi).collect();
         FlowError::Singular { time, state }
     }
