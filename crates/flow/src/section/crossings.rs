@@ -192,6 +192,13 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
                 return true;
             }
             let doubt = || self.task.program.rounding::<f64>(0, &self.stepper.pairs(lane), 0.0);
+            // All through a step it is no farther away than rounding.
+            let length = piece.length().abs();
+            let reach = polynomial.iter().rev().fold(0.0, |sum, x| sum * length + x.abs());
+            if steps == 0 && reach <= polynomial.len() as f64 * doubt() {
+                running.track.problem = Some(FlowError::InSurface);
+                return true;
+            }
             for event in running.sides.events(&polynomial, piece.length(), doubt) {
                 if running.meet(event, &piece, self.task, steps, &mut self.observe) {
                     return true;

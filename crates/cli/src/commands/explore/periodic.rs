@@ -190,7 +190,9 @@ fn near_state(
     let start = launches.start(&Begin::State(state)).map_err(told)?;
     let count = options.period as usize;
     let (start, time, crossings) = match (surface, time) {
-        (_, Some(time)) if time.to_f64().0 > 0.0 => (start, time.to_f64().0, None),
+        (_, Some(time)) if time.to_f64().0 > 0.0 && time.to_f64().0.is_finite() => {
+            (start, time.to_f64().0, None)
+        }
         (_, Some(_)) => return Err("error: --time: write a period above 0".to_string()),
         (Some(surface), None) => {
             let direction = options.direction.unwrap_or(liouville::case::Direction::Up);
