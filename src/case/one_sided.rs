@@ -1,9 +1,9 @@
 //! The table `[one-sided]`: a constraint r(x) ≥ 0, and the motion in contact with it.
 
+use super::MotionClaim;
 use super::error::Problem;
 use super::field;
 use super::formulas::formula;
-use super::MotionClaim;
 use super::section::CaseTable;
 use crate::claim::motion::MotionKind;
 use crate::formula::{Formula, Type};

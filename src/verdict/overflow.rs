@@ -49,7 +49,8 @@ pub fn is_beyond(graph: &Graph, output: Expr, point: &[Rational], balls: &ArbBal
             Step::Power(a, exponent) => match &values[a] {
                 None => continue,
                 Some(x) => {
-                    let is_defined = x.is_positive() || exponent.to_integer().is_some() && x.excludes_zero();
+                    let is_defined =
+                        x.is_positive() || exponent.to_integer().is_some() && x.excludes_zero();
                     (balls.rational_power(x, exponent), is_defined)
                 }
             },

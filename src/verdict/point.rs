@@ -216,11 +216,13 @@ impl<'c> PointScene<'c> {
             if rest < outputs {
                 let inputs: Vec<Rational> = self.inputs();
                 let required = first + outputs..first + outputs + required;
-                let beyond =
-                    |place: usize| overflow::is_beyond(&self.graph, self.outputs[place], &inputs, balls);
+                let beyond = |place: usize| {
+                    overflow::is_beyond(&self.graph, self.outputs[place], &inputs, balls)
+                };
                 let values = self.numbers(balls);
                 let lacks = |place: &usize| values.get(*place).is_none_or(Option::is_none);
-                let mut missing = [first + rest].into_iter().chain(required).filter(lacks).peekable();
+                let mut missing =
+                    [first + rest].into_iter().chain(required).filter(lacks).peekable();
                 return missing.peek().is_some() && missing.all(beyond);
             }
             (rest, first) = (rest - outputs, first + outputs + required);

@@ -8,6 +8,7 @@
 //! orders (Moore 1966; Jorba, Zou 2005). It is run over f64, over several orbits at once, or over
 //! double-double.
 
+mod advice;
 mod chaos;
 mod closed;
 mod error;

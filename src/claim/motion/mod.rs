@@ -131,7 +131,8 @@ fn period<R: Reader>(from: &R, key: &'static str, remedy: &str) -> Result<Stated
         return Err(from.complaint(key, message, remedy));
     }
     if period.text.contains('±') {
-        let message = format!("`{}` has an error, and a period that is proved has digits", period.text);
+        let message =
+            format!("`{}` has an error, and a period that is proved has digits", period.text);
         return Err(from.complaint(key, message, "write as many digits as are known"));
     }
     Ok(period)

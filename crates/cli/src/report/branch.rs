@@ -167,7 +167,9 @@ impl BranchReport<'_> {
         }
         out.push_str(&match &self.proof {
             Ok(theorem) => format!("proved at the start: {theorem}\nnumerical: all other points\n"),
-            Err(reason) => format!("numerical: all points, the one at the start not proved: {reason}\n"),
+            Err(reason) => {
+                format!("numerical: all points, the one at the start not proved: {reason}\n")
+            }
         });
         let [first, last] = self.branch.ends.each_ref().map(words);
         out.push_str(&format!("begins: {first}\nends: {last}\n"));

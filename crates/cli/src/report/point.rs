@@ -72,11 +72,10 @@ pub fn json<N: Decimal>(report: &PointReport<N>) -> Result<String, serde_json::E
     let mut root = Map::new();
     root.insert("parameters".into(), named(&report.parameters));
     root.insert("state".into(), named(&report.state));
+    let mut bounds = Map::new();
     let mut insert = |key: &str, value: Value, error: Value| {
         root.insert(key.to_string(), value);
-        if N::HAS_ERRORS {
-            root.insert(format!("{key}_error"), error);
-        }
+        bounds.insert(key.to_string(), error);
     };
     let level_errors: Map<String, Value> =
         report.level.iter().map(|(text, value)| (text.clone(), error(value))).collect();
@@ -101,6 +100,9 @@ pub fn json<N: Decimal>(report: &PointReport<N>) -> Result<String, serde_json::E
     }
     if let Some(energy) = &report.energy {
         insert("energy", number(energy), error(energy));
+    }
+    if N::HAS_ERRORS {
+        root.insert("errors".into(), bounds.into());
     }
     if !report.antiderivatives.is_empty() {
         root.insert("antiderivatives".into(), json!(report.antiderivatives));

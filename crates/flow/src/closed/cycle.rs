@@ -284,7 +284,8 @@ impl<'s> CycleSearch<'s> {
                 let Some((_, start, time)) = best.as_ref().filter(|_| !is_renewed) else { break };
                 (self.start, self.time) = (start.clone(), *time);
                 (matrix, is_renewed) = (self.equations()?.0, true);
-                let gap = differences(&self.image::<DoubleDouble>(Accuracy::PAIR)?, &self.start.state);
+                let gap =
+                    differences(&self.image::<DoubleDouble>(Accuracy::PAIR)?, &self.start.state);
                 self.correct(&matrix, &gap)?;
                 continue;
             }

@@ -150,3 +150,30 @@ impl SectionMap<'_> {
         Ok((trace.hi, libm::exp(volume)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_near_return_is_no_point() {
+        let with = |residual: f64, slope: f64| {
+            let derivative = [[1.0 + slope, 0.0], [0.0, 0.5]];
+            let at = [1.0, 0.2];
+            let (time, trace, determinant) = (1.0, 1.5 + slope, 0.5 + slope / 2.0);
+            let point = ComputedPeriodicPoint {
+                at,
+                period: 1,
+                time,
+                residual,
+                derivative,
+                trace,
+                determinant,
+            };
+            ComputedClosedOrbit { float: point, pair: point }.is_supported()
+        };
+        assert!(with(1e-28, 0.5) && with(1e-28, 1e-6), "closed to rounding");
+        assert!(!with(1e-10, 1e-4), "as near as beyond a fold");
+        assert!(!with(f64::NAN, 0.5), "no distance");
+    }
+}

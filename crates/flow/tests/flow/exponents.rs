@@ -18,9 +18,8 @@ fn judged(field: [&str; 2], start: [&str; 2], claim: &str) -> ClaimReport {
 
 /// Verdicts on a positive exponent, and on the exponent 0.
 fn signs(field: [&str; 2], start: [&str; 2], time: &str) -> [Verdict; 2] {
-    ["positive", "zero"].map(|word| {
-        judged(field, start, &format!("exponent = \"{word}\"\ntime = {time}")).verdict
-    })
+    ["positive", "zero"]
+        .map(|word| judged(field, start, &format!("exponent = \"{word}\"\ntime = {time}")).verdict)
 }
 
 use Verdict::{Confirmed, Refuted, Undecided};
@@ -45,7 +44,9 @@ fn exponents_of_linear_systems() {
     assert_eq!(signs(["−x", "−2*y"], ["1", "1"], "100"), [Refuted; 2], "a sink has none that is 0");
     assert_eq!(signs(["y", "−4*x"], ["1", "0"], "997"), [Undecided, Confirmed], "turns");
     // Rates that are seen to be those of a power: t, whatever the unit of time is.
-    for (field, time) in [(["y", "0"], "1000"), (["10⁶*y", "0"], "\"1/1000\""), (["y/10⁶", "0"], "1000000000")] {
+    for (field, time) in
+        [(["y", "0"], "1000"), (["10⁶*y", "0"], "\"1/1000\""), (["y/10⁶", "0"], "1000000000")]
+    {
         let found = signs(field, ["0", "1"], time);
         assert_eq!(found, [Undecided, Confirmed], "{field:?}");
     }
@@ -99,4 +100,25 @@ fn a_mean_divergence_has_a_sign_where_volumes_change_beyond_the_ends() {
     let turns = ["y*(1 + x²/2)", "−x*(1 + x²/2)"];
     assert_eq!(of(turns, "zero", "1000"), Confirmed);
     assert_eq!(of(turns, "negative", "1000"), Undecided, "0 within its error is no refutation");
+}
+
+#[test]
+fn numbers_that_are_exact_have_no_error() {
+    let read = |claim: &str| {
+        let text = format!(
+            "title = \"a\"\n[state]\nx = \"-1..1\"\n[field]\n\"x'\" = \"−x\"\n\
+             [[claim]]\n{claim}\nstate = {{ x = \"1\" }}\n"
+        );
+        Case::parse(&text, &[]).map(|_| ()).map_err(|error| error.to_string())
+    };
+    for (claim, place) in [
+        ("reaches = \"x\"\nabove = 0\ntime = \"1.000 ± 0.1\"", "1.000 ± 0.1"),
+        ("exponent = \"zero\"\ntime = \"10 ± 1\"", "10 ± 1"),
+        ("closed-orbit = \"3.2 ± 0.1\"", "3.2 ± 0.1"),
+    ] {
+        let mistake = read(claim).expect_err(claim);
+        assert!(mistake.contains(place) && mistake.contains("has an error"), "{mistake}");
+    }
+    assert_eq!(read("reaches = \"x\"\nabove = 0\ntime = 1.000"), Ok(()));
+    assert!(read("exponent = \"zero\"\ntime = 1e400").is_err(), "no time is infinite");
 }

@@ -26,7 +26,8 @@ const ONE: &str = "one";
 
 /// Message that a section has no motions.
 fn nothing() -> String {
-    "error: there is no motion to follow\nhelp: give --start l,L/G, or --orbits 1 or more".to_string()
+    "error: there is no motion to follow\nhelp: give --start l,L/G, or --orbits 1 or more"
+        .to_string()
 }
 
 /// Follows the motions of a part through g = g₀.

@@ -16,7 +16,9 @@ use serde::{Deserialize, Serialize};
 use super::chart::parse_size;
 use super::eval::Opened;
 use super::ink::Ink;
-use super::motion::{CrossingArgs, MotionArgs, Threads, parse_count, parse_positive, parse_start, rendered};
+use super::motion::{
+    CrossingArgs, MotionArgs, Threads, parse_count, parse_positive, parse_start, rendered,
+};
 use super::output::{Ending, Output};
 use super::share::{Share, Target, carry_out};
 use super::starts::Starts;
