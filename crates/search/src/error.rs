@@ -14,9 +14,12 @@ pub enum SearchError {
     /// The rates are not polynomials of degree 2 in the velocities.
     #[error("integrals cannot be counted: the rates are not quadratic in the velocities")]
     NotQuadratic,
-    /// The equations for the coefficients are not of finite type, unlike those for Killing tensors.
-    #[error("integrals cannot be counted: the rates of the positions do not take all directions")]
-    NotSpanned,
+    /// The equations for the coefficients do not determine all of some order.
+    #[error(
+        "integrals cannot be counted: there may be infinitely many, or derivatives of a higher order \
+         are needed to bound their number"
+    )]
+    Unbounded,
     /// The field has functions that prime fields lack, or is defined nowhere.
     #[error(
         "no Taylor series of the field modulo a prime was found: it contains exp, ln, sin, cos or x^y, \
@@ -80,10 +83,9 @@ pub enum SearchError {
 impl SearchError {
     /// Whether the error concerns counts only, and not the rest of a search.
     pub(crate) fn is_of_count(&self) -> bool {
-        use SearchError::{Large, Long, NoSeries, NotQuadratic, NotSpanned, Unsettled, Unsplit};
+        use SearchError::{Large, Long, NoSeries, NotQuadratic, Unbounded, Unsettled, Unsplit};
         let is_costly = matches!(self, Long { .. } | Large { .. });
-        is_costly
-            || matches!(self, NoSeries | NotQuadratic | NotSpanned | Unsettled(_) | Unsplit(_))
+        is_costly || matches!(self, NoSeries | NotQuadratic | Unbounded | Unsettled(_) | Unsplit(_))
     }
 
     /// Suggests a remedy.
@@ -100,7 +102,7 @@ impl SearchError {
                 "make such functions state variables, as in s' = c*φ', c' = −s*φ' for the sine and \
                  the cosine of φ, and r' = (x*x' + y*y')/r for r = √(x² + y²)"
             }
-            SearchError::Unsplit(_) | SearchError::NotQuadratic | SearchError::NotSpanned => {
+            SearchError::Unsplit(_) | SearchError::NotQuadratic | SearchError::Unbounded => {
                 "search with --ansatz=4, which needs no velocities"
             }
             _ => "`liouville check` judges what you claim by hand",

@@ -2,7 +2,6 @@
 //! coefficients are Taylor series in the positions.
 
 use super::SearchError;
-use super::echelon::Echelon;
 use super::local::Local;
 use super::rates::SplitRates;
 use super::series::TruncatedSeries;
@@ -92,28 +91,12 @@ impl<'l> Taylor<'l> {
         if !agrees(&polynomials, &check, &found, &modulus) {
             return Err(SearchError::NotQuadratic);
         }
-        if !spans(&polynomials[..positions.len()], velocities, modulus) {
-            return Err(SearchError::NotSpanned);
-        }
         let mut rates = polynomials.into_iter();
         Ok(Some(FieldExpansion {
             positions: rates.by_ref().take(positions.len()).collect(),
             velocities: rates.collect(),
         }))
     }
-}
-
-/// Whether the rates of the positions span all directions. Then Σ w_i X_i C = 0 determines the
-/// coefficients of degree n by their n-jets, as for Killing tensors.
-fn spans(rates: &[Polynomial], velocities: usize, modulus: Modulus) -> bool {
-    let mut echelon = Echelon::new(velocities, modulus);
-    rates.iter().all(|rate| {
-        let slope = |i: usize| {
-            let is_unit = |e: &Vec<u32>| e[i] == 1 && e.iter().sum::<u32>() == 1;
-            rate.iter().find(|(exponent, _)| is_unit(exponent)).map_or(0, |(_, series)| series[0])
-        };
-        echelon.push((0..velocities).map(slope).collect())
-    })
 }
 
 /// Finds polynomials of degree 2 from their values at 0, ±e_i and e_i + e_j.

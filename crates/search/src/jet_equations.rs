@@ -23,7 +23,6 @@ pub struct Equations {
     /// Order of the coefficient of each column, from high to low, so that the free columns are of
     /// low order.
     columns: Vec<u32>,
-    degree: u32,
     /// Rows, each with the velocity exponents and the position monomial of its coefficient.
     rows: Vec<(RowKey, Entries)>,
     modulus: Modulus,
@@ -91,19 +90,27 @@ impl Equations {
         merged
     }
 
-    /// Number of integrals that the equations leave, as determined by coefficients of low order.
-    pub fn dimension(&self, echelon: &Echelon) -> usize {
+    /// Bounds the number of integrals that the equations leave; `None` if they do not show that it is
+    /// finite.
+    pub fn dimension(&self, echelon: &Echelon) -> Option<usize> {
         self.free_where(|column| !echelon.has_pivot(column))
     }
 
-    /// Number of integrals that the equations leave, of which pivots alone are known.
-    pub fn free_below(&self, reduced: &ReducedEchelon) -> usize {
+    /// Bounds the number of integrals that the equations leave, of which pivots alone are known.
+    pub fn free_below(&self, reduced: &ReducedEchelon) -> Option<usize> {
         self.free_where(|column| !reduced.has_pivot(column))
     }
 
-    fn free_where(&self, is_free: impl Fn(usize) -> bool) -> usize {
-        let counts = |column: &usize| self.columns[*column] <= self.degree && is_free(*column);
-        (0..self.columns.len()).filter(counts).count()
+    /// Number of free coefficients up to the least order J such that those of order J + 1 are all
+    /// determined by others of order J + 1 at most: an integral is fixed by its J-jet then.
+    fn free_where(&self, is_free: impl Fn(usize) -> bool) -> Option<usize> {
+        let highest = self.columns.iter().max()?;
+        let mut free = vec![0; *highest as usize + 1];
+        for (column, order) in self.columns.iter().enumerate() {
+            free[*order as usize] += usize::from(is_free(column));
+        }
+        let determined = free.iter().skip(1).position(|count| *count == 0)?;
+        Some(free[..=determined].iter().sum())
     }
 
     /// Sets up the equations for L_vP + α div v P = 0 at a point, where α is the weight, up to an
@@ -166,7 +173,7 @@ impl Equations {
             }
         }
         let columns = columns.into_iter().map(|(_, k)| degrees[k]).collect();
-        Ok(Self { columns, degree, rows: blocks.sorted(), modulus })
+        Ok(Self { columns, rows: blocks.sorted(), modulus })
     }
 }
 
@@ -255,7 +262,7 @@ mod tests {
     /// Makes equations from rows with a first entry in a column of their own, followed by others.
     fn equations(modulus: Modulus, columns: usize, rows: Vec<Entries>) -> Equations {
         let rows = rows.into_iter().enumerate().map(|(k, row)| ((vec![0], k), row)).collect();
-        Equations { columns: vec![0; columns], degree: 0, rows, modulus }
+        Equations { columns: vec![0; columns], rows, modulus }
     }
 
     /// Checks that both ways of elimination find pivots in the same columns.

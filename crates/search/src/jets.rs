@@ -71,7 +71,7 @@ impl<'l> MotionAtPoint<'l> {
         let mut last = None;
         let lowest = lowest_order(asked.degree);
         for order in [lowest, lowest + 1, lowest + 3, lowest + 5] {
-            let found = self.count_to_order(asked, weight, order, effort)?;
+            let Some(found) = self.count_to_order(asked, weight, order, effort)? else { continue };
             if found.dimension <= least || last == Some(found.dimension) {
                 return Ok(found);
             }
@@ -86,7 +86,7 @@ impl<'l> MotionAtPoint<'l> {
         weight: &Rational,
         order: u32,
         effort: &Effort,
-    ) -> Result<DimensionCount, SearchError> {
+    ) -> Result<Option<DimensionCount>, SearchError> {
         let (taylor, expansion) = self.expanded_to(order, effort)?;
         let weight = taylor.modulus.rational(weight).ok_or(SearchError::NoSeries)?;
         let budget = Budget::of(effort);
@@ -94,7 +94,7 @@ impl<'l> MotionAtPoint<'l> {
         budget.admits(unknowns, entries)?;
         let system = Equations::of(expansion, taylor, order, asked, weight, &effort.halt)?;
         let dimension = system.free_below(&system.ranked(&budget)?);
-        Ok(DimensionCount { dimension, size: system.size() })
+        Ok(dimension.map(|dimension| DimensionCount { dimension, size: system.size() }))
     }
 
     /// Expands the field up to an order, or further.

@@ -10,7 +10,7 @@ use super::orbit::FURTHER_INTEGRAL;
 use super::{Effort, SearchReport, ask};
 use liouville::case::Case;
 use liouville::formula::Formula;
-use liouville::graph::{Evaluator, Expr, Tape, record};
+use liouville::graph::{Evaluator, Expr, Tape};
 use liouville::mechanics::Phase;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
 use liouville::proof::{root_numbers, statement_seed};
@@ -192,23 +192,24 @@ fn on_lines(
     let all = model.vocabulary.with_abbreviations(formula, &model.abbreviations);
     let draws = model.parameter_draws();
     let inputs = draws.len() + coordinates.count() + coordinates.velocities + 1;
-    let (graph, (slope, moving)) = record(inputs, |inputs| {
+    let (graph, values) = coordinates.record(inputs, |inputs| {
         let (given, point) = inputs.split_at(draws.len());
-        let (parameters, _) = model.make_parameters(given);
+        let parameters = coordinates.parameters(model, given);
         let (positions, rest) = point.split_at(coordinates.positions);
         let (start, rest) = rest.split_at(coordinates.velocities);
         let (along, s) = rest.split_at(coordinates.velocities);
         let velocities = start.iter().zip(along).map(|(w, u)| Dual::new(*w + s[0] * *u, *u));
         let positions = positions.iter().map(|q| Dual::from_re(*q));
-        let state = coordinates.state(&positions.chain(velocities).collect::<Vec<_>>());
         let parameters: Vec<Dual<Expr>> = parameters.iter().map(|p| Dual::from_re(*p)).collect();
+        let point: Vec<Dual<Expr>> = positions.chain(velocities).collect();
+        let state = coordinates.state(model, &parameters, &point);
         let moved = Phase::new(model, &parameters, &state);
         let slope = formula.logarithmic_derivative(&mut |symbol| moved.value(symbol));
         // An ∫ whose variable depends on the velocities has a degree that this test does not see.
         let integrals = all.iter().flat_map(|f| f.antiderivatives(&mut |s| moved.value(s)));
-        let moving: Vec<Expr> = integrals.map(|(_, variable)| variable.eps).collect();
-        (slope, moving)
+        std::iter::once(slope).chain(integrals.map(|(_, variable)| variable.eps)).collect()
     })?;
+    let (slope, moving) = (values[0], &values[1..]);
     if moving.iter().any(|rate| !graph.constant_value(*rate).is_some_and(|rate| rate.is_zero())) {
         return Ok(None);
     }

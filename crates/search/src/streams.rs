@@ -31,6 +31,8 @@ pub enum SearchStream {
     OrbitPoints = 48,
     /// Lines on which Darboux polynomials are looked for.
     OrbitLines = 49,
+    /// Points at which constraints are solved for velocities.
+    Constraints = 50,
     /// Points for gradients.
     Gradients = 51,
     /// Primes of an ansatz; each of its moduli has the next stream.

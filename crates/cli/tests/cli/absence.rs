@@ -177,7 +177,7 @@ fn planted_integrals_in_curved_coordinates_are_never_excluded() {
 fn planted_integrals_of_lagrangians_are_never_excluded() {
     let mut dice = Dice(3);
     let mut refuted = 0;
-    for plant in 0..60 {
+    for plant in 0..30 {
         let (m, n) = ([(3, 4, 5), (5, 12, 13), (8, 15, 17)])
             .map(|(a, b, c)| (format!("{a}/{c}"), format!("{b}/{c}")))[plant % 3]
             .clone();
@@ -202,7 +202,7 @@ fn planted_integrals_of_lagrangians_are_never_excluded() {
         assert_ne!(report.verdict, Verdict::Proved, "an integral is there:\n{text}");
         refuted += usize::from(report.verdict == Verdict::Refuted);
     }
-    assert!(refuted >= 50, "{refuted} of 60 plants are exhibited");
+    assert!(refuted >= 25, "{refuted} of 30 plants are exhibited");
 }
 
 #[test]

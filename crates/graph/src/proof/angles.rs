@@ -3,7 +3,9 @@
 //! The cosine and the sine of E = R + Σ n_j atan u_j are the parts of the complex number e^(iR) Π z_j^n_j,
 //! z_j = (1 + i u_j)/√(1 + u_j²), at all real u_j.
 
-use crate::graph::{Expr, Graph, Step};
+use rustc_hash::FxHashMap;
+
+use crate::graph::{Expr, Fault, Graph, Step, record};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
 use crate::scalar::Scalar;
@@ -26,6 +28,33 @@ pub struct Angle {
 
 /// Lists the sums with arctangents whose sines and cosines some values need.
 pub fn angles(graph: &Graph, values: &[Expr]) -> Vec<Rewrite> {
+    let rewrite = |argument: usize| {
+        Angle::of(graph, argument).map(|angle| Rewrite::Angle { argument, angle })
+    };
+    arguments(graph, values).into_iter().filter_map(rewrite).collect()
+}
+
+/// Records values anew, with sines and cosines of sums with arctangents written out.
+pub fn without_arctangents(graph: &Graph, values: &[Expr]) -> Result<(Graph, Vec<Expr>), Fault> {
+    let sums: FxHashMap<usize, Angle> = arguments(graph, values)
+        .into_iter()
+        .filter_map(|argument| Some((argument, Angle::of(graph, argument)?)))
+        .collect();
+    let reached = graph.reached(values.iter().copied());
+    record(graph.inputs(), |inputs| {
+        let replayed = graph.replay(&reached, inputs, |_, step, replayed| match step {
+            Step::Unary(function @ (UnaryFunction::Sin | UnaryFunction::Cos), a) => {
+                sums.get(&a)?.value(function == UnaryFunction::Sin, replayed)
+            }
+            _ => None,
+        });
+        let value = |value: &Expr| replayed[graph.place(*value)].unwrap_or_else(Expr::undefined);
+        values.iter().map(value).collect()
+    })
+}
+
+/// Lists the places of the arguments of sines and cosines that some values need.
+pub fn arguments(graph: &Graph, values: &[Expr]) -> Vec<usize> {
     let reached = graph.reached(values.iter().copied());
     let mut found: Vec<usize> = Vec::new();
     for (step, _) in graph.steps().zip(&reached).filter(|(_, reached)| **reached) {
@@ -35,10 +64,7 @@ pub fn angles(graph: &Graph, values: &[Expr]) -> Vec<Rewrite> {
             found.push(a);
         }
     }
-    let rewrite = |argument: usize| {
-        Angle::of(graph, argument).map(|angle| Rewrite::Angle { argument, angle })
-    };
-    found.into_iter().filter_map(rewrite).collect()
+    found
 }
 
 impl Angle {

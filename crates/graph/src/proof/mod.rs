@@ -75,6 +75,7 @@ mod void;
 #[cfg(test)]
 mod tests;
 
+pub use angles::{arguments as angle_arguments, without_arctangents};
 pub use bounds::InputDistribution;
 pub use combination::combinations;
 pub use coprime::{are_coprime, are_polynomials, is_single_valued};

@@ -57,23 +57,31 @@ impl Gradients {
             return Ok(None);
         }
         let dimension = coordinates.as_ref().map_or(model.dimension(), |own| own.count());
-        let (graph, slopes) = record(draws.len() + dimension, |inputs| {
+        let slopes = |inputs: &[Expr]| {
             let (given, place) = inputs.split_at(draws.len());
-            let (parameters, _) = model.make_parameters(given);
+            let parameters = match &coordinates {
+                Some(coordinates) => coordinates.parameters(model, given),
+                None => model.make_parameters(given).0,
+            };
             let parameters: Vec<Dual<Expr>> =
                 parameters.iter().map(|p| Dual::from_re(*p)).collect();
             let along = |direction: usize| -> Vec<Expr> {
                 let mut place: Vec<Dual<Expr>> = place.iter().map(|x| Dual::from_re(*x)).collect();
                 place[direction] = place[direction].derivative();
                 let state = match &coordinates {
-                    Some(coordinates) => coordinates.state(&place),
+                    Some(coordinates) => coordinates.state(model, &parameters, &place),
                     None => place,
                 };
                 let phase = Phase::new(model, &parameters, &state);
                 formulas.iter().map(|formula| phase.scalar(formula).eps).collect()
             };
             (0..dimension).map(along).collect::<Vec<_>>().concat()
-        })?;
+        };
+        let inputs = draws.len() + dimension;
+        let (graph, slopes) = match &coordinates {
+            Some(coordinates) => coordinates.record(inputs, slopes)?,
+            None => record(inputs, slopes)?,
+        };
         let rng = SearchStream::Gradients.under(statement_seed(seed, &graph, &slopes));
         let (tape, inputs) = (Tape::new(&graph, &slopes), graph.inputs());
         let (count, numbers) = (formulas.len(), root_numbers(&graph));

@@ -227,7 +227,8 @@ impl<'l> Minors<'l> {
                     own => own,
                 };
                 let Ok(Some(equations)) = own else { continue };
-                if equations.dimension(&self.solved(&equations)?.0) > dimension {
+                let own = equations.dimension(&self.solved(&equations)?.0);
+                if own.is_none_or(|own| own > dimension) {
                     found.push(value);
                 }
                 break;
@@ -246,7 +247,7 @@ impl<'l> Minors<'l> {
             let Some(equations) = self.equations(value, &positions)? else { continue };
             let (echelon, rows) = self.solved(&equations)?;
             let rows: FxHashSet<RowKey> = rows.into_iter().collect();
-            let dimension = equations.dimension(&echelon);
+            let dimension = equations.dimension(&echelon).ok_or(SearchError::Unbounded)?;
             let (unknowns, count) = equations.size();
             let own = STEP * (unknowns * count) as f64 + echelon.steps() as f64;
             let each = own + self.expansion_steps();

@@ -206,7 +206,7 @@ fn planted_integrals_with_functions_are_never_excluded() {
     let plants = std::env::var("LIOUVILLE_PLANTS").ok().and_then(|text| text.parse().ok());
     let mut numbers = Numbers(23);
     let mut generated = 0;
-    for plant in 0..plants.unwrap_or(50) {
+    for plant in 0..plants.unwrap_or(24) {
         let mut form = || {
             let [x, y, one] = numbers.form();
             ([x, y], format!("(({x})*x + ({y})*y + ({one}))"))

@@ -71,7 +71,7 @@ fn functions_of_a_known_integral_hide_no_other() {
              [[claim]]\nno-integral = {{ degree = 2 }}\nexpect = \"open\"\n"
         ))
     };
-    for claimed in [vec!["energy"], vec!["energy", "energy^2"], vec!["exp(energy)"]] {
+    for claimed in [vec!["energy", "energy^2"], vec!["exp(energy)"]] {
         let claims: String =
             claimed.iter().map(|own| format!("[[claim]]\nintegral = \"{own}\"\n")).collect();
         let found = pendula(&claims);

@@ -1,0 +1,262 @@
+//! Coordinates of a Lagrangian system: positions and independent velocities.
+//!
+//! Constraints that are linear in the velocities are solved for as many of them, and an angle φ of which
+//! only sines and cosines occur becomes t = tan φ/2, so that the equations are rational.
+
+use num_dual::Dual;
+
+use crate::SearchError;
+use crate::echelon::Echelon;
+use crate::streams::SearchStream;
+use liouville::case::Case;
+use liouville::formula::Formula;
+use liouville::graph::{Evaluator, Expr, Graph, Step, Tape, record};
+use liouville::mechanics::elimination::solve_by_minors;
+use liouville::mechanics::{Draw, Lagrangian, Model, Phase, VariableRole};
+use liouville::number::prime::{Prime, UNDEFINED};
+use liouville::number::rational::Rational;
+use liouville::proof::{angle_arguments, root_numbers, without_arctangents};
+use liouville::scalar::Scalar;
+
+/// Number of points at which constraints are looked at.
+const TRIALS: usize = 64;
+
+/// Coordinates of a Lagrangian system.
+#[derive(Clone, Debug)]
+pub struct Mechanical {
+    /// Components of the state that are positions, and whether each is an angle.
+    positions: Vec<(usize, bool)>,
+    /// Components that are independent velocities.
+    free: Vec<usize>,
+    /// Components that are velocities given by the constraints.
+    dependent: Vec<usize>,
+    /// Whether each draw of a parameter is an angle.
+    turned: Vec<bool>,
+}
+
+impl Mechanical {
+    /// Finds coordinates of a system whose level consists of constraints that are linear in the velocities
+    /// and independent.
+    pub fn of(case: &Case, lagrangian: &Lagrangian) -> Result<Self, SearchError> {
+        let model = &case.model;
+        if model.level.len() != if lagrangian.vakonomic { 0 } else { lagrangian.constraints.len() }
+        {
+            return Err(SearchError::Unsplit(
+                "velocities are independent of each other up to constraints alone, not on a level set",
+            ));
+        }
+        let (mut positions, mut velocities, mut start) = (Vec::new(), Vec::new(), 0);
+        for (role, variable) in lagrangian.roles.iter().zip(&model.state) {
+            let own = start..start + variable.len();
+            match role {
+                VariableRole::Coordinate(_) | VariableRole::Carried(_) | VariableRole::Time => {
+                    positions.extend(own);
+                }
+                VariableRole::Velocity | VariableRole::Multiplier => velocities.extend(own),
+            }
+            start += variable.len();
+        }
+        let draws = model.parameter_draws();
+        let mut turned = angles(model, draws.len())?;
+        let angles = turned.split_off(draws.len());
+        for (turned, draw) in turned.iter_mut().zip(&draws) {
+            // Other draws are numbers.
+            *turned &= matches!(draw, Draw::Within(_) | Draw::Of(..));
+        }
+        let plain = Self {
+            positions: positions.iter().map(|place| (*place, angles[*place])).collect(),
+            free: velocities,
+            dependent: Vec::new(),
+            turned,
+        };
+        match model.level.is_empty() {
+            true => Ok(plain),
+            false => plain.constrained(case),
+        }
+    }
+
+    /// Solves the constraints for as many velocities.
+    fn constrained(mut self, case: &Case) -> Result<Self, SearchError> {
+        let velocities = std::mem::take(&mut self.free);
+        let slopes = Slopes::of(&case.model, &self, &velocities)?;
+        let pivots = slopes.pivots().ok_or(SearchError::Unsplit(
+            "no velocities were found for which the constraints can be solved",
+        ))?;
+        self.dependent = pivots.into_iter().map(|place| velocities[place]).collect();
+        self.free = velocities;
+        self.free.retain(|place| !self.dependent.contains(place));
+        Ok(self)
+    }
+
+    /// Number of positions.
+    pub fn positions(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Number of independent velocities.
+    pub fn velocities(&self) -> usize {
+        self.free.len()
+    }
+
+    /// Whether a position or a parameter is an angle.
+    pub fn has_angles(&self) -> bool {
+        self.positions.iter().any(|(_, angle)| *angle) || self.turned.contains(&true)
+    }
+
+    /// Makes draws of the parameters from coordinates of them.
+    pub fn draws<T: Scalar>(&self, given: &[T]) -> Vec<T> {
+        given.iter().zip(&self.turned).map(|(x, turned)| place(*x, *turned)).collect()
+    }
+
+    /// Returns the state at a point.
+    pub fn state<T: Scalar>(&self, model: &Model, parameters: &[T], point: &[T]) -> Vec<T> {
+        let mut state = vec![T::zero(); model.dimension()];
+        let (positions, velocities) = point.split_at(self.positions.len());
+        for ((component, angle), x) in self.positions.iter().zip(positions) {
+            state[*component] = place(*x, *angle);
+        }
+        for (component, x) in self.free.iter().zip(velocities) {
+            state[*component] = *x;
+        }
+        if self.dependent.is_empty() {
+            return state;
+        }
+        // f_k + Σ ∂f_k/∂w_d w_d = 0, from the f_k where the w_d are 0.
+        let parameters: Vec<Dual<T>> = parameters.iter().map(|p| Dual::from_re(*p)).collect();
+        let along = |component: usize| -> Vec<Dual<T>> {
+            let mut lifted: Vec<Dual<T>> = state.iter().map(|x| Dual::from_re(*x)).collect();
+            lifted[component] = lifted[component].derivative();
+            constraints(model, &parameters, &lifted)
+        };
+        let columns: Vec<Vec<Dual<T>>> = self.dependent.iter().map(|d| along(*d)).collect();
+        let count = columns.len();
+        let rows: Vec<Vec<T>> =
+            (0..count).map(|k| columns.iter().map(|column| column[k].eps).collect()).collect();
+        let sides: Vec<T> = columns[0].iter().map(|f| -f.re).collect();
+        let solved = solve_by_minors(&rows, &[sides]).remove(0);
+        for (component, x) in self.dependent.iter().zip(solved) {
+            state[*component] = x;
+        }
+        state
+    }
+
+    /// Returns the rates of the coordinates.
+    pub fn rates(&self, point: &[Expr], field: &[Expr]) -> Vec<Expr> {
+        let (one, half) = (number(1, 1), number(1, 2));
+        let positions =
+            self.positions.iter().zip(point).map(|((component, angle), t)| match angle {
+                true => field[*component] * half * (one + *t * *t),
+                false => field[*component],
+            });
+        positions.chain(self.free.iter().map(|component| field[*component])).collect()
+    }
+}
+
+/// Derivatives of constraints by velocities, functions of the parameters and the positions.
+struct Slopes {
+    graph: Graph,
+    /// The derivatives by each velocity.
+    columns: Vec<Vec<Expr>>,
+}
+
+impl Slopes {
+    /// Records the derivatives; fails unless the constraints are linear in the velocities.
+    fn of(model: &Model, at: &Mechanical, velocities: &[usize]) -> Result<Self, SearchError> {
+        let draws = model.parameter_draws().len();
+        let count = draws + model.dimension();
+        let (graph, slopes) = record(count, |inputs| {
+            let (given, state) = inputs.split_at(draws);
+            let (parameters, _) = model.make_parameters(&at.draws(given));
+            let parameters: Vec<Dual<Expr>> =
+                parameters.iter().map(|p| Dual::from_re(*p)).collect();
+            let mut state: Vec<Dual<Expr>> = state.iter().map(|x| Dual::from_re(*x)).collect();
+            for (component, angle) in &at.positions {
+                state[*component] = place(state[*component], *angle);
+            }
+            let along = |component: &usize| {
+                let mut lifted = state.clone();
+                lifted[*component] = lifted[*component].derivative();
+                constraints(model, &parameters, &lifted)
+            };
+            let columns = velocities.iter().flat_map(along);
+            columns.map(|slope| slope.eps).collect::<Vec<Expr>>()
+        })?;
+        let (graph, slopes) = without_arctangents(&graph, &slopes)?;
+        let is_velocity = |input: &usize| *input >= draws && velocities.contains(&(*input - draws));
+        if slopes.iter().any(|slope| graph.inputs_of(*slope).iter().any(is_velocity)) {
+            return Err(SearchError::Unsplit("the constraints are not linear in the velocities"));
+        }
+        let size = (slopes.len() / velocities.len().max(1)).max(1);
+        Ok(Self { columns: slopes.chunks(size).map(<[Expr]>::to_vec).collect(), graph })
+    }
+
+    /// Chooses as many velocities as there are constraints, such that the constraints can be solved for
+    /// them: first those with constant derivatives.
+    fn pivots(&self) -> Option<Vec<usize>> {
+        let slopes = self.columns.concat();
+        let count = self.columns.first()?.len();
+        let mut order: Vec<usize> = (0..self.columns.len()).collect();
+        order.sort_by_key(|column| {
+            let varies = |slope: &&Expr| self.graph.constant_value(**slope).is_none();
+            self.columns[*column].iter().filter(varies).count()
+        });
+        let mut rng = SearchStream::Constraints.under(0);
+        let modulus = rng.prime_for(&root_numbers(&self.graph));
+        let tape = Tape::new(&self.graph, &slopes);
+        let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; 1]));
+        (0..TRIALS).find_map(|_| {
+            let point: Vec<[u64; 1]> =
+                (0..self.graph.inputs()).map(|_| [rng.element(&modulus)]).collect();
+            evaluator.run(&point);
+            let values: Vec<u64> = evaluator.outputs().map(|value| value[0]).collect();
+            if values.contains(&UNDEFINED) {
+                return None;
+            }
+            let mut echelon = Echelon::new(count, modulus);
+            let own = |column: &usize| values[column * count..(column + 1) * count].to_vec();
+            let mut pivots = order.clone();
+            pivots.retain(|column| echelon.push(own(column)));
+            (pivots.len() == count).then_some(pivots)
+        })
+    }
+}
+
+/// The value of a variable: x, or 2 atan x.
+fn place<T: Scalar>(x: T, angle: bool) -> T {
+    if angle { x.atan() * T::from(2.0) } else { x }
+}
+
+fn number(a: i64, b: i64) -> Expr {
+    Expr::rational(&Rational::new(a, b))
+}
+
+/// The left sides of the constraints.
+fn constraints<T: Scalar>(model: &Model, parameters: &[T], state: &[T]) -> Vec<T> {
+    let phase = Phase::new(model, parameters, state);
+    model.level_formulas().map(|f| phase.configuration.scalar(f)).collect()
+}
+
+/// Finds the draws and the components of the state on which arguments of sines and cosines depend.
+fn angles(model: &Model, draws: usize) -> Result<Vec<bool>, SearchError> {
+    let count = draws + model.dimension();
+    let (graph, values) = record(count, |inputs| {
+        let (given, state) = inputs.split_at(draws);
+        let (parameters, _) = model.make_parameters(given);
+        let phase = Phase::new(model, &parameters, state);
+        let formulas: Vec<&Formula> =
+            model.dynamics().into_iter().chain(model.level_formulas()).collect();
+        formulas.iter().flat_map(|f| phase.evaluate(f).components()).collect::<Vec<Expr>>()
+    })?;
+    let mut found = vec![false; count];
+    let arguments = angle_arguments(&graph, &values);
+    let reached = graph.reached(arguments.iter().map(|place| graph.at(*place)));
+    for (step, reached) in graph.steps().zip(reached) {
+        if let Step::Input(input) = step
+            && reached
+            && input < count
+        {
+            found[input] = true;
+        }
+    }
+    Ok(found)
+}
