@@ -16,6 +16,10 @@ use liouville::number::double_double::DoubleDouble;
 
 /// Number of steps without a crossing after which a motion counts as lost.
 const MAX_STEPS_BETWEEN: u64 = 100_000;
+/// Number of steps at the beginning after which a motion within rounding of the surface keeps to it,
+/// and how many times its rounding it may be away.
+const WITHIN: u64 = 3;
+const ROUNDINGS: f64 = 4.0;
 /// Number of crossings in the other direction alone after which a motion counts as lost.
 const MAX_OTHERS: usize = 1000;
 
@@ -93,6 +97,8 @@ struct Running<P> {
     sides: Sides,
     /// Number of crossings in the direction that counts, including those left out.
     counted: usize,
+    /// Number of steps at the beginning all through which it was in the surface, up to rounding.
+    within: u64,
     /// Steps and crossings in the other direction at the last crossing that counts.
     last_met: (u64, usize),
     /// Share of the motion that was told.
@@ -147,8 +153,15 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
                 Ok(start) => {
                     self.stepper.start_open(lane, &start.state, self.task.backwards);
                     let (sides, told) = (Sides::default(), ToldShare::default());
-                    self.running[lane] =
-                        Some(Running { index, track, sides, counted: 0, last_met: (0, 0), told });
+                    self.running[lane] = Some(Running {
+                        index,
+                        track,
+                        sides,
+                        counted: 0,
+                        within: 0,
+                        last_met: (0, 0),
+                        told,
+                    });
                     return;
                 }
                 Err(problem) => {
@@ -192,12 +205,16 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
                 return true;
             }
             let doubt = || self.task.program.rounding::<f64>(0, &self.stepper.pairs(lane), 0.0);
-            // All through a step it is no farther away than rounding.
+            // All through its first steps it is no farther away than rounding.
             let length = piece.length().abs();
             let reach = polynomial.iter().rev().fold(0.0, |sum, x| sum * length + x.abs());
-            if steps == 0 && reach <= polynomial.len() as f64 * doubt() {
-                running.track.problem = Some(FlowError::InSurface);
-                return true;
+            if running.within == steps && reach <= ROUNDINGS * doubt() {
+                running.within += 1;
+                if running.within == WITHIN {
+                    running.track.problem = Some(FlowError::InSurface);
+                    running.track.crossings.clear();
+                    return true;
+                }
             }
             for event in running.sides.events(&polynomial, piece.length(), doubt) {
                 if running.meet(event, &piece, self.task, steps, &mut self.observe) {

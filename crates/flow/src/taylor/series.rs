@@ -159,7 +159,7 @@ impl<T: SeriesNumber> Series<T> {
     }
 
     /// Whether the first operation without a finite value at the state has arguments at which it has
-    /// one, or a coefficient is not finite where no root and no divisor is 0: a number is too large.
+    /// one: the value is too large.
     pub fn overflows(&self, lane: usize) -> bool {
         let value = |place: Place| self.memory[place as usize].lane(lane).leading();
         let mut placed = self.code.operations.iter().zip(&self.code.finishes);
@@ -169,13 +169,21 @@ impl<T: SeriesNumber> Series<T> {
             Some(PlacedRule::Power { x, .. }) => value(*x) > 0.0,
             Some(PlacedRule::Sqrt(_) | PlacedRule::Ln(_)) => false,
             Some(_) => true,
-            None => {
-                let is_zero = |row: &[T]| row[0].lane(lane).leading() == 0.0;
-                let is_finite = |row: &[T]| row.iter().all(|x| x.lane(lane).leading().is_finite());
-                let mut components = (0..self.code.state.len()).map(|index| self.component(index));
-                !self.roots().chain(self.divisors()).any(is_zero) && !components.all(is_finite)
-            }
+            None => false,
         }
+    }
+
+    /// Whether the field has a value at all states.
+    pub fn is_entire(&self) -> bool {
+        !self.code.operations.iter().any(|operation| {
+            matches!(
+                operation.rule,
+                PlacedRule::Recip(_)
+                    | PlacedRule::Sqrt(_)
+                    | PlacedRule::Ln(_)
+                    | PlacedRule::Power { .. }
+            )
+        })
     }
 
     /// Number of further functions.
