@@ -48,11 +48,8 @@ pub fn is_beyond(graph: &Graph, output: Expr, point: &[Rational], balls: &ArbBal
             },
             Step::Power(a, exponent) => match &values[a] {
                 None => continue,
-                Some(x) => {
-                    let is_defined =
-                        x.is_positive() || exponent.to_integer().is_some() && x.excludes_zero();
-                    (balls.rational_power(x, exponent), is_defined)
-                }
+                // Of a negative number a power of a very large exponent has no value.
+                Some(x) => (balls.rational_power(x, exponent), x.is_positive()),
             },
         };
         values[place] = value.and_then(Approximation::in_range);

@@ -16,10 +16,8 @@ use liouville::number::double_double::DoubleDouble;
 
 /// Number of steps without a crossing after which a motion counts as lost.
 const MAX_STEPS_BETWEEN: u64 = 100_000;
-/// Number of steps at the beginning after which a motion within rounding of the surface keeps to it,
-/// and how many times its rounding it may be away.
-const WITHIN: u64 = 3;
-const ROUNDINGS: f64 = 4.0;
+/// Number of its roundings within which a motion may keep to the surface, all through its first step.
+const ROUNDINGS: f64 = 64.0;
 /// Number of crossings in the other direction alone after which a motion counts as lost.
 const MAX_OTHERS: usize = 1000;
 
@@ -56,6 +54,8 @@ pub(crate) struct MotionCrossings<P> {
     pub tangencies: usize,
     /// Number of steps taken.
     pub steps: u64,
+    /// Whether it stays near the surface all through its first step, within some roundings.
+    pub is_close: bool,
     /// Final state, where it is finite.
     pub end: Option<Vec<DoubleDouble>>,
     /// Reason why the motion ended early, or did not start.
@@ -97,8 +97,6 @@ struct Running<P> {
     sides: Sides,
     /// Number of crossings in the direction that counts, including those left out.
     counted: usize,
-    /// Number of steps at the beginning all through which it was in the surface, up to rounding.
-    within: u64,
     /// Steps and crossings in the other direction at the last crossing that counts.
     last_met: (u64, usize),
     /// Share of the motion that was told.
@@ -146,6 +144,7 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
                 others: 0,
                 tangencies: 0,
                 steps: 0,
+                is_close: false,
                 end: None,
                 problem: None,
             };
@@ -205,16 +204,10 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
                 return true;
             }
             let doubt = || self.task.program.rounding::<f64>(0, &self.stepper.pairs(lane), 0.0);
-            // All through its first steps it is no farther away than rounding.
             let length = piece.length().abs();
             let reach = polynomial.iter().rev().fold(0.0, |sum, x| sum * length + x.abs());
-            if running.within == steps && reach <= ROUNDINGS * doubt() {
-                running.within += 1;
-                if running.within == WITHIN {
-                    running.track.problem = Some(FlowError::InSurface);
-                    running.track.crossings.clear();
-                    return true;
-                }
+            if steps == 0 {
+                running.track.is_close = reach <= ROUNDINGS * doubt();
             }
             for event in running.sides.events(&polynomial, piece.length(), doubt) {
                 if running.meet(event, &piece, self.task, steps, &mut self.observe) {
