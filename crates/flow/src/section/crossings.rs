@@ -152,15 +152,8 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
                 Ok(start) => {
                     self.stepper.start_open(lane, &start.state, self.task.backwards);
                     let (sides, told) = (Sides::default(), ToldShare::default());
-                    self.running[lane] = Some(Running {
-                        index,
-                        track,
-                        sides,
-                        counted: 0,
-                        within: 0,
-                        last_met: (0, 0),
-                        told,
-                    });
+                    self.running[lane] =
+                        Some(Running { index, track, sides, counted: 0, last_met: (0, 0), told });
                     return;
                 }
                 Err(problem) => {
