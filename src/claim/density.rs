@@ -30,6 +30,10 @@ impl Statement for Density {
         from.required(Self::NAME, Some(Type::Scalar)).map(Self)
     }
 
+    fn at_images_of_maps(&self) -> Vec<&Formula> {
+        vec![&self.0]
+    }
+
     fn formulas(&self) -> Vec<&Formula> {
         vec![&self.0]
     }

@@ -23,6 +23,11 @@ pub fn sides(model: &Model, parameter: usize) -> Vec<Side> {
             let below = (range.low < zero).then_some(Side::Below);
             above.into_iter().chain(below).collect()
         }
+        Some(ParameterOrigin::Free(SamplerSpec::Scalar(Draw::OneOf(values)))) => {
+            let above = values.iter().any(|value| *value > zero).then_some(Side::Above);
+            let below = values.iter().any(|value| *value < zero).then_some(Side::Below);
+            above.into_iter().chain(below).collect()
+        }
         _ => vec![Side::Above, Side::Below],
     }
 }

@@ -4,6 +4,7 @@ use num_dual::Dual;
 
 use super::clock::never_rests;
 use super::components::Components;
+use super::elsewhere::{inside, system_at};
 use super::point::read_point;
 use super::statement::Objection;
 use super::{ComplexFormula, Reader, Statement, difference};
@@ -75,7 +76,11 @@ impl Statement for FixedPoint {
     }
 
     fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
-        system_at(jet, &self.point)
+        let written = system_at(&jet.phase.with(&[], &self.point.at(&jet.phase)));
+        match self.spectrum.is_some() || self.polynomial.is_some() {
+            true => inside(written),
+            false => written,
+        }
     }
 
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {
@@ -107,14 +112,6 @@ impl Statement for FixedPoint {
         }
         residual
     }
-}
-
-/// Formulas of the system as written, at a point: where they have no value the point is not in phase
-/// space.
-pub(super) fn system_at(jet: &DualPoint<'_, Expr>, point: &Components) -> Vec<Expr> {
-    let at = jet.phase.with(&[], &point.at(&jet.phase));
-    let functions = at.model().dynamics().into_iter();
-    functions.flat_map(|formula| at.evaluate_literally(formula).components()).collect()
 }
 
 /// Reads the coefficients of a characteristic polynomial, if they are given; `is_counted`: there has to

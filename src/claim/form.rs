@@ -229,6 +229,10 @@ impl Statement for Form {
         Ok(Self { form: FormShape::Two(blocks), factor, text })
     }
 
+    fn at_images_of_maps(&self) -> Vec<&Formula> {
+        self.formulas()
+    }
+
     fn formulas(&self) -> Vec<&Formula> {
         let own: Vec<&Formula> = match &self.form {
             FormShape::One(components) => components.formulas().collect(),

@@ -121,6 +121,10 @@ impl Statement for Relation {
         Ok(Self { function, cofactor })
     }
 
+    fn at_images_of_maps(&self) -> Vec<&Formula> {
+        vec![&self.function]
+    }
+
     fn formulas(&self) -> Vec<&Formula> {
         vec![&self.cofactor, &self.function]
     }

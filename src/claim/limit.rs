@@ -3,9 +3,10 @@
 use num_dual::Dual;
 use num_traits::{One, Zero};
 
+use super::elsewhere::{inside, one_antiderivative};
 use super::expansion::{Stated, defects, expansions, sides};
 use super::statement::open_constant;
-use super::{Reader, ResidualContext, Statement};
+use super::{Condition, Reader, ResidualContext, Statement};
 use crate::formula::{Formula, Type, Value};
 use crate::graph::{Expansion, Expr, Side};
 use crate::mechanics::calculus::DualPoint;
@@ -93,6 +94,10 @@ impl Statement for Limit {
         vec![self.parameter]
     }
 
+    fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+        one_antiderivative(jet.phase.model(), &self.formulas()).into_iter().collect()
+    }
+
     /// A as written at 0: with 0/(x + |x| + 0) it has no value for x < 0, where A is 1. Where it has
     /// none anywhere, what its expansion requires.
     fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
@@ -110,7 +115,7 @@ impl Statement for Limit {
                     Some(sides) => {
                         presence.extend(sides.into_iter().flat_map(|(_, own)| own.guards));
                     }
-                    None => presence.push(value),
+                    None => presence.extend(inside(vec![value])),
                 }
             }
             presence.extend(at.integrands(formula));
@@ -171,7 +176,9 @@ impl Limit {
         formula: &Formula,
     ) -> Vec<BySide<T>> {
         let values = at_zero.evaluate_literally(formula).components();
-        if !values.iter().any(Scalar::is_never_defined) {
+        // At the end of its domain A may have a value at 0, and none on any side.
+        let is_read_off = |value: &T| !value.is_never_defined() && !value.is_on_edge();
+        if values.iter().all(is_read_off) {
             return values.iter().map(|_| None).collect();
         }
         let model = phase.model();
@@ -180,7 +187,7 @@ impl Limit {
         let order = if self.slope.is_some() { 2 } else { 0 };
         let written = phase.evaluate_literally(formula).components();
         let one = |(at_zero, written): (&T, T)| match parameter.first() {
-            Some(parameter) if at_zero.is_never_defined() => {
+            Some(parameter) if !is_read_off(at_zero) => {
                 expansions(written, *parameter, &sides, order)
             }
             _ => None,

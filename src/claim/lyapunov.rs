@@ -48,6 +48,10 @@ impl Statement for Lyapunov {
         Ok(Self { function, rate: from.formula("equals", Some(Type::Scalar))? })
     }
 
+    fn at_images_of_maps(&self) -> Vec<&Formula> {
+        vec![&self.function]
+    }
+
     fn formulas(&self) -> Vec<&Formula> {
         [&self.function].into_iter().chain(&self.rate).collect()
     }

@@ -15,6 +15,7 @@ mod criterion;
 mod density;
 mod density_in_variables;
 mod divergence;
+mod elsewhere;
 mod entry;
 mod expansion;
 mod expect;
@@ -43,6 +44,8 @@ mod transformation;
 mod value;
 
 use num_dual::DualNum;
+
+use elsewhere::{one_antiderivative, written_at};
 
 use crate::formula::Formula;
 use crate::graph::{Expr, literally};
@@ -252,7 +255,13 @@ impl ClaimKind {
 
     /// Computes values, recorded literally, without which the claim has no meaning.
     pub fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
-        of_each!(self, statement => statement.presence(jet))
+        let mut values = of_each!(self, statement => statement.presence(jet));
+        let formulas = of_each!(self, statement => statement.at_images_of_maps());
+        if jet.phase.model().system.is_map() && !formulas.is_empty() {
+            let there = jet.image();
+            values.extend(formulas.into_iter().flat_map(|formula| written_at(&there, formula)));
+        }
+        values
     }
 
     /// Computes auxiliary values, needed at a few states only.
@@ -277,7 +286,13 @@ impl ClaimKind {
 
     /// Returns the conditions that the claim presupposes.
     pub fn conditions(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> Vec<Condition> {
-        of_each!(self, statement => statement.conditions(jet, kept))
+        let mut conditions = of_each!(self, statement => statement.conditions(jet, kept));
+        let model = jet.phase.model();
+        if model.system.is_map() {
+            let formulas = of_each!(self, statement => statement.at_images_of_maps());
+            conditions.extend(one_antiderivative(model, &formulas));
+        }
+        conditions
     }
 
     /// Computes the residual at given values of the new variables, with its requirement, if it

@@ -10,7 +10,7 @@
 
 use super::clock::never_rests;
 use super::components::Components;
-use super::fixed_point::system_at;
+use super::elsewhere::{inside, system_at};
 use super::point::read_point;
 use super::statement::Objection;
 use super::{Condition, Need, Reader, ResidualContext, Statement, difference};
@@ -73,7 +73,7 @@ impl Statement for NoDensityNear {
     }
 
     fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
-        system_at(jet, &self.0)
+        inside(system_at(&jet.phase.with(&[], &self.0.at(&jet.phase))))
     }
 
     fn context(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> ResidualContext {

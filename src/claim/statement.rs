@@ -113,6 +113,11 @@ pub trait Statement: Clone {
         Vec::new()
     }
 
+    /// Returns the formulas that the residual of a map takes at Φ(x) as well.
+    fn at_images_of_maps(&self) -> Vec<&Formula> {
+        Vec::new()
+    }
+
     /// Computes auxiliary values, needed at a few states only.
     fn context(&self, _: &DualPoint<'_, Expr>, _: &[bool]) -> ResidualContext {
         ResidualContext::default()

@@ -1,6 +1,8 @@
 //! Maps of phase space: symmetries, reversors, scalings, and maps to other systems.
 
 use super::clock::clock;
+use super::elsewhere::{one_antiderivative, system_at, written_at};
+use super::statement::open_constant;
 use super::{Condition, Jets, Need, Reader, Statement, difference, quadrature_defects};
 use crate::formula::{Formula, Type};
 use crate::graph::{Expr, record};
@@ -181,6 +183,18 @@ impl Statement for Symmetry {
         Ok(Self { map, time })
     }
 
+    fn at_images_of_maps(&self) -> Vec<&Formula> {
+        self.map.formulas()
+    }
+
+    fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
+        system_at(&self.map.point(&jet.phase))
+    }
+
+    fn limit_of_refutation(&self, model: &Model) -> Option<&'static str> {
+        open_constant(model, &model.dynamics())
+    }
+
     fn formulas(&self) -> Vec<&Formula> {
         self.map.formulas().into_iter().chain(&self.time).collect()
     }
@@ -197,11 +211,13 @@ impl Statement for Symmetry {
         let mut rows: Vec<Vec<Expr>> = (0..rank).map(row).collect();
         // On a level it is enough that no direction tangent to it is lost.
         rows.extend(jet.level_gradients(kept));
-        vec![Condition {
+        let invertible = Condition {
             need: Need::Rank { rows, rank },
             otherwise: "the map cannot be inverted".to_string(),
             is_essential: false,
-        }]
+        };
+        let model = jet.phase.model();
+        one_antiderivative(model, &model.dynamics()).into_iter().chain([invertible]).collect()
     }
 
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {
@@ -229,6 +245,27 @@ impl Statement for Reversor {
         let mut map = Transformation::read(from, Self::NAME)?;
         map.scale_clock(from.complete_model(), Some(&Formula::number(-1)));
         Ok(Self(map))
+    }
+
+    fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
+        let there = self.0.point(&jet.phase);
+        let mut values = system_at(&there);
+        values.extend(self.0.formulas().into_iter().flat_map(|own| written_at(&there, own)));
+        if jet.phase.model().system.is_map() {
+            let next = jet.image();
+            values.extend(self.0.formulas().into_iter().flat_map(|own| written_at(&next, own)));
+            values.extend(system_at(&self.0.point(&next)));
+        }
+        values
+    }
+
+    fn limit_of_refutation(&self, model: &Model) -> Option<&'static str> {
+        open_constant(model, &model.dynamics())
+    }
+
+    fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+        let model = jet.phase.model();
+        one_antiderivative(model, &model.dynamics()).into_iter().collect()
     }
 
     fn formulas(&self) -> Vec<&Formula> {

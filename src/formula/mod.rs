@@ -224,6 +224,13 @@ impl Formula {
         self.arena.nodes.iter().any(integral)
     }
 
+    /// Returns the texts of all `∫`.
+    pub(crate) fn antiderivative_texts(&self) -> impl Iterator<Item = &str> {
+        let nodes = self.arena.nodes.iter();
+        let own = nodes.filter(|node| matches!(node.operation, NodeOperation::Antiderivative(..)));
+        own.map(|node| self.text.get(node.span.clone()).unwrap_or(&self.text))
+    }
+
     /// Evaluates integrand and variable of every `∫`, in the order of the text.
     ///
     /// # Panics

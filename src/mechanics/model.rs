@@ -200,6 +200,17 @@ impl Model {
         all.into_iter().any(Formula::has_antiderivative)
     }
 
+    /// Whether formulas contain different `∫`, each with a constant of its own.
+    pub(crate) fn has_several_antiderivatives(&self, formulas: &[&Formula]) -> bool {
+        let all = formulas
+            .iter()
+            .flat_map(|formula| self.vocabulary.with_abbreviations(formula, &self.abbreviations));
+        let all: Vec<&Formula> = all.collect();
+        let mut texts = all.iter().flat_map(|formula| formula.antiderivative_texts());
+        let first = texts.next();
+        texts.any(|text| Some(text) != first)
+    }
+
     /// Whether the value of a parameter is written into the case, or into one of these formulas, as
     /// a size or an index, so that the parameter cannot change.
     pub fn is_rigid(&self, parameter: usize, formulas: &[&Formula]) -> bool {

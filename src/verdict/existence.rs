@@ -277,6 +277,10 @@ impl Judging<'_> {
         if !layout.existing(&values, span)[0] {
             return false;
         }
+        // What the claim takes at other points may have none.
+        if !item.presence.is_empty() && !values.existing(&[span.residual.clone()])[0] {
+            return false;
+        }
         let residuals = values.range(span.residual.clone());
         let away = residuals.iter().find(|value| Mixed::excludes_zero(value, 0));
         if let Some((mid, rad)) = away.and_then(|value| Mixed::enclosure(value, 0)) {

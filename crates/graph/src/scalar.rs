@@ -67,6 +67,11 @@ pub trait Scalar: DualNum<Primitive = f64> + Copy {
         false
     }
 
+    /// Whether a root or a fractional power was taken of what is 0 by its form.
+    fn is_on_edge(&self) -> bool {
+        false
+    }
+
     /// Expands the value up to and including some order of a variable, an input that tends to 0 from
     /// one side; only recorded values have expansions.
     fn expanded(self, _: Self, _: Side, _: i32) -> Expanded<Self> {

@@ -21,6 +21,9 @@ use liouville::proof::root_numbers;
 /// Largest number of points drawn until the field has a Taylor series at one.
 const MOST_POINTS: usize = 4096;
 
+/// Orders that are tried, counted from the lowest; brackets of constraints need the higher ones.
+const ORDERS: [u32; 7] = [0, 1, 3, 5, 8, 11, 15];
+
 /// The space of polynomials in the velocities to be counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct VelocityPolynomials {
@@ -70,7 +73,7 @@ impl<'l> MotionAtPoint<'l> {
     ) -> Result<DimensionCount, SearchError> {
         let mut last = None;
         let lowest = lowest_order(asked.degree);
-        for order in [lowest, lowest + 1, lowest + 3, lowest + 5] {
+        for order in ORDERS.map(|more| lowest + more) {
             let Some(found) = self.count_to_order(asked, weight, order, effort)? else { continue };
             if found.dimension <= least || last == Some(found.dimension) {
                 return Ok(found);

@@ -1,6 +1,7 @@
 //! Claims of absence: what they exclude, what refutes them, and that nothing that is there is ever
 //! excluded.
 
+mod constraints;
 mod densities;
 mod functions;
 mod known;

@@ -131,7 +131,10 @@ fn group(table: &Table<'_, '_>) -> Group {
         let given = field.iter().find(|(known, _)| known == name);
         (format!("{name}'"), given.map_or_else(|| still(name, range), |(_, rate)| rate.clone()))
     };
-    write(&mut case, "field", &state.iter().map(rate).collect::<Vec<_>>());
+    match &table.pairs("map")[..] {
+        [] => write(&mut case, "field", &state.iter().map(rate).collect::<Vec<_>>()),
+        map => write(&mut case, "map", map),
+    }
     let level = table.texts("level");
     if !level.is_empty() {
         let quoted: Vec<String> = level.iter().map(|text| format!("\"{text}\"")).collect();

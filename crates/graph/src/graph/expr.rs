@@ -186,6 +186,10 @@ impl Scalar for Expr {
         self.is_never()
     }
 
+    fn is_on_edge(&self) -> bool {
+        super::edges(&[*self]).into_iter().any(Self::is_never)
+    }
+
     fn expanded(self, variable: Self, side: Side, order: i32) -> Expanded<Self> {
         expansion(self, variable, side, order)
     }

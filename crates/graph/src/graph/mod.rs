@@ -42,6 +42,7 @@ pub use expr::Expr;
 use index::Index;
 pub use merge::{Choice, Member};
 pub use points::Points;
+pub use presence::edges;
 pub use steps::Step;
 pub(crate) use tape::Instruction;
 pub use tape::Tape;
@@ -272,7 +273,9 @@ impl Graph {
             Node::Constant(_) | Node::Input(_) => Defined::Always,
             Node::Unary(function, a) => match function {
                 UnaryFunction::Recip => partly(of(a), a == ZERO),
-                UnaryFunction::Sqrt if self.constant_at(a).is_some() && !negative(a) => {
+                UnaryFunction::Sqrt
+                    if self.constant_at(a).is_some() && !negative(a) && a != ZERO =>
+                {
                     Defined::Always
                 }
                 UnaryFunction::Sqrt => partly(of(a), negative(a)),

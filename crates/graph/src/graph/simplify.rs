@@ -188,13 +188,15 @@ impl Graph {
     }
 
     pub(super) fn unary(&mut self, function: UnaryFunction, a: NodeId) -> NodeId {
+        // A root of 0 is the end of a domain.
+        let is_end = self.literal && function == UnaryFunction::Sqrt && a == ZERO;
+        if is_end || self.is_undefined(a) {
+            return self.intern(Node::Unary(function, a));
+        }
         if let Some(value) = self.constant_at(a).cloned()
             && let Some(folded) = fold_unary(function, &value)
         {
             return self.constant(folded);
-        }
-        if self.is_undefined(a) {
-            return self.intern(Node::Unary(function, a));
         }
         if function == UnaryFunction::Sqrt
             && let Some(root) = self.denested(a)
@@ -232,12 +234,22 @@ impl Graph {
         }
     }
 
+    /// Raises to a power x^y, which has a value for x > 0 alone, also where y comes out as a whole
+    /// number.
     pub(super) fn pow(&mut self, base: NodeId, exponent: NodeId) -> NodeId {
         match self.constant_at(exponent).cloned() {
-            Some(exponent) => self.power(base, &exponent),
+            Some(exponent) if !self.literal || self.is_positive_constant(base) => {
+                self.power(base, &exponent)
+            }
+            Some(_) => self.intern(Node::Binary(BinaryOperation::Pow, base, exponent)),
             None if base == ONE && self.may_drop(exponent) => base,
             None => self.intern(Node::Binary(BinaryOperation::Pow, base, exponent)),
         }
+    }
+
+    fn is_positive_constant(&self, node: NodeId) -> bool {
+        let zero = Rational::from(0);
+        self.constant_at(node).is_some_and(|value| *value > zero)
     }
 
     /// Raises to a power x^q: small integers are multiplied out, half-integers use one root, and

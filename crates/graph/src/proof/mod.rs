@@ -204,6 +204,14 @@ impl Prover<'_> {
                     _ => GroupOutcome::Partial,
                 });
             }
+            // Unless the claim says nothing anyway, what it presupposes is missing.
+            if matches!(outcome, GroupOutcome::Void) && !group.presence.is_empty() {
+                let nothing = question.graph.at(0);
+                let asked = Group { outputs: vec![nothing], presence: Vec::new(), ..group.clone() };
+                let alone = self.prove(question.graph, &[asked])?;
+                let is_void = alone.iter().any(|own| matches!(own, GroupOutcome::Void));
+                return Ok(if is_void { outcome } else { GroupOutcome::Partial });
+            }
             match (is_partial, &outcome) {
                 (true, GroupOutcome::Zero(_) | GroupOutcome::Void) => {
                     self.on_all_parts(question, group, outcome)

@@ -37,7 +37,7 @@ use liouville::case::{AbsenceClaim, Case, Expect};
 use liouville::claim::absence::Absence;
 use liouville::formula::Formula;
 use liouville::graph::Step;
-use liouville::mechanics::Draw;
+use liouville::mechanics::{Draw, System};
 use liouville::number::{BinaryOperation, UnaryFunction};
 use liouville::verdict::{
     self, CaseReport, ClaimReport, Evidence, JudgeError, Method, Options, Trust, Verdict,
@@ -184,7 +184,8 @@ impl<'a> AbsenceCase<'a> {
         {
             return Ok(AbsenceOutcome::Exhibited(density));
         }
-        let outcome = if Coordinates::of(self.case).is_ok() {
+        let coordinates = Coordinates::of(self.case);
+        let outcome = if coordinates.is_ok() {
             velocities::judge(self, counted, degree)?
         } else {
             let own = AnsatzVariables::of(self.case).filter(|own| !own.have_velocities());
@@ -197,11 +198,12 @@ impl<'a> AbsenceCase<'a> {
                         (None, Counted::Densities) => polynomials::nothing(),
                     }
                 }
-                None => AbsenceOutcome::Open(
-                    "velocities are not known apart, and polynomials in all variables are counted \
-                     without a level set only"
+                None => AbsenceOutcome::Open(match &coordinates {
+                    Err(error) if matches!(system, System::Lagrangian(_)) => error.to_string(),
+                    _ => "velocities are not known apart, and polynomials in all variables are \
+                          counted without a level set only"
                         .to_string(),
-                ),
+                }),
             }
         };
         match outcome {

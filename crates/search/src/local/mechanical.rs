@@ -9,8 +9,7 @@ use crate::SearchError;
 use crate::echelon::Echelon;
 use crate::streams::SearchStream;
 use liouville::case::Case;
-use liouville::formula::Formula;
-use liouville::graph::{Evaluator, Expr, Graph, Step, Tape, record};
+use liouville::graph::{Evaluator, Expr, Graph, Tape, record};
 use liouville::mechanics::elimination::solve_by_minors;
 use liouville::mechanics::{Draw, Lagrangian, Model, Phase, VariableRole};
 use liouville::number::prime::{Prime, UNDEFINED};
@@ -57,7 +56,7 @@ impl Mechanical {
             start += variable.len();
         }
         let draws = model.parameter_draws();
-        let mut turned = angles(model, draws.len())?;
+        let mut turned = turned(model, draws.len())?;
         let angles = turned.split_off(draws.len());
         for (turned, draw) in turned.iter_mut().zip(&draws) {
             // Other draws are numbers.
@@ -223,7 +222,12 @@ impl Slopes {
 
 /// The value of a variable: x, or 2 atan x.
 fn place<T: Scalar>(x: T, angle: bool) -> T {
-    if angle { x.atan() * T::from(2.0) } else { x }
+    if angle { twice_the_arctangent(x) } else { x }
+}
+
+/// The angle φ with tan φ/2 = t.
+pub fn twice_the_arctangent<T: Scalar>(t: T) -> T {
+    t.atan() * T::from(2.0)
 }
 
 fn number(a: i64, b: i64) -> Expr {
@@ -236,27 +240,26 @@ fn constraints<T: Scalar>(model: &Model, parameters: &[T], state: &[T]) -> Vec<T
     model.level_formulas().map(|f| phase.configuration.scalar(f)).collect()
 }
 
-/// Finds the draws and the components of the state on which arguments of sines and cosines depend.
-fn angles(model: &Model, draws: usize) -> Result<Vec<bool>, SearchError> {
+/// Tells of which draws and components of the state sines or cosines occur in the equations.
+fn turned(model: &Model, draws: usize) -> Result<Vec<bool>, SearchError> {
     let count = draws + model.dimension();
     let (graph, values) = record(count, |inputs| {
         let (given, state) = inputs.split_at(draws);
         let (parameters, _) = model.make_parameters(given);
         let phase = Phase::new(model, &parameters, state);
-        let formulas: Vec<&Formula> =
-            model.dynamics().into_iter().chain(model.level_formulas()).collect();
-        formulas.iter().flat_map(|f| phase.evaluate(f).components()).collect::<Vec<Expr>>()
+        let formulas = model.dynamics().into_iter().chain(model.level_formulas());
+        formulas.flat_map(|f| phase.evaluate(f).components()).collect::<Vec<Expr>>()
     })?;
-    let mut found = vec![false; count];
-    let arguments = angle_arguments(&graph, &values);
-    let reached = graph.reached(arguments.iter().map(|place| graph.at(*place)));
-    for (step, reached) in graph.steps().zip(reached) {
-        if let Step::Input(input) = step
-            && reached
-            && input < count
-        {
-            found[input] = true;
-        }
-    }
-    Ok(found)
+    let angles = angles(&graph, &values);
+    Ok((0..count).map(|input| angles.contains(&input)).collect())
+}
+
+/// Lists the inputs on which the arguments of sines and cosines depend that some values need.
+pub fn angles(graph: &Graph, values: &[Expr]) -> Vec<usize> {
+    let arguments = angle_arguments(graph, values);
+    let mut found: Vec<usize> =
+        arguments.iter().flat_map(|place| graph.inputs_of(graph.at(*place))).collect();
+    found.sort_unstable();
+    found.dedup();
+    found
 }

@@ -4,6 +4,7 @@ mod coordinates;
 mod mechanical;
 
 pub use coordinates::Coordinates;
+pub use mechanical::{angles, twice_the_arctangent};
 
 use super::SearchError;
 use liouville::case::Case;

@@ -69,6 +69,9 @@ fn is_sum_of_squares(graph: &Graph, place: usize, is_known: &dyn Fn(usize) -> bo
     true
 }
 
+/// Largest number of known arguments with which one is compared.
+const MOST_OTHERS: usize = 16;
+
 /// Requirements of operations on one argument.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Needs {
@@ -79,6 +82,15 @@ struct Needs {
 }
 
 impl Needs {
+    fn add(&mut self, other: Self) {
+        self.nonzero |= other.nonzero;
+        self.not_negative |= other.not_negative;
+    }
+
+    fn include(&self, other: Self) -> bool {
+        (self.nonzero || !other.nonzero) && (self.not_negative || !other.not_negative)
+    }
+
     /// Returns the argument of a step that may have no value, and what it needs.
     fn of(step: Step<'_>) -> Option<(usize, Self)> {
         let needs = |nonzero, not_negative| Self { nonzero, not_negative };
@@ -112,24 +124,60 @@ impl Prover<'_> {
         let given = graph.reached(group.required.iter().copied());
         let asked = graph.reached(group.presence.iter().copied());
         let mut needs: BTreeMap<usize, Needs> = BTreeMap::new();
+        let mut known: BTreeMap<usize, Needs> = BTreeMap::new();
         for (place, step) in graph.steps().enumerate() {
-            if let (true, false, Some((argument, own))) =
-                (asked[place], given[place], Needs::of(step))
-            {
-                let all = needs.entry(argument).or_default();
-                all.nonzero |= own.nonzero;
-                all.not_negative |= own.not_negative;
+            let Some((argument, own)) = Needs::of(step) else { continue };
+            if given[place] {
+                known.entry(argument).or_default().add(own);
+            } else if asked[place] {
+                needs.entry(argument).or_default().add(own);
             }
         }
         for (argument, needs) in needs {
             let value = graph.at(argument);
-            if needs.not_negative && !self.is_never_negative(graph, group, value)?
-                || needs.nonzero && !self.is_almost_nonzero(question, group, value)?
-            {
+            let is_present = (!needs.not_negative
+                || self.is_never_negative(graph, group, value)?)
+                && (!needs.nonzero || self.is_almost_nonzero(question, group, value)?);
+            if is_present {
+                continue;
+            }
+            let enough = known.iter().filter(|(_, own)| own.include(needs));
+            let others: Vec<Expr> = enough.map(|(other, _)| graph.at(*other)).collect();
+            if !self.is_one_of(graph, group, value, &others)? {
                 return Ok(false);
             }
         }
         Ok(true)
+    }
+
+    /// Whether a value is proved to be the same as one of some others.
+    fn is_one_of(
+        &self,
+        graph: &Graph,
+        group: &Group,
+        value: Expr,
+        others: &[Expr],
+    ) -> Result<bool, Fault> {
+        let Group { required, facts, .. } = group;
+        for other in others.iter().take(MOST_OTHERS) {
+            let (made, found) = record(graph.inputs(), |inputs| {
+                let reached = graph.reached([value, *other]);
+                let conditions = graph.reached([&required[..], facts].concat());
+                let values = graph.replay(&reached, inputs, |_, _, _| None);
+                let kept = literally(|| graph.replay(&conditions, inputs, |_, _, _| None));
+                let all = |some: &[Expr]| {
+                    some.iter().map(|own| kept[graph.place(*own)]).collect::<Option<Vec<Expr>>>()
+                };
+                let (value, other) = (values[graph.place(value)]?, values[graph.place(*other)]?);
+                let (required, facts) = (all(required)?, all(facts)?);
+                Some(Group { outputs: vec![value - other], required, facts, presence: Vec::new() })
+            })?;
+            let Some(group) = found else { continue };
+            if self.prove(&made, &[group])?.iter().all(GroupOutcome::is_zero) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// Whether a value is proved to be nowhere negative where the required values exist.

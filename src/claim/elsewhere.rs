@@ -1,0 +1,39 @@
+//! What a claim requires at a point other than the state: at σ(x), at Φ(x), at a fixed point.
+
+use super::{Condition, Need};
+use crate::formula::Formula;
+use crate::graph::{Expr, edges};
+use crate::mechanics::{Model, Phase};
+use num_traits::Zero;
+
+/// Records the equations of motion as written at a point: where they have no value the point is not in
+/// phase space.
+pub(super) fn system_at(at: &Phase<'_, Expr>) -> Vec<Expr> {
+    let model = at.model();
+    let formulas = model.parameter_formulas().chain(model.dynamics());
+    formulas.flat_map(|formula| written_at(at, formula)).collect()
+}
+
+/// Records formulas as written at a point, with the integrands of every ∫.
+pub(super) fn written_at(at: &Phase<'_, Expr>, formula: &Formula) -> Vec<Expr> {
+    let mut values = at.evaluate_literally(formula).components();
+    values.extend(at.integrands(formula));
+    values
+}
+
+/// Adds what must not be 0 for the values to have derivatives of all orders near the point.
+pub(super) fn inside(mut values: Vec<Expr>) -> Vec<Expr> {
+    values.extend(edges(&values));
+    values
+}
+
+/// The condition that formulas taken at two points contain no two different ∫: one of them at one point
+/// may have the form of the other at the other, and they differ by a constant.
+pub(super) fn one_antiderivative(model: &Model, formulas: &[&Formula]) -> Option<Condition> {
+    model.has_several_antiderivatives(formulas).then(|| Condition {
+        need: Need::NotZero { value: Expr::zero() },
+        otherwise: "it compares different ∫ at two points, and the constant of each is open"
+            .to_string(),
+        is_essential: true,
+    })
+}
