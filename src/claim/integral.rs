@@ -1,12 +1,11 @@
 //! First integrals: L_vF = 0, or F∘Φ = F for a map; for scalars, vectors and matrices.
 
-use super::statement::open_constant;
 use super::{Condition, Novelty, Reader, ResidualContext, Statement, difference};
 use crate::formula::Formula;
 use crate::graph::Expr;
+use crate::mechanics::Phase;
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::elimination::{dot, rejection};
-use crate::mechanics::{Model, Phase};
 use crate::scalar::Scalar;
 
 /// F is a first integral: L_vF = 0, or F∘Φ = F.
@@ -23,10 +22,6 @@ impl Statement for Integral {
 
     fn at_images_of_maps(&self) -> Vec<&Formula> {
         vec![&self.0]
-    }
-
-    fn limit_of_refutation(&self, model: &Model) -> Option<&'static str> {
-        model.system.is_map().then(|| open_constant(model, &[&self.0])).flatten()
     }
 
     fn formulas(&self) -> Vec<&Formula> {

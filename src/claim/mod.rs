@@ -45,7 +45,7 @@ mod value;
 
 use num_dual::DualNum;
 
-use elsewhere::{one_antiderivative, written_at};
+use elsewhere::written_at;
 
 use crate::formula::Formula;
 use crate::graph::{Expr, literally};
@@ -286,13 +286,7 @@ impl ClaimKind {
 
     /// Returns the conditions that the claim presupposes.
     pub fn conditions(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> Vec<Condition> {
-        let mut conditions = of_each!(self, statement => statement.conditions(jet, kept));
-        let model = jet.phase.model();
-        if model.system.is_map() {
-            let formulas = of_each!(self, statement => statement.at_images_of_maps());
-            conditions.extend(one_antiderivative(model, &formulas));
-        }
-        conditions
+        of_each!(self, statement => statement.conditions(jet, kept))
     }
 
     /// Computes the residual at given values of the new variables, with its requirement, if it

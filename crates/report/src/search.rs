@@ -62,6 +62,9 @@ pub fn text(title: &str, report: &SearchReport) -> String {
         if let Some(proof) = &found.evidence.proof {
             out.push_str(&format!("  {proof}\n"));
         }
+        if let Some(remark) = &found.evidence.remark {
+            out.push_str(&format!("  {remark}\n"));
+        }
         if let Some(known) = &found.known {
             out.push_str(&format!("  a function of what the case claims: {known}\n"));
         }

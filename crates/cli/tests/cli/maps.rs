@@ -278,3 +278,19 @@ fn commands_that_need_a_flow_refuse_a_map() {
         .stdout(contains("image").and(contains("det DΦ")));
     run(&["check", file, "--mutants"]).code(0);
 }
+
+#[test]
+fn a_search_states_the_hypothesis_of_a_density() {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("folded");
+    fs::create_dir_all(&folder).expect("a folder");
+    let file = folder.join("fold.toml");
+    let text =
+        "title = 't'\n[state]\nx = '-0.001..1'\ny = '0.5..1'\n[map]\nx = 'x²'\ny = 'y/(2*x)'\n";
+    fs::write(&file, text).expect("written");
+    Command::cargo_bin("liouville")
+        .expect("the program")
+        .arg("search")
+        .arg(&file)
+        .assert()
+        .stdout(contains("density proved").and(contains("only where Φ is one-to-one")));
+}
