@@ -315,7 +315,10 @@ pub fn of_chart<'py>(
             [class, found.largest.mean, found.largest.error, found.divergence.mean]
         }
         Err(
-            FlowError::Singular { .. } | FlowError::Shrinking { .. } | FlowError::Endless { .. },
+            FlowError::Singular { .. }
+            | FlowError::Overflow(_)
+            | FlowError::Shrinking { .. }
+            | FlowError::Endless { .. },
         ) => [BROKEN, f64::NAN, f64::NAN, f64::NAN],
         Err(_) => [NO_START, f64::NAN, f64::NAN, f64::NAN],
     });

@@ -177,7 +177,11 @@ fn read(
     }
     let hidden = parts.hidden.iter().map(|name| shadows::warning(name));
     let alike = parts.alike.iter().cloned();
-    let warnings = hidden.chain(alike).chain(warnings).chain(of_chart(&parts)).collect();
+    let bare = one_sided
+        .as_ref()
+        .and_then(|_| one_sided::warning(claims.len() + absences.len(), &motions));
+    let warnings =
+        hidden.chain(alike).chain(warnings).chain(of_chart(&parts)).chain(bare).collect();
     let ModelParts { model, chart, free_draws, .. } = parts;
     let is_without_claims = claims.is_empty() && motions.is_empty() && absences.is_empty();
     remarks.extend(remarks::remarks(root, &system, &model, &claims, is_without_claims));

@@ -1,9 +1,11 @@
 //! The table `[one-sided]`: a constraint r(x) ≥ 0, and the motion in contact with it.
 
+use super::MotionClaim;
 use super::error::Problem;
 use super::field;
 use super::formulas::formula;
 use super::section::CaseTable;
+use crate::claim::motion::MotionKind;
 use crate::formula::{Formula, Type};
 use crate::mechanics::{Dependence, Model, System};
 
@@ -16,6 +18,18 @@ pub struct OneSided {
     pub reaction: Formula,
     /// Rates of the state in contact.
     pub contact: Vec<Formula>,
+}
+
+/// Warning where claims of a case are about its field and not about motions under a constraint.
+pub(super) fn warning(claims: usize, motions: &[MotionClaim]) -> Option<String> {
+    let keeps = |claim: &MotionClaim| {
+        matches!(claim.kind, MotionKind::Contacts(_) | MotionKind::LimitOfMotion(_))
+    };
+    let is_about_field = claims > 0 || !motions.iter().all(keeps);
+    is_about_field.then(|| {
+        "verdicts speak of the field without [one-sided], other than of contacts and limit-of-motion"
+            .to_string()
+    })
 }
 
 /// Reads `[one-sided]`; `None` where it is absent, or has a mistake.

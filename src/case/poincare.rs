@@ -131,7 +131,7 @@ fn plan(section: &CaseTable<'_>) -> Result<SectionPlan, Mistake> {
             .map_err(|_| wrong(&energy, format!("`{}` is not a number", energy.value)))?,
         direction,
         orbits: section.count("orbits", MOST_POINTS)?,
-        crossings: section.count("crossings", MOST_POINTS)?,
+        crossings: crossings(section)?,
         skip: section.count("skip", MOST_POINTS)?.unwrap_or(0),
         starts: starts(section)?,
         colour: section.text("colour")?.map(|text| text.value),
@@ -144,6 +144,19 @@ fn plan(section: &CaseTable<'_>) -> Result<SectionPlan, Mistake> {
         images: section.count("images", MOST_POINTS)?.unwrap_or(DEFAULT_IMAGES),
     };
     Ok(plan)
+}
+
+/// Reads the number of crossings, 1 or more.
+fn crossings(section: &CaseTable<'_>) -> Result<Option<usize>, Mistake> {
+    let count = section.count("crossings", MOST_POINTS)?;
+    match (count, section.value("crossings")) {
+        (Some(0), Some(value)) => {
+            let message = "a section without crossings shows nothing".to_string();
+            let remedy = "write 1 or more, or leave it out".to_string();
+            Err(Mistake::at(value.span(), Problem::Other { message, remedy }))
+        }
+        _ => Ok(count),
+    }
 }
 
 /// Reads `starts = [[l, z], …]`.

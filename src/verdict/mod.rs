@@ -57,7 +57,7 @@ pub use judge::{
 };
 pub use mutants::{MutantReport, MutationReport};
 pub(crate) use point::named;
-pub use point::{Digits, Enclosed, NamedValue, PointReport, evaluate, evaluate_digits};
+pub use point::{Digits, Enclosed, NamedValue, OVERFLOW, PointReport, evaluate, evaluate_digits};
 pub use sampler::{Sampler, TAPE_LANES};
 pub use state::{StateError, read_state};
 pub use statement::{Composed, Residuals, statements};

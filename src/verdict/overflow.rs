@@ -1,6 +1,8 @@
 //! Why values do not exist: numbers beyond the range of f64, or operations without a value.
 
 use crate::graph::{Expr, Graph, Step};
+use crate::number::arb::{Approximation, ArbBall};
+use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
 
 /// Whether values that do not exist at a point are too large for f64, at the first step that goes
@@ -24,6 +26,72 @@ pub fn is_cause(graph: &Graph, outputs: &[Expr], point: &[f64]) -> bool {
         values[place] = value;
     }
     false
+}
+
+/// Whether a value that does not exist at a point is beyond the range of balls of many digits, or
+/// formed of numbers that are, and no operation on the way to it is without a value.
+pub fn is_beyond(graph: &Graph, output: Expr, point: &[Rational], balls: &ArbBall) -> bool {
+    let reached = graph.reached([output]);
+    let mut values: Vec<Option<Approximation>> = vec![None; reached.len()];
+    let mut is_beyond = false;
+    for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
+        let (value, exists) = match step {
+            Step::Constant(value) => (Some(balls.rational(value)), true),
+            Step::Input(input) => (point.get(input).map(|x| balls.rational(x)), false),
+            Step::Unary(function, a) => match &values[a] {
+                None => continue,
+                Some(x) => (balls.function(function, x), is_unary_defined(function, x)),
+            },
+            Step::Binary(operation, a, b) => match (&values[a], &values[b]) {
+                (Some(x), Some(y)) => operated(balls, operation, x, y),
+                _ => continue,
+            },
+            Step::Power(a, exponent) => match &values[a] {
+                None => continue,
+                // Of a negative number a power of a very large exponent has no value.
+                Some(x) => (balls.rational_power(x, exponent), x.is_positive()),
+            },
+        };
+        values[place] = value.and_then(Approximation::in_range);
+        if values[place].is_none() {
+            if !exists {
+                return false;
+            }
+            is_beyond = true;
+        }
+    }
+    is_beyond
+}
+
+/// Whether a function has a value at all numbers of an interval.
+fn is_unary_defined(function: UnaryFunction, x: &Approximation) -> bool {
+    match function {
+        UnaryFunction::Neg
+        | UnaryFunction::Abs
+        | UnaryFunction::Exp
+        | UnaryFunction::Sin
+        | UnaryFunction::Cos
+        | UnaryFunction::Atan => true,
+        UnaryFunction::Recip => x.excludes_zero(),
+        UnaryFunction::Sqrt => x.is_positive() || x.is_zero(),
+        UnaryFunction::Ln => x.is_positive(),
+    }
+}
+
+/// Value of an operation on intervals, and whether it has one for all their numbers.
+fn operated(
+    balls: &ArbBall,
+    operation: BinaryOperation,
+    x: &Approximation,
+    y: &Approximation,
+) -> (Option<Approximation>, bool) {
+    let bits = balls.bits();
+    match operation {
+        BinaryOperation::Add => (Some(x.add(y, bits)), true),
+        BinaryOperation::Sub => (Some(x.add(&y.neg(), bits)), true),
+        BinaryOperation::Mul => (Some(x.mul(y, bits)), true),
+        BinaryOperation::Pow => (balls.power_of(x, y), x.is_positive()),
+    }
 }
 
 /// Value of a function in f64, and whether it exists among the real numbers.
@@ -62,6 +130,22 @@ mod tests {
     fn cause(formula: impl Fn(Expr) -> Expr, x: f64) -> bool {
         let (graph, value) = record(1, |inputs| formula(inputs[0])).expect("recorded");
         is_cause(&graph, &[value], &[x])
+    }
+
+    #[test]
+    fn numbers_beyond_all_ranges_are_told_from_what_has_no_value() {
+        use num_dual::DualNum;
+        let beyond = |formula: &dyn Fn(Expr) -> Expr, x: i64| {
+            let (graph, value) = record(1, |inputs| formula(inputs[0])).expect("recorded");
+            is_beyond(&graph, value, &[Rational::from(x)], &ArbBall::new(160))
+        };
+        let twice = |x: Expr| x.exp().exp();
+        assert!(beyond(&twice, 100), "e^(e^100)");
+        assert!(beyond(&|x| twice(x) * x, 100), "and what is formed of it");
+        assert!(!beyond(&|x| x.exp(), 1000), "a number, if not of f64");
+        assert!(!beyond(&|x| (x - x * x).recip(), 1), "1/0");
+        assert!(!beyond(&|x| twice(x) + (x - 100.0).recip(), 100), "1/0 beside it");
+        assert!(!beyond(&|x| (-x).ln(), 3), "the logarithm of a negative number");
     }
 
     #[test]

@@ -1,10 +1,10 @@
 //! Evaluation of all quantities of a case at one state, for `eval`.
 
 use super::sampler::Sampler;
-use super::{JudgeError, antiderivative_value};
+use super::{JudgeError, antiderivative_value, overflow};
 use crate::case::Case;
 use crate::claim::LevelSubset;
-use crate::graph::{Evaluator, Expr, Tape, record};
+use crate::graph::{Evaluator, Expr, Graph, Tape, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::elimination::determinant;
 use crate::mechanics::{Model, Phase, components};
@@ -13,14 +13,18 @@ use crate::number::arb::{Approximation, ArbBall};
 use crate::number::rational::Rational;
 use crate::requirement;
 
-/// A number with a bound on its error; `None` where it is undefined.
+/// A number with a bound on its error, infinite where the number, or one that it is formed of, is too
+/// large for f64; `None` where it is undefined.
 pub type Enclosed = Option<(f64, f64)>;
 
 /// A name with the components of its value.
 pub type NamedValue = (String, Vec<String>);
 
-/// Decimal digits of a number; `None` where it is undefined.
+/// Decimal digits of a number, or [`OVERFLOW`]; `None` where it is undefined.
 pub type Digits = Option<String>;
+
+/// Word in place of the digits of a number that is too large, or formed of numbers that are.
+pub const OVERFLOW: &str = "overflow";
 
 /// All quantities of a case at one state, as enclosures or as digits.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,8 +75,13 @@ pub fn evaluate(
     index: u64,
 ) -> Result<PointReport, JudgeError> {
     let scene = PointScene::new(case, state, seed, index)?;
-    let values = scene.values(&ArbBall::new(POINT_BITS));
-    Ok(scene.report(values.iter().map(|value| Some(value.as_ref()?.enclosure())).collect()))
+    let balls = ArbBall::new(POINT_BITS);
+    let values = scene.values(&balls);
+    let enclosed = |(place, value): (usize, &Option<Approximation>)| match value {
+        Some(value) => Some(value.enclosure()),
+        None => scene.is_beyond(place, &balls).then_some((f64::MAX, f64::INFINITY)),
+    };
+    Ok(scene.report(values.iter().enumerate().map(enclosed).collect()))
 }
 
 /// Evaluates all quantities to `wanted` significant decimal digits, all of them correct.
@@ -110,6 +119,10 @@ pub fn evaluate_digits(
             };
         }
     }
+    let balls = ArbBall::new(bits);
+    for (place, digits) in found.iter_mut().enumerate().filter(|(_, digits)| digits.is_none()) {
+        *digits = scene.is_beyond(place, &balls).then(|| OVERFLOW.to_string());
+    }
     Ok(scene.report(found))
 }
 
@@ -117,6 +130,8 @@ pub fn evaluate_digits(
 struct PointScene<'c> {
     case: &'c Case,
     point: Vec<Rational>,
+    graph: Graph,
+    outputs: Vec<Expr>,
     tape: Tape,
     inputs: usize,
     /// Numbers of outputs of each part of the report, and of values that these outputs require.
@@ -175,22 +190,12 @@ impl<'c> PointScene<'c> {
             groups.as_flattened().concat()
         })?;
         let tape = Tape::new(&graph, &outputs);
-        Ok(Self { case, point, tape, inputs: graph.inputs(), counts })
+        Ok(Self { case, point, tape, inputs: graph.inputs(), graph, outputs, counts })
     }
 
     /// Computes the outputs of the report; without a value that is required they have none.
     fn values(&self, domain: &ArbBall) -> Vec<Option<Approximation>> {
-        let antiderivatives = (0..self.inputs - self.point.len()).map(antiderivative_value);
-        let inputs: Vec<_> = self
-            .point
-            .iter()
-            .cloned()
-            .chain(antiderivatives)
-            .map(|x| domain.values(&[x]))
-            .collect();
-        let mut evaluator = Evaluator::new(&self.tape, *domain);
-        evaluator.run(&inputs);
-        let mut all = evaluator.outputs().cloned();
+        let mut all = self.numbers(domain).into_iter();
         let mut found = Vec::new();
         for [outputs, required] in self.counts.iter().copied() {
             let first = found.len();
@@ -201,6 +206,42 @@ impl<'c> PointScene<'c> {
             }
         }
         found
+    }
+
+    /// Whether a value of the report that does not exist is too large, with all that it requires.
+    fn is_beyond(&self, place: usize, balls: &ArbBall) -> bool {
+        let mut rest = place;
+        let mut first = 0;
+        for [outputs, required] in self.counts.iter().copied() {
+            if rest < outputs {
+                let inputs: Vec<Rational> = self.inputs();
+                let required = first + outputs..first + outputs + required;
+                let beyond = |place: usize| {
+                    overflow::is_beyond(&self.graph, self.outputs[place], &inputs, balls)
+                };
+                let values = self.numbers(balls);
+                let lacks = |place: &usize| values.get(*place).is_none_or(Option::is_none);
+                let mut missing =
+                    [first + rest].into_iter().chain(required).filter(lacks).peekable();
+                return missing.peek().is_some() && missing.all(beyond);
+            }
+            (rest, first) = (rest - outputs, first + outputs + required);
+        }
+        false
+    }
+
+    /// Input numbers, those of antiderivatives last.
+    fn inputs(&self) -> Vec<Rational> {
+        let antiderivatives = (0..self.inputs - self.point.len()).map(antiderivative_value);
+        self.point.iter().cloned().chain(antiderivatives).collect()
+    }
+
+    /// Computes all outputs, with those that are required.
+    fn numbers(&self, domain: &ArbBall) -> Vec<Option<Approximation>> {
+        let inputs: Vec<_> = self.inputs().into_iter().map(|x| domain.values(&[x])).collect();
+        let mut evaluator = Evaluator::new(&self.tape, *domain);
+        evaluator.run(&inputs);
+        evaluator.outputs().cloned().collect()
     }
 
     /// Makes the report from the values of the outputs; missing values of a claim are the default.

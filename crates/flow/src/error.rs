@@ -43,6 +43,17 @@ pub enum FlowError {
         /// State there, in words.
         place: String,
     },
+    /// A number is beyond the range of f64.
+    #[error("{}", overflow(*.0))]
+    Overflow(#[serde(with = "crate::record")] f64),
+    /// A value that was asked for does not exist at a state of the motion.
+    #[error("`{column}` has no value at a state of the motion, or one too large for f64")]
+    #[serde(skip)]
+    NoColumnValue {
+        /// Formula of the value.
+        #[serde(skip)]
+        column: String,
+    },
     /// The steps have shrunk, and become so many that the end is out of reach.
     #[error("{}", shrinking(*time, *step, state))]
     Shrinking {
@@ -263,6 +274,15 @@ fn without_value(formula: &str, time: f64, place: &str) -> String {
     }
 }
 
+fn overflow(time: f64) -> String {
+    match time == 0.0 {
+        true => "overflow at the start: a number of the equations is too large for f64".to_string(),
+        false => {
+            format!("overflow: a number of the motion is too large for f64 from t = {time} on")
+        }
+    }
+}
+
 fn shrinking(time: f64, step: f64, state: &[f64]) -> String {
     let state: Vec<String> = state.iter().map(|x| format!("{x:.3e}")).collect();
     format!(
@@ -303,89 +323,6 @@ fn never_crossed(time: f64, crossings: usize, others: usize) -> String {
 }
 
 impl FlowError {
-    /// Advice on how to avoid the error.
-    pub fn help(&self) -> &'static str {
-        match self {
-            FlowError::NotAnalytic(_) => "write the field without it, on one side of its zero",
-            FlowError::Antiderivative => "write the function itself instead of ∫(f, x)",
-            FlowError::Singular { time: 0.0, .. } => {
-                "choose another start; if all are singular, the parameters are"
-            }
-            FlowError::NoValue { time: 0.0, .. } => {
-                "choose another start, or other parameters; a formula that goes on there is written \
-                 without the operation, as x for x²/x"
-            }
-            FlowError::NoValue { .. } => {
-                "choose another start, or a shorter time; a formula that goes on there is written \
-                 without the operation, as x for x²/x"
-            }
-            FlowError::Singular { .. } | FlowError::Shrinking { .. } => {
-                "choose another start, or a shorter time"
-            }
-            FlowError::Endless { .. } => "give a shorter time",
-            FlowError::NoAndoyer => {
-                "for other systems give a surface, such as --section 'x = 0', and starts by states"
-            }
-            FlowError::NoSection => "add [section] with g0 and energy",
-            FlowError::Arbitrary => "give a shape and a potential by formulas",
-            FlowError::Discrete => {
-                "give a case with a field; what holds of a map is claimed, and judged by `check`"
-            }
-            FlowError::OffSphere { .. } => "write a start as l,z with |z| < 1",
-            FlowError::BelowPotential { .. } => "choose a higher energy, or another start",
-            FlowError::NeverCrossed { .. } => {
-                "choose another start, another surface (--section or --g0), or another direction"
-            }
-            FlowError::SectionEnds { .. } => {
-                "write the surface without roots, logarithms and quotients: y + 0.7 = 1/4, not sqrt(y + 0.7) = 1/2"
-            }
-            FlowError::NoTangents => "leave out an equation of [level]",
-            FlowError::AtRest => "choose another start",
-            FlowError::InSurface => "choose another surface, or a start outside of it",
-            FlowError::NoEnergy => "leave out --energy",
-            FlowError::NoPoint(_) => {
-                "choose other values, another energy or direction, or give the whole state"
-            }
-            FlowError::NoSuchClaim(_) => "give the name of a claim of the case",
-            FlowError::OneSided => "follow an orbit by `motion orbit`, or leave out [one_sided]",
-            FlowError::OneSidedBackwards => "give a positive --time",
-            FlowError::BehindConstraint { .. } => {
-                "choose a start where the function is not negative"
-            }
-            FlowError::TooManyPhases { .. } => "choose a shorter time",
-            FlowError::NoPeriodicPoint { .. } => "draw the section, and start nearer to the point",
-            FlowError::NoClosedOrbit(_) => {
-                "start nearer to the orbit, or give its period by --time or another --period"
-            }
-            FlowError::NearReturn(..) => {
-                "start elsewhere, or follow the orbits over a parameter by `motion continue`: near a \
-                 fold two of them meet, and beyond it there is none"
-            }
-            FlowError::Degenerate(_) => {
-                "where a further integral is kept, closed orbits come in families, and have no \
-                 multipliers; write a system with an energy as [hamiltonian] or [lagrangian], where \
-                 the energy is held"
-            }
-            FlowError::NoReversor { .. } => {
-                "name another of L=0, l=0, l=π/2, or another section (--g0); `liouville report` lists the reversors of a body"
-            }
-            FlowError::OutsideRange { .. } => {
-                "give it a value within by --set or --energy, or another --from or --to"
-            }
-            FlowError::EnergyChanges => "vary a parameter: --parameter NAME",
-            FlowError::NotHyperbolic { .. } => {
-                "`liouville motion periodic` tells what kind a point is; start near a hyperbolic one"
-            }
-            FlowError::TooLong => "write the field with fewer terms, by [let]",
-            FlowError::Stopped => "follow it again, for a shorter time",
-            FlowError::NoStart => {
-                "give a start nearer to the level, where the slopes of its equations do not vanish, or \
-                 another --seed or --index"
-            }
-            FlowError::Recording(_) => "use operations that hold for every number",
-        }
-    }
-
     /// The error for a function without a Taylor rule.
     pub(super) fn of_function(function: UnaryFunction) -> Self {
         match function {

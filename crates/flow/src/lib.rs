@@ -8,6 +8,7 @@
 //! orders (Moore 1966; Jorba, Zou 2005). It is run over f64, over several orbits at once, or over
 //! double-double.
 
+mod advice;
 mod chaos;
 mod closed;
 mod error;
@@ -48,7 +49,7 @@ pub use motion::one_sided::{Contact, ContactEvent};
 pub use motion::orbit::{Followed, Orbit, Precision, QuantityRole, orbit, value_at};
 pub use motion::recorded::Loose;
 pub use motion::samples::{SampledOrbit, Sampling, orbits};
-pub use motion::start::{Start, fixed_parameters};
+pub use motion::start::{Start, fixed_parameters, two_sided};
 pub use motion::track::{RollingSamples, Track, track};
 pub use motion::variational::Variational;
 pub use section::andoyer::{applies as has_andoyer_section, spread};

@@ -57,9 +57,7 @@ impl Motional for Contacts {
             .iter()
             .map(|(touch, when)| format!("{} at {}", name(touch), when.text))
             .collect();
-        match events.is_empty() {
-            true => "stays free".to_string(),
-            false => events.join(", "),
-        }
+        let events = if events.is_empty() { "stays free".to_string() } else { events.join(", ") };
+        format!("{events}, under [one-sided]")
     }
 }

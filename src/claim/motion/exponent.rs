@@ -8,11 +8,11 @@ use crate::claim::Reader;
 pub enum Growth {
     /// Exponential growth: chaos.
     Positive,
-    /// No exponential growth: a regular motion, or one attracted by such.
+    /// No exponential growth or decay: a regular motion, or one attracted by such.
     Zero,
 }
 
-/// The claim that the largest exponent is positive, or not, with a value if one is given.
+/// The claim that the largest exponent is positive, or 0, with a value if one is given.
 #[derive(Clone, Debug)]
 pub struct Exponent {
     /// Sign of the exponent.
@@ -44,7 +44,7 @@ impl Motional for Exponent {
     fn text(&self) -> String {
         let growth = match self.growth {
             Growth::Positive => "a positive exponent",
-            Growth::Zero => "no positive exponent",
+            Growth::Zero => "the exponent 0",
         };
         format!("{growth} from {}", self.beginning.text())
     }

@@ -126,9 +126,14 @@ fn required_number<R: Reader>(from: &R, key: &'static str) -> Result<Stated, R::
 /// Reads the period of a closed orbit.
 fn period<R: Reader>(from: &R, key: &'static str, remedy: &str) -> Result<Stated, R::Error> {
     let period = required_number(from, key)?;
-    if period.value <= 0.0 || period.value.is_nan() {
+    if period.value <= 0.0 || !period.value.is_finite() {
         let message = format!("a closed orbit does not have the period {}", period.text);
         return Err(from.complaint(key, message, remedy));
+    }
+    if period.text.contains('±') {
+        let message =
+            format!("`{}` has an error, and a period that is proved has digits", period.text);
+        return Err(from.complaint(key, message, "write as many digits as are known"));
     }
     Ok(period)
 }
@@ -181,13 +186,20 @@ fn count<R: Reader>(from: &R, key: &'static str) -> Result<Option<usize>, R::Err
 /// Reads the length of the motion, a positive time.
 fn time<R: Reader>(from: &R) -> Result<f64, R::Error> {
     let time = required_number(from, "time")?;
-    match time.value > 0.0 {
-        true => Ok(time.value),
+    match time.value > 0.0 && time.value.is_finite() {
+        true => without_error(from, "time", &time).map(|()| time.value),
         false => {
             let message = format!("a motion cannot be followed for the time {}", time.text);
             Err(from.complaint("time", message, "write a positive number"))
         }
     }
+}
+
+/// Refuses an error of a number that is taken as it is written.
+fn without_error<R: Reader>(from: &R, key: &'static str, read: &Stated) -> Result<(), R::Error> {
+    let Some((number, _)) = read.text.split_once('±') else { return Ok(()) };
+    let message = format!("`{}` has an error, and is taken as it is written", read.text);
+    Err(from.complaint(key, message, &format!("write {key} = {}", number.trim())))
 }
 
 /// Reads one of some words.

@@ -26,8 +26,8 @@ impl Stated {
         let text = text.trim().replace("pi", "π").replace('−', "-");
         let (number, error) = match text.split_once('±') {
             Some((number, error)) => {
-                let error: Rational = error.trim().parse().ok()?;
-                (number.trim(), error.to_f64().0)
+                let error: f64 = error.trim().parse::<Rational>().ok()?.to_f64().0;
+                (number.trim(), Some(error).filter(|error| *error >= 0.0)?)
             }
             None => (text.as_str(), 0.0),
         };
@@ -80,7 +80,7 @@ mod tests {
         assert_eq!(read("0.50"), Some((0.5, 0.01, 0.0)), "two decimals");
         assert_eq!(read("0.035 ± 0.003"), Some((0.035, 0.001, 0.003)), "with its error");
         assert_eq!(read("2.5e-3"), Some((0.0025, 1e-4, 0.0)), "an exponent moves the place");
-        for wrong in ["", "x", "1 ± y", "ππ", "π2"] {
+        for wrong in ["", "x", "1 ± y", "1 ± -2", "ππ", "π2"] {
             assert_eq!(read(wrong), None, "{wrong}");
         }
     }

@@ -91,6 +91,19 @@ impl LimitArgs {
         }
     }
 
+    /// Message that the program, which has ended, took more memory than it was to: it may do so between
+    /// two looks.
+    pub fn exceeded(&self) -> Option<String> {
+        let most = self.megabytes?;
+        let peak = kilobytes("VmHWM:")?.div_ceil(1024);
+        (peak > most).then(|| {
+            format!(
+                "error: --megabytes {most}: the program took {peak} megabytes, and was done before it \
+                 was stopped\nhelp: the results are whole; allow {peak} or more"
+            )
+        })
+    }
+
     /// Checks that the system tells how much memory the program takes, if that is limited.
     pub fn check(&self) -> Result<(), String> {
         match self.megabytes.is_some() && memory().is_none() {
@@ -140,10 +153,14 @@ pub fn signals() -> Result<Arc<AtomicBool>, String> {
 
 /// Megabytes of memory that the program takes, where the system tells.
 fn memory() -> Option<u64> {
+    kilobytes("VmRSS:").map(|kilobytes| kilobytes / 1024)
+}
+
+/// Number of kilobytes of a line about the process.
+fn kilobytes(name: &str) -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
-    let kilobytes: u64 = line.split_whitespace().next()?.parse().ok()?;
-    Some(kilobytes / 1024)
+    let line = status.lines().find_map(|line| line.strip_prefix(name))?;
+    line.split_whitespace().next()?.parse().ok()
 }
 
 #[cfg(test)]

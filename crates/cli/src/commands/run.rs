@@ -21,16 +21,36 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         share.keep(own);
         remedy = share.remedy();
     }
-    let limits = limits(&command);
+    let (limits, all) = (limits(&command), all_limits(&command));
     if let Err(problem) = limits.check() {
         return finish(Err(problem));
     }
     match limits.run(move || whole(&command)) {
-        Ok(answer) => finish(answer),
+        Ok(answer) => bounded(finish(answer), all),
         Err(stop) => {
             anstream::eprintln!("error: not finished: {stop}\nhelp: {remedy}");
             STOPPED
         }
+    }
+}
+
+/// Exit code of a command that has ended, with a message if it took more memory than it was to.
+fn bounded(code: u8, limits: LimitArgs) -> u8 {
+    match limits.exceeded().filter(|_| code != STOPPED) {
+        None => code,
+        Some(message) => {
+            anstream::eprintln!("{message}");
+            if code == 0 { STOPPED } else { code }
+        }
+    }
+}
+
+/// Limits that a command was given.
+fn all_limits(command: &Command) -> LimitArgs {
+    match command {
+        Command::Check(options) => options.limits,
+        Command::Explore(command) => command.all_limits(),
+        _ => limits(command),
     }
 }
 

@@ -23,6 +23,8 @@ pub struct BasinReport<'r> {
     pub case: &'r Case,
     /// Request of the basins.
     pub request: &'r BasinRequest<'r>,
+    /// Whether motions were told apart by values other than their states.
+    pub has_values: bool,
     /// What was found.
     pub found: &'r Basins,
 }
@@ -93,8 +95,10 @@ impl BasinReport<'_> {
     }
 
     /// Kind of an attractor, as far as its first motion shows it.
-    fn kind(attractor: &Attractor) -> String {
+    fn kind(&self, attractor: &Attractor) -> String {
         match (&attractor.exponents, attractor.is_point) {
+            // The motion may move where its values do not.
+            (_, true) if self.has_values => "constant".to_string(),
             (_, true) => "point".to_string(),
             (Ok(found), false) => match found.character {
                 Character::Regular => "cycle or torus".to_string(),
@@ -114,7 +118,7 @@ impl BasinReport<'_> {
                 false => format!("{title} from {} to {}", short(*from), short(*to)),
             };
         let places: Vec<String> = titles.zip(ranges).map(place).collect();
-        format!("{}, {}", Self::kind(attractor), places.join(", "))
+        format!("{}, {}", self.kind(attractor), places.join(", "))
     }
 
     /// Numbers of settled motions with a neighbour across or upwards in another basin, and of all.
@@ -177,7 +181,7 @@ impl BasinReport<'_> {
             let exponent = attractor.exponents.as_ref().ok().map(|found| found.largest.mean);
             json!({
                 "count": attractor.count,
-                "kind": Self::kind(attractor),
+                "kind": self.kind(attractor),
                 "ranges": attractor.ranges,
                 "state": attractor.state,
                 "exponent": exponent,
@@ -228,7 +232,7 @@ impl BasinReport<'_> {
             }
         };
         for (index, attractor) in self.found.attractors.iter().enumerate().take(CATEGORIES.len()) {
-            entry(colour(index), &Self::kind(attractor).replace('-', "−"), attractor.count);
+            entry(colour(index), &self.kind(attractor).replace('-', "−"), attractor.count);
         }
         let lost = |end: &Destiny| matches!(end, Destiny::Further | Destiny::Unsettled);
         entry(UNSETTLED, "not settled", self.count(lost));

@@ -3,7 +3,7 @@
 
 use serde_json::json;
 
-use super::data::quoted;
+use super::data::{missing, quoted};
 use super::facts;
 use liouville::case::Case;
 use liouville_draw::{
@@ -33,7 +33,7 @@ pub struct DiagramReport<'r> {
 }
 
 impl DiagramReport<'_> {
-    fn orbits(&self) -> impl Iterator<Item = &DiagramOrbit> {
+    fn orbits(&self) -> impl Iterator<Item = &DiagramOrbit> + Clone {
         self.values.iter().flatten()
     }
 
@@ -72,6 +72,7 @@ impl DiagramReport<'_> {
             count(self.starts.len(), "motion"),
             count(crossings, "crossing"),
         );
+        out.push_str(&missing(self.titles, self.orbits().flat_map(|orbit| &orbit.crossings)));
         let failed = self.orbits().filter(|orbit| orbit.problem.is_some()).count();
         let first = self.values.iter().enumerate().find_map(|(index, orbits)| {
             orbits.iter().find_map(|orbit| Some((index, orbit.problem.as_ref()?)))

@@ -46,6 +46,9 @@ pub struct Finding {
     pub against: Vec<usize>,
     /// Invariants of the body, if they were asked for.
     pub invariants: Option<Invariants>,
+    /// Warnings about the body.
+    #[serde(default)]
+    pub warnings: Vec<String>,
 }
 
 /// Invariants of a body, by name.
@@ -213,7 +216,7 @@ impl BodiesReport<'_> {
         if self.has_invariants {
             titles.extend(titles_of(&Invariants::default().named()));
         }
-        titles.push("error".to_string());
+        titles.extend(["warnings", "error"].map(String::from));
         let width = titles.len();
         let mut out = line(&titles);
         for body in self.bodies {
@@ -227,7 +230,7 @@ impl BodiesReport<'_> {
                     fields.extend(found.verdicts.iter().map(|verdict| verdict.word().to_string()));
                     let texts = found.invariants.iter().flat_map(Invariants::named);
                     fields.extend(texts.map(|(_, text)| text));
-                    fields.push(String::new());
+                    fields.extend([found.warnings.join("; "), String::new()]);
                 }
                 Err(mistakes) => {
                     fields.resize(width - 1, String::new());
@@ -257,6 +260,7 @@ impl BodiesReport<'_> {
                 let against: Vec<_> = found.against.iter().filter_map(name).collect();
                 entry.insert("verdicts".to_string(), verdicts.into());
                 entry.insert("disagreements".to_string(), json!(against));
+                entry.insert("warnings".to_string(), json!(found.warnings));
                 if let Some(Ok(Value::Object(own))) =
                     found.invariants.as_ref().map(serde_json::to_value)
                 {
@@ -308,7 +312,7 @@ impl BodiesReport<'_> {
         out + "\n"
     }
 
-    /// Renders a table for a terminal, and below it the mistakes of rows.
+    /// Renders a table for a terminal, and below it the mistakes and warnings of rows.
     pub fn text(&self) -> String {
         let has_confirmed = self.summary().counts.confirmed > 0;
         let is_counted = |title: &str| title != "confirmed" || has_confirmed;
@@ -335,6 +339,9 @@ impl BodiesReport<'_> {
                     let texts = found.invariants.iter().flat_map(Invariants::named);
                     let texts = texts.filter(|(title, _)| Invariants::SHOWN.contains(title));
                     cells.extend(texts.map(|(_, text)| text));
+                    for warning in &found.warnings {
+                        mistakes.push_str(&format!("warning: line {}: {warning}\n", body.line));
+                    }
                 }
                 Err(reasons) => {
                     cells.push("–".to_string());

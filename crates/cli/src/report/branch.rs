@@ -31,6 +31,8 @@ pub struct BranchReport<'r> {
     pub period: u32,
     /// Number of times that the orbit at the start is run through until then.
     pub turns: u32,
+    /// Theorem that this orbit closes, or the reason why there is none.
+    pub proof: Result<String, String>,
     /// Branch.
     pub branch: &'r Branch,
 }
@@ -163,6 +165,12 @@ impl BranchReport<'_> {
         if self.branch.keeps_area {
             out.push_str("the product of the multipliers is 1 at all points, within its error\n");
         }
+        out.push_str(&match &self.proof {
+            Ok(theorem) => format!("proved at the start: {theorem}\nnumerical: all other points\n"),
+            Err(reason) => {
+                format!("numerical: all points, the one at the start not proved: {reason}\n")
+            }
+        });
         let [first, last] = self.branch.ends.each_ref().map(words);
         out.push_str(&format!("begins: {first}\nends: {last}\n"));
         out
@@ -202,6 +210,8 @@ impl BranchReport<'_> {
             "ends": self.branch.ends.each_ref().map(key),
             "reasons": self.branch.ends.each_ref().map(words),
             "keeps_area": self.branch.keeps_area,
+            "theorem": self.proof.as_ref().ok(),
+            "unproved": self.proof.as_ref().err(),
         });
         let text = serde_json::to_string_pretty(&root);
         Ok(text.map_err(|error| format!("error: {error}"))? + "\n")

@@ -267,8 +267,8 @@ pub fn read_row(line: &str, time: f64) -> Option<Result<Exponents, String>> {
         Some(Estimate { mean, error, later })
     };
     let character = *Character::ALL.iter().find(|own| own.name() == *class)?;
-    let (largest, divergence) = (estimate(0)?, estimate(3)?);
-    Some(Ok(Exponents { time, largest, divergence, alignment: None, character }))
+    let means = [estimate(0)?, estimate(3)?];
+    Some(Ok(Exponents::written(time, means, None, character)))
 }
 
 /// Value that a motion is coloured by.

@@ -13,8 +13,18 @@ pub struct FoundOrbit {
     pub crossings: Option<usize>,
     /// Orbit.
     pub cycle: Cycle,
-    /// Theorem that the orbit closes, or the reason why there is none, if it was asked for.
+    /// Theorem that the orbit closes, or the reason why there is none, if a proof was tried.
     pub proof: Option<Result<String, String>>,
+}
+
+impl FoundOrbit {
+    /// Word for the grounds on which the orbit is reported.
+    fn status(&self) -> &'static str {
+        match self.proof {
+            Some(Ok(_)) => "proved",
+            _ => "numerical",
+        }
+    }
 }
 
 /// Formats a number with its error: the digits that the error leaves, and one more.
@@ -86,8 +96,8 @@ pub fn text(case: &Case, found: &FoundOrbit) -> String {
     out.push_str(&format!("  product {}, ∮ div v dt = {}\n", shown(product), shown(volume)));
     match &found.proof {
         Some(Ok(theorem)) => out.push_str(&format!("  proved: {theorem}\n")),
-        Some(Err(reason)) => out.push_str(&format!("  not proved: {reason}\n")),
-        None => {}
+        Some(Err(reason)) => out.push_str(&format!("  numerical, not proved: {reason}\n")),
+        None => out.push_str("  numerical: no proof was tried\n"),
     }
     out
 }
@@ -136,6 +146,7 @@ pub fn entry(found: &FoundOrbit) -> Value {
         "period": found.crossings,
         "state": cycle.start.state.iter().map(|x| x.hi).collect::<Vec<_>>(),
         "kind": kind(cycle.kind),
+        "status": found.status(),
         "time": cycle.period.value,
         "time_error": cycle.period.error,
         "turns": cycle.turns,

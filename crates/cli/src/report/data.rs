@@ -77,6 +77,23 @@ pub fn quoted(title: &str) -> String {
     }
 }
 
+/// Lines about columns that have no value at some crossings.
+pub(super) fn missing<'r>(
+    titles: &[String],
+    rows: impl Iterator<Item = &'r Vec<f64>> + Clone,
+) -> String {
+    let count = rows.clone().count();
+    let lacks = |place: usize| {
+        rows.clone().filter(|row| !row.get(place).is_some_and(|x| x.is_finite())).count()
+    };
+    let line = |(place, title): (usize, &String)| match lacks(place) {
+        0 => String::new(),
+        all if all == count => format!("`{title}` has no value at any crossing\n"),
+        some => format!("`{title}` has no value at {some} of {count} crossings\n"),
+    };
+    titles.iter().enumerate().map(line).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,28 +2,38 @@
 
 use serde_json::{Map, Value, json};
 
-use liouville::verdict::{Digits, Enclosed, PointReport};
+use liouville::verdict::{Digits, Enclosed, OVERFLOW, PointReport};
 
 /// A number of a report in decimal notation.
 pub trait Decimal {
-    /// Decimal form of the number, if it is defined.
+    /// Whether numbers come with bounds on their errors; without, all digits printed are right.
+    const HAS_ERRORS: bool;
+
+    /// Decimal form of the number, or [`OVERFLOW`], if it is defined.
     fn number(&self) -> Option<String>;
 
-    /// Bound on its error; `None` where all digits printed are right.
+    /// Bound on its error, if there is one.
     fn error(&self) -> Option<f64>;
 }
 
 impl Decimal for Enclosed {
+    const HAS_ERRORS: bool = true;
+
     fn number(&self) -> Option<String> {
-        self.map(|(mid, _)| decimal(mid))
+        self.map(|(mid, error)| match error.is_finite() {
+            true => decimal(mid),
+            false => OVERFLOW.to_string(),
+        })
     }
 
     fn error(&self) -> Option<f64> {
-        self.map(|(_, error)| error)
+        self.map(|(_, error)| error).filter(|error| error.is_finite())
     }
 }
 
 impl Decimal for Digits {
+    const HAS_ERRORS: bool = false;
+
     fn number(&self) -> Option<String> {
         self.clone()
     }
@@ -33,9 +43,11 @@ impl Decimal for Digits {
     }
 }
 
-/// Renders the report as JSON; numbers are decimal strings, null where undefined.
+/// Renders the report as JSON; numbers are decimal strings, `overflow` where they are too large, and
+/// null where undefined. Bounds on errors stand beside them.
 pub fn json<N: Decimal>(report: &PointReport<N>) -> Result<String, serde_json::Error> {
     let list = |values: &[N]| Value::from(values.iter().map(number).collect::<Vec<_>>());
+    let errors = |values: &[N]| Value::from(values.iter().map(error).collect::<Vec<_>>());
     let named = |entries: &[(String, Vec<String>)]| {
         let pair = |(name, values): &(String, Vec<String>)| (name.clone(), json!(values));
         Value::Object(entries.iter().map(pair).collect::<Map<String, Value>>())
@@ -47,8 +59,12 @@ pub fn json<N: Decimal>(report: &PointReport<N>) -> Result<String, serde_json::E
         .iter()
         .map(|(name, value, residual)| {
             let mut entry = json!({ "value": numbers(value), "residual": numbers(residual) });
-            if let Some(error) = residual.iter().filter_map(Decimal::error).reduce(f64::max) {
-                entry["residual_error"] = decimal(error).into();
+            for (key, values) in [("value_error", value), ("residual_error", residual)] {
+                let is_known = values.iter().all(|one| one.error().is_some());
+                let largest = values.iter().filter_map(Decimal::error).reduce(f64::max);
+                if let Some(error) = largest.filter(|_| is_known) {
+                    entry[key] = decimal(error).into();
+                }
             }
             (name.clone(), entry)
         })
@@ -56,26 +72,37 @@ pub fn json<N: Decimal>(report: &PointReport<N>) -> Result<String, serde_json::E
     let mut root = Map::new();
     root.insert("parameters".into(), named(&report.parameters));
     root.insert("state".into(), named(&report.state));
-    root.insert("level".into(), Value::Object(level));
+    let mut bounds = Map::new();
+    let mut insert = |key: &str, value: Value, error: Value| {
+        root.insert(key.to_string(), value);
+        bounds.insert(key.to_string(), error);
+    };
+    let level_errors: Map<String, Value> =
+        report.level.iter().map(|(text, value)| (text.clone(), error(value))).collect();
+    insert("level", Value::Object(level), Value::Object(level_errors));
+    let field = if report.determinant.is_some() { "image" } else { "field" };
+    insert(field, list(&report.field), errors(&report.field));
     if let Some(determinant) = &report.determinant {
-        root.insert("image".into(), list(&report.field));
-        root.insert("determinant".into(), number(determinant));
+        insert("determinant", number(determinant), error(determinant));
     } else {
-        root.insert("field".into(), list(&report.field));
-        root.insert("divergence".into(), number(&report.divergence));
-        root.insert("level_divergence".into(), number(&report.level_divergence));
+        let (whole, level) = (&report.divergence, &report.level_divergence);
+        insert("divergence", number(whole), error(whole));
+        insert("level_divergence", number(level), error(level));
     }
     if let Some(chi) = &report.chi {
-        root.insert("chi".into(), list(chi));
+        insert("chi", list(chi), errors(chi));
     }
     if let Some(criterion) = &report.criterion {
-        root.insert("criterion".into(), number(criterion));
+        insert("criterion", number(criterion), error(criterion));
     }
     if let Some(conditions) = &report.conditions {
-        root.insert("conditions".into(), list(conditions));
+        insert("conditions", list(conditions), errors(conditions));
     }
     if let Some(energy) = &report.energy {
-        root.insert("energy".into(), number(energy));
+        insert("energy", number(energy), error(energy));
+    }
+    if N::HAS_ERRORS {
+        root.insert("errors".into(), bounds.into());
     }
     if !report.antiderivatives.is_empty() {
         root.insert("antiderivatives".into(), json!(report.antiderivatives));
@@ -134,7 +161,34 @@ pub fn text<N: Decimal>(report: &PointReport<N>) -> String {
         line("claim", name.to_string());
         line("", format!("residual {}{value}", all(residual)));
     }
+    if all_values(report).iter().any(|value| value.number().as_deref() == Some(OVERFLOW)) {
+        let further = if N::HAS_ERRORS { ": --digits 10 goes further than f64" } else { "" };
+        line("overflow", format!("a number, or one that it is formed of, is too large{further}"));
+    }
     out
+}
+
+/// All numbers of a report.
+fn all_values<N>(report: &PointReport<N>) -> Vec<&N> {
+    let PointReport { field, divergence, level_divergence, .. } = report;
+    let level = report.level.iter().map(|(_, value)| value);
+    let claims = report.claims.iter().flat_map(|(_, value, residual)| value.iter().chain(residual));
+    let single = [&report.determinant, &report.criterion, &report.energy].into_iter().flatten();
+    let chi = report.chi.iter().flatten();
+    let conditions = report.conditions.iter().flatten();
+    level
+        .chain(field)
+        .chain([divergence, level_divergence])
+        .chain(single)
+        .chain(chi)
+        .chain(conditions)
+        .chain(claims)
+        .collect()
+}
+
+/// JSON of the bound on the error of a number.
+fn error(value: &impl Decimal) -> Value {
+    value.error().map_or(Value::Null, |error| decimal(error).into())
 }
 
 /// JSON of a number, a list of components, or null.

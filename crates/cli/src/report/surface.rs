@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use super::data::missing;
 use super::section::drawing::shade;
 use liouville::case::{Case, Direction};
 use liouville_draw::{Axis, CountGrid, Layer, Plot, gradient, math};
@@ -53,6 +54,8 @@ impl SurfaceReport<'_> {
         if tangencies > 0 {
             out.push_str(&format!("{tangencies} times the surface was touched, not crossed\n"));
         }
+        let met = self.orbits.iter().flat_map(|orbit| &orbit.crossings).map(|met| &met.at);
+        out.push_str(&missing(self.request.axes.titles(), met));
         for (name, orbit) in self.names.iter().zip(self.orbits) {
             if let Some(problem) = &orbit.problem {
                 let found = orbit.crossings.len();

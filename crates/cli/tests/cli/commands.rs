@@ -3,6 +3,7 @@
 mod basins;
 mod bodies;
 mod branches;
+mod grounds;
 mod keys;
 mod limits;
 mod lines;

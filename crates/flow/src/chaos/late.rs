@@ -36,13 +36,15 @@ pub type Late = Result<LateSamples, FlowError>;
 pub struct LateMotions {
     program: TaylorProgram,
     gauge: Gauge,
+    titles: Vec<String>,
 }
 
 impl LateMotions {
     /// Compiles the field of a case with these parameters.
     pub fn new(case: &Case, columns: &Columns, parameters: &[Rational]) -> Result<Self, FlowError> {
         let program = program(&case.model, parameters, |_| Vec::new())?;
-        Ok(Self { program, gauge: columns.recorded(parameters)? })
+        let titles = columns.titles().to_vec();
+        Ok(Self { program, gauge: columns.recorded(parameters)?, titles })
     }
 
     /// Follows motions, and takes samples of each at late times. Calls `progress` with shares of a
@@ -60,6 +62,16 @@ impl LateMotions {
             let done = Vec::new();
             Worker { motions: self, starts, time, stepper, running, done }.run(queue, progress)
         })
+    }
+}
+
+impl LateMotions {
+    /// Title of a column that has no value at the start or in a sample.
+    fn missing(&self, running: &Running) -> Option<String> {
+        let rows = || [&running.first].into_iter().chain(&running.rows);
+        let lacks = |place: usize| rows().any(|row| !row.get(place).is_some_and(|x| x.is_finite()));
+        let place = (0..self.titles.len()).find(|place| lacks(*place))?;
+        self.titles.get(place).cloned()
     }
 }
 
@@ -134,13 +146,9 @@ impl Worker<'_> {
                 let end = self.stepper.pairs(lane);
                 // The last sample may have been due within rounding of the end.
                 running.rows.resize_with(SAMPLES, || row(self.stepper.time(lane), &end));
-                let values = running.rows.iter().flatten();
-                let late = match values.copied().all(f64::is_finite) {
-                    true => Ok(LateSamples { first: running.first, rows: running.rows, end }),
-                    false => Err(FlowError::Singular {
-                        time: self.time,
-                        state: end.iter().map(|x| x.hi).collect(),
-                    }),
+                let late = match self.motions.missing(&running) {
+                    None => Ok(LateSamples { first: running.first, rows: running.rows, end }),
+                    Some(column) => Err(FlowError::NoColumnValue { column }),
                 };
                 self.done.push((running.index, late));
                 running.told.finish(progress);

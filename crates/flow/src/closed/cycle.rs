@@ -36,7 +36,7 @@ const CONVERGED: f64 = 1e-10;
 /// Residual that supports an orbit, relative to the state and to the square of the least singular
 /// value of the equations: by Newton and Kantorovich there is an orbit if the residual times a bound
 /// of the second derivatives is below half this square.
-const SUPPORTED: f64 = 1e-4;
+pub(crate) const SUPPORTED: f64 = 1e-4;
 /// Smallest singular value of a nondegenerate orbit, relative to the largest.
 const DEGENERATE: f64 = 1e-11;
 
@@ -61,6 +61,9 @@ pub struct Cycle {
     pub turns: u32,
     /// Distance between the state and its image, in double-double.
     pub residual: f64,
+    /// Whether the distance is so small that there seems to be an orbit; without that the motion is
+    /// nearly closed, unless a proof says more.
+    pub is_supported: bool,
     /// Integral of the divergence on the level along the orbit.
     pub volume: MeasuredNumber,
     /// Multipliers besides 1 along the orbit and 1 across the levels of the energy.
@@ -79,8 +82,8 @@ pub(crate) fn cycle(
     let mut search = CycleSearch::new(model, start, time, pins)?;
     search.converge()?;
     let matrix = search.equations()?.0;
-    let residual = search.refine(&matrix)?;
-    search.confirm(residual)?;
+    let residual = search.refine(matrix)?;
+    let is_supported = search.is_supported(residual)?;
     let (float, pair) = (
         search.derivative::<f64>(Accuracy::FLOAT)?,
         search.derivative::<DoubleDouble>(Accuracy::PAIR)?,
@@ -93,10 +96,21 @@ pub(crate) fn cycle(
         period: MeasuredNumber::twice(float_period, search.time.hi),
         turns,
         residual,
+        is_supported,
         volume: MeasuredNumber::twice(float.volume.hi, pair.volume.hi),
         multipliers,
         kind,
     })
+}
+
+impl Cycle {
+    /// The orbit, or the error of a near return.
+    pub fn supported(self) -> Result<Self, FlowError> {
+        match self.is_supported {
+            true => Ok(self),
+            false => Err(FlowError::NearReturn(self.period.value, self.residual)),
+        }
+    }
 }
 
 /// Derivative of the flow over the period, on the level.
@@ -256,51 +270,61 @@ impl<'s> CycleSearch<'s> {
         Err(lost)
     }
 
-    /// Repeats steps with the residual in double-double until rounding stops them. Returns the
-    /// distance that is left.
-    fn refine(&mut self, matrix: &DMatrix<f64>) -> Result<f64, FlowError> {
+    /// Repeats steps with the residual in double-double until rounding stops them, with new equations
+    /// where those of an earlier point bring it no nearer, as near a fold. Returns the distance that
+    /// is left.
+    fn refine(&mut self, mut matrix: DMatrix<f64>) -> Result<f64, FlowError> {
         let mut best: Option<(f64, Start, DoubleDouble)> = None;
+        let mut is_renewed = false;
         loop {
             let gap = differences(&self.image::<DoubleDouble>(Accuracy::PAIR)?, &self.start.state);
             let distance = norm(gap.iter().map(|x| x.hi));
             let last = best.as_ref().map_or(f64::INFINITY, |(distance, ..)| *distance);
             if distance.is_nan() || distance > last / 2.0 {
-                break;
+                let Some((_, start, time)) = best.as_ref().filter(|_| !is_renewed) else { break };
+                (self.start, self.time) = (start.clone(), *time);
+                (matrix, is_renewed) = (self.equations()?.0, true);
+                let gap =
+                    differences(&self.image::<DoubleDouble>(Accuracy::PAIR)?, &self.start.state);
+                self.correct(&matrix, &gap)?;
+                continue;
             }
-            best = Some((distance, self.start.clone(), self.time));
+            (best, is_renewed) = (Some((distance, self.start.clone(), self.time)), false);
             if distance == 0.0 {
                 break;
             }
-            let basis = level_basis(self.model, &self.start)?;
-            let mut right = DVector::zeros(matrix.nrows());
-            basis.iter().enumerate().for_each(|(row, e)| right[row] = -dot(e, &gap).hi);
-            let (values, gradients) = self.pins.functions.at(&self.start.state);
-            let functions = values.iter().zip(&self.wanted).zip(&gradients).skip(self.level.len());
-            for (place, ((value, wanted), gradient)) in functions.enumerate() {
-                let length = norm(gradient.iter().map(|x| x.hi)).max(f64::MIN_POSITIVE);
-                right[basis.len() + place] = (*wanted - *value).hi / length;
-            }
-            let step = solved(matrix, &right).ok_or(FlowError::Degenerate(self.guess))?;
-            self.step(&step, 1.0)?;
+            self.correct(&matrix, &gap)?;
         }
         let (distance, start, time) = best.ok_or(FlowError::NoClosedOrbit(self.guess))?;
         (self.start, self.time) = (start, time);
         Ok(distance)
     }
 
-    /// Whether what is left of the distance is so small that there is an orbit, by the equations at
-    /// the point where Newton's method ended.
-    fn confirm(&self, residual: f64) -> Result<(), FlowError> {
+    /// Takes a step with the distance of the image in double-double.
+    fn correct(&mut self, matrix: &DMatrix<f64>, gap: &[DoubleDouble]) -> Result<(), FlowError> {
+        let basis = level_basis(self.model, &self.start)?;
+        let mut right = DVector::zeros(matrix.nrows());
+        basis.iter().enumerate().for_each(|(row, e)| right[row] = -dot(e, gap).hi);
+        let (values, gradients) = self.pins.functions.at(&self.start.state);
+        let functions = values.iter().zip(&self.wanted).zip(&gradients).skip(self.level.len());
+        for (place, ((value, wanted), gradient)) in functions.enumerate() {
+            let length = norm(gradient.iter().map(|x| x.hi)).max(f64::MIN_POSITIVE);
+            right[basis.len() + place] = (*wanted - *value).hi / length;
+        }
+        let step = solved(matrix, &right).ok_or(FlowError::Degenerate(self.guess))?;
+        self.step(&step, 1.0)
+    }
+
+    /// Whether what is left of the distance is so small that there seems to be an orbit, by the
+    /// equations at the point where Newton's method ended.
+    fn is_supported(&self, residual: f64) -> Result<bool, FlowError> {
         let (mut matrix, ..) = self.equations()?;
         let (size, period) = (self.size(), self.time.hi);
         if let Some(last) = matrix.ncols().checked_sub(1) {
             matrix.column_mut(last).scale_mut(period / size);
         }
         let least = matrix.singular_values().min().min(1.0);
-        match residual / size <= SUPPORTED * least * least {
-            true => Ok(()),
-            false => Err(FlowError::NearReturn(period, residual)),
-        }
+        Ok(residual / size <= SUPPORTED * least * least)
     }
 
     fn multipliers(

@@ -4,7 +4,7 @@ use crate::closed::cycle::{Cycle, Pins, cycle};
 use crate::closed::periodic::{ComputedPeriodicPoint, SectionMap};
 use crate::error::FlowError;
 use crate::motion::kept::keeps_energy;
-use crate::motion::start::{LevelFunctions, Start};
+use crate::motion::start::{LevelFunctions, Start, two_sided};
 use crate::section::andoyer::section_functions;
 use crate::section::crossings::CrossingTask;
 use crate::section::surface::CrossingSurface;
@@ -42,6 +42,7 @@ pub fn closed_orbit(
     time: f64,
     surface: Option<&CrossingSurface>,
 ) -> Result<Cycle, FlowError> {
+    two_sided(case)?;
     let model = surface.map_or(&case.model, CrossingSurface::model);
     let has_energy = keeps_energy(case, model, start, time)?;
     let functions = LevelFunctions::with(model, &start.parameters, &|phase| {

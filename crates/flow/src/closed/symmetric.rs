@@ -247,7 +247,8 @@ impl Search<'_> {
             points.iter().any(|other| distance(*other, mirrored(*line, point.at)) < SAME)
         });
         let lines = lines.collect();
-        match self.map.cycle(point.at, period) {
+        let cycle = self.map.cycle(point.at, period);
+        match cycle.and_then(|(point, cycle)| Ok((point, cycle.supported()?))) {
             Ok((point, cycle)) => {
                 self.found.orbits.push(SymmetricOrbit { point, cycle, lines });
                 self.known.extend(points);

@@ -9,6 +9,9 @@
 //!
 //! (Liouville's formula), with tr M = Σ (e_i, M e_i) over an orthonormal basis of the tangent space.
 
+use nalgebra::Matrix2;
+
+use crate::closed::cycle::SUPPORTED;
 use crate::closed::periodic::{ComputedPeriodicPoint, Multipliers, SectionMap, newton_step};
 use crate::error::FlowError;
 use crate::motion::start::{Start, level_basis};
@@ -56,6 +59,15 @@ impl ComputedClosedOrbit {
     ) -> Option<MeasuredNumber> {
         let of = |point: &ComputedPeriodicPoint| number(point.multipliers());
         Some(MeasuredNumber::twice(of(&self.float)?, of(&self.pair)?))
+    }
+
+    /// Whether the distance that Newton's method leaves is so small that there seems to be a point, by
+    /// the least singular value of its equations.
+    pub fn is_supported(&self) -> bool {
+        let [[a, b], [c, d]] = self.pair.derivative;
+        let matrix = Matrix2::new(a - 1.0, b, c, d - 1.0);
+        let least = matrix.singular_values().min().min(1.0);
+        self.pair.residual <= SUPPORTED * least * least
     }
 
     /// The periodic point, computed in double-double and rounded to f64.
@@ -136,5 +148,32 @@ impl SectionMap<'_> {
         let trace = trace.fold(DoubleDouble::from_f64(-2.0), |sum, (e, x)| sum + *e * *x);
         let volume = end.last().map_or(0.0, |volume| volume.hi);
         Ok((trace.hi, libm::exp(volume)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_near_return_is_no_point() {
+        let with = |residual: f64, slope: f64| {
+            let derivative = [[1.0 + slope, 0.0], [0.0, 0.5]];
+            let at = [1.0, 0.2];
+            let (time, trace, determinant) = (1.0, 1.5 + slope, 0.5 + slope / 2.0);
+            let point = ComputedPeriodicPoint {
+                at,
+                period: 1,
+                time,
+                residual,
+                derivative,
+                trace,
+                determinant,
+            };
+            ComputedClosedOrbit { float: point, pair: point }.is_supported()
+        };
+        assert!(with(1e-28, 0.5) && with(1e-28, 1e-6), "closed to rounding");
+        assert!(!with(1e-10, 1e-4), "as near as beyond a fold");
+        assert!(!with(f64::NAN, 0.5), "no distance");
     }
 }

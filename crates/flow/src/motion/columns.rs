@@ -64,6 +64,14 @@ impl Columns {
         &self.titles
     }
 
+    /// Whether some column varies along motions.
+    pub fn varies(&self) -> bool {
+        self.sources.iter().any(|source| match source {
+            ColumnSource::Time => true,
+            ColumnSource::Formula(formula) => self.lexicon.varies(formula),
+        })
+    }
+
     pub(crate) fn model(&self) -> &Model {
         self.lexicon.model()
     }

@@ -3,6 +3,7 @@
 //! The time after the first tenth is cut into blocks, whose spread gives the standard error. The
 //! error is reliable only where a block is longer than the slow drift between regions.
 
+use crate::motion::trend::GrowthTrend;
 use liouville::number::double_double::DoubleDouble;
 use serde::{Deserialize, Serialize};
 
@@ -15,7 +16,7 @@ const ERRORS: f64 = 3.0;
 /// Distance below which two unit vectors count as parallel or antiparallel.
 const PARALLEL: f64 = 1e-8;
 /// Logarithm of the largest volume that a bounded motion gains or loses between its ends.
-const ENDS: f64 = 10.0;
+pub(crate) const ENDS: f64 = 10.0;
 
 /// Number of blocks before the later half, that of the transient among them.
 const HALF: usize = 1 + BLOCKS / 2;
@@ -114,9 +115,23 @@ pub struct Exponents {
     pub alignment: Option<Alignment>,
     /// Apparent kind of motion.
     pub character: Character,
+    /// Growth block by block, on which claims are judged; it is not written.
+    #[serde(skip)]
+    pub(crate) trend: GrowthTrend,
 }
 
 impl Exponents {
+    /// Exponents of a motion that were written, without their blocks.
+    pub fn written(
+        time: f64,
+        [largest, divergence]: [Estimate; 2],
+        alignment: Option<Alignment>,
+        character: Character,
+    ) -> Self {
+        let trend = GrowthTrend::default();
+        Self { time, largest, divergence, alignment, character, trend }
+    }
+
     /// Class of a motion that was followed in both directions of time: chaos is conservative where
     /// volume is preserved either way.
     pub fn class(&self, backward: &Exponents) -> Character {
@@ -155,6 +170,10 @@ struct Extent {
     /// State at which the later half begins, and the largest distance from it since.
     middle: Vec<f64>,
     away: f64,
+    /// Last state, the box around the states of its block, and the diagonals of those before.
+    last: Vec<f64>,
+    bounds: Vec<[f64; 2]>,
+    spreads: Vec<f64>,
 }
 
 impl Extent {
@@ -166,6 +185,7 @@ impl Extent {
             self.sizes.resize(block + 1, 0.0);
         }
         self.sizes[block] = self.sizes[block].max(size);
+        self.enclose(block, state);
         if block < HALF {
             return;
         }
@@ -174,6 +194,30 @@ impl Extent {
         }
         let gap = norm(&mut state.iter().zip(&self.middle).map(|(x, y)| x.hi - y));
         self.away = self.away.max(gap);
+    }
+
+    /// Puts a state into the box of its block; a box begins with the last state of the one before.
+    fn enclose(&mut self, block: usize, state: &[DoubleDouble]) {
+        if self.bounds.is_empty() {
+            self.bounds = state.iter().map(|x| [x.hi, x.hi]).collect();
+        } else if block != self.spreads.len() {
+            self.spreads.push(self.diagonal());
+            self.bounds = self.last.iter().map(|x| [*x, *x]).collect();
+        }
+        for ([low, high], x) in self.bounds.iter_mut().zip(state) {
+            (*low, *high) = (low.min(x.hi), high.max(x.hi));
+        }
+        self.last.clear();
+        self.last.extend(state.iter().map(|x| x.hi));
+    }
+
+    fn diagonal(&self) -> f64 {
+        self.bounds.iter().map(|[low, high]| (high - low) * (high - low)).sum::<f64>().sqrt()
+    }
+
+    /// Diagonals of the boxes of all blocks.
+    fn spreads(&self) -> Vec<f64> {
+        self.spreads.iter().copied().chain([self.diagonal()]).collect()
     }
 
     /// Class of a motion with a positive exponent that comes to rest, or goes away for ever.
@@ -268,7 +312,9 @@ impl Record {
         let (largest, divergence) = (estimate(&self.growth[1..]), estimate(&self.volume[1..]));
         let (time, alignment) = (self.time, self.alignment);
         let character = self.character(largest, divergence);
-        Exponents { time, largest, divergence, alignment, character }
+        let spreads = self.extent.spreads();
+        let trend = GrowthTrend::new(&self.growth[1..], spreads.get(1..).unwrap_or_default());
+        Exponents { time, largest, divergence, alignment, character, trend }
     }
 
     /// Classifies the motion. An exponent counts as positive when it exceeds its error, also in the

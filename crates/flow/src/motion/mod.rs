@@ -13,4 +13,5 @@ pub(crate) mod recorded;
 pub(crate) mod samples;
 pub(crate) mod start;
 pub(crate) mod track;
+pub(crate) mod trend;
 pub(crate) mod variational;

@@ -169,8 +169,7 @@ fn orbit_over<T: SeriesNumber<One = T>>(
         }
     };
     if !end.iter().all(|x| x.is_finite()) {
-        let state = end.iter().map(|x| x.hi).collect();
-        return Err(FlowError::Singular { time: time.hi, state });
+        return Err(FlowError::Overflow(time.hi));
     }
     watcher.watch.measure(&end);
     watcher.samples.end(time, &end);

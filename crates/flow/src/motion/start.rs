@@ -20,7 +20,7 @@ use liouville::verdict::Sampler;
 const MAX_STEPS: usize = 60;
 
 /// Checks that the motions of a case are those of its field alone.
-pub(crate) fn two_sided(case: &Case) -> Result<(), FlowError> {
+pub fn two_sided(case: &Case) -> Result<(), FlowError> {
     match case.one_sided {
         Some(_) => Err(FlowError::OneSided),
         None => Ok(()),

@@ -58,12 +58,14 @@ pub fn evidence_against_density(case: &Case, options: &Options) -> Option<String
     }
     let start = map.chart.start(point.at).ok()?;
     let proved = exclusion(case, &start, point.time, Some(&plan.energy), options);
-    Some(proved.unwrap_or_else(|| {
-        format!(
+    // A motion that is nearly closed is no evidence.
+    proved.or_else(|| {
+        let is_supported = orbit.is_supported();
+        is_supported.then(|| format!(
             "evidence against any density that is smooth and positive: the closed orbit through \
              (l, L/G) = ({:.8}, {:.8}) of the section g = {} at energy {} has multipliers \
              {multipliers}, product {:.12} ± {:.0e} in place of 1",
             point.at[0], point.at[1], plan.g0, plan.energy, product.value, product.error
-        )
-    }))
+        ))
+    })
 }

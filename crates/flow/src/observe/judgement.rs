@@ -37,28 +37,19 @@ impl MotionJudgement {
         });
     }
 
-    /// Compares a number with the one stated: they agree within one unit of the last stated digit
-    /// and the number's error. An error beyond that unit leaves the claim open.
+    /// Compares a number with the one stated: they agree within one unit of the last stated digit,
+    /// three of its standard errors, and the number's error. A larger error leaves the claim open.
     pub fn compare(&mut self, quantity: &str, found: MeasuredNumber, stated: &Stated) {
-        self.within(quantity, found, stated, stated.unit + found.error);
-        if stated.unit > 0.0 && found.error > stated.unit {
-            self.leave_open(format!("the error of the {quantity} is above the stated digits"));
-        }
-    }
-
-    /// Compares a mean with the one stated: they agree within three standard errors of both.
-    pub fn compare_mean(&mut self, quantity: &str, found: MeasuredNumber, stated: &Stated) {
-        let errors = libm::hypot(found.error, stated.error);
-        self.within(quantity, found, stated, stated.unit + ERRORS * errors);
-    }
-
-    fn within(&mut self, quantity: &str, found: MeasuredNumber, stated: &Stated, tolerance: f64) {
         self.note(quantity, found, Some(stated));
         let difference = (found.value - stated.value).abs();
         if difference.is_nan() {
             self.leave_open(format!("the {quantity} is not known"));
-        } else if difference > tolerance {
+        } else if difference > stated.unit + ERRORS * stated.error + found.error {
             self.refute(format!("the {quantity} is not {}", stated.text));
+        }
+        let digits = stated.unit + ERRORS * stated.error;
+        if digits > 0.0 && found.error > digits {
+            self.leave_open(format!("the error of the {quantity} is above the stated digits"));
         }
     }
 
@@ -116,20 +107,10 @@ mod tests {
         assert_eq!(verdict("0.25", 0.2549, 1e-9), Verdict::Confirmed, "to one unit");
         assert_eq!(verdict("0.2500", 0.2549, 1e-9), Verdict::Refuted, "two digits more");
         assert_eq!(verdict("0.25", 0.2549, 0.02), Verdict::Undecided, "the error hides digits");
+        assert_eq!(verdict("0.98 ± 0.01", 1.0, 1e-9), Verdict::Confirmed, "two errors");
+        assert_eq!(verdict("0.98 ± 0.01", 1.05, 1e-9), Verdict::Refuted, "seven errors");
         assert_eq!(verdict("1", 1.0 + 1e-15, 2e-15), Verdict::Confirmed, "exact, to its error");
         assert_eq!(verdict("1", 1.0 + 1e-12, 2e-15), Verdict::Refuted, "exact, beyond its error");
         assert_eq!(verdict("1", f64::NAN, 1e-9), Verdict::Undecided, "no number at all");
-    }
-
-    #[test]
-    fn means_agree_within_three_errors_of_both() {
-        let with = |value, error| {
-            let mut judgement = MotionJudgement::default();
-            let stated = Stated::parse("0.035 ± 0.003").expect("a number");
-            judgement.compare_mean("mean", MeasuredNumber { value, error }, &stated);
-            judgement.conclude().0
-        };
-        assert_eq!(with(0.044, 0.001), Verdict::Confirmed, "within three errors");
-        assert_eq!(with(0.047, 0.001), Verdict::Refuted, "beyond them and the last digit");
     }
 }

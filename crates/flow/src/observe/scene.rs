@@ -4,7 +4,7 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use crate::{
     Exponents, FlowError, SectionMap, SectionOrbit, SectionRequest, Start, Variational,
-    fixed_parameters, section, section_starts,
+    fixed_parameters, section, section_starts, two_sided,
 };
 use liouville::case::{Case, SectionPlan};
 use liouville::claim::Components;
@@ -80,6 +80,7 @@ impl<'c> FollowedCase<'c> {
         if let Some((.., found)) = self.known().iter().find(is_same) {
             return Ok(*found);
         }
+        two_sided(self.case)?;
         let motion = Variational::new(&self.case.model, &self.start(beginning)?)?;
         let found = motion.exponents(time)?;
         self.known().push((name, time, found));

@@ -40,12 +40,24 @@ pub fn limit_cycle(
     // Accumulated rounding moves a cycle that is about to vanish by its square root.
     let floor = libm::sqrt(blur * (last / period) as f64);
     if falls[2] > blur && falls.windows(2).any(|pair| pair[1] > pair[0] / 2.0) {
-        match falls[2] >= falls[0] && falls[2] > floor {
-            true => judgement.refute("the crossings do not come to rest".to_string()),
-            false if falls[2] > floor => {
-                judgement.leave_open("they come to rest slowly".to_string())
+        let turns: Vec<f64> = (1..last / period)
+            .rev()
+            .map(|turn| displacement(last - (turn - 1) * period, period))
+            .collect();
+        match course(&turns[turns.len() / 4..]) {
+            _ if falls[2] <= floor => {
+                judgement.leave_open("they rest up to rounding: follow fewer".to_string());
             }
-            false => judgement.leave_open("they rest up to rounding: follow fewer".to_string()),
+            Course::Wanders => judgement.refute("the crossings do not come to rest".to_string()),
+            Course::Falls => judgement.leave_open("they come to rest slowly".to_string()),
+            Course::Rises => judgement.leave_open(
+                "they still go apart, and may come to rest elsewhere: follow more".to_string(),
+            ),
+            Course::Stays => judgement.leave_open(
+                "they neither come nearer nor go away, and may come to rest more slowly than this run \
+                 shows: follow more"
+                    .to_string(),
+            ),
         }
         return Ok(judgement);
     }
@@ -66,6 +78,47 @@ pub fn limit_cycle(
         }
     }
     Ok(judgement)
+}
+
+/// Course of the displacements of a run that does not come to rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Course {
+    /// They fall from window to window.
+    Falls,
+    /// They rise.
+    Rises,
+    /// They do neither, and change little.
+    Stays,
+    /// They do neither, fall to half, and rise to twice as much again.
+    Wanders,
+}
+
+/// Number of windows whose largest displacements are compared. A spiral is seen at all its sides in a
+/// window, so that these fall or rise with it.
+const WINDOWS: usize = 8;
+
+/// Course of displacements, turn by turn.
+fn course(turns: &[f64]) -> Course {
+    let width = turns.len().div_ceil(WINDOWS).max(1);
+    let largest = |window: &[f64]| window.iter().copied().fold(0.0, f64::max);
+    let tops: Vec<f64> = turns.chunks(width).map(largest).collect();
+    if tops.windows(2).all(|pair| pair[1] < pair[0]) {
+        return Course::Falls;
+    }
+    if tops.windows(2).all(|pair| pair[1] > pair[0]) {
+        return Course::Rises;
+    }
+    let (mut top, mut bottom) = (0.0_f64, f64::INFINITY);
+    for turn in turns {
+        if *turn > 2.0 * bottom {
+            return Course::Wanders;
+        }
+        top = top.max(*turn);
+        if *turn < top / 2.0 {
+            bottom = bottom.min(*turn);
+        }
+    }
+    Course::Stays
 }
 
 /// Remaining sum of a geometric decline: d r/(1 - r), where d is the last displacement, and r the
@@ -108,6 +161,32 @@ pub fn confined(claim: &Confined, scene: &FollowedCase<'_>) -> Result<MotionJudg
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_spiral_is_no_wandering() {
+        // Displacements of spirals on ellipses of the ratio k, turned by 0.7 a turn.
+        let spiral = |factor: f64, k: f64| {
+            let of = |turn: i32| {
+                let angle = 0.7 * f64::from(turn);
+                libm::pow(factor, f64::from(turn))
+                    * libm::hypot(k * libm::cos(angle), libm::sin(angle))
+            };
+            course(&(0..800).map(of).collect::<Vec<_>>())
+        };
+        for k in [1.0, 1.5, 3.0, 30.0] {
+            assert_eq!(spiral(0.9999, k), Course::Falls, "{k}");
+            assert_eq!(spiral(1.0001, k), Course::Rises, "{k}");
+        }
+        let passing: Vec<f64> =
+            (0..800).map(|turn| f64::from((turn - 500) * (turn - 500)) + 1.0).collect();
+        assert_eq!(course(&passing), Course::Wanders, "near, and away again");
+        for angle in [0.9, 1.1, 1.3, 2.0] {
+            let of = |turn| 2.0 + libm::sin(angle * f64::from(turn)) / 2.0;
+            let curve: Vec<f64> = (0..800).map(of).collect();
+            assert_ne!(course(&curve), Course::Wanders, "an invariant curve");
+        }
+        assert_eq!(course(&[]), Course::Falls, "no turns, and nothing refuted");
+    }
 
     #[test]
     fn a_geometric_decline_tells_what_is_left() {

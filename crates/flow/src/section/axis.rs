@@ -33,8 +33,15 @@ pub(crate) fn range(text: &str) -> Result<(&str, Rational, Rational), AxisMistak
     let (from, to) = range.split_once("..").ok_or_else(|| wrong("there is no `..`"))?;
     let read = |part: &str| number_with_pi(part).ok_or_else(|| wrong("is no range"));
     let (from, to) = (read(from)?, read(to)?);
-    if from == to {
-        return Err(wrong("the range is empty"));
+    let ends = [&from, &to].map(|end| end.to_f64().0);
+    if !ends.iter().all(|end| end.is_finite()) {
+        return Err(wrong("an end of the range is too large for f64"));
+    }
+    if ends[0] == ends[1] {
+        return Err(wrong(match from == to {
+            true => "the range is empty",
+            false => "the ends of the range are one number in f64",
+        }));
     }
     Ok((name.trim(), from, to))
 }
@@ -231,6 +238,9 @@ mod tests {
             ("a=1", "there is no `..`"),
             ("a=1..x", "is no range"),
             ("a=1..1", "the range is empty"),
+            ("a=1..1.00000000000000000001", "the ends of the range are one number in f64"),
+            ("a=0..1e-400", "the ends of the range are one number in f64"),
+            ("a=0..1e400", "an end of the range is too large for f64"),
             ("d=0..1", "there is no `d` to vary"),
             ("c4=0..1", "there is no `c4` to vary"),
             ("b=0..1", "`b` is computed from other parameters"),

@@ -16,6 +16,8 @@ use liouville::number::double_double::DoubleDouble;
 
 /// Number of steps without a crossing after which a motion counts as lost.
 const MAX_STEPS_BETWEEN: u64 = 100_000;
+/// Number of its roundings within which a motion may keep to the surface, all through its first step.
+const ROUNDINGS: f64 = 64.0;
 /// Number of crossings in the other direction alone after which a motion counts as lost.
 const MAX_OTHERS: usize = 1000;
 
@@ -52,6 +54,8 @@ pub(crate) struct MotionCrossings<P> {
     pub tangencies: usize,
     /// Number of steps taken.
     pub steps: u64,
+    /// Whether it stays near the surface all through its first step, within some roundings.
+    pub is_close: bool,
     /// Final state, where it is finite.
     pub end: Option<Vec<DoubleDouble>>,
     /// Reason why the motion ended early, or did not start.
@@ -140,6 +144,7 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
                 others: 0,
                 tangencies: 0,
                 steps: 0,
+                is_close: false,
                 end: None,
                 problem: None,
             };
@@ -192,6 +197,11 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
                 return true;
             }
             let doubt = || self.task.program.rounding::<f64>(0, &self.stepper.pairs(lane), 0.0);
+            let length = piece.length().abs();
+            let reach = polynomial.iter().rev().fold(0.0, |sum, x| sum * length + x.abs());
+            if steps == 0 {
+                running.track.is_close = reach <= ROUNDINGS * doubt();
+            }
             for event in running.sides.events(&polynomial, piece.length(), doubt) {
                 if running.meet(event, &piece, self.task, steps, &mut self.observe) {
                     return true;

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::FlowError;
 use crate::motion::columns::Columns;
+use crate::motion::kept::is_proved;
 use crate::motion::lexicon::{FormulaMistake, Lexicon};
 use crate::motion::orbit::energy_drift;
 use crate::motion::recorded::program;
@@ -17,6 +18,7 @@ use liouville::mechanics::{Model, Phase};
 use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
+use liouville::verdict::Options;
 
 /// Surface f = g in phase space, crossed upwards where f - g grows.
 pub struct CrossingSurface {
@@ -88,6 +90,15 @@ impl CrossingSurface {
 
     pub(crate) fn model(&self) -> &Model {
         self.lexicon.model()
+    }
+
+    /// Whether f - g is proved to be an integral.
+    fn is_kept(&self, case: &Case) -> bool {
+        let function = match self.text.split_once('=') {
+            Some((left, right)) => format!("({left}) - ({right})"),
+            None => self.text.clone(),
+        };
+        is_proved(case, &function, &Options::default())
     }
 
     /// Value of f - g at a point.
@@ -190,6 +201,15 @@ pub fn surface_section(
             row(time, state).into_iter().map(|x| x.hi).collect()
         }
     };
+    let mut tracks = task.run(threads, &observe, progress);
+    // Rounding makes a motion cross a level of an integral to which it keeps.
+    let close: Vec<_> = tracks.iter_mut().filter(|track| track.is_close).collect();
+    if !close.is_empty() && request.surface.is_kept(case) {
+        for track in close {
+            (track.crossings, track.others, track.tangencies) = (Vec::new(), 0, 0);
+            track.problem = Some(FlowError::InSurface);
+        }
+    }
     let orbit = |(track, start): (MotionCrossings<Vec<f64>>, &Result<Start, FlowError>)| {
         let drift = match (start, &track.end) {
             (Ok(start), Some(end)) if case.model.system.has_energy() => {
@@ -208,5 +228,5 @@ pub fn surface_section(
             problem: track.problem,
         })
     };
-    task.run(threads, &observe, progress).into_iter().zip(starts).map(orbit).collect()
+    tracks.into_iter().zip(starts).map(orbit).collect()
 }

@@ -158,6 +158,34 @@ impl<T: SeriesNumber> Series<T> {
         self.divisors.iter().map(|place| &self.memory[*place as usize..][..self.order])
     }
 
+    /// Whether the first operation without a finite value at the state has arguments at which it has
+    /// one: the value is too large.
+    pub fn overflows(&self, lane: usize) -> bool {
+        let value = |place: Place| self.memory[place as usize].lane(lane).leading();
+        let mut placed = self.code.operations.iter().zip(&self.code.finishes);
+        let first = placed.find(|(_, finish)| !value(finish.place).is_finite());
+        match first.map(|(operation, _)| &operation.rule) {
+            Some(PlacedRule::Recip(x)) => value(*x) != 0.0,
+            Some(PlacedRule::Power { x, .. }) => value(*x) > 0.0,
+            Some(PlacedRule::Sqrt(_) | PlacedRule::Ln(_)) => false,
+            Some(_) => true,
+            None => false,
+        }
+    }
+
+    /// Whether the field has a value at all states.
+    pub fn is_entire(&self) -> bool {
+        !self.code.operations.iter().any(|operation| {
+            matches!(
+                operation.rule,
+                PlacedRule::Recip(_)
+                    | PlacedRule::Sqrt(_)
+                    | PlacedRule::Ln(_)
+                    | PlacedRule::Power { .. }
+            )
+        })
+    }
+
     /// Number of further functions.
     pub fn outputs(&self) -> usize {
         self.code.outputs.len()

@@ -216,6 +216,12 @@ impl<T: SeriesNumber> Stepper<T> {
         {
             return self.without_value(lane, presence, formula);
         }
+        let is_too_large = !state.iter().all(|x| x.is_finite());
+        // At the start of a field without poles no coefficient is that of a singularity nearby.
+        let is_first = time == 0.0 && self.series.is_entire();
+        if is_too_large || self.series.overflows(lane) || is_first {
+            return FlowError::Overflow(time);
+        }
         let state = self.own_state(lane).iter().map(|x| x.hi).collect();
         FlowError::Singular { time, state }
     }

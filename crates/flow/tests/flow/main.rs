@@ -2,6 +2,7 @@
 
 mod branches;
 mod closed_orbits;
+mod exponents;
 mod integration;
 mod motion;
 mod reaches;

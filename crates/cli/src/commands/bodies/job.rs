@@ -199,14 +199,14 @@ impl BodiesJob {
                 wanted.prepare(&mut case);
                 let report = verdicts(&case, &self.options, *motions, VerdictWatch::NOBODY)
                     .map_err(wrong)?;
-                self.judged(&report.claims.iter().collect::<Vec<_>>(), None)
+                self.judged(&report.claims.iter().collect::<Vec<_>>(), None, report.warnings)
             }
             Question::Invariants => {
                 let found = survey::survey(&case, &self.options, &Halt::default(), &mut |_| ())
                     .map_err(wrong)?;
                 let claims: Vec<&ClaimReport> =
                     found.claimed.iter().map(|own| &own.claim).collect();
-                self.judged(&claims, Some(invariants(&found)))
+                self.judged(&claims, Some(invariants(&found)), found.warnings.clone())
             }
         }
     }
@@ -216,8 +216,9 @@ impl BodiesJob {
         &self,
         reports: &[&ClaimReport],
         invariants: Option<Invariants>,
+        warnings: Vec<String>,
     ) -> Result<Finding, Vec<RowMistake>> {
-        let mut found = Finding { verdicts: Vec::new(), against: Vec::new(), invariants };
+        let mut found = Finding { verdicts: Vec::new(), against: Vec::new(), invariants, warnings };
         for (place, claim) in self.claims.iter().enumerate() {
             let Some(report) = reports.iter().find(|report| report.name == claim.name) else {
                 let message = format!("`{}` has no verdict with these values", claim.name);

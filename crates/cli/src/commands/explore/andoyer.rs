@@ -24,6 +24,12 @@ const IMAGES: usize = 10;
 /// Word of --colour for one colour.
 const ONE: &str = "one";
 
+/// Message that a section has no motions.
+fn nothing() -> String {
+    "error: there is no motion to follow\nhelp: give --start l,L/G, or --orbits 1 or more"
+        .to_string()
+}
+
 /// Follows the motions of a part through g = g₀.
 pub fn compute(
     case: &Case,
@@ -39,6 +45,11 @@ pub fn compute(
     let request = SectionRequest { starts: part.of(&whole.starts).to_vec(), ..whole };
     if request.starts.is_empty() && part != Part::WHOLE {
         return Ok(Vec::new());
+    }
+    let draws_curves = !options.lines.is_empty() || !options.separatrices.is_empty();
+    let plans_lines = case.section.as_ref().is_some_and(|plan| !plan.lines.is_empty());
+    if request.starts.is_empty() && !draws_curves && !plans_lines {
+        return Err(nothing());
     }
     let follow = |request: &SectionRequest| {
         let bar = Progress::of(request.starts.len() as u64, "orbits");

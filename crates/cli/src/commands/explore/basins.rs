@@ -88,7 +88,12 @@ pub fn run(options: &BasinArgs) -> Result<CommandOutput, String> {
     let found = basins(&case, &request, options.threads.count(), &|share| bar.add(share));
     bar.finish();
     let found = found.map_err(|error| options.subject.told(&error))?;
-    let report = BasinReport { case: &case, request: &request, found: &found };
+    let report = BasinReport {
+        case: &case,
+        request: &request,
+        has_values: options.by.is_some(),
+        found: &found,
+    };
     options.ink.save(
         out.as_ref(),
         &Sheet {
@@ -132,5 +137,13 @@ fn columns(case: &Case, text: Option<&str>) -> Result<Columns, String> {
     let names = case.model.state.iter().map(|variable| variable.name.as_str());
     let state = names.filter(|name| *name != TIME).collect::<Vec<_>>().join(", ");
     let text = text.unwrap_or(&state);
-    Columns::read(Lexicon::new(case), text).map_err(|mistake| wrong_formula("--by", text, &mistake))
+    let read = Columns::read(Lexicon::new(case), text);
+    let columns = read.map_err(|mistake| wrong_formula("--by", text, &mistake))?;
+    match columns.varies() {
+        true => Ok(columns),
+        false => Err(format!(
+            "error: --by: `{text}` is the same at all states, and tells no motions apart\n\
+             help: name components of the state, or functions of them"
+        )),
+    }
 }

@@ -96,7 +96,7 @@ pub fn answer(options: &ContinueArgs) -> Result<(String, bool), String> {
     let columns = options.columns(case, surface.as_ref())?;
     let titles = columns.as_ref().map(Columns::titles);
     let titles = titles.map_or_else(|| vec!["l".to_string(), "L/G".to_string()], <[_]>::to_vec);
-    let (turns, found) = options.follow(case, varied, &range, surface.as_ref(), columns)?;
+    let (turns, proof, found) = options.follow(case, varied, &range, surface.as_ref(), columns)?;
     let report = BranchReport {
         case,
         name: &name,
@@ -105,6 +105,7 @@ pub fn answer(options: &ContinueArgs) -> Result<(String, bool), String> {
         surface: surface.as_ref().map(CrossingSurface::text),
         period: options.search.period,
         turns,
+        proof,
         branch: &found,
     };
     options.ink.save(
@@ -180,7 +181,7 @@ impl ContinueArgs {
     }
 
     /// Finds the closed orbit, and follows its branch. Returns the number of times that the orbit is
-    /// run through, too.
+    /// run through, and the proof that it closes, too.
     fn follow(
         &self,
         case: &Case,
@@ -188,7 +189,7 @@ impl ContinueArgs {
         range: &[Rational; 2],
         surface: Option<&CrossingSurface>,
         columns: Option<Columns>,
-    ) -> Result<(u32, Branch), String> {
+    ) -> Result<(u32, Result<String, String>, Branch), String> {
         let search = &self.search;
         let mut starts = search.starts(case)?;
         let (Some(given), true) = (starts.pop(), starts.is_empty()) else {
@@ -209,8 +210,9 @@ impl ContinueArgs {
                     .to_string());
             }
         };
-        let orbit = search.orbit(case, given, None)?;
+        let orbit = search.proved(case, search.orbit(case, given, None)?)?;
         let turns = orbit.cycle.turns;
+        let proof = orbit.proof.unwrap_or(Err("no proof was tried".to_string()));
         let request = BranchRequest {
             case,
             section,
@@ -232,7 +234,7 @@ impl ContinueArgs {
             branch(&request, &progress)
         })
         .map_err(|error| search.subject.told(&error))?;
-        Ok((turns, found))
+        Ok((turns, proof, found))
     }
 }
 

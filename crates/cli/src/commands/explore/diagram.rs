@@ -144,11 +144,19 @@ fn through_angle(options: &DiagramArgs, case: &Case, axis: &ChartAxis) -> Result
     if !is_given {
         request.starts.truncate(1);
     }
+    if request.starts.is_empty() {
+        return Err(nothing());
+    }
     let name = |at: &[f64; 2]| format!("{},{}", at[0], at[1]);
     let starts = request.starts.iter().map(name).collect();
     let values = follow(options, case, axis, DiagramSection::Andoyer(&request))?;
     let titles = ["l", "L/G"].map(str::to_string).to_vec();
     Ok(Found { surface: None, titles, starts, values })
+}
+
+/// Message that a diagram has no motions.
+fn nothing() -> String {
+    "error: there is no motion to follow\nhelp: give --start, or --orbits 1 or more".to_string()
 }
 
 fn has_starts(case: &Case) -> bool {
@@ -174,6 +182,9 @@ fn through_surface(
     }
     let drawn = options.orbits.unwrap_or(usize::from(starts.is_empty())) as u64;
     starts.extend((0..drawn).map(|index| (format!("drawn {index}"), Begin::Drawn(index))));
+    if starts.is_empty() {
+        return Err(nothing());
+    }
     let (starts, begins): (Vec<String>, Vec<Begin>) = starts.into_iter().unzip();
     let request = SurfaceRequest {
         surface: &surface,

@@ -65,7 +65,7 @@ impl ExponentsArgs {
 #[derive(Debug, Serialize, Deserialize)]
 pub enum Unit {
     /// Largest exponents, in one direction of time or in both.
-    Largest(MotionRow),
+    Largest(Box<MotionRow>),
     /// All exponents.
     Spectrum {
         /// Name of the start.
@@ -191,6 +191,8 @@ impl Job for ExponentsJob {
         if own.is_empty() {
             return Ok(Vec::new());
         }
+        liouville_flow::two_sided(&self.opened.case)
+            .map_err(|error| self.options.subject.told(&error))?;
         let starts = own.iter().map(|(_, given)| self.start(given.as_ref()));
         let starts = starts.collect::<Result<Vec<_>, String>>()?;
         let names: Vec<String> = own.iter().map(|(name, _)| name.clone()).collect();
@@ -209,7 +211,11 @@ impl Job for ExponentsJob {
         let forward = follow(time);
         let backward = (!one_way).then(|| follow(-time));
         bar.finish();
-        Ok(exponents::rows(names, forward, backward).into_iter().map(Unit::Largest).collect())
+        Ok(exponents::rows(names, forward, backward)
+            .into_iter()
+            .map(Box::new)
+            .map(Unit::Largest)
+            .collect())
     }
 
     fn line(&self, _: u64, unit: &Unit) -> Result<String, String> {
@@ -246,7 +252,7 @@ impl ExponentsJob {
         let (mut rows, mut names, mut spectra) = (Vec::new(), Vec::new(), Vec::new());
         for unit in units {
             match unit {
-                Unit::Largest(row) => rows.push(row),
+                Unit::Largest(row) => rows.push(*row),
                 Unit::Spectrum { start, found } => {
                     names.push(start);
                     spectra.push(found);

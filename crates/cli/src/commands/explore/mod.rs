@@ -201,6 +201,16 @@ impl ExploreCommand {
         }
     }
 
+    /// Limits that a command was given; a search plans its memory by itself.
+    pub fn all_limits(&self) -> LimitArgs {
+        match self {
+            Self::Site(options) => options.limits,
+            Self::Motion { command } => command.subject().limits,
+            Self::Former(FormerCommand::Motion(command)) => command.subject().limits,
+            _ => self.limits(),
+        }
+    }
+
     /// Limits of a command that has nothing to show before its end; a search and a site have their own.
     pub fn limits(&self) -> LimitArgs {
         match self {

@@ -167,7 +167,7 @@ pub struct CrossingArgs {
     pub axes: Option<String>,
     /// Number of crossings of each motion; by default of a section 500 or as the case says, of a
     /// diagram 100, of a rotation number 2000
-    #[arg(long, value_parser = parse_count)]
+    #[arg(long, value_parser = parse_positive)]
     pub crossings: Option<usize>,
     /// Number of crossings left out at the beginning of each motion; by default of a section none or
     /// as the case says, of a diagram 300, of a rotation number none
@@ -217,6 +217,14 @@ pub fn parse_count(text: &str) -> Result<usize, String> {
     const MOST_COUNT: usize = 1_000_000;
     let count = text.parse().ok().filter(|count| *count <= MOST_COUNT);
     count.ok_or(format!("write a whole number up to {MOST_COUNT}"))
+}
+
+/// Reads a count that has to be 1 or more.
+pub fn parse_positive(text: &str) -> Result<usize, String> {
+    match parse_count(text)? {
+        0 => Err("nothing would be computed: write 1 or more".to_string()),
+        count => Ok(count),
+    }
 }
 
 /// Reads a point of a section.

@@ -86,6 +86,16 @@ impl Digits {
 }
 
 pub fn run(options: &OrbitArgs) -> Result<CommandOutput, String> {
+    if !options.time.to_f64().0.is_finite() {
+        return Err(
+            "error: --time: the time is too large for f64\nhelp: give a shorter time".to_string()
+        );
+    }
+    if options.time.to_f64().0 == 0.0 {
+        return Err("error: --time 0: nothing moves in no time\n\
+                    help: write a number that is not 0; `liouville eval` shows the state and its rates"
+            .to_string());
+    }
     let subject = &options.subject;
     let case = subject.open()?;
     let told = |error: FlowError| subject.told(&error);

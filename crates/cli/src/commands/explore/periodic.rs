@@ -51,26 +51,25 @@ pub struct Periodic {
     #[arg(long, default_value_t = 400, requires = "symmetric",
         value_parser = clap::value_parser!(u32).range(8..=1_000_000))]
     pub points: u32,
-    /// Prove that each orbit closes, by enclosures: the theorem, or the reason why there is none
+    /// Prove that each orbit of --symmetric closes, by enclosures, as it is tried for an orbit near a
+    /// start: the theorem, or the reason why there is none
     #[arg(long)]
     pub prove: bool,
+    /// Leave the proof out, and report what is computed
+    #[arg(long, conflicts_with = "prove")]
+    pub numerical: bool,
     #[command(flatten)]
     pub threads: Threads,
 }
 
 impl Periodic {
-    /// Adds the proof to an orbit, if it is asked for.
-    pub fn proved(&self, case: &Case, mut found: FoundOrbit) -> Result<FoundOrbit, String> {
-        if self.prove {
-            let energy = match found.point {
-                Some(_) => Some(self.search.plane.of(case)?.1),
-                None => None,
-            };
-            let options = Options { seed: self.search.subject.seed, ..Options::default() };
-            let theorem = observe::theorem_about(case, &found.cycle, energy.as_ref(), &options);
-            found.proof = Some(theorem);
-        }
-        Ok(found)
+    /// Adds the proof to an orbit, if it is to be tried.
+    pub fn proved(&self, case: &Case, found: FoundOrbit) -> Result<FoundOrbit, String> {
+        let is_tried = match self.symmetric.is_empty() {
+            true => !self.numerical,
+            false => self.prove,
+        };
+        if is_tried { self.search.proved(case, found) } else { self.search.supported(found) }
     }
 }
 
@@ -115,6 +114,26 @@ impl OrbitSearch {
                 .to_string());
         }
         Ok(given.into_iter().map(|(_, given)| given).collect())
+    }
+
+    /// Adds the proof to an orbit, or the reason why there is none. A motion that is nearly closed is
+    /// reported only with its proof.
+    pub fn proved(&self, case: &Case, mut found: FoundOrbit) -> Result<FoundOrbit, String> {
+        let energy = match found.point {
+            Some(_) => Some(self.plane.of(case)?.1),
+            None => None,
+        };
+        let options = Options { seed: self.subject.seed, ..Options::default() };
+        let theorem = observe::theorem_about(case, &found.cycle, energy.as_ref(), &options);
+        let is_proved = theorem.is_ok();
+        found.proof = Some(theorem);
+        if is_proved { Ok(found) } else { self.supported(found) }
+    }
+
+    /// The orbit, unless the motion is nearly closed only.
+    fn supported(&self, found: FoundOrbit) -> Result<FoundOrbit, String> {
+        let cycle = found.cycle.supported().map_err(|error| self.subject.told(&error))?;
+        Ok(FoundOrbit { cycle, ..found })
     }
 
     /// Finds the orbit near a start.
@@ -171,7 +190,9 @@ fn near_state(
     let start = launches.start(&Begin::State(state)).map_err(told)?;
     let count = options.period as usize;
     let (start, time, crossings) = match (surface, time) {
-        (_, Some(time)) if time.to_f64().0 > 0.0 => (start, time.to_f64().0, None),
+        (_, Some(time)) if time.to_f64().0 > 0.0 && time.to_f64().0.is_finite() => {
+            (start, time.to_f64().0, None)
+        }
         (_, Some(_)) => return Err("error: --time: write a period above 0".to_string()),
         (Some(surface), None) => {
             let direction = options.direction.unwrap_or(liouville::case::Direction::Up);

@@ -16,7 +16,9 @@ use serde::{Deserialize, Serialize};
 use super::chart::parse_size;
 use super::eval::Opened;
 use super::ink::Ink;
-use super::motion::{CrossingArgs, MotionArgs, Threads, parse_count, parse_start, rendered};
+use super::motion::{
+    CrossingArgs, MotionArgs, Threads, parse_count, parse_positive, parse_start, rendered,
+};
 use super::output::{Ending, Output};
 use super::share::{Share, Target, carry_out};
 use super::starts::Starts;
@@ -63,14 +65,14 @@ pub struct SectionArgs {
     #[arg(long, value_delimiter = ',')]
     pub lines: Vec<FixedLine>,
     /// Number of images of the lines, forwards and backwards
-    #[arg(long, value_parser = parse_count)]
+    #[arg(long, value_parser = parse_positive)]
     pub images: Option<usize>,
     /// Draw the stable and unstable curves of the hyperbolic point near l,L/G (of period n: l,L/G,n);
     /// may be repeated
     #[arg(long, value_name = "L,Z[,N]", value_parser = parse_point, allow_hyphen_values = true)]
     pub separatrices: Vec<([f64; 2], usize)>,
     /// Classify each orbit by its exponents over this time and back: --classes, --classes=5000
-    #[arg(long, value_name = "TIME", num_args = 0..=1, require_equals = true, default_missing_value = "2000")]
+    #[arg(long, value_name = "TIME", num_args = 0..=1, require_equals = true, default_missing_value = "2000", value_parser = parse_time)]
     pub classes: Option<f64>,
     #[command(flatten)]
     pub ink: Ink,
@@ -78,6 +80,12 @@ pub struct SectionArgs {
     pub share: Share,
     #[command(flatten)]
     pub threads: Threads,
+}
+
+/// Reads a time for which motions are classified.
+fn parse_time(text: &str) -> Result<f64, String> {
+    let time = text.parse().ok().filter(|time: &f64| *time > 0.0 && time.is_finite());
+    time.ok_or("write a positive time".to_string())
 }
 
 /// Reads a point of a section with its period.

@@ -72,7 +72,7 @@ fn each_row_is_judged_as_set_does() {
                     3 bodies: 7 proved, 2 refuted, 0 undecided, 2 disagreements\n";
     assert_eq!(text, expected);
     let csv = run(&home, "check spring.toml --settings bodies.csv --claim circle --format csv", 1);
-    assert_eq!(csv.lines().nth(2), Some("2,3,3/2,0,0,1,0,1,refuted,"), "{csv}");
+    assert_eq!(csv.lines().nth(2), Some("2,3,3/2,0,0,1,0,1,refuted,,"), "{csv}");
     let lines = run(&home, "check spring.toml --settings bodies.csv --format jsonl", 1);
     assert_eq!(lines.lines().count(), 3);
     run(&home, "check spring.toml --settings bodies.csv --claim energy --quiet", 0);

@@ -27,7 +27,7 @@ use walk::{Half, Walk};
 
 use crate::error::FlowError;
 use crate::motion::kept::keeps_energy;
-use crate::motion::start::LevelFunctions;
+use crate::motion::start::{LevelFunctions, two_sided};
 use liouville::mechanics::{ParameterOrigin, components};
 use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
@@ -40,6 +40,7 @@ pub fn branch(
     request: &BranchRequest<'_>,
     progress: &dyn Fn(&BranchPoint),
 ) -> Result<Branch, FlowError> {
+    two_sided(request.case)?;
     let (energy, value) = kept(request)?;
     let [from, to] = &request.range;
     if value < *from || value > *to {

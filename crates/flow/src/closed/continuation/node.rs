@@ -6,6 +6,7 @@ use super::request::{Bifurcation, BranchPoint};
 use super::solve::{Solved, Solver, Tangent, Trouble};
 use crate::closed::multiplier;
 use crate::closed::through::MeasuredNumber;
+use crate::error::FlowError;
 use crate::taylor::stepper::Accuracy;
 use liouville::number::double_double::DoubleDouble;
 
@@ -71,6 +72,9 @@ impl Solver<'_> {
     pub fn node(&self, mut solved: Solved, plane: &Plane) -> Result<Node, Trouble> {
         let float_time = solved.place.time.hi;
         let residual = self.refine(&mut solved, plane)?;
+        if !self.is_supported(&solved, plane, residual) {
+            return Err(FlowError::NearReturn(float_time, residual).into());
+        }
         solved.frame = self.family.frame(&solved.place)?;
         let [float, pair] = self.both(&solved)?;
         let (rough, _) = tests(self, &solved, &float, plane).ok_or(Trouble::Singular)?;

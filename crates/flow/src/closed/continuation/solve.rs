@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::family::{Family, Frame, Place, norm};
 use super::linear::{Linear, Plane};
+use crate::closed::cycle::SUPPORTED;
 use crate::error::FlowError;
 use crate::taylor::stepper::Accuracy;
 use liouville::number::double_double::DoubleDouble;
@@ -129,6 +130,19 @@ impl Solver<'_> {
         let (residual, place) = best.ok_or(Trouble::Lost)?;
         solved.place = place;
         Ok(residual)
+    }
+
+    /// Whether the distance of the image is so small that there seems to be an orbit in a plane, by the
+    /// singular values of the equations there.
+    pub fn is_supported(&self, solved: &Solved, plane: &Plane, residual: f64) -> bool {
+        let mut matrix = solved.linear.bordered(&plane.row(&solved.frame));
+        let last = matrix.ncols() - 1;
+        matrix.column_mut(last).scale_mut(1.0 / self.size);
+        let mut row = matrix.row_mut(last);
+        let length = row.norm();
+        row.unscale_mut(length);
+        let least = matrix.singular_values().min().min(1.0);
+        residual / self.size <= SUPPORTED * least * least
     }
 
     /// Unit direction of the branch at a point, on the side of a plane's normal.
