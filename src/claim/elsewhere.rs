@@ -14,10 +14,10 @@ pub(super) fn system_at(at: &Phase<'_, Expr>) -> Vec<Expr> {
     formulas.flat_map(|formula| written_at(at, formula)).collect()
 }
 
-/// Records formulas as written at a point, with the integrands of every ∫.
+/// Records a formula as written at a point, with what its value does not show.
 pub(super) fn written_at(at: &Phase<'_, Expr>, formula: &Formula) -> Vec<Expr> {
     let mut values = at.evaluate_literally(formula).components();
-    values.extend(at.integrands(formula));
+    values.extend(at.presupposed(formula));
     values
 }
 

@@ -142,7 +142,7 @@ impl Statement for Relation {
         let function = jet.phase.scalar(&self.function);
         let factor = jet.phase.evaluate_literally(&self.cofactor).components();
         let inverse = jet.phase.scalar(&self.cofactor).recip();
-        let integrands = jet.phase.integrands(&self.cofactor).into_iter();
+        let integrands = jet.phase.presupposed(&self.cofactor).into_iter();
         let integrands = integrands.map(|factor| (factor, factor.recip()));
         let condition = |(factor, inverse)| Condition {
             need: Need::ValueOnZeros { function, factor, inverse },

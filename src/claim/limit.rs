@@ -118,7 +118,7 @@ impl Statement for Limit {
                     None => presence.extend(inside(vec![value])),
                 }
             }
-            presence.extend(at.integrands(formula));
+            presence.extend(at.presupposed(formula));
         }
         presence
     }

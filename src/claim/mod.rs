@@ -251,19 +251,19 @@ impl ClaimKind {
         // Where ρ is 0 on an open part, div(ρv) is 0, and v(ln ρ) is undefined.
         let mut values: Vec<Expr> = self.divisors().into_iter().flat_map(inverses).collect();
         values.extend(of_each!(self, statement => statement.written_elsewhere(jet)));
+        // A claim about a map says nothing where F∘Φ has no value.
+        let formulas = of_each!(self, statement => statement.at_images_of_maps());
+        if jet.phase.model().system.is_map() && !formulas.is_empty() {
+            let there = jet.image();
+            values.extend(formulas.into_iter().flat_map(|formula| written_at(&there, formula)));
+        }
         values.retain(|value| !value.is_always_defined());
         values
     }
 
     /// Computes values, recorded literally, without which the claim has no meaning.
     pub fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
-        let mut values = of_each!(self, statement => statement.presence(jet));
-        let formulas = of_each!(self, statement => statement.at_images_of_maps());
-        if jet.phase.model().system.is_map() && !formulas.is_empty() {
-            let there = jet.image();
-            values.extend(formulas.into_iter().flat_map(|formula| written_at(&there, formula)));
-        }
-        values
+        of_each!(self, statement => statement.presence(jet))
     }
 
     /// Computes auxiliary values, needed at a few states only.

@@ -42,6 +42,7 @@
 mod algebra;
 mod arena;
 mod assemble;
+mod bases;
 mod binders;
 mod bond;
 mod compose;

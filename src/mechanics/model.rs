@@ -204,6 +204,20 @@ impl Model {
         all.into_iter().any(Formula::has_antiderivative)
     }
 
+    /// Whether the value of a symbol is no number that the file gives.
+    pub(crate) fn varies(&self, symbol: Symbol) -> bool {
+        let any = |formula: &Formula| formula.symbols().any(|symbol| self.varies(symbol));
+        match self.vocabulary.entry(symbol).meaning {
+            Meaning::Parameter(index) => match &self.parameters[index].origin {
+                ParameterOrigin::Fixed(_) => false,
+                ParameterOrigin::Free(_) => true,
+                ParameterOrigin::Formula(formula) => any(formula),
+            },
+            Meaning::Abbreviation(index) => self.abbreviations.get(index).is_some_and(any),
+            Meaning::State(_) | Meaning::Quantity(_) => true,
+        }
+    }
+
     /// Whether formulas contain different `∫`, each with a constant of its own.
     pub(crate) fn has_several_antiderivatives(&self, formulas: &[&Formula]) -> bool {
         let all = formulas

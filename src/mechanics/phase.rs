@@ -21,6 +21,7 @@ use super::rubber::{NORMAL, angular_velocity, normal};
 use super::vocabulary::Meaning;
 use crate::formula::{Formula, Symbol, Value};
 use crate::graph::{Expr, literally};
+use crate::number::UnaryFunction;
 use crate::scalar::Scalar;
 
 /// A point of phase space over the scalar T.
@@ -250,23 +251,31 @@ impl Phase<'_, Expr> {
     pub fn literal_values<'f>(&self, formulas: impl IntoIterator<Item = &'f Formula>) -> Vec<Expr> {
         let written = |f: &'f Formula| {
             let mut values = self.evaluate_literally(f).components();
-            values.extend(self.integrands(f));
+            values.extend(self.presupposed(f));
             values
         };
         let values = formulas.into_iter().flat_map(written);
         values.filter(|value| !value.is_always_defined()).collect()
     }
 
-    /// Evaluates the integrand of each ∫ in a formula as written: where it has no value, ∫ has none.
-    pub fn integrands(&self, formula: &Formula) -> Vec<Expr> {
+    /// Evaluates as written what a formula has no value without, though its value need not show it: the
+    /// integrand of each ∫, and the logarithm of the base of each power with an exponent that varies,
+    /// which may come out as a whole number.
+    pub fn presupposed(&self, formula: &Formula) -> Vec<Expr> {
         let model = self.model();
         let all = model.vocabulary.with_abbreviations(formula, &model.abbreviations).into_iter();
         let of = |used: &Formula| {
-            literally(|| used.antiderivatives(&mut |symbol| self.literal_value(symbol)))
+            literally(|| {
+                let mut lookup = |symbol| self.literal_value(symbol);
+                let bases = used.bases(&|symbol| model.varies(symbol), &mut lookup);
+                let integrands = used.antiderivatives(&mut lookup).into_iter().map(|(f, _)| f);
+                bases
+                    .into_iter()
+                    .map(|base| base.apply(UnaryFunction::Ln))
+                    .chain(integrands)
+                    .collect::<Vec<Expr>>()
+            })
         };
-        all.filter(|used| used.has_antiderivative())
-            .flat_map(of)
-            .map(|(integrand, _)| integrand)
-            .collect()
+        all.flat_map(of).collect()
     }
 }

@@ -234,22 +234,12 @@ impl Graph {
         }
     }
 
-    /// Raises to a power x^y, which has a value for x > 0 alone, also where y comes out as a whole
-    /// number.
     pub(super) fn pow(&mut self, base: NodeId, exponent: NodeId) -> NodeId {
         match self.constant_at(exponent).cloned() {
-            Some(exponent) if !self.literal || self.is_positive_constant(base) => {
-                self.power(base, &exponent)
-            }
-            Some(_) => self.intern(Node::Binary(BinaryOperation::Pow, base, exponent)),
+            Some(exponent) => self.power(base, &exponent),
             None if base == ONE && self.may_drop(exponent) => base,
             None => self.intern(Node::Binary(BinaryOperation::Pow, base, exponent)),
         }
-    }
-
-    fn is_positive_constant(&self, node: NodeId) -> bool {
-        let zero = Rational::from(0);
-        self.constant_at(node).is_some_and(|value| *value > zero)
     }
 
     /// Raises to a power x^q: small integers are multiplied out, half-integers use one root, and

@@ -41,7 +41,7 @@ fn follow(case: &Case, near: [f64; 2], varied: &str, range: [&str; 2]) -> Branch
 fn a_branch_over_the_energy_goes_through_the_points_at_single_energies() {
     let case = figure("fig-5");
     let plan = case.section.as_ref().expect("a section");
-    let found = follow(&case, [PI / 2.0, 0.366], "energy", ["98", "99.5"]);
+    let found = follow(&case, [PI / 2.0, 0.366], "energy", ["98", "100.5"]);
     assert!(found.keeps_area, "the case has a density");
     assert!(found.points.len() > 10);
     // Pairs that collide at 1, at the same energies for the mirror images in L = 0, where it turns.
