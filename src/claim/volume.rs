@@ -14,11 +14,14 @@ use crate::mechanics::{
 use crate::number::Domain;
 use crate::number::ball::{Ball, Balls};
 use crate::number::rational::Rational;
-use crate::proof::{Extent, is_nowhere_zero, sign};
+use crate::proof::{Extent, is_seen_nowhere_zero, sign};
 
 /// Number of bodies of the case that are tried, and the seed by which `eval` draws them too.
 const BODIES: u64 = 4;
 const SEED: u64 = 1;
+
+/// Number of pieces of the ranges in which ρ₀ is enclosed.
+const PIECES: usize = 1 << 9;
 
 /// Number of normals of each body that are tried, as lanes of one run.
 const NORMALS: usize = 64;
@@ -45,7 +48,7 @@ fn name(model: &Model) -> String {
 
 /// Returns the reason why the criterion proves nothing, if it is known that ρ₀ vanishes.
 pub(super) fn limit_of_proof(model: &Model) -> Option<String> {
-    match zeros(model) {
+    match zeros(model, false) {
         Zeros::Known(place) => Some(format!(
             "the criterion is 0, and {} is 0 {place}: the equations of motion have no value there, and \
              the criterion tells of a density only where this is not 0 for all γ",
@@ -57,7 +60,7 @@ pub(super) fn limit_of_proof(model: &Model) -> Option<String> {
 
 /// Returns a remark if it is not known whether ρ₀ vanishes.
 pub(super) fn remark(model: &Model) -> Option<String> {
-    matches!(zeros(model), Zeros::Possible).then(|| {
+    matches!(zeros(model, true), Zeros::Possible).then(|| {
         format!(
             "it is not known that {} ≠ 0 for all γ, which the criterion presupposes",
             name(model)
@@ -65,7 +68,8 @@ pub(super) fn remark(model: &Model) -> Option<String> {
     })
 }
 
-fn zeros(model: &Model) -> Zeros {
+/// Looks for zeros; where none is seen, `by_intervals` tells whether to look for a proof of that.
+fn zeros(model: &Model, by_intervals: bool) -> Zeros {
     let Some(body) = model.system.body() else { return Zeros::None };
     let draws = model.parameter_draws();
     let mut extents: Vec<Extent> = draws.iter().map(Draw::extent).collect();
@@ -110,7 +114,15 @@ fn zeros(model: &Model) -> Zeros {
     if !vanishing.is_empty() {
         return Zeros::Known(format!("at {}", named(&vanishing)));
     }
-    let is_nonzero = |value: &Expr| is_nowhere_zero(&graph, &extents, &sphere, &[*value]);
+    let tape = Tape::new(&graph, &[*turned]);
+    if let Some(body) = (0..BODIES).find(|body| takes_both_signs(&tape, &draws, *body)) {
+        return Zeros::Known(format!("for some γ of the body of state {body}"));
+    }
+    if !by_intervals {
+        return Zeros::Possible;
+    }
+    let is_nonzero =
+        |value: &Expr| is_seen_nowhere_zero(&graph, &extents, &sphere, &[*value], PIECES);
     let is_positive = |value: &Expr, may_vanish: bool| {
         let known = sign(&graph, &extents, &[], &[], *value);
         known.is_some_and(|known| known.is_positive && (may_vanish || !known.may_vanish))
@@ -118,14 +130,9 @@ fn zeros(model: &Model) -> Zeros {
     // Ĩ = I + m(r²E − r⊗r) is definite where I is, and m is not negative.
     let is_definite =
         has_positive_moments(model) || minors.iter().all(|own| is_positive(own, false));
-    if is_definite && is_positive(mass, true) && is_nonzero(determinant) || is_nonzero(density) {
-        return Zeros::None;
-    }
-    let tape = Tape::new(&graph, &[*turned]);
-    match (0..BODIES).find(|body| takes_both_signs(&tape, &draws, *body)) {
-        Some(body) => Zeros::Known(format!("for some γ of the body of state {body}")),
-        None => Zeros::Possible,
-    }
+    let is_nowhere =
+        is_definite && is_positive(mass, true) && is_nonzero(determinant) || is_nonzero(density);
+    if is_nowhere { Zeros::None } else { Zeros::Possible }
 }
 
 /// Names axes by their numbers.

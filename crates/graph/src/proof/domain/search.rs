@@ -49,6 +49,17 @@ pub fn is_nowhere_zero(
     not_negative: &[Expr],
     values: &[Expr],
 ) -> bool {
+    is_seen_nowhere_zero(graph, inputs, not_negative, values, MOST_PIECES)
+}
+
+/// The same, as far as it is seen by this number of pieces of the extents.
+pub fn is_seen_nowhere_zero(
+    graph: &Graph,
+    inputs: &[Extent],
+    not_negative: &[Expr],
+    values: &[Expr],
+    pieces: usize,
+) -> bool {
     let classes = Classes::default();
     let fact = |value: &Expr| (graph.place(*value), SignFact::NotNegative);
     let facts: Vec<(usize, SignFact)> = not_negative.iter().map(fact).collect();
@@ -57,7 +68,7 @@ pub fn is_nowhere_zero(
     let reached = region.reached(&places);
     let used = region.inputs_of(&reached);
     let mut open = vec![region.whole()];
-    for _ in 0..MOST_PIECES {
+    for _ in 0..pieces {
         let Some(mut part) = open.pop() else { return true };
         let Some(bounds) = region.bounds(&reached, &part) else { continue };
         let vanishes =
