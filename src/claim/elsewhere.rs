@@ -1,10 +1,11 @@
 //! What a claim requires at a point other than the state: at σ(x), at Φ(x), at a fixed point.
 
+use num_traits::Zero;
+
 use super::{Condition, Need};
 use crate::formula::Formula;
 use crate::graph::{Expr, edges};
 use crate::mechanics::{Model, Phase};
-use num_traits::Zero;
 
 /// Records the equations of motion as written at a point: where they have no value the point is not in
 /// phase space.

@@ -38,10 +38,10 @@ impl Mechanical {
     /// and independent.
     pub fn of(case: &Case, lagrangian: &Lagrangian) -> Result<Self, SearchError> {
         let model = &case.model;
-        if model.level.len() != if lagrangian.vakonomic { 0 } else { lagrangian.constraints.len() }
-        {
+        let allowed = if lagrangian.vakonomic { 0 } else { lagrangian.constraints.len() };
+        if model.level.len() != allowed {
             return Err(SearchError::Unsplit(
-                "velocities are independent of each other up to constraints alone, not on a level set",
+                "it is a Lagrangian system on a level set other than its constraints",
             ));
         }
         let (mut positions, mut velocities, mut start) = (Vec::new(), Vec::new(), 0);
