@@ -31,7 +31,6 @@ fn nothing_is_said_of_parameters_for_which_the_field_has_no_value() {
         ("0*x^b", "2"),
         ("0*x^b", "1"),
         ("x^b*0", "3"),
-        ("x^(b*x) − 1", "0"),
         ("(−1)^b − 1", "0"),
         ("(x − 3)^b − 1", "0"),
         ("x^k − 1", "0"),
