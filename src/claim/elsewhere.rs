@@ -1,4 +1,4 @@
-//! What a claim requires at a point other than the state: at σ(x), at Φ(x), at a fixed point.
+//! Requirements of a claim at a point other than the state: at σ(x), at Φ(x), at a fixed point.
 
 use num_traits::Zero;
 

@@ -26,7 +26,7 @@ const PIECES: usize = 1 << 9;
 /// Number of normals of each body that are tried, as lanes of one run.
 const NORMALS: usize = 64;
 
-/// What is known of the zeros of ρ₀.
+/// Knowledge of the zeros of ρ₀.
 enum Zeros {
     /// There are none.
     None,

@@ -2,6 +2,7 @@
 //! as at real states.
 
 use super::ansatz::Hamiltonians;
+use super::counts::{MORE, is_of_count};
 use super::local::{angles, twice_the_arctangent};
 use super::terms::recorded;
 use super::{Effort, FurtherTerm, SearchError, SearchReport, irrational};
@@ -23,6 +24,19 @@ pub fn withdraw(
 ) -> Result<(), SearchError> {
     let counts = report.counts.len() + report.multipliers.len();
     if counts + report.excluded.len() + report.conditions.len() == 0 || are_true(case, effort)? {
+        return Ok(());
+    }
+    if counts > 0 && are_counts_true(case, effort)? {
+        // Sines and cosines took values of their own elsewhere.
+        let before = report.excluded.len() + report.conditions.len();
+        report.excluded.retain(is_of_count);
+        report.conditions.retain(|own| own.of.starts_with(MORE));
+        if report.excluded.len() + report.conditions.len() < before {
+            report.remark(
+                "nothing is excluded but by counts: the formulas contain sines and cosines"
+                    .to_string(),
+            );
+        }
         return Ok(());
     }
     report.counts.clear();
@@ -81,6 +95,15 @@ fn unwound(
 
 /// Whether all formulas that enter theorems agree modulo primes with their values at real states.
 pub fn are_true(case: &Case, effort: &Effort) -> Result<bool, SearchError> {
+    are_true_in(case, effort, false)
+}
+
+/// Whether they do in the coordinates of a count, in which angles are points of a circle.
+pub fn are_counts_true(case: &Case, effort: &Effort) -> Result<bool, SearchError> {
+    are_true_in(case, effort, true)
+}
+
+fn are_true_in(case: &Case, effort: &Effort, of_count: bool) -> Result<bool, SearchError> {
     let sampler = Sampler::new(case, &LevelSubset::level(&case.model), effort.options.seed)?;
     if sampler.is_numerical() {
         return Ok(true);
@@ -106,7 +129,7 @@ pub fn are_true(case: &Case, effort: &Effort) -> Result<bool, SearchError> {
     let (mut extents, sources) = (sampler.extents(), sampler.sources());
     let mut outputs = groups.concat();
     let mut graph = graph;
-    if let Some(unwound) = unwound(&graph, &outputs, sampler.recipes())? {
+    if of_count && let Some(unwound) = unwound(&graph, &outputs, sampler.recipes())? {
         (graph, outputs) = (unwound.graph, unwound.outputs);
         unwound.angles.into_iter().for_each(|angle| extents[angle] = Extent::ALL);
     }

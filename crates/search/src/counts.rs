@@ -21,10 +21,13 @@ const MOST_LISTED: usize = 64;
 
 /// Beginning of the name of what a count excludes.
 const OF_COUNTS: &str = "polynomials in the velocities of degree up to";
+/// Beginning of the name of what a count of densities excludes.
+pub const OF_DENSITIES: &str = "densities P^(1/α), P polynomial in the velocities";
 /// Words of theorems that come from the free motion.
 pub const FOR_EVERY_POTENTIAL: &str = "for every gyrostat and every potential";
-/// Beginning of the remark on integrals that are counted, and not found.
-const MORE: &str = "more integrals of degree";
+/// Beginning of the remark on integrals that are counted, and not found, and of the name of a condition
+/// under which more are counted.
+pub const MORE: &str = "more integrals of degree";
 
 /// Number of integrals of one degree.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -349,6 +352,11 @@ pub fn conclude(
         None => report.excluded.push(stated),
     }
     Ok(())
+}
+
+/// Whether a theorem comes from a count in positions and velocities.
+pub fn is_of_count(excluded: &Excluded) -> bool {
+    [OF_COUNTS, OF_DENSITIES].iter().any(|start| excluded.ansatz.starts_with(start))
 }
 
 /// Tells the first degree at which more integrals are counted than known, in place of an earlier one,

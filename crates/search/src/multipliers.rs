@@ -11,7 +11,7 @@
 use serde::Serialize;
 
 use super::ask::{holds, judged_alone};
-use super::counts::{free_motion, largest, locals};
+use super::counts::{OF_DENSITIES, free_motion, largest, locals};
 use super::integrals::{over_denominators, terms};
 use super::jets::{DimensionCount, MotionAtPoint, VelocityPolynomials};
 use super::local::Local;
@@ -163,8 +163,7 @@ fn theorem(effort: &Effort, free: bool, mixed: bool) -> Excluded {
     };
     Excluded {
         ansatz: format!(
-            "densities P^(1/α), P polynomial in the velocities of degree up to {degree}, with any smooth \
-             coefficients in the positions"
+            "{OF_DENSITIES} of degree up to {degree}, with any smooth coefficients in the positions"
         ),
         dimension: 0,
         known: 0,

@@ -5,7 +5,7 @@ use super::{Expr, Graph, Step, literally, with_graph};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
 
-/// What an operation needs of one of its arguments to have a value.
+/// Requirement of an operation on one of its arguments, without which it has no value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Need {
     /// The argument is not 0.
@@ -27,7 +27,7 @@ impl Need {
         (self.nonzero || !other.nonzero) && (self.not_negative || !other.not_negative)
     }
 
-    /// What two operations on the same argument need together.
+    /// Requirement of two operations on the same argument.
     pub fn and(self, other: Self) -> Self {
         Self {
             nonzero: self.nonzero || other.nonzero,
@@ -115,7 +115,7 @@ mod tests {
     use crate::scalar::Scalar;
     use num_dual::DualNum;
 
-    /// What is needed of the input of a graph of one operation.
+    /// Need of the input of a graph of one operation.
     fn need(build: impl FnOnce(Expr) -> Expr) -> Option<Need> {
         let (graph, made) = record(1, |x| build(x[0])).expect("records");
         graph.step(graph.place(made)).need().map(|(_, need)| need)

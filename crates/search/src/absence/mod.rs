@@ -206,8 +206,12 @@ impl<'a> AbsenceCase<'a> {
                 }),
             }
         };
+        let is_true = match coordinates.is_ok() {
+            true => branches::are_counts_true,
+            false => branches::are_true,
+        };
         match outcome {
-            AbsenceOutcome::Excluded { .. } if !branches::are_true(self.case, &self.effort)? => {
+            AbsenceOutcome::Excluded { .. } if !is_true(self.case, &self.effort)? => {
                 Ok(AbsenceOutcome::Open(
                     "the formulas contain a modulus, a root that depends on others, or a function such \
                      as atan: a count modulo a prime says nothing about them"

@@ -1,5 +1,5 @@
-//! What the program says of numbers that are too large, of limits that it passed, of bodies that are
-//! none, of motions that are asked for nothing, and of orbits that are not proved.
+//! Answers of the program to numbers that are too large, to limits that it passed, to bodies that are
+//! none, to motions that are asked for nothing, and to orbits that are not proved.
 
 use predicates::prelude::*;
 use predicates::str::contains;
