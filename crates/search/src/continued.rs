@@ -16,7 +16,7 @@
 use liouville::case::Case;
 use liouville::claim::LevelSubset;
 use liouville::formula::Formula;
-use liouville::graph::{Expr, Graph, Step};
+use liouville::graph::{Expr, Graph, Step, record};
 use liouville::number::{BinaryOperation, UnaryFunction};
 use liouville::proof::{Extent, Prover, is_single_valued, sign};
 use liouville::verdict::Sampler;
@@ -59,9 +59,64 @@ pub fn is_one_function(
     if is_divided {
         return Ok(false);
     }
-    let sources = sampler.sources();
-    let prover = Prover { sources: &sources, extents: &extents, seed: effort.options.seed };
-    Ok(prover.is_true_to_branches(&graph, &values)?)
+    has_independent_roots(&graph, &values, extents, effort.options.seed)
+}
+
+/// Whether roots and moduli are proved to have independent branches, where exp, ln and the like may
+/// have any value.
+fn has_independent_roots(
+    graph: &Graph,
+    values: &[Expr],
+    mut extents: Vec<Extent>,
+    seed: u64,
+) -> Result<bool, SearchError> {
+    let reached = graph.reached(values.iter().copied());
+    let of = |is_of: fn(&Step<'_>) -> bool| -> Vec<usize> {
+        let steps = graph.steps().enumerate().filter(|(place, _)| reached[*place]);
+        steps.filter(|(_, step)| is_of(step)).map(|(place, _)| place).collect()
+    };
+    if of(is_root).is_empty() {
+        return Ok(true);
+    }
+    let functions = of(is_function);
+    let first = graph.inputs();
+    extents.resize(first, Extent::ALL);
+    extents.extend(functions.iter().map(|place| match graph.step(*place) {
+        Step::Unary(UnaryFunction::Exp, _) => Extent::POSITIVE,
+        _ => Extent::ALL,
+    }));
+    let mut wanted: Vec<usize> = values.iter().map(|value| graph.place(*value)).collect();
+    for place in &functions {
+        wanted.extend(graph.step(*place).arguments());
+    }
+    let (replaced, outputs) = record(extents.len(), |inputs| {
+        let value = |place: usize| functions.iter().position(|own| *own == place);
+        let all = graph.replay(&reached, inputs, |place, _, _| {
+            value(place).map(|number| inputs[first + number])
+        });
+        wanted.iter().map(|place| all[*place]).collect::<Option<Vec<Expr>>>()
+    })?;
+    let Some(outputs) = outputs else { return Ok(false) };
+    let prover = Prover { sources: &[], extents: &extents, seed };
+    Ok(prover.is_true_to_branches(&replaced, &outputs)?)
+}
+
+/// Whether a step has branches.
+fn is_root(step: &Step<'_>) -> bool {
+    match step {
+        Step::Unary(UnaryFunction::Sqrt | UnaryFunction::Abs, _) => true,
+        Step::Power(_, exponent) => exponent.to_integer().is_none(),
+        _ => false,
+    }
+}
+
+/// Whether a step has no values modulo a prime.
+fn is_function(step: &Step<'_>) -> bool {
+    use UnaryFunction::{Atan, Cos, Exp, Ln, Sin};
+    matches!(
+        step,
+        Step::Unary(Exp | Ln | Sin | Cos | Atan, _) | Step::Binary(BinaryOperation::Pow, ..)
+    )
 }
 
 /// Forms of the values that are reached, by place; inputs behind the extents have none.
@@ -137,6 +192,8 @@ mod tests {
             "exp(x)/sin(x)",
             "y^x",
             "x^(1/3)",
+            "x*exp(−2*x) + y*√(1 + 4*x² + 8*x*y + 4*y²)",
+            "√(1 + exp(2*x))*exp(√(x² + 3))",
         ] {
             assert!(is_one(one), "{one}");
         }
@@ -149,6 +206,7 @@ mod tests {
             "1 + sign(x)",
             "√(x²)/x",
             "√(x²*y)",
+            "exp(√(x²)/x)",
             "ln(x)",
             "max(x, 1)",
         ] {
