@@ -92,10 +92,10 @@ impl Judging<'_> {
                 break;
             }
         }
-        if !sampler.is_numerical() {
-            if !seen.iter().zip(&proved).all(|(seen, proved)| seen.is_decided(proved.as_ref())) {
-                self.look_closely(&run, &required, sampler, &proved, &mut seen);
-            }
+        let is_open =
+            !seen.iter().zip(&proved).all(|(seen, proved)| seen.is_decided(proved.as_ref()));
+        if is_open && !sampler.is_numerical() {
+            self.look_closely(&run, &required, sampler, &proved, &mut seen);
         }
         let unreached = sampler.unreached();
         for (((_, _, status), seen), proved) in open.iter_mut().zip(&seen).zip(proved) {

@@ -53,7 +53,7 @@ impl Index {
 
     #[cold]
     fn grow(&mut self) {
-        let mut larger = Self::with_bits(64 - self.shift + 1);
+        let mut larger = Self::with_bits(64 - self.shift + 2);
         for taken in self.slots.iter().filter(|taken| **taken != 0) {
             let mut slot = (taken >> larger.shift) as usize;
             while larger.slots[slot] != 0 {

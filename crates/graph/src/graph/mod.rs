@@ -29,7 +29,7 @@ mod tape;
 
 use std::cell::RefCell;
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
@@ -112,6 +112,8 @@ impl Met {
 
 /// Number of nodes for which there is room from the beginning.
 const USUAL: usize = 256;
+/// Number of constants for which there is room from the beginning.
+const FEW: usize = 14;
 
 /// The constant 0, the first node of every graph.
 const ZERO: NodeId = NodeId(0);
@@ -144,9 +146,9 @@ impl Graph {
             nodes: Vec::with_capacity(USUAL),
             domains: Vec::with_capacity(USUAL),
             literal: false,
-            constants: Vec::new(),
+            constants: Vec::with_capacity(FEW),
             index: Index::new(),
-            constant_ids: FxHashMap::default(),
+            constant_ids: FxHashMap::with_capacity_and_hasher(FEW, FxBuildHasher),
             inputs: 0,
             antiderivatives: FxHashMap::default(),
             fault: None,

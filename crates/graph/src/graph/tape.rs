@@ -174,7 +174,7 @@ fn last_uses(graph: &Graph, roots: &[usize]) -> (Vec<u32>, Vec<u32>) {
     for root in roots.iter().filter(|root| **root < nodes) {
         last[*root] = end as u32;
     }
-    let mut used = Vec::new();
+    let mut used = Vec::with_capacity(end);
     for index in (0..end).rev() {
         if last[index] == UNUSED {
             continue;

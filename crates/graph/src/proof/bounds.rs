@@ -194,7 +194,7 @@ impl Bounds {
             (degree + exponent * d, height + exponent * h)
         });
         if self.weights.len() <= list as usize {
-            self.weights.resize(list as usize + 1, None);
+            self.weights.resize(2 * self.lists.ranges.len(), None);
         }
         self.weights[list as usize] = Some(sum);
         sum
