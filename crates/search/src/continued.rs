@@ -6,12 +6,15 @@
 //!
 //! The draws of states fill a box B. A value is *even* if it is built from them by sums, products,
 //! exp, sin, cos, arctan, and by 1/X, √X, X^a, ln X and |X| of an X that is not 0 on B, or positive:
-//! it is analytic around B. From even values sums, products, quotients, exp, sin, cos, and roots
-//! whose branches are proved independent make functions that are continued analytically along paths
-//! around the complex places where a denominator or a radicand vanishes. These do not divide the
-//! complex neighbourhood of B, and all signs of independent roots are reached; so a function that is 0
-//! on one part of its domain is 0 on all. The same holds of determinants of derivatives of several.
-//! With ln X or arctan X of other values this fails: exp(½ ln x²)/x has the values ±1.
+//! it is analytic around B. Quotients, exp, sin and cos of even values are *single-valued* outside of the
+//! complex zeros of denominators, which divide no complex neighbourhood of B.
+//!
+//! A function of these, of roots, and of ln a and a^y of single-valued a is 0 on all parts of its domain
+//! if it is on one, provided that all roots, and all √a, are proved to have independent branches
+//! (docs/soundness.md, "Known integrals"). exp(½ ln x²)/x has the values ±1, as √(x²) is no independent
+//! root.
+
+use num_dual::DualNum;
 
 use liouville::case::Case;
 use liouville::claim::LevelSubset;
@@ -29,8 +32,12 @@ use super::{Effort, SearchError};
 enum Form {
     /// Analytic around the box of draws.
     Even,
-    /// Continued analytically, but for poles and roots.
-    Continued,
+    /// Single-valued.
+    Single,
+    /// With roots.
+    Root,
+    /// With logarithms or powers.
+    Logarithm,
     /// Another value on other parts, perhaps.
     Divided,
 }
@@ -52,33 +59,41 @@ pub fn is_one_function(
     let fixed = vec![None; sampler.recipes().len()];
     let (graph, values) = sampler.compose(&graph, &[values], &fixed)?;
     let (extents, values) = (sampler.extents(), values.concat());
-    let is_divided = forms(&graph, &values, &extents)
-        .into_iter()
-        .zip(graph.reached(values.iter().copied()))
-        .any(|(form, is_reached)| is_reached && form == Form::Divided);
-    if is_divided {
+    let forms = forms(&graph, &values, &extents);
+    let reached = graph.reached(values.iter().copied());
+    let is_divided = |(form, is_reached): (&Form, &bool)| *is_reached && *form == Form::Divided;
+    if forms.iter().zip(&reached).any(is_divided) {
         return Ok(false);
     }
-    has_independent_roots(&graph, &values, extents, effort.options.seed)
+    has_independent_roots(&graph, &values, &forms, extents, effort.options.seed)
 }
 
-/// Whether roots and moduli are proved to have independent branches, where exp, ln and the like may
-/// have any value.
+/// Whether roots, moduli, and roots of what stands under logarithms, are proved to have independent
+/// branches, where exp, ln and the like may have any value.
 fn has_independent_roots(
     graph: &Graph,
     values: &[Expr],
+    forms: &[Form],
     mut extents: Vec<Extent>,
     seed: u64,
 ) -> Result<bool, SearchError> {
     let reached = graph.reached(values.iter().copied());
-    let of = |is_of: fn(&Step<'_>) -> bool| -> Vec<usize> {
+    let of = |is_of: &dyn Fn(usize, &Step<'_>) -> bool| -> Vec<usize> {
         let steps = graph.steps().enumerate().filter(|(place, _)| reached[*place]);
-        steps.filter(|(_, step)| is_of(step)).map(|(place, _)| place).collect()
+        steps.filter(|(place, step)| is_of(*place, step)).map(|(place, _)| place).collect()
     };
-    if of(is_root).is_empty() {
+    let is_logarithm = |place: usize, step: &Step<'_>| {
+        let is_of_kind = matches!(
+            step,
+            Step::Unary(UnaryFunction::Ln, _) | Step::Binary(BinaryOperation::Pow, ..)
+        );
+        is_of_kind && forms[place] != Form::Even
+    };
+    let logarithms = of(&is_logarithm);
+    if logarithms.is_empty() && of(&|_, step| is_root(step)).is_empty() {
         return Ok(true);
     }
-    let functions = of(is_function);
+    let functions = of(&|_, step| is_function(step));
     let first = graph.inputs();
     extents.resize(first, Extent::ALL);
     extents.extend(functions.iter().map(|place| match graph.step(*place) {
@@ -89,12 +104,15 @@ fn has_independent_roots(
     for place in &functions {
         wanted.extend(graph.step(*place).arguments());
     }
+    let bases: Vec<usize> =
+        logarithms.iter().filter_map(|place| graph.step(*place).arguments().next()).collect();
     let (replaced, outputs) = record(extents.len(), |inputs| {
         let value = |place: usize| functions.iter().position(|own| *own == place);
         let all = graph.replay(&reached, inputs, |place, _, _| {
             value(place).map(|number| inputs[first + number])
         });
-        wanted.iter().map(|place| all[*place]).collect::<Option<Vec<Expr>>>()
+        let roots = bases.iter().map(|place| all[*place].map(|base| base.sqrt()));
+        wanted.iter().map(|place| all[*place]).chain(roots).collect::<Option<Vec<Expr>>>()
     })?;
     let Some(outputs) = outputs else { return Ok(false) };
     let prover = Prover { sources: &[], extents: &extents, seed };
@@ -136,30 +154,37 @@ fn forms(graph: &Graph, values: &[Expr], extents: &[Extent]) -> Vec<Form> {
 fn form(graph: &Graph, step: Step<'_>, forms: &[Form], extents: &[Extent]) -> Form {
     use UnaryFunction::{Abs, Atan, Cos, Exp, Ln, Neg, Recip, Sin, Sqrt};
     let worst = step.arguments().map(|a| forms[a]).max().unwrap_or(Form::Even);
-    let known = |a: usize| sign(graph, extents, &[], &[], graph.at(a)).filter(|s| !s.may_vanish);
+    let known = |a: usize| match forms[a] {
+        Form::Even => sign(graph, extents, &[], &[], graph.at(a)).filter(|s| !s.may_vanish),
+        _ => None,
+    };
     let is_positive = |a: usize| known(a).is_some_and(|sign| sign.is_positive);
     let even_if = |is_even: bool, otherwise: Form| match is_even {
         true => worst,
         false => worst.max(otherwise),
     };
+    // A value under a root or a logarithm has to be of a simple form itself.
+    let of = |a: usize, is_even: bool, most: Form, form: Form| match () {
+        () if is_even => worst,
+        () if forms[a] <= most => worst.max(form),
+        () => Form::Divided,
+    };
     match step {
         Step::Input(input) if input >= extents.len() => Form::Divided,
         Step::Constant(_) | Step::Input(_) | Step::Unary(Neg | Exp | Sin | Cos, _) => worst,
-        Step::Binary(BinaryOperation::Pow, a, _) => even_if(is_positive(a), Form::Divided),
+        Step::Binary(BinaryOperation::Pow, a, _) | Step::Unary(Ln, a) => {
+            of(a, is_positive(a), Form::Single, Form::Logarithm)
+        }
         Step::Binary(..) => worst,
         Step::Unary(Atan, _) if worst == Form::Even => Form::Even,
         Step::Unary(Atan, _) => Form::Divided,
-        Step::Unary(Ln, a) => match worst == Form::Even && is_positive(a) {
-            true => Form::Even,
-            false => Form::Divided,
-        },
-        Step::Unary(Abs, a) => even_if(known(a).is_some(), Form::Continued),
-        Step::Unary(Sqrt, a) => even_if(is_positive(a), Form::Continued),
-        Step::Unary(Recip, a) => even_if(known(a).is_some(), Form::Continued),
+        Step::Unary(Abs, a) => of(a, known(a).is_some(), Form::Root, Form::Root),
+        Step::Unary(Sqrt, a) => of(a, is_positive(a), Form::Root, Form::Root),
+        Step::Unary(Recip, a) => even_if(known(a).is_some(), Form::Single),
         Step::Power(a, exponent) => match exponent.to_integer() {
             Some(exponent) if exponent >= 0 => worst,
-            Some(_) => even_if(known(a).is_some(), Form::Continued),
-            None => even_if(is_positive(a), Form::Continued),
+            Some(_) => even_if(known(a).is_some(), Form::Single),
+            None => of(a, is_positive(a), Form::Root, Form::Root),
         },
     }
 }
@@ -194,6 +219,9 @@ mod tests {
             "x^(1/3)",
             "x*exp(−2*x) + y*√(1 + 4*x² + 8*x*y + 4*y²)",
             "√(1 + exp(2*x))*exp(√(x² + 3))",
+            "ln(x)",
+            "ln(x² + y²)*√(x² + y²*x)",
+            "x*(2*x² + y²)^(y/2)",
         ] {
             assert!(is_one(one), "{one}");
         }
@@ -207,7 +235,10 @@ mod tests {
             "√(x²)/x",
             "√(x²*y)",
             "exp(√(x²)/x)",
-            "ln(x)",
+            "ln(x²)",
+            "ln(x²*y)",
+            "ln(x) + ln(x*(y − 3/2)²)",
+            "√x*ln(x*(y − 3/2)²)",
             "max(x, 1)",
         ] {
             assert!(!is_one(divided), "{divided}");
