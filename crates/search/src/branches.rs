@@ -2,8 +2,8 @@
 //! as at real states.
 
 use super::ansatz::Hamiltonians;
-use super::counts::{MORE, is_of_count};
 use super::local::{angles, twice_the_arctangent};
+use super::origin::ConditionOrigin;
 use super::terms::recorded;
 use super::{Effort, FurtherTerm, SearchError, SearchReport, irrational};
 use liouville::case::Case;
@@ -29,8 +29,8 @@ pub fn withdraw(
     if counts > 0 && are_counts_true(case, effort)? {
         // Sines and cosines took values of their own elsewhere.
         let before = report.excluded.len() + report.conditions.len();
-        report.excluded.retain(is_of_count);
-        report.conditions.retain(|own| own.of.starts_with(MORE));
+        report.excluded.retain(|own| own.origin.is_count());
+        report.conditions.retain(|own| own.origin == ConditionOrigin::Counts);
         if report.excluded.len() + report.conditions.len() < before {
             report.remark(
                 "nothing is excluded but by counts: the formulas contain sines and cosines"

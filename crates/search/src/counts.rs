@@ -9,6 +9,7 @@ use super::ansatz::monomials::AnsatzVariables;
 use super::budget::STEPS;
 use super::jets::{DimensionCount, MotionAtPoint, VelocityPolynomials};
 use super::local::Local;
+use super::origin::{RemarkOrigin, TheoremOrigin};
 use super::products::Generators;
 use super::{Effort, Excluded, SearchError, SearchReport};
 use liouville::case::Case;
@@ -18,16 +19,6 @@ use liouville::number::rational::Rational;
 
 /// Largest number of combinations of listed values that are counted one by one.
 const MOST_LISTED: usize = 64;
-
-/// Beginning of the name of what a count excludes.
-const OF_COUNTS: &str = "polynomials in the velocities of degree up to";
-/// Beginning of the name of what a count of densities excludes.
-pub const OF_DENSITIES: &str = "densities P^(1/α), P polynomial in the velocities";
-/// Words of theorems that come from the free motion.
-pub const FOR_EVERY_POTENTIAL: &str = "for every gyrostat and every potential";
-/// Beginning of the remark on integrals that are counted, and not found, and of the name of a condition
-/// under which more are counted.
-pub const MORE: &str = "more integrals of degree";
 
 /// Number of integrals of one degree.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -339,38 +330,41 @@ pub fn conclude(
         ),
     };
     let stated = Excluded {
-        ansatz: format!("{OF_COUNTS} {degree}, with any smooth coefficients in the positions"),
+        ansatz: format!(
+            "polynomials in the velocities of degree up to {degree}, with any smooth coefficients in the \
+             positions"
+        ),
         dimension: last.dimension,
         known: last.known,
         error_log2: None,
         theorem: format!(
             "For generic values of the free parameters, and the given values of the fixed ones, {what}{forces}"
         ),
+        origin: TheoremOrigin::IntegralCount { free: free_only },
+        values: None,
     };
-    match report.excluded.iter_mut().find(|own| own.ansatz.starts_with(OF_COUNTS)) {
+    let is_count = |own: &&mut Excluded| matches!(own.origin, TheoremOrigin::IntegralCount { .. });
+    match report.excluded.iter_mut().find(is_count) {
         Some(earlier) => *earlier = stated,
         None => report.excluded.push(stated),
     }
     Ok(())
 }
 
-/// Whether a theorem comes from a count in positions and velocities.
-pub fn is_of_count(excluded: &Excluded) -> bool {
-    [OF_COUNTS, OF_DENSITIES].iter().any(|start| excluded.ansatz.starts_with(start))
-}
-
 /// Tells the first degree at which more integrals are counted than known, in place of an earlier one,
 /// where an ansatz may find them that was not asked for.
 fn note_missing(case: &Case, effort: &Effort, report: &mut SearchReport) {
-    report.remarks.retain(|remark| !remark.starts_with(MORE));
+    report.remarks.retain(|remark| remark.origin != RemarkOrigin::MoreCounted);
     if effort.ansatz.wanted || AnsatzVariables::of(case).is_none() {
         return;
     }
     let counts = report.counts.iter().filter(|count| !count.free);
     let missing = counts.filter(|count| count.dimension > count.known).map(|count| count.degree);
     if let Some(degree) = missing.min() {
-        report.remark(format!(
-            "{MORE} {degree} are counted than known: --ansatz looks for them among polynomials"
-        ));
+        let text = format!(
+            "more integrals of degree {degree} are counted than known: --ansatz looks for them among \
+             polynomials"
+        );
+        report.remark_of(RemarkOrigin::MoreCounted, text);
     }
 }

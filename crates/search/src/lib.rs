@@ -36,6 +36,7 @@ mod maps;
 mod meter;
 mod multipliers;
 mod orbit;
+mod origin;
 mod products;
 mod rates;
 mod recognised;
@@ -62,6 +63,7 @@ pub use halt::Halt;
 pub use meter::Meter;
 pub use multipliers::MultiplierReport;
 pub use orbit::OrbitReport;
+pub use origin::{ConditionOrigin, Remark, RemarkOrigin, TheoremOrigin};
 pub use report::{Excluded, Found, SearchReport};
 pub use second_opinion::SecondOpinion;
 
@@ -182,7 +184,7 @@ pub fn search(
     report::note_generic_functions(case, &mut report);
     if !report.orbits.is_empty() {
         // The search along orbits has these as well.
-        report.remarks.retain(|remark| !remark.ends_with(integrals::IRRATIONAL));
+        report.remarks.retain(|remark| remark.origin != RemarkOrigin::Irrational);
     }
     for remark in std::mem::take(&mut report.without_points) {
         report.remark(remark);

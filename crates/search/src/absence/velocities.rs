@@ -2,6 +2,7 @@
 
 use super::super::counts::{self, CountReport, Degrees};
 use super::super::local::Local;
+use super::super::origin::Remark;
 use super::super::products::degree;
 use super::super::{
     Effort, Found, SearchError, SearchReport, ansatz, densities, integrals, multipliers, orbit,
@@ -193,9 +194,9 @@ fn no_density(asked: &AbsenceCase<'_>, most: u32) -> Result<AbsenceOutcome, Sear
 
 fn reasons(report: &SearchReport, otherwise: &str) -> String {
     // `check` has no such options.
-    let remark = |text: &String| match text.split_once("; raise --") {
+    let remark = |own: &Remark| match own.text.split_once("; raise --") {
         Some((reason, _)) => format!("{reason}: ask for a lower degree"),
-        None => text.trim_end_matches("; give values with --set").to_string(),
+        None => own.text.trim_end_matches("; give values with --set").to_string(),
     };
     let unreached = report.unreached.iter().map(|what| format!("not reached: {what}"));
     let all: Vec<String> = report.remarks.iter().map(remark).chain(unreached).collect();

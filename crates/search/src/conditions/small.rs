@@ -44,7 +44,7 @@ pub fn conditions(
     let mut systems: Vec<String> = Vec::new();
     let (mut plain, mut others) = (Vec::new(), Vec::new());
     for (point, of) in found.iter().map(|p| (p, 0)).chain(again.iter().map(|p| (p, 1))) {
-        let own = simple(names, point, &all);
+        let own: Vec<String> = simple(names, point, &all).into_iter().map(|own| own.text).collect();
         // A zero parameter is met by accident in half of a small field.
         if own.iter().any(|text| text.ends_with("= 0")) {
             continue;

@@ -12,6 +12,7 @@ use crate::counts::size;
 use crate::jets::VelocityPolynomials;
 use crate::lists::{self, ListedCase};
 use crate::local::Local;
+use crate::origin::ConditionOrigin;
 use crate::{Effort, SearchError, SearchReport};
 
 const GROUNDS: &str = "minors of the equations for Taylor coefficients";
@@ -175,6 +176,7 @@ impl ValueSearch<'_> {
                 ),
                 equations: Vec::new(),
                 grounds: format!("{GROUNDS}; {NO_VALUE}"),
+                origin: ConditionOrigin::Counts,
             });
         }
     }
@@ -207,6 +209,7 @@ impl FoundValues {
             of: format!("more integrals of degree {degree}, by the value of {name}{reservation}"),
             equations: self.equations,
             grounds,
+            origin: ConditionOrigin::Counts,
         }
     }
 }
