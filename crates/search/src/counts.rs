@@ -8,7 +8,7 @@ use super::absence::{has_lists, rank};
 use super::ansatz::monomials::AnsatzVariables;
 use super::budget::STEPS;
 use super::jets::{DimensionCount, MotionAtPoint, VelocityPolynomials};
-use super::local::Local;
+use super::local::{Coordinates, Local};
 use super::origin::{RemarkOrigin, TheoremOrigin};
 use super::products::Generators;
 use super::{Effort, Excluded, SearchError, SearchReport};
@@ -50,10 +50,10 @@ pub struct CountEstimate {
 
 /// Estimates the cost of counting integrals within the effort; `None` if they cannot be counted.
 pub fn plan(case: &Case, effort: &Effort) -> Option<CountEstimate> {
-    let local = Local::of(case, &[]).ok()?;
+    let coordinates = Coordinates::of(case).ok()?;
     let mixed = case.model.system.energy_is_inhomogeneous();
     let combinations = listed(&case.model.parameter_draws()).len() as f64;
-    let sizes = (1..=effort.degree).map(|degree| size(&local, degree, mixed));
+    let sizes = (1..=effort.degree).map(|degree| size(&coordinates, degree, mixed));
     let counted = sizes.map(|(unknowns, seconds)| (unknowns, seconds * combinations));
     let (unknowns, seconds) = counted
         .filter(|(_, seconds)| *seconds <= effort.seconds)
@@ -139,13 +139,14 @@ impl<'c> CountedMotion<'c> {
         let Some(locals) = locals(self.case, report)? else { return Ok(()) };
         let Some(first) = locals.first() else { return Ok(()) };
         let mut motions: Vec<MotionAtPoint<'_>> = locals.iter().map(MotionAtPoint::new).collect();
-        let cost = |degree: u32| size(first, degree, self.mixed).1 * locals.len() as f64;
+        let cost =
+            |degree: u32| size(&first.coordinates, degree, self.mixed).1 * locals.len() as f64;
         let last = degrees.clone().take_while(|degree| cost(*degree) <= effort.seconds).last();
         if let Some(degree) = last.filter(|_| !self.ends_at_excess) {
             motions.iter_mut().for_each(|motion| motion.foresee(degree));
         }
         for degree in degrees {
-            let (unknowns, seconds) = size(first, degree, self.mixed);
+            let (unknowns, seconds) = size(&first.coordinates, degree, self.mixed);
             let seconds = seconds * locals.len() as f64;
             progress(&format!(
                 "integrals of degree {degree}: {unknowns} unknowns, at least {seconds:.1} s"
@@ -206,17 +207,21 @@ impl<'c> CountedMotion<'c> {
 /// Records the equations of motion for each combination of listed values; `None`, with a remark, if
 /// there are too many combinations or nothing can be counted.
 pub fn locals(case: &Case, report: &mut SearchReport) -> Result<Option<Vec<Local>>, SearchError> {
-    let mut locals = Vec::new();
-    for fixed in listed(&case.model.parameter_draws()) {
-        match Local::of(case, &fixed) {
-            Ok(local) => locals.push(local),
-            Err(error @ SearchError::Unsplit(_)) => {
-                report.remark(error.to_string());
-                return Ok(None);
-            }
-            Err(error) => return Err(error),
+    let recorded = || -> Result<Vec<Local>, SearchError> {
+        let all = listed(&case.model.parameter_draws());
+        if all.is_empty() {
+            return Ok(Vec::new());
         }
-    }
+        let coordinates = Coordinates::of(case)?;
+        all.iter().map(|fixed| Local::with(case, coordinates.clone(), fixed)).collect()
+    };
+    let locals = match recorded() {
+        Err(error @ SearchError::Unsplit(_)) => {
+            report.remark(error.to_string());
+            return Ok(None);
+        }
+        recorded => recorded?,
+    };
     if locals.is_empty() {
         report.remark(format!("integrals are not counted: the lists have more than {MOST_LISTED} combinations; give values with --set"));
         return Ok(None);
@@ -258,9 +263,8 @@ fn listed(draws: &[Draw]) -> Vec<Vec<Option<Rational>>> {
 
 /// Estimates the number of unknowns, and the least time in seconds to set up their equations: what
 /// the elimination takes beyond that depends on how sparse it stays, and is limited while it runs.
-pub fn size(local: &Local, degree: u32, mixed: bool) -> (u64, f64) {
-    let (positions, velocities) =
-        (local.coordinates.positions as u32, local.coordinates.velocities as u32);
+pub fn size(coordinates: &Coordinates, degree: u32, mixed: bool) -> (u64, f64) {
+    let (positions, velocities) = (coordinates.positions as u32, coordinates.velocities as u32);
     let powers = |degree: u32| binomial(degree + velocities - 1, velocities - 1);
     let powers: u64 = if mixed { (0..=degree).map(powers).sum() } else { powers(degree) };
     let monomials = binomial(2 * degree + 3 + positions, positions);

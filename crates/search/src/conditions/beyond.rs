@@ -5,7 +5,7 @@ use std::cell::Cell;
 use super::equations::ParametricEquations;
 use super::hypersurface::{Hypersurface, PrimeTerms};
 use super::locus::SpecialLocus;
-use super::points::point;
+use super::points::at_points;
 use super::real::RealSearch;
 use super::several::{ConditionSearch, GROUNDS, SEARCH};
 use super::simple::SimpleEquations;
@@ -14,13 +14,11 @@ use super::split::SplitCase;
 use super::values::integrals_with;
 use super::{ParameterCondition, ideal, isolated, solved};
 use crate::SearchError;
+use crate::ansatz::system::PrimePoint;
 use crate::budget::STEPS;
 use crate::origin::ConditionOrigin;
 use crate::report::Found;
 use crate::streams::SearchStream;
-
-/// Number of primes modulo which a point is looked for.
-const PRIMES: u64 = 16;
 
 impl ConditionSearch<'_> {
     /// Finds conditions of several equations that belong to none of codimension one, and says how far
@@ -156,22 +154,24 @@ impl ConditionSearch<'_> {
         let m = SearchStream::Lines.under(self.effort.options.seed).prime(&[], &[]);
         let images = |own: &Hypersurface| own.images(&m).unwrap_or_default();
         let generators: Vec<PrimeTerms> = own.iter().map(images).collect();
-        if self.isolated.iter().any(|known| known == own) {
-            return Ok(true);
+        let implies = |all: &mut dyn Iterator<Item = PrimeTerms>| -> Result<bool, SearchError> {
+            for known in all {
+                if !ideal::contains(&generators, &known, count, &m, &self.effort.halt)? {
+                    return Ok(false);
+                }
+            }
+            Ok(true)
+        };
+        for known in &self.isolated {
+            if implies(&mut known.iter().map(images))? {
+                return Ok(true);
+            }
         }
         for known in &self.found {
             let simple = known.simple.equations().into_iter();
             let simple = simple.map(|own| Hypersurface::from(own, count));
-            let mut all = simple.chain(known.further.iter().cloned()).map(|own| images(&own));
-            let is_outside = |own: &PrimeTerms| {
-                let inside = ideal::contains(&generators, own, count, &m, &self.effort.halt);
-                inside.map(|inside| !inside)
-            };
-            let outside = all.find_map(|own| match is_outside(&own) {
-                Ok(false) => None,
-                other => Some(other),
-            });
-            if outside.transpose()?.is_none() {
+            let all = simple.chain(known.further.iter().cloned());
+            if implies(&mut all.map(|own| images(&own)))? {
                 return Ok(true);
             }
         }
@@ -195,25 +195,24 @@ impl ConditionSearch<'_> {
     }
 }
 
-/// Whether there are more integrals modulo a further prime where some equations hold; `None` if no point is
-/// found there.
+/// Whether there are more integrals modulo further primes where some equations hold; `None` if that is not known.
 fn is_special(
     equations: &ParametricEquations<'_>,
     whole: &SplitCase,
     own: &[Hypersurface],
 ) -> Result<Option<bool>, SearchError> {
-    for prime in 1..=PRIMES {
-        let Some(mut at) = equations.system.at(prime, prime) else { continue };
-        let Some(general) = equations.nullity(&at)? else { continue };
-        let seed = equations.effort.options.seed.wrapping_add(500 + prime);
-        let mut rng = SearchStream::Minors.under(seed);
-        let count = whole.scalars.len();
-        let found = point(own, count, (&at.modulus, &mut rng), &equations.effort.halt)?;
-        let Some(found) = found else { continue };
-        let values = whole.scalars.iter().zip(found);
-        values.for_each(|(scalar, value)| at.parameters[scalar.draw] = value);
+    let mut prime = |number: u64| {
+        let Some(at) = equations.system.at(number, number) else { return Ok(None) };
+        let Some(general) = equations.nullity(&at)? else { return Ok(None) };
+        let seed = equations.effort.options.seed.wrapping_add(500 + number);
+        let m = at.modulus;
+        Ok(Some(((at, general), m, SearchStream::Minors.under(seed))))
+    };
+    let mut holds = |(at, general): &mut (PrimePoint, usize), point: &[u64]| {
+        let values = whole.scalars.iter().zip(point);
+        values.for_each(|(scalar, value)| at.parameters[scalar.draw] = *value);
         // Without a state the field has no integrals there.
-        return Ok(Some(equations.nullity(&at)?.is_some_and(|own| own > general)));
-    }
-    Ok(None)
+        Ok(Some(equations.nullity(at)?.is_some_and(|own| own > *general)))
+    };
+    at_points(own, whole.scalars.len(), &mut prime, &mut holds, &equations.effort.halt)
 }

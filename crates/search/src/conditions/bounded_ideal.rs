@@ -153,15 +153,15 @@ impl BoundedIdeal {
         None
     }
 
-    /// Powers of the linear form Σ rᵏ x_k, reduced, up to the first one that depends on those before it.
-    /// `None` if there is none, or their degrees are too high.
-    pub fn powers_of_form(&self, ratio: i64) -> Option<FormPowers<'_>> {
+    /// Powers of the linear form Σ rᵏ x_k of some variables, reduced, up to the first one that depends on those
+    /// before it. `None` if there is none, or their degrees are too high.
+    pub fn powers_of_form(&self, ratio: i64, used: &[bool]) -> Option<FormPowers<'_>> {
         let m = &self.m;
         let size = self.monomials.len();
         let mut weight = m.one();
         let step = m.rational(&ratio.into())?;
         let mut form = Vec::new();
-        for place in 0..self.variables {
+        for place in (0..self.variables).filter(|place| used[*place]) {
             form.push((place, weight));
             weight = m.mul(weight, step);
         }
@@ -193,13 +193,14 @@ impl BoundedIdeal {
         }
     }
 
-    /// Whether a power of each variable is a leading monomial, so that there are finitely many zeros.
-    pub fn is_finite(&self) -> bool {
-        (0..self.variables).all(|place| self.has_power(place))
+    /// Whether a power of each of some variables is a leading monomial: if no others occur, there are finitely
+    /// many zeros in these.
+    pub fn is_finite(&self, used: &[bool]) -> bool {
+        (0..self.variables).all(|place| !used[place] || self.has_power(place))
     }
 
     /// Whether a power of a variable is a leading monomial.
-    pub fn has_power(&self, place: usize) -> bool {
+    fn has_power(&self, place: usize) -> bool {
         let all = self.monomials.iter().zip(&self.rows);
         let mut leading = all.filter(|(_, row)| row.is_some()).map(|(own, _)| own);
         leading.any(|own| own.iter().enumerate().all(|(k, x)| k == place || *x == 0))

@@ -17,12 +17,16 @@ const RATIOS: [i64; 4] = [1, 2, -2, 3];
 /// Largest number of factors modulo the prime.
 const FACTORS: usize = 12;
 
-/// Finds polynomials each of which gives a part of a finite set without multiple points; `None` if it is not
-/// divided.
-pub fn parts(ideal: &BoundedIdeal, m: &Modulus, rng: &mut ProofRng) -> Option<Vec<PrimeTerms>> {
+/// Finds polynomials each of which gives a part of a set that is finite in the variables in use, without
+/// multiple points; `None` if it is not divided.
+pub fn parts(
+    ideal: &BoundedIdeal,
+    used: &[bool],
+    (m, rng): (&Modulus, &mut ProofRng),
+) -> Option<Vec<PrimeTerms>> {
     let ring = PrimePolynomials(*m);
     RATIOS.iter().find_map(|ratio| {
-        let powers = ideal.powers_of_form(*ratio)?;
+        let powers = ideal.powers_of_form(*ratio, used)?;
         let minimal = ring.monic(&powers.minimal);
         // A double point is not divided, nor is a single one.
         if minimal.len() < 3 || ring.square_free(&minimal).len() < minimal.len() {

@@ -97,6 +97,7 @@ impl ZeroSearch<'_> {
     ) -> Result<bool, SearchError> {
         let own = generators.iter().map(degree).max().unwrap_or(0);
         let small = (2 * own).max(own + 2);
+        let used = used(generators, self.variables);
         for most in [small.min(self.most), self.most] {
             let ideal = BoundedIdeal::of(generators, self.variables, most, self.m, self.halt)?;
             let Some(ideal) = ideal else { return Ok(false) };
@@ -115,13 +116,15 @@ impl ZeroSearch<'_> {
                 return self.split_by(&basis, place, &own, is_settled);
             }
             let highest = basis.iter().map(degree).max().unwrap_or(0);
-            let is_last = most == self.most || !ideal.is_finite() || is_settled.iter().all(|x| *x);
+            let is_last =
+                most == self.most || !ideal.is_finite(&used) || is_settled.iter().all(|x| *x);
             if 2 * highest <= most && is_last {
                 if let Some(equal) = self.equal(&ideal, &basis) {
                     return self.split(&[basis, vec![equal]].concat(), is_settled);
                 }
-                if ideal.is_finite()
-                    && let Some(parts) = decomposition::parts(&ideal, &self.m, self.rng)
+                if ideal.is_finite(&used)
+                    && let Some(parts) =
+                        decomposition::parts(&ideal, &used, (&self.m, &mut *self.rng))
                 {
                     for part in parts {
                         if !self.split(&[basis.clone(), vec![part]].concat(), is_settled)? {
@@ -216,6 +219,12 @@ impl ZeroSearch<'_> {
         };
         own.iter().enumerate().map(term).collect()
     }
+}
+
+/// Tells which variables occur.
+pub fn used(generators: &[PrimeTerms], variables: usize) -> Vec<bool> {
+    let terms = || generators.iter().flatten().filter(|(_, image)| *image != 0);
+    (0..variables).map(|place| terms().any(|(exponents, _)| exponents[place] > 0)).collect()
 }
 
 /// Degree of a polynomial.

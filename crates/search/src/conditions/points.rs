@@ -9,24 +9,57 @@ use liouville::proof::ProofRng;
 
 use super::bounded_ideal::BoundedIdeal;
 use super::hypersurface::{Hypersurface, PrimeTerms};
-use super::ideal::{degree, highest};
+use super::ideal::{degree, highest, used};
 use super::polynomial::PrimePolynomials;
 use crate::{Halt, SearchError};
 
 /// Number of random values that are tried for a variable.
 const TRIALS: usize = 6;
 
-/// Finds a point where equations hold; `None` if none is found.
-pub fn point(
+/// Largest number of points.
+const MOST: usize = 32;
+/// Number of primes from which points are taken, and the largest number that is tried.
+const PRIMES: (usize, u64) = (4, 16);
+
+/// Finds the points where equations hold, one for each value of variables that are free.
+fn points(
     equations: &[Hypersurface],
     variables: usize,
     (m, rng): (&Modulus, &mut ProofRng),
     halt: &Halt,
-) -> Result<Option<Vec<u64>>, SearchError> {
+) -> Result<Vec<Vec<u64>>, SearchError> {
     let images: Option<Vec<PrimeTerms>> = equations.iter().map(|own| own.images(m)).collect();
-    let Some(images) = images else { return Ok(None) };
-    let mut search = PointSearch { variables, m: *m, rng, halt };
-    search.with(images, &mut Vec::new())
+    let Some(images) = images else { return Ok(Vec::new()) };
+    let mut search = PointSearch { variables, m: *m, rng, halt, found: Vec::new() };
+    search.with(images, &mut Vec::new())?;
+    Ok(search.found)
+}
+
+/// Asks whether something holds at the points of some primes where equations hold; `None` if no point is found,
+/// if that is not known of one, or if it holds at some of them only.
+///
+/// `prime` makes a prime with random numbers, and `holds` is asked at a point modulo it.
+pub fn at_points<P>(
+    equations: &[Hypersurface],
+    variables: usize,
+    prime: &mut dyn FnMut(u64) -> Result<Option<(P, Modulus, ProofRng)>, SearchError>,
+    holds: &mut dyn FnMut(&mut P, &[u64]) -> Result<Option<bool>, SearchError>,
+    halt: &Halt,
+) -> Result<Option<bool>, SearchError> {
+    let (mut all, mut primes) = (Vec::new(), 0);
+    for number in 1..=PRIMES.1 {
+        if primes == PRIMES.0 {
+            break;
+        }
+        let Some((mut own, m, mut rng)) = prime(number)? else { continue };
+        let found = points(equations, variables, (&m, &mut rng), halt)?;
+        primes += usize::from(!found.is_empty());
+        for point in found {
+            all.push(holds(&mut own, &point)?);
+        }
+    }
+    let first = all.first().copied().flatten();
+    Ok(first.filter(|_| all.iter().all(|own| *own == first)))
 }
 
 struct PointSearch<'p> {
@@ -34,6 +67,7 @@ struct PointSearch<'p> {
     m: Modulus,
     rng: &'p mut ProofRng,
     halt: &'p Halt,
+    found: Vec<Vec<u64>>,
 }
 
 impl PointSearch<'_> {
@@ -42,29 +76,32 @@ impl PointSearch<'_> {
         &mut self,
         generators: Vec<PrimeTerms>,
         known: &mut Vec<u64>,
-    ) -> Result<Option<Vec<u64>>, SearchError> {
+    ) -> Result<(), SearchError> {
         self.halt.check()?;
         let place = known.len();
         if generators.iter().any(|own| !own.is_empty() && degree(own) == 0) {
-            return Ok(None);
+            return Ok(());
         }
         if place == self.variables {
-            return Ok(Some(known.clone()));
+            self.found.push(known.clone());
+            return Ok(());
         }
-        let values = match self.univariate(&generators, place)? {
-            Some(Some(own)) => PrimePolynomials(self.m).roots(&own, self.rng),
-            Some(None) => (0..TRIALS).map(|_| self.rng.element(&self.m)).collect(),
-            None => return Ok(None),
+        let (values, is_free) = match self.univariate(&generators, place)? {
+            Some(Some(own)) => (PrimePolynomials(self.m).roots(&own, self.rng), false),
+            Some(None) => ((0..TRIALS).map(|_| self.rng.element(&self.m)).collect(), true),
+            None => return Ok(()),
         };
+        let before = self.found.len();
         for value in values {
             let own = generators.iter().map(|own| self.put_in(own, place, value)).collect();
             known.push(value);
-            if let Some(found) = self.with(own, known)? {
-                return Ok(Some(found));
-            }
+            self.with(own, known)?;
             known.pop();
+            if self.found.len() >= MOST || is_free && self.found.len() > before {
+                break;
+            }
         }
-        Ok(None)
+        Ok(())
     }
 
     /// The polynomial in one variable alone; the outer `None` if there are no zeros.
@@ -83,16 +120,11 @@ impl PointSearch<'_> {
             }
             let found = ideal.univariate(place);
             // Powers up to a higher degree are needed where there are many points.
-            if found.is_some() || !self.is_finite(&ideal, place) {
+            if found.is_some() || !ideal.is_finite(&used(generators, self.variables)) {
                 return Ok(Some(found));
             }
         }
         Ok(Some(None))
-    }
-
-    /// Whether there are finitely many zeros, as variables that have values do not occur.
-    fn is_finite(&self, ideal: &BoundedIdeal, known: usize) -> bool {
-        (known..self.variables).all(|place| ideal.has_power(place))
     }
 
     /// A polynomial with a value in place of a variable.
@@ -127,23 +159,24 @@ mod tests {
             Hypersurface::from_terms(terms.collect()).expect("not constant")
         };
         let mut found = |own: &[Hypersurface]| {
-            point(own, 2, (&m, &mut rng), &Halt::default()).expect("not stopped")
+            points(own, 2, (&m, &mut rng), &Halt::default()).expect("not stopped")
         };
         let values =
             |own: [i64; 2]| own.map(|x| m.rational(&x.into()).expect("an integer")).to_vec();
         let line = of(&[(&[1, 0], 1), (&[0, 1], -1)]);
         assert_eq!(
             found(&[of(&[(&[1, 0], 1), (&[0, 0], 3)]), line.clone()]),
-            Some(values([-3, -3]))
+            [values([-3, -3])]
         );
-        let on_line = found(std::slice::from_ref(&line)).expect("a point of a line");
-        assert_eq!(on_line[0], on_line[1]);
+        let on_line = found(std::slice::from_ref(&line));
+        assert!(on_line.len() == 1 && on_line[0][0] == on_line[0][1], "{on_line:?}");
         // b³ = a and a b = 16: b = ±2 modulo the prime, and no other root if −1 is no square.
         let curve = of(&[(&[0, 3], 1), (&[1, 0], -1)]);
         let other = of(&[(&[1, 1], 1), (&[0, 0], -16)]);
-        let own = found(&[curve, other]).expect("two points");
-        assert!(own == values([8, 2]) || own == values([-8, -2]), "{own:?}");
+        let own = found(&[curve, other]);
+        assert!(own.contains(&values([8, 2])) && own.contains(&values([-8, -2])), "{own:?}");
+        assert_eq!(own.len(), 2);
         let nowhere = [of(&[(&[1, 0], 1)]), of(&[(&[1, 0], 1), (&[0, 0], 1)])];
-        assert_eq!(found(&nowhere), None);
+        assert!(found(&nowhere).is_empty());
     }
 }

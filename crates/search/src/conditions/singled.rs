@@ -5,10 +5,11 @@ use std::cell::Cell;
 
 use liouville::case::{Case, PlacedClaim};
 use liouville::number::prime::Modulus;
+use liouville::proof::ProofRng;
 
 use super::hypersurface::{Hypersurface, PrimeTerms};
 use super::ideal::degree;
-use super::points::point;
+use super::points::at_points;
 use super::quotient::divided;
 use super::real::{RealSearch, Terms};
 use super::relation::ScalarParameter;
@@ -20,8 +21,6 @@ use crate::budget::STEPS;
 use crate::streams::SearchStream;
 use crate::{Effort, SearchError};
 
-/// Number of primes modulo which a point is looked for.
-const PRIMES: u64 = 16;
 /// Number of rounds of states at which a residual is looked at.
 const ROUNDS: usize = 6;
 
@@ -93,6 +92,11 @@ impl<'s> ValueSearch<'s> {
         let mut all = RealSurfaces::default();
         for own in surfaces {
             let Some(surface) = Hypersurface::from_terms(own.terms.clone()) else { continue };
+            if let Some(own) = self.read(names, own)
+                && self.holds(&[own])? == Some(false)
+            {
+                continue;
+            }
             let found = self.search(names.len(), m, |search| search.zeros(&[surface.clone()]))?;
             if found.real.iter().any(|set| *set == [surface.clone()]) {
                 all.told.push(own.text.clone());
@@ -217,40 +221,61 @@ impl<'s> ValueSearch<'s> {
     }
 
     /// Whether the residual and the motion have values where some equations hold, and the residual is 0 at all
-    /// states that are tried there, modulo a prime; `None` if no point is found, or the motion has no values
-    /// modulo primes.
+    /// states that are tried there, modulo primes; `None` if that is not known.
     fn holds(&self, own: &[Hypersurface]) -> Result<Option<bool>, SearchError> {
-        let Some(residual) = &self.residual else { return Ok(None) };
-        for number in 0..PRIMES {
-            let seed = self.effort.options.seed.wrapping_add(100 + number);
-            let mut rng = SearchStream::Residuals.under(seed);
-            let m = residual.prime(&mut rng);
-            let scalars = &self.split.scalars;
-            let found = point(own, scalars.len(), (&m, &mut rng), &self.effort.halt)?;
-            let Some(found) = found else { continue };
-            let mut parameters = residual.parameters(&m, &mut rng);
-            scalars.iter().zip(&found).for_each(|(own, value)| parameters[own.draw] = *value);
-            let mut evaluator = residual.evaluator(m);
-            let mut zeros = 0;
-            for _ in 0..ROUNDS {
-                let points: [Vec<u64>; RESIDUAL_LANES] = std::array::from_fn(|_| {
-                    [parameters.as_slice(), &residual.state(&m, &mut rng)].concat()
-                });
-                for seen in residual.at(&mut evaluator, &points) {
-                    match seen.residual {
-                        Some(values) if values.iter().any(|x| *x != 0) => return Ok(Some(false)),
-                        Some(_) => zeros += 1,
-                        None => {}
-                    }
+        let seed = self.effort.options.seed.wrapping_add(100);
+        // Put in before it is recorded, a value shows a 0/0 that cancels otherwise.
+        for fixed in solved::with_equations(&self.split, own).unwrap_or_default() {
+            if let Ok(Some(residual)) = Residual::of(&fixed.case, self.claim, seed) {
+                let mut rng = SearchStream::Residuals.under(seed);
+                let m = residual.prime(&mut rng);
+                let parameters = residual.parameters(&m, &mut rng);
+                if vanishes(&residual, &parameters, m, &mut rng) == Some(false) {
+                    return Ok(Some(false));
                 }
             }
-            return Ok(match (zeros > 0, residual.has_all_rates()) {
-                (false, _) => Some(false),
-                (true, true) => Some(true),
-                (true, false) => None,
-            });
         }
-        Ok(None)
+        let Some(residual) = &self.residual else { return Ok(None) };
+        let scalars = &self.split.scalars;
+        let mut prime = |number: u64| {
+            let mut rng = SearchStream::Residuals.under(seed.wrapping_add(number));
+            let m = residual.prime(&mut rng);
+            let own = SearchStream::Residuals.under(seed.wrapping_add(200 + number));
+            Ok(Some(((m, own), m, rng)))
+        };
+        let mut holds = |(m, rng): &mut (Modulus, ProofRng), point: &[u64]| {
+            let mut parameters = residual.parameters(m, rng);
+            scalars.iter().zip(point).for_each(|(own, value)| parameters[own.draw] = *value);
+            Ok(vanishes(residual, &parameters, *m, rng))
+        };
+        at_points(own, scalars.len(), &mut prime, &mut holds, &self.effort.halt)
+    }
+}
+
+/// Whether a residual is defined, and 0 at random states; `None` if the motion has no values modulo primes.
+fn vanishes(
+    residual: &Residual,
+    parameters: &[u64],
+    m: Modulus,
+    rng: &mut ProofRng,
+) -> Option<bool> {
+    let mut evaluator = residual.evaluator(m);
+    let mut zeros = 0;
+    for _ in 0..ROUNDS {
+        let points: [Vec<u64>; RESIDUAL_LANES] =
+            std::array::from_fn(|_| [parameters, &residual.state(&m, rng)].concat());
+        for seen in residual.at(&mut evaluator, &points) {
+            match seen.residual {
+                Some(values) if values.iter().any(|x| *x != 0) => return Some(false),
+                Some(_) => zeros += 1,
+                None => {}
+            }
+        }
+    }
+    match (zeros > 0, residual.has_all_rates()) {
+        (false, _) => Some(false),
+        (true, true) => Some(true),
+        (true, false) => None,
     }
 }
 

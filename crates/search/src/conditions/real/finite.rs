@@ -200,12 +200,14 @@ fn product_of_reduced(
     own: &[u32],
     used: &[usize],
     products: &[Vec<Option<Vector>>],
-    (reduced, _, size): Known<'_>,
+    (reduced, places, size): Known<'_>,
 ) -> Option<Vector> {
     for (variable, place) in used.iter().enumerate().filter(|(_, place)| own[**place] > 0) {
         let mut lower = own.to_vec();
         lower[*place] -= 1;
-        let Some(known) = reduced.get(&lower) else { continue };
+        // One of the basis gives the product that is asked for.
+        let known = reduced.get(&lower).filter(|_| !places.contains_key(&lower));
+        let Some(known) = known else { continue };
         let mut sum = vec![Rational::from(0); size];
         let terms = known.iter().zip(&products[variable]).filter(|(value, _)| !value.is_zero());
         for (value, column) in terms {
