@@ -5,6 +5,7 @@ use std::cell::Cell;
 use super::equations::ParametricEquations;
 use super::hypersurface::{Hypersurface, PrimeTerms};
 use super::locus::SpecialLocus;
+use super::motion::is_undefined;
 use super::points::at_points;
 use super::real::RealSearch;
 use super::several::{ConditionSearch, GROUNDS, SEARCH};
@@ -201,6 +202,9 @@ fn is_special(
     whole: &SplitCase,
     own: &[Hypersurface],
 ) -> Result<Option<bool>, SearchError> {
+    if is_undefined(whole, own, equations.effort.options.seed)? {
+        return Ok(Some(false));
+    }
     let mut prime = |number: u64| {
         let Some(at) = equations.system.at(number, number) else { return Ok(None) };
         let Some(general) = equations.nullity(&at)? else { return Ok(None) };

@@ -14,7 +14,8 @@
 //! isolated  values of several parameters that belong to no condition of codimension one
 //! claimed, singled  conditions for one claim: of codimension one, and single values
 //! beyond    single values for more polynomial integrals of a field
-//! solved, points  cases where equations hold, and points modulo a prime
+//! solved, motion, points  cases where equations hold, whether the motion has values there, and points
+//!           modulo a prime
 //! real      real zeros of equations
 //! ideal, bounded_ideal, decomposition, quotient  common zeros of polynomials in the parameters, their
 //!           parts, and common divisors
@@ -52,6 +53,7 @@ mod joined;
 mod line;
 mod locus;
 mod minors;
+mod motion;
 mod parameter_line;
 mod pencil;
 mod points;

@@ -164,10 +164,7 @@ mod tests {
         let values =
             |own: [i64; 2]| own.map(|x| m.rational(&x.into()).expect("an integer")).to_vec();
         let line = of(&[(&[1, 0], 1), (&[0, 1], -1)]);
-        assert_eq!(
-            found(&[of(&[(&[1, 0], 1), (&[0, 0], 3)]), line.clone()]),
-            [values([-3, -3])]
-        );
+        assert_eq!(found(&[of(&[(&[1, 0], 1), (&[0, 0], 3)]), line.clone()]), [values([-3, -3])]);
         let on_line = found(std::slice::from_ref(&line));
         assert!(on_line.len() == 1 && on_line[0][0] == on_line[0][1], "{on_line:?}");
         // b³ = a and a b = 16: b = ±2 modulo the prime, and no other root if −1 is no square.

@@ -9,6 +9,7 @@ use liouville::proof::ProofRng;
 
 use super::hypersurface::{Hypersurface, PrimeTerms};
 use super::ideal::degree;
+use super::motion::is_undefined;
 use super::points::at_points;
 use super::quotient::divided;
 use super::real::{RealSearch, Terms};
@@ -224,16 +225,8 @@ impl<'s> ValueSearch<'s> {
     /// states that are tried there, modulo primes; `None` if that is not known.
     fn holds(&self, own: &[Hypersurface]) -> Result<Option<bool>, SearchError> {
         let seed = self.effort.options.seed.wrapping_add(100);
-        // Put in before it is recorded, a value shows a 0/0 that cancels otherwise.
-        for fixed in solved::with_equations(&self.split, own).unwrap_or_default() {
-            if let Ok(Some(residual)) = Residual::of(&fixed.case, self.claim, seed) {
-                let mut rng = SearchStream::Residuals.under(seed);
-                let m = residual.prime(&mut rng);
-                let parameters = residual.parameters(&m, &mut rng);
-                if vanishes(&residual, &parameters, m, &mut rng) == Some(false) {
-                    return Ok(Some(false));
-                }
-            }
+        if is_undefined(&self.split, own, seed)? {
+            return Ok(Some(false));
         }
         let Some(residual) = &self.residual else { return Ok(None) };
         let scalars = &self.split.scalars;

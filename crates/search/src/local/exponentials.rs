@@ -33,52 +33,67 @@ pub struct Rate {
     pub letter: Option<usize>,
 }
 
+impl Multiple {
+    fn number(number: Rational) -> Self {
+        Self { number, powers: BTreeMap::new() }
+    }
+
+    /// Reads a product of numbers and powers of letters; `None` if it has other factors.
+    fn of(graph: &Graph, place: usize, is_letter: &dyn Fn(usize) -> bool) -> Option<Self> {
+        let own = |place: usize| Self::of(graph, place, is_letter);
+        Some(match graph.step(place) {
+            Step::Constant(number) => Self::number(number.clone()),
+            Step::Input(input) if is_letter(input) => {
+                Self { number: Rational::from(1), powers: BTreeMap::from([(input, 1)]) }
+            }
+            Step::Unary(UnaryFunction::Neg, a) => own(a)?.times(&Self::number(Rational::from(-1))),
+            Step::Unary(UnaryFunction::Recip, a) => own(a)?.raised(-1)?,
+            Step::Power(a, power) => own(a)?.raised(power.to_integer()?)?,
+            Step::Binary(BinaryOperation::Mul, a, b) => own(a)?.times(&own(b)?),
+            _ => return None,
+        })
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        let mut powers = self.powers.clone();
+        for (input, power) in &other.powers {
+            *powers.entry(*input).or_insert(0) += power;
+        }
+        powers.retain(|_, power| *power != 0);
+        Self { number: &self.number * &other.number, powers }
+    }
+
+    fn raised(&self, power: i64) -> Option<Self> {
+        let number = self.number.powi(i32::try_from(power).ok()?)?;
+        let powers = self.powers.iter().map(|(input, own)| Some((*input, own.checked_mul(power)?)));
+        Some(Self { number, powers: powers.collect::<Option<_>>()? })
+    }
+}
+
 /// Terms of a sum: a place that is no sum or product with a number or a letter, and its multiple.
 fn terms(
     graph: &Graph,
     place: usize,
     is_letter: &dyn Fn(usize) -> bool,
 ) -> Option<Vec<(usize, Multiple)>> {
-    let one = Multiple { number: Rational::from(1), powers: BTreeMap::new() };
-    let (mut found, mut open) = (Vec::new(), vec![(place, one)]);
-    // Powers of letters: x, 1/x and xⁿ.
-    let letter = |place: usize| -> Option<(usize, i64)> {
-        let input = |own: usize| match graph.step(own) {
-            Step::Input(input) => is_letter(input).then_some(input),
-            _ => None,
-        };
-        match graph.step(place) {
-            Step::Input(_) => Some((input(place)?, 1)),
-            Step::Unary(UnaryFunction::Recip, a) => Some((input(a)?, -1)),
-            Step::Power(a, power) => Some((input(a)?, power.to_integer()?)),
-            _ => None,
-        }
-    };
+    let minus = Multiple::number(Rational::from(-1));
+    let (mut found, mut open) = (Vec::new(), vec![(place, Multiple::number(Rational::from(1)))]);
     while let Some((at, own)) = open.pop() {
         if found.len() + open.len() > MOST_TERMS {
             return None;
         }
-        let times = |number: &Rational| Multiple { number: &own.number * number, ..own.clone() };
-        let raised = |(input, power): (usize, i64)| {
-            let mut own = own.clone();
-            *own.powers.entry(input).or_insert(0) += power;
-            own.powers.retain(|_, power| *power != 0);
-            own
-        };
         match graph.step(at) {
             Step::Binary(BinaryOperation::Add, a, b) => open.extend([(b, own.clone()), (a, own)]),
             Step::Binary(BinaryOperation::Sub, a, b) => {
-                let minus = times(&Rational::from(-1));
-                open.extend([(b, minus), (a, own)]);
+                open.extend([(b, own.times(&minus)), (a, own)]);
             }
-            Step::Unary(UnaryFunction::Neg, a) => open.push((a, times(&Rational::from(-1)))),
+            Step::Unary(UnaryFunction::Neg, a) => open.push((a, own.times(&minus))),
             Step::Binary(BinaryOperation::Mul, a, b) => {
-                match (graph.step(a), graph.step(b), letter(a), letter(b)) {
-                    (Step::Constant(number), ..) => open.push((b, times(number))),
-                    (_, Step::Constant(number), ..) => open.push((a, times(number))),
-                    (.., Some(power), _) => open.push((b, raised(power))),
-                    (.., None, Some(power)) => open.push((a, raised(power))),
-                    _ => found.push((at, own)),
+                let factor = |place: usize| Multiple::of(graph, place, is_letter);
+                match (factor(a), factor(b)) {
+                    (Some(factor), _) => open.push((b, own.times(&factor))),
+                    (None, Some(factor)) => open.push((a, own.times(&factor))),
+                    (None, None) => found.push((at, own)),
                 }
             }
             _ => found.push((at, own)),
@@ -191,4 +206,63 @@ fn product(powers: &[(usize, i64)], values: &[Option<Expr>]) -> Option<Expr> {
         }
     }
     Some(all)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rates of functions of x, y, k, where k is a letter.
+    fn of(build: impl FnOnce([Expr; 3]) -> Vec<Expr>) -> Vec<(usize, String)> {
+        let (graph, values) =
+            record(3, |inputs| build([inputs[0], inputs[1], inputs[2]])).expect("recorded");
+        let all = rates(&graph, &values, &|input| input == 2);
+        let text = |(input, own): (usize, Rate)| {
+            let letter = own.letter.map_or(String::new(), |letter| format!(" of {letter}"));
+            (input, format!("{}{letter}", own.number))
+        };
+        all.into_iter().map(text).collect()
+    }
+
+    fn number(above: i64, below: i64) -> Expr {
+        Expr::rational(&Rational::new(above, below))
+    }
+
+    #[test]
+    fn rates_have_rational_ratios() {
+        let exp = |x: Expr| x.apply(UnaryFunction::Exp);
+        let told = |own: &[(usize, &str)]| -> Vec<(usize, String)> {
+            own.iter().map(|(input, rate)| (*input, rate.to_string())).collect()
+        };
+        assert_eq!(of(|[x, y, _]| vec![exp(x - y)]), told(&[(0, "1"), (1, "1")]));
+        let own = of(|[x, y, _]| vec![exp(x * number(3, 2)), exp(y - x)]);
+        assert_eq!(own, told(&[(0, "0.5"), (1, "1")]), "3/2 and −1");
+        let own = of(|[x, y, k]| vec![exp(x * k), exp(k * (number(2, 1) * (x + y)))]);
+        assert_eq!(own, told(&[(0, "1 of 2"), (1, "2 of 2")]));
+        assert!(of(|[x, _, k]| vec![exp(x), exp(k * x)]).is_empty(), "1 and k");
+        let root = |x: Expr| number(2, 1).apply(UnaryFunction::Sqrt) * x;
+        assert_eq!(of(|[x, y, _]| vec![exp(x), exp(root(x) + y)]), told(&[(1, "1")]), "1 and √2");
+        assert!(of(|[x, y, _]| vec![exp(x * y), exp(x)]).is_empty(), "a product");
+        assert!(of(|[x, _, k]| vec![exp(k * x), exp(k)]).is_empty(), "k is an exponent itself");
+    }
+
+    #[test]
+    fn exponentials_of_logarithms_are_products() {
+        let left = |build: &dyn Fn([Expr; 3]) -> Expr| {
+            let (graph, values) =
+                record(3, |inputs| vec![build([inputs[0], inputs[1], inputs[2]])])
+                    .expect("recorded");
+            let (graph, values) = without_logarithms(&graph, &values).expect("recorded");
+            !arguments(&graph, &values).is_empty()
+        };
+        let (one, two) = (Rational::from(1), Rational::from(2));
+        let exp = |x: Expr| x.apply(UnaryFunction::Exp);
+        assert!(!left(&|[u, w, _]| exp(
+            number(6, 1) * logarithm(u, &two, None) - logarithm(w, &one, None)
+        )));
+        assert!(!left(&|[u, _, k]| exp(number(2, 1) * k * logarithm(u, &one, Some(k)))));
+        assert!(left(&|[u, _, _]| exp(logarithm(u, &two, None))), "a root of u");
+        assert!(left(&|[u, _, k]| exp(logarithm(u, &one, Some(k)))), "a power of u");
+        assert!(left(&|[u, _, _]| exp(logarithm(u, &one, None) + number(1, 1))), "e u");
+    }
 }

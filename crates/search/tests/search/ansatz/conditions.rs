@@ -33,7 +33,8 @@ fn conditions_on_parameters_are_found() {
     let report = search(&flat, &wanted, &mut |_| {}).expect("it can be searched");
     let mut equations = report.conditions[0].equations.clone();
     equations.sort();
-    assert_eq!(equations, ["I1 = I2", "k = 0", "m = 0", "z = 0"], "the base of (4.5)");
+    // For k = 0 the equations of motion have no values.
+    assert_eq!(equations, ["I1 = I2", "m = 0", "z = 0"], "the base of (4.5)");
 
     wanted.degree = 2;
     let report = searched("sphere/balanced-ball", &wanted);
@@ -201,7 +202,7 @@ fn real_zeros_of_sums_of_squares_are_told() {
         ("a² + b² + 1", &[]),
         ("a⁴ + b⁴ - 2*a²*b² + 1", &[]),
         // A circle around none of the points that are tried.
-        ("(3*a - 1)² + (3*b - 2)² - 1/20", &["99 − 120*a − 240*b + 180*a² + 180*b² = 0"]),
+        ("(3*a - 1)² + (3*b - 2)² - 1/20", &["33 − 40*a − 80*b + 60*a² + 60*b² = 0"]),
         ("(3*a - 1)² + (3*b - 2)² + 1/20", &[]),
     ];
     for (factor, expected) in all {
@@ -223,9 +224,6 @@ fn sets_without_real_points_are_not_told() {
     let (equations, grounds) = of_x(["(a³ - b)*x + (b³ - a)*y + (a²*b² + 1 + 2*a*b)*x*y", "0*x"]);
     assert!(equations.is_empty(), "{equations:?} {grounds}");
     assert!(grounds.ends_with("it holds for no real values of the parameters"), "{grounds}");
-    // One of 25 solutions is real: a = 1.08….
-    let (equations, grounds) = of_x(["(a⁵ - b)*x + (b⁵ - a - 7)*y", "0*x"]);
-    assert_eq!(equations, ["a^5 − b = 0 and b^5 − a − 7 = 0"], "{grounds}");
     // On a line through the imaginary zeros, and in space.
     let (equations, grounds) = of_x(["(a² + b² + 1)*x + (a - b)*y", "0*x"]);
     assert!(equations.is_empty(), "{equations:?} {grounds}");
@@ -233,6 +231,18 @@ fn sets_without_real_points_are_not_told() {
     let mut sorted = equations.clone();
     sorted.sort();
     assert_eq!(sorted, ["a = 1 and b = 1 and c = 1", "a = 2 and b = 2 and c = 2"], "{grounds}");
+}
+
+#[test]
+fn a_real_point_among_many_imaginary_ones_is_told() {
+    // One of 25 solutions is real, near a = 1.08.
+    let mut wanted = effort(0);
+    wanted.conditions = Some(ConditionTarget::Claim("C".to_string()));
+    let text = "title = 'x'\n[parameters]\na = '-1..2'\nb = '-1..3'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\
+                \"x'\" = '(a⁵ - b)*x + (b⁵ - a - 7)*y'\n\"y'\" = '0*x'\n[[claim]]\nname = 'C'\nintegral = 'x'\n";
+    let report = search(&case(text), &wanted, &mut |_| {}).expect("searched");
+    let own = &report.conditions[0];
+    assert_eq!(own.equations, ["a^5 − b = 0 and b^5 − a − 7 = 0"], "{}", own.grounds);
 }
 
 #[test]
