@@ -5,7 +5,7 @@ use liouville::case::{Case, PlacedClaim};
 use super::hypersurface::Hypersurface;
 use super::line::{LineResult, Lines};
 use super::residual::Residual;
-use super::singled::{SingledValues, ValueSearch};
+use super::singled::ValueSearch;
 use super::variety::{self, VarietyEquation};
 use super::{ParameterCondition, small};
 use crate::origin::ConditionOrigin;
@@ -37,46 +37,40 @@ pub fn condition(
         return told(Vec::new(), NO_FRACTION.to_string());
     };
     let Some(met) = MetEquations::on(&mut lines, &residual)? else { return Ok(None) };
-    let search = ValueSearch::of(case, claim, effort)?;
-    let mut equations = Vec::new();
-    let (before, scope) = match met {
+    let (surfaces, seen, degree) = match met {
         MetEquations::NoFraction => return told(Vec::new(), NO_FRACTION.to_string()),
-        MetEquations::None => {
-            let before = format!("no condition of codimension one on {BARREN} random lines");
-            (before, "modulo a prime of 61 bits")
-        }
-        MetEquations::Of { ref surfaces, seen, degree } => {
-            let own = search.real_surfaces(residual.names(), surfaces, lines.modulus())?;
-            let is_empty = own.told.is_empty();
-            let before = format!(
-                "{seen} points on random lines; the condition has degree {degree} along them{}",
-                own.words()
-            );
-            equations.extend(own.told);
-            match is_empty {
-                true => (before, "modulo a prime of 61 bits"),
-                false => (before, "besides it, modulo a prime of 61 bits,"),
-            }
-        }
+        MetEquations::None => (Vec::new(), 0, 0),
+        MetEquations::Of { surfaces, seen, degree } => (surfaces, seen, degree),
     };
-    let surfaces: Option<Vec<Hypersurface>> = match &met {
-        MetEquations::Of { surfaces, .. } => {
-            surfaces.iter().map(|own| search.read(residual.names(), own)).collect()
-        }
-        _ => Some(Vec::new()),
+    let search = ValueSearch::of(case, claim, effort)?;
+    let names = residual.names();
+    let read: Option<Vec<Hypersurface>> =
+        surfaces.iter().map(|own| search.read(names, own)).collect();
+    let values = search.values(read.as_deref())?;
+    let mut real = search.real_surfaces(names, &surfaces, lines.modulus())?;
+    let open = real.complete(values.is_some());
+    let mut equations = real.told;
+    let before = match degree {
+        0 => format!("no condition of codimension one on {BARREN} random lines"),
+        _ => format!(
+            "{seen} points on random lines; the condition has degree {degree} along them{open}"
+        ),
     };
-    match (search.values(surfaces.as_deref())?, met) {
-        (Some(own), _) => {
-            let SingledValues { equations: further, .. } = &own;
+    match values {
+        Some(own) => {
+            let scope = match equations.is_empty() {
+                true => "modulo a prime of 61 bits",
+                false => "besides it, modulo a prime of 61 bits,",
+            };
             let grounds = own.grounds(&before, scope);
-            equations.extend(further.iter().cloned());
+            equations.extend(own.equations);
             told(equations, grounds)
         }
-        (None, MetEquations::None) => {
+        None if degree == 0 => {
             let (systems, met) = small::conditions(&residual, effort)?;
             told(systems, format!("{before}; {met} points found by random sampling modulo 43"))
         }
-        (None, _) => told(equations, before),
+        None => told(equations, before),
     }
 }
 

@@ -47,23 +47,37 @@ pub struct SingledValues {
     thin: Vec<String>,
 }
 
-/// Equations of codimension one by their real zeros.
+/// Equations of codimension one by their real zeros; those without any are left out.
 #[derive(Default)]
 pub struct RealSurfaces {
-    /// Those with real hypersurfaces, and those of which that is not known.
+    /// Those with real hypersurfaces.
     pub told: Vec<String>,
-    open: Vec<String>,
+    /// Others, of which single values say more if these are known.
+    others: Vec<OtherSurface>,
+}
+
+/// An equation without a real hypersurface, or of which it is not known whether it has one.
+struct OtherSurface {
+    text: String,
+    is_known: bool,
+    /// Whether it is one between the scalars of the case, so that single values are those on it as well.
+    is_read: bool,
 }
 
 impl RealSurfaces {
-    /// Words for what is not known.
-    pub fn words(&self) -> String {
-        match self.open.as_slice() {
+    /// Tells the others too unless single values are known; returns words for what is not known.
+    pub fn complete(&mut self, has_values: bool) -> String {
+        let mut open = Vec::new();
+        for own in self.others.drain(..).filter(|own| !(has_values && own.is_read)) {
+            open.extend(Some(own.text.clone()).filter(|_| !own.is_known));
+            self.told.push(own.text);
+        }
+        match open.as_slice() {
             [] => String::new(),
-            open => format!(
-                "; it is not known whether there are real values with {}",
-                open.join(", or with ")
-            ),
+            open => {
+                let all = open.join(", or with ");
+                format!("; it is not known whether there are real values with {all}")
+            }
         }
     }
 }
@@ -101,9 +115,9 @@ impl<'s> ValueSearch<'s> {
             let found = self.search(names.len(), m, |search| search.zeros(&[surface.clone()]))?;
             if found.real.iter().any(|set| *set == [surface.clone()]) {
                 all.told.push(own.text.clone());
-            } else if found.unknown() > 0 && self.read(names, own).is_none() {
-                all.told.push(own.text.clone());
-                all.open.push(own.text.clone());
+            } else if !found.real.is_empty() || found.unknown() > 0 {
+                let (is_known, is_read) = (found.unknown() == 0, self.read(names, own).is_some());
+                all.others.push(OtherSurface { text: own.text.clone(), is_known, is_read });
             }
         }
         Ok(all)
