@@ -85,7 +85,8 @@ fn are_true_in(case: &Case, effort: &Effort, of_count: bool) -> Result<bool, Sea
     let (mut extents, sources) = (sampler.extents(), sampler.sources());
     let mut outputs = groups.concat();
     let mut graph = graph;
-    if of_count && let Some(own) = unwound::of(&graph, &outputs, sampler.recipes())? {
+    let parameters = case.model.parameter_draws().len();
+    if of_count && let Some(own) = unwound::of(&graph, &outputs, (sampler.recipes(), parameters))? {
         (graph, outputs) = (own.graph, own.outputs);
         own.replaced.into_iter().for_each(|input| extents[input] = Extent::ALL);
     }

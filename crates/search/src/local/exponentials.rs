@@ -91,6 +91,10 @@ fn terms(
             Step::Binary(BinaryOperation::Mul, a, b) => {
                 let factor = |place: usize| Multiple::of(graph, place, is_letter);
                 match (factor(a), factor(b)) {
+                    // Of a letter and a number the number is the factor.
+                    (Some(_), Some(number)) if number.powers.is_empty() => {
+                        open.push((a, own.times(&number)));
+                    }
                     (Some(factor), _) => open.push((b, own.times(&factor))),
                     (None, Some(factor)) => open.push((a, own.times(&factor))),
                     (None, None) => found.push((at, own)),
@@ -243,7 +247,10 @@ mod tests {
         let root = |x: Expr| number(2, 1).apply(UnaryFunction::Sqrt) * x;
         assert_eq!(of(|[x, y, _]| vec![exp(x), exp(root(x) + y)]), told(&[(1, "1")]), "1 and √2");
         assert!(of(|[x, y, _]| vec![exp(x * y), exp(x)]).is_empty(), "a product");
-        assert!(of(|[x, _, k]| vec![exp(k * x), exp(k)]).is_empty(), "k is an exponent itself");
+        let own = of(|[_, _, k]| vec![exp(k * number(3, 1)), exp(number(2, 1) * k)]);
+        assert_eq!(own, told(&[(2, "1")]), "a parameter as an exponent");
+        let own = of(|[x, _, k]| vec![exp(k * x), exp(k)]);
+        assert_eq!(own, told(&[(0, "1 of 2")]), "a rate is no exponent itself: exp k stays");
     }
 
     #[test]

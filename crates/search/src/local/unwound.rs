@@ -40,12 +40,17 @@ pub struct Unwound {
     pub replaced: Vec<usize>,
 }
 
-/// Replaces angles and exponents; `None` if there are none, or if sines, cosines, arctangents, exponentials or
-/// logarithms remain.
-pub fn of(graph: &Graph, outputs: &[Expr], draws: &[Draw]) -> Result<Option<Unwound>, SearchError> {
+/// Replaces angles and exponents among inputs, of which the first are parameters; `None` if there are none, or
+/// if sines, cosines, arctangents, exponentials or logarithms remain.
+pub fn of(
+    graph: &Graph,
+    outputs: &[Expr],
+    (draws, parameters): (&[Draw], usize),
+) -> Result<Option<Unwound>, SearchError> {
     let is_free = |input: &usize| matches!(draws.get(*input), Some(Draw::Within(_) | Draw::Of(..)));
     let angles: Vec<usize> = angles(graph, outputs).into_iter().filter(is_free).collect();
-    let mut exponents = rates(graph, outputs, &|input| !angles.contains(&input));
+    let mut exponents =
+        rates(graph, outputs, &|input| input < parameters && !angles.contains(&input));
     exponents.retain(|input, _| is_free(input) && !angles.contains(input));
     if angles.is_empty() && exponents.is_empty() {
         return Ok(None);
