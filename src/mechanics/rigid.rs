@@ -51,7 +51,7 @@ impl RigidBody {
     }
 
     /// Returns the curvature k of the support, absent on the plane.
-    pub(super) fn curvature_at<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {
+    pub fn curvature_at<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {
         self.curvature.as_ref().map(|k| scalar(at.evaluate(k)))
     }
 

@@ -265,3 +265,74 @@ fn eliminated(mut all: Vec<Terms>) -> Option<Vec<Terms>> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::ideal::zeros;
+    use super::super::relation::ScalarParameter;
+    use super::*;
+
+    type Given<'t> = &'t [(&'t [u32], i64)];
+
+    /// Sets with real zeros among the common zeros of polynomials in a, b, c, and the number of unknown ones.
+    fn of(all: &[Given<'_>]) -> (Vec<String>, usize) {
+        let mut rng = ProofRng::new(3, 0);
+        let m = rng.prime(&[], &[]);
+        let (left, halt) = (Cell::new(1e9), Halt::default());
+        let surface = |own: &Given<'_>| {
+            let terms = own.iter().map(|(e, value)| (e.to_vec(), Rational::from(*value)));
+            Hypersurface::from_terms(terms.collect()).expect("not constant")
+        };
+        let images: Vec<PrimeTerms> =
+            all.iter().map(|own| surface(own).images(&m).expect("images")).collect();
+        let sets = zeros(&images, 3, (&m, &mut rng), &left, &halt).expect("not stopped");
+        let (mut texts, mut unknown) = (Vec::new(), 0);
+        let names: Vec<ScalarParameter> = ["a", "b", "c"]
+            .iter()
+            .enumerate()
+            .map(|(draw, name)| ScalarParameter { name: name.to_string(), draw })
+            .collect();
+        for own in sets.expect("low degrees").written {
+            let mut search =
+                RealSearch { variables: 3, m, rng: &mut rng, left: &left, halt: &halt };
+            let found = search.zeros(&own).expect("not stopped");
+            unknown += found.unknown();
+            for set in found.real {
+                let equations: Vec<String> = set.iter().map(|own| own.equation(&names)).collect();
+                texts.push(equations.join(" and "));
+            }
+        }
+        texts.sort();
+        (texts, unknown)
+    }
+
+    #[test]
+    fn dimensions_drop_where_a_polynomial_has_an_extremum() {
+        // (a − c)² + (b − c)², alone and with (c − 1)(c − 2).
+        let squares: Given<'_> = &[
+            (&[2, 0, 0], 1),
+            (&[1, 0, 1], -2),
+            (&[0, 2, 0], 1),
+            (&[0, 1, 1], -2),
+            (&[0, 0, 2], 2),
+        ];
+        assert_eq!(of(&[squares]), (vec!["a = c and b = c".to_string()], 0));
+        let planes: Given<'_> = &[(&[0, 0, 2], 1), (&[0, 0, 1], -3), (&[0, 0, 0], 2)];
+        let points = ["a = 1 and b = 1 and c = 1", "a = 2 and b = 2 and c = 2"];
+        assert_eq!(of(&[squares, planes]), (points.map(str::to_string).to_vec(), 0));
+        // A curve without real points, and one with some.
+        let curve = |last: i64| {
+            let own: Vec<(Vec<u32>, i64)> = vec![
+                (vec![2, 0, 0], 1),
+                (vec![0, 2, 0], 1),
+                (vec![0, 0, 2], 1),
+                (vec![0, 0, 0], last),
+            ];
+            let own: Vec<(&[u32], i64)> = own.iter().map(|(e, x)| (e.as_slice(), *x)).collect();
+            let cone: Given<'_> = &[(&[1, 1, 0], 1), (&[0, 0, 2], -1)];
+            of(&[&own, cone])
+        };
+        assert_eq!(curve(1), (Vec::new(), 0));
+        assert_eq!((curve(-3).0.len(), curve(-3).1), (1, 0));
+    }
+}

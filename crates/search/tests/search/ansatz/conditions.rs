@@ -227,7 +227,7 @@ fn sets_without_real_points_are_not_told() {
     // On a line through the imaginary zeros, and in space.
     let (equations, grounds) = of_x(["(a² + b² + 1)*x + (a - b)*y", "0*x"]);
     assert!(equations.is_empty(), "{equations:?} {grounds}");
-    let (equations, grounds) = of_x(["((a - c)² + (b - c)²)*x + (c - 1)*(a - 2)*y", "0*x"]);
+    let (equations, grounds) = of_x(["((a - c)² + (b - c)²)*x + (c - 1)*(c - 2)*y", "0*x"]);
     let mut sorted = equations.clone();
     sorted.sort();
     assert_eq!(sorted, ["a = 1 and b = 1 and c = 1", "a = 2 and b = 2 and c = 2"], "{grounds}");

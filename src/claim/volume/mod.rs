@@ -4,6 +4,8 @@
 //! The criterion yields a density ρ₀ N for ρ₀ ≠ 0 on the whole sphere of γ. Where ρ₀ vanishes the
 //! equations of motion have no value, and around such places a closed form need be no differential.
 
+mod curved;
+
 use num_dual::DualNum;
 use num_traits::{One, Zero};
 
@@ -73,8 +75,7 @@ fn zeros(model: &Model, by_intervals: bool) -> Zeros {
     let Some(body) = model.system.body() else { return Zeros::None };
     let draws = model.parameter_draws();
     let mut extents: Vec<Extent> = draws.iter().map(Draw::extent).collect();
-    let unit = Extent::between(&Rational::from(-1), &Rational::from(1));
-    extents.extend([unit; 3]);
+    extents.extend([unit(); 3]);
     let recorded = record(extents.len(), |inputs| {
         let (free, gamma) = model.make_parameters(inputs);
         let state = |gamma: &[Expr]| {
@@ -100,13 +101,12 @@ fn zeros(model: &Model, by_intervals: bool) -> Zeros {
         let turned = [u * 2.0, v * 2.0, Expr::one() - square].map(|x| x / (square + 1.0));
         let phase = Phase::new(model, &free, &state(gamma)?);
         let (minors, mass) = body.masses(&phase.configuration);
-        let determinant = body.gamma_determinant(&phase.configuration);
         let sphere = gamma.iter().fold(-Expr::one(), |sum, x| sum + x.powi(2));
-        let values = [vec![at(gamma)?, at(&turned)?, determinant, mass], minors.to_vec()].concat();
+        let values = [vec![at(gamma)?, at(&turned)?, mass], minors.to_vec()].concat();
         Some((values, on_axes, [sphere, -sphere]))
     });
     let Ok((graph, Some((values, on_axes, sphere)))) = recorded else { return Zeros::Possible };
-    let [density, turned, determinant, mass, minors @ ..] = &values[..] else {
+    let [density, turned, mass, minors @ ..] = &values[..] else {
         return Zeros::Possible;
     };
     let is_zero = |value: &Expr| graph.constant_value(*value).is_some_and(Rational::is_zero);
@@ -130,9 +130,15 @@ fn zeros(model: &Model, by_intervals: bool) -> Zeros {
     // Ĩ = I + m(r²E − r⊗r) is definite where I is, and m is not negative.
     let is_definite =
         has_positive_moments(model) || minors.iter().all(|own| is_positive(own, false));
-    let is_nowhere =
-        is_definite && is_positive(mass, true) && is_nonzero(determinant) || is_nonzero(density);
+    let is_curved = body.curvature.is_some();
+    let is_regular = || !is_curved || curved::is_nowhere_zero(model, body, &draws);
+    let is_nowhere = is_definite && is_positive(mass, true) && is_regular() || is_nonzero(density);
     if is_nowhere { Zeros::None } else { Zeros::Possible }
+}
+
+/// Numbers between -1 and 1.
+fn unit() -> Extent {
+    Extent::between(&Rational::from(-1), &Rational::from(1))
 }
 
 /// Names axes by their numbers.
