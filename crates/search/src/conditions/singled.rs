@@ -43,7 +43,7 @@ pub struct SingledValues {
     proved: Vec<String>,
     /// Number of further sets of which it is not known whether the claim holds there.
     unknown: usize,
-    /// Equations without real zeros, or with those told only.
+    /// Equations without real zeros, or with those listed only.
     thin: Vec<String>,
 }
 
@@ -189,7 +189,7 @@ impl<'s> ValueSearch<'s> {
     }
 
     /// Adds the real zeros of an equation; the equation itself, if it has a real hypersurface, unless that is
-    /// told already.
+    /// listed already.
     fn thin(
         &self,
         own: &Hypersurface,
@@ -210,7 +210,7 @@ impl<'s> ValueSearch<'s> {
             let text = own.equation(&self.split.scalars);
             all.thin.push(match found.real.is_empty() {
                 true => format!("{text} has no real zeros"),
-                false => format!("{text} has no other real zeros than those told"),
+                false => format!("{text} has no real zeros but those listed"),
             });
         }
         Ok(())

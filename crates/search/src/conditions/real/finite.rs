@@ -151,11 +151,18 @@ impl Algebra {
     fn hermite(&self) -> Vec<Vector> {
         let size = self.size();
         let zero = || Rational::from(0);
-        let table: Vec<Vec<Vector>> = self
-            .monomials
-            .iter()
-            .map(|own| (0..size).map(|j| self.times_monomial(own, &unit(size, j))).collect())
-            .collect();
+        let mut table: Vec<Vec<Vector>> = Vec::with_capacity(size);
+        for own in &self.monomials {
+            // Each but 1 is a product of a variable and one before it.
+            let row = self.used.iter().enumerate().find_map(|(variable, place)| {
+                let mut lower = own.clone();
+                lower[*place] = lower[*place].checked_sub(1)?;
+                let before = self.monomials.iter().position(|own| *own == lower)?;
+                let known = table.get(before)?;
+                Some(known.iter().map(|own| self.times(variable, own)).collect())
+            });
+            table.push(row.unwrap_or_else(|| (0..size).map(|j| unit(size, j)).collect()));
+        }
         let trace = |own: &Vec<Vector>| (0..size).fold(zero(), |sum, j| &sum + &own[j][j]);
         let traces: Vec<Rational> = table.iter().map(trace).collect();
         let entry = |own: &Vector| {

@@ -183,7 +183,7 @@ fn integrals_are_found_at_values_that_belong_to_no_curve() {
     assert!(equations.iter().all(|own| own.contains(" and ")), "{equations:?}");
 }
 
-/// Conditions told for the claim that x is an integral, and their grounds.
+/// Conditions for the claim that x is an integral, and their grounds.
 fn of_x(rates: [&str; 2]) -> (Vec<String>, String) {
     let mut wanted = effort(0);
     wanted.conditions = Some(ConditionTarget::Claim("C".to_string()));
@@ -194,7 +194,7 @@ fn of_x(rates: [&str; 2]) -> (Vec<String>, String) {
 
 #[test]
 fn real_zeros_of_sums_of_squares_are_told() {
-    // Modulo primes that are 3 modulo 4 the only point of the first is the one told.
+    // Modulo primes that are 3 modulo 4 the first has one point alone.
     let all: [(&str, &[&str]); 7] = [
         ("(a - 1)² + (b - 2)²", &["a = 1 and b = 2"]),
         ("(a² - 2)² + (b - a)²", &["a = b and b² − 2 = 0"]),
