@@ -15,8 +15,6 @@ const MOST: usize = 64;
 /// The same for searches along orbits.
 const MOST_ORBITS: usize = 8;
 
-/// Beginning of a remark on a find that does not hold for all listed values.
-
 /// A case with one value in place of each list.
 pub struct ListedCase {
     /// The case.

@@ -35,6 +35,12 @@ fn points(
     Ok(search.found)
 }
 
+/// Makes the prime with a number, what belongs to it, and random numbers; `None` if there is none.
+type NextPrime<'p, P> =
+    &'p mut dyn FnMut(u64) -> Result<Option<(P, Modulus, ProofRng)>, SearchError>;
+/// Tells whether something holds at a point modulo a prime.
+type AtPoint<'p, P> = &'p mut dyn FnMut(&mut P, &[u64]) -> Result<Option<bool>, SearchError>;
+
 /// Asks whether something holds at the points of some primes where equations hold; `None` if no point is found,
 /// if that is not known of one, or if it holds at some of them only.
 ///
@@ -42,8 +48,8 @@ fn points(
 pub fn at_points<P>(
     equations: &[Hypersurface],
     variables: usize,
-    prime: &mut dyn FnMut(u64) -> Result<Option<(P, Modulus, ProofRng)>, SearchError>,
-    holds: &mut dyn FnMut(&mut P, &[u64]) -> Result<Option<bool>, SearchError>,
+    prime: NextPrime<'_, P>,
+    holds: AtPoint<'_, P>,
     halt: &Halt,
 ) -> Result<Option<bool>, SearchError> {
     let (mut all, mut primes) = (Vec::new(), 0);

@@ -112,7 +112,8 @@ impl<'s> ValueSearch<'s> {
             {
                 continue;
             }
-            let found = self.search(names.len(), m, |search| search.zeros(&[surface.clone()]))?;
+            let found =
+                self.search(names.len(), m, |search| search.zeros(std::slice::from_ref(&surface)))?;
             if found.real.iter().any(|set| *set == [surface.clone()]) {
                 all.told.push(own.text.clone());
             } else if !found.real.is_empty() || found.unknown() > 0 {

@@ -5,7 +5,7 @@
 //! their number. That the b are independent in A is not taken for granted: it is so if the matrices of the
 //! products with the variables, read off the basis, commute.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use liouville::number::rational::Rational;
 
@@ -70,7 +70,7 @@ impl Algebra {
                 return None;
             }
         }
-        let places: HashMap<Vec<u32>, usize> =
+        let places: BTreeMap<Vec<u32>, usize> =
             monomials.iter().cloned().enumerate().map(|(k, own)| (own, k)).collect();
         let size = monomials.len();
         let mut products: Vec<Vec<Option<Vector>>> = vec![vec![None; size]; used.len()];
@@ -79,7 +79,7 @@ impl Algebra {
             (0..used.len()).flat_map(|k| (0..size).map(move |j| (k, j))).collect();
         let target = |(k, j): &(usize, usize)| raised(&monomials[*j], used[*k]);
         all.sort_by(|a, b| order(&target(a)).cmp(&order(&target(b))));
-        let mut reduced: HashMap<Vec<u32>, Vector> = HashMap::new();
+        let mut reduced: BTreeMap<Vec<u32>, Vector> = BTreeMap::new();
         for (k, j) in all {
             let own = target(&(k, j));
             let vector = match (places.get(&own), reduced.get(&own)) {
@@ -183,7 +183,7 @@ fn unit(size: usize, place: usize) -> Vector {
 }
 
 /// Reduced monomials, places of those of the basis, and their number.
-type Known<'k> = (&'k HashMap<Vec<u32>, Vector>, &'k HashMap<Vec<u32>, usize>, usize);
+type Known<'k> = (&'k BTreeMap<Vec<u32>, Vector>, &'k BTreeMap<Vec<u32>, usize>, usize);
 
 /// A leading monomial by the other terms; `None` if one of them is not known.
 fn minus_rest(lead: &[u32], terms: &Terms, (reduced, places, size): Known<'_>) -> Option<Vector> {

@@ -14,9 +14,8 @@ pub fn signature(mut own: Vec<Vec<Rational>>) -> (usize, usize) {
                 let pairs = || left.iter().flat_map(|i| left.iter().map(move |j| (*i, *j)));
                 let Some((i, j)) = pairs().find(|(i, j)| !own[*i][*j].is_zero()) else { break };
                 // x_i x_j is a difference of squares of x_i ± x_j.
-                for k in 0..own.len() {
-                    own[i][k] = &own[i][k] + &own[j][k];
-                }
+                let other = own[j].clone();
+                own[i].iter_mut().zip(&other).for_each(|(x, y)| *x = &*x + y);
                 for row in &mut own {
                     row[i] = &row[i] + &row[j];
                 }
