@@ -10,7 +10,7 @@ use super::kind::Type;
 use super::scope::Symbol;
 use super::value::{MatrixEntries, Value};
 use super::{algebra, elementary, tables};
-use crate::scalar::Scalar;
+use crate::scalar::{Function, Scalar};
 
 /// Values of the nodes already passed.
 struct Values<T>(Vec<Value<T>>);
@@ -204,7 +204,7 @@ fn step<T: Scalar>(
             let product = factors.iter().map(|a| v.scalar(*a)).reduce(|a, b| a * b);
             Scalar(product.unwrap_or_else(T::one))
         }
-        NodeOperation::Function(function, a) => Scalar(apply(*function, v.scalar(*a))),
+        NodeOperation::Function(function, a) => Scalar(v.scalar(*a).applied(function)),
         NodeOperation::Angle(y, x) => Scalar(elementary::angle(v.scalar(*y), v.scalar(*x))),
         NodeOperation::Extreme(which, all) => {
             let all = all.iter().map(|a| v.scalar(*a));
@@ -283,24 +283,26 @@ fn sum<T: Scalar>(terms: &[NodeId], v: &Values<T>) -> Value<T> {
     Value::from_components(v.0[*first].value_type(), &total)
 }
 
-fn apply<T: Scalar>(function: ElementaryFunction, x: T) -> T {
-    match function {
-        ElementaryFunction::Sqrt => x.sqrt(),
-        ElementaryFunction::Exp => x.exp(),
-        ElementaryFunction::Ln => x.ln(),
-        ElementaryFunction::Sin => x.sin(),
-        ElementaryFunction::Cos => x.cos(),
-        ElementaryFunction::Tan => x.tan(),
-        ElementaryFunction::Asin => x.arcsine(),
-        ElementaryFunction::Acos => elementary::arccosine(x),
-        ElementaryFunction::Atan => x.atan(),
-        ElementaryFunction::Sinh => x.sinh(),
-        ElementaryFunction::Cosh => x.cosh(),
-        ElementaryFunction::Tanh => x.tanh(),
-        ElementaryFunction::Asinh => x.asinh(),
-        ElementaryFunction::Acosh => x.acosh(),
-        ElementaryFunction::Atanh => x.atanh(),
-        ElementaryFunction::Modulus => x.modulus(),
-        ElementaryFunction::Sign => x / x.modulus(),
+impl Function for ElementaryFunction {
+    fn at<T: Scalar>(&self, x: T) -> T {
+        match self {
+            ElementaryFunction::Sqrt => x.sqrt(),
+            ElementaryFunction::Exp => x.exp(),
+            ElementaryFunction::Ln => x.ln(),
+            ElementaryFunction::Sin => x.sin(),
+            ElementaryFunction::Cos => x.cos(),
+            ElementaryFunction::Tan => x.tan(),
+            ElementaryFunction::Asin => x.arcsine(),
+            ElementaryFunction::Acos => elementary::arccosine(x),
+            ElementaryFunction::Atan => x.atan(),
+            ElementaryFunction::Sinh => x.sinh(),
+            ElementaryFunction::Cosh => x.cosh(),
+            ElementaryFunction::Tanh => x.tanh(),
+            ElementaryFunction::Asinh => x.asinh(),
+            ElementaryFunction::Acosh => x.acosh(),
+            ElementaryFunction::Atanh => x.atanh(),
+            ElementaryFunction::Modulus => x.modulus(),
+            ElementaryFunction::Sign => x / x.modulus(),
+        }
     }
 }

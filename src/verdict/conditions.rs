@@ -71,22 +71,18 @@ impl Judging<'_> {
             if self.is_one_to_one(sampler, SecondState::Anywhere)? {
                 continue;
             }
-            let Some(both) = self.second_preimage(sampler, item, SecondState::Anywhere)? else {
-                status.evidence.add_remark(
-                    "if Φ takes no two states to one, inside or outside of the declared \
-                     ranges, which is not proved"
-                        .to_string(),
-                );
-                continue;
-            };
+            let both = self.second_preimage(sampler, item, SecondState::Anywhere)?;
             status.evidence.witness = None;
-            undecide(
-                status,
-                format!(
+            let reason = match both {
+                Some(both) => format!(
                     "Φ takes {both} to one state: |ρ(Φ(x)) det DΦ(x)| = |ρ(x)| fails, but the measure may \
                      still be invariant, as the measures of several preimages add up"
                 ),
-            );
+                None => "|ρ(Φ(x)) det DΦ(x)| = |ρ(x)| fails, which refutes the density if Φ takes no two \
+                         states to one, inside or outside of the declared ranges; that is not proved"
+                    .to_string(),
+            };
+            undecide(status, reason);
         }
         Ok(())
     }

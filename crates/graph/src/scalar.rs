@@ -9,6 +9,12 @@ use num_dual::{Dual, DualNum};
 use crate::graph::{Expanded, Side};
 use crate::number::rational::Rational;
 
+/// A function of one number of any type.
+pub trait Function {
+    /// Computes the value, with all derivatives that the number carries.
+    fn at<T: Scalar>(&self, x: T) -> T;
+}
+
 /// A `Copy` number over which mechanics and formulas are evaluated: f64, the recording
 /// `Expr`, and num-dual's `Dual` of either, nested to any depth.
 pub trait Scalar: DualNum<Primitive = f64> + Copy {
@@ -18,6 +24,12 @@ pub trait Scalar: DualNum<Primitive = f64> + Copy {
     /// Makes an undefined value, 1/0: proofs reject it, and it has no enclosure.
     fn undefined() -> Self {
         Self::zero().recip()
+    }
+
+    /// Applies a function, whose derivative need not exist where the argument does not move: √k has
+    /// a value at k = 0, and no slope.
+    fn applied(self, function: &impl Function) -> Self {
+        function.at(self)
     }
 
     /// Computes `x^q` for a rational exponent, with derivative `q x^(q-1)`; x > 0 unless q is an
@@ -130,7 +142,17 @@ impl<T: Scalar> Scalar for Dual<T> {
         Dual::from_re(T::rational(value))
     }
 
+    fn applied(self, function: &impl Function) -> Self {
+        match self.eps.is_absent() {
+            true => Dual::new(self.re.applied(function), self.eps),
+            false => function.at(self),
+        }
+    }
+
     fn power(self, exponent: &Rational) -> Self {
+        if self.eps.is_absent() {
+            return Dual::new(self.re.power(exponent), self.eps);
+        }
         let one_less = exponent - &Rational::from(1);
         let slope = T::rational(exponent) * self.re.power(&one_less);
         Dual::new(self.re.power(exponent), self.eps * slope)
@@ -138,7 +160,12 @@ impl<T: Scalar> Scalar for Dual<T> {
 
     fn power_of(self, exponent: Self) -> Self {
         let value = self.re.power_of(exponent.re);
-        let slope = exponent.eps * self.re.ln() + exponent.re * self.eps / self.re;
+        let slope = match (self.eps.is_absent(), exponent.eps.is_absent()) {
+            (true, true) => return Dual::new(value, self.eps),
+            (true, false) => exponent.eps * self.re.ln(),
+            (false, true) => exponent.re * self.eps / self.re,
+            (false, false) => exponent.eps * self.re.ln() + exponent.re * self.eps / self.re,
+        };
         Dual::new(value, value * slope)
     }
 
@@ -150,11 +177,17 @@ impl<T: Scalar> Scalar for Dual<T> {
     }
 
     fn arcsine(self) -> Self {
+        if self.eps.is_absent() {
+            return Dual::new(self.re.arcsine(), self.eps);
+        }
         let slope = (T::one() - self.re * self.re).sqrt().recip();
         Dual::new(self.re.arcsine(), self.eps * slope)
     }
 
     fn angle_from(self, x: Self) -> Self {
+        if self.eps.is_absent() && x.eps.is_absent() {
+            return Dual::new(self.re.angle_from(x.re), self.eps);
+        }
         let square = x.re * x.re + self.re * self.re;
         let slope = (x.re * self.eps - self.re * x.eps) / square;
         Dual::new(self.re.angle_from(x.re), slope)

@@ -1,5 +1,6 @@
 //! Judgement of found formulas as claims about the case.
 
+use super::continued::is_one_function;
 use super::{Effort, SearchError};
 use liouville::case::{Case, Expect};
 use liouville::claim::{Claim, ClaimKind, Integral, MOST_COMPARED};
@@ -91,7 +92,7 @@ pub struct Claimed {
 }
 
 /// Lists the integrals that a case claims and that are proved, component by component, without functions
-/// of the energy.
+/// of the energy and those that may be constant on a part of the states.
 pub fn claimed(case: &Case, effort: &Effort) -> Result<Vec<Claimed>, SearchError> {
     if effort.blind {
         return Ok(Vec::new());
@@ -108,6 +109,7 @@ pub fn claimed(case: &Case, effort: &Effort) -> Result<Vec<Claimed>, SearchError
     for (one, report) in all.into_iter().zip(judged(case, &claims, effort)?) {
         // A theorem rests on what is proved.
         if report.verdict == Verdict::Proved
+            && is_one_function(case, &one.formula, effort)?
             && independent(case, &[], &one.formula, effort)?.is_some()
         {
             found.push(one);

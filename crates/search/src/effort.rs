@@ -23,6 +23,8 @@ pub struct Effort {
     pub ansatz: Ansatz,
     /// Whether polynomial integrals of higher degrees are searched, class by class.
     pub by_class: bool,
+    /// Whether Darboux polynomials, and what follows from them, are searched along orbits.
+    pub by_factors: bool,
     /// Hamiltonians for which brackets are searched, if any.
     pub poisson: Option<Hamiltonians>,
     /// Condition for an early end.
@@ -42,6 +44,7 @@ impl Default for Effort {
             seconds: 60.0,
             ansatz: Ansatz::default(),
             by_class: true,
+            by_factors: true,
             poisson: None,
             halt: Halt::default(),
             options: Options::default(),

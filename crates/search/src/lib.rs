@@ -17,6 +17,7 @@ mod ask;
 mod branches;
 mod budget;
 mod conditions;
+mod continued;
 mod counts;
 mod densities;
 mod echelon;

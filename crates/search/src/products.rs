@@ -10,9 +10,10 @@ use super::orbit::FURTHER_INTEGRAL;
 use super::{Effort, SearchReport, ask};
 use liouville::case::Case;
 use liouville::formula::Formula;
-use liouville::graph::{Evaluator, Expr, Tape};
+use liouville::graph::{Evaluator, Expr, Step, Tape};
 use liouville::mechanics::Phase;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
+use liouville::number::{BinaryOperation, UnaryFunction};
 use liouville::proof::{root_numbers, statement_seed};
 
 /// Highest degree that is recognised.
@@ -146,14 +147,16 @@ pub fn told(
 ///
 /// On a random line w₀ + s u a function F is a polynomial P in s exactly if P' = P (ln F)', which
 /// are linear equations for the coefficients of P. The logarithm's slope is a rational function
-/// where F has factors that fields lack, such as exponentials of the positions.
+/// where F has factors that fields lack, such as exponentials of the positions. With exp, ln and the
+/// like of the velocities F may be cP with another c on each side of a point where it has no value, as
+/// exp(½ ln v²) = |v|: then `None`.
 pub fn degree_in(
     case: &Case,
     formula: &Formula,
     coordinates: &Coordinates,
     seed: u64,
 ) -> Result<Option<u32>, SearchError> {
-    on_lines(case, formula, coordinates, seed, polynomial_degree)
+    on_lines(case, formula, coordinates, seed, Reading::Polynomial)
 }
 
 /// Finds the degree of a formula in all variables of a state without a level, as [`degree_in`] does in
@@ -163,7 +166,7 @@ pub fn degree_in_state(
     formula: &Formula,
     seed: u64,
 ) -> Result<Option<u32>, SearchError> {
-    on_lines(case, formula, &Coordinates::all_moving(case), seed, polynomial_degree)
+    on_lines(case, formula, &Coordinates::all_moving(case), seed, Reading::Polynomial)
 }
 
 /// Finds the degree of P in all variables of a state without a level, if a formula is exp P up to a
@@ -175,7 +178,25 @@ pub fn exponent_degree_in_state(
     formula: &Formula,
     seed: u64,
 ) -> Result<Option<u32>, SearchError> {
-    on_lines(case, formula, &Coordinates::all_moving(case), seed, exponent_degree)
+    on_lines(case, formula, &Coordinates::all_moving(case), seed, Reading::Exponent)
+}
+
+/// What is read from the slopes of a logarithm.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Reading {
+    /// The degree of a polynomial.
+    Polynomial,
+    /// The degree of the exponent of an exponential.
+    Exponent,
+}
+
+impl Reading {
+    fn degree(self, slopes: &[u64], m: &Modulus) -> Option<u32> {
+        match self {
+            Self::Polynomial => polynomial_degree(slopes, m),
+            Self::Exponent => exponent_degree(slopes, m),
+        }
+    }
 }
 
 /// Reads a degree from the slopes of a formula's logarithm at the points 0, 1, 2, … of a random line in
@@ -185,7 +206,7 @@ fn on_lines(
     formula: &Formula,
     coordinates: &Coordinates,
     seed: u64,
-    read: fn(&[u64], &Modulus) -> Option<u32>,
+    read: Reading,
 ) -> Result<Option<u32>, SearchError> {
     let model = &case.model;
     let all = model.vocabulary.with_abbreviations(formula, &model.abbreviations);
@@ -206,9 +227,26 @@ fn on_lines(
         let slope = formula.logarithmic_derivative(&mut |symbol| moved.value(symbol));
         // An ∫ whose variable depends on the velocities has a degree that this test does not see.
         let integrals = all.iter().flat_map(|f| f.antiderivatives(&mut |s| moved.value(s)));
-        std::iter::once(slope).chain(integrals.map(|(_, variable)| variable.eps)).collect()
+        let value = moved.scalar(formula).re;
+        [slope, value].into_iter().chain(integrals.map(|(_, variable)| variable.eps)).collect()
     })?;
-    let (slope, moving) = (values[0], &values[1..]);
+    let (slope, own, moving) = (values[0], values[1], &values[2..]);
+    use UnaryFunction::{Atan, Cos, Exp, Ln, Sin};
+    let is_moving = |a: &usize| {
+        let reached = graph.inputs_of(graph.at(*a));
+        reached.iter().any(|input| *input >= draws.len() + coordinates.positions)
+    };
+    let has_function = |step: Step<'_>| match step {
+        Step::Unary(Exp | Ln | Sin | Cos | Atan, a) => is_moving(&a),
+        Step::Binary(BinaryOperation::Pow, a, b) => is_moving(&a) || is_moving(&b),
+        _ => false,
+    };
+    let own = graph.reached([own]);
+    if read == Reading::Polynomial
+        && (0..graph.len()).any(|place| own[place] && has_function(graph.step(place)))
+    {
+        return Ok(None);
+    }
     if moving.iter().any(|rate| !graph.constant_value(*rate).is_some_and(|rate| rate.is_zero())) {
         return Ok(None);
     }
@@ -225,7 +263,7 @@ fn on_lines(
             values.resize(graph.inputs(), [modulus.one(); SLOPE_POINTS]);
             evaluator.run(&values);
             let slopes = evaluator.output(0);
-            (!slopes.contains(&UNDEFINED)).then(|| read(slopes, &modulus))
+            (!slopes.contains(&UNDEFINED)).then(|| read.degree(slopes, &modulus))
         })?
     });
     let first = degrees.next().flatten();

@@ -138,19 +138,15 @@ fn variables_are_found_one_after_another_by_monotony() {
 }
 
 #[test]
-fn a_refuted_density_says_that_the_map_is_not_proved_to_be_one_to_one() {
-    let refuted = |range: &str, x: &str| {
-        let (verdict, remark) = of_phase(range, x, "p");
-        assert_eq!(verdict, Verdict::Refuted, "{x} on {range}: {remark}");
-        remark
-    };
+fn a_density_is_refuted_if_the_map_is_proved_to_be_one_to_one() {
     for (range, x) in [("-2..2", "2*x"), ("-2..2", "x³"), ("0.5..2", "exp(x)"), ("1..2", "x + x³")]
     {
-        assert_eq!(refuted(range, x), "", "{x} on {range}");
+        let (verdict, remark) = of_phase(range, x, "p");
+        assert_eq!((verdict, &remark[..]), (Verdict::Refuted, ""), "{x} on {range}");
     }
     // Images of a few x near −7003 are those of others.
     let tooth = "2*x + 15*10^6*(|x + 7003 + 1/1000| − 2*|x + 7003| + |x + 7003 − 1/1000|)";
-    assert!(refuted("1..2", tooth).contains("not proved"));
+    assert_eq!(of_phase("1..2", tooth, "p").0, Verdict::Undecided);
 }
 
 #[test]

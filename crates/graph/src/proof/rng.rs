@@ -55,8 +55,11 @@ pub struct RequiredRoots {
 
 /// Computes Jacobi's symbol of an integer over an odd number.
 fn jacobi(integer: &Rational, odd: u64) -> i32 {
-    let remainder = integer.parts().0.mod_floor(&BigInt::from(odd));
-    let (mut a, mut n) = (remainder.to_u64().unwrap_or(0), odd);
+    let remainder = match integer.to_integer() {
+        Some(small) => i128::from(small).rem_euclid(i128::from(odd)) as u64,
+        None => integer.parts().0.mod_floor(&BigInt::from(odd)).to_u64().unwrap_or(0),
+    };
+    let (mut a, mut n) = (remainder, odd);
     let mut symbol = 1;
     while a != 0 {
         let twos = a.trailing_zeros();

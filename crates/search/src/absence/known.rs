@@ -4,6 +4,7 @@ use super::super::ansatz::system::LinearSystem;
 use super::super::ask::{
     compared, components, energy, independent, is_energy, judged_alone, proved_energy,
 };
+use super::super::continued::is_one_function;
 use super::super::linear::SampledFunctions;
 use super::super::local::Coordinates;
 use super::super::products::{Generators, degree_in};
@@ -34,7 +35,8 @@ pub struct ProductSpace {
 }
 
 impl ProvedIntegrals {
-    /// Collects the proved integrals among the claims of a case, from the reports on them.
+    /// Collects the proved integrals among the claims of a case, from the reports on them, that are
+    /// one analytic function each.
     pub fn of(case: &Case, reports: &[ClaimReport], effort: &Effort) -> Result<Self, SearchError> {
         let energy = proved_energy(case, effort)?;
         let has_energy = energy.is_some();
@@ -44,7 +46,11 @@ impl ProvedIntegrals {
                 (&claim.kind, report.verdict)
             {
                 // A file may claim the energy by its name.
-                formulas.extend(components(own)?.into_iter().filter(|own| !is_energy(own)));
+                for own in components(own)?.into_iter().filter(|own| !is_energy(own)) {
+                    if is_one_function(case, &own, effort)? {
+                        formulas.push(own);
+                    }
+                }
             }
         }
         Ok(Self { formulas, has_energy })

@@ -103,6 +103,9 @@ impl VariableSet {
             self.step(setting, &all, known, report, progress)?;
         }
         self.graded(setting, limits, known, report, progress)?;
+        if !setting.effort.by_factors {
+            return Ok(());
+        }
         let variables = &self.variables;
         let Some(degree) = self.degree else {
             // The whole state on a level: factors are given by the functions there.

@@ -95,3 +95,27 @@ fn an_integral_found_along_an_orbit_refutes_a_claim() {
     let report = only(&kepler("−1/(x² + y²)^2"));
     assert_eq!(report.verdict, Verdict::Proved, "{:?}", report.evidence);
 }
+
+#[test]
+fn an_integral_that_changes_on_the_way_is_not_known() {
+    let file = |integral: &str| {
+        format!(
+            "title = \"central force\"\n[state]\nx = \"-2..2\"\ny = \"-2..2\"\n\"x'\" = \"-2..2\"\n\
+             \"y'\" = \"-2..2\"\n[lagrangian]\nkinetic = \"(x'²+y'²)/2\"\npotential = \"(x²+y²)²\"\n\
+             [[claim]]\nintegral = \"{integral}\"\n[[claim]]\nno-integral = {{ degree = 1 }}\n\
+             expect = \"open\"\n"
+        )
+    };
+    assert_eq!(only(&file("x*y' − y*x'")).verdict, Verdict::Proved);
+    for integral in [
+        // 0 for x < 1, where the angular momentum is a further integral
+        "(x*y' − y*x')*(1 + exp(ln((x − 1)²)/2)/(x − 1))",
+        "(x*y' − y*x')*(π/2 + atan(x − 1) + atan(1/(x − 1)))",
+        "(x*y' − y*x')*(1 + sign(x − 1))",
+        // |x y' − y x'|
+        "exp(ln((x*y' − y*x')²)/2)",
+    ] {
+        let found = only(&file(integral));
+        assert_eq!(found.verdict, Verdict::Refuted, "{integral}: {:?}", found.evidence);
+    }
+}

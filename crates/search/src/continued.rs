@@ -1,0 +1,216 @@
+//! Functions that are one analytic function on all parts of their domain.
+//!
+//! Absence is counted at a random state, and holds there and at all states to which the known
+//! integrals are continued. F = J(1 + |x - 1|/(x - 1)) is an integral if J is; it is 0 for x < 1, where
+//! J is a further one. Written with ln, no branch shows that.
+//!
+//! The draws of states fill a box B. A value is *even* if it is built from them by sums, products,
+//! exp, sin, cos, arctan, and by 1/X, √X, X^a, ln X and |X| of an X that is not 0 on B, or positive:
+//! it is analytic around B. From even values sums, products, quotients, exp, sin, cos, and roots
+//! whose branches are proved independent make functions that are continued analytically along paths
+//! around the complex places where a denominator or a radicand vanishes. These do not divide the
+//! complex neighbourhood of B, and all signs of independent roots are reached; so a function that is 0
+//! on one part of its domain is 0 on all. The same holds of determinants of derivatives of several.
+//! With ln X or arctan X of other values this fails: exp(½ ln x²)/x has the values ±1.
+
+use liouville::case::Case;
+use liouville::claim::LevelSubset;
+use liouville::formula::Formula;
+use liouville::graph::{Expr, Graph, Step, record};
+use liouville::number::{BinaryOperation, UnaryFunction};
+use liouville::proof::{Extent, Prover, is_single_valued, sign};
+use liouville::verdict::Sampler;
+
+use super::terms::recorded;
+use super::{Effort, SearchError};
+
+/// What is known of a value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Form {
+    /// Analytic around the box of draws.
+    Even,
+    /// Continued analytically, but for poles and roots.
+    Continued,
+    /// Another value on other parts, perhaps.
+    Divided,
+}
+
+/// Whether a formula is known to be one analytic function on all parts of its domain on the level.
+pub fn is_one_function(
+    case: &Case,
+    formula: &Formula,
+    effort: &Effort,
+) -> Result<bool, SearchError> {
+    let (graph, values) = recorded(case, |jet| jet.phase.evaluate(formula).components())?;
+    if is_single_valued(&graph, &values) {
+        return Ok(true);
+    }
+    let sampler = Sampler::new(case, &LevelSubset::level(&case.model), effort.options.seed)?;
+    if sampler.is_numerical() {
+        return Ok(false);
+    }
+    let fixed = vec![None; sampler.recipes().len()];
+    let (graph, values) = sampler.compose(&graph, &[values], &fixed)?;
+    let (extents, values) = (sampler.extents(), values.concat());
+    let is_divided = forms(&graph, &values, &extents)
+        .into_iter()
+        .zip(graph.reached(values.iter().copied()))
+        .any(|(form, is_reached)| is_reached && form == Form::Divided);
+    if is_divided {
+        return Ok(false);
+    }
+    has_independent_roots(&graph, &values, extents, effort.options.seed)
+}
+
+/// Whether roots and moduli are proved to have independent branches, where exp, ln and the like may
+/// have any value.
+fn has_independent_roots(
+    graph: &Graph,
+    values: &[Expr],
+    mut extents: Vec<Extent>,
+    seed: u64,
+) -> Result<bool, SearchError> {
+    let reached = graph.reached(values.iter().copied());
+    let of = |is_of: fn(&Step<'_>) -> bool| -> Vec<usize> {
+        let steps = graph.steps().enumerate().filter(|(place, _)| reached[*place]);
+        steps.filter(|(_, step)| is_of(step)).map(|(place, _)| place).collect()
+    };
+    if of(is_root).is_empty() {
+        return Ok(true);
+    }
+    let functions = of(is_function);
+    let first = graph.inputs();
+    extents.resize(first, Extent::ALL);
+    extents.extend(functions.iter().map(|place| match graph.step(*place) {
+        Step::Unary(UnaryFunction::Exp, _) => Extent::POSITIVE,
+        _ => Extent::ALL,
+    }));
+    let mut wanted: Vec<usize> = values.iter().map(|value| graph.place(*value)).collect();
+    for place in &functions {
+        wanted.extend(graph.step(*place).arguments());
+    }
+    let (replaced, outputs) = record(extents.len(), |inputs| {
+        let value = |place: usize| functions.iter().position(|own| *own == place);
+        let all = graph.replay(&reached, inputs, |place, _, _| {
+            value(place).map(|number| inputs[first + number])
+        });
+        wanted.iter().map(|place| all[*place]).collect::<Option<Vec<Expr>>>()
+    })?;
+    let Some(outputs) = outputs else { return Ok(false) };
+    let prover = Prover { sources: &[], extents: &extents, seed };
+    Ok(prover.is_true_to_branches(&replaced, &outputs)?)
+}
+
+/// Whether a step has branches.
+fn is_root(step: &Step<'_>) -> bool {
+    match step {
+        Step::Unary(UnaryFunction::Sqrt | UnaryFunction::Abs, _) => true,
+        Step::Power(_, exponent) => exponent.to_integer().is_none(),
+        _ => false,
+    }
+}
+
+/// Whether a step has no values modulo a prime.
+fn is_function(step: &Step<'_>) -> bool {
+    use UnaryFunction::{Atan, Cos, Exp, Ln, Sin};
+    matches!(
+        step,
+        Step::Unary(Exp | Ln | Sin | Cos | Atan, _) | Step::Binary(BinaryOperation::Pow, ..)
+    )
+}
+
+/// Forms of the values that are reached, by place; inputs behind the extents have none.
+fn forms(graph: &Graph, values: &[Expr], extents: &[Extent]) -> Vec<Form> {
+    let reached = graph.reached(values.iter().copied());
+    let mut forms: Vec<Form> = Vec::with_capacity(graph.len());
+    for (place, step) in graph.steps().enumerate() {
+        let form = match reached[place] {
+            true => form(graph, step, &forms, extents),
+            false => Form::Even,
+        };
+        forms.push(form);
+    }
+    forms
+}
+
+fn form(graph: &Graph, step: Step<'_>, forms: &[Form], extents: &[Extent]) -> Form {
+    use UnaryFunction::{Abs, Atan, Cos, Exp, Ln, Neg, Recip, Sin, Sqrt};
+    let worst = step.arguments().map(|a| forms[a]).max().unwrap_or(Form::Even);
+    let known = |a: usize| sign(graph, extents, &[], &[], graph.at(a)).filter(|s| !s.may_vanish);
+    let is_positive = |a: usize| known(a).is_some_and(|sign| sign.is_positive);
+    let even_if = |is_even: bool, otherwise: Form| match is_even {
+        true => worst,
+        false => worst.max(otherwise),
+    };
+    match step {
+        Step::Input(input) if input >= extents.len() => Form::Divided,
+        Step::Constant(_) | Step::Input(_) | Step::Unary(Neg | Exp | Sin | Cos, _) => worst,
+        Step::Binary(BinaryOperation::Pow, a, _) => even_if(is_positive(a), Form::Divided),
+        Step::Binary(..) => worst,
+        Step::Unary(Atan, _) if worst == Form::Even => Form::Even,
+        Step::Unary(Atan, _) => Form::Divided,
+        Step::Unary(Ln, a) => match worst == Form::Even && is_positive(a) {
+            true => Form::Even,
+            false => Form::Divided,
+        },
+        Step::Unary(Abs, a) => even_if(known(a).is_some(), Form::Continued),
+        Step::Unary(Sqrt, a) => even_if(is_positive(a), Form::Continued),
+        Step::Unary(Recip, a) => even_if(known(a).is_some(), Form::Continued),
+        Step::Power(a, exponent) => match exponent.to_integer() {
+            Some(exponent) if exponent >= 0 => worst,
+            Some(_) => even_if(known(a).is_some(), Form::Continued),
+            None => even_if(is_positive(a), Form::Continued),
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn is_one(formula: &str) -> bool {
+        let text =
+            "title = 'x'\n[state]\nx = '-2..2'\ny = '1..2'\n[field]\n\"x'\" = 'y'\n\"y'\" = '0'\n";
+        let case = Case::parse(text, &[]).expect("a case");
+        let formula = Formula::parse(formula, &case.model.vocabulary).expect("a formula");
+        is_one_function(&case, &formula, &Effort::default()).expect("recorded")
+    }
+
+    #[test]
+    fn functions_are_continued_from_part_to_part() {
+        for one in [
+            "x*y",
+            "1/x",
+            "exp(1/x)",
+            "√(x² + y²)",
+            "√x",
+            "√(x³ + 3*x)",
+            "ln(y)",
+            "ln(x² + 1)",
+            "atan(x)/x",
+            "|y|",
+            "exp(x)/sin(x)",
+            "y^x",
+            "x^(1/3)",
+            "x*exp(−2*x) + y*√(1 + 4*x² + 8*x*y + 4*y²)",
+            "√(1 + exp(2*x))*exp(√(x² + 3))",
+        ] {
+            assert!(is_one(one), "{one}");
+        }
+        for divided in [
+            "exp(ln(x²)/2)",
+            "1 + exp(ln(x²)/2)/x",
+            "atan(x) + atan(1/x)",
+            "|x|",
+            "x + |x|",
+            "1 + sign(x)",
+            "√(x²)/x",
+            "√(x²*y)",
+            "exp(√(x²)/x)",
+            "ln(x)",
+            "max(x, 1)",
+        ] {
+            assert!(!is_one(divided), "{divided}");
+        }
+    }
+}
