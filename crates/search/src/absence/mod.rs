@@ -101,14 +101,15 @@ fn judged(case: &Case, judged: &[ClaimReport], options: &Options) -> Vec<ClaimRe
     let ground = abbreviated(case).and_then(|case| {
         let effort = Effort { options, ..Effort::default() };
         let known = ProvedIntegrals::of(&case, judged, &effort)?;
-        Ok((case, known))
+        let coordinates = Coordinates::of(&case);
+        Ok((case, known, coordinates))
     });
     let outcome = |claim: &AbsenceClaim| {
-        let (case, known) = match &ground {
-            Ok((case, known)) => (case, known),
+        let (case, known, coordinates) = match &ground {
+            Ok((case, known, coordinates)) => (case, known, coordinates),
             Err(error) => return AbsenceOutcome::Open(error.to_string()),
         };
-        let asked = AbsenceCase::new(case, known, judged, options);
+        let asked = AbsenceCase::new(case, (known, coordinates), judged, options);
         asked.judge(&claim.kind).unwrap_or_else(|error| AbsenceOutcome::Open(error.to_string()))
     };
     case.absences.iter().map(|claim| report(claim, outcome(claim))).collect()
@@ -118,6 +119,8 @@ fn judged(case: &Case, judged: &[ClaimReport], options: &Options) -> Vec<ClaimRe
 struct AbsenceCase<'a> {
     case: &'a Case,
     known: &'a ProvedIntegrals,
+    /// Coordinates of the level, or the reason why positions and velocities are not known.
+    coordinates: &'a Result<Coordinates, SearchError>,
     /// Reports on the claims of the case.
     reports: &'a [ClaimReport],
     effort: Effort,
@@ -126,7 +129,7 @@ struct AbsenceCase<'a> {
 impl<'a> AbsenceCase<'a> {
     fn new(
         case: &'a Case,
-        known: &'a ProvedIntegrals,
+        (known, coordinates): (&'a ProvedIntegrals, &'a Result<Coordinates, SearchError>),
         reports: &'a [ClaimReport],
         options: Options,
     ) -> Self {
@@ -142,7 +145,7 @@ impl<'a> AbsenceCase<'a> {
             options,
             ..Effort::default()
         };
-        Self { case, known, reports, effort }
+        Self { case, known, coordinates, reports, effort }
     }
 
     fn judge(&self, kind: &Absence) -> Result<AbsenceOutcome, SearchError> {
@@ -184,7 +187,7 @@ impl<'a> AbsenceCase<'a> {
         {
             return Ok(AbsenceOutcome::Exhibited(density));
         }
-        let coordinates = Coordinates::of(self.case);
+        let coordinates = self.coordinates;
         let outcome = if coordinates.is_ok() {
             velocities::judge(self, counted, degree)?
         } else {
@@ -198,7 +201,7 @@ impl<'a> AbsenceCase<'a> {
                         (None, Counted::Densities) => polynomials::nothing(),
                     }
                 }
-                None => AbsenceOutcome::Open(match &coordinates {
+                None => AbsenceOutcome::Open(match coordinates {
                     Err(error) if matches!(system, System::Lagrangian(_)) => error.to_string(),
                     _ => "velocities are not known apart, and polynomials in all variables are \
                           counted without a level set only"

@@ -6,6 +6,7 @@
 use liouville::case::Case;
 use liouville::formula::Formula;
 
+use super::super::origin::TheoremOrigin;
 use super::super::{Effort, Excluded, SearchError, SearchReport};
 use super::adjoin::{self, Extension};
 use super::monomials;
@@ -94,6 +95,8 @@ pub fn conclude(
                     known,
                     error_log2: None,
                     theorem,
+                    origin: TheoremOrigin::Orbit,
+                    values: None,
                 });
             }
             return Ok(());
