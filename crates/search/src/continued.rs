@@ -9,10 +9,10 @@
 //! it is analytic around B. Quotients, exp, sin and cos of even values are *single-valued* outside of the
 //! complex zeros of denominators, which divide no complex neighbourhood of B.
 //!
-//! A function of these, of roots, and of ln a and a^y of single-valued a is 0 on all parts of its domain
-//! if it is on one, provided that all roots, and all √a, are proved to have independent branches
-//! (docs/soundness.md, "Known integrals"). exp(½ ln x²)/x has the values ±1, as √(x²) is no independent
-//! root.
+//! A function of rational values, of roots, and of ln a and a^y of rational a, is 0 on all parts of its
+//! domain if it is on one, provided that all roots, and all √a, are proved to have independent branches;
+//! exponentials, sines and cosines may occur, too (docs/soundness.md, "Known integrals"). exp(½ ln x²)/x
+//! has the values ±1, as √(x²) is no independent root.
 
 use num_dual::DualNum;
 
@@ -61,55 +61,50 @@ pub fn is_one_function(
     let (extents, values) = (sampler.extents(), values.concat());
     let forms = forms(&graph, &values, &extents);
     let reached = graph.reached(values.iter().copied());
-    let is_divided = |(form, is_reached): (&Form, &bool)| *is_reached && *form == Form::Divided;
-    if forms.iter().zip(&reached).any(is_divided) {
-        return Ok(false);
+    let own = forms.iter().zip(&reached).filter(|(_, is_reached)| **is_reached);
+    match own.map(|(form, _)| *form).max().unwrap_or(Form::Even) {
+        Form::Even | Form::Single => Ok(true),
+        Form::Root | Form::Logarithm => {
+            has_independent_roots(&graph, &values, extents, effort.options.seed)
+        }
+        Form::Divided => Ok(false),
     }
-    has_independent_roots(&graph, &values, &forms, extents, effort.options.seed)
 }
 
-/// Whether roots, moduli, and roots of what stands under logarithms, are proved to have independent
-/// branches, where exp, ln and the like may have any value.
+/// Whether roots, moduli, and roots of what stands under logarithms, have arguments without functions
+/// and are proved to have independent branches.
 fn has_independent_roots(
     graph: &Graph,
     values: &[Expr],
-    forms: &[Form],
     mut extents: Vec<Extent>,
     seed: u64,
 ) -> Result<bool, SearchError> {
     let reached = graph.reached(values.iter().copied());
-    let of = |is_of: &dyn Fn(usize, &Step<'_>) -> bool| -> Vec<usize> {
-        let steps = graph.steps().enumerate().filter(|(place, _)| reached[*place]);
-        steps.filter(|(place, step)| is_of(*place, step)).map(|(place, _)| place).collect()
-    };
-    let is_logarithm = |place: usize, step: &Step<'_>| {
-        let is_of_kind = matches!(
-            step,
-            Step::Unary(UnaryFunction::Ln, _) | Step::Binary(BinaryOperation::Pow, ..)
-        );
-        is_of_kind && forms[place] != Form::Even
-    };
-    let logarithms = of(&is_logarithm);
-    if logarithms.is_empty() && of(&|_, step| is_root(step)).is_empty() {
-        return Ok(true);
+    let steps = || graph.steps().enumerate().filter(|(place, _)| reached[*place]);
+    let mut contains_function = vec![false; graph.len()];
+    let (mut functions, mut bases) = (Vec::new(), Vec::new());
+    for (place, step) in steps() {
+        let is_below = step.arguments().any(|a| contains_function[a]);
+        contains_function[place] = is_below || is_function(&step);
+        let winding = step.arguments().next().filter(|_| is_root(&step) || is_logarithm(&step));
+        // An exponential has no zeros to wind about, and functions may be related.
+        let is_winding_arc = matches!(step, Step::Unary(UnaryFunction::Atan, _));
+        if is_winding_arc || winding.is_some_and(|base| contains_function[base]) {
+            return Ok(false);
+        }
+        bases.extend(winding.filter(|_| is_logarithm(&step)));
+        functions.extend(is_function(&step).then_some(place));
     }
-    let functions = of(&|_, step| is_function(step));
     let first = graph.inputs();
-    extents.resize(first, Extent::ALL);
-    extents.extend(functions.iter().map(|place| match graph.step(*place) {
-        Step::Unary(UnaryFunction::Exp, _) => Extent::POSITIVE,
-        _ => Extent::ALL,
-    }));
+    extents.resize(first + functions.len(), Extent::ALL);
     let mut wanted: Vec<usize> = values.iter().map(|value| graph.place(*value)).collect();
     for place in &functions {
         wanted.extend(graph.step(*place).arguments());
     }
-    let bases: Vec<usize> =
-        logarithms.iter().filter_map(|place| graph.step(*place).arguments().next()).collect();
     let (replaced, outputs) = record(extents.len(), |inputs| {
-        let value = |place: usize| functions.iter().position(|own| *own == place);
+        let number = |place: usize| functions.iter().position(|own| *own == place);
         let all = graph.replay(&reached, inputs, |place, _, _| {
-            value(place).map(|number| inputs[first + number])
+            number(place).map(|number| inputs[first + number])
         });
         let roots = bases.iter().map(|place| all[*place].map(|base| base.sqrt()));
         wanted.iter().map(|place| all[*place]).chain(roots).collect::<Option<Vec<Expr>>>()
@@ -126,6 +121,11 @@ fn is_root(step: &Step<'_>) -> bool {
         Step::Power(_, exponent) => exponent.to_integer().is_none(),
         _ => false,
     }
+}
+
+/// Whether a step winds with its argument.
+fn is_logarithm(step: &Step<'_>) -> bool {
+    matches!(step, Step::Unary(UnaryFunction::Ln, _) | Step::Binary(BinaryOperation::Pow, ..))
 }
 
 /// Whether a step has no values modulo a prime.
@@ -239,6 +239,13 @@ mod tests {
             "ln(x²*y)",
             "ln(x) + ln(x*(y − 3/2)²)",
             "√x*ln(x*(y − 3/2)²)",
+            "√(y*x²)/√y",
+            "√(y*x²)/x",
+            "√(exp(x)*x²)/(exp(x/2)*x)",
+            "√(exp(2*x) − exp(x)² + x²)/x",
+            "√(sin(x)² + cos(x)² − 1 + x²)/x",
+            "√x*atan(y)",
+            "ln(y) − ln(y*x²)",
             "max(x, 1)",
         ] {
             assert!(!is_one(divided), "{divided}");
