@@ -42,6 +42,43 @@ enum Form {
     Divided,
 }
 
+/// Values as functions of draws.
+struct Drawn {
+    graph: Graph,
+    values: Vec<Expr>,
+    extents: Vec<Extent>,
+}
+
+impl Drawn {
+    /// Records a formula, or what it needs as written, on the level; `None` if states are numerical.
+    fn of(
+        case: &Case,
+        formula: &Formula,
+        is_literal: bool,
+        effort: &Effort,
+    ) -> Result<Option<Self>, SearchError> {
+        let (graph, values) = recorded(case, |jet| match is_literal {
+            true => jet.phase.literal_values([formula]),
+            false => jet.phase.evaluate(formula).components(),
+        })?;
+        let sampler = Sampler::new(case, &LevelSubset::level(&case.model), effort.options.seed)?;
+        if sampler.is_numerical() {
+            return Ok(None);
+        }
+        let fixed = vec![None; sampler.recipes().len()];
+        let (graph, values) = sampler.compose(&graph, &[values], &fixed)?;
+        Ok(Some(Self { graph, values: values.concat(), extents: sampler.extents() }))
+    }
+
+    /// The form of all values together.
+    fn form(&self) -> Form {
+        let forms = forms(&self.graph, &self.values, &self.extents);
+        let reached = self.graph.reached(self.values.iter().copied());
+        let own = forms.into_iter().zip(reached).filter(|(_, is_reached)| *is_reached);
+        own.map(|(form, _)| form).max().unwrap_or(Form::Even)
+    }
+}
+
 /// Whether a formula is known to be one analytic function on all parts of its domain on the level.
 pub fn is_one_function(
     case: &Case,
@@ -52,23 +89,41 @@ pub fn is_one_function(
     if is_single_valued(&graph, &values) {
         return Ok(true);
     }
-    let sampler = Sampler::new(case, &LevelSubset::level(&case.model), effort.options.seed)?;
-    if sampler.is_numerical() {
-        return Ok(false);
-    }
-    let fixed = vec![None; sampler.recipes().len()];
-    let (graph, values) = sampler.compose(&graph, &[values], &fixed)?;
-    let (extents, values) = (sampler.extents(), values.concat());
-    let forms = forms(&graph, &values, &extents);
-    let reached = graph.reached(values.iter().copied());
-    let own = forms.iter().zip(&reached).filter(|(_, is_reached)| **is_reached);
-    match own.map(|(form, _)| *form).max().unwrap_or(Form::Even) {
+    let Some(drawn) = Drawn::of(case, formula, false, effort)? else { return Ok(false) };
+    match drawn.form() {
         Form::Even | Form::Single => Ok(true),
         Form::Root | Form::Logarithm => {
+            let Drawn { graph, values, extents } = drawn;
             has_independent_roots(&graph, &values, extents, effort.options.seed)
         }
         Form::Divided => Ok(false),
     }
+}
+
+/// Names the integrals of a theorem, and says where it holds if some may have no value on a part of the
+/// states.
+pub fn named<'f>(
+    case: &Case,
+    formulas: impl IntoIterator<Item = &'f Formula>,
+    effort: &Effort,
+) -> Result<String, SearchError> {
+    let (mut names, mut partial) = (Vec::new(), Vec::new());
+    for formula in formulas {
+        names.push(formula.text());
+        let (graph, values) = recorded(case, |jet| jet.phase.literal_values([formula]))?;
+        let is_everywhere = is_single_valued(&graph, &values)
+            || Drawn::of(case, formula, true, effort)?
+                .is_some_and(|drawn| drawn.form() <= Form::Single);
+        if !is_everywhere {
+            partial.push(formula.text());
+        }
+    }
+    let names = names.join(" and ");
+    Ok(match partial.as_slice() {
+        [] => names,
+        [only] => format!("{names}, where {only} has a value"),
+        several => format!("{names}, where {} have values", several.join(" and ")),
+    })
 }
 
 /// Whether roots, moduli, and roots of what stands under logarithms, have arguments without functions

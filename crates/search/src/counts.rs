@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::absence::{has_lists, rank};
 use super::ansatz::monomials::AnsatzVariables;
 use super::budget::STEPS;
+use super::continued::named;
 use super::jets::{DimensionCount, MotionAtPoint, VelocityPolynomials};
 use super::local::{Coordinates, Local};
 use super::origin::{RemarkOrigin, TheoremOrigin};
@@ -320,17 +321,14 @@ pub fn conclude(
         (false, false) => "",
     };
     let generators = all.each().filter(|(_, own)| *own <= degree);
-    let names: Vec<&str> = generators.map(|(formula, _)| formula.text()).collect();
-    let what = match names.as_slice() {
-        [] => format!(
+    let formulas: Vec<&Formula> = generators.map(|(formula, _)| formula).collect();
+    let what = match formulas.is_empty() {
+        true => format!(
             "there is no integral polynomial in the velocities of degree at most {degree}, constants aside."
         ),
-        [only] => format!(
-            "every integral polynomial in the velocities of degree at most {degree} is a polynomial in {only}."
-        ),
-        several => format!(
+        false => format!(
             "every integral polynomial in the velocities of degree at most {degree} is a polynomial in {}.",
-            several.join(" and ")
+            named(case, formulas, effort)?
         ),
     };
     let stated = Excluded {

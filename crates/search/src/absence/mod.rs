@@ -28,6 +28,7 @@ use std::time::Duration;
 
 use super::ansatz::monomials::AnsatzVariables;
 use super::ask::independent;
+use super::continued::named;
 use super::local::Coordinates;
 use super::terms::recorded;
 use super::{Ansatz, Effort, Halt, SearchError, abbreviated, branches};
@@ -296,14 +297,18 @@ fn has_branches(case: &Case, formula: &Formula) -> Result<bool, SearchError> {
 }
 
 /// States that all integrals of a class are polynomials in the given ones.
-fn generated(class: &str, formulas: &[Formula]) -> String {
-    match formulas {
+fn generated(
+    asked: &AbsenceCase<'_>,
+    class: &str,
+    formulas: &[Formula],
+) -> Result<String, SearchError> {
+    Ok(match formulas {
         [] => format!("no integral but a constant is {class}"),
         formulas => {
-            let names: Vec<&str> = formulas.iter().map(Formula::text).collect();
-            format!("every integral that is {class} is a polynomial in {}", names.join(" and "))
+            let names = named(asked.case, formulas, &asked.effort)?;
+            format!("every integral that is {class} is a polynomial in {names}")
         }
-    }
+    })
 }
 
 fn report(claim: &AbsenceClaim, outcome: AbsenceOutcome) -> ClaimReport {

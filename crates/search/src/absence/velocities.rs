@@ -82,7 +82,11 @@ fn no_integral(
                     AbsenceOutcome::Open("the energy is not known to be an integral".to_string())
                 }
                 Some(energy) => AbsenceOutcome::Excluded {
-                    theorem: asked.theorem(&generated(&class, std::slice::from_ref(energy))),
+                    theorem: asked.theorem(&generated(
+                        asked,
+                        &class,
+                        std::slice::from_ref(energy),
+                    )?),
                     counted: "leading forms are powers of the energy".to_string(),
                 },
             });
@@ -98,7 +102,7 @@ fn no_integral(
     }
     if known.dimension == dimension {
         return Ok(AbsenceOutcome::Excluded {
-            theorem: asked.theorem(&generated(&class, &known.formulas)),
+            theorem: asked.theorem(&generated(asked, &class, &known.formulas)?),
             counted: format!(
                 "at most {dimension} independent integrals, constants included: all known"
             ),
