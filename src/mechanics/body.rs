@@ -4,6 +4,8 @@
 //! Extended with degree 1 off |γ| = 1, it makes r homogeneous of degree 0; then Γ = E - k ∂r/∂γ is
 //! symmetric with Γγ = γ, and γ² and (ω,γ) are conserved in all of R⁶.
 
+use std::rc::Rc;
+
 use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual;
 
@@ -152,8 +154,12 @@ impl Shape {
         }
     }
 
-    /// Returns r and ∂r/∂γ.
+    /// Returns r and ∂r/∂γ, where this is the shape of the model's body.
     pub fn contact<T: Scalar>(&self, at: &Configuration<'_, T>) -> (Vector3<T>, Matrix3<T>) {
+        at.contact(|| self.derived_contact(at))
+    }
+
+    fn derived_contact<T: Scalar>(&self, at: &Configuration<'_, T>) -> (Vector3<T>, Matrix3<T>) {
         match self {
             Shape::Contact(r) => {
                 let columns = [0, 1, 2].map(|j| vector(at.lift(NORMAL, axis(j)).evaluate(r)));
@@ -163,10 +169,11 @@ impl Shape {
                 )
             }
             _ => {
+                let outer = [0, 1, 2].map(|i| at.lift(NORMAL, axis(i)));
+                let parameters = outer[0].lifted_parameters();
                 let second = |i: usize, j: usize| {
-                    let outer = at.lift(NORMAL, axis(i));
                     let direction = axis::<T>(j).map(Dual::from_re);
-                    self.support(&outer.lift(NORMAL, direction))
+                    self.support(&outer[i].lift_with(Rc::clone(&parameters), NORMAL, &direction))
                 };
                 contact_of(second)
             }

@@ -1,34 +1,63 @@
 //! Points of configuration space: the velocity-free part of a [`phase`](super::phase) point.
 
+use std::cell::OnceCell;
 use std::rc::Rc;
 
+use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual;
 
-use super::body::scalar;
+use super::body::{axis, scalar};
 use super::memo::Memo;
 use super::model::{Model, ParameterOrigin};
-use super::rubber::normal;
+use super::rubber::{NORMAL, normal};
 use super::vocabulary::Meaning;
 use crate::formula::{Formula, Symbol, Value};
+use crate::graph::is_recorded_literally;
 use crate::scalar::Scalar;
 
 /// A point of configuration space over the scalar T: parameters and γ.
 pub struct Configuration<'m, T> {
     /// Model to which the point belongs.
     pub model: &'m Model,
-    pub(super) parameters: Rc<[Option<Value<T>>]>,
+    pub(super) parameters: Parameters<T>,
     state: Vec<Value<T>>,
     axis_cosine: Option<T>,
     known: Memo<T>,
+    contact: SharedContact<T>,
+    /// Parameters without derivative parts, for all lifts.
+    lifted_parameters: OnceCell<Parameters<Dual<T>>>,
+    /// Contacts at the point lifted along each component of the normal.
+    contacts_along: OnceCell<Contacts<Dual<T>>>,
+}
+
+/// Values of parameters; `None` for one that is computed by its formula.
+pub(super) type Parameters<T> = Rc<[Option<Value<T>>]>;
+
+/// Contact vector of a body and its derivative.
+pub(super) type Contact<T> = (Vector3<T>, Matrix3<T>);
+
+/// Contacts at some points, each computed once.
+type Contacts<T> = Rc<[OnceCell<Contact<T>>; 3]>;
+
+/// Where the contact at a point is kept: with the point, or in common with other points at which it is
+/// the same.
+enum SharedContact<T> {
+    Own(OnceCell<Box<Contact<T>>>),
+    Common(Contacts<T>, usize),
 }
 
 impl<'m, T: Scalar> Configuration<'m, T> {
-    pub(super) fn new(
-        model: &'m Model,
-        parameters: Rc<[Option<Value<T>>]>,
-        state: Vec<Value<T>>,
-    ) -> Self {
-        Self { model, parameters, state, axis_cosine: None, known: Memo::default() }
+    pub(super) fn new(model: &'m Model, parameters: Parameters<T>, state: Vec<Value<T>>) -> Self {
+        Self {
+            model,
+            parameters,
+            state,
+            axis_cosine: None,
+            known: Memo::default(),
+            contact: SharedContact::Own(OnceCell::new()),
+            lifted_parameters: OnceCell::new(),
+            contacts_along: OnceCell::new(),
+        }
     }
 
     /// Returns the same point with another value of state variable `index`.
@@ -106,12 +135,62 @@ impl<'m, T: Scalar> Configuration<'m, T> {
         })
     }
 
+    /// Returns the contact vector of the model's body and its derivative, which `make` computes.
+    pub(super) fn contact(&self, make: impl FnOnce() -> Contact<T>) -> Contact<T> {
+        // What is recorded as written differs from what else is recorded.
+        if is_recorded_literally() {
+            return make();
+        }
+        match &self.contact {
+            SharedContact::Own(own) => **own.get_or_init(|| Box::new(make())),
+            SharedContact::Common(contacts, index) => *contacts[*index].get_or_init(make),
+        }
+    }
+
+    /// Returns the contact, if it was computed.
+    pub(super) fn known_contact(&self) -> Option<Contact<T>> {
+        match &self.contact {
+            SharedContact::Own(own) => own.get().map(|contact| **contact),
+            SharedContact::Common(contacts, index) => contacts[*index].get().copied(),
+        }
+    }
+
+    /// Shares the contact of `lifted`, which is this point lifted along component `index` of the normal,
+    /// with all such points.
+    pub(super) fn share_contact(&self, lifted: &mut Configuration<'_, Dual<T>>, index: usize) {
+        let contacts = self.contacts_along.get_or_init(Contacts::default);
+        lifted.contact = SharedContact::Common(Rc::clone(contacts), index);
+    }
+
+    /// Lifts the point along component `index` of the normal.
+    #[inline(never)]
+    pub(super) fn lift_normal(&self, index: usize) -> Configuration<'m, Dual<T>> {
+        let mut lifted = self.lift(NORMAL, axis(index));
+        self.share_contact(&mut lifted, index);
+        lifted
+    }
+
     /// Lifts the point with derivative parts `direction` for state variable `index`, 0 elsewhere.
     #[inline(never)]
     pub fn lift(&self, index: usize, direction: Value<T>) -> Configuration<'m, Dual<T>> {
+        self.lift_with(self.lifted_parameters(), index, &direction)
+    }
+
+    /// Lifts the same, with parameters that were lifted before.
+    pub(super) fn lift_with(
+        &self,
+        parameters: Parameters<Dual<T>>,
+        index: usize,
+        direction: &Value<T>,
+    ) -> Configuration<'m, Dual<T>> {
         let mut state: Vec<_> = self.state.iter().map(|value| value.map(Dual::from_re)).collect();
-        state[index] = dual_value(&self.state[index], &direction);
-        Configuration::new(self.model, lift_parameters(&self.parameters), state)
+        state[index] = dual_value(&self.state[index], direction);
+        Configuration::new(self.model, parameters, state)
+    }
+
+    /// Returns the parameters without derivative parts.
+    pub(super) fn lifted_parameters(&self) -> Parameters<Dual<T>> {
+        Rc::clone(self.lifted_parameters.get_or_init(|| lift_parameters(&self.parameters)))
     }
 
     /// Returns the components of all state variables in order.
@@ -134,14 +213,14 @@ impl<'m, T: Scalar> Configuration<'m, T> {
                 dual_value(value, &Value::from_components(value.value_type(), own))
             })
             .collect();
-        Configuration::new(self.model, lift_parameters(&self.parameters), state)
+        Configuration::new(self.model, self.lifted_parameters(), state)
     }
 
     /// Lifts the point with all derivative parts 0.
     #[inline(never)]
     pub fn lift_constant(&self) -> Configuration<'m, Dual<T>> {
         let state = self.state.iter().map(|value| value.map(Dual::from_re)).collect();
-        Configuration::new(self.model, lift_parameters(&self.parameters), state)
+        Configuration::new(self.model, self.lifted_parameters(), state)
     }
 }
 
@@ -157,9 +236,7 @@ pub(super) fn formula_of(model: &Model, symbol: Symbol) -> Option<&Formula> {
     }
 }
 
-pub(super) fn lift_parameters<T: Scalar>(
-    parameters: &[Option<Value<T>>],
-) -> Rc<[Option<Value<Dual<T>>>]> {
+fn lift_parameters<T: Scalar>(parameters: &[Option<Value<T>>]) -> Parameters<Dual<T>> {
     let lift = |value: &Value<T>| value.map(Dual::from_re);
     parameters.iter().map(|value| value.as_ref().map(lift)).collect()
 }

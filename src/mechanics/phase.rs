@@ -7,12 +7,11 @@
 use std::cell::OnceCell;
 use std::rc::Rc;
 
-use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual;
 
 use super::ball::BallMotion;
 use super::body::scalar;
-use super::configuration::{Configuration, formula_of, lift_parameters};
+use super::configuration::{Configuration, Parameters, formula_of};
 use super::memo::Memo;
 use super::model::{LevelFunction, Model, Variable};
 use super::quantity::Quantity;
@@ -31,8 +30,6 @@ pub struct Phase<'m, T> {
     known: Memo<T>,
     /// Values that are defined exactly where the written formulas are.
     literal: Memo<T>,
-    /// Contact vector of a rolling body and its derivative, where a lift takes them over.
-    contact: OnceCell<(Vector3<T>, Matrix3<T>)>,
     motion: OnceCell<Box<RollingTerms<T>>>,
     ball_motion: OnceCell<Box<BallMotion<T>>>,
     /// Rates of the system's variables, without those that a case adds.
@@ -47,7 +44,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
     }
 
     #[inline(never)]
-    fn with_parameters(model: &'m Model, parameters: Rc<[Option<Value<T>>]>, state: &[T]) -> Self {
+    fn with_parameters(model: &'m Model, parameters: Parameters<T>, state: &[T]) -> Self {
         let mut rest = state;
         let state = model
             .state
@@ -62,7 +59,6 @@ impl<'m, T: Scalar> Phase<'m, T> {
             configuration: Configuration::new(model, parameters, state),
             known: Memo::default(),
             literal: Memo::default(),
-            contact: OnceCell::new(),
             motion: OnceCell::new(),
             ball_motion: OnceCell::new(),
             own_field: OnceCell::new(),
@@ -158,11 +154,6 @@ impl<'m, T: Scalar> Phase<'m, T> {
         })
     }
 
-    /// Returns the contact vector of a rolling body and its derivative, if a lift took them over.
-    pub(super) fn contact(&self) -> Option<(Vector3<T>, Matrix3<T>)> {
-        self.contact.get().copied()
-    }
-
     /// Returns the intermediate results of a rolling body's equations.
     pub(super) fn motion(&self, make: impl FnOnce() -> RollingTerms<T>) -> &RollingTerms<T> {
         self.motion.get_or_init(|| Box::new(make()))
@@ -212,7 +203,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
     /// Lifts the point with a derivative part of one scalar parameter.
     #[inline(never)]
     pub fn lift_parameter(&self, index: usize, direction: T) -> Phase<'m, Dual<T>> {
-        let mut parameters = lift_parameters(&self.configuration.parameters).to_vec();
+        let mut parameters = self.configuration.lifted_parameters().to_vec();
         let value = self.configuration.parameter(index);
         parameters[index] = Some(value.map(|x| Dual::new(x, direction)));
         let state: Vec<_> = self.state().into_iter().map(Dual::from_re).collect();
@@ -225,13 +216,12 @@ impl<'m, T: Scalar> Phase<'m, T> {
     pub fn lift(&self, direction: &[T]) -> Phase<'m, Dual<T>> {
         let state: Vec<_> =
             self.state().into_iter().zip(direction).map(|(x, d)| Dual::new(x, *d)).collect();
-        let parameters = lift_parameters(&self.configuration.parameters);
+        let parameters = self.configuration.lifted_parameters();
         let lifted = Phase::with_parameters(self.model(), parameters, &state);
         // The contact depends on the normal, and not on the angular velocity before it.
         let is_of_velocity = direction.iter().skip(3 * NORMAL).all(|slope| slope.is_absent());
-        if let (Some(terms), true) = (self.motion.get(), is_of_velocity) {
-            let (r, slope) = (terms.pose.r, terms.pose.slope);
-            lifted.contact.get_or_init(|| (r.map(Dual::from_re), slope.map(Dual::from_re)));
+        if let (Some((r, slope)), true) = (self.configuration.known_contact(), is_of_velocity) {
+            lifted.configuration.contact(|| (r.map(Dual::from_re), slope.map(Dual::from_re)));
         }
         lifted
     }
@@ -241,7 +231,11 @@ impl<'m, T: Scalar> Phase<'m, T> {
     pub fn lift_along(&self, index: usize) -> Phase<'m, Dual<T>> {
         let mut direction = vec![T::zero(); self.model().dimension()];
         direction[index] = T::one();
-        self.lift(&direction)
+        let mut lifted = self.lift(&direction);
+        if (3 * NORMAL..3 * NORMAL + 3).contains(&index) {
+            self.configuration.share_contact(&mut lifted.configuration, index - 3 * NORMAL);
+        }
+        lifted
     }
 }
 

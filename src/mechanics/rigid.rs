@@ -36,7 +36,7 @@ impl RigidBody {
     pub(super) fn motion<'p, T: Scalar>(&self, phase: &'p Phase<'_, T>) -> &'p RollingTerms<T> {
         phase.motion(|| {
             let at = &phase.configuration;
-            let (r, slope) = phase.contact().unwrap_or_else(|| self.shape.contact(at));
+            let (r, slope) = self.shape.contact(at);
             RollingTerms::of(Pose {
                 omega: angular_velocity(at),
                 gamma: normal(at),

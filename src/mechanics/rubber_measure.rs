@@ -14,10 +14,9 @@
 use nalgebra::Vector3;
 use num_dual::Dual;
 
-use super::body::axis;
 use super::configuration::Configuration;
 use super::linear::{across, adjugate};
-use super::rubber::{NORMAL, Rubber, normal};
+use super::rubber::{Rubber, normal};
 use crate::scalar::Scalar;
 
 impl Rubber {
@@ -37,8 +36,7 @@ impl Rubber {
     /// (2.21).
     pub(super) fn rotation<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
         let gamma = normal(at);
-        let slopes =
-            [0, 1, 2].map(|j| self.covector(&at.lift(NORMAL, axis(j))).map(|x: Dual<T>| x.eps));
+        let slopes = [0, 1, 2].map(|j| self.covector(&at.lift_normal(j)).map(|x: Dual<T>| x.eps));
         [(0, 1, 2), (1, 2, 0), (2, 0, 1)]
             .into_iter()
             .map(|(i, j, k)| gamma[i] * (slopes[j][k] - slopes[k][j]))
@@ -58,7 +56,7 @@ impl Rubber {
     pub(super) fn tangential_chi<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vector3<T> {
         let gamma = normal(at);
         let drift = Vector3::from_fn(|j, _| {
-            let volume = self.volume(&at.lift(NORMAL, axis(j)));
+            let volume = self.volume(&at.lift_normal(j));
             volume.eps / volume.re
         });
         let covector = self.covector(at) - drift;

@@ -26,7 +26,6 @@ use std::ops::{Deref, DerefMut};
 use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual;
 
-use super::body::axis;
 use super::chart::Chart;
 use super::configuration::Configuration;
 use super::dynamics::Dynamics;
@@ -127,7 +126,7 @@ impl Spinning {
     /// Computes C₂.
     fn rotation<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
         let gamma = normal(at);
-        let slope = |j| self.pose(&at.lift(NORMAL, axis(j))).covector().map(|x: Dual<T>| x.eps);
+        let slope = |j| self.pose(&at.lift_normal(j)).covector().map(|x: Dual<T>| x.eps);
         let slopes = [0, 1, 2].map(slope);
         [(0, 1, 2), (1, 2, 0), (2, 0, 1)]
             .into_iter()
@@ -233,7 +232,7 @@ impl Dynamics for Spinning {
         let (_, slope) = self.shape.contact(at);
         let Some(big_gamma) = self.gamma_across(at, &slope) else { return Some(chi.into()) };
         let drift = Vector3::from_fn(|j, _| {
-            let volume = self.gamma_determinant(&at.lift(NORMAL, axis(j)));
+            let volume = self.gamma_determinant(&at.lift_normal(j));
             volume.eps / volume.re
         });
         Some((chi - big_gamma.solve_transposed(&drift).cross(&normal(at))).into())

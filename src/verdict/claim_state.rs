@@ -185,10 +185,6 @@ impl BlockResult {
             Self { states: D::LANES, existing: 0, defined: 0, resolved: 0, excludes_zero: false };
         for lane in (0..D::LANES).filter(|lane| existing[*lane]) {
             result.existing += 1;
-            let enclosures = residuals.iter().map(|block| D::enclosure(block, lane));
-            let Some(enclosures) = enclosures.collect::<Option<Vec<(f64, f64)>>>() else {
-                continue;
-            };
             let blur = match scale {
                 None => f64::INFINITY,
                 Some(scale) => {
@@ -196,9 +192,14 @@ impl BlockResult {
                     2f64.powi(-RESOLVED_BITS) * (mid - rad).max(0.0).sqrt()
                 }
             };
+            let enclosures = residuals.iter().map(|block| D::enclosure(block, lane));
+            let is_narrow = |(_, rad): (f64, f64)| rad <= blur || rad == 0.0;
+            let are_narrow = enclosures
+                .map(|enclosure| enclosure.map(is_narrow))
+                .try_fold(true, |all, is_narrow| Some(all && is_narrow?));
+            let Some(are_narrow) = are_narrow else { continue };
             result.defined += 1;
-            result.resolved +=
-                usize::from(enclosures.iter().all(|(_, rad)| *rad <= blur || *rad == 0.0));
+            result.resolved += usize::from(are_narrow);
             result.excludes_zero |= residuals.iter().any(|block| D::excludes_zero(block, lane));
         }
         result

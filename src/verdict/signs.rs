@@ -31,8 +31,21 @@ struct DensityObservations {
     signs: Signs,
     /// Whether some lane contains no state known to exist.
     is_lacking: bool,
+    /// Lanes of the first block at which the density is known to have a value other than 0.
+    is_seen: Vec<bool>,
     /// Whether a state was met at which it is not known whether the density has a value.
     is_doubtful: bool,
+}
+
+impl DensityObservations {
+    /// Whether nothing that is observed at further states can change the finding.
+    fn is_decided(&self, proved: Option<&KnownSign>) -> bool {
+        let sign = sign(&self.signs);
+        match proved {
+            Some(_) => sign.is_some(),
+            None => sign == Some(DensitySign::Changes),
+        }
+    }
 }
 
 impl Judging<'_> {
@@ -64,29 +77,24 @@ impl Judging<'_> {
         let run = self.run(&outputs);
         let mut seen: Vec<DensityObservations> =
             vec![DensityObservations::default(); required.len()];
+        let mut is_first = true;
         for blocks in waves(0..self.blocks(), MOST_KEPT) {
             let sharing = |maker: &mut Maker<'_>, start| {
                 maker.balls_sharing_parameters(start, PARAMETER_SETS)
             };
             for values in run.at_blocks(sampler, blocks, sharing) {
-                observe(&values, &required, &mut seen);
+                let known = observe(&values, &required, &mut seen);
+                if std::mem::take(&mut is_first) {
+                    seen.iter_mut().zip(known).for_each(|(seen, known)| seen.is_seen = known);
+                }
             }
-            let is_known = |(seen, proved): (&DensityObservations, &Option<KnownSign>)| match proved
-            {
-                Some(_) => sign(&seen.signs).is_some(),
-                None => sign(&seen.signs) == Some(DensitySign::Changes),
-            };
-            if seen.iter().zip(&proved).all(is_known) {
+            if seen.iter().zip(&proved).all(|(seen, proved)| seen.is_decided(proved.as_ref())) {
                 break;
             }
         }
         if !sampler.is_numerical() {
-            let is_open = |(seen, proved): (&DensityObservations, &Option<KnownSign>)| {
-                let sign = sign(&seen.signs);
-                sign.is_none() || (proved.is_none() && sign != Some(DensitySign::Changes))
-            };
-            if seen.iter().zip(&proved).any(is_open) {
-                self.look_closely(&run, &required, sampler, &mut seen);
+            if !seen.iter().zip(&proved).all(|(seen, proved)| seen.is_decided(proved.as_ref())) {
+                self.look_closely(&run, &required, sampler, &proved, &mut seen);
             }
         }
         let unreached = sampler.unreached();
@@ -116,6 +124,7 @@ impl Judging<'_> {
         run: &Run,
         required: &[[Range<usize>; 2]],
         sampler: &Sampler,
+        proved: &[Option<KnownSign>],
         seen: &mut [DensityObservations],
     ) {
         if seen.iter().any(|seen| sign(&seen.signs).is_none()) {
@@ -128,11 +137,17 @@ impl Judging<'_> {
             let states = sampler.states_at_edges(&domain, start as u64, PARAMETER_SETS);
             observe(&run.at(&domain, &states), required, seen);
         }
-        if !seen.iter().any(|seen| seen.is_lacking) {
-            return;
-        }
         let domain = Mixed::new(f64::MANTISSA_DIGITS * 4);
         for lane in 0..TAPE_LANES {
+            // Where f64 knows the sign, exact numbers tell nothing more.
+            let is_asked = |(seen, proved): (&DensityObservations, &Option<KnownSign>)| {
+                seen.is_lacking
+                    && seen.is_seen.get(lane) != Some(&true)
+                    && !seen.is_decided(proved.as_ref())
+            };
+            if !seen.iter().zip(proved).any(is_asked) {
+                continue;
+            }
             let states = sampler.state_sharing_parameters(&domain, lane as u64, PARAMETER_SETS);
             let values = run.at(&domain, &states);
             for (index, (seen, required)) in seen.iter_mut().zip(required).enumerate() {
@@ -174,34 +189,36 @@ impl Judging<'_> {
     }
 }
 
-/// Records the signs of a block of values at states, by parameter set.
+/// Records the signs of a block of values at states, by parameter set; returns for each density in
+/// which lanes its sign is known.
 fn observe<D: Enclosing>(
     values: &Values<D>,
     required: &[[Range<usize>; 2]],
     seen: &mut [DensityObservations],
-) {
+) -> Vec<Vec<bool>> {
+    let mut all = vec![vec![false; D::LANES]; required.len()];
     for (index, (seen, required)) in seen.iter_mut().zip(required).enumerate() {
         let existing = values.existing(required);
-        for (lane, exists) in existing.into_iter().enumerate() {
+        for (lane, (exists, is_known)) in existing.into_iter().zip(&mut all[index]).enumerate() {
             match exists {
-                true => note::<D>(
-                    values.output(index),
-                    lane,
-                    &mut seen.signs[lane * PARAMETER_SETS / TAPE_LANES],
-                ),
+                true => {
+                    let set = &mut seen.signs[lane * PARAMETER_SETS / TAPE_LANES];
+                    *is_known = note::<D>(values.output(index), lane, set);
+                }
                 false => seen.is_lacking = true,
             }
         }
     }
+    all
 }
 
-/// Records the sign of one value, if it is known.
-fn note<D: Enclosing>(block: &D::Block, lane: usize, seen: &mut [bool; 2]) {
-    if D::excludes_zero(block, lane)
-        && let Some((mid, _)) = D::enclosure(block, lane)
-    {
+/// Records the sign of one value, and returns whether it is known.
+fn note<D: Enclosing>(block: &D::Block, lane: usize, seen: &mut [bool; 2]) -> bool {
+    let known = D::enclosure(block, lane).filter(|_| D::excludes_zero(block, lane));
+    if let Some((mid, _)) = known {
         seen[usize::from(mid > 0.0)] = true;
     }
+    known.is_some()
 }
 
 /// Combines observations, negative and positive, over the parameter sets.

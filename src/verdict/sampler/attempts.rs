@@ -12,6 +12,11 @@ const ATTEMPTS: u32 = 64;
 /// Precision in bits for states that f64 cannot decide.
 const EXACT_BITS: u32 = 256;
 
+/// Returns the set of parameters that a state has if so many sets are shared.
+fn set_of(index: u64, sets: usize) -> usize {
+    (index % TAPE_LANES as u64) as usize * sets / TAPE_LANES
+}
+
 impl Sampler {
     /// Finds, for each of some states, the first attempt at which the draws lead to a state, by
     /// enclosures in f64; the first of all if none does. With few parameter sets, each state uses
@@ -88,10 +93,24 @@ impl Sampler {
     ) -> Vec<(f64, bool)> {
         let mut own = self.draws.nearest(self.seed, index, attempt);
         if let Some(sets) = sets {
-            let set = (index % TAPE_LANES as u64) as usize * sets / TAPE_LANES;
-            let shared = self.draws.nearest(self.seed, set as u64, 0);
+            let shared = self.draws.nearest(self.seed, set_of(index, sets) as u64, 0);
             own[..self.parameter_draws].copy_from_slice(&shared[..self.parameter_draws]);
         }
         own
+    }
+
+    /// Replaces the parameters of the states from `start` on by those of few sets, as [`Self::nearest`]
+    /// does.
+    pub(super) fn share_parameters(
+        &self,
+        start: u64,
+        sets: usize,
+        columns: &mut [Balls<TAPE_LANES>],
+    ) {
+        let shared: Vec<Vec<(f64, bool)>> =
+            (0..sets).map(|set| self.draws.nearest(self.seed, set as u64, 0)).collect();
+        for (k, column) in columns.iter_mut().enumerate().take(self.parameter_draws) {
+            *column = Balls::about(|lane| shared[set_of(start + lane as u64, sets)][k]);
+        }
     }
 }

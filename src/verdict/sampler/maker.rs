@@ -140,8 +140,11 @@ impl Maker<'_> {
         sets: Option<usize>,
     ) -> Vec<Balls<TAPE_LANES>> {
         let sampler = self.sampler;
-        if sets.is_none() && attempts.iter().all(|attempt| *attempt == 0) {
+        if attempts.iter().all(|attempt| *attempt == 0) {
             sampler.draws.fill(&self.streams, start, &mut self.columns);
+            if let Some(sets) = sets {
+                sampler.share_parameters(start, sets, &mut self.columns);
+            }
         } else {
             let lanes: [Vec<(f64, bool)>; TAPE_LANES] = std::array::from_fn(|lane| {
                 sampler.nearest(start + lane as u64, attempts[lane], sets)

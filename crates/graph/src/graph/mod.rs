@@ -29,7 +29,7 @@ mod tape;
 
 use std::cell::RefCell;
 
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashMap;
 
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
@@ -79,7 +79,7 @@ pub enum Fault {
 }
 
 /// Domain of definition of a node, as far as its form determines it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Defined {
     /// Defined wherever the inputs are.
     Always,
@@ -92,11 +92,21 @@ enum Defined {
 impl Defined {
     /// Domain of a value that is made from two others.
     fn and(self, other: Self) -> Self {
-        match (self, other) {
-            (Self::Always, Self::Always) => Self::Always,
-            (Self::Never, _) | (_, Self::Never) => Self::Never,
-            _ => Self::Partly,
-        }
+        self.max(other)
+    }
+}
+
+/// A set of nodes as bits.
+struct Met(Vec<u64>);
+
+impl Met {
+    /// Adds a node; returns whether it is new.
+    #[inline]
+    fn insert(&mut self, id: NodeId) -> bool {
+        let (word, bit) = (&mut self.0[id.0 as usize / 64], 1 << (id.0 % 64));
+        let is_new = *word & bit == 0;
+        *word |= bit;
+        is_new
     }
 }
 
@@ -213,10 +223,10 @@ impl Graph {
         count
     }
 
-    /// Visits each node that some expressions need once. Takes as long as these, however large the
-    /// graph is.
+    /// Visits each node that some expressions need once. Takes as long as these, but for a bit a node of
+    /// the graph.
     fn visit(&self, exprs: &[Expr], mut each: impl FnMut(Node)) {
-        let mut met: FxHashSet<NodeId> = FxHashSet::default();
+        let mut met = Met(vec![0; self.nodes.len().div_ceil(64)]);
         let mut open: Vec<NodeId> = exprs.iter().filter_map(|expr| expr.id()).collect();
         open.retain(|id| met.insert(*id));
         while let Some(id) = open.pop() {
@@ -274,6 +284,15 @@ impl Graph {
     /// ln 0 and 0^-1 are undefined.
     #[inline]
     fn domain_of(&self, node: Node) -> Defined {
+        match node {
+            Node::Binary(BinaryOperation::Pow, ..) | Node::Power(..) => {}
+            Node::Binary(_, a, b) => {
+                return self.domains[a.0 as usize].and(self.domains[b.0 as usize]);
+            }
+            Node::Unary(UnaryFunction::Neg, a) => return self.domains[a.0 as usize],
+            Node::Constant(_) | Node::Input(_) => return Defined::Always,
+            Node::Unary(..) => {}
+        }
         let step = self.step_of(node);
         let arguments = step.arguments().map(|place| self.domains[place]);
         let arguments = arguments.fold(Defined::Always, Defined::and);
@@ -340,6 +359,11 @@ pub fn literally<R>(build: impl FnOnce() -> R) -> R {
     }
     let _restore = Restore(with_graph(|graph| std::mem::replace(&mut graph.literal, true)));
     build()
+}
+
+/// Whether the recording under way folds away nothing that may be undefined, as within [`literally`].
+pub fn is_recorded_literally() -> bool {
+    with_graph(|graph| graph.literal)
 }
 
 /// A guard that puts the outer recording back, also when the closure unwinds.

@@ -71,6 +71,13 @@ impl Graph {
         }
     }
 
+    /// Whether a node is an input, a sum, a difference or a product: of the rules below, only those for
+    /// constant factors and for roots look at these.
+    #[inline]
+    fn is_plain(&self, id: NodeId) -> bool {
+        matches!(self.node(id), Node::Input(_) | Node::Binary(..))
+    }
+
     fn commutative(&mut self, operation: BinaryOperation, a: NodeId, b: NodeId) -> NodeId {
         self.intern(Node::Binary(operation, a.min(b), a.max(b)))
     }
@@ -82,6 +89,9 @@ impl Graph {
         }
         if b == ZERO {
             return a;
+        }
+        if self.is_plain(a) && self.is_plain(b) {
+            return self.commutative(BinaryOperation::Add, a, b);
         }
         if let Some(folded) = self.fold(a, b, |x, y| x + y) {
             return folded;
@@ -103,10 +113,14 @@ impl Graph {
         if b == ZERO {
             return a;
         }
-        if let Some(folded) = self.fold(a, b, |x, y| x - y) {
-            return folded;
-        }
-        match (self.negated(a), self.negated(b)) {
+        let (x, y) = match self.is_plain(a) && self.is_plain(b) {
+            true => (None, None),
+            false => match self.fold(a, b, |x, y| x - y) {
+                Some(folded) => return folded,
+                None => (self.negated(a), self.negated(b)),
+            },
+        };
+        match (x, y) {
             (_, Some(y)) => self.add(a, y),
             (Some(x), None) => {
                 let sum = self.add(x, b);
@@ -135,6 +149,9 @@ impl Graph {
         if b == ONE {
             return a;
         }
+        if self.is_plain(a) && self.is_plain(b) {
+            return self.commutative(BinaryOperation::Mul, a, b);
+        }
         if let Some(folded) = self.fold(a, b, |x, y| x * y) {
             return folded;
         }
@@ -145,8 +162,9 @@ impl Graph {
             (None, None) => {}
         }
         for (constant, other) in [(a, b), (b, a)] {
-            if let Some(value) = self.constant_at(constant).cloned() {
-                return self.scaled(&value, constant, other);
+            if let Some(value) = self.constant_at(constant) {
+                let opposite = value.is_negative().then(|| -value);
+                return self.scaled(opposite, constant, other);
             }
         }
         if self.literal || self.is_undefined(a) || self.is_undefined(b) {
@@ -170,11 +188,11 @@ impl Graph {
         self.unary(UnaryFunction::Neg, product)
     }
 
-    /// Multiplies by a constant: the sign of a negative constant moves outwards, and two constants
-    /// merge.
-    fn scaled(&mut self, value: &Rational, constant: NodeId, other: NodeId) -> NodeId {
-        if value.is_negative() {
-            let positive = self.constant(-value);
+    /// Multiplies by a constant: the sign of a negative one, whose opposite is given, moves outwards, and
+    /// two constants merge.
+    fn scaled(&mut self, opposite: Option<Rational>, constant: NodeId, other: NodeId) -> NodeId {
+        if let Some(opposite) = opposite {
+            let positive = self.constant(opposite);
             return self.negated_product(positive, other);
         }
         if let Node::Binary(BinaryOperation::Mul, x, y) = self.node(other) {
@@ -190,7 +208,7 @@ impl Graph {
     pub(super) fn unary(&mut self, function: UnaryFunction, a: NodeId) -> NodeId {
         // A root of 0 is the end of a domain.
         let is_end = self.literal && function == UnaryFunction::Sqrt && a == ZERO;
-        if is_end || self.is_undefined(a) {
+        if is_end || self.is_undefined(a) || self.is_plain(a) && function != UnaryFunction::Sqrt {
             return self.intern(Node::Unary(function, a));
         }
         if let Some(value) = self.constant_at(a).cloned()

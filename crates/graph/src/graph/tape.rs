@@ -49,16 +49,17 @@ impl Tape {
     pub fn new(graph: &Graph, outputs: &[Expr]) -> Self {
         let roots: Vec<usize> =
             outputs.iter().map(|expr| expr.id().map_or(0, |id| id.0 as usize)).collect();
-        let (last_use, used) = last_uses(graph, &roots);
+        let (last_use, mut used) = last_uses(graph, &roots);
+        used.reverse();
         let mut tape = Tape {
             inputs: graph.inputs(),
             constants: Vec::new(),
             exponents: Vec::new(),
-            instructions: Vec::with_capacity(used),
+            instructions: Vec::with_capacity(used.len()),
             outputs: Vec::new(),
             slots: 0,
         };
-        let used = || (0..last_use.len()).filter(|index| last_use[*index] != UNUSED);
+        let used = || used.iter().map(|index| *index as usize);
         let mut slot_of: Vec<Slot> = vec![0; last_use.len()];
         for index in used() {
             if let Node::Constant(constant) = graph.nodes[index] {
@@ -165,19 +166,20 @@ impl Node {
 const UNUSED: u32 = u32::MAX;
 
 /// Finds the index of each node's last user, as far as the last root: past the end for an output,
-/// `UNUSED` for a node without users; and the number of operations that have users.
-fn last_uses(graph: &Graph, roots: &[usize]) -> (Vec<u32>, usize) {
+/// `UNUSED` for a node without users; and those that have users, the last one first.
+fn last_uses(graph: &Graph, roots: &[usize]) -> (Vec<u32>, Vec<u32>) {
     let nodes = graph.nodes.len();
     let end = roots.iter().filter(|root| **root < nodes).max().map_or(0, |last| last + 1);
     let mut last = vec![UNUSED; end];
     for root in roots.iter().filter(|root| **root < nodes) {
         last[*root] = end as u32;
     }
-    let mut used = 0;
+    let mut used = Vec::new();
     for index in (0..end).rev() {
         if last[index] == UNUSED {
             continue;
         }
+        used.push(index as u32);
         let mut read = |argument: super::NodeId| {
             let entry = &mut last[argument.0 as usize];
             if *entry == UNUSED {
@@ -185,14 +187,13 @@ fn last_uses(graph: &Graph, roots: &[usize]) -> (Vec<u32>, usize) {
             }
         };
         match graph.nodes[index] {
-            Node::Constant(_) | Node::Input(_) => continue,
+            Node::Constant(_) | Node::Input(_) => {}
             Node::Unary(_, a) | Node::Power(a, _) => read(a),
             Node::Binary(_, a, b) => {
                 read(a);
                 read(b);
             }
         }
-        used += 1;
     }
     (last, used)
 }

@@ -48,6 +48,8 @@ pub struct Bounds {
     bounds: Vec<Option<Bound>>,
     factors: Vec<FactorBound>,
     lists: FactorLists,
+    /// Degrees and heights of all factors of a list together, by list, once they were asked for.
+    weights: Vec<Option<(f64, f64)>>,
     /// Factor that is the numerator of a step, by place.
     numerator_of: FxHashMap<usize, u32>,
 }
@@ -77,6 +79,7 @@ impl Bounds {
             bounds: Vec::with_capacity(reached.len()),
             factors: Vec::new(),
             lists: FactorLists::new(),
+            weights: Vec::new(),
             numerator_of: FxHashMap::default(),
         };
         for (place, step) in graph.steps().enumerate() {
@@ -171,20 +174,30 @@ impl Bounds {
         let list = self.lists.combine(x.list, y.list, Combination::Least);
         // The excess of a factor in a term over its exponent in the sum goes into the term's
         // numerator.
-        let weight = |list: u32| {
-            let factors = self.lists.at(list).iter();
-            factors.fold((0.0, 0.0), |(degree, height), (factor, exponent)| {
-                let FactorBound { degree: d, height: h } = self.factors[*factor as usize];
-                (degree + exponent * d, height + exponent * h)
-            })
-        };
-        let (kept_degree, kept_height) = weight(list);
-        let expanded = |term: Bound| {
-            let (degree, height) = weight(term.list);
+        let (kept_degree, kept_height) = self.weight(list);
+        let mut expanded = |term: Bound| {
+            let (degree, height) = self.weight(term.list);
             (term.degree + degree - kept_degree, term.height + height - kept_height)
         };
         let ((d, h), (e, i)) = (expanded(x), expanded(y));
         Bound { degree: d.max(e), height: added(h, i), list }
+    }
+
+    /// Adds up degrees and heights of the factors of a list, times their exponents.
+    fn weight(&mut self, list: u32) -> (f64, f64) {
+        if let Some(Some(known)) = self.weights.get(list as usize) {
+            return *known;
+        }
+        let factors = self.lists.at(list).iter();
+        let sum = factors.fold((0.0, 0.0), |(degree, height), (factor, exponent)| {
+            let FactorBound { degree: d, height: h } = self.factors[*factor as usize];
+            (degree + exponent * d, height + exponent * h)
+        });
+        if self.weights.len() <= list as usize {
+            self.weights.resize(list as usize + 1, None);
+        }
+        self.weights[list as usize] = Some(sum);
+        sum
     }
 
     /// Bounds the value of the step at `place` to a power, which may be negative or fractional.

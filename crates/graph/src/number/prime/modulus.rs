@@ -136,24 +136,36 @@ impl Modulus {
         result
     }
 
-    /// Computes 1/x for x ≠ 0, by Euclid's algorithm, which takes some forty steps; 0 for 0.
+    /// Computes 1/x for x ≠ 0 by Kaliski's algorithm (1995), without divisions; 0 for 0.
     pub fn inverse(&self, x: u64) -> u64 {
+        // p = above s + below r, x r = ∓above 2^k and x s = ±below 2^k.
         let (mut above, mut below) = (self.prime, x % self.prime);
-        // The signs of the factors of x alternate, so that magnitudes are enough.
-        let (mut before, mut factor) = (0u64, 1u64);
-        let mut is_negative = false;
-        while below > 1 {
-            let quotient = above / below;
-            (above, below) = (below, above - quotient * below);
-            (before, factor) = (factor, before + quotient * factor);
-            is_negative = !is_negative;
-        }
+        let (mut r, mut s) = (0u64, 1u64);
+        let (mut k, mut is_negative) = (0, true);
         if below == 0 {
             return 0;
         }
-        let inverse = if is_negative { self.prime - factor } else { factor };
-        // Of x 2^64 this is the inverse; twice 2^64 brings it to the form of residues.
-        self.mul(self.mul(inverse, self.square), self.square)
+        while below != 0 {
+            let twos = below.trailing_zeros();
+            (below, r, k) = (below >> twos, r << twos, k + twos);
+            // Which one is the smaller is a fair coin, so that a branch would be predicted wrongly.
+            let is_less = below < above;
+            is_negative ^= is_less;
+            (above, below) = (above.min(below), above.abs_diff(below));
+            (r, s) = if is_less { (s, r) } else { (r, s) };
+            s += r;
+        }
+        // Of x 2^64, r 2^-k is the inverse up to the sign; 2^128 brings it to the form of residues.
+        let inverse = if is_negative && r != 0 { self.prime - r } else { r };
+        let mut rest = 128 - k;
+        let mut result = inverse;
+        while rest > 0 {
+            let next = rest.min(60);
+            // The factor 2^64 of the square is taken away by the product with the power.
+            result = self.mul(self.mul(result, self.square), 1 << next);
+            rest -= next;
+        }
+        result
     }
 
     /// Computes all 1/x by one inversion (Montgomery 1987); `UNDEFINED` for 0 and for undefined
@@ -224,20 +236,20 @@ impl Modulus {
     /// By Jacobi's symbol, which takes half of the time of a power; that of x·2^64 is that of x.
     pub fn is_square(&self, x: u64) -> bool {
         let (mut above, mut below) = (x % self.prime, self.prime);
-        let mut is_negative = false;
+        // Bit 1 tells whether the symbol is -1 so far.
+        let mut is_negative = 0;
         while above != 0 {
             let twos = above.trailing_zeros();
             above >>= twos;
             // (2/n) is -1 for n = 3, 5 mod 8.
-            is_negative ^= twos & 1 == 1 && (below ^ (below >> 1)) & 2 != 0;
-            if above < below {
-                // Reciprocity: the sign changes if both are 3 mod 4.
-                is_negative ^= above & below & 2 != 0;
-                (above, below) = (below, above);
-            }
-            above -= below;
+            is_negative ^= u64::from(twos) << 1 & (below ^ below >> 1);
+            // Reciprocity: the sign changes if both are 3 mod 4. Which one is the smaller is a fair coin,
+            // so that branches would be predicted wrongly.
+            let is_less = above < below;
+            is_negative ^= if is_less { above & below } else { 0 };
+            (above, below) = (above.abs_diff(below), above.min(below));
         }
-        below == 1 && !is_negative
+        below == 1 && is_negative & 2 == 0
     }
 
     /// Computes x^(a/b) for x ≠ 0 and b prime to p - 1, hence odd: the root is unique.

@@ -14,6 +14,7 @@
 //! says nothing about x there.
 
 mod bounds;
+mod reach;
 mod search;
 
 #[cfg(test)]
@@ -21,11 +22,12 @@ mod tests;
 
 pub use search::{is_missing, is_nowhere_zero, is_seen_nowhere_zero, narrowed, point, sign};
 
-use crate::graph::{Graph, Step};
+use crate::graph::Graph;
 
 use super::classes::Classes;
 use super::extent::Extent;
 use super::fact::SignFact;
+use reach::Reach;
 
 /// Largest number of parts of the box on which one value is bounded.
 const MOST_PARTS: usize = 64;
@@ -54,30 +56,25 @@ pub struct Region<'r> {
 impl Region<'_> {
     /// Whether the region is known to be empty.
     pub fn is_empty(&self) -> bool {
-        let reached = self.reached(&[]);
-        self.is_empty_on(&reached)
-    }
-
-    /// Whether the region is shown to be empty by bounds on the whole of it.
-    pub fn is_empty_at_sight(&self) -> bool {
-        self.bounds(&self.reached(&[]), &self.whole()).is_none()
-    }
-
-    fn is_empty_on(&self, reached: &[usize]) -> bool {
+        let mut reach = self.reached(&[]);
         let mut parts = vec![(self.whole(), 0)];
         let mut looked = 0;
-        let used = self.inputs_of(reached);
         while let Some((part, depth)) = parts.pop() {
             looked += 1;
-            if self.bounds(reached, &part).is_none() {
+            if reach.bounds(&part).is_none() {
                 continue;
             }
-            match self.cut(&used, part, depth) {
+            match self.cut(&reach, part, depth) {
                 Some(halves) if looked + parts.len() + 2 <= MOST_PARTS => parts.extend(halves),
                 _ => return false,
             }
         }
         true
+    }
+
+    /// Whether the region is shown to be empty by bounds on the whole of it.
+    pub fn is_empty_at_sight(&self) -> bool {
+        self.reached(&[]).bounds(&self.whole()).is_none()
     }
 
     /// Finds the sign of the value at a place over the region, wherever it exists, where 0 counts
@@ -88,15 +85,15 @@ impl Region<'_> {
 
     /// Finds the same, and whether the value may be 0.
     pub fn known_sign(&self, place: usize) -> Option<KnownSign> {
-        let reached = self.reached(&[place]);
-        let used = self.inputs_of(&reached);
+        let mut reach = self.reached(&[place]);
+        let number = reach.number(place);
         let (mut known, mut may_vanish): (Option<bool>, bool) = (None, false);
         let mut parts = vec![(self.whole(), 0)];
         let mut looked = 0;
         while let Some((part, depth)) = parts.pop() {
             looked += 1;
-            let Some(bounds) = self.bounds(&reached, &part) else { continue };
-            let extent = bounds[place];
+            let Some(bounds) = reach.bounds(&part) else { continue };
+            let extent = bounds[number];
             match (extent.sign(), known) {
                 _ if extent.is_empty() => {}
                 (Some(sign), Some(before)) if sign != before => return None,
@@ -104,7 +101,7 @@ impl Region<'_> {
                     known = Some(sign);
                     may_vanish |= !extent.excludes_zero();
                 }
-                (None, _) => match self.cut(&used, part, depth) {
+                (None, _) => match self.cut(&reach, part, depth) {
                     Some(halves) if looked + parts.len() + 2 <= MOST_PARTS => parts.extend(halves),
                     _ => return None,
                 },
@@ -115,28 +112,20 @@ impl Region<'_> {
 
     /// Returns the signs that follow from bounds on the whole region, by place.
     pub fn at_sight(&self, outputs: &[usize]) -> Vec<Option<bool>> {
-        let reached = self.reached(outputs);
+        let mut reach = self.reached(outputs);
         let mut known = vec![None; self.graph.len()];
-        if let Some(bounds) = self.bounds(&reached, &self.whole()) {
-            reached.iter().for_each(|place| known[*place] = bounds[*place].sign());
+        let signs = reach
+            .bounds(&self.whole())
+            .map(|bounds| bounds.iter().map(|bound| bound.sign()).collect::<Vec<Option<bool>>>());
+        for (place, sign) in reach.places().iter().zip(signs.into_iter().flatten()) {
+            known[*place] = sign;
         }
         known
     }
 
-    /// Lists the places that the facts and some others need, in order.
-    fn reached(&self, others: &[usize]) -> Vec<usize> {
-        let facts = self.facts.iter().map(|(place, _)| *place);
-        let places: Vec<usize> = facts.chain(others.iter().copied()).collect();
-        let reached = self.graph.reached_from(&places);
-        (0..reached.len()).filter(|place| reached[*place]).collect()
-    }
-
-    fn inputs_of(&self, reached: &[usize]) -> Vec<usize> {
-        let input = |place: &usize| match self.graph.step(*place) {
-            Step::Input(input) => Some(input),
-            _ => None,
-        };
-        reached.iter().filter_map(input).collect()
+    /// Lays out what the facts and some other places need.
+    fn reached(&self, others: &[usize]) -> Reach<'_> {
+        Reach::new(self, others)
     }
 
     fn whole(&self) -> Vec<Extent> {
@@ -148,13 +137,14 @@ impl Region<'_> {
     /// Halves a part along one input after the other, without those that are single numbers.
     fn cut(
         &self,
-        used: &[usize],
+        reach: &Reach<'_>,
         part: Vec<Extent>,
         depth: usize,
     ) -> Option<[(Vec<Extent>, usize); 2]> {
+        let used = reach.inputs();
         let mut depths = depth..depth + used.len();
         let (depth, input, (low, high)) = depths.find_map(|depth| {
-            let input = used[depth % used.len()];
+            let (_, input) = used[depth % used.len()];
             Some((depth, input, part[input].halves()?))
         })?;
         let (mut lower, mut upper) = (part.clone(), part);

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use crate::graph::{Expr, Graph, Step};
+use crate::graph::{Expr, Graph};
 use crate::proof::classes::Classes;
 use crate::proof::extent::Extent;
 use crate::proof::fact::SignFact;
@@ -23,20 +23,19 @@ pub fn point(graph: &Graph, inputs: &[Extent], positive: &[Expr]) -> Option<Vec<
         positive.iter().map(|place| (*place, SignFact::Positive)).collect();
     let classes = Classes::default();
     let region = Region { graph, inputs, facts: &facts, classes: &classes };
-    let reached = region.reached(&[]);
-    let used = region.inputs_of(&reached);
+    let mut reach = region.reached(&[]);
+    let positive: Vec<usize> = positive.iter().map(|place| reach.number(*place)).collect();
     let mut open = VecDeque::from([(region.whole(), 0)]);
     for _ in 0..MOST_BOXES {
         let (part, depth) = open.pop_front()?;
-        if region.bounds(&reached, &part).is_none() {
+        if reach.bounds(&part).is_none() {
             continue;
         }
-        let mut bounds = vec![Extent::ALL; graph.len()];
-        region.forward(&reached, &part, &mut bounds);
-        if positive.iter().all(|place| bounds[*place].excludes_zero()) {
+        let bounds = reach.bounds_of_inputs(&part);
+        if positive.iter().all(|number| bounds[*number].excludes_zero()) {
             return part.iter().map(|extent| extent.inside()).collect();
         }
-        open.extend(region.cut(&used, part, depth).into_iter().flatten());
+        open.extend(region.cut(&reach, part, depth).into_iter().flatten());
     }
     None
 }
@@ -65,27 +64,26 @@ pub fn is_seen_nowhere_zero(
     let facts: Vec<(usize, SignFact)> = not_negative.iter().map(fact).collect();
     let region = Region { graph, inputs, facts: &facts, classes: &classes };
     let places: Vec<usize> = values.iter().map(|value| graph.place(*value)).collect();
-    let reached = region.reached(&places);
-    let used = region.inputs_of(&reached);
+    let mut reach = region.reached(&places);
+    let numbers: Vec<usize> = places.iter().map(|place| reach.number(*place)).collect();
+    let used = reach.inputs().to_vec();
     let mut open = vec![region.whole()];
     for _ in 0..pieces {
         let Some(mut part) = open.pop() else { return true };
-        let Some(bounds) = region.bounds(&reached, &part) else { continue };
+        let Some(bounds) = reach.bounds(&part) else { continue };
         let vanishes =
-            |place: &usize| !bounds[*place].excludes_zero() && !bounds[*place].is_empty();
-        if !places.iter().all(vanishes) {
+            |number: &usize| !bounds[*number].excludes_zero() && !bounds[*number].is_empty();
+        if !numbers.iter().all(vanishes) {
             continue;
         }
         // Start from the part of the inputs that the facts allow, the largest piece first.
-        for at in &reached {
-            if let Step::Input(input) = graph.step(*at) {
-                part[input] = part[input].common(bounds[*at]);
-            }
+        for (number, input) in &used {
+            part[*input] = part[*input].common(bounds[*number]);
         }
-        let spread = |input: &&usize| part[**input].spread();
+        let spread = |(_, input): &&(usize, usize)| part[*input].spread();
         let widest = used.iter().max_by(|a, b| spread(a).total_cmp(&spread(b)));
         let Some((input, (low, high))) =
-            widest.and_then(|input| Some((*input, part[*input].halves()?)))
+            widest.and_then(|(_, input)| Some((*input, part[*input].halves()?)))
         else {
             return false;
         };
@@ -112,14 +110,14 @@ pub fn narrowed(graph: &Graph, inputs: &[Extent], not_negative: &[Expr]) -> Opti
     let fact = |value: &Expr| (graph.place(*value), SignFact::NotNegative);
     let facts: Vec<(usize, SignFact)> = not_negative.iter().map(fact).collect();
     let region = Region { graph, inputs, facts: &facts, classes: &classes };
-    let (reached, mut whole) = (region.reached(&[]), region.whole());
-    let bounds = region.bounds(&reached, &whole)?;
-    for place in reached {
-        if let Step::Input(input) = graph.step(place) {
-            whole[input] = whole[input].common(bounds[place]);
-        }
+    let (mut reach, whole) = (region.reached(&[]), region.whole());
+    let inputs = reach.inputs().to_vec();
+    let bounds = reach.bounds(&whole)?;
+    let mut narrow = whole.clone();
+    for (number, input) in inputs {
+        narrow[input] = whole[input].common(bounds[number]);
     }
-    Some(whole)
+    Some(narrow)
 }
 
 /// Finds the sign of a value at all inputs inside their extents at which some values exist and others

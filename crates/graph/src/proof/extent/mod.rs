@@ -14,7 +14,7 @@ mod tests;
 use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
 
-use rounding::{down, product, sum, up};
+use rounding::{down, has_exact_error, product, sum, up};
 
 /// A closed interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,22 +62,26 @@ impl Extent {
     }
 
     /// Whether the interval is empty.
+    #[inline(always)]
     pub fn is_empty(self) -> bool {
         self.low > self.high
     }
 
     /// Returns the intersection of two intervals.
+    #[inline(always)]
     pub fn common(self, other: Self) -> Self {
         let both = Self { low: self.low.max(other.low), high: self.high.min(other.high) };
         if both.is_empty() { Self::EMPTY } else { both }
     }
 
     /// Whether 0 is outside the interval.
+    #[inline(always)]
     pub fn excludes_zero(self) -> bool {
         self.low > 0.0 || self.high < 0.0
     }
 
     /// Whether the interval contains a positive number.
+    #[inline(always)]
     pub fn reaches_above_zero(self) -> bool {
         self.high > 0.0
     }
@@ -128,6 +132,7 @@ impl Extent {
     }
 
     /// Returns the common sign of all numbers, if they have one; 0 counts as either sign.
+    #[inline(always)]
     pub fn sign(self) -> Option<bool> {
         match (self.low >= 0.0, self.high <= 0.0) {
             (true, _) => Some(true),
@@ -137,11 +142,13 @@ impl Extent {
     }
 
     /// Computes -x.
+    #[inline(always)]
     pub fn negated(self) -> Self {
         Self { low: -self.high, high: -self.low }
     }
 
     /// Computes |x|.
+    #[inline(always)]
     pub fn modulus(self) -> Self {
         match self.sign() {
             Some(true) => self,
@@ -151,6 +158,7 @@ impl Extent {
     }
 
     /// Computes x + y.
+    #[inline(always)]
     pub fn plus(self, other: Self) -> Self {
         let (low, high) = (sum(self.low, other.low), sum(self.high, other.high));
         if low.0.is_nan() || high.0.is_nan() {
@@ -160,32 +168,69 @@ impl Extent {
     }
 
     /// Computes x y.
+    #[inline(always)]
     pub fn times(self, other: Self) -> Self {
-        let corners = [
-            (self.low, other.low),
-            (self.low, other.high),
-            (self.high, other.low),
-            (self.high, other.high),
-        ];
-        // Rounding is monotone: an end comes from a corner whose rounded product is extreme.
-        let rounded = corners.map(|(a, b)| if a == 0.0 || b == 0.0 { 0.0 } else { a * b });
-        let least = rounded.into_iter().fold(f64::INFINITY, f64::min);
-        let most = rounded.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        for ((a, b), rounded) in corners.into_iter().zip(rounded) {
-            if rounded == least || rounded == most {
-                let exact = product(a, b);
-                (low, high) = (low.min(down(exact)), high.max(up(exact)));
-            }
+        if self == Self::ALL || other == Self::ALL {
+            let is_zero = self == Self::ZERO || other == Self::ZERO;
+            return if is_zero { Self::ZERO } else { Self::ALL };
         }
-        let wide = Self { low, high };
+        let wide = self.between_corners(other).unwrap_or_else(|| self.between_any_corners(other));
         match (self.sign(), other.sign()) {
             (Some(a), Some(b)) => wide.within(a == b),
             _ => wide,
         }
     }
 
+    /// Returns the hull of the products of all ends; `None` if some product is 0, infinite or so small
+    /// that its rounding error may underflow.
+    #[inline(always)]
+    fn between_corners(self, other: Self) -> Option<Self> {
+        let (first, second) = ([self.low, self.low, self.high, self.high], [other.low, other.high]);
+        let (mut rounded, mut missing) = ([0.0; 4], [0.0; 4]);
+        let mut is_exact = true;
+        for corner in 0..4 {
+            let (a, b) = (first[corner], second[corner & 1]);
+            rounded[corner] = a * b;
+            missing[corner] = a.mul_add(b, -rounded[corner]);
+            is_exact &= has_exact_error(rounded[corner]);
+        }
+        if !is_exact {
+            return None;
+        }
+        // Rounding is monotone: an end comes from a corner whose rounded product is extreme.
+        let [least, most] = [
+            rounded[0].min(rounded[1]).min(rounded[2].min(rounded[3])),
+            rounded[0].max(rounded[1]).max(rounded[2].max(rounded[3])),
+        ];
+        let (mut is_above, mut is_below) = (false, false);
+        for corner in 0..4 {
+            is_above |= rounded[corner] == least && missing[corner] < 0.0;
+            is_below |= rounded[corner] == most && missing[corner] > 0.0;
+        }
+        let low = if is_above { least.next_down() } else { least };
+        Some(Self { low, high: if is_below { most.next_up() } else { most } })
+    }
+
+    /// Returns the hull of the products of all ends, whatever they are.
+    #[cold]
+    #[inline(never)]
+    fn between_any_corners(self, other: Self) -> Self {
+        let corners = [
+            (self.low, other.low),
+            (self.low, other.high),
+            (self.high, other.low),
+            (self.high, other.high),
+        ];
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for (a, b) in corners {
+            let exact = product(a, b);
+            (low, high) = (low.min(down(exact)), high.max(up(exact)));
+        }
+        Self { low, high }
+    }
+
     /// Returns the part of the interval with this sign.
+    #[inline(always)]
     pub fn within(self, positive: bool) -> Self {
         match positive {
             _ if self.is_empty() => self,
@@ -195,6 +240,7 @@ impl Extent {
     }
 
     /// Computes x².
+    #[inline(always)]
     pub fn square(self) -> Self {
         let Self { low, high } = self.modulus();
         if self.is_empty() {

@@ -1,6 +1,7 @@
 //! Sums and products of f64 with the sign of their rounding error.
 
 /// Adds a and b; returns the rounded sum and the sign of the error.
+#[inline(always)]
 pub fn sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     if !sum.is_finite() {
@@ -15,6 +16,7 @@ pub fn sum(a: f64, b: f64) -> (f64, f64) {
 
 /// Multiplies a and b; returns the rounded product and the sign of the error. 0 · ∞ is 0, since ∞
 /// is not a number of an interval.
+#[inline(always)]
 pub fn product(a: f64, b: f64) -> (f64, f64) {
     if a == 0.0 || b == 0.0 {
         return (0.0, 0.0);
@@ -23,17 +25,24 @@ pub fn product(a: f64, b: f64) -> (f64, f64) {
     if product.is_infinite() && (a.is_infinite() || b.is_infinite()) {
         return (product, 0.0);
     }
-    // The error is exact unless it underflows.
-    let is_exact = product.is_finite() && product.abs() > f64::MIN_POSITIVE / f64::EPSILON;
-    (product, if is_exact { libm::fma(a, b, -product) } else { f64::NAN })
+    (product, if has_exact_error(product) { a.mul_add(b, -product) } else { f64::NAN })
+}
+
+/// Whether the error of a product is known, if it is computed by one rounding: the product is finite
+/// and not 0, and the error does not underflow.
+#[inline(always)]
+pub fn has_exact_error(product: f64) -> bool {
+    product.is_finite() && product.abs() > f64::MIN_POSITIVE / f64::EPSILON
 }
 
 /// Returns the largest f64 known not to exceed the exact value.
+#[inline(always)]
 pub fn down((rounded, missing): (f64, f64)) -> f64 {
     if missing >= 0.0 { rounded } else { rounded.next_down() }
 }
 
 /// Returns the smallest f64 known not to lie below the exact value.
+#[inline(always)]
 pub fn up((rounded, missing): (f64, f64)) -> f64 {
     if missing <= 0.0 { rounded } else { rounded.next_up() }
 }

@@ -73,3 +73,33 @@ fn random_results_lie_inside() {
         assert!(inside(of.unary(UnaryFunction::Sqrt), root.expect("a square")), "√{x}²");
     }
 }
+
+#[test]
+fn products_of_ends_are_rounded_as_far_as_they_must() {
+    let modulus = crate::number::prime::Modulus::new((1 << 61) - 1);
+    let mut rng = crate::proof::rng::ProofRng::new(9, 0);
+    let special = [0.0, 1.0, 1e-320, 1e-160, 1e160, f64::MAX, f64::INFINITY, 0.1, 3.0];
+    let mut number = || {
+        let bits = rng.element(&modulus);
+        let size = match bits & 3 {
+            0 => special[(bits >> 2) as usize % special.len()],
+            1 => ((bits >> 2) % 64) as f64,
+            _ => (bits >> 9) as f64 / (1u64 << 50) as f64,
+        };
+        if bits >> 60 == 1 { -size } else { size }
+    };
+    let mut extent = || {
+        let (a, b) = (number(), number());
+        Extent { low: a.min(b), high: a.max(b) }
+    };
+    for _ in 0..20_000 {
+        let (x, y) = (extent(), extent());
+        let found = x.times(y);
+        let wide = x.between_any_corners(y);
+        let expected = match (x.sign(), y.sign()) {
+            (Some(a), Some(b)) => wide.within(a == b),
+            _ => wide,
+        };
+        assert_eq!(found, expected, "{x:?} times {y:?}");
+    }
+}

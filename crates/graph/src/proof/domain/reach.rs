@@ -1,0 +1,106 @@
+//! The values that a question about a region needs, laid out for passes over them.
+
+use crate::graph::Step;
+use crate::number::rational::Rational;
+use crate::number::{BinaryOperation, UnaryFunction};
+use crate::proof::extent::Extent;
+use crate::proof::fact::SignFact;
+
+use super::Region;
+
+/// The reached values of a region in order, numbered from 0, with memory for their bounds.
+pub struct Reach<'r> {
+    pub(super) region: &'r Region<'r>,
+    /// Place of each value.
+    pub(super) places: Vec<usize>,
+    pub(super) steps: Vec<ReachedStep<'r>>,
+    /// Facts about values, by number.
+    pub(super) facts: Vec<(usize, SignFact)>,
+    /// Inputs among the values: number and index.
+    pub(super) inputs: Vec<(usize, usize)>,
+    pub(super) bounds: Vec<Extent>,
+}
+
+/// How a value is bounded; arguments are numbers of values.
+#[derive(Clone, Copy)]
+pub(super) enum Rule<'r> {
+    Constant(Extent),
+    Input(usize),
+    Unary(UnaryFunction, usize),
+    Power(usize, &'r Rational),
+    Sum(usize, usize),
+    Difference(usize, usize),
+    Square(usize),
+    Product(usize, usize),
+    /// x^y
+    Raised(usize, usize),
+}
+
+/// A value with what is known of it from classes.
+#[derive(Clone, Copy)]
+pub(super) struct ReachedStep<'r> {
+    pub rule: Rule<'r>,
+    pub is_zero: bool,
+    pub is_nonzero: bool,
+}
+
+impl<'r> Reach<'r> {
+    /// Lays out what the facts and the values at some places need.
+    pub fn new(region: &'r Region<'r>, others: &[usize]) -> Self {
+        let graph = region.graph;
+        let asked: Vec<usize> =
+            region.facts.iter().map(|(place, _)| *place).chain(others.iter().copied()).collect();
+        let reached = graph.reached_from(&asked);
+        let places: Vec<usize> = (0..reached.len()).filter(|place| reached[*place]).collect();
+        let mut numbers = vec![0; places.last().map_or(0, |last| last + 1)];
+        places.iter().enumerate().for_each(|(number, place)| numbers[*place] = number);
+        let step = |place: &usize| ReachedStep {
+            rule: rule(graph.step(*place), &numbers),
+            is_zero: region.classes.is_zero(*place),
+            is_nonzero: region.classes.is_nonzero(*place),
+        };
+        let steps: Vec<ReachedStep<'_>> = places.iter().map(step).collect();
+        let facts = region.facts.iter().map(|(place, fact)| (numbers[*place], *fact)).collect();
+        let input = |(number, step): (usize, &ReachedStep<'_>)| match step.rule {
+            Rule::Input(input) => Some((number, input)),
+            _ => None,
+        };
+        let inputs = steps.iter().enumerate().filter_map(input).collect();
+        Self { region, places, steps, facts, inputs, bounds: Vec::new() }
+    }
+
+    /// Returns the number of the reached value at a place.
+    pub fn number(&self, place: usize) -> usize {
+        self.places.binary_search(&place).unwrap_or(0)
+    }
+
+    /// Lists the places of the reached values in order.
+    pub fn places(&self) -> &[usize] {
+        &self.places
+    }
+
+    /// Lists the reached inputs: number of the value, and index of the input.
+    pub fn inputs(&self) -> &[(usize, usize)] {
+        &self.inputs
+    }
+}
+
+/// Returns the rule for a step, with arguments by number.
+fn rule<'r>(step: Step<'r>, numbers: &[usize]) -> Rule<'r> {
+    match step {
+        Step::Constant(value) => Rule::Constant(Extent::at(value)),
+        Step::Input(input) => Rule::Input(input),
+        Step::Unary(function, a) => Rule::Unary(function, numbers[a]),
+        Step::Power(a, exponent) => Rule::Power(numbers[a], exponent),
+        Step::Binary(operation, a, b) => {
+            let (a, b) = (numbers[a], numbers[b]);
+            match operation {
+                BinaryOperation::Add => Rule::Sum(a, b),
+                BinaryOperation::Sub => Rule::Difference(a, b),
+                BinaryOperation::Mul if a == b => Rule::Square(a),
+                BinaryOperation::Mul => Rule::Product(a, b),
+                BinaryOperation::Pow => Rule::Raised(a, b),
+            }
+        }
+    }
+}
