@@ -6,13 +6,14 @@ use super::recorded::RecordedClaim;
 use super::sampler::Sampler;
 use crate::graph::{Expr, Fault};
 use crate::mechanics::combinations;
+use crate::proof::is_missing;
 
 /// Largest number of choices of values that a remark names.
 const MOST_NAMED: usize = 3;
 
 impl Judging<'_> {
     /// Remarks of claims that hold for which choices of listed values a formula of theirs, or the
-    /// accelerations, are 1/0 or the like: these were left out.
+    /// accelerations, are 1/0, the root of a negative number or the like: these were left out.
     pub(super) fn remark_voids(
         &self,
         sampler: &Sampler,
@@ -28,10 +29,13 @@ impl Judging<'_> {
         written.push(self.common.motion.clone());
         let mut voids: Vec<Vec<String>> = vec![Vec::new(); holding.len()];
         let mut still: Vec<String> = Vec::new();
+        let extents = sampler.extents();
         for fixed in combinations {
             let (graph, values) = sampler.compose(self.graph, &written, &fixed)?;
-            let is_void =
-                |own: &Vec<Expr>| own.iter().any(|value| graph.is_nowhere_defined(*value));
+            let is_void = |own: &Vec<Expr>| {
+                own.iter().any(|value| graph.is_nowhere_defined(*value))
+                    || is_missing(&graph, &extents, own)
+            };
             let name = || sampler.with(&fixed).listed(self.case);
             if values.last().is_some_and(is_void) {
                 still.push(name());

@@ -8,11 +8,13 @@ use liouville::verdict::{ClaimReport, Verdict};
 use super::typeset::mathml;
 use super::{FileOutcome, RunReport};
 
-/// Renders a header and one line for each claim; files that could not be judged have one line.
+/// Renders a header and one line for each claim; files that could not be judged have one line, with
+/// the first mistake as the reason.
 pub fn csv(run: &RunReport) -> String {
-    let mut out =
-        String::from("path,title,claim,kind,source,expected,verdict,as_expected,method\n");
-    let mut line = |fields: [&str; 9]| {
+    let mut out = String::from(
+        "path,title,claim,kind,source,expected,verdict,as_expected,method,reason,remark\n",
+    );
+    let mut line = |fields: [&str; 11]| {
         let fields = fields.map(quoted);
         // a `String` takes all that is written to it
         _ = writeln!(out, "{}", fields.join(","));
@@ -36,11 +38,13 @@ pub fn csv(run: &RunReport) -> String {
                         false => "no",
                     },
                     &method,
+                    claim.evidence.reason.as_deref().unwrap_or_default(),
+                    claim.evidence.remark.as_deref().unwrap_or_default(),
                 ]);
             }),
             Err(failures) => {
                 let message = failures.first().map_or("", |failure| failure.message.as_str());
-                line([&outcome.path, title, "", "", "", "", "error", "no", message]);
+                line([&outcome.path, title, "", "", "", "", "error", "no", "", message, ""]);
             }
         }
     }

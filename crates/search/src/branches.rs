@@ -2,17 +2,14 @@
 //! as at real states.
 
 use super::ansatz::Hamiltonians;
-use super::counts::{MORE, is_of_count};
-use super::local::{angles, twice_the_arctangent};
+use super::local::unwound;
+use super::origin::ConditionOrigin;
 use super::terms::recorded;
 use super::{Effort, FurtherTerm, SearchError, SearchReport, irrational};
 use liouville::case::Case;
 use liouville::claim::LevelSubset;
 use liouville::formula::Formula;
-use liouville::graph::{Expr, Graph, Step, record};
-use liouville::mechanics::Draw;
-use liouville::number::UnaryFunction;
-use liouville::proof::{Extent, Prover, without_arctangents};
+use liouville::proof::{Extent, Prover};
 use liouville::verdict::Sampler;
 
 /// Withdraws all theorems so far if the formulas of a case contain moduli, or roots that depend on
@@ -29,11 +26,11 @@ pub fn withdraw(
     if counts > 0 && are_counts_true(case, effort)? {
         // Sines and cosines took values of their own elsewhere.
         let before = report.excluded.len() + report.conditions.len();
-        report.excluded.retain(is_of_count);
-        report.conditions.retain(|own| own.of.starts_with(MORE));
+        report.excluded.retain(|own| own.origin.is_count());
+        report.conditions.retain(|own| own.origin == ConditionOrigin::Counts);
         if report.excluded.len() + report.conditions.len() < before {
             report.remark(
-                "nothing is excluded but by counts: the formulas contain sines and cosines"
+                "nothing is excluded but by counts: the formulas contain sines, cosines or exponentials"
                     .to_string(),
             );
         }
@@ -50,47 +47,6 @@ pub fn withdraw(
             .to_string(),
     );
     Ok(())
-}
-
-/// Values as functions of t = tan φ/2 in place of angles φ.
-struct Unwound {
-    graph: Graph,
-    outputs: Vec<Expr>,
-    /// Inputs that were angles.
-    angles: Vec<usize>,
-}
-
-/// Replaces the angles; `None` if there are none, or if sines, cosines or arctangents remain.
-fn unwound(
-    graph: &Graph,
-    outputs: &[Expr],
-    draws: &[Draw],
-) -> Result<Option<Unwound>, SearchError> {
-    let angles: Vec<usize> = angles(graph, outputs)
-        .into_iter()
-        .filter(|input| matches!(draws.get(*input), Some(Draw::Within(_) | Draw::Of(..))))
-        .collect();
-    if angles.is_empty() {
-        return Ok(None);
-    }
-    let reached = graph.reached(outputs.iter().copied());
-    let (turned, values) = record(graph.inputs(), |inputs| {
-        let mut inputs = inputs.to_vec();
-        angles.iter().for_each(|angle| inputs[*angle] = twice_the_arctangent(inputs[*angle]));
-        let values = graph.replay(&reached, &inputs, |_, _, _| None);
-        outputs.iter().map(|output| values[graph.place(*output)]).collect::<Option<Vec<_>>>()
-    })?;
-    let Some(values) = values else { return Ok(None) };
-    let (graph, outputs) = without_arctangents(&turned, &values)?;
-    let reached = graph.reached(outputs.iter().copied());
-    let remains = |step: Step<'_>| {
-        matches!(
-            step,
-            Step::Unary(UnaryFunction::Sin | UnaryFunction::Cos | UnaryFunction::Atan, _)
-        )
-    };
-    let is_rational = !graph.steps().zip(reached).any(|(step, reached)| reached && remains(step));
-    Ok(is_rational.then_some(Unwound { graph, outputs, angles }))
 }
 
 /// Whether all formulas that enter theorems agree modulo primes with their values at real states.
@@ -129,9 +85,10 @@ fn are_true_in(case: &Case, effort: &Effort, of_count: bool) -> Result<bool, Sea
     let (mut extents, sources) = (sampler.extents(), sampler.sources());
     let mut outputs = groups.concat();
     let mut graph = graph;
-    if of_count && let Some(unwound) = unwound(&graph, &outputs, sampler.recipes())? {
-        (graph, outputs) = (unwound.graph, unwound.outputs);
-        unwound.angles.into_iter().for_each(|angle| extents[angle] = Extent::ALL);
+    let parameters = case.model.parameter_draws().len();
+    if of_count && let Some(own) = unwound::of(&graph, &outputs, (sampler.recipes(), parameters))? {
+        (graph, outputs) = (own.graph, own.outputs);
+        own.replaced.into_iter().for_each(|input| extents[input] = Extent::ALL);
     }
     let prover = Prover { sources: &sources, extents: &extents, seed: effort.options.seed };
     match irrational::is_absent(&graph, &outputs) {

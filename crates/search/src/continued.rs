@@ -6,12 +6,15 @@
 //!
 //! The draws of states fill a box B. A value is *even* if it is built from them by sums, products,
 //! exp, sin, cos, arctan, and by 1/X, √X, X^a, ln X and |X| of an X that is not 0 on B, or positive:
-//! it is analytic around B. From even values sums, products, quotients, exp, sin, cos, and roots
-//! whose branches are proved independent make functions that are continued analytically along paths
-//! around the complex places where a denominator or a radicand vanishes. These do not divide the
-//! complex neighbourhood of B, and all signs of independent roots are reached; so a function that is 0
-//! on one part of its domain is 0 on all. The same holds of determinants of derivatives of several.
-//! With ln X or arctan X of other values this fails: exp(½ ln x²)/x has the values ±1.
+//! it is analytic around B. Quotients, exp, sin and cos of even values are *single-valued* outside of the
+//! complex zeros of denominators, which divide no complex neighbourhood of B.
+//!
+//! A function of rational values, of roots, and of ln a and a^y of rational a, is 0 on all parts of its
+//! domain if it is on one, provided that all roots, and all √a, are proved to have independent branches;
+//! exponentials, sines and cosines may occur, too (docs/soundness.md, "Known integrals"). exp(½ ln x²)/x
+//! has the values ±1, as √(x²) is no independent root.
+
+use num_dual::DualNum;
 
 use liouville::case::Case;
 use liouville::claim::LevelSubset;
@@ -29,10 +32,51 @@ use super::{Effort, SearchError};
 enum Form {
     /// Analytic around the box of draws.
     Even,
-    /// Continued analytically, but for poles and roots.
-    Continued,
+    /// Single-valued.
+    Single,
+    /// With roots.
+    Root,
+    /// With logarithms or powers.
+    Logarithm,
     /// Another value on other parts, perhaps.
     Divided,
+}
+
+/// Values as functions of draws.
+struct Drawn {
+    graph: Graph,
+    values: Vec<Expr>,
+    extents: Vec<Extent>,
+}
+
+impl Drawn {
+    /// Records a formula, or what it needs as written, on the level; `None` if states are numerical.
+    fn of(
+        case: &Case,
+        formula: &Formula,
+        is_literal: bool,
+        effort: &Effort,
+    ) -> Result<Option<Self>, SearchError> {
+        let (graph, values) = recorded(case, |jet| match is_literal {
+            true => jet.phase.literal_values([formula]),
+            false => jet.phase.evaluate(formula).components(),
+        })?;
+        let sampler = Sampler::new(case, &LevelSubset::level(&case.model), effort.options.seed)?;
+        if sampler.is_numerical() {
+            return Ok(None);
+        }
+        let fixed = vec![None; sampler.recipes().len()];
+        let (graph, values) = sampler.compose(&graph, &[values], &fixed)?;
+        Ok(Some(Self { graph, values: values.concat(), extents: sampler.extents() }))
+    }
+
+    /// The form of all values together.
+    fn form(&self) -> Form {
+        let forms = forms(&self.graph, &self.values, &self.extents);
+        let reached = self.graph.reached(self.values.iter().copied());
+        let own = forms.into_iter().zip(reached).filter(|(_, is_reached)| *is_reached);
+        own.map(|(form, _)| form).max().unwrap_or(Form::Even)
+    }
 }
 
 /// Whether a formula is known to be one analytic function on all parts of its domain on the level.
@@ -45,25 +89,45 @@ pub fn is_one_function(
     if is_single_valued(&graph, &values) {
         return Ok(true);
     }
-    let sampler = Sampler::new(case, &LevelSubset::level(&case.model), effort.options.seed)?;
-    if sampler.is_numerical() {
-        return Ok(false);
+    let Some(drawn) = Drawn::of(case, formula, false, effort)? else { return Ok(false) };
+    match drawn.form() {
+        Form::Even | Form::Single => Ok(true),
+        Form::Root | Form::Logarithm => {
+            let Drawn { graph, values, extents } = drawn;
+            has_independent_roots(&graph, &values, extents, effort.options.seed)
+        }
+        Form::Divided => Ok(false),
     }
-    let fixed = vec![None; sampler.recipes().len()];
-    let (graph, values) = sampler.compose(&graph, &[values], &fixed)?;
-    let (extents, values) = (sampler.extents(), values.concat());
-    let is_divided = forms(&graph, &values, &extents)
-        .into_iter()
-        .zip(graph.reached(values.iter().copied()))
-        .any(|(form, is_reached)| is_reached && form == Form::Divided);
-    if is_divided {
-        return Ok(false);
-    }
-    has_independent_roots(&graph, &values, extents, effort.options.seed)
 }
 
-/// Whether roots and moduli are proved to have independent branches, where exp, ln and the like may
-/// have any value.
+/// Names the integrals of a theorem, and says where it holds if some may have no value on a part of the
+/// states.
+pub fn named<'f>(
+    case: &Case,
+    formulas: impl IntoIterator<Item = &'f Formula>,
+    effort: &Effort,
+) -> Result<String, SearchError> {
+    let (mut names, mut partial) = (Vec::new(), Vec::new());
+    for formula in formulas {
+        names.push(formula.text());
+        let (graph, values) = recorded(case, |jet| jet.phase.literal_values([formula]))?;
+        let is_everywhere = is_single_valued(&graph, &values)
+            || Drawn::of(case, formula, true, effort)?
+                .is_some_and(|drawn| drawn.form() <= Form::Single);
+        if !is_everywhere {
+            partial.push(formula.text());
+        }
+    }
+    let names = names.join(" and ");
+    Ok(match partial.as_slice() {
+        [] => names,
+        [only] => format!("{names}, where {only} has a value"),
+        several => format!("{names}, where {} have values", several.join(" and ")),
+    })
+}
+
+/// Whether roots, moduli, and roots of what stands under logarithms, have arguments without functions
+/// and are proved to have independent branches.
 fn has_independent_roots(
     graph: &Graph,
     values: &[Expr],
@@ -71,30 +135,34 @@ fn has_independent_roots(
     seed: u64,
 ) -> Result<bool, SearchError> {
     let reached = graph.reached(values.iter().copied());
-    let of = |is_of: fn(&Step<'_>) -> bool| -> Vec<usize> {
-        let steps = graph.steps().enumerate().filter(|(place, _)| reached[*place]);
-        steps.filter(|(_, step)| is_of(step)).map(|(place, _)| place).collect()
-    };
-    if of(is_root).is_empty() {
-        return Ok(true);
+    let steps = || graph.steps().enumerate().filter(|(place, _)| reached[*place]);
+    let mut contains_function = vec![false; graph.len()];
+    let (mut functions, mut bases) = (Vec::new(), Vec::new());
+    for (place, step) in steps() {
+        let is_below = step.arguments().any(|a| contains_function[a]);
+        contains_function[place] = is_below || is_function(&step);
+        let winding = step.arguments().next().filter(|_| is_root(&step) || is_logarithm(&step));
+        // An exponential has no zeros to wind about, and functions may be related.
+        let is_winding_arc = matches!(step, Step::Unary(UnaryFunction::Atan, _));
+        if is_winding_arc || winding.is_some_and(|base| contains_function[base]) {
+            return Ok(false);
+        }
+        bases.extend(winding.filter(|_| is_logarithm(&step)));
+        functions.extend(is_function(&step).then_some(place));
     }
-    let functions = of(is_function);
     let first = graph.inputs();
-    extents.resize(first, Extent::ALL);
-    extents.extend(functions.iter().map(|place| match graph.step(*place) {
-        Step::Unary(UnaryFunction::Exp, _) => Extent::POSITIVE,
-        _ => Extent::ALL,
-    }));
+    extents.resize(first + functions.len(), Extent::ALL);
     let mut wanted: Vec<usize> = values.iter().map(|value| graph.place(*value)).collect();
     for place in &functions {
         wanted.extend(graph.step(*place).arguments());
     }
     let (replaced, outputs) = record(extents.len(), |inputs| {
-        let value = |place: usize| functions.iter().position(|own| *own == place);
+        let number = |place: usize| functions.iter().position(|own| *own == place);
         let all = graph.replay(&reached, inputs, |place, _, _| {
-            value(place).map(|number| inputs[first + number])
+            number(place).map(|number| inputs[first + number])
         });
-        wanted.iter().map(|place| all[*place]).collect::<Option<Vec<Expr>>>()
+        let roots = bases.iter().map(|place| all[*place].map(|base| base.sqrt()));
+        wanted.iter().map(|place| all[*place]).chain(roots).collect::<Option<Vec<Expr>>>()
     })?;
     let Some(outputs) = outputs else { return Ok(false) };
     let prover = Prover { sources: &[], extents: &extents, seed };
@@ -108,6 +176,11 @@ fn is_root(step: &Step<'_>) -> bool {
         Step::Power(_, exponent) => exponent.to_integer().is_none(),
         _ => false,
     }
+}
+
+/// Whether a step winds with its argument.
+fn is_logarithm(step: &Step<'_>) -> bool {
+    matches!(step, Step::Unary(UnaryFunction::Ln, _) | Step::Binary(BinaryOperation::Pow, ..))
 }
 
 /// Whether a step has no values modulo a prime.
@@ -136,30 +209,37 @@ fn forms(graph: &Graph, values: &[Expr], extents: &[Extent]) -> Vec<Form> {
 fn form(graph: &Graph, step: Step<'_>, forms: &[Form], extents: &[Extent]) -> Form {
     use UnaryFunction::{Abs, Atan, Cos, Exp, Ln, Neg, Recip, Sin, Sqrt};
     let worst = step.arguments().map(|a| forms[a]).max().unwrap_or(Form::Even);
-    let known = |a: usize| sign(graph, extents, &[], &[], graph.at(a)).filter(|s| !s.may_vanish);
+    let known = |a: usize| match forms[a] {
+        Form::Even => sign(graph, extents, &[], &[], graph.at(a)).filter(|s| !s.may_vanish),
+        _ => None,
+    };
     let is_positive = |a: usize| known(a).is_some_and(|sign| sign.is_positive);
     let even_if = |is_even: bool, otherwise: Form| match is_even {
         true => worst,
         false => worst.max(otherwise),
     };
+    // A value under a root or a logarithm has to be of a simple form itself.
+    let of = |a: usize, is_even: bool, most: Form, form: Form| match () {
+        () if is_even => worst,
+        () if forms[a] <= most => worst.max(form),
+        () => Form::Divided,
+    };
     match step {
         Step::Input(input) if input >= extents.len() => Form::Divided,
         Step::Constant(_) | Step::Input(_) | Step::Unary(Neg | Exp | Sin | Cos, _) => worst,
-        Step::Binary(BinaryOperation::Pow, a, _) => even_if(is_positive(a), Form::Divided),
+        Step::Binary(BinaryOperation::Pow, a, _) | Step::Unary(Ln, a) => {
+            of(a, is_positive(a), Form::Single, Form::Logarithm)
+        }
         Step::Binary(..) => worst,
         Step::Unary(Atan, _) if worst == Form::Even => Form::Even,
         Step::Unary(Atan, _) => Form::Divided,
-        Step::Unary(Ln, a) => match worst == Form::Even && is_positive(a) {
-            true => Form::Even,
-            false => Form::Divided,
-        },
-        Step::Unary(Abs, a) => even_if(known(a).is_some(), Form::Continued),
-        Step::Unary(Sqrt, a) => even_if(is_positive(a), Form::Continued),
-        Step::Unary(Recip, a) => even_if(known(a).is_some(), Form::Continued),
+        Step::Unary(Abs, a) => of(a, known(a).is_some(), Form::Root, Form::Root),
+        Step::Unary(Sqrt, a) => of(a, is_positive(a), Form::Root, Form::Root),
+        Step::Unary(Recip, a) => even_if(known(a).is_some(), Form::Single),
         Step::Power(a, exponent) => match exponent.to_integer() {
             Some(exponent) if exponent >= 0 => worst,
-            Some(_) => even_if(known(a).is_some(), Form::Continued),
-            None => even_if(is_positive(a), Form::Continued),
+            Some(_) => even_if(known(a).is_some(), Form::Single),
+            None => of(a, is_positive(a), Form::Root, Form::Root),
         },
     }
 }
@@ -194,6 +274,9 @@ mod tests {
             "x^(1/3)",
             "x*exp(−2*x) + y*√(1 + 4*x² + 8*x*y + 4*y²)",
             "√(1 + exp(2*x))*exp(√(x² + 3))",
+            "ln(x)",
+            "ln(x² + y²)*√(x² + y²*x)",
+            "x*(2*x² + y²)^(y/2)",
         ] {
             assert!(is_one(one), "{one}");
         }
@@ -207,7 +290,17 @@ mod tests {
             "√(x²)/x",
             "√(x²*y)",
             "exp(√(x²)/x)",
-            "ln(x)",
+            "ln(x²)",
+            "ln(x²*y)",
+            "ln(x) + ln(x*(y − 3/2)²)",
+            "√x*ln(x*(y − 3/2)²)",
+            "√(y*x²)/√y",
+            "√(y*x²)/x",
+            "√(exp(x)*x²)/(exp(x/2)*x)",
+            "√(exp(2*x) − exp(x)² + x²)/x",
+            "√(sin(x)² + cos(x)² − 1 + x²)/x",
+            "√x*atan(y)",
+            "ln(y) − ln(y*x²)",
             "max(x, 1)",
         ] {
             assert!(!is_one(divided), "{divided}");

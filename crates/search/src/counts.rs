@@ -7,8 +7,10 @@ use serde::Serialize;
 use super::absence::{has_lists, rank};
 use super::ansatz::monomials::AnsatzVariables;
 use super::budget::STEPS;
+use super::continued::named;
 use super::jets::{DimensionCount, MotionAtPoint, VelocityPolynomials};
-use super::local::Local;
+use super::local::{Coordinates, Local};
+use super::origin::{RemarkOrigin, TheoremOrigin};
 use super::products::Generators;
 use super::{Effort, Excluded, SearchError, SearchReport};
 use liouville::case::Case;
@@ -18,16 +20,6 @@ use liouville::number::rational::Rational;
 
 /// Largest number of combinations of listed values that are counted one by one.
 const MOST_LISTED: usize = 64;
-
-/// Beginning of the name of what a count excludes.
-const OF_COUNTS: &str = "polynomials in the velocities of degree up to";
-/// Beginning of the name of what a count of densities excludes.
-pub const OF_DENSITIES: &str = "densities P^(1/α), P polynomial in the velocities";
-/// Words of theorems that come from the free motion.
-pub const FOR_EVERY_POTENTIAL: &str = "for every gyrostat and every potential";
-/// Beginning of the remark on integrals that are counted, and not found, and of the name of a condition
-/// under which more are counted.
-pub const MORE: &str = "more integrals of degree";
 
 /// Number of integrals of one degree.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -59,10 +51,10 @@ pub struct CountEstimate {
 
 /// Estimates the cost of counting integrals within the effort; `None` if they cannot be counted.
 pub fn plan(case: &Case, effort: &Effort) -> Option<CountEstimate> {
-    let local = Local::of(case, &[]).ok()?;
+    let coordinates = Coordinates::of(case).ok()?;
     let mixed = case.model.system.energy_is_inhomogeneous();
     let combinations = listed(&case.model.parameter_draws()).len() as f64;
-    let sizes = (1..=effort.degree).map(|degree| size(&local, degree, mixed));
+    let sizes = (1..=effort.degree).map(|degree| size(&coordinates, degree, mixed));
     let counted = sizes.map(|(unknowns, seconds)| (unknowns, seconds * combinations));
     let (unknowns, seconds) = counted
         .filter(|(_, seconds)| *seconds <= effort.seconds)
@@ -148,13 +140,14 @@ impl<'c> CountedMotion<'c> {
         let Some(locals) = locals(self.case, report)? else { return Ok(()) };
         let Some(first) = locals.first() else { return Ok(()) };
         let mut motions: Vec<MotionAtPoint<'_>> = locals.iter().map(MotionAtPoint::new).collect();
-        let cost = |degree: u32| size(first, degree, self.mixed).1 * locals.len() as f64;
+        let cost =
+            |degree: u32| size(&first.coordinates, degree, self.mixed).1 * locals.len() as f64;
         let last = degrees.clone().take_while(|degree| cost(*degree) <= effort.seconds).last();
         if let Some(degree) = last.filter(|_| !self.ends_at_excess) {
             motions.iter_mut().for_each(|motion| motion.foresee(degree));
         }
         for degree in degrees {
-            let (unknowns, seconds) = size(first, degree, self.mixed);
+            let (unknowns, seconds) = size(&first.coordinates, degree, self.mixed);
             let seconds = seconds * locals.len() as f64;
             progress(&format!(
                 "integrals of degree {degree}: {unknowns} unknowns, at least {seconds:.1} s"
@@ -215,17 +208,21 @@ impl<'c> CountedMotion<'c> {
 /// Records the equations of motion for each combination of listed values; `None`, with a remark, if
 /// there are too many combinations or nothing can be counted.
 pub fn locals(case: &Case, report: &mut SearchReport) -> Result<Option<Vec<Local>>, SearchError> {
-    let mut locals = Vec::new();
-    for fixed in listed(&case.model.parameter_draws()) {
-        match Local::of(case, &fixed) {
-            Ok(local) => locals.push(local),
-            Err(error @ SearchError::Unsplit(_)) => {
-                report.remark(error.to_string());
-                return Ok(None);
-            }
-            Err(error) => return Err(error),
+    let recorded = || -> Result<Vec<Local>, SearchError> {
+        let all = listed(&case.model.parameter_draws());
+        if all.is_empty() {
+            return Ok(Vec::new());
         }
-    }
+        let coordinates = Coordinates::of(case)?;
+        all.iter().map(|fixed| Local::with(case, coordinates.clone(), fixed)).collect()
+    };
+    let locals = match recorded() {
+        Err(error @ SearchError::Unsplit(_)) => {
+            report.remark(error.to_string());
+            return Ok(None);
+        }
+        recorded => recorded?,
+    };
     if locals.is_empty() {
         report.remark(format!("integrals are not counted: the lists have more than {MOST_LISTED} combinations; give values with --set"));
         return Ok(None);
@@ -267,9 +264,8 @@ fn listed(draws: &[Draw]) -> Vec<Vec<Option<Rational>>> {
 
 /// Estimates the number of unknowns, and the least time in seconds to set up their equations: what
 /// the elimination takes beyond that depends on how sparse it stays, and is limited while it runs.
-pub fn size(local: &Local, degree: u32, mixed: bool) -> (u64, f64) {
-    let (positions, velocities) =
-        (local.coordinates.positions as u32, local.coordinates.velocities as u32);
+pub fn size(coordinates: &Coordinates, degree: u32, mixed: bool) -> (u64, f64) {
+    let (positions, velocities) = (coordinates.positions as u32, coordinates.velocities as u32);
     let powers = |degree: u32| binomial(degree + velocities - 1, velocities - 1);
     let powers: u64 = if mixed { (0..=degree).map(powers).sum() } else { powers(degree) };
     let monomials = binomial(2 * degree + 3 + positions, positions);
@@ -325,52 +321,52 @@ pub fn conclude(
         (false, false) => "",
     };
     let generators = all.each().filter(|(_, own)| *own <= degree);
-    let names: Vec<&str> = generators.map(|(formula, _)| formula.text()).collect();
-    let what = match names.as_slice() {
-        [] => format!(
+    let formulas: Vec<&Formula> = generators.map(|(formula, _)| formula).collect();
+    let what = match formulas.is_empty() {
+        true => format!(
             "there is no integral polynomial in the velocities of degree at most {degree}, constants aside."
         ),
-        [only] => format!(
-            "every integral polynomial in the velocities of degree at most {degree} is a polynomial in {only}."
-        ),
-        several => format!(
+        false => format!(
             "every integral polynomial in the velocities of degree at most {degree} is a polynomial in {}.",
-            several.join(" and ")
+            named(case, formulas, effort)?
         ),
     };
     let stated = Excluded {
-        ansatz: format!("{OF_COUNTS} {degree}, with any smooth coefficients in the positions"),
+        ansatz: format!(
+            "polynomials in the velocities of degree up to {degree}, with any smooth coefficients in the \
+             positions"
+        ),
         dimension: last.dimension,
         known: last.known,
         error_log2: None,
         theorem: format!(
             "For generic values of the free parameters, and the given values of the fixed ones, {what}{forces}"
         ),
+        origin: TheoremOrigin::IntegralCount { free: free_only },
+        values: None,
     };
-    match report.excluded.iter_mut().find(|own| own.ansatz.starts_with(OF_COUNTS)) {
+    let is_count = |own: &&mut Excluded| matches!(own.origin, TheoremOrigin::IntegralCount { .. });
+    match report.excluded.iter_mut().find(is_count) {
         Some(earlier) => *earlier = stated,
         None => report.excluded.push(stated),
     }
     Ok(())
 }
 
-/// Whether a theorem comes from a count in positions and velocities.
-pub fn is_of_count(excluded: &Excluded) -> bool {
-    [OF_COUNTS, OF_DENSITIES].iter().any(|start| excluded.ansatz.starts_with(start))
-}
-
 /// Tells the first degree at which more integrals are counted than known, in place of an earlier one,
 /// where an ansatz may find them that was not asked for.
 fn note_missing(case: &Case, effort: &Effort, report: &mut SearchReport) {
-    report.remarks.retain(|remark| !remark.starts_with(MORE));
+    report.remarks.retain(|remark| remark.origin != RemarkOrigin::MoreCounted);
     if effort.ansatz.wanted || AnsatzVariables::of(case).is_none() {
         return;
     }
     let counts = report.counts.iter().filter(|count| !count.free);
     let missing = counts.filter(|count| count.dimension > count.known).map(|count| count.degree);
     if let Some(degree) = missing.min() {
-        report.remark(format!(
-            "{MORE} {degree} are counted than known: --ansatz looks for them among polynomials"
-        ));
+        let text = format!(
+            "more integrals of degree {degree} are counted than known: --ansatz looks for them among \
+             polynomials"
+        );
+        report.remark_of(RemarkOrigin::MoreCounted, text);
     }
 }

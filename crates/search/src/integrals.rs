@@ -5,6 +5,7 @@ use num_dual::Dual;
 use super::ask::{are_comparable, holds, independent, judged};
 use super::library;
 use super::linear::SampledFunctions;
+use super::origin::RemarkOrigin;
 use super::second_opinion::second_opinion;
 use super::terms::{is_one, recorded, sum};
 use super::{Effort, Found, SearchError, SearchReport};
@@ -15,9 +16,6 @@ use liouville::graph::Expr;
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 use liouville::verdict::{ClaimReport, Independence};
-
-/// End of the note on relations whose coefficients are not rational.
-pub const IRRATIONAL: &str = "relations do not have small rational coefficients";
 
 /// Searches for integrals; proved ones go into the report.
 pub fn integrals(
@@ -139,7 +137,8 @@ pub fn over_denominators(
             report.opinions.extend(second_opinion(&functions, denominator.text(), dimension, seed));
         }
         if irrational > 0 {
-            report.remark(format!("{irrational} {IRRATIONAL}"));
+            let text = format!("{irrational} relations do not have small rational coefficients");
+            report.remark_of(RemarkOrigin::Irrational, text);
         }
         let written = |vector: &Vec<Rational>| {
             let above = sum(vector, terms)?;

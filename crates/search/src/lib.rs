@@ -37,6 +37,7 @@ mod maps;
 mod meter;
 mod multipliers;
 mod orbit;
+mod origin;
 mod products;
 mod rates;
 mod recognised;
@@ -63,6 +64,7 @@ pub use halt::Halt;
 pub use meter::Meter;
 pub use multipliers::MultiplierReport;
 pub use orbit::OrbitReport;
+pub use origin::{ConditionOrigin, Remark, RemarkOrigin, TheoremOrigin};
 pub use report::{Excluded, Found, SearchReport};
 pub use second_opinion::SecondOpinion;
 
@@ -183,7 +185,7 @@ pub fn search(
     report::note_generic_functions(case, &mut report);
     if !report.orbits.is_empty() {
         // The search along orbits has these as well.
-        report.remarks.retain(|remark| !remark.ends_with(integrals::IRRATIONAL));
+        report.remarks.retain(|remark| remark.origin != RemarkOrigin::Irrational);
     }
     for remark in std::mem::take(&mut report.without_points) {
         report.remark(remark);

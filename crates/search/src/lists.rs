@@ -3,7 +3,8 @@
 //! A find is proved for all listed values. A theorem of absence holds for the values of its count: so it
 //! is computed for each combination of values, or names those for which it is stated.
 
-use super::orbit::{OF_LISTS, OrbitReport};
+use super::orbit::OrbitReport;
+use super::origin::RemarkOrigin;
 use super::{Effort, Excluded, Found, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::mechanics::{Draw, ParameterOrigin, SamplerSpec};
@@ -13,9 +14,6 @@ use liouville::number::rational::Rational;
 const MOST: usize = 64;
 /// The same for searches along orbits.
 const MOST_ORBITS: usize = 8;
-
-/// Beginning of a remark on a find that does not hold for all listed values.
-pub const UNPROVED: &str = "found, but not proved";
 
 /// A case with one value in place of each list.
 pub struct ListedCase {
@@ -146,7 +144,7 @@ pub fn by_values(
             }
         }
         finds.extend(own.found.into_iter().skip(known).map(|found| (found, values.clone())));
-        for remark in own.remarks.iter().filter(|own| own.contains("not tried")) {
+        for remark in own.remarks.iter().filter(|own| own.origin == RemarkOrigin::NotTried) {
             report.remark(format!("{remark} (for {values})"));
         }
     }
@@ -155,7 +153,8 @@ pub fn by_values(
     let is_repeated = |own: &Excluded| {
         theorems.iter().any(|(other, values)| {
             values.first().copied() == first
-                && own.ansatz.starts_with(&format!("{}, for ", other.ansatz))
+                && own.values.is_some()
+                && (own.origin, own.family()) == (other.origin, other.family())
         })
     };
     let kept: Vec<Excluded> =
@@ -181,7 +180,7 @@ pub fn by_values(
     let mut place = 0;
     report.remarks.retain(|remark| {
         place += 1;
-        place <= remarks || !remark.starts_with(UNPROVED)
+        place <= remarks || remark.origin != RemarkOrigin::Unproved
     });
     Ok(())
 }
@@ -206,7 +205,7 @@ fn note_orbits(orbits: &[(&str, Option<OrbitReport>)], report: &mut SearchReport
     if orbits.iter().all(|(_, own)| own.is_none()) {
         return;
     }
-    report.remarks.retain(|own| own != OF_LISTS);
+    report.remarks.retain(|own| own.origin != RemarkOrigin::Lists);
     let number = |own: &OrbitReport| (own.degree, own.relations, own.integrals);
     let told = report.orbits.last().map(number);
     let text = |(values, own): &(&str, Option<OrbitReport>)| {
@@ -248,6 +247,7 @@ fn named(theorem: Excluded, values: &str) -> Excluded {
     Excluded {
         ansatz: format!("{}, for {values}", theorem.ansatz),
         theorem: headed(&format!("For {values}"), &theorem.theorem),
+        values: Some(values.to_string()),
         ..theorem
     }
 }

@@ -11,10 +11,11 @@
 use serde::Serialize;
 
 use super::ask::{holds, judged_alone};
-use super::counts::{OF_DENSITIES, free_motion, largest, locals};
+use super::counts::{free_motion, largest, locals};
 use super::integrals::{over_denominators, terms};
 use super::jets::{DimensionCount, MotionAtPoint, VelocityPolynomials};
 use super::local::Local;
+use super::origin::TheoremOrigin;
 use super::terms::{is_one, numeric_exponent};
 use super::{Effort, Excluded, Found, SearchError, SearchReport};
 use liouville::case::Case;
@@ -163,7 +164,8 @@ fn theorem(effort: &Effort, free: bool, mixed: bool) -> Excluded {
     };
     Excluded {
         ansatz: format!(
-            "{OF_DENSITIES} of degree up to {degree}, with any smooth coefficients in the positions"
+            "densities P^(1/α), P polynomial in the velocities of degree up to {degree}, with any smooth \
+             coefficients in the positions"
         ),
         dimension: 0,
         known: 0,
@@ -171,5 +173,7 @@ fn theorem(effort: &Effort, free: bool, mixed: bool) -> Excluded {
         theorem: format!(
             "For generic values of the free parameters, and the given values of the fixed ones, {what}.{forces}"
         ),
+        origin: TheoremOrigin::DensityCount { free },
+        values: None,
     }
 }

@@ -28,17 +28,21 @@ pub const DEGREE_PRIMES: u64 = 3;
 
 /// Independent integrals with their degrees in the velocities.
 #[derive(Clone, Debug, Default)]
-pub struct Generators(Vec<(Formula, u32)>);
+pub struct Generators {
+    each: Vec<(Formula, u32)>,
+    /// Coordinates of the level, if positions and velocities are known.
+    coordinates: Option<Coordinates>,
+}
 
 impl Generators {
     /// Integrals of which the degrees are known.
     pub fn of(known: Vec<(Formula, u32)>) -> Self {
-        Self(known)
+        Self { each: known, coordinates: None }
     }
 
     /// Collects the energy, if it is an integral.
     pub fn energy(case: &Case, effort: &Effort) -> Result<Self, SearchError> {
-        let mut generators = Self::default();
+        let mut generators = Self { each: Vec::new(), coordinates: Coordinates::of(case).ok() };
         if let Some(energy) = ask::proved_energy(case, effort)? {
             generators.add(case, &energy, effort.options.seed)?;
         }
@@ -66,37 +70,38 @@ impl Generators {
         for formula in own.filter_map(|found| found.function.as_ref()) {
             with.add(case, formula, effort.options.seed)?;
         }
-        Ok((with.0.len() > self.0.len()).then_some(with))
+        Ok((with.each.len() > self.each.len()).then_some(with))
     }
 
     /// Adds an integral if its degree can be determined: that in the velocities, or in all variables of
     /// a field without a level.
     fn add(&mut self, case: &Case, formula: &Formula, seed: u64) -> Result<(), SearchError> {
-        let degree = match Coordinates::of(case) {
-            Err(_) if case.model.level.is_empty() => degree_in_state(case, formula, seed)?,
-            _ => degree(case, formula, seed)?,
+        let degree = match &self.coordinates {
+            Some(coordinates) => degree_in(case, formula, coordinates, seed)?,
+            None if case.model.level.is_empty() => degree_in_state(case, formula, seed)?,
+            None => None,
         };
         if let Some(degree) = degree.filter(|degree| *degree > 0) {
-            self.0.push((formula.clone(), degree));
+            self.each.push((formula.clone(), degree));
         }
         Ok(())
     }
 
     /// Iterates over the formulas.
     pub fn formulas(&self) -> impl Iterator<Item = &Formula> {
-        self.0.iter().map(|(formula, _)| formula)
+        self.each.iter().map(|(formula, _)| formula)
     }
 
     /// Iterates over the formulas with their degrees in the velocities.
     pub fn each(&self) -> impl Iterator<Item = (&Formula, u32)> {
-        self.0.iter().map(|(formula, degree)| (formula, *degree))
+        self.each.iter().map(|(formula, degree)| (formula, *degree))
     }
 
     /// Lists the products of this degree, or with `mixed` of at most this degree, as exponents of
     /// the formulas.
     pub fn exponents(&self, degree: u32, mixed: bool) -> Vec<Vec<u32>> {
         let mut found: Vec<(u32, Vec<u32>)> = vec![(0, Vec::new())];
-        for (_, own) in &self.0 {
+        for (_, own) in &self.each {
             let raised = |(total, powers): (u32, Vec<u32>)| {
                 (0..=(degree - total) / own).map(move |power| {
                     (total + power * own, powers.iter().copied().chain([power]).collect())
@@ -113,7 +118,7 @@ impl Generators {
         // Entry d: number of products of degree d of the generators so far.
         let mut ways = vec![0usize; degree as usize + 1];
         ways[0] = 1;
-        for (_, own) in &self.0 {
+        for (_, own) in &self.each {
             for d in *own as usize..ways.len() {
                 ways[d] += ways[d - *own as usize];
             }
@@ -137,7 +142,14 @@ pub fn told(
     Ok(told)
 }
 
-/// Finds the degree of a formula in the velocities of some coordinates, as [`degree`] does.
+/// Finds the degree of a formula in the velocities of some coordinates; `None` if it is not a polynomial in
+/// them, or if its slope has no value modulo a prime.
+///
+/// On a random line w₀ + s u a function F is a polynomial P in s exactly if P' = P (ln F)', which
+/// are linear equations for the coefficients of P. The logarithm's slope is a rational function
+/// where F has factors that fields lack, such as exponentials of the positions. With exp, ln and the
+/// like of the velocities F may be cP with another c on each side of a point where it has no value, as
+/// exp(½ ln v²) = |v|: then `None`.
 pub fn degree_in(
     case: &Case,
     formula: &Formula,
@@ -147,21 +159,8 @@ pub fn degree_in(
     on_lines(case, formula, coordinates, seed, Reading::Polynomial)
 }
 
-/// Finds the degree of a formula in the velocities; `None` if it is not a polynomial in them, or if
-/// its slope has no value modulo a prime.
-///
-/// On a random line w₀ + s u a function F is a polynomial P in s exactly if P' = P (ln F)', which
-/// are linear equations for the coefficients of P. The logarithm's slope is a rational function
-/// where F has factors that fields lack, such as exponentials of the positions. With exp, ln and the
-/// like of the velocities F may be cP with another c on each side of a point where it has no value, as
-/// exp(½ ln v²) = |v|: then `None`.
-pub fn degree(case: &Case, formula: &Formula, seed: u64) -> Result<Option<u32>, SearchError> {
-    let Ok(coordinates) = Coordinates::of(case) else { return Ok(None) };
-    degree_in(case, formula, &coordinates, seed)
-}
-
-/// Finds the degree of a formula in all variables of a state without a level, as [`degree`] does in the
-/// velocities.
+/// Finds the degree of a formula in all variables of a state without a level, as [`degree_in`] does in
+/// the velocities.
 pub fn degree_in_state(
     case: &Case,
     formula: &Formula,
@@ -312,7 +311,7 @@ mod tests {
     #[test]
     fn products_are_counted() {
         let one = || Formula::number(1);
-        let generators = Generators(vec![(one(), 2), (one(), 2), (one(), 1)]);
+        let generators = Generators::of(vec![(one(), 2), (one(), 2), (one(), 1)]);
         // of E, F and G: E², EF, F², EG², FG², G⁴
         assert_eq!(generators.products(4, false), 6);
         assert_eq!(generators.exponents(4, false).len(), 6);

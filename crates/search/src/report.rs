@@ -6,7 +6,8 @@ use super::ask::Claimed;
 use super::conditions::ParameterCondition;
 use super::counts::{self, CountReport};
 use super::multipliers::MultiplierReport;
-use super::orbit::{self, OrbitReport};
+use super::orbit::OrbitReport;
+use super::origin::{Remark, RemarkOrigin, TheoremOrigin};
 use super::second_opinion::SecondOpinion;
 use super::{Effort, SearchError, library};
 use liouville::case::Case;
@@ -136,6 +137,20 @@ pub struct Excluded {
     pub error_log2: Option<f64>,
     /// Theorem with its hypotheses.
     pub theorem: String,
+    /// Source.
+    #[serde(skip)]
+    pub origin: TheoremOrigin,
+    /// Values of parameters for which alone it is stated, in words; `ansatz` ends with them.
+    #[serde(skip)]
+    pub values: Option<String>,
+}
+
+impl Excluded {
+    /// Family without the values for which alone the theorem is stated.
+    pub(crate) fn family(&self) -> &str {
+        let values = self.values.as_ref().map(|values| format!(", for {values}"));
+        values.and_then(|values| self.ansatz.strip_suffix(&values)).unwrap_or(&self.ansatz)
+    }
 }
 
 /// The outcome of a search.
@@ -158,7 +173,7 @@ pub struct SearchReport {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub conditions: Vec<ParameterCondition>,
     /// Parts that could not be carried out, with reasons.
-    pub remarks: Vec<String>,
+    pub remarks: Vec<Remark>,
     /// Parts that a stopped search did not reach; empty for a complete search.
     pub unreached: Vec<String>,
     /// Parts that could not be carried out as no terms have values modulo a prime.
@@ -184,10 +199,16 @@ impl SearchReport {
         self.found.iter().filter(move |found| found.kind == kind && found.with.is_empty())
     }
 
-    pub(crate) fn remark(&mut self, remark: String) {
+    pub(crate) fn remark(&mut self, remark: impl Into<Remark>) {
+        let remark = remark.into();
         if !self.remarks.contains(&remark) {
             self.remarks.push(remark);
         }
+    }
+
+    /// Adds a remark that others depend on.
+    pub(crate) fn remark_of(&mut self, origin: RemarkOrigin, text: String) {
+        self.remark(Remark { text, origin });
     }
 
     /// Takes over what a search along orbits of higher degrees has found besides, and its theorems, unless
@@ -203,7 +224,7 @@ impl SearchReport {
                 self.found.push(found);
             }
         }
-        let is_graded = |own: &Excluded| orbit::is_graded(&own.ansatz);
+        let is_graded = |own: &Excluded| own.origin.is_graded();
         if grown.excluded.iter().any(is_graded) {
             self.excluded.retain(|own| !is_graded(own));
         }
@@ -245,7 +266,7 @@ pub(crate) fn note_generic_functions(case: &Case, report: &mut SearchReport) {
     let is_potential_alone =
         counts::free_motion(case).is_some_and(|free| !free.model.system.has_arbitrary_function());
     for own in &mut report.excluded {
-        if !(is_potential_alone && own.theorem.contains(counts::FOR_EVERY_POTENTIAL)) {
+        if !(is_potential_alone && own.origin.is_for_every_potential()) {
             own.theorem.push_str(GENERIC_FUNCTION);
         }
     }

@@ -3,6 +3,7 @@
 
 mod constraints;
 mod densities;
+mod exponentials;
 mod functions;
 mod known;
 mod primes;

@@ -82,7 +82,9 @@ pub use combination::combinations;
 pub use coprime::{are_coprime, are_polynomials, is_single_valued};
 pub use determined::Determination;
 pub use digest::statement_seed;
-pub use domain::{KnownSign, is_nowhere_zero, is_seen_nowhere_zero, narrowed, point, sign};
+pub use domain::{
+    KnownSign, is_missing, is_nowhere_zero, is_seen_nowhere_zero, narrowed, point, sign,
+};
 pub use elimination::reduce;
 pub use extent::Extent;
 pub use fact::SignFact;

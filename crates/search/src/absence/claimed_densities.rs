@@ -4,9 +4,8 @@
 use super::super::SearchError;
 use super::super::ansatz::monomials::AnsatzVariables;
 use super::super::ask::judged_alone;
-use super::super::local::Coordinates;
 use super::super::multipliers::WEIGHTS;
-use super::super::products::{degree, degree_in_state, exponent_degree_in_state};
+use super::super::products::{degree_in, degree_in_state, exponent_degree_in_state};
 use super::super::terms::{numeric_exponent, one};
 use super::AbsenceCase;
 use liouville::case::Case;
@@ -23,7 +22,7 @@ const MOST_VELOCITIES: usize = 6;
 /// up to a degree.
 pub fn witness(asked: &AbsenceCase<'_>, most: u32) -> Result<Option<String>, SearchError> {
     let case = asked.case;
-    let in_velocities = Coordinates::of(case).is_ok();
+    let in_velocities = asked.coordinates.is_ok();
     let in_state = AnsatzVariables::of(case).is_some_and(|own| !own.have_velocities());
     let known = [Some(one()), mass_determinant(case)];
     let claimed = case.claims.iter().filter_map(|claim| match &claim.kind {
@@ -90,7 +89,10 @@ pub fn is_in_velocities(
     most: u32,
 ) -> Result<bool, SearchError> {
     let seed = asked.effort.options.seed;
-    has_power(formula, &|power| Ok(degree(asked.case, power, seed)?.is_some_and(|n| n <= most)))
+    let Ok(coordinates) = asked.coordinates else { return Ok(false) };
+    has_power(formula, &|power| {
+        Ok(degree_in(asked.case, power, coordinates, seed)?.is_some_and(|n| n <= most))
+    })
 }
 
 /// Whether a density is P^(1/α) or exp P, with P a polynomial up to this degree in all variables.

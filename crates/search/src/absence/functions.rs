@@ -34,7 +34,7 @@ pub fn no_integral(asked: &AbsenceCase<'_>, degree: u32) -> Result<AbsenceOutcom
         Ok(compared) => compared,
         Err(reason) => return Ok(AbsenceOutcome::Open(reason)),
     };
-    let statement = compared.statement(known);
+    let statement = compared.statement(case, effort, known)?;
     let fractions::Compared { class, monomials, relations, implied, .. } = compared;
     if let Some(statement) = statement {
         let counted = match relations {

@@ -6,7 +6,8 @@ use super::super::ask::{
 };
 use super::super::continued::is_one_function;
 use super::super::linear::SampledFunctions;
-use super::super::products::{Generators, degree};
+use super::super::local::Coordinates;
+use super::super::products::{Generators, degree_in};
 use super::super::terms::recorded;
 use super::super::{Effort, SearchError};
 use liouville::case::Case;
@@ -132,13 +133,14 @@ impl ProvedIntegrals {
     /// functions. The larger of the two numbers counts.
     pub fn of_degree(
         &self,
-        case: &Case,
+        (case, coordinates): (&Case, &Coordinates),
         most: u32,
         effort: &Effort,
     ) -> Result<ProductSpace, SearchError> {
         let seed = effort.options.seed;
         let fitting = |formula: &Formula| -> Result<Option<u32>, SearchError> {
-            Ok(degree(case, formula, seed)?.filter(|degree| (1..=most).contains(degree)))
+            Ok(degree_in(case, formula, coordinates, seed)?
+                .filter(|degree| (1..=most).contains(degree)))
         };
         let mut independents: Vec<(Formula, u32)> = Vec::new();
         if let Some(energy) = self.energy()
@@ -160,7 +162,7 @@ impl ProvedIntegrals {
             dimension: by_gradients.products(most, true),
             formulas: independents.into_iter().map(|(formula, _)| formula).collect(),
         };
-        if let Some(space) = self.by_values(case, most, effort)?
+        if let Some(space) = self.by_values((case, coordinates), most, effort)?
             && space.dimension > best.dimension
         {
             best = space;
@@ -172,7 +174,7 @@ impl ProvedIntegrals {
     /// count, or if some product has no value modulo a prime.
     fn by_values(
         &self,
-        case: &Case,
+        (case, coordinates): (&Case, &Coordinates),
         most: u32,
         effort: &Effort,
     ) -> Result<Option<ProductSpace>, SearchError> {
@@ -182,7 +184,8 @@ impl ProvedIntegrals {
         let mut terms = Vec::new();
         let mut own = Vec::new();
         for term in self.terms(case, effort)? {
-            let known = degree(case, &term, effort.options.seed)?.filter(|degree| *degree > 0);
+            let known = degree_in(case, &term, coordinates, effort.options.seed)?;
+            let known = known.filter(|degree| *degree > 0);
             if let Some(degree) = known.filter(|degree| *degree <= most) {
                 own.push((term.clone(), degree));
                 terms.push(term);

@@ -28,6 +28,7 @@ use std::time::Duration;
 
 use super::ansatz::monomials::AnsatzVariables;
 use super::ask::independent;
+use super::continued::named;
 use super::local::Coordinates;
 use super::terms::recorded;
 use super::{Ansatz, Effort, Halt, SearchError, abbreviated, branches};
@@ -101,14 +102,15 @@ fn judged(case: &Case, judged: &[ClaimReport], options: &Options) -> Vec<ClaimRe
     let ground = abbreviated(case).and_then(|case| {
         let effort = Effort { options, ..Effort::default() };
         let known = ProvedIntegrals::of(&case, judged, &effort)?;
-        Ok((case, known))
+        let coordinates = Coordinates::of(&case);
+        Ok((case, known, coordinates))
     });
     let outcome = |claim: &AbsenceClaim| {
-        let (case, known) = match &ground {
-            Ok((case, known)) => (case, known),
+        let (case, known, coordinates) = match &ground {
+            Ok((case, known, coordinates)) => (case, known, coordinates),
             Err(error) => return AbsenceOutcome::Open(error.to_string()),
         };
-        let asked = AbsenceCase::new(case, known, judged, options);
+        let asked = AbsenceCase::new(case, (known, coordinates), judged, options);
         asked.judge(&claim.kind).unwrap_or_else(|error| AbsenceOutcome::Open(error.to_string()))
     };
     case.absences.iter().map(|claim| report(claim, outcome(claim))).collect()
@@ -118,6 +120,8 @@ fn judged(case: &Case, judged: &[ClaimReport], options: &Options) -> Vec<ClaimRe
 struct AbsenceCase<'a> {
     case: &'a Case,
     known: &'a ProvedIntegrals,
+    /// Coordinates of the level, or the reason why positions and velocities are not known.
+    coordinates: &'a Result<Coordinates, SearchError>,
     /// Reports on the claims of the case.
     reports: &'a [ClaimReport],
     effort: Effort,
@@ -126,7 +130,7 @@ struct AbsenceCase<'a> {
 impl<'a> AbsenceCase<'a> {
     fn new(
         case: &'a Case,
-        known: &'a ProvedIntegrals,
+        (known, coordinates): (&'a ProvedIntegrals, &'a Result<Coordinates, SearchError>),
         reports: &'a [ClaimReport],
         options: Options,
     ) -> Self {
@@ -142,7 +146,7 @@ impl<'a> AbsenceCase<'a> {
             options,
             ..Effort::default()
         };
-        Self { case, known, reports, effort }
+        Self { case, known, coordinates, reports, effort }
     }
 
     fn judge(&self, kind: &Absence) -> Result<AbsenceOutcome, SearchError> {
@@ -184,7 +188,7 @@ impl<'a> AbsenceCase<'a> {
         {
             return Ok(AbsenceOutcome::Exhibited(density));
         }
-        let coordinates = Coordinates::of(self.case);
+        let coordinates = self.coordinates;
         let outcome = if coordinates.is_ok() {
             velocities::judge(self, counted, degree)?
         } else {
@@ -198,7 +202,7 @@ impl<'a> AbsenceCase<'a> {
                         (None, Counted::Densities) => polynomials::nothing(),
                     }
                 }
-                None => AbsenceOutcome::Open(match &coordinates {
+                None => AbsenceOutcome::Open(match coordinates {
                     Err(error) if matches!(system, System::Lagrangian(_)) => error.to_string(),
                     _ => "velocities are not known apart, and polynomials in all variables are \
                           counted without a level set only"
@@ -293,14 +297,18 @@ fn has_branches(case: &Case, formula: &Formula) -> Result<bool, SearchError> {
 }
 
 /// States that all integrals of a class are polynomials in the given ones.
-fn generated(class: &str, formulas: &[Formula]) -> String {
-    match formulas {
+fn generated(
+    asked: &AbsenceCase<'_>,
+    class: &str,
+    formulas: &[Formula],
+) -> Result<String, SearchError> {
+    Ok(match formulas {
         [] => format!("no integral but a constant is {class}"),
         formulas => {
-            let names: Vec<&str> = formulas.iter().map(Formula::text).collect();
-            format!("every integral that is {class} is a polynomial in {}", names.join(" and "))
+            let names = named(asked.case, formulas, &asked.effort)?;
+            format!("every integral that is {class} is a polynomial in {names}")
         }
-    }
+    })
 }
 
 fn report(claim: &AbsenceClaim, outcome: AbsenceOutcome) -> ClaimReport {

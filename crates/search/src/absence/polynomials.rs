@@ -232,7 +232,7 @@ impl<'a> Counting<'a> {
         }
         if dimension == space.dimension {
             return Ok(AbsenceOutcome::Excluded {
-                theorem: self.asked.theorem(&generated(&self.class(), &space.terms)),
+                theorem: self.asked.theorem(&generated(self.asked, &self.class(), &space.terms)?),
                 counted: format!(
                     "at most {dimension} independent integrals, constants included: all known"
                 ),

@@ -1,8 +1,9 @@
 //! Absence of polynomials in the velocities, with any smooth coefficients in the positions.
 
 use super::super::counts::{self, CountReport, Degrees};
-use super::super::local::Local;
-use super::super::products::degree;
+use super::super::local::Coordinates;
+use super::super::origin::Remark;
+use super::super::products::degree_in;
 use super::super::{
     Effort, Found, SearchError, SearchReport, ansatz, densities, integrals, multipliers, orbit,
 };
@@ -15,9 +16,13 @@ pub fn judge(
     counted: Counted,
     degree: u32,
 ) -> Result<AbsenceOutcome, SearchError> {
+    let coordinates = match asked.coordinates {
+        Ok(coordinates) => coordinates,
+        Err(error) => return Ok(AbsenceOutcome::Open(error.to_string())),
+    };
     match counted {
-        Counted::Integrals => no_integral(asked, degree),
-        Counted::Densities => no_density(asked, degree),
+        Counted::Integrals => no_integral(asked, coordinates, degree),
+        Counted::Densities => no_density(asked, coordinates, degree),
     }
 }
 
@@ -49,7 +54,11 @@ fn bound(counts: &[CountReport], degree: u32) -> Option<Bound> {
     }
 }
 
-fn no_integral(asked: &AbsenceCase<'_>, most: u32) -> Result<AbsenceOutcome, SearchError> {
+fn no_integral(
+    asked: &AbsenceCase<'_>,
+    coordinates: &Coordinates,
+    most: u32,
+) -> Result<AbsenceOutcome, SearchError> {
     let case = asked.case;
     let effort = &Effort { degree: most, ..asked.effort.clone() };
     let mut report = SearchReport::default();
@@ -73,14 +82,18 @@ fn no_integral(asked: &AbsenceCase<'_>, most: u32) -> Result<AbsenceOutcome, Sea
                     AbsenceOutcome::Open("the energy is not known to be an integral".to_string())
                 }
                 Some(energy) => AbsenceOutcome::Excluded {
-                    theorem: asked.theorem(&generated(&class, std::slice::from_ref(energy))),
+                    theorem: asked.theorem(&generated(
+                        asked,
+                        &class,
+                        std::slice::from_ref(energy),
+                    )?),
                     counted: "leading forms are powers of the energy".to_string(),
                 },
             });
         }
         Some(Bound::Integrals(dimension)) => dimension,
     };
-    let known = asked.known.of_degree(case, most, effort)?;
+    let known = asked.known.of_degree((case, coordinates), most, effort)?;
     if known.dimension > dimension {
         return Ok(AbsenceOutcome::Open(format!(
             "the count is {dimension}, fewer than the {} known integrals",
@@ -89,7 +102,7 @@ fn no_integral(asked: &AbsenceCase<'_>, most: u32) -> Result<AbsenceOutcome, Sea
     }
     if known.dimension == dimension {
         return Ok(AbsenceOutcome::Excluded {
-            theorem: asked.theorem(&generated(&class, &known.formulas)),
+            theorem: asked.theorem(&generated(asked, &class, &known.formulas)?),
             counted: format!(
                 "at most {dimension} independent integrals, constants included: all known"
             ),
@@ -105,7 +118,7 @@ fn no_integral(asked: &AbsenceCase<'_>, most: u32) -> Result<AbsenceOutcome, Sea
     let mut exhibit = None;
     for part in parts {
         part(&mut report)?;
-        exhibit = witness(asked, most, &report)?;
+        exhibit = witness(asked, coordinates, most, &report)?;
         if exhibit.is_some() {
             break;
         }
@@ -122,6 +135,7 @@ fn no_integral(asked: &AbsenceCase<'_>, most: u32) -> Result<AbsenceOutcome, Sea
 /// Returns an integral of a report that refutes the claim.
 fn witness(
     asked: &AbsenceCase<'_>,
+    coordinates: &Coordinates,
     most: u32,
     report: &SearchReport,
 ) -> Result<Option<String>, SearchError> {
@@ -130,7 +144,7 @@ fn witness(
     };
     for found in report.found.iter().filter(own) {
         let Some(function) = &found.function else { continue };
-        let low = degree(asked.case, function, asked.effort.options.seed)?;
+        let low = degree_in(asked.case, function, coordinates, asked.effort.options.seed)?;
         if low.is_some_and(|degree| degree <= most) && asked.is_new(function)? {
             return Ok(Some(shown("integral", found)));
         }
@@ -146,11 +160,15 @@ fn shown(what: &str, found: &Found) -> String {
     format!("{what}, proved: {}{names}", found.formula)
 }
 
-fn no_density(asked: &AbsenceCase<'_>, most: u32) -> Result<AbsenceOutcome, SearchError> {
+fn no_density(
+    asked: &AbsenceCase<'_>,
+    coordinates: &Coordinates,
+    most: u32,
+) -> Result<AbsenceOutcome, SearchError> {
     let case = asked.case;
     let effort = &Effort { degree: most, ..asked.effort.clone() };
     let mixed = case.model.system.energy_is_inhomogeneous();
-    let (unknowns, seconds) = counts::size(&Local::of(case, &[])?, most, mixed);
+    let (unknowns, seconds) = counts::size(coordinates, most, mixed);
     let seconds = seconds * multipliers::WEIGHTS.len() as f64;
     if seconds > effort.seconds {
         return Ok(AbsenceOutcome::Open(format!(
@@ -193,9 +211,9 @@ fn no_density(asked: &AbsenceCase<'_>, most: u32) -> Result<AbsenceOutcome, Sear
 
 fn reasons(report: &SearchReport, otherwise: &str) -> String {
     // `check` has no such options.
-    let remark = |text: &String| match text.split_once("; raise --") {
+    let remark = |own: &Remark| match own.text.split_once("; raise --") {
         Some((reason, _)) => format!("{reason}: ask for a lower degree"),
-        None => text.trim_end_matches("; give values with --set").to_string(),
+        None => own.text.trim_end_matches("; give values with --set").to_string(),
     };
     let unreached = report.unreached.iter().map(|what| format!("not reached: {what}"));
     let all: Vec<String> = report.remarks.iter().map(remark).chain(unreached).collect();

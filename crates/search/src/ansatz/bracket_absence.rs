@@ -3,6 +3,7 @@
 use super::super::{Excluded, SearchError};
 use super::bracket_family::BracketFamily;
 use super::scales::{Scale, Scales};
+use crate::origin::TheoremOrigin;
 use liouville::formula::Formula;
 
 /// Hamiltonians and multipliers for which a family has no solution, by a proof.
@@ -89,6 +90,8 @@ impl<'f> Absence<'f> {
             known: 0,
             error_log2: None,
             theorem,
+            origin: TheoremOrigin::Brackets,
+            values: None,
         })
     }
 }

@@ -25,6 +25,7 @@ use super::size::SystemSize;
 use super::system::{Column, LinearSystem};
 use super::{factors, note_unwritten, written};
 use crate::local::Coordinates;
+use crate::origin::{RemarkOrigin, TheoremOrigin};
 use liouville::case::Case;
 use liouville::formula::{Formula, FormulaError, FormulaResult};
 use liouville::mechanics::Draw;
@@ -135,7 +136,8 @@ impl GyroSearch<'_> {
         let size = SystemSize::of(&[(0..system.columns.len()).collect()]);
         progress(&format!("{what}: {size}"));
         if let Some(reason) = size.beyond(self.effort) {
-            report.remark(format!("{what}: not tried; {size}; {reason}"));
+            let text = format!("{what}: not tried; {size}; {reason}");
+            report.remark_of(RemarkOrigin::NotTried, text);
             return Ok(());
         }
         let Some(supports) = self.supports(&system, first)? else { return Ok(()) };
@@ -352,6 +354,7 @@ impl GyroSearch<'_> {
                 )
             }
         };
-        Ok(Excluded { ansatz, dimension, known: told, error_log2: None, theorem })
+        let (origin, values) = (TheoremOrigin::Forces, None);
+        Ok(Excluded { ansatz, dimension, known: told, error_log2: None, theorem, origin, values })
     }
 }

@@ -15,6 +15,7 @@ use super::subspace::complement;
 use super::system::{Column, LinearSystem};
 use super::theorem::{Outcome, theorem};
 use super::{factors, note_unwritten};
+use crate::origin::{RemarkOrigin, TheoremOrigin};
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::formula::{Formula, FormulaError};
@@ -154,7 +155,8 @@ impl IntegralSearch<'_> {
         let what = self.words(positions);
         progress(&format!("{what}: {size}"));
         if let Some(reason) = size.beyond(effort) {
-            report.remark(format!("{what}: not tried; {size}; {reason}"));
+            let text = format!("{what}: not tried; {size}; {reason}");
+            report.remark_of(RemarkOrigin::NotTried, text);
             return Ok(false);
         }
         let Some(at) = system.at(0, 0) else { return Ok(false) };
@@ -288,6 +290,8 @@ impl IntegralSearch<'_> {
             ansatz: what,
             dimension,
             known: dimension - open,
+            origin: TheoremOrigin::Ansatz,
+            values: None,
             error_log2: None,
         });
     }

@@ -56,6 +56,7 @@ use super::orbit::roots;
 use super::streams::SearchStream;
 use super::terms::{is_one, one, read, recorded};
 use super::{Effort, SearchError, SearchReport, lists};
+use crate::origin::{Remark, RemarkOrigin};
 use coefficients::Ratio;
 pub use force_split::positions;
 use liouville::case::Case;
@@ -170,6 +171,15 @@ impl Coordinates {
 
 /// Notes that a find cannot be written, once for all finds.
 pub fn note_unwritten(case: &Case, what: &str, report: &mut SearchReport) {
+    note(case, (what, RemarkOrigin::Unwritten), report);
+}
+
+/// Notes that a density of a map cannot be written, if no other find is noted.
+pub fn note_unwritten_density(case: &Case, what: &str, report: &mut SearchReport) {
+    note(case, (what, RemarkOrigin::UnwrittenDensity), report);
+}
+
+fn note(case: &Case, (what, origin): (&str, RemarkOrigin), report: &mut SearchReport) {
     let is_fixed = |draw: &Draw| matches!(draw, Draw::OneOf(_));
     let reason = match case.model.parameter_draws().iter().all(is_fixed) {
         true => {
@@ -180,8 +190,11 @@ pub fn note_unwritten(case: &Case, what: &str, report: &mut SearchReport) {
              --set"
         }
     };
-    if !report.remarks.iter().any(|remark| remark.ends_with(reason)) {
-        report.remark(format!("{what} {reason}"));
+    let is_noted = |own: &Remark| {
+        matches!(own.origin, RemarkOrigin::Unwritten | RemarkOrigin::UnwrittenDensity)
+    };
+    if !report.remarks.iter().any(is_noted) {
+        report.remark_of(origin, format!("{what} {reason}"));
     }
 }
 

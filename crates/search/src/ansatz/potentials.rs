@@ -16,6 +16,7 @@ use super::force_text::{ForcedIntegral, SurvivingForce};
 use super::note_unwritten;
 use super::size::SystemSize;
 use super::system::{Column, LinearSystem};
+use crate::origin::{RemarkOrigin, TheoremOrigin};
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::formula::{Formula, FormulaError};
@@ -118,7 +119,8 @@ impl ForceSearch<'_> {
         let what = format!("{} that preserve {}", self.kind(), self.integral);
         progress(&format!("{what}: {size}"));
         if let Some(reason) = size.beyond(self.effort) {
-            report.remark(format!("{what}: not tried; {size}; {reason}"));
+            let text = format!("{what}: not tried; {size}; {reason}");
+            report.remark_of(RemarkOrigin::NotTried, text);
             return Ok(());
         }
         let Some((columns, vectors)) = self.solved(&system, first)? else {
@@ -318,6 +320,8 @@ impl ForceSearch<'_> {
             ),
             dimension,
             known: told,
+            origin: TheoremOrigin::Forces,
+            values: None,
             error_log2: None,
             theorem: format!(
                 "For generic values of the free parameters, and the given values of the fixed ones, at most {dimension} independent {kind} of this form{aside} \

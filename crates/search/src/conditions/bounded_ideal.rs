@@ -153,16 +153,57 @@ impl BoundedIdeal {
         None
     }
 
-    /// Whether a power of each variable is a leading monomial, so that there are finitely many zeros.
-    pub fn is_finite(&self) -> bool {
-        let leading = || {
-            let all = self.monomials.iter().zip(&self.rows);
-            all.filter(|(_, row)| row.is_some()).map(|(own, _)| own)
-        };
-        let is_power = |own: &Vec<u32>, place: usize| {
-            own.iter().enumerate().all(|(k, x)| k == place || *x == 0)
-        };
-        (0..self.variables).all(|place| leading().any(|own| is_power(own, place)))
+    /// Powers of the linear form Σ rᵏ x_k of some variables, reduced, up to the first one that depends on those
+    /// before it. `None` if there is none, or their degrees are too high.
+    pub fn powers_of_form(&self, ratio: i64, used: &[bool]) -> Option<FormPowers<'_>> {
+        let m = &self.m;
+        let size = self.monomials.len();
+        let mut weight = m.one();
+        let step = m.rational(&ratio.into())?;
+        let mut form = Vec::new();
+        for place in (0..self.variables).filter(|place| used[*place]) {
+            form.push((place, weight));
+            weight = m.mul(weight, step);
+        }
+        let mut row = vec![0; size];
+        *row.last_mut()? = m.one();
+        let mut powers = vec![self.reduced(row)];
+        let mut echelon = Echelon::new(2 * size + 2, self.m);
+        loop {
+            let number = powers.len() - 1;
+            let own = powers.last()?;
+            let mut tagged = own.clone();
+            tagged.extend((0..size + 2).map(|k| if k == number { m.one() } else { 0 }));
+            let (pivot, _) = echelon.pivot(tagged)?;
+            if pivot >= size {
+                let minimal = echelon.rows().last()?;
+                let minimal = PrimePolynomials::trimmed(minimal[size..].to_vec());
+                return Some(FormPowers { ideal: self, powers, minimal });
+            }
+            let mut next = vec![0; size];
+            for (exponents, image) in self.monomials.iter().zip(own).filter(|(_, x)| **x != 0) {
+                for (place, weight) in &form {
+                    let mut raised = exponents.clone();
+                    raised[*place] += 1;
+                    let entry = &mut next[*self.places.get(&raised)?];
+                    *entry = m.add(*entry, m.mul(*image, *weight));
+                }
+            }
+            powers.push(self.reduced(next));
+        }
+    }
+
+    /// Whether a power of each of some variables is a leading monomial: if no others occur, there are finitely
+    /// many zeros in these.
+    pub fn is_finite(&self, used: &[bool]) -> bool {
+        (0..self.variables).all(|place| !used[place] || self.has_power(place))
+    }
+
+    /// Whether a power of a variable is a leading monomial.
+    fn has_power(&self, place: usize) -> bool {
+        let all = self.monomials.iter().zip(&self.rows);
+        let mut leading = all.filter(|(_, row)| row.is_some()).map(|(own, _)| own);
+        leading.any(|own| own.iter().enumerate().all(|(k, x)| k == place || *x == 0))
     }
 
     /// Lists the minimal elements, which generate the others.
@@ -184,5 +225,27 @@ impl BoundedIdeal {
         // By the first variable that a leading monomial contains.
         basis.sort_by(|a, b| degree(a).cmp(&degree(b)).then_with(|| b[0].0.cmp(&a[0].0)));
         basis
+    }
+}
+
+/// Powers of a linear form modulo an ideal.
+pub struct FormPowers<'i> {
+    ideal: &'i BoundedIdeal,
+    powers: Vec<Vec<u64>>,
+    /// The polynomial of least degree that vanishes at the form.
+    pub minimal: Polynomial,
+}
+
+impl FormPowers<'_> {
+    /// Value of a polynomial of lower degree at the form.
+    pub fn value(&self, own: &[u64]) -> PrimeTerms {
+        let m = &self.ideal.m;
+        let mut sum = vec![0; self.ideal.monomials.len()];
+        for (power, factor) in self.powers.iter().zip(own) {
+            let terms = sum.iter_mut().zip(power);
+            terms.for_each(|(s, x)| *s = m.add(*s, m.mul(*x, *factor)));
+        }
+        let all = self.ideal.monomials.iter().cloned().zip(sum);
+        all.filter(|(_, image)| *image != 0).collect()
     }
 }

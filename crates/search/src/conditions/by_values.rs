@@ -4,6 +4,7 @@ use liouville::case::Case;
 
 use super::{MOST_LISTED, ParameterCondition, several};
 use crate::lists::{self, ListedCase};
+use crate::origin::Remark;
 use crate::{Effort, Found, SearchError, SearchReport};
 
 /// Words for what holds for all values.
@@ -23,7 +24,7 @@ pub fn conditions(
     }
     let effort = Effort { seconds: effort.seconds / all.len() as f64, ..effort.clone() };
     let mut conditions: Told<ParameterCondition> = Told::new();
-    let (mut found, mut remarks): (Told<Found>, Told<String>) = (Told::new(), Told::new());
+    let (mut found, mut remarks): (Told<Found>, Told<Remark>) = (Told::new(), Told::new());
     for ListedCase { case, values } in &all {
         let mut own = SearchReport { found: report.found.clone(), ..SearchReport::default() };
         let known = own.found.len();
@@ -56,7 +57,10 @@ pub fn conditions(
     for (own, values) in remarks {
         report.remark(match values.len() == all.len() {
             true => own,
-            false => format!("for {}: {own}", values.join(", or ")),
+            false => {
+                let text = format!("for {}: {own}", values.join(", or "));
+                Remark { text, ..own }
+            }
         });
     }
     Ok(())

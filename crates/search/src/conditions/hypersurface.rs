@@ -8,6 +8,7 @@ use liouville::number::rational::Rational;
 use liouville::proof::reconstruct;
 
 use super::polynomial::{Polynomial, PrimePolynomials};
+use super::real::Terms;
 use super::relation::ScalarParameter;
 use super::simple::{SimpleEquation, SimpleEquations};
 use super::variety::{monomial, power};
@@ -19,8 +20,6 @@ const MOST: i64 = 1 << 20;
 
 /// A polynomial modulo a prime: coefficients by exponents.
 pub type PrimeTerms = Vec<(Vec<u32>, u64)>;
-/// A polynomial: coefficients by exponents.
-type Terms = Vec<(Vec<u32>, Rational)>;
 
 /// A condition of codimension one: the zeros of a polynomial in the parameters.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -48,6 +47,18 @@ impl Hypersurface {
         (terms[0].0.iter().sum::<u32>() > 0).then_some(Self { terms })
     }
 
+    /// Makes a polynomial of terms that are each there once; `None` if it is constant.
+    pub fn from_terms(mut terms: Terms) -> Option<Self> {
+        terms.retain(|(_, value)| !value.is_zero());
+        terms.sort_by(|(a, _), (b, _)| degree(b).cmp(&degree(a)).then_with(|| b.cmp(a)));
+        (degree(&terms.first()?.0) > 0).then_some(Self { terms })
+    }
+
+    /// The terms, those of high degree first.
+    pub fn terms(&self) -> &Terms {
+        &self.terms
+    }
+
     /// Degree of the polynomial.
     pub fn degree(&self) -> usize {
         self.terms.first().map_or(0, |(exponents, _)| exponents.iter().sum::<u32>() as usize)
@@ -72,19 +83,6 @@ impl Hypersurface {
     /// Images of the coefficients; `None` if a denominator is 0 modulo the prime.
     pub fn images(&self, m: &Modulus) -> Option<PrimeTerms> {
         self.terms.iter().map(|(own, value)| Some((own.clone(), m.rational(value)?))).collect()
-    }
-
-    /// Value that the equation gives a scalar, if it is x = c.
-    pub fn value(&self, place: usize) -> Option<Rational> {
-        let is_alone =
-            |own: &[u32]| own.iter().enumerate().all(|(k, x)| *x == u32::from(k == place));
-        match self.terms.as_slice() {
-            [(x, _)] if is_alone(x) => Some(Rational::from(0)),
-            [(x, a), (y, b)] if is_alone(x) && degree(y) == 0 => {
-                Some(&Rational::from(0) - &(b * &a.recip()?))
-            }
-            _ => None,
-        }
     }
 
     /// Whether a scalar occurs.

@@ -11,6 +11,7 @@ use liouville::number::prime::Modulus;
 use liouville::proof::{ProofRng, reconstruct};
 
 use super::bounded_ideal::BoundedIdeal;
+use super::decomposition;
 use super::hypersurface::{Hypersurface, PrimeTerms};
 use super::polynomial::{Polynomial, PrimePolynomials};
 use super::real::has_real_root;
@@ -25,7 +26,7 @@ const DEGREE: u32 = 32;
 /// Largest number of components.
 const COMPONENTS: usize = 64;
 
-/// Common zeros of polynomials, in components; those without real points are left out.
+/// Common zeros of polynomials, in components; some without real points are left out.
 #[derive(Default)]
 pub struct CommonZeros {
     /// Components that are written, each by its equations.
@@ -96,6 +97,7 @@ impl ZeroSearch<'_> {
     ) -> Result<bool, SearchError> {
         let own = generators.iter().map(degree).max().unwrap_or(0);
         let small = (2 * own).max(own + 2);
+        let used = used(generators, self.variables);
         for most in [small.min(self.most), self.most] {
             let ideal = BoundedIdeal::of(generators, self.variables, most, self.m, self.halt)?;
             let Some(ideal) = ideal else { return Ok(false) };
@@ -114,10 +116,22 @@ impl ZeroSearch<'_> {
                 return self.split_by(&basis, place, &own, is_settled);
             }
             let highest = basis.iter().map(degree).max().unwrap_or(0);
-            let is_last = most == self.most || !ideal.is_finite() || is_settled.iter().all(|x| *x);
+            let is_last =
+                most == self.most || !ideal.is_finite(&used) || is_settled.iter().all(|x| *x);
             if 2 * highest <= most && is_last {
                 if let Some(equal) = self.equal(&ideal, &basis) {
                     return self.split(&[basis, vec![equal]].concat(), is_settled);
+                }
+                if ideal.is_finite(&used)
+                    && let Some(parts) =
+                        decomposition::parts(&ideal, &used, (&self.m, &mut *self.rng))
+                {
+                    for part in parts {
+                        if !self.split(&[basis.clone(), vec![part]].concat(), is_settled)? {
+                            return Ok(false);
+                        }
+                    }
+                    return Ok(true);
                 }
                 self.tell(basis);
                 return Ok(self.found.written.len() + self.found.unwritten.len() <= COMPONENTS);
@@ -207,6 +221,12 @@ impl ZeroSearch<'_> {
     }
 }
 
+/// Tells which variables occur.
+pub fn used(generators: &[PrimeTerms], variables: usize) -> Vec<bool> {
+    let terms = || generators.iter().flatten().filter(|(_, image)| *image != 0);
+    (0..variables).map(|place| terms().any(|(exponents, _)| exponents[place] > 0)).collect()
+}
+
 /// Degree of a polynomial.
 pub fn degree(own: &PrimeTerms) -> u32 {
     let used = own.iter().filter(|(_, image)| *image != 0);
@@ -275,6 +295,12 @@ mod tests {
         let roots: [Given<'_>; 2] =
             [(&[(&[2, 0], 1), (&[0, 2], -2)]), (&[(&[1, 1], 1), (&[0, 0], -4)])];
         assert_eq!(found(&roots, 2).0, ["a² − 2*b² = 0 and a*b − 4 = 0 and b³ − 2*a = 0"]);
+        // a² = 2 and b² = 2: a = ±b are two sets.
+        let equal: [Given<'_>; 2] =
+            [(&[(&[2, 0], 1), (&[0, 0], -2)]), (&[(&[0, 2], 1), (&[0, 0], -2)])];
+        let mut texts = found(&equal, 2).0;
+        texts.sort();
+        assert_eq!(texts, ["a + b = 0 and b² − 2 = 0", "a = b and b² − 2 = 0"]);
         // a line in space and a curve: c = 1 and a = b², or c = 2 and a = b.
         let curves: [Given<'_>; 2] = [
             (&[(&[0, 0, 2], 1), (&[0, 0, 1], -3), (&[0, 0, 0], 2)]),

@@ -7,7 +7,6 @@
 
 use std::cell::Cell;
 
-use liouville::case::PlacedClaim;
 use liouville::number::prime::Modulus;
 use liouville::proof::ProofRng;
 
@@ -17,6 +16,7 @@ use super::ideal::{self, CommonZeros};
 use super::minors::determinant;
 use super::polynomial::PrimePolynomials;
 use super::quotient::without_common;
+use super::real::RealSearch;
 use super::residual::Residual;
 use super::split::SplitCase;
 use super::variety::power;
@@ -55,21 +55,22 @@ type Fraction = [PrimeTerms; 2];
 
 /// Values of the parameters besides those of codimension one.
 pub struct IsolatedValues {
-    /// Sets of equations; each is sufficient.
+    /// Sets of equations that have real solutions.
     pub written: Vec<Vec<Hypersurface>>,
-    /// Number of further sets without short coefficients.
-    pub unwritten: usize,
+    /// Number of further sets without short coefficients, or of which it is not known whether they have.
+    pub unknown: usize,
+    /// The polynomial whose zeros are the values of codimension one, and its prime.
+    pub common: (PrimeTerms, Modulus),
 }
 
-/// Finds the values of the parameters for which a claim holds, or the criterion, besides those of
+/// Finds the values of the parameters for which a residual vanishes at all states, besides those of
 /// codimension one; `None` if the residual is not a fraction of low degree.
 pub fn of_claim(
     split: &SplitCase,
-    claim: Option<&PlacedClaim>,
+    residual: &Residual,
     effort: &Effort,
 ) -> Result<Option<IsolatedValues>, SearchError> {
     let seed = effort.options.seed;
-    let Some(residual) = Residual::of(&split.case, claim, seed)? else { return Ok(None) };
     let mut rng = SearchStream::Residuals.under(seed.wrapping_add(1));
     let m = residual.prime(&mut rng);
     let mut evaluator = residual.evaluator(m);
@@ -154,9 +155,9 @@ fn found(
     halt: &Halt,
 ) -> Result<Option<IsolatedValues>, SearchError> {
     let Some(all) = numerators(values, variables, (m, &mut *rng), left)? else { return Ok(None) };
-    let none = IsolatedValues { written: Vec::new(), unwritten: 0 };
     if all.is_empty() {
-        return Ok(Some(none));
+        let common = (PrimeTerms::new(), *m);
+        return Ok(Some(IsolatedValues { written: Vec::new(), unknown: 0, common }));
     }
     let (above, below): (Vec<PrimeTerms>, Vec<PrimeTerms>) =
         all.into_iter().map(|[above, below]| (above, below)).unzip();
@@ -173,20 +174,23 @@ fn found(
         }
         Ok(true)
     };
-    let Some(own) = ideal::zeros(&rest, variables, (m, rng), left, halt)? else { return Ok(None) };
-    let CommonZeros { written, unwritten } = own;
-    let (mut is_new, mut open) = (Vec::new(), 0);
+    let zeros = ideal::zeros(&rest, variables, (m, &mut *rng), left, halt)?;
+    let Some(CommonZeros { written, unwritten }) = zeros else { return Ok(None) };
+    let mut found =
+        IsolatedValues { written: Vec::new(), unknown: 0, common: (common.clone(), *m) };
+    for own in unwritten {
+        found.unknown += usize::from(!is_left_out(&own)?);
+    }
     for own in written {
         let images: Option<Vec<PrimeTerms>> = own.iter().map(|own| own.images(m)).collect();
-        let images = images.unwrap_or_default();
-        if !is_left_out(&images)? {
-            is_new.push(own);
+        if is_left_out(&images.unwrap_or_default())? {
+            continue;
         }
+        let own = RealSearch { variables, m: *m, rng: &mut *rng, left, halt }.zeros(&own)?;
+        found.unknown += own.unknown();
+        found.written.extend(own.real);
     }
-    for own in unwritten {
-        open += usize::from(!is_left_out(&own)?);
-    }
-    Ok(Some(IsolatedValues { written: is_new, unwritten: open }))
+    Ok(Some(found))
 }
 
 /// Finds numerators and denominators of fractions, until there are no further numerators; `None` if one

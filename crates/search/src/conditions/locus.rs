@@ -13,6 +13,7 @@ use liouville::number::prime::Modulus;
 use super::equations::ParametricEquations;
 use super::factors::Bivariate;
 use super::hypersurface::{Hypersurface, PrimeTerms};
+use super::joined::joined;
 use super::parameter_line::ParameterLines;
 use super::polynomial::{Polynomial, PrimePolynomials};
 use super::variety::power;
@@ -26,8 +27,6 @@ const DEGREE: usize = 24;
 const COEFFICIENTS: usize = 500;
 /// Largest number of planes.
 const PLANES: usize = 80;
-/// Largest number of factors modulo the prime whose product is one over the rational numbers.
-const CONJUGATES: usize = 4;
 /// Number of primes, and of lines for each, on which a point of a hypersurface is looked for.
 const PRIMES: u64 = 16;
 const LINES: usize = 6;
@@ -36,7 +35,9 @@ const LINES: usize = 6;
 pub struct SpecialLocus {
     /// Those that are known as equations.
     pub surfaces: Vec<Hypersurface>,
-    /// Degree of all others together.
+    /// Further ones of which no points are found modulo primes, as those of sums of squares.
+    pub pointless: Vec<Hypersurface>,
+    /// Degree of all others together, with these.
     pub unexplained: usize,
 }
 
@@ -81,7 +82,8 @@ fn found(
     left: f64,
 ) -> Result<Result<SpecialLocus, NoLocus>, SearchError> {
     let Some(first) = planes.first(left)? else { return Ok(Err(NoLocus::NoFractions)) };
-    let mut found = SpecialLocus { surfaces: Vec::new(), unexplained: first.len() - 1 };
+    let (surfaces, pointless) = (Vec::new(), Vec::new());
+    let mut found = SpecialLocus { surfaces, pointless, unexplained: first.len() - 1 };
     if first.len() < 2 {
         return Ok(Ok(found));
     }
@@ -99,7 +101,10 @@ fn found(
             }
             // The level or the field is another one there, unless coefficients are short by accident.
             Some(false) => is_special(equations, draws, &own, 0..=0)? == Some(false),
-            None => false,
+            None => {
+                found.pointless.push(own.clone());
+                false
+            }
         };
         if is_told {
             found.unexplained = found.unexplained.saturating_sub(own.degree());
@@ -135,57 +140,6 @@ fn is_special(
         }
     }
     Ok(None)
-}
-
-/// Writes factors with rational coefficients; those without are multiplied with others.
-fn joined(mut images: Vec<PrimeTerms>, m: &Modulus) -> Vec<Hypersurface> {
-    let mut found = Vec::new();
-    for size in 1..=CONJUGATES {
-        let mut places: Vec<usize> = (0..size).collect();
-        while places.last().is_some_and(|last| *last < images.len()) {
-            let product = places
-                .iter()
-                .skip(1)
-                .fold(images[places[0]].clone(), |all, place| multiplied(&all, &images[*place], m));
-            match Hypersurface::of(&product, m) {
-                Some(own) => {
-                    found.push(own);
-                    places.iter().rev().for_each(|place| drop(images.remove(*place)));
-                    places = (0..size).collect();
-                }
-                None => advance(&mut places, images.len()),
-            }
-        }
-    }
-    found
-}
-
-/// Moves to the next subset of 0, …, count − 1 of the same size; the last one is followed by one that is
-/// out of range.
-fn advance(places: &mut [usize], count: usize) {
-    let size = places.len();
-    for k in (0..size).rev() {
-        if places[k] + (size - k) < count || k == 0 {
-            let first = places[k] + 1;
-            places[k..].iter_mut().enumerate().for_each(|(j, place)| *place = first + j);
-            return;
-        }
-    }
-}
-
-fn multiplied(a: &PrimeTerms, b: &PrimeTerms, m: &Modulus) -> PrimeTerms {
-    let mut product = PrimeTerms::new();
-    for (x, u) in a {
-        for (y, v) in b {
-            let exponents: Vec<u32> = x.iter().zip(y).map(|(x, y)| x + y).collect();
-            let image = m.mul(*u, *v);
-            match product.iter_mut().find(|(own, _)| *own == exponents) {
-                Some((_, sum)) => *sum = m.add(*sum, image),
-                None => product.push((exponents, image)),
-            }
-        }
-    }
-    product
 }
 
 /// Returns origin + t slope.

@@ -10,6 +10,7 @@ use std::cell::Cell;
 use rustc_hash::FxHashSet;
 
 use super::polynomial::{Polynomial, PrimePolynomials};
+use super::real::has_real_root;
 use super::relation::{Explained, Round, ScalarParameter, explained, is_short};
 use crate::budget::Budget;
 use crate::echelon::Echelon;
@@ -23,6 +24,7 @@ use crate::{Effort, Halt, SearchError};
 use liouville::case::Case;
 use liouville::mechanics::{Draw, ParameterOrigin, SamplerSpec};
 use liouville::number::prime::Modulus;
+use liouville::number::rational::Rational;
 use liouville::proof::{ProofRng, reconstruct, root_numbers};
 
 /// Number of points whose minors are compared.
@@ -84,8 +86,8 @@ pub fn relations(
 }
 
 /// Writes the equation of the values that are not rational, and of the roots of a further factor, if
-/// its coefficients are; `None` too if there are none.
-pub fn equation(name: &str, round: &Round, further: &[u64]) -> Option<String> {
+/// its coefficients are; `None` too if there are none. The inner `None` is for values none of which is real.
+pub fn equation(name: &str, round: &Round, further: &[u64]) -> Option<Option<String>> {
     let Round { values, modulus: m, .. } = round;
     let ring = PrimePolynomials(*m);
     let is_other = |value: &&u64| reconstruct(**value, m).filter(is_short).is_none();
@@ -94,9 +96,13 @@ pub fn equation(name: &str, round: &Round, further: &[u64]) -> Option<String> {
     if product.len() < 2 {
         return None;
     }
+    let lifted = |image: &u64| reconstruct(*image, m).filter(is_short);
+    let product: Vec<Rational> = product.iter().map(lifted).collect::<Option<_>>()?;
+    if !has_real_root(&product) {
+        return Some(None);
+    }
     let mut text = String::new();
-    for (power, image) in product.iter().enumerate().rev().filter(|(_, image)| **image != 0) {
-        let value = reconstruct(*image, m).filter(is_short)?;
+    for (power, value) in product.into_iter().enumerate().rev().filter(|(_, own)| !own.is_zero()) {
         let (sign, size) = match (value.is_negative(), text.is_empty()) {
             (true, true) => ("−", value.abs()),
             (true, false) => (" − ", value.abs()),
@@ -117,7 +123,7 @@ pub fn equation(name: &str, round: &Round, further: &[u64]) -> Option<String> {
             (false, false) => format!("{size}*{base}"),
         });
     }
-    Some(format!("{text} = 0"))
+    Some(Some(format!("{text} = 0")))
 }
 
 /// Minors as functions of one draw of the parameters.

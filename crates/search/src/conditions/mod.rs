@@ -12,9 +12,13 @@
 //! by_values  such equations for each of listed values
 //! values    values of its only parameter
 //! isolated  values of several parameters that belong to no condition of codimension one
-//! beyond    such values for more polynomial integrals of a field
-//! solved, real  cases where equations hold; real roots
-//! ideal, bounded_ideal, quotient  common zeros of polynomials in the parameters, and common divisors
+//! claimed, singled  conditions for one claim: of codimension one, and single values
+//! beyond    single values for more polynomial integrals of a field
+//! solved, motion, points  cases where equations hold, whether the motion has values there, and points
+//!           modulo a prime
+//! real      real zeros of equations
+//! ideal, bounded_ideal, decomposition, quotient  common zeros of polynomials in the parameters, their
+//!           parts, and common divisors
 //! ```
 //!
 //! For fields the minors are those of [`equations`] for the coefficients of a polynomial:
@@ -25,6 +29,7 @@
 //! parameter_line  the special values on a line of parameters
 //! factors         factors of polynomials in two variables
 //! locus           the special parameters of codimension one, factor by factor
+//! joined          factors modulo a prime whose products have rational coefficients
 //! hypersurface    a factor as an equation with rational coefficients
 //! simple          sets of equations x = 0, x = y, for conditions of several equations
 //! ```
@@ -36,17 +41,22 @@
 mod beyond;
 mod bounded_ideal;
 pub mod by_values;
+mod claimed;
 mod coordinates;
+mod decomposition;
 mod equations;
 mod factors;
 mod hypersurface;
 mod ideal;
 mod isolated;
+mod joined;
 mod line;
 mod locus;
 mod minors;
+mod motion;
 mod parameter_line;
 mod pencil;
+mod points;
 mod polynomial;
 mod quotient;
 mod real;
@@ -54,6 +64,7 @@ mod relation;
 mod residual;
 mod several;
 mod simple;
+mod singled;
 mod small;
 mod solved;
 mod split;
@@ -64,21 +75,11 @@ mod velocities;
 use serde::Serialize;
 
 use super::lists::{self, ListedCase};
+use super::origin::ConditionOrigin;
 use super::{Effort, SearchError, SearchReport};
 pub use coordinates::components;
-use line::{LineResult, Lines};
 use liouville::case::{Case, PlacedClaim};
-use residual::Residual;
-use split::SplitCase;
 
-/// Highest degree of an equation.
-const DEGREE: u32 = 5;
-/// Number of lines after which the search for points ends.
-const LINES: usize = 4000;
-/// Number of lines without any point after which there is no condition of codimension one.
-const BARREN: usize = 24;
-/// Number of points that establish a simple condition shared by them.
-const REPEATED: usize = 2;
 /// Largest number of combinations of listed values that are treated one by one.
 const MOST_LISTED: usize = 8;
 /// Statement of the criterion.
@@ -93,6 +94,9 @@ pub struct ParameterCondition {
     pub equations: Vec<String>,
     /// Method by which it was found, or the reason why there is none.
     pub grounds: String,
+    /// Source.
+    #[serde(skip)]
+    pub origin: ConditionOrigin,
 }
 
 /// The statements for which conditions are searched.
@@ -140,7 +144,8 @@ fn by_values(
     let mut always = Vec::new();
     let own = lists::each_or_first(case, MOST_LISTED);
     for ListedCase { case, values } in &own {
-        match condition(case, claim, effort)? {
+        let of = claim.map_or(CRITERION, |claim| &claim.name);
+        match claimed::condition(case, (claim, of), effort)? {
             Some(mut own) => {
                 if !values.is_empty() {
                     own.of = format!("{}, for {values}", own.of);
@@ -155,139 +160,4 @@ fn by_values(
         report.remark(format!("{of}: no condition is needed for {}", always.join(", or ")));
     }
     Ok(())
-}
-
-/// Finds the conditions for one claim, or for the criterion; `None` if it always holds.
-fn condition(
-    case: &Case,
-    claim: Option<&PlacedClaim>,
-    effort: &Effort,
-) -> Result<Option<ParameterCondition>, SearchError> {
-    let of = claim.map_or(CRITERION, |claim| &claim.name);
-    let told = |equations: Vec<String>, grounds: String| {
-        Ok(Some(ParameterCondition { of: of.to_string(), equations, grounds }))
-    };
-    let Some(residual) = Residual::of(case, claim, effort.options.seed)? else { return Ok(None) };
-    let Some(mut lines) = Lines::new(&residual, effort)? else {
-        let grounds = "the residual is not a fraction of low degree in the parameters";
-        return told(Vec::new(), grounds.to_string());
-    };
-    let names = residual.names();
-    let (mut equations, mut points): (Vec<(String, usize)>, Vec<Vec<u64>>) = Default::default();
-    let (mut degree, mut seen, mut tried) = (0, 0, 0);
-    for line in 0..LINES {
-        match lines.next()? {
-            LineResult::Always => return Ok(None),
-            LineResult::Unknown => {
-                return told(
-                    Vec::new(),
-                    "the residual is not a fraction of low degree in the parameters".to_string(),
-                );
-            }
-            LineResult::Points(found, own) => {
-                degree = degree.max(own);
-                for point in found {
-                    seen += 1;
-                    let all: Vec<usize> = (0..point.len()).collect();
-                    let own = variety::simple(names, &point, &all);
-                    if own.is_empty() {
-                        points.push(point);
-                    }
-                    for text in own {
-                        match equations.iter_mut().find(|(known, _)| known == &text) {
-                            Some((_, count)) => *count += 1,
-                            None => equations.push((text, 1)),
-                        }
-                    }
-                }
-            }
-        }
-        if line == BARREN && degree == 0 {
-            if let Some(own) = SeveralEquations::of(case, claim, effort)? {
-                let grounds = format!("no condition of codimension one on {BARREN} random lines");
-                let grounds = own.grounds(&grounds, "modulo a prime of 61 bits");
-                return told(own.equations, grounds);
-            }
-            let (systems, met) = small::conditions(&residual, effort)?;
-            let grounds = format!(
-                "no condition of codimension one on {BARREN} random lines; {met} points found by random sampling modulo 43"
-            );
-            return told(systems, grounds);
-        }
-        if points.len() >= variety::needed(names.len(), tried + 1) {
-            tried += 1;
-            if let Some(found) = variety::equations(names, &points, &lines.modulus(), tried) {
-                equations.extend(found.into_iter().map(|text| (text, points.len())));
-                break;
-            }
-            if tried == DEGREE {
-                break;
-            }
-        }
-        if line > 8 * BARREN && points.is_empty() {
-            break;
-        }
-    }
-    equations.retain(|(_, count)| *count >= REPEATED);
-    let mut grounds =
-        format!("{seen} points on random lines; the condition has degree {degree} along them");
-    let mut equations: Vec<String> = equations.into_iter().map(|(text, _)| text).collect();
-    if let Some(own) = SeveralEquations::of(case, claim, effort)? {
-        grounds = own.grounds(&grounds, "besides it, modulo a prime of 61 bits,");
-        equations.extend(own.equations);
-    }
-    told(equations, grounds)
-}
-
-/// Conditions of several equations for one claim, or for the criterion.
-struct SeveralEquations {
-    equations: Vec<String>,
-    /// Those under which the claim is proved.
-    proved: Vec<String>,
-    /// Number of conditions that are not written.
-    unwritten: usize,
-}
-
-impl SeveralEquations {
-    /// Finds them; `None` if the residual is not a fraction of low degree in the parameters.
-    fn of(
-        case: &Case,
-        claim: Option<&PlacedClaim>,
-        effort: &Effort,
-    ) -> Result<Option<Self>, SearchError> {
-        let split = SplitCase::of(case);
-        if split.scalars.is_empty() {
-            return Ok(None);
-        }
-        let Some(found) = isolated::of_claim(&split, claim, effort)? else { return Ok(None) };
-        let (mut equations, mut proved) = (Vec::new(), Vec::new());
-        for own in &found.written {
-            let texts: Vec<String> = own.iter().map(|own| own.equation(&split.scalars)).collect();
-            let text = texts.join(" and ");
-            if let Some(claim) = claim
-                && solved::is_proved(&split, own, claim, effort)?
-            {
-                proved.push(text.clone());
-            }
-            equations.push(text);
-        }
-        Ok(Some(Self { equations, proved, unwritten: found.unwritten }))
-    }
-
-    /// Adds to grounds what is found, proved and left out; `scope` says where.
-    fn grounds(&self, before: &str, scope: &str) -> String {
-        let mut text = format!("{before}; {scope} ");
-        text.push_str(&match (self.equations.len(), self.unwritten) {
-            (0, 0) => "it holds for no real values of the parameters".to_string(),
-            (_, 0) => "it holds for no other real values than those told".to_string(),
-            (_, n) => format!(
-                "it holds for the values told, and for {n} sets of values whose equations have no short \
-                 coefficients"
-            ),
-        });
-        if !self.proved.is_empty() {
-            text.push_str(&format!("; proved where {}", self.proved.join(", or where ")));
-        }
-        text
-    }
 }

@@ -100,7 +100,7 @@ fn on_line(m: &Modulus, own: &PrimeTerms, origin: &[u64], slope: &[u64]) -> Poly
 }
 
 /// Divides a polynomial by another, without a rest; `None` if there is one.
-fn divided(m: &Modulus, above: &PrimeTerms, below: &PrimeTerms) -> Option<PrimeTerms> {
+pub fn divided(m: &Modulus, above: &PrimeTerms, below: &PrimeTerms) -> Option<PrimeTerms> {
     let key = |own: &[u32]| (own.iter().sum::<u32>(), own.to_vec());
     let used = below.iter().filter(|(_, image)| *image != 0);
     let (lead, image) = used.clone().max_by_key(|(own, _)| key(own))?;

@@ -17,6 +17,9 @@ use liouville::verdict::Sampler;
 /// Number of points evaluated at a time.
 pub const RESIDUAL_LANES: usize = 8;
 
+/// Number of rounds of random points at which rates are looked at: a root has values at half of them.
+const TRIALS: usize = 4;
+
 /// A residual that has to vanish for all states.
 pub struct Residual {
     tape: Tape,
@@ -26,6 +29,10 @@ pub struct Residual {
     names: Vec<String>,
     /// Number of outputs that belong to the residual; the components follow.
     height: usize,
+    /// Number of outputs at the end that are rates of the motion with values modulo primes.
+    rates: usize,
+    /// Whether all rates have.
+    has_all_rates: bool,
     /// Draws of the parameters; those of the state follow.
     parameters: Vec<Draw>,
     /// Numbers that are squares modulo primes.
@@ -34,7 +41,7 @@ pub struct Residual {
 
 /// One point of an evaluation: the residual, and the parameters' components.
 pub struct ResidualPoint {
-    /// Values of the residual; `None` where it is undefined.
+    /// Values of the residual; `None` where it or the motion is undefined.
     pub residual: Option<Vec<u64>>,
     /// Values of the parameters' components.
     pub components: Vec<u64>,
@@ -50,7 +57,7 @@ impl Residual {
     ) -> Result<Option<Self>, SearchError> {
         let model = &case.model;
         let terms = components(case);
-        let (graph, (residual, values)) = recorded(case, |jet| {
+        let (graph, (residual, values, rates)) = recorded(case, |jet| {
             let residual: Option<Vec<Expr>> = match claim {
                 Some(claim) => Some(claim.kind.residual(jet, &claim.place.kept)),
                 None => {
@@ -58,7 +65,9 @@ impl Residual {
                 }
             };
             let values = terms.iter().map(|term| jet.phase.scalar(term)).collect();
-            (residual, values)
+            // A claim about a motion says nothing where there is none.
+            let rates = claim.map(|_| jet.phase.field().to_vec()).unwrap_or_default();
+            (residual, values, rates)
         })?;
         let Some(residual) = residual else { return Ok(None) };
         let place = claim.map_or_else(|| LevelSubset::level(model), |claim| claim.place.clone());
@@ -68,23 +77,65 @@ impl Residual {
         }
         let fixed = vec![None; sampler.recipes().len()];
         let height = residual.len();
-        let (graph, outputs) = sampler.compose(&graph, &[residual, values], &fixed)?;
+        let count = rates.len();
+        let (graph, outputs) = sampler.compose(&graph, &[residual, values, rates], &fixed)?;
         let names = terms.iter().map(ToString::to_string).collect();
         let parameters = model.parameter_draws();
         let laid_out = |outputs: &[Vec<Expr>]| Tape::new(&graph, &outputs.concat());
         let (inputs, numbers) = (graph.inputs(), root_numbers(&graph));
-        let mut residual =
-            Self { tape: laid_out(&outputs), names, height, parameters, inputs, numbers };
+        let mut residual = Self {
+            tape: laid_out(&outputs[..2]),
+            names,
+            height,
+            rates: 0,
+            has_all_rates: true,
+            parameters,
+            inputs,
+            numbers,
+        };
         let varying = residual.varying(seed);
-        let keep = |k: &usize| outputs[1][*k];
-        residual.tape = laid_out(&[outputs[0].clone(), varying.iter().map(keep).collect()]);
+        let kept: Vec<Expr> = varying.iter().map(|k| outputs[1][*k]).collect();
         residual.names = varying.iter().map(|k| residual.names[*k].clone()).collect();
+        // A sine has no values modulo primes.
+        let alone = Tape::new(&graph, &outputs[2]);
+        let mut rates = outputs[2].clone();
+        let mut has_values = residual.defined(&alone, seed).into_iter();
+        rates.retain(|_| has_values.next() == Some(true));
+        (residual.rates, residual.has_all_rates) = (rates.len(), rates.len() == count);
+        residual.tape = laid_out(&[outputs[0].clone(), kept, rates]);
         Ok(Some(residual))
     }
 
     /// Draws a prime modulo which the roots of the residual keep their ratios.
     pub fn prime(&self, rng: &mut ProofRng) -> Modulus {
         rng.prime_for(&self.numbers)
+    }
+
+    /// Whether the rates of the motion have values modulo primes.
+    pub fn has_all_rates(&self) -> bool {
+        self.has_all_rates
+    }
+
+    /// Tells which outputs of a tape with the same inputs have values at some points.
+    fn defined(&self, tape: &Tape, seed: u64) -> Vec<bool> {
+        let mut rng = SearchStream::Residuals.under(seed.wrapping_add(50));
+        let modulus = self.prime(&mut rng);
+        let mut evaluator: Evaluator<'_, Prime<RESIDUAL_LANES>> =
+            Evaluator::new(tape, Prime::new([modulus; RESIDUAL_LANES]));
+        let mut found: Vec<bool> = Vec::new();
+        for _ in 0..TRIALS {
+            let mut lane =
+                || [self.parameters(&modulus, &mut rng), self.state(&modulus, &mut rng)].concat();
+            let lanes: [Vec<u64>; RESIDUAL_LANES] = std::array::from_fn(|_| lane());
+            let inputs: Vec<[u64; RESIDUAL_LANES]> =
+                (0..self.inputs).map(|k| lanes.each_ref().map(|own| own[k])).collect();
+            evaluator.run(&inputs);
+            let seen: Vec<bool> =
+                evaluator.outputs().map(|own| own.iter().any(|x| *x != UNDEFINED)).collect();
+            found.resize(seen.len(), false);
+            found.iter_mut().zip(seen).for_each(|(found, seen)| *found |= seen);
+        }
+        found
     }
 
     /// Returns the components that differ between draws, and from those before them.
@@ -147,10 +198,13 @@ impl Residual {
         evaluator.run(&inputs);
         let values: Vec<&[u64; RESIDUAL_LANES]> = evaluator.outputs().collect();
         std::array::from_fn(|lane| {
+            let (values, rates) = values.split_at(values.len() - self.rates);
             let (residual, components) = values.split_at(self.height);
             let residual: Vec<u64> = residual.iter().map(|block| block[lane]).collect();
+            let is_defined = residual.iter().chain(rates.iter().map(|own| &own[lane]));
+            let is_defined = is_defined.into_iter().all(|x| *x != UNDEFINED);
             ResidualPoint {
-                residual: (!residual.contains(&UNDEFINED)).then_some(residual),
+                residual: is_defined.then_some(residual),
                 components: components.iter().map(|block| block[lane]).collect(),
             }
         })

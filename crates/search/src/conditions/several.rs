@@ -17,6 +17,7 @@ use super::split::SplitCase;
 use super::values::{self, integrals_with};
 use crate::branches;
 use crate::budget::STEPS;
+use crate::origin::ConditionOrigin;
 use crate::{Effort, SearchError, SearchReport};
 
 /// Steps of a search for integrals where a condition holds: half a second.
@@ -69,9 +70,17 @@ fn in_all(
         return Ok(false);
     }
     let left = effort.seconds * STEPS;
-    let (found, open, isolated) = (Vec::new(), Vec::new(), Vec::new());
-    let mut search =
-        ConditionSearch { whole, effort, report, progress, found, open, isolated, left };
+    let mut search = ConditionSearch {
+        whole,
+        effort,
+        report,
+        progress,
+        found: Vec::new(),
+        open: Vec::new(),
+        isolated: Vec::new(),
+        singular: Vec::new(),
+        left,
+    };
     let none = SimpleEquations::none(whole.scalars.len());
     if !search.examined(&none, whole)? {
         return Ok(false);
@@ -151,6 +160,8 @@ pub struct ConditionSearch<'s> {
     open: Vec<(String, usize, Vec<String>)>,
     /// Conditions of several equations that belong to none of codimension one.
     pub isolated: Vec<Vec<Hypersurface>>,
+    /// Real zeros of equations without real hypersurfaces, and the degree at which they may give more.
+    pub singular: Vec<(u32, Vec<Hypersurface>)>,
     /// Number of elementary steps that may still be taken.
     pub left: f64,
 }
@@ -219,6 +230,7 @@ impl ConditionSearch<'_> {
                 of: format!("more polynomial integrals of degree at most {last}, by {names}"),
                 equations: Vec::new(),
                 grounds: format!("{GROUNDS}; {NO_EQUATION}{}", split.reservation()),
+                origin: ConditionOrigin::Polynomials,
             });
         }
         Ok(true)
@@ -230,9 +242,10 @@ impl ConditionSearch<'_> {
         simple: &SimpleEquations,
         split: &SplitCase,
         degree: u32,
-        locus: SpecialLocus,
+        mut locus: SpecialLocus,
     ) -> Result<(), SearchError> {
         let free = simple.free();
+        let unknown = self.without_thin(simple, degree, &mut locus)?;
         let mut equations = Vec::new();
         for own in &locus.surfaces {
             let spread = own.spread(&free, simple.first().len());
@@ -260,7 +273,7 @@ impl ConditionSearch<'_> {
         if equations.is_empty() && locus.unexplained == 0 {
             return Ok(());
         }
-        let reservation = split.reservation();
+        let reservation = format!("{unknown}{}", split.reservation());
         let of = format!("more polynomial integrals of degree at most {degree}");
         if simple.count() == 0 {
             let names: Vec<&str> = split.scalars.iter().map(|own| own.name.as_str()).collect();
@@ -268,6 +281,7 @@ impl ConditionSearch<'_> {
                 of: format!("{of}, by {}", names.join(", ")),
                 equations,
                 grounds: format!("{GROUNDS}; {}{reservation}", rest(locus.unexplained)),
+                origin: ConditionOrigin::Polynomials,
             });
             return Ok(());
         }
@@ -283,7 +297,8 @@ impl ConditionSearch<'_> {
             Some(own) => own.equations.extend(equations),
             None => {
                 let grounds = format!("{GROUNDS}{reservation}");
-                self.report.conditions.push(ParameterCondition { of, equations, grounds });
+                let origin = ConditionOrigin::Polynomials;
+                self.report.conditions.push(ParameterCondition { of, equations, grounds, origin });
             }
         }
         Ok(())

@@ -3,13 +3,20 @@
 //! A variety of codimension two has about one point in p². Most conditions met in one field may be
 //! accidents of that field; so equations are found modulo one prime and confirmed modulo another.
 
+use std::cell::Cell;
+
+use super::hypersurface::Hypersurface;
+use super::isolated::SHARE;
+use super::real::RealSearch;
 use super::residual::{RESIDUAL_LANES, Residual};
-use super::variety::{monomial, power, simple};
+use super::variety::{VarietyEquation, monomial, power, simple};
+use crate::budget::STEPS;
 use crate::echelon::Echelon;
 use crate::series::exponents;
 use crate::streams::SearchStream;
 use crate::{Effort, Halt, SearchError};
 use liouville::number::prime::Modulus;
+use liouville::number::rational::Rational;
 use liouville::proof::ProofRng;
 
 /// Primes that are 3 modulo 4: equations are found modulo the first and confirmed modulo the
@@ -46,11 +53,12 @@ pub fn conditions(
     for (point, of) in found.iter().map(|p| (p, 0)).chain(again.iter().map(|p| (p, 1))) {
         let own = simple(names, point, &all);
         // A zero parameter is met by accident in half of a small field.
-        if own.iter().any(|text| text.ends_with("= 0")) {
+        if own.iter().any(|own| own.terms.len() == 1) {
             continue;
         }
         if own.len() >= 2 {
-            plain.push((own.join(" and "), of));
+            let texts: Vec<String> = own.into_iter().map(|own| own.text).collect();
+            plain.push((texts.join(" and "), of));
         } else if own.is_empty() {
             others.push((point.clone(), of));
         }
@@ -64,7 +72,19 @@ pub fn conditions(
     let in_field = |field: usize| -> Vec<Vec<u64>> {
         others.iter().filter(|(_, of)| *of == field).map(|(point, _)| point.clone()).collect()
     };
-    systems.extend(system(names, &in_field(0), &in_field(1), first, second, &mut rng));
+    if let Some(found) = system(names, &in_field(0), &in_field(1), first, second, &mut rng) {
+        // Sets without real values, and those of which that is not known, are left out.
+        let equations: Vec<Hypersurface> =
+            found.iter().filter_map(|own| Hypersurface::from_terms(own.terms.clone())).collect();
+        let m = rng.prime(&[], &[]);
+        let left = Cell::new(SHARE * effort.seconds * STEPS);
+        let (variables, halt) = (names.len(), &effort.halt);
+        let mut search = RealSearch { variables, m, rng: &mut rng, left: &left, halt };
+        if search.zeros(&equations)?.real.contains(&equations) {
+            let texts: Vec<String> = found.into_iter().map(|own| own.text).collect();
+            systems.push(texts.join(" and "));
+        }
+    }
     Ok((systems, met))
 }
 
@@ -116,7 +136,7 @@ fn system(
     first: Modulus,
     second: Modulus,
     rng: &mut ProofRng,
-) -> Option<String> {
+) -> Option<Vec<VarietyEquation>> {
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let monomials: Vec<Vec<u32>> =
         (0..=DEGREE).flat_map(|total| exponents(names.len(), total)).collect();
@@ -145,9 +165,12 @@ fn system(
         };
         if !equations.is_empty() && most(points, &first) && most(again, &second) {
             let texts: Vec<String> = monomials.iter().map(|e| monomial(&names, e)).collect();
-            let written: Vec<String> =
-                equations.iter().map(|equation| written(equation, &texts)).collect();
-            return Some(written.join(" and "));
+            let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+            let written = |own: &Vec<i64>| {
+                let own: Vec<Rational> = own.iter().map(|a| Rational::from(*a)).collect();
+                VarietyEquation::of(&own, &monomials, &texts)
+            };
+            return Some(equations.iter().map(written).collect());
         }
     }
     None
@@ -169,11 +192,4 @@ fn vanishes(equation: &[i64], row: &[u64], m: &Modulus) -> bool {
         if *a < 0 { m.sub(0, size) } else { size }
     };
     equation.iter().zip(row).map(term).fold(0, |sum, x| m.add(sum, x)) == 0
-}
-
-fn written(equation: &[i64], monomials: &[String]) -> String {
-    use liouville::number::rational::Rational;
-    let coefficients: Vec<Rational> = equation.iter().map(|a| Rational::from(*a)).collect();
-    let texts: Vec<&str> = monomials.iter().map(String::as_str).collect();
-    crate::terms::equation(&coefficients, &texts)
 }

@@ -22,6 +22,7 @@ use crate::ansatz::system::PrimePoint;
 use crate::budget::STEPS;
 use crate::echelon::Echelon;
 use crate::orbit;
+use crate::origin::ConditionOrigin;
 use crate::streams::SearchStream;
 use crate::{Effort, SearchError, SearchReport};
 
@@ -54,6 +55,7 @@ pub fn conditions(
                  more{}",
                 split.reservation()
             ),
+            origin: ConditionOrigin::Polynomials,
         });
     }
     Ok(())
@@ -122,7 +124,7 @@ fn up_to(
                     roots: found.rest.len().saturating_sub(1),
                 },
             };
-            equations.extend(others.filter(|own| !told.contains(own)));
+            equations.extend(others.flatten().filter(|own| !told.contains(own)));
             if equations.is_empty() && open.count() == 0 {
                 continue;
             }
@@ -135,6 +137,7 @@ fn up_to(
                     open.words(parameter),
                     split.reservation()
                 ),
+                origin: ConditionOrigin::Polynomials,
             });
         }
     }

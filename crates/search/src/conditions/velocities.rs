@@ -12,6 +12,7 @@ use crate::counts::size;
 use crate::jets::VelocityPolynomials;
 use crate::lists::{self, ListedCase};
 use crate::local::Local;
+use crate::origin::ConditionOrigin;
 use crate::{Effort, SearchError, SearchReport};
 
 const GROUNDS: &str = "minors of the equations for Taylor coefficients";
@@ -28,7 +29,7 @@ pub fn conditions(
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    match Local::of(case, &[]) {
+    match Local::of(case) {
         // Those of fields are sought elsewhere.
         Err(SearchError::Unsplit(_))
             if matches!(case.model.system, System::Field(_) | System::Hamiltonian(_)) =>
@@ -83,7 +84,7 @@ impl ValueSearch<'_> {
         report: &mut SearchReport,
         progress: &mut dyn FnMut(&str),
     ) -> Result<(), SearchError> {
-        let local = Local::of(self.case, &[])?;
+        let local = Local::of(self.case)?;
         let all = minors::scalars(self.case);
         let mut told: Vec<ToldValues> = all.iter().map(|_| ToldValues::default()).collect();
         let mut last = 0;
@@ -123,7 +124,7 @@ impl ValueSearch<'_> {
         let mixed = self.case.model.system.energy_is_inhomogeneous();
         let asked = VelocityPolynomials { degree, mixed };
         let rounds = if count > 1 { minors::ROUNDS } else { 1 };
-        let least = size(local, degree, mixed).1 * minors::least_values(rounds) as f64;
+        let least = size(&local.coordinates, degree, mixed).1 * minors::least_values(rounds) as f64;
         if least * STEPS > self.left.get() {
             return Ok(None);
         }
@@ -175,6 +176,7 @@ impl ValueSearch<'_> {
                 ),
                 equations: Vec::new(),
                 grounds: format!("{GROUNDS}; {NO_VALUE}"),
+                origin: ConditionOrigin::Counts,
             });
         }
     }
@@ -207,6 +209,7 @@ impl FoundValues {
             of: format!("more integrals of degree {degree}, by the value of {name}{reservation}"),
             equations: self.equations,
             grounds,
+            origin: ConditionOrigin::Counts,
         }
     }
 }

@@ -3,12 +3,12 @@
 use num_dual::{Dual, DualNum};
 
 use super::mechanical::Mechanical;
+use super::unwound::rational;
 use crate::SearchError;
 use liouville::case::Case;
 use liouville::graph::{Expr, Fault, Graph, record};
 use liouville::mechanics::elimination::{dot, solve_positive};
 use liouville::mechanics::{Chart, Model, System};
-use liouville::proof::without_arctangents;
 use liouville::scalar::Scalar;
 
 /// Local coordinates of the level, positions followed by velocities.
@@ -133,7 +133,7 @@ impl Coordinates {
     ) -> Vec<Expr> {
         match &self.kind {
             LocalKind::Components(places) => places.iter().map(|place| field[*place]).collect(),
-            LocalKind::Mechanical(own) => own.rates(point, field),
+            LocalKind::Mechanical(own) => own.rates(parameters, point, field),
             LocalKind::Rolling | LocalKind::Sphere => {
                 let parameters: Vec<Dual<Expr>> =
                     parameters.iter().map(|p| Dual::from_re(*p)).collect();
@@ -157,8 +157,8 @@ impl Coordinates {
         self.positions + self.velocities
     }
 
-    /// Records functions of these coordinates. Those in which angles are points of a circle have no
-    /// sine and cosine then.
+    /// Records functions of these coordinates. Those in which angles are points of a circle have no sine and
+    /// cosine then, and those in which exponentials are coordinates no exponential.
     pub fn record(
         &self,
         inputs: usize,
@@ -166,7 +166,7 @@ impl Coordinates {
     ) -> Result<(Graph, Vec<Expr>), Fault> {
         let (graph, values) = record(inputs, build)?;
         match &self.kind {
-            LocalKind::Mechanical(own) if own.has_angles() => without_arctangents(&graph, &values),
+            LocalKind::Mechanical(own) if own.is_substituted() => rational(&graph, &values),
             _ => Ok((graph, values)),
         }
     }

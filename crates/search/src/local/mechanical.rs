@@ -1,20 +1,23 @@
 //! Coordinates of a Lagrangian system: positions and independent velocities.
 //!
-//! Constraints that are linear in the velocities are solved for as many of them, and an angle φ of which
-//! only sines and cosines occur becomes t = tan φ/2, so that the equations are rational.
+//! Constraints that are linear in the velocities are solved for as many of them. An angle φ of which only sines
+//! and cosines occur becomes t = tan φ/2, and a position x of which only exponentials e^(n r x) with whole n
+//! occur becomes u = e^(r x), so that the equations are rational.
 
 use num_dual::Dual;
 
+use super::exponentials::{self, logarithm};
+use super::unwound::{angles, rational, twice_the_arctangent};
 use crate::SearchError;
 use crate::echelon::Echelon;
 use crate::streams::SearchStream;
 use liouville::case::Case;
-use liouville::graph::{Evaluator, Expr, Graph, Tape, record};
+use liouville::graph::{Evaluator, Expr, Graph, Step, Tape, record};
 use liouville::mechanics::elimination::solve_by_minors;
 use liouville::mechanics::{Draw, Lagrangian, Model, Phase, VariableRole};
 use liouville::number::prime::{Prime, UNDEFINED};
 use liouville::number::rational::Rational;
-use liouville::proof::{angle_arguments, root_numbers, without_arctangents};
+use liouville::proof::root_numbers;
 use liouville::scalar::Scalar;
 
 /// Number of points at which constraints are looked at.
@@ -23,14 +26,63 @@ const TRIALS: usize = 64;
 /// Coordinates of a Lagrangian system.
 #[derive(Clone, Debug)]
 pub struct Mechanical {
-    /// Components of the state that are positions, and whether each is an angle.
-    positions: Vec<(usize, bool)>,
+    /// Components of the state that are positions, and what each is in place of.
+    positions: Vec<(usize, Place)>,
     /// Components that are independent velocities.
     free: Vec<usize>,
     /// Components that are velocities given by the constraints.
     dependent: Vec<usize>,
-    /// Whether each draw of a parameter is an angle.
-    turned: Vec<bool>,
+    /// What each draw of a parameter is in place of.
+    turned: Vec<Place>,
+}
+
+/// Number in place of a variable.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Place {
+    /// The variable itself.
+    Plain,
+    /// tan φ/2.
+    Angle,
+    /// The exponential of a multiple of the variable.
+    Exponential {
+        /// Rational factor of the multiple.
+        number: Rational,
+        /// A parameter that is a further factor.
+        letter: Option<Letter>,
+    },
+}
+
+/// A parameter by its draw and by its component.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Letter {
+    draw: usize,
+    component: usize,
+}
+
+impl Place {
+    /// The variable, from the number in place of it; letters are looked up.
+    fn value<T: Scalar>(&self, x: T, letters: &dyn Fn(Letter) -> T) -> T {
+        match self {
+            Place::Plain => x,
+            Place::Angle => twice_the_arctangent(x),
+            Place::Exponential { number, letter } => logarithm(x, number, letter.map(letters)),
+        }
+    }
+
+    /// Rate of the number, from that of the variable.
+    fn rate(&self, x: Expr, rate: Expr, parameters: &[Expr]) -> Expr {
+        match self {
+            Place::Plain => rate,
+            Place::Angle => {
+                let one = Expr::rational(&Rational::from(1));
+                rate * Expr::rational(&Rational::new(1, 2)) * (one + x * x)
+            }
+            Place::Exponential { number, letter } => {
+                let rate = rate * x * Expr::rational(number);
+                letter.map_or(rate, |letter| rate * parameters[letter.component])
+            }
+        }
+    }
 }
 
 impl Mechanical {
@@ -60,10 +112,12 @@ impl Mechanical {
         let angles = turned.split_off(draws.len());
         for (turned, draw) in turned.iter_mut().zip(&draws) {
             // Other draws are numbers.
-            *turned &= matches!(draw, Draw::Within(_) | Draw::Of(..));
+            if !matches!(draw, Draw::Within(_) | Draw::Of(..)) {
+                *turned = Place::Plain;
+            }
         }
         let plain = Self {
-            positions: positions.iter().map(|place| (*place, angles[*place])).collect(),
+            positions: positions.iter().map(|place| (*place, angles[*place].clone())).collect(),
             free: velocities,
             dependent: Vec::new(),
             turned,
@@ -97,22 +151,27 @@ impl Mechanical {
         self.free.len()
     }
 
-    /// Whether a position or a parameter is an angle.
-    pub fn has_angles(&self) -> bool {
-        self.positions.iter().any(|(_, angle)| *angle) || self.turned.contains(&true)
+    /// Whether a number is in place of another variable.
+    pub fn is_substituted(&self) -> bool {
+        self.positions
+            .iter()
+            .map(|(_, own)| own)
+            .chain(&self.turned)
+            .any(|own| *own != Place::Plain)
     }
 
     /// Makes draws of the parameters from coordinates of them.
     pub fn draws<T: Scalar>(&self, given: &[T]) -> Vec<T> {
-        given.iter().zip(&self.turned).map(|(x, turned)| place(*x, *turned)).collect()
+        let own = given.iter().zip(&self.turned);
+        own.map(|(x, turned)| turned.value(*x, &|letter| given[letter.draw])).collect()
     }
 
     /// Returns the state at a point.
     pub fn state<T: Scalar>(&self, model: &Model, parameters: &[T], point: &[T]) -> Vec<T> {
         let mut state = vec![T::zero(); model.dimension()];
         let (positions, velocities) = point.split_at(self.positions.len());
-        for ((component, angle), x) in self.positions.iter().zip(positions) {
-            state[*component] = place(*x, *angle);
+        for ((component, own), x) in self.positions.iter().zip(positions) {
+            state[*component] = own.value(*x, &|letter| parameters[letter.component]);
         }
         for (component, x) in self.free.iter().zip(velocities) {
             state[*component] = *x;
@@ -140,13 +199,10 @@ impl Mechanical {
     }
 
     /// Returns the rates of the coordinates.
-    pub fn rates(&self, point: &[Expr], field: &[Expr]) -> Vec<Expr> {
-        let (one, half) = (number(1, 1), number(1, 2));
+    pub fn rates(&self, parameters: &[Expr], point: &[Expr], field: &[Expr]) -> Vec<Expr> {
+        let own = self.positions.iter().zip(point);
         let positions =
-            self.positions.iter().zip(point).map(|((component, angle), t)| match angle {
-                true => field[*component] * half * (one + *t * *t),
-                false => field[*component],
-            });
+            own.map(|((component, own), x)| own.rate(*x, field[*component], parameters));
         positions.chain(self.free.iter().map(|component| field[*component])).collect()
     }
 }
@@ -169,8 +225,9 @@ impl Slopes {
             let parameters: Vec<Dual<Expr>> =
                 parameters.iter().map(|p| Dual::from_re(*p)).collect();
             let mut state: Vec<Dual<Expr>> = state.iter().map(|x| Dual::from_re(*x)).collect();
-            for (component, angle) in &at.positions {
-                state[*component] = place(state[*component], *angle);
+            for (component, own) in &at.positions {
+                let letter = |letter: Letter| parameters[letter.component];
+                state[*component] = own.value(state[*component], &letter);
             }
             let along = |component: &usize| {
                 let mut lifted = state.clone();
@@ -180,7 +237,7 @@ impl Slopes {
             let columns = velocities.iter().flat_map(along);
             columns.map(|slope| slope.eps).collect::<Vec<Expr>>()
         })?;
-        let (graph, slopes) = without_arctangents(&graph, &slopes)?;
+        let (graph, slopes) = rational(&graph, &slopes)?;
         let is_velocity = |input: &usize| *input >= draws && velocities.contains(&(*input - draws));
         if slopes.iter().any(|slope| graph.inputs_of(*slope).iter().any(is_velocity)) {
             return Err(SearchError::Unsplit("the constraints are not linear in the velocities"));
@@ -220,46 +277,42 @@ impl Slopes {
     }
 }
 
-/// The value of a variable: x, or 2 atan x.
-fn place<T: Scalar>(x: T, angle: bool) -> T {
-    if angle { twice_the_arctangent(x) } else { x }
-}
-
-/// The angle φ with tan φ/2 = t.
-pub fn twice_the_arctangent<T: Scalar>(t: T) -> T {
-    t.atan() * T::from(2.0)
-}
-
-fn number(a: i64, b: i64) -> Expr {
-    Expr::rational(&Rational::new(a, b))
-}
-
 /// The left sides of the constraints.
 fn constraints<T: Scalar>(model: &Model, parameters: &[T], state: &[T]) -> Vec<T> {
     let phase = Phase::new(model, parameters, state);
     model.level_formulas().map(|f| phase.configuration.scalar(f)).collect()
 }
 
-/// Tells of which draws and components of the state sines or cosines occur in the equations.
-fn turned(model: &Model, draws: usize) -> Result<Vec<bool>, SearchError> {
+/// Tells what numbers stand in place of the draws and the components of the state: of angles where sines or
+/// cosines occur in the equations, and of exponents where exponentials do.
+fn turned(model: &Model, draws: usize) -> Result<Vec<Place>, SearchError> {
     let count = draws + model.dimension();
-    let (graph, values) = record(count, |inputs| {
+    let (graph, (values, parameters)) = record(count, |inputs| {
         let (given, state) = inputs.split_at(draws);
         let (parameters, _) = model.make_parameters(given);
         let phase = Phase::new(model, &parameters, state);
         let formulas = model.dynamics().into_iter().chain(model.level_formulas());
-        formulas.flat_map(|f| phase.evaluate(f).components()).collect::<Vec<Expr>>()
+        let values = formulas.flat_map(|f| phase.evaluate(f).components()).collect::<Vec<Expr>>();
+        (values, parameters)
     })?;
+    let mut found = vec![Place::Plain; count];
     let angles = angles(&graph, &values);
-    Ok((0..count).map(|input| angles.contains(&input)).collect())
-}
-
-/// Lists the inputs on which the arguments of sines and cosines depend that some values need.
-pub fn angles(graph: &Graph, values: &[Expr]) -> Vec<usize> {
-    let arguments = angle_arguments(graph, values);
-    let mut found: Vec<usize> =
-        arguments.iter().flat_map(|place| graph.inputs_of(graph.at(*place))).collect();
-    found.sort_unstable();
-    found.dedup();
-    found
+    for (input, rate) in exponentials::rates(&graph, &values, &|input| input < draws) {
+        let component = |draw: usize| {
+            let is_own = |own: &Expr| matches!(graph.step(graph.place(*own)), Step::Input(input) if input == draw);
+            parameters.iter().position(is_own).map(|component| Letter { draw, component })
+        };
+        let letter = match rate.letter {
+            None => None,
+            // A component is needed for its value, and its own one is itself.
+            Some(draw) => match component(draw).filter(|_| !angles.contains(&draw)) {
+                None => continue,
+                letter => letter,
+            },
+        };
+        found[input] = Place::Exponential { number: rate.number, letter };
+    }
+    // What occurs in both has no values modulo primes.
+    angles.into_iter().for_each(|input| found[input] = Place::Angle);
+    Ok(found)
 }

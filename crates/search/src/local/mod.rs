@@ -1,10 +1,11 @@
 //! Equations of motion in local coordinates of the level, split into positions and velocities.
 
 mod coordinates;
+mod exponentials;
 mod mechanical;
+pub mod unwound;
 
 pub use coordinates::Coordinates;
-pub use mechanical::{angles, twice_the_arctangent};
 
 use super::SearchError;
 use liouville::case::Case;
@@ -29,9 +30,17 @@ pub struct Local {
 }
 
 impl Local {
-    /// Records the rates of a case; `fixed` holds a value for each fixed draw.
-    pub fn of(case: &Case, fixed: &[Option<Rational>]) -> Result<Self, SearchError> {
-        let coordinates = Coordinates::of(case)?;
+    /// Records the rates of a case.
+    pub fn of(case: &Case) -> Result<Self, SearchError> {
+        Self::with(case, Coordinates::of(case)?, &[])
+    }
+
+    /// Records the rates of a case in its coordinates; `fixed` holds a value for each fixed draw.
+    pub fn with(
+        case: &Case,
+        coordinates: Coordinates,
+        fixed: &[Option<Rational>],
+    ) -> Result<Self, SearchError> {
         let model = &case.model;
         let draws = model.parameter_draws();
         let count = draws.len();

@@ -10,6 +10,7 @@ use liouville::mechanics::System;
 use liouville::number::rational::Rational;
 use liouville::number::{BinaryOperation, UnaryFunction};
 
+use super::super::origin::TheoremOrigin;
 use super::super::terms::recorded;
 use super::super::{Effort, Excluded, SearchError, SearchReport};
 use super::adjoin::{RingPolynomial, polynomial_text};
@@ -20,7 +21,7 @@ use super::exponents::ExponentSystem;
 use super::factor::RatedPolynomial;
 use super::known::IndependentIntegrals;
 use super::line::RandomLine;
-use super::part::{DARBOUX, DARBOUX_THEOREM};
+use super::part::{DARBOUX, DARBOUX_FAMILY};
 use super::setting::OrbitSetting;
 use super::{blocks, degree_of_field, fractions, monomials, no_others};
 
@@ -205,13 +206,15 @@ impl ClearedField {
         let names: Vec<String> = setting.terms.iter().map(ToString::to_string).collect();
         let statement = no_others::statement(&names.join(", "), shown.degree, known);
         let statement = format!("for the field times {}, {statement}", self.denominator);
-        report.excluded.retain(|own| !own.ansatz.starts_with(DARBOUX_THEOREM));
+        report.excluded.retain(|own| own.origin != TheoremOrigin::Darboux);
         report.excluded.push(Excluded {
-            ansatz: format!("{DARBOUX_THEOREM} {}", shown.degree),
+            ansatz: format!("{DARBOUX_FAMILY} {}", shown.degree),
             dimension: known.len(),
             known: known.len(),
             error_log2: Some(shown.error_log2),
             theorem: fractions::sentence(setting.case, &statement),
+            origin: TheoremOrigin::Darboux,
+            values: None,
         });
         Ok(())
     }

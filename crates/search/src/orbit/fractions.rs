@@ -6,6 +6,8 @@
 use liouville::case::Case;
 use liouville::formula::Formula;
 
+use super::super::continued::named;
+use super::super::origin::TheoremOrigin;
 use super::super::{Effort, Excluded, SearchError, SearchReport};
 use super::adjoin::{self, Extension};
 use super::monomials;
@@ -34,18 +36,24 @@ pub struct Compared {
 
 impl Compared {
     /// States that there are no other integrals, beginning with a small letter, if there are none.
-    pub fn statement(&self, known: &[Formula]) -> Option<String> {
+    pub fn statement(
+        &self,
+        case: &Case,
+        effort: &Effort,
+        known: &[Formula],
+    ) -> Result<Option<String>, SearchError> {
+        if self.relations != self.implied {
+            return Ok(None);
+        }
         let class = &self.class;
-        let names: Vec<&str> = self.by.iter().map(|place| known[*place].text()).collect();
-        let statement = match names.as_slice() {
-            [] => none_is(class),
-            names => format!(
+        Ok(Some(match self.by.is_empty() {
+            true => none_is(class),
+            false => format!(
                 "every integral P/Q that is a fraction of {class}, with any complex coefficients, is a \
                  function of {}",
-                names.join(" and ")
+                named(case, self.by.iter().map(|place| &known[*place]), effort)?
             ),
-        };
-        (self.relations == self.implied).then_some(statement)
+        }))
     }
 }
 
@@ -82,7 +90,8 @@ pub fn conclude(
         for degree in (1..=DEGREE).rev() {
             let Ok(compared) = compared(case, effort, known, degree, UNASKED)? else { continue };
             let is_stated = compared.by.is_empty() && !has_functions;
-            let Some(statement) = compared.statement(known).filter(|_| !is_stated) else {
+            let Some(statement) = compared.statement(case, effort, known)?.filter(|_| !is_stated)
+            else {
                 continue;
             };
             let theorem = sentence(case, &statement);
@@ -94,6 +103,8 @@ pub fn conclude(
                     known,
                     error_log2: None,
                     theorem,
+                    origin: TheoremOrigin::Orbit,
+                    values: None,
                 });
             }
             return Ok(());

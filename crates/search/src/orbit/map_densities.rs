@@ -12,11 +12,11 @@ use liouville::verdict::{ClaimReport, Verdict};
 
 use super::super::ansatz::coefficients::Ratio;
 use super::super::ansatz::monomials::power_product;
-use super::super::ansatz::note_unwritten;
+use super::super::ansatz::note_unwritten_density;
 use super::super::ansatz::system::PrimePoint;
 use super::super::ask::judged_alone;
 use super::super::echelon::Echelon;
-use super::super::lists::UNPROVED;
+use super::super::origin::RemarkOrigin;
 use super::super::terms::{one, recorded};
 use super::super::{SearchError, SearchReport};
 use super::claims::{self, OrbitStatement};
@@ -29,9 +29,6 @@ use super::setting::{OrbitSetting, SPARE_ORDERS, run};
 const MONOMIALS: usize = 300;
 /// Largest degree of P.
 const DEGREE: u32 = 8;
-
-/// Beginning of the note on a density that is not written.
-pub const UNWRITTEN: &str = "a density of degree";
 
 /// The form of a density and the sign of the cofactor.
 #[derive(Clone, Copy)]
@@ -74,8 +71,8 @@ pub fn densities(
                 if is_told {
                     return Ok(());
                 }
-                let what = format!("{UNWRITTEN} {degree} with {} terms", all.len());
-                note_unwritten(setting.case, &what, report);
+                let what = format!("a density of degree {degree} with {} terms", all.len());
+                note_unwritten_density(setting.case, &what, report);
                 return Ok(());
             }
         }
@@ -166,6 +163,7 @@ pub fn note_unproved(density: &Formula, judged: &ClaimReport, report: &mut Searc
     if judged.verdict != Verdict::Refuted {
         let reason = judged.evidence.reason.as_ref().map(|own| format!(": {own}"));
         let reason = reason.unwrap_or_default();
-        report.remark(format!("{UNPROVED}: the density {density}{reason}"));
+        let text = format!("found, but not proved: the density {density}{reason}");
+        report.remark_of(RemarkOrigin::Unproved, text);
     }
 }

@@ -20,9 +20,10 @@ use super::super::ansatz::monomials::power_product;
 use super::super::ask::judged_alone;
 use super::super::integrals::tell;
 use super::super::linear::SampledFunctions;
+use super::super::origin::RemarkOrigin;
 use super::super::terms::{one, powers, read, recorded, sum};
 use super::super::{Effort, Found, SearchError, SearchReport};
-use super::map_densities::{UNWRITTEN, note_unproved};
+use super::map_densities::note_unproved;
 use super::{factors, magnitude, monomials};
 
 /// Largest number of monomials of g.
@@ -197,7 +198,7 @@ impl ProductFind<'_> {
         };
         match found.verdict {
             Verdict::Proved => {
-                report.remarks.retain(|own| !own.starts_with(UNWRITTEN));
+                report.remarks.retain(|own| own.origin != RemarkOrigin::UnwrittenDensity);
                 let own = Found::new("density", &density, None, found, &self.case.model);
                 report.found.push(own);
             }

@@ -96,7 +96,6 @@ use self::known::IndependentIntegrals;
 use self::limits::{EXTENDED, FURTHER, MODEST, RoundLimits};
 use self::line::degree_of_field;
 use self::part::VariableSet;
-pub use self::remarks::OF_LISTS;
 use self::setting::OrbitSetting;
 use super::ask::proved_energy;
 use super::{Effort, SearchError, SearchReport, branches};
@@ -118,11 +117,6 @@ pub struct OrbitReport {
     pub relations: usize,
     /// Number of independent algebraic integrals to which they belong.
     pub integrals: usize,
-}
-
-/// Whether the family of a theorem is one of a search along orbits, up to a degree that grows.
-pub fn is_graded(family: &str) -> bool {
-    family.starts_with(part::DARBOUX_THEOREM) || family.starts_with("fractions of polynomials")
 }
 
 /// Searches a field for integrals; proved ones go into the report. If `further`, the limits grow while

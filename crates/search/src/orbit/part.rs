@@ -1,5 +1,6 @@
 //! Separate search of a set of variables, and the theorem about all variables.
 
+use super::super::origin::TheoremOrigin;
 use super::super::{Excluded, SearchError, SearchReport};
 use super::angle::ConjugatePair;
 use super::darboux::DarbouxSearch as Darboux;
@@ -18,7 +19,7 @@ use liouville::formula::Formula;
 /// Largest degree of a Darboux polynomial.
 pub const DARBOUX: u32 = 12;
 /// Family of the theorem on Darboux polynomials, before the degree.
-pub const DARBOUX_THEOREM: &str = "Darboux polynomials of degree up to";
+pub const DARBOUX_FAMILY: &str = "Darboux polynomials of degree up to";
 /// Bound above the degrees of the relations.
 const MOST_DEGREE: u32 = 64;
 
@@ -291,13 +292,15 @@ impl VariableSet {
         let names: Vec<String> = setting.terms.iter().map(ToString::to_string).collect();
         let statement = no_others::statement(&names.join(", "), shown.degree, &known);
         // The theorem of a shorter search.
-        report.excluded.retain(|own| !own.ansatz.starts_with(DARBOUX_THEOREM));
+        report.excluded.retain(|own| own.origin != TheoremOrigin::Darboux);
         report.excluded.push(Excluded {
-            ansatz: format!("{DARBOUX_THEOREM} {}", shown.degree),
+            ansatz: format!("{DARBOUX_FAMILY} {}", shown.degree),
             dimension: known.len(),
             known: known.len(),
             error_log2: Some(shown.error_log2),
             theorem: fractions::sentence(case, &statement),
+            origin: TheoremOrigin::Darboux,
+            values: None,
         });
         Ok(())
     }
@@ -339,6 +342,8 @@ impl VariableSet {
             known: 0,
             error_log2: None,
             theorem: statement(degree),
+            origin: TheoremOrigin::Orbit,
+            values: None,
         });
         Ok(())
     }

@@ -1,10 +1,11 @@
 //! Remarks on what a search along orbits leaves out.
 
+use super::super::origin::RemarkOrigin;
 use super::super::{SearchReport, lists};
 use super::setting::OrbitSetting;
 
 /// Remark where integrals are counted and lists keep them from being written.
-pub const OF_LISTS: &str = "an integral is written only if one formula holds for all listed values of the \
+const OF_LISTS: &str = "an integral is written only if one formula holds for all listed values of the \
     parameters: give one value of each list, as with --set a=1";
 /// Remark where the steps for coefficients that depend on the parameters are spent.
 const OF_STEPS: &str = "coefficients that depend on the parameters, or are no fractions, are not all \
@@ -28,6 +29,6 @@ pub fn note(
         ));
     }
     if is_open {
-        report.remark(OF_LISTS.to_string());
+        report.remark_of(RemarkOrigin::Lists, OF_LISTS.to_string());
     }
 }

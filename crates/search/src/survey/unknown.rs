@@ -51,7 +51,7 @@ impl SearchOutcome {
             Ok(report) => Self {
                 counts: report.counts,
                 excluded: report.excluded,
-                remarks: report.remarks,
+                remarks: report.remarks.into_iter().map(|own| own.text).collect(),
                 tested: report
                     .found
                     .into_iter()

@@ -165,11 +165,16 @@ fn verdicts_come_as_csv_and_junit() {
     let path = path.to_str().expect("UTF-8");
     let csv = liouville(&["check", path, "--format", "csv"]).assert().code(2);
     csv.stdout(
-        starts_with("path,title,claim,kind,source,expected,verdict,as_expected,method\n")
-            .and(contains("good.toml,balanced ball,F2,integral,,holds,proved,yes,"))
-            .and(contains("wrong.toml,balanced ball,F2,integral,,fails,proved,no,"))
-            .and(contains("bad.toml,,,,,,error,no,")),
+        starts_with(
+            "path,title,claim,kind,source,expected,verdict,as_expected,method,reason,remark\n",
+        )
+        .and(contains("good.toml,balanced ball,F2,integral,,holds,proved,yes,"))
+        .and(contains("wrong.toml,balanced ball,F2,integral,,fails,proved,no,"))
+        .and(contains("bad.toml,,,,,,error,no,,")),
     );
+    let csv =
+        liouville(&["check", "sphere/body-of-revolution", "--format", "csv"]).assert().code(0);
+    csv.stdout(contains("prime field,,\"it is not known that D_T"));
     let junit = liouville(&["check", path, "--format", "junit"]).assert().code(2);
     junit.stdout(
         contains("<testsuites tests=\"4\" failures=\"1\" errors=\"1\"")

@@ -94,6 +94,15 @@ pub fn is_seen_nowhere_zero(
     open.is_empty()
 }
 
+/// Whether it is seen that some values do not exist, one or another, at any inputs inside their extents:
+/// an argument of a root, a logarithm or a power has the wrong sign.
+pub fn is_missing(graph: &Graph, inputs: &[Extent], required: &[Expr]) -> bool {
+    let facts = conditions(graph, &graph.reached(required.iter().copied()));
+    let classes = Classes::default();
+    let region = Region { graph, inputs, facts: &facts, classes: &classes };
+    !facts.is_empty() && region.bounds(&region.reached(&[]), &region.whole()).is_none()
+}
+
 /// Narrows the extents of inputs to what contains all those at which some values are not negative;
 /// `None` if there are none.
 pub fn narrowed(graph: &Graph, inputs: &[Extent], not_negative: &[Expr]) -> Option<Vec<Extent>> {

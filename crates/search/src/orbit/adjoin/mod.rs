@@ -16,6 +16,7 @@
 //! logarithmic  maps by monomials, in the logarithms of the state
 //! write        the extended field as a case, with the functions' relations as a level set
 //! back         formulas of the extended case in the names of the case itself
+//! parsed       texts taken apart at signs outside of brackets
 //! ```
 //!
 //! Exponentials, sines and cosines, roots, logarithms, powers and denominators that occur in a field
@@ -31,6 +32,7 @@ mod derivations;
 mod implied;
 mod logarithmic;
 mod odd_powers;
+mod parsed;
 mod parts;
 mod plain;
 mod polynomial;

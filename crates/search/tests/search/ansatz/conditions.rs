@@ -33,7 +33,8 @@ fn conditions_on_parameters_are_found() {
     let report = search(&flat, &wanted, &mut |_| {}).expect("it can be searched");
     let mut equations = report.conditions[0].equations.clone();
     equations.sort();
-    assert_eq!(equations, ["I1 = I2", "k = 0", "m = 0", "z = 0"], "the base of (4.5)");
+    // For k = 0 the equations of motion have no values.
+    assert_eq!(equations, ["I1 = I2", "m = 0", "z = 0"], "the base of (4.5)");
 
     wanted.degree = 2;
     let report = searched("sphere/balanced-ball", &wanted);
@@ -180,4 +181,124 @@ fn integrals_are_found_at_values_that_belong_to_no_curve() {
     let equations: Vec<&String> = report.conditions.iter().flat_map(|own| &own.equations).collect();
     assert!(equations.contains(&&with.1), "{equations:?}");
     assert!(equations.iter().all(|own| own.contains(" and ")), "{equations:?}");
+}
+
+/// Conditions for the claim that x is an integral, and their grounds.
+fn of_x(rates: [&str; 2]) -> (Vec<String>, String) {
+    let mut wanted = effort(0);
+    wanted.conditions = Some(ConditionTarget::Claim("C".to_string()));
+    let report = search(&with_claim(rates, "x"), &wanted, &mut |_| {}).expect("searched");
+    let own = report.conditions.into_iter().next().expect("an answer");
+    (own.equations, own.grounds)
+}
+
+#[test]
+fn real_zeros_of_sums_of_squares_are_told() {
+    // Modulo primes that are 3 modulo 4 the first has one point alone.
+    let all: [(&str, &[&str]); 7] = [
+        ("(a - 1)² + (b - 2)²", &["a = 1 and b = 2"]),
+        ("(a² - 2)² + (b - a)²", &["a = b and b² − 2 = 0"]),
+        ("(a - b)*((a - 1)² + (b - 2)²)", &["a − b = 0", "a = 1 and b = 2"]),
+        ("a² + b² + 1", &[]),
+        ("a⁴ + b⁴ - 2*a²*b² + 1", &[]),
+        // A circle around none of the points that are tried.
+        ("(3*a - 1)² + (3*b - 2)² - 1/20", &["33 − 40*a − 80*b + 60*a² + 60*b² = 0"]),
+        ("(3*a - 1)² + (3*b - 2)² + 1/20", &[]),
+    ];
+    for (factor, expected) in all {
+        let (equations, grounds) = of_x([&format!("({factor})*x"), "y"]);
+        assert_eq!(equations, expected, "{factor}: {grounds}");
+        let is_empty = expected.is_empty();
+        let says = if is_empty { "has no real zeros" } else { "it holds for no" };
+        assert!(grounds.contains(says) && !grounds.contains("perhaps"), "{factor}: {grounds}");
+    }
+}
+
+#[test]
+fn sets_without_real_points_are_not_told() {
+    // a³ = b, b³ = a has three real solutions among nine.
+    let (mut equations, grounds) = of_x(["(a³ - b)*x + (b³ - a)*y", "0*x"]);
+    equations.sort();
+    assert_eq!(equations, ["a = -1 and b = -1", "a = 0 and b = 0", "a = 1 and b = 1"], "{grounds}");
+    // Those with a b = −1 are not among them.
+    let (equations, grounds) = of_x(["(a³ - b)*x + (b³ - a)*y + (a²*b² + 1 + 2*a*b)*x*y", "0*x"]);
+    assert!(equations.is_empty(), "{equations:?} {grounds}");
+    assert!(grounds.ends_with("it holds for no real values of the parameters"), "{grounds}");
+    // On a line through the imaginary zeros, and in space.
+    let (equations, grounds) = of_x(["(a² + b² + 1)*x + (a - b)*y", "0*x"]);
+    assert!(equations.is_empty(), "{equations:?} {grounds}");
+    let (equations, grounds) = of_x(["((a - c)² + (b - c)²)*x + (c - 1)*(c - 2)*y", "0*x"]);
+    let mut sorted = equations.clone();
+    sorted.sort();
+    assert_eq!(sorted, ["a = 1 and b = 1 and c = 1", "a = 2 and b = 2 and c = 2"], "{grounds}");
+}
+
+#[test]
+fn a_real_point_among_many_imaginary_ones_is_told() {
+    // One of 25 solutions is real, near a = 1.08.
+    let mut wanted = effort(0);
+    wanted.conditions = Some(ConditionTarget::Claim("C".to_string()));
+    let text = "title = 'x'\n[parameters]\na = '-1..2'\nb = '-1..3'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\
+                \"x'\" = '(a⁵ - b)*x + (b⁵ - a - 7)*y'\n\"y'\" = '0*x'\n[[claim]]\nname = 'C'\nintegral = 'x'\n";
+    let report = search(&case(text), &wanted, &mut |_| {}).expect("searched");
+    let own = &report.conditions[0];
+    assert_eq!(own.equations, ["a^5 − b = 0 and b^5 − a − 7 = 0"], "{}", own.grounds);
+}
+
+#[test]
+fn values_where_there_is_no_motion_are_not_told() {
+    let linear = "(a - 1)*x + (b - 1)*y";
+    for pole in ["x/(a - b)", "x + (a - b)/(a - b)*y", "x/(a + b - 2)", "x/(a³ - b²)"] {
+        let (equations, grounds) = of_x([linear, pole]);
+        assert!(equations.is_empty(), "{pole}: {equations:?} {grounds}");
+        assert!(grounds.ends_with("it holds for no real values of the parameters"), "{grounds}");
+    }
+    assert_eq!(of_x([linear, "x/(a - 2*b)"]).0, ["a = 1 and b = 1"]);
+    // On a whole line, and for two of four pairs of roots.
+    assert!(of_x(["(a - b)*x", "y/(a - b)"]).0.is_empty());
+    assert_eq!(of_x(["(a - b)*x", "y/(a + b)"]).0, ["a − b = 0"]);
+    let (equations, grounds) = of_x(["(a² - 2)*x + (b² - 2)*y", "y/(a - b)"]);
+    assert_eq!(equations, ["a + b = 0 and b² − 2 = 0"], "{grounds}");
+    assert!(of_x(["((a - 1)² + (b - 2)²)*x", "y/(a - 1)"]).0.is_empty());
+}
+
+#[test]
+fn integrals_are_found_at_real_zeros_of_sums_of_squares() {
+    let mut wanted = effort(0);
+    wanted.degree = 1;
+    wanted.conditions = Some(ConditionTarget::Existence);
+    let told = |rates: [&str; 2]| {
+        let report = search(&with_claim(rates, "x"), &wanted, &mut |_| {}).expect("searched");
+        let mut all: Vec<String> =
+            report.conditions.iter().flat_map(|own| own.equations.clone()).collect();
+        all.sort();
+        all.dedup();
+        (all, report)
+    };
+    let (equations, report) = told(["((a - 1)² + (b - 2)²)*(1 - x*y)", "y² + x"]);
+    assert_eq!(equations, ["a = 1 and b = 2"]);
+    let with = ("condition", "a = 1 and b = 2".to_string());
+    let is_found = report.found.iter().any(|own| own.formula == "x" && own.with.contains(&with));
+    assert!(is_found, "{:?}", report.found);
+    assert!(report.conditions.iter().all(|own| !own.grounds.contains("may give more")));
+    assert!(told(["(a² + b² + 1)*(1 - x*y)", "y² + x"]).0.is_empty());
+    let (equations, _) = told(["((a - 1)² + (b - 2)²)*(1 - x*y)", "y²/(a - 1) + x"]);
+    assert!(equations.is_empty(), "{equations:?}: no motion");
+}
+
+#[test]
+fn values_of_one_parameter_are_real() {
+    let mut wanted = effort(0);
+    wanted.degree = 1;
+    wanted.conditions = Some(ConditionTarget::Existence);
+    let told = |factor: &str| {
+        let text = format!(
+            "title = 'x'\n[parameters]\na = '1..2'\n[state]\nx = '1..2'\ny = '1..2'\n[field]\n\
+             \"x'\" = '({factor})*(x² + y³ + 1)'\n\"y'\" = '1 + y²'\n"
+        );
+        let report = search(&case(&text), &wanted, &mut |_| {}).expect("searched");
+        report.conditions.iter().flat_map(|own| own.equations.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(told("a² - a - 1"), ["a² − a − 1 = 0"]);
+    assert!(told("a² - a + 1").is_empty());
 }

@@ -3,7 +3,7 @@
 use liouville::case::{Case, Expect, Setting};
 use liouville::claim::Claim;
 use liouville::verdict::{Options, Verdict, judge};
-use liouville_search::{SearchReport, search};
+use liouville_search::{Remark, SearchReport, search};
 
 use super::{case, effort, told};
 
@@ -95,7 +95,7 @@ fn potentials_of_hamiltons_equations_are_found() {
     let plain = "title = 'x'\n[state]\nx = '0.5..2'\np = '-1..1'\n[level]\nequations = ['x = 1']\n\
                  [hamiltonian]\nfunction = '0*p + x²'\npairs = [['x','p']]\n";
     let report = forced(plain);
-    let says = |own: &String| own.contains("are no Casimir functions");
+    let says = |own: &Remark| own.contains("are no Casimir functions");
     assert!(report.remarks.iter().any(says), "{:?}", report.remarks);
 }
 
@@ -115,7 +115,7 @@ fn forces_of_a_field_are_found() {
     assert!(!told(&vectors).is_empty(), "{:?}", vectors.remarks);
     let lorenz = "title = 'x'\n[state]\nx = '0.5..2'\ny = '0.5..2'\nz = '0.5..2'\n[field]\n\
                   \"x'\" = '10*(y - x)'\n\"y'\" = 'x*(28 - z) - y'\n\"z'\" = 'x*y - z'\n";
-    let says = |own: &String| own.contains("linear in the others, as x' = u has");
+    let says = |own: &Remark| own.contains("linear in the others, as x' = u has");
     assert!(forced(lorenz).remarks.iter().any(says), "it is no equation of motion");
 }
 

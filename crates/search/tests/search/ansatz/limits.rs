@@ -107,8 +107,12 @@ fn integrals_that_depend_on_others_are_noted_once() {
                      \"x'\" = 'u'\n\"u'\" = '-x'\n\"y'\" = 'v'\n\"v'\" = '-y'\n";
     let ansatz = Ansatz { wanted: true, positions: 4, ..Ansatz::default() };
     let report = of(isotropic, &Effort { ansatz, ..effort(1) });
-    let notes: Vec<&String> =
-        report.remarks.iter().filter(|own| own.contains("independence of those")).collect();
+    let notes: Vec<&str> = report
+        .remarks
+        .iter()
+        .map(|own| &**own)
+        .filter(|own| own.contains("independence of those"))
+        .collect();
     assert_eq!(
         notes,
         ["4 integrals, whose independence of those listed is refuted; the shortest is x*y + u*v"]

@@ -1,6 +1,8 @@
 //! Parameters with a list of values: theorems and conditions for each of them.
 
-use liouville_search::{Ansatz, ConditionTarget, Effort, Hamiltonians, SearchReport, search};
+use liouville_search::{
+    Ansatz, ConditionTarget, Effort, Hamiltonians, Remark, SearchReport, search,
+};
 
 use crate::ansatz::{case, effort};
 
@@ -103,7 +105,7 @@ fn conditions_for_a_claim_are_those_of_each_value() {
     let report = searched(&field.replace("RATE", "b*y + (a-1)*(b-3)"), &wanted);
     assert_eq!(conditions(&report), [("C, for a = 2", vec!["3 − b = 0"])]);
     let note = "C: no condition is needed for a = 1";
-    assert!(report.remarks.iter().any(|own| own == note), "{:?}", report.remarks);
+    assert!(report.remarks.iter().any(|own| own.text == note), "{:?}", report.remarks);
     // Of many combinations the first is named.
     let many = field.replace("one of 1, 2", "one of 1, 2, 3, 4, 5, 6, 7, 8, 9");
     let report = searched(&many.replace("RATE", "a*y"), &wanted);
@@ -147,7 +149,7 @@ fn relations_along_orbits_are_told_for_each_value() {
     assert!(!theorems.iter().any(is_false), "{theorems:?}");
     // Where all values have as many this is said.
     let report = searched(&field.replace("one of 1, 0", "one of 1, 2"), &effort(0));
-    let same = |own: &String| own.starts_with("for each of the listed values there are as many");
+    let same = |own: &Remark| own.starts_with("for each of the listed values there are as many");
     assert!(report.remarks.iter().any(same), "{:?}", report.remarks);
     let each = |own: &str| own.starts_with("For each of the listed values, and generic");
     assert!(report.excluded.iter().any(|own| each(&own.theorem)), "{:?}", report.excluded);

@@ -1,6 +1,6 @@
 //! Counts of integrals polynomial in the velocities, with those that are found along orbits.
 
-use liouville_search::Effort;
+use liouville_search::{Effort, Remark};
 
 use super::searched;
 
@@ -21,7 +21,7 @@ fn a_count_is_explained_by_what_an_orbit_shows() {
     let theorem = report.excluded.iter().find(|own| own.theorem.contains("degree at most 4"));
     let theorem = &theorem.expect("all integrals of degree 4").theorem;
     assert!(theorem.contains(" in energy and "), "{theorem}");
-    let counted = |remark: &&String| remark.contains("are counted than known");
+    let counted = |remark: &&Remark| remark.contains("are counted than known");
     assert_eq!(report.remarks.iter().find(counted), None);
 }
 

@@ -1,6 +1,6 @@
 //! Fields with functions: how many independent integrals are counted where functions are variables.
 
-use liouville_search::{Effort, search};
+use liouville_search::{Effort, Remark, search};
 
 use super::{any_field, field, searched};
 
@@ -32,7 +32,7 @@ fn roots_that_depend_on_others_are_not_counted() {
     let report = searched(&text, &Effort::default());
     assert!(report.orbits.is_empty(), "{:?}", report.orbits);
     assert!(report.excluded.is_empty(), "{:?}", report.excluded);
-    let says = |own: &String| own.starts_with("relations along orbits are not counted");
+    let says = |own: &Remark| own.starts_with("relations along orbits are not counted");
     assert!(report.remarks.iter().any(says), "{:?}", report.remarks);
     let free = searched(&field("", &["√x", "-x", "z² + x*z + y"]), &Effort::default());
     assert!(!free.orbits.is_empty(), "a root of its own is counted");

@@ -1,7 +1,7 @@
 //! Fields and maps with roots of numbers and of parameters as coefficients.
 
 use liouville::case::Case;
-use liouville_search::{Ansatz, Effort, SearchReport, search};
+use liouville_search::{Ansatz, Effort, Remark, SearchReport, search};
 
 use super::factors::cofactor;
 use super::maps::map;
@@ -82,7 +82,7 @@ fn integrals_of_maps_have_roots_as_coefficients() {
     let own = searched(&map("a = '0.5..1'", &["y", "-x + √a*y"]), &Effort::default());
     assert_eq!(integral(&own), Some("x² − √(a)*x*y + y²"), "{:?}", own.remarks);
     for report in [&rotation, &other, &own] {
-        let is_false = |own: &String| own.contains("neither fractions nor");
+        let is_false = |own: &Remark| own.contains("neither fractions nor");
         assert!(!report.remarks.iter().any(is_false), "{:?}", report.remarks);
     }
 }

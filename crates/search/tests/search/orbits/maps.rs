@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use liouville::case::Case;
-use liouville_search::{Ansatz, ConditionTarget, Effort, Hamiltonians, SearchReport, search};
+use liouville_search::{
+    Ansatz, ConditionTarget, Effort, Hamiltonians, Remark, SearchReport, search,
+};
 
 use super::{excluded, searched};
 
@@ -53,7 +55,7 @@ fn the_orbits_of_maps_onto_a_curve_or_a_point_are_not_counted() {
     for images in [&["x + y", "2*(x + y)"][..], &["3", "2"], &["x + y", "x*y", "x*y + 1"]] {
         let report = searched(&map("", images), &Effort::default());
         assert!(report.orbits.is_empty(), "{images:?}: {:?}", report.orbits);
-        let says = |own: &String| own.contains("the images of the map do not fill the space");
+        let says = |own: &Remark| own.contains("the images of the map do not fill the space");
         assert!(report.remarks.iter().any(says), "{images:?}: {:?}", report.remarks);
     }
     let shear = searched(&map("", &["x + y", "y"]), &Effort::default());
@@ -165,7 +167,7 @@ fn the_order_of_a_map_is_told_with_sums_over_its_orbits() {
         let own = report.remarks.iter().find(|own| own.starts_with("the map "));
         match (own, order) {
             (Some(own), Some(order)) => assert!(own.contains(order), "{name}: {own}"),
-            (own, order) => assert_eq!(own.map(String::as_str), order, "{name}"),
+            (own, order) => assert_eq!(own.map(|own| &**own), order, "{name}"),
         }
         assert_eq!(report.formulas("integral").count(), count, "{name}: {:?}", report.found);
     }
@@ -267,7 +269,7 @@ fn densities_of_maps_with_functions_are_found() {
     let text = map("", &["√(x² + y²)", "y"]).replace("x = '0.5..2'", "x = '-2..2'");
     let report = searched(&text, &Effort::default());
     assert_eq!(densities(&report), [""; 0], "{text}");
-    let is_noted = |own: &String| own.contains("the density x: Φ takes");
+    let is_noted = |own: &Remark| own.contains("the density x: Φ takes");
     assert!(report.remarks.iter().any(is_noted), "{:?}", report.remarks);
 }
 
