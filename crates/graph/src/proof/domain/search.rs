@@ -100,7 +100,7 @@ pub fn is_missing(graph: &Graph, inputs: &[Extent], required: &[Expr]) -> bool {
     let facts = conditions(graph, &graph.reached(required.iter().copied()));
     let classes = Classes::default();
     let region = Region { graph, inputs, facts: &facts, classes: &classes };
-    !facts.is_empty() && region.bounds(&region.reached(&[]), &region.whole()).is_none()
+    !facts.is_empty() && region.is_empty_at_sight()
 }
 
 /// Narrows the extents of inputs to what contains all those at which some values are not negative;
