@@ -40,6 +40,10 @@ const MOVING: f64 = 0.3;
 const DRAWS: usize = 64;
 /// Number of choices of the other parameters under which a relation must persist.
 pub const ROUNDS: u64 = 2;
+/// Number of small integers from which they are chosen.
+const SMALL: u64 = 97;
+/// Number of primes that are tried for a single parameter, until all values lie in the field.
+const PRIMES: u64 = 8;
 
 /// Smallest number of values of a parameter at which equations are set up.
 pub fn least_values(rounds: u64) -> usize {
@@ -60,9 +64,21 @@ pub fn scalars(case: &Case) -> Vec<ScalarParameter> {
     found
 }
 
+/// Special values of a parameter.
+pub struct SpecialValues {
+    /// Numbers, and relations to one other parameter.
+    pub explained: Explained,
+    /// The equation of further numbers.
+    pub equation: Option<String>,
+    /// Number of further values, none of which is real.
+    pub complex: usize,
+    /// Number of roots of minors outside of the prime field, at which nothing is counted.
+    pub open: usize,
+}
+
 /// Finds the relations under which there are more integrals of a degree, for one parameter; the
-/// others are random small integers, chosen a number of times. `None` if no value has more; the steps
-/// taken are subtracted from those that are left, and it fails when none are.
+/// others are random small integers, chosen a number of times. The steps taken are subtracted from those
+/// that are left, and it fails when none are.
 pub fn relations(
     case: &Case,
     local: &Local,
@@ -70,19 +86,42 @@ pub fn relations(
     parameter: &ScalarParameter,
     (count, left): (u64, &Cell<f64>),
     effort: &Effort,
-) -> Result<Option<Explained>, SearchError> {
+) -> Result<SpecialValues, SearchError> {
     let mut rounds: Vec<Round> = Vec::new();
-    for round in 0..count {
+    let mut open = 0;
+    let primes = if count > 1 { count } else { PRIMES };
+    for round in 0..primes {
         let mut search = Minors::new(local, asked, parameter.draw, round, effort);
         search.left = Some(left);
-        let values = search.special_values()?;
-        if round == 0 && values.is_empty() {
-            return Ok(None);
-        }
+        let (values, outside) = search.special_values()?;
         let (parameters, modulus) = (search.parameters.clone(), search.modulus);
-        rounds.push(Round { values, parameters, modulus });
+        let own = Round { values, parameters, modulus };
+        if count > 1 {
+            rounds.push(own);
+            open = open.max(outside);
+        } else if round == 0 || outside < open {
+            (rounds, open) = (vec![own], outside);
+        }
+        if count == 1 && open == 0 {
+            break;
+        }
     }
-    Ok(Some(explained(parameter, &scalars(case), &rounds)))
+    let mut found = SpecialValues {
+        explained: explained(parameter, &scalars(case), &rounds),
+        equation: None,
+        complex: 0,
+        open,
+    };
+    if let ([only], 1..) = (rounds.as_slice(), found.explained.unexplained)
+        && let Some(text) = equation(&parameter.name, only, &[1])
+    {
+        if text.is_none() {
+            found.complex = found.explained.unexplained;
+        }
+        found.equation = text;
+        found.explained.unexplained = 0;
+    }
+    Ok(found)
 }
 
 /// Writes the equation of the values that are not rational, and of the roots of a further factor, if
@@ -149,7 +188,10 @@ impl<'l> Minors<'l> {
     ) -> Self {
         let mut rng = SearchStream::Minors.under(effort.options.seed.wrapping_add(round));
         let modulus = rng.prime_for(&root_numbers(&local.graph));
-        let small = |rng: &mut ProofRng| 2 + modulus.to_integer(rng.element(&modulus)) % 97;
+        // Others in each round: a relation to one of them would persist.
+        let small = |rng: &mut ProofRng| {
+            2 + SMALL * (round % ROUNDS) + modulus.to_integer(rng.element(&modulus)) % SMALL
+        };
         let parameters = local.parameters(&modulus, &mut rng);
         let parameters = parameters
             .into_iter()
@@ -210,8 +252,9 @@ impl<'l> Minors<'l> {
         Ok(solved)
     }
 
-    /// Finds the values at which there are more integrals.
-    fn special_values(&mut self) -> Result<Vec<u64>, SearchError> {
+    /// Finds the values at which there are more integrals, and the number of further roots of minors
+    /// outside of the prime field.
+    fn special_values(&mut self) -> Result<(Vec<u64>, usize), SearchError> {
         let ring = PrimePolynomials(self.modulus);
         let mut common: Polynomial = Vec::new();
         let mut dimension = usize::MAX;
@@ -221,6 +264,8 @@ impl<'l> Minors<'l> {
             dimension = dimension.min(own);
         }
         let candidates = ring.roots(&common, &mut self.rng);
+        let distinct = ring.square_free(&common).len().saturating_sub(1);
+        let outside = distinct.saturating_sub(candidates.len());
         let mut found = Vec::new();
         for value in candidates {
             for _ in 0..DRAWS {
@@ -240,7 +285,7 @@ impl<'l> Minors<'l> {
                 break;
             }
         }
-        Ok(found)
+        Ok((found, outside))
     }
 
     /// Finds the numerator of a maximal minor at a random point, and the number of integrals in

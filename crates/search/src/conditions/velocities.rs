@@ -85,7 +85,15 @@ impl ValueSearch<'_> {
         progress: &mut dyn FnMut(&str),
     ) -> Result<(), SearchError> {
         let local = Local::of(self.case)?;
-        let all = minors::scalars(self.case);
+        let (turned, all): (Vec<_>, Vec<_>) = minors::scalars(self.case)
+            .into_iter()
+            .partition(|own| local.coordinates.is_turned(own.draw));
+        for own in turned {
+            report.remark(format!(
+                "values of {} with more integrals are not sought: it is in an exponent or an angle",
+                own.name
+            ));
+        }
         let mut told: Vec<ToldValues> = all.iter().map(|_| ToldValues::default()).collect();
         let mut last = 0;
         'degrees: for degree in 1..=self.effort.degree {
@@ -137,12 +145,16 @@ impl ValueSearch<'_> {
             self.effort,
         );
         Ok(Some(match found {
-            Ok(None) => None,
-            Ok(Some(found)) => Some(FoundValues {
-                equations: found.relations.iter().map(ToString::to_string).collect(),
-                unexplained: found.unexplained,
-                reason: None,
-            }),
+            Ok(found) => {
+                let relations = found.explained.relations.iter().map(ToString::to_string);
+                Some(FoundValues {
+                    equations: relations.chain(found.equation).collect(),
+                    unexplained: found.explained.unexplained,
+                    complex: found.complex,
+                    open: found.open,
+                    reason: None,
+                })
+            }
             Err(error @ SearchError::NoFraction) => {
                 Some(FoundValues { reason: Some(error.to_string()), ..FoundValues::default() })
             }
@@ -160,13 +172,35 @@ impl ValueSearch<'_> {
         report: &mut SearchReport,
     ) {
         for (degree, place) in told.iter().filter_map(|own| own.last) {
-            if degree < last {
+            if degree < last && told.iter().all(|own| own.open == 0) {
                 let grounds = &mut report.conditions[place].grounds;
                 grounds.push_str(&format!("; none is added up to degree {last}"));
             }
         }
-        let silent = all.iter().zip(told).filter(|(_, told)| told.last.is_none());
-        let silent: Vec<&str> = silent.map(|(own, _)| own.name.as_str()).collect();
+        let silent = all.iter().zip(told).filter(|(_, told)| told.last.is_none() && told.open == 0);
+        let (complex, silent): (Vec<_>, Vec<_>) = silent.partition(|(_, told)| told.complex > 0);
+        for (own, _) in complex {
+            report.conditions.push(ParameterCondition {
+                of: format!(
+                    "more integrals of degree at most {last}, by the value of {}{}",
+                    own.name, self.reservation
+                ),
+                equations: Vec::new(),
+                grounds: format!("{GROUNDS}; the values that have more are not real"),
+                origin: ConditionOrigin::Counts,
+            });
+        }
+        for (own, told) in all.iter().zip(told).filter(|(_, told)| told.open > 0) {
+            let values = if told.open == 1 { "a value" } else { "values" };
+            report.remark(format!(
+                "{values} of {} with more integrals of degree at most {last} may be missing{}: minors have \
+                 {} that no prime field tried contains",
+                own.name,
+                self.reservation,
+                if told.open == 1 { "a root".to_string() } else { format!("{} roots", told.open) },
+            ));
+        }
+        let silent: Vec<&str> = silent.into_iter().map(|(own, _)| own.name.as_str()).collect();
         if last > 0 && !silent.is_empty() {
             report.conditions.push(ParameterCondition {
                 of: format!(
@@ -188,6 +222,10 @@ struct FoundValues {
     equations: Vec<String>,
     /// Number of values that no equation describes.
     unexplained: usize,
+    /// Number of values that are not real.
+    complex: usize,
+    /// Number of roots at which nothing is counted.
+    open: usize,
     /// Reason why none are found.
     reason: Option<String>,
 }
@@ -219,6 +257,8 @@ impl FoundValues {
 struct ToldValues {
     equations: Vec<String>,
     unexplained: usize,
+    complex: usize,
+    open: usize,
     /// Last degree with a condition, and its place in the report.
     last: Option<(u32, usize)>,
 }
@@ -226,6 +266,8 @@ struct ToldValues {
 impl ToldValues {
     /// Leaves out the values told at lower degrees; `None` if there are no others.
     fn add(&mut self, mut found: FoundValues, degree: u32, place: usize) -> Option<FoundValues> {
+        self.complex = self.complex.max(found.complex);
+        self.open = self.open.max(found.open);
         found.equations.retain(|own| !self.equations.contains(own));
         let is_new = !found.equations.is_empty()
             || found.unexplained > self.unexplained

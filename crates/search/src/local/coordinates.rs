@@ -89,6 +89,14 @@ impl Coordinates {
         model.make_parameters(&turned).0
     }
 
+    /// Whether another number, as tan φ/2, is in place of what is drawn for a parameter.
+    pub fn is_turned(&self, draw: usize) -> bool {
+        match &self.kind {
+            LocalKind::Mechanical(own) => own.is_turned(draw),
+            _ => false,
+        }
+    }
+
     /// Returns the state at a point of these coordinates.
     pub fn state<T: Scalar>(&self, model: &Model, parameters: &[T], coordinates: &[T]) -> Vec<T> {
         let (one, two) = (T::one(), T::from(2.0));

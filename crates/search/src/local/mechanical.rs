@@ -151,6 +151,11 @@ impl Mechanical {
         self.free.len()
     }
 
+    /// Whether a number is in place of what is drawn for a parameter.
+    pub fn is_turned(&self, draw: usize) -> bool {
+        self.turned.get(draw).is_some_and(|own| *own != Place::Plain)
+    }
+
     /// Whether a number is in place of another variable.
     pub fn is_substituted(&self) -> bool {
         self.positions
