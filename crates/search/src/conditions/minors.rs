@@ -113,7 +113,7 @@ pub fn relations(
         open,
     };
     if let ([only], 1..) = (rounds.as_slice(), found.explained.unexplained)
-        && let Some(text) = equation(&parameter.name, only, &[1])
+        && let Some(text) = equation(&parameter.name, only, &[only.modulus.one()])
     {
         if text.is_none() {
             found.complex = found.explained.unexplained;

@@ -302,3 +302,44 @@ fn values_of_one_parameter_are_real() {
     assert_eq!(told("a² - a - 1"), ["a² − a − 1 = 0"]);
     assert!(told("a² - a + 1").is_empty());
 }
+
+/// Conditions of a particle in the plane, each with its equations and grounds, and the remarks.
+fn of_a_particle(parameters: &str, potential: &str) -> (Vec<(Vec<String>, String)>, Vec<String>) {
+    let particle = case(&format!(
+        "title = 'x'\n[parameters]\n{parameters}\n[state]\nx = '-1..1'\ny = '-1..1'\n\"x'\" = '-1..1'\n\
+         \"y'\" = '-1..1'\n[lagrangian]\nkinetic = \"(x'² + y'²)/2\"\npotential = '{potential}'\n"
+    ));
+    let mut wanted = effort(0);
+    (wanted.degree, wanted.conditions) = (2, Some(ConditionTarget::Existence));
+    let report = search(&particle, &wanted, &mut |_| {}).expect("it can be searched");
+    let conditions = report.conditions.into_iter().map(|own| (own.equations, own.grounds));
+    (conditions.collect(), report.remarks.into_iter().map(|own| own.text).collect())
+}
+
+#[test]
+fn values_of_the_parameters_of_a_particle_are_those_of_its_potential() {
+    let equations = |parameters: &str, potential: &str| -> Vec<String> {
+        of_a_particle(parameters, potential).0.into_iter().flat_map(|(own, _)| own).collect()
+    };
+    // In x³ + x² + y² + c x y both coordinates separate for c = 0 alone.
+    let a = "a = '1..2'";
+    assert_eq!(equations(a, "(a − 3/2)*x*y + x² + y² + x³"), ["a = 1.5"]);
+    assert_eq!(equations(a, "(a² − 5)*x*y + x² + y² + x³"), ["a² − 5 = 0"]);
+    let sum = equations("a = '1..2'\nb = '1..2'", "(a + b)*x*y + x² + y² + x³");
+    assert_eq!(sum, ["a/b = -1", "b/a = -1"], "no number that was drawn for the other one");
+    let (conditions, _) = of_a_particle(a, "(a² + 7)*x*y + x² + y² + x³");
+    assert!(
+        matches!(&conditions[..], [(none, grounds)] if none.is_empty() && grounds.contains("not real")),
+        "{conditions:?}"
+    );
+    for potential in ["exp(a)*x*y + x³ + y³", "cos(a)*x*y + x³ + y³"] {
+        let (conditions, remarks) = of_a_particle(a, potential);
+        assert!(conditions.is_empty(), "{potential}: {conditions:?}");
+        assert!(remarks.iter().any(|own| own.contains("exponent or an angle")), "{remarks:?}");
+    }
+    // Five roots, whose permutations are all of them: no prime is found that has all.
+    let (conditions, remarks) = of_a_particle(a, "(a^5 − a + 3)*x*y + x² + y² + x³");
+    let says_none = |(_, grounds): &(Vec<String>, String)| grounds.contains("no value has more");
+    assert!(!conditions.iter().any(says_none), "{conditions:?}");
+    assert!(remarks.iter().any(|own| own.contains("may be missing")), "{remarks:?}");
+}
