@@ -107,6 +107,7 @@ use crate::graph::{Expr, Fault, Graph};
 use buckets::{Bucket, buckets, combined, part};
 use cells::{Cell, Leaf};
 use digest::SeedDigest;
+pub use evident::is_never_negative;
 use evident::{has_roots, with_evident_signs};
 use explore::{Explored, Explorer, Question};
 use lower::Algebraic;
