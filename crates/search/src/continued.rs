@@ -74,10 +74,10 @@ impl Drawn {
     fn has_values(&self) -> bool {
         let Self { graph, values, extents } = self;
         let reached = graph.reached(values.iter().copied());
-        let is_positive = |a: usize| {
+        let is_known = |a: usize| {
             sign(graph, extents, &[], &[], graph.at(a)).is_some_and(|sign| sign.is_positive)
-                || is_never_negative(graph, a, &|_| false)
         };
+        let is_positive = |a: usize| is_known(a) || is_never_negative(graph, a, &is_known);
         graph.steps().zip(reached).filter(|(_, is_reached)| *is_reached).all(|(step, _)| {
             let is_root = is_root(&step) && !matches!(step, Step::Unary(UnaryFunction::Abs, _));
             let base = step.arguments().next().filter(|_| is_root || is_logarithm(&step));
