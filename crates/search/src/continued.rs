@@ -50,39 +50,48 @@ struct Drawn {
 }
 
 impl Drawn {
-    /// Records a formula, or what it needs as written, on the level; `None` if states are numerical.
-    fn of(
+    /// Records a formula on the level; `None` if states are numerical.
+    fn of(case: &Case, formula: &Formula, effort: &Effort) -> Result<Option<Self>, SearchError> {
+        let (graph, values) = recorded(case, |jet| jet.phase.evaluate(formula).components())?;
+        Self::composed(case, &graph, values, effort)
+    }
+
+    /// Records what stands under roots and logarithms of a formula as written.
+    fn bases(case: &Case, formula: &Formula, effort: &Effort) -> Result<Option<Self>, SearchError> {
+        let (graph, values) = recorded(case, |jet| jet.phase.literal_values([formula]))?;
+        let reached = graph.reached(values.iter().copied());
+        let base = |step: Step<'_>| {
+            let is_root = is_root(&step) && !matches!(step, Step::Unary(UnaryFunction::Abs, _));
+            step.arguments().next().filter(|_| is_root || is_logarithm(&step))
+        };
+        let steps = graph.steps().zip(reached).filter(|(_, is_reached)| *is_reached);
+        let bases = steps.filter_map(|(step, _)| base(step)).map(|place| graph.at(place)).collect();
+        Self::composed(case, &graph, bases, effort)
+    }
+
+    fn composed(
         case: &Case,
-        formula: &Formula,
-        is_literal: bool,
+        graph: &Graph,
+        values: Vec<Expr>,
         effort: &Effort,
     ) -> Result<Option<Self>, SearchError> {
-        let (graph, values) = recorded(case, |jet| match is_literal {
-            true => jet.phase.literal_values([formula]),
-            false => jet.phase.evaluate(formula).components(),
-        })?;
         let sampler = Sampler::new(case, &LevelSubset::level(&case.model), effort.options.seed)?;
         if sampler.is_numerical() {
             return Ok(None);
         }
         let fixed = vec![None; sampler.recipes().len()];
-        let (graph, values) = sampler.compose(&graph, &[values], &fixed)?;
+        let (graph, values) = sampler.compose(graph, &[values], &fixed)?;
         Ok(Some(Self { graph, values: values.concat(), extents: sampler.extents() }))
     }
 
-    /// Whether the values are known to exist at almost all draws.
-    fn has_values(&self) -> bool {
+    /// Whether the values are known to be nowhere negative.
+    fn are_never_negative(&self) -> bool {
         let Self { graph, values, extents } = self;
-        let reached = graph.reached(values.iter().copied());
         let is_known = |a: usize| {
             sign(graph, extents, &[], &[], graph.at(a)).is_some_and(|sign| sign.is_positive)
         };
-        let is_positive = |a: usize| is_known(a) || is_never_negative(graph, a, &is_known);
-        graph.steps().zip(reached).filter(|(_, is_reached)| *is_reached).all(|(step, _)| {
-            let is_root = is_root(&step) && !matches!(step, Step::Unary(UnaryFunction::Abs, _));
-            let base = step.arguments().next().filter(|_| is_root || is_logarithm(&step));
-            base.is_none_or(is_positive)
-        })
+        let mut places = values.iter().map(|value| graph.place(*value));
+        places.all(|a| is_known(a) || is_never_negative(graph, a, &is_known))
     }
 
     /// The form of all values together.
@@ -104,7 +113,7 @@ pub fn is_one_function(
     if is_single_valued(&graph, &values) {
         return Ok(true);
     }
-    let Some(drawn) = Drawn::of(case, formula, false, effort)? else { return Ok(false) };
+    let Some(drawn) = Drawn::of(case, formula, effort)? else { return Ok(false) };
     match drawn.form() {
         Form::Even | Form::Single => Ok(true),
         Form::Root | Form::Logarithm => {
@@ -127,7 +136,7 @@ pub fn named<'f>(
         names.push(formula.text());
         let (graph, values) = recorded(case, |jet| jet.phase.literal_values([formula]))?;
         let is_everywhere = is_single_valued(&graph, &values)
-            || Drawn::of(case, formula, true, effort)?.is_some_and(|drawn| drawn.has_values());
+            || Drawn::bases(case, formula, effort)?.is_some_and(|drawn| drawn.are_never_negative());
         if !is_everywhere {
             partial.push(formula.text());
         }

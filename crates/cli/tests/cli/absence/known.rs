@@ -114,6 +114,8 @@ fn an_integral_that_changes_on_the_way_is_not_known() {
     assert!(theorem("x*y' − y*x'").ends_with("is a polynomial in x*y' − y*x'."));
     let on_half = "(x*y' − y*x')*√(x − 1)/√(x − 1)";
     assert!(theorem(on_half).ends_with(&format!(", where {on_half} has a value.")));
+    let squared = "(x*y' − y*x')*√(x − 1)*√(x − 1)/(x − 1)";
+    assert!(theorem(squared).ends_with(&format!(", where {squared} has a value.")));
     for integral in [
         // 0 for x < 1, where the angular momentum is a further integral
         "(x*y' − y*x')*(1 + exp(ln((x − 1)²)/2)/(x − 1))",
