@@ -27,7 +27,7 @@ use liouville::verdict::Sampler;
 use super::terms::recorded;
 use super::{Effort, SearchError};
 
-/// What is known of a value.
+/// Form of a value, as far as it tells where the value is continued.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Form {
     /// Analytic around the box of draws.

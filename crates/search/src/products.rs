@@ -181,7 +181,7 @@ pub fn exponent_degree_in_state(
     on_lines(case, formula, &Coordinates::all_moving(case), seed, Reading::Exponent)
 }
 
-/// What is read from the slopes of a logarithm.
+/// Degree that is read from the slopes of a logarithm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Reading {
     /// The degree of a polynomial.

@@ -18,7 +18,7 @@ use crate::mechanics::{Draw, Model, NORMAL, Phase, RigidBody, Shape};
 use crate::proof::{Extent, Group, Prover, is_seen_nowhere_zero, sign};
 use crate::scalar::Scalar;
 
-/// What is recorded of a body's surface.
+/// Recorded values of a body's surface.
 #[derive(Default)]
 struct Surface {
     /// Values that have no common zero in the ranges, if D_T is to vanish nowhere.

@@ -86,6 +86,7 @@ pub use domain::{
     KnownSign, is_missing, is_nowhere_zero, is_seen_nowhere_zero, narrowed, point, sign,
 };
 pub use elimination::reduce;
+pub use evident::is_never_negative;
 pub use extent::Extent;
 pub use fact::SignFact;
 pub use factors::{Factors, LinearDependence, Rationalised};
@@ -107,7 +108,6 @@ use crate::graph::{Expr, Fault, Graph};
 use buckets::{Bucket, buckets, combined, part};
 use cells::{Cell, Leaf};
 use digest::SeedDigest;
-pub use evident::is_never_negative;
 use evident::{has_roots, with_evident_signs};
 use explore::{Explored, Explorer, Question};
 use lower::Algebraic;

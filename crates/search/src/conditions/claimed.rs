@@ -74,7 +74,7 @@ pub fn condition(
     }
 }
 
-/// What is met on random lines.
+/// Finds on random lines.
 enum MetEquations {
     /// The residual is not a fraction of a degree within reach.
     NoFraction,

@@ -10,8 +10,7 @@ use std::cell::Cell;
 use rustc_hash::FxHashSet;
 
 use super::polynomial::{Polynomial, PrimePolynomials};
-use super::real::has_real_root;
-use super::relation::{Explained, Round, ScalarParameter, explained, is_short};
+use super::relation::{Explained, Round, ScalarParameter, equation, explained};
 use crate::budget::Budget;
 use crate::echelon::Echelon;
 use crate::expansion::{FieldExpansion, Taylor};
@@ -24,8 +23,7 @@ use crate::{Effort, Halt, SearchError};
 use liouville::case::Case;
 use liouville::mechanics::{Draw, ParameterOrigin, SamplerSpec};
 use liouville::number::prime::Modulus;
-use liouville::number::rational::Rational;
-use liouville::proof::{ProofRng, reconstruct, root_numbers};
+use liouville::proof::{ProofRng, root_numbers};
 
 /// Number of points whose minors are compared.
 const MINOR_POINTS: usize = 2;
@@ -93,7 +91,11 @@ pub fn relations(
     for round in 0..primes {
         let mut search = Minors::new(local, asked, parameter.draw, round, effort);
         search.left = Some(left);
-        let (values, outside) = search.special_values()?;
+        let (values, outside) = match search.special_values() {
+            // Further primes only add to what one has shown.
+            Err(SearchError::Long { .. }) if count == 1 && round > 0 => break,
+            other => other?,
+        };
         let (parameters, modulus) = (search.parameters.clone(), search.modulus);
         let own = Round { values, parameters, modulus };
         if count > 1 {
@@ -122,47 +124,6 @@ pub fn relations(
         found.explained.unexplained = 0;
     }
     Ok(found)
-}
-
-/// Writes the equation of the values that are not rational, and of the roots of a further factor, if
-/// its coefficients are; `None` too if there are none. The inner `None` is for values none of which is real.
-pub fn equation(name: &str, round: &Round, further: &[u64]) -> Option<Option<String>> {
-    let Round { values, modulus: m, .. } = round;
-    let ring = PrimePolynomials(*m);
-    let is_other = |value: &&u64| reconstruct(**value, m).filter(is_short).is_none();
-    let factors = values.iter().filter(is_other).map(|value| vec![m.sub(0, *value), m.one()]);
-    let product = factors.fold(further.to_vec(), |all, own| ring.product(&all, &own));
-    if product.len() < 2 {
-        return None;
-    }
-    let lifted = |image: &u64| reconstruct(*image, m).filter(is_short);
-    let product: Vec<Rational> = product.iter().map(lifted).collect::<Option<_>>()?;
-    if !has_real_root(&product) {
-        return Some(None);
-    }
-    let mut text = String::new();
-    for (power, value) in product.into_iter().enumerate().rev().filter(|(_, own)| !own.is_zero()) {
-        let (sign, size) = match (value.is_negative(), text.is_empty()) {
-            (true, true) => ("−", value.abs()),
-            (true, false) => (" − ", value.abs()),
-            (false, true) => ("", value),
-            (false, false) => (" + ", value),
-        };
-        let base = match power {
-            0 => String::new(),
-            1 => name.to_string(),
-            2 => format!("{name}²"),
-            3 => format!("{name}³"),
-            n => format!("{name}^{n}"),
-        };
-        text.push_str(sign);
-        text.push_str(&match (size.is_one(), base.is_empty()) {
-            (_, true) => size.to_string(),
-            (true, false) => base,
-            (false, false) => format!("{size}*{base}"),
-        });
-    }
-    Some(Some(format!("{text} = 0")))
 }
 
 /// Minors as functions of one draw of the parameters.

@@ -2,6 +2,9 @@
 
 use std::fmt;
 
+use super::polynomial::PrimePolynomials;
+use super::real::has_real_root;
+
 use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
 use liouville::proof::reconstruct;
@@ -84,6 +87,47 @@ pub fn explained(
     let is_open = |own: &&Vec<Relation>| !own.iter().any(|relation| relations.contains(relation));
     let open = by_round.iter().map(|values| values.iter().filter(is_open).count());
     Explained { unexplained: open.max().unwrap_or(0), relations }
+}
+
+/// Writes the equation of the values that are not rational, and of the roots of a further factor, if
+/// its coefficients are; `None` too if there are none. The inner `None` is for values none of which is real.
+pub fn equation(name: &str, round: &Round, further: &[u64]) -> Option<Option<String>> {
+    let Round { values, modulus: m, .. } = round;
+    let ring = PrimePolynomials(*m);
+    let is_other = |value: &&u64| reconstruct(**value, m).filter(is_short).is_none();
+    let factors = values.iter().filter(is_other).map(|value| vec![m.sub(0, *value), m.one()]);
+    let product = factors.fold(further.to_vec(), |all, own| ring.product(&all, &own));
+    if product.len() < 2 {
+        return None;
+    }
+    let lifted = |image: &u64| reconstruct(*image, m).filter(is_short);
+    let product: Vec<Rational> = product.iter().map(lifted).collect::<Option<_>>()?;
+    if !has_real_root(&product) {
+        return Some(None);
+    }
+    let mut text = String::new();
+    for (power, value) in product.into_iter().enumerate().rev().filter(|(_, own)| !own.is_zero()) {
+        let (sign, size) = match (value.is_negative(), text.is_empty()) {
+            (true, true) => ("−", value.abs()),
+            (true, false) => (" − ", value.abs()),
+            (false, true) => ("", value),
+            (false, false) => (" + ", value),
+        };
+        let base = match power {
+            0 => String::new(),
+            1 => name.to_string(),
+            2 => format!("{name}²"),
+            3 => format!("{name}³"),
+            n => format!("{name}^{n}"),
+        };
+        text.push_str(sign);
+        text.push_str(&match (size.is_one(), base.is_empty()) {
+            (_, true) => size.to_string(),
+            (true, false) => base,
+            (false, false) => format!("{size}*{base}"),
+        });
+    }
+    Some(Some(format!("{text} = 0")))
 }
 
 /// Says how many values no relation describes.

@@ -13,9 +13,10 @@ use liouville::proof::ProofRng;
 
 use super::ParameterCondition;
 use super::equations::ParametricEquations;
-use super::minors::{determinant, equation};
+use super::minors::determinant;
 use super::parameter_line::ENTRY;
 use super::polynomial::{Polynomial, PrimePolynomials};
+use super::relation::equation;
 use super::relation::{Relation, Round, ScalarParameter, explained, unexplained};
 use super::split::SplitCase;
 use crate::ansatz::system::PrimePoint;

@@ -32,7 +32,7 @@ pub struct Mechanical {
     free: Vec<usize>,
     /// Components that are velocities given by the constraints.
     dependent: Vec<usize>,
-    /// What each draw of a parameter is in place of.
+    /// Meaning of each draw of a parameter.
     turned: Vec<Place>,
 }
 

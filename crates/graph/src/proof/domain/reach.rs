@@ -21,7 +21,7 @@ pub struct Reach<'r> {
     pub(super) bounds: Vec<Extent>,
 }
 
-/// How a value is bounded; arguments are numbers of values.
+/// Operation by which a value is bounded; arguments are numbers of values.
 #[derive(Clone, Copy)]
 pub(super) enum Rule<'r> {
     Constant(Extent),

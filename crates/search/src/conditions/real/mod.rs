@@ -69,7 +69,7 @@ pub struct RealSearch<'r> {
     pub halt: &'r Halt,
 }
 
-/// What is known of the real zeros of some equations.
+/// Knowledge of the real zeros of some equations.
 enum Zeros {
     None,
     Some,
