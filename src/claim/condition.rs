@@ -26,6 +26,12 @@ impl Condition {
         let otherwise = format!("{what} jumps: this says nothing of motions across");
         Self { need, otherwise, is_essential: false }
     }
+
+    /// Requires that a density is finite, or the measure may be infinite there.
+    pub fn finite(value: Expr) -> Self {
+        let otherwise = "ρ is infinite: it is a measure apart from such states".to_string();
+        Self { need: Need::Finite { value }, otherwise, is_essential: false }
+    }
 }
 
 /// A property that can be required.
@@ -64,6 +70,11 @@ pub enum Need {
     Continuous {
         /// The values.
         values: Vec<Expr>,
+    },
+    /// A value is infinite at no state.
+    Finite {
+        /// The value.
+        value: Expr,
     },
     /// A factor has a value at almost every zero of a function.
     ValueOnZeros {

@@ -83,8 +83,9 @@ impl Statement for Density {
             let need = Need::OneToOne;
             return vec![Condition { need, otherwise: otherwise.to_string(), is_essential: true }];
         }
-        let density = Condition::continuous(vec![jet.phase.scalar(&self.0)], "ρ");
-        vec![density, Condition::continuous(jet.phase.field().to_vec(), "the field")]
+        let value = jet.phase.scalar(&self.0);
+        let field = Condition::continuous(jet.phase.field().to_vec(), "the field");
+        vec![Condition::continuous(vec![value], "ρ"), field, Condition::finite(value)]
     }
 
     fn slopes(&self, jet: &DualPoint<'_, Expr>) -> Vec<Vec<Expr>> {

@@ -11,6 +11,20 @@ use crate::proof::{Extent, is_nowhere_zero};
 
 /// Returns the remark for a body whose radii of curvature are not known to be smooth functions of γ.
 pub(super) fn remark(model: &Model) -> Option<String> {
+    may_have_kinks(model).then(|| {
+        "it is not known that the surface is smooth for all γ: the density is positive and smooth where \
+         the support function is"
+            .to_string()
+    })
+}
+
+/// Whether the radii of curvature of the body of a model are not known to be smooth functions of γ.
+pub fn may_have_kinks(model: &Model) -> bool {
+    is_smooth(model) == Some(false)
+}
+
+/// Whether the radii are seen to be smooth; `None` without a body.
+fn is_smooth(model: &Model) -> Option<bool> {
     let body = model.system.body()?;
     let mut extents: Vec<Extent> = model.parameter_draws().iter().map(Draw::extent).collect();
     let unit = Extent::between(&Rational::from(-1), &Rational::from(1));
@@ -29,14 +43,8 @@ pub(super) fn remark(model: &Model) -> Option<String> {
         Ok((graph, Some(found))) => (graph, found),
         _ => return None,
     };
-    let is_smooth = corners(&graph, &radii)
-        .iter()
-        .all(|value| is_nowhere_zero(&graph, &extents, &sphere, &[*value]));
-    (!is_smooth).then(|| {
-        "it is not known that the surface is smooth for all γ: the density is positive and smooth where \
-         the support function is"
-            .to_string()
-    })
+    let is_nonzero = |value: &Expr| is_nowhere_zero(&graph, &extents, &sphere, &[*value]);
+    Some(corners(&graph, &radii).iter().all(is_nonzero))
 }
 
 /// Lists the values whose zeros are poles or corners of others.

@@ -75,6 +75,7 @@ pub use identity::{Identity, Rate, Relation};
 pub use independence::{Independent, MOST_FUNCTIONS as MOST_COMPARED};
 pub use integral::Integral;
 pub use jacobi_identity::JacobiIdentity;
+pub use kinks::may_have_kinks;
 pub use lax::Lax;
 pub use limit::Limit;
 pub use lyapunov::Lyapunov;

@@ -1,7 +1,7 @@
 //! Conversion of findings to reports.
 
 use super::claim_state::ClaimState;
-use super::evidence::{ClaimReport, Verdict};
+use super::evidence::{ClaimReport, Flaw, Verdict};
 use super::judge::{Options, Trust};
 use super::recorded::RecordedClaim;
 use crate::case::{Case, Expect};
@@ -56,6 +56,7 @@ pub fn report(
             evidence.add_remark(remark);
         }
         if claim.kind.is_negated() && status.is_on_a_part {
+            evidence.add_flaw(Flaw::OnAPart);
             evidence.remark = Some(match evidence.remark {
                 Some(remark) => format!("{ON_A_PART}; {remark}"),
                 None => ON_A_PART.to_string(),

@@ -1,7 +1,7 @@
 //! Conditions that claims presuppose.
 
 use super::claim_state::{are_zero, undecide};
-use super::evidence::Verdict;
+use super::evidence::{Flaw, Verdict};
 use super::field::{Answer, PrimeFieldStates, Query};
 use super::judging::Judging;
 use super::ladder::Open;
@@ -14,6 +14,15 @@ use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{Phase, combinations};
 use crate::proof::{Extent, GroupOutcome, Prover, are_coprime, is_nowhere_zero, sign};
 use crate::scalar::Scalar;
+
+/// The restriction of a claim that does not meet a need.
+fn flaw(need: &Need) -> Option<Flaw> {
+    match need {
+        Need::Continuous { .. } => Some(Flaw::Jumps),
+        Need::Finite { .. } => Some(Flaw::Infinite),
+        _ => None,
+    }
+}
 
 impl Judging<'_> {
     /// Leaves claims undecided if an essential condition is not known to hold, and adds remarks to
@@ -45,6 +54,9 @@ impl Judging<'_> {
                 };
                 if !condition.is_essential {
                     status.evidence.add_remark(failure);
+                    if let Some(flaw) = flaw(&condition.need) {
+                        status.evidence.add_flaw(flaw);
+                    }
                 } else if !self.holds_of_all_values(item)? {
                     undecide(status, failure);
                 }
@@ -143,6 +155,10 @@ impl Judging<'_> {
             }
             Need::Continuous { values } => {
                 let place = self.jump(sampler, values)?;
+                Ok(place.map(|place| format!("near {place} {otherwise}")))
+            }
+            Need::Finite { value } => {
+                let place = self.pole(sampler, *value)?;
                 Ok(place.map(|place| format!("near {place} {otherwise}")))
             }
             Need::ValueOnZeros { function, factor, inverse } => {

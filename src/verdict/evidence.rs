@@ -195,6 +195,18 @@ pub struct Rung {
     pub found: String,
 }
 
+/// A restriction of what a claim that holds says about motions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Flaw {
+    /// A function of the claim jumps at states that motions can cross.
+    Jumps,
+    /// A density is infinite at some states.
+    Infinite,
+    /// Functions are shown to be independent on a part of the states only.
+    OnAPart,
+}
+
 /// A quantity measured on a motion.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Measurement {
@@ -249,6 +261,9 @@ pub struct Evidence {
     /// value, or on a part of the level that was not reached.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub sign_is_partial: bool,
+    /// Restrictions that are seen, each with words in `remark`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub flaws: Vec<Flaw>,
     /// Volume form to which a density on a level set refers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub volume: Option<String>,
@@ -276,6 +291,19 @@ pub struct Evidence {
 }
 
 impl Evidence {
+    /// Whether a restriction is seen.
+    pub fn has(&self, flaw: Flaw) -> bool {
+        self.flaws.contains(&flaw)
+    }
+
+    /// Adds a restriction, once.
+    pub(crate) fn add_flaw(&mut self, flaw: Flaw) {
+        if !self.has(flaw) {
+            self.flaws.push(flaw);
+            self.flaws.sort_unstable();
+        }
+    }
+
     /// Adds a remark to those that there are.
     pub(crate) fn add_remark(&mut self, remark: String) {
         match &mut self.remark {

@@ -34,6 +34,7 @@ mod physics;
 mod pieces;
 mod pivot_space;
 mod point;
+mod poles;
 mod preimages;
 mod recorded;
 mod run;
@@ -49,8 +50,8 @@ mod witness;
 
 pub use equations::{EquationsSize, equations_size};
 pub use evidence::{
-    ClaimReport, DensitySign, Evidence, Independence, Measurement, Method, Proof, Rung, Verdict,
-    Witness,
+    ClaimReport, DensitySign, Evidence, Flaw, Independence, Measurement, Method, Proof, Rung,
+    Verdict, Witness,
 };
 pub use judge::{
     CaseReport, JudgeError, Options, RecordedSize, Trust, judge, judge_telling, recorded_size,

@@ -20,6 +20,7 @@ mod many_variables;
 mod masses;
 mod mutated;
 mod newton_euler;
+mod poles;
 #[path = "../common/random.rs"]
 mod random;
 mod sweep;

@@ -2,9 +2,10 @@
 
 use num_dual::Dual;
 
-use super::ask::{are_comparable, holds, independent, judged};
+use super::ask::{are_comparable, compared, holds, independent, judged};
 use super::library;
 use super::linear::SampledFunctions;
+use super::lists::{ListedCase, combinations};
 use super::origin::RemarkOrigin;
 use super::second_opinion::second_opinion;
 use super::terms::{is_one, recorded, sum};
@@ -15,7 +16,7 @@ use liouville::formula::{Formula, FormulaError};
 use liouville::graph::Expr;
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
-use liouville::verdict::{ClaimReport, Independence};
+use liouville::verdict::{ClaimReport, Independence, Verdict};
 
 /// Searches for integrals; proved ones go into the report.
 pub fn integrals(
@@ -68,16 +69,29 @@ pub fn tell(
     Ok(())
 }
 
-/// Name of a claim of the case of which an integral is a function.
+/// Name of a claim of the case of which an integral is a function, for each combination of listed
+/// values.
 pub fn claimed_by(
     case: &Case,
     formula: &Formula,
     effort: &Effort,
     report: &SearchReport,
 ) -> Result<Option<String>, SearchError> {
+    if report.claimed.is_empty() {
+        return Ok(None);
+    }
+    let Some(all) = combinations(case) else { return Ok(None) };
+    let is_function = |of: &Formula| -> Result<bool, SearchError> {
+        for ListedCase { case, .. } in &all {
+            let found = compared(case, std::slice::from_ref(of), formula, effort)?;
+            if found.is_none_or(|found| found.verdict != Verdict::Refuted) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    };
     for own in &report.claimed {
-        let formulas = std::slice::from_ref(&own.formula);
-        if independent(case, formulas, formula, effort)?.is_none() {
+        if is_function(&own.formula)? {
             return Ok(Some(own.name.clone()));
         }
     }

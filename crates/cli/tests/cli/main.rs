@@ -12,5 +12,6 @@ mod export;
 mod maps;
 mod mistakes;
 mod report;
+mod restrictions;
 #[path = "../common/values.rs"]
 mod values;

@@ -6,7 +6,8 @@ use super::picture;
 use liouville::case::Case;
 use liouville::verdict::CaseReport;
 use liouville_search::survey::{
-    Description, IntegralCount, Integrals, MeasureStatus, SearchOutcome, Survey, TestedClaim,
+    Description, HierarchyPlace, IntegralCount, Integrals, MeasureStatus, SearchOutcome, Survey,
+    TestedClaim,
 };
 
 /// Composes the document of a survey; `origin` names the program and the case.
@@ -17,6 +18,7 @@ pub fn document(survey: &Survey, origin: &str) -> Document {
         DocumentSection::new("General integrals", blocks(&survey.general)),
         DocumentSection::new("Invariant measure", measure(survey)),
         DocumentSection::new("Further integrals", integrals(survey)),
+        DocumentSection::new("For single listed values", blocks(&survey.for_values)),
         DocumentSection::new("Symmetry fields", blocks(&survey.fields)),
         DocumentSection::new("Reversors and symmetries", maps(survey)),
         DocumentSection::new("Conformally Hamiltonian form", hamiltonian(survey)),
@@ -90,8 +92,11 @@ fn system(survey: &Survey) -> Vec<SectionBlock> {
     if !own.parameters.is_empty() {
         found.extend([text("Parameters:"), SectionBlock::List(own.parameters.clone())]);
     }
-    if survey.parameters.iter().any(|one| one.value.is_none()) {
-        found.push(text("What is proved holds for all values of the free parameters."));
+    let has_free = survey.parameters.iter().any(|one| one.value.is_none());
+    if has_free {
+        found.push(text(
+            "What is proved holds for all values of the free parameters, unless a remark says otherwise.",
+        ));
     }
     let (holds, fails): (Vec<_>, Vec<_>) = survey.facts.iter().partition(|fact| fact.holds);
     let told = |facts: Vec<&liouville_search::survey::GeometryFact>| {
@@ -102,7 +107,8 @@ fn system(survey: &Survey) -> Vec<SectionBlock> {
     }
     if !fails.is_empty() {
         let not = told(fails).join("; ");
-        found.push(text(format!("Ruled out: {not}.")));
+        let words = if has_free { "Not so for all values of the parameters" } else { "Ruled out" };
+        found.push(text(format!("{words}: {not}.")));
     }
     let grounds = survey.facts.iter().map(|fact| match &fact.claim {
         None => format!("{}: as the file says", fact.words),
@@ -189,6 +195,9 @@ fn integrals(survey: &Survey) -> Vec<SectionBlock> {
         found.push(text("By a linear equation two integrals exist, without a closed form here:"));
         found.extend(blocks(&survey.rates));
     }
+    if found.is_empty() && !survey.by_value.is_empty() {
+        found.push(text("None is known for all listed values of the parameters."));
+    }
     if found.is_empty() {
         found.push(text(match survey.hierarchy.integrals {
             Integrals::ExcludedToDegree(degree) => format!(
@@ -198,17 +207,22 @@ fn integrals(survey: &Survey) -> Vec<SectionBlock> {
             _ => "None is known.".to_string(),
         }));
     }
-    found.push(text(count(&survey.independence, survey.hierarchy.measure)));
+    found.push(text(count(&survey.independence, &survey.hierarchy)));
     found.extend(survey.independence.claim.as_ref().map(independence));
     found
 }
 
-fn count(count: &IntegralCount, measure: MeasureStatus) -> String {
-    let has_measure = matches!(measure, MeasureStatus::ClosedForm | MeasureStatus::ByQuadrature);
+fn count(count: &IntegralCount, place: &HierarchyPlace) -> String {
+    let has_measure =
+        matches!(place.measure, MeasureStatus::ClosedForm | MeasureStatus::ByQuadrature);
     let found = count.independent.len();
     let verdict = match (found >= count.needed, has_measure) {
+        (true, true) if place.integrals == Integrals::EnoughOnAPart => {
+            "with the measure this is enough where they are independent, which is shown on a part of the \
+             states only"
+        }
         (true, true) => "with the measure this is enough",
-        (true, false) => "but there is no measure to go with them",
+        (true, false) => "but no measure is known to go with them",
         (false, _) => "some are missing",
     };
     let known = match found {

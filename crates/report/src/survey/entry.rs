@@ -2,7 +2,9 @@
 
 use super::document::{JudgedClaim, SectionBlock, VerdictMark};
 use crate::evidence::options;
-use liouville::verdict::{ClaimReport, DensitySign, Evidence, Independence, Verdict, Witness};
+use liouville::verdict::{
+    ClaimReport, DensitySign, Evidence, Flaw, Independence, Verdict, Witness,
+};
 use liouville_search::survey::TestedClaim;
 
 /// Findings as blocks, one after the other.
@@ -54,6 +56,7 @@ fn mark(verdict: Verdict) -> VerdictMark {
 
 /// Entry of the claim that integrals are independent.
 pub fn independence(claim: &ClaimReport) -> SectionBlock {
+    let is_partial = claim.evidence.has(Flaw::OnAPart);
     SectionBlock::Entry(Box::new(JudgedClaim {
         mark: mark(claim.verdict),
         verdict: claim.verdict.word(),
@@ -61,7 +64,8 @@ pub fn independence(claim: &ClaimReport) -> SectionBlock {
         statement: None,
         layout: None,
         definitions: Vec::new(),
-        remarks: Vec::new(),
+        // Without a restriction the remark repeats the count.
+        remarks: claim.evidence.remark.iter().filter(|_| is_partial).cloned().collect(),
         source: String::new(),
         evidence: grounds(&claim.evidence),
     }))
@@ -88,9 +92,7 @@ fn remarks(tested: &TestedClaim) -> Vec<String> {
         }
     }
     remarks.extend(tested.remark.clone());
-    if tested.claim.verdict == Verdict::Refuted {
-        remarks.extend(evidence.remark.clone());
-    }
+    remarks.extend(evidence.remark.clone());
     if tested.claim.verdict == Verdict::Undecided {
         remarks.extend(evidence.reason.clone());
     }

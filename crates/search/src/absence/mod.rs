@@ -69,6 +69,8 @@ enum AbsenceOutcome {
     Exhibited(String),
     /// Undecided, for this reason.
     Open(String),
+    /// Undecided: a count leaves room for more, in words that hold where the count does.
+    Bounded(String),
 }
 
 /// Judges all claims of a case except those about motion; claims of absence come last.
@@ -215,13 +217,16 @@ impl<'a> AbsenceCase<'a> {
             false => branches::are_true,
         };
         match outcome {
-            AbsenceOutcome::Excluded { .. } if !is_true(self.case, &self.effort)? => {
+            AbsenceOutcome::Excluded { .. } | AbsenceOutcome::Bounded(_)
+                if !is_true(self.case, &self.effort)? =>
+            {
                 Ok(AbsenceOutcome::Open(
                     "the formulas contain a modulus, a root that depends on others, or a function such \
                      as atan: a count modulo a prime says nothing about them"
                         .to_string(),
                 ))
             }
+            AbsenceOutcome::Bounded(bound) => Ok(AbsenceOutcome::Open(bound)),
             outcome => Ok(outcome),
         }
     }
@@ -322,7 +327,7 @@ fn report(claim: &AbsenceClaim, outcome: AbsenceOutcome) -> ClaimReport {
             evidence.exhibit = Some(what);
             Verdict::Refuted
         }
-        AbsenceOutcome::Open(reason) => {
+        AbsenceOutcome::Open(reason) | AbsenceOutcome::Bounded(reason) => {
             evidence.reason = Some(reason);
             Verdict::Undecided
         }

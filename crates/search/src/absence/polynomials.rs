@@ -263,7 +263,7 @@ impl<'a> Counting<'a> {
                  products of a higher degree may cancel to it"
             )));
         }
-        Ok(AbsenceOutcome::Open(format!(
+        Ok(AbsenceOutcome::Bounded(format!(
             "at most {dimension} independent integrals exist, constants included; {} are known, and no \
              other was found in closed form",
             space.dimension

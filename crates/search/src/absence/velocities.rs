@@ -124,7 +124,7 @@ fn no_integral(
         }
     }
     Ok(exhibit.map(AbsenceOutcome::Exhibited).unwrap_or_else(|| {
-        AbsenceOutcome::Open(format!(
+        AbsenceOutcome::Bounded(format!(
             "at most {dimension} independent integrals exist, constants included; {} are known, and no \
              other was found in closed form",
             known.dimension

@@ -29,6 +29,8 @@ pub enum MeasureStatus {
 pub enum Integrals {
     /// At least as many as the theorem of Euler and Jacobi needs.
     Enough,
+    /// The same, if some are independent that are shown to be so on a part of the states only.
+    EnoughOnAPart,
     /// Some, but fewer than the theorem needs.
     Some,
     /// None known; none exists that is polynomial in the velocities up to this degree.
@@ -55,6 +57,9 @@ pub enum HierarchyClass {
     /// A measure is neither known nor excluded.
     #[serde(rename = "not known")]
     NotKnown,
+    /// Another class for other listed values of the parameters.
+    #[serde(rename = "depends on the listed values")]
+    ByValue,
 }
 
 /// Place of a system in the hierarchy, with the grounds for it and its typical behaviour.
@@ -81,6 +86,7 @@ impl HierarchyClass {
             HierarchyClass::MeasureOnly => "measure only",
             HierarchyClass::Neither => "neither integral nor measure",
             HierarchyClass::NotKnown => "not known",
+            HierarchyClass::ByValue => "depends on the listed values of the parameters",
         }
     }
 }
@@ -95,7 +101,8 @@ impl HierarchyPlace {
         reversors: usize,
         dimension: Option<usize>,
     ) -> Self {
-        let has_integral = matches!(integrals, Integrals::Enough | Integrals::Some);
+        let has_integral =
+            matches!(integrals, Integrals::Enough | Integrals::EnoughOnAPart | Integrals::Some);
         let class = match (measure, has_integral) {
             (MeasureStatus::ClosedForm | MeasureStatus::ByQuadrature, true) => {
                 HierarchyClass::IntegralAndMeasure
@@ -154,7 +161,7 @@ fn grounds_of(measure: MeasureStatus) -> &'static str {
         }
         MeasureStatus::Singular => {
             "a measure: not known; an invariant density was found, with zeros or poles, and is a measure \
-             between them"
+             apart from them"
         }
         MeasureStatus::NotKnown => "a measure: not known",
     }
@@ -166,6 +173,9 @@ impl Integrals {
             Integrals::Enough => {
                 "integrals: proved, enough for the Euler–Jacobi theorem".to_string()
             }
+            Integrals::EnoughOnAPart => "integrals: proved, enough for the Euler–Jacobi theorem if they \
+                                         are independent, which is shown on a part of the states only"
+                .to_string(),
             Integrals::Some => {
                 "integrals: proved, but too few for the Euler–Jacobi theorem".to_string()
             }
@@ -190,6 +200,9 @@ fn typical(
              points the motion is on two-dimensional tori, quasi-periodic after a change of time",
             "no attractors, no chaos",
         ],
+        (HierarchyClass::IntegralAndMeasure, Integrals::EnoughOnAPart) => {
+            &["motion on the joint levels preserves a measure: no attractors on compact ones"]
+        }
         (HierarchyClass::IntegralAndMeasure, _) => &[
             "motion on the joint levels preserves a measure: no attractors on compact ones; where one \
              integral is missing to quadratures, chaos is possible and usually weak",
@@ -210,6 +223,6 @@ fn typical(
             "attractors and repellers are possible, strange ones among them, as in a dissipative \
              system, though the energy is conserved",
         ],
-        (HierarchyClass::NotKnown, _) => &[],
+        (HierarchyClass::NotKnown | HierarchyClass::ByValue, _) => &[],
     }
 }

@@ -7,7 +7,7 @@ use super::question::TestedClaim;
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::formula::Formula;
-use liouville::verdict::{ClaimReport, JudgeError, Options, Verdict, judge};
+use liouville::verdict::{ClaimReport, Flaw, JudgeError, Options, Verdict, judge};
 
 /// Number of independent integrals against that needed by the theorem of Euler and Jacobi.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -29,6 +29,9 @@ pub struct IndependentSelection {
     pub kept: Vec<usize>,
     /// Count of independent integrals.
     pub count: IntegralCount,
+    /// Number of integrals, of the count, that are independent at almost all states; the others are shown
+    /// to be so on a part of them.
+    pub everywhere: usize,
     /// Whether the energy is proved to be one.
     pub has_energy: bool,
 }
@@ -45,8 +48,21 @@ pub fn count(
     let dimension = case.model.dimension() - case.model.level.len();
     let has_energy = has_energy(case, options)?;
     let mut kept: Vec<usize> = Vec::new();
-    let mut proof = None;
+    let (mut proof, mut later) = (None, Vec::new());
     for index in 0..integrals.len() {
+        let trial: Vec<&TestedClaim> = kept.iter().chain([&index]).map(|k| integrals[*k]).collect();
+        let claim = independent(case, options, bindings, has_energy, &trial)?;
+        match claim.filter(|claim| claim.verdict == Verdict::Proved) {
+            Some(claim) if claim.evidence.has(Flaw::OnAPart) => later.push(index),
+            Some(claim) => {
+                kept.push(index);
+                proof = Some(claim);
+            }
+            None => {}
+        }
+    }
+    let everywhere = usize::from(has_energy) + kept.len();
+    for index in later {
         let trial: Vec<&TestedClaim> = kept.iter().chain([&index]).map(|k| integrals[*k]).collect();
         let claim = independent(case, options, bindings, has_energy, &trial)?;
         if let Some(claim) = claim.filter(|claim| claim.verdict == Verdict::Proved) {
@@ -54,6 +70,7 @@ pub fn count(
             proof = Some(claim);
         }
     }
+    let on_a_part = usize::from(has_energy) + kept.len() - everywhere;
     let energy = has_energy.then(|| "energy".to_string());
     let names = kept.iter().map(|k| integrals[*k].claim.name.clone());
     // Integrals with a formula may be functions of those without one, so they are not counted
@@ -66,16 +83,20 @@ pub fn count(
         independent: energy.into_iter().chain(names).chain(implied.iter().cloned()).collect(),
         claim: proof,
     };
-    Ok(IndependentSelection { kept, count, has_energy })
+    // Integrals without a formula are counted as before.
+    let everywhere = count.independent.len() - on_a_part;
+    Ok(IndependentSelection { kept, count, everywhere, has_energy })
 }
 
-/// Whether the energy is proved to be conserved.
+/// Whether the energy is proved to be conserved, and not to be constant on the level.
 fn has_energy(case: &Case, options: &Options) -> Result<bool, JudgeError> {
     if !may_have_energy(case) {
         return Ok(false);
     }
-    let claim = case.formula("energy").ok().map(Claim::integral);
-    let asked = claim.and_then(|claim| case.with_claims(&[claim]).ok());
+    let energy = case.formula("energy").ok();
+    let claims =
+        energy.map(|energy| [Claim::integral(energy.clone()), Claim::independent(vec![energy])]);
+    let asked = claims.and_then(|claims| case.with_claims(&claims).ok());
     let Some(asked) = asked else { return Ok(false) };
     let report = judge(&asked, options)?;
     Ok(report.claims.iter().all(|claim| claim.verdict == Verdict::Proved))

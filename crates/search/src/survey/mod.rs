@@ -9,10 +9,12 @@
 //! sphere       the density, or the criterion, over the sphere of normals
 //! hamiltonian  the conformally Hamiltonian form that a density gives
 //! unknown      further invariants that the search finds and excludes
+//! by_value     the same for single listed values of parameters
 //! hierarchy    classification: integral and measure, integral only, measure only, neither
 //! ```
 
 mod axis;
+mod by_value;
 mod data;
 mod definitions;
 mod description;
@@ -40,6 +42,7 @@ use liouville::mechanics::TIME;
 use liouville::verdict::{JudgeError, Options, Verdict};
 use liouville_flow::observe::evidence_against_density;
 
+pub use by_value::ValuePlace;
 pub use definitions::Definition;
 pub use description::Description;
 pub use geometry::GeometryFact;
@@ -80,6 +83,9 @@ pub struct Survey {
     pub facts: Vec<GeometryFact>,
     /// Place in the hierarchy.
     pub hierarchy: HierarchyPlace,
+    /// Its places for single listed values of parameters, if there are lists, of few combinations.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub by_value: Vec<ValuePlace>,
     /// Integrals common to all such systems, and the energy.
     pub general: Vec<TestedClaim>,
     /// Criterion for a density of the configuration.
@@ -93,6 +99,9 @@ pub struct Survey {
     pub integrals: Vec<TestedClaim>,
     /// Integrals that depend on these and have simple formulas.
     pub dependent: Vec<TestedClaim>,
+    /// Invariants that hold for single listed values of parameters.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub for_values: Vec<TestedClaim>,
     /// Rates from which further integrals follow by a linear equation.
     pub rates: Vec<TestedClaim>,
     /// Count for the theorem of Euler and Jacobi.
@@ -128,6 +137,25 @@ pub fn survey(
     if case.model.system.is_map() {
         return Err(JudgeError::Discrete);
     }
+    let mut found = of_all_values(case, options, halt, progress)?;
+    let places = by_value::places(case, &mut |own, values| {
+        let progress = &mut |part: &str| progress(&format!("{part}, for {values}"));
+        of_all_values(own, options, halt, progress).map(|own| own.hierarchy)
+    })?;
+    if let Some(places) = places {
+        found.hierarchy.by_value(&places);
+        found.by_value = places;
+    }
+    Ok(found)
+}
+
+/// Surveys what holds for all values of the parameters, listed ones among them.
+fn of_all_values(
+    case: &Case,
+    options: &Options,
+    halt: &Halt,
+    progress: &mut dyn FnMut(&str),
+) -> Result<Survey, JudgeError> {
     progress("claims of the case");
     let own = liouville::verdict::judge(case, options)?;
     let claimed: Vec<TestedClaim> = own
@@ -146,9 +174,14 @@ pub fn survey(
         .partition::<Vec<TestedClaim>, _>(|found| found.is("reversor"));
     progress("further integrals");
     let mut search = SearchOutcome::of(case, options, halt, progress);
-    all.append(&mut search.tested);
+    let (for_values, found) =
+        std::mem::take(&mut search.tested).into_iter().partition(|one| one.values.is_some());
+    all.extend::<Vec<TestedClaim>>(found);
     progress("classification");
     let mut sorted = Sorted::of(all);
+    let (jumping, counted) =
+        std::mem::take(&mut sorted.integrals).into_iter().partition(TestedClaim::jumps);
+    sorted.integrals = counted;
     let candidates: Vec<&TestedClaim> = sorted.integrals.iter().collect();
     let independent =
         independence::count(case, options, &geometry.bindings, &candidates, &implied)?;
@@ -170,14 +203,16 @@ pub fn survey(
         Some(density) => hamiltonian::form(case, options, &geometry.bindings, density)?,
         None => Vec::new(),
     };
-    let found = independent.count.independent.len();
+    let (found, needed) = (independent.count.independent.len(), independent.count.needed);
     let none = integrals.is_empty() && implied.is_empty();
     let standing = match (none, search.excluded_to()) {
-        (false, _) if found >= independent.count.needed => Integrals::Enough,
+        (false, _) if independent.everywhere >= needed => Integrals::Enough,
+        (false, _) if found >= needed => Integrals::EnoughOnAPart,
         (false, _) => Integrals::Some,
         (true, Some(degree)) => Integrals::ExcludedToDegree(degree),
         (true, None) => Integrals::NotKnown,
     };
+    integrals.extend::<Vec<TestedClaim>>(jumping);
     let sphere = match measure {
         MeasureStatus::ClosedForm | MeasureStatus::ByQuadrature => sphere::density(case, options)?,
         MeasureStatus::Excluded
@@ -206,12 +241,14 @@ pub fn survey(
         notes: case.notes.clone(),
         facts: geometry.facts,
         hierarchy,
+        by_value: Vec::new(),
         general: sorted.general,
         criterion: sorted.criterion,
         densities: sorted.densities,
         sphere,
         integrals,
         dependent,
+        for_values,
         rates: sorted.rates,
         independence: independent.count,
         fields: sorted.fields,

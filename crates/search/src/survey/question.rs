@@ -14,7 +14,7 @@ use liouville::case::Case;
 use liouville::claim::{Claim, ClaimEntry};
 use liouville::mechanics::Meaning;
 use liouville::verdict::{
-    ClaimReport, DensitySign, Independence, JudgeError, Options, Verdict, judge,
+    ClaimReport, DensitySign, Flaw, Independence, JudgeError, Options, Verdict, judge,
 };
 
 /// Claims to be tested on a case, with the names they use.
@@ -70,6 +70,9 @@ pub struct TestedClaim {
     /// Additional remark.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub remark: Option<String>,
+    /// Listed values of parameters for which alone it holds, as `a = 1`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub values: Option<String>,
     /// Whether it says nothing about the body, for example that a surface is preserved.
     #[serde(skip)]
     pub is_general: bool,
@@ -125,6 +128,7 @@ impl TestedClaim {
             images: Vec::new(),
             fixed_set: None,
             remark: None,
+            values: None,
             is_general: false,
             shown,
         }
@@ -161,10 +165,17 @@ impl TestedClaim {
         self.is("integral") && self.holds() && independent
     }
 
-    /// Whether the finding is a density of constant sign.
+    /// Whether the finding is a density of constant sign, without a pole that is seen.
     pub fn is_measure(&self) -> bool {
-        let sign = self.claim.evidence.sign;
-        self.is("density") && self.is_proved() && sign != Some(DensitySign::Changes)
+        let evidence = &self.claim.evidence;
+        let has_one_sign = evidence.sign != Some(DensitySign::Changes);
+        self.is("density") && self.is_proved() && has_one_sign && !evidence.has(Flaw::Infinite)
+    }
+
+    /// Whether the finding is an integral that jumps, which a motion that crosses the jump does not
+    /// keep.
+    pub fn jumps(&self) -> bool {
+        self.is("integral") && self.claim.evidence.has(Flaw::Jumps)
     }
 
     /// Whether a formula contains an unevaluated integral.
@@ -283,6 +294,7 @@ impl SurveyQuestion {
             images,
             family: self.family.clone(),
             fixed_set: None,
+            values: None,
             is_general: self.is_general,
         }
     }

@@ -13,6 +13,9 @@ use liouville::verdict::{ClaimReport, Options};
 /// Degree in the velocities up to which integrals are counted: a fraction of a second.
 const DEGREE: u32 = 4;
 
+/// Key of a find for a listed value of a parameter.
+const VALUE: &str = "value";
+
 /// Time in seconds above which a count is left out.
 const SECONDS: f64 = 2.0;
 
@@ -91,5 +94,10 @@ pub fn of_search(case: &Case, found: Found) -> TestedClaim {
         note: None,
         evidence: found.evidence,
     };
-    TestedClaim::found(case, claim, names)
+    let is_value = |(what, _): &&(&'static str, String)| *what == VALUE;
+    let values = found.with.iter().find(is_value).map(|(_, text)| text.clone());
+    let with = found.with.iter().map(|(what, text)| format!("with the {what} {text}"));
+    let with: Vec<String> = with.collect();
+    let remark = (!with.is_empty()).then(|| with.join("; "));
+    TestedClaim { values, remark, ..TestedClaim::found(case, claim, names) }
 }

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::geometry::GeometryFact;
 use liouville::case::Case;
+use liouville::claim::may_have_kinks;
 use liouville::mechanics::{ParameterOrigin, System};
 
 /// A parameter of the case.
@@ -39,6 +40,11 @@ pub fn sentence(case: &Case, facts: &[GeometryFact]) -> String {
                 (_, _, _, Some(axis)) => format!("a body of revolution about {axis}"),
                 _ => "a body with a general surface".to_string(),
             };
+            // Each part of such a surface may be that of a ball.
+            let parts = match (has("ball") || has("ellipsoid")) && may_have_kinks(&case.model) {
+                true => ", part by part where its support function is smooth,",
+                false => "",
+            };
             let curvature = system.body().and_then(|body| body.curvature.as_ref());
             let base = match curvature {
                 None => "a plane".to_string(),
@@ -50,7 +56,7 @@ pub fn sentence(case: &Case, facts: &[GeometryFact]) -> String {
                 System::Spinning(_) => "without slipping, free to spin",
                 _ => "without slipping or spinning",
             };
-            format!("{} rolls on {base} {way}{with}.", capital(&shape))
+            format!("{}{parts} rolls on {base} {way}{with}.", capital(&shape))
         }
         System::FlatBase(body) => format!(
             "A body with a flat base rolls on a sphere without slipping or spinning{}.",

@@ -1,0 +1,178 @@
+//! Poles of densities: where ρ is infinite, ρ dx need not be a measure.
+//!
+//! A pole is sought by Newton's method towards the zeros of what ρ divides by, in f64. It is observed,
+//! not proved, and is told in a remark.
+
+use super::judging::Judging;
+use super::sampler::Sampler;
+use super::witness::briefly;
+use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape};
+use crate::mechanics::{Draw, NumberLine, combinations};
+use crate::number::UnaryFunction;
+use crate::number::float::Float;
+use crate::proof::is_seen_nowhere_zero;
+
+/// Number of states from which a pole is sought, side by side.
+const STARTS: usize = 64;
+/// Number of steps towards it.
+const STEPS: usize = 40;
+/// Share of Newton's step that is taken, so that a simple zero is not met exactly.
+const DAMPED: f64 = 0.9;
+/// Step of a difference quotient, in units of the coordinate or of 1/1000.
+const DIFFERENCE: f64 = 1e-6;
+/// Decrease of a divisor that shows a zero, and increase of ρ that shows a pole.
+const LEAST_DECREASE: f64 = 1e-10;
+const LEAST_INCREASE: f64 = 1e3;
+/// Largest coordinate of a state at a pole, where others are of order 1.
+const FARTHEST: f64 = 1e3;
+/// Largest number of divisors that are examined.
+const MOST_DIVISORS: usize = 8;
+/// Number of pieces of the ranges in which a divisor is shown not to vanish.
+const PIECES: usize = 64;
+
+/// Values at some states, one row for each input or output.
+type Rows = Vec<[f64; STARTS]>;
+
+impl Judging<'_> {
+    /// Finds a state, as text, near which a density is infinite.
+    ///
+    /// `None` if none was met.
+    pub(super) fn pole(&self, sampler: &Sampler, density: Expr) -> Result<Option<String>, Fault> {
+        let Some(fixed) = combinations(sampler.recipes()).and_then(|all| all.into_iter().next())
+        else {
+            return Ok(None);
+        };
+        let (graph, groups) = sampler.compose(self.graph, &[vec![density]], &fixed)?;
+        let density = groups.concat();
+        let divisors = divisors(&graph, &density);
+        let extents = sampler.extents();
+        let mut open = divisors
+            .into_iter()
+            .filter(|value| !is_seen_nowhere_zero(&graph, &extents, &[], &[*value], PIECES));
+        let Some(first) = open.next() else { return Ok(None) };
+        let density = Tape::new(&graph, &density);
+        let model = &self.case.model;
+        let state = Tape::new(sampler.graph(), &sampler.made()[model.free_components()..]);
+        for divisor in [first].into_iter().chain(open).take(MOST_DIVISORS) {
+            let search = PoleSearch {
+                sampler,
+                divisor: Tape::new(&graph, &[divisor]),
+                density: &density,
+                state: &state,
+            };
+            if let Some(place) = search.pole(graph.inputs()) {
+                return Ok(Some(briefly(model, &place)));
+            }
+        }
+        Ok(None)
+    }
+}
+
+/// Values by which others are divided, or whose powers have negative exponents; of roots and powers
+/// what they are taken of, which vanishes with them and has slopes there.
+fn divisors(graph: &Graph, values: &[Expr]) -> Vec<Expr> {
+    let reached = graph.reached(values.iter().copied());
+    let mut found: Vec<usize> = Vec::new();
+    for (mut place, need) in graph.needs(&reached) {
+        while let Step::Unary(UnaryFunction::Sqrt | UnaryFunction::Abs, a) | Step::Power(a, _) =
+            graph.step(place)
+        {
+            place = a;
+        }
+        let is_number = graph.constant_value(graph.at(place)).is_some();
+        if need.is_pole && !is_number && !found.contains(&place) {
+            found.push(place);
+        }
+    }
+    found.into_iter().map(|place| graph.at(place)).collect()
+}
+
+/// The way from states to zeros of a divisor.
+struct PoleSearch<'s> {
+    sampler: &'s Sampler,
+    divisor: Tape,
+    density: &'s Tape,
+    state: &'s Tape,
+}
+
+impl PoleSearch<'_> {
+    /// Draws of the states from which the search starts.
+    fn starts(&self, inputs: usize) -> Rows {
+        let all: Vec<Vec<(f64, bool)>> =
+            (0..STARTS as u64).map(|index| self.sampler.nearest_draws(index)).collect();
+        let draws = all.first().map_or(0, Vec::len);
+        let mut rows: Rows = (0..draws).map(|k| std::array::from_fn(|i| all[i][k].0)).collect();
+        rows.resize(inputs.max(draws), [0.5; STARTS]);
+        rows
+    }
+
+    /// Ranges of the draws of the state, by place.
+    fn ranges(&self) -> Vec<(usize, [f64; 2])> {
+        let parameters = self.sampler.parameter_draws();
+        let places = self.sampler.recipes().iter().enumerate().skip(parameters);
+        let range = |(place, draw): (usize, &Draw)| match draw {
+            Draw::Within(range) => Some((place, [range.low.to_f64().0, range.high.to_f64().0])),
+            Draw::Of(NumberLine::Positive, _) => Some((place, [0.0, f64::MAX])),
+            Draw::Of(NumberLine::All | NumberLine::Directions, _) => {
+                Some((place, [-f64::MAX, f64::MAX]))
+            }
+            Draw::OneOf(_) | Draw::Sign => None,
+        };
+        places.filter_map(range).collect()
+    }
+
+    /// State at which the divisor goes to 0 and the density to infinity.
+    fn pole(&self, inputs: usize) -> Option<Vec<f64>> {
+        let mut point = self.starts(inputs);
+        let ranges = self.ranges();
+        let before = output(self.density, &point);
+        let first = output(&self.divisor, &point);
+        let mut value = first;
+        for _ in 0..STEPS {
+            let slopes: Vec<[f64; STARTS]> =
+                ranges.iter().map(|(place, _)| self.slope(&point, *place)).collect();
+            let lengths: [f64; STARTS] =
+                std::array::from_fn(|i| slopes.iter().map(|slope| slope[i] * slope[i]).sum());
+            for ((place, [low, high]), slope) in ranges.iter().zip(&slopes) {
+                for i in 0..STARTS {
+                    let step = DAMPED * value[i] * slope[i] / lengths[i];
+                    if step.is_finite() && value[i].abs() > LEAST_DECREASE * first[i].abs() {
+                        point[*place][i] = (point[*place][i] - step).clamp(*low, *high);
+                    }
+                }
+            }
+            value = output(&self.divisor, &point);
+        }
+        let after = output(self.density, &point);
+        let states = rows(self.state, &point);
+        (0..STARTS).find_map(|i| {
+            let vanishes = value[i].abs() <= LEAST_DECREASE * first[i].abs();
+            let grows = after[i].abs() >= LEAST_INCREASE * before[i].abs() && before[i] != 0.0;
+            let state: Vec<f64> = states.iter().map(|row| row[i]).collect();
+            let is_near = state.iter().all(|x| x.abs() <= FARTHEST);
+            (vanishes && grows && is_near).then_some(state)
+        })
+    }
+
+    /// Difference quotient of the divisor by one draw.
+    fn slope(&self, point: &Rows, place: usize) -> [f64; STARTS] {
+        let steps = point[place].map(|x| DIFFERENCE * x.abs().max(1e-3));
+        let mut moved = point.clone();
+        let mut at = |sign: f64| {
+            moved[place] = std::array::from_fn(|i| point[place][i] + sign * steps[i]);
+            output(&self.divisor, &moved)
+        };
+        let (above, below) = (at(1.0), at(-1.0));
+        std::array::from_fn(|i| (above[i] - below[i]) / (2.0 * steps[i]))
+    }
+}
+
+fn rows(tape: &Tape, point: &Rows) -> Rows {
+    let mut evaluator = Evaluator::new(tape, Float::<STARTS>);
+    evaluator.run(point);
+    evaluator.outputs().copied().collect()
+}
+
+fn output(tape: &Tape, point: &Rows) -> [f64; STARTS] {
+    rows(tape, point).first().copied().unwrap_or([f64::NAN; STARTS])
+}

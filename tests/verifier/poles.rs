@@ -1,0 +1,48 @@
+//! Poles of densities, planted and found.
+
+use liouville::case::Case;
+use liouville::verdict::{ClaimReport, Flaw, Options, Verdict, judge};
+
+/// Judges densities of a field of x, y.
+fn densities(ranges: [&str; 2], rates: [&str; 2], densities: &[String]) -> Vec<ClaimReport> {
+    let claims: String =
+        densities.iter().map(|own| format!("[[claim]]\ndensity = '{own}'\n")).collect();
+    let text = format!(
+        "title = 't'\n[parameters]\nk = '1..2'\n[state]\nx = '{}'\ny = '{}'\n[field]\nx = '{}'\n\
+         y = '{}'\n{claims}",
+        ranges[0], ranges[1], rates[0], rates[1]
+    );
+    let case = Case::parse(&text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    judge(&case, &Options::default()).unwrap_or_else(|error| panic!("{error}\n{text}")).claims
+}
+
+#[test]
+fn planted_poles_are_found_and_no_others() {
+    for [a, b] in [["0", "0"], ["1/2", "−1"], ["−1.3", "k/2"]] {
+        let square = format!("((x − {a})² + (y − {b})²)");
+        let rates = [format!("−(y − ({b}))"), format!("x − ({a})")];
+        let rates = [rates[0].as_str(), rates[1].as_str()];
+        let infinite = ["1/S", "S^(−1/2)", "1/(S − 1)²", "(S − 1)^(−4)", "(2 + S)/(S*(1 + S))"];
+        let finite =
+            ["1/(S + 1/1000)", "1/√(1 + S)", "e^(−1/S)", "(S + 1)/(S + 2)", "e^(−S)", "S²"];
+        for (all, is_infinite) in [(&infinite[..], true), (&finite[..], false)] {
+            let all: Vec<String> = all.iter().map(|own| own.replace('S', &square)).collect();
+            for claim in densities(["-2..2", "-2..2"], rates, &all) {
+                let (name, evidence) = (&claim.name, &claim.evidence);
+                assert_eq!(claim.verdict, Verdict::Proved, "{name}");
+                assert_eq!(evidence.has(Flaw::Infinite), is_infinite, "{name}: {evidence:?}");
+                let remark = evidence.remark.as_deref().unwrap_or_default();
+                assert_eq!(remark.contains("ρ is infinite"), is_infinite, "{name}: {remark}");
+            }
+        }
+    }
+}
+
+#[test]
+fn poles_outside_of_the_ranges_do_not_count() {
+    let (rates, density) = (["x*(1 − x)", "−y"], ["(1 − x)^(−2)".to_string()]);
+    for (range, is_infinite) in [("0.5..2", true), ("1.5..2", false), ("-1..0.75", false)] {
+        let found = densities([range, "-2..2"], rates, &density);
+        assert_eq!(found[0].evidence.has(Flaw::Infinite), is_infinite, "x in {range}");
+    }
+}
