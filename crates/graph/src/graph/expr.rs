@@ -48,7 +48,8 @@ impl Expr {
 
     /// Returns the node of this value in `graph`. A value of another recording is a fault and
     /// counts as 0.
-    fn node_in(self, graph: &mut Graph) -> NodeId {
+    #[inline]
+    pub(super) fn node_in(self, graph: &mut Graph) -> NodeId {
         if self.session == graph.session {
             return self.node;
         }

@@ -307,7 +307,7 @@ impl Explorer<'_> {
             for (place, value) in special.iter().zip(&cell.values) {
                 made.insert(*place, at(algebraic.values[cell.graph.place(*value)]?)?);
             }
-            let values = graph.replay(&reached, &inputs, |place, _, _| made.get(&place).copied());
+            let values = graph.repeated_with(&reached, &inputs, |place| made.get(&place).copied());
             outputs.iter().map(|output| values[graph.place(*output)]).collect::<Option<Vec<Expr>>>()
         };
         let Some((extended, made)) = algebraic.with(replayed)? else {

@@ -194,7 +194,7 @@ impl Defect<'_> {
         let Self { sources, digest, .. } = *self;
         let reached = self.graph.reached_from(places);
         let (graph, defects) = record(sources.len(), |inputs| {
-            defects(&self.graph.replay(&reached, inputs, |_, _, _| None))
+            defects(&self.graph.repeated(&reached, inputs))
         })
         .ok()?;
         let defects = defects?;

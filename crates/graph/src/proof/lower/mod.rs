@@ -130,7 +130,7 @@ impl<'g> Algebraic<'g> {
     ) -> Result<Option<(Algebraic<'static>, Vec<Expr>)>, Fault> {
         let (graph, (values, odd)) = record(self.sources.len(), |inputs| {
             let reached = vec![true; self.graph.len()];
-            let values = self.graph.replay(&reached, inputs, |_, _, _| None);
+            let values = self.graph.repeated(&reached, inputs);
             let at = |expr: Expr| values[self.graph.place(expr)];
             let odd: Option<Vec<(Expr, u64)>> =
                 self.odd.iter().map(|(base, index)| Some((at(*base)?, *index))).collect();
