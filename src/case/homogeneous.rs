@@ -2,10 +2,10 @@
 
 use num_traits::One;
 
+use crate::formula::Formula;
 use crate::graph::{Evaluator, Expr, Graph, Step, Tape, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::elimination::dot;
-use crate::formula::Formula;
 use crate::mechanics::{Chart, DrawSource, Model, NORMAL, Phase, Shape};
 use crate::number::ball::Ball;
 use crate::number::rational::Rational;
@@ -68,7 +68,8 @@ fn is_evident(model: &Model, formula: &Formula) -> bool {
     let normal = free + 3 * NORMAL..free + 3 * NORMAL + 3;
     recorded.is_ok_and(|(graph, value)| {
         // A further input stands for an antiderivative, which may depend on γ.
-        let degree = |input| (input < count).then(|| Rational::from(normal.contains(&input) as i64));
+        let degree =
+            |input| (input < count).then(|| Rational::from(normal.contains(&input) as i64));
         degree_of(&graph, value, degree) == Some(Degree::Of(Rational::from(1)))
     })
 }

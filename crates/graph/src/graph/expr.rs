@@ -39,7 +39,8 @@ impl Expr {
     }
 
     /// Runs `make` in the current graph.
-    fn made(make: impl FnOnce(&mut Graph) -> NodeId) -> Self {
+    #[inline]
+    pub(super) fn made(make: impl FnOnce(&mut Graph) -> NodeId) -> Self {
         with_graph(|graph| {
             let node = make(graph);
             Self { session: graph.session, node }
@@ -68,6 +69,7 @@ impl Expr {
         })
     }
 
+    #[inline(always)]
     pub(super) fn binary(self, operation: BinaryOperation, other: Self) -> Self {
         Self::made(|graph| {
             let (a, b) = (self.node_in(graph), other.node_in(graph));

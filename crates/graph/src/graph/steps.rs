@@ -149,6 +149,7 @@ impl Graph {
     ) -> Vec<Option<Expr>> {
         let mut values: Vec<Option<Expr>> = vec![None; self.nodes.len()];
         with_graph(|graph| {
+            graph.make_room(reached.iter().filter(|reached| **reached).count());
             for (place, _) in reached.iter().enumerate().filter(|(_, reached)| **reached) {
                 values[place] = given(place).or_else(|| {
                     let value = |place: super::NodeId| values[place.0 as usize];
