@@ -11,6 +11,8 @@ pub(super) struct Index {
     slots: Vec<u32>,
     /// Number of slots, as a power of 2.
     bits: u32,
+    /// Bits of a slot that hold a place plus one.
+    places: u32,
 }
 
 /// Initial number of slots, as a power of 2.
@@ -22,14 +24,14 @@ impl Index {
     }
 
     fn with_bits(bits: u32) -> Self {
-        Self { slots: vec![0; 1 << bits], bits }
+        Self { slots: vec![0; 1 << bits], bits, places: (1 << bits) - 1 }
     }
 
     /// Returns the slot at which the search for a hash begins, and the bits of it that slots keep.
     #[inline]
     fn split(&self, hash: u64) -> (usize, u32) {
-        let (slot, rest) = (hash >> (64 - self.bits), hash << self.bits);
-        (slot as usize, (rest >> 32) as u32 >> self.bits << self.bits)
+        // A wrapping shift needs no test of its length.
+        (hash.wrapping_shr(64 - self.bits) as usize, hash as u32 & !self.places)
     }
 
     /// Finds the place of an equal node. Otherwise notes the place after the last node for this one
@@ -40,7 +42,7 @@ impl Index {
             self.grow(self.bits + 2, nodes);
         }
         let (mut slot, own) = self.split(hash(node));
-        let places = (1u32 << self.bits) - 1;
+        let places = self.places;
         loop {
             let taken = self.slots[slot];
             if taken == 0 {
