@@ -85,27 +85,22 @@ impl MonomialTable {
     }
 }
 
-/// Lists all exponents of `variables` variables with sum `total`.
+/// Lists all exponents of `variables` variables with sum `total`, the greatest first entries first.
 pub fn exponents(variables: usize, total: u32) -> Vec<Vec<u32>> {
-    match variables {
-        0 => {
-            if total == 0 {
-                vec![Vec::new()]
-            } else {
-                Vec::new()
-            }
-        }
-        1 => vec![vec![total]],
-        _ => (0..=total)
-            .rev()
-            .flat_map(|first| {
-                exponents(variables - 1, total - first).into_iter().map(move |mut rest| {
-                    rest.insert(0, first);
-                    rest
-                })
-            })
-            .collect(),
+    let Some(last) = variables.checked_sub(1) else {
+        return if total == 0 { vec![Vec::new()] } else { Vec::new() };
+    };
+    let mut own = vec![0; variables];
+    own[0] = total;
+    let mut all = vec![own.clone()];
+    // One moves on from the last entry before the end that has some, and takes the end along.
+    while let Some(place) = own[..last].iter().rposition(|power| *power > 0) {
+        let end = std::mem::take(&mut own[last]);
+        own[place] -= 1;
+        own[place + 1] = end + 1;
+        all.push(own.clone());
     }
+    all
 }
 
 impl TruncatedSeries {
@@ -301,6 +296,17 @@ mod tests {
 
     fn domain() -> TruncatedSeries {
         TruncatedSeries::new(Modulus::new(2_305_843_009_213_693_951), 2, 6)
+    }
+
+    #[test]
+    fn exponents_are_in_descending_order() {
+        let three = [[2, 0, 0], [1, 1, 0], [1, 0, 1], [0, 2, 0], [0, 1, 1], [0, 0, 2]];
+        assert_eq!(exponents(3, 2), three);
+        assert_eq!(exponents(1, 4), [[4]]);
+        assert_eq!(exponents(2, 0), [[0, 0]]);
+        assert_eq!(exponents(0, 0), [[0; 0]], "the product of nothing");
+        assert_eq!(exponents(0, 1).len(), 0);
+        assert_eq!(exponents(5, 6).len(), 210, "C(10, 4)");
     }
 
     #[test]

@@ -93,6 +93,9 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
         all = setting.standard(all);
         let mut classes: BTreeMap<Vec<i64>, Vec<usize>> = BTreeMap::new();
         for (place, own) in all.iter().enumerate() {
+            if place % 256 == 255 {
+                setting.effort.halt.check()?;
+            }
             let own = own.iter().map(|power| i64::from(*power)).collect();
             let Some(class) = lattice.class(own) else { return Ok(None) };
             classes.entry(class).or_default().push(place);

@@ -43,7 +43,10 @@ impl ExponentLattice {
     pub fn class(&self, mut own: Vec<i64>) -> Option<Vec<i64>> {
         for (place, row) in &self.rows {
             let quotient = own[*place].div_euclid(row[*place]);
-            subtract(&mut own, quotient, row)?;
+            // Few entries of a monomial in many variables are not 0.
+            if quotient != 0 {
+                subtract(&mut own, quotient, row)?;
+            }
         }
         Some(own)
     }
