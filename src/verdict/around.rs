@@ -131,7 +131,7 @@ impl Surroundings {
         let whole = [&group.required[..], &group.facts].concat();
         let reached = graph.reached(whole.iter().copied());
         let (made, found) = record(graph.inputs(), |inputs| {
-            let values = literally(|| graph.replay(&reached, inputs, |_, _, _| None));
+            let values = literally(|| graph.repeated(&reached, inputs));
             at(&values, graph, &whole)
         })?;
         let mut required = found.ok_or(Fault::ForeignValue)?;
@@ -143,7 +143,7 @@ impl Surroundings {
     fn inside(&self, part: &InputRegion) -> Result<Self, Fault> {
         let reached = part.graph.reached(part.positive.iter().copied());
         let mut found = self.replayed(&|_, _, _| None, |inputs| {
-            let values = part.graph.replay(&reached, inputs, |_, _, _| None);
+            let values = part.graph.repeated(&reached, inputs);
             at(&values, &part.graph, &part.positive)
         })?;
         found.signs = part.signs.clone();
@@ -201,7 +201,7 @@ impl Surroundings {
         }
         // The argument of each modulus, and the root of each square.
         let (graph, arguments) = record(self.graph.inputs(), |inputs| {
-            let values = self.graph.replay(&reached, inputs, |_, _, _| None);
+            let values = self.graph.repeated(&reached, inputs);
             let argument = |(_, square, a): &(usize, Option<SquareRoot>, Expr)| match square {
                 Some(square) => square.value(|place| values[place]),
                 None => values[self.graph.place(*a)],
@@ -232,7 +232,7 @@ impl Surroundings {
         };
         let more = |inputs: &[Expr]| {
             let reached = own.graph.reached(arguments.iter().copied());
-            let values = own.graph.replay(&reached, inputs, |_, _, _| None);
+            let values = own.graph.repeated(&reached, inputs);
             let all = arguments.iter().zip(&known).filter_map(|(argument, known)| {
                 known.map(|positive| Some(signed(values[own.graph.place(*argument)]?, positive)))
             });
@@ -259,7 +259,7 @@ impl Surroundings {
                 _ => replaced(place, step, values),
             };
             let values = literally(|| self.graph.replay(&required, inputs, written));
-            let before = self.graph.replay(&positive, inputs, |_, _, _| None);
+            let before = self.graph.repeated(&positive, inputs);
             let mut positive = at(&before, &self.graph, &self.positive)?;
             positive.extend(more(inputs)?);
             Some((at(&values, &self.graph, &self.required)?, positive))

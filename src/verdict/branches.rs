@@ -47,7 +47,7 @@ fn fixed(
                 *input = Expr::rational(value);
             }
         }
-        let made = graph.replay(&reached, &inputs, |_, _, _| None);
+        let made = graph.repeated(&reached, &inputs);
         values.iter().map(|value| made[graph.place(*value)]).collect::<Option<Vec<Expr>>>()
     })?;
     Ok((graph, made.unwrap_or_default()))
@@ -217,7 +217,7 @@ impl Judging<'_> {
         let Some(number) = guess.filter(|number| !number.is_zero()) else { return Ok(false) };
         let reached = graph.reached([value]);
         let (graph, difference) = record(graph.inputs(), |inputs| {
-            let values = graph.replay(&reached, inputs, |_, _, _| None);
+            let values = graph.repeated(&reached, inputs);
             Some(values[graph.place(value)]? - Expr::rational(&number))
         })?;
         let Some(difference) = difference else { return Ok(false) };

@@ -39,21 +39,26 @@ impl Judging<'_> {
         };
         let (graph, groups) = sampler.compose(self.graph, &[values.to_vec()], &fixed)?;
         let tape = Tape::new(&graph, &groups.concat());
+        let mut along = Evaluator::new(&tape, Float::<POINTS>);
         for line in 0..LINES {
             let ends = [2 * line, 2 * line + 1].map(|index| sampler.nearest_draws(index));
             let line = Line::between(sampler, ends, graph.inputs());
-            if let Some(place) = line.jump(&tape) {
+            if let Some(place) = line.jump(&mut along) {
                 let model = &self.case.model;
                 let state = &sampler.made()[model.free_components()..];
                 let tape = Tape::new(sampler.graph(), state);
-                let state =
-                    line.values(&tape, [place; POINTS]).iter().map(|x| x[0]).collect::<Vec<_>>();
+                let mut state = Evaluator::new(&tape, Float::<POINTS>);
+                let state = line.values(&mut state, [place; POINTS]);
+                let state = state.iter().map(|x| x[0]).collect::<Vec<_>>();
                 return Ok(Some(briefly(model, &state)));
             }
         }
         Ok(None)
     }
 }
+
+/// Values at points of lines.
+type Along<'t> = Evaluator<'t, Float<POINTS>>;
 
 /// A line of draws, with the parameters of its first end.
 struct Line {
@@ -77,21 +82,20 @@ impl Line {
     }
 
     /// Values at some places on the line.
-    fn values(&self, tape: &Tape, places: [f64; POINTS]) -> Vec<[f64; POINTS]> {
+    fn values(&self, along: &mut Along<'_>, places: [f64; POINTS]) -> Vec<[f64; POINTS]> {
         let input = |(from, to): (&f64, &f64)| places.map(|place| from + place * (to - from));
         let inputs: Vec<[f64; POINTS]> = self.from.iter().zip(&self.to).map(input).collect();
-        let mut evaluator = Evaluator::new(tape, Float::<POINTS>);
-        evaluator.run(&inputs);
-        evaluator.outputs().copied().collect()
+        along.run(&inputs);
+        along.outputs().copied().collect()
     }
 
     /// Finds a place at which some value has different limits from both sides.
-    fn jump(&self, tape: &Tape) -> Option<f64> {
-        let whole = self.values(tape, divided(0.0, 1.0));
-        (0..whole.len()).find_map(|output| self.jump_of(tape, output, &whole[output]))
+    fn jump(&self, along: &mut Along<'_>) -> Option<f64> {
+        let whole = self.values(along, divided(0.0, 1.0));
+        (0..whole.len()).find_map(|output| self.jump_of(along, output, &whole[output]))
     }
 
-    fn jump_of(&self, tape: &Tape, output: usize, whole: &[f64; POINTS]) -> Option<f64> {
+    fn jump_of(&self, along: &mut Along<'_>, output: usize, whole: &[f64; POINTS]) -> Option<f64> {
         let size =
             whole.iter().filter(|value| value.is_finite()).fold(0.0f64, |a, b| a.max(b.abs()));
         let (mut places, mut values) = (divided(0.0, 1.0), *whole);
@@ -115,7 +119,7 @@ impl Line {
                 return is_jump.then_some(0.5 * (places[steepest] + places[steepest + 1]));
             }
             places = divided(places[steepest], places[steepest + 1]);
-            values = self.values(tape, places)[output];
+            values = self.values(along, places)[output];
         }
         None
     }
@@ -130,6 +134,13 @@ fn divided(from: f64, to: f64) -> [f64; POINTS] {
 /// arctangent or exponential of a quotient. Other quotients jump on sets that no motion meets.
 fn may_jump(graph: &Graph, values: &[Expr]) -> bool {
     let reached = graph.reached(values.iter().copied());
+    let may_be_corner = |step: Step<'_>| match step {
+        Step::Unary(function, _) => !matches!(function, UnaryFunction::Neg | UnaryFunction::Recip),
+        _ => false,
+    };
+    if !graph.steps().zip(&reached).any(|(step, reached)| *reached && may_be_corner(step)) {
+        return false;
+    }
     let mut is_quotient = vec![false; reached.len()];
     let (mut has_corner, mut has_quotient) = (false, false);
     for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {

@@ -66,7 +66,7 @@ impl Judging<'_> {
             for is_positive in [true, false] {
                 let needed = composed.reached([composed.at(argument)]);
                 let (graph, value) = record(composed.inputs(), |inputs| -> Option<Expr> {
-                    let value = composed.replay(&needed, inputs, |_, _, _| None)[argument]?;
+                    let value = composed.repeated(&needed, inputs)[argument]?;
                     Some(if is_positive { value } else { -value })
                 })?;
                 let Some(value) = value else { continue };

@@ -73,7 +73,7 @@ impl PivotSpace {
         let entry = |i: usize, j: usize| entries[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
         let reached = graph.reached(entries.iter().copied());
         let (graph, made) = record(graph.inputs(), |inputs| {
-            let made = graph.replay(&reached, inputs, |_, _, _| None);
+            let made = graph.repeated(&reached, inputs);
             let row = |i: usize| (0..count).map(|j| made[graph.place(entry(i, j))]).collect();
             let rows: Option<Vec<Vec<Expr>>> = (0..count).map(row).collect();
             Some(determinant(&rows?))
@@ -94,7 +94,7 @@ impl PivotSpace {
         let (first, total) = (self.first, self.graph.inputs());
         let reached = self.graph.reached(all.iter().copied());
         let at = |inputs: &[Expr]| -> Option<Vec<Expr>> {
-            let made = self.graph.replay(&reached, inputs, |_, _, _| None);
+            let made = self.graph.repeated(&reached, inputs);
             all.iter().map(|value| made[self.graph.place(*value)]).collect()
         };
         // At two states with the same parameters the values differ as the combinations do.

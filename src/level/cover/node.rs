@@ -100,7 +100,7 @@ impl Node {
         let all: Vec<Expr> = self.made.iter().chain(&self.facts).copied().collect();
         let (graph, values) = record(self.graph.inputs(), |inputs| {
             let reached = self.graph.reached(all.iter().copied());
-            let values = self.graph.replay(&reached, inputs, |_, _, _| None);
+            let values = self.graph.repeated(&reached, inputs);
             all.iter().map(|value| values[self.graph.place(*value)]).collect::<Option<Vec<Expr>>>()
         })?;
         let mut made = values.ok_or(Fault::ForeignValue)?;
@@ -168,7 +168,7 @@ impl Node {
         let change = Change { dropped: Some(index), solved: None, replaced: None };
         let reached = self.graph.reached([self.equations[index]]);
         let made = self.changed(&change, |inputs, _| {
-            let own = self.graph.replay(&reached, inputs, |_, _, _| None);
+            let own = self.graph.repeated(&reached, inputs);
             let (equation, facts) = other.values(|place| own.get(place).copied().flatten())?;
             Some(Additions { equations: vec![equation], facts, ..Additions::default() })
         })?;

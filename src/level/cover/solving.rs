@@ -40,7 +40,7 @@ impl Coefficients {
             return Ok(None);
         }
         let (expanded, found) = record(node.graph.inputs(), |inputs| {
-            let value = node.graph.replay(&reached, inputs, |_, _, _| None)[place]?;
+            let value = node.graph.repeated(&reached, inputs)[place]?;
             let slope = derivative(value, inputs[draw])?;
             Some([value, slope, derivative(slope, inputs[draw])?])
         })?;
@@ -54,12 +54,12 @@ impl Coefficients {
         let (graph, made) = record(node.graph.inputs(), |inputs| {
             let mut origin = inputs.to_vec();
             origin[draw] = Expr::zero();
-            let values = expanded.replay(&reached, &origin, |_, _, _| None);
+            let values = expanded.repeated(&reached, &origin);
             let [rest, slope, bend] = found.map(|value| values[expanded.place(value)]);
             let bend = bend? * Expr::rational(&Rational::new(1, 2));
             let four = Expr::rational(&Rational::from(4));
             let discriminant = slope? * slope? - four * bend * rest?;
-            let values = node.graph.replay(&whole, inputs, |_, _, _| None);
+            let values = node.graph.repeated(&whole, inputs);
             let at = |value: &Expr| values[node.graph.place(*value)];
             let mut facts = node.facts.iter().map(at).collect::<Option<Vec<Expr>>>()?;
             for equation in &node.equations {
@@ -202,7 +202,7 @@ impl Coefficients {
 
     fn replayed(&self, inputs: &[Expr]) -> Vec<Option<Expr>> {
         let all = [self.rest, self.slope, self.bend, self.discriminant];
-        self.graph.replay(&self.graph.reached(all), inputs, |_, _, _| None)
+        self.graph.repeated(&self.graph.reached(all), inputs)
     }
 
     fn at<const N: usize>(&self, values: [Expr; N], inputs: &[Expr]) -> Option<[Expr; N]> {

@@ -24,7 +24,7 @@ impl Sampler {
         let (composed, values) = record(self.draws.len(), |draws| {
             let (inputs, _) = self.inputs_from(graph, draws, fixed)?;
             let reached = graph.reached(groups.iter().flatten().copied());
-            let values = graph.replay(&reached, &inputs, |_, _, _| None);
+            let values = graph.repeated(&reached, &inputs);
             let group = |group: &Vec<Expr>| {
                 group.iter().map(|value| values[graph.place(*value)]).collect::<Option<Vec<Expr>>>()
             };
@@ -45,7 +45,7 @@ impl Sampler {
         let (composed, values) = record(self.draws.len(), |draws| {
             let (inputs, own) = self.inputs_from(graph, draws, &fixed)?;
             let reached = graph.reached(values.iter().copied());
-            let made = graph.replay(&reached, &inputs, |_, _, _| None);
+            let made = graph.repeated(&reached, &inputs);
             let values = values.iter().map(|value| made[graph.place(*value)]);
             let values = values.collect::<Option<Vec<Expr>>>()?;
             let facts = self.facts.iter().map(|value| own[self.graph.place(*value)]);
@@ -53,7 +53,7 @@ impl Sampler {
             let guard = |value: &Expr| guarded(&[*value], facts.iter().copied());
             let mut values: Vec<Expr> = values.iter().flat_map(guard).collect();
             let reached = graph.reached(required.iter().copied());
-            let made = literally(|| graph.replay(&reached, &inputs, |_, _, _| None));
+            let made = literally(|| graph.repeated(&reached, &inputs));
             let required = required.iter().map(|value| made[graph.place(*value)]);
             let required = required.collect::<Option<Vec<Expr>>>()?;
             if let Some(first) = values.first_mut() {
@@ -74,7 +74,7 @@ impl Sampler {
         let (composed, groups) = record(self.draws.len(), |draws| {
             let (inputs, own) = self.inputs_from(graph, draws, fixed)?;
             let values_of = |needed: &mut dyn Iterator<Item = Expr>| {
-                graph.replay(&graph.reached(needed), &inputs, |_, _, _| None)
+                graph.repeated(&graph.reached(needed), &inputs)
             };
             let outputs = values_of(&mut groups.iter().flat_map(|group| &group.outputs).copied());
             // √x √x is x where x ≥ 0, and the required value is undefined elsewhere.
@@ -111,7 +111,7 @@ impl Sampler {
             .map(|(draw, fixed)| fixed.as_ref().map_or(*draw, Expr::rational))
             .collect();
         let reached = self.graph.reached(self.made.iter().chain(&self.facts).copied());
-        let values = self.graph.replay(&reached, &draws, |_, _, _| None);
+        let values = self.graph.repeated(&reached, &draws);
         let made = self.made.iter().map(|value| values[self.graph.place(*value)]);
         let mut inputs = made.collect::<Option<Vec<Expr>>>()?;
         inputs.extend((inputs.len()..graph.inputs()).map(|_| Expr::input()));

@@ -191,7 +191,7 @@ impl Sampler {
         let (graph, made) = record(part.graph.inputs(), |inputs| {
             let all: Vec<Expr> = part.made.iter().chain(&part.facts).copied().collect();
             let reached = part.graph.reached(all.iter().copied());
-            let values = part.graph.replay(&reached, inputs, |_, _, _| None);
+            let values = part.graph.repeated(&reached, inputs);
             let at = |value: &Expr| values[part.graph.place(*value)];
             let mut made = all.iter().map(at).collect::<Option<Vec<Expr>>>()?;
             let facts = made.split_off(part.made.len());

@@ -39,7 +39,8 @@ impl Expr {
     }
 
     /// Runs `make` in the current graph.
-    fn made(make: impl FnOnce(&mut Graph) -> NodeId) -> Self {
+    #[inline]
+    pub(super) fn made(make: impl FnOnce(&mut Graph) -> NodeId) -> Self {
         with_graph(|graph| {
             let node = make(graph);
             Self { session: graph.session, node }
@@ -48,7 +49,8 @@ impl Expr {
 
     /// Returns the node of this value in `graph`. A value of another recording is a fault and
     /// counts as 0.
-    fn node_in(self, graph: &mut Graph) -> NodeId {
+    #[inline]
+    pub(super) fn node_in(self, graph: &mut Graph) -> NodeId {
         if self.session == graph.session {
             return self.node;
         }
@@ -67,6 +69,7 @@ impl Expr {
         })
     }
 
+    #[inline(always)]
     pub(super) fn binary(self, operation: BinaryOperation, other: Self) -> Self {
         Self::made(|graph| {
             let (a, b) = (self.node_in(graph), other.node_in(graph));

@@ -3,18 +3,20 @@
 
 use super::{Node, NodeId};
 
-/// Half a hash above a place plus one, 0 for an empty slot. The number of slots is a power of two, at
-/// most half of them taken.
-#[derive(Debug)]
+/// In each slot the place of a node plus one, below as many bits of its hash as there is room for; 0 for
+/// an empty slot. The number of slots is a power of two, at most half of them taken: a place plus one
+/// takes fewer bits than a slot's number.
+#[derive(Clone, Debug)]
 pub(super) struct Index {
-    slots: Vec<u64>,
-    shift: u32,
+    slots: Vec<u32>,
+    /// Number of slots, as a power of 2.
+    bits: u32,
+    /// Bits of a slot that hold a place plus one.
+    places: u32,
 }
 
 /// Initial number of slots, as a power of 2.
 const FIRST: u32 = 9;
-/// Upper half of a hash, whose upper bits are those of a slot.
-const HALF: u64 = !0 << 32;
 
 impl Index {
     pub fn new() -> Self {
@@ -22,7 +24,14 @@ impl Index {
     }
 
     fn with_bits(bits: u32) -> Self {
-        Self { slots: vec![0; 1 << bits], shift: 64 - bits }
+        Self { slots: vec![0; 1 << bits], bits, places: (1 << bits) - 1 }
+    }
+
+    /// Returns the slot at which the search for a hash begins, and the bits of it that slots keep.
+    #[inline]
+    fn split(&self, hash: u64) -> (usize, u32) {
+        // A wrapping shift needs no test of its length.
+        (hash.wrapping_shr(64 - self.bits) as usize, hash as u32 & !self.places)
     }
 
     /// Finds the place of an equal node. Otherwise notes the place after the last node for this one
@@ -30,19 +39,19 @@ impl Index {
     #[inline]
     pub fn find_or_note(&mut self, node: Node, nodes: &[Node]) -> Option<NodeId> {
         if 2 * nodes.len() >= self.slots.len() {
-            self.grow();
+            self.grow(self.bits + 2, nodes);
         }
-        let hash = hash(node) & HALF;
-        let mut slot = (hash >> self.shift) as usize;
+        let (mut slot, own) = self.split(hash(node));
+        let places = self.places;
         loop {
             let taken = self.slots[slot];
             if taken == 0 {
-                self.slots[slot] = hash | (nodes.len() as u64 + 1);
+                self.slots[slot] = own | (nodes.len() as u32 + 1);
                 return None;
             }
             // Most other nodes have another hash, and are not looked at.
-            if taken & HALF == hash {
-                let place = taken as u32 - 1;
+            if taken & !places == own {
+                let place = (taken & places) - 1;
                 if nodes[place as usize] == node {
                     return Some(NodeId(place));
                 }
@@ -51,17 +60,24 @@ impl Index {
         }
     }
 
-    #[cold]
-    fn grow(&mut self) {
-        let mut larger = Self::with_bits(64 - self.shift + 2);
-        for taken in self.slots.iter().filter(|taken| **taken != 0) {
-            let mut slot = (taken >> larger.shift) as usize;
-            while larger.slots[slot] != 0 {
-                slot = (slot + 1) & (larger.slots.len() - 1);
-            }
-            larger.slots[slot] = *taken;
+    /// Makes room for so many nodes in all.
+    pub fn reserve(&mut self, count: usize, nodes: &[Node]) {
+        let bits = (2 * count + 2).next_power_of_two().trailing_zeros();
+        if bits > self.bits {
+            self.grow(bits, nodes);
         }
-        *self = larger;
+    }
+
+    #[cold]
+    fn grow(&mut self, bits: u32, nodes: &[Node]) {
+        *self = Self::with_bits(bits);
+        for (place, node) in nodes.iter().enumerate() {
+            let (mut slot, own) = self.split(hash(*node));
+            while self.slots[slot] != 0 {
+                slot = (slot + 1) & (self.slots.len() - 1);
+            }
+            self.slots[slot] = own | (place as u32 + 1);
+        }
     }
 }
 
@@ -81,4 +97,32 @@ fn hash(node: Node) -> u64 {
     let content = u64::from(a) << 32 | u64::from(b);
     let once = (content ^ name << 58 ^ name << 26).wrapping_mul(GOLDEN);
     (once ^ once >> 32).wrapping_mul(GOLDEN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::BinaryOperation;
+
+    #[test]
+    fn every_node_is_found_again_however_room_was_made() {
+        let node = |k: u32| match k % 3 {
+            0 => Node::Input(k),
+            1 => Node::Binary(BinaryOperation::Mul, NodeId(k / 7), NodeId(k)),
+            _ => Node::Power(NodeId(k), k % 5),
+        };
+        for reserved in [0, 1000, 5000] {
+            let (mut index, mut nodes) = (Index::new(), Vec::new());
+            for k in 0..20_000 {
+                if k == 100 {
+                    index.reserve(nodes.len() + reserved, &nodes);
+                }
+                assert_eq!(index.find_or_note(node(k), &nodes), None, "node {k} is new");
+                nodes.push(node(k));
+                let earlier = k.wrapping_mul(2_654_435_761) % (k + 1);
+                let found = index.find_or_note(node(earlier), &nodes);
+                assert_eq!(found, Some(NodeId(earlier)), "node {earlier} after {k}");
+            }
+        }
+    }
 }

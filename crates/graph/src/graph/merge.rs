@@ -126,7 +126,7 @@ impl Graph {
     pub(super) fn copied(&self, outputs: &[Expr]) -> Result<(Graph, Vec<Expr>), Fault> {
         let reached = self.reached(outputs.iter().copied());
         record(self.inputs(), |inputs| {
-            let values = self.replay(&reached, inputs, |_, _, _| None);
+            let values = self.repeated(&reached, inputs);
             outputs.iter().map(|output| values[self.place(*output)].unwrap_or(*output)).collect()
         })
     }

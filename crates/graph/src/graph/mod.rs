@@ -20,14 +20,13 @@ mod merge;
 mod plan;
 mod points;
 mod presence;
+mod recording;
 mod scaled;
 mod simplify;
 mod steps;
 mod surd;
 mod tally;
 mod tape;
-
-use std::cell::RefCell;
 
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
@@ -43,6 +42,8 @@ use index::Index;
 pub use merge::{Choice, Member};
 pub use points::Points;
 pub use presence::{Need, edges};
+use recording::with_graph;
+pub use recording::{is_recorded_literally, literally, record, record_further};
 pub use steps::Step;
 pub(crate) use tape::Instruction;
 pub use tape::Tape;
@@ -160,6 +161,23 @@ impl Graph {
         graph
     }
 
+    /// Makes a copy for another session.
+    fn copy(&self, session: u32) -> Self {
+        Self {
+            session,
+            nodes: self.nodes.clone(),
+            domains: self.domains.clone(),
+            literal: false,
+            constants: self.constants.clone(),
+            index: self.index.clone(),
+            constant_ids: self.constant_ids.clone(),
+            inputs: self.inputs,
+            antiderivatives: self.antiderivatives.clone(),
+            fault: None,
+            sweeps: Box::default(),
+        }
+    }
+
     /// Number of nodes kept.
     pub fn len(&self) -> usize {
         self.nodes.len()
@@ -267,6 +285,13 @@ impl Graph {
         id
     }
 
+    /// Makes room for so many more nodes.
+    fn make_room(&mut self, more: usize) {
+        self.nodes.reserve(more);
+        self.domains.reserve(more);
+        self.index.reserve(self.nodes.len() + more, &self.nodes);
+    }
+
     #[inline]
     fn is_undefined(&self, id: NodeId) -> bool {
         self.domains[id.0 as usize] == Defined::Never
@@ -321,69 +346,4 @@ impl Graph {
     fn fail(&mut self, fault: Fault) {
         self.fault.get_or_insert(fault);
     }
-}
-
-thread_local! {
-    /// The recording under way on this thread, if any.
-    static RECORDING: RefCell<Graph> = RefCell::new(Graph::begin(0));
-    static SESSIONS: RefCell<u32> = const { RefCell::new(0) };
-}
-
-/// Records what `build` computes from `inputs` free inputs; returns the graph and the result.
-///
-/// Recordings may be nested; each has its own graph. Fails if a recorded value was used in an
-/// operation that needs a magnitude or an order, or in another recording.
-pub fn record<R>(inputs: usize, build: impl FnOnce(&[Expr]) -> R) -> Result<(Graph, R), Fault> {
-    let session = SESSIONS.with_borrow_mut(|last| {
-        *last = last.wrapping_add(1).max(1);
-        *last
-    });
-    let mut outer = Restore(Some(RECORDING.replace(Graph::begin(session))));
-    let handles: Vec<Expr> = (0..inputs).map(|_| Expr::input()).collect();
-    let result = build(&handles);
-    let mut graph = outer.finish().unwrap_or_else(|| Graph::begin(session));
-    match graph.fault.take() {
-        Some(fault) => Err(fault),
-        None => Ok((graph, result)),
-    }
-}
-
-/// Runs `build` without folding away any operation on recorded values that may be undefined, so
-/// that the result is defined exactly where the formula as written is.
-///
-/// Otherwise √x·√x becomes x and 0·√x becomes 0, which are defined for x < 0 too.
-pub fn literally<R>(build: impl FnOnce() -> R) -> R {
-    struct Restore(bool);
-    impl Drop for Restore {
-        fn drop(&mut self) {
-            with_graph(|graph| graph.literal = self.0);
-        }
-    }
-    let _restore = Restore(with_graph(|graph| std::mem::replace(&mut graph.literal, true)));
-    build()
-}
-
-/// Whether the recording under way folds away nothing that may be undefined, as within [`literally`].
-pub fn is_recorded_literally() -> bool {
-    with_graph(|graph| graph.literal)
-}
-
-/// A guard that puts the outer recording back, also when the closure unwinds.
-struct Restore(Option<Graph>);
-
-impl Restore {
-    fn finish(&mut self) -> Option<Graph> {
-        self.0.take().map(|outer| RECORDING.replace(outer))
-    }
-}
-
-impl Drop for Restore {
-    fn drop(&mut self) {
-        self.finish();
-    }
-}
-
-#[inline]
-fn with_graph<R>(action: impl FnOnce(&mut Graph) -> R) -> R {
-    RECORDING.with_borrow_mut(action)
 }

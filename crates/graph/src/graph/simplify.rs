@@ -62,6 +62,7 @@ impl Graph {
         (value.bits() <= MAX_CONSTANT_BITS).then(|| self.constant(value))
     }
 
+    #[inline(always)]
     pub(super) fn binary(&mut self, operation: BinaryOperation, a: NodeId, b: NodeId) -> NodeId {
         match operation {
             BinaryOperation::Add => self.add(a, b),
@@ -82,6 +83,7 @@ impl Graph {
         self.intern(Node::Binary(operation, a.min(b), a.max(b)))
     }
 
+    #[inline]
     pub(super) fn add(&mut self, a: NodeId, b: NodeId) -> NodeId {
         // Most entries of derivatives are zero: compare places rather than look at the node.
         if a == ZERO {
@@ -90,6 +92,11 @@ impl Graph {
         if b == ZERO {
             return a;
         }
+        self.sum(a, b)
+    }
+
+    /// Adds values other than 0.
+    fn sum(&mut self, a: NodeId, b: NodeId) -> NodeId {
         if self.is_plain(a) && self.is_plain(b) {
             return self.commutative(BinaryOperation::Add, a, b);
         }
@@ -134,6 +141,7 @@ impl Graph {
         }
     }
 
+    #[inline]
     pub(super) fn mul(&mut self, a: NodeId, b: NodeId) -> NodeId {
         for (zero, other) in [(a, b), (b, a)] {
             if zero == ZERO {
@@ -149,6 +157,11 @@ impl Graph {
         if b == ONE {
             return a;
         }
+        self.product(a, b)
+    }
+
+    /// Multiplies values other than 0 and 1.
+    fn product(&mut self, a: NodeId, b: NodeId) -> NodeId {
         if self.is_plain(a) && self.is_plain(b) {
             return self.commutative(BinaryOperation::Mul, a, b);
         }

@@ -1,6 +1,6 @@
 //! Access to the operations of a graph in order, and their replay in another recording.
 
-use super::{Expr, Graph, Node};
+use super::{Expr, Graph, Node, with_graph};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
 use crate::scalar::Scalar;
@@ -134,6 +134,50 @@ impl Graph {
         reached
     }
 
+    /// Repeats the reached steps with other inputs in the recording under way; returns the new value
+    /// of each place.
+    pub fn repeated(&self, reached: &[bool], inputs: &[Expr]) -> Vec<Option<Expr>> {
+        self.repeated_with(reached, inputs, |_| None)
+    }
+
+    /// Repeats the same, but for places whose values are given. `given` may not record anything.
+    pub fn repeated_with(
+        &self,
+        reached: &[bool],
+        inputs: &[Expr],
+        given: impl Fn(usize) -> Option<Expr>,
+    ) -> Vec<Option<Expr>> {
+        let mut values: Vec<Option<Expr>> = vec![None; self.nodes.len()];
+        with_graph(|graph| {
+            graph.make_room(reached.iter().filter(|reached| **reached).count());
+            for (place, _) in reached.iter().enumerate().filter(|(_, reached)| **reached) {
+                values[place] = given(place).or_else(|| {
+                    let value = |place: super::NodeId| values[place.0 as usize];
+                    let node = match self.nodes[place] {
+                        Node::Constant(index) => {
+                            graph.constant(self.constants[index as usize].clone())
+                        }
+                        Node::Input(input) => return inputs.get(input as usize).copied(),
+                        Node::Unary(function, a) => {
+                            let a = value(a)?.node_in(graph);
+                            graph.unary(function, a)
+                        }
+                        Node::Binary(operation, a, b) => {
+                            let (a, b) = (value(a)?.node_in(graph), value(b)?.node_in(graph));
+                            graph.binary(operation, a, b)
+                        }
+                        Node::Power(a, exponent) => {
+                            let a = value(a)?.node_in(graph);
+                            graph.power(a, &self.constants[exponent as usize])
+                        }
+                    };
+                    Some(Expr::of(graph.session, node))
+                });
+            }
+        });
+        values
+    }
+
     /// Replays the reached steps with other inputs in the recording under way; returns the new
     /// value of each place.
     ///
@@ -173,7 +217,7 @@ mod tests {
         let (graph, outputs) = record(2, |x| [x[0] * x[1] + x[0].sqrt(), x[0]]).expect("records");
         let reached = graph.reached(outputs);
         let (_, same) = record(2, |x| {
-            let values = graph.replay(&reached, x, |_, _, _| None);
+            let values = graph.repeated(&reached, x);
             values[graph.place(outputs[0])] == Some(x[0] * x[1] + x[0].sqrt())
         })
         .expect("records");

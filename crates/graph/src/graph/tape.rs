@@ -49,29 +49,27 @@ impl Tape {
     pub fn new(graph: &Graph, outputs: &[Expr]) -> Self {
         let roots: Vec<usize> =
             outputs.iter().map(|expr| expr.id().map_or(0, |id| id.0 as usize)).collect();
-        let (last_use, mut used) = last_uses(graph, &roots);
+        let (last_use, mut used, mut constants) = last_uses(graph, &roots);
         used.reverse();
+        constants.reverse();
         let mut tape = Tape {
             inputs: graph.inputs(),
-            constants: Vec::new(),
+            constants: Vec::with_capacity(constants.len()),
             exponents: Vec::new(),
             instructions: Vec::with_capacity(used.len()),
             outputs: Vec::new(),
             slots: 0,
         };
-        let used = || used.iter().map(|index| *index as usize);
         let mut slot_of: Vec<Slot> = vec![0; last_use.len()];
-        for index in used() {
-            if let Node::Constant(constant) = graph.nodes[index] {
-                slot_of[index] = (tape.inputs + tape.constants.len()) as Slot;
-                tape.constants.push(graph.constants[constant as usize].clone());
-            }
+        for (index, constant) in constants {
+            slot_of[index] = (tape.inputs + tape.constants.len()) as Slot;
+            tape.constants.push(graph.constants[constant as usize].clone());
         }
         let mut slots =
             Slots { free: Vec::new(), next: (tape.inputs + tape.constants.len()) as Slot };
-        for index in used() {
+        for index in used.into_iter().map(|index| index as usize) {
             let release = |argument: usize, slots: &mut Slots| {
-                if last_use[argument] as usize == index && graph.nodes[argument].is_computed() {
+                if last_use[argument] as usize == index {
                     slots.free.push(slot_of[argument]);
                 }
             };
@@ -164,22 +162,23 @@ impl Node {
 }
 
 const UNUSED: u32 = u32::MAX;
+const KEPT: u32 = u32::MAX - 1;
 
 /// Finds the index of each node's last user, as far as the last root: past the end for an output,
-/// `UNUSED` for a node without users; and those that have users, the last one first.
-fn last_uses(graph: &Graph, roots: &[usize]) -> (Vec<u32>, Vec<u32>) {
+/// `UNUSED` for a node without users, `KEPT` for inputs and constants, whose slots are not used again;
+/// then the nodes that have users, and the constants among them, the last one first.
+fn last_uses(graph: &Graph, roots: &[usize]) -> (Vec<u32>, Vec<u32>, Vec<(usize, u32)>) {
     let nodes = graph.nodes.len();
     let end = roots.iter().filter(|root| **root < nodes).max().map_or(0, |last| last + 1);
     let mut last = vec![UNUSED; end];
     for root in roots.iter().filter(|root| **root < nodes) {
         last[*root] = end as u32;
     }
-    let mut used = Vec::with_capacity(end);
+    let (mut used, mut constants) = (Vec::with_capacity(end), Vec::new());
     for index in (0..end).rev() {
         if last[index] == UNUSED {
             continue;
         }
-        used.push(index as u32);
         let mut read = |argument: super::NodeId| {
             let entry = &mut last[argument.0 as usize];
             if *entry == UNUSED {
@@ -187,15 +186,21 @@ fn last_uses(graph: &Graph, roots: &[usize]) -> (Vec<u32>, Vec<u32>) {
             }
         };
         match graph.nodes[index] {
-            Node::Constant(_) | Node::Input(_) => {}
+            Node::Constant(constant) => {
+                last[index] = KEPT;
+                constants.push((index, constant));
+                continue;
+            }
+            Node::Input(_) => last[index] = KEPT,
             Node::Unary(_, a) | Node::Power(a, _) => read(a),
             Node::Binary(_, a, b) => {
                 read(a);
                 read(b);
             }
         }
+        used.push(index as u32);
     }
-    (last, used)
+    (last, used, constants)
 }
 
 struct Slots {

@@ -60,7 +60,7 @@ struct FactorLists {
     /// Begin and end of each list.
     ranges: Vec<[usize; 2]>,
     /// Lists combined so far: values of one formula mostly have the same few lists.
-    combined: FxHashMap<(u32, u32, Combination), u32>,
+    combined: FxHashMap<(u64, Combination), u32>,
 }
 
 /// Rule by which the exponents of two lists are combined.
@@ -258,7 +258,7 @@ impl FactorLists {
     /// Combines exponents factor by factor; an absent factor has exponent 0.
     fn combine(&mut self, x: u32, y: u32, how: Combination) -> u32 {
         // Both ways of combining are symmetric.
-        let key = (x.min(y), x.max(y), how);
+        let key = (u64::from(x.min(y)) << 32 | u64::from(x.max(y)), how);
         if let Some(list) = self.combined.get(&key) {
             return *list;
         }

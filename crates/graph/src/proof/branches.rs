@@ -42,7 +42,7 @@ impl Prover<'_> {
             let (there, made) = record(graph.inputs(), |inputs| {
                 let inputs = with_signs(inputs, cell.fixed.iter().copied());
                 let own = cell.graph.reached(cell.values.iter().copied());
-                let values = cell.graph.replay(&own, &inputs, |_, _, _| None);
+                let values = cell.graph.repeated(&own, &inputs);
                 let special = bucket.special.iter().zip(&cell.values);
                 let special: Vec<(usize, Option<Expr>)> = special
                     .map(|(place, value)| (*place, values[cell.graph.place(*value)]))

@@ -70,9 +70,9 @@ impl Cell {
         let layers = layers(graph, &reached);
         let (own, found) = record(graph.inputs(), |inputs| {
             for layer in &layers {
-                graph.replay(layer, inputs, |_, _, _| None);
+                graph.repeated(layer, inputs);
             }
-            let values = graph.replay(&reached, inputs, |_, _, _| None);
+            let values = graph.repeated(&reached, inputs);
             replayed(&values, places, &facts)
         })?;
         let (values, facts) = found.ok_or(Fault::ForeignValue)?;

@@ -29,7 +29,7 @@ pub fn combinations(
     let all = [values, basis].concat();
     let reached = graph.reached(all.iter().copied());
     let (graph, defects) = record(graph.inputs(), |inputs| {
-        let made = graph.replay(&reached, inputs, |_, _, _| None);
+        let made = graph.repeated(&reached, inputs);
         let at = |value: &Expr| made[graph.place(*value)];
         let defect = |(value, multiples): (&Expr, &Vec<Rational>)| {
             basis.iter().zip(multiples).try_fold(at(value)?, |rest, (element, multiple)| {

@@ -20,7 +20,7 @@ impl SeedDigest {
     /// Computes the digest of a seed, of the steps that `groups` of outputs need, and of these
     /// outputs.
     pub fn of(seed: u64, graph: &Graph, groups: &[Vec<Expr>]) -> Self {
-        let mut statement = StatementHash(Sha256::new());
+        let mut statement = StatementHash { hash: Sha256::new(), waiting: [0; WAITING], count: 0 };
         statement.word(seed);
         let reached = graph.reached(groups.iter().flatten().copied());
         for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
@@ -30,7 +30,7 @@ impl SeedDigest {
             statement.word(group.len() as u64);
             group.iter().for_each(|output| statement.word(graph.place(*output) as u64));
         }
-        Self(statement.0.finalize().into())
+        Self(statement.finished())
     }
 }
 
@@ -41,12 +41,35 @@ pub fn statement_seed(seed: u64, graph: &Graph, values: &[Expr]) -> u64 {
     u64::from_le_bytes([a, b, c, d, e, f, g, h])
 }
 
-/// The hash of what was written of a statement so far.
-struct StatementHash(Sha256);
+/// Number of bytes that are hashed together.
+const WAITING: usize = 1024;
+
+/// The hash of what was written of a statement so far, and what waits to be hashed.
+struct StatementHash {
+    hash: Sha256,
+    waiting: [u8; WAITING],
+    count: usize,
+}
 
 impl StatementHash {
+    #[inline]
     fn word(&mut self, word: u64) {
-        self.0.update(word.to_le_bytes());
+        if self.count == WAITING {
+            self.flush();
+        }
+        self.waiting[self.count..self.count + 8].copy_from_slice(&word.to_le_bytes());
+        self.count += 8;
+    }
+
+    /// Hashes what waits.
+    fn flush(&mut self) {
+        self.hash.update(&self.waiting[..self.count]);
+        self.count = 0;
+    }
+
+    fn finished(mut self) -> [u8; 32] {
+        self.flush();
+        self.hash.finalize().into()
     }
 
     /// Writes a step with its place: a word for the operation, then its arguments.
@@ -88,7 +111,8 @@ impl StatementHash {
         for part in [above, below] {
             let bytes = part.to_signed_bytes_le();
             self.word(bytes.len() as u64);
-            self.0.update(&bytes);
+            self.flush();
+            self.hash.update(&bytes);
         }
     }
 }

@@ -22,7 +22,7 @@ use super::rewrite::Rewrite;
 use super::roots::{RootFinder, RootSearch};
 use super::tower::{RootStatus, Tower};
 use super::trial::{Certificate, Roots, Trial, TrialResult, both};
-use super::void::is_lost;
+use super::void::{is_lost, may_be_void};
 
 /// Largest number of cells.
 const MOST_CELLS: usize = 64;
@@ -144,9 +144,8 @@ impl Explorer<'_> {
 
     fn next(&self, cell: &Cell) -> Result<Next, Fault> {
         let (graph, known) = (&cell.graph, cell.known());
-        let no_classes = Classes::default();
-        let inputs = self.prover.extents;
-        let region = Region { graph, inputs, facts: &known, classes: &no_classes };
+        let (inputs, classes) = (self.prover.extents, &Classes::default());
+        let region = Region { graph, inputs, facts: &known, classes };
         if region.is_empty_at_sight() {
             return Ok(Next::Empty(None));
         }
@@ -258,8 +257,7 @@ impl Explorer<'_> {
 
     /// Returns signs of arguments of moduli that follow from the ranges of the inputs, without facts.
     fn signs_at_sight(&self, cell: &Cell, algebraic: &Algebraic<'_>) -> Vec<Option<bool>> {
-        let (graph, inputs) = (&cell.graph, self.prover.extents);
-        let classes = &Classes::default();
+        let (graph, inputs, classes) = (&cell.graph, self.prover.extents, &Classes::default());
         let moduli = algebraic.moduli.iter();
         let arguments: Vec<usize> =
             moduli.filter_map(|modulus| graph.step(modulus.place).arguments().next()).collect();
@@ -307,7 +305,7 @@ impl Explorer<'_> {
             for (place, value) in special.iter().zip(&cell.values) {
                 made.insert(*place, at(algebraic.values[cell.graph.place(*value)]?)?);
             }
-            let values = graph.replay(&reached, &inputs, |place, _, _| made.get(&place).copied());
+            let values = graph.repeated_with(&reached, &inputs, |place| made.get(&place).copied());
             outputs.iter().map(|output| values[graph.place(*output)]).collect::<Option<Vec<Expr>>>()
         };
         let Some((extended, made)) = algebraic.with(replayed)? else {
@@ -315,8 +313,10 @@ impl Explorer<'_> {
         };
         let all = self.by_group(&made);
         let is_never = |made: &[Expr]| made.iter().any(|x| extended.graph.is_nowhere_defined(*x));
+        let may_be_void = may_be_void(cell);
         let has_none = |(made, group): (&&[Expr], &&[Expr])| {
-            is_never(made) || self.has_void_argument(cell, algebraic, trial, tower, group)
+            is_never(made)
+                || may_be_void && self.has_void_argument(cell, algebraic, trial, tower, group)
         };
         let is_void: Vec<bool> = all.iter().zip(groups).map(has_none).collect();
         let pairs = all.iter().zip(&is_void);

@@ -147,7 +147,7 @@ mod tests {
         let Some(found) = Factors::of(&graph, value) else { return 1 };
         let reached = graph.reached([value]);
         let (graph, [product, value]) = record(3, |x| {
-            let values = graph.replay(&reached, x, |_, _, _| None);
+            let values = graph.repeated(&reached, x);
             let all = (0..found.count()).map(|index| found.value(index, x).expect("recorded"));
             let product = all.reduce(|a, b| a * b).expect("several");
             [product, values[graph.place(value)].expect("replayed")]
@@ -204,7 +204,7 @@ mod tests {
             let other = Rationalised::of(&graph, value).expect("has a root");
             let reached = graph.reached([value]);
             let (graph, values) = record(2, |x| {
-                let own = graph.replay(&reached, x, |_, _, _| None);
+                let own = graph.repeated(&reached, x);
                 let (equation, facts) = other.values(|place| own[place]).expect("recorded");
                 [vec![equation], facts].concat()
             })

@@ -178,7 +178,7 @@ impl<'g> FreeSymbols<'g> {
         let (made, values) = record(sources.len(), |inputs| {
             let mut reached = self.reached.clone();
             reached.iter_mut().zip(&self.has_symbol).for_each(|(own, has)| *own &= !has);
-            let values = self.graph.replay(&reached, inputs, |_, _, _| None);
+            let values = self.graph.repeated(&reached, inputs);
             places.iter().map(|place| Some(vec![values[*place]?])).collect::<Option<Vec<_>>>()
         })?;
         let Some(values) = values else { return Ok(false) };

@@ -193,10 +193,8 @@ impl Defect<'_> {
     pub fn vanishing(&self, places: &[usize], defects: &Defects<'_>) -> Option<Certificate> {
         let Self { sources, digest, .. } = *self;
         let reached = self.graph.reached_from(places);
-        let (graph, defects) = record(sources.len(), |inputs| {
-            defects(&self.graph.replay(&reached, inputs, |_, _, _| None))
-        })
-        .ok()?;
+        let (graph, defects) =
+            record(sources.len(), |inputs| defects(&self.graph.repeated(&reached, inputs))).ok()?;
         let defects = defects?;
         let reached = graph.reached(defects.iter().copied());
         let opaque = Symbols::opaque(&graph, &reached);

@@ -53,6 +53,11 @@ pub struct RequiredRoots {
     pub depth: u32,
 }
 
+impl RequiredRoots {
+    /// Depth that every prime has which is drawn.
+    pub const SHORT: u32 = 2;
+}
+
 /// Computes Jacobi's symbol of an integer over an odd number.
 fn jacobi(integer: &Rational, odd: u64) -> i32 {
     let remainder = match integer.to_integer() {
@@ -111,7 +116,7 @@ impl ProofRng {
 
     /// Draws a random prime between 2^60 and 2^61 whose field contains the wanted roots.
     pub fn prime_with_roots(&mut self, wanted: &RequiredRoots) -> Modulus {
-        let low = (1u64 << wanted.depth.max(2)) - 1;
+        let low = (1u64 << wanted.depth.max(RequiredRoots::SHORT)) - 1;
         loop {
             let candidate = LEAST | (self.0.next_u64() >> 4) | low;
             if wanted.odd.iter().any(|index| candidate % index == 1) {

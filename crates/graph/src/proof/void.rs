@@ -9,6 +9,14 @@ use super::symbols::transcendental;
 use super::tower::Tower;
 use super::trial::{Roots, Trial};
 
+/// Whether a group may have no value on a cell, though it does not show it: a value has none, or is a
+/// function of one that may have none.
+pub fn may_be_void(cell: &Cell) -> bool {
+    let all = vec![true; cell.graph.len()];
+    cell.values.iter().any(|value| cell.graph.is_nowhere_defined(*value))
+        || transcendental(&cell.graph, &all).next().is_some()
+}
+
 impl Explorer<'_> {
     /// Whether a function in a group has an argument that exists nowhere on a cell: the symbol in the
     /// place of the function would hide that.

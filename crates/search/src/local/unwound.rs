@@ -63,7 +63,7 @@ pub fn of(
             let letter = rate.letter.map(|letter| inputs[letter]);
             inputs[*input] = logarithm(inputs[*input], &rate.number, letter);
         }
-        let values = graph.replay(&reached, &inputs, |_, _, _| None);
+        let values = graph.repeated(&reached, &inputs);
         outputs.iter().map(|output| values[graph.place(*output)]).collect::<Option<Vec<_>>>()
     })?;
     let Some(values) = values else { return Ok(None) };

@@ -88,7 +88,7 @@ impl Rational {
                 _ => Repr::Small(signed, 1 << -power),
             }));
         }
-        BigRational::from_float(value).map(Self::from_big)
+        dyadic(value).map(Self::from_big)
     }
 
     /// Returns the nearest f64, and whether it is exact.
@@ -102,7 +102,11 @@ impl Rational {
             _ => {
                 let value = self.to_big();
                 let nearest = value.to_f64().unwrap_or(f64::NAN);
-                let exact = BigRational::from_float(nearest).is_some_and(|back| back == value);
+                // Both are in lowest terms.
+                let is_same = |back: BigRational| {
+                    (back.numer(), back.denom()) == (value.numer(), value.denom())
+                };
+                let exact = dyadic(nearest).is_some_and(is_same);
                 (nearest, exact)
             }
         }
@@ -180,6 +184,26 @@ impl Rational {
         (exponent >= 0 || !self.is_zero())
             .then(|| Self::from_big(Pow::pow(&self.to_big(), exponent)))
     }
+}
+
+/// Returns the value of a finite f64 in lowest terms, which needs no common divisor.
+fn dyadic(value: f64) -> Option<BigRational> {
+    const FRACTION: u32 = f64::MANTISSA_DIGITS - 1;
+    let bits = value.to_bits();
+    let (exponent, fraction) = ((bits >> FRACTION & 0x7ff) as i32, bits & ((1 << FRACTION) - 1));
+    let (mantissa, power) = match exponent {
+        0x7ff => return None,
+        0 if fraction == 0 => return Some(BigRational::from_integer(BigInt::ZERO)),
+        0 => (fraction, -1074),
+        _ => (fraction | 1 << FRACTION, exponent - 1075),
+    };
+    let twos = mantissa.trailing_zeros();
+    let odd = (mantissa >> twos) as i64;
+    let (odd, power) = (BigInt::from(if value < 0.0 { -odd } else { odd }), power + twos as i32);
+    Some(match power {
+        0.. => BigRational::from_integer(odd << power),
+        _ => BigRational::new_raw(odd, BigInt::from(1) << -power),
+    })
 }
 
 impl From<i64> for Rational {

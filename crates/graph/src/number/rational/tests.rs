@@ -69,3 +69,34 @@ fn rounding_to_f64_knows_when_it_is_exact() {
     let odd = (1u64 << 53) + 1;
     assert_eq!(read(&odd.to_string()).to_f64(), ((odd - 1) as f64, false), "ties to even");
 }
+
+#[test]
+fn floats_are_dyadic_rationals() {
+    let mut bits = 0x1234_5678_9abc_def1u64;
+    let special = [0.0, -0.0, f64::MIN_POSITIVE, 5e-324, -1.5e-310, f64::MAX, 1.0, -3.0, 1e23];
+    let drawn = std::iter::from_fn(|| {
+        bits = bits.wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(31);
+        Some(f64::from_bits(bits))
+    });
+    for value in special.into_iter().chain(drawn.take(5000)) {
+        let by_division = BigRational::from_float(value).map(Rational::from_big);
+        assert_eq!(Rational::from_f64(value), by_division, "{value:e}");
+        if let Some(exact) = by_division {
+            assert_eq!(exact.to_f64(), (value, true), "{value:e}");
+            let beside = &exact + &Rational::new(1, 3);
+            assert!(!beside.to_f64().1, "{value:e} + 1/3 is no dyadic rational");
+        }
+    }
+}
+
+#[test]
+fn short_decimals_are_read_like_long_ones() {
+    for text in ["0", "-0.0", "12", "1.50", "-0.000000000000000001", "999999999999999999e18"] {
+        let long = match text.split_once('e') {
+            Some((mantissa, exponent)) => format!("{mantissa}.0000000000000000000e{exponent}"),
+            None if text.contains('.') => format!("{text}0000000000000000000"),
+            None => format!("{text}.0000000000000000000"),
+        };
+        assert_eq!(text.parse::<Rational>(), long.parse::<Rational>(), "{text}");
+    }
+}

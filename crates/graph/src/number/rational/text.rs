@@ -57,6 +57,9 @@ impl FromStr for Rational {
     }
 }
 
+/// Number of digits, and largest power of ten, of decimals that are read in machine words.
+const SHORT: usize = 18;
+
 fn decimal(clean: &str, text: &str) -> Result<Rational, RationalError> {
     let malformed = || RationalError::Malformed(text.to_string());
     let (mantissa, exponent) = match clean.split_once(['e', 'E']) {
@@ -75,8 +78,16 @@ fn decimal(clean: &str, text: &str) -> Result<Rational, RationalError> {
     if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
         return Err(malformed());
     }
-    let integer: BigInt = digits.parse().map_err(|_| malformed())?;
     let shift = exponent - fraction.len() as i64;
+    if digits.len() <= SHORT && shift.unsigned_abs() <= SHORT as u64 {
+        let integer = sign * digits.parse::<i128>().map_err(|_| malformed())?;
+        let scale = 10i128.pow(shift.unsigned_abs() as u32);
+        return Ok(match shift {
+            0.. => Rational::reduced(integer * scale, 1),
+            _ => Rational::reduced(integer, scale),
+        });
+    }
+    let integer: BigInt = digits.parse().map_err(|_| malformed())?;
     let scale = BigRational::from_integer(BigInt::from(10)).pow(shift as i32);
     Ok(Rational::from_big(BigRational::from_integer(integer * sign) * scale))
 }

@@ -109,7 +109,7 @@ impl Prover<'_> {
         let reached = graph.reached_from(&[symbols, &[place][..]].concat());
         let conditions = graph.reached([&of.required[..], &of.facts].concat());
         let (graph, made) = record(graph.inputs(), |inputs| {
-            let made = graph.replay(&reached, inputs, |_, _, _| None);
+            let made = graph.repeated(&reached, inputs);
             let values = symbols.iter().map(|place| made[*place]).collect::<Option<Vec<Expr>>>()?;
             let sum = |terms: &[(Monomial, Rational)]| -> Expr {
                 let of = |(monomial, factor): &(Monomial, _)| {
@@ -118,7 +118,7 @@ impl Prover<'_> {
                 terms.iter().map(of).sum()
             };
             let (above, below) = (sum(&above), sum(&below));
-            let kept = literally(|| graph.replay(&conditions, inputs, |_, _, _| None));
+            let kept = literally(|| graph.repeated(&conditions, inputs));
             let all = |some: &[Expr]| -> Option<Vec<Expr>> {
                 some.iter().map(|value| kept[graph.place(*value)]).collect()
             };

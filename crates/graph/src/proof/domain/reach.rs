@@ -19,6 +19,18 @@ pub struct Reach<'r> {
     /// Inputs among the values: number and index.
     pub(super) inputs: Vec<(usize, usize)>,
     pub(super) bounds: Vec<Extent>,
+    pub(super) changes: Changes,
+}
+
+/// When bounds last changed, and when each step was last looked at, in numbers of changes.
+#[derive(Default)]
+pub(super) struct Changes {
+    pub count: u32,
+    /// Number of the last change of each bound.
+    pub last: Vec<u32>,
+    /// Numbers of changes before the last look at a step, forwards and backwards.
+    pub forward: Vec<u32>,
+    pub backward: Vec<u32>,
 }
 
 /// Operation by which a value is bounded; arguments are numbers of values.
@@ -34,6 +46,38 @@ pub(super) enum Rule<'r> {
     Product(usize, usize),
     /// x^y
     Raised(usize, usize),
+}
+
+impl Rule<'_> {
+    /// Numbers of the arguments; twice the same for a single one.
+    #[inline(always)]
+    pub fn arguments(self) -> Option<[usize; 2]> {
+        match self {
+            Rule::Constant(_) | Rule::Input(_) => None,
+            Rule::Unary(_, a) | Rule::Power(a, _) | Rule::Square(a) => Some([a, a]),
+            Rule::Sum(a, b) | Rule::Difference(a, b) | Rule::Product(a, b) | Rule::Raised(a, b) => {
+                Some([a, b])
+            }
+        }
+    }
+}
+
+impl Changes {
+    /// Begins with bounds that nothing has changed.
+    pub fn begin(&mut self, count: usize) {
+        self.count = 0;
+        for stamps in [&mut self.last, &mut self.forward, &mut self.backward] {
+            stamps.clear();
+            stamps.resize(count, 0);
+        }
+    }
+
+    /// Notes that a bound has changed.
+    #[inline(always)]
+    pub fn note(&mut self, number: usize) {
+        self.count += 1;
+        self.last[number] = self.count;
+    }
 }
 
 /// A value with what is known of it from classes.
@@ -66,7 +110,15 @@ impl<'r> Reach<'r> {
             _ => None,
         };
         let inputs = steps.iter().enumerate().filter_map(input).collect();
-        Self { region, places, steps, facts, inputs, bounds: Vec::new() }
+        Self {
+            region,
+            places,
+            steps,
+            facts,
+            inputs,
+            bounds: Vec::new(),
+            changes: Changes::default(),
+        }
     }
 
     /// Returns the number of the reached value at a place.

@@ -89,7 +89,7 @@ impl Algebraic<'_> {
             masks: Vec::new(),
             bits,
         };
-        algebraic.masks = algebraic.masks_of_signs();
+        algebraic.add_masks();
         Ok(algebraic)
     }
 }

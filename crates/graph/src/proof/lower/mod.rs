@@ -23,7 +23,7 @@ use std::ops::Deref;
 
 use rustc_hash::FxHashMap;
 
-use crate::graph::{Expr, Fault, Graph, Step, record};
+use crate::graph::{Expr, Fault, Graph, Step, record_further};
 use crate::number::rational::Rational;
 
 use super::bounds::InputDistribution;
@@ -119,7 +119,7 @@ impl<'g> Algebraic<'g> {
         &self,
         build: impl FnOnce(&[Expr], &dyn Fn(Expr) -> Option<Expr>) -> Option<Vec<Expr>>,
     ) -> Result<Option<(Algebraic<'static>, Vec<Expr>)>, Fault> {
-        self.with_inputs(|inputs, at| build(&inputs[..self.original_inputs], at))
+        self.with_inputs(|inputs, at| build(&inputs[..self.original_inputs.min(inputs.len())], at))
     }
 
     /// Makes the same graph with further values, which `build` makes from all inputs, those of
@@ -128,15 +128,11 @@ impl<'g> Algebraic<'g> {
         &self,
         build: impl FnOnce(&[Expr], &dyn Fn(Expr) -> Option<Expr>) -> Option<Vec<Expr>>,
     ) -> Result<Option<(Algebraic<'static>, Vec<Expr>)>, Fault> {
-        let (graph, (values, odd)) = record(self.sources.len(), |inputs| {
-            let reached = vec![true; self.graph.len()];
-            let values = self.graph.replay(&reached, inputs, |_, _, _| None);
-            let at = |expr: Expr| values[self.graph.place(expr)];
-            let odd: Option<Vec<(Expr, u64)>> =
-                self.odd.iter().map(|(base, index)| Some((at(*base)?, *index))).collect();
-            (build(inputs, &at), odd)
+        let (graph, (values, odd)) = record_further(&self.graph, |inputs, at| {
+            let odd = self.odd.iter().map(|(base, index)| (at(*base), *index)).collect();
+            (build(inputs, &|value| Some(at(value))), odd)
         })?;
-        let (Some(values), Some(odd)) = (values, odd) else { return Ok(None) };
+        let Some(values) = values else { return Ok(None) };
         let mut all = Algebraic {
             graph: Held::Own(graph),
             values: Vec::new(),
@@ -146,23 +142,25 @@ impl<'g> Algebraic<'g> {
             moduli: Vec::new(),
             odd,
             numbers: self.numbers.clone(),
-            masks: Vec::new(),
+            masks: self.masks.clone(),
             bits: self.bits.clone(),
         };
-        all.masks = all.masks_of_signs();
+        all.add_masks();
         Ok(Some((all, values)))
     }
 
-    fn masks_of_signs(&self) -> Vec<u128> {
-        let mut masks: Vec<u128> = Vec::with_capacity(self.graph.len());
-        for step in self.graph.steps() {
-            let mask = match step {
+    /// Finds the signs on which steps depend that have no masks yet.
+    fn add_masks(&mut self) {
+        let mut masks = std::mem::take(&mut self.masks);
+        masks.reserve_exact(self.graph.len() - masks.len());
+        for place in masks.len()..self.graph.len() {
+            let mask = match self.graph.step(place) {
                 Step::Input(input) => self.bit(input),
                 step => step.arguments().fold(0, |mask, argument| mask | masks[argument]),
             };
             masks.push(mask);
         }
-        masks
+        self.masks = masks;
     }
 
     /// Whether the signs fit into the bits of [`Algebraic::mask`].

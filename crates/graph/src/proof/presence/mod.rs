@@ -71,8 +71,8 @@ impl Prover<'_> {
             let (made, found) = record(graph.inputs(), |inputs| {
                 let reached = graph.reached([value, *other]);
                 let conditions = graph.reached([&required[..], facts].concat());
-                let values = graph.replay(&reached, inputs, |_, _, _| None);
-                let kept = literally(|| graph.replay(&conditions, inputs, |_, _, _| None));
+                let values = graph.repeated(&reached, inputs);
+                let kept = literally(|| graph.repeated(&conditions, inputs));
                 let all = |some: &[Expr]| {
                     some.iter().map(|own| kept[graph.place(*own)]).collect::<Option<Vec<Expr>>>()
                 };
@@ -94,8 +94,8 @@ impl Prover<'_> {
         let (made, found) = record(graph.inputs(), |inputs| {
             let reached = graph.reached([value]);
             let conditions = graph.reached([&required[..], facts].concat());
-            let value = graph.replay(&reached, inputs, |_, _, _| None)[graph.place(value)]?;
-            let kept = literally(|| graph.replay(&conditions, inputs, |_, _, _| None));
+            let value = graph.repeated(&reached, inputs)[graph.place(value)]?;
+            let kept = literally(|| graph.repeated(&conditions, inputs));
             let all = |some: &[Expr]| {
                 some.iter().map(|own| kept[graph.place(*own)]).collect::<Option<Vec<Expr>>>()
             };

@@ -21,7 +21,10 @@ impl Trial<'_> {
             let bound = self.bounds().at(algebraic.graph.place(*output))?;
             (degree, height) = (degree.max(bound.degree), height.max(bound.height));
         }
-        let reached = algebraic.graph.reached(outputs.iter().copied());
+        let reached = match algebraic.odd.is_empty() {
+            true => Vec::new(),
+            false => algebraic.graph.reached(outputs.iter().copied()),
+        };
         let odd = algebraic.odd.iter().filter(|(base, _)| reached[algebraic.graph.place(*base)]);
         let mask = algebraic.mask_of(outputs);
         Some(self.bounded(degree, height, odd, mask, roots, draws))

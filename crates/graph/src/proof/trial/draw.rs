@@ -1,6 +1,7 @@
 //! Random primes and points for the lanes of a test.
 
 use std::cell::RefCell;
+use std::collections::VecDeque;
 
 use crate::number::prime::Modulus;
 use crate::proof::bounds::InputDistribution;
@@ -13,6 +14,9 @@ pub const TRIAL_LANES: usize = 8;
 /// Number of primes; each is shared by as many lanes as it has points.
 pub const PRIMES: usize = 4;
 
+/// Number of sets of primes that are kept.
+const KEPT: usize = 8;
+
 /// Returns the index of the prime that a lane computes modulo.
 pub fn prime_of(lane: usize) -> usize {
     lane * PRIMES / TRIAL_LANES
@@ -21,7 +25,7 @@ pub fn prime_of(lane: usize) -> usize {
 /// Draws primes with the unique odd roots and the chains of square roots that a graph needs, lane
 /// by lane.
 ///
-/// The last primes are cached, since successive claims often need the same ones.
+/// The last primes are kept, since a statement is tested in many ways that need the same ones.
 pub fn suitable_moduli(
     digest: SeedDigest,
     stream: ProofStream,
@@ -29,25 +33,24 @@ pub fn suitable_moduli(
 ) -> [Modulus; TRIAL_LANES] {
     type Known = (SeedDigest, ProofStream, RequiredRoots, [Modulus; TRIAL_LANES]);
     thread_local! {
-        static LAST: RefCell<[Option<Known>; 2]> = const { RefCell::new([None, None]) };
+        static LAST: RefCell<VecDeque<Known>> = const { RefCell::new(VecDeque::new()) };
     }
     let wanted = RequiredRoots {
         odd: algebraic.odd_indices(),
         squares: algebraic.squares(),
-        depth: algebraic.depth(),
+        // Shorter chains need the same primes.
+        depth: algebraic.depth().max(RequiredRoots::SHORT),
     };
     LAST.with_borrow_mut(|last| {
-        // Those of tests and those of searches take turns.
-        let last = &mut last[usize::from(stream == ProofStream::Squares)];
-        if let Some((d, s, known, moduli)) = last
-            && (*d, *s, &*known) == (digest, stream, &wanted)
-        {
+        let is_wanted = |(d, s, known, _): &&Known| (*d, *s, known) == (digest, stream, &wanted);
+        if let Some((.., moduli)) = last.iter().find(is_wanted) {
             return *moduli;
         }
         let mut rng = ProofRng::of(digest, stream);
         let primes: [Modulus; PRIMES] = std::array::from_fn(|_| rng.prime_with_roots(&wanted));
         let moduli = std::array::from_fn(|lane| primes[prime_of(lane)]);
-        *last = Some((digest, stream, wanted, moduli));
+        last.truncate(KEPT - 1);
+        last.push_front((digest, stream, wanted, moduli));
         moduli
     })
 }
