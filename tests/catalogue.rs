@@ -2,8 +2,11 @@
 //! unbalanced balls, `cargo test -- "(3.19)"` those of the equation, `cargo test -- "Table 1, row 4"`
 //! those of the row.
 //!
-//! A claim passes when its verdict is the one its file expects. A case is judged once, for the
-//! first of its claims that runs.
+//! A claim passes when its verdict is the one its file expects and, if it is refuted, its witness
+//! refutes it again. A case is judged once, for the first of its claims that runs.
+
+#[path = "common/witness.rs"]
+mod witness;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -27,7 +30,7 @@ fn main() -> ExitCode {
                 trials.push(Trial::test(name, move || Err(Failed::from(problem))));
             }
             Ok(case) => {
-                let judged = Arc::new(Judged { case, report: OnceLock::new() });
+                let judged = Arc::new(Judged { path, case, report: OnceLock::new() });
                 claims += judged.case.claims.len() + judged.case.absences.len();
                 for (index, (claim, labels)) in judged.titles().into_iter().enumerate() {
                     let judged = Arc::clone(&judged);
@@ -47,6 +50,7 @@ fn main() -> ExitCode {
 
 /// A case with its report, made on first use.
 struct Judged {
+    path: PathBuf,
     case: Case,
     report: OnceLock<Result<CaseReport, JudgeError>>,
 }
@@ -68,7 +72,7 @@ impl Judged {
         let report = report.as_ref().map_err(|error| Failed::from(error.to_string()))?;
         let claim = &report.claims[index];
         if claim.agrees {
-            return Ok(());
+            return witness::check(&self.path, claim).map_err(Failed::from);
         }
         Err(Failed::from(format!(
             "expected: {}, verdict: {}\n{:#?}",

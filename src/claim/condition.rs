@@ -28,9 +28,10 @@ impl Condition {
     }
 
     /// Requires that a density is finite, or the measure may be infinite there.
-    pub fn finite(value: Expr) -> Self {
+    pub fn finite(value: Expr, field: &[Expr]) -> Self {
+        let need = Need::Finite { value, field: field.to_vec() };
         let otherwise = "ρ is infinite: it is a measure apart from such states".to_string();
-        Self { need: Need::Finite { value }, otherwise, is_essential: false }
+        Self { need, otherwise, is_essential: false }
     }
 }
 
@@ -71,10 +72,12 @@ pub enum Need {
         /// The values.
         values: Vec<Expr>,
     },
-    /// A value is infinite at no state.
+    /// A value is infinite at no state at which the field has a value.
     Finite {
         /// The value.
         value: Expr,
+        /// Components of the field.
+        field: Vec<Expr>,
     },
     /// A factor has a value at almost every zero of a function.
     ValueOnZeros {

@@ -84,8 +84,12 @@ impl Statement for Density {
             return vec![Condition { need, otherwise: otherwise.to_string(), is_essential: true }];
         }
         let value = jet.phase.scalar(&self.0);
-        let field = Condition::continuous(jet.phase.field().to_vec(), "the field");
-        vec![Condition::continuous(vec![value], "ρ"), field, Condition::finite(value)]
+        let field = jet.phase.field();
+        vec![
+            Condition::continuous(vec![value], "ρ"),
+            Condition::continuous(field.to_vec(), "the field"),
+            Condition::finite(value, field),
+        ]
     }
 
     fn slopes(&self, jet: &DualPoint<'_, Expr>) -> Vec<Vec<Expr>> {

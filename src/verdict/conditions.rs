@@ -157,8 +157,8 @@ impl Judging<'_> {
                 let place = self.jump(sampler, values)?;
                 Ok(place.map(|place| format!("near {place} {otherwise}")))
             }
-            Need::Finite { value } => {
-                let place = self.pole(sampler, *value)?;
+            Need::Finite { value, field } => {
+                let place = self.pole(sampler, *value, field)?;
                 Ok(place.map(|place| format!("near {place} {otherwise}")))
             }
             Need::ValueOnZeros { function, factor, inverse } => {

@@ -6,6 +6,7 @@
 use super::judging::Judging;
 use super::sampler::Sampler;
 use super::witness::briefly;
+use crate::claim::LevelSubset;
 use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape};
 use crate::mechanics::{Draw, NumberLine, combinations};
 use crate::number::UnaryFunction;
@@ -34,38 +35,76 @@ const PIECES: usize = 64;
 type Rows = Vec<[f64; STARTS]>;
 
 impl Judging<'_> {
-    /// Finds a state, as text, near which a density is infinite.
+    /// Finds a state of the level, as text, near which a density is infinite and the field is not.
     ///
     /// `None` if none was met.
-    pub(super) fn pole(&self, sampler: &Sampler, density: Expr) -> Result<Option<String>, Fault> {
+    pub(super) fn pole(
+        &self,
+        sampler: &Sampler,
+        density: Expr,
+        field: &[Expr],
+    ) -> Result<Option<String>, Fault> {
+        let groups = [vec![density], field.to_vec()];
+        let Some(found) = self.vanishing(sampler, &groups)? else { return Ok(None) };
+        let model = &self.case.model;
+        let level = LevelSubset::level(model);
+        if sampler.kept() == level.kept.as_slice() {
+            return Ok(self.pole_of(sampler, &found));
+        }
+        // What is proved in the whole space is asked for on the level.
+        match Sampler::new(self.case, &level, self.options.seed) {
+            Ok(sampler) if !sampler.is_numerical() => {
+                let found = self.vanishing(&sampler, &groups)?;
+                Ok(found.and_then(|found| self.pole_of(&sampler, &found)))
+            }
+            _ => Ok(None),
+        }
+    }
+
+    /// Divisors of a density that are not seen to vanish nowhere, as functions of the draws; `None` if
+    /// there are none.
+    fn vanishing(
+        &self,
+        sampler: &Sampler,
+        [density, field]: &[Vec<Expr>; 2],
+    ) -> Result<Option<Vanishing>, Fault> {
         let Some(fixed) = combinations(sampler.recipes()).and_then(|all| all.into_iter().next())
         else {
             return Ok(None);
         };
-        let (graph, groups) = sampler.compose(self.graph, &[vec![density]], &fixed)?;
-        let density = groups.concat();
-        let divisors = divisors(&graph, &density);
+        let (graph, groups) =
+            sampler.compose(self.graph, &[density.clone(), field.clone()], &fixed)?;
+        let Ok([density, field]) = <[Vec<Expr>; 2]>::try_from(groups) else { return Ok(None) };
         let extents = sampler.extents();
-        let mut open = divisors
-            .into_iter()
-            .filter(|value| !is_seen_nowhere_zero(&graph, &extents, &[], &[*value], PIECES));
-        let Some(first) = open.next() else { return Ok(None) };
-        let density = Tape::new(&graph, &density);
+        let may_vanish =
+            |value: &Expr| !is_seen_nowhere_zero(&graph, &extents, &[], &[*value], PIECES);
+        let divisors: Vec<Expr> =
+            divisors(&graph, &density).into_iter().filter(may_vanish).collect();
+        let is_open = !divisors.is_empty();
+        Ok(is_open.then_some(Vanishing { graph, density, field, divisors }))
+    }
+
+    fn pole_of(&self, sampler: &Sampler, found: &Vanishing) -> Option<String> {
+        let Vanishing { graph, density, field, divisors } = found;
+        let (density, field) = (Tape::new(graph, density), Tape::new(graph, field));
         let model = &self.case.model;
         let state = Tape::new(sampler.graph(), &sampler.made()[model.free_components()..]);
-        for divisor in [first].into_iter().chain(open).take(MOST_DIVISORS) {
-            let search = PoleSearch {
-                sampler,
-                divisor: Tape::new(&graph, &[divisor]),
-                density: &density,
-                state: &state,
-            };
-            if let Some(place) = search.pole(graph.inputs()) {
-                return Ok(Some(briefly(model, &place)));
-            }
-        }
-        Ok(None)
+        let place = divisors.iter().take(MOST_DIVISORS).find_map(|divisor| {
+            let divisor = Tape::new(graph, &[*divisor]);
+            let (density, field, state) = (&density, &field, &state);
+            let search = PoleSearch { sampler, divisor, density, field, state };
+            search.pole(graph.inputs())
+        })?;
+        Some(briefly(model, &place))
     }
+}
+
+/// A density, the field, and the values by which the density divides that may vanish.
+struct Vanishing {
+    graph: Graph,
+    density: Vec<Expr>,
+    field: Vec<Expr>,
+    divisors: Vec<Expr>,
 }
 
 /// Values by which others are divided, or whose powers have negative exponents; of roots and powers
@@ -92,6 +131,7 @@ struct PoleSearch<'s> {
     sampler: &'s Sampler,
     divisor: Tape,
     density: &'s Tape,
+    field: &'s Tape,
     state: &'s Tape,
 }
 
@@ -126,6 +166,7 @@ impl PoleSearch<'_> {
         let mut point = self.starts(inputs);
         let ranges = self.ranges();
         let before = output(self.density, &point);
+        let speed = lengths(self.field, &point);
         let first = output(&self.divisor, &point);
         let mut value = first;
         for _ in 0..STEPS {
@@ -144,13 +185,15 @@ impl PoleSearch<'_> {
             value = output(&self.divisor, &point);
         }
         let after = output(self.density, &point);
-        let states = rows(self.state, &point);
+        let (last, states) = (lengths(self.field, &point), rows(self.state, &point));
         (0..STARTS).find_map(|i| {
             let vanishes = value[i].abs() <= LEAST_DECREASE * first[i].abs();
             let grows = after[i].abs() >= LEAST_INCREASE * before[i].abs() && before[i] != 0.0;
+            // Where the field is infinite its domain ends.
+            let has_field = last[i] < LEAST_INCREASE * speed[i].max(1.0);
             let state: Vec<f64> = states.iter().map(|row| row[i]).collect();
             let is_near = state.iter().all(|x| x.abs() <= FARTHEST);
-            (vanishes && grows && is_near).then_some(state)
+            (vanishes && grows && has_field && is_near).then_some(state)
         })
     }
 
@@ -175,4 +218,10 @@ fn rows(tape: &Tape, point: &Rows) -> Rows {
 
 fn output(tape: &Tape, point: &Rows) -> [f64; STARTS] {
     rows(tape, point).first().copied().unwrap_or([f64::NAN; STARTS])
+}
+
+/// Lengths of the vectors that a tape computes.
+fn lengths(tape: &Tape, point: &Rows) -> [f64; STARTS] {
+    let rows = rows(tape, point);
+    std::array::from_fn(|i| rows.iter().map(|row| row[i] * row[i]).sum::<f64>().sqrt())
 }

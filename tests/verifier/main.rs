@@ -29,4 +29,3 @@ mod user_fields;
 mod values;
 mod verdicts;
 mod wide_balls;
-mod witnesses;

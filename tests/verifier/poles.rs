@@ -46,3 +46,14 @@ fn poles_outside_of_the_ranges_do_not_count() {
         assert_eq!(found[0].evidence.has(Flaw::Infinite), is_infinite, "x in {range}");
     }
 }
+
+#[test]
+fn where_the_field_is_infinite_its_domain_ends() {
+    let densities_of = |rate: &str| {
+        let found = densities(["-2..2", "-2..2"], ["0*x", rate], &["1/x²".to_string()]);
+        assert_eq!(found[0].verdict, Verdict::Proved, "it does not depend on y");
+        found[0].evidence.has(Flaw::Infinite)
+    };
+    assert!(!densities_of("1/x"), "no motion is at x = 0");
+    assert!(densities_of("x"), "rests are");
+}

@@ -54,7 +54,7 @@ fn is_there() -> bool {
 
 #[test]
 fn certificates_of_the_catalogue_pass() {
-    one_certificate_in(6);
+    one_certificate_in(12);
 }
 
 #[test]

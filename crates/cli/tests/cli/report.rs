@@ -220,12 +220,9 @@ fn assert_well_formed(page: &str) {
 
 #[test]
 fn every_format_is_sound_and_the_same_each_time() {
-    for path in [
-        "plane/balanced-ball-brun",
-        "sphere/body-of-revolution-gyrostat",
-        "plane/unbalanced-ball",
-        "surface/revolution",
-    ] {
+    for path in
+        ["plane/balanced-ball-brun", "sphere/body-of-revolution-gyrostat", "surface/revolution"]
+    {
         let file = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
             .join(format!("cases/{path}.toml"));
         let text = std::fs::read_to_string(&file).expect("a case of the catalogue");

@@ -108,7 +108,6 @@ fn no_integral(
             ),
         });
     }
-    type Part<'p> = &'p mut dyn FnMut(&mut SearchReport) -> Result<(), SearchError>;
     let parts: [Part<'_>; 4] = [
         &mut |report| densities::densities(case, effort, report),
         &mut |report| integrals::integrals(case, effort, report),
@@ -131,6 +130,9 @@ fn no_integral(
         ))
     }))
 }
+
+/// A part of a search.
+type Part<'p> = &'p mut dyn FnMut(&mut SearchReport) -> Result<(), SearchError>;
 
 /// Returns an integral of a report that refutes the claim.
 fn witness(
@@ -194,15 +196,23 @@ fn no_density(
     if report.multipliers.is_empty() {
         return Ok(AbsenceOutcome::Open(reasons(&report, "nothing can be counted")));
     }
-    densities::densities(case, effort, &mut report)?;
-    for found in &report.found {
-        if found.kind != "density" || found.verdict != Verdict::Proved {
-            continue;
+    let parts: [Part<'_>; 2] =
+        [&mut |report| densities::densities(case, effort, report), &mut |report| {
+            orbit::search(case, effort, false, report, &mut |_| {})
+        }];
+    let mut seen = 0;
+    for part in parts {
+        part(&mut report)?;
+        for found in &report.found[seen..] {
+            let is_proved = found.kind == "density" && found.verdict == Verdict::Proved;
+            let Some(function) = found.function.as_ref().filter(|_| is_proved) else { continue };
+            // What holds for one listed value says nothing of the others.
+            if found.with.is_empty() && claimed_densities::is_in_velocities(asked, function, most)?
+            {
+                return Ok(AbsenceOutcome::Exhibited(shown("density", found)));
+            }
         }
-        let Some(function) = &found.function else { continue };
-        if claimed_densities::is_in_velocities(asked, function, most)? {
-            return Ok(AbsenceOutcome::Exhibited(shown("density", found)));
-        }
+        seen = report.found.len();
     }
     Ok(AbsenceOutcome::Open(
         "the count allows a density, but none was found in closed form".to_string(),

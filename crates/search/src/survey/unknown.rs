@@ -73,8 +73,11 @@ impl SearchOutcome {
         if self.counts.iter().any(|count| count.dimension < count.known) {
             return None;
         }
-        let empty = self.counts.iter().take_while(|count| count.dimension == count.known);
-        empty.last().map(|count| count.degree)
+        let is_empty = |count: &&CountReport| count.dimension == count.known;
+        let forms = self.counts.iter().filter(|count| !count.mixed).take_while(is_empty);
+        // A count of all terms up to a degree covers the lower degrees.
+        let whole = self.counts.iter().filter(|count| count.mixed && !count.free).filter(is_empty);
+        forms.chain(whole).map(|count| count.degree).max()
     }
 }
 

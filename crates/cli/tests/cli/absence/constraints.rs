@@ -121,3 +121,13 @@ fn planted_integrals_of_constrained_motion_are_never_excluded() {
     assert!(refuted >= 5, "{refuted} of 10 plants are exhibited");
     assert!(proved >= 7, "{proved} of 10 systems without the integral are proved to have none");
 }
+
+#[test]
+fn a_density_of_a_constrained_particle_refutes_that_there_is_none() {
+    // Rosenberg's particle: (1 + y²)^(−1/2) in the momenta, (1 + y²)^(1/2) in the velocities x', y'.
+    let text = "kinetic = \"(x'² + y'² + z'²)/2\"\nconstraints = [\"z' = y*x'\"]";
+    let found = only(&lagrangian(&["x", "y", "z"], text, "no-density = { degree = 0 }"));
+    assert_eq!(found.verdict, Verdict::Refuted, "{:?}", found.evidence);
+    let exhibit = found.evidence.exhibit.unwrap_or_default();
+    assert!(exhibit.contains("1 + y²"), "{exhibit}");
+}
