@@ -23,6 +23,7 @@ mod judge;
 mod judging;
 mod jumps;
 mod ladder;
+mod local_form;
 mod moduli;
 mod mutants;
 mod novelty;

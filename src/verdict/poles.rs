@@ -1,9 +1,10 @@
-//! Poles of densities: where ρ is infinite, ρ dx need not be a measure.
+//! Poles of densities: where ρ is infinite and cannot be integrated, ρ dx is no measure.
 //!
 //! A pole is sought by Newton's method towards the zeros of what ρ divides by, in f64. It is observed,
 //! not proved, and is told in a remark.
 
 use super::judging::Judging;
+use super::local_form::LocalForm;
 use super::sampler::Sampler;
 use super::witness::briefly;
 use crate::claim::LevelSubset;
@@ -24,6 +25,10 @@ const DIFFERENCE: f64 = 1e-6;
 /// Decrease of a divisor that shows a zero, and increase of ρ that shows a pole.
 const LEAST_DECREASE: f64 = 1e-10;
 const LEAST_INCREASE: f64 = 1e3;
+/// Decrease of a divisor after which the growth of ρ is measured.
+const MIDWAY: f64 = 1e-4;
+/// Margin in the comparison of exponents.
+const MARGIN: f64 = 0.1;
 /// Largest coordinate of a state at a pole, where others are of order 1.
 const FARTHEST: f64 = 1e3;
 /// Largest number of divisors that are examined.
@@ -161,7 +166,8 @@ impl PoleSearch<'_> {
         places.filter_map(range).collect()
     }
 
-    /// State at which the divisor goes to 0 and the density to infinity.
+    /// State at which the divisor goes to 0 and the density to infinity, so that it cannot be
+    /// integrated there.
     fn pole(&self, inputs: usize) -> Option<Vec<f64>> {
         let mut point = self.starts(inputs);
         let ranges = self.ranges();
@@ -169,6 +175,8 @@ impl PoleSearch<'_> {
         let speed = lengths(self.field, &point);
         let first = output(&self.divisor, &point);
         let mut value = first;
+        // The divisor and the density on the way, once the divisor is small.
+        let mut midway = [None; STARTS];
         for _ in 0..STEPS {
             let slopes: Vec<[f64; STARTS]> =
                 ranges.iter().map(|(place, _)| self.slope(&point, *place)).collect();
@@ -183,6 +191,12 @@ impl PoleSearch<'_> {
                 }
             }
             value = output(&self.divisor, &point);
+            let density = output(self.density, &point);
+            for i in 0..STARTS {
+                if midway[i].is_none() && value[i].abs() <= MIDWAY * first[i].abs() {
+                    midway[i] = Some((value[i], density[i]));
+                }
+            }
         }
         let after = output(self.density, &point);
         let (last, states) = (lengths(self.field, &point), rows(self.state, &point));
@@ -193,8 +207,26 @@ impl PoleSearch<'_> {
             let has_field = last[i] < LEAST_INCREASE * speed[i].max(1.0);
             let state: Vec<f64> = states.iter().map(|row| row[i]).collect();
             let is_near = state.iter().all(|x| x.abs() <= FARTHEST);
-            (vanishes && grows && has_field && is_near).then_some(state)
+            let is_pole = vanishes && grows && has_field && is_near;
+            let (divisor, density) = midway[i].filter(|_| is_pole)?;
+            // ρ grows like a power of the divisor, X^(−q).
+            let power = -(after[i] / density).abs().ln() / (value[i] / divisor).abs().ln();
+            let place: Vec<f64> = point.iter().map(|row| row[i]).collect();
+            (!self.is_integrable(&place, &ranges, power)).then_some(state)
         })
+    }
+
+    /// Whether the divisor to a negative power can be integrated over the draws about a zero: if X grows
+    /// like |x|^p in c directions, X^(−q) can for pq < c.
+    fn is_integrable(&self, place: &[f64], ranges: &[(usize, [f64; 2])], power: f64) -> bool {
+        let mut value = |displaced: &[f64]| {
+            let mut point: Rows = place.iter().map(|x| [*x; STARTS]).collect();
+            let moved = ranges.iter().zip(displaced);
+            moved.for_each(|((place, _), step)| point[*place] = point[*place].map(|x| x + step));
+            output(&self.divisor, &point)[0]
+        };
+        let form = LocalForm::of(ranges.len(), &mut value);
+        form.is_some_and(|form| form.order * power < form.codimension as f64 - MARGIN)
     }
 
     /// Difference quotient of the divisor by one draw.

@@ -22,9 +22,18 @@ fn planted_poles_are_found_and_no_others() {
         let square = format!("((x − {a})² + (y − {b})²)");
         let rates = [format!("−(y − ({b}))"), format!("x − ({a})")];
         let rates = [rates[0].as_str(), rates[1].as_str()];
-        let infinite = ["1/S", "S^(−1/2)", "1/(S − 1)²", "(S − 1)^(−4)", "(2 + S)/(S*(1 + S))"];
-        let finite =
-            ["1/(S + 1/1000)", "1/√(1 + S)", "e^(−1/S)", "(S + 1)/(S + 2)", "e^(−S)", "S²"];
+        let infinite = ["1/S", "S^(−3/2)", "1/(S − 1)²", "(S − 1)^(−4)", "(2 + S)/(S*(1 + S))"];
+        // S^(−1/2) is infinite at a point, |S − 1|^(−1/2) on a circle: both can be integrated.
+        let finite = [
+            "S^(−1/2)",
+            "((S − 1)²)^(−1/4)",
+            "1/(S + 1/1000)",
+            "1/√(1 + S)",
+            "e^(−1/S)",
+            "(S + 1)/(S + 2)",
+            "e^(−S)",
+            "S²",
+        ];
         for (all, is_infinite) in [(&infinite[..], true), (&finite[..], false)] {
             let all: Vec<String> = all.iter().map(|own| own.replace('S', &square)).collect();
             for claim in densities(["-2..2", "-2..2"], rates, &all) {

@@ -200,9 +200,10 @@ fn typical(
              points the motion is on two-dimensional tori, quasi-periodic after a change of time",
             "no attractors, no chaos",
         ],
-        (HierarchyClass::IntegralAndMeasure, Integrals::EnoughOnAPart) => {
-            &["motion on the joint levels preserves a measure: no attractors on compact ones"]
-        }
+        (HierarchyClass::IntegralAndMeasure, Integrals::EnoughOnAPart) => &[
+            "motion on the joint levels preserves a measure: no attractors on compact ones",
+            "where the integrals are independent: integrable by quadratures (Euler, Jacobi), and no chaos",
+        ],
         (HierarchyClass::IntegralAndMeasure, _) => &[
             "motion on the joint levels preserves a measure: no attractors on compact ones; where one \
              integral is missing to quadratures, chaos is possible and usually weak",
