@@ -29,7 +29,7 @@ const LEAST_INCREASE: f64 = 1e3;
 const MIDWAY: f64 = 1e-4;
 /// Margin in the comparison of exponents.
 const MARGIN: f64 = 0.1;
-/// Largest coordinate of a state at a pole, where others are of order 1.
+/// Largest coordinate of a state at a pole, and of its draws, where others are of order 1.
 const FARTHEST: f64 = 1e3;
 /// Largest number of divisors that are examined.
 const MOST_DIVISORS: usize = 8;
@@ -81,8 +81,12 @@ impl Judging<'_> {
             sampler.compose(self.graph, &[density.clone(), field.clone()], &fixed)?;
         let Ok([density, field]) = <[Vec<Expr>; 2]>::try_from(groups) else { return Ok(None) };
         let extents = sampler.extents();
-        let may_vanish =
-            |value: &Expr| !is_seen_nowhere_zero(&graph, &extents, &[], &[*value], PIECES);
+        // Where the field divides by the same, it has no value at the zero.
+        let of_field = divisors(&graph, &field);
+        let may_vanish = |value: &Expr| {
+            !of_field.contains(value)
+                && !is_seen_nowhere_zero(&graph, &extents, &[], &[*value], PIECES)
+        };
         let divisors: Vec<Expr> =
             divisors(&graph, &density).into_iter().filter(may_vanish).collect();
         let is_open = !divisors.is_empty();
@@ -206,12 +210,13 @@ impl PoleSearch<'_> {
             // Where the field is infinite its domain ends.
             let has_field = last[i] < LEAST_INCREASE * speed[i].max(1.0);
             let state: Vec<f64> = states.iter().map(|row| row[i]).collect();
-            let is_near = state.iter().all(|x| x.abs() <= FARTHEST);
+            let place: Vec<f64> = point.iter().map(|row| row[i]).collect();
+            // Far away in a chart, a point that another one covers looks like a hypersurface.
+            let is_near = state.iter().chain(&place).all(|x| x.abs() <= FARTHEST);
             let is_pole = vanishes && grows && has_field && is_near;
             let (divisor, density) = midway[i].filter(|_| is_pole)?;
             // ρ grows like a power of the divisor, X^(−q).
             let power = -(after[i] / density).abs().ln() / (value[i] / divisor).abs().ln();
-            let place: Vec<f64> = point.iter().map(|row| row[i]).collect();
             (!self.is_integrable(&place, &ranges, power)).then_some(state)
         })
     }
