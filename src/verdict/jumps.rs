@@ -130,12 +130,14 @@ fn divided(from: f64, to: f64) -> [f64; POINTS] {
     std::array::from_fn(|k| from + (to - from) * k as f64 / (POINTS - 1) as f64)
 }
 
-/// Whether values contain what can jump: a quotient with a modulus or the root of a square, or an
-/// arctangent or exponential of a quotient. Other quotients jump on sets that no motion meets.
+/// Whether values contain what can jump: a quotient with a modulus, or with the root, logarithm or
+/// broken power of a square, or an arctangent or exponential of a quotient. Other quotients jump on sets that no motion meets.
 fn may_jump(graph: &Graph, values: &[Expr]) -> bool {
     let reached = graph.reached(values.iter().copied());
     let may_be_corner = |step: Step<'_>| match step {
         Step::Unary(function, _) => !matches!(function, UnaryFunction::Neg | UnaryFunction::Recip),
+        Step::Power(_, exponent) => exponent.to_integer().is_none(),
+        Step::Binary(BinaryOperation::Pow, ..) => true,
         _ => false,
     };
     if !graph.steps().zip(&reached).any(|(step, reached)| *reached && may_be_corner(step)) {
@@ -155,7 +157,11 @@ fn may_jump(graph: &Graph, values: &[Expr]) -> bool {
         has_quotient |= is_quotient[place];
         has_corner |= match step {
             Step::Unary(UnaryFunction::Abs, _) => true,
-            Step::Unary(UnaryFunction::Sqrt, a) => has_square_factor(graph, a),
+            Step::Unary(UnaryFunction::Sqrt | UnaryFunction::Ln, a) => has_square_factor(graph, a),
+            Step::Power(a, exponent) => {
+                exponent.to_integer().is_none() && has_square_factor(graph, a)
+            }
+            Step::Binary(BinaryOperation::Pow, a, _) => has_square_factor(graph, a),
             Step::Unary(UnaryFunction::Atan | UnaryFunction::Exp, _) => below,
             _ => false,
         };

@@ -8,6 +8,7 @@ use liouville::verdict::{ClaimReport, Options};
 use liouville_cli::report::motion_certificate::{sealed, verify};
 use serde_json::Value;
 
+mod catalogue;
 mod horseshoes;
 mod nearby;
 
@@ -50,34 +51,6 @@ fn is_there() -> bool {
         println!("not run: there is no python3 on this machine");
     }
     found
-}
-
-#[test]
-fn certificates_of_the_catalogue_pass() {
-    one_certificate_in(12);
-}
-
-#[test]
-#[ignore = "takes a minute"]
-fn all_certificates_of_the_catalogue_pass() {
-    one_certificate_in(1);
-}
-
-/// Checks one certificate of the catalogue in this many.
-fn one_certificate_in(step: usize) {
-    let (_, files) = certified(&format!("one in {step}"), &["cases"]);
-    assert!(files.len() > 2400, "{} certificates", files.len());
-    if !is_there() {
-        return;
-    }
-    let files: Vec<&str> = files.iter().step_by(step).map(String::as_str).collect();
-    let output = run("python3", &[&["docs/certificates/check.py"], &files[..]].concat());
-    let told = text(&output.stdout);
-    let last = told.lines().last().unwrap_or_default();
-    println!("{last}");
-    assert!(output.status.success() && last.ends_with(" 0 refused"), "{told}");
-    let from_text = told.lines().filter(|line| line.starts_with("text ")).count();
-    assert!(from_text * step > 200, "{from_text} are proved from the text of their case");
 }
 
 #[test]
