@@ -18,6 +18,7 @@
 //! | `angles` | sines and cosines of arctangents |
 //! | `free_symbols` | symbols in the place of very many roots, moduli and functions |
 //! | `buckets` | values that are proved together |
+//! | `nonzero` | values that are not identically zero on any cell |
 //! | `explore`, `division`, `next`, `cells`, `rewrite` | the cells of signs, and proofs on each |
 //! | `domain`, `fact`, `classes`, `extent` | signs of values over the ranges of the inputs |
 //! | `elimination`, `rank`, `reconstruct`, `coprime` | linear algebra and polynomials modulo a prime |
