@@ -2,8 +2,13 @@
 
 use nalgebra::DMatrix;
 
-/// Distance at which a function is compared with its value at the zero.
-const NEAR: f64 = 1e-3;
+/// Least and largest distance at which a function is compared with its value at the zero.
+const NEAREST: f64 = 1e-3;
+const FARTHEST: f64 = 0.03;
+/// Distance in units of that of the point from the zero.
+const AWAY: f64 = 100.0;
+/// Step of the difference quotients by which that is estimated.
+const DIFFERENCE: f64 = 1e-6;
 /// Largest number of coordinates in which second differences are formed.
 const MOST_COORDINATES: usize = 16;
 /// Smallest second derivative that counts, in units of the largest.
@@ -31,8 +36,14 @@ impl LocalForm {
             value(&displaced)
         };
         let here = at(&[]);
+        let mut quotient =
+            |k: usize| (at(&[(k, DIFFERENCE)]) - at(&[(k, -DIFFERENCE)])) / (2.0 * DIFFERENCE);
+        let slope = (0..coordinates).map(|k| quotient(k).powi(2)).sum::<f64>().sqrt();
+        let away = AWAY * here.abs() / slope;
+        // At the zero itself this is 0/0.
+        let near = if away > NEAREST { away.min(FARTHEST) } else { NEAREST };
         let sides: Vec<[f64; 2]> =
-            (0..coordinates).map(|k| [at(&[(k, NEAR)]), at(&[(k, -NEAR)])]).collect();
+            (0..coordinates).map(|k| [at(&[(k, near)]), at(&[(k, -near)])]).collect();
         let slope = |[above, below]: &[f64; 2]| ((above - below) / 2.0).abs();
         let bend = |[above, below]: &[f64; 2]| (above + below - 2.0 * here).abs();
         let steepest = sides.iter().map(slope).fold(0.0, f64::max);
@@ -50,7 +61,7 @@ impl LocalForm {
             for b in 0..a {
                 let corners = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)];
                 let [both, first, last, none] =
-                    corners.map(|(s, t)| at(&[(a, s * NEAR), (b, t * NEAR)]));
+                    corners.map(|(s, t)| at(&[(a, s * near), (b, t * near)]));
                 second[(a, b)] = (both - first - last + none) / 4.0;
                 second[(b, a)] = second[(a, b)];
             }
@@ -61,9 +72,10 @@ impl LocalForm {
             curvatures.iter().filter(|one| one.abs() > LEAST_CURVATURE * largest).count();
         let widest =
             (0..coordinates).max_by(|a, b| bend(&sides[*a]).total_cmp(&bend(&sides[*b])))?;
-        let half = at(&[(widest, NEAR / 2.0)]) - here;
-        let order = ((sides[widest][0] - here) / half).abs().log2();
-        (codimension > 0 && order.is_finite()).then_some(Self { codimension, order })
+        let half = [at(&[(widest, near / 2.0)]), at(&[(widest, -near / 2.0)])];
+        // Analytic functions grow like whole powers.
+        let order = (bend(&sides[widest]) / bend(&half)).log2().round();
+        (codimension > 0 && order >= 1.0).then_some(Self { codimension, order })
     }
 }
 
@@ -84,6 +96,10 @@ mod tests {
         is(form(&|x| (x[0] + x[1]).powi(2) + 3.0 * x[2].powi(2)), 2, 2.0);
         is(form(&|x| x[0].powi(2) + x[0] * x[1] + x[1].powi(2) + x[2].powi(2)), 3, 2.0);
         is(form(&|x| (x[0].powi(2) + x[1].powi(2)).powi(2)), 2, 4.0);
+        // Near the zero, not at it.
+        let quartic = |x: &[f64]| x.iter().map(|x| (x - 2e-3).powi(4)).sum();
+        is(form(&quartic), 3, 4.0);
+        is(form(&|x| x.iter().map(|x| (x + 3e-5).powi(2)).sum()), 3, 2.0);
         assert_eq!(form(&|_| f64::NAN), None, "no values");
     }
 }

@@ -12,6 +12,7 @@ use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape};
 use crate::mechanics::{Draw, NumberLine, combinations};
 use crate::number::UnaryFunction;
 use crate::number::float::Float;
+use crate::number::rational::Rational;
 use crate::proof::is_seen_nowhere_zero;
 
 /// Number of states from which a pole is sought, side by side.
@@ -27,10 +28,12 @@ const LEAST_DECREASE: f64 = 1e-10;
 const LEAST_INCREASE: f64 = 1e3;
 /// Decrease of a divisor after which the growth of ρ is measured.
 const MIDWAY: f64 = 1e-4;
-/// Margin in the comparison of exponents.
-const MARGIN: f64 = 0.1;
+/// Share of an exponent that may be lost by rounding.
+const MARGIN: f64 = 0.03;
 /// Largest coordinate of a state at a pole, and of its draws, where others are of order 1.
 const FARTHEST: f64 = 1e3;
+/// Largest number of choices of listed values that are examined.
+const MOST_CHOICES: usize = 8;
 /// Largest number of divisors that are examined.
 const MOST_DIVISORS: usize = 8;
 /// Number of pieces of the ranges in which a divisor is shown not to vanish.
@@ -50,20 +53,31 @@ impl Judging<'_> {
         field: &[Expr],
     ) -> Result<Option<String>, Fault> {
         let groups = [vec![density], field.to_vec()];
-        let Some(found) = self.vanishing(sampler, &groups)? else { return Ok(None) };
+        let Some(choices) = combinations(sampler.recipes()) else { return Ok(None) };
         let model = &self.case.model;
         let level = LevelSubset::level(model);
-        if sampler.kept() == level.kept.as_slice() {
-            return Ok(self.pole_of(sampler, &found));
-        }
-        // What is proved in the whole space is asked for on the level.
-        match Sampler::new(self.case, &level, self.options.seed) {
-            Ok(sampler) if !sampler.is_numerical() => {
-                let found = self.vanishing(&sampler, &groups)?;
-                Ok(found.and_then(|found| self.pole_of(&sampler, &found)))
+        let mut on_level = None;
+        for (index, fixed) in choices.iter().take(MOST_CHOICES).enumerate() {
+            let Some(found) = self.vanishing(sampler, &groups, fixed)? else { continue };
+            let place = if sampler.kept() == level.kept.as_slice() {
+                self.pole_of(sampler, &found)
+            } else {
+                // What is proved in the whole space is asked for on the level.
+                let own = on_level.get_or_insert_with(|| {
+                    Sampler::new(self.case, &level, self.options.seed)
+                        .ok()
+                        .filter(|own| !own.is_numerical())
+                });
+                let Some(own) = own else { return Ok(None) };
+                let choices = combinations(own.recipes()).unwrap_or_default();
+                let Some(fixed) = choices.get(index) else { return Ok(None) };
+                self.vanishing(own, &groups, fixed)?.and_then(|found| self.pole_of(own, &found))
+            };
+            if place.is_some() {
+                return Ok(place);
             }
-            _ => Ok(None),
         }
+        Ok(None)
     }
 
     /// Divisors of a density that are not seen to vanish nowhere, as functions of the draws; `None` if
@@ -72,13 +86,10 @@ impl Judging<'_> {
         &self,
         sampler: &Sampler,
         [density, field]: &[Vec<Expr>; 2],
+        fixed: &[Option<Rational>],
     ) -> Result<Option<Vanishing>, Fault> {
-        let Some(fixed) = combinations(sampler.recipes()).and_then(|all| all.into_iter().next())
-        else {
-            return Ok(None);
-        };
         let (graph, groups) =
-            sampler.compose(self.graph, &[density.clone(), field.clone()], &fixed)?;
+            sampler.compose(self.graph, &[density.clone(), field.clone()], fixed)?;
         let Ok([density, field]) = <[Vec<Expr>; 2]>::try_from(groups) else { return Ok(None) };
         let extents = sampler.extents();
         // Where the field divides by the same, it has no value at the zero.
@@ -231,7 +242,7 @@ impl PoleSearch<'_> {
             output(&self.divisor, &point)[0]
         };
         let form = LocalForm::of(ranges.len(), &mut value);
-        form.is_some_and(|form| form.order * power < form.codimension as f64 - MARGIN)
+        form.is_some_and(|form| form.order * power < (1.0 - MARGIN) * form.codimension as f64)
     }
 
     /// Difference quotient of the divisor by one draw.

@@ -66,3 +66,39 @@ fn where_the_field_is_infinite_its_domain_ends() {
     assert!(!densities_of("1/x"), "no motion is at x = 0");
     assert!(densities_of("x"), "rests are");
 }
+
+/// Whether a density of a field of x, y, z is seen to be infinite.
+fn is_infinite(parameters: &str, rates: [&str; 3], density: &str) -> bool {
+    let text = format!(
+        "title = 't'\n[parameters]\n{parameters}\n[state]\nx = '-2..2'\ny = '-2..2'\nz = '-2..2'\n\
+         [field]\nx = '{}'\ny = '{}'\nz = '{}'\n[[claim]]\ndensity = '{density}'\n",
+        rates[0], rates[1], rates[2]
+    );
+    let case = Case::parse(&text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let report =
+        judge(&case, &Options::default()).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    assert_eq!(report.claims[0].verdict, Verdict::Proved, "{density}");
+    report.claims[0].evidence.has(Flaw::Infinite)
+}
+
+#[test]
+fn poles_at_points_and_lines_are_found_in_space() {
+    // Each is of degree −3, so that it is a density, and none can be integrated about 0.
+    for density in [
+        "(x² + y² + z²)^(−3/2)",
+        "(x² + x*y + 2*y² + 3*z²)^(−3/2)",
+        "(x⁴ + y⁴ + z⁴)^(−3/4)",
+        "((x + y)² + (y − z)²)^(−3/2)",
+        "(x − y + z)^(−3)",
+    ] {
+        assert!(is_infinite("", ["−x", "−y", "−z"], density), "{density}");
+    }
+}
+
+#[test]
+fn poles_for_one_of_several_exponents_are_found() {
+    let turn = ["y", "−x", "0*z"];
+    let density = "(x² + y²)^(−b/2)";
+    assert!(is_infinite("b = 'one of 0, 1, 3'", turn, density), "for b = 3");
+    assert!(!is_infinite("b = 'one of 0, 1'", turn, density), "1/|x| can be integrated");
+}

@@ -129,6 +129,11 @@ fn measure(survey: &Survey) -> Vec<SectionBlock> {
     found.extend(
         witness.map(|found| text(format!("The criterion is not 0; {}.", entry::witness(found)))),
     );
+    if !survey.by_value.is_empty() && survey.criterion.iter().any(TestedClaim::fails) {
+        found.push(text(
+            "What is refuted here fails for some of the listed values; the place of each is above.",
+        ));
+    }
     found.extend(blocks(&survey.densities));
     let sentence = match survey.hierarchy.measure {
         MeasureStatus::ByQuadrature if survey.densities.is_empty() => Some(
@@ -188,7 +193,12 @@ fn table_of(map: &liouville_search::survey::SphereMap) -> SectionBlock {
 fn integrals(survey: &Survey) -> Vec<SectionBlock> {
     let mut found = blocks(&survey.integrals);
     if !survey.dependent.is_empty() {
-        found.push(text("Also integrals, and functions of those above:"));
+        found.push(text(match survey.by_value.is_empty() {
+            true => "Also integrals, and functions of those above:",
+            false => {
+                "Also integrals, and functions of those above for some listed values at least:"
+            }
+        }));
         found.extend(blocks(&survey.dependent));
     }
     if !survey.rates.is_empty() {
@@ -207,7 +217,11 @@ fn integrals(survey: &Survey) -> Vec<SectionBlock> {
             _ => "None is known.".to_string(),
         }));
     }
-    found.push(text(count(&survey.independence, &survey.hierarchy)));
+    let count = count(&survey.independence, &survey.hierarchy);
+    found.push(text(match survey.by_value.is_empty() {
+        true => count,
+        false => format!("What holds for all listed values: {count}"),
+    }));
     found.extend(survey.independence.claim.as_ref().map(independence));
     found
 }
@@ -292,7 +306,13 @@ fn hamiltonian(survey: &Survey) -> Vec<SectionBlock> {
 fn excluded(survey: &Survey) -> Vec<SectionBlock> {
     let mut found = theorems(&survey.search);
     if !survey.fails.is_empty() {
-        found.push(text("Known of such systems, and refuted for this one:"));
+        let has_free = survey.parameters.iter().any(|one| one.value.is_none());
+        found.push(text(match has_free {
+            true => {
+                "Known of such systems, and not true of this one for all values of the parameters:"
+            }
+            false => "Known of such systems, and refuted for this one:",
+        }));
         found.extend(blocks(&survey.fails));
     }
     found

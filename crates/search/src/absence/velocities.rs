@@ -159,7 +159,8 @@ fn shown(what: &str, found: &Found) -> String {
     let names: Vec<String> =
         found.abbreviations.iter().map(|(name, text)| format!("{name} = {text}")).collect();
     let names = if names.is_empty() { String::new() } else { format!(", {}", names.join(", ")) };
-    format!("{what}, proved: {}{names}", found.formula)
+    let remark = found.evidence.remark.as_ref().map(|remark| format!("; {remark}"));
+    format!("{what}, proved: {}{names}{}", found.formula, remark.unwrap_or_default())
 }
 
 fn no_density(
