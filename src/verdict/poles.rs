@@ -60,7 +60,7 @@ impl Judging<'_> {
         for (index, fixed) in choices.iter().take(MOST_CHOICES).enumerate() {
             let Some(found) = self.vanishing(sampler, &groups, fixed)? else { continue };
             let place = if sampler.kept() == level.kept.as_slice() {
-                self.pole_of(sampler, &found)
+                self.pole_of(sampler, fixed, &found)
             } else {
                 // What is proved in the whole space is asked for on the level.
                 let own = on_level.get_or_insert_with(|| {
@@ -71,7 +71,8 @@ impl Judging<'_> {
                 let Some(own) = own else { return Ok(None) };
                 let choices = combinations(own.recipes()).unwrap_or_default();
                 let Some(fixed) = choices.get(index) else { return Ok(None) };
-                self.vanishing(own, &groups, fixed)?.and_then(|found| self.pole_of(own, &found))
+                let found = self.vanishing(own, &groups, fixed)?;
+                found.and_then(|found| self.pole_of(own, fixed, &found))
             };
             if place.is_some() {
                 return Ok(place);
@@ -104,7 +105,12 @@ impl Judging<'_> {
         Ok(is_open.then_some(Vanishing { graph, density, field, divisors }))
     }
 
-    fn pole_of(&self, sampler: &Sampler, found: &Vanishing) -> Option<String> {
+    fn pole_of(
+        &self,
+        sampler: &Sampler,
+        fixed: &[Option<Rational>],
+        found: &Vanishing,
+    ) -> Option<String> {
         let Vanishing { graph, density, field, divisors } = found;
         let (density, field) = (Tape::new(graph, density), Tape::new(graph, field));
         let model = &self.case.model;
@@ -112,7 +118,7 @@ impl Judging<'_> {
         let place = divisors.iter().take(MOST_DIVISORS).find_map(|divisor| {
             let divisor = Tape::new(graph, &[*divisor]);
             let (density, field, state) = (&density, &field, &state);
-            let search = PoleSearch { sampler, divisor, density, field, state };
+            let search = PoleSearch { sampler, divisor, density, field, state, fixed };
             search.pole(graph.inputs())
         })?;
         Some(briefly(model, &place))
@@ -153,15 +159,22 @@ struct PoleSearch<'s> {
     density: &'s Tape,
     field: &'s Tape,
     state: &'s Tape,
+    /// Listed values that are chosen, by draw.
+    fixed: &'s [Option<Rational>],
 }
 
 impl PoleSearch<'_> {
-    /// Draws of the states from which the search starts.
+    /// Draws of the states from which the search starts, listed ones at the values that are chosen.
     fn starts(&self, inputs: usize) -> Rows {
         let all: Vec<Vec<(f64, bool)>> =
             (0..STARTS as u64).map(|index| self.sampler.nearest_draws(index)).collect();
         let draws = all.first().map_or(0, Vec::len);
         let mut rows: Rows = (0..draws).map(|k| std::array::from_fn(|i| all[i][k].0)).collect();
+        for (row, value) in rows.iter_mut().zip(self.fixed) {
+            if let Some(value) = value {
+                *row = [value.to_f64().0; STARTS];
+            }
+        }
         rows.resize(inputs.max(draws), [0.5; STARTS]);
         rows
     }
@@ -206,11 +219,12 @@ impl PoleSearch<'_> {
                 }
             }
             value = output(&self.divisor, &point);
-            let density = output(self.density, &point);
-            for i in 0..STARTS {
-                if midway[i].is_none() && value[i].abs() <= MIDWAY * first[i].abs() {
-                    midway[i] = Some((value[i], density[i]));
-                }
+            let is_midway =
+                |i: &usize| midway[*i].is_none() && value[*i].abs() <= MIDWAY * first[*i].abs();
+            let reached: Vec<usize> = (0..STARTS).filter(is_midway).collect();
+            if !reached.is_empty() {
+                let density = output(self.density, &point);
+                reached.into_iter().for_each(|i| midway[i] = Some((value[i], density[i])));
             }
         }
         let after = output(self.density, &point);

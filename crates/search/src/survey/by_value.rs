@@ -1,7 +1,7 @@
 //! Places in the hierarchy for single listed values of parameters.
 //!
-//! What is proved of a case holds for all values of a list; what is refuted fails for one of them, and
-//! what the search finds may hold for one alone. So each combination of values has its own place.
+//! A proof about a case covers all values of a list, a refutation one of them, and a find of the search
+//! may hold for one alone. So each combination of values has its own place.
 
 use serde::Serialize;
 
