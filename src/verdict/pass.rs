@@ -99,11 +99,25 @@ where
                     outside[lane] = if beyond > outside[lane] { beyond } else { outside[lane] };
                 }
             }
-            found.excludes_zero = outside.iter().any(|beyond| *beyond > 0.0);
-            found.largest = largest.into_iter().fold(0.0, f64::max);
-            found.scaled = scaled.into_iter().fold(0.0, f64::max);
+            found.excludes_zero = most(&outside) > 0.0;
+            (found.largest, found.scaled) = (most(&largest), most(&scaled));
         }
     }
+}
+
+/// Largest of some numbers of which none is NaN or negative: eight maxima side by side, and then theirs.
+#[inline(always)]
+fn most(lanes: &[f64; TAPE_LANES]) -> f64 {
+    const BESIDE: usize = 8;
+    const { assert!(TAPE_LANES.is_multiple_of(BESIDE)) };
+    let larger = |a: f64, b: f64| if b > a { b } else { a };
+    let mut largest = [0.0; BESIDE];
+    for start in (0..TAPE_LANES).step_by(BESIDE) {
+        for lane in 0..BESIDE {
+            largest[lane] = larger(largest[lane], lanes[start + lane]);
+        }
+    }
+    largest.into_iter().fold(0.0, larger)
 }
 
 #[inline(always)]

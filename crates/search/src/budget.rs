@@ -78,6 +78,12 @@ impl<'e> Budget<'e> {
         self.halt.meter().set(done, all);
     }
 
+    /// Whether work of so many steps that cannot be stopped may be done, and ends in time.
+    pub fn allows(&self, steps: f64) -> bool {
+        let left = self.halt.left().map_or(f64::INFINITY, |left| left.as_secs_f64() * STEPS);
+        steps <= self.steps.min(left)
+    }
+
     /// Fails where so many entries of equations are too many to make or to keep.
     pub fn admits(&self, unknowns: usize, entries: f64) -> Result<(), SearchError> {
         if entries > self.steps {
@@ -135,6 +141,11 @@ mod tests {
         assert!(matches!(found, Err(SearchError::Long { unknowns: 100, .. })), "{found:?}");
         let found = Budget::of(&budget(1.0, 0)).check(&echelon);
         assert!(matches!(found, Err(SearchError::Large { unknowns: 100, .. })), "{found:?}");
+        assert!(Budget::of(&budget(1.0, 1)).allows(1e9), "a second");
+        assert!(!Budget::of(&budget(1.0, 1)).allows(1e9 + 1.0), "more than a second");
+        let timed = Halt::within(std::time::Duration::from_secs(60));
+        assert!(Budget::unlimited(&timed).allows(1e9), "a second of a minute");
+        assert!(!Budget::unlimited(&timed).allows(1e12), "a thousand seconds");
         let limit = Budget::of(&effort);
         assert!(limit.admits(10, 1e6).is_ok(), "a million entries are made in no time");
         assert!(matches!(limit.admits(10, 1e8), Err(SearchError::Large { .. })), "2.4 GB");

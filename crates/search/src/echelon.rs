@@ -22,9 +22,33 @@ struct SparseRow {
     columns: Box<[u32]>,
     /// Entries in these columns.
     values: Box<[u64]>,
+    /// Place from which on the columns are all up to the last of the matrix.
+    dense: usize,
 }
 
 impl SparseRow {
+    /// Makes a row of a matrix with so many columns.
+    fn new(columns: Vec<u32>, values: Vec<u64>, width: usize) -> Self {
+        let in_place = |(behind, column): &(usize, &u32)| **column as usize + behind + 1 == width;
+        let tail = columns.iter().rev().enumerate().take_while(in_place).count();
+        let dense = columns.len() - tail;
+        Self { columns: columns.into(), values: values.into(), dense }
+    }
+
+    /// Adds a multiple to sums of products, one for each column.
+    fn add_to(&self, wide: &mut [u128], factor: u64) {
+        let product = |value: &u64| u128::from(factor).wrapping_mul(u128::from(*value));
+        let (values, tail) = self.values.split_at(self.dense);
+        for (column, value) in self.columns.iter().zip(values) {
+            let sum = &mut wide[*column as usize];
+            *sum = sum.wrapping_add(product(value));
+        }
+        let start = wide.len() - tail.len();
+        for (sum, value) in wide[start..].iter_mut().zip(tail) {
+            *sum = sum.wrapping_add(product(value));
+        }
+    }
+
     /// Iterates over the columns and values behind the pivot.
     fn entries(&self) -> impl Iterator<Item = (usize, u64)> {
         self.columns.iter().zip(&self.values).map(|(column, value)| (*column as usize, *value))
@@ -72,10 +96,7 @@ impl Echelon {
                 pending = 0;
             }
             pending += 1;
-            let factor = u128::from(m.sub(0, entry));
-            for (other, value) in pivot.entries() {
-                wide[other] = wide[other].wrapping_add(factor.wrapping_mul(u128::from(value)));
-            }
+            pivot.add_to(&mut wide, m.sub(0, entry));
         }
         None
     }
@@ -94,7 +115,7 @@ impl Echelon {
         }
         self.entries += columns.len() + 1;
         self.rank += 1;
-        SparseRow { columns: columns.into(), values: values.into() }
+        SparseRow::new(columns, values, wide.len())
     }
 
     /// Number of entries that were looked at while rows were added: the work of the elimination,

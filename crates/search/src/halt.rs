@@ -28,6 +28,11 @@ impl Halt {
         Arc::clone(&self.told)
     }
 
+    /// Returns the same limit, with a meter of its own: for parts of a step that is metered as a whole.
+    pub fn within_a_step(&self) -> Self {
+        Self { meter: Meter::default(), ..self.clone() }
+    }
+
     /// Returns the share of the present step that is done.
     pub fn meter(&self) -> &Meter {
         &self.meter
@@ -36,6 +41,11 @@ impl Halt {
     /// Whether the duration is limited.
     pub fn is_timed(&self) -> bool {
         self.deadline.is_some()
+    }
+
+    /// Time that is left, where the duration is limited.
+    pub fn left(&self) -> Option<Duration> {
+        Some(self.deadline?.saturating_duration_since(now()?))
     }
 
     /// Fails once the search is to stop.

@@ -3,11 +3,12 @@
 use num_dual::Dual;
 
 use super::ask::{are_comparable, compared, holds, independent, judged};
+use super::budget::Budget;
 use super::library;
 use super::linear::SampledFunctions;
 use super::lists::{ListedCase, combinations};
 use super::origin::RemarkOrigin;
-use super::second_opinion::second_opinion;
+use super::second_opinion::{self, second_opinion};
 use super::terms::{is_one, recorded, sum};
 use super::{Effort, Found, SearchError, SearchReport};
 use liouville::case::Case;
@@ -145,10 +146,26 @@ pub fn over_denominators(
         })?;
         let seed = effort.options.seed;
         let mut functions = SampledFunctions::with_symbols(case, &graph, &rates, effort)?;
-        let (vectors, irrational) = functions.relations()?.rational()?;
+        let budget = Budget::of(effort);
+        let relations = match functions.relations_within(&budget) {
+            Err(error @ (SearchError::Long { .. } | SearchError::Large { .. })) => {
+                report.remark(format!("terms over {denominator} are left out: {error}"));
+                continue;
+            }
+            other => other?,
+        };
+        let (vectors, irrational) = relations.rational()?;
         let dimension = vectors.len() + irrational;
-        if !functions.has_symbols {
-            report.opinions.extend(second_opinion(&functions, denominator.text(), dimension, seed));
+        let count = functions.count();
+        match !functions.has_symbols && budget.allows(second_opinion::steps(count)) {
+            true => {
+                let opinion = second_opinion(&functions, denominator.text(), dimension, seed);
+                report.opinions.extend(opinion);
+            }
+            false if functions.has_symbols => {}
+            false => report.remark(format!(
+                "no second opinion on {count} terms over {denominator}: their singular values take too long"
+            )),
         }
         if irrational > 0 {
             let text = format!("{irrational} relations do not have small rational coefficients");
@@ -177,8 +194,12 @@ fn distinct(
     let mut functions = SampledFunctions::with_symbols(case, &graph, &values, effort)?;
     let defined = functions.defined();
     functions.restrict(&defined);
-    let kept = match functions.relations() {
+    let kept = match functions.relations_within(&Budget::of(effort)) {
         Ok(relations) => relations.independent(),
+        Err(error @ (SearchError::Long { .. } | SearchError::Large { .. })) => {
+            report.remark(format!("integrals among the terms are not sought: {error}"));
+            return Ok(Vec::new());
+        }
         Err(SearchError::NoPoints) => {
             report.remark(SearchError::NoPoints.to_string());
             return Ok(Vec::new());

@@ -43,6 +43,7 @@ mod rates;
 mod recognised;
 mod reduced;
 mod report;
+mod room;
 mod second_opinion;
 mod series;
 mod streams;

@@ -1,6 +1,7 @@
 //! Rational relations between functions of a state and the parameters: Σ a_j f_j = 0 with constant
 //! a_j, found at random points modulo a prime.
 
+use super::budget::Budget;
 use super::echelon::Echelon;
 use super::local::sign;
 use super::symbols::symbolised;
@@ -130,6 +131,15 @@ impl SampledFunctions {
 
     /// Finds a basis of the relations among the columns, by echelon form.
     pub fn relations(&mut self) -> Result<FunctionRelations, SearchError> {
+        let halt = self.halt.clone();
+        self.relations_within(&Budget::unlimited(&halt))
+    }
+
+    /// Finds a basis of the relations within a limit on the elimination.
+    pub fn relations_within(
+        &mut self,
+        budget: &Budget<'_>,
+    ) -> Result<FunctionRelations, SearchError> {
         let columns = self.outputs.len();
         let mut echelon = Echelon::new(columns, self.modulus);
         let (mut dependent, halt) = (0, self.halt.clone());
@@ -138,9 +148,9 @@ impl SampledFunctions {
                 dependent = if echelon.push(row) { 0 } else { dependent + 1 };
                 halt.meter().set(echelon.rank(), columns + 1);
             }
-            dependent < SPARE_ROWS && halt.check().is_ok()
+            dependent < SPARE_ROWS && budget.check(&echelon).is_ok()
         });
-        halt.check()?;
+        budget.check(&echelon)?;
         match dependent < SPARE_ROWS {
             true => Err(SearchError::NoPoints),
             false => Ok(FunctionRelations { echelon, modulus: self.modulus, halt }),

@@ -60,10 +60,13 @@ impl NumberSource {
             (self, index >= SHORT)
         {
             let mut values = [0.0; WIDTH];
-            let mut inside = true;
-            for (value, bits) in values.iter_mut().zip(bits) {
-                *value = at_share([*low, *high], *bits);
-                inside &= (*low < *value) & (*value < *high) & (*value != 0.0);
+            // Words, not one flag: a flag would be asked for lane by lane.
+            let mut outside = [0u64; WIDTH];
+            for lane in 0..WIDTH {
+                let value = at_share([*low, *high], bits[lane]);
+                values[lane] = value;
+                let is_inside = (*low < value) & (value < *high) & (value != 0.0);
+                outside[lane] = if is_inside { 0 } else { 1 };
             }
             if let Some(square) = square {
                 let square = square.to_f64().0;
@@ -71,7 +74,7 @@ impl NumberSource {
                     *value = if is_outside(*bits) { square / *value } else { *value };
                 }
             }
-            if inside {
+            if outside.iter().fold(0, |any, one| any | one) == 0 {
                 mid.copy_from_slice(&values[..mid.len()]);
                 rad.fill(0.0);
                 return;

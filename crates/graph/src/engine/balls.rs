@@ -20,6 +20,9 @@ use crate::number::{BinaryOperation, UnaryFunction};
 /// its instructions once for all lanes is faster.
 const MOST_STEPS: usize = 1 << 14;
 
+/// The largest number whose reciprocal overflows, 2⁻¹⁰²⁴.
+const OVERFLOWING: f64 = f64::MIN_POSITIVE / 4.0;
+
 /// Two tapes over balls, the second on the results of the first, in machine code; clones share it.
 #[derive(Clone, Debug)]
 pub struct BallEngine(Arc<BallCode>);
@@ -191,7 +194,17 @@ impl Builder {
         match function {
             UnaryFunction::Neg | UnaryFunction::Abs => Some(BallValue { mid: of(self), ..x }),
             UnaryFunction::Recip => {
-                let (mid, size, rad) = (of(self), self.size(x.mid), self.radius(x));
+                let (mid, size) = (of(self), self.size(x.mid));
+                let Some(rad) = x.rad else {
+                    let rounded = self.rounded(None, mid);
+                    // The spread |z| 0/|a| is 0, but it has no value where z is infinite.
+                    let least = self.constant(OVERFLOWING);
+                    let beyond = self.pair(PairOperation::NotGreater, size, least);
+                    return Some(BallValue {
+                        mid,
+                        rad: Some(self.pair(PairOperation::Or, rounded, beyond)),
+                    });
+                };
                 let room = self.sum(BinaryOperation::Sub, size, rad);
                 let (quotient, far) =
                     (self.pair(PairOperation::Quotient, rad, room), self.size(mid));
@@ -202,9 +215,17 @@ impl Builder {
                 Some(BallValue { mid, rad: Some(self.pair(PairOperation::Or, rounded, beyond)) })
             }
             UnaryFunction::Sqrt => {
-                let (mid, rad) = (of(self), self.radius(x));
+                let (mid, zero) = (of(self), self.constant(0.0));
+                let Some(rad) = x.rad else {
+                    let error = self.unit_times(mid);
+                    let widened = self.widened(error);
+                    let below = self.pair(PairOperation::NotAtLeast, x.mid, zero);
+                    return Some(BallValue {
+                        mid,
+                        rad: Some(self.pair(PairOperation::Or, widened, below)),
+                    });
+                };
                 let quotient = self.pair(PairOperation::Quotient, rad, mid);
-                let zero = self.constant(0.0);
                 let is_wide = self.pair(PairOperation::Greater, rad, zero);
                 let spread = self.pair(PairOperation::And, quotient, is_wide);
                 let error = self.unit_times(mid);
@@ -281,10 +302,6 @@ impl Builder {
 
     fn pair(&mut self, operation: PairOperation, x: Value, y: Value) -> Value {
         self.step(ProgramStep::Pair(operation, x, y))
-    }
-
-    fn radius(&mut self, x: BallValue) -> Value {
-        x.rad.unwrap_or_else(|| self.constant(0.0))
     }
 
     fn enclosed(&mut self, value: &Rational) -> BallValue {

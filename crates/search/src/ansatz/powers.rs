@@ -4,6 +4,59 @@ use super::recording::Derivation;
 use super::system::Column;
 use liouville::number::prime::Modulus;
 
+/// A column of which only the variables that occur are listed: there may be thousands.
+pub enum SparseColumn {
+    /// An output of the recording.
+    Given(usize),
+    /// A factor times a product of powers.
+    Product {
+        /// Index of the direction.
+        derivation: usize,
+        /// Index of the factor.
+        factor: usize,
+        /// Powers of the variables that occur.
+        powers: Vec<VariablePower>,
+    },
+}
+
+/// A power of a variable.
+pub struct VariablePower {
+    variable: usize,
+    exponent: u32,
+    /// The exponent modulo the prime.
+    image: u64,
+}
+
+impl SparseColumn {
+    /// Lists the variables of a column.
+    pub fn of(m: &Modulus, column: &Column) -> Self {
+        let (derivation, factor, exponents) = match column {
+            Column::Given(output) => return SparseColumn::Given(*output),
+            Column::Product { derivation, factor, exponents } => (*derivation, *factor, exponents),
+        };
+        let occurring = exponents.iter().enumerate().filter(|(_, exponent)| **exponent > 0);
+        let power = |(variable, exponent): (usize, &u32)| VariablePower {
+            variable,
+            exponent: *exponent,
+            image: m.integer(u64::from(*exponent)),
+        };
+        SparseColumn::Product { derivation, factor, powers: occurring.map(power).collect() }
+    }
+
+    /// Powers of the variables that occur.
+    fn powers(&self) -> &[VariablePower] {
+        match self {
+            SparseColumn::Given(_) => &[],
+            SparseColumn::Product { powers, .. } => powers,
+        }
+    }
+
+    /// Highest exponent.
+    pub fn highest(&self) -> u32 {
+        self.powers().iter().map(|own| own.exponent).max().unwrap_or(0)
+    }
+}
+
 /// Powers, rates and logarithmic derivatives of the variables at a state, with the factors.
 pub struct VariablePowers<'v> {
     powers: Vec<Vec<u64>>,
@@ -11,8 +64,8 @@ pub struct VariablePowers<'v> {
     growth: &'v [u64],
     factors: &'v [u64],
     slopes: &'v [u64],
-    /// Variables that are 0, as on a level u = 0.
-    zeros: Vec<usize>,
+    /// Whether a variable is 0, as on a level u = 0.
+    has_zeros: bool,
 }
 
 impl<'v> VariablePowers<'v> {
@@ -33,38 +86,40 @@ impl<'v> VariablePowers<'v> {
                 .collect()
         };
         let powers = x.iter().map(powers).collect();
-        let zeros = (0..x.len()).filter(|k| x[*k] == 0).collect();
-        Self { powers, rates, growth, factors, slopes: &rest[..own.factors], zeros }
+        let has_zeros = x.contains(&0);
+        Self { powers, rates, growth, factors, slopes: &rest[..own.factors], has_zeros }
     }
 
-    fn monomial(&self, m: &Modulus, exponents: &[u32]) -> u64 {
-        let powers = self.powers.iter().zip(exponents).map(|(row, a)| row[*a as usize]);
+    fn monomial<'p>(&self, m: &Modulus, powers: impl Iterator<Item = &'p VariablePower>) -> u64 {
+        let powers = powers.map(|own| self.powers[own.variable][own.exponent as usize]);
         powers.fold(m.one(), |product, power| m.mul(product, power))
     }
 
     /// Computes the derivative of a column.
-    pub fn derivative(&self, m: &Modulus, column: &Column) -> u64 {
-        let Column::Product { factor, exponents, .. } = column else { return 0 };
+    pub fn derivative(&self, m: &Modulus, column: &SparseColumn) -> u64 {
+        let SparseColumn::Product { factor, powers, .. } = column else { return 0 };
         // At x = 0 the derivative of x y^a is y^a dx, and that of x^a y^b is 0 for a > 1.
-        let mut vanishing = self.zeros.iter().filter(|k| exponents[**k] > 0);
-        if let Some(k) = vanishing.next() {
-            if exponents[*k] > 1 || vanishing.next().is_some() {
+        let is_zero = |own: &&VariablePower| self.powers[own.variable].get(1) == Some(&0);
+        let mut vanishing = powers.iter().filter(|own| self.has_zeros && is_zero(own));
+        if let Some(zero) = vanishing.next() {
+            if zero.exponent > 1 || vanishing.next().is_some() {
                 return 0;
             }
-            let mut rest = exponents.clone();
-            rest[*k] = 0;
-            return m.mul(m.mul(self.monomial(m, &rest), self.rates[*k]), self.factors[*factor]);
+            let rest = powers.iter().filter(|own| own.variable != zero.variable);
+            let rate = m.mul(self.monomial(m, rest), self.rates[zero.variable]);
+            return m.mul(rate, self.factors[*factor]);
         }
-        let used = self.growth.iter().zip(exponents).filter(|(_, a)| **a > 0);
-        let growth = used.fold(0, |sum, (g, a)| m.add(sum, m.mul(*g, m.integer(u64::from(*a)))));
+        let growth = powers
+            .iter()
+            .fold(0, |sum, own| m.add(sum, m.mul(self.growth[own.variable], own.image)));
         let slope = m.add(m.mul(self.factors[*factor], growth), self.slopes[*factor]);
-        m.mul(self.monomial(m, exponents), slope)
+        m.mul(self.monomial(m, powers.iter()), slope)
     }
 
     /// Computes the value of a column.
-    pub fn value(&self, m: &Modulus, column: &Column) -> u64 {
-        let Column::Product { factor, exponents, .. } = column else { return 0 };
-        m.mul(self.monomial(m, exponents), self.factors[*factor])
+    pub fn value(&self, m: &Modulus, column: &SparseColumn) -> u64 {
+        let SparseColumn::Product { factor, powers, .. } = column else { return 0 };
+        m.mul(self.monomial(m, powers.iter()), self.factors[*factor])
     }
 }
 
@@ -83,7 +138,7 @@ mod tests {
         let derivative = |exponents: [u32; 3]| {
             let exponents = exponents.to_vec();
             let column = Column::Product { derivation: 0, factor: 0, exponents };
-            m.to_integer(at.derivative(&m, &column))
+            m.to_integer(at.derivative(&m, &SparseColumn::of(&m, &column)))
         };
         assert_eq!(derivative([1, 0, 1]), 11 * 5 * 2, "W z dx");
         assert_eq!(derivative([0, 1, 2]), 11 * 25 * 3, "W z² dy");

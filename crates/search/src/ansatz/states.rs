@@ -1,8 +1,8 @@
 //! Values at random states, kept for the next system of equations at the same parameters.
 //!
-//! The classes of a search ask for the same states, one class after another.
+//! The classes of a search ask for the same states, one class after another or several at a time.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::system::PrimePoint;
 use crate::streams::SearchStream;
@@ -11,65 +11,75 @@ use liouville::proof::ProofRng;
 /// Largest number of values that are kept: 32 MB.
 const MOST_KEPT: usize = 1 << 22;
 
-/// Rows of values at the states of one stream, block by block.
+/// Rows of values at the states of one block.
+pub type StateBlock = Arc<[Vec<u64>]>;
+
+/// Rows of values at the states of one stream, block by block, for any number of threads.
 pub struct States {
     at: PrimePoint,
     stream: u64,
+    blocks: Mutex<Blocks>,
+}
+
+/// The blocks that have been made, and the random numbers of the next one.
+struct Blocks {
     rng: ProofRng,
-    rows: Vec<Vec<u64>>,
-    /// Number of rows up to the end of each block.
-    ends: Vec<usize>,
+    made: Vec<StateBlock>,
+    /// Number of values of all blocks.
+    values: usize,
 }
 
 impl States {
-    /// Returns the number of blocks that are known.
-    pub fn blocks(&self) -> usize {
-        self.ends.len()
+    /// Returns a block, whose predecessors have been asked for; `make` computes its rows from random
+    /// numbers if nobody has.
+    pub fn block(
+        &self,
+        number: usize,
+        make: impl FnOnce(&mut ProofRng) -> Vec<Vec<u64>>,
+    ) -> StateBlock {
+        let mut blocks = self.blocks.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = blocks.made.get(number) {
+            return Arc::clone(known);
+        }
+        let rows: StateBlock = make(&mut blocks.rng).into();
+        blocks.values += rows.iter().map(Vec::len).sum::<usize>();
+        blocks.made.push(Arc::clone(&rows));
+        rows
     }
 
-    /// Returns the random numbers of the next block.
-    pub fn rng(&mut self) -> &mut ProofRng {
-        &mut self.rng
-    }
-
-    /// Adds the rows of a block.
-    pub fn push(&mut self, rows: impl Iterator<Item = Vec<u64>>) {
-        self.rows.extend(rows);
-        self.ends.push(self.rows.len());
-    }
-
-    /// Returns the rows of the first blocks.
-    pub fn rows_before(&self, blocks: usize) -> &[Vec<u64>] {
-        &self.rows[..blocks.checked_sub(1).map_or(0, |last| self.ends[last])]
+    fn values(&self) -> usize {
+        self.blocks.lock().unwrap_or_else(PoisonError::into_inner).values
     }
 }
 
-/// The states that were asked for last; whoever asks at the same time has states of his own.
+/// The states that were asked for last.
 #[derive(Default)]
-pub struct KeptStates(Mutex<Option<States>>);
+pub struct KeptStates(Mutex<Option<Arc<States>>>);
 
 impl KeptStates {
-    /// Takes the states of a stream, with those that are known.
-    pub fn take(&self, at: &PrimePoint, stream: u64, seed: u64) -> States {
-        let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner).take();
-        let is_same = |own: &States| {
+    /// Returns the states of a stream, with those that are known.
+    pub fn of(&self, at: &PrimePoint, stream: u64, seed: u64) -> Arc<States> {
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_same = |own: &&Arc<States>| {
             own.stream == stream
                 && own.at.modulus == at.modulus
                 && own.at.parameters == at.parameters
         };
-        kept.filter(is_same).unwrap_or_else(|| States {
-            at: at.clone(),
-            stream,
-            rng: SearchStream::Combinations.under(seed.wrapping_add(stream)),
-            rows: Vec::new(),
-            ends: Vec::new(),
-        })
+        if let Some(known) = kept.as_ref().filter(is_same) {
+            return Arc::clone(known);
+        }
+        let rng = SearchStream::Combinations.under(seed.wrapping_add(stream));
+        let blocks = Mutex::new(Blocks { rng, made: Vec::new(), values: 0 });
+        let made = Arc::new(States { at: at.clone(), stream, blocks });
+        *kept = Some(Arc::clone(&made));
+        made
     }
 
-    /// Keeps states unless they are very many.
-    pub fn keep(&self, states: States) {
-        if states.rows.iter().map(Vec::len).sum::<usize>() <= MOST_KEPT {
-            *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(states);
+    /// Forgets states that are very many.
+    pub fn trim(&self) {
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if kept.as_ref().is_some_and(|own| own.values() > MOST_KEPT) {
+            *kept = None;
         }
     }
 }

@@ -9,7 +9,7 @@ use super::super::local::{random, sign};
 use super::super::terms::recorded;
 use super::super::{Effort, Halt, SearchError};
 use super::Coordinates;
-use super::powers::VariablePowers;
+use super::powers::{SparseColumn, VariablePowers};
 use super::recording::{Derivation, Recording};
 use super::states::KeptStates;
 use crate::streams::SearchStream;
@@ -170,30 +170,28 @@ impl LinearSystem {
         blocks: usize,
         is_done: &mut dyn FnMut(&[u64]) -> bool,
     ) -> bool {
-        let mut states = self.states.take(at, stream, self.seed);
+        let states = self.states.of(at, stream, self.seed);
         let mut evaluator = None;
-        let mut seen = 0;
         let mut is_enough = false;
         for block in 0..blocks {
-            if block == states.blocks() {
+            let rows = states.block(block, |rng| {
                 let evaluator = evaluator.get_or_insert_with(|| {
                     Evaluator::new(&self.tape, Prime::new([at.modulus; SYSTEM_LANES]))
                 });
-                evaluator.run(&self.inputs_of(at, states.rng()));
+                evaluator.run(&self.inputs_of(at, rng));
                 let values: Vec<[u64; SYSTEM_LANES]> = evaluator.outputs().copied().collect();
-                states.push((0..SYSTEM_LANES).filter_map(|lane| {
+                let lanes = (0..SYSTEM_LANES).filter_map(|lane| {
                     let row: Vec<u64> = values.iter().map(|block| block[lane]).collect();
                     (!row.contains(&UNDEFINED)).then(|| self.with_growth(&at.modulus, row))
-                }));
-            }
-            let rows = states.rows_before(block + 1);
-            is_enough = rows[seen..].iter().any(|row| !is_done(row));
-            seen = rows.len();
+                });
+                lanes.collect()
+            });
+            is_enough = rows.iter().any(|row| !is_done(row));
             if is_enough {
                 break;
             }
         }
-        self.states.keep(states);
+        self.states.trim();
         is_enough
     }
 
@@ -225,20 +223,18 @@ impl LinearSystem {
     /// at the other free ones and at all columns after its own; `None` if too few states have
     /// values.
     pub fn null_space(&self, at: &PrimePoint, columns: &[usize]) -> Found {
-        let highest = self.highest(columns);
+        let (m, columns) = (&at.modulus, self.sparse(&at.modulus, columns));
         self.relations(at, columns.len(), &mut |values| {
-            self.row(&at.modulus, values, (columns, highest), &|column, powers| {
-                powers.derivative(&at.modulus, column)
-            })
+            self.row(m, values, &columns, &|column, powers| powers.derivative(m, column))
         })
     }
 
     /// A basis of the relations between the functions themselves, as
     /// [`null_space`](Self::null_space) has it between their derivatives.
     pub fn dependences(&self, at: &PrimePoint, columns: &[usize]) -> Found {
-        let (m, highest) = (&at.modulus, self.highest(columns));
+        let (m, columns) = (&at.modulus, self.sparse(&at.modulus, columns));
         self.relations(at, columns.len(), &mut |values| {
-            self.row(m, values, (columns, highest), &|column, powers| powers.value(m, column))
+            self.row(m, values, &columns, &|column, powers| powers.value(m, column))
         })
     }
 
@@ -266,10 +262,9 @@ impl LinearSystem {
     ) -> Found {
         let m = &at.modulus;
         let columns: Vec<usize> = (0..self.columns.len()).collect();
-        let highest = self.highest(&columns);
+        let columns = self.sparse(m, &columns);
         self.relations(at, combinations.len() + further.len(), &mut |values| {
-            let value = |column: &Column, powers: &VariablePowers<'_>| powers.value(m, column);
-            let all = self.row(m, values, (&columns, highest), &value);
+            let all = self.row(m, values, &columns, &|column, powers| powers.value(m, column));
             let sum =
                 |c: &Vec<u64>| c.iter().zip(&all).fold(0, |sum, (a, x)| m.add(sum, m.mul(*a, *x)));
             let product =
@@ -287,12 +282,12 @@ impl LinearSystem {
         columns: &[usize],
         count: usize,
     ) -> Option<Vec<Vec<u64>>> {
-        let (m, highest) = (&at.modulus, self.highest(columns));
+        let (m, columns) = (&at.modulus, self.sparse(&at.modulus, columns));
         let mut rows = Vec::with_capacity(count);
         let enough = self.visit(at, stream, 1 + count, &mut |values| {
             let derivative =
-                |column: &Column, powers: &VariablePowers<'_>| powers.derivative(m, column);
-            rows.push(self.row(m, values, (columns, highest), &derivative));
+                |column: &SparseColumn, powers: &VariablePowers<'_>| powers.derivative(m, column);
+            rows.push(self.row(m, values, &columns, &derivative));
             rows.len() < count
         });
         enough.then_some(rows)
@@ -319,33 +314,30 @@ impl LinearSystem {
         echelon.free().into_iter().map(vector).collect::<Result<_, _>>().map(Some)
     }
 
-    /// Computes the entries of some columns, with their highest exponent, at a state.
+    /// Computes the entries of some columns at a state.
     fn row(
         &self,
         m: &Modulus,
         values: &[u64],
-        (columns, highest): (&[usize], u32),
-        entry: &dyn Fn(&Column, &VariablePowers<'_>) -> u64,
+        columns: &[SparseColumn],
+        entry: &dyn Fn(&SparseColumn, &VariablePowers<'_>) -> u64,
     ) -> Vec<u64> {
         let mut growth = &values[self.outputs()..];
         let mut powers = Vec::with_capacity(self.derivations.len());
+        let highest = columns.iter().map(SparseColumn::highest).max().unwrap_or(0);
         for own in &self.derivations {
             let (first, rest) = growth.split_at(own.variables);
             powers.push(VariablePowers::of(m, own, values, first, highest));
             growth = rest;
         }
-        let one = |index: &usize| match &self.columns[*index] {
-            Column::Given(output) => values[*output],
-            column @ Column::Product { derivation, .. } => entry(column, &powers[*derivation]),
+        let one = |column: &SparseColumn| match column {
+            SparseColumn::Given(output) => values[*output],
+            SparseColumn::Product { derivation, .. } => entry(column, &powers[*derivation]),
         };
         columns.iter().map(one).collect()
     }
 
-    fn highest(&self, columns: &[usize]) -> u32 {
-        let exponents = columns.iter().flat_map(|column| match &self.columns[*column] {
-            Column::Given(_) => &[],
-            Column::Product { exponents, .. } => exponents.as_slice(),
-        });
-        exponents.max().copied().unwrap_or(0)
+    fn sparse(&self, m: &Modulus, columns: &[usize]) -> Vec<SparseColumn> {
+        columns.iter().map(|index| SparseColumn::of(m, &self.columns[*index])).collect()
     }
 }

@@ -8,6 +8,7 @@
 use liouville::graph::Tape;
 
 use super::super::ansatz::system::PrimePoint;
+use super::super::budget::Budget;
 use super::super::echelon::Echelon;
 use super::super::terms::recorded;
 use super::super::{SearchError, SearchReport};
@@ -100,9 +101,9 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
     /// Null vectors on some columns, each with its last nonzero entry, 1, in a different column.
     fn relations(&self, at: &PrimePoint, columns: &[usize]) -> Result<Vec<Vec<u64>>, SearchError> {
         let mut echelon = Echelon::new(columns.len(), at.modulus);
-        let mut dependent = 0;
+        let (mut dependent, budget) = (0, Budget::of(self.setting.effort));
         for number in 0..4 * (columns.len() + SPARE_ORDERS) as u64 {
-            self.setting.effort.halt.check()?;
+            budget.check(&echelon)?;
             let Some(row) = self.row(at, number, columns)? else { continue };
             dependent = if echelon.push(row) { 0 } else { dependent + 1 };
             if dependent == SPARE_ORDERS {

@@ -6,13 +6,17 @@
 //! each other.
 
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
 
 use super::super::ansatz::coefficients::{NullVector, Ratio};
 use super::super::ansatz::monomials::power_product;
 use super::super::ansatz::note_unwritten;
 use super::super::ansatz::system::{Column, LinearSystem, PrimePoint};
+use super::super::room::Room;
 use super::super::terms::one;
-use super::super::{SearchError, SearchReport};
+use super::super::{Effort, Halt, SearchError, SearchReport};
 use super::adjoin::{self, PolynomialField};
 use super::known::IndependentIntegrals;
 use super::lattice::ExponentLattice;
@@ -20,6 +24,7 @@ use super::leading::LeadingField;
 use super::relations::combined_gradient;
 use super::setting::OrbitSetting;
 use super::sparse::sparse;
+use super::turned::turned;
 use super::{claims, images, monomials};
 
 /// Largest number of monomials of one degree that are listed.
@@ -111,47 +116,25 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
         if cost > steps || classes.iter().any(|own| own.len() > WIDEST) {
             return Ok(None);
         }
-        let mut system = LinearSystem::record(setting.case, setting.effort, |jet, recording| {
+        // Several classes are under way at a time: the meter counts whole ones.
+        let effort = Effort { halt: setting.effort.halt.within_a_step(), ..setting.effort.clone() };
+        let mut system = LinearSystem::record(setting.case, &effort, |jet, recording| {
             recording.derive(jet.along_field(), &setting.terms, &[one()]);
         })?;
         let product = |exponents| Column::Product { derivation: 0, factor: 0, exponents };
         system.columns = all.iter().cloned().map(product).collect();
         let Some(at) = system.at(0, 0) else { return Ok(Some(cost)) };
-        let mut leading = LeadingField::of(setting, &self.field, variables)?;
-        let mut found = Vec::new();
-        let work = |own: &Vec<usize>| own.len().pow(2);
-        let (mut done, all_work) = (0, classes.iter().map(work).sum());
-        for places in classes {
-            setting.effort.halt.check()?;
-            setting.effort.halt.meter().set(done, all_work);
-            done += work(&places);
-            if let Some(leading) = &mut leading {
-                let forms: Vec<&Vec<u32>> = places.iter().map(|place| &all[*place]).collect();
-                let is_highest = |own: &&Vec<u32>| own.iter().sum::<u32>() == degree;
-                let forms: Vec<&Vec<u32>> = forms.into_iter().filter(is_highest).collect();
-                // An integral of lower degree was found before.
-                if 2 * forms.len() <= places.len() && leading.excludes(variables, &forms)? {
-                    continue;
-                }
-            }
-            let columns = match setting.is_on_level() {
-                false => places,
-                true => match system.distinct(&at, &places)? {
-                    Some(columns) => columns,
-                    None => continue,
-                },
-            };
-            let Some(vectors) = system.null_space(&at, &columns)? else { continue };
-            if vectors.is_empty() {
-                continue;
-            }
-            // In another order the reduced vectors may have fewer terms.
-            let turned: Vec<usize> = columns.iter().rev().copied().collect();
-            let others = system.null_space(&at, &turned)?.unwrap_or_default();
-            for (columns, vectors) in [(columns, vectors), (turned, others)] {
-                found.push(ClassVectors { columns, vectors: sparse(&at.modulus, vectors) });
-            }
-        }
+        let leading = LeadingField::of(setting, &self.field, variables, degree)?;
+        let step = ClassStep {
+            system: &system,
+            at: &at,
+            all: &all,
+            degree,
+            is_on_level: setting.is_on_level(),
+            leading,
+            room: Room::new(effort.ansatz.megabytes.saturating_mul(1_000_000)),
+        };
+        let found = step.of_all(classes, &setting.effort.halt)?;
         self.tell(&system, &at, &all, (variables, degree, counted), found, (known, report))?;
         Ok(Some(cost))
     }
@@ -218,6 +201,80 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
         }
         Ok(())
     }
+}
+
+/// The search of the classes of one degree, each by itself.
+struct ClassStep<'d> {
+    system: &'d LinearSystem,
+    at: &'d PrimePoint,
+    /// Exponents of all monomials.
+    all: &'d [Vec<u32>],
+    degree: u32,
+    is_on_level: bool,
+    leading: Option<LeadingField>,
+    /// Memory of the classes that are under way.
+    room: Room,
+}
+
+impl ClassStep<'_> {
+    /// Null vectors of all classes, in order, from all threads; the classes come by increasing size.
+    fn of_all(
+        &self,
+        classes: Vec<Vec<usize>>,
+        halt: &Halt,
+    ) -> Result<Vec<ClassVectors>, SearchError> {
+        let work = |own: &Vec<usize>| own.len().pow(2);
+        let (done, all_work) = (AtomicUsize::new(0), classes.iter().map(work).sum());
+        let one = |places: Vec<usize>| -> Result<Vec<ClassVectors>, SearchError> {
+            halt.check()?;
+            let own = work(&places);
+            let found = self.room.run(bytes(places.len()), || self.of_class(places))?;
+            halt.meter().set(own + done.fetch_add(own, Ordering::Relaxed), all_work);
+            Ok(found)
+        };
+        // The largest first, so that no thread is left alone with one of them at the end.
+        let found = classes.into_par_iter().rev().with_max_len(1).map(one);
+        let found: Vec<Vec<ClassVectors>> = found.collect::<Result<_, _>>()?;
+        Ok(found.into_iter().rev().flatten().collect())
+    }
+
+    /// Null vectors of the monomials in these places, in two bases; none of either if a theorem says so.
+    fn of_class(&self, places: Vec<usize>) -> Result<Vec<ClassVectors>, SearchError> {
+        let (system, at) = (self.system, self.at);
+        if let Some(leading) = &self.leading {
+            let forms: Vec<&Vec<u32>> = places.iter().map(|place| &self.all[*place]).collect();
+            let is_highest = |own: &&Vec<u32>| own.iter().sum::<u32>() == self.degree;
+            let forms: Vec<&Vec<u32>> = forms.into_iter().filter(is_highest).collect();
+            // An integral of lower degree was found before.
+            if 2 * forms.len() <= places.len() && leading.excludes(&forms)? {
+                return Ok(Vec::new());
+            }
+        }
+        let columns = match self.is_on_level {
+            false => places,
+            true => match system.distinct(at, &places)? {
+                Some(columns) => columns,
+                None => return Ok(Vec::new()),
+            },
+        };
+        let Some(vectors) = system.null_space(at, &columns)? else { return Ok(Vec::new()) };
+        if vectors.is_empty() {
+            return Ok(Vec::new());
+        }
+        // In another order the reduced vectors may have fewer terms.
+        let backwards = columns.iter().rev().copied().collect();
+        let others = turned(&at.modulus, vectors.clone(), system.halt())?;
+        let made = [(columns, vectors), (backwards, others)];
+        let sparse =
+            |(columns, vectors)| ClassVectors { columns, vectors: sparse(&at.modulus, vectors) };
+        Ok(made.map(sparse).into())
+    }
+}
+
+/// Bound on the bytes that an elimination of so many unknowns takes: the entries behind the pivots, with
+/// their columns.
+fn bytes(unknowns: usize) -> u64 {
+    (unknowns as u64).pow(2) / 2 * (size_of::<u64>() + size_of::<u32>()) as u64
 }
 
 fn difference(a: &[i64], b: &[i64]) -> Vec<i64> {

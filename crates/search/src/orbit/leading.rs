@@ -4,6 +4,8 @@
 //! of a polynomial integral of degree n satisfies v_d(F_n) = 0: it is the part of degree n + d − 1 of
 //! v(F). Where no form of degree n does, there is no integral of that degree.
 
+use std::sync::{Arc, Mutex, PoisonError};
+
 use super::super::echelon::Echelon;
 use super::super::local::random;
 use super::super::{Halt, SearchError};
@@ -28,29 +30,34 @@ pub struct LeadingField {
     parameters: Vec<u64>,
     dimension: usize,
     degree: usize,
-    rng: ProofRng,
-    /// States so far, which all monomials share.
-    states: Vec<LeadingState>,
+    /// Variables of the forms.
+    variables: Vec<usize>,
+    /// Highest degree of the forms.
+    highest: u32,
+    states: Mutex<LeadingStates>,
     halt: Halt,
+}
+
+/// States so far, which all monomials share, and the random numbers of the next one.
+struct LeadingStates {
+    rng: ProofRng,
+    /// `None` where the field has no value.
+    made: Vec<Option<Arc<LeadingState>>>,
 }
 
 /// A state, with the leading field there.
 struct LeadingState {
     /// v_d(x)/x for each variable.
     growth: Vec<u64>,
-    /// Powers of each variable so far.
+    /// Powers of each variable.
     powers: Vec<Vec<u64>>,
 }
 
 impl LeadingState {
     /// Computes the derivative of the monomial with these exponents along the leading field.
-    fn derivative(&mut self, m: &Modulus, exponents: impl Iterator<Item = u32>) -> u64 {
+    fn derivative(&self, m: &Modulus, exponents: impl Iterator<Item = u32>) -> u64 {
         let (mut monomial, mut slope) = (m.one(), 0);
-        for ((powers, growth), exponent) in self.powers.iter_mut().zip(&self.growth).zip(exponents)
-        {
-            while powers.len() <= exponent as usize {
-                powers.push(m.mul(powers[powers.len() - 1], powers[1]));
-            }
+        for ((powers, growth), exponent) in self.powers.iter().zip(&self.growth).zip(exponents) {
             monomial = m.mul(monomial, powers[exponent as usize]);
             slope = m.add(slope, m.mul(m.integer(exponent.into()), *growth));
         }
@@ -59,11 +66,13 @@ impl LeadingState {
 }
 
 impl LeadingField {
-    /// Records the field in some variables; `None` on a level, or if its degree is too high.
+    /// Records the field in some variables, for forms up to a degree; `None` on a level, or if the degree
+    /// of the field is too high.
     pub fn of(
         setting: &OrbitSetting<'_>,
         field: &PolynomialField,
         variables: &[usize],
+        highest: u32,
     ) -> Result<Option<Self>, SearchError> {
         let terms = variables.iter().flat_map(|variable| &field.rates[*variable]);
         let degree = terms.map(|term| term.iter().sum::<i64>()).max().unwrap_or(0);
@@ -85,17 +94,23 @@ impl LeadingField {
         let parameters = random(&draws, &modulus, &mut rng);
         let (tape, halt) = (Tape::new(&graph, &rates), setting.effort.halt.clone());
         let rng = SearchStream::Combinations.under(seed);
-        let states = Vec::new();
-        Ok(Some(Self { tape, modulus, parameters, dimension, degree, rng, states, halt }))
+        let states = Mutex::new(LeadingStates { rng, made: Vec::new() });
+        let variables = variables.to_vec();
+        Ok(Some(Self {
+            tape,
+            modulus,
+            parameters,
+            dimension,
+            degree,
+            variables,
+            highest,
+            states,
+            halt,
+        }))
     }
 
-    /// Whether no form of these monomials, all of one degree in the variables, is an integral of the
-    /// leading field.
-    pub fn excludes(
-        &mut self,
-        variables: &[usize],
-        forms: &[&Vec<u32>],
-    ) -> Result<bool, SearchError> {
+    /// Whether no form of these monomials, all of one degree, is an integral of the leading field.
+    pub fn excludes(&self, forms: &[&Vec<u32>]) -> Result<bool, SearchError> {
         let m = self.modulus;
         let mut echelon = Echelon::new(forms.len(), m);
         let (mut rank, mut dependent) = (0, 0);
@@ -104,13 +119,9 @@ impl LeadingField {
                 break;
             }
             self.halt.check()?;
-            if place == self.states.len() {
-                let Some(next) = self.next_state(variables) else { return Ok(false) };
-                self.states.push(next);
-            }
-            let state = &mut self.states[place];
+            let Some(state) = self.state(place) else { return Ok(false) };
             let entry = |exponents: &&Vec<u32>| {
-                let own = variables.iter().map(|k| exponents[*k]);
+                let own = self.variables.iter().map(|k| exponents[*k]);
                 state.derivative(&m, own)
             };
             match echelon.push(forms.iter().map(entry).collect()) {
@@ -121,10 +132,21 @@ impl LeadingField {
         Ok(rank == forms.len())
     }
 
+    /// Returns the state of a place, whose predecessors have been asked for; `None` if the field has no
+    /// value there.
+    fn state(&self, place: usize) -> Option<Arc<LeadingState>> {
+        let mut states = self.states.lock().unwrap_or_else(PoisonError::into_inner);
+        if place == states.made.len() {
+            let next = self.next_state(&mut states.rng).map(Arc::new);
+            states.made.push(next);
+        }
+        states.made.get(place)?.clone()
+    }
+
     /// Draws the next state; `None` if the field has no value there.
-    fn next_state(&mut self, variables: &[usize]) -> Option<LeadingState> {
-        let m = self.modulus;
-        let state: Vec<u64> = (0..self.dimension).map(|_| self.rng.element(&m)).collect();
+    fn next_state(&self, rng: &mut ProofRng) -> Option<LeadingState> {
+        let (m, variables) = (self.modulus, &self.variables);
+        let state: Vec<u64> = (0..self.dimension).map(|_| rng.element(&m)).collect();
         let multiples = |x: &u64| std::array::from_fn(|s| m.mul(m.integer(s as u64), *x));
         let given = self.parameters.iter().map(|value| [*value; MULTIPLES]);
         let inputs: Vec<[u64; MULTIPLES]> = given.chain(state.iter().map(multiples)).collect();
@@ -136,8 +158,11 @@ impl LeadingField {
         }
         let growth = |(k, rate): (&usize, &u64)| m.mul(*rate, m.inverse(state[*k]));
         let growth = variables.iter().zip(&rates).map(growth).collect();
-        let powers = variables.iter().map(|k| vec![m.one(), state[*k]]).collect();
-        Some(LeadingState { growth, powers })
+        let powers = |k: &usize| {
+            let next = |power: &u64| Some(m.mul(*power, state[*k]));
+            std::iter::successors(Some(m.one()), next).take(self.highest as usize + 1).collect()
+        };
+        Some(LeadingState { growth, powers: variables.iter().map(powers).collect() })
     }
 
     /// Coefficient of the highest power of s of a polynomial with the values at s = 0, 1, 2, …, up to a

@@ -8,7 +8,7 @@
 //! polynomials  polynomial integrals
 //! lattice      exponents that a field does not mix
 //! leading      parts of highest degree that no polynomial integral has
-//! graded, sparse   polynomial integrals of higher degree, class by class; those with few terms
+//! graded, turned, sparse   polynomial integrals of higher degree, class by class; bases with few terms
 //! rational     rational ones, as P and Q of the relations P − c Q
 //! line         points of a line whose orbits satisfy an additional relation
 //! conic        conics in place of lines, where functions satisfy relations
@@ -79,6 +79,7 @@ mod setting;
 mod sparse;
 mod tangents;
 mod taylor;
+mod turned;
 mod unbound;
 mod univariate;
 mod weighted;

@@ -55,14 +55,15 @@ pub fn rate_of_monomial(
     monomial: &[u32],
 ) -> u64 {
     let m = at.modulus;
-    let slope = |k: usize| {
-        let mut lower = monomial.to_vec();
-        lower[k] -= 1;
-        let factor = m.mul(m.integer(u64::from(monomial[k])), rates(k));
-        m.mul(factor, value(&m, &point.state, &lower))
+    let occurring: Vec<usize> = (0..monomial.len()).filter(|k| monomial[*k] > 0).collect();
+    let slope = |k: &usize| {
+        let factor = m.mul(m.integer(u64::from(monomial[*k])), rates(*k));
+        occurring.iter().fold(factor, |product, other| {
+            let exponent = monomial[*other] - u32::from(other == k);
+            m.mul(product, m.power(point.state[*other], u64::from(exponent)))
+        })
     };
-    let used = (0..monomial.len()).filter(|k| monomial[*k] > 0);
-    used.fold(0, |sum, k| m.add(sum, slope(k)))
+    occurring.iter().fold(0, |sum, k| m.add(sum, slope(k)))
 }
 
 /// Lists the terms for the first factors, low powers first; the degree of h is at most that of f^m.

@@ -36,3 +36,32 @@ fn chains_are_counted_in_few_steps() {
         assert_eq!(found, Some(dimension), "n = {n}, degree {degree}: {:?}", report.remarks);
     }
 }
+
+#[test]
+fn searches_of_many_terms_end_by_the_steps_they_take() {
+    let variables = 90;
+    let rate = |k: usize| {
+        let at = |k: usize| k % variables + 1;
+        format!("x[{}]*(x[{}] − x[{}])", at(k), at(k + 1), at(k + variables - 1))
+    };
+    let rates: Vec<String> = (0..variables).map(rate).collect();
+    let text = format!(
+        "title = \"Chain\"\nsystem = \"field\"\n[state]\nx = \"vector({variables}, 1..2)\"\n\
+         [field]\n\"x'\" = \"[{}]\"\n",
+        rates.join(", ")
+    );
+    let case = Case::parse(&text, &[]).expect("a case");
+    let remarks = |seconds: f64| {
+        let effort = Effort { seconds, by_factors: false, ..Effort::default() };
+        let report = search(&case, &effort, &mut |_| {}).expect("it can be searched");
+        assert!(report.unreached.is_empty(), "no clock stops it");
+        report.remarks.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+    };
+    // 90³/3 steps, in thousand millions, are enough for the relations, and 90²·122 for singular values.
+    let all = remarks(0.003);
+    assert!(!all.contains("terms"), "no limit is reached: {all}");
+    let no_opinion = remarks(0.0006);
+    assert!(no_opinion.contains("no second opinion on 90 terms over 1"), "{no_opinion}");
+    let none = remarks(0.00005);
+    assert!(none.contains("not sought: 90 unknowns take more than 0.00005 s"), "{none}");
+}

@@ -13,8 +13,9 @@ use signal_hook::flag;
 
 use super::super::limits::{STOPPED, parse_seconds};
 use super::eval::open_signed;
+use super::motion::Threads;
 use super::telling;
-use super::{CommandOutput, colour};
+use super::{CommandOutput, colour, pool};
 
 /// Exit code of a program ended by Ctrl-C.
 const INTERRUPTED: i32 = 130;
@@ -66,6 +67,8 @@ pub struct SearchArgs {
     /// fields are searched in higher degrees until then
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
     pub within: Option<Duration>,
+    #[command(flatten)]
+    pub threads: Threads,
     /// Seed of primes, points and states
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
@@ -113,7 +116,8 @@ pub fn run(options: &SearchArgs) -> Result<CommandOutput, String> {
         .and_then(|_| flag::register(SIGINT, switch))
         .map_err(|error| format!("error: cannot listen to Ctrl-C: {error}"))?;
     let meter = effort.halt.meter().clone();
-    let report = telling(meter, |progress| liouville_search::search(&case, &effort, progress));
+    let report = pool(options.threads.count())?
+        .install(|| telling(meter, |progress| liouville_search::search(&case, &effort, progress)));
     let report = report.map_err(|error| {
         let shown = options.case.display().to_string();
         let coloured = colour(std::io::stderr().is_terminal());
