@@ -46,6 +46,12 @@ pub enum SearchError {
         /// Limit that was reached.
         seconds: f64,
     },
+    /// The series of orbits take more steps than the effort allows.
+    #[error("series of orbits take more than {seconds} s; raise --seconds")]
+    Series {
+        /// Limit that was reached.
+        seconds: f64,
+    },
     /// The elimination takes more memory than the effort allows.
     #[error("{unknowns} unknowns take more than {megabytes} MB; raise --megabytes")]
     Large {
@@ -83,8 +89,10 @@ pub enum SearchError {
 impl SearchError {
     /// Whether the error concerns counts only, and not the rest of a search.
     pub(crate) fn is_of_count(&self) -> bool {
-        use SearchError::{Large, Long, NoSeries, NotQuadratic, Unbounded, Unsettled, Unsplit};
-        let is_costly = matches!(self, Long { .. } | Large { .. });
+        use SearchError::{
+            Large, Long, NoSeries, NotQuadratic, Series, Unbounded, Unsettled, Unsplit,
+        };
+        let is_costly = matches!(self, Long { .. } | Large { .. } | Series { .. });
         is_costly || matches!(self, NoSeries | NotQuadratic | Unbounded | Unsettled(_) | Unsplit(_))
     }
 

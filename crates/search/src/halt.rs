@@ -33,6 +33,14 @@ impl Halt {
         Self { meter: Meter::default(), ..self.clone() }
     }
 
+    /// Returns the same limit, but with so much time from now where its own has ended: for what has been
+    /// found until then. Who stops the search from outside stops that as well.
+    pub fn extended(&self, time: Duration) -> Self {
+        let longer = now().and_then(|now| now.checked_add(time));
+        let deadline = self.deadline.map(|own| longer.map_or(own, |longer| own.max(longer)));
+        Self { deadline, ..self.clone() }
+    }
+
     /// Returns the share of the present step that is done.
     pub fn meter(&self) -> &Meter {
         &self.meter
@@ -62,4 +70,22 @@ impl Halt {
 /// The time, where there is a clock.
 fn now() -> Option<Instant> {
     (!cfg!(target_arch = "wasm32")).then(Instant::now)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_found_has_time_after_the_end() {
+        let ended = Halt::within(Duration::ZERO);
+        assert!(ended.check().is_err(), "no time is left");
+        assert_eq!(ended.left(), Some(Duration::ZERO));
+        let extended = ended.extended(Duration::from_secs(600));
+        assert!(extended.check().is_ok(), "ten minutes are");
+        assert!(extended.left().is_some_and(|left| left > Duration::from_secs(60)));
+        ended.switch().store(true, Ordering::Relaxed);
+        assert!(extended.check().is_err(), "who stops the search stops that as well");
+        assert!(Halt::default().extended(Duration::ZERO).left().is_none(), "no limit stays none");
+    }
 }

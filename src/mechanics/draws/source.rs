@@ -1,5 +1,7 @@
 //! Sources of single numbers: lists, signs, ranges and directions.
 
+#![allow(clippy::needless_range_loop, reason = "loops over lanes become vectors")]
+
 use super::super::recipe::{Draw, NumberLine, Range};
 use super::super::streams::WIDTH;
 use crate::number::ball::about;
@@ -59,24 +61,34 @@ impl NumberSource {
         if let (NumberSource::Range { ends: [low, high], square, .. }, true) =
             (self, index >= SHORT)
         {
-            let mut values = [0.0; WIDTH];
-            // Words, not one flag: a flag would be asked for lane by lane.
-            let mut outside = [0u64; WIDTH];
+            // Loops over lanes with bits of words in place of flags become vectors.
+            let (mut values, mut outside) = ([0.0; WIDTH], [0u64; WIDTH]);
             for lane in 0..WIDTH {
                 let value = at_share([*low, *high], bits[lane]);
                 values[lane] = value;
-                let is_inside = (*low < value) & (value < *high) & (value != 0.0);
-                outside[lane] = if is_inside { 0 } else { 1 };
+                outside[lane] = sign_outside(value, [*low, *high]);
             }
             if let Some(square) = square {
                 let square = square.to_f64().0;
-                for (value, bits) in values.iter_mut().zip(bits) {
-                    *value = if is_outside(*bits) { square / *value } else { *value };
+                let mut beyond = [0.0; WIDTH];
+                for lane in 0..WIDTH {
+                    beyond[lane] = square / values[lane];
+                }
+                for lane in 0..WIDTH {
+                    let is_outside = is_outside(bits[lane]);
+                    values[lane] = if is_outside { beyond[lane] } else { values[lane] };
                 }
             }
-            if outside.iter().fold(0, |any, one| any | one) == 0 {
-                mid.copy_from_slice(&values[..mid.len()]);
-                rad.fill(0.0);
+            let has_sign = outside.iter().fold(0, |any, one| any | one) >> 63 == 1;
+            // Ends rounded inwards may have changed places.
+            if !has_sign && low < high && (high - low).is_finite() {
+                match (<&mut [f64; WIDTH]>::try_from(&mut *mid), rad.first_chunk_mut()) {
+                    (Ok(mid), Some(rad)) => (*mid, *rad) = (values, [0.0; WIDTH]),
+                    _ => {
+                        mid.copy_from_slice(&values[..mid.len()]);
+                        rad.fill(0.0);
+                    }
+                }
                 return;
             }
         }
@@ -197,6 +209,19 @@ fn sign(bits: u64) -> i64 {
 fn between([low, high]: [f64; 2], bits: u64) -> Option<f64> {
     let value = at_share([low, high], bits);
     (low < value && value < high && value != 0.0).then_some(value)
+}
+
+/// A word whose first bit is 0 only if a number is strictly between two ends and not 0.
+///
+/// The product of the distances from the ends is positive only there; differences of different numbers
+/// are not 0. Where it underflows the bit is 1, too. The first end must be below the second, and their
+/// difference finite.
+#[inline(always)]
+pub(super) fn sign_outside(value: f64, [low, high]: [f64; 2]) -> u64 {
+    let room = ((value - low) * (high - value)).to_bits();
+    let size = value.to_bits() & (u64::MAX >> 1);
+    // The first bit of x − 1 is 1 if x is 0, and that of x if it is negative.
+    room | room.wrapping_sub(1) | size.wrapping_sub(1)
 }
 
 /// Computes the number at a random share of the way between two ends.

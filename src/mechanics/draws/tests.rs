@@ -15,7 +15,15 @@ const FROZEN: [&str; 3] = ["0.772", "0.64", "1.967"];
 #[test]
 fn the_nearest_f64_is_that_of_the_number() {
     let ends = [(-3, 7, 5, 3), (0, 1, 1, 1), (-1, 1, 1, 1), (1, 1024, 3, 1024), (1, 3, 1 << 40, 9)];
-    let ranges = ends.map(|(a, b, c, d)| Draw::Within(Range::between((a, b), (c, d))));
+    // Without an f64 inside, with few, and from one to the next.
+    let narrow = 300_000_000_000_000_000;
+    let few =
+        [(1, 3, narrow / 3 + 3, narrow), (1, 3, narrow / 3 + 60, narrow), (1, 1 << 52, 2, 1 << 52)];
+    let ranges = [&ends[..], &few]
+        .concat()
+        .into_iter()
+        .map(|(a, b, c, d)| Draw::Within(Range::between((a, b), (c, d))));
+    let ranges: Vec<Draw> = ranges.collect();
     let list = Draw::OneOf(vec![Rational::new(1, 3), Rational::new(5, 8)]);
     let directions = Draw::Of(NumberLine::Directions, Range::between((-8, 5), (8, 5)));
     let draws = DrawSource::new(&[&ranges[..], &[list, directions]].concat());
@@ -100,4 +108,22 @@ fn directions_reach_every_part_of_a_circle() {
     let far = |index| draws.nearest_edge(1, index)[0].0;
     assert!((0..64).any(|index| far(index) > 1e3), "near the upper end of the line");
     assert!((0..64).any(|index| far(index) < -1e3), "near the lower end");
+}
+
+#[test]
+fn signs_tell_what_is_inside() {
+    let tiny = f64::from_bits(1);
+    let ends = [[0.5, 2.0], [-1.0, 1.0], [-3.0, -1.0], [0.0, 1e-300], [-tiny, tiny], [0.0, 1e308]];
+    for [low, high] in ends {
+        let near = |x: f64| [x.next_down(), x, x.next_up()];
+        let inner = [0.0, -0.0, tiny, -tiny, (low + high) / 2.0, low + (high - low) / 3.0, 1.0];
+        let numbers = near(low).into_iter().chain(near(high)).chain(inner);
+        for x in numbers.chain([f64::MAX, -f64::MAX, 1e-200, -1e-200]) {
+            let is_inside = low < x && x < high && x != 0.0;
+            let has_sign = source::sign_outside(x, [low, high]) >> 63 == 1;
+            assert!(is_inside || has_sign, "{x} is not between {low} and {high}");
+            let is_small = (x - low) * (high - x) == 0.0;
+            assert!(!is_inside || is_small || !has_sign, "{x} is between {low} and {high}");
+        }
+    }
 }

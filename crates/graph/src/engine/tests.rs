@@ -1,5 +1,7 @@
 //! Tests of all engines against each other, bit for bit, and against the tape's evaluator.
 
+use num_dual::DualNum;
+
 use super::program::Value;
 use super::*;
 use crate::graph::{Evaluator, Expr, record};
@@ -289,4 +291,44 @@ fn balls_have_the_bits_of_the_domain() {
         compared.iter().all(|count| *count > 1000) || widest() == InstructionSet::Baseline,
         "balls with and without a value: {compared:?}"
     );
+}
+
+#[test]
+fn exact_reciprocals_and_roots_have_the_bits_of_the_domain() {
+    let (graph, values) = record(1, |inputs| {
+        let [x] = [inputs[0]];
+        // A product reads the radius of a result without a value.
+        vec![x.recip(), x.sqrt(), x.recip() * x.recip(), x.recip().recip()]
+    })
+    .expect("nothing is asked of the values");
+    let first = Tape::new(&graph, &values);
+    let (graph, values) = record(4, |inputs| inputs.to_vec()).expect("nothing is asked");
+    let second = Tape::new(&graph, &values);
+    let least = f64::MIN_POSITIVE / 4.0;
+    let numbers = [0.0, -0.0, least, -least, least.next_up(), least.next_down(), f64::MIN_POSITIVE]
+        .into_iter()
+        .chain([f64::from_bits(1), -1.0, 3.0, f64::MAX, -f64::MAX, 1e300, 0.1]);
+    let mut numbers = numbers.cycle();
+    let mid = std::array::from_fn(|_| numbers.next().unwrap_or(1.0));
+    let input = Balls::<ROW_STATES>::new(mid, [0.0; ROW_STATES]);
+    let mut evaluator = Evaluator::new(&first, Ball::<ROW_STATES>);
+    evaluator.run(&[input.clone()]);
+    for vectors in [InstructionSet::Avx2, InstructionSet::Avx512] {
+        let Some(engine) = BallEngine::with_vectors(vec![true], &first, &[], &second, vectors)
+        else {
+            continue;
+        };
+        let mut runner = engine.runner();
+        runner.inputs_mut()[0] = [RowBlock(input.mid), RowBlock(input.rad)];
+        runner.run();
+        for (index, expected) in evaluator.outputs().enumerate() {
+            let [mid, rad] = runner.output(engine.computed() + index);
+            for lane in 0..ROW_STATES {
+                let found = [mid.0[lane], rad.0[lane]];
+                let own = [expected.mid[lane], expected.rad[lane]];
+                let x = input.mid[lane];
+                assert!(same_ball(found, own), "output {index} at {x}: {found:?}, not {own:?}");
+            }
+        }
+    }
 }

@@ -129,6 +129,11 @@ impl LinearSystem {
         &self.halt
     }
 
+    /// Sets another condition for an early end.
+    pub fn halt_by(&mut self, halt: Halt) {
+        self.halt = halt;
+    }
+
     /// Number of outputs of the tape.
     fn outputs(&self) -> usize {
         self.own + self.coordinates.len()

@@ -7,6 +7,7 @@
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
 
 use rayon::prelude::*;
 
@@ -31,6 +32,9 @@ use super::{claims, images, monomials};
 const LISTED: usize = 60_000;
 /// Largest number of unknowns of one class.
 const WIDEST: usize = 2400;
+
+/// Time after the end of a search for what was found before.
+const GRACE: Duration = Duration::from_secs(1);
 
 /// Terms of the rates, and the equations of the level, of the case of a setting.
 pub struct GradedSearch<'s, 'c> {
@@ -134,9 +138,11 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
             leading,
             room: Room::new(effort.ansatz.megabytes.saturating_mul(1_000_000)),
         };
-        let found = step.of_all(classes, &setting.effort.halt)?;
+        let (found, end) = step.of_all(classes, &setting.effort.halt)?;
+        // What was found before the end of the time is not lost.
+        system.halt_by(setting.effort.halt.extended(GRACE));
         self.tell(&system, &at, &all, (variables, degree, counted), found, (known, report))?;
-        Ok(Some(cost))
+        end.map(|()| Some(cost))
     }
 
     /// Reports the null vectors that are independent of the known integrals.
@@ -172,7 +178,7 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
         }
         let mut unwritten = None;
         for (support, values) in candidates {
-            setting.effort.halt.check()?;
+            system.halt().check()?;
             let own: Vec<Vec<u32>> = support.iter().map(|k| all[*k].clone()).collect();
             let mut own_gradients = gradients.clone();
             let gradient = combined_gradient(at, &own, &values, &point);
@@ -217,12 +223,9 @@ struct ClassStep<'d> {
 }
 
 impl ClassStep<'_> {
-    /// Null vectors of all classes, in order, from all threads; the classes come by increasing size.
-    fn of_all(
-        &self,
-        classes: Vec<Vec<usize>>,
-        halt: &Halt,
-    ) -> Result<Vec<ClassVectors>, SearchError> {
+    /// Null vectors of all classes, in order, from all threads, and whether the search was stopped before
+    /// the last; the classes come by increasing size.
+    fn of_all(&self, classes: Vec<Vec<usize>>, halt: &Halt) -> Result<Finished, SearchError> {
         let work = |own: &Vec<usize>| own.len().pow(2);
         let (done, all_work) = (AtomicUsize::new(0), classes.iter().map(work).sum());
         let one = |places: Vec<usize>| -> Result<Vec<ClassVectors>, SearchError> {
@@ -234,8 +237,8 @@ impl ClassStep<'_> {
         };
         // The largest first, so that no thread is left alone with one of them at the end.
         let found = classes.into_par_iter().rev().with_max_len(1).map(one);
-        let found: Vec<Vec<ClassVectors>> = found.collect::<Result<_, _>>()?;
-        Ok(found.into_iter().rev().flatten().collect())
+        let found: Vec<Result<Vec<ClassVectors>, SearchError>> = found.collect();
+        finished(found.into_iter().rev())
     }
 
     /// Null vectors of the monomials in these places, in two bases; none of either if a theorem says so.
@@ -271,6 +274,24 @@ impl ClassStep<'_> {
     }
 }
 
+/// What was found, and whether the search was stopped.
+type Finished = (Vec<ClassVectors>, Result<(), SearchError>);
+
+/// Joins what was found in the classes, some of which may have been stopped.
+fn finished(
+    classes: impl Iterator<Item = Result<Vec<ClassVectors>, SearchError>>,
+) -> Result<Finished, SearchError> {
+    let (mut all, mut end) = (Vec::new(), Ok(()));
+    for class in classes {
+        match class {
+            Ok(own) => all.extend(own),
+            Err(SearchError::Stopped) => end = Err(SearchError::Stopped),
+            Err(other) => return Err(other),
+        }
+    }
+    Ok((all, end))
+}
+
 /// Bound on the bytes that an elimination of so many unknowns takes: the entries behind the pivots, with
 /// their columns.
 fn bytes(unknowns: usize) -> u64 {
@@ -279,4 +300,24 @@ fn bytes(unknowns: usize) -> u64 {
 
 fn difference(a: &[i64], b: &[i64]) -> Vec<i64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn classes_that_were_finished_are_not_lost() {
+        let class = |column| vec![ClassVectors { columns: vec![column], vectors: Vec::new() }];
+        let stopped = || Err(SearchError::Stopped);
+        let columns = |classes: Vec<Result<Vec<ClassVectors>, SearchError>>| {
+            let (found, end) = finished(classes.into_iter()).expect("no other error");
+            (found.iter().map(|own| own.columns[0]).collect::<Vec<_>>(), end.is_ok())
+        };
+        assert_eq!(columns(vec![Ok(class(3)), Ok(class(1))]), (vec![3, 1], true));
+        assert_eq!(columns(vec![Ok(class(3)), stopped(), Ok(class(1))]), (vec![3, 1], false));
+        assert_eq!(columns(vec![stopped(), stopped()]), (vec![], false));
+        let other = vec![stopped(), Err(SearchError::NoPoints)];
+        assert!(matches!(finished(other.into_iter()), Err(SearchError::NoPoints)));
+    }
 }

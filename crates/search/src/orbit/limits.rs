@@ -2,30 +2,52 @@
 
 use std::cell::Cell;
 
-use super::super::Effort;
 use super::super::budget::STEPS;
+use super::super::{Effort, SearchError};
 
 /// Share of the time of a count that coefficients may take which depend on the parameters.
 const SHARE: f64 = 0.25;
 
-/// Elementary steps that the search for coefficients which depend on the parameters may take.
-pub struct StepsLeft(Cell<f64>);
+/// Elementary steps that parts of a search may still take.
+pub struct StepsLeft {
+    /// Those of the search for coefficients which depend on the parameters.
+    coefficients: Cell<f64>,
+    /// Those of series along lines of states.
+    series: Cell<f64>,
+    /// Time of a count.
+    seconds: f64,
+}
 
 impl StepsLeft {
     /// Those of an effort.
     pub fn of(effort: &Effort) -> Self {
-        Self(Cell::new(SHARE * effort.seconds * STEPS))
+        let all = effort.seconds * STEPS;
+        Self {
+            coefficients: Cell::new(SHARE * all),
+            series: Cell::new(all),
+            seconds: effort.seconds,
+        }
     }
 
-    /// Takes some; `false` if none are left.
+    /// Takes some for coefficients; `false` if none are left.
     pub fn takes(&self, steps: f64) -> bool {
-        self.0.set(self.0.get() - steps);
-        self.0.get() > 0.0
+        self.coefficients.set(self.coefficients.get() - steps);
+        self.coefficients.get() > 0.0
     }
 
-    /// Lifts the limit, where the time of the search is limited.
+    /// Takes some for series that are about to be computed; fails if fewer are left.
+    pub fn takes_series(&self, steps: f64) -> Result<(), SearchError> {
+        if steps > self.series.get() {
+            return Err(SearchError::Series { seconds: self.seconds });
+        }
+        self.series.set(self.series.get() - steps);
+        Ok(())
+    }
+
+    /// Lifts the limits, where the time of the search is limited.
     pub fn lift(&self) {
-        self.0.set(f64::INFINITY);
+        self.coefficients.set(f64::INFINITY);
+        self.series.set(f64::INFINITY);
     }
 }
 

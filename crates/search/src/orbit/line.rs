@@ -230,6 +230,7 @@ impl<'s, 'c> RandomLine<'s, 'c> {
         // Degrees in the state of the two determinants.
         let degrees = [0, 1].map(|more| total + growth * (rank * (rank - 1) / 2 + more));
         let (mut first, mut second) = (Vec::new(), Vec::new());
+        self.setting.steps.takes_series(count as f64 * self.setting.flow.steps(rank + 1))?;
         for t in 0..count as u64 {
             halt.check()?;
             let Some(rows) = self.rows(m.integer(t), &own, rank + 1)? else { return Ok(none) };

@@ -349,7 +349,11 @@ fn along_orbits(
     remarks::note(setting, counted, is_open, report);
     match outcome {
         Err(error) if error.is_of_count() => {
-            report.remark(format!("no relations along orbits: {error}"));
+            let what = match error {
+                SearchError::Series { .. } => "no further Darboux polynomials",
+                _ => "no relations along orbits",
+            };
+            report.remark(format!("{what}: {error}"));
             Ok(())
         }
         other => other,

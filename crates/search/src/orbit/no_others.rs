@@ -142,6 +142,19 @@ impl Sizes {
         factors: &[RatedPolynomial],
         most_steps: f64,
     ) -> Result<Result<NoOthers, String>, SearchError> {
+        match self.shown_by_lines(degree, setting, factors, most_steps) {
+            Err(error @ SearchError::Series { .. }) => Ok(Err(error.to_string())),
+            other => other,
+        }
+    }
+
+    fn shown_by_lines(
+        &self,
+        degree: u32,
+        setting: &OrbitSetting<'_>,
+        factors: &[RatedPolynomial],
+        most_steps: f64,
+    ) -> Result<Result<NoOthers, String>, SearchError> {
         let none = |reason: &str| Ok(Err(reason.to_string()));
         let (field, dimension) = (self.field.degree as usize, setting.dimension());
         let monomials = monomials::count(dimension, degree);

@@ -54,6 +54,14 @@ impl Flow {
         Ok(read.map(|own| Self { is_map: model.system.is_map(), ..own }))
     }
 
+    /// Elementary steps of the series of an orbit up to this order: one for each product of two
+    /// coefficients.
+    pub fn steps(&self, orders: usize) -> f64 {
+        let is_product =
+            |rule: &&Rule| matches!(rule, Rule::Product(..) | Rule::Inverse(_) | Rule::Power(..));
+        self.steps.iter().filter(is_product).count() as f64 * (orders as f64).powi(2) / 2.0
+    }
+
     fn read(
         graph: &Graph,
         reached: &[bool],

@@ -65,3 +65,25 @@ fn searches_of_many_terms_end_by_the_steps_they_take() {
     let none = remarks(0.00005);
     assert!(none.contains("not sought: 90 unknowns take more than 0.00005 s"), "{none}");
 }
+
+#[test]
+fn searches_of_fields_of_many_terms_end_by_the_steps_of_their_series() {
+    let rate = |shift: usize| {
+        let term = |k: usize| format!("{}*x^{}*y^{}", k % 7 + shift, k % 12, 12 - k % 12);
+        (0..12).map(term).collect::<Vec<_>>().join(" + ")
+    };
+    let text = format!(
+        "title = 'x'\nsystem = 'field'\n[state]\nx = '1..2'\ny = '1..2'\n[field]\n\
+         \"x'\" = '{} + 1'\n\"y'\" = '{} + x'\n",
+        rate(1),
+        rate(2)
+    );
+    let case = Case::parse(&text, &[]).expect("a case");
+    let effort = Effort { seconds: 0.0001, by_class: false, ..Effort::default() };
+    let report = search(&case, &effort, &mut |_| {}).expect("it can be searched");
+    let remarks: Vec<String> = report.remarks.iter().map(ToString::to_string).collect();
+    let expected =
+        "no further Darboux polynomials: series of orbits take more than 0.0001 s; raise --seconds";
+    assert!(remarks.iter().any(|own| own == expected), "{remarks:?}");
+    assert!(!report.orbits.is_empty(), "relations along an orbit are reported");
+}

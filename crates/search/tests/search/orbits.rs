@@ -10,6 +10,7 @@ mod functions;
 mod irrational;
 mod maps;
 mod parameters;
+mod threads;
 
 use std::time::{Duration, Instant};
 
