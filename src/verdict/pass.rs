@@ -109,7 +109,7 @@ where
 #[inline(always)]
 fn most(lanes: &[f64; TAPE_LANES]) -> f64 {
     const BESIDE: usize = 8;
-    const { assert!(TAPE_LANES.is_multiple_of(BESIDE)) };
+    const { assert!(TAPE_LANES.is_multiple_of(BESIDE), "no lane is left over") };
     let larger = |a: f64, b: f64| if b > a { b } else { a };
     let mut largest = [0.0; BESIDE];
     for start in (0..TAPE_LANES).step_by(BESIDE) {

@@ -312,7 +312,7 @@ fn exact_reciprocals_and_roots_have_the_bits_of_the_domain() {
     let mid = std::array::from_fn(|_| numbers.next().unwrap_or(1.0));
     let input = Balls::<ROW_STATES>::new(mid, [0.0; ROW_STATES]);
     let mut evaluator = Evaluator::new(&first, Ball::<ROW_STATES>);
-    evaluator.run(&[input.clone()]);
+    evaluator.run(std::slice::from_ref(&input));
     for vectors in [InstructionSet::Avx2, InstructionSet::Avx512] {
         let Some(engine) = BallEngine::with_vectors(vec![true], &first, &[], &second, vectors)
         else {

@@ -55,11 +55,14 @@ impl Flow {
     }
 
     /// Elementary steps of the series of an orbit up to this order: one for each product of two
-    /// coefficients.
+    /// coefficients, and some for each coefficient, whose sums are reduced and kept.
     pub fn steps(&self, orders: usize) -> f64 {
+        const EACH: f64 = 8.0;
         let is_product =
             |rule: &&Rule| matches!(rule, Rule::Product(..) | Rule::Inverse(_) | Rule::Power(..));
-        self.steps.iter().filter(is_product).count() as f64 * (orders as f64).powi(2) / 2.0
+        let products = self.steps.iter().filter(is_product).count() as f64;
+        let (rules, orders) = (self.steps.len() as f64, orders as f64);
+        EACH * rules * orders + products * orders.powi(2) / 2.0
     }
 
     fn read(

@@ -59,7 +59,8 @@ fn searches_of_many_terms_end_by_the_steps_they_take() {
     };
     // 90³/3 steps, in thousand millions, are enough for the relations, and 90²·122 for singular values.
     let all = remarks(0.003);
-    assert!(!all.contains("terms"), "no limit is reached: {all}");
+    let is_limited = all.contains("second opinion") || all.contains("take more");
+    assert!(!is_limited, "no limit is reached: {all}");
     let no_opinion = remarks(0.0006);
     assert!(no_opinion.contains("no second opinion on 90 terms over 1"), "{no_opinion}");
     let none = remarks(0.00005);
