@@ -260,7 +260,9 @@ impl Statement for Form {
     }
 
     fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
-        vec![Condition::nonzero(self.coefficients(jet), "the form is 0: this says nothing")]
+        let own = self.coefficients(jet);
+        let vacuous = Condition::nonzero(own.clone(), "the form is 0: this says nothing");
+        vec![vacuous, Condition::continuous(own, "the form")]
     }
 
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {

@@ -159,7 +159,11 @@ impl Statement for Relation {
         let identical = "F is 0 identically: this says nothing";
         let vacuous = [Condition::nonzero(vec![function], identical), zeros];
         let factors = factor.into_iter().map(|factor| (factor, inverse)).chain(integrands);
-        factors.map(condition).chain(vacuous).collect()
+        let mut all: Vec<Condition> = factors.map(condition).chain(vacuous).collect();
+        if !jet.phase.model().system.is_map() {
+            all.push(Condition::continuous(vec![function], "F"));
+        }
+        all
     }
 
     fn remark(&self, model: &Model) -> Option<String> {

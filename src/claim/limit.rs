@@ -10,7 +10,7 @@ use super::{Condition, Reader, ResidualContext, Statement};
 use crate::formula::{Formula, Type, Value};
 use crate::graph::{Expansion, Expr, Side};
 use crate::mechanics::calculus::DualPoint;
-use crate::mechanics::{Meaning, Model, Phase};
+use crate::mechanics::{LevelFunction, Meaning, Model, Phase};
 use crate::scalar::Scalar;
 
 /// Reads the scalar parameter named by a key.
@@ -53,6 +53,17 @@ fn has_quantities(model: &Model, formula: &Formula) -> bool {
     })
 }
 
+/// Whether a formula contains a parameter.
+fn uses(model: &Model, formula: &Formula, parameter: usize) -> bool {
+    formula.symbols().any(|symbol| match model.vocabulary.entry(symbol).meaning {
+        Meaning::Parameter(index) => index == parameter,
+        Meaning::Abbreviation(index) => {
+            model.abbreviations.get(index).is_some_and(|own| uses(model, own, parameter))
+        }
+        Meaning::State(_) | Meaning::Quantity(_) => false,
+    })
+}
+
 impl Statement for Limit {
     const NAME: &'static str = "limit";
     const OF_MAPS: bool = true;
@@ -70,6 +81,27 @@ impl Statement for Limit {
             let message =
                 "the slope of an ∫ by a parameter is open, as its constant is".to_string();
             return Err(from.complaint("slope", message, "write the antiderivative out"));
+        }
+        let own = uses(from.model(), &value, parameter);
+        if slope.is_some() && own {
+            let message = "B is taken where the parameter is 0, and contains it".to_string();
+            let remedy = "with a slope A = B + ε C + O(ε²): move what is linear in ε to the slope";
+            return Err(from.complaint("equals", message, remedy));
+        }
+        let level = from.model().level.iter();
+        let moving = level.filter_map(|equation| match &equation.function {
+            LevelFunction::Formula(own) => Some((own, equation)),
+            _ => None,
+        });
+        let moving = moving.filter(|(own, _)| uses(from.model(), own, parameter)).next();
+        if let Some((_, equation)) = moving {
+            let message = format!(
+                "the states themselves depend on the parameter, by the level equation `{}`",
+                equation.text
+            );
+            let remedy =
+                "solve the level for a coordinate, and state the limit of a formula of the others";
+            return Err(from.complaint("parameter", message, remedy));
         }
         Ok(Self { function, value, slope, parameter })
     }

@@ -31,9 +31,10 @@ impl Statement for SymmetryField {
 
     /// Requires that u is no multiple of v: every f v with L_vf = 0 commutes with v.
     fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
-        let across = rejection(&self.components.at(&jet.phase), &[jet.phase.field().to_vec()]);
+        let own = self.components.at(&jet.phase);
+        let across = rejection(&own, &[jet.phase.field().to_vec()]);
         let otherwise = "u is 0 or a multiple of the field, as every system has";
-        vec![Condition::nonzero(across, otherwise)]
+        vec![Condition::nonzero(across, otherwise), Condition::continuous(own, "u")]
     }
 
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {

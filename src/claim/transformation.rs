@@ -217,7 +217,10 @@ impl Statement for Symmetry {
             is_essential: false,
         };
         let model = jet.phase.model();
-        one_antiderivative(model, &model.dynamics()).into_iter().chain([invertible]).collect()
+        let steady = Condition::continuous(self.map.image(&jet.phase), "the map");
+        let is_flow = !model.system.is_map();
+        let open = one_antiderivative(model, &model.dynamics());
+        open.into_iter().chain([invertible]).chain(is_flow.then_some(steady)).collect()
     }
 
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {
@@ -265,7 +268,10 @@ impl Statement for Reversor {
 
     fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
         let model = jet.phase.model();
-        one_antiderivative(model, &model.dynamics()).into_iter().collect()
+        let steady = Condition::continuous(self.0.image(&jet.phase), "the map");
+        let is_flow = !model.system.is_map();
+        let open = one_antiderivative(model, &model.dynamics());
+        open.into_iter().chain(is_flow.then_some(steady)).collect()
     }
 
     fn formulas(&self) -> Vec<&Formula> {

@@ -271,32 +271,64 @@ impl Judging<'_> {
             .map(|(draw, x)| draw.only().or_else(|| Rational::from_f64(*x)))
             .collect();
         let Some(numbers) = numbers else { return false };
+        match self.examined_at(item, sampler, &numbers, status) {
+            AtNumbers::NoState => false,
+            AtNumbers::Refuted | AtNumbers::Small => true,
+            // As at √0, the state may be alone, and then counts for nothing.
+            AtNumbers::Zero => false,
+        }
+    }
+
+    /// Examines a claim at the state made from given draws; a witness decides it.
+    pub(super) fn examined_at(
+        &self,
+        item: &RecordedClaim<'_>,
+        sampler: &Sampler,
+        numbers: &[Rational],
+        status: &mut ClaimState,
+    ) -> AtNumbers {
         let (run, layout) = self.lay_out(sampler, std::iter::once(item), false);
         let (span, domain) = (&layout.spans[0], Mixed::new(LADDER_BITS[0]));
-        let values = run.at(&domain, &sampler.made_from(&domain, &numbers));
+        let values = run.at(&domain, &sampler.made_from(&domain, numbers));
         if !layout.existing(&values, span)[0] {
-            return false;
+            return AtNumbers::NoState;
         }
         // What the claim takes at other points may have none.
         if !item.presence.is_empty() && !values.existing(std::slice::from_ref(&span.residual))[0] {
-            return false;
+            return AtNumbers::NoState;
         }
         let residuals = values.range(span.residual.clone());
         let away = residuals.iter().find(|value| Mixed::excludes_zero(value, 0));
         if let Some((mid, rad)) = away.and_then(|value| Mixed::enclosure(value, 0)) {
             let digits = away.and_then(|value| Mixed::beyond_f64(value, 0));
-            let printed = sampler.printed_from(&numbers, LADDER_BITS[0]);
+            let printed = sampler.printed_from(numbers, LADDER_BITS[0]);
             let witness = witness::witness(self.case, None, &printed, (mid, rad));
             let found = format!("{mid:.3e} ± {rad:.1e} at a state that was looked for");
             status.evidence.witness = Some(Witness { digits, ..witness });
             status.evidence.method = Method::PreciseBall;
             status.settled = Some(Verdict::Refuted);
             status.rung(Method::PreciseBall, found);
-            return true;
+            return AtNumbers::Refuted;
         }
-        // Where the residual is 0 exactly, as at √0, the state may be alone, and then counts for nothing.
-        !residuals.iter().all(|value| matches!(value, Number::Exact(value) if value.is_zero()))
+        match residuals.iter().all(|value| matches!(value, Number::Exact(value) if value.is_zero()))
+        {
+            true => AtNumbers::Zero,
+            false => AtNumbers::Small,
+        }
     }
+}
+
+/// What a state shows of a claim.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum AtNumbers {
+    /// The claim has no value there.
+    NoState,
+    /// It fails.
+    Refuted,
+    /// All residuals are 0 exactly.
+    Zero,
+    /// They enclose 0, or have no value.
+    Small,
 }
 
 /// Number enclosed by a ball in f64.

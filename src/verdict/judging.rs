@@ -174,6 +174,7 @@ impl Judging<'_> {
                 });
             }
         }
+        self.check_slopes(sampler)?;
         sampler.check_coverage(self.case)?;
         let mut warnings = physics::warnings(&physical);
         warnings.extend(self.check_quadratures()?);
@@ -185,6 +186,7 @@ impl Judging<'_> {
             );
         }
         warnings.extend(self.missed_part(sampler)?);
+        warnings.extend(self.jump_of_level(sampler));
         Ok(warnings)
     }
 

@@ -38,22 +38,37 @@ impl Judging<'_> {
             return Ok(None);
         };
         let (graph, groups) = sampler.compose(self.graph, &[values.to_vec()], &fixed)?;
-        let tape = Tape::new(&graph, &groups.concat());
+        Ok(self.jump_of(sampler, &graph, &groups.concat()))
+    }
+
+    /// Finds a state near which a value jumps that is a function of the draws.
+    fn jump_of(&self, sampler: &Sampler, graph: &Graph, values: &[Expr]) -> Option<String> {
+        let tape = Tape::new(graph, values);
         let mut along = Evaluator::new(&tape, Float::<POINTS>);
-        for line in 0..LINES {
+        (0..LINES).find_map(|line| {
             let ends = [2 * line, 2 * line + 1].map(|index| sampler.nearest_draws(index));
             let line = Line::between(sampler, ends, graph.inputs());
-            if let Some(place) = line.jump(&mut along) {
-                let model = &self.case.model;
-                let state = &sampler.made()[model.free_components()..];
-                let tape = Tape::new(sampler.graph(), state);
-                let mut state = Evaluator::new(&tape, Float::<POINTS>);
-                let state = line.values(&mut state, [place; POINTS]);
-                let state = state.iter().map(|x| x[0]).collect::<Vec<_>>();
-                return Ok(Some(briefly(model, &state)));
-            }
+            let place = line.jump(&mut along)?;
+            let model = &self.case.model;
+            let state = &sampler.made()[model.free_components()..];
+            let tape = Tape::new(sampler.graph(), state);
+            let mut state = Evaluator::new(&tape, Float::<POINTS>);
+            let state = line.values(&mut state, [place; POINTS]);
+            let state = state.iter().map(|x| x[0]).collect::<Vec<_>>();
+            Some(briefly(model, &state))
+        })
+    }
+
+    /// Returns a warning if states jump along a line on a level whose equations may jump.
+    pub(super) fn jump_of_level(&self, sampler: &Sampler) -> Option<String> {
+        if sampler.is_numerical() || !may_jump(self.graph, &self.common.level) {
+            return None;
         }
-        Ok(None)
+        let state = &sampler.made()[self.case.model.free_components()..];
+        let place = self.jump_of(sampler, sampler.graph(), state);
+        place.map(|place| {
+            format!("near {place} the level jumps: what holds on it says nothing of motions across")
+        })
     }
 }
 

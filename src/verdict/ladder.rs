@@ -106,6 +106,7 @@ impl Judging<'_> {
             self.real_states(sampler, open)?;
             if !sampler.is_numerical() {
                 self.states_beside_moduli(sampler, open)?;
+                self.states_near_ends(sampler, open);
             }
         }
         for (item, status) in open.iter_mut() {

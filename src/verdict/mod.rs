@@ -12,17 +12,20 @@ mod conclude;
 mod conditions;
 mod coverage;
 mod dissipation;
+mod ends;
 mod equations;
 mod evidence;
 mod examine;
 mod existence;
 mod field;
+mod filled;
 mod further;
 mod ground;
 mod judge;
 mod judging;
 mod jumps;
 mod ladder;
+mod level_slopes;
 mod local_form;
 mod moduli;
 mod mutants;
@@ -54,6 +57,7 @@ pub use evidence::{
     ClaimReport, DensitySign, Evidence, Flaw, Independence, Measurement, Method, Proof, Rung,
     Verdict, Witness,
 };
+pub use filled::is_filled;
 pub use judge::{
     CaseReport, JudgeError, Options, RecordedSize, Trust, judge, judge_telling, recorded_size,
 };

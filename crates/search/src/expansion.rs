@@ -56,14 +56,15 @@ impl<'l> Taylor<'l> {
     /// Prepares series modulo a prime.
     pub fn new(local: &'l Local, modulus: Modulus, order: u32) -> Self {
         let series = TruncatedSeries::new(modulus, local.coordinates.positions, order);
-        let before = local.draws.len() + local.coordinates.positions;
+        let before = local.draws.len() + local.coordinates.positions + local.functions.len();
         let rates = SplitRates::new(&local.graph, &local.rates, before);
         Self { local, modulus, order, series, rates }
     }
 
-    /// Draws random positions.
+    /// Draws random positions, followed by values of functions there.
     pub fn positions(&self, rng: &mut ProofRng) -> Vec<u64> {
-        (0..self.local.coordinates.positions).map(|_| rng.element(&self.modulus)).collect()
+        let count = self.local.coordinates.positions + self.local.functions.len();
+        (0..count).map(|_| rng.element(&self.modulus)).collect()
     }
 
     /// Expands the field about a point; `None` where it is undefined.
@@ -75,8 +76,17 @@ impl<'l> Taylor<'l> {
     ) -> Result<Option<FieldExpansion>, SearchError> {
         let (modulus, series) = (self.modulus, &self.series);
         let velocities = self.local.coordinates.velocities;
+        let (positions, values) = positions.split_at(self.local.coordinates.positions);
+        // The functions that stand for values are not 0 anywhere.
+        if values.contains(&0) {
+            return Ok(None);
+        }
         let mut inputs: Vec<Vec<u64>> = parameters.iter().map(|x| series.number(*x)).collect();
         inputs.extend(positions.iter().enumerate().map(|(k, x)| series.variable(k, *x)));
+        let Some(functions) = self.local.functions.at(series, &inputs, values) else {
+            return Ok(None);
+        };
+        inputs.extend(functions);
         let mut rates = self.rates.at(series, &inputs);
         let mut rates_at = |point: &[u64]| -> Option<Vec<Vec<u64>>> {
             let point: Vec<Vec<u64>> = point.iter().map(|w| series.number(*w)).collect();

@@ -6,6 +6,7 @@ use num_dual::Dual;
 use super::SearchError;
 use super::echelon::Echelon;
 use super::local::Coordinates;
+use super::local::functions::{adjoined, roles};
 use super::orbit::FURTHER_INTEGRAL;
 use super::{Effort, SearchReport, ask};
 use liouville::case::Case;
@@ -250,6 +251,12 @@ fn on_lines(
     if moving.iter().any(|rate| !graph.constant_value(*rate).is_some_and(|rate| rate.is_zero())) {
         return Ok(None);
     }
+    let before = graph.inputs();
+    let made = adjoined(&graph, &[slope], before, &roles(&draws, coordinates.positions))?;
+    let (graph, slope) = match made {
+        Some(own) => (own.graph, own.outputs[0]),
+        None => (graph, slope),
+    };
     // No constant of the formula can be chosen to vanish modulo the prime.
     let mut rng = SearchStream::Products.under(statement_seed(seed, &graph, &[slope]));
     let (tape, numbers) = (Tape::new(&graph, &[slope]), root_numbers(&graph));
@@ -260,7 +267,9 @@ fn on_lines(
             let mut values: Vec<[u64; SLOPE_POINTS]> =
                 (1..inputs).map(|_| [rng.element(&modulus); SLOPE_POINTS]).collect();
             values.push(std::array::from_fn(|s| modulus.integer(s as u64)));
-            values.resize(graph.inputs(), [modulus.one(); SLOPE_POINTS]);
+            values.resize(before, [modulus.one(); SLOPE_POINTS]);
+            // Functions of the positions are the same along the line.
+            values.resize_with(graph.inputs(), || [rng.element(&modulus); SLOPE_POINTS]);
             evaluator.run(&values);
             let slopes = evaluator.output(0);
             (!slopes.contains(&UNDEFINED)).then(|| read.degree(slopes, &modulus))

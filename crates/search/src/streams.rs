@@ -35,6 +35,8 @@ pub enum SearchStream {
     Constraints = 50,
     /// Points for gradients.
     Gradients = 51,
+    /// Points at which exponents are compared.
+    Exponents = 52,
     /// Primes of an ansatz; each of its moduli has the next stream.
     Moduli = 60,
 }

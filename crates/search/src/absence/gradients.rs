@@ -11,6 +11,7 @@ use liouville::number::rational::Rational;
 use liouville::proof::{ProofRng, root_numbers, statement_seed};
 
 use super::super::SearchError;
+use super::super::local::functions::{adjoined, roles};
 use super::super::local::{Coordinates, random};
 use super::super::products::DEGREE_PRIMES;
 use super::known::has_lists;
@@ -26,6 +27,8 @@ const TRIALS: usize = 64;
 pub struct Gradients {
     tape: Tape,
     inputs: usize,
+    /// Number of the last inputs that stand for functions of the positions.
+    functions: usize,
     draws: Vec<Draw>,
     dimension: usize,
     count: usize,
@@ -82,14 +85,23 @@ impl Gradients {
             Some(coordinates) => coordinates.record(inputs, slopes)?,
             None => record(inputs, slopes)?,
         };
+        let positions = coordinates.as_ref().map_or(0, |own| own.positions);
+        let before = graph.inputs();
+        let made = adjoined(&graph, &slopes, before, &roles(&draws, positions))?;
+        let (graph, slopes) = made.map_or((graph, slopes), |own| (own.graph, own.outputs));
+        let functions = graph.inputs() - before;
         let rng = SearchStream::Gradients.under(statement_seed(seed, &graph, &slopes));
         let (tape, inputs) = (Tape::new(&graph, &slopes), graph.inputs());
         let (count, numbers) = (formulas.len(), root_numbers(&graph));
-        Ok(Some(Self { tape, inputs, draws, dimension, count, rng, numbers }))
+        Ok(Some(Self { tape, inputs, functions, draws, dimension, count, rng, numbers }))
     }
 
     /// Gradients at random points modulo the next prime; `None` if none has values.
     pub fn next(&mut self, points: Points) -> Option<(Slopes, Modulus)> {
+        // At multiples of a point the values of functions are related.
+        if points == Points::Multiples && self.functions > 0 {
+            return None;
+        }
         let modulus = self.rng.prime_for(&self.numbers);
         let mut evaluator = Evaluator::new(&self.tape, Prime::new([modulus; SCALES]));
         for _ in 0..TRIALS {
@@ -105,7 +117,8 @@ impl Gradients {
                     }
                 }
             }));
-            values.resize(self.inputs, [modulus.one(); SCALES]);
+            values.resize(self.inputs - self.functions, [modulus.one(); SCALES]);
+            values.extend((0..self.functions).map(|_| [rng.element(&modulus); SCALES]));
             evaluator.run(&values);
             let slopes: Vec<[u64; SCALES]> = evaluator.outputs().copied().collect();
             if slopes.iter().all(|own| !own.contains(&UNDEFINED)) {

@@ -89,9 +89,9 @@ pub fn explained(
     Explained { unexplained: open.max().unwrap_or(0), relations }
 }
 
-/// Writes the equation of the values that are not rational, and of the roots of a further factor, if
-/// its coefficients are; `None` too if there are none. The inner `None` is for values none of which is real.
-pub fn equation(name: &str, round: &Round, further: &[u64]) -> Option<Option<String>> {
+/// Makes the polynomial of the values that are not rational and of the roots of a further factor, by increasing
+/// powers, if its coefficients are rational; `None` too if there are none.
+pub fn of_irrational(round: &Round, further: &[u64]) -> Option<Vec<Rational>> {
     let Round { values, modulus: m, .. } = round;
     let ring = PrimePolynomials(*m);
     let is_other = |value: &&u64| reconstruct(**value, m).filter(is_short).is_none();
@@ -101,7 +101,13 @@ pub fn equation(name: &str, round: &Round, further: &[u64]) -> Option<Option<Str
         return None;
     }
     let lifted = |image: &u64| reconstruct(*image, m).filter(is_short);
-    let product: Vec<Rational> = product.iter().map(lifted).collect::<Option<_>>()?;
+    product.iter().map(lifted).collect()
+}
+
+/// Writes the equation of the values that are not rational, and of the roots of a further factor, if
+/// its coefficients are; `None` too if there are none. The inner `None` is for values none of which is real.
+pub fn equation(name: &str, round: &Round, further: &[u64]) -> Option<Option<String>> {
+    let product = of_irrational(round, further)?;
     if !has_real_root(&product) {
         return Some(None);
     }

@@ -7,6 +7,7 @@
 
 use liouville::case::Case;
 use liouville::mechanics::System;
+use liouville::verdict::is_filled;
 
 use super::ParameterCondition;
 use super::equations::ParametricEquations;
@@ -14,7 +15,7 @@ use super::hypersurface::Hypersurface;
 use super::locus::{NoLocus, SpecialLocus, special};
 use super::simple::{SimpleEquations, simple_equations};
 use super::split::SplitCase;
-use super::values::{self, integrals_with};
+use super::values::{self, integrals_with, unfilled};
 use crate::branches;
 use crate::budget::STEPS;
 use crate::origin::ConditionOrigin;
@@ -257,6 +258,10 @@ impl ConditionSearch<'_> {
             self.found.push(condition);
             let solved = split.letters().and_then(|letters| own.solved(&letters)).ok().flatten();
             if let Some(fixed) = solved.and_then(|value| split.with(vec![value])) {
+                if !is_filled(&fixed.case, &self.effort.options)? {
+                    self.report.remark(unfilled(&text));
+                    continue;
+                }
                 let with = ("condition", text.clone());
                 if self.left > 0.0 {
                     integrals_with(&fixed.case, with, self.effort, self.report)?;

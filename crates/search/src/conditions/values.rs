@@ -10,14 +10,16 @@ use std::cell::Cell;
 use liouville::case::Case;
 use liouville::formula::Formula;
 use liouville::proof::ProofRng;
+use liouville::verdict::is_filled;
 
 use super::ParameterCondition;
 use super::equations::ParametricEquations;
 use super::minors::determinant;
 use super::parameter_line::ENTRY;
 use super::polynomial::{Polynomial, PrimePolynomials};
-use super::relation::equation;
-use super::relation::{Relation, Round, ScalarParameter, explained, unexplained};
+use super::relation::{
+    Relation, Round, ScalarParameter, equation, explained, of_irrational, unexplained,
+};
 use super::split::SplitCase;
 use crate::ansatz::system::PrimePoint;
 use crate::budget::STEPS;
@@ -33,6 +35,9 @@ const MINORS: (u64, u64) = (2, 4);
 const VALUES: (usize, usize) = (32, 2048);
 /// Number of rows beyond the unknowns.
 const SPARE: usize = 8;
+/// Number of primes modulo which irrational values are looked for, and of those that are enough with values.
+const PRIMES: u64 = 12;
+const ENOUGH: usize = 2;
 /// First stream of states for minors.
 const STREAM: u64 = 1000;
 
@@ -110,6 +115,11 @@ fn up_to(
                 if let Relation::Value(_, value) = relation {
                     let number = Formula::number(value.clone());
                     if let Some(fixed) = split.with(vec![(place, number)]) {
+                        if !is_filled(&fixed.case, &effort.options)? {
+                            told.push(text.clone());
+                            report.remark(unfilled(&text));
+                            continue;
+                        }
                         let with = ("value", format!("{name} = {value}"));
                         integrals_with(&fixed.case, with, effort, report)?;
                     }
@@ -117,7 +127,15 @@ fn up_to(
                 equations.push(text);
             }
             let first = found.rounds.first().filter(|_| all.len() == 1);
-            let others = first.and_then(|own| equation(name, own, &found.rest));
+            let others = match first {
+                // On a level that the solution does not fill at a value, what is counted is no function.
+                Some(own)
+                    if case.model.level.is_empty() && search.are_special(own, &found.rest)? =>
+                {
+                    equation(name, own, &found.rest)
+                }
+                _ => None,
+            };
             let open = match others {
                 Some(_) => OpenValues::default(),
                 None => OpenValues {
@@ -176,6 +194,14 @@ impl OpenValues {
     }
 }
 
+/// Says that nothing is known where the solution of the level misses a part of it.
+pub fn unfilled(condition: &str) -> String {
+    format!(
+        "whether there are more integrals where {condition} is not known: the level may fall apart there, and its \
+         solution may miss a part"
+    )
+}
+
 /// Searches a case with a condition on its parameters for integrals besides those in general.
 pub fn integrals_with(
     fixed: &Case,
@@ -230,6 +256,36 @@ impl OneParameter<'_> {
             found.rest = rest;
         }
         Ok(Some(found))
+    }
+
+    /// Whether the irrational values of a round, and the roots of a further polynomial, have more integrals
+    /// modulo other primes: at each of the roots there, for one prime at least.
+    ///
+    /// Minors with the columns of one choice of the parameters may vanish where others do not.
+    fn are_special(&self, own: &Round, rest: &[u64]) -> Result<bool, SearchError> {
+        let Some(polynomial) = of_irrational(own, rest) else { return Ok(false) };
+        let mut primes = 0;
+        for prime in 1..PRIMES {
+            let Some(base) = self.equations.system.at(prime, prime) else { continue };
+            let m = base.modulus;
+            let Some(general) = self.equations.nullity(&base)? else { continue };
+            let image: Option<Polynomial> = polynomial.iter().map(|own| m.rational(own)).collect();
+            let Some(image) = image else { continue };
+            let seed = self.equations.effort.options.seed.wrapping_add(200 + prime);
+            let mut rng = SearchStream::Minors.under(seed);
+            let roots = PrimePolynomials(m).roots(&image, &mut rng);
+            for value in &roots {
+                self.equations.effort.halt.check()?;
+                if self.equations.nullity(&self.with(&base, *value))?.is_none_or(|n| n <= general) {
+                    return Ok(false);
+                }
+            }
+            primes += usize::from(!roots.is_empty());
+            if primes == ENOUGH {
+                break;
+            }
+        }
+        Ok(primes > 0)
     }
 
     fn with(&self, base: &PrimePoint, value: u64) -> PrimePoint {

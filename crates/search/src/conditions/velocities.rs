@@ -85,9 +85,10 @@ impl ValueSearch<'_> {
         progress: &mut dyn FnMut(&str),
     ) -> Result<(), SearchError> {
         let local = Local::of(self.case)?;
-        let (turned, all): (Vec<_>, Vec<_>) = minors::scalars(self.case)
-            .into_iter()
-            .partition(|own| local.coordinates.is_turned(own.draw));
+        let (turned, all): (Vec<_>, Vec<_>) =
+            minors::scalars(self.case).into_iter().partition(|own| {
+                local.coordinates.is_turned(own.draw) || local.functions.depend_on(own.draw)
+            });
         for own in turned {
             report.remark(format!(
                 "values of {} with more integrals are not sought: it is in an exponent or an angle",

@@ -6,11 +6,12 @@
 
 use num_dual::Dual;
 
-use super::exponentials::{self, logarithm};
-use super::unwound::{angles, rational, twice_the_arctangent};
+use super::exponentials::logarithm;
+use super::unwound::{Replaceable, rational, twice_the_arctangent};
 use crate::SearchError;
 use crate::echelon::Echelon;
 use crate::streams::SearchStream;
+use crate::symbols::symbolised;
 use liouville::case::Case;
 use liouville::graph::{Evaluator, Expr, Graph, Step, Tape, record};
 use liouville::mechanics::elimination::solve_by_minors;
@@ -108,14 +109,8 @@ impl Mechanical {
             start += variable.len();
         }
         let draws = model.parameter_draws();
-        let mut turned = turned(model, draws.len())?;
+        let mut turned = turned(model, &draws)?;
         let angles = turned.split_off(draws.len());
-        for (turned, draw) in turned.iter_mut().zip(&draws) {
-            // Other draws are numbers.
-            if !matches!(draw, Draw::Within(_) | Draw::Of(..)) {
-                *turned = Place::Plain;
-            }
-        }
         let plain = Self {
             positions: positions.iter().map(|place| (*place, angles[*place].clone())).collect(),
             free: velocities,
@@ -132,9 +127,7 @@ impl Mechanical {
     fn constrained(mut self, case: &Case) -> Result<Self, SearchError> {
         let velocities = std::mem::take(&mut self.free);
         let slopes = Slopes::of(&case.model, &self, &velocities)?;
-        let pivots = slopes.pivots().ok_or(SearchError::Unsplit(
-            "no velocities were found for which the constraints can be solved",
-        ))?;
+        let pivots = slopes.pivots()?;
         self.dependent = pivots.into_iter().map(|place| velocities[place]).collect();
         self.free = velocities;
         self.free.retain(|place| !self.dependent.contains(place));
@@ -243,6 +236,11 @@ impl Slopes {
             columns.map(|slope| slope.eps).collect::<Vec<Expr>>()
         })?;
         let (graph, slopes) = rational(&graph, &slopes)?;
+        // Others are random numbers: where these are none, the rates have no series.
+        let (graph, slopes) = match symbolised(&graph, std::slice::from_ref(&slopes)) {
+            Some((graph, slopes)) => (graph, slopes.concat()),
+            None => (graph, slopes),
+        };
         let is_velocity = |input: &usize| *input >= draws && velocities.contains(&(*input - draws));
         if slopes.iter().any(|slope| graph.inputs_of(*slope).iter().any(is_velocity)) {
             return Err(SearchError::Unsplit("the constraints are not linear in the velocities"));
@@ -252,10 +250,12 @@ impl Slopes {
     }
 
     /// Chooses as many velocities as there are constraints, such that the constraints can be solved for
-    /// them: first those with constant derivatives.
-    fn pivots(&self) -> Option<Vec<usize>> {
+    /// them: first those with constant derivatives. Fails with `NoSeries` if the derivatives have values
+    /// at no point modulo a prime, as where a variable occurs in a sine and outside of it.
+    fn pivots(&self) -> Result<Vec<usize>, SearchError> {
         let slopes = self.columns.concat();
-        let count = self.columns.first()?.len();
+        let count = self.columns.first().map_or(0, Vec::len);
+        let mut has_values = false;
         let mut order: Vec<usize> = (0..self.columns.len()).collect();
         order.sort_by_key(|column| {
             let varies = |slope: &&Expr| self.graph.constant_value(**slope).is_none();
@@ -265,7 +265,7 @@ impl Slopes {
         let modulus = rng.prime_for(&root_numbers(&self.graph));
         let tape = Tape::new(&self.graph, &slopes);
         let mut evaluator = Evaluator::new(&tape, Prime::new([modulus; 1]));
-        (0..TRIALS).find_map(|_| {
+        let found = (0..TRIALS).find_map(|_| {
             let point: Vec<[u64; 1]> =
                 (0..self.graph.inputs()).map(|_| [rng.element(&modulus)]).collect();
             evaluator.run(&point);
@@ -273,11 +273,18 @@ impl Slopes {
             if values.contains(&UNDEFINED) {
                 return None;
             }
+            has_values = true;
             let mut echelon = Echelon::new(count, modulus);
             let own = |column: &usize| values[column * count..(column + 1) * count].to_vec();
             let mut pivots = order.clone();
             pivots.retain(|column| echelon.push(own(column)));
             (pivots.len() == count).then_some(pivots)
+        });
+        found.ok_or(match has_values {
+            true => SearchError::Unsplit(
+                "no velocities were found for which the constraints can be solved",
+            ),
+            false => SearchError::NoSeries,
         })
     }
 }
@@ -290,10 +297,10 @@ fn constraints<T: Scalar>(model: &Model, parameters: &[T], state: &[T]) -> Vec<T
 
 /// Tells what numbers stand in place of the draws and the components of the state: of angles where sines or
 /// cosines occur in the equations, and of exponents where exponentials do.
-fn turned(model: &Model, draws: usize) -> Result<Vec<Place>, SearchError> {
-    let count = draws + model.dimension();
+fn turned(model: &Model, draws: &[Draw]) -> Result<Vec<Place>, SearchError> {
+    let count = draws.len() + model.dimension();
     let (graph, (values, parameters)) = record(count, |inputs| {
-        let (given, state) = inputs.split_at(draws);
+        let (given, state) = inputs.split_at(draws.len());
         let (parameters, _) = model.make_parameters(given);
         let phase = Phase::new(model, &parameters, state);
         let formulas = model.dynamics().into_iter().chain(model.level_formulas());
@@ -301,8 +308,11 @@ fn turned(model: &Model, draws: usize) -> Result<Vec<Place>, SearchError> {
         (values, parameters)
     })?;
     let mut found = vec![Place::Plain; count];
-    let angles = angles(&graph, &values);
-    for (input, rate) in exponentials::rates(&graph, &values, &|input| input < draws) {
+    let is_free = |input: usize| {
+        draws.get(input).is_none_or(|draw| matches!(draw, Draw::Within(_) | Draw::Of(..)))
+    };
+    let (own, ..) = Replaceable::of(&graph, &values, &is_free, &|input| input < draws.len())?;
+    for (input, rate) in own.exponents {
         let component = |draw: usize| {
             let is_own = |own: &Expr| matches!(graph.step(graph.place(*own)), Step::Input(input) if input == draw);
             parameters.iter().position(is_own).map(|component| Letter { draw, component })
@@ -310,14 +320,13 @@ fn turned(model: &Model, draws: usize) -> Result<Vec<Place>, SearchError> {
         let letter = match rate.letter {
             None => None,
             // A component is needed for its value, and its own one is itself.
-            Some(draw) => match component(draw).filter(|_| !angles.contains(&draw)) {
+            Some(draw) => match component(draw).filter(|_| !own.angles.contains(&draw)) {
                 None => continue,
                 letter => letter,
             },
         };
         found[input] = Place::Exponential { number: rate.number, letter };
     }
-    // What occurs in both has no values modulo primes.
-    angles.into_iter().for_each(|input| found[input] = Place::Angle);
+    own.angles.into_iter().for_each(|input| found[input] = Place::Angle);
     Ok(found)
 }

@@ -2,10 +2,13 @@
 
 mod coordinates;
 mod exponentials;
+mod exponents;
+pub mod functions;
 mod mechanical;
 pub mod unwound;
 
 pub use coordinates::Coordinates;
+use functions::{FunctionSeries, adjoined, roles};
 
 use super::SearchError;
 use liouville::case::Case;
@@ -17,7 +20,7 @@ use liouville::proof::ProofRng;
 use liouville::scalar::Scalar;
 
 /// Rates of the coordinates as a graph; its inputs are the draws of the parameters, followed by the
-/// coordinates.
+/// positions, functions of these without values modulo a prime, and the velocities.
 pub struct Local {
     /// Positions and velocities.
     pub coordinates: Coordinates,
@@ -25,6 +28,8 @@ pub struct Local {
     pub graph: Graph,
     /// One rate for each coordinate.
     pub rates: Vec<Expr>,
+    /// Functions of the positions.
+    pub functions: FunctionSeries,
     /// Draws from which the parameters are made.
     pub draws: Vec<Draw>,
 }
@@ -63,7 +68,14 @@ impl Local {
         if graph.inputs() > count + coordinates.count() {
             return Err(SearchError::Unsplit("the field contains ∫"));
         }
-        Ok(Self { coordinates, graph, rates, draws })
+        let before = count + coordinates.positions;
+        let (graph, rates, functions) =
+            match adjoined(&graph, &rates, before, &roles(&draws, coordinates.positions))? {
+                Some(own) => (own.graph, own.outputs, own.functions),
+                None => (graph, rates, Vec::new()),
+            };
+        let functions = FunctionSeries::new(&graph, functions);
+        Ok(Self { coordinates, graph, rates, functions, draws })
     }
 }
 

@@ -75,3 +75,68 @@ fn the_integrals_of_a_chain_are_all_that_there_are() {
     let free = plane("exp(x − y)", "[[claim]]\nno-integral = { degree = 1 }\n");
     assert_eq!(only(&free).verdict, Verdict::Refuted, "the momentum");
 }
+
+#[test]
+fn functions_outside_of_coordinates_are_counted() {
+    // Each is in the potential by its argument as well, so that no coordinate takes its place.
+    let proved = [
+        "exp(−(x + 3)² − 2*y²) + x² + y²",
+        "x*exp(k*x) + y*exp(x) + y³",
+        "x*exp(x) + y*exp(2*x) + exp(3*x − y)*y",
+        "x*sin(x) + x*sin(2*x)*y",
+        "exp(√((x + 3)² + y²))*y + x²",
+        "(x + 3)*(y + 3)^k + ((x + 3)² + y²)^k",
+        "exp(x)*cos(y) + x*y",
+        "x*exp(sin(y)) + x²*cos(y)",
+    ];
+    for potential in proved {
+        let report = only(&plane(potential, DEGREE_2));
+        assert_eq!(report.verdict, Verdict::Proved, "{potential}: {:?}", report.evidence.reason);
+    }
+    // Arguments in an irrational ratio, or with a number between them; roots of squares; functions of
+    // functions and of parameters alone.
+    let open = [
+        "x*y*cos(√2*y) + cos(y)",
+        "x*exp(x + 1) + y*exp(x)",
+        "x*exp(√(x²)) + y*exp(x)",
+        "x*exp(y*exp(x))",
+        "x*y*sin(k) + k*x³",
+        "x*y*(y + 3)^x",
+        "(x + 3)*(y + 3)^k + (2*y + 6)^k*x²",
+    ];
+    for potential in open {
+        let report = only(&plane(potential, DEGREE_2));
+        assert_eq!(report.verdict, Verdict::Undecided, "{potential}: {:?}", report.evidence);
+    }
+    let centre = |claims: &str| plane("exp(−k*√((x + 3)² + y²))/√((x + 3)² + y²)", claims);
+    let momentum = "[[claim]]\nintegral = \"(x + 3)*y' − y*x'\"\n";
+    assert_eq!(only(&centre(DEGREE_2)).verdict, Verdict::Refuted, "the angular momentum");
+    let report = only(&centre(&format!("{momentum}{DEGREE_2}")));
+    assert_eq!(report.verdict, Verdict::Proved, "{:?}", report.evidence.reason);
+}
+
+#[test]
+fn planted_integrals_with_functions_of_positions_are_never_excluded() {
+    let mut dice = Dice(23);
+    let mut refuted = 0;
+    for plant in 0..24 {
+        let (m, n) = [(3, 4, 5), (5, 12, 13), (8, 15, 17)]
+            .map(|(a, b, c)| (format!("{a}/{c}"), format!("{b}/{c}")))[plant % 3]
+            .clone();
+        let (a, b, r, s) = (dice.unit(), dice.unit(), dice.unit(), dice.unit());
+        let (u, w) = (format!("({m}*x + {n}*y)"), format!("({m}*y − {n}*x)"));
+        // Separable in turned coordinates, about a centre, and of constant force.
+        let potential = match plant % 6 {
+            0 => format!("({a})*{u}*exp(({r})*{u}) + ({b})*{w}*sin(({s})*{w})"),
+            1 => format!("({a})*{u}*exp(({r})*{u}) + ({b})*{w}*exp(2*({r})*{u} − 2*({r})*{u})"),
+            2 => format!("({a})*exp(−(x² + y²)) + ({b})*(x² + y²)*cos(({r})*(x² + y²))"),
+            3 => format!("({a})*(3 + {u})^k + ({b})*(3 + {w})^(2*k + 1) + ({r})*(3 + {u})^(k + 2)"),
+            4 => format!("({a})*exp(({r})*√(9 + {u}²)) + ({b})*{w}*exp(({s})*{w})"),
+            _ => format!("({a})*{u}*exp(({r})*{u}) + ({b})*{u}*sin(({s})*{u})"),
+        };
+        let report = only(&plane(&potential, DEGREE_2));
+        assert_ne!(report.verdict, Verdict::Proved, "an integral is there: {potential}");
+        refuted += usize::from(report.verdict == Verdict::Refuted);
+    }
+    assert!(refuted >= 12, "{refuted} of 24 plants are exhibited");
+}

@@ -1,5 +1,6 @@
 //! Values of parameters for which a field has more integrals.
 
+use liouville::verdict::Options;
 use liouville_search::{ConditionTarget, Effort, SearchReport};
 
 use super::{field, searched};
@@ -123,6 +124,33 @@ fn planted_equations_between_parameters_are_found() {
     let report = planted_in(&["a", "b"], "1 + 0*a*b");
     assert_eq!(equations(&report), [""; 0]);
     assert!(report.conditions[0].grounds.contains("no equation gives"), "{:?}", report.conditions);
+}
+
+#[test]
+fn values_at_which_one_choice_of_columns_fails_are_no_values() {
+    // z drops out of the second integral where a² + a = 1, and as many are left.
+    let rates = ["y*z", "a*x*z + (a² + a − 1)*x", "x*y*(a − 3)"];
+    for seed in 1..=6 {
+        let effort = Effort {
+            conditions: Some(ConditionTarget::Existence),
+            degree: 4,
+            options: Options { seed, ..Options::default() },
+            ..Effort::default()
+        };
+        let report = searched(&field("a = '-2..2'", &rates), &effort);
+        assert_eq!(equations(&report), ["a = 3"], "seed {seed}: {:?}", report.conditions);
+    }
+}
+
+#[test]
+fn values_at_which_a_level_falls_apart_are_left_open() {
+    let text = "title = 'x'\n[parameters]\nc = '-1..1'\n[state]\nx = '-2..2'\ny = '-2..2'\nz = '-2..2'\n\
+                [field]\n\"x'\" = 'x*(z + y)'\n\"y'\" = '-y*(z + y)'\n\"z'\" = 'x + 2*y'\n\
+                [level]\nequations = ['x*y = c']";
+    let report = conditions(text, 4);
+    assert_eq!(equations(&report), [""; 0], "{:?}", report.conditions);
+    let remark = "where c = 0 is not known";
+    assert!(report.remarks.iter().any(|own| own.contains(remark)), "{:?}", report.remarks);
 }
 
 #[test]

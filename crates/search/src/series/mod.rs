@@ -5,6 +5,8 @@
 //! θ = Σ x_i ∂/∂x_i, powers follow from a θp = q p θa, so that every operation is one pass over the
 //! pairs of monomials.
 
+mod functions;
+
 use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
