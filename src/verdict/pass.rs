@@ -108,12 +108,12 @@ where
 /// Largest of some numbers of which none is NaN or negative: eight maxima side by side, and then theirs.
 #[inline(always)]
 fn most(lanes: &[f64; TAPE_LANES]) -> f64 {
-    const BESIDE: usize = 8;
-    const { assert!(TAPE_LANES.is_multiple_of(BESIDE), "no lane is left over") };
+    const AT_ONCE: usize = 8;
+    const { assert!(TAPE_LANES.is_multiple_of(AT_ONCE), "no lane is left over") };
     let larger = |a: f64, b: f64| if b > a { b } else { a };
-    let mut largest = [0.0; BESIDE];
-    for start in (0..TAPE_LANES).step_by(BESIDE) {
-        for lane in 0..BESIDE {
+    let mut largest = [0.0; AT_ONCE];
+    for start in (0..TAPE_LANES).step_by(AT_ONCE) {
+        for lane in 0..AT_ONCE {
             largest[lane] = larger(largest[lane], lanes[start + lane]);
         }
     }

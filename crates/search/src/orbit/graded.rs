@@ -209,7 +209,7 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
     }
 }
 
-/// The search of the classes of one degree, each by itself.
+/// The search of the classes of one degree, each alone.
 struct ClassStep<'d> {
     system: &'d LinearSystem,
     at: &'d PrimePoint,
