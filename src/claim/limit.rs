@@ -89,12 +89,11 @@ impl Statement for Limit {
             return Err(from.complaint("equals", message, remedy));
         }
         let level = from.model().level.iter();
-        let moving = level.filter_map(|equation| match &equation.function {
+        let mut moving = level.filter_map(|equation| match &equation.function {
             LevelFunction::Formula(own) => Some((own, equation)),
             _ => None,
         });
-        let moving = moving.filter(|(own, _)| uses(from.model(), own, parameter)).next();
-        if let Some((_, equation)) = moving {
+        if let Some((_, equation)) = moving.find(|(own, _)| uses(from.model(), own, parameter)) {
             let message = format!(
                 "the states themselves depend on the parameter, by the level equation `{}`",
                 equation.text

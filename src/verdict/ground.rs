@@ -32,7 +32,7 @@ impl Judging<'_> {
                 return Err(JudgeError::NotInvariant { equation, rate });
             }
         }
-        self.check_slopes(sampler)
+        Ok(self.check_slopes(sampler)?)
     }
 
     /// Returns the error that names a violated or non-invariant equation, if a premise is known not

@@ -99,12 +99,6 @@ pub enum JudgeError {
          contains no state variable"
     )]
     Dependent(String),
-    /// The slope of a level equation is 0 at its states, or depends on those of the equations before it.
-    #[error(
-        "the slope of `{0}` is 0 at the states of the level, or depends there on those of the equations \
-         before it, so that it is not known whether the motion stays"
-    )]
-    Flat(String),
     /// An ∫ of the equations of motion or of `[variables]` is not a function of its variable.
     #[error("an ∫ in `{0}` has an integrand that depends on more than its variable")]
     Quadrature(String),
@@ -160,11 +154,6 @@ impl JudgeError {
             JudgeError::Dependent(_) => {
                 "leave it out if it follows from the others, and correct it if it contradicts them; a part \
                  is chosen by the ranges of [state], and det(R) = 1 by R = \"rotation\""
-            }
-            JudgeError::Flat(_) => {
-                "write what the equation says without a square, as x = 1 for (x − 1)² = 0, or x = 0 and y = 0 \
-                 for x² + y² = 0; leave out listed values for which it is a square; give the part of a product \
-                 that is meant a case of its own"
             }
             JudgeError::Quadrature(_) => {
                 "∫(f, x) is a function of x with derivative f: f may contain x and the parameters"
@@ -278,6 +267,7 @@ fn judge_all(
         bench.climb(place, at_place.collect())?;
     }
     bench.extend_domain(&recorded, &mut statuses)?;
+    bench.leave_flat_levels(&recorded, &mut statuses);
     let mut claims: Vec<ClaimReport> = recorded
         .iter()
         .zip(statuses)

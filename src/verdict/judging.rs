@@ -38,6 +38,8 @@ pub struct Judging<'a> {
     pub(super) missed: RefCell<FxHashMap<Vec<bool>, Option<String>>>,
     /// Parts of a place, by the equations that hold there.
     pub(super) pieces: RefCell<FxHashMap<Vec<bool>, Option<Pieces>>>,
+    /// Equations of the level whose slopes depend on each other at the states.
+    pub(super) flat: RefCell<Vec<usize>>,
     /// Whether the map is proved to be one-to-one, by the equations that hold at a place and by the
     /// states that count.
     pub(super) one_to_one: RefCell<FxHashMap<(Vec<bool>, SecondState), bool>>,
@@ -61,6 +63,7 @@ impl<'a> Judging<'a> {
             decided: &|_| (),
             missed: RefCell::default(),
             pieces: RefCell::default(),
+            flat: RefCell::default(),
             one_to_one: RefCell::default(),
         }
     }

@@ -1,25 +1,26 @@
 //! Slopes of the level equations at the states: where they depend on each other, rates that are 0 do not
 //! keep the motion on the level.
 
+use super::claim_state::{ClaimState, undecide};
+use super::evidence::Verdict;
 use super::field::{Answer, PrimeFieldStates, Query};
-use super::judge::JudgeError;
 use super::judging::Judging;
 use super::ladder::{LADDER_BITS, PRECISE_STATES};
+use super::recorded::RecordedClaim;
 use super::sampler::{Sampler, TAPE_LANES};
-use crate::graph::Expr;
+use crate::graph::Fault;
 use crate::mechanics::combinations;
 use crate::number::ball::Ball;
 use crate::number::mixed::{Mixed, Number};
 
+/// Place of a claim that does not rest on the level.
+const EVERYWHERE: &str = "everywhere";
+
 impl Judging<'_> {
-    /// Checks that the slope of each equation of the user, without what it has in common with those before
-    /// it, is not 0 on an open set of states, for any listed values.
-    ///
-    /// # Errors
-    ///
-    /// One is, or it is not known at any state: as for (x − 1)² = 0, whose rate 2(x − 1)x' is 0 at x = 1
-    /// whatever x' is.
-    pub(super) fn check_slopes(&self, sampler: &Sampler) -> Result<(), JudgeError> {
+    /// Notes the equations of the user whose slope, without what it has in common with those before it, is 0
+    /// on an open set of states, for some listed values, or not known at any: as for (x − 1)² = 0, whose rate
+    /// 2(x − 1)x' is 0 at x = 1 whatever x' is.
+    pub(super) fn check_slopes(&self, sampler: &Sampler) -> Result<(), Fault> {
         if self.common.dependence.is_empty() {
             return Ok(());
         }
@@ -30,34 +31,71 @@ impl Judging<'_> {
         Ok(())
     }
 
-    fn check_slopes_at(&self, sampler: &Sampler) -> Result<(), JudgeError> {
+    fn check_slopes_at(&self, sampler: &Sampler) -> Result<(), Fault> {
         let (width, states) = (self.case.model.dimension(), sampler.balls(0));
         let left = self.run(&self.common.dependence.concat()).at(&Ball::<TAPE_LANES>, &states);
-        let kept = self.case.model.level.iter().zip(sampler.kept()).enumerate();
-        for (index, (equation, _)) in kept.filter(|(_, (_, kept))| **kept) {
-            let slope: &[Expr] = &self.common.dependence[index];
-            let place = index * width..(index + 1) * width;
-            let is_seen = left.existing(std::slice::from_ref(&place));
-            let values = left.range(place);
-            let is_free = |lane: usize| values.iter().any(|value| value.excludes_zero(lane));
-            let seen = (0..TAPE_LANES).filter(|lane| is_seen[*lane]);
+        let exists = left.existing(&[]);
+        for index in (0..sampler.kept().len()).filter(|index| sampler.kept()[*index]) {
+            let values = left.range(index * width..(index + 1) * width);
+            // A slope by a variable at rest may have no value, as that of √(y + |y|) for y < 0.
+            let is_free = |lane: usize| {
+                values.iter().any(|value| value.is_defined(lane) && value.excludes_zero(lane))
+            };
+            let seen = (0..TAPE_LANES).filter(|lane| exists[*lane]);
             let (free, bound): (Vec<usize>, Vec<usize>) = seen.partition(|lane| is_free(*lane));
             let is_unseen = free.is_empty() && bound.is_empty();
             if bound.is_empty() && !(is_unseen && self.has_exact_state(sampler)) {
                 continue;
             }
-            let query = Query::of(slope.to_vec());
-            let is_lost = match PrimeFieldStates::new(self, sampler).test(&[query])?.first() {
-                Some(Answer::Zero(_) | Answer::Partial) => true,
-                Some(Answer::NonZero(_)) => false,
-                // Where a root is 0 the values may not be known.
-                Some(Answer::Silent(_) | Answer::Void) | None => free.is_empty() && !is_unseen,
+            let each = self.common.dependence[index].iter().map(|slope| Query::of(vec![*slope]));
+            let answers = PrimeFieldStates::new(self, sampler).test(&each.collect::<Vec<_>>())?;
+            let is_nonzero = |answer: &Answer| matches!(answer, Answer::NonZero(_));
+            let is_open = |answer: &Answer| matches!(answer, Answer::Silent(_));
+            let is_lost = match answers.iter().any(is_open) {
+                // Where nothing is known of some slope, states decide.
+                true => free.is_empty() && !is_unseen,
+                false => true,
             };
-            if is_lost {
-                return Err(JudgeError::Flat(equation.text.clone()));
+            if is_lost && !answers.iter().any(is_nonzero) {
+                let mut flat = self.flat.borrow_mut();
+                if !flat.contains(&index) {
+                    flat.push(index);
+                }
             }
         }
         Ok(())
+    }
+
+    /// Leaves claims undecided that rest on the slopes of such equations: all but identities, and what holds
+    /// everywhere.
+    pub(super) fn leave_flat_levels(
+        &self,
+        recorded: &[RecordedClaim<'_>],
+        statuses: &mut [ClaimState],
+    ) {
+        let flat = self.flat.borrow();
+        for (item, status) in recorded.iter().zip(statuses) {
+            let kept = &item.claim.place.kept;
+            let Some(index) = flat.iter().find(|index| kept[**index]) else { continue };
+            let evidence = &mut status.evidence;
+            if item.claim.kind.name() == "identity"
+                || status.settled == Some(Verdict::Undecided)
+                || evidence.holds.iter().any(|place| place == EVERYWHERE)
+            {
+                continue;
+            }
+            (evidence.proof, evidence.witness) = (None, None);
+            evidence.holds.clear();
+            let equation = &self.case.model.level[*index].text;
+            undecide(
+                status,
+                format!(
+                    "the slope of `{equation}` is 0 at states of the level, or depends there on those of the \
+                     equations before it, so that it is not known whether the motion stays: write x = 1 for \
+                     (x − 1)² = 0, and leave out listed values for which an equation is a square"
+                ),
+            );
+        }
     }
 
     /// Whether some state exists in exact numbers: f64 does not know that √0 does.

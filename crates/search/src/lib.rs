@@ -188,6 +188,12 @@ pub fn search(
         // The search along orbits has these as well.
         report.remarks.retain(|remark| remark.origin != RemarkOrigin::Irrational);
     }
+    // Those of single values are written as well.
+    let is_of_values =
+        |own: &Found| own.kind == "integral" && own.with.iter().any(|(what, _)| *what == "value");
+    if absence::has_lists(case) && report.found.iter().any(is_of_values) {
+        report.remarks.retain(|remark| remark.origin != RemarkOrigin::Lists);
+    }
     for remark in std::mem::take(&mut report.without_points) {
         report.remark(remark);
     }

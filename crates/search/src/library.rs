@@ -166,6 +166,10 @@ fn pieces(model: &Model) -> Pieces {
             pieces.linear.extend(known(model, &["ω"]));
             pieces.linear.extend(model.system.gyrostat().cloned());
             pieces.forms.extend(known(model, &["ω3"]));
+            // Jellett's integral of a ball with its centre of mass on its axis.
+            if matches!(model.system, System::Spinning(_)) {
+                pieces.forms.extend(scalars(model, &["(I*ω,r)"]));
+            }
             let mut weights = vec!["m"];
             if scalar("R") {
                 weights.push("m*R²");

@@ -15,6 +15,7 @@ use super::subspace::complement;
 use super::system::{Column, LinearSystem};
 use super::theorem::{Outcome, theorem};
 use super::{factors, note_unwritten};
+use crate::absence::has_lists;
 use crate::origin::{RemarkOrigin, TheoremOrigin};
 use liouville::case::Case;
 use liouville::claim::Claim;
@@ -218,7 +219,13 @@ impl IntegralSearch<'_> {
         let verdict = judged_alone(case, Claim::integral(&formula), effort)?;
         let Some(verdict) = verdict else { return Ok(Outcome::Open) };
         if !holds(&verdict) {
-            report.remark(format!("found, but not proved ({}): {formula}", verdict.verdict.word()));
+            // What is found for the first of listed values may fail for others.
+            if verdict.verdict != Verdict::Refuted || !has_lists(case) {
+                report.remark(format!(
+                    "found, but not proved ({}): {formula}",
+                    verdict.verdict.word()
+                ));
+            }
             return Ok(Outcome::Open);
         }
         let all = self.known.formulas().cloned().chain([formula.clone()]).collect();

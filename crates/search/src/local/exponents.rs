@@ -74,6 +74,13 @@ impl Exponents {
     }
 }
 
+/// A function as a product of powers of others and of its base.
+struct FoundRelation {
+    function: usize,
+    terms: Vec<(usize, Rational)>,
+    of_base: i64,
+}
+
 /// Functions that are compared with each other: exponentials and powers, or angles.
 struct FunctionGroup<'g> {
     graph: &'g Graph,
@@ -119,7 +126,7 @@ impl<'g> FunctionGroup<'g> {
         let is_independent = |k: usize| echelon.has_pivot(logarithms + k);
         let first = found.independent.len();
         let place = |k: usize| first + (0..k).filter(|k| is_independent(*k)).count();
-        let mut relations: Vec<(usize, Vec<(usize, Rational)>, i64)> = Vec::new();
+        let mut relations: Vec<FoundRelation> = Vec::new();
         let mut divisors = vec![1i64; self.own.len()];
         for k in (0..self.own.len()).filter(|k| !is_independent(*k)) {
             let vector = echelon.null_vector(logarithms + k);
@@ -158,14 +165,14 @@ impl<'g> FunctionGroup<'g> {
             if !points.iter().all(is_equal) {
                 return None;
             }
-            relations.push((k, terms, of_base));
+            relations.push(FoundRelation { function: k, terms, of_base });
         }
         for k in (0..self.own.len()).filter(|k| is_independent(*k)) {
             found.independent.push((self.own[k], divisors[k]));
             let own = Multiples { of_functions: vec![(place(k), divisors[k])], of_base: 0 };
             found.multiples[self.own[k]] = own;
         }
-        for (k, terms, of_base) in relations {
+        for FoundRelation { function: k, terms, of_base } in relations {
             let times = |(other, value): (usize, Rational)| {
                 let whole = (&value * &Rational::from(divisors[other])).to_integer()?;
                 Some((place(other), whole))
