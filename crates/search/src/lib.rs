@@ -50,6 +50,7 @@ mod streams;
 pub mod survey;
 mod symbols;
 mod symmetries;
+mod tensors;
 mod terms;
 mod vectors;
 

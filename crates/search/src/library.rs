@@ -4,6 +4,7 @@
 //! parameters; the terms themselves therefore contain parameters. A term that uses a name the case
 //! does not have, or has with another type, is not offered.
 
+use super::tensors;
 use super::terms::{is_one, one};
 use liouville::formula::{Formula, FormulaResult, Type};
 use liouville::mechanics::{Meaning, Model, System};
@@ -269,6 +270,7 @@ pub fn integrals(model: &Model) -> Vec<Formula> {
         let own = forms[i..].iter().map(|b| if a.text() == b.text() { a.raised(2) } else { a * b });
         squares.extend(kept(own));
     }
+    squares.extend(tensors::squares(model));
     let mut terms = Vec::new();
     for weight in &pieces.weights {
         terms.extend(kept(squares.iter().map(|square| product(weight, square))));
@@ -352,7 +354,9 @@ pub fn factors(model: &Model) -> Vec<Formula> {
                 factors.push("(γ,B*γ)");
             }
         }
-        System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_) => {}
+        System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_) => {
+            return tensors::factors(model);
+        }
     }
     scalars(model, &factors)
 }

@@ -1,6 +1,7 @@
 //! Searches: the results of the papers are found with their formulas hidden, counted, excluded, and
 //! bounded by conditions on the parameters.
 
+mod bodies;
 mod brackets;
 mod conditions;
 mod forces;
