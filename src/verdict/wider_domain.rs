@@ -1,7 +1,8 @@
 //! Extends the domain on which a proved or confirmed claim holds.
 //!
 //! A claim that was only confirmed at its own place, such as a level that cannot be solved, is proved
-//! if the same residual is zero in all of space, and no roots limit where it has a value.
+//! if the same residual is zero in all of space, and no roots limit where it has a value; and so is one that is
+//! undecided there, if all that counts has a value at every state.
 //!
 //! For a proved claim, only places where the residual is a constant 0, or zero in prime fields, are
 //! added. Enclosures add places for confirmed claims, and never contradict that a claim holds in
@@ -88,7 +89,11 @@ impl Judging<'_> {
         for (item, status) in recorded.iter().zip(statuses.iter_mut()) {
             let wider = item.wider.iter().find(|wider| wider.place == *place);
             let covered = status.evidence.holds.iter().any(|name| name == "everywhere");
-            if let (Some(wider), true, false) = (wider, status.holds(), covered) {
+            let is_asked = |wider: &Wider| {
+                status.holds()
+                    || (status.settled == Some(Verdict::Undecided) && self.is_total(item, wider))
+            };
+            if let (Some(wider), false) = (wider.filter(|wider| is_asked(wider)), covered) {
                 candidates.push(Candidate {
                     item,
                     status,
@@ -142,13 +147,15 @@ impl Judging<'_> {
         let Asked { item, status, query, is_zero, implies_own } = asked;
         let name = place.name(&self.case.model);
         let confirmed = status.settled == Some(Verdict::Confirmed);
+        let is_open = status.settled == Some(Verdict::Undecided);
         let holds = match answer {
             Some(Answer::Zero(certificate)) => {
-                if implies_own && confirmed {
+                if implies_own && (confirmed || is_open) {
                     prove(status, Proof::from(certificate), &name);
                 }
-                true
+                implies_own || !is_open
             }
+            _ if is_open => false,
             Some(Answer::NonZero(_) | Answer::Partial) => false,
             Some(Answer::Silent(_) | Answer::Void) | None => {
                 let is_folded = |expr: &Expr| {
@@ -166,6 +173,14 @@ impl Judging<'_> {
         if holds {
             status.evidence.holds.push(name);
         }
+    }
+
+    /// Whether all that counts has a value at every state, and nothing else is required.
+    fn is_total(&self, item: &RecordedClaim<'_>, wider: &Wider) -> bool {
+        let required = self.common.required_at(&item.claim.place.kept);
+        let lists = [&wider.residual, &wider.defects, &item.requirement, &item.presence, &required];
+        lists.into_iter().flatten().all(|value| self.graph.is_always_defined(*value))
+            && !item.conditions.iter().any(|condition| condition.is_essential)
     }
 
     /// Whether a residual that is zero in the wider place is zero at the claim's own place, too.
@@ -226,6 +241,6 @@ fn prove(status: &mut ClaimState, proof: Proof, place: &str) {
     status.rung(Method::PrimeField, format!("{place}: {proof}"));
     status.evidence.method = Method::PrimeField;
     status.evidence.proof = Some(proof);
-    status.evidence.silence = None;
+    (status.evidence.silence, status.evidence.reason) = (None, None);
     status.settled = Some(Verdict::Proved);
 }

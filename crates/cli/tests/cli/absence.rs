@@ -8,6 +8,7 @@ mod functions;
 mod known;
 mod primes;
 mod relations;
+mod spheres;
 mod twins;
 
 use crate::common::case;

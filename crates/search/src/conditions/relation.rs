@@ -107,9 +107,39 @@ pub fn of_irrational(round: &Round, further: &[u64]) -> Option<Vec<Rational>> {
 /// Writes the equation of the values that are not rational, and of the roots of a further factor, if
 /// its coefficients are; `None` too if there are none. The inner `None` is for values none of which is real.
 pub fn equation(name: &str, round: &Round, further: &[u64]) -> Option<Option<String>> {
-    let product = of_irrational(round, further)?;
-    if !has_real_root(&product) {
-        return Some(None);
+    of_irrational(round, further).map(|product| written(name, product))
+}
+
+/// Divides a polynomial, by increasing powers, by others as often as they divide it.
+pub fn without_factors(mut polynomial: Vec<Rational>, factors: &[Vec<Rational>]) -> Vec<Rational> {
+    for factor in factors {
+        while let Some(quotient) = divided(&polynomial, factor) {
+            polynomial = quotient;
+        }
+    }
+    polynomial
+}
+
+/// The quotient of two polynomials, if there is no remainder.
+fn divided(own: &[Rational], by: &[Rational]) -> Option<Vec<Rational>> {
+    let (last, below) = by.split_last()?;
+    let inverse = last.recip()?;
+    let count = own.len().checked_sub(below.len()).filter(|_| !below.is_empty())?;
+    let (mut rest, mut quotient) = (own.to_vec(), vec![Rational::from(0); count]);
+    for place in (0..count).rev() {
+        let factor = &rest[place + below.len()] * &inverse;
+        for (k, entry) in below.iter().enumerate() {
+            rest[place + k] = &rest[place + k] - &(&factor * entry);
+        }
+        quotient[place] = factor;
+    }
+    rest[..below.len()].iter().all(Rational::is_zero).then_some(quotient)
+}
+
+/// Writes the equation of a polynomial, by increasing powers, if it has a real root.
+pub fn written(name: &str, product: Vec<Rational>) -> Option<String> {
+    if product.len() < 2 || !has_real_root(&product) {
+        return None;
     }
     let mut text = String::new();
     for (power, value) in product.into_iter().enumerate().rev().filter(|(_, own)| !own.is_zero()) {
@@ -133,7 +163,7 @@ pub fn equation(name: &str, round: &Round, further: &[u64]) -> Option<Option<Str
             (false, false) => format!("{size}*{base}"),
         });
     }
-    Some(Some(format!("{text} = 0")))
+    Some(format!("{text} = 0"))
 }
 
 /// Says how many values no relation describes.
@@ -189,6 +219,18 @@ fn is_simple(value: &Rational) -> bool {
 mod tests {
     use super::*;
     use liouville::proof::ProofRng;
+
+    #[test]
+    fn factors_that_are_known_are_left_out() {
+        let polynomial = |own: &[i64]| own.iter().map(|n| Rational::from(*n)).collect::<Vec<_>>();
+        // (x² − 2)² (x² + 1), twice over.
+        let own = polynomial(&[8, 0, 0, 0, -6, 0, 2]);
+        let rest = without_factors(own, &[polynomial(&[-2, 0, 1]), polynomial(&[5, 1])]);
+        assert_eq!(rest, polynomial(&[2, 0, 2]));
+        assert_eq!(written("a", rest), None, "no root is real");
+        assert_eq!(written("a", polynomial(&[-2, 0, 1])).as_deref(), Some("a² − 2 = 0"));
+        assert_eq!(without_factors(polynomial(&[3]), &[polynomial(&[-2, 0, 1])]), polynomial(&[3]));
+    }
 
     #[test]
     fn values_without_a_relation_are_counted() {

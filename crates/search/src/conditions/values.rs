@@ -9,6 +9,7 @@ use std::cell::Cell;
 
 use liouville::case::Case;
 use liouville::formula::Formula;
+use liouville::number::rational::Rational;
 use liouville::proof::ProofRng;
 use liouville::verdict::is_filled;
 
@@ -18,7 +19,8 @@ use super::minors::determinant;
 use super::parameter_line::ENTRY;
 use super::polynomial::{Polynomial, PrimePolynomials};
 use super::relation::{
-    Relation, Round, ScalarParameter, equation, explained, of_irrational, unexplained,
+    Relation, Round, ScalarParameter, explained, of_irrational, unexplained, without_factors,
+    written,
 };
 use super::split::SplitCase;
 use crate::ansatz::system::PrimePoint;
@@ -76,6 +78,7 @@ fn up_to(
 ) -> Result<u32, SearchError> {
     let SplitCase { case, scalars: all, .. } = split;
     let mut told: Vec<String> = Vec::new();
+    let mut polynomials: Vec<Vec<Rational>> = Vec::new();
     let mut is_sought = true;
     let left = Cell::new(effort.seconds * STEPS);
     for degree in 1..=effort.degree {
@@ -127,12 +130,16 @@ fn up_to(
                 equations.push(text);
             }
             let first = found.rounds.first().filter(|_| all.len() == 1);
+            // On a level that the solution does not fill at a value, what is counted is no function.
+            let first = first.filter(|_| case.model.level.is_empty());
             let others = match first {
-                // On a level that the solution does not fill at a value, what is counted is no function.
-                Some(own)
-                    if case.model.level.is_empty() && search.are_special(own, &found.rest)? =>
-                {
-                    equation(name, own, &found.rest)
+                Some(own) if search.are_special(own, &found.rest)? => {
+                    of_irrational(own, &found.rest).map(|product| {
+                        // Those of lower degrees are known.
+                        let new = without_factors(product, &polynomials);
+                        polynomials.push(new.clone());
+                        written(name, new)
+                    })
                 }
                 _ => None,
             };

@@ -7,6 +7,7 @@
 use num_dual::Dual;
 
 use super::exponentials::logarithm;
+use super::spheres::UnitVectors;
 use super::unwound::{Replaceable, rational, twice_the_arctangent};
 use crate::SearchError;
 use crate::echelon::Echelon;
@@ -35,6 +36,8 @@ pub struct Mechanical {
     dependent: Vec<usize>,
     /// Meaning of each draw of a parameter.
     turned: Vec<Place>,
+    /// Unit vectors, of which two components stand for their coordinates.
+    units: UnitVectors,
 }
 
 /// Number in place of a variable.
@@ -92,9 +95,10 @@ impl Mechanical {
     pub fn of(case: &Case, lagrangian: &Lagrangian) -> Result<Self, SearchError> {
         let model = &case.model;
         let allowed = if lagrangian.vakonomic { 0 } else { lagrangian.constraints.len() };
-        if model.level.len() != allowed {
+        let units = UnitVectors::of(model, lagrangian)?;
+        if model.level.len() != allowed + units.count() || units.others.len() != allowed {
             return Err(SearchError::Unsplit(
-                "it is a Lagrangian system on a level set other than its constraints",
+                "it is a Lagrangian system on a level set other than its constraints and unit vectors",
             ));
         }
         let (mut positions, mut velocities, mut start) = (Vec::new(), Vec::new(), 0);
@@ -111,15 +115,21 @@ impl Mechanical {
         let draws = model.parameter_draws();
         let mut turned = turned(model, &draws)?;
         let angles = turned.split_off(draws.len());
+        let place = |component: &usize| match units.contains(*component) {
+            true => (*component, Place::Plain),
+            false => (*component, angles[*component].clone()),
+        };
+        positions.retain(|component| !units.is_last(*component));
         let plain = Self {
-            positions: positions.iter().map(|place| (*place, angles[*place].clone())).collect(),
+            positions: positions.iter().map(place).collect(),
             free: velocities,
             dependent: Vec::new(),
             turned,
+            units,
         };
-        match model.level.is_empty() {
-            true => Ok(plain),
-            false => plain.constrained(case),
+        match allowed {
+            0 => Ok(plain),
+            _ => plain.constrained(case),
         }
     }
 
@@ -171,6 +181,7 @@ impl Mechanical {
         for ((component, own), x) in self.positions.iter().zip(positions) {
             state[*component] = own.value(*x, &|letter| parameters[letter.component]);
         }
+        self.units.lift(&mut state);
         for (component, x) in self.free.iter().zip(velocities) {
             state[*component] = *x;
         }
@@ -182,7 +193,7 @@ impl Mechanical {
         let along = |component: usize| -> Vec<Dual<T>> {
             let mut lifted: Vec<Dual<T>> = state.iter().map(|x| Dual::from_re(*x)).collect();
             lifted[component] = lifted[component].derivative();
-            constraints(model, &parameters, &lifted)
+            constraints(model, &parameters, &lifted, &self.units.others)
         };
         let columns: Vec<Vec<Dual<T>>> = self.dependent.iter().map(|d| along(*d)).collect();
         let count = columns.len();
@@ -198,9 +209,19 @@ impl Mechanical {
 
     /// Returns the rates of the coordinates.
     pub fn rates(&self, parameters: &[Expr], point: &[Expr], field: &[Expr]) -> Vec<Expr> {
+        let coordinate = |component: usize| {
+            let place = self.positions.iter().position(|(own, _)| *own == component);
+            place.map(|place| point[place])
+        };
+        let of_unit = |component: usize| {
+            let first = self.units.first(component)?;
+            let coordinates = [coordinate(first)?, coordinate(first + 1)?];
+            self.units.rate(component, coordinates, field)
+        };
         let own = self.positions.iter().zip(point);
-        let positions =
-            own.map(|((component, own), x)| own.rate(*x, field[*component], parameters));
+        let positions = own.map(|((component, own), x)| {
+            of_unit(*component).unwrap_or_else(|| own.rate(*x, field[*component], parameters))
+        });
         positions.chain(self.free.iter().map(|component| field[*component])).collect()
     }
 }
@@ -227,10 +248,11 @@ impl Slopes {
                 let letter = |letter: Letter| parameters[letter.component];
                 state[*component] = own.value(state[*component], &letter);
             }
+            at.units.lift(&mut state);
             let along = |component: &usize| {
                 let mut lifted = state.clone();
                 lifted[*component] = lifted[*component].derivative();
-                constraints(model, &parameters, &lifted)
+                constraints(model, &parameters, &lifted, &at.units.others)
             };
             let columns = velocities.iter().flat_map(along);
             columns.map(|slope| slope.eps).collect::<Vec<Expr>>()
@@ -289,10 +311,16 @@ impl Slopes {
     }
 }
 
-/// The left sides of the constraints.
-fn constraints<T: Scalar>(model: &Model, parameters: &[T], state: &[T]) -> Vec<T> {
+/// The left sides of some equations of the level.
+pub fn constraints<T: Scalar>(
+    model: &Model,
+    parameters: &[T],
+    state: &[T],
+    equations: &[usize],
+) -> Vec<T> {
     let phase = Phase::new(model, parameters, state);
-    model.level_formulas().map(|f| phase.configuration.scalar(f)).collect()
+    let all: Vec<_> = model.level_formulas().collect();
+    equations.iter().map(|equation| phase.configuration.scalar(all[*equation])).collect()
 }
 
 /// Tells what numbers stand in place of the draws and the components of the state: of angles where sines or

@@ -5,6 +5,7 @@ mod exponentials;
 mod exponents;
 pub mod functions;
 mod mechanical;
+mod spheres;
 pub mod unwound;
 
 pub use coordinates::Coordinates;

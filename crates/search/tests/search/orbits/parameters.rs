@@ -143,6 +143,17 @@ fn values_at_which_one_choice_of_columns_fails_are_no_values() {
 }
 
 #[test]
+fn values_that_are_known_come_but_once() {
+    // At degree 3 a further factor has no real root.
+    let report = conditions(&field("a = '-3..3'", &["y", "−x − (a² − 2)*y"]), 3);
+    assert_eq!(equations(&report), ["a² − 2 = 0"], "{:?}", report.conditions);
+    let report = conditions(&field("a = '-3..3'", &["x*(a − 2)", "y*(a² − 3)"]), 3);
+    let all = equations(&report);
+    assert_eq!(all.iter().filter(|own| own.contains("a² − 3")).count(), 1, "{all:?}");
+    assert!(all.iter().all(|own| !own.contains("a^4 + a³ − 8")), "{all:?}");
+}
+
+#[test]
 fn values_at_which_a_level_falls_apart_are_left_open() {
     let text = "title = 'x'\n[parameters]\nc = '-1..1'\n[state]\nx = '-2..2'\ny = '-2..2'\nz = '-2..2'\n\
                 [field]\n\"x'\" = 'x*(z + y)'\n\"y'\" = '-y*(z + y)'\n\"z'\" = 'x + 2*y'\n\

@@ -1,0 +1,54 @@
+//! Absence in systems whose motion carries a unit vector along.
+
+use liouville::verdict::Verdict;
+
+use super::{absences, only};
+
+fn top(tensor: &str, lagrangian: &str, claims: &str) -> String {
+    format!(
+        "title = 't'\nsystem = 'nonholonomic'\n[parameters]\nI = {tensor}\n[state]\nw = 'vector(-1..1)'\n\
+         g = 'vector(-1..1)'\n[field]\n\"g'\" = 'g × w'\n[lagrangian]\nkinetic = '(w,I*w)/2'\n\
+         quasi-velocities = ['w']\nalgebra = 'so(3)'\n{lagrangian}[level]\nequations = ['(g,g) = 1']\n\
+         {claims}"
+    )
+}
+
+fn absent(degree: u32) -> String {
+    format!("[[claim]]\nno-integral = {{ degree = {degree} }}\n")
+}
+
+const AREA: &str = "[[claim]]\nintegral = '(I*w,g)'\n";
+
+#[test]
+fn a_heavy_top_has_further_integrals_in_the_known_cases_alone() {
+    let any = "'inertia(0.5..5)'";
+    let heavy = "potential = 'g1 + 2*g2 + 3*g3'\n";
+    for (tensor, potential, degree, expected) in [
+        (any, heavy, 2, Verdict::Proved),
+        (any, "", 2, Verdict::Refuted),
+        ("[1, 1, 3]", "potential = 'g3'\n", 1, Verdict::Refuted),
+        ("[1, 1, 3]", "potential = 'g1'\n", 3, Verdict::Proved),
+    ] {
+        let report = only(&top(tensor, potential, &(AREA.to_string() + &absent(degree))));
+        let what = format!("{tensor}, {potential}: {:?}", report.evidence);
+        assert_eq!(report.verdict, expected, "{what}");
+    }
+    let report = only(&top(any, heavy, &absent(1)));
+    assert_eq!(report.verdict, Verdict::Refuted, "the integral of areas: {:?}", report.evidence);
+}
+
+#[test]
+fn constraints_on_a_body_are_counted_on_the_sphere() {
+    let veselova = "constraints = ['(w,g) = 0']\n";
+    let known = "[[claim]]\nintegral = '(I*w,I*w) − (I*w,g)²'\n";
+    let claims = known.to_string() + &absent(2) + "[[claim]]\nno-density = { degree = 0 }\n";
+    let verdicts: Vec<Verdict> = absences(&top("'inertia(0.5..5)'", veselova, &claims))
+        .into_iter()
+        .map(|own| own.verdict)
+        .collect();
+    assert_eq!(verdicts, [Verdict::Proved, Verdict::Refuted]);
+    // The sphere is one: where its square is typed, its slope is 0.
+    let square =
+        top("'inertia(0.5..5)'", veselova, &absent(2)).replace("(g,g) = 1", "((g,g) − 1)² = 0");
+    assert_eq!(only(&square).verdict, Verdict::Undecided);
+}
