@@ -175,11 +175,18 @@ impl Judging<'_> {
         }
     }
 
-    /// Whether all that counts has a value at every state, and nothing else is required.
+    /// Whether all that counts has a value at every state, for parameters for which it has one at any, and
+    /// nothing else is required.
     fn is_total(&self, item: &RecordedClaim<'_>, wider: &Wider) -> bool {
         let required = self.common.required_at(&item.claim.place.kept);
         let lists = [&wider.residual, &wider.defects, &item.requirement, &item.presence, &required];
-        lists.into_iter().flatten().all(|value| self.graph.is_always_defined(*value))
+        let reached = self.graph.reached(lists.into_iter().flatten().copied());
+        let parameters = self.case.model.free_components();
+        let is_of_parameters = |place: usize| {
+            let inputs = self.graph.inputs_of(self.graph.at(place));
+            inputs.into_iter().all(|input| input < parameters)
+        };
+        self.graph.needs(&reached).all(|(place, _)| is_of_parameters(place))
             && !item.conditions.iter().any(|condition| condition.is_essential)
     }
 
