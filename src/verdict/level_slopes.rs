@@ -8,8 +8,9 @@ use super::judging::Judging;
 use super::ladder::{LADDER_BITS, PRECISE_STATES};
 use super::recorded::RecordedClaim;
 use super::sampler::{Sampler, TAPE_LANES};
-use crate::graph::Fault;
+use crate::graph::{Expr, Fault};
 use crate::mechanics::combinations;
+use crate::number::Enclosing;
 use crate::number::ball::Ball;
 use crate::number::mixed::{Mixed, Number};
 
@@ -47,16 +48,11 @@ impl Judging<'_> {
             if bound.is_empty() && !(is_unseen && self.has_exact_state(sampler)) {
                 continue;
             }
-            let each = self.common.dependence[index].iter().map(|slope| Query::of(vec![*slope]));
-            let answers = PrimeFieldStates::new(self, sampler).test(&each.collect::<Vec<_>>())?;
-            let is_nonzero = |answer: &Answer| matches!(answer, Answer::NonZero(_));
-            let is_open = |answer: &Answer| matches!(answer, Answer::Silent(_));
-            let is_lost = match answers.iter().any(is_open) {
-                // Where nothing is known of some slope, states decide.
-                true => free.is_empty() && !is_unseen,
-                false => true,
+            let is_lost = match free.is_empty() {
+                true => !self.has_precise_slope(sampler, &self.common.dependence[index]),
+                false => self.is_zero_slope(sampler, &self.common.dependence[index])?,
             };
-            if is_lost && !answers.iter().any(is_nonzero) {
+            if is_lost {
                 let mut flat = self.flat.borrow_mut();
                 if !flat.contains(&index) {
                     flat.push(index);
@@ -64,6 +60,26 @@ impl Judging<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Whether all components of a slope are known to be 0 wherever they have a value, for some part of the states
+    /// that has some.
+    fn is_zero_slope(&self, sampler: &Sampler, slope: &[Expr]) -> Result<bool, Fault> {
+        let each: Vec<Query> = slope.iter().map(|own| Query::of(vec![*own])).collect();
+        let answers = PrimeFieldStates::new(self, sampler).test(&each)?;
+        let is_other = |answer: &Answer| matches!(answer, Answer::NonZero(_) | Answer::Silent(_));
+        Ok(!answers.iter().any(is_other))
+    }
+
+    /// Whether some component of a slope is not 0 at some state, with many digits: modulo a prime a root
+    /// may have the other sign, at which no state is on the level.
+    fn has_precise_slope(&self, sampler: &Sampler, slope: &[Expr]) -> bool {
+        let (run, domain) = (self.run(slope), Mixed::new(LADDER_BITS[0]));
+        let is_free = |index: u64| {
+            let values = run.at(&domain, &sampler.states(&domain, 1, index));
+            values.range(0..slope.len()).iter().any(|value| Mixed::excludes_zero(value, 0))
+        };
+        sampler.is_numerical() || (0..TAPE_LANES as u64).any(is_free)
     }
 
     /// Leaves claims undecided that rest on the slopes of such equations: all but identities, and what holds
