@@ -173,6 +173,14 @@ pub fn unexplained(count: usize, parameter: &ScalarParameter) -> String {
     format!("{count} further {values} of {name}, in no simple relation to one other parameter")
 }
 
+/// Says that nothing is known where the solution of the level misses a part of it.
+pub fn unfilled(condition: &str) -> String {
+    format!(
+        "whether there are more integrals where {condition} is not known: the level may fall apart there, and its \
+         solution may miss a part"
+    )
+}
+
 /// Lists the relations of one value.
 fn of_value(
     parameter: &ScalarParameter,

@@ -19,8 +19,8 @@ use super::minors::determinant;
 use super::parameter_line::ENTRY;
 use super::polynomial::{Polynomial, PrimePolynomials};
 use super::relation::{
-    Relation, Round, ScalarParameter, explained, of_irrational, unexplained, without_factors,
-    written,
+    Relation, Round, ScalarParameter, explained, of_irrational, unexplained, unfilled,
+    without_factors, written,
 };
 use super::split::SplitCase;
 use crate::ansatz::system::PrimePoint;
@@ -199,14 +199,6 @@ impl OpenValues {
             (own, roots) => own.into_iter().chain(roots).collect::<Vec<_>>().join("; "),
         }
     }
-}
-
-/// Says that nothing is known where the solution of the level misses a part of it.
-pub fn unfilled(condition: &str) -> String {
-    format!(
-        "whether there are more integrals where {condition} is not known: the level may fall apart there, and its \
-         solution may miss a part"
-    )
 }
 
 /// Searches a case with a condition on its parameters for integrals besides those in general.
