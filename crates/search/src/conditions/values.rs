@@ -51,16 +51,18 @@ pub fn conditions(
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    let before = report.conditions.len();
+    let (before, remarks) = (report.conditions.len(), report.remarks.len());
     let last = up_to(split, effort, report, progress)?;
+    // A remark names values that are left open.
+    let other = if report.remarks.len() > remarks { "no other" } else { "no" };
     if last > 0 && report.conditions.len() == before {
         let names: Vec<&str> = split.scalars.iter().map(|own| own.name.as_str()).collect();
         report.conditions.push(ParameterCondition {
             of: format!("more polynomial integrals of degree at most {last}, by {}", names.join(", or ")),
             equations: Vec::new(),
             grounds: format!(
-                "minors of the equations for the coefficients; modulo a prime of 61 bits no value has \
-                 more{}",
+                "minors of the equations for the coefficients; modulo a prime of 61 bits {other} value \
+                 has more{}",
                 split.reservation()
             ),
             origin: ConditionOrigin::Polynomials,
