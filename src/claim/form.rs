@@ -262,7 +262,10 @@ impl Statement for Form {
     fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
         let own = self.coefficients(jet);
         let vacuous = Condition::nonzero(own.clone(), "the form is 0: this says nothing");
-        vec![vacuous, Condition::continuous(own, "the form")]
+        match jet.phase.model().system.is_map() {
+            true => vec![vacuous],
+            false => vec![vacuous, Condition::continuous(own, "the form")],
+        }
     }
 
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {

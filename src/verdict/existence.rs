@@ -318,7 +318,7 @@ impl Judging<'_> {
     }
 }
 
-/// What a state shows of a claim.
+/// Outcome of a claim at one state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum AtNumbers {
     /// The claim has no value there.

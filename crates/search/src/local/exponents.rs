@@ -146,7 +146,12 @@ impl<'g> FunctionGroup<'g> {
                     if self.base(self.own[k]) != self.base(self.own[other]) {
                         return None;
                     }
-                    divisors[other] = divisors[other].lcm(&value.parts().1.try_into().ok()?);
+                    let below = i64::try_from(value.parts().1).ok();
+                    let below = below.filter(|below| *below <= LARGEST)?;
+                    divisors[other] = divisors[other].lcm(&below);
+                    if divisors[other] > LARGEST {
+                        return None;
+                    }
                     terms.push((other, value));
                 }
             }

@@ -2,9 +2,9 @@
 //!
 //! e^A, the sine and cosine of A, and b^c, where A and b are algebraic functions of the positions and c depends
 //! on the parameters alone, are replaced by inputs: e^(A/n), tan A/2n and b^(c/n), for the few A and c of which
-//! the others are sums of rational multiples. By the theorem of Kolchin and Ostrowski these are algebraically
-//! independent of each other and of the positions if their exponents are linearly independent over the rational
-//! numbers, up to constants and logarithms of algebraic functions. So they may have any values at a point.
+//! the others are sums of rational multiples. No polynomial in these is 0 if their exponents are linearly
+//! independent over the rational numbers, up to constants and logarithms of algebraic functions: so they may have
+//! any values at a point. docs/soundness.md, "Functions of the positions", has the proof.
 
 use num_dual::DualNum;
 
@@ -321,6 +321,13 @@ mod tests {
         assert_eq!(of(|[x, _, _]| x.exp() + (x + 1.0).exp()), None);
         assert_eq!(of(|[x, _, k]| x.powd(k) + (two() * x).powd(k)), None);
         assert_eq!(of(|[x, y, k]| x.powd(k) + y.powd(k) + (x * y).powd(k)), None);
+        // Without small common divisors.
+        let far = |x: Expr| {
+            let parts =
+                [1_000_003, 1_000_033, 1_000_037, 1_000_039].map(|n| (x * number(1, n)).exp());
+            parts.into_iter().fold(x.exp(), |sum, part| sum + part)
+        };
+        assert_eq!(of(|[x, _, _]| far(x)), None);
         // Functions of functions, of the parameter alone, and others.
         assert_eq!(of(|[x, _, _]| x.exp().sin()), None);
         assert_eq!(of(|[x, _, k]| x.exp() + k.sin()), None);

@@ -274,7 +274,7 @@ impl ClassStep<'_> {
     }
 }
 
-/// What was found, and whether the search was stopped.
+/// Null vectors of classes, and whether the search was stopped.
 type Finished = (Vec<ClassVectors>, Result<(), SearchError>);
 
 /// Joins what was found in the classes, some of which may have been stopped.

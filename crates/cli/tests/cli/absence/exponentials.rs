@@ -12,6 +12,12 @@ fn plane(potential: &str, claims: &str) -> String {
     )
 }
 
+/// Rational cosine and sine of an angle.
+fn turn(plant: usize) -> (String, String) {
+    let (a, b, c) = [(3, 4, 5), (5, 12, 13), (8, 15, 17)][plant % 3];
+    (format!("{a}/{c}"), format!("{b}/{c}"))
+}
+
 const DEGREE_2: &str = "[[claim]]\nno-integral = { degree = 2 }\n";
 
 #[test]
@@ -34,9 +40,7 @@ fn planted_integrals_with_exponentials_are_never_excluded() {
     let mut dice = Dice(11);
     let mut refuted = 0;
     for plant in 0..24 {
-        let (m, n) = [(3, 4, 5), (5, 12, 13), (8, 15, 17)]
-            .map(|(a, b, c)| (format!("{a}/{c}"), format!("{b}/{c}")))[plant % 3]
-            .clone();
+        let (m, n) = turn(plant);
         let (a, b, r, s) = (dice.unit(), dice.unit(), dice.unit(), dice.unit());
         // Separable in turned coordinates; Toda's two particles with any rate; and what is refused.
         let potential = match plant % 4 {
@@ -120,9 +124,7 @@ fn planted_integrals_with_functions_of_positions_are_never_excluded() {
     let mut dice = Dice(23);
     let mut refuted = 0;
     for plant in 0..24 {
-        let (m, n) = [(3, 4, 5), (5, 12, 13), (8, 15, 17)]
-            .map(|(a, b, c)| (format!("{a}/{c}"), format!("{b}/{c}")))[plant % 3]
-            .clone();
+        let (m, n) = turn(plant);
         let (a, b, r, s) = (dice.unit(), dice.unit(), dice.unit(), dice.unit());
         let (u, w) = (format!("({m}*x + {n}*y)"), format!("({m}*y − {n}*x)"));
         // Separable in turned coordinates, about a centre, and of constant force.
