@@ -24,6 +24,14 @@ const STATES: u64 = 16;
 /// Values of the listed numbers and of the signs of roots, by draw.
 type Choice = Vec<Option<Rational>>;
 
+/// What is known of the states of a place, or of a branch of it, from one solution.
+pub struct Missed {
+    branch: Option<usize>,
+    solution: Solution,
+    /// Reason why they may miss a part, if they may.
+    reason: Option<String>,
+}
+
 /// Lists all choices of listed numbers and signs; `None` if there are too many.
 fn choices(recipes: &[Draw]) -> Option<Vec<Choice>> {
     let listed = |draw: &Draw| match draw {
@@ -57,13 +65,22 @@ impl Judging<'_> {
     /// Returns the reason why states may miss a part of their place, if they may.
     pub(super) fn missed_part(&self, sampler: &Sampler) -> Result<Option<String>, Fault> {
         let Some(solution) = sampler.solution() else { return Ok(None) };
-        let known = self.missed.borrow().get(sampler.kept()).cloned();
-        if let Some(known) = known {
-            return Ok(known);
+        let branch = sampler.branch().map(|branch| branch.number);
+        let is_same = |own: &&Missed| own.branch == branch && own.solution == *solution;
+        let known = self.missed.borrow();
+        if let Some(known) = known.get(sampler.kept()).and_then(|all| all.iter().find(is_same)) {
+            return Ok(known.reason.clone());
         }
-        let missed = self.find_missed_part(sampler, solution)?;
-        self.missed.borrow_mut().insert(sampler.kept().to_vec(), missed.clone());
-        Ok(missed)
+        drop(known);
+        let reason = self.find_missed_part(sampler, solution)?;
+        let (solution, found) = (solution.clone(), reason.clone());
+        let mut missed = self.missed.borrow_mut();
+        missed.entry(sampler.kept().to_vec()).or_default().push(Missed {
+            branch,
+            solution,
+            reason,
+        });
+        Ok(found)
     }
 
     fn find_missed_part(

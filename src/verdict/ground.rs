@@ -52,7 +52,7 @@ impl Judging<'_> {
         for (index, answer) in kept().zip(field.test(&level)?) {
             if answer.is_nonzero() {
                 let by = self.magnitude(sampler, self.common.level[index]);
-                return Err(JudgeError::OffLevel { equation: text(index), by });
+                return Err(self.off_level(text(index), by));
             }
         }
         for (index, answer) in kept().zip(field.test(&rates)?) {

@@ -93,6 +93,7 @@ impl Judging<'_> {
         for (item, status) in recorded.iter().zip(statuses) {
             let kept = &item.claim.place.kept;
             let Some(index) = flat.iter().find(|index| kept[**index]) else { continue };
+            status.is_flat = true;
             let evidence = &mut status.evidence;
             if item.claim.kind.name() == "identity"
                 || status.settled == Some(Verdict::Undecided)
