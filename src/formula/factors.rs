@@ -18,7 +18,8 @@ struct Term {
 impl Formula {
     /// Returns formulas of which one is 0 at exactly those real points at which this one is, where all of
     /// them have values everywhere: those of a product, of a power, of |A|, and of k Aⁿ − l Bⁿ = 0, which is
-    /// A = r B, and A = −r B for even n, with rⁿ = l/k. `None` if the formula is none of these.
+    /// A = r B, and A = −r B for even n, with rⁿ = l/k; and k |u| − l |v| = 0, which is k² |u|² = l² |v|² for l/k ≥ 0.
+    /// `None` if the formula is none of these.
     pub(crate) fn factors(&self) -> Option<Vec<Formula>> {
         let mut arena = self.arena.clone();
         let whole = arena.nodes.len().checked_sub(1)?;
@@ -113,11 +114,30 @@ fn difference(arena: &mut Arena, a: NodeId, b: NodeId) -> Option<Vec<NodeId>> {
     }
     let base = above.base?;
     let exponent = above.exponent;
+    let ratio = &below.factor * &above.factor.recip()?;
+    let span = arena.nodes[a].span.start..arena.nodes[b].span.end;
+    if exponent == 1 && below.exponent <= 1 {
+        // |u| = r |v| is |u|² = r² |v|².
+        if ratio.is_negative() {
+            return None;
+        }
+        let square = squared(arena, base)?;
+        let other = below.base.map(|other| squared(arena, other));
+        let number = NodeOperation::Number(&ratio * &ratio);
+        let number = arena.push(number, Type::Scalar, span.clone());
+        let other = match other {
+            Some(other) => {
+                let product = NodeOperation::Multiply(number, other?);
+                arena.push(product, Type::Scalar, span.clone())
+            }
+            None => number,
+        };
+        return Some(vec![arena.push(NodeOperation::Subtract(square, other), Type::Scalar, span)]);
+    }
     if exponent < 2 || below.base.is_some() && below.exponent != exponent {
         return None;
     }
-    let root = root(&(&below.factor * &above.factor.recip()?), exponent)?;
-    let span = arena.nodes[a].span.start..arena.nodes[b].span.end;
+    let root = root(&ratio, exponent)?;
     let mut push = |operation| arena.push(operation, Type::Scalar, span.clone());
     let number = push(NodeOperation::Number(root));
     let other = match below.base {
@@ -129,6 +149,16 @@ fn difference(arena: &mut Arena, a: NodeId, b: NodeId) -> Option<Vec<NodeId>> {
         parts.push(push(NodeOperation::Add(base, other)));
     }
     Some(parts)
+}
+
+/// Returns the square of a node that is a norm or a modulus.
+fn squared(arena: &mut Arena, node: NodeId) -> Option<NodeId> {
+    if let NodeOperation::Function(ElementaryFunction::Modulus, x) = arena.nodes[node].operation {
+        let span = arena.nodes[node].span.clone();
+        let square = NodeOperation::Power(x, Rational::from(2));
+        return Some(arena.push(square, Type::Scalar, span));
+    }
+    arena.squared_norm(node)
 }
 
 /// Returns the real root of a rational number, not negative for an even exponent, if it is rational.

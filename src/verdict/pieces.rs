@@ -60,7 +60,7 @@ impl Judging<'_> {
     }
 
     /// Returns samplers of the place, or of the levels into which it falls by the form of its equations, if
-    /// each has a solution, in some order, that is known to miss nothing.
+    /// each has a solution, in some order, that has states and is known to miss nothing.
     fn solved_pieces(&self, sampler: &Sampler) -> Result<Option<Pieces>, Fault> {
         let branches = sampler.branches(self.case)?;
         let branches = match &branches {
@@ -71,13 +71,10 @@ impl Judging<'_> {
         for branch in branches {
             let mut found = None;
             for solved in sampler.solved(self.case, branch)? {
-                let is_better = found.is_none() || solved.has_states();
-                if is_better && self.missed_part(&solved)?.is_none() {
-                    let has_states = solved.has_states();
+                // What has no states may be what real points of lower dimension are left of.
+                if solved.has_states() && self.missed_part(&solved)?.is_none() {
                     found = Some(solved);
-                    if has_states {
-                        break;
-                    }
+                    break;
                 }
             }
             let Some(found) = found else { return Ok(None) };

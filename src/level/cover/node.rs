@@ -110,7 +110,17 @@ impl Node {
             let Some(place) = vanishing_root(&self.graph, &reached) else { return Ok(Some(self)) };
             let zero = |_: &[Option<Expr>]| Some(Expr::zero());
             let change = Change { dropped: None, solved: None, replaced: Some((place, &zero)) };
-            let changed = self.changed(&change, |_, _| Some(Additions::default()))?;
+            // The roots inside exist, though the value may not contain them any more.
+            let inside = self.graph.reached([self.graph.at(place)]);
+            let changed = self.changed(&change, |_, values| {
+                let radicand = |(at, step): (usize, Step<'_>)| match step {
+                    Step::Unary(UnaryFunction::Sqrt, a) if at < place && inside[at] => Some(a),
+                    _ => None,
+                };
+                let radicands = self.graph.steps().enumerate().filter_map(radicand);
+                let facts = radicands.map(|a| values[a]).collect::<Option<Vec<Expr>>>()?;
+                Some(Additions { facts, ..Additions::default() })
+            })?;
             let Some(changed) = changed.simplified() else { return Ok(None) };
             self = changed;
         }

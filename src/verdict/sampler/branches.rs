@@ -50,14 +50,6 @@ impl Sampler {
         solutions.into_iter().map(of).collect()
     }
 
-    /// Makes a sampler of the only branch of a place that may contain states; `None` where there are several,
-    /// or it has no solution.
-    pub(super) fn only_branch(&self, case: &Case) -> Result<Option<Self>, Fault> {
-        let Some(branches) = self.branches(case)? else { return Ok(None) };
-        let [branch] = &branches[..] else { return Ok(None) };
-        Ok(self.solved(case, Some(branch))?.into_iter().find(Self::has_states))
-    }
-
     /// Whether the level of a model is known to have no point in the ranges.
     fn is_empty(&self, case: &Case, model: &Model) -> Result<bool, Fault> {
         let first = self.parameter_draws;

@@ -96,12 +96,9 @@ impl Sampler {
         }
         let may_be_a_part =
             sampler.is_numerical() || sampler.solution.is_some() && !sampler.has_states();
-        if !may_be_a_part {
-            return Ok(sampler);
-        }
-        let part = match sampler.only_branch(case)? {
-            Some(branch) => Some(branch),
-            None => sampler.only_part(case)?,
+        let part = match may_be_a_part {
+            true => sampler.only_part(case)?,
+            false => None,
         };
         Ok(part.unwrap_or(sampler))
     }
