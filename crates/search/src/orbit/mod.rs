@@ -28,6 +28,7 @@
 //! magnitude    f or |f| under a logarithm
 //! weighted     integrals of fields in the plane that are multiples of a density
 //! adjoin       functions of the state as further variables
+//! explicit     all of these for Lagrangian systems that are solved for their accelerations
 //! part         all of these in the variables of a part of the field
 //! closure      brackets of integrals, and their derivatives along symmetry fields
 //! claims       judgement of each find as a claim like any other
@@ -45,6 +46,7 @@ mod closure;
 mod cofactors;
 mod conic;
 mod darboux;
+mod explicit;
 mod exponents;
 mod factor;
 mod finite_order;
@@ -187,6 +189,9 @@ fn along(
         if is_done(report) || divided.is_empty() {
             break;
         }
+    }
+    if !is_field && !is_extended {
+        return explicit::search(case, effort, further, report, progress);
     }
     if is_extended {
         let known = found(case, effort, report)?;
