@@ -60,7 +60,7 @@ pub fn leave_out_constraints(model: &mut Model) -> Vec<String> {
     let remark = |(_, equation): &(usize, usize)| {
         let text = &model.level[*equation].text;
         format!(
-            "`{text}` follows from the other constraints, and is left out; their reactions have no names, as \\
+            "`{text}` follows from the other constraints, and is left out; their reactions have no names, as \
              they are not unique"
         )
     };
@@ -83,7 +83,8 @@ fn is_reaction(entry: &VocabularyEntry) -> bool {
 fn implied_constraints(model: &Model) -> Vec<(usize, usize)> {
     let System::Lagrangian(lagrangian) = &model.system else { return Vec::new() };
     let formulas = model.dynamics().into_iter().chain(&model.abbreviations).chain(&model.extension);
-    let mut used = formulas.flat_map(|formula| model.vocabulary.uses(formula, &[]));
+    let mut used =
+        formulas.flat_map(|formula| model.vocabulary.uses(formula, &model.abbreviations));
     let count = lagrangian.constraints.len();
     if lagrangian.vakonomic || count < 2 || used.any(is_reaction) {
         return Vec::new();

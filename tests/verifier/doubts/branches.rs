@@ -37,7 +37,7 @@ fn are_parallel(one: &Linear, other: &Linear) -> bool {
 #[test]
 fn a_claim_holds_if_it_does_on_all_branches() {
     let (mut proved, mut refuted) = (0, 0);
-    for seed in 0..60 {
+    for seed in 0..60u64 {
         let mut word = seed;
         let mut below = |n: u64| {
             word = word
