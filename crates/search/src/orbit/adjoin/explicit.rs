@@ -5,11 +5,12 @@
 //! c = (0, −a_D⁻¹e) is the part of w' that the constraints give. There is one denominator, det G,
 //! instead of one for each step of an elimination.
 
+use std::fmt::Write;
+
 use liouville::case::Case;
 use liouville::graph::{Expr, Graph};
 use liouville::mechanics::{
-    Algebra, Chart, Lagrangian, LagrangianEquations, ParameterOrigin, SamplerSpec, System,
-    VariableRole,
+    Chart, Lagrangian, LagrangianEquations, ParameterOrigin, SamplerSpec, System,
 };
 use liouville::number::rational::Rational;
 
@@ -50,13 +51,17 @@ struct ReadEquations {
     /// Rates of the coordinates.
     drift: Vec<RingPolynomial>,
     /// Values of the constraints.
-    level: Vec<RingPolynomial>,
+    constraints: Vec<RingPolynomial>,
+    /// Other functions that are 0 on the level.
+    others: Vec<RingPolynomial>,
 }
 
 /// Rates of the remaining components.
 struct SolvedMotion {
     /// Components of the state that are not given by the constraints, with their rates.
     rates: Vec<(usize, RingPolynomial)>,
+    /// Functions that are 0 on the level.
+    level: Vec<RingPolynomial>,
     is_whole: bool,
 }
 
@@ -69,20 +74,19 @@ impl ExplicitField {
             return Ok(None);
         }
         let model = &case.model;
-        let (graph, equations, level) = {
-            let (graph, (equations, level)) = recorded(case, |jet| {
-                let level = model.level.iter().map(|own| jet.phase.level_function(&own.function));
-                (own.equations(&jet.phase), level.collect::<Vec<_>>())
-            })?;
-            (graph, equations, level)
-        };
+        let (graph, (equations, constraints, level)) = recorded(case, |jet| {
+            let level = model.level.iter().map(|own| jet.phase.level_function(&own.function));
+            let constraints = own.constraints.iter().map(|own| jet.phase.scalar(own));
+            let (constraints, level) = (constraints.collect(), level.collect());
+            (own.equations(&jet.phase), constraints, level)
+        })?;
         let (parameters, dimension) = (model.free_components(), model.dimension());
         if graph.inputs() > parameters + dimension {
             return Ok(None);
         }
         let velocities: Vec<usize> = equations.velocities.iter().map(|w| parameters + w).collect();
         let made = refined((parameters, dimension), Vec::new(), |ring| {
-            let read = ReadEquations::of(&graph, (&equations, &level), ring)?;
+            let read = ReadEquations::of(&graph, &equations, [&constraints, &level], ring)?;
             read.solved(&velocities, ring)
         });
         Ok(made.and_then(|(ring, motion)| Self::written(case, &ring, motion)))
@@ -133,23 +137,21 @@ impl ExplicitField {
         for (place, rate) in motion.rates.iter().filter(|(place, _)| state(*place) != "t") {
             line(&mut text, &format!("{}'", state(*place)), &written(rate, &names));
         }
+        if !motion.level.is_empty() {
+            let equation = |own: &RingPolynomial| format!("\"{} = 0\"", written(own, &names));
+            let all: Vec<String> = motion.level.iter().map(equation).collect();
+            let _ = writeln!(text, "[level]\nequations = [{}]", all.join(", "));
+        }
         let made = Case::parse(&text, &[]).ok()?;
         Some(Self { case: made, is_whole: motion.is_whole, renamed })
     }
 }
 
-/// Whether a system has coordinates, their rates as velocities, and its constraints as the level.
+/// Whether a system is one that can be solved so, and is not too large.
 fn is_plain(case: &Case, own: &Lagrangian) -> bool {
-    let model = &case.model;
-    let velocities = own.velocities(&model.state).len();
-    let is_known = |role: &VariableRole| {
-        matches!(role, VariableRole::Coordinate(_) | VariableRole::Velocity | VariableRole::Time)
-    };
+    let velocities = own.velocities(&case.model.state).len();
     !own.vakonomic
-        && matches!(own.algebra, Algebra::Commuting)
-        && own.roles.iter().all(is_known)
-        && model.level.len() == own.constraints.len()
-        && model.extension.is_empty()
+        && case.model.extension.is_empty()
         && matches!(case.chart, Chart::Free | Chart::Equations)
         && velocities <= MOST_VELOCITIES
         && velocities.saturating_sub(own.constraints.len()) <= MOST_INDEPENDENT
@@ -158,20 +160,25 @@ fn is_plain(case: &Case, own: &Lagrangian) -> bool {
 impl ReadEquations {
     fn of(
         graph: &Graph,
-        (equations, level): (&LagrangianEquations<Expr>, &[Expr]),
+        equations: &LagrangianEquations<Expr>,
+        [constraints, level]: [&Vec<Expr>; 2],
         ring: &mut AdjoinedRing,
     ) -> Option<Self> {
         let mut reader = StepReader::new(graph);
         let mut each = |own: &[Expr]| -> Option<Vec<RingPolynomial>> {
             own.iter().map(|own| reader.read(graph.place(*own), ring)).collect()
         };
+        let constraints = each(constraints)?;
+        let mut others = each(level)?;
+        others.retain(|own| !constraints.contains(own));
         Some(Self {
             mass: equations.terms.mass.iter().map(|row| each(row)).collect::<Option<_>>()?,
             drive: each(&equations.terms.drive)?,
             slopes: equations.terms.slopes.iter().map(|row| each(row)).collect::<Option<_>>()?,
             carried: each(&equations.carried)?,
             drift: each(&equations.drift)?,
-            level: each(level)?,
+            constraints,
+            others,
         })
     }
 
@@ -208,7 +215,7 @@ impl ReadEquations {
         let at_rest: Vec<(usize, RingPolynomial)> =
             velocities.iter().map(|w| (*w, zero.clone())).collect();
         let rest: Option<Vec<_>> =
-            self.level.iter().map(|own| substituted(own, &at_rest)).collect();
+            self.constraints.iter().map(|own| substituted(own, &at_rest)).collect();
         let shift = given(&rest?)?;
         // By independent velocity, the dependent velocities.
         let images: Option<Rows> = independent
@@ -270,7 +277,7 @@ impl ReadEquations {
                 }
             }
         }
-        Some(SolvedMotion { rates, is_whole })
+        Some(SolvedMotion { rates, level: all(&self.others)?, is_whole })
     }
 
     /// Velocities for which the constraints are solved, with the determinant of their slopes: a number if
