@@ -20,6 +20,8 @@ use liouville::formula::Formula;
 pub const DARBOUX: u32 = 12;
 /// Family of the theorem on Darboux polynomials, before the degree.
 pub const DARBOUX_FAMILY: &str = "Darboux polynomials of degree up to";
+/// Largest degree of integrals that are sought although they are functions of those known.
+const DEPENDENT: u32 = 3;
 /// Bound above the degrees of the relations.
 const MOST_DEGREE: u32 = 64;
 
@@ -263,7 +265,12 @@ impl VariableSet {
             integrals: step.integrals,
         });
         let variables = &self.variables;
-        if step.integrals > known.algebraic_within(variables) {
+        // Of low degree there may be others that are functions of those known.
+        let may_depend = degree <= DEPENDENT
+            && variables.len() == setting.dimension()
+            && known.algebraic_within(variables) > 1
+            && !setting.flow.is_map;
+        if may_depend || step.integrals > known.algebraic_within(variables) {
             match setting.flow.is_map {
                 true => map_integrals::polynomials(
                     setting, variables, monomials, degree, known, report,
