@@ -22,6 +22,21 @@ pub struct Passed {
     pub excludes_zero: bool,
 }
 
+/// Less than the smallest factor that roundings leave of a bound.
+const MARGIN: f64 = 1.0 - 1.0 / (1 << 20) as f64;
+/// Products at least as large have no part below the least f64; 2⁻⁹⁰⁰.
+const LEAST: f64 = f64::from_bits((1023 - 900) << 52);
+
+impl Passed {
+    /// Ratio of a midpoint to its radius in units of the roundoff below which a state shows nothing
+    /// new: its ratio to the radius is at most `known`, and its enclosure contains 0.
+    pub fn limit(known: f64) -> f64 {
+        let limit = known.min(1.0) * MARGIN * (f64::EPSILON / 2.0);
+        // Also where nothing is known: then 0 alone is below.
+        if limit >= LEAST { limit } else { 0.0 }
+    }
+}
+
 /// Combined results of several blocks.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Total {
@@ -54,6 +69,62 @@ pub fn passed<'b>(
     let mut found = vec![Passed::default(); layout.spans.len()];
     with_widest_vectors(Pass { states, output, layout, found: &mut found });
     found
+}
+
+/// Examines midpoints and lower bounds of radii, in units of the roundoff, of the residuals of all
+/// claims at one block of states that exist, claim after claim. `None` where a midpoint is not below
+/// its bound times the limit of its claim, so that the radii matter.
+pub fn passed_below<'b>(
+    output: impl Fn(usize) -> Option<BallParts<'b>>,
+    layout: &OutputLayout,
+    limits: &[f64],
+) -> Option<Vec<Passed>> {
+    let count = layout.residuals().count();
+    let outputs: Vec<BallParts<'b>> = (0..count).map(output).collect::<Option<_>>()?;
+    let mut found = vec![Passed::default(); layout.spans.len()];
+    let mut is_enough = true;
+    let is_below = &mut is_enough;
+    with_widest_vectors(PassBelow {
+        outputs: &outputs,
+        layout,
+        limits,
+        found: &mut found,
+        is_below,
+    });
+    is_enough.then_some(found)
+}
+
+struct PassBelow<'p, 'b> {
+    outputs: &'p [BallParts<'b>],
+    layout: &'p OutputLayout,
+    limits: &'p [f64],
+    found: &'p mut [Passed],
+    is_below: &'p mut bool,
+}
+
+impl Kernel for PassBelow<'_, '_> {
+    #[inline(always)]
+    fn run(self) {
+        let Self { mut outputs, layout, limits, found, is_below } = self;
+        let mut outside = [0.0; TAPE_LANES];
+        for ((found, span), limit) in found.iter_mut().zip(&layout.spans).zip(limits) {
+            let (own, others) = outputs.split_at(span.residual.len());
+            outputs = others;
+            let mut largest = [0.0; TAPE_LANES];
+            for [mid, low] in own {
+                for lane in 0..TAPE_LANES {
+                    let mid = mid[lane].abs();
+                    let bound = limit * low[lane] - LEAST;
+                    let beyond = mid - if bound > 0.0 { bound } else { 0.0 };
+                    largest[lane] = if mid > largest[lane] { mid } else { largest[lane] };
+                    outside[lane] = if beyond > outside[lane] { beyond } else { outside[lane] };
+                }
+            }
+            found.states = TAPE_LANES;
+            found.largest = most(&largest);
+        }
+        *is_below = most(&outside) <= 0.0;
+    }
 }
 
 struct Pass<'p, S, F> {
