@@ -12,14 +12,14 @@
 //! coordinates w = q', X_i = ∂/∂q_i and c = 0. Kozlov, Dynamics of systems with nonintegrable
 //! constraints II: (27), (28), (33).
 
+mod equations;
 mod masses;
 
-use num_dual::Dual;
+pub use self::equations::{EquationTerms, LagrangianEquations};
 
-use super::calculus::MANY;
 use super::configuration::Configuration;
 use super::dynamics::Dynamics;
-use super::elimination::{dot, solve_positive};
+use super::elimination::dot;
 use super::model::Variable;
 use super::phase::Phase;
 use super::quantity::Quantity;
@@ -82,16 +82,6 @@ struct LagrangianTerms<T> {
     reactions: Vec<T>,
     /// Rates of the coordinates, 0 in the other components.
     drift: Vec<T>,
-}
-
-/// Derivatives of 𝓛 and of the constraints at a point, by velocity.
-struct Terms<T> {
-    /// Second derivatives ∂²𝓛/∂w_i∂w_j, by rows.
-    mass: Vec<Vec<T>>,
-    /// Right sides X_i(𝓛) + Q_i - c^b_ia w_a P_b - ∂P_i/∂q q', without reactions.
-    drive: Vec<T>,
-    /// Derivatives ∂f_k/∂w_i, by rows.
-    slopes: Vec<Vec<T>>,
 }
 
 impl Dynamics for Lagrangian {
@@ -210,31 +200,15 @@ impl Lagrangian {
     }
 
     fn motion<T: Scalar>(&self, phase: &Phase<'_, T>) -> LagrangianTerms<T> {
-        let at = &phase.configuration;
-        let velocities = self.velocities(&at.model.state);
-        let drift = self.drift(at);
-        let force = |i: usize| {
-            let given = self.forces.iter().find(|(component, _)| *component == velocities[i]);
-            given.map_or_else(T::zero, |(_, force)| phase.scalar(force))
-        };
-        let terms = self
-            .swept_terms(at, &velocities, &drift, force)
-            .unwrap_or_else(|| self.lifted_terms(at, &velocities, &drift, force));
-        let Terms { mass, drive, slopes } = terms;
-        let moving = at.lift_state(&drift);
-        let slope = |at: &Configuration<'_, Dual<T>>, f| at.scalar(f).eps;
+        let LagrangianEquations { velocities, drift, terms, carried } = self.equations(phase);
+        let EquationTerms { mass, drive, slopes } = terms;
         let is_definite = self.may_be_definite(&mass);
         let sides = [drive].into_iter().chain(slopes.iter().cloned()).collect();
         let mut responses = self.solved(is_definite, &mass, sides);
         let free = responses.remove(0);
         let gram: Vec<Vec<T>> =
             slopes.iter().map(|a| responses.iter().map(|b| dot(a, b)).collect()).collect();
-        let defects = self
-            .constraints
-            .iter()
-            .zip(&slopes)
-            .map(|(f, a)| -(slope(&moving, f) + dot(a, &free)))
-            .collect();
+        let defects = carried.iter().zip(&slopes).map(|(own, a)| -(*own + dot(a, &free))).collect();
         let reactions = self.solved(is_definite, &gram, vec![defects]).remove(0);
         let acceleration = free
             .iter()
@@ -244,154 +218,5 @@ impl Lagrangian {
             })
             .collect();
         LagrangianTerms { velocities, acceleration, reactions, drift }
-    }
-
-    /// Takes the derivatives by sweeps of the recording, in coordinates and where there are many;
-    /// `None` elsewhere.
-    fn swept_terms<T: Scalar>(
-        &self,
-        at: &Configuration<'_, T>,
-        velocities: &[usize],
-        drift: &[T],
-        force: impl Fn(usize) -> T,
-    ) -> Option<Terms<T>> {
-        let dimension = at.model.dimension();
-        let is_carried = |role: &VariableRole| matches!(role, VariableRole::Carried(_));
-        if dimension < MANY
-            || self.algebra != Algebra::Commuting
-            || self.roles.iter().any(is_carried)
-        {
-            return None;
-        }
-        let state = at.components();
-        let slopes = T::gradients_of(&[self.lagrangian(at, self.vakonomic)], &state)?.pop()?;
-        let mut gradient = vec![T::zero(); dimension];
-        slopes.iter().for_each(|(place, slope)| gradient[*place] = *slope);
-        let momenta: Vec<T> = velocities.iter().map(|component| gradient[*component]).collect();
-        let own: Vec<T> = velocities.iter().map(|component| state[*component]).collect();
-        let rows = |values: &[T]| -> Option<Vec<Vec<T>>> {
-            let rows = T::gradients_of(values, &own)?.into_iter();
-            let written_out = rows.map(|row| {
-                let mut all = vec![T::zero(); own.len()];
-                row.iter().for_each(|(place, slope)| all[*place] = *slope);
-                all
-            });
-            Some(written_out.collect())
-        };
-        let mut along = vec![T::zero(); dimension];
-        for (coordinate, velocity) in self.coordinates(&at.model.state) {
-            along[velocity] += gradient[coordinate];
-        }
-        let carried = T::derivatives_along(&momenta, &state, drift)?;
-        let driven = velocities.iter().zip(carried).enumerate();
-        let constraints: Vec<T> = self.constraints.iter().map(|f| at.scalar(f)).collect();
-        Some(Terms {
-            drive: driven.map(|(i, (w, carried))| along[*w] + force(i) - carried).collect(),
-            mass: rows(&momenta)?,
-            slopes: rows(&constraints)?,
-        })
-    }
-
-    /// Returns the components of the coordinates, each with that of its velocity.
-    fn coordinates(&self, state: &[Variable]) -> Vec<(usize, usize)> {
-        let starts: Vec<usize> = state
-            .iter()
-            .scan(0, |next, variable| {
-                *next += variable.len();
-                Some(*next - variable.len())
-            })
-            .collect();
-        let mut pairs = Vec::new();
-        for (index, role) in self.roles.iter().enumerate() {
-            if let VariableRole::Coordinate(velocity) = role {
-                let own = starts[index]..starts[index] + state[index].len();
-                pairs.extend(own.zip(starts[*velocity]..));
-            }
-        }
-        pairs
-    }
-
-    /// Takes the derivatives by a lift along each velocity.
-    fn lifted_terms<T: Scalar>(
-        &self,
-        at: &Configuration<'_, T>,
-        velocities: &[usize],
-        drift: &[T],
-        force: impl Fn(usize) -> T,
-    ) -> Terms<T> {
-        let dimension = at.model.dimension();
-        let units: Vec<Vec<T>> = velocities
-            .iter()
-            .map(|component| {
-                let mut unit = vec![T::zero(); dimension];
-                unit[*component] = T::one();
-                unit
-            })
-            .collect();
-        let moved: Vec<Configuration<'_, Dual<T>>> =
-            units.iter().map(|unit| at.lift_state(unit)).collect();
-        // ∂²𝓛 along w_i and a direction.
-        let mixed = |i: usize, direction: &[T]| {
-            let direction: Vec<Dual<T>> = direction.iter().map(|x| Dual::from_re(*x)).collect();
-            self.lagrangian(&moved[i].lift_state(&direction), self.vakonomic).eps.eps
-        };
-        let momenta: Vec<T> =
-            moved.iter().map(|at| self.lagrangian(at, self.vakonomic).eps).collect();
-        let fields: Vec<Vec<T>> =
-            moved.iter().map(|at| self.drift(at).iter().map(|x| x.eps).collect()).collect();
-        let turning = self.turning(at, &moved, drift, &fields, &momenta);
-        let drive = |i: usize| {
-            let along = self.lagrangian(&at.lift_state(&fields[i]), self.vakonomic).eps;
-            along + force(i) - turning[i] - mixed(i, drift)
-        };
-        let slopes = |f: &Formula| -> Vec<T> { moved.iter().map(|at| at.scalar(f).eps).collect() };
-        Terms {
-            drive: (0..velocities.len()).map(drive).collect(),
-            mass: (0..velocities.len())
-                .map(|i| units.iter().map(|unit| mixed(i, unit)).collect())
-                .collect(),
-            slopes: self.constraints.iter().map(slopes).collect(),
-        }
-    }
-
-    /// Computes c^b_ia w_a P_b = (p, [X_i, Y]) with Y = Σ w_a X_a and (p, X_i) = P_i.
-    fn turning<T: Scalar>(
-        &self,
-        at: &Configuration<'_, T>,
-        moved: &[Configuration<'_, Dual<T>>],
-        drift: &[T],
-        fields: &[Vec<T>],
-        momenta: &[T],
-    ) -> Vec<T> {
-        let mut turning = vec![T::zero(); momenta.len()];
-        match self.algebra {
-            Algebra::Commuting => {}
-            Algebra::Rotations(first) => {
-                let w = &at.components()[first..first + 3];
-                let start = self.velocities(&at.model.state).iter().position(|c| *c == first);
-                let start = start.unwrap_or(0);
-                for k in 0..3 {
-                    let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-                    let (p, q) = (momenta[start + i], momenta[start + j]);
-                    turning[start + k] = q * w[i] - p * w[j];
-                }
-            }
-            Algebra::Frame => {
-                let gram = fields.iter().map(|a| fields.iter().map(|b| dot(a, b)).collect());
-                let weights = solve_positive(gram.collect(), momenta.to_vec());
-                let covector: Vec<T> = (0..drift.len())
-                    .map(|k| weights.iter().zip(fields).map(|(w, x)| *w * x[k]).sum())
-                    .collect();
-                let direction: Vec<Dual<T>> = drift.iter().map(|x| Dual::from_re(*x)).collect();
-                for (i, (field, moved)) in fields.iter().zip(moved).enumerate() {
-                    let forward: Vec<T> =
-                        self.drift(&at.lift_state(field)).iter().map(|x| x.eps).collect();
-                    let back = self.drift(&moved.lift_state(&direction));
-                    let back: Vec<T> = back.iter().map(|x| x.eps.eps).collect();
-                    turning[i] = dot(&covector, &forward) - dot(&covector, &back);
-                }
-            }
-        }
-        turning
     }
 }

@@ -43,7 +43,7 @@ pub use configuration::Configuration;
 pub use draws::DrawSource;
 pub use flat_base::FlatBase;
 pub use hamiltonian::HamiltonianSystem;
-pub use lagrangian::{Algebra, Lagrangian, VariableRole};
+pub use lagrangian::{Algebra, EquationTerms, Lagrangian, LagrangianEquations, VariableRole};
 pub use listed::{ListedValues, combinations};
 pub use model::{
     LevelEquation, LevelFunction, MatrixShape, Model, Parameter, ParameterOrigin, RootEquation,

@@ -28,6 +28,7 @@
 //! magnitude    f or |f| under a logarithm
 //! weighted     integrals of fields in the plane that are multiples of a density
 //! adjoin       functions of the state as further variables
+//! explicit     all of these for Lagrangian systems that are solved for their accelerations
 //! part         all of these in the variables of a part of the field
 //! closure      brackets of integrals, and their derivatives along symmetry fields
 //! claims       judgement of each find as a claim like any other
@@ -45,6 +46,7 @@ mod closure;
 mod cofactors;
 mod conic;
 mod darboux;
+mod explicit;
 mod exponents;
 mod factor;
 mod finite_order;
@@ -104,6 +106,8 @@ use super::{Effort, SearchError, SearchReport, branches};
 /// Largest number of roots whose signs at all states are compared with those modulo a prime.
 const FEW_ROOTS: usize = 4;
 
+/// Degree up to which all sets of variables are searched before any is searched further.
+const LOW: u32 = 2;
 /// Number of the further limits with functions as variables, before the field is searched without them.
 const WITH_FUNCTIONS: usize = 2;
 
@@ -170,7 +174,7 @@ fn along(
 ) -> Result<(), SearchError> {
     let is_field = match case.model.system {
         System::Field(_) | System::Hamiltonian(_) => true,
-        System::Lagrangian(_) => false,
+        System::Lagrangian(_) | System::Ball(_) => false,
         _ => return Ok(()),
     };
     let mut divided = Vec::new();
@@ -187,6 +191,9 @@ fn along(
         if is_done(report) || divided.is_empty() {
             break;
         }
+    }
+    if !is_field && !is_extended {
+        return explicit::search(case, effort, further, report, progress);
     }
     if is_extended {
         let known = found(case, effort, report)?;
@@ -369,6 +376,13 @@ fn rounds(
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
+    // An integral of low degree in all variables comes before one of high degree in some of them.
+    if parts.len() > 1 {
+        let low = RoundLimits { degree: LOW, ..limits };
+        for part in parts.iter_mut() {
+            part.relations(setting, low, known, report, progress)?;
+        }
+    }
     let mut run = |parts: &mut [VariableSet], limits: RoundLimits, report: &mut SearchReport| {
         for place in 0..parts.len() {
             let (before, rest) = parts.split_at_mut(place);

@@ -95,13 +95,7 @@ impl VariableSet {
         progress: &mut dyn FnMut(&str),
     ) -> Result<(), SearchError> {
         let count = self.variables.len();
-        while self.next <= limits.degree && !is_complete(setting, known) {
-            let all = self.monomials(setting);
-            if all.len() > limits.monomials {
-                break;
-            }
-            self.step(setting, &all, known, report, progress)?;
-        }
+        self.relations(setting, limits, known, report, progress)?;
         self.graded(setting, limits, known, report, progress)?;
         if !setting.effort.by_factors {
             return Ok(());
@@ -150,6 +144,25 @@ impl VariableSet {
         self.with_fractions(setting, known, report)
     }
 
+    /// Searches for integrals by relations up to a degree.
+    pub fn relations(
+        &mut self,
+        setting: &OrbitSetting<'_>,
+        limits: RoundLimits,
+        known: &mut IndependentIntegrals,
+        report: &mut SearchReport,
+        progress: &mut dyn FnMut(&str),
+    ) -> Result<(), SearchError> {
+        while self.next <= limits.degree && !is_complete(setting, known) {
+            let all = self.monomials(setting);
+            if all.len() > limits.monomials {
+                break;
+            }
+            self.step(setting, &all, known, report, progress)?;
+        }
+        Ok(())
+    }
+
     /// Searches for what has fractions over powers of factors in exponents, and at last for multiples
     /// of a density.
     fn with_fractions(
@@ -162,6 +175,10 @@ impl VariableSet {
         if self.with_fractions != Some(counts) {
             let system = ExponentSystem::of(setting, &self.variables, &self.factors, &self.pairs)?;
             system.search_with_fractions(known, report)?;
+            if self.with_fractions.is_none() && self.variables.len() == setting.dimension() {
+                let system = ExponentSystem::of(setting, &self.variables, &[], &[])?;
+                system.search_rates(known, report)?;
+            }
             self.with_fractions = Some(counts);
             if self.variables.len() == setting.dimension() {
                 weighted::search(setting, report)?;

@@ -28,7 +28,7 @@ pub fn polynomials(
     report: &mut SearchReport,
 ) -> Result<bool, SearchError> {
     let (case, effort) = (setting.case, setting.effort);
-    let given: Vec<Formula> = known.algebraic().cloned().collect();
+    let given: Vec<Formula> = known.algebraic(variables).cloned().collect();
     let mut outputs = Vec::new();
     let mut system = LinearSystem::record(case, effort, |jet, recording| {
         recording.derive(jet.along_field(), &setting.terms, &[one()]);
@@ -56,7 +56,7 @@ pub fn polynomials(
     };
     let vectors: Vec<Vec<u64>> = vectors.into_iter().map(spread).collect();
     let products: Vec<Vec<usize>> = known
-        .products(degree)
+        .products(degree, variables)
         .into_iter()
         .map(|powers| {
             let own = powers.iter().zip(&outputs);

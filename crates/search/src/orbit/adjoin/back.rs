@@ -100,7 +100,7 @@ impl Back {
             };
             return terms(above).into_iter().map(divided).collect();
         }
-        all.into_iter().map(|(sign, term)| (sign, self.term(&[(false, term)]))).collect()
+        opened(all.into_iter().map(|(sign, term)| (sign, self.term(&[(false, term)]))).collect())
     }
 
     /// Rewrites a product of products, some of which divide.
@@ -185,6 +185,28 @@ pub(super) fn with_words(text: &str, other: &dyn Fn(&str) -> Option<String>) -> 
     }
     made.truncate(made.len() - 1);
     made
+}
+
+/// Terms without those that are sums in brackets, whose own terms take their places, and without pairs
+/// that cancel: w/y + w*t for y + w/y + (w*t − y). A sum of which nothing would be left stays as it is.
+fn opened(all: Vec<(bool, String)>) -> Vec<(bool, String)> {
+    if all.iter().all(|(_, term)| inside(term).is_none()) {
+        return all;
+    }
+    let mut left: Vec<(bool, String)> = Vec::new();
+    for (sign, term) in &all {
+        let own = inside(term).unwrap_or(term);
+        for (inner, part) in terms(own).into_iter().filter(|(_, part)| !part.is_empty()) {
+            let is_negative = inner != *sign;
+            match left.iter().position(|(other, text)| *other != is_negative && text == part) {
+                Some(place) => {
+                    left.remove(place);
+                }
+                None => left.push((is_negative, part.to_string())),
+            }
+        }
+    }
+    if left.is_empty() { all } else { left }
 }
 
 /// Sum of terms with their signs.
@@ -276,6 +298,12 @@ mod tests {
         }
         assert_eq!(back.integral("−2*k*aux5 + u²"), "u² − 2*k/√(x² + y²)");
         assert_eq!(back.integral("(aux6)/(x*u)"), "x²*u");
+
+        let back = Back { entries: vec![entry("aux1", "(w*t − y)", None)] };
+        assert_eq!(back.rewritten("y + w/y + aux1"), "w/y + w*t");
+        assert_eq!(back.rewritten("−y − aux1"), "−w*t");
+        assert_eq!(back.rewritten("y − 2*aux1"), "y − 2*(w*t − y)");
+        assert_eq!(back.rewritten("aux1 + y*w*t − aux1"), "y*w*t");
     }
 
     #[test]

@@ -12,6 +12,8 @@
 //! bases        denominators, radicands and other functions as factors
 //! absence      the polynomials that a theorem of absence covers
 //! implied      relations between these that known integrals imply
+//! explicit     equations of a Lagrangian solved for independent accelerations
+//! matrices     determinants and adjugates of polynomials
 //! derivations  derivatives of integrals along symmetry fields and the fields of other integrals
 //! logarithmic  maps by monomials, in the logarithms of the state
 //! write        the extended field as a case, with the functions' relations as a level set
@@ -29,8 +31,10 @@ mod atom;
 mod back;
 mod bases;
 mod derivations;
+mod explicit;
 mod implied;
 mod logarithmic;
+mod matrices;
 mod odd_powers;
 mod parsed;
 mod parts;
@@ -55,6 +59,7 @@ use self::back::Back;
 pub use self::back::with_signs;
 use self::bases::{circles, factors};
 pub use self::derivations::{FieldComponents, IntegralAlgebra};
+pub use self::explicit::ExplicitField;
 pub use self::logarithmic::MonomialMap;
 use self::parts::{Read, ReadParts, read, read_with};
 pub use self::plain::{PolynomialField, polynomial_field, reduced};

@@ -62,7 +62,7 @@ pub fn read_with(
     case: &Case,
     effort: &Effort,
     (known, all): (&[Formula], bool),
-    mut divided: Vec<Divided>,
+    divided: Vec<Divided>,
     further: Functions<'_>,
 ) -> Result<Option<Read>, SearchError> {
     let model = &case.model;
@@ -117,22 +117,30 @@ pub fn read_with(
         let known = integrals;
         Some(ReadParts { field, divergence, known, level, further, of_field, moved_by })
     };
-    let mut made = None;
+    let made = refined((parameters, model.dimension()), divided, read);
+    Ok(made.map(|(ring, parts)| {
+        let moved_by = moved_by(&graph, &field, parameters);
+        Read { ring, parts: ReadParts { moved_by, ..parts } }
+    }))
+}
+
+/// Reads something with a ring, and again where an argument has to be divided; the ring starts with the
+/// components of parameters and state.
+pub fn refined<R>(
+    (parameters, state): (usize, usize),
+    mut divided: Vec<Divided>,
+    read: impl Fn(&mut AdjoinedRing) -> Option<R>,
+) -> Option<(AdjoinedRing, R)> {
     for _ in 0..TRIES {
-        let mut ring =
-            AdjoinedRing::new(parameters, model.dimension(), std::mem::take(&mut divided));
+        let mut ring = AdjoinedRing::new(parameters, state, std::mem::take(&mut divided));
         let found = read(&mut ring);
         if ring.is_refined {
             divided = ring.divided;
             continue;
         }
-        made = found.map(|parts| Read { ring, parts });
-        break;
+        return found.map(|found| (ring, found));
     }
-    if let Some(made) = &mut made {
-        made.parts.moved_by = moved_by(&graph, &field, parameters);
-    }
-    Ok(made)
+    None
 }
 
 /// Components of the state whose rates are other components, each with that component.

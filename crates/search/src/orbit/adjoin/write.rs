@@ -55,6 +55,15 @@ impl RingNames {
     }
 }
 
+/// Names of all variables of a ring, from those of the parameters and the state.
+pub fn function_names(ring: &AdjoinedRing, given: &[String]) -> Vec<String> {
+    let mut names: Vec<String> = given.to_vec();
+    for atom in &ring.atoms[given.len()..] {
+        names.push(defined(ring, atom, &names));
+    }
+    names
+}
+
 /// Definition of a function by the names before it.
 fn defined(ring: &AdjoinedRing, atom: &Atom, names: &[String]) -> String {
     let text = |own: &RingPolynomial| written(own, names);
@@ -238,7 +247,8 @@ pub fn case(
     Some([text, relations])
 }
 
-fn line(text: &mut String, name: &str, value: &str) {
+/// Adds a line of a table.
+pub fn line(text: &mut String, name: &str, value: &str) {
     let _ = writeln!(text, "\"{name}\" = \"{value}\"");
 }
 
