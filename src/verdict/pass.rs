@@ -209,3 +209,60 @@ fn trace(traces: &mut Traces, [mid, rad]: BallParts<'_>) {
         traces[lane] += mid[lane] * 0.0 + rad[lane] * 0.0;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::recorded::Span;
+    use super::*;
+
+    fn layout() -> OutputLayout {
+        let none = 0..0;
+        let span = |residual: Range<usize>| Span {
+            residual,
+            requirement: none.clone(),
+            scale: none.clone(),
+            value: none.clone(),
+            slope: none.clone(),
+            off_level: none.clone(),
+            off_general: none.clone(),
+            defects: none.clone(),
+        };
+        OutputLayout { common: 0..0, spans: vec![span(0..1), span(1..3)] }
+    }
+
+    #[test]
+    fn lower_bounds_pass_no_ratio_above_the_known_one() {
+        let layout = layout();
+        let unit = f64::EPSILON / 2.0;
+        let mut decided = [0, 0];
+        for scale in [1.0, 1e-250, 1e-290, 1e-305, 5e-324, 0.0] {
+            for known in [0.0, 1e-280, 1e-3, 0.5, 1.0, 7.0] {
+                for ratio in [0.0, 0.5, 1.0 - 1e-5, 1.0 - 1e-16, 1.0, 1.0 + 1e-15, 1.5] {
+                    // In one lane the midpoint is this multiple of what the known ratio allows.
+                    let low = [scale / unit; TAPE_LANES];
+                    let rad = low.map(|low| low * unit + f64::MIN_POSITIVE);
+                    let mut mid = [0.0; TAPE_LANES];
+                    mid[17] = -ratio * f64::min(known, 1.0) * scale;
+                    let zero = [0.0; TAPE_LANES];
+                    let parts = |index: usize, second| match index {
+                        2 => [&mid, second],
+                        _ => [&zero, second],
+                    };
+                    let limits = [Passed::limit(0.0), Passed::limit(known)];
+                    let below = passed_below(|index| Some(parts(index, &low)), &layout, &limits);
+                    let whole = passed([].into_iter(), |index| parts(index, &rad), &layout);
+                    decided[usize::from(below.is_some())] += 1;
+                    let Some(below) = below else { continue };
+                    for ((below, whole), known) in below.iter().zip(&whole).zip([0.0, known]) {
+                        let place = format!("{scale:e}, {known}, {ratio}");
+                        assert_eq!(below.states, whole.states, "{place}");
+                        assert_eq!(below.largest, whole.largest, "{place}");
+                        assert!(whole.scaled <= known, "{place}: {}", whole.scaled);
+                        assert!(!whole.excludes_zero, "{place}");
+                    }
+                }
+            }
+        }
+        assert!(decided.iter().all(|count| *count > 20), "open and decided: {decided:?}");
+    }
+}

@@ -154,7 +154,9 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
             RateTerm::Angle(place) => self.pairs[*place].rate(at, &point),
             RateTerm::Constant => Some(m.one()),
             RateTerm::Divergence => run(&self.divergence, m, &inputs).map(|values| values[0]),
-            RateTerm::Known(place) => self.known[*place].at(at, &point).map(|(own, _)| m.sub(0, own)),
+            RateTerm::Known(place) => {
+                self.known[*place].at(at, &point).map(|(own, _)| m.sub(0, own))
+            }
         };
         Ok(columns.iter().map(entry).collect())
     }
