@@ -209,6 +209,8 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
                 RateTerm::Factor(_) | RateTerm::Angle(_) => {
                     self.integral(&support, known, report)?;
                 }
+                // The field itself says that t' = 1.
+                RateTerm::Constant if self.is_variable(&support) => {}
                 // Others differ from the first by integrals.
                 RateTerm::Constant if has_quotients => {
                     let is_told = report.found.iter().any(|own| own.kind == CONSTANT_RATE);
@@ -295,6 +297,17 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
             });
         }
         Ok(sum)
+    }
+
+    /// Whether a null vector says that a variable has a constant rate.
+    fn is_variable(&self, support: &[usize]) -> bool {
+        match support {
+            [first, _] => match &self.columns[*first] {
+                RateTerm::Monomial(own) => own.iter().sum::<u32>() == 1,
+                _ => false,
+            },
+            _ => false,
+        }
     }
 
     /// Coefficients of the null vector on a support, for all values of the parameters.
