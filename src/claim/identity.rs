@@ -108,6 +108,15 @@ impl Statement for Rate {
             ..ResidualContext::default()
         }
     }
+
+    fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+        match jet.phase.model().system.is_map() {
+            true => Vec::new(),
+            false => {
+                vec![Condition::continuous(jet.phase.evaluate(&self.function).components(), "F")]
+            }
+        }
+    }
 }
 
 impl Statement for Relation {

@@ -141,6 +141,11 @@ impl Lagrangian {
         scaled.eps - scaled.re
     }
 
+    /// Whether the motion carries some coordinates along with rates of their own.
+    pub fn has_carried(&self) -> bool {
+        self.roles.iter().any(|role| matches!(role, VariableRole::Carried(_)))
+    }
+
     /// Returns the components of the state that are velocities.
     pub fn velocities(&self, state: &[Variable]) -> Vec<usize> {
         self.components(state, |role| matches!(role, VariableRole::Velocity)).collect()

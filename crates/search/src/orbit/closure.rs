@@ -175,10 +175,14 @@ impl Closure<'_, '_> {
             return Ok(false);
         }
         let Some(formula) = self.formula(&candidate.polynomial) else { return Ok(false) };
-        if !self.is_integral(&formula)? || !self.is_new(&formula, degree)? {
+        // A sign, as y/|y|, has two values and no slope.
+        if !self.is_integral(&formula)?
+            || !self.is_independent(&formula, &self.independent.none())?
+            || !self.is_new(&formula, degree)?
+        {
             return Ok(false);
         }
-        let is_independent = self.is_independent(&formula)?;
+        let is_independent = self.is_independent(&formula, &self.independent)?;
         let terms = candidate.polynomial.terms().count();
         let (most_degree, most_terms) = candidate.most;
         let is_component = degree <= most_degree
@@ -245,13 +249,17 @@ impl Closure<'_, '_> {
         Ok(after > before)
     }
 
-    /// Whether the gradient of a function is independent of those of the known integrals.
-    fn is_independent(&self, formula: &Formula) -> Result<bool, SearchError> {
+    /// Whether the gradient of a function is independent of those of some integrals.
+    fn is_independent(
+        &self,
+        formula: &Formula,
+        of: &IndependentIntegrals,
+    ) -> Result<bool, SearchError> {
         let Some(at) = self.setting.at(0, 0) else { return Ok(false) };
-        let Some((_, before)) = self.independent.gradients(self.setting, &at)? else {
+        let Some((_, before)) = of.gradients(self.setting, &at)? else {
             return Ok(false);
         };
-        let mut with = self.independent.clone();
+        let mut with = of.clone();
         let all: Vec<usize> = (0..self.setting.dimension()).collect();
         with.add(formula.clone(), None, &all);
         let after = with.gradients(self.setting, &at)?;

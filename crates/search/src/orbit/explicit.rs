@@ -10,6 +10,8 @@ use super::super::integrals::tell;
 use super::super::report::Excluded;
 use super::super::{Effort, Found, SearchError, SearchReport};
 use super::adjoin::ExplicitField;
+use super::darboux;
+use super::exponents::CONSTANT_RATE as RATE;
 
 /// Searches the field of such a system; what is found is judged as a claim about the case.
 pub fn search(
@@ -22,23 +24,12 @@ pub fn search(
     let Some(field) = ExplicitField::of(case)? else { return Ok(()) };
     let mut own = SearchReport::default();
     super::search(&field.case, effort, further, &mut own, progress)?;
-    for found in own.found.iter().filter(|own| own.with.is_empty()) {
-        let Some(function) = &found.function else { continue };
-        let Ok(formula) = case.formula(&field.back(function.text())) else { continue };
-        let claim = match found.kind {
-            "integral" => Claim::integral(&formula),
-            "density" => Claim::density(&formula),
-            _ => continue,
-        };
-        let judged = judged_alone(case, claim, effort)?;
-        let Some(judged) = judged.filter(|own| own.verdict == Verdict::Proved) else { continue };
-        match found.kind {
-            "integral" => tell(case, &formula, judged, effort, report)?,
-            _ if report.functions("density").next().is_some() => {}
-            _ => report.found.push(Found::new("density", &formula, None, judged, &case.model)),
-        }
+    let has_orbits = !report.orbits.is_empty();
+    for found in &own.found {
+        effort.halt.check()?;
+        take(case, &field, found, effort, report)?;
     }
-    if field.is_whole {
+    if field.is_whole && !has_orbits {
         report.orbits.extend(own.orbits);
         report.excluded.extend(own.excluded.into_iter().map(|own| Excluded {
             ansatz: field.back(&own.ansatz),
@@ -46,5 +37,46 @@ pub fn search(
             ..own
         }));
     }
+    Ok(())
+}
+
+/// Judges a find as a claim about the case, and adds it to the report if it is proved.
+fn take(
+    case: &Case,
+    field: &ExplicitField,
+    found: &Found,
+    effort: &Effort,
+    report: &mut SearchReport,
+) -> Result<(), SearchError> {
+    let read = |text: &str| case.formula(&field.back(text)).ok();
+    let Some(formula) = found.function.as_ref().and_then(|own| read(own.text())) else {
+        return Ok(());
+    };
+    let claim = match (found.kind, found.with.as_slice()) {
+        ("integral", []) => Claim::integral(&formula),
+        ("density", []) if report.functions("density").next().is_none() => Claim::density(&formula),
+        (RATE, [(_, rate)]) => match read(rate) {
+            Some(rate) => Claim::rate(&formula, &rate),
+            None => return Ok(()),
+        },
+        (darboux::KIND, [(_, cofactor)]) => match read(cofactor) {
+            Some(cofactor) => Claim::rate(&formula, &(&cofactor * &formula)?),
+            None => return Ok(()),
+        },
+        _ => return Ok(()),
+    };
+    let text = formula.to_string();
+    if report.found.iter().any(|own| own.kind == found.kind && own.formula == text) {
+        return Ok(());
+    }
+    let judged = judged_alone(case, claim, effort)?;
+    let Some(judged) = judged.filter(|own| own.verdict == Verdict::Proved) else { return Ok(()) };
+    if found.kind == "integral" {
+        return tell(case, &formula, judged, effort, report);
+    }
+    let with = found.with.iter().map(|(what, own)| (*what, field.back(own))).collect();
+    report
+        .found
+        .push(Found { with, ..Found::new(found.kind, &formula, None, judged, &case.model) });
     Ok(())
 }

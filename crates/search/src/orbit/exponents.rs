@@ -21,6 +21,7 @@ use super::monomials;
 use super::quotients::{self, Quotient, rate_of_monomial};
 use super::setting::{OrbitSetting, SPARE_ORDERS, run};
 use liouville::formula::Formula;
+use liouville::verdict::Flaw;
 
 /// Largest number of monomials of g.
 const MONOMIALS: usize = 60;
@@ -33,7 +34,7 @@ const MOST_KNOWN: usize = 12;
 const MOST_RATES: usize = 4;
 
 /// Kind of a function Σ α ln f + g whose rate is a constant, or an integral.
-const CONSTANT_RATE: &str = "function-of-constant-rate";
+pub const CONSTANT_RATE: &str = "function-of-constant-rate";
 
 /// A term of the logarithmic rate.
 #[derive(Clone, Debug)]
@@ -262,6 +263,12 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
             }
             let Some(vector) = self.vector(&support)? else { continue };
             let Some(rate) = self.combination(&support, first, &vector)? else { continue };
+            // An integral that jumps is not constant along a motion across.
+            let statement = OrbitStatement::Integral(rate.clone());
+            let Some(judged) = claims::proved(self.setting, &statement)? else { continue };
+            if judged.evidence.flaws.contains(&Flaw::Jumps) {
+                continue;
+            }
             for style in self.styles(&support) {
                 let Some(function) = self.logarithm(&support, &vector, style)? else { continue };
                 let statement =

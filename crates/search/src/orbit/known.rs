@@ -63,6 +63,11 @@ impl IndependentIntegrals {
         Ok(known)
     }
 
+    /// No integrals of the same case.
+    pub fn none(&self) -> Self {
+        Self { case: self.case.clone(), ..Self::default() }
+    }
+
     /// Adds an integral that is independent of the others.
     pub fn add(&mut self, formula: Formula, degree: Option<u32>, variables: &[usize]) {
         let is_algebraic = degree.is_some()

@@ -192,8 +192,11 @@ fn along(
             break;
         }
     }
+    if !is_field && (!is_extended || is_constrained(case)) && !is_done(report) {
+        explicit::search(case, effort, further && !is_extended, report, progress)?;
+    }
     if !is_field && !is_extended {
-        return explicit::search(case, effort, further, report, progress);
+        return Ok(());
     }
     if is_extended {
         let known = found(case, effort, report)?;
@@ -227,6 +230,14 @@ fn along(
             with_functions(case, effort, scope, report, progress).map(|_| ())
         }
         Err(_) => Ok(()),
+    }
+}
+
+/// Whether a case is a Lagrangian system whose velocities are not those of its coordinates.
+fn is_constrained(case: &Case) -> bool {
+    match &case.model.system {
+        System::Lagrangian(own) => !own.constraints.is_empty() || own.has_carried(),
+        _ => false,
     }
 }
 
