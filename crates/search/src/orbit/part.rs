@@ -20,8 +20,6 @@ use liouville::formula::Formula;
 pub const DARBOUX: u32 = 12;
 /// Family of the theorem on Darboux polynomials, before the degree.
 pub const DARBOUX_FAMILY: &str = "Darboux polynomials of degree up to";
-/// Largest degree of integrals that are sought although they are functions of those known.
-const DEPENDENT: u32 = 3;
 /// Bound above the degrees of the relations.
 const MOST_DEGREE: u32 = 64;
 
@@ -266,7 +264,7 @@ impl VariableSet {
         });
         let variables = &self.variables;
         // Of low degree there may be others that are functions of those known.
-        let may_depend = degree <= DEPENDENT
+        let may_depend = degree <= polynomials::LOW
             && variables.len() == setting.dimension()
             && known.algebraic_within(variables) > 1
             && !setting.flow.is_map;

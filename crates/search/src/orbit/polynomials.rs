@@ -17,6 +17,8 @@ use super::setting::OrbitSetting;
 use super::sparse::sparse;
 use liouville::formula::Formula;
 
+/// Largest degree of integrals that are sought although they are functions of those known.
+pub const LOW: u32 = 3;
 /// Largest number of terms of an integral that is kept although it is a function of others.
 const SHORT: usize = 12;
 /// Largest number of these.
@@ -89,7 +91,11 @@ pub fn polynomials(
         if claims::integral(setting, &formula, report)? {
             known.add(formula, Some(degree), variables);
             found = true;
-        } else if support.len() <= SHORT && report.dependent.len() < MOST_DEPENDENT {
+        } else if degree <= LOW
+            && variables.len() == setting.dimension()
+            && support.len() <= SHORT
+            && report.dependent.len() < MOST_DEPENDENT
+        {
             report.dependent.extend(claims::written_integral(setting, &formula));
         }
     }

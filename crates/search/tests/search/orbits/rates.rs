@@ -81,3 +81,22 @@ pairs = [['u', 'p']]
     let found = searched(text, &Effort { blind: true, ..Effort::default() });
     assert_eq!(found.formulas("integral").count(), 6, "besides the energy");
 }
+
+#[test]
+fn the_third_integral_of_the_half_plane_is_told() {
+    let text = "
+title = 'geodesics of the half-plane'
+[state]
+x = '-1..1'
+y = '0.5..2'
+p = '-1..1'
+q = '-1..1'
+[hamiltonian]
+function = 'y²*(p² + q²)/2'
+pairs = [['x', 'p'], ['y', 'q']]
+";
+    let found = searched(text, &Effort::default());
+    let own = found.found.iter().find(|own| own.kind == "further-integral");
+    let own = own.expect("it is a function of the others, and no polynomial in them");
+    assert!(own.formula.contains("2*x*y*q") && own.with.is_empty(), "{own:?}");
+}
