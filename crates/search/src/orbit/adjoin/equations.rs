@@ -9,9 +9,10 @@ use liouville::graph::{Expr, Graph};
 use liouville::mechanics::LagrangianEquations;
 use liouville::number::rational::Rational;
 
-use super::matrices::{Reduction, Rows, substituted};
+use super::matrices::Rows;
 use super::polynomial::RingPolynomial;
 use super::read::StepReader;
+use super::reduction::{Reduction, substituted};
 use super::ring::{AdjoinedRing, Atom};
 
 /// Equations as polynomials of a ring.
@@ -73,7 +74,7 @@ impl ReadEquations {
         if self.slopes.iter().flatten().any(is_velocity) {
             return None;
         }
-        let reduction = Reduction::of(ring, false);
+        let reduction = Reduction::of(&ring.atoms, false);
         let (dependent, determinant) = self.pivots(velocities.len(), &reduction)?;
         let is_whole = determinant.value().is_some();
         let independent: Vec<usize> =
@@ -83,7 +84,7 @@ impl ReadEquations {
             self.slopes.iter().map(row).collect()
         };
         let inverse = ring.inverse(&determinant)?;
-        let reduction = Reduction::of(ring, false);
+        let reduction = Reduction::of(&ring.atoms, false);
         let adjugate = reduction.adjugate(&columns(&dependent))?;
         // −a_D⁻¹ of a vector.
         let given = |side: &[RingPolynomial]| -> Option<Vec<RingPolynomial>> {
@@ -199,12 +200,12 @@ struct Quotients(Vec<RingPolynomial>);
 
 impl Quotients {
     fn of(rows: &Rows, sides: &[RingPolynomial], ring: &mut AdjoinedRing) -> Option<Self> {
-        let reduction = Reduction::of(ring, false);
+        let reduction = Reduction::of(&ring.atoms, false);
         let adjugate = reduction.adjugate(rows)?;
         let numerators: Option<Vec<RingPolynomial>> =
             adjugate.iter().map(|row| reduction.dot(row, sides)).collect();
         let numerators = numerators?;
-        let of_sines = Reduction::of(ring, true);
+        let of_sines = Reduction::of(&ring.atoms, true);
         let determinant = reduction.determinant(rows)?;
         // sin² θ is one factor, 1 − cos² θ are two terms.
         let other = of_sines.reduced(&determinant)?;
@@ -241,7 +242,7 @@ impl Quotients {
                 None => below.times(&rest)?,
             };
             let below = ring.inverse(&below)?;
-            made.push(Reduction::of(ring, is_shorter).product(&above, &below)?);
+            made.push(Reduction::of(&ring.atoms, is_shorter).product(&above, &below)?);
         }
         Some(Self(made))
     }

@@ -14,6 +14,7 @@
 //! implied      relations between these that known integrals imply
 //! equations    equations of a Lagrangian, solved for independent accelerations
 //! explicit     their field as a case
+//! reduction    normal form on circles
 //! matrices     determinants and adjugates of polynomials
 //! derivations  derivatives of integrals along symmetry fields and the fields of other integrals
 //! logarithmic  maps by monomials, in the logarithms of the state
@@ -44,6 +45,7 @@ mod plain;
 mod polynomial;
 mod rates;
 mod read;
+mod reduction;
 mod ring;
 mod roots;
 mod write;

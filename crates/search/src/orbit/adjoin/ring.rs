@@ -10,6 +10,7 @@ use liouville::number::rational::Rational;
 
 pub use super::atom::{Atom, ConstantFunction, Of};
 use super::polynomial::{Monomial, RingPolynomial, combination};
+use super::reduction::Reduction;
 
 /// Largest power of a function that is written out.
 const HIGHEST: i64 = 24;
@@ -80,8 +81,11 @@ impl AdjoinedRing {
         }
     }
 
-    /// 1/p, factor by factor.
+    /// 1/p, factor by factor; sin² + cos² is 1.
     pub fn inverse(&mut self, own: &RingPolynomial) -> Made {
+        let reduced = Reduction::of(&self.atoms, false).reduced(own);
+        let single = reduced.filter(|reduced| reduced.single().is_some());
+        let own = single.as_ref().unwrap_or(own);
         let (value, monomial, rest) = own.split()?;
         let mut made = RingPolynomial::constant(value.recip()?);
         for (variable, power) in monomial {
