@@ -26,8 +26,8 @@ fn is_known_without_it(vocabulary: &Vocabulary, entry: &VocabularyEntry) -> bool
     match entry.meaning {
         Meaning::Quantity(_) => false,
         // the definition of an abbreviation stands next to its name
-        Meaning::Abbreviation(_) => is_function(name),
-        Meaning::State(_) => is_number || is_function(name),
+        Meaning::Abbreviation(_) => is_function(name) || is_component(vocabulary, name),
+        Meaning::State(_) => is_number || is_function(name) || is_component(vocabulary, name),
         Meaning::Parameter(_) if is_number || is_function(name) => true,
         Meaning::Parameter(_) => {
             let may_be = name == "E" || name.ends_with(|c: char| c.is_ascii_digit());
@@ -38,6 +38,12 @@ fn is_known_without_it(vocabulary: &Vocabulary, entry: &VocabularyEntry) -> bool
             may_be && Formula::parse(name, &of_system()).is_ok()
         }
     }
+}
+
+/// Whether a name would be the component of another variable, as x2 is of a vector x.
+fn is_component(vocabulary: &Vocabulary, name: &str) -> bool {
+    let others = || vocabulary.only(|entry| matches!(entry.meaning, Meaning::State(_)) && entry.name != name);
+    name.ends_with(|c: char| c.is_ascii_digit()) && Formula::parse(name, &others()).is_ok()
 }
 
 /// Warning about a hidden name.

@@ -6,12 +6,14 @@
 
 use std::cell::LazyCell;
 
+use super::cell_rank::{CellRank, DrawnMatrix};
+use super::coverage::{self, Slopes};
 use super::judging::Judging;
 use super::pivot_space::PivotSpace;
 use super::sampler::Sampler;
 use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, record};
 use crate::level::Solution;
-use crate::mechanics::{Draw, combinations};
+use crate::mechanics::{Chart, Draw, combinations};
 use crate::number::Enclosing;
 use crate::number::mixed::{Mixed, Number};
 use crate::number::rational::Rational;
@@ -56,14 +58,48 @@ fn fixed(
 impl Judging<'_> {
     /// Returns the reason why states may miss a part of their place, if they may.
     pub(super) fn missed_part(&self, sampler: &Sampler) -> Result<Option<String>, Fault> {
-        let Some(solution) = sampler.solution() else { return Ok(None) };
+        let is_charted = matches!(self.case.chart, Chart::Given(_))
+            && !sampler.kept().is_empty()
+            && sampler.kept().iter().all(|kept| *kept);
+        if sampler.solution().is_none() && !is_charted {
+            return Ok(None);
+        }
         let known = self.missed.borrow().get(sampler.kept()).cloned();
         if let Some(known) = known {
             return Ok(known);
         }
-        let missed = self.find_missed_part(sampler, solution)?;
+        let missed = match sampler.solution() {
+            Some(solution) => self.find_missed_part(sampler, solution)?,
+            None => self.thin_image(sampler)?,
+        };
         self.missed.borrow_mut().insert(sampler.kept().to_vec(), missed.clone());
         Ok(missed)
+    }
+
+    /// Returns the reason why a part of the image of a given chart may have no interior, for some listed
+    /// values or signs of moduli: motions may leave it.
+    fn thin_image(&self, sampler: &Sampler) -> Result<Option<String>, Fault> {
+        let case = self.case;
+        let Some(choices) = combinations(sampler.recipes()) else { return Ok(None) };
+        let rank = case.model.dimension().saturating_sub(case.model.level.len());
+        let (draws, parameters) = (sampler.recipes().len(), sampler.parameter_draws());
+        for fixed in choices {
+            let (graph, Slopes { rows, point }) =
+                coverage::slopes(case, draws, parameters, &fixed)?;
+            let (required, facts) = (point, Vec::new());
+            let matrix = DrawnMatrix { graph: &graph, rows, rank, required, facts };
+            let chosen = sampler.with(&fixed);
+            let what = match self.rank_of_drawn(&chosen, &matrix)? {
+                CellRank::Full => continue,
+                CellRank::Drops => "has fewer dimensions than the level",
+                CellRank::Unknown => "is not known to have all dimensions of the level",
+            };
+            return Ok(Some(format!(
+                "a part of the image of [level.chart] {what}, so that the motion may leave it: write the \
+                 chart without |…|, or give ranges in which what is in |…| keeps its sign"
+            )));
+        }
+        Ok(None)
     }
 
     fn find_missed_part(

@@ -1,5 +1,6 @@
 //! Conditions that claims presuppose.
 
+use super::cell_rank::CellRank;
 use super::claim_state::{are_zero, undecide};
 use super::evidence::{Flaw, Verdict};
 use super::field::{Answer, PrimeFieldStates, Query};
@@ -112,12 +113,18 @@ impl Judging<'_> {
             Need::Rank { rows, rank } => {
                 let ranks = PrimeFieldStates::new(self, sampler).ranks(rows, &[rows.len()])?;
                 let found = ranks.and_then(|ranks| ranks.first().copied());
-                Ok(match found {
-                    Some(found) if found >= *rank => None,
-                    Some(found) => {
-                        Some(format!("{otherwise}: {found} of {rank} dimensions are left"))
+                let known = match found {
+                    Some(found) if found < *rank => {
+                        let reason = format!("{otherwise}: {found} of {rank} dimensions are left");
+                        return Ok(Some(reason));
                     }
-                    None => condition
+                    Some(_) => self.rank_on_cells(sampler, rows, *rank, &item.requirement)?,
+                    None => CellRank::Unknown,
+                };
+                Ok(match known {
+                    CellRank::Full => None,
+                    CellRank::Drops => Some(format!("on a part of the states {otherwise}")),
+                    CellRank::Unknown => condition
                         .is_essential
                         .then(|| format!("it is not known whether {otherwise}")),
                 })
@@ -219,7 +226,7 @@ impl Judging<'_> {
                     }
                 }
                 let (parameters, values) = model.make_parameters(&inputs);
-                let there = Phase::new(&variables.model, &parameters, values);
+                let there = Phase::with_parameters_of(&variables.model, model, &parameters, values);
                 item.claim.kind.residual_of_values(variables, &DualPoint::new(there))
             })?;
             let Some(group) = residual else { return Ok(false) };

@@ -9,6 +9,7 @@ use super::claim_state::{BlockResult, are_zero};
 use super::field::{Answer, PrimeFieldStates, Query};
 use super::judge::{JudgeError, Options};
 use super::ladder::{LADDER_BITS, PRECISE_STATES};
+use super::level_slopes::FlatEquation;
 use super::overflow;
 use super::physics;
 use super::pieces::Pieces;
@@ -39,7 +40,7 @@ pub struct Judging<'a> {
     /// Parts of a place, by the equations that hold there.
     pub(super) pieces: RefCell<FxHashMap<Vec<bool>, Option<Pieces>>>,
     /// Equations of the level whose slopes depend on each other at the states.
-    pub(super) flat: RefCell<Vec<usize>>,
+    pub(super) flat: RefCell<Vec<FlatEquation>>,
     /// Whether the map is proved to be one-to-one, by the equations that hold at a place and by the
     /// states that count.
     pub(super) one_to_one: RefCell<FxHashMap<(Vec<bool>, SecondState), bool>>,

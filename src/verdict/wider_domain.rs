@@ -109,7 +109,7 @@ impl Judging<'_> {
             return Ok(());
         }
         let sampler = Sampler::new(self.case, place, self.options.seed)?;
-        if self.missed_part(&sampler)?.is_some() {
+        if self.missed_part(&sampler)?.is_some() || !self.flat_equations(&sampler)?.is_empty() {
             return Ok(());
         }
         // A map may be one-to-one on a level alone.

@@ -52,7 +52,7 @@ impl Step<'_> {
 
     /// Repeats the step in the recording under way, from other inputs and the values of its
     /// arguments.
-    pub(super) fn repeat(
+    pub fn repeat(
         &self,
         inputs: &[Expr],
         at: impl Fn(usize) -> Option<Expr>,
