@@ -35,7 +35,7 @@ impl Judging<'_> {
     ) -> Result<(), Fault> {
         for (item, status) in holding.iter_mut() {
             for condition in &item.conditions {
-                let asks_one_to_one = matches!(condition.need, Need::OneToOne);
+                let asks_one_to_one = matches!(condition.need, Need::OneToOne { .. });
                 if asks_one_to_one && self.is_one_to_one(sampler, SecondState::InRanges)? {
                     continue;
                 }
@@ -74,11 +74,27 @@ impl Judging<'_> {
         sampler: &Sampler,
         open: &mut Open<'_, '_>,
     ) -> Result<(), Fault> {
-        let is_asked = |item: &RecordedClaim<'_>| {
-            item.conditions.iter().any(|condition| matches!(condition.need, Need::OneToOne))
+        let moved = |condition: &Condition| match condition.need {
+            Need::OneToOne { moved } => Some(moved),
+            _ => None,
         };
         for (item, status) in open.iter_mut() {
-            if status.settled != Some(Verdict::Refuted) || !is_asked(item) {
+            let Some(moved) = item.conditions.iter().find_map(moved) else { continue };
+            if status.settled != Some(Verdict::Refuted) {
+                continue;
+            }
+            // The image of all states has the measure 0, and they have more.
+            let query = Query {
+                outputs: vec![moved],
+                requirement: item.requirement.clone(),
+                ..Query::default()
+            };
+            let is_null = |answers: &[Answer]| matches!(answers, [Answer::Zero(_)]);
+            if !sampler.is_thin()
+                && is_null(&PrimeFieldStates::new(self, sampler).test(&[query])?)
+            {
+                let remark = "the images of all states with ρ ≠ 0 have the measure 0";
+                status.evidence.add_remark(remark.to_string());
                 continue;
             }
             if self.is_one_to_one(sampler, SecondState::Anywhere)? {
@@ -156,7 +172,7 @@ impl Judging<'_> {
                     })?;
                 Ok(has_none.then(|| otherwise.clone()))
             }
-            Need::OneToOne => {
+            Need::OneToOne { .. } => {
                 let both = self.second_preimage(sampler, item, SecondState::InRanges)?;
                 Ok(both.map(|both| format!("Φ takes {both} to one state: {otherwise}")))
             }

@@ -8,6 +8,7 @@ use super::sampler::Sampler;
 use super::witness::briefly;
 use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape};
 use crate::mechanics::{Draw, combinations};
+use crate::number::ball::{Ball, Balls};
 use crate::number::float::Float;
 use crate::number::{BinaryOperation, UnaryFunction};
 
@@ -45,10 +46,15 @@ impl Judging<'_> {
     fn jump_of(&self, sampler: &Sampler, graph: &Graph, values: &[Expr]) -> Option<String> {
         let tape = Tape::new(graph, values);
         let mut along = Evaluator::new(&tape, Float::<POINTS>);
+        let mut enclosed = Evaluator::new(&tape, Ball::<POINTS>);
         (0..LINES).find_map(|line| {
             let ends = [2 * line, 2 * line + 1].map(|index| sampler.nearest_draws(index));
             let line = Line::between(sampler, ends, graph.inputs());
-            let place = line.jump(&mut along)?;
+            let (output, sides) = line.jump(&mut along)?;
+            if !line.are_apart(&mut enclosed, output, sides) {
+                return None;
+            }
+            let place = 0.5 * (sides[0] + sides[1]);
             let model = &self.case.model;
             let state = &sampler.made()[model.free_components()..];
             let tape = Tape::new(sampler.graph(), state);
@@ -104,13 +110,39 @@ impl Line {
         along.outputs().copied().collect()
     }
 
-    /// Finds a place at which some value has different limits from both sides.
-    fn jump(&self, along: &mut Along<'_>) -> Option<f64> {
-        let whole = self.values(along, divided(0.0, 1.0));
-        (0..whole.len()).find_map(|output| self.jump_of(along, output, &whole[output]))
+    /// Whether enclosures of a value at two places have no number in common, so that its change is more
+    /// than rounding.
+    fn are_apart(
+        &self,
+        enclosed: &mut Evaluator<'_, Ball<POINTS>>,
+        output: usize,
+        sides: [f64; 2],
+    ) -> bool {
+        let place = |lane: usize| sides[lane % 2];
+        let input = |(from, to): (&f64, &f64)| Balls {
+            mid: std::array::from_fn(|lane| from + place(lane) * (to - from)),
+            rad: [0.0; POINTS],
+        };
+        let inputs: Vec<Balls<POINTS>> = self.from.iter().zip(&self.to).map(input).collect();
+        enclosed.run(&inputs);
+        let found = enclosed.output(output);
+        (found.mid[0] - found.mid[1]).abs() > found.rad[0] + found.rad[1]
     }
 
-    fn jump_of(&self, along: &mut Along<'_>, output: usize, whole: &[f64; POINTS]) -> Option<f64> {
+    /// Finds an output and two places next to each other between which it has different limits from both
+    /// sides.
+    fn jump(&self, along: &mut Along<'_>) -> Option<(usize, [f64; 2])> {
+        let whole = self.values(along, divided(0.0, 1.0));
+        let of_output = |output| Some((output, self.jump_of(along, output, &whole[output])?));
+        (0..whole.len()).find_map(of_output)
+    }
+
+    fn jump_of(
+        &self,
+        along: &mut Along<'_>,
+        output: usize,
+        whole: &[f64; POINTS],
+    ) -> Option<[f64; 2]> {
         let size =
             whole.iter().filter(|value| value.is_finite()).fold(0.0f64, |a, b| a.max(b.abs()));
         let (mut places, mut values) = (divided(0.0, 1.0), *whole);
@@ -131,7 +163,7 @@ impl Line {
             if division + 1 == LATE {
                 let drift = |k: usize| (sides[k] - early[k]).abs();
                 let is_jump = (0..2).all(|side| drift(side) <= MOST_DRIFT * jump);
-                return is_jump.then_some(0.5 * (places[steepest] + places[steepest + 1]));
+                return is_jump.then_some([places[steepest], places[steepest + 1]]);
             }
             places = divided(places[steepest], places[steepest + 1]);
             values = self.values(along, places)[output];
