@@ -3,7 +3,7 @@
 //!
 //! docs/soundness.md, "Ranks on all cells".
 
-use super::conjugates::with_all_signs;
+use super::conjugates::{columns_with_few_signs, with_all_signs};
 use super::coverage::{RANK_BITS, proved_rank};
 use super::judging::Judging;
 use super::sampler::Sampler;
@@ -127,9 +127,15 @@ impl DrawnMatrix<'_> {
     /// and is otherwise one analytic function: the product of the sums of squared minors for all choices
     /// is one, too, and not 0.
     fn has_rank_for_all_signs(&self, sampler: &Sampler) -> Result<bool, Fault> {
-        let entries = self.rows.concat();
-        let width = self.rows.first().map_or(0, Vec::len).max(1);
         let drawn = sampler.recipes();
+        // The rank of fewer columns is never above that of all.
+        let columns = columns_with_few_signs(self.graph, &self.rows, drawn);
+        if columns.len() < self.rank {
+            return Ok(false);
+        }
+        let of_row = |row: &Vec<Expr>| columns.iter().map(|column| row[*column]).collect();
+        let entries = self.rows.iter().map(of_row).collect::<Vec<Vec<Expr>>>().concat();
+        let width = columns.len().max(1);
         let is_further = |value: &Expr| {
             self.graph.inputs_of(*value).into_iter().any(|input| input >= drawn.len())
         };

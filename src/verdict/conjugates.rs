@@ -61,6 +61,26 @@ pub fn is_one_function(graph: &Graph, values: &[Expr], inputs: &[Draw]) -> bool 
     changing_signs(graph, values, inputs).is_some_and(|places| places.is_empty())
 }
 
+/// Lists those columns of a matrix, given by rows, whose entries have few signs together that may be
+/// changed, those with the fewest first.
+pub fn columns_with_few_signs(graph: &Graph, rows: &[Vec<Expr>], inputs: &[Draw]) -> Vec<usize> {
+    let width = rows.first().map_or(0, Vec::len);
+    let column = |index: usize| rows.iter().map(|row| row[index]).collect::<Vec<Expr>>();
+    let signs = |index: usize| Some((changing_signs(graph, &column(index), inputs)?.len(), index));
+    let mut found: Vec<(usize, usize)> = (0..width).filter_map(signs).collect();
+    found.sort_unstable();
+    let (mut chosen, mut places) = (Vec::new(), Vec::new());
+    for (_, index) in found {
+        let own = changing_signs(graph, &column(index), inputs).unwrap_or_default();
+        let new: Vec<usize> = own.into_iter().filter(|place| !places.contains(place)).collect();
+        if places.len() + new.len() <= MOST_SIGNS {
+            places.extend(new);
+            chosen.push(index);
+        }
+    }
+    chosen
+}
+
 /// Records values with each choice of the signs that may be changed, one after the other; `None` if
 /// they are of another kind, or have many signs.
 pub fn with_all_signs(
