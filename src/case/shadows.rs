@@ -42,9 +42,8 @@ fn is_known_without_it(vocabulary: &Vocabulary, entry: &VocabularyEntry) -> bool
 
 /// Whether a name would be the component of a variable, as x2 is of a vector x.
 fn is_component(vocabulary: &Vocabulary, name: &str) -> bool {
-    let is_other = |entry: &VocabularyEntry| {
-        matches!(entry.meaning, Meaning::State(_)) && entry.name != name
-    };
+    let is_other =
+        |entry: &VocabularyEntry| matches!(entry.meaning, Meaning::State(_)) && entry.name != name;
     name.ends_with(|c: char| c.is_ascii_digit())
         && Formula::parse(name, &vocabulary.only(is_other)).is_ok()
 }
@@ -54,7 +53,9 @@ pub fn warning(vocabulary: &Vocabulary, name: &str) -> String {
     let hidden = format!("`{name}` already has a meaning here, and this file gives it another");
     let variable = name.trim_end_matches(|c: char| c.is_ascii_digit());
     match vocabulary.find(name).is_some() && is_component(vocabulary, name) {
-        true => format!("{hidden}: write {variable}[{}] for the component", &name[variable.len()..]),
+        true => {
+            format!("{hidden}: write {variable}[{}] for the component", &name[variable.len()..])
+        }
         false => hidden,
     }
 }

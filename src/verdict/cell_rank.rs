@@ -3,7 +3,7 @@
 //!
 //! docs/soundness.md, "Ranks on all cells".
 
-use super::conjugates::{columns_with_few_signs, with_all_signs};
+use super::conjugates::{SignChoices, columns_with_few_signs, with_all_signs};
 use super::coverage::{RANK_BITS, proved_rank};
 use super::judging::Judging;
 use super::sampler::Sampler;
@@ -142,11 +142,12 @@ impl DrawnMatrix<'_> {
         if entries.iter().any(is_further) {
             return Ok(false);
         }
-        let Some((graph, choices)) = with_all_signs(self.graph, &entries, drawn)? else {
+        let Some(SignChoices { graph, values }) = with_all_signs(self.graph, &entries, drawn)?
+        else {
             return Ok(false);
         };
         let domain = ArbBall::new(RANK_BITS);
-        let tape = Tape::new(&graph, &choices.concat());
+        let tape = Tape::new(&graph, &values.concat());
         let mut evaluator = Evaluator::new(&tape, domain);
         for index in 0..STATES {
             let mut numbers = sampler.drawn(&domain, 1, index);

@@ -90,8 +90,7 @@ impl Judging<'_> {
                 ..Query::default()
             };
             let is_null = |answers: &[Answer]| matches!(answers, [Answer::Zero(_)]);
-            if !sampler.is_thin()
-                && is_null(&PrimeFieldStates::new(self, sampler).test(&[query])?)
+            if !sampler.is_thin() && is_null(&PrimeFieldStates::new(self, sampler).test(&[query])?)
             {
                 let remark = "the images of all states with ρ ≠ 0 have the measure 0";
                 status.evidence.add_remark(remark.to_string());

@@ -114,7 +114,10 @@ impl Judging<'_> {
         }
         // A map may be one-to-one on a level alone.
         let asks = |own: &Candidate<'_, '_>| {
-            own.item.conditions.iter().any(|condition| matches!(condition.need, Need::OneToOne { .. }))
+            own.item
+                .conditions
+                .iter()
+                .any(|condition| matches!(condition.need, Need::OneToOne { .. }))
         };
         if candidates.iter().any(asks) && !self.is_one_to_one(&sampler, SecondState::InRanges)? {
             candidates.retain(|own| !asks(own));

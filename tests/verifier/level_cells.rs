@@ -21,7 +21,9 @@ const FACTORS: [(&str, Option<&str>); 9] = [
 /// A case on x = 0 with the slope g there, a field that leaves it where m is not 0, and g m = 0.
 fn case(slope: &str, leaves: &str, has_chart: bool) -> String {
     let chart = match has_chart {
-        true => "[level.chart]\ninputs = { u = \"-1..1\", v = \"-1..1\" }\nx = \"0*u\"\ny = \"u\"\nz = \"v\"\n",
+        true => {
+            "[level.chart]\ninputs = { u = \"-1..1\", v = \"-1..1\" }\nx = \"0*u\"\ny = \"u\"\nz = \"v\"\n"
+        }
         false => "",
     };
     format!(
@@ -46,7 +48,9 @@ fn no_level_that_a_motion_leaves_has_integrals() {
             let text = case(&slope.join("*"), leaving.unwrap_or("0*b"), has_chart);
             let case = Case::parse(&text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
             let seed = (first * FACTORS.len() + second) as u64;
-            let Ok(report) = judge(&case, &Options { seed, ..Options::default() }) else { continue };
+            let Ok(report) = judge(&case, &Options { seed, ..Options::default() }) else {
+                continue;
+            };
             let is_proved = report.claims[0].verdict == Verdict::Proved;
             assert!(!(is_proved && leaving.is_some()), "the motion leaves x = 0 in\n{text}");
             judged += 1;

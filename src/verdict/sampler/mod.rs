@@ -319,9 +319,7 @@ impl Sampler {
         }
         match is_seen {
             true => Ok(()),
-            false => {
-                Err(JudgeError::PartialChart { found: 0, dimension, listed: String::new() })
-            }
+            false => Err(JudgeError::PartialChart { found: 0, dimension, listed: String::new() }),
         }
     }
 }
