@@ -148,6 +148,7 @@ fn read(
     let (mut warnings, mut remarks) = (Vec::new(), Vec::new());
     if is_whole {
         extend_support(&mut parts.model);
+        remarks.extend(implied::leave_out_constraints(&mut parts.model));
         warnings.extend(root.keep(velocities::check(root, &parts.model)).unwrap_or_default());
         root.keep(no_open_level(root, &parts.model));
         remarks.extend(root.keep(no_implied_level(root, &mut parts.model)).unwrap_or_default());

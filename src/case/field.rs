@@ -94,7 +94,13 @@ fn unknown_rate(key: &str, unreadable: Unreadable, variables: &[Variable]) -> Pr
         Unreadable::Unknown(name) => {
             let meant = look_alike(&name, variables.iter().map(|own| own.name.as_str()));
             let names: Vec<&str> = variables.iter().map(|v| v.name.as_str()).collect();
+            let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
+            let is_vector =
+                |own: &&Variable| own.name == stem && matches!(own.kind, Type::Vector(_));
             let remedy = match names.as_slice() {
+                _ if stem != name && variables.iter().any(|own| is_vector(&own)) => {
+                    format!("write \"{stem}[{}]'\"", &name[stem.len()..])
+                }
                 _ if meant.is_some() => meant.unwrap_or_default(),
                 [] => "declare the variable in [state] first".to_string(),
                 _ => format!("[state] has {}; write \"x'\" = \"…\"", names.join(", ")),

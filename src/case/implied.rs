@@ -1,8 +1,10 @@
-//! Equations of a level that follow from its others, or contradict them.
+//! Equations of a level and constraints that follow from others, or contradict them.
 
 use super::equations::ENTRY;
 use crate::graph::{literally, record};
-use crate::mechanics::{LevelEquation, Model, Phase};
+use crate::mechanics::{
+    LevelEquation, LevelFunction, Meaning, Model, Phase, Quantity, System, VocabularyEntry,
+};
 use crate::proof::LinearDependence;
 
 /// Leaves out equations of the level that are combinations of the others with rational multiples, as
@@ -45,4 +47,74 @@ pub fn leave_out(
 pub fn is_one_of(equation: &LevelEquation, texts: &[String]) -> bool {
     let text = equation.text.split_once(ENTRY).map_or(&*equation.text, |(text, _)| text);
     texts.iter().any(|own| own == text)
+}
+
+/// Leaves out constraints of a nonholonomic system on velocities that are combinations of the others with rational
+/// multiples, as polynomials: the rate of a constraint on coordinates, or one that is stated twice. Returns a
+/// remark on each. Reactions are not determined then, and have no names.
+pub fn leave_out_constraints(model: &mut Model) -> Vec<String> {
+    let found = implied_constraints(model);
+    if found.is_empty() {
+        return Vec::new();
+    }
+    let remark = |(_, equation): &(usize, usize)| {
+        let text = &model.level[*equation].text;
+        format!(
+            "`{text}` follows from the other constraints, and is left out; their reactions have no names, as \
+             they are not unique"
+        )
+    };
+    let remarks = found.iter().map(remark).collect();
+    for (constraint, equation) in found.into_iter().rev() {
+        if let System::Lagrangian(lagrangian) = &mut model.system {
+            lagrangian.constraints.remove(constraint);
+        }
+        model.level.remove(equation);
+    }
+    model.vocabulary = model.vocabulary.only(|entry| !is_reaction(entry));
+    remarks
+}
+
+fn is_reaction(entry: &VocabularyEntry) -> bool {
+    matches!(entry.meaning, Meaning::Quantity(Quantity::Reaction(_)))
+}
+
+/// Lists such constraints by their number and that of their equation of the level.
+fn implied_constraints(model: &Model) -> Vec<(usize, usize)> {
+    let System::Lagrangian(lagrangian) = &model.system else { return Vec::new() };
+    let formulas = model.dynamics().into_iter().chain(&model.abbreviations).chain(&model.extension);
+    let mut used =
+        formulas.flat_map(|formula| model.vocabulary.uses(formula, &model.abbreviations));
+    let count = lagrangian.constraints.len();
+    if lagrangian.vakonomic || count < 2 || used.any(is_reaction) {
+        return Vec::new();
+    }
+    // Each constraint is an equation of the level, after the one whose rate it is.
+    let (mut places, mut place) = (Vec::new(), 0);
+    for constraint in &lagrangian.constraints {
+        let is_own = |place: usize| match model.level.get(place).map(|own| &own.function) {
+            Some(LevelFunction::Formula(function)) => function.text() == constraint.text(),
+            _ => false,
+        };
+        let is_rate = !is_own(place);
+        place += usize::from(is_rate);
+        if !is_own(place) {
+            return Vec::new();
+        }
+        places.push((is_rate, place));
+        place += 1;
+    }
+    let recorded = record(model.free_components() + model.dimension(), |inputs| {
+        let (parameters, state) = inputs.split_at(model.free_components());
+        let phase = Phase::new(model, parameters, state);
+        let value = |constraint| phase.scalar(constraint);
+        literally(|| lagrangian.constraints.iter().map(value).collect::<Vec<_>>())
+    });
+    let Ok((graph, values)) = recorded else { return Vec::new() };
+    let may_be_left_out: Vec<bool> = places.iter().map(|(is_rate, _)| !is_rate).collect();
+    let found = LinearDependence::of(&graph, &values, &may_be_left_out);
+    if found.contradiction.is_some() {
+        return Vec::new();
+    }
+    found.implied.into_iter().map(|index| (index, places[index].1)).collect()
 }

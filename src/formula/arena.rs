@@ -233,6 +233,16 @@ impl Arena {
         Some(changed)
     }
 
+    /// Returns (v,v) where a node is the norm |v| of a vector.
+    pub fn squared_norm(&self, node: NodeId) -> Option<NodeId> {
+        match self.nodes[node].operation {
+            NodeOperation::Function(ElementaryFunction::Sqrt, square) if matches!(self.nodes[square].operation, NodeOperation::Dot(a, b) if a == b) => {
+                Some(square)
+            }
+            _ => None,
+        }
+    }
+
     /// Number held by a node, if it is a constant.
     pub fn constant(&self, node: NodeId) -> Option<&Rational> {
         match &self.nodes[node].operation {

@@ -10,6 +10,7 @@ use super::kind::Type;
 use super::scope::Symbol;
 use super::value::{MatrixEntries, Value};
 use super::{algebra, elementary, tables};
+use crate::number::rational::Rational;
 use crate::scalar::{Function, Scalar};
 
 /// Values of the nodes already passed.
@@ -113,7 +114,8 @@ pub(super) fn literal_values<T: Scalar>(
     T::literally(|| {
         let mut values = Values(Vec::with_capacity(arena.nodes.len()));
         for node in &arena.nodes {
-            let value = step(&node.operation, node.value_type, &values, &symbols);
+            let value = even_power(arena, &node.operation, &values)
+                .unwrap_or_else(|| step(&node.operation, node.value_type, &values, &symbols));
             let value = match node.operation {
                 NodeOperation::Component(a, _)
                 | NodeOperation::Entry(a, ..)
@@ -143,10 +145,31 @@ fn with_others<T: Scalar>(part: Value<T>, whole: &Value<T>) -> Value<T> {
 fn steps<T: Scalar>(arena: &Arena, symbols: &[Value<T>]) -> Vec<Value<T>> {
     let mut values = Values(Vec::with_capacity(arena.nodes.len()));
     for node in &arena.nodes {
-        let value = step(&node.operation, node.value_type, &values, symbols);
+        let value = even_power(arena, &node.operation, &values)
+            .unwrap_or_else(|| step(&node.operation, node.value_type, &values, symbols));
         values.0.push(value);
     }
     values.0
+}
+
+/// An even power of a norm or a modulus, which is one of (v,v) or x² and takes no root: |v|² is smooth at v = 0,
+/// unlike |v|.
+fn even_power<T: Scalar>(
+    arena: &Arena,
+    operation: &NodeOperation,
+    v: &Values<T>,
+) -> Option<Value<T>> {
+    let NodeOperation::Power(base, exponent) = operation else { return None };
+    let half = exponent.to_integer().filter(|exponent| exponent % 2 == 0)? / 2;
+    let square = match (&arena.nodes[*base].operation, arena.squared_norm(*base)) {
+        (NodeOperation::Function(ElementaryFunction::Modulus, x), _) => v.scalar(*x) * v.scalar(*x),
+        (_, Some(square)) => v.scalar(square),
+        _ => return None,
+    };
+    Some(Value::Scalar(match half {
+        1 => square,
+        _ => square.power(&Rational::from(half)),
+    }))
 }
 
 fn step<T: Scalar>(

@@ -21,9 +21,19 @@ const MOST_TOGETHER: usize = 6;
 /// Largest number of choices of unknowns examined in one block.
 const MOST_CHOICES: usize = 400;
 
-/// Finds steps that solve the kept equations of a model; `None` if there are none. Rational charts of
-/// quadrics and of orthogonal vectors are left out where roots are asked for.
-pub fn solve(model: &Model, kept: &[bool], by_roots: bool) -> Option<Solution> {
+/// A preference among orders of solution.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// Few equations at a time.
+    Usual,
+    /// The same, without rational charts of quadrics and of orthogonal vectors.
+    ByRoots,
+    /// Linear equations together with as many as possible that contain further unknowns.
+    Jointly,
+}
+
+/// Finds steps that solve the kept equations of a model; `None` if there are none.
+pub fn solve(model: &Model, kept: &[bool], order: Order) -> Option<Solution> {
     let equations: Vec<usize> = (0..kept.len()).filter(|index| kept[*index]).collect();
     let dimension = model.dimension();
     if equations.is_empty() || equations.len() > MOST_EQUATIONS || dimension > MOST_COMPONENTS {
@@ -41,15 +51,18 @@ pub fn solve(model: &Model, kept: &[bool], by_roots: bool) -> Option<Solution> {
     };
     // √A = e is solved as A = e² where it cannot be solved as it stands.
     let plain = derivatives(false).and_then(|derivatives| {
-        let search = OrderSearch { by_roots, ..OrderSearch::of(model, derivatives) };
-        let frames = if by_roots { Vec::new() } else { Frame::all(&search.derivatives) };
+        let search = OrderSearch { model, derivatives, order };
+        let frames = match order {
+            Order::ByRoots => Vec::new(),
+            Order::Usual | Order::Jointly => Frame::all(&search.derivatives),
+        };
         let framed = (!frames.is_empty()).then(|| search.steps(frames)).flatten();
         framed.or_else(|| search.steps(Vec::new()))
     });
     let steps = plain.or_else(|| {
         let has_roots = equations.iter().any(|index| model.level[*index].root.is_some());
-        let search = OrderSearch::of(model, derivatives(true).filter(|_| has_roots)?);
-        OrderSearch { by_roots, ..search }.steps(Vec::new())
+        let derivatives = derivatives(true).filter(|_| has_roots)?;
+        OrderSearch { model, derivatives, order }.steps(Vec::new())
     })?;
     Some(Solution { steps })
 }
@@ -58,15 +71,10 @@ pub fn solve(model: &Model, kept: &[bool], by_roots: bool) -> Option<Solution> {
 struct OrderSearch<'m> {
     model: &'m Model,
     derivatives: Vec<EquationDerivatives>,
-    /// Whether quadrics are solved for a component, with a root.
-    by_roots: bool,
+    order: Order,
 }
 
-impl<'m> OrderSearch<'m> {
-    fn of(model: &'m Model, derivatives: Vec<EquationDerivatives>) -> Self {
-        Self { model, derivatives, by_roots: false }
-    }
-
+impl OrderSearch<'_> {
     /// Solves the equations, with those of some frames first.
     fn steps(&self, frames: Vec<Frame>) -> Option<Vec<SolutionStep>> {
         let is_left = |index: &usize| {
@@ -86,12 +94,24 @@ impl<'m> OrderSearch<'m> {
             let mut blocks: Vec<Set> = left.iter().map(unknown).collect();
             blocks.sort_by_key(|set| (set.count_ones(), *set));
             blocks.dedup();
-            let found = blocks.into_iter().find_map(|block| {
+            let solved_by = |block: Set| {
                 let members: Vec<usize> =
                     left.iter().copied().filter(|index| unknown(index) & !block == 0).collect();
                 let step = self.step(&members, block, settled, solved)?;
                 Some((block, members, step))
-            });
+            };
+            let mut found = blocks.iter().find_map(|block| solved_by(*block));
+            if let (Order::Jointly, Some((block, _, SolutionStep::Linear { .. }))) =
+                (self.order, &found)
+            {
+                let is_wider = |own: &&Set| *own & block == *block && *own != block;
+                let mut wider =
+                    blocks.iter().rev().filter(is_wider).filter_map(|own| solved_by(*own));
+                let is_plain = |step: &SolutionStep| {
+                    matches!(step, SolutionStep::Linear { .. } | SolutionStep::Quadratic { .. })
+                };
+                found = wider.find(|(_, _, step)| is_plain(step)).or(found);
+            }
             let (block, members, step) = match found {
                 Some(found) => found,
                 None => {
@@ -146,8 +166,9 @@ impl<'m> OrderSearch<'m> {
             }
         }
         // A rational parametrisation beats a root.
-        if let ([index], true, false) =
-            (block, best.as_ref().is_none_or(|(cost, _)| *cost >= 20), self.by_roots)
+        let has_chart = self.order != Order::ByRoots;
+        if let ([index], true, true) =
+            (block, best.as_ref().is_none_or(|(cost, _)| *cost >= 20), has_chart)
         {
             best = self.quadric(*index, unknown, settled).map(|step| (0, step)).or(best);
         }

@@ -14,6 +14,7 @@
 //! no part of a level is missed.
 
 mod analysis;
+mod branches;
 mod cover;
 mod derivatives;
 mod equation;
@@ -23,7 +24,8 @@ mod quadric;
 mod solution;
 mod steps;
 
-pub use analysis::solve;
+pub use analysis::{Order, solve};
+pub use branches::branches;
 pub use cover::{Cover, Part};
 pub use newton::{Newton, has_moduli};
 pub use solution::{Solution, Solved};

@@ -9,12 +9,12 @@ use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 
 use super::recipe::Draw;
-use super::streams::{NUMBERS, Streams, WIDTH};
-use crate::engine::{ROW_STATES, RowBlock};
+use super::streams::{NUMBERS, Streams, WIDTH, Words};
+use crate::engine::{InputExtent, ROW_STATES, RowBlock};
 use crate::graph::{Kernel, with_widest_vectors};
 use crate::number::ball::Balls;
 use crate::number::rational::Rational;
-use source::{Manner, NumberSource};
+use source::{Manner, NumberSource, is_short};
 
 /// Random numbers for states, strictly inside their ranges and never 0.
 ///
@@ -66,22 +66,19 @@ impl DrawSource {
         self.picked(seed, index, attempt, NumberSource::nearest)
     }
 
-    /// Whether each number is an f64 that is finite, at nearly all states.
-    pub fn exact(&self) -> Vec<bool> {
-        let is_exact = |source: &NumberSource| match source {
-            NumberSource::List(values) => values.iter().all(|value| {
-                let (nearest, is_exact) = value.to_f64();
-                is_exact && nearest.is_finite()
-            }),
-            NumberSource::Sign | NumberSource::Range { .. } => true,
-        };
-        self.sources.iter().map(is_exact).collect()
+    /// Where each number lies as an f64, and whether it is exact, at nearly all states.
+    pub fn extents(&self) -> Vec<InputExtent> {
+        self.sources.iter().map(NumberSource::extent).collect()
     }
 
     /// Encloses the numbers of the states from `start` on, one column of lanes for each number:
-    /// those of [`DrawSource::nearest`].
-    pub fn fill<C: Column>(&self, streams: &Streams, start: u64, columns: &mut [C]) {
-        with_widest_vectors(Fill { sources: &self.sources, streams, start, columns });
+    /// those of [`DrawSource::nearest`]. Returns whether all of them come from within ranges, and are
+    /// exact.
+    pub fn fill<C: Column>(&self, streams: &Streams, start: u64, columns: &mut [C]) -> bool {
+        let mut is_plain = true;
+        let sources = &self.sources;
+        with_widest_vectors(Fill { sources, streams, start, columns, is_plain: &mut is_plain });
+        is_plain
     }
 
     fn picked<T>(
@@ -136,24 +133,93 @@ struct Fill<'f, C> {
     streams: &'f Streams,
     start: u64,
     columns: &'f mut [C],
+    is_plain: &'f mut bool,
 }
 
 impl<C: Column> Kernel for Fill<'_, C> {
     #[inline(always)]
     fn run(self) {
+        let Self { sources, streams, start, columns, is_plain } = self;
+        *is_plain = sources.iter().all(|source| source.plain().is_some());
         for first in (0..C::LANES).step_by(WIDTH) {
-            let index = self.start + first as u64;
-            for (block, sources) in self.sources.chunks(NUMBERS).enumerate() {
-                let numbers = self.streams.numbers(index, block as u64);
-                let columns = self.columns[block * NUMBERS..].iter_mut();
+            let index = start + first as u64;
+            // Plain numbers first, with one test for all: a test of each would wait for its number.
+            let mut outside = [0; WIDTH];
+            for (block, sources) in sources.chunks(NUMBERS).enumerate() {
+                if sources.iter().all(|source| source.plain().is_none()) {
+                    continue;
+                }
+                let words = streams.words(index, block as u64);
+                let columns = &mut columns[block * NUMBERS..];
+                let mut to = Plain { sources, words: &words, columns, first, outside };
+                // By name: in a loop numbers, not lanes, would become vectors.
+                to.draw::<0>();
+                to.draw::<1>();
+                to.draw::<2>();
+                to.draw::<3>();
+                to.draw::<4>();
+                to.draw::<5>();
+                to.draw::<6>();
+                to.draw::<7>();
+                outside = to.outside;
+            }
+            let is_open = is_short(index) || has_sign(&outside);
+            if !is_open && *is_plain {
+                continue;
+            }
+            *is_plain &= !is_open;
+            for (block, sources) in sources.chunks(NUMBERS).enumerate() {
+                let numbers = streams.numbers(index, block as u64);
+                let columns = columns[block * NUMBERS..].iter_mut();
                 for ((source, bits), column) in sources.iter().zip(&numbers).zip(columns) {
-                    let lanes = first..C::LANES.min(first + WIDTH);
-                    let [mid, rad] = column.parts();
-                    source.enclose(index, bits, &mut mid[lanes.clone()], &mut rad[lanes]);
+                    if is_open || source.plain().is_none() {
+                        let lanes = first..C::LANES.min(first + WIDTH);
+                        let [mid, rad] = column.parts();
+                        source.enclose(index, bits, &mut mid[lanes.clone()], &mut rad[lanes]);
+                    }
                 }
             }
         }
     }
+}
+
+/// Numbers from within ranges, for the states of a vector.
+struct Plain<'f, C> {
+    sources: &'f [NumberSource],
+    words: &'f Words,
+    columns: &'f mut [C],
+    /// First lane.
+    first: usize,
+    /// For each state a word whose first bit is 1 if a number is outside of its range.
+    outside: [u64; WIDTH],
+}
+
+impl<C: Column> Plain<'_, C> {
+    /// Draws number K, if its source is plain.
+    #[inline(always)]
+    fn draw<const K: usize>(&mut self) {
+        let (Some(source), Some(column)) = (self.sources.get(K), self.columns.get_mut(K)) else {
+            return;
+        };
+        let Some(plain) = source.plain() else { return };
+        let [mid, rad] = column.parts();
+        let lanes = self.first..;
+        let mid = mid.get_mut(lanes.clone()).and_then(<[f64]>::first_chunk_mut);
+        if let (Some(mid), Some(rad)) = (mid, rad.get_mut(lanes).and_then(<[f64]>::first_chunk_mut))
+        {
+            plain.draw(&self.words.number::<K>(), mid, &mut self.outside);
+            *rad = [0.0; WIDTH];
+        } else {
+            // Fewer states than a vector has.
+            self.outside = [u64::MAX; WIDTH];
+        }
+    }
+}
+
+/// Whether the first bit of some word is 1.
+#[inline(always)]
+fn has_sign(words: &[u64; WIDTH]) -> bool {
+    words.iter().fold(0, |any, one| any | one) >> 63 == 1
 }
 
 #[cfg(test)]

@@ -14,8 +14,22 @@ pub(super) const WIDTH: usize = 16;
 /// Number of random numbers of 64 bits in a block of words.
 pub(super) const NUMBERS: usize = 8;
 
-/// Words of one block, by word and by state.
-type Words = [[u32; WIDTH]; 16];
+/// Some words of each state, by word and by state.
+type WordRows = [[u32; WIDTH]; 16];
+
+/// Random words of one block, before the last sum.
+pub(super) struct Words {
+    mixed: WordRows,
+    start: WordRows,
+}
+
+impl Words {
+    /// Joins the words 2K and 2K + 1 to a number.
+    #[inline(always)]
+    pub(super) fn number<const K: usize>(&self) -> [u64; WIDTH] {
+        number::<K>(&self.mixed, &self.start)
+    }
+}
 
 /// First words of every block, "expand 32-byte k".
 const CONSTANTS: [u32; 4] = [0x6170_7865, 0x3320_646e, 0x7962_2d32, 0x6b20_6574];
@@ -38,7 +52,24 @@ impl Streams {
     /// `8 block` of their streams.
     #[inline(always)]
     pub fn numbers(&self, first: u64, block: u64) -> [[u64; WIDTH]; NUMBERS] {
-        let mut start: Words = [[0; WIDTH]; 16];
+        let words = self.words(first, block);
+        // By name: in a loop over the numbers these, not the lanes, would become vectors.
+        [
+            words.number::<0>(),
+            words.number::<1>(),
+            words.number::<2>(),
+            words.number::<3>(),
+            words.number::<4>(),
+            words.number::<5>(),
+            words.number::<6>(),
+            words.number::<7>(),
+        ]
+    }
+
+    /// Computes the words of these numbers.
+    #[inline(always)]
+    pub(super) fn words(&self, first: u64, block: u64) -> Words {
+        let mut start: WordRows = [[0; WIDTH]; 16];
         for (word, value) in start.iter_mut().zip(CONSTANTS.iter().chain(&self.key)) {
             *word = [*value; WIDTH];
         }
@@ -61,23 +92,13 @@ impl Streams {
             quarter::<2, 7, 8, 13>(&mut words);
             quarter::<3, 4, 9, 14>(&mut words);
         }
-        // By name: in a loop over the numbers these, not the lanes, would become vectors.
-        [
-            number::<0>(&words, &start),
-            number::<1>(&words, &start),
-            number::<2>(&words, &start),
-            number::<3>(&words, &start),
-            number::<4>(&words, &start),
-            number::<5>(&words, &start),
-            number::<6>(&words, &start),
-            number::<7>(&words, &start),
-        ]
+        Words { mixed: words, start }
     }
 }
 
 /// Joins the words 2K and 2K + 1 of a block to a number.
 #[inline(always)]
-fn number<const K: usize>(words: &Words, start: &Words) -> [u64; WIDTH] {
+fn number<const K: usize>(words: &WordRows, start: &WordRows) -> [u64; WIDTH] {
     let (low, high) =
         (sum(&words[2 * K], &start[2 * K]), sum(&words[2 * K + 1], &start[2 * K + 1]));
     let mut number = [0; WIDTH];
@@ -98,7 +119,7 @@ fn sum(a: &[u32; WIDTH], b: &[u32; WIDTH]) -> [u32; WIDTH] {
 
 /// Mixes four words of each state (Bernstein, ChaCha, 2008).
 #[inline(always)]
-fn quarter<const A: usize, const B: usize, const C: usize, const D: usize>(words: &mut Words) {
+fn quarter<const A: usize, const B: usize, const C: usize, const D: usize>(words: &mut WordRows) {
     let [mut a, mut b, mut c, mut d] = [words[A], words[B], words[C], words[D]];
     half::<16, 12>(&mut a, &mut b, &mut c, &mut d);
     half::<8, 7>(&mut a, &mut b, &mut c, &mut d);

@@ -26,6 +26,14 @@ const STATES: u64 = 16;
 /// Values of the listed numbers and of the signs of roots, by draw.
 type Choice = Vec<Option<Rational>>;
 
+/// What is known of the states of a place, or of a branch of it, from one solution.
+pub struct Missed {
+    branch: Option<usize>,
+    solution: Solution,
+    /// Reason why they may miss a part, if they may.
+    reason: Option<String>,
+}
+
 /// Lists all choices of listed numbers and signs; `None` if there are too many.
 fn choices(recipes: &[Draw]) -> Option<Vec<Choice>> {
     let listed = |draw: &Draw| match draw {
@@ -58,27 +66,43 @@ fn fixed(
 impl Judging<'_> {
     /// Returns the reason why states may miss a part of their place, if they may.
     pub(super) fn missed_part(&self, sampler: &Sampler) -> Result<Option<String>, Fault> {
-        let is_charted = matches!(self.case.chart, Chart::Given(_))
-            && !sampler.kept().is_empty()
-            && sampler.kept().iter().all(|kept| *kept);
-        if sampler.solution().is_none() && !is_charted {
-            return Ok(None);
+        let Some(solution) = sampler.solution() else { return self.thin_image(sampler) };
+        let branch = sampler.branch().map(|branch| branch.number);
+        let is_same = |own: &&Missed| own.branch == branch && own.solution == *solution;
+        let known = self.missed.borrow();
+        if let Some(known) = known.get(sampler.kept()).and_then(|all| all.iter().find(is_same)) {
+            return Ok(known.reason.clone());
         }
-        let known = self.missed.borrow().get(sampler.kept()).cloned();
-        if let Some(known) = known {
-            return Ok(known);
-        }
-        let missed = match sampler.solution() {
-            Some(solution) => self.find_missed_part(sampler, solution)?,
-            None => self.thin_image(sampler)?,
-        };
-        self.missed.borrow_mut().insert(sampler.kept().to_vec(), missed.clone());
-        Ok(missed)
+        drop(known);
+        let reason = self.find_missed_part(sampler, solution)?;
+        let (solution, found) = (solution.clone(), reason.clone());
+        let mut missed = self.missed.borrow_mut();
+        missed.entry(sampler.kept().to_vec()).or_default().push(Missed {
+            branch,
+            solution,
+            reason,
+        });
+        Ok(found)
     }
 
     /// Returns the reason why a part of the image of a given chart may have no interior, for some listed
     /// values or signs of moduli: motions may leave it.
     fn thin_image(&self, sampler: &Sampler) -> Result<Option<String>, Fault> {
+        let case = self.case;
+        let is_charted = matches!(case.chart, Chart::Given(_))
+            && !sampler.kept().is_empty()
+            && sampler.kept().iter().all(|kept| *kept);
+        if !is_charted {
+            return Ok(None);
+        }
+        if let Some(known) = self.thin_image.get() {
+            return Ok(known.clone());
+        }
+        let found = self.find_thin_image(sampler)?;
+        Ok(self.thin_image.get_or_init(|| found).clone())
+    }
+
+    fn find_thin_image(&self, sampler: &Sampler) -> Result<Option<String>, Fault> {
         let case = self.case;
         let Some(choices) = combinations(sampler.recipes()) else { return Ok(None) };
         let rank = case.model.dimension().saturating_sub(case.model.level.len());

@@ -39,6 +39,8 @@ pub struct ClaimState {
     /// Whether the residual is known to be zero wherever it has a value, and no state is known at which
     /// the claim has one.
     pub is_unseen: bool,
+    /// Whether the slopes of the level's equations depend on each other at states of the place.
+    pub is_flat: bool,
     /// Whether the states are a part of lower dimension than the place.
     pub is_thin: bool,
     /// Whether the part has states, though perhaps none at which the claim has a value.

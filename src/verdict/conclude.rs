@@ -85,7 +85,12 @@ pub fn report(
             .filter(|(_, kept)| **kept)
             .map(|(equation, _)| equation.text.as_str())
             .collect();
-        evidence.volume = Some(format!("σ with dx = d({})∧σ", functions.join(")∧d(")));
+        evidence.volume = Some(match status.is_flat {
+            false => format!("σ with dx = d({})∧σ", functions.join(")∧d(")),
+            true => {
+                "dx around the level, whose equations have dependent slopes and so no σ".to_string()
+            }
+        });
     }
     let elsewhere = evidence.holds.iter().any(|name| *name != place);
     let enough = options.trust != Trust::Proof || verdict == Verdict::Proved;

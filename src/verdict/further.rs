@@ -35,7 +35,11 @@ impl Judging<'_> {
             let mut statuses: Vec<&mut ClaimState> =
                 left.iter_mut().map(|(_, status)| &mut **status).collect();
             let share = (blocks.end - blocks.start) as f64 / self.blocks() as f64;
-            match run.pass(sampler, blocks.clone(), layout) {
+            // These ratios are part of the evidence already.
+            let known =
+                |status: &&mut ClaimState| status.evidence.max_scaled_residual.unwrap_or(0.0);
+            let known: Vec<f64> = statuses.iter().map(known).collect();
+            match run.pass(sampler, blocks.clone(), layout, &known) {
                 Some(passed) => {
                     let passed = blocks.zip(passed);
                     self.weigh_passed(sampler, (run, layout), passed, &mut statuses);

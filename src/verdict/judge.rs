@@ -85,6 +85,14 @@ pub enum JudgeError {
         /// Left minus right side, at a state.
         by: String,
     },
+    /// The states found for the level are not on it.
+    #[error("the states found for the level are not on it: `{equation}` is off by {by}")]
+    OffSolution {
+        /// Equation that is off.
+        equation: String,
+        /// Left minus right side, at a state.
+        by: String,
+    },
     /// The parametrisation misses directions of the level.
     #[error("the chart covers {found} of the {dimension} dimensions of the level set{listed}")]
     PartialChart {
@@ -150,6 +158,10 @@ impl JudgeError {
                  not grow as fast"
             }
             JudgeError::OffLevel { .. } => "correct the formulas of [level.chart]",
+            JudgeError::OffSolution { .. } => {
+                "the program solves this level wrongly: please report the case; [level.chart] gives \
+                 other states"
+            }
             JudgeError::PartialChart { .. } => {
                 "a claim would be tested on a part of the level only: give [level.chart] more inputs"
             }

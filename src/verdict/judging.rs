@@ -1,10 +1,11 @@
 //! A case under judgement: its graph, the evaluation of parts of it, and the checks common to all
 //! cases.
 
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 
 use rustc_hash::FxHashMap;
 
+use super::branches::Missed;
 use super::claim_state::{BlockResult, are_zero};
 use super::field::{Answer, PrimeFieldStates, Query};
 use super::judge::{JudgeError, Options};
@@ -20,8 +21,8 @@ use super::sampler::{Sampler, TAPE_LANES};
 use crate::case::Case;
 use crate::claim::LevelSubset;
 use crate::graph::{Expr, Graph};
-use crate::level;
-use crate::mechanics::Variable;
+use crate::level::{self, Order};
+use crate::mechanics::{Chart, Variable};
 use crate::number::ball::{Ball, Balls};
 use crate::number::double_double_ball::DoubleDoubleBall;
 use crate::number::mixed::{Mixed, Number};
@@ -36,7 +37,9 @@ pub struct Judging<'a> {
     /// Takes numbers of claims that are decided, also fractions.
     pub(super) decided: &'a (dyn Fn(f64) + Sync),
     /// Reasons why the states of a place may miss a part of it, by the equations that hold there.
-    pub(super) missed: RefCell<FxHashMap<Vec<bool>, Option<String>>>,
+    pub(super) missed: RefCell<FxHashMap<Vec<bool>, Vec<Missed>>>,
+    /// Reason why a part of the image of a given chart may have no interior.
+    pub(super) thin_image: OnceCell<Option<String>>,
     /// Parts of a place, by the equations that hold there.
     pub(super) pieces: RefCell<FxHashMap<Vec<bool>, Option<Pieces>>>,
     /// Equations of the level whose slopes depend on each other at the states.
@@ -63,6 +66,7 @@ impl<'a> Judging<'a> {
             inputs,
             decided: &|_| (),
             missed: RefCell::default(),
+            thin_image: OnceCell::new(),
             pieces: RefCell::default(),
             flat: RefCell::default(),
             one_to_one: RefCell::default(),
@@ -152,7 +156,7 @@ impl Judging<'_> {
             let is_off = |lane: &usize| is_state(*lane) && off.excludes_zero(*lane);
             if let Some(lane) = (0..TAPE_LANES).find(is_off) {
                 let (equation, by) = (equation.text.clone(), format!("{:e}", off.mid[lane]));
-                return Err(JudgeError::OffLevel { equation, by });
+                return Err(self.off_level(equation, by));
             }
         }
         let undefined = (0..TAPE_LANES).all(|lane| !defined(&values.range(0..fields), lane));
@@ -192,6 +196,14 @@ impl Judging<'_> {
         warnings.extend(self.missed_part(sampler)?);
         warnings.extend(self.jump_of_level(sampler));
         Ok(warnings)
+    }
+
+    /// Returns the error that states do not fulfil an equation of the level.
+    pub(super) fn off_level(&self, equation: String, by: String) -> JudgeError {
+        match self.case.chart {
+            Chart::Equations => JudgeError::OffSolution { equation, by },
+            _ => JudgeError::OffLevel { equation, by },
+        }
     }
 
     /// Checks that each ∫ of the equations of motion and of the new variables is a function of its
@@ -271,7 +283,8 @@ impl Judging<'_> {
             // A slope may be undefined where a solution exists, such as that of √(y + |y|) for y <
             // 0.
             let is_solved = || {
-                seen.is_nowhere_defined() && level::solve(&self.case.model, &kept, false).is_some()
+                seen.is_nowhere_defined()
+                    && level::solve(&self.case.model, &kept, Order::Usual).is_some()
             };
             if !seen.excludes_zero() && !is_solved() {
                 return Err(JudgeError::Dependent(equation.text.clone()));

@@ -21,7 +21,7 @@ const EVERYWHERE: &str = "everywhere";
 pub struct FlatEquation {
     /// Index of the equation.
     pub index: usize,
-    /// Whether it is known to depend on them at states, or is known at none; otherwise nothing is known.
+    /// Whether it is known to depend on them at states; otherwise nothing is known.
     pub is_lost: bool,
 }
 
@@ -90,6 +90,7 @@ impl Judging<'_> {
             let Some(found) = own().find(|found| found.is_lost).or_else(|| own().next()) else {
                 continue;
             };
+            status.is_flat = true;
             let evidence = &mut status.evidence;
             if item.claim.kind.name() == "identity"
                 || status.settled == Some(Verdict::Undecided)

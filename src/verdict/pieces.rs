@@ -11,7 +11,7 @@ use super::recorded::RecordedClaim;
 use super::sampler::{PlaceParts, Sampler, TAPE_LANES};
 use crate::claim::LevelSubset;
 use crate::graph::Fault;
-use crate::mechanics::{Chart, combinations};
+use crate::mechanics::{Chart, Draw, combinations};
 use crate::proof::fewest;
 
 /// Samplers of the parts of a place, for each choice of listed parameter values.
@@ -38,6 +38,9 @@ impl Judging<'_> {
         if !matches!(case.chart, Chart::Equations) || is_whole {
             return Ok(None);
         }
+        if let Some(pieces) = self.solved_pieces(sampler)? {
+            return Ok(Some(pieces));
+        }
         let place = PlaceParts::of(case, sampler);
         let Some(choices) = combinations(&place.draws) else { return Ok(None) };
         let mut pieces = Vec::new();
@@ -51,6 +54,48 @@ impl Judging<'_> {
             own.retain(|_| moves.next().unwrap_or(true));
             if !own.is_empty() {
                 pieces.push(own);
+            }
+        }
+        Ok((!pieces.is_empty()).then(|| pieces.into()))
+    }
+
+    /// Returns samplers of the place, or of the levels into which it falls by the form of its equations, if
+    /// each has a solution, in some order, that has states and is known to miss nothing.
+    fn solved_pieces(&self, sampler: &Sampler) -> Result<Option<Pieces>, Fault> {
+        let branches = sampler.branches(self.case)?;
+        let branches = match &branches {
+            Some(branches) => branches.iter().map(Some).collect(),
+            None => vec![None],
+        };
+        let mut own: Vec<Sampler> = Vec::new();
+        for branch in branches {
+            let mut found = None;
+            for solved in sampler.solved(self.case, branch)? {
+                // What has no states may be what real points of lower dimension are left of.
+                if solved.has_states() && self.missed_part(&solved)?.is_none() {
+                    found = Some(solved);
+                    break;
+                }
+            }
+            let Some(found) = found else { return Ok(None) };
+            own.push(found);
+        }
+        let lists: Vec<Draw> =
+            sampler.recipes().iter().take(sampler.parameter_draws()).cloned().collect();
+        let Some(choices) = combinations(&lists) else { return Ok(None) };
+        let mut pieces = Vec::new();
+        for fixed in &choices {
+            let of_choice = |own: &Sampler| {
+                let rest = own.recipes().len() - fixed.len();
+                own.with(&[&fixed[..], &vec![None; rest]].concat())
+            };
+            let mut of_choice: Vec<Sampler> = own.iter().map(of_choice).collect();
+            let moves =
+                of_choice.iter().map(|own| self.moves(own)).collect::<Result<Vec<_>, Fault>>()?;
+            let mut moves = moves.into_iter();
+            of_choice.retain(|_| moves.next().unwrap_or(true));
+            if !of_choice.is_empty() {
+                pieces.push(of_choice);
             }
         }
         Ok((!pieces.is_empty()).then(|| pieces.into()))

@@ -2,12 +2,12 @@
 
 use num_traits::Zero;
 
-use super::sampler::{Sampler, extent};
+use super::sampler::Sampler;
 use crate::case::Case;
 use crate::graph::{Expr, Fault, Graph, Step, record};
 use crate::level::{Pivot, Solution};
+use crate::mechanics::Phase;
 use crate::mechanics::elimination::determinant;
-use crate::mechanics::{Draw, Phase};
 use crate::number::rational::Rational;
 use crate::proof::{Extent, are_polynomials, combinations, is_nowhere_zero};
 use crate::scalar::Scalar;
@@ -28,7 +28,8 @@ pub struct PivotSpace {
 
 impl PivotSpace {
     pub fn of(case: &Case, sampler: &Sampler, solution: &Solution) -> Result<Self, Fault> {
-        let (model, first) = (&case.model, sampler.parameter_draws());
+        let model = sampler.branch().map_or(&case.model, |branch| &branch.model);
+        let first = sampler.parameter_draws();
         let (graph, (pivots, level)) = record(first + model.dimension(), |inputs| {
             let (parameters, state) = model.make_parameters(inputs);
             let phase = Phase::new(model, &parameters, state);
@@ -40,17 +41,7 @@ impl PivotSpace {
             let level: Vec<Expr> = level.collect();
             (solution.pivots(model, &parameters, state), level)
         })?;
-        let mut extents = sampler.extents();
-        extents.truncate(first);
-        extents.extend(case.free_draws.iter().map(extent));
-        // Listed values lie between the smallest and the largest.
-        for (extent, draw) in extents.iter_mut().zip(sampler.recipes()).take(first) {
-            if let Draw::OneOf(values) = draw
-                && let (Some(least), Some(most)) = (values.iter().min(), values.iter().max())
-            {
-                *extent = Extent::between(least, most);
-            }
-        }
+        let extents = sampler.space_extents(case);
         Ok(Self { graph, pivots, level, extents, first })
     }
 

@@ -175,6 +175,11 @@ pub struct OutputLayout {
 }
 
 impl OutputLayout {
+    /// Outputs that are residuals, claim after claim.
+    pub fn residuals(&self) -> impl Iterator<Item = usize> {
+        self.spans.iter().flat_map(|span| span.residual.clone())
+    }
+
     /// Whether each lane contains a state with all values that a claim requires.
     pub fn existing<D: Enclosing>(&self, values: &Values<D>, span: &Span) -> Vec<bool> {
         values.existing(&[self.common.clone(), span.requirement.clone()])

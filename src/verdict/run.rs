@@ -12,7 +12,7 @@ use crate::number::rational::Rational;
 use crate::number::{Domain, Enclosing};
 
 use super::antiderivative_value;
-use super::pass::{BallParts, Passed, passed};
+use super::pass::{BallParts, Passed, passed, passed_below};
 use super::recorded::OutputLayout;
 use super::sampler::{Maker, Sampler, TAPE_LANES};
 
@@ -109,25 +109,37 @@ impl Run {
 
     /// Passes some blocks of states, on all threads; returns what each block shows of each claim, in
     /// the order of the blocks, or nothing where the states take more than one run of a tape.
+    ///
+    /// Ratios of midpoints to radii may be left out where they are at most the `known` one of the
+    /// claim.
     pub fn pass(
         &self,
         sampler: &Sampler,
         blocks: Range<u64>,
         layout: &OutputLayout,
+        known: &[f64],
     ) -> Option<Vec<Vec<Passed>>> {
         let free = self.free(&Ball::<TAPE_LANES>);
         let general = || (sampler.maker(), Evaluator::new(&self.tape, Ball::<TAPE_LANES>));
-        let Some(engine) = self.code(sampler, &blocks) else {
+        let Some(engine) = self.code(sampler, &blocks, layout) else {
             let one = |memory: &mut (Maker<'_>, Evaluator<'_, Doubles>), block: u64| {
                 passed_straight(memory, &free, block, layout)
             };
             return blocks.into_par_iter().map_init(general, one).collect();
         };
         let (streams, computed) = (sampler.streams(), engine.computed());
-        let one = |runner: &mut BallRunner, block: u64| {
-            sampler.fill(&streams, block * TAPE_LANES as u64, runner);
-            if !runner.is_exact() {
+        let limits: Vec<f64> = known.iter().map(|known| Passed::limit(*known)).collect();
+        let one = |(runner, tries): &mut (BallRunner, Tries), block: u64| {
+            if !sampler.fill(&streams, block * TAPE_LANES as u64, runner) {
                 return passed_straight(&mut general(), &free, block, layout);
+            }
+            if tries.pay() && runner.run_lower() {
+                let output = |index: usize| runner.lower(index).map(|[mid, low]| [&mid.0, &low.0]);
+                let found = passed_below(output, layout, &limits);
+                tries.count(found.is_some());
+                if found.is_some() {
+                    return found;
+                }
             }
             runner.run();
             // Not `map`, which is a call for each output.
@@ -139,18 +151,25 @@ impl Run {
             let states = draws.chain((0..computed).map(output));
             Some(passed(states, |index| output(computed + index), layout))
         };
-        blocks.into_par_iter().map_init(|| engine.runner(), one).collect()
+        let memory = || (engine.runner(), Tries::default());
+        blocks.into_par_iter().map_init(memory, one).collect()
     }
 
     /// Returns machine code where there are enough blocks for it, and it can be made.
-    fn code(&self, sampler: &Sampler, blocks: &Range<u64>) -> Option<&BallEngine> {
+    fn code(
+        &self,
+        sampler: &Sampler,
+        blocks: &Range<u64>,
+        layout: &OutputLayout,
+    ) -> Option<&BallEngine> {
         if blocks.end - blocks.start < MANY {
             return None;
         }
         let make = || {
             let further: Vec<Rational> =
                 (0..self.antiderivatives).map(antiderivative_value).collect();
-            sampler.engine(&further, &self.tape)
+            let tested: Vec<usize> = layout.residuals().collect();
+            sampler.engine(&further, &self.tape, &tested)
         };
         self.code.get_or_init(make).as_ref()
     }
@@ -169,6 +188,26 @@ impl Run {
         let free = self.free(domain);
         evaluator.run(states.iter().chain(&free));
         Values { blocks: evaluator.outputs().cloned().collect(), states: states.to_vec() }
+    }
+}
+
+/// Numbers of blocks that were tried with lower bounds of radii, and that these were enough for.
+#[derive(Debug, Default)]
+struct Tries {
+    all: u32,
+    enough: u32,
+}
+
+impl Tries {
+    /// Whether a try pays: it takes about half the time that it may save.
+    fn pay(&self) -> bool {
+        const FIRST: u32 = 16;
+        self.all < FIRST || 2 * self.enough > self.all
+    }
+
+    fn count(&mut self, is_enough: bool) {
+        self.all += 1;
+        self.enough += u32::from(is_enough);
     }
 }
 

@@ -2,6 +2,7 @@
 //! other functions, places that the motion leaves.
 
 mod absent;
+mod branches;
 mod frames;
 mod jumps;
 mod levels;

@@ -29,9 +29,9 @@ fn of_mistake(path: &str, source: &str, mistake: &Mistake, colour: bool) -> File
 pub fn of_judging(path: &str, source: &str, error: &JudgeError, colour: bool) -> FileFailure {
     let place = |text: &str| source.find(text).map(|start| start..start + text.len());
     let span = match error {
-        JudgeError::NotInvariant { equation, .. } | JudgeError::Dependent(equation) => {
-            place(equation)
-        }
+        JudgeError::NotInvariant { equation, .. }
+        | JudgeError::OffSolution { equation, .. }
+        | JudgeError::Dependent(equation) => place(equation),
         JudgeError::Quadrature(formula) => place(formula),
         JudgeError::OffLevel { equation, .. } => place("[level.chart]").or_else(|| place(equation)),
         JudgeError::PartialChart { .. } => place("[level.chart]"),

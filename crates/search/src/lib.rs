@@ -103,9 +103,6 @@ pub fn search(
         maps::note_fields_only(effort, &mut report);
         return Ok(report);
     }
-    report.stage("the number of integrals", effort, |report| {
-        counts::count(case, counts::Degrees::Each, effort, report, progress)
-    })?;
     // Integrals of degree 1 come first: those of degree 2 may be functions of them.
     report.stage("products of factors", effort, |report| {
         progress("factors of densities");
@@ -118,6 +115,10 @@ pub fn search(
     report.stage("linear symmetry fields", effort, |report| {
         progress("linear symmetry fields");
         symmetries::symmetries(case, effort, report)
+    })?;
+    // What takes longest comes last: of a search that is stopped the rest is reported.
+    report.stage("the number of integrals", effort, |report| {
+        counts::count(case, counts::Degrees::Each, effort, report, progress)
     })?;
     report.stage("a global ansatz", effort, |report| {
         ansatz::search(case, effort, report, progress)

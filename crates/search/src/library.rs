@@ -36,7 +36,11 @@ fn kept(made: impl IntoIterator<Item = FormulaResult>) -> Vec<Formula> {
 /// Scalar parameters in the formula of a potential.
 fn potential_parameters(model: &Model) -> Vec<Formula> {
     let Some(formula) = model.system.potential_formula() else { return Vec::new() };
-    let bodily = ["m", "R", "I", "B", "J", "c", "k", "μ"];
+    let mut bodily = vec!["m", "R", "I", "B", "J", "c", "μ"];
+    // On a plane k is a name like any other.
+    if model.system.is_curved() {
+        bodily.push("k");
+    }
     let names = formula
         .symbols()
         .map(|symbol| model.vocabulary.entry(symbol))

@@ -179,6 +179,9 @@ pub struct SearchReport {
     /// Parts that could not be carried out as no terms have values modulo a prime.
     #[serde(skip)]
     pub(crate) without_points: Vec<String>,
+    /// Polynomial integrals met on the way that are functions of others, and no polynomials in them.
+    #[serde(skip)]
+    pub(crate) dependent: Vec<Formula>,
     /// Integrals claimed by the case, with which finds are compared.
     #[serde(skip)]
     pub(crate) claimed: Vec<Claimed>,

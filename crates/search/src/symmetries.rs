@@ -20,6 +20,8 @@ use liouville::scalar::Scalar;
 
 /// Largest number of state components for which linear fields are tried.
 const MOST_COMPONENTS: usize = 9;
+/// Largest number of them for which constant fields are tried.
+const MOST_CONSTANT: usize = 24;
 
 /// Searches for symmetry fields; proved ones go into the report.
 pub fn symmetries(
@@ -29,12 +31,13 @@ pub fn symmetries(
 ) -> Result<(), SearchError> {
     let model = &case.model;
     let dimension = model.dimension();
-    if dimension > MOST_COMPONENTS || !model.extension.is_empty() {
+    if dimension > MOST_CONSTANT || !model.extension.is_empty() {
         return Ok(());
     }
     let kept = LevelSubset::level(model).kept;
     // Fields x_i ∂/∂x_j and ∂/∂x_j, as pairs (i, j); followed by c.
-    let sources = (0..dimension).map(Some).chain([None]);
+    let linear = if dimension > MOST_COMPONENTS { 0 } else { dimension };
+    let sources = (0..linear).map(Some).chain([None]);
     let all: Vec<LinearField> = sources.flat_map(|i| (0..dimension).map(move |j| (i, j))).collect();
     let Some(fields) = distinct(case, all, effort)? else { return Ok(()) };
     let (graph, columns) = recorded(case, |jet| {

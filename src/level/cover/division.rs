@@ -4,6 +4,7 @@ use super::Cover;
 use super::node::Node;
 use super::solving::Coefficients;
 use crate::graph::Fault;
+use crate::proof::sign;
 
 impl Cover<'_> {
     /// Divides a node by one of its equations, one with as few free draws as possible; `None` if none
@@ -36,13 +37,28 @@ impl Cover<'_> {
                     return Ok(Some(children));
                 }
             }
-            if let Some(children) = node.by_sign(index)? {
-                return Ok(Some(children));
+            if let Some([plus, minus]) = node.by_sign(index)? {
+                // Where −X is nowhere positive, it is 0 if it is not negative, and so is X.
+                return Ok(Some(
+                    match (self.is_nowhere_positive(&plus), self.is_nowhere_positive(&minus)) {
+                        (_, true) => vec![plus],
+                        (true, false) => vec![minus],
+                        (false, false) => vec![plus, minus],
+                    },
+                ));
             }
             if let Some(child) = node.without_root(index)? {
                 return Ok(Some(vec![child]));
             }
         }
         Ok(None)
+    }
+
+    /// Whether the last fact of a node is nowhere positive in the ranges.
+    fn is_nowhere_positive(&self, node: &Node) -> bool {
+        node.facts.last().is_some_and(|fact| {
+            let known = sign(&node.graph, self.extents, &[], &[], *fact);
+            known.is_some_and(|known| !known.is_positive)
+        })
     }
 }

@@ -69,6 +69,7 @@ impl Cover<'_> {
         for _ in 0..MOST_NODES {
             let Some(node) = open.pop() else { return Ok(Some(parts)) };
             let Some(node) = node.simplified() else { continue };
+            let Some(node) = node.without_zero_roots()? else { continue };
             let children = match node.equations.first() {
                 // The equations are dependent on a part of the level.
                 None if node.solved < count => None,

@@ -2,12 +2,14 @@
 
 use std::sync::Arc;
 
+use num_traits::Zero;
+
 use super::{Cover, Part};
 use crate::graph::{Expr, Fault, Graph, Step, record};
 use crate::mechanics::{Draw, Phase};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
-use crate::proof::{Factors, Rationalised};
+use crate::proof::{Factors, Rationalised, vanishing_root};
 use crate::scalar::Scalar;
 
 /// Points with free coordinates at which equations hold and facts are not negative.
@@ -85,6 +87,10 @@ impl Node {
     pub fn simplified(mut self) -> Option<Self> {
         let graph = Arc::clone(&self.graph);
         let number = |value: &Expr| graph.constant_value(*value);
+        // No point is made by a formula without a value.
+        if self.made.iter().any(|made| graph.is_nowhere_defined(*made)) {
+            return None;
+        }
         if self.facts.iter().any(|fact| number(fact).is_some_and(Rational::is_negative))
             || self.equations.iter().any(|own| number(own).is_some_and(|value| !value.is_zero()))
         {
@@ -93,6 +99,31 @@ impl Node {
         self.facts.retain(|fact| number(fact).is_none());
         self.equations.retain(|equation| number(equation).is_none());
         Some(self)
+    }
+
+    /// Puts 0 in the place of roots of values that are 0 wherever they exist; `None` if an equation or a fact
+    /// cannot hold then.
+    pub fn without_zero_roots(mut self) -> Result<Option<Self>, Fault> {
+        loop {
+            let all = self.made.iter().chain(&self.equations).chain(&self.facts);
+            let reached = self.graph.reached(all.copied());
+            let Some(place) = vanishing_root(&self.graph, &reached) else { return Ok(Some(self)) };
+            let zero = |_: &[Option<Expr>]| Some(Expr::zero());
+            let change = Change { dropped: None, solved: None, replaced: Some((place, &zero)) };
+            // The roots inside exist, though the value may not contain them any more.
+            let inside = self.graph.reached([self.graph.at(place)]);
+            let changed = self.changed(&change, |_, values| {
+                let radicand = |(at, step): (usize, Step<'_>)| match step {
+                    Step::Unary(UnaryFunction::Sqrt, a) if at < place && inside[at] => Some(a),
+                    _ => None,
+                };
+                let radicands = self.graph.steps().enumerate().filter_map(radicand);
+                let facts = radicands.map(|a| values[a]).collect::<Option<Vec<Expr>>>()?;
+                Some(Additions { facts, ..Additions::default() })
+            })?;
+            let Some(changed) = changed.simplified() else { return Ok(None) };
+            self = changed;
+        }
     }
 
     /// Makes the part that the node is, of a level of `count` equations.
@@ -176,7 +207,7 @@ impl Node {
     }
 
     /// Divides by the sign of the first modulus in an equation; `None` if there is none.
-    pub fn by_sign(&self, index: usize) -> Result<Option<Vec<Self>>, Fault> {
+    pub fn by_sign(&self, index: usize) -> Result<Option<[Self; 2]>, Fault> {
         let reached = self.graph.reached([self.equations[index]]);
         let steps = self.graph.steps().enumerate().filter(|(place, _)| reached[*place]);
         let modulus = steps.into_iter().find_map(|(place, step)| match step {
@@ -193,7 +224,7 @@ impl Node {
                 Some(Additions { facts: vec![fact], ..Additions::default() })
             })
         };
-        Ok(Some(vec![with(true)?, with(false)?]))
+        Ok(Some([with(true)?, with(false)?]))
     }
 
     /// Makes the node after a change; `more` adds to it, from the draws and from the values of the node

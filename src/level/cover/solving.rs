@@ -135,7 +135,9 @@ impl Coefficients {
         let square = SquareRoot::of(&self.graph, self.discriminant);
         // Real roots are where the discriminant vanishes.
         if square.as_ref().is_some_and(SquareRoot::is_negative) {
-            let change = Change { dropped: Some(self.equation), solved: None, replaced: None };
+            // At a = 0 the equation says more.
+            let dropped = self.number(self.bend).map(|_| self.equation);
+            let change = Change { dropped, solved: None, replaced: None };
             let double = node.changed(&change, |inputs, _| {
                 let all = [self.discriminant, self.bend, self.slope];
                 let [discriminant, bend, slope] = self.at(all, inputs)?;

@@ -4,6 +4,7 @@
 
 use super::super::recipe::{Draw, NumberLine, Range};
 use super::super::streams::WIDTH;
+use crate::engine::InputExtent;
 use crate::number::ball::about;
 use crate::number::rational::Rational;
 
@@ -26,7 +27,45 @@ pub enum NumberSource {
         ends: [f64; 2],
         /// Square of the upper end, if numbers outside of the range are drawn as well.
         square: Option<Rational>,
+        /// The same range, if its numbers can be drawn without looking at each.
+        plain: Option<PlainRange>,
     },
+}
+
+/// A range of finite width with f64s inside, from which no number outside is drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct PlainRange {
+    ends: [f64; 2],
+    /// The least and the greatest f64 inside.
+    inner: [f64; 2],
+    /// Whether 0 is inside.
+    contains_zero: bool,
+}
+
+impl PlainRange {
+    fn new(ends: [f64; 2]) -> Option<Self> {
+        let [low, high] = ends;
+        let inner = [low.next_up(), high.next_down()];
+        // Ends rounded inwards may have changed places.
+        let is_plain = inner[0] <= inner[1] && (high - low).is_finite();
+        is_plain.then_some(Self { ends, inner, contains_zero: low < 0.0 && high > 0.0 })
+    }
+
+    /// Draws numbers made of these bits, and marks those that must be drawn otherwise: the first bit
+    /// of their words becomes 1.
+    #[inline(always)]
+    pub fn draw(&self, bits: &[u64; WIDTH], to: &mut [f64; WIDTH], outside: &mut [u64; WIDTH]) {
+        for lane in 0..WIDTH {
+            let value = at_share(self.ends, bits[lane]);
+            to[lane] = value;
+            outside[lane] |= sign_outside(value, self.inner);
+        }
+        if self.contains_zero {
+            for lane in 0..WIDTH {
+                outside[lane] |= sign_at_zero(to[lane]);
+            }
+        }
+    }
 }
 
 /// Properties of the numbers of a state that follow from its index.
@@ -38,10 +77,16 @@ pub struct Manner {
     reaches_out: bool,
 }
 
+/// Whether the numbers of a state, and so perhaps of some after it, are short decimals.
+#[inline(always)]
+pub fn is_short(index: u64) -> bool {
+    index < SHORT
+}
+
 impl Manner {
     /// Finds these properties for an attempt at a state.
     pub fn of(index: u64, attempt: u32) -> Self {
-        Self { is_short: index < SHORT, reaches_out: index >= INSIDE || attempt > 0 }
+        Self { is_short: is_short(index), reaches_out: index >= INSIDE || attempt > 0 }
     }
 }
 
@@ -55,33 +100,36 @@ pub enum Grid {
 }
 
 impl NumberSource {
+    /// Returns the range, if its numbers can be drawn without looking at each.
+    #[inline(always)]
+    pub fn plain(&self) -> Option<&PlainRange> {
+        match self {
+            NumberSource::Range { plain, .. } => plain.as_ref(),
+            _ => None,
+        }
+    }
+
     /// Encloses the numbers of the states from `index` on, made of these bits.
     #[inline(always)]
     pub fn enclose(&self, index: u64, bits: &[u64; WIDTH], mid: &mut [f64], rad: &mut [f64]) {
-        if let (NumberSource::Range { ends: [low, high], square, .. }, true) =
-            (self, index >= SHORT)
+        if let (NumberSource::Range { ends, square: Some(square), .. }, false) =
+            (self, is_short(index))
+            && let Some(range) = PlainRange::new(*ends)
         {
             // Loops over lanes with bits of words in place of flags become vectors.
             let (mut values, mut outside) = ([0.0; WIDTH], [0u64; WIDTH]);
+            range.draw(bits, &mut values, &mut outside);
+            let square = square.to_f64().0;
+            let mut beyond = [0.0; WIDTH];
             for lane in 0..WIDTH {
-                let value = at_share([*low, *high], bits[lane]);
-                values[lane] = value;
-                outside[lane] = sign_outside(value, [*low, *high]);
+                beyond[lane] = square / values[lane];
             }
-            if let Some(square) = square {
-                let square = square.to_f64().0;
-                let mut beyond = [0.0; WIDTH];
-                for lane in 0..WIDTH {
-                    beyond[lane] = square / values[lane];
-                }
-                for lane in 0..WIDTH {
-                    let is_outside = is_outside(bits[lane]);
-                    values[lane] = if is_outside { beyond[lane] } else { values[lane] };
-                }
+            for lane in 0..WIDTH {
+                let is_outside = is_outside(bits[lane]);
+                values[lane] = if is_outside { beyond[lane] } else { values[lane] };
             }
             let has_sign = outside.iter().fold(0, |any, one| any | one) >> 63 == 1;
-            // Ends rounded inwards may have changed places.
-            if !has_sign && low < high && (high - low).is_finite() {
+            if !has_sign {
                 match (<&mut [f64; WIDTH]>::try_from(&mut *mid), rad.first_chunk_mut()) {
                     (Ok(mid), Some(rad)) => (*mid, *rad) = (values, [0.0; WIDTH]),
                     _ => {
@@ -115,7 +163,31 @@ impl NumberSource {
                 let ends = [inwards(&range.low, &range.high), inwards(&range.high, &range.low)];
                 let square = matches!(draw, Draw::Of(NumberLine::Directions, _))
                     .then(|| &range.high * &range.high);
-                NumberSource::Range { grid: Grid::of(range), ends, square }
+                let plain = if square.is_none() { PlainRange::new(ends) } else { None };
+                NumberSource::Range { grid: Grid::of(range), ends, square, plain }
+            }
+        }
+    }
+
+    /// Where the midpoints lie if they are exact, and the largest radius of those that are not so by
+    /// chance.
+    pub fn extent(&self) -> InputExtent {
+        match self {
+            NumberSource::List(values) => {
+                let all = values.iter().map(|value| about(value.to_f64()));
+                let none = ([f64::INFINITY, f64::NEG_INFINITY], 0.0);
+                let (ends, radius) = all.fold(none, |([low, high], most), (mid, rad)| {
+                    ([low.min(mid), high.max(mid)], f64::max(most, rad))
+                });
+                InputExtent { ends, radius }
+            }
+            NumberSource::Sign => InputExtent { ends: [-1.0, 1.0], radius: 0.0 },
+            // Those outside of the range are as large as you like.
+            NumberSource::Range { square: Some(_), .. } => {
+                InputExtent { ends: [f64::NEG_INFINITY, f64::INFINITY], radius: 0.0 }
+            }
+            NumberSource::Range { ends, square: None, .. } => {
+                InputExtent { ends: *ends, radius: 0.0 }
             }
         }
     }
@@ -146,7 +218,7 @@ impl NumberSource {
                 values.get(index).cloned().unwrap_or_else(|| Rational::from(0))
             }
             NumberSource::Sign => Rational::from(sign(bits)),
-            NumberSource::Range { grid, ends, square } => {
+            NumberSource::Range { grid, ends, square, .. } => {
                 let inside = if manner.is_short { None } else { between(*ends, bits) };
                 match square.as_ref().filter(|_| manner.reaches_out && is_outside(bits)) {
                     None => inside.and_then(Rational::from_f64).unwrap_or_else(|| grid.pick(bits)),
@@ -211,17 +283,17 @@ fn between([low, high]: [f64; 2], bits: u64) -> Option<f64> {
     (low < value && value < high && value != 0.0).then_some(value)
 }
 
-/// A word whose first bit is 0 only if a number is strictly between two ends and not 0.
-///
-/// The product of the distances from the ends is positive only there; differences of different numbers
-/// are not 0. Where it underflows the bit is 1, too. The first end must be below the second, and their
-/// difference finite.
+/// A word whose first bit is 0 only if a finite number is one of two or between them: differences of
+/// different numbers are not 0, and have the right sign.
 #[inline(always)]
-pub(super) fn sign_outside(value: f64, [low, high]: [f64; 2]) -> u64 {
-    let room = ((value - low) * (high - value)).to_bits();
-    let size = value.to_bits() & (u64::MAX >> 1);
-    // The first bit of x − 1 is 1 if x is 0, and that of x if it is negative.
-    room | room.wrapping_sub(1) | size.wrapping_sub(1)
+pub(super) fn sign_outside(value: f64, [least, greatest]: [f64; 2]) -> u64 {
+    (value - least).to_bits() | (greatest - value).to_bits()
+}
+
+/// A word whose first bit is 1 only for 0: that of x − 1 is 1 if x is 0.
+#[inline(always)]
+pub(super) fn sign_at_zero(value: f64) -> u64 {
+    (value.to_bits() & (u64::MAX >> 1)).wrapping_sub(1)
 }
 
 /// Computes the number at a random share of the way between two ends.

@@ -50,16 +50,17 @@ const NUMERICAL_ATTEMPTS: u32 = 8;
 
 impl Sampler {
     /// Makes machine code for a tape over parameters and state and `further` numbers, from the draws
-    /// on; `None` where a state takes attempts or steps of Newton's method, or there is no such code.
+    /// on, with some outputs to be tested by lower bounds of radii; `None` where a state takes attempts or steps of Newton's method, or there is no such code.
     pub(in crate::verdict) fn engine(
         &self,
         further: &[Rational],
         tape: &Tape,
+        tested: &[usize],
     ) -> Option<BallEngine> {
         if self.is_guarded || self.newton.is_some() {
             return None;
         }
-        BallEngine::new(self.draws.exact(), &self.tape, further, tape)
+        BallEngine::new(&self.draws.extents(), &self.tape, further, tape, tested)
     }
 
     /// Random numbers of the draws.
@@ -67,9 +68,15 @@ impl Sampler {
         Streams::new(self.seed)
     }
 
-    /// Fills the inputs of such code for the states `start..start + LANES`.
-    pub(in crate::verdict) fn fill(&self, streams: &Streams, start: u64, runner: &mut BallRunner) {
-        self.draws.fill(streams, start, runner.inputs_mut());
+    /// Fills the inputs of such code for the states `start..start + LANES`; returns whether all that
+    /// should be exact are.
+    pub(in crate::verdict) fn fill(
+        &self,
+        streams: &Streams,
+        start: u64,
+        runner: &mut BallRunner,
+    ) -> bool {
+        self.draws.fill(streams, start, runner.inputs_mut()) || runner.is_exact()
     }
 }
 

@@ -2,6 +2,7 @@
 //! and a state.
 
 mod attempts;
+mod branches;
 mod compose;
 mod draw;
 mod maker;
@@ -10,6 +11,7 @@ mod place_parts;
 mod print;
 mod ranges;
 
+pub use branches::Branch;
 pub use maker::Maker;
 pub use place_parts::PlaceParts;
 pub use ranges::{extent, inside};
@@ -19,7 +21,7 @@ use std::sync::Arc;
 use crate::case::Case;
 use crate::claim::LevelSubset;
 use crate::graph::{Expr, Fault, Graph, Tape, literally, record};
-use crate::level::{self, Part, Pivot, Solution};
+use crate::level::{self, Order, Part, Pivot, Solution};
 use crate::mechanics::{Chart, Draw, DrawSource, combinations};
 use crate::number::rational::Rational;
 use crate::proof::{Extent, InputDistribution};
@@ -47,6 +49,8 @@ pub struct Sampler {
     /// Solution of the level, with the values that must not vanish, or a part of it is missed.
     solution: Option<Arc<Solution>>,
     pivots: Arc<[Pivot]>,
+    /// Part of the place that is solved, unless it is the whole.
+    branch: Option<Branch>,
     /// Number of draws for the parameters.
     parameter_draws: usize,
     dimension: usize,
@@ -76,15 +80,16 @@ impl Sampler {
             Chart::Given(_) => kept.iter().all(|kept| *kept),
             Chart::Equations => false,
         };
-        let solution = |by_roots: bool| match is_charted || !some {
+        let solution = |order: Order| match is_charted || !some {
             true => None,
-            false => level::solve(model, kept, by_roots),
+            false => level::solve(model, kept, order),
         };
-        let sampler = Self::of_solution(case, place, seed, is_charted, solution(false))?;
+        let whole = |order| Self::of_solution(case, None, place, seed, is_charted, solution(order));
+        let sampler = whole(Order::Usual)?;
         // Small ranges of solved components are seldom met from random directions.
         let has_directions = sampler.solution().is_some_and(Solution::has_directions);
         if has_directions && !sampler.has_states() {
-            let other = Self::of_solution(case, place, seed, is_charted, solution(true))?;
+            let other = whole(Order::ByRoots)?;
             if other.solution.is_some() && other.has_states() {
                 return Ok(other);
             }
@@ -117,12 +122,14 @@ impl Sampler {
     /// Makes a sampler of the states that a solution of the level makes, if there is one.
     fn of_solution(
         case: &Case,
+        branch: Option<Branch>,
         place: &LevelSubset,
         seed: u64,
         is_charted: bool,
         solution: Option<Solution>,
     ) -> Result<Self, Fault> {
-        let (model, kept) = (&case.model, &place.kept);
+        let kept = &place.kept;
+        let model = branch.as_ref().map_or(&case.model, |branch| &branch.model);
         let some = kept.iter().any(|kept| *kept);
         let newton = (some && !is_charted && solution.is_none())
             .then(|| NumericalLevel::new(case, kept))
@@ -164,6 +171,7 @@ impl Sampler {
             facts,
             solution,
             pivots,
+            branch,
             parameter_draws,
             dimension,
             kept: kept.clone(),
@@ -212,6 +220,7 @@ impl Sampler {
             facts,
             solution: None,
             pivots: Arc::new([]),
+            branch: None,
             parameter_draws: self.parameter_draws,
             dimension: self.dimension,
             kept: self.kept.clone(),
@@ -272,6 +281,11 @@ impl Sampler {
     /// Returns the values that must not vanish at a state, or a part of the place is missed.
     pub fn pivots(&self) -> &[Pivot] {
         &self.pivots
+    }
+
+    /// Returns the part of the place that is solved, unless it is the whole.
+    pub fn branch(&self) -> Option<&Branch> {
+        self.branch.as_ref()
     }
 
     /// Returns the solution of the level, if there is one.

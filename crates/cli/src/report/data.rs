@@ -1,5 +1,7 @@
 //! Tables of numbers as files: CSV, NumPy's format, JSON.
 
+use std::borrow::Cow;
+
 use serde_json::{Value, json};
 
 use super::orbit::written;
@@ -7,18 +9,18 @@ use liouville::number::double_double::DoubleDouble;
 use liouville_flow::Precision;
 
 /// Rows of numbers with the titles of their columns.
-pub struct DataTable {
+pub struct DataTable<'r> {
     /// Titles of the columns.
     pub columns: Vec<String>,
     /// Number of columns at the beginning that hold whole numbers.
     pub whole: usize,
     /// Rows, each with a number for each column.
-    pub rows: Vec<Vec<DoubleDouble>>,
+    pub rows: Vec<Cow<'r, [DoubleDouble]>>,
     /// Precision of the numbers.
     pub precision: Precision,
 }
 
-impl DataTable {
+impl DataTable<'_> {
     /// Renders the rows with commas, below a line of titles; in double-double with all digits. What
     /// is undefined is NaN.
     pub fn csv(&self) -> String {
@@ -48,7 +50,7 @@ impl DataTable {
         let mut out = b"\x93NUMPY\x01\x00".to_vec();
         out.extend((header.len() as u16).to_le_bytes());
         out.extend(header.as_bytes());
-        out.extend(self.rows.iter().flatten().flat_map(|x| x.hi.to_le_bytes()));
+        out.extend(self.rows.iter().flat_map(|row| row.iter()).flat_map(|x| x.hi.to_le_bytes()));
         out
     }
 
@@ -63,9 +65,14 @@ impl DataTable {
                 Precision::Pair => json!(written(*x, self.precision)),
             }
         };
-        let row = |row: &Vec<DoubleDouble>| row.iter().enumerate().map(cell).collect::<Vec<_>>();
-        let rows: Vec<Vec<Value>> = self.rows.iter().map(row).collect();
-        json!({ "columns": self.columns, "rows": rows }).to_string() + "\n"
+        // Row by row: as values the numbers would take many times the memory of the text.
+        let mut out = format!("{{\"columns\":{},\"rows\":[", json!(self.columns));
+        for (place, row) in self.rows.iter().enumerate() {
+            let cells: Value = row.iter().enumerate().map(cell).collect();
+            out.push_str(if place > 0 { "," } else { "" });
+            out.push_str(&cells.to_string());
+        }
+        out + "]}\n"
     }
 }
 
@@ -98,8 +105,8 @@ pub(super) fn missing<'r>(
 mod tests {
     use super::*;
 
-    fn data() -> DataTable {
-        let row = |row: [f64; 3]| row.map(DoubleDouble::from_f64).to_vec();
+    fn data() -> DataTable<'static> {
+        let row = |row: [f64; 3]| row.map(DoubleDouble::from_f64).to_vec().into();
         DataTable {
             columns: ["start", "t", "(a,b)"].map(str::to_string).to_vec(),
             whole: 1,
@@ -133,5 +140,6 @@ mod tests {
         let parsed: Value = serde_json::from_str(&data().json()).expect("JSON");
         assert!(parsed["rows"][0][2].is_null());
         assert_eq!(parsed["rows"][1][0], 1);
+        assert_eq!(data().json(), parsed.to_string() + "\n", "as one value");
     }
 }

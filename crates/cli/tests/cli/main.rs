@@ -10,6 +10,7 @@ mod corpus;
 mod documents;
 mod export;
 mod maps;
+mod memory;
 mod mistakes;
 mod report;
 mod restrictions;

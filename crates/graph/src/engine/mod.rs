@@ -36,7 +36,7 @@ mod tests;
 use std::sync::Arc;
 
 use crate::graph::{InstructionSet, Tape, widest};
-pub use balls::{BallEngine, BallRunner};
+pub use balls::{BallEngine, BallRunner, InputExtent};
 pub use machine::executable;
 
 pub use program::StepCounts;

@@ -291,6 +291,19 @@ impl StepProgram {
         self.without(&absorbed)
     }
 
+    /// Removes the steps that no output needs.
+    pub(super) fn without_unread(self) -> Self {
+        let mut unread: Vec<bool> = self.is_output().iter().map(|is_output| !is_output).collect();
+        for (index, step) in self.steps.iter().enumerate().rev() {
+            for argument in step.arguments() {
+                if let (Value::Step(read), false) = (argument, unread[index]) {
+                    unread[read as usize] = false;
+                }
+            }
+        }
+        self.without(&unread)
+    }
+
     /// Removes the steps marked, which are no longer read.
     fn without(self, left_out: &[bool]) -> Self {
         let mut place = Vec::with_capacity(left_out.len());

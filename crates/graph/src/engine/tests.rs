@@ -250,6 +250,11 @@ fn balls_have_the_bits_of_the_domain() {
                     Balls::new(mid, rad)
                 })
                 .collect();
+        let extent = |is_exact: &bool| InputExtent {
+            ends: [f64::NEG_INFINITY, f64::INFINITY],
+            radius: if *is_exact { 0.0 } else { 1.0 },
+        };
+        let extents: Vec<InputExtent> = exact.iter().map(extent).collect();
         let mut evaluators = [&first, &second].map(|tape| Evaluator::new(tape, Ball::<ROW_STATES>));
         evaluators[0].run(&inputs);
         let states: Vec<Balls<ROW_STATES>> = evaluators[0].outputs().cloned().collect();
@@ -257,7 +262,7 @@ fn balls_have_the_bits_of_the_domain() {
         let expected: Vec<&Balls<ROW_STATES>> =
             states.iter().chain(evaluators[1].outputs()).collect();
         for vectors in [InstructionSet::Avx2, InstructionSet::Avx512] {
-            let engine = BallEngine::with_vectors(exact.clone(), &first, &[], &second, vectors);
+            let engine = BallEngine::with_vectors(&extents, &first, &[], (&second, &[]), vectors);
             assert!(engine.is_some() || widest() != InstructionSet::Avx512, "there is code");
             let Some(engine) = engine else { continue };
             let (mut runner, computed) = (engine.runner(), engine.computed());
@@ -314,7 +319,9 @@ fn exact_reciprocals_and_roots_have_the_bits_of_the_domain() {
     let mut evaluator = Evaluator::new(&first, Ball::<ROW_STATES>);
     evaluator.run(std::slice::from_ref(&input));
     for vectors in [InstructionSet::Avx2, InstructionSet::Avx512] {
-        let Some(engine) = BallEngine::with_vectors(vec![true], &first, &[], &second, vectors)
+        let extent = InputExtent { ends: [f64::MIN, f64::MAX], radius: 0.0 };
+        let Some(engine) =
+            BallEngine::with_vectors(&[extent], &first, &[], (&second, &[]), vectors)
         else {
             continue;
         };

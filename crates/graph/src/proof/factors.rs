@@ -91,6 +91,38 @@ impl Rationalised {
     }
 }
 
+/// Finds the place of a root whose radicand, a quotient of polynomials in inputs and in the roots before it, is 0
+/// wherever these have values.
+pub fn vanishing_root(graph: &Graph, reached: &[bool]) -> Option<usize> {
+    let root = |place: usize| match graph.step(place) {
+        Step::Unary(UnaryFunction::Sqrt, radicand) => Some(radicand),
+        _ => None,
+    };
+    let is_variable = |place: &usize| {
+        reached[*place] && (matches!(graph.step(*place), Step::Input(_)) || root(*place).is_some())
+    };
+    let places: Vec<usize> = (0..reached.len()).filter(is_variable).collect();
+    let variable = |place: usize| -> Option<u32> {
+        places.binary_search(&place).ok().and_then(|index| u32::try_from(index).ok())
+    };
+    let read =
+        |place: usize| fraction(graph, place, &|at, _| variable(at).map(Polynomial::variable));
+    let roots: Vec<(usize, usize)> =
+        places.iter().filter_map(|place| Some((*place, root(*place)?))).collect();
+    let vanishes = |index: usize| -> Option<bool> {
+        let mut above = read(roots[index].1)?.above;
+        for (place, radicand) in roots[..index].iter().rev() {
+            let own = variable(*place)?;
+            if above.variables().contains(&own) {
+                let [even, odd] = above.split(own, &read(*radicand)?.polynomial()?)?;
+                above = even.plus(&odd.times(&Polynomial::variable(own), &mut { MOST_WORK })?);
+            }
+        }
+        Some(above.is_zero())
+    };
+    (1..roots.len()).find(|index| vanishes(*index) == Some(true)).map(|index| roots[index].0)
+}
+
 /// Values that are combinations of others with rational multiples.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LinearDependence {

@@ -91,7 +91,7 @@ pub use elimination::reduce;
 pub use evident::is_never_negative;
 pub use extent::Extent;
 pub use fact::SignFact;
-pub use factors::{Factors, LinearDependence, Rationalised};
+pub use factors::{Factors, LinearDependence, Rationalised, vanishing_root};
 pub use forms::completed_squares;
 pub use nested::SquareRoot;
 pub use nonzero::Zeros;

@@ -112,6 +112,9 @@ impl Mechanical {
             }
             start += variable.len();
         }
+        if positions.is_empty() {
+            return Err(SearchError::Unsplit("it has velocities alone, and no positions"));
+        }
         let draws = model.parameter_draws();
         let mut turned = turned(model, &draws)?;
         let angles = turned.split_off(draws.len());

@@ -58,8 +58,8 @@ struct Candidate {
     polynomial: RingPolynomial,
     /// Largest degree and number of terms of one that is a function of those known.
     most: (u32, usize),
-    /// Its origin in others.
-    origin: (&'static str, String),
+    /// Its origin in others, if it is one of theirs.
+    origin: Option<(&'static str, String)>,
 }
 
 /// Adds brackets of integrals, and derivatives along symmetry fields, to the report.
@@ -73,16 +73,23 @@ pub fn close(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<
         .map(|own| (own.formula.clone(), own.fields.clone()))
         .collect();
     let fields: Vec<&FieldComponents> = symmetries.iter().map(|(_, own)| own).collect();
-    let Some(algebra) = IntegralAlgebra::of(case, effort, &known, &fields)? else { return Ok(()) };
+    let all = [known.as_slice(), &report.dependent].concat();
+    let Some(algebra) = IntegralAlgebra::of(case, effort, &all, &fields)? else { return Ok(()) };
     let Ok(setting) = OrbitSetting::extended(case, &algebra.extension, effort)? else {
         return Ok(());
     };
     let independent = IndependentIntegrals::of(&setting, report)?;
     let mut closure =
         Closure { setting: &setting, algebra: &algebra, independent, all: Vec::new() };
+    let mut dependent = Vec::new();
     for (place, polynomial) in &algebra.integrals {
-        let text = known[*place].text().to_string();
-        closure.all.extend(closure.integral(polynomial.clone(), text));
+        match known.get(*place) {
+            Some(own) => {
+                let text = own.text().to_string();
+                closure.all.extend(closure.integral(polynomial.clone(), text));
+            }
+            None => dependent.push(polynomial.clone()),
+        }
     }
     // Products of those of low degree are not new.
     closure.all.sort_by_key(|own| own.degree);
@@ -98,6 +105,15 @@ pub fn close(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<
             }
             told += usize::from(closure.consider(candidate, report)?);
         }
+    }
+    for polynomial in dependent {
+        if told == MOST_FURTHER {
+            break;
+        }
+        effort.halt.check()?;
+        let most = (algebra.degree(&polynomial), polynomial.terms().count());
+        let candidate = Candidate { polynomial, most, origin: None };
+        told += usize::from(closure.consider(candidate, report)?);
     }
     Ok(())
 }
@@ -129,12 +145,12 @@ impl Closure<'_, '_> {
         let along = |symmetry: usize| {
             let polynomial = self.algebra.along(symmetry, &own.polynomial)?;
             let text = format!("{} of {}", symmetries[symmetry].0, own.text);
-            let origin = ("derivative along", text);
+            let origin = Some(("derivative along", text));
             Some(Candidate { polynomial, most: own.size(), origin })
         };
         let bracket = |other: &OwnIntegral| {
             let polynomial = self.algebra.bracket(&other.polynomial, &own.polynomial)?;
-            let origin = ("bracket", format!("{{{}, {}}}", other.text, own.text));
+            let origin = Some(("bracket", format!("{{{}, {}}}", other.text, own.text)));
             let (size, of_other) = (own.size(), other.size());
             let most = (size.0.max(of_other.0), size.1.max(of_other.1));
             Some(Candidate { polynomial, most, origin })
@@ -189,7 +205,7 @@ impl Closure<'_, '_> {
     fn tell(
         &self,
         formula: &Formula,
-        (what, from): (&'static str, String),
+        origin: Option<(&'static str, String)>,
         report: &mut SearchReport,
     ) -> Result<bool, SearchError> {
         let Some(formula) = claims::written_integral(self.setting, formula) else {
@@ -200,7 +216,7 @@ impl Closure<'_, '_> {
         let case = claims::judged_case(self.setting);
         let known = claimed_by(case, &formula, self.setting.effort, report)?;
         let found = Found::new(FURTHER_INTEGRAL, &formula, known, found, &case.model);
-        report.found.push(Found { with: vec![(what, from)], ..found });
+        report.found.push(Found { with: origin.into_iter().collect(), ..found });
         Ok(true)
     }
 

@@ -31,7 +31,7 @@ pub const KIND: &str = "darboux-polynomial";
 /// degree up to 2, and of higher degree.
 const PRIMES: [u64; 2] = [4, 4];
 /// Number of further lines on which points are looked for that share a relation with those of the first.
-const FURTHER_LINES: u64 = 3;
+const FURTHER_LINES: u64 = 6;
 /// Largest number of conjugate factors that are multiplied.
 pub const CONJUGATES: usize = 4;
 /// Largest number of ways to choose points of rest, one on each line.
@@ -140,26 +140,11 @@ impl DarbouxSearch<'_, '_> {
             vectors.extend(self.rests(at, all, factors)?);
         }
         if !open.is_empty() && open.len() <= MOST_CANDIDATES {
-            // f vanishes along the orbits of all its points, the relations P − c Q differ.
-            let mut others = Vec::new();
-            for number in 1..=FURTHER_LINES {
-                let Some(other) = RandomLine::draw(self.setting, at, number) else {
-                    return Ok((vec![], true));
-                };
-                others = other.special(all, self.degree, factors)?.all;
-                // Its points may lie in an extension of the field.
-                if !others.is_empty() {
-                    break;
-                }
-            }
-            for (one, two) in open.iter().flat_map(|one| others.iter().map(move |two| (one, two))) {
-                self.setting.effort.halt.check()?;
-                let mut both = Echelon::new(all.len(), at.modulus);
-                for row in one.echelon.rows().chain(two.echelon.rows()) {
-                    both.push(row);
-                }
-                vectors.extend(both.null_space().into_iter().next());
-            }
+            let own = open.into_iter().map(|own| own.echelon).collect();
+            let Some(shared) = self.shared(at, all, factors, own)? else {
+                return Ok((Vec::new(), true));
+            };
+            vectors.extend(shared);
         }
         vectors.sort();
         vectors.dedup();
@@ -176,6 +161,52 @@ impl DarbouxSearch<'_, '_> {
             }
         }
         Ok((found, is_whole))
+    }
+
+    /// Relations that points of a line share with points of further lines: f vanishes along the orbits of
+    /// all its points, and the relations P − c Q differ. Orbits on f = 0 that have integrals of their own
+    /// share more with one another, until there are enough of them. `None` where there are no lines.
+    fn shared(
+        &self,
+        at: &PrimePoint,
+        all: &[Vec<u32>],
+        factors: &[RatedPolynomial],
+        first: Vec<Echelon>,
+    ) -> Result<Option<Vec<Vec<u64>>>, SearchError> {
+        let (mut open, mut found, mut is_shared) = (first, Vec::new(), false);
+        for number in 1..=FURTHER_LINES {
+            let Some(line) = RandomLine::draw(self.setting, at, number) else { return Ok(None) };
+            // Its points may lie in an extension of the field.
+            let others = line.special(all, self.degree, factors)?.all;
+            if others.is_empty() {
+                continue;
+            }
+            is_shared = true;
+            let mut next = Vec::new();
+            for (one, two) in open.iter().flat_map(|one| others.iter().map(move |two| (one, two))) {
+                self.setting.effort.halt.check()?;
+                let mut both = Echelon::new(all.len(), at.modulus);
+                for row in one.rows().chain(two.echelon.rows()) {
+                    both.push(row);
+                }
+                match all.len() - both.rank() {
+                    0 => {}
+                    1 => found.extend(both.null_space()),
+                    _ => next.push(both),
+                }
+            }
+            // Those that share most are on one f.
+            next.sort_by_key(Echelon::rank);
+            next.truncate(MOST_CANDIDATES);
+            open = next;
+            if open.is_empty() {
+                break;
+            }
+        }
+        if is_shared {
+            found.extend(open.iter().filter_map(|own| own.null_space().into_iter().next()));
+        }
+        Ok(Some(found))
     }
 
     /// Polynomials in these monomials on whose zeros the variables do not change, if they are unique.

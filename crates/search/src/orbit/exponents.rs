@@ -10,7 +10,7 @@ use liouville::graph::Tape;
 use super::super::ansatz::system::PrimePoint;
 use super::super::budget::Budget;
 use super::super::echelon::Echelon;
-use super::super::terms::recorded;
+use super::super::terms::{is_one, recorded};
 use super::super::{SearchError, SearchReport};
 use super::angle::{AngleForm, ConjugatePair};
 use super::claims::{self, OrbitStatement};
@@ -20,13 +20,19 @@ use super::known::IndependentIntegrals;
 use super::monomials;
 use super::quotients::{self, Quotient, rate_of_monomial};
 use super::setting::{OrbitSetting, SPARE_ORDERS, run};
+use liouville::formula::Formula;
 
 /// Largest number of monomials of g.
 const MONOMIALS: usize = 60;
 /// Largest degree of g.
 const DEGREE: u32 = 4;
 
-/// Kind of a function Σ α ln f + g whose rate is a constant.
+/// Largest number of integrals of which a rate may be a combination.
+const MOST_KNOWN: usize = 12;
+/// Largest number of functions of such rates.
+const MOST_RATES: usize = 4;
+
+/// Kind of a function Σ α ln f + g whose rate is a constant, or an integral.
 const CONSTANT_RATE: &str = "function-of-constant-rate";
 
 /// A term of the logarithmic rate.
@@ -44,6 +50,8 @@ pub enum RateTerm {
     Constant,
     /// Divergence of the field.
     Divergence,
+    /// Minus the value of a known integral.
+    Known(usize),
 }
 
 /// A way to write a function.
@@ -76,6 +84,8 @@ pub struct ExponentSystem<'s, 'c> {
     /// Terms of the logarithmic rate.
     pub columns: Vec<RateTerm>,
     divergence: Tape,
+    /// Known integrals that are rates.
+    known: Vec<RatedPolynomial>,
 }
 
 impl<'s, 'c> ExponentSystem<'s, 'c> {
@@ -95,7 +105,7 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         let last = [RateTerm::Constant, RateTerm::Divergence];
         let columns = monomials.chain(own).chain(angles).chain(last).collect();
         let divergence = divergence(setting)?;
-        Ok(Self { setting, variables, factors, pairs, columns, divergence })
+        Ok(Self { setting, variables, factors, pairs, columns, divergence, known: Vec::new() })
     }
 
     /// Null vectors on some columns, each with its last nonzero entry, 1, in a different column.
@@ -144,6 +154,9 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
             RateTerm::Angle(place) => self.pairs[*place].rate(at, &point),
             RateTerm::Constant => Some(m.one()),
             RateTerm::Divergence => run(&self.divergence, m, &inputs).map(|values| values[0]),
+            RateTerm::Known(place) => {
+                self.known[*place].at(at, &point).map(|(own, _)| m.sub(0, own))
+            }
         };
         Ok(columns.iter().map(entry).collect())
     }
@@ -196,6 +209,8 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
                 RateTerm::Factor(_) | RateTerm::Angle(_) => {
                     self.integral(&support, known, report)?;
                 }
+                // The field itself says that t' = 1.
+                RateTerm::Constant if self.is_variable(&support) => {}
                 // Others differ from the first by integrals.
                 RateTerm::Constant if has_quotients => {
                     let is_told = report.found.iter().any(|own| own.kind == CONSTANT_RATE);
@@ -209,10 +224,90 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
                 RateTerm::Constant => {}
                 RateTerm::Divergence if has_quotients && !is_whole => {}
                 RateTerm::Divergence if support.len() > 1 => self.density(&support, report)?,
-                RateTerm::Divergence => {}
+                RateTerm::Divergence | RateTerm::Known(_) => {}
             }
         }
         Ok(())
+    }
+
+    /// Searches for functions whose rate is a combination of known integrals, where none has a constant
+    /// rate: with G' = 0 and F' = G, F − tG is an integral.
+    pub fn search_rates(
+        mut self,
+        known: &IndependentIntegrals,
+        report: &mut SearchReport,
+    ) -> Result<(), SearchError> {
+        if report.formulas(CONSTANT_RATE).next().is_some() {
+            return Ok(());
+        }
+        for formula in known.formulas() {
+            self.known.extend(RatedPolynomial::of(self.setting, formula, 1)?);
+        }
+        if self.known.is_empty() || self.known.len() > MOST_KNOWN {
+            return Ok(());
+        }
+        self.columns.retain(|column| matches!(column, RateTerm::Monomial(_)));
+        let first = self.columns.len();
+        self.columns.extend((0..self.known.len()).map(RateTerm::Known));
+        let Some(at) = self.setting.at(0, 0) else { return Ok(()) };
+        let all: Vec<usize> = (0..self.columns.len()).collect();
+        let mut told = 0;
+        for vector in self.relations(&at, &all)? {
+            self.setting.effort.halt.check()?;
+            let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+            let is_driven = support.last().is_some_and(|last| *last >= first);
+            // Integrals that depend on each other have no function.
+            if !is_driven || support[0] >= first || told == MOST_RATES {
+                continue;
+            }
+            let Some(vector) = self.vector(&support)? else { continue };
+            let Some(rate) = self.combination(&support, first, &vector)? else { continue };
+            for style in self.styles(&support) {
+                let Some(function) = self.logarithm(&support, &vector, style)? else { continue };
+                let statement =
+                    OrbitStatement::Rate { function: function.clone(), rate: rate.clone() };
+                let (setting, with) = (self.setting, vec![("rate", &rate)]);
+                if claims::other(setting, CONSTANT_RATE, &function, &statement, with, report)? {
+                    told += 1;
+                    break;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The combination of known integrals in a null vector.
+    fn combination(
+        &self,
+        support: &[usize],
+        first: usize,
+        vector: &images::ParametricVector,
+    ) -> Result<Option<Formula>, SearchError> {
+        let mut sum: Option<Formula> = None;
+        for (place, column) in support.iter().enumerate().filter(|(_, column)| **column >= first) {
+            let integral = &self.known[*column - first].formula;
+            let factor = vector.coefficients.formula(place)?;
+            let own = match is_one(&factor) {
+                true => integral.clone(),
+                false => (&factor * integral)?,
+            };
+            sum = Some(match sum {
+                None => own,
+                Some(sum) => (&sum + &own)?,
+            });
+        }
+        Ok(sum)
+    }
+
+    /// Whether a null vector says that a variable has a constant rate.
+    fn is_variable(&self, support: &[usize]) -> bool {
+        match support {
+            [first, _] => match &self.columns[*first] {
+                RateTerm::Monomial(own) => own.iter().sum::<u32>() == 1,
+                _ => false,
+            },
+            _ => false,
+        }
     }
 
     /// Coefficients of the null vector on a support, for all values of the parameters.

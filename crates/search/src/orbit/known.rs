@@ -6,6 +6,7 @@ use liouville::number::{BinaryOperation, UnaryFunction};
 
 use super::super::ansatz::system::PrimePoint;
 use super::super::ask::energy;
+use super::super::products::degree_in_state;
 use super::super::terms::recorded;
 use super::super::{SearchError, SearchReport};
 use super::claims::{self, OrbitStatement};
@@ -52,11 +53,12 @@ impl IndependentIntegrals {
         if let Some(energy) = energy(setting.case) {
             let statement = OrbitStatement::Integral(energy.clone());
             if claims::proved(setting, &statement)?.is_some() {
-                known.add(energy, None, &all);
+                let degree = degree(setting, &energy)?;
+                known.add(energy, degree, &all);
             }
         }
         for formula in report.functions("integral") {
-            known.add(formula.clone(), None, &used(setting, formula)?);
+            known.add(formula.clone(), degree(setting, formula)?, &used(setting, formula)?);
         }
         Ok(known)
     }
@@ -95,9 +97,9 @@ impl IndependentIntegrals {
         self.all.iter().map(|one| &one.formula)
     }
 
-    /// Iterates over those that are algebraic functions.
-    pub fn algebraic(&self) -> impl Iterator<Item = &Formula> {
-        self.all.iter().filter(|one| one.is_algebraic).map(|one| &one.formula)
+    /// Iterates over those that are algebraic functions of these variables alone.
+    pub fn algebraic(&self, variables: &[usize]) -> impl Iterator<Item = &Formula> {
+        self.inside(variables).filter(|one| one.is_algebraic).map(|one| &one.formula)
     }
 
     /// Number of integrals in these variables alone.
@@ -114,12 +116,12 @@ impl IndependentIntegrals {
         self.all.iter().filter(|one| one.variables.iter().all(|k| variables.contains(k)))
     }
 
-    /// Lists the products of algebraic integrals that are polynomials of at most this degree, as
-    /// exponents; an integral of unknown degree counts as of degree 1, since products beyond the wanted
-    /// ones do no harm.
-    pub fn products(&self, degree: u32) -> Vec<Vec<u32>> {
+    /// Lists the products of algebraic integrals of these variables alone that are polynomials of at most
+    /// this degree, as exponents; an integral of unknown degree counts as of degree 1, since products
+    /// beyond the wanted ones do no harm.
+    pub fn products(&self, degree: u32, variables: &[usize]) -> Vec<Vec<u32>> {
         let mut found: Vec<(u32, Vec<u32>)> = vec![(0, Vec::new())];
-        for one in self.all.iter().filter(|one| one.is_algebraic) {
+        for one in self.inside(variables).filter(|one| one.is_algebraic) {
             let own = one.degree.unwrap_or(1).max(1);
             let raised = |(total, powers): (u32, Vec<u32>)| {
                 (0..=(degree - total) / own).map(move |power| {
@@ -134,6 +136,15 @@ impl IndependentIntegrals {
             .filter(|own| own.iter().any(|a| *a > 0))
             .collect()
     }
+}
+
+/// Degree of an integral that is a polynomial in the state; `None` on a level.
+fn degree(setting: &OrbitSetting<'_>, formula: &Formula) -> Result<Option<u32>, SearchError> {
+    let case = setting.case;
+    if !case.model.level.is_empty() || formula.value_type() != Type::Scalar {
+        return Ok(None);
+    }
+    degree_in_state(case, formula, setting.effort.options.seed)
 }
 
 /// Whether a formula contains no exponentials, logarithms, angles and general powers of the state.

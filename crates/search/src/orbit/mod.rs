@@ -106,6 +106,8 @@ use super::{Effort, SearchError, SearchReport, branches};
 /// Largest number of roots whose signs at all states are compared with those modulo a prime.
 const FEW_ROOTS: usize = 4;
 
+/// Degree up to which all sets of variables are searched before any is searched further.
+const LOW: u32 = 2;
 /// Number of the further limits with functions as variables, before the field is searched without them.
 const WITH_FUNCTIONS: usize = 2;
 
@@ -172,7 +174,7 @@ fn along(
 ) -> Result<(), SearchError> {
     let is_field = match case.model.system {
         System::Field(_) | System::Hamiltonian(_) => true,
-        System::Lagrangian(_) => false,
+        System::Lagrangian(_) | System::Ball(_) => false,
         _ => return Ok(()),
     };
     let mut divided = Vec::new();
@@ -374,6 +376,13 @@ fn rounds(
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
+    // An integral of low degree in all variables comes before one of high degree in some of them.
+    if parts.len() > 1 {
+        let low = RoundLimits { degree: LOW, ..limits };
+        for part in parts.iter_mut() {
+            part.relations(setting, low, known, report, progress)?;
+        }
+    }
     let mut run = |parts: &mut [VariableSet], limits: RoundLimits, report: &mut SearchReport| {
         for place in 0..parts.len() {
             let (before, rest) = parts.split_at_mut(place);

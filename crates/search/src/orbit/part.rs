@@ -20,6 +20,8 @@ use liouville::formula::Formula;
 pub const DARBOUX: u32 = 12;
 /// Family of the theorem on Darboux polynomials, before the degree.
 pub const DARBOUX_FAMILY: &str = "Darboux polynomials of degree up to";
+/// Largest degree of integrals that are sought although they are functions of those known.
+const DEPENDENT: u32 = 3;
 /// Bound above the degrees of the relations.
 const MOST_DEGREE: u32 = 64;
 
@@ -95,13 +97,7 @@ impl VariableSet {
         progress: &mut dyn FnMut(&str),
     ) -> Result<(), SearchError> {
         let count = self.variables.len();
-        while self.next <= limits.degree && !is_complete(setting, known) {
-            let all = self.monomials(setting);
-            if all.len() > limits.monomials {
-                break;
-            }
-            self.step(setting, &all, known, report, progress)?;
-        }
+        self.relations(setting, limits, known, report, progress)?;
         self.graded(setting, limits, known, report, progress)?;
         if !setting.effort.by_factors {
             return Ok(());
@@ -150,6 +146,25 @@ impl VariableSet {
         self.with_fractions(setting, known, report)
     }
 
+    /// Searches for integrals by relations up to a degree.
+    pub fn relations(
+        &mut self,
+        setting: &OrbitSetting<'_>,
+        limits: RoundLimits,
+        known: &mut IndependentIntegrals,
+        report: &mut SearchReport,
+        progress: &mut dyn FnMut(&str),
+    ) -> Result<(), SearchError> {
+        while self.next <= limits.degree && !is_complete(setting, known) {
+            let all = self.monomials(setting);
+            if all.len() > limits.monomials {
+                break;
+            }
+            self.step(setting, &all, known, report, progress)?;
+        }
+        Ok(())
+    }
+
     /// Searches for what has fractions over powers of factors in exponents, and at last for multiples
     /// of a density.
     fn with_fractions(
@@ -162,6 +177,10 @@ impl VariableSet {
         if self.with_fractions != Some(counts) {
             let system = ExponentSystem::of(setting, &self.variables, &self.factors, &self.pairs)?;
             system.search_with_fractions(known, report)?;
+            if self.with_fractions.is_none() && self.variables.len() == setting.dimension() {
+                let system = ExponentSystem::of(setting, &self.variables, &[], &[])?;
+                system.search_rates(known, report)?;
+            }
             self.with_fractions = Some(counts);
             if self.variables.len() == setting.dimension() {
                 weighted::search(setting, report)?;
@@ -246,7 +265,12 @@ impl VariableSet {
             integrals: step.integrals,
         });
         let variables = &self.variables;
-        if step.integrals > known.algebraic_within(variables) {
+        // Of low degree there may be others that are functions of those known.
+        let may_depend = degree <= DEPENDENT
+            && variables.len() == setting.dimension()
+            && known.algebraic_within(variables) > 1
+            && !setting.flow.is_map;
+        if may_depend || step.integrals > known.algebraic_within(variables) {
             match setting.flow.is_map {
                 true => map_integrals::polynomials(
                     setting, variables, monomials, degree, known, report,

@@ -17,6 +17,11 @@ use super::setting::OrbitSetting;
 use super::sparse::sparse;
 use liouville::formula::Formula;
 
+/// Largest number of terms of an integral that is kept although it is a function of others.
+const SHORT: usize = 12;
+/// Largest number of these.
+const MOST_DEPENDENT: usize = 12;
+
 /// Searches for integrals that are sums of these monomials in some variables, of at most this degree;
 /// returns whether some was found.
 pub fn polynomials(
@@ -28,7 +33,7 @@ pub fn polynomials(
     report: &mut SearchReport,
 ) -> Result<bool, SearchError> {
     let (case, effort) = (setting.case, setting.effort);
-    let given: Vec<Formula> = known.algebraic().cloned().collect();
+    let given: Vec<Formula> = known.algebraic(variables).cloned().collect();
     let mut outputs = Vec::new();
     let mut system = LinearSystem::record(case, effort, |jet, recording| {
         recording.derive(jet.along_field(), &setting.terms, &[one()]);
@@ -56,7 +61,7 @@ pub fn polynomials(
     };
     let vectors: Vec<Vec<u64>> = vectors.into_iter().map(spread).collect();
     let products: Vec<Vec<usize>> = known
-        .products(degree)
+        .products(degree, variables)
         .into_iter()
         .map(|powers| {
             let own = powers.iter().zip(&outputs);
@@ -84,6 +89,8 @@ pub fn polynomials(
         if claims::integral(setting, &formula, report)? {
             known.add(formula, Some(degree), variables);
             found = true;
+        } else if support.len() <= SHORT && report.dependent.len() < MOST_DEPENDENT {
+            report.dependent.extend(claims::written_integral(setting, &formula));
         }
     }
     Ok(found)

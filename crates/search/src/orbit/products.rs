@@ -63,7 +63,7 @@ impl ExponentSystem<'_, '_> {
                     Some(angle) => angle,
                     None => return Ok(None),
                 },
-                RateTerm::Constant | RateTerm::Divergence => continue,
+                RateTerm::Constant | RateTerm::Divergence | RateTerm::Known(_) => continue,
             };
             functions.push(Ratio::of(function));
             places.push(place);
@@ -114,7 +114,7 @@ impl ExponentSystem<'_, '_> {
                     exponent.0.push(place);
                     exponent.1.push(Ratio::of(angle));
                 }
-                RateTerm::Constant | RateTerm::Divergence => {}
+                RateTerm::Constant | RateTerm::Divergence | RateTerm::Known(_) => {}
             }
         }
         if !exponent.0.is_empty() {

@@ -4,12 +4,14 @@
 mod benchmark;
 mod closure;
 mod counts;
+mod explicit;
 mod exponentials;
 mod factors;
 mod functions;
 mod irrational;
 mod maps;
 mod parameters;
+mod rates;
 mod threads;
 
 use std::time::{Duration, Instant};

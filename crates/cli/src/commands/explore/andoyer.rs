@@ -301,12 +301,12 @@ fn given(case: &Case, options: &SectionArgs) -> Result<Vec<[f64; 2]>, String> {
 }
 
 /// Crossings as data.
-fn data(orbits: &[SectionOrbit]) -> DataTable {
+fn data(orbits: &[SectionOrbit]) -> DataTable<'static> {
     let rows = orbits.iter().enumerate().flat_map(|(index, orbit)| {
         orbit.crossings.iter().map(move |crossing| {
             let direction = if crossing.rising { 1.0 } else { -1.0 };
             let numbers = [direction, crossing.time, crossing.at[0], crossing.at[1]];
-            [&[whole(index)], &numbers.map(DoubleDouble::from_f64)[..]].concat()
+            [&[whole(index)], &numbers.map(DoubleDouble::from_f64)[..]].concat().into()
         })
     });
     DataTable {

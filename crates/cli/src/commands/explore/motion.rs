@@ -239,7 +239,7 @@ pub fn parse_start(text: &str) -> Result<[f64; 2], String> {
 }
 
 /// Renders data by the ending of their file.
-pub fn rendered(data: &DataTable, ending: Ending) -> Vec<u8> {
+pub fn rendered(data: &DataTable<'_>, ending: Ending) -> Vec<u8> {
     match ending {
         Ending::Npy => data.npy(),
         Ending::Json => data.json().into_bytes(),

@@ -1,5 +1,7 @@
 //! The command `liouville motion orbit`.
 
+use std::borrow::Cow;
+
 use crate::report::data::DataTable;
 use crate::report::facts;
 use crate::report::orbit;
@@ -140,6 +142,7 @@ pub fn run(options: &OrbitArgs) -> Result<CommandOutput, String> {
     };
     if let Some(out) = &out {
         let plot = match &tracks {
+            _ if !out.ending.is_picture() => None,
             Some(tracks) => Some(orbit::track_plot(tracks)),
             None => {
                 let rows: Vec<_> = found.iter().map(|one| &one.rows[..]).collect();
@@ -277,8 +280,8 @@ fn save(
         false => {
             let rows = found.iter().enumerate().flat_map(|(index, one)| {
                 one.rows.iter().map(move |row| match found.len() {
-                    1 => row.clone(),
-                    _ => [&[super::motion::whole(index)], &row[..]].concat(),
+                    1 => Cow::Borrowed(&row[..]),
+                    _ => Cow::Owned([&[super::motion::whole(index)], &row[..]].concat()),
                 })
             });
             let data = DataTable {

@@ -108,7 +108,7 @@ pub struct Drawn {
     /// Report for the terminal, or JSON.
     pub text: String,
     pub plot: Option<Plot>,
-    pub data: Option<DataTable>,
+    pub data: Option<DataTable<'static>>,
 }
 
 /// Wish of a section: the file's ending, and the number of plots side by side.

@@ -226,7 +226,7 @@ pub fn begin(case: &Case, axes: &Columns, given: GivenStart) -> Result<Begin, St
 }
 
 /// Crossings as data.
-fn data(axes: &Columns, orbits: &[SurfaceOrbit]) -> DataTable {
+fn data(axes: &Columns, orbits: &[SurfaceOrbit]) -> DataTable<'static> {
     let rows = orbits.iter().enumerate().flat_map(|(index, orbit)| {
         orbit.crossings.iter().map(move |crossing| {
             let direction = if crossing.rising { 1.0 } else { -1.0 };

@@ -1,25 +1,16 @@
 //! Equations of a Lagrangian system solved for independent accelerations: a field without constraints.
-//!
-//! With M w' = d + aᵀμ, a w' = −e and constraints a w + b = 0 that are solved for as many velocities,
-//! w = S u + s, S = (1, −a_D⁻¹a_I): a S = 0, and so u' = adj(G) Sᵀ(d − M c)/det G, G = SᵀM S, where
-//! c = (0, −a_D⁻¹e) is the part of w' that the constraints give. There is one denominator, det G,
-//! instead of one for each step of an elimination.
+
+use std::fmt::Write;
 
 use liouville::case::Case;
-use liouville::graph::{Expr, Graph};
-use liouville::mechanics::{
-    Algebra, Chart, Lagrangian, LagrangianEquations, ParameterOrigin, SamplerSpec, System,
-    VariableRole,
-};
-use liouville::number::rational::Rational;
+use liouville::mechanics::{Chart, Lagrangian, ParameterOrigin, SamplerSpec, System};
 
 use super::super::super::SearchError;
 use super::super::super::terms::recorded;
 use super::back::with_words;
-use super::matrices::{Reduction, Rows, substituted};
+use super::equations::{ReadEquations, SolvedMotion};
 use super::parts::refined;
 use super::polynomial::RingPolynomial;
-use super::read::StepReader;
 use super::ring::{AdjoinedRing, Atom, Of};
 use super::write::{function_names, line, written};
 
@@ -41,25 +32,6 @@ pub struct ExplicitField {
     renamed: Vec<(String, String)>,
 }
 
-/// Equations as polynomials of a ring.
-struct ReadEquations {
-    mass: Rows,
-    drive: Vec<RingPolynomial>,
-    slopes: Rows,
-    carried: Vec<RingPolynomial>,
-    /// Rates of the coordinates.
-    drift: Vec<RingPolynomial>,
-    /// Values of the constraints.
-    level: Vec<RingPolynomial>,
-}
-
-/// Rates of the remaining components.
-struct SolvedMotion {
-    /// Components of the state that are not given by the constraints, with their rates.
-    rates: Vec<(usize, RingPolynomial)>,
-    is_whole: bool,
-}
-
 impl ExplicitField {
     /// Solves the equations of a system in coordinates; `None` of another system, and where this takes
     /// too many terms.
@@ -69,20 +41,19 @@ impl ExplicitField {
             return Ok(None);
         }
         let model = &case.model;
-        let (graph, equations, level) = {
-            let (graph, (equations, level)) = recorded(case, |jet| {
-                let level = model.level.iter().map(|own| jet.phase.level_function(&own.function));
-                (own.equations(&jet.phase), level.collect::<Vec<_>>())
-            })?;
-            (graph, equations, level)
-        };
+        let (graph, (equations, constraints, level)) = recorded(case, |jet| {
+            let level = model.level.iter().map(|own| jet.phase.level_function(&own.function));
+            let constraints = own.constraints.iter().map(|own| jet.phase.scalar(own));
+            let (constraints, level) = (constraints.collect(), level.collect());
+            (own.equations(&jet.phase), constraints, level)
+        })?;
         let (parameters, dimension) = (model.free_components(), model.dimension());
         if graph.inputs() > parameters + dimension {
             return Ok(None);
         }
         let velocities: Vec<usize> = equations.velocities.iter().map(|w| parameters + w).collect();
         let made = refined((parameters, dimension), Vec::new(), |ring| {
-            let read = ReadEquations::of(&graph, (&equations, &level), ring)?;
+            let read = ReadEquations::of(&graph, &equations, [&constraints, &level], ring)?;
             read.solved(&velocities, ring)
         });
         Ok(made.and_then(|(ring, motion)| Self::written(case, &ring, motion)))
@@ -133,227 +104,122 @@ impl ExplicitField {
         for (place, rate) in motion.rates.iter().filter(|(place, _)| state(*place) != "t") {
             line(&mut text, &format!("{}'", state(*place)), &written(rate, &names));
         }
+        if !motion.level.is_empty() {
+            let equation = |own: &RingPolynomial| format!("\"{} = 0\"", written(own, &names));
+            let all: Vec<String> = motion.level.iter().map(equation).collect();
+            let _ = writeln!(text, "[level]\nequations = [{}]", all.join(", "));
+        }
         let made = Case::parse(&text, &[]).ok()?;
         Some(Self { case: made, is_whole: motion.is_whole, renamed })
     }
 }
 
-/// Whether a system has coordinates, their rates as velocities, and its constraints as the level.
+/// Whether a system is one that can be solved so, and is not too large.
 fn is_plain(case: &Case, own: &Lagrangian) -> bool {
-    let model = &case.model;
-    let velocities = own.velocities(&model.state).len();
-    let is_known = |role: &VariableRole| {
-        matches!(role, VariableRole::Coordinate(_) | VariableRole::Velocity | VariableRole::Time)
-    };
+    let velocities = own.velocities(&case.model.state).len();
     !own.vakonomic
-        && matches!(own.algebra, Algebra::Commuting)
-        && own.roles.iter().all(is_known)
-        && model.level.len() == own.constraints.len()
-        && model.extension.is_empty()
+        && case.model.extension.is_empty()
         && matches!(case.chart, Chart::Free | Chart::Equations)
         && velocities <= MOST_VELOCITIES
         && velocities.saturating_sub(own.constraints.len()) <= MOST_INDEPENDENT
 }
 
-impl ReadEquations {
-    fn of(
-        graph: &Graph,
-        (equations, level): (&LagrangianEquations<Expr>, &[Expr]),
-        ring: &mut AdjoinedRing,
-    ) -> Option<Self> {
-        let mut reader = StepReader::new(graph);
-        let mut each = |own: &[Expr]| -> Option<Vec<RingPolynomial>> {
-            own.iter().map(|own| reader.read(graph.place(*own), ring)).collect()
-        };
-        Some(Self {
-            mass: equations.terms.mass.iter().map(|row| each(row)).collect::<Option<_>>()?,
-            drive: each(&equations.terms.drive)?,
-            slopes: equations.terms.slopes.iter().map(|row| each(row)).collect::<Option<_>>()?,
-            carried: each(&equations.carried)?,
-            drift: each(&equations.drift)?,
-            level: each(level)?,
-        })
-    }
+#[cfg(test)]
+mod tests {
+    use liouville::mechanics::Phase;
+    use liouville::mechanics::elimination::solve_by_minors;
 
-    /// Solves for the rates of positions and independent velocities; `velocities` are their variables.
-    fn solved(&self, velocities: &[usize], ring: &mut AdjoinedRing) -> Option<SolvedMotion> {
-        let (one, minus) = (Rational::from(1), Rational::from(-1));
-        let is_velocity = |own: &RingPolynomial| {
-            own.variables().iter().any(|variable| velocities.contains(variable))
+    use super::*;
+
+    /// Compares the field at some states with that of the case on its constraints.
+    fn agrees(text: &str) -> ExplicitField {
+        let case = Case::parse(text, &[]).expect("a case");
+        let field = ExplicitField::of(&case).expect("recorded").expect("it is solved");
+        let System::Lagrangian(own) = &case.model.system else { panic!("a Lagrangian") };
+        let dimension = case.model.dimension();
+        let component = |name: &str| {
+            (0..dimension).find(|k| case.model.component_name(*k) == name).expect("a component")
         };
-        if self.slopes.iter().flatten().any(is_velocity) {
-            return None;
-        }
-        let reduction = Reduction::of(ring, false);
-        let (dependent, determinant) = self.pivots(velocities.len(), &reduction)?;
-        let is_whole = determinant.value().is_some();
-        let independent: Vec<usize> =
-            (0..velocities.len()).filter(|i| !dependent.contains(i)).collect();
-        let columns = |places: &[usize]| -> Rows {
-            let row = |row: &Vec<RingPolynomial>| places.iter().map(|i| row[*i].clone()).collect();
-            self.slopes.iter().map(row).collect()
-        };
-        let inverse = ring.inverse(&determinant)?;
-        let reduction = Reduction::of(ring, false);
-        let adjugate = reduction.adjugate(&columns(&dependent))?;
-        // −a_D⁻¹ of a vector.
-        let given = |side: &[RingPolynomial]| -> Option<Vec<RingPolynomial>> {
-            let entry = |row: &Vec<RingPolynomial>| {
-                let own = reduction.product(&reduction.dot(row, side)?, &inverse)?;
-                Some(own.times_number(&minus))
-            };
-            adjugate.iter().map(entry).collect()
-        };
-        let zero = RingPolynomial::default();
-        let at_rest: Vec<(usize, RingPolynomial)> =
-            velocities.iter().map(|w| (*w, zero.clone())).collect();
-        let rest: Option<Vec<_>> =
-            self.level.iter().map(|own| substituted(own, &at_rest)).collect();
-        let shift = given(&rest?)?;
-        // By independent velocity, the dependent velocities.
-        let images: Option<Rows> = independent
-            .iter()
-            .map(|i| given(&self.slopes.iter().map(|row| row[*i].clone()).collect::<Vec<_>>()))
+        let free: Vec<usize> = (0..field.case.model.dimension())
+            .map(|k| component(&field.back(&field.case.model.component_name(k))))
             .collect();
-        let images = images?;
-        let mut replaced = Vec::new();
-        for (k, place) in dependent.iter().enumerate() {
-            let mut sum = shift[k].clone();
-            for (i, image) in independent.iter().zip(&images) {
-                let own = RingPolynomial::variable(velocities[*i], 1);
-                sum = sum.plus(&image[k].times(&own)?, &one)?;
-            }
-            replaced.push((velocities[*place], reduction.reduced(&sum)?));
-        }
-        let on_level = |own: &RingPolynomial| reduction.reduced(&substituted(own, &replaced)?);
-        let all = |own: &[RingPolynomial]| -> Option<Vec<RingPolynomial>> {
-            own.iter().map(on_level).collect()
-        };
-        let accelerations = given(&all(&self.carried)?)?;
-        let drive = all(&self.drive)?;
-        // Columns of S, and M S, M c.
-        let spread = |own: Option<usize>, others: &[RingPolynomial]| -> Vec<RingPolynomial> {
-            let mut all = vec![zero.clone(); velocities.len()];
-            if let Some(i) = own {
-                all[i] = RingPolynomial::constant(one.clone());
-            }
-            dependent.iter().zip(others).for_each(|(place, own)| all[*place] = own.clone());
-            all
-        };
-        let directions: Rows =
-            independent.iter().zip(&images).map(|(i, own)| spread(Some(*i), own)).collect();
-        let times_mass = |own: &[RingPolynomial]| -> Option<Vec<RingPolynomial>> {
-            self.mass.iter().map(|row| reduction.dot(row, own)).collect()
-        };
-        let moved: Option<Rows> = directions.iter().map(|own| times_mass(own)).collect();
-        let moved = moved?;
-        let gram: Option<Rows> = directions
-            .iter()
-            .map(|a| moved.iter().map(|b| reduction.dot(a, b)).collect::<Option<Vec<_>>>())
-            .collect();
-        let gram = gram?;
-        let carried = times_mass(&spread(None, &accelerations))?;
-        let free: Option<Vec<RingPolynomial>> =
-            drive.iter().zip(&carried).map(|(a, b)| a.plus(b, &minus)).collect();
-        let free = free?;
-        let sides: Option<Vec<_>> =
-            directions.iter().map(|own| reduction.dot(own, &free)).collect();
-        let solved = Quotients::of(&gram, &sides?, ring)?;
-        let mut rates = Vec::new();
-        let parameters = ring.atoms.iter().position(|atom| matches!(atom, Atom::State))?;
-        for (place, rate) in self.drift.iter().enumerate() {
-            match velocities.iter().position(|w| *w == parameters + place) {
-                None => rates.push((place, on_level(rate)?)),
-                Some(w) => {
-                    let Some(own) = independent.iter().position(|i| *i == w) else { continue };
-                    rates.push((place, solved.0[own].clone()));
-                }
-            }
-        }
-        Some(SolvedMotion { rates, is_whole })
-    }
-
-    /// Velocities for which the constraints are solved, with the determinant of their slopes: a number if
-    /// possible, otherwise that with fewest terms.
-    fn pivots(
-        &self,
-        velocities: usize,
-        reduction: &Reduction,
-    ) -> Option<(Vec<usize>, RingPolynomial)> {
-        let count = self.slopes.len();
-        let mut best: Option<(Vec<usize>, RingPolynomial)> = None;
-        let mut chosen: Vec<usize> = (0..count).collect();
-        loop {
-            let rows = self.slopes.iter();
-            let square: Rows =
-                rows.map(|row| chosen.iter().map(|i| row[*i].clone()).collect()).collect();
-            let determinant = reduction.determinant(&square)?;
-            if determinant.value().is_some_and(|value| !value.is_zero()) {
-                return Some((chosen, determinant));
-            }
-            let terms = determinant.terms().count();
-            if terms > 0 && best.as_ref().is_none_or(|(_, own)| terms < own.terms().count()) {
-                best = Some((chosen.clone(), determinant));
-            }
-            // The next combination, the last places first.
-            let Some(place) = (0..count).rev().find(|k| chosen[*k] < velocities - count + k) else {
-                return best;
+        let given: Vec<usize> = (0..dimension).filter(|k| !free.contains(k)).collect();
+        assert_eq!(given.len(), own.constraints.len(), "velocities given by constraints");
+        let parameters: Vec<f64> =
+            (0..case.model.free_components()).map(|k| 0.7 + 0.31 * k as f64).collect();
+        for number in 0..3 {
+            let mut state: Vec<f64> = (0..dimension)
+                .map(|k| 0.4 + 0.37 * (k as f64 + 1.0).sin() + 0.11 * f64::from(number))
+                .collect();
+            let values = |state: &[f64]| -> Vec<f64> {
+                let phase = Phase::new(&case.model, &parameters, state);
+                own.constraints.iter().map(|f| phase.scalar(f)).collect()
             };
-            chosen[place] += 1;
-            (place + 1..count).for_each(|k| chosen[k] = chosen[k - 1] + 1);
-        }
-    }
-}
-
-/// Solution of linear equations over one denominator.
-struct Quotients(Vec<RingPolynomial>);
-
-impl Quotients {
-    fn of(rows: &Rows, sides: &[RingPolynomial], ring: &mut AdjoinedRing) -> Option<Self> {
-        let reduction = Reduction::of(ring, false);
-        let adjugate = reduction.adjugate(rows)?;
-        let numerators: Option<Vec<RingPolynomial>> =
-            adjugate.iter().map(|row| reduction.dot(row, sides)).collect();
-        let numerators = numerators?;
-        let of_sines = Reduction::of(ring, true);
-        let determinant = reduction.determinant(rows)?;
-        // sin² θ is one factor, 1 − cos² θ are two terms.
-        let other = of_sines.reduced(&determinant)?;
-        let is_shorter = other.terms().count() < determinant.terms().count();
-        let determinant = if is_shorter { other } else { determinant };
-        let (value, monomial, rest) = determinant.split()?;
-        let inverse = value.recip()?;
-        let mut made = Vec::new();
-        for own in numerators {
-            let own = match is_shorter {
-                true => of_sines.reduced(&own)?,
-                false => own,
-            };
-            let Some((_, common, _)) = own.split() else {
-                made.push(own);
-                continue;
-            };
-            // What is common above and below.
-            let shared: Vec<(usize, u32)> = monomial
+            given.iter().for_each(|k| state[*k] = 0.0);
+            let rest = values(&state);
+            let columns: Vec<Vec<f64>> = given
                 .iter()
-                .filter_map(|(variable, power)| {
-                    let above = common.iter().find(|(own, _)| own == variable)?.1;
-                    Some((*variable, above.min(*power)))
+                .map(|k| {
+                    let mut moved = state.clone();
+                    moved[*k] = 1.0;
+                    values(&moved).iter().zip(&rest).map(|(a, b)| a - b).collect()
                 })
                 .collect();
-            let shared = RingPolynomial::term(shared, Rational::from(1));
-            let mut above = own.over(&shared)?.times_number(&inverse);
-            let below = RingPolynomial::term(monomial.clone(), Rational::from(1)).over(&shared)?;
-            let below = match above.over(&rest) {
-                Some(quotient) => {
-                    above = quotient;
-                    below
-                }
-                None => below.times(&rest)?,
+            let rows: Vec<Vec<f64>> =
+                (0..rest.len()).map(|i| columns.iter().map(|own| own[i]).collect()).collect();
+            let side: Vec<f64> = rest.iter().map(|own| -own).collect();
+            let solved = match rows.is_empty() {
+                true => Vec::new(),
+                false => solve_by_minors(&rows, &[side]).remove(0),
             };
-            let below = ring.inverse(&below)?;
-            made.push(Reduction::of(ring, is_shorter).product(&above, &below)?);
+            given.iter().zip(solved).for_each(|(k, value)| state[*k] = value);
+            let wanted = Phase::new(&case.model, &parameters, &state).field().to_vec();
+            let inner: Vec<f64> = free.iter().map(|k| state[*k]).collect();
+            let made = Phase::new(&field.case.model, &parameters, &inner).field().to_vec();
+            for (k, rate) in free.iter().zip(made) {
+                let error = (wanted[*k] - rate).abs() / (1.0 + rate.abs());
+                assert!(error < 1e-11, "{}: {} {rate}", case.model.component_name(*k), wanted[*k]);
+            }
         }
-        Some(Self(made))
+        field
+    }
+
+    #[test]
+    fn solved_equations_are_those_of_the_case() {
+        let scalars = |names: &[&str]| -> String {
+            names.iter().map(|name| format!("\"{name}\" = '-1..1'\n")).collect()
+        };
+        let head =
+            "title = 'x'\nsystem = 'nonholonomic'\n[parameters]\nm = '1..2'\nJ = '1..2'\n[state]\n";
+        // A constraint with a pivot that is no number, with a force.
+        let knife = format!(
+            "{head}{}[lagrangian]\nkinetic = \"m*(x'² + y'²)/2 + J*f'²/2 + m*x'*f'*sin(f)/3\"\n\
+             potential = 'x*y'\nforces = {{ f = \"−f'*x\" }}\n\
+             constraints = [\"x'*sin(f) − y'*cos(f) = 0\"]\n",
+            scalars(&["x", "y", "f", "x'", "y'", "f'"])
+        );
+        assert!(!agrees(&knife).is_whole, "sin f and cos f have zeros");
+        // Constraints that are affine, and two of them.
+        let affine = format!(
+            "{head}{}[lagrangian]\nkinetic = \"m*(x'² + y'² + z'²)/2 + J*u'²*(1 + x²)/2\"\n\
+             constraints = [\"z' = y*x' + u\", \"y' − 2*x' + x*u' = 0\"]\n",
+            scalars(&["x", "y", "z", "u", "x'", "y'", "z'", "u'"])
+        );
+        assert!(agrees(&affine).is_whole);
+        // Without constraints, with one denominator.
+        let pendulum = format!(
+            "{head}{}[lagrangian]\nkinetic = \"(m + J)*a'²/2 + J*b'²/2 + J*a'*b'*cos(a − b)\"\n\
+             potential = '−cos(a) − cos(b)'\n",
+            scalars(&["a", "b", "a'", "b'"])
+        );
+        assert!(agrees(&pendulum).is_whole);
+        // Quasi-velocities with a carried vector.
+        let top = format!(
+            "{head}w = 'vector(3, -1..1)'\ng = 'vector(3, -1..1)'\n[lagrangian]\n\
+             kinetic = '(w1² + m*w2² + J*w3²)/2 + w1*w2*g3/9'\npotential = 'g1*g2 + m*g3'\n\
+             quasi-velocities = ['w']\nalgebra = 'so(3)'\nconstraints = ['w1 + w2*g3 = 0']\n\
+             [field]\n\"g'\" = 'g × w'\n"
+        );
+        assert!(agrees(&top).is_whole);
     }
 }

@@ -12,7 +12,8 @@
 //! bases        denominators, radicands and other functions as factors
 //! absence      the polynomials that a theorem of absence covers
 //! implied      relations between these that known integrals imply
-//! explicit     equations of a Lagrangian solved for independent accelerations
+//! equations    equations of a Lagrangian, solved for independent accelerations
+//! explicit     their field as a case
 //! matrices     determinants and adjugates of polynomials
 //! derivations  derivatives of integrals along symmetry fields and the fields of other integrals
 //! logarithmic  maps by monomials, in the logarithms of the state
@@ -31,6 +32,7 @@ mod atom;
 mod back;
 mod bases;
 mod derivations;
+mod equations;
 mod explicit;
 mod implied;
 mod logarithmic;

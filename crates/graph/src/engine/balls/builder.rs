@@ -1,171 +1,36 @@
-//! Tapes over balls in machine code: midpoints and radii as steps of one program.
-//!
-//! The formulas are those of the domain [`Ball`](crate::number::ball::Ball), operation by operation
-//! and in the same order, so that every midpoint and radius has the same bits; only terms that are
-//! zero because a constant is exact are left out. Nothing is fused.
-
-use std::sync::Arc;
+//! Construction of programs over balls.
 
 use rustc_hash::FxHashMap;
 
-use super::machine::{MachineProgram, Memory};
-use super::program::{PairOperation, ProgramStep, StepProgram, Value};
-use super::{ROW_STATES, RowBlock};
-use crate::graph::{Instruction, InstructionSet, Tape, widest};
+use super::super::program::{PairOperation, ProgramStep, Value};
+use crate::graph::{Instruction, Tape};
 use crate::number::ball::{TINY, UNIT, WIDER, about};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
 
-/// Largest number of steps: longer code leaves the second-level cache, and an evaluator that reads
-/// its instructions once for all lanes is faster.
-const MOST_STEPS: usize = 1 << 14;
-
 /// The largest number whose reciprocal overflows, 2⁻¹⁰²⁴.
 const OVERFLOWING: f64 = f64::MIN_POSITIVE / 4.0;
 
-/// Two tapes over balls, the second on the results of the first, in machine code; clones share it.
-#[derive(Clone, Debug)]
-pub struct BallEngine(Arc<BallCode>);
-
-#[derive(Debug)]
-struct BallCode {
-    machine: MachineProgram,
-    /// Whether each input is exact.
-    exact: Vec<bool>,
-    /// Number of outputs of the first tape that are outputs of the code.
-    computed: usize,
-}
-
-impl BallEngine {
-    /// Prepares two tapes; of each input it is said whether it is exact, so that its radius, which
-    /// must be 0, is never read. The inputs of the second tape are the outputs of the first,
-    /// followed by `further` numbers. `None` where their numbers differ, where the processor or the
-    /// system allows no machine code, or a tape has functions that are not processor instructions or
-    /// is too long.
-    pub fn new(
-        exact: Vec<bool>,
-        first: &Tape,
-        further: &[Rational],
-        second: &Tape,
-    ) -> Option<Self> {
-        Self::with_vectors(exact, first, further, second, widest())
-    }
-
-    pub(super) fn with_vectors(
-        exact: Vec<bool>,
-        first: &Tape,
-        further: &[Rational],
-        second: &Tape,
-        vectors: InstructionSet,
-    ) -> Option<Self> {
-        let (program, computed) = program(&exact, first, further, second)?;
-        let machine = MachineProgram::new(&program, vectors)?;
-        Some(Self(Arc::new(BallCode { machine, exact, computed })))
-    }
-
-    /// Number of outputs of the first tape that are computed, and not inputs or constants.
-    pub fn computed(&self) -> usize {
-        self.0.computed
-    }
-
-    /// Memory to run in, one for each thread.
-    pub fn runner(&self) -> BallRunner {
-        BallRunner {
-            code: Arc::clone(&self.0),
-            inputs: vec![[RowBlock([0.0; ROW_STATES]); 2]; self.0.exact.len()],
-            memory: self.0.machine.memory(),
-        }
-    }
-}
-
-/// Memory in which a [`BallEngine`] runs.
-#[derive(Debug)]
-pub struct BallRunner {
-    code: Arc<BallCode>,
-    inputs: Vec<[RowBlock; 2]>,
-    memory: Memory,
-}
-
-impl BallRunner {
-    /// Midpoints and radii of the inputs that were not said to be exact.
-    pub fn inexact(&self) -> impl Iterator<Item = &[RowBlock; 2]> {
-        let inputs = self.inputs.iter().zip(&self.code.exact);
-        inputs.filter(|(_, is_exact)| !**is_exact).map(|(input, _)| input)
-    }
-
-    /// Midpoints and radii of the inputs, to be filled.
-    pub fn inputs_mut(&mut self) -> &mut [[RowBlock; 2]] {
-        &mut self.inputs
-    }
-
-    /// Whether all inputs that were said to be exact are.
-    pub fn is_exact(&self) -> bool {
-        let exact = self.inputs.iter().zip(&self.code.exact).filter(|(_, is_exact)| **is_exact);
-        // Without the sign no bit of 0 is set; sums of floats would wait for one another.
-        let bits = |rad: &RowBlock| rad.0.iter().fold(0, |bits, one| bits | one.to_bits() << 1);
-        exact.into_iter().all(|([_, rad], _)| bits(rad) == 0)
-    }
-
-    /// Computes the outputs. Inputs that were said to be exact must be.
-    pub fn run(&mut self) {
-        debug_assert!(self.is_exact(), "no radius is left out");
-        self.code.machine.run(self.inputs.as_flattened(), &mut self.memory);
-    }
-
-    /// Midpoints and radii of an output: those that the first tape computes, and then those of the
-    /// second.
-    pub fn output(&self, index: usize) -> [&RowBlock; 2] {
-        [self.memory.output(2 * index), self.memory.output(2 * index + 1)]
-    }
-}
-
-/// Makes the program of two tapes, with the number of outputs of the first that are computed; `None`
-/// for functions that are not instructions.
-fn program(
-    exact: &[bool],
-    first: &Tape,
-    further: &[Rational],
-    second: &Tape,
-) -> Option<(StepProgram, usize)> {
-    let mut builder = Builder::default();
-    let draws = (0..).zip(exact).map(|(input, is_exact)| BallValue {
-        mid: Value::Input(2 * input),
-        rad: (!is_exact).then_some(Value::Input(2 * input + 1)),
-    });
-    let made = builder.tape(first, draws.collect())?;
-    let further: Vec<BallValue> = further.iter().map(|value| builder.enclosed(value)).collect();
-    let results = builder.tape(second, [&made[..], &further].concat())?;
-    let is_computed = |ball: &&BallValue| matches!(ball.mid, Value::Step(_));
-    let computed: Vec<BallValue> = made.iter().filter(is_computed).copied().collect();
-    let outputs = [&computed[..], &results].concat();
-    let zero = builder.constant(0.0);
-    let parts = |ball: &BallValue| [ball.mid, ball.rad.unwrap_or(zero)];
-    let outputs = outputs.iter().flat_map(parts).collect();
-    let Builder { steps, constants, .. } = builder;
-    let program = StepProgram { inputs: 2 * first.inputs(), constants, steps, outputs };
-    (program.steps.len() <= MOST_STEPS).then_some((program, computed.len()))
-}
-
 /// A ball under construction; the radius of an exact constant is 0.
 #[derive(Clone, Copy, Debug)]
-struct BallValue {
-    mid: Value,
-    rad: Option<Value>,
+pub(super) struct BallValue {
+    pub(super) mid: Value,
+    pub(super) rad: Option<Value>,
 }
 
 /// A program under construction; equal steps are one.
 #[derive(Default)]
-struct Builder {
-    steps: Vec<ProgramStep>,
+pub(super) struct Builder {
+    pub(super) steps: Vec<ProgramStep>,
     known: FxHashMap<ProgramStep, u32>,
-    constants: Vec<f64>,
+    pub(super) constants: Vec<f64>,
     /// Places of constants by their bits.
     places: FxHashMap<u64, u32>,
 }
 
 impl Builder {
     /// Adds the steps of a tape with these inputs; returns its outputs.
-    fn tape(&mut self, tape: &Tape, inputs: Vec<BallValue>) -> Option<Vec<BallValue>> {
+    pub(super) fn tape(&mut self, tape: &Tape, inputs: Vec<BallValue>) -> Option<Vec<BallValue>> {
         let mut held = inputs;
         if held.len() != tape.inputs() {
             return None;
@@ -288,15 +153,15 @@ impl Builder {
         self.product(unit, x)
     }
 
-    fn size(&mut self, x: Value) -> Value {
+    pub(super) fn size(&mut self, x: Value) -> Value {
         self.step(ProgramStep::Unary(UnaryFunction::Abs, x))
     }
 
-    fn product(&mut self, x: Value, y: Value) -> Value {
+    pub(super) fn product(&mut self, x: Value, y: Value) -> Value {
         self.step(ProgramStep::Binary(BinaryOperation::Mul, x, y))
     }
 
-    fn sum(&mut self, operation: BinaryOperation, x: Value, y: Value) -> Value {
+    pub(super) fn sum(&mut self, operation: BinaryOperation, x: Value, y: Value) -> Value {
         self.step(ProgramStep::Binary(operation, x, y))
     }
 
@@ -304,13 +169,13 @@ impl Builder {
         self.step(ProgramStep::Pair(operation, x, y))
     }
 
-    fn enclosed(&mut self, value: &Rational) -> BallValue {
+    pub(super) fn enclosed(&mut self, value: &Rational) -> BallValue {
         let (mid, rad) = about(value.to_f64());
         let rad = (rad != 0.0).then(|| self.constant(rad));
         BallValue { mid: self.constant(mid), rad }
     }
 
-    fn constant(&mut self, value: f64) -> Value {
+    pub(super) fn constant(&mut self, value: f64) -> Value {
         let place = *self.places.entry(value.to_bits()).or_insert_with(|| {
             self.constants.push(value);
             self.constants.len() as u32 - 1
@@ -318,7 +183,7 @@ impl Builder {
         Value::Constant(place)
     }
 
-    fn step(&mut self, step: ProgramStep) -> Value {
+    pub(super) fn step(&mut self, step: ProgramStep) -> Value {
         let place = *self.known.entry(step).or_insert_with(|| {
             self.steps.push(step);
             self.steps.len() as u32 - 1
