@@ -176,7 +176,7 @@ fn read(
     if !mistakes.is_empty() {
         return None;
     }
-    let hidden = parts.hidden.iter().map(|name| shadows::warning(name));
+    let hidden = parts.hidden.iter().map(|name| shadows::warning(&parts.model.vocabulary, name));
     let alike = parts.alike.iter().cloned();
     let bare = one_sided
         .as_ref()

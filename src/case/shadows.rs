@@ -26,8 +26,8 @@ fn is_known_without_it(vocabulary: &Vocabulary, entry: &VocabularyEntry) -> bool
     match entry.meaning {
         Meaning::Quantity(_) => false,
         // the definition of an abbreviation stands next to its name
-        Meaning::Abbreviation(_) => is_function(name),
-        Meaning::State(_) => is_number || is_function(name),
+        Meaning::Abbreviation(_) => is_function(name) || is_component(vocabulary, name),
+        Meaning::State(_) => is_number || is_function(name) || is_component(vocabulary, name),
         Meaning::Parameter(_) if is_number || is_function(name) => true,
         Meaning::Parameter(_) => {
             let may_be = name == "E" || name.ends_with(|c: char| c.is_ascii_digit());
@@ -40,9 +40,24 @@ fn is_known_without_it(vocabulary: &Vocabulary, entry: &VocabularyEntry) -> bool
     }
 }
 
+/// Whether a name would be the component of a variable, as x2 is of a vector x.
+fn is_component(vocabulary: &Vocabulary, name: &str) -> bool {
+    let is_other =
+        |entry: &VocabularyEntry| matches!(entry.meaning, Meaning::State(_)) && entry.name != name;
+    name.ends_with(|c: char| c.is_ascii_digit())
+        && Formula::parse(name, &vocabulary.only(is_other)).is_ok()
+}
+
 /// Warning about a hidden name.
-pub fn warning(name: &str) -> String {
-    format!("`{name}` already has a meaning here, and this file gives it another")
+pub fn warning(vocabulary: &Vocabulary, name: &str) -> String {
+    let hidden = format!("`{name}` already has a meaning here, and this file gives it another");
+    let variable = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    match vocabulary.find(name).is_some() && is_component(vocabulary, name) {
+        true => {
+            format!("{hidden}: write {variable}[{}] for the component", &name[variable.len()..])
+        }
+        false => hidden,
+    }
 }
 
 /// Warnings about names that look alike.

@@ -66,7 +66,10 @@ pub enum Need {
         function: Expr,
     },
     /// The map takes no two states to one image.
-    OneToOne,
+    OneToOne {
+        /// Density at the image, times the factor of the volume.
+        moved: Expr,
+    },
     /// No value jumps at states that motions can cross.
     Continuous {
         /// The values.

@@ -77,10 +77,10 @@ impl Statement for Density {
         }
     }
 
-    fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+    fn conditions(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> Vec<Condition> {
         if jet.phase.model().system.is_map() {
             let otherwise = "ρ dx is invariant only where Φ is one-to-one";
-            let need = Need::OneToOne;
+            let need = Need::OneToOne { moved: self.moved(jet, kept) };
             return vec![Condition { need, otherwise: otherwise.to_string(), is_essential: true }];
         }
         let value = jet.phase.scalar(&self.0);
@@ -100,9 +100,13 @@ impl Statement for Density {
 impl Density {
     /// ρ² and (ρ∘Φ det DΦ)², with the factor of the level's volume on a level.
     fn squares<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> [T; 2] {
-        let (here, there) = (jet.phase.scalar(&self.0), jet.image().scalar(&self.0));
-        let moved = there * jet.expansion(kept);
+        let (here, moved) = (jet.phase.scalar(&self.0), self.moved(jet, kept));
         [here * here, moved * moved]
+    }
+
+    /// ρ∘Φ det DΦ, with the factor of the level's volume on a level.
+    fn moved<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> T {
+        jet.image().scalar(&self.0) * jet.expansion(kept)
     }
 
     /// Computes ∇ln ρ.

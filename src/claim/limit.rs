@@ -10,7 +10,7 @@ use super::{Condition, Reader, ResidualContext, Statement};
 use crate::formula::{Formula, Type, Value};
 use crate::graph::{Expansion, Expr, Side};
 use crate::mechanics::calculus::DualPoint;
-use crate::mechanics::{LevelFunction, Meaning, Model, Phase};
+use crate::mechanics::{LevelFunction, Meaning, Model, ParameterOrigin, Phase};
 use crate::scalar::Scalar;
 
 /// Reads the scalar parameter named by a key.
@@ -53,10 +53,14 @@ fn has_quantities(model: &Model, formula: &Formula) -> bool {
     })
 }
 
-/// Whether a formula contains a parameter.
+/// Whether a formula contains a parameter, itself or by others that are computed from it.
 fn uses(model: &Model, formula: &Formula, parameter: usize) -> bool {
     formula.symbols().any(|symbol| match model.vocabulary.entry(symbol).meaning {
-        Meaning::Parameter(index) => index == parameter,
+        Meaning::Parameter(index) if index == parameter => true,
+        Meaning::Parameter(index) => match &model.parameters[index].origin {
+            ParameterOrigin::Formula(own) => uses(model, own, parameter),
+            _ => false,
+        },
         Meaning::Abbreviation(index) => {
             model.abbreviations.get(index).is_some_and(|own| uses(model, own, parameter))
         }
@@ -93,7 +97,13 @@ impl Statement for Limit {
             LevelFunction::Formula(own) => Some((own, equation)),
             _ => None,
         });
-        if let Some((_, equation)) = moving.find(|(own, _)| uses(from.model(), own, parameter)) {
+        let moves = |own: &Formula| {
+            let model = from.model();
+            let is_of_system = has_quantities(model, own);
+            uses(model, own, parameter)
+                || is_of_system && model.dynamics().iter().any(|own| uses(model, own, parameter))
+        };
+        if let Some((_, equation)) = moving.find(|(own, _)| moves(own)) {
             let message = format!(
                 "the states themselves depend on the parameter, by the level equation `{}`",
                 equation.text

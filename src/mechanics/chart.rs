@@ -64,7 +64,7 @@ impl Chart {
     /// Makes the state from draws.
     pub fn point<T: Scalar>(
         &self,
-        _: &Model,
+        model: &Model,
         kept: &[bool],
         parameters: &[T],
         draws: &[T],
@@ -73,7 +73,7 @@ impl Chart {
         match self {
             Chart::Rolling | Chart::Sphere => on_sphere(self, kept, draws),
             Chart::Given(chart) if on_level => {
-                let phase = Phase::new(&chart.model, parameters, draws);
+                let phase = Phase::with_parameters_of(&chart.model, model, parameters, draws);
                 let value = |f| phase.evaluate_literally(f).components();
                 chart.formulas.iter().flat_map(value).collect()
             }

@@ -43,6 +43,13 @@ impl<'m, T: Scalar> Phase<'m, T> {
         Self::with_parameters(model, model.assign(free), state)
     }
 
+    /// Makes a point of a model with the parameters of another one, given by the free ones of that: values
+    /// that it has fixed need not be fixed here.
+    #[inline(never)]
+    pub fn with_parameters_of(model: &'m Model, other: &Model, free: &[T], state: &[T]) -> Self {
+        Self::with_parameters(model, other.assign(free), state)
+    }
+
     #[inline(never)]
     fn with_parameters(model: &'m Model, parameters: Parameters<T>, state: &[T]) -> Self {
         let mut rest = state;

@@ -6,12 +6,14 @@
 
 use std::cell::LazyCell;
 
+use super::cell_rank::{CellRank, DrawnMatrix};
+use super::coverage::{self, Slopes};
 use super::judging::Judging;
 use super::pivot_space::PivotSpace;
 use super::sampler::Sampler;
 use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, record};
 use crate::level::Solution;
-use crate::mechanics::{Draw, combinations};
+use crate::mechanics::{Chart, Draw, combinations};
 use crate::number::Enclosing;
 use crate::number::mixed::{Mixed, Number};
 use crate::number::rational::Rational;
@@ -64,7 +66,7 @@ fn fixed(
 impl Judging<'_> {
     /// Returns the reason why states may miss a part of their place, if they may.
     pub(super) fn missed_part(&self, sampler: &Sampler) -> Result<Option<String>, Fault> {
-        let Some(solution) = sampler.solution() else { return Ok(None) };
+        let Some(solution) = sampler.solution() else { return self.thin_image(sampler) };
         let branch = sampler.branch().map(|branch| branch.number);
         let is_same = |own: &&Missed| own.branch == branch && own.solution == *solution;
         let known = self.missed.borrow();
@@ -81,6 +83,47 @@ impl Judging<'_> {
             reason,
         });
         Ok(found)
+    }
+
+    /// Returns the reason why a part of the image of a given chart may have no interior, for some listed
+    /// values or signs of moduli: motions may leave it.
+    fn thin_image(&self, sampler: &Sampler) -> Result<Option<String>, Fault> {
+        let case = self.case;
+        let is_charted = matches!(case.chart, Chart::Given(_))
+            && !sampler.kept().is_empty()
+            && sampler.kept().iter().all(|kept| *kept);
+        if !is_charted {
+            return Ok(None);
+        }
+        if let Some(known) = self.thin_image.get() {
+            return Ok(known.clone());
+        }
+        let found = self.find_thin_image(sampler)?;
+        Ok(self.thin_image.get_or_init(|| found).clone())
+    }
+
+    fn find_thin_image(&self, sampler: &Sampler) -> Result<Option<String>, Fault> {
+        let case = self.case;
+        let Some(choices) = combinations(sampler.recipes()) else { return Ok(None) };
+        let rank = case.model.dimension().saturating_sub(case.model.level.len());
+        let (draws, parameters) = (sampler.recipes().len(), sampler.parameter_draws());
+        for fixed in choices {
+            let (graph, Slopes { rows, point }) =
+                coverage::slopes(case, draws, parameters, &fixed)?;
+            let (required, facts) = (point, Vec::new());
+            let matrix = DrawnMatrix { graph: &graph, rows, rank, required, facts };
+            let chosen = sampler.with(&fixed);
+            let what = match self.rank_of_drawn(&chosen, &matrix)? {
+                CellRank::Full => continue,
+                CellRank::Drops => "has fewer dimensions than the level",
+                CellRank::Unknown => "is not known to have all dimensions of the level",
+            };
+            return Ok(Some(format!(
+                "a part of the image of [level.chart] {what}, so that the motion may leave it: write the \
+                 chart without |…|, or give ranges in which what is in |…| keeps its sign"
+            )));
+        }
+        Ok(None)
     }
 
     fn find_missed_part(

@@ -1,5 +1,6 @@
 //! Conditions that claims presuppose.
 
+use super::cell_rank::CellRank;
 use super::claim_state::{are_zero, undecide};
 use super::evidence::{Flaw, Verdict};
 use super::field::{Answer, PrimeFieldStates, Query};
@@ -34,7 +35,7 @@ impl Judging<'_> {
     ) -> Result<(), Fault> {
         for (item, status) in holding.iter_mut() {
             for condition in &item.conditions {
-                let asks_one_to_one = matches!(condition.need, Need::OneToOne);
+                let asks_one_to_one = matches!(condition.need, Need::OneToOne { .. });
                 if asks_one_to_one && self.is_one_to_one(sampler, SecondState::InRanges)? {
                     continue;
                 }
@@ -73,11 +74,26 @@ impl Judging<'_> {
         sampler: &Sampler,
         open: &mut Open<'_, '_>,
     ) -> Result<(), Fault> {
-        let is_asked = |item: &RecordedClaim<'_>| {
-            item.conditions.iter().any(|condition| matches!(condition.need, Need::OneToOne))
+        let moved = |condition: &Condition| match condition.need {
+            Need::OneToOne { moved } => Some(moved),
+            _ => None,
         };
         for (item, status) in open.iter_mut() {
-            if status.settled != Some(Verdict::Refuted) || !is_asked(item) {
+            let Some(moved) = item.conditions.iter().find_map(moved) else { continue };
+            if status.settled != Some(Verdict::Refuted) {
+                continue;
+            }
+            // The image of all states has the measure 0, and they have more.
+            let query = Query {
+                outputs: vec![moved],
+                requirement: item.requirement.clone(),
+                ..Query::default()
+            };
+            let is_null = |answers: &[Answer]| matches!(answers, [Answer::Zero(_)]);
+            if !sampler.is_thin() && is_null(&PrimeFieldStates::new(self, sampler).test(&[query])?)
+            {
+                let remark = "the images of all states with ρ ≠ 0 have the measure 0";
+                status.evidence.add_remark(remark.to_string());
                 continue;
             }
             if self.is_one_to_one(sampler, SecondState::Anywhere)? {
@@ -112,12 +128,18 @@ impl Judging<'_> {
             Need::Rank { rows, rank } => {
                 let ranks = PrimeFieldStates::new(self, sampler).ranks(rows, &[rows.len()])?;
                 let found = ranks.and_then(|ranks| ranks.first().copied());
-                Ok(match found {
-                    Some(found) if found >= *rank => None,
-                    Some(found) => {
-                        Some(format!("{otherwise}: {found} of {rank} dimensions are left"))
+                let known = match found {
+                    Some(found) if found < *rank => {
+                        let reason = format!("{otherwise}: {found} of {rank} dimensions are left");
+                        return Ok(Some(reason));
                     }
-                    None => condition
+                    Some(_) => self.rank_on_cells(sampler, rows, *rank, &item.requirement)?,
+                    None => CellRank::Unknown,
+                };
+                Ok(match known {
+                    CellRank::Full => None,
+                    CellRank::Drops => Some(format!("on a part of the states {otherwise}")),
+                    CellRank::Unknown => condition
                         .is_essential
                         .then(|| format!("it is not known whether {otherwise}")),
                 })
@@ -149,7 +171,7 @@ impl Judging<'_> {
                     })?;
                 Ok(has_none.then(|| otherwise.clone()))
             }
-            Need::OneToOne => {
+            Need::OneToOne { .. } => {
                 let both = self.second_preimage(sampler, item, SecondState::InRanges)?;
                 Ok(both.map(|both| format!("Φ takes {both} to one state: {otherwise}")))
             }
@@ -219,7 +241,7 @@ impl Judging<'_> {
                     }
                 }
                 let (parameters, values) = model.make_parameters(&inputs);
-                let there = Phase::new(&variables.model, &parameters, values);
+                let there = Phase::with_parameters_of(&variables.model, model, &parameters, values);
                 item.claim.kind.residual_of_values(variables, &DualPoint::new(there))
             })?;
             let Some(group) = residual else { return Ok(false) };

@@ -76,6 +76,9 @@ pub enum DensitySign {
     /// Sign change at fixed parameters, and so zeros or poles: invariant, but not a positive
     /// measure across them.
     Changes,
+    /// One sign for some parameters and the other for others: a measure for each of them, up to a
+    /// factor −1.
+    ChangesWithParameters,
 }
 
 /// A proof in prime fields.

@@ -94,12 +94,14 @@ pub enum JudgeError {
         by: String,
     },
     /// The parametrisation misses directions of the level.
-    #[error("the chart covers {found} of the {dimension} dimensions of the level set")]
+    #[error("the chart covers {found} of the {dimension} dimensions of the level set{listed}")]
     PartialChart {
         /// Rank of its derivative.
         found: usize,
         /// Dimension of the level.
         dimension: usize,
+        /// Listed values for which it does not, after a comma, if there are several.
+        listed: String,
     },
     /// The level equations are not independent.
     #[error(

@@ -1,7 +1,7 @@
 //! A case under judgement: its graph, the evaluation of parts of it, and the checks common to all
 //! cases.
 
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 
 use rustc_hash::FxHashMap;
 
@@ -10,6 +10,7 @@ use super::claim_state::{BlockResult, are_zero};
 use super::field::{Answer, PrimeFieldStates, Query};
 use super::judge::{JudgeError, Options};
 use super::ladder::{LADDER_BITS, PRECISE_STATES};
+use super::level_slopes::FlatEquation;
 use super::overflow;
 use super::physics;
 use super::pieces::Pieces;
@@ -37,10 +38,12 @@ pub struct Judging<'a> {
     pub(super) decided: &'a (dyn Fn(f64) + Sync),
     /// Reasons why the states of a place may miss a part of it, by the equations that hold there.
     pub(super) missed: RefCell<FxHashMap<Vec<bool>, Vec<Missed>>>,
+    /// Reason why a part of the image of a given chart may have no interior.
+    pub(super) thin_image: OnceCell<Option<String>>,
     /// Parts of a place, by the equations that hold there.
     pub(super) pieces: RefCell<FxHashMap<Vec<bool>, Option<Pieces>>>,
     /// Equations of the level whose slopes depend on each other at the states.
-    pub(super) flat: RefCell<Vec<usize>>,
+    pub(super) flat: RefCell<Vec<FlatEquation>>,
     /// Whether the map is proved to be one-to-one, by the equations that hold at a place and by the
     /// states that count.
     pub(super) one_to_one: RefCell<FxHashMap<(Vec<bool>, SecondState), bool>>,
@@ -63,6 +66,7 @@ impl<'a> Judging<'a> {
             inputs,
             decided: &|_| (),
             missed: RefCell::default(),
+            thin_image: OnceCell::new(),
             pieces: RefCell::default(),
             flat: RefCell::default(),
             one_to_one: RefCell::default(),

@@ -8,8 +8,10 @@ use super::sampler::Sampler;
 use super::witness::briefly;
 use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape};
 use crate::mechanics::{Draw, combinations};
+use crate::number::arb::ArbBall;
 use crate::number::float::Float;
-use crate::number::{BinaryOperation, UnaryFunction};
+use crate::number::rational::Rational;
+use crate::number::{BinaryOperation, Domain, UnaryFunction};
 
 /// Number of points into which a line, or a part of it, is divided at a time.
 const POINTS: usize = 64;
@@ -22,6 +24,8 @@ const LATE: usize = 6;
 const MOST_DRIFT: f64 = 0.1;
 /// Smallest jump in units of the function's values on the line.
 const LEAST_JUMP: f64 = 1e-9;
+/// Bits with which a jump is computed again.
+const PRECISION: u32 = 256;
 /// Value of antiderivatives, which do not jump.
 const ANTIDERIVATIVE: f64 = 0.5;
 
@@ -45,10 +49,12 @@ impl Judging<'_> {
     fn jump_of(&self, sampler: &Sampler, graph: &Graph, values: &[Expr]) -> Option<String> {
         let tape = Tape::new(graph, values);
         let mut along = Evaluator::new(&tape, Float::<POINTS>);
+        let mut precise = Evaluator::new(&tape, ArbBall::new(PRECISION));
         (0..LINES).find_map(|line| {
             let ends = [2 * line, 2 * line + 1].map(|index| sampler.nearest_draws(index));
             let line = Line::between(sampler, ends, graph.inputs());
-            let place = line.jump(&mut along)?;
+            let jump = line.jump(&mut along).filter(|jump| line.is_real(&mut precise, jump))?;
+            let place = 0.5 * (jump.sides[0] + jump.sides[1]);
             let model = &self.case.model;
             let state = &sampler.made()[model.free_components()..];
             let tape = Tape::new(sampler.graph(), state);
@@ -74,6 +80,16 @@ impl Judging<'_> {
 
 /// Values at points of lines.
 type Along<'t> = Evaluator<'t, Float<POINTS>>;
+
+/// A jump that is met on a line.
+struct Jump {
+    /// Index of the value that jumps.
+    output: usize,
+    /// Places on both sides of it.
+    sides: [f64; 2],
+    /// Change of the value between them.
+    size: f64,
+}
 
 /// A line of draws, with the parameters of its first end.
 struct Line {
@@ -104,13 +120,32 @@ impl Line {
         along.outputs().copied().collect()
     }
 
-    /// Finds a place at which some value has different limits from both sides.
-    fn jump(&self, along: &mut Along<'_>) -> Option<f64> {
-        let whole = self.values(along, divided(0.0, 1.0));
-        (0..whole.len()).find_map(|output| self.jump_of(along, output, &whole[output]))
+    /// Whether a value changes by half of a jump at least between its places, with many digits: less
+    /// of it is rounding.
+    fn is_real(&self, precise: &mut Evaluator<'_, ArbBall>, jump: &Jump) -> bool {
+        let domain = ArbBall::new(PRECISION);
+        let mut at = |place: f64| {
+            let input = |(from, to): (&f64, &f64)| {
+                Some(domain.values(&[Rational::from_f64(from + place * (to - from))?]))
+            };
+            let inputs = self.from.iter().zip(&self.to).map(input).collect::<Option<Vec<_>>>()?;
+            precise.run(&inputs);
+            precise.output(jump.output).as_ref().map(|value| value.enclosure())
+        };
+        let [Some((a, error_a)), Some((b, error_b))] = jump.sides.map(&mut at) else {
+            return false;
+        };
+        (a - b).abs() - error_a - error_b >= 0.5 * jump.size
     }
 
-    fn jump_of(&self, along: &mut Along<'_>, output: usize, whole: &[f64; POINTS]) -> Option<f64> {
+    /// Finds an output that has different limits from both sides of a place.
+    fn jump(&self, along: &mut Along<'_>) -> Option<Jump> {
+        let whole = self.values(along, divided(0.0, 1.0));
+        let of_output = |output| self.jump_of(along, output, &whole[output]);
+        (0..whole.len()).find_map(of_output)
+    }
+
+    fn jump_of(&self, along: &mut Along<'_>, output: usize, whole: &[f64; POINTS]) -> Option<Jump> {
         let size =
             whole.iter().filter(|value| value.is_finite()).fold(0.0f64, |a, b| a.max(b.abs()));
         let (mut places, mut values) = (divided(0.0, 1.0), *whole);
@@ -131,7 +166,8 @@ impl Line {
             if division + 1 == LATE {
                 let drift = |k: usize| (sides[k] - early[k]).abs();
                 let is_jump = (0..2).all(|side| drift(side) <= MOST_DRIFT * jump);
-                return is_jump.then_some(0.5 * (places[steepest] + places[steepest + 1]));
+                let sides = [places[steepest], places[steepest + 1]];
+                return is_jump.then_some(Jump { output, sides, size: jump });
             }
             places = divided(places[steepest], places[steepest + 1]);
             values = self.values(along, places)[output];

@@ -1,85 +1,79 @@
 //! Slopes of the level equations at the states: where they depend on each other, rates that are 0 do not
 //! keep the motion on the level.
 
+use super::cell_rank::CellRank;
 use super::claim_state::{ClaimState, undecide};
 use super::evidence::Verdict;
-use super::field::{Answer, PrimeFieldStates, Query};
 use super::judging::Judging;
 use super::ladder::{LADDER_BITS, PRECISE_STATES};
 use super::recorded::RecordedClaim;
-use super::sampler::{Sampler, TAPE_LANES};
+use super::sampler::Sampler;
 use crate::graph::{Expr, Fault};
 use crate::mechanics::combinations;
-use crate::number::Enclosing;
-use crate::number::ball::Ball;
 use crate::number::mixed::{Mixed, Number};
 
 /// Place of a claim that does not rest on the level.
 const EVERYWHERE: &str = "everywhere";
 
+/// An equation of the level whose slope is not known to be independent of those before it at almost every
+/// state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FlatEquation {
+    /// Index of the equation.
+    pub index: usize,
+    /// Whether it is known to depend on them at states; otherwise nothing is known.
+    pub is_lost: bool,
+}
+
 impl Judging<'_> {
-    /// Notes the equations of the user whose slope, without what it has in common with those before it, is 0
-    /// on an open set of states, for some listed values, or not known at any: as for (x − 1)² = 0, whose rate
-    /// 2(x − 1)x' is 0 at x = 1 whatever x' is.
+    /// Notes the equations of the user whose slope depends on those before it on an open set of states: on a
+    /// cell of signs of moduli and roots, for some listed values, or on a part of the level. So does that of
+    /// (x − 1)² = 0, whose rate 2(x − 1)x' is 0 at x = 1 whatever x' is.
     pub(super) fn check_slopes(&self, sampler: &Sampler) -> Result<(), Fault> {
-        if self.common.dependence.is_empty() {
-            return Ok(());
-        }
-        let choices = combinations(sampler.recipes());
-        for fixed in choices.unwrap_or_else(|| vec![vec![None; sampler.recipes().len()]]) {
-            self.check_slopes_at(&sampler.with(&fixed))?;
+        for found in self.flat_equations(sampler)? {
+            let mut flat = self.flat.borrow_mut();
+            if !flat.contains(&found) {
+                flat.push(found);
+            }
         }
         Ok(())
     }
 
-    fn check_slopes_at(&self, sampler: &Sampler) -> Result<(), Fault> {
-        let (width, states) = (self.case.model.dimension(), sampler.balls(0));
-        let left = self.run(&self.common.dependence.concat()).at(&Ball::<TAPE_LANES>, &states);
-        let exists = left.existing(&[]);
-        for index in (0..sampler.kept().len()).filter(|index| sampler.kept()[*index]) {
-            let values = left.range(index * width..(index + 1) * width);
-            // A slope by a variable at rest may have no value, as that of √(y + |y|) for y < 0.
-            let is_free = |lane: usize| {
-                values.iter().any(|value| value.is_defined(lane) && value.excludes_zero(lane))
-            };
-            let seen = (0..TAPE_LANES).filter(|lane| exists[*lane]);
-            let (free, bound): (Vec<usize>, Vec<usize>) = seen.partition(|lane| is_free(*lane));
-            let is_unseen = free.is_empty() && bound.is_empty();
-            if bound.is_empty() && !(is_unseen && self.has_exact_state(sampler)) {
+    /// Finds these equations among those that hold at the states of a sampler, at most one for each choice
+    /// of listed values.
+    pub(super) fn flat_equations(&self, sampler: &Sampler) -> Result<Vec<FlatEquation>, Fault> {
+        let slopes = &self.common.slopes;
+        let kept: Vec<usize> =
+            (0..slopes.len()).filter(|index| sampler.kept().get(*index) == Some(&true)).collect();
+        // Nothing is proved of states that are found numerically.
+        if kept.is_empty() || sampler.is_numerical() {
+            return Ok(Vec::new());
+        }
+        let choices = combinations(sampler.recipes());
+        let mut found = Vec::new();
+        for fixed in choices.unwrap_or_else(|| vec![vec![None; sampler.recipes().len()]]) {
+            let chosen = sampler.with(&fixed);
+            // A part without a state that is known counts for nothing.
+            if !chosen.has_states() && !self.has_exact_state(&chosen) {
                 continue;
             }
-            let is_lost = match free.is_empty() {
-                true => !self.has_precise_slope(sampler, &self.common.dependence[index]),
-                false => self.is_zero_slope(sampler, &self.common.dependence[index])?,
+            let rank_of = |count: usize| {
+                let rows: Vec<Vec<Expr>> =
+                    kept[..count].iter().map(|index| slopes[*index].clone()).collect();
+                self.rank_on_cells(&chosen, &rows, count, &[])
             };
-            if is_lost {
-                let mut flat = self.flat.borrow_mut();
-                if !flat.contains(&index) {
-                    flat.push(index);
+            if rank_of(kept.len())? == CellRank::Full {
+                continue;
+            }
+            for (before, index) in kept.iter().enumerate() {
+                let rank = rank_of(before + 1)?;
+                if rank != CellRank::Full {
+                    found.push(FlatEquation { index: *index, is_lost: rank == CellRank::Drops });
+                    break;
                 }
             }
         }
-        Ok(())
-    }
-
-    /// Whether all components of a slope are known to be 0 wherever they have a value, for some part of the states
-    /// that has some.
-    fn is_zero_slope(&self, sampler: &Sampler, slope: &[Expr]) -> Result<bool, Fault> {
-        let each: Vec<Query> = slope.iter().map(|own| Query::of(vec![*own])).collect();
-        let answers = PrimeFieldStates::new(self, sampler).test(&each)?;
-        let is_other = |answer: &Answer| matches!(answer, Answer::NonZero(_) | Answer::Silent(_));
-        Ok(!answers.iter().any(is_other))
-    }
-
-    /// Whether some component of a slope is not 0 at some state, with many digits: modulo a prime a root
-    /// may have the other sign, at which no state is on the level.
-    fn has_precise_slope(&self, sampler: &Sampler, slope: &[Expr]) -> bool {
-        let (run, domain) = (self.run(slope), Mixed::new(LADDER_BITS[0]));
-        let is_free = |index: u64| {
-            let values = run.at(&domain, &sampler.states(&domain, 1, index));
-            values.range(0..slope.len()).iter().any(|value| Mixed::excludes_zero(value, 0))
-        };
-        sampler.is_numerical() || (0..TAPE_LANES as u64).any(is_free)
+        Ok(found)
     }
 
     /// Leaves claims undecided that rest on the slopes of such equations: all but identities, and what holds
@@ -92,26 +86,37 @@ impl Judging<'_> {
         let flat = self.flat.borrow();
         for (item, status) in recorded.iter().zip(statuses) {
             let kept = &item.claim.place.kept;
-            let Some(index) = flat.iter().find(|index| kept[**index]) else { continue };
+            let own = || flat.iter().filter(|found| kept[found.index]);
+            let Some(found) = own().find(|found| found.is_lost).or_else(|| own().next()) else {
+                continue;
+            };
             status.is_flat = true;
             let evidence = &mut status.evidence;
             if item.claim.kind.name() == "identity"
                 || status.settled == Some(Verdict::Undecided)
+                // A state at which the residual is not 0 refutes, unless no motion belongs to it.
+                || (!found.is_lost && status.settled != Some(Verdict::Proved))
                 || evidence.holds.iter().any(|place| place == EVERYWHERE)
             {
                 continue;
             }
             (evidence.proof, evidence.witness) = (None, None);
             evidence.holds.clear();
-            let equation = &self.case.model.level[*index].text;
-            undecide(
-                status,
-                format!(
-                    "the slope of `{equation}` is 0 at states of the level, or depends there on those of the \
-                     equations before it, so that it is not known whether the motion stays: write x = 1 for \
-                     (x − 1)² = 0, and leave out listed values for which an equation is a square"
+            let equation = &self.case.model.level[found.index].text;
+            let reason = match found.is_lost {
+                true => format!(
+                    "the slope of `{equation}` is 0 at states of the level, or depends there on those of \
+                     the equations before it, so that it is not known whether the motion stays: write \
+                     x = 1 for (x − 1)² = 0, and leave out values of parameters and states for which an \
+                     equation is a square"
                 ),
-            );
+                false => format!(
+                    "it is not known whether the slope of `{equation}` is 0 on a part of the level, or \
+                     depends there on those of the equations before it, so that the motion may leave: \
+                     give ranges in which what is in |…| and under roots keeps its sign"
+                ),
+            };
+            undecide(status, reason);
         }
     }
 
@@ -119,8 +124,6 @@ impl Judging<'_> {
     fn has_exact_state(&self, sampler: &Sampler) -> bool {
         let domain = Mixed::new(LADDER_BITS[0]);
         let is_known = |value: &Number| matches!(value, Number::Exact(_) | Number::Ball(_));
-        !sampler.is_numerical()
-            && (0..PRECISE_STATES)
-                .any(|index| sampler.states(&domain, 1, index).iter().all(is_known))
+        (0..PRECISE_STATES).any(|index| sampler.states(&domain, 1, index).iter().all(is_known))
     }
 }

@@ -7,9 +7,11 @@
 
 mod around;
 mod branches;
+mod cell_rank;
 mod claim_state;
 mod conclude;
 mod conditions;
+mod conjugates;
 mod coverage;
 mod dissipation;
 mod ends;

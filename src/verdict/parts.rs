@@ -2,14 +2,14 @@
 //! if it contains moduli, or roots that depend on each other.
 
 use super::claim_state::ClaimState;
+use super::conjugates::is_one_function;
 use super::evidence::Verdict;
 use super::judging::Judging;
 use super::ladder::Open;
 use super::recorded::RecordedClaim;
 use super::sampler::Sampler;
-use crate::graph::{Expr, Fault, Graph, Step};
-use crate::mechanics::{Draw, combinations};
-use crate::number::{BinaryOperation, UnaryFunction};
+use crate::graph::{Expr, Fault};
+use crate::mechanics::combinations;
 use crate::proof::Prover;
 
 impl Judging<'_> {
@@ -54,37 +54,4 @@ impl Judging<'_> {
         }
         Ok(true)
     }
-}
-
-/// Whether values are restrictions of one analytic function on a connected complex domain: they are built
-/// by arithmetic, exp, sin, cos, and by roots, logarithms and powers of affine functions.
-fn is_one_function(graph: &Graph, values: &[Expr], inputs: &[Draw]) -> bool {
-    let reached = graph.reached(values.iter().copied());
-    let mut is_affine = vec![false; reached.len()];
-    for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
-        let is_constant = |place: usize| matches!(graph.step(place), Step::Constant(_));
-        is_affine[place] = match step {
-            Step::Constant(_) | Step::Input(_) => true,
-            Step::Unary(UnaryFunction::Neg, a) => is_affine[a],
-            Step::Binary(BinaryOperation::Add | BinaryOperation::Sub, a, b) => {
-                is_affine[a] && is_affine[b]
-            }
-            Step::Binary(BinaryOperation::Mul, a, b) => {
-                (is_constant(a) && is_affine[b]) || (is_constant(b) && is_affine[a])
-            }
-            _ => false,
-        };
-        let is_single_valued = match step {
-            Step::Input(input) => !matches!(inputs.get(input), Some(Draw::Sign)),
-            Step::Unary(UnaryFunction::Abs | UnaryFunction::Atan, _) => false,
-            Step::Unary(UnaryFunction::Sqrt | UnaryFunction::Ln, a) => is_affine[a],
-            Step::Power(a, exponent) => exponent.to_integer().is_some() || is_affine[a],
-            Step::Binary(BinaryOperation::Pow, a, _) => is_affine[a],
-            _ => true,
-        };
-        if !is_single_valued {
-            return false;
-        }
-    }
-    true
 }

@@ -99,6 +99,8 @@ pub struct SharedTerms {
     /// Formulas with an ∫ among the equations of motion and the new variables, each with values
     /// that vanish exactly when its ∫ are functions of their variables.
     pub quadratures: Vec<(String, Vec<Expr>)>,
+    /// Gradients of the level functions, where they are the user's.
+    pub slopes: Vec<Vec<Expr>>,
     /// For each level function of the user, its gradient minus the projection on those before it.
     pub dependence: Vec<Vec<Expr>>,
 }
@@ -150,6 +152,7 @@ impl SharedTerms {
             dependence: (0..gradients.len())
                 .map(|k| rejection(&gradients[k], &gradients[..k]))
                 .collect(),
+            slopes: gradients,
         }
     }
 }

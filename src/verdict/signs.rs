@@ -29,6 +29,8 @@ type Signs = [[bool; 2]; PARAMETER_SETS];
 #[derive(Clone, Default)]
 struct DensityObservations {
     signs: Signs,
+    /// Observed signs, negative and positive, at states with parameters of their own.
+    apart: [bool; 2],
     /// Whether some lane contains no state known to exist.
     is_lacking: bool,
     /// Lanes of the first block at which the density is known to have a value other than 0.
@@ -40,11 +42,38 @@ struct DensityObservations {
 impl DensityObservations {
     /// Whether nothing that is observed at further states can change the finding.
     fn is_decided(&self, proved: Option<&KnownSign>) -> bool {
-        let sign = sign(&self.signs);
+        let sign = self.sign();
         match proved {
             Some(_) => sign.is_some(),
             None => sign == Some(DensitySign::Changes),
         }
+    }
+
+    /// The observed sign.
+    fn sign(&self) -> Option<DensitySign> {
+        if self.signs.contains(&[true, true]) {
+            return Some(DensitySign::Changes);
+        }
+        let [negative, positive] =
+            [0, 1].map(|sign| self.apart[sign] || self.signs.iter().any(|set| set[sign]));
+        match (positive, negative) {
+            (true, true) => Some(DensitySign::ChangesWithParameters),
+            (true, false) => Some(DensitySign::Positive),
+            (false, true) => Some(DensitySign::Negative),
+            (false, false) => None,
+        }
+    }
+}
+
+/// Combines the signs that are observed for two choices of listed values.
+fn for_both(a: Option<DensitySign>, b: Option<DensitySign>) -> Option<DensitySign> {
+    match (a, b) {
+        (None, sign) | (sign, None) => sign,
+        (Some(a), Some(b)) if a == b => Some(a),
+        (Some(DensitySign::Changes), _) | (_, Some(DensitySign::Changes)) => {
+            Some(DensitySign::Changes)
+        }
+        _ => Some(DensitySign::ChangesWithParameters),
     }
 }
 
@@ -75,37 +104,27 @@ impl Judging<'_> {
         });
         let required: Vec<[Range<usize>; 2]> = own.collect();
         let run = self.run(&outputs);
-        let mut seen: Vec<DensityObservations> =
-            vec![DensityObservations::default(); required.len()];
-        let mut is_first = true;
-        for blocks in waves(0..self.blocks(), MOST_KEPT) {
-            let sharing = |maker: &mut Maker<'_>, start| {
-                maker.balls_sharing_parameters(start, PARAMETER_SETS)
-            };
-            for values in run.at_blocks(sampler, blocks, sharing) {
-                let known = observe(&values, &required, &mut seen);
-                if std::mem::take(&mut is_first) {
-                    seen.iter_mut().zip(known).for_each(|(seen, known)| seen.is_seen = known);
-                }
+        let mut found = vec![(None, false); required.len()];
+        let choices = combinations(sampler.recipes());
+        for fixed in choices.unwrap_or_else(|| vec![vec![None; sampler.recipes().len()]]) {
+            let seen = self.observed(&run, &required, &sampler.with(&fixed), &proved);
+            for ((sign, is_doubtful), seen) in found.iter_mut().zip(seen) {
+                *sign = for_both(*sign, seen.sign());
+                *is_doubtful |= seen.is_doubtful;
             }
-            if seen.iter().zip(&proved).all(|(seen, proved)| seen.is_decided(proved.as_ref())) {
-                break;
-            }
-        }
-        let is_open =
-            !seen.iter().zip(&proved).all(|(seen, proved)| seen.is_decided(proved.as_ref()));
-        if is_open && !sampler.is_numerical() {
-            self.look_closely(&run, &required, sampler, &proved, &mut seen);
         }
         let unreached = sampler.unreached();
-        for (((_, _, status), seen), proved) in open.iter_mut().zip(&seen).zip(proved) {
+        for (((_, _, status), (sign, is_doubtful)), proved) in
+            open.iter_mut().zip(found).zip(proved)
+        {
             let evidence = &mut status.evidence;
-            evidence.sign = sign(&seen.signs);
+            evidence.sign = sign;
+            let changes = [DensitySign::Changes, DensitySign::ChangesWithParameters];
             evidence.sign_is_proved =
-                proved.is_some() || evidence.sign == Some(DensitySign::Changes);
+                proved.is_some() || sign.is_some_and(|sign| changes.contains(&sign));
             evidence.sign_may_vanish = proved.is_some_and(|proved| proved.may_vanish);
             let is_open = evidence.sign.is_some() && !evidence.sign_is_proved;
-            evidence.sign_is_partial = is_open && (seen.is_doubtful || unreached.is_some());
+            evidence.sign_is_partial = is_open && (is_doubtful || unreached.is_some());
             if let Some(reason) = unreached.filter(|_| is_open) {
                 evidence.add_remark(format!("its sign is that of the states tried: {reason}"));
             }
@@ -115,6 +134,48 @@ impl Judging<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Observes signs at states for one choice of listed values.
+    fn observed(
+        &self,
+        run: &Run,
+        required: &[[Range<usize>; 2]],
+        sampler: &Sampler,
+        proved: &[Option<KnownSign>],
+    ) -> Vec<DensityObservations> {
+        let mut seen: Vec<DensityObservations> =
+            vec![DensityObservations::default(); required.len()];
+        let mut is_first = true;
+        for blocks in waves(0..self.blocks(), MOST_KEPT) {
+            let sharing = |maker: &mut Maker<'_>, start| {
+                maker.balls_sharing_parameters(start, PARAMETER_SETS)
+            };
+            for values in run.at_blocks(sampler, blocks, sharing) {
+                let known = observe(&values, required, &mut seen);
+                if std::mem::take(&mut is_first) {
+                    seen.iter_mut().zip(known).for_each(|(seen, known)| seen.is_seen = known);
+                }
+            }
+            if seen.iter().zip(proved).all(|(seen, proved)| seen.is_decided(proved.as_ref())) {
+                break;
+            }
+        }
+        let is_open =
+            !seen.iter().zip(proved).all(|(seen, proved)| seen.is_decided(proved.as_ref()));
+        if is_open && !sampler.is_numerical() {
+            self.look_closely(run, required, sampler, proved, &mut seen);
+        }
+        if is_open {
+            let values = run.at(&Ball::<TAPE_LANES>, &sampler.balls(0));
+            for (index, (seen, required)) in seen.iter_mut().zip(required).enumerate() {
+                let existing = values.existing(required).into_iter().enumerate();
+                for (lane, _) in existing.filter(|(_, exists)| *exists) {
+                    note::<Ball<TAPE_LANES>>(values.output(index), lane, &mut seen.apart);
+                }
+            }
+        }
+        seen
     }
 
     /// Observes signs near the ends of ranges; in double-double where none is known; and in exact
@@ -127,7 +188,7 @@ impl Judging<'_> {
         proved: &[Option<KnownSign>],
         seen: &mut [DensityObservations],
     ) {
-        if seen.iter().any(|seen| sign(&seen.signs).is_none()) {
+        if seen.iter().any(|seen| seen.sign().is_none()) {
             let domain = DoubleDoubleBall::<TAPE_LANES>;
             let states = sampler.states_sharing_parameters(&domain, 0, PARAMETER_SETS);
             observe(&run.at(&domain, &states), required, seen);
@@ -219,19 +280,4 @@ fn note<D: Enclosing>(block: &D::Block, lane: usize, seen: &mut [bool; 2]) -> bo
         seen[usize::from(mid > 0.0)] = true;
     }
     known.is_some()
-}
-
-/// Combines observations, negative and positive, over the parameter sets.
-fn sign(seen: &[[bool; 2]]) -> Option<DensitySign> {
-    if seen.contains(&[true, true]) {
-        return Some(DensitySign::Changes);
-    }
-    // Different signs for different parameters give one measure for each of them, up to a factor
-    // -1.
-    let [negative, positive] = [0, 1].map(|sign| seen.iter().any(|set| set[sign]));
-    match (positive, negative) {
-        (true, _) => Some(DensitySign::Positive),
-        (false, true) => Some(DensitySign::Negative),
-        (false, false) => None,
-    }
 }

@@ -109,12 +109,15 @@ impl Judging<'_> {
             return Ok(());
         }
         let sampler = Sampler::new(self.case, place, self.options.seed)?;
-        if self.missed_part(&sampler)?.is_some() {
+        if self.missed_part(&sampler)?.is_some() || !self.flat_equations(&sampler)?.is_empty() {
             return Ok(());
         }
         // A map may be one-to-one on a level alone.
         let asks = |own: &Candidate<'_, '_>| {
-            own.item.conditions.iter().any(|condition| matches!(condition.need, Need::OneToOne))
+            own.item
+                .conditions
+                .iter()
+                .any(|condition| matches!(condition.need, Need::OneToOne { .. }))
         };
         if candidates.iter().any(asks) && !self.is_one_to_one(&sampler, SecondState::InRanges)? {
             candidates.retain(|own| !asks(own));

@@ -254,12 +254,14 @@ fn beside(
                 DensitySign::Positive => positive + negative > 150 && share(negative) > 0.05,
                 DensitySign::Negative => positive + negative > 150 && share(positive) > 0.05,
                 // The other sign may be that of states at which the oracle knows no sign.
-                DensitySign::Changes if positive.min(negative) == 0 && seen.undecided == 0 => {
+                DensitySign::Changes | DensitySign::ChangesWithParameters
+                    if positive.min(negative) == 0 && seen.undecided == 0 =>
+                {
                     let found = thin(MANY);
                     let (above, below) = (found.positive + positive, found.negative + negative);
                     found.undecided == 0 && above.min(below) == 0
                 }
-                DensitySign::Changes => false,
+                DensitySign::Changes | DensitySign::ChangesWithParameters => false,
             };
             wrong.then_some(Wrong::OtherSign)
         }

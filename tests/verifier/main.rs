@@ -15,6 +15,7 @@ mod hamiltonian;
 mod labels;
 mod lanes;
 mod language;
+mod level_cells;
 mod local;
 mod many_variables;
 mod masses;

@@ -65,6 +65,7 @@ pub fn details(path: &str, report: &CaseReport) -> String {
                 DensitySign::Positive => "positive",
                 DensitySign::Negative => "negative",
                 DensitySign::Changes => "of both signs",
+                DensitySign::ChangesWithParameters => "changes its sign with the parameters",
             };
             let extent = match (evidence.sign_is_proved, evidence.sign) {
                 (true, Some(DensitySign::Changes)) => "at states with the same parameters",
@@ -75,7 +76,11 @@ pub fn details(path: &str, report: &CaseReport) -> String {
                 }
                 (false, _) => "at the states that were tried",
             };
-            out.push_str(&format!("      sign      {sign} {extent}\n"));
+            let line = match evidence.sign {
+                Some(DensitySign::ChangesWithParameters) => sign.to_string(),
+                _ => format!("{sign} {extent}"),
+            };
+            out.push_str(&format!("      sign      {line}\n"));
         }
         if let Some(volume) = &evidence.volume {
             out.push_str(&format!("      volume    {volume}\n"));

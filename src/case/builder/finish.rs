@@ -39,8 +39,9 @@ impl ModelBuilder {
         };
         self.name_rates();
         let hidden = shadows::all(&self.vocabulary, Vec::new());
-        let warnings = hidden.iter().map(|name| shadows::warning(name));
-        let warnings = warnings.chain(shadows::look_alikes(&self.vocabulary)).collect();
+        let warnings = hidden.iter().map(|name| shadows::warning(&self.vocabulary, name));
+        let warnings: Vec<String> =
+            warnings.chain(shadows::look_alikes(&self.vocabulary)).collect();
         let fixed = self.fixed();
         let model = Model {
             system,

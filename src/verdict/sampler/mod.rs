@@ -312,14 +312,28 @@ impl Sampler {
         self.recipes.iter().map(source).collect()
     }
 
-    /// Checks that a parametrisation given by the user fills the level set.
+    /// Checks that a parametrisation given by the user fills the level set, for each choice of listed values
+    /// for which it has a value.
     pub fn check_coverage(&self, case: &Case) -> Result<(), JudgeError> {
         let Chart::Given(_) = &case.chart else { return Ok(()) };
         let dimension = self.dimension.saturating_sub(case.model.level.len());
-        let found = coverage::rank(case, &self.draws, self.parameter_draws, self.seed)?;
-        if found < dimension {
-            return Err(JudgeError::PartialChart { found, dimension });
+        let choices = combinations(&self.recipes);
+        let mut is_seen = false;
+        for fixed in choices.unwrap_or_else(|| vec![vec![None; self.recipes.len()]]) {
+            let chosen = self.with(&fixed);
+            let rank = coverage::rank(case, &chosen.draws, self.parameter_draws, self.seed)?;
+            is_seen |= rank.is_some();
+            if let Some(found) = rank.filter(|found| *found < dimension) {
+                let listed = match self.has_lists() {
+                    true => format!(", for {}", chosen.listed(case)),
+                    false => String::new(),
+                };
+                return Err(JudgeError::PartialChart { found, dimension, listed });
+            }
         }
-        Ok(())
+        match is_seen {
+            true => Ok(()),
+            false => Err(JudgeError::PartialChart { found: 0, dimension, listed: String::new() }),
+        }
     }
 }

@@ -23,7 +23,7 @@ fn a_chart_has_to_lie_on_the_level_and_to_fill_it() {
     assert!(judged(&on_sphere(&good, claim)).is_ok(), "the stereographic chart is one");
     assert!(matches!(judged(&on_sphere(&off, claim)), Err(JudgeError::OffLevel { .. })));
     let partial = judged(&on_sphere(part, claim));
-    assert!(matches!(partial, Err(JudgeError::PartialChart { found: 1, dimension: 2 })));
+    assert!(matches!(partial, Err(JudgeError::PartialChart { found: 1, dimension: 2, .. })));
 }
 
 #[test]

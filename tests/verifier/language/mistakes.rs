@@ -101,6 +101,18 @@ fn names_that_mislead_are_warned_of() {
         );
     }
     assert_eq!(warnings("e = [0, 0, 1]"), Vec::<String>::new(), "a vector is not taken for e");
+    assert_eq!(warnings("x2 = 1"), Vec::<String>::new(), "x is a number");
+    let hidden = "`x2` already has a meaning here, and this file gives it another: write x[2] for the \
+                  component";
+    let vector = |tables: &str, more: &str| {
+        let text = format!(
+            "title = 't'\n{tables}[state]\nx = 'vector(2, 0..1)'\n{more}[field]\n\"x'\" = '[x2, x1]'\n"
+        );
+        Case::parse(&text, &[]).expect("a case").warnings
+    };
+    assert_eq!(vector("[let]\nx2 = 7\n", ""), [hidden], "an abbreviation");
+    assert_eq!(vector("[parameters]\nx2 = 7\n", ""), [hidden], "a parameter");
+    assert_eq!(vector("[let]\nx3 = 7\n", ""), Vec::<String>::new(), "x has no third component");
     let alike = "`ω` and `ѡ` look alike, but are different names";
     assert_eq!(warnings("\"ω\" = 1\n\"ѡ\" = 2"), [alike], "Greek and Cyrillic");
     let twice = error(

@@ -227,6 +227,9 @@ fn remark(claim: &ClaimReport) -> String {
                 Some(DensitySign::Changes) => {
                     words.push("changes sign, no positive measure: zeros or poles".to_string())
                 }
+                Some(DensitySign::ChangesWithParameters) => {
+                    words.push("changes its sign with the parameters: take |ρ|".to_string())
+                }
                 Some(DensitySign::Negative) => words.push("negative: take −ρ".to_string()),
                 _ => {}
             }

@@ -77,6 +77,19 @@ fn a_body_with_listed_parameters_stands_where_each_value_puts_it() {
 }
 
 #[test]
+fn listed_values_are_those_of_charts_and_new_variables_too() {
+    let list = format!("[parameters]\na = 'one of 1, 2'\n{TWO}");
+    let level = "[level]\nequations = ['x² + y² = a²']\n[level.chart]\ninputs = { u = '-3..3' }\n\
+                 x = 'a*(1 − u²)/(1 + u²)'\ny = '2*a*u/(1 + u²)'\n[[claim]]\nintegral = 'a*x² + a*y²'\n";
+    let circle = field(&list, &[("x", "y"), ("y", "−x")], level);
+    assert_eq!(circle.by_value.len(), 2, "one place for each value");
+    let related = "[variables]\nu = 'x'\nv = '2*x'\n[poisson]\n\"u,v\" = 'a'\n\
+                   [[claim]]\nbracket = ['u', 'v']\nequals = 'a'\n";
+    let still = field(&list, &[("x", "0"), ("y", "0")], related);
+    assert_eq!(still.by_value.len(), 2, "one place for each value");
+}
+
+#[test]
 fn an_energy_that_the_level_fixes_is_no_integral_there() {
     let energy = "(p²+q²)/2 + (x²+y²)/2 + x²*y − y³/3";
     let level = format!("[level]\nequations = ['{energy} = 1/12']\n");

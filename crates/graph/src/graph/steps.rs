@@ -52,11 +52,7 @@ impl Step<'_> {
 
     /// Repeats the step in the recording under way, from other inputs and the values of its
     /// arguments.
-    pub(super) fn repeat(
-        &self,
-        inputs: &[Expr],
-        at: impl Fn(usize) -> Option<Expr>,
-    ) -> Option<Expr> {
+    pub fn repeat(&self, inputs: &[Expr], at: impl Fn(usize) -> Option<Expr>) -> Option<Expr> {
         Some(match *self {
             Step::Constant(value) => Expr::rational(value),
             Step::Input(input) => *inputs.get(input)?,

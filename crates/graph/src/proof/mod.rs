@@ -94,6 +94,7 @@ pub use fact::SignFact;
 pub use factors::{Factors, LinearDependence, Rationalised, vanishing_root};
 pub use forms::completed_squares;
 pub use nested::SquareRoot;
+pub use nonzero::Zeros;
 pub use outcome::{GroupOutcome, InputRegion, InputRegions};
 pub use plain::plain_bounds;
 pub use polynomials::{PolynomialBounds, polynomial_bounds};

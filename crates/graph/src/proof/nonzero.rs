@@ -7,10 +7,65 @@ use super::digest::SeedDigest;
 use super::evident::with_evident_signs;
 use super::outcome::InputRegion;
 use super::trial::TrialResult;
-use super::{Group, Prover, QuestionData};
+use super::{Group, GroupOutcome, Prover, QuestionData};
 use crate::graph::{Expr, Fault, Graph};
 
+/// What is known of the sets of inputs on which a value is 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Zeros {
+    /// None of them is open.
+    Thin,
+    /// One is a cell of signs that may contain inputs.
+    OnACell,
+    /// Neither is known.
+    Unknown,
+}
+
 impl Prover<'_> {
+    /// Finds whether a value is 0 on a cell of signs that may contain inputs at which all required values
+    /// of a group exist and its facts hold. `one` is the constant 1, which is 0 on none: so every cell is
+    /// looked at until it is known to be empty, or is divided no more.
+    pub fn zeros(
+        &self,
+        graph: &Graph,
+        value: Expr,
+        one: Expr,
+        group: &Group,
+    ) -> Result<Zeros, Fault> {
+        let Group { required, facts, .. } = group;
+        let outputs = vec![value];
+        let digest = SeedDigest::of(self.seed, graph, std::slice::from_ref(&outputs));
+        let question = QuestionData { graph, sources: self.sources_of(graph), digest };
+        let wide = Group {
+            outputs: [&outputs[..], required].concat(),
+            required: required.clone(),
+            facts: facts.clone(),
+            ..Group::default()
+        };
+        let Some(bucket) = buckets(graph, &[wide], &question.sources).pop() else {
+            return Ok(Zeros::Unknown);
+        };
+        if bucket.special.is_empty() {
+            let found = self.prove_plain(&question, &[&outputs]);
+            return Ok(match &found[..] {
+                [(GroupOutcome::NonZero(_), _)] => Zeros::Thin,
+                [(GroupOutcome::Zero(_), _)] => Zeros::OnACell,
+                _ => Zeros::Unknown,
+            });
+        }
+        let asked: &[&[Expr]] = &[&outputs, &[one], required];
+        let mut zeros = Zeros::Thin;
+        for leaf in self.explore(&question, asked, &bucket)?.leaves {
+            match &leaf.results[..] {
+                // Where nothing required has a value there are no inputs that count.
+                [_, _, None] | [Some(TrialResult::NonZero), ..] => {}
+                [Some(TrialResult::Zero(_)), ..] => return Ok(Zeros::OnACell),
+                _ => zeros = Zeros::Unknown,
+            }
+        }
+        Ok(zeros)
+    }
+
     /// Whether a value is proved to be not identically zero on every cell of signs that may contain
     /// inputs.
     pub fn is_nonzero_on_all_cells(&self, graph: &Graph, value: Expr) -> Result<bool, Fault> {

@@ -81,6 +81,9 @@ fn remarks(tested: &TestedClaim) -> Vec<String> {
             Some(DensitySign::Changes) => {
                 remarks.push("zeros or poles: a measure between them".to_string())
             }
+            Some(DensitySign::ChangesWithParameters) => {
+                remarks.push("changes its sign with the parameters: take |ρ|".to_string())
+            }
             Some(DensitySign::Negative) => remarks.push("negative: take −ρ".to_string()),
             _ => {}
         }
