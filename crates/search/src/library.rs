@@ -36,11 +36,9 @@ fn kept(made: impl IntoIterator<Item = FormulaResult>) -> Vec<Formula> {
 /// Scalar parameters in the formula of a potential.
 fn potential_parameters(model: &Model) -> Vec<Formula> {
     let Some(formula) = model.system.potential_formula() else { return Vec::new() };
-    let mut bodily = vec!["m", "R", "I", "B", "J", "c", "μ"];
     // On a plane k is a name like any other.
-    if model.system.is_curved() {
-        bodily.push("k");
-    }
+    let curvature = if model.system.is_curved() { "k" } else { "" };
+    let bodily = ["m", "R", "I", "B", "J", "c", "μ", curvature];
     let names = formula
         .symbols()
         .map(|symbol| model.vocabulary.entry(symbol))

@@ -30,14 +30,12 @@ pub const KIND: &str = "darboux-polynomial";
 /// Number of primes tried until all special places of a line lie in the field, for polynomials of
 /// degree up to 2, and of higher degree.
 const PRIMES: [u64; 2] = [4, 4];
-/// Number of further lines on which points are looked for that share a relation with those of the first.
-const FURTHER_LINES: u64 = 6;
 /// Largest number of conjugate factors that are multiplied.
 pub const CONJUGATES: usize = 4;
 /// Largest number of ways to choose points of rest, one on each line.
 const MOST_WAYS: f64 = 4096.0;
 /// Largest number of candidates of one degree.
-const MOST_CANDIDATES: usize = 40;
+pub const MOST_CANDIDATES: usize = 40;
 
 /// The search for Darboux polynomials in some variables.
 pub struct DarbouxSearch<'s, 'c> {
@@ -161,52 +159,6 @@ impl DarbouxSearch<'_, '_> {
             }
         }
         Ok((found, is_whole))
-    }
-
-    /// Relations that points of a line share with points of further lines: f vanishes along the orbits of
-    /// all its points, and the relations P − c Q differ. Orbits on f = 0 that have integrals of their own
-    /// share more with one another, until there are enough of them. `None` where there are no lines.
-    fn shared(
-        &self,
-        at: &PrimePoint,
-        all: &[Vec<u32>],
-        factors: &[RatedPolynomial],
-        first: Vec<Echelon>,
-    ) -> Result<Option<Vec<Vec<u64>>>, SearchError> {
-        let (mut open, mut found, mut is_shared) = (first, Vec::new(), false);
-        for number in 1..=FURTHER_LINES {
-            let Some(line) = RandomLine::draw(self.setting, at, number) else { return Ok(None) };
-            // Its points may lie in an extension of the field.
-            let others = line.special(all, self.degree, factors)?.all;
-            if others.is_empty() {
-                continue;
-            }
-            is_shared = true;
-            let mut next = Vec::new();
-            for (one, two) in open.iter().flat_map(|one| others.iter().map(move |two| (one, two))) {
-                self.setting.effort.halt.check()?;
-                let mut both = Echelon::new(all.len(), at.modulus);
-                for row in one.rows().chain(two.echelon.rows()) {
-                    both.push(row);
-                }
-                match all.len() - both.rank() {
-                    0 => {}
-                    1 => found.extend(both.null_space()),
-                    _ => next.push(both),
-                }
-            }
-            // Those that share most are on one f.
-            next.sort_by_key(Echelon::rank);
-            next.truncate(MOST_CANDIDATES);
-            open = next;
-            if open.is_empty() {
-                break;
-            }
-        }
-        if is_shared {
-            found.extend(open.iter().filter_map(|own| own.null_space().into_iter().next()));
-        }
-        Ok(Some(found))
     }
 
     /// Polynomials in these monomials on whose zeros the variables do not change, if they are unique.

@@ -12,7 +12,7 @@
 //! rational     rational ones, as P and Q of the relations P − c Q
 //! line         points of a line whose orbits satisfy an additional relation
 //! conic        conics in place of lines, where functions satisfy relations
-//! darboux      Darboux polynomials: the relations at these points
+//! darboux, shared  Darboux polynomials: the relations at these points, and those of several lines
 //! cofactors    whether a polynomial modulo a prime is one
 //! separate     those whose coefficients depend on the parameters, one by one
 //! cleared      Darboux polynomials of fields of fractions
@@ -29,6 +29,7 @@
 //! weighted     integrals of fields in the plane that are multiples of a density
 //! adjoin       functions of the state as further variables
 //! explicit     all of these for Lagrangian systems that are solved for their accelerations
+//! rounds       all parts of a field, within growing limits
 //! part         all of these in the variables of a part of the field
 //! closure      brackets of integrals, and their derivatives along symmetry fields
 //! claims       judgement of each find as a claim like any other
@@ -76,8 +77,10 @@ mod quotients;
 mod rational;
 mod relations;
 mod remarks;
+mod rounds;
 mod separate;
 mod setting;
+mod shared;
 mod sparse;
 mod tangents;
 mod taylor;
@@ -106,8 +109,6 @@ use super::{Effort, SearchError, SearchReport, branches};
 /// Largest number of roots whose signs at all states are compared with those modulo a prime.
 const FEW_ROOTS: usize = 4;
 
-/// Degree up to which all sets of variables are searched before any is searched further.
-const LOW: u32 = 2;
 /// Number of the further limits with functions as variables, before the field is searched without them.
 const WITH_FUNCTIONS: usize = 2;
 
@@ -353,7 +354,8 @@ fn along_orbits(
     let part = |variables| VariableSet::new(variables, degree);
     let mut parts: Vec<VariableSet> = blocks::closed(setting.case)?.into_iter().map(part).collect();
     let limits = if setting.origin.is_some() { EXTENDED } else { MODEST };
-    let mut outcome = rounds(setting, &mut parts, (limits, next), &mut known, report, progress);
+    let mut outcome =
+        rounds::search(setting, &mut parts, (limits, next), &mut known, report, progress);
     if has_line && degree.is_none() && setting.origin.is_none() && outcome.is_ok() {
         outcome = cleared::search(setting, limits.steps, &mut known, report, progress)
             .and_then(|()| own_factors::search(setting, &mut known, report));
@@ -376,48 +378,4 @@ fn along_orbits(
         }
         other => other,
     }
-}
-
-/// Searches all parts within limits, and then within each of the next ones until the time is spent.
-fn rounds(
-    setting: &OrbitSetting<'_>,
-    parts: &mut [VariableSet],
-    (limits, next): (RoundLimits, &[RoundLimits]),
-    known: &mut IndependentIntegrals,
-    report: &mut SearchReport,
-    progress: &mut dyn FnMut(&str),
-) -> Result<(), SearchError> {
-    // An integral of low degree in all variables comes before one of high degree in some of them.
-    if parts.len() > 1 {
-        let low = RoundLimits { degree: LOW, ..limits };
-        for part in parts.iter_mut() {
-            part.relations(setting, low, known, report, progress)?;
-        }
-    }
-    let mut run = |parts: &mut [VariableSet], limits: RoundLimits, report: &mut SearchReport| {
-        for place in 0..parts.len() {
-            let (before, rest) = parts.split_at_mut(place);
-            let Some(part) = rest.first_mut() else { continue };
-            part.inherit(before);
-            part.round(setting, limits, known, report, progress)?;
-        }
-        match parts.last() {
-            Some(whole) => whole.conclude_factors(setting, limits.steps, report),
-            None => Ok(()),
-        }
-    };
-    run(parts, limits, report)?;
-    if setting.origin.is_none() && !setting.is_on_level() && !setting.flow.is_map {
-        let known = found(setting.case, setting.effort, report)?;
-        fractions::conclude(setting.case, setting.effort, &known, false, report)?;
-    }
-    for limits in next {
-        setting.steps.lift();
-        match run(parts, *limits, report) {
-            // The time limit of the user is reached.
-            Err(SearchError::Stopped) => break,
-            other => other?,
-        }
-    }
-    Ok(())
 }
