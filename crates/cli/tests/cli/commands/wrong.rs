@@ -17,7 +17,6 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
     };
     let turning = |claim: &str| field(&format!("[field]\n\"x'\" = 'y'\n\"y'\" = '-x'\n{claim}\n"));
     let skate = "kinetic = \"x'² + y'²\"\nconstraints = [\"x*y' = x'\"]";
-    let twice = "kinetic = \"x'² + y'²\"\nconstraints = [\"x*y' = x'\", \"2*x*y' = 2*x'\"]";
     let quasi = "kinetic = 'y²'\nquasi-velocities = ['y']\nalgebra = 'so(4)'";
     let exists = |more: &str, kind: &str| {
         format!("{head}{body}{more}[[claim]]\n{kind}-density = 'exists'\n")
@@ -195,7 +194,6 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
         ),
         ("kinetic", lagrangian("nonholonomic", ""), "has no `kinetic`", "add kinetic"),
         ("multipliers", lagrangian("vakonomic", skate), "0 multipliers", "multipliers = [\"λ\"]"),
-        ("dependent", lagrangian("nonholonomic", twice), "follows from the equations before", "leave it out"),
         ("algebra", lagrangian("nonholonomic", quasi), "is not a known algebra", "so(3)"),
         ("variables", turning("[[claim]]\ncasimir = 'x'"), "has none", "add [poisson]"),
         (
