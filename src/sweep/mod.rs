@@ -103,6 +103,8 @@ pub struct Sweep<'c> {
     engine: Engine,
     /// Number of components that vanish where the claim holds.
     components: usize,
+    /// Whether the square of the scale follows them.
+    has_scale: bool,
     /// Tape from draws to parameters and state.
     point: Tape,
 }
@@ -169,13 +171,16 @@ impl<'c> Sweep<'c> {
                 let size = residual.modulus();
                 scale.map_or(size, |square| size / num_dual::DualNum::sqrt(&square))
             };
-            let ratios = residual.into_iter().map(ratio).collect::<Vec<_>>();
+            let components = residual.len();
+            let mut ratios = residual.into_iter().map(ratio).collect::<Vec<_>>();
+            ratios.extend(scale.filter(|_| components > 0));
             let mut system = requirement::of_system(&jet.phase);
             system.extend(requirement::of_level(&jet.phase));
-            [ratios, inputs.to_vec(), requirement::of_claim(&jet, &claim.kind, &system)]
+            let required = requirement::of_claim(&jet, &claim.kind, &system);
+            ([ratios, inputs.to_vec(), required], components)
         })?;
-        let [ratios, inputs, required] = groups;
-        if ratios.is_empty() {
+        let ([ratios, inputs, required], components) = groups;
+        if components == 0 {
             return Err(SweepError::NoResidual);
         }
         let recipes = sampler.recipes();
@@ -188,7 +193,8 @@ impl<'c> Sweep<'c> {
             case,
             generator: Generator::new(recipes, seed),
             engine: Engine::new(&Tape::new(&graph, &ratios), means),
-            components: ratios.len(),
+            components,
+            has_scale: ratios.len() > components,
             point,
         })
     }
@@ -254,6 +260,9 @@ impl<'c> Sweep<'c> {
             for component in 1..self.components {
                 worse(&mut ratios, runner.output(component));
             }
+            if self.has_scale {
+                without_overflow(&mut ratios, runner.output(self.components));
+            }
             found = found.and(peak(&ratios.0[..lanes], start));
         }
         found
@@ -265,6 +274,15 @@ fn worse(ratios: &mut RowBlock, others: &RowBlock) {
     for (ratio, other) in ratios.0.iter_mut().zip(&others.0) {
         if *other > *ratio || other.is_nan() {
             *ratio = *other;
+        }
+    }
+}
+
+/// Leaves ratios to a scale undefined that is beyond the range of f64: any residual is 0 times infinity.
+fn without_overflow(ratios: &mut RowBlock, squares: &RowBlock) {
+    for (ratio, square) in ratios.0.iter_mut().zip(&squares.0) {
+        if *square == f64::INFINITY {
+            *ratio = f64::NAN;
         }
     }
 }

@@ -11,6 +11,7 @@ use super::sampler::Sampler;
 use crate::graph::{Expr, Fault};
 use crate::mechanics::combinations;
 use crate::number::mixed::{Mixed, Number};
+use crate::number::rational::Rational;
 
 /// Place of a claim that does not rest on the level.
 const EVERYWHERE: &str = "everywhere";
@@ -62,6 +63,10 @@ impl Judging<'_> {
                     kept[..count].iter().map(|index| slopes[*index].clone()).collect();
                 self.rank_on_cells(&chosen, &rows, count, &[])
             };
+            if let Some(index) = self.without_slope(sampler, &kept, &fixed)? {
+                found.push(FlatEquation { index, is_lost: true });
+                continue;
+            }
             if rank_of(kept.len())? == CellRank::Full {
                 continue;
             }
@@ -74,6 +79,20 @@ impl Judging<'_> {
             }
         }
         Ok(found)
+    }
+
+    /// Finds an equation whose slope has no value at any of the states, as that of |x − 1| = 0.
+    fn without_slope(
+        &self,
+        sampler: &Sampler,
+        kept: &[usize],
+        fixed: &[Option<Rational>],
+    ) -> Result<Option<usize>, Fault> {
+        let slopes: Vec<Vec<Expr>> =
+            kept.iter().map(|index| self.common.slopes[*index].clone()).collect();
+        let (graph, slopes) = sampler.compose(self.graph, &slopes, fixed)?;
+        let is_lost = |own: &Vec<Expr>| own.iter().any(|slope| graph.is_nowhere_defined(*slope));
+        Ok(kept.iter().zip(&slopes).find(|(_, own)| is_lost(own)).map(|(index, _)| *index))
     }
 
     /// Leaves claims undecided that rest on the slopes of such equations: all but identities, and what holds

@@ -109,3 +109,16 @@ fn solved_variables_keep_their_ranges() {
     assert!((1000..3000).contains(&found.defined), "half of the states have y < 0: {found:?}");
     assert_eq!(found.peak.map(|peak| peak.ratio), Some(0.0));
 }
+
+#[test]
+fn a_scale_beyond_f64_hides_no_residual() {
+    for (power, is_defined) in [(150, true), (160, false)] {
+        let text = format!(
+            "title = 'x'\n[state]\nx = '1..2'\n[field]\n\"x'\" = '1e{power}*x'\n[[claim]]\nintegral = 'x'\n"
+        );
+        let case = Case::parse(&text, &[]).expect("a case");
+        let found = sweep(&case, 0, Backend::Quickest).run(0..100, f64::INFINITY);
+        assert_eq!(found.peak.map(|peak| peak.ratio), is_defined.then_some(1.0), "10^{power}");
+        assert_eq!(found.defined, if is_defined { 100 } else { 0 });
+    }
+}
