@@ -26,7 +26,7 @@ const STATES: u64 = 16;
 /// Values of the listed numbers and of the signs of roots, by draw.
 type Choice = Vec<Option<Rational>>;
 
-/// What is known of the states of a place, or of a branch of it, from one solution.
+/// Knowledge of the states of a place, or of a branch of it, from one solution.
 pub struct Missed {
     branch: Option<usize>,
     solution: Solution,

@@ -18,7 +18,7 @@ use crate::scalar::Scalar;
 /// Number of states at which ranks are computed.
 const STATES: u64 = 16;
 
-/// What is known of the rank of a matrix.
+/// Knowledge of the rank of a matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CellRank {
     /// It is full but on sets without interior, for all listed values.

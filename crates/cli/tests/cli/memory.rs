@@ -4,7 +4,7 @@ use std::fs;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-/// What a peak may be of the stated one: other machines have other allocators.
+/// Largest multiple of the stated peak: other machines have other allocators.
 const ROOM: f64 = 1.6;
 
 /// Commands of the first table of "Memory", with their megabytes.

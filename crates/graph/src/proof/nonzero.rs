@@ -10,7 +10,7 @@ use super::trial::TrialResult;
 use super::{Group, GroupOutcome, Prover, QuestionData};
 use crate::graph::{Expr, Fault, Graph};
 
-/// What is known of the sets of inputs on which a value is 0.
+/// Knowledge of the sets of inputs on which a value is 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Zeros {
     /// None of them is open.

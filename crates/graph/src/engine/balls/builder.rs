@@ -18,19 +18,27 @@ pub(super) struct BallValue {
     pub(super) rad: Option<Value>,
 }
 
-/// A program under construction; equal steps are one.
-#[derive(Default)]
-pub(super) struct Builder {
-    pub(super) steps: Vec<ProgramStep>,
-    known: FxHashMap<ProgramStep, u32>,
-    pub(super) constants: Vec<f64>,
-    /// Places of constants by their bits.
-    places: FxHashMap<u64, u32>,
-}
+/// Numbers from which the steps of a tape make others of their kind.
+pub(super) trait TapeSteps {
+    /// A number under construction.
+    type Number: Copy;
 
-impl Builder {
+    /// Makes a number that encloses a constant.
+    fn enclosed(&mut self, value: &Rational) -> Self::Number;
+
+    /// Adds a function of a number; `None` if there is no such step.
+    fn unary(&mut self, function: UnaryFunction, x: Self::Number) -> Option<Self::Number>;
+
+    /// Adds an operation; `None` if there is no such step.
+    fn binary(
+        &mut self,
+        operation: BinaryOperation,
+        x: Self::Number,
+        y: Self::Number,
+    ) -> Option<Self::Number>;
+
     /// Adds the steps of a tape with these inputs; returns its outputs.
-    pub(super) fn tape(&mut self, tape: &Tape, inputs: Vec<BallValue>) -> Option<Vec<BallValue>> {
+    fn tape(&mut self, tape: &Tape, inputs: Vec<Self::Number>) -> Option<Vec<Self::Number>> {
         let mut held = inputs;
         if held.len() != tape.inputs() {
             return None;
@@ -52,6 +60,26 @@ impl Builder {
             }
         }
         Some(tape.output_slots().iter().map(|slot| held[*slot as usize]).collect())
+    }
+}
+
+/// A program under construction; equal steps are one.
+#[derive(Default)]
+pub(super) struct Builder {
+    pub(super) steps: Vec<ProgramStep>,
+    known: FxHashMap<ProgramStep, u32>,
+    pub(super) constants: Vec<f64>,
+    /// Places of constants by their bits.
+    places: FxHashMap<u64, u32>,
+}
+
+impl TapeSteps for Builder {
+    type Number = BallValue;
+
+    fn enclosed(&mut self, value: &Rational) -> BallValue {
+        let (mid, rad) = about(value.to_f64());
+        let rad = (rad != 0.0).then(|| self.constant(rad));
+        BallValue { mid: self.constant(mid), rad }
     }
 
     fn unary(&mut self, function: UnaryFunction, x: BallValue) -> Option<BallValue> {
@@ -133,7 +161,9 @@ impl Builder {
             .reduce(|sum, term| self.sum(BinaryOperation::Add, sum, term));
         Some(BallValue { mid, rad: Some(self.rounded(spread, mid)) })
     }
+}
 
+impl Builder {
     /// Widens `spread + UNIT |z|`.
     fn rounded(&mut self, spread: Option<Value>, z: Value) -> Value {
         let size = self.size(z);
@@ -167,12 +197,6 @@ impl Builder {
 
     fn pair(&mut self, operation: PairOperation, x: Value, y: Value) -> Value {
         self.step(ProgramStep::Pair(operation, x, y))
-    }
-
-    pub(super) fn enclosed(&mut self, value: &Rational) -> BallValue {
-        let (mid, rad) = about(value.to_f64());
-        let rad = (rad != 0.0).then(|| self.constant(rad));
-        BallValue { mid: self.constant(mid), rad }
     }
 
     pub(super) fn constant(&mut self, value: f64) -> Value {

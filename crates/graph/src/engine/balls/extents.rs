@@ -7,7 +7,7 @@
 use super::super::program::{PairOperation, ProgramStep, StepProgram, Sum, Value};
 use crate::number::{BinaryOperation, UnaryFunction};
 
-/// What is known of a result.
+/// Knowledge of a result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Extent {
     /// A number between two finite ones.

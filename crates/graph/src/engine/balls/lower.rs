@@ -16,8 +16,8 @@
 //! known to be finite: then zeros are left out, and midpoints are the same but for the sign of 0.
 
 use super::super::program::{ProgramStep, StepProgram, Sum, Value};
-use super::builder::Builder;
-use crate::graph::{Instruction, Tape};
+use super::builder::{Builder, TapeSteps};
+use crate::graph::Tape;
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
 
@@ -54,29 +54,11 @@ struct LowerBall {
 #[derive(Default)]
 struct LowerBuilder(Builder);
 
-impl LowerBuilder {
-    fn tape(&mut self, tape: &Tape, inputs: Vec<LowerBall>) -> Option<Vec<LowerBall>> {
-        let mut held = inputs;
-        if held.len() != tape.inputs() {
-            return None;
-        }
-        held.extend(tape.constants().iter().map(|value| self.enclosed(value)));
-        for instruction in tape.instructions() {
-            let (value, out) = match *instruction {
-                Instruction::Unary { function, a, out } => {
-                    (self.unary(function, held[a as usize])?, out)
-                }
-                Instruction::Binary { operation, a, b, out } => {
-                    (self.binary(operation, held[a as usize], held[b as usize])?, out)
-                }
-                Instruction::Power { .. } => return None,
-            };
-            match held.get_mut(out as usize) {
-                Some(place) => *place = value,
-                None => held.push(value),
-            }
-        }
-        Some(tape.output_slots().iter().map(|slot| held[*slot as usize]).collect())
+impl TapeSteps for LowerBuilder {
+    type Number = LowerBall;
+
+    fn enclosed(&mut self, value: &Rational) -> LowerBall {
+        self.constant(value.to_f64().0)
     }
 
     fn unary(&mut self, function: UnaryFunction, x: LowerBall) -> Option<LowerBall> {
@@ -133,14 +115,12 @@ impl LowerBuilder {
         }
         Some(LowerBall { mid, known: None, bound: Some(bound) })
     }
+}
 
+impl LowerBuilder {
     /// Adds the step a b + c.
     fn fused(&mut self, a: Value, b: Value, c: Value) -> Value {
         self.0.step(ProgramStep::Fused(Sum::Plus, [a, b, c]))
-    }
-
-    fn enclosed(&mut self, value: &Rational) -> LowerBall {
-        self.constant(value.to_f64().0)
     }
 
     fn constant(&mut self, value: f64) -> LowerBall {

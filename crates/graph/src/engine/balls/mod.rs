@@ -17,13 +17,13 @@ use super::program::{StepProgram, Value};
 use super::{ROW_STATES, RowBlock};
 use crate::graph::{InstructionSet, Tape, widest};
 use crate::number::rational::Rational;
-use builder::{BallValue, Builder};
+use builder::{BallValue, Builder, TapeSteps};
 
 /// Largest number of steps: longer code leaves the second-level cache, and an evaluator that reads
 /// its instructions once for all lanes is faster.
 const MOST_STEPS: usize = 1 << 14;
 
-/// What is known of an input beforehand.
+/// Knowledge of an input beforehand.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InputExtent {
     /// Least and greatest midpoint, infinite where none is known.

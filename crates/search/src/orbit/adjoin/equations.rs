@@ -132,8 +132,10 @@ impl ReadEquations {
         };
         let directions: Rows =
             independent.iter().zip(&images).map(|(i, own)| spread(Some(*i), own)).collect();
+        // The masses of an L that is not quadratic contain velocities.
+        let mass = self.mass.iter().map(|row| all(row)).collect::<Option<Rows>>()?;
         let times_mass = |own: &[RingPolynomial]| -> Option<Vec<RingPolynomial>> {
-            self.mass.iter().map(|row| reduction.dot(row, own)).collect()
+            mass.iter().map(|row| reduction.dot(row, own)).collect()
         };
         let moved: Option<Rows> = directions.iter().map(|own| times_mass(own)).collect();
         let moved = moved?;

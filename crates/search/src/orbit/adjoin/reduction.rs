@@ -49,7 +49,7 @@ impl Reduction {
         }
     }
 
-    /// What stands for a monomial, if it is not in normal form; inside, `None` if it cannot be written.
+    /// The polynomial in place of a monomial that is not in normal form; inside, `None` if it cannot be written.
     fn replacement(&self, monomial: &Monomial) -> Option<Option<RingPolynomial>> {
         let power = |variable: usize| {
             monomial.iter().find(|(own, _)| *own == variable).map_or(0, |(_, power)| *power)
