@@ -5,6 +5,7 @@
 //! c where λ ≠ 0, and what that leaves out is λ = μ = 0; a c² + b c + d = 0 in the same way, once for
 //! each root. docs/soundness.md, "Level sets".
 
+mod closure;
 mod division;
 mod node;
 mod solving;
@@ -30,8 +31,12 @@ pub struct Part {
     pub made: Vec<Expr>,
     /// Values that are not negative at a state.
     pub facts: Vec<Expr>,
+    /// Whether all of these are bounds of ranges.
+    is_bounded_by_ranges: bool,
     /// Whether the part is of lower dimension than the level.
     pub is_thin: bool,
+    /// Whether it has the dimension that n variables and k equations leave.
+    is_whole: bool,
 }
 
 /// A level to be divided.
@@ -67,7 +72,7 @@ impl Cover<'_> {
         let Some(whole) = Node::whole(self)? else { return Ok(None) };
         let (mut open, mut parts) = (vec![whole], Vec::new());
         for _ in 0..MOST_NODES {
-            let Some(node) = open.pop() else { return Ok(Some(parts)) };
+            let Some(node) = open.pop() else { return self.without_closures(parts).map(Some) };
             let Some(node) = node.simplified() else { continue };
             let Some(node) = node.without_zero_roots()? else { continue };
             let children = match node.equations.first() {

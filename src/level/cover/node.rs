@@ -25,6 +25,8 @@ pub struct Node {
     pub facts: Vec<Expr>,
     /// Values that are not 0: divisors of the equations and of the formulas.
     pub divisors: Vec<Expr>,
+    /// Whether all facts are bounds of ranges.
+    pub is_bounded_by_ranges: bool,
     /// Draws that can be solved for.
     pub free: Vec<usize>,
     /// Number of draws that were solved for.
@@ -50,6 +52,8 @@ pub struct Additions {
     pub value: Option<Expr>,
     pub equations: Vec<Expr>,
     pub facts: Vec<Expr>,
+    /// Facts that the value is within its range.
+    pub bounds: Vec<Expr>,
     /// What the value is divided by.
     pub divisor: Option<Expr>,
 }
@@ -86,7 +90,17 @@ impl Node {
         let free = (0..cover.draws.len()).filter(is_free).collect();
         let divisors = divisors(&graph, &written);
         let (graph, facts) = (Arc::new(graph), Vec::new());
-        Ok(Some(Self { graph, made, equations, facts, divisors, free, solved: 0 }))
+        let (is_bounded_by_ranges, solved) = (true, 0);
+        Ok(Some(Self {
+            graph,
+            made,
+            equations,
+            facts,
+            divisors,
+            is_bounded_by_ranges,
+            free,
+            solved,
+        }))
     }
 
     /// Drops what is a number; `None` if an equation or a fact cannot hold, or a divisor is 0.
@@ -144,7 +158,9 @@ impl Node {
         })?;
         let mut made = values.ok_or(Fault::ForeignValue)?;
         let facts = made.split_off(self.made.len());
-        Ok(Part { graph, made, facts, is_thin: self.solved > count })
+        let is_bounded_by_ranges = self.is_bounded_by_ranges;
+        let (is_thin, is_whole) = (self.solved > count, self.solved == count);
+        Ok(Part { graph, made, facts, is_bounded_by_ranges, is_thin, is_whole })
     }
 
     /// Leaves out an equation.
@@ -268,15 +284,18 @@ impl Node {
                 all.collect::<Option<Vec<Expr>>>()
             };
             let equations = [at(&equations)?, more.equations].concat();
-            let facts = [at(&self.facts)?, more.facts].concat();
+            let is_bounded_by_ranges = self.is_bounded_by_ranges && more.facts.is_empty();
+            let facts = [at(&self.facts)?, more.facts, more.bounds].concat();
             let mut divisors = at(&self.divisors)?;
             divisors.extend(more.divisor);
-            Some((at(&self.made)?, equations, facts, divisors))
+            Some((at(&self.made)?, equations, facts, divisors, is_bounded_by_ranges))
         })?;
-        let (made, equations, facts, divisors) = found.ok_or(Fault::ForeignValue)?;
+        let (made, equations, facts, divisors, is_bounded_by_ranges) =
+            found.ok_or(Fault::ForeignValue)?;
         let free = self.free.iter().copied().filter(|draw| change.solved != Some(*draw)).collect();
         let solved = self.solved + usize::from(change.solved.is_some());
-        Ok(Self { graph: Arc::new(graph), made, equations, facts, divisors, free, solved })
+        let graph = Arc::new(graph);
+        Ok(Self { graph, made, equations, facts, divisors, is_bounded_by_ranges, free, solved })
     }
 }
 

@@ -163,7 +163,7 @@ impl Coefficients {
         node.changed(&change, |inputs, _| {
             let values = self.replayed(inputs);
             let at = |value: Expr| values[self.graph.place(value)];
-            let (mut facts, value) = match (self.is_linear(), square) {
+            let (facts, value) = match (self.is_linear(), square) {
                 (true, _) => (Vec::new(), -(at(self.rest)? / at(self.slope)?)),
                 (false, square) => {
                     let (facts, root) = match square {
@@ -178,12 +178,14 @@ impl Coefficients {
                     (facts, (root - at(self.slope)?) / below)
                 }
             };
+            let mut bounds = Vec::new();
             if let Draw::Within(range) = &cover.draws[self.draw] {
                 let [low, high] = [&range.low, &range.high].map(Expr::rational);
-                facts.extend([value - low, high - value]);
+                bounds.extend([value - low, high - value]);
             }
             let divisor = Some(at(self.divisor())?);
-            Some(Additions { value: Some(value), facts, divisor, ..Additions::default() })
+            let value = Some(value);
+            Some(Additions { value, facts, bounds, divisor, ..Additions::default() })
         })
     }
 
