@@ -53,10 +53,7 @@ impl Judging<'_> {
         (0..LINES).find_map(|line| {
             let ends = [2 * line, 2 * line + 1].map(|index| sampler.nearest_draws(index));
             let line = Line::between(sampler, ends, graph.inputs());
-            let jump = line.jump(&mut along, &mut precise)?;
-            if !line.is_real(&mut precise, &jump) {
-                return None;
-            }
+            let jump = line.jump(&mut along).filter(|jump| line.is_real(&mut precise, jump))?;
             let place = 0.5 * (jump.sides[0] + jump.sides[1]);
             let model = &self.case.model;
             let state = &sampler.made()[model.free_components()..];
@@ -83,8 +80,6 @@ impl Judging<'_> {
 
 /// Values at points of lines.
 type Along<'t> = Evaluator<'t, Float<POINTS>>;
-/// The same with many digits, one point at a time.
-type Precise<'t> = Evaluator<'t, ArbBall>;
 
 /// A jump that is met on a line.
 struct Jump {
@@ -125,48 +120,36 @@ impl Line {
         along.outputs().copied().collect()
     }
 
-    /// Evaluates an output at a place with many digits; returns the value and a bound on its error.
-    fn precise(&self, precise: &mut Precise<'_>, output: usize, place: f64) -> Option<(f64, f64)> {
-        let domain = ArbBall::new(PRECISION);
-        let input = |(from, to): (&f64, &f64)| {
-            Some(domain.values(&[Rational::from_f64(from + place * (to - from))?]))
-        };
-        let inputs = self.from.iter().zip(&self.to).map(input).collect::<Option<Vec<_>>>()?;
-        precise.run(&inputs);
-        precise.output(output).as_ref().map(|value| value.enclosure())
-    }
-
     /// Whether a value changes by half of a jump at least between its places, with many digits: less
     /// of it is rounding.
-    fn is_real(&self, precise: &mut Precise<'_>, jump: &Jump) -> bool {
-        let [Some((a, error_a)), Some((b, error_b))] =
-            jump.sides.map(|place| self.precise(precise, jump.output, place))
-        else {
+    fn is_real(&self, precise: &mut Evaluator<'_, ArbBall>, jump: &Jump) -> bool {
+        let domain = ArbBall::new(PRECISION);
+        let mut at = |place: f64| {
+            let input = |(from, to): (&f64, &f64)| {
+                Some(domain.values(&[Rational::from_f64(from + place * (to - from))?]))
+            };
+            let inputs = self.from.iter().zip(&self.to).map(input).collect::<Option<Vec<_>>>()?;
+            precise.run(&inputs);
+            precise.output(jump.output).as_ref().map(|value| value.enclosure())
+        };
+        let [Some((a, error_a)), Some((b, error_b))] = jump.sides.map(&mut at) else {
             return false;
         };
         (a - b).abs() - error_a - error_b >= 0.5 * jump.size
     }
 
     /// Finds an output that has different limits from both sides of a place.
-    fn jump(&self, along: &mut Along<'_>, precise: &mut Precise<'_>) -> Option<Jump> {
+    fn jump(&self, along: &mut Along<'_>) -> Option<Jump> {
         let whole = self.values(along, divided(0.0, 1.0));
-        let of_output = |output| self.jump_of(along, precise, output, &whole[output]);
+        let of_output = |output| self.jump_of(along, output, &whole[output]);
         (0..whole.len()).find_map(of_output)
     }
 
-    /// Follows the steepest change of an output to smaller and smaller parts of the line, at last with
-    /// many digits: near the jump of √(1 − cos²x)/sin x f64 has none.
-    fn jump_of(
-        &self,
-        along: &mut Along<'_>,
-        precise: &mut Precise<'_>,
-        output: usize,
-        whole: &[f64; POINTS],
-    ) -> Option<Jump> {
+    fn jump_of(&self, along: &mut Along<'_>, output: usize, whole: &[f64; POINTS]) -> Option<Jump> {
         let size =
             whole.iter().filter(|value| value.is_finite()).fold(0.0f64, |a, b| a.max(b.abs()));
         let (mut places, mut values) = (divided(0.0, 1.0), *whole);
-        let (mut early, mut before) = ([0.0; 2], 0.0);
+        let mut early = [0.0; 2];
         for division in 0..LATE {
             let step = |k: &usize| (values[k + 1] - values[*k]).abs();
             let steepest = (0..POINTS - 1)
@@ -178,10 +161,6 @@ impl Line {
                 return None;
             }
             if division == EARLY {
-                // Without a jump the change shrinks with the part.
-                if jump < 0.5 * before {
-                    return None;
-                }
                 early = sides;
             }
             if division + 1 == LATE {
@@ -190,14 +169,8 @@ impl Line {
                 let sides = [places[steepest], places[steepest + 1]];
                 return is_jump.then_some(Jump { output, sides, size: jump });
             }
-            before = jump;
             places = divided(places[steepest], places[steepest + 1]);
-            values = match division < EARLY {
-                true => self.values(along, places)[output],
-                false => places.map(|place| {
-                    self.precise(precise, output, place).map_or(f64::NAN, |(value, _)| value)
-                }),
-            };
+            values = self.values(along, places)[output];
         }
         None
     }
