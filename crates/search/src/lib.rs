@@ -33,8 +33,10 @@ mod library;
 mod linear;
 mod lists;
 mod local;
+mod lower;
 mod maps;
 mod meter;
+mod momenta;
 mod multipliers;
 mod orbit;
 mod origin;
@@ -211,7 +213,7 @@ fn along_orbits(
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
     // Theorems on orbits hold for both signs of each root, and are about fields without moduli.
-    let known = report.functions("integral").count();
+    let known: Vec<String> = report.formulas("integral").map(str::to_string).collect();
     report.stage("relations along an orbit", effort, |report| {
         orbit::search(case, effort, grows, report, progress)
     })?;
@@ -219,8 +221,12 @@ fn along_orbits(
         progress("brackets and derivatives of integrals");
         orbit::close(case, effort, report)
     })?;
+    report.stage("functions of constant rate", effort, |report| {
+        momenta::rates(case, effort, report)
+    })?;
     let is_further = |own: &Found| own.kind == orbit::FURTHER_INTEGRAL;
-    if report.functions("integral").count() > known || report.found.iter().any(is_further) {
+    let is_same = report.formulas("integral").eq(known.iter().map(String::as_str));
+    if !is_same || report.found.iter().any(is_further) {
         counts::conclude(case, effort, report)?;
     }
     Ok(())

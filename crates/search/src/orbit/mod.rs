@@ -98,11 +98,14 @@ use liouville::verdict::Verdict;
 
 pub use self::adjoin::{root_steps, roots};
 pub use self::closure::{FURTHER_INTEGRAL, close};
+pub use self::exponents::CONSTANT_RATE;
+pub use self::images::coefficients;
 use self::known::IndependentIntegrals;
 use self::limits::{EXTENDED, FURTHER, MODEST, RoundLimits};
 use self::line::degree_of_field;
 use self::part::VariableSet;
 use self::setting::OrbitSetting;
+pub use self::sparse::sparse as with_few_entries;
 use super::ask::proved_energy;
 use super::{Effort, SearchError, SearchReport, branches};
 
