@@ -289,8 +289,19 @@ pub fn conclude(
     if report.counts.is_empty() {
         return Ok(());
     }
-    let all = Generators::all(case, effort, report)?;
+    let mut all = Generators::all(case, effort, report)?;
     // A rank is that for one of the listed values.
+    if !has_lists(case)
+        && let Some(lowest) = Generators::lowest(case, effort, report)?
+    {
+        let own = report.counts.iter().filter(|count| !count.free);
+        let of = |of: &Generators| -> usize {
+            own.clone().map(|count| of.products(count.degree, count.mixed)).sum()
+        };
+        if of(&lowest) > of(&all) {
+            all = lowest;
+        }
+    }
     let further = match has_lists(case) {
         true => None,
         false => all.with_further(case, effort, report)?,

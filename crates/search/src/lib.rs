@@ -222,7 +222,8 @@ fn along_orbits(
         orbit::close(case, effort, report)
     })?;
     report.stage("functions of constant rate", effort, |report| {
-        momenta::rates(case, effort, report)
+        momenta::rates(case, effort, report)?;
+        lower::remove_repeated(case, effort, report)
     })?;
     let is_further = |own: &Found| own.kind == orbit::FURTHER_INTEGRAL;
     let is_same = report.formulas("integral").eq(known.iter().map(String::as_str));

@@ -110,6 +110,10 @@ pub fn rates(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<
         let Some(found) = coefficients(&source)? else { continue };
         let split = support.iter().take_while(|k| **k < forms.monomials.len()).count();
         let Some((function, rate)) = forms.pair(&support, split, &found)? else { continue };
+        // The time.
+        if is_one(&rate) && split == 1 {
+            continue;
+        }
         let judged = judged_alone(case, Claim::rate(&function, &rate), effort)?;
         let Some(judged) = judged.filter(|own| own.verdict == Verdict::Proved) else { continue };
         let with = vec![("rate", rate.to_string())];

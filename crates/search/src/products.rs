@@ -8,14 +8,17 @@ use super::echelon::Echelon;
 use super::local::Coordinates;
 use super::local::functions::{adjoined, roles};
 use super::orbit::FURTHER_INTEGRAL;
+use super::symbols::symbolised;
 use super::{Effort, SearchReport, ask};
 use liouville::case::Case;
+use liouville::claim::{Claim, MOST_COMPARED};
 use liouville::formula::Formula;
 use liouville::graph::{Evaluator, Expr, Step, Tape};
 use liouville::mechanics::Phase;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
 use liouville::number::{BinaryOperation, UnaryFunction};
 use liouville::proof::{root_numbers, statement_seed};
+use liouville::verdict::Verdict;
 
 /// Highest degree that is recognised.
 const MOST_DEGREE: usize = 16;
@@ -72,6 +75,42 @@ impl Generators {
             with.add(case, formula, effort.options.seed)?;
         }
         Ok((with.each.len() > self.each.len()).then_some(with))
+    }
+
+    /// Independent ones of the lowest degrees among the energy, and the integrals found, claimed and told as
+    /// further ones; `None` where these are no others than are told.
+    pub fn lowest(
+        case: &Case,
+        effort: &Effort,
+        report: &SearchReport,
+    ) -> Result<Option<Self>, SearchError> {
+        let further = report.found.iter().filter(|found| found.kind == FURTHER_INTEGRAL);
+        let further = further.filter_map(|found| found.function.clone());
+        let claimed = report.claimed.iter().map(|own| own.formula.clone());
+        let mut others: Vec<Formula> = further.chain(claimed).collect();
+        let mut all = Self::energy(case, effort)?;
+        for formula in report.functions("integral") {
+            all.add(case, formula, effort.options.seed)?;
+        }
+        others.retain(|own| all.formulas().all(|other| other.text() != own.text()));
+        let before = all.each.len();
+        for formula in &others {
+            all.add(case, formula, effort.options.seed)?;
+        }
+        if all.each.len() == before {
+            return Ok(None);
+        }
+        all.each.sort_by_key(|(_, degree)| *degree);
+        let mut lowest = Self { each: Vec::new(), coordinates: all.coordinates };
+        for (formula, degree) in all.each.into_iter().take(MOST_COMPARED) {
+            effort.halt.check()?;
+            let with = lowest.formulas().cloned().chain([formula.clone()]).collect();
+            let judged = ask::judged_alone(case, Claim::independent(with), effort)?;
+            if judged.is_some_and(|own| own.verdict == Verdict::Proved) {
+                lowest.each.push((formula, degree));
+            }
+        }
+        Ok(Some(lowest))
     }
 
     /// Adds an integral if its degree can be determined: that in the velocities, or in all variables of
@@ -255,7 +294,11 @@ fn on_lines(
     let made = adjoined(&graph, &[slope], before, &roles(&draws, coordinates.positions))?;
     let (graph, slope) = match made {
         Some(own) => (own.graph, own.outputs[0]),
-        None => (graph, slope),
+        // As numbers of their own, functions of the positions give a degree that is not too low.
+        None => match symbolised(&graph, &[vec![slope]]).filter(|_| read == Reading::Polynomial) {
+            Some((graph, outputs)) => (graph, outputs[0][0]),
+            None => (graph, slope),
+        },
     };
     // No constant of the formula can be chosen to vanish modulo the prime.
     let mut rng = SearchStream::Products.under(statement_seed(seed, &graph, &[slope]));

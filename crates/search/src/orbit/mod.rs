@@ -98,6 +98,7 @@ use liouville::verdict::Verdict;
 
 pub use self::adjoin::{root_steps, roots};
 pub use self::closure::{FURTHER_INTEGRAL, close};
+pub use self::darboux::KIND as DARBOUX;
 pub use self::exponents::CONSTANT_RATE;
 pub use self::images::coefficients;
 use self::known::IndependentIntegrals;

@@ -12,7 +12,7 @@ use liouville::number::{BinaryOperation, UnaryFunction};
 use super::super::terms::{is_one, recorded};
 use super::super::{SearchError, SearchReport};
 use super::claims::{self, OrbitStatement};
-use super::cleared::input_names;
+use super::cleared::{denominators, input_names};
 use super::exponents::ExponentSystem;
 use super::factor::RatedPolynomial;
 use super::known::IndependentIntegrals;
@@ -69,8 +69,32 @@ pub fn search(
             factors.extend(RatedPolynomial::of(setting, function, 1)?);
         }
     }
+    for (denominator, degree) in denominators(setting.case)? {
+        factors.extend(RatedPolynomial::of(setting, &denominator, degree)?);
+    }
     let all: Vec<usize> = (0..setting.dimension()).collect();
     ExponentSystem::of(setting, &all, &factors, &[])?.search(known, report)
+}
+
+/// Variables of an extended case that divide their own rates, and 1 ± s for the partner s of one on a circle.
+pub fn of_extension(setting: &OrbitSetting<'_>) -> Result<Vec<Formula>, SearchError> {
+    let Some(origin) = setting.origin else { return Ok(Vec::new()) };
+    let (graph, rates) = recorded(setting.case, |jet| jet.phase.field().to_vec())?;
+    let first = setting.case.model.free_components();
+    let mut found = Vec::new();
+    for (k, name) in setting.terms.iter().enumerate() {
+        let place = graph.place(rates[k]);
+        let is_constant = graph.constant_value(rates[k]).is_some();
+        if is_constant || origin.extension.has_inverse(name) || !divides(&graph, place, first + k) {
+            continue;
+        }
+        found.push(name.clone());
+        if let Some(partner) = origin.extension.partner(name) {
+            let one = Formula::number(1);
+            found.extend([(&one + &partner)?.bracketed(), (&one - &partner)?.bracketed()]);
+        }
+    }
+    Ok(found)
 }
 
 /// Whether a step is seen to be a multiple of an input, by its operations.

@@ -11,7 +11,7 @@ use super::known::IndependentIntegrals;
 use super::rational::RationalSearch;
 use super::setting::{ExtendedCase, OrbitSetting};
 use super::{
-    OrbitReport, RoundLimits, fractions, map_integrals, monomials, no_others, polynomials,
+    OrbitReport, RoundLimits, fractions, map_integrals, monomials, no_others, own_factors, polynomials,
     relations, unbound, weighted,
 };
 use liouville::formula::Formula;
@@ -113,6 +113,15 @@ impl VariableSet {
                 if !self.is_unbound && !is_complete(setting, known) {
                     self.is_unbound = true;
                     unbound::search(setting, limits, &mut self.factors, report, progress)?;
+                }
+                // After the others: a density without velocities comes first, and they have the exponent 1.
+                for formula in own_factors::of_extension(setting)? {
+                    let has = |own: &RatedPolynomial| own.formula.text() == formula.text();
+                    if self.factors.iter().any(has) {
+                        continue;
+                    }
+                    let rated = RatedPolynomial::of(setting, &formula, 1)?;
+                    self.factors.extend(rated.filter(|own| unbound::changes(setting, own)));
                 }
                 self.combined =
                     combine(setting, variables, &self.factors, self.combined, known, report)?;
