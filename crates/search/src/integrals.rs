@@ -21,6 +21,9 @@ use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 use liouville::verdict::{ClaimReport, Independence, Verdict};
 
+/// Largest number of integrals that are kept although they are functions of others.
+const MOST_DEPENDENT: usize = 12;
+
 /// Searches for integrals; proved ones go into the report.
 pub fn integrals(
     case: &Case,
@@ -50,6 +53,11 @@ pub fn integrals(
     for (formula, found) in proved {
         effort.halt.check()?;
         tell(case, &formula, found, effort, report)?;
+        // Others may be no polynomials in those that are told.
+        let is_told = report.found.iter().any(|own| own.formula == formula.text());
+        if !is_told && report.dependent.len() < MOST_DEPENDENT {
+            report.dependent.push(formula);
+        }
     }
     Ok(())
 }

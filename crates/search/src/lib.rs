@@ -19,6 +19,7 @@ mod budget;
 mod conditions;
 mod continued;
 mod counts;
+mod cyclic;
 mod densities;
 mod echelon;
 mod effort;
@@ -229,6 +230,13 @@ fn along_orbits(
     let is_same = report.formulas("integral").eq(known.iter().map(String::as_str));
     if !is_same || report.found.iter().any(is_further) {
         counts::conclude(case, effort, report)?;
+    }
+    if let Some(effort) = cyclic::with_circles(case, effort, report)? {
+        report.stage("sines and cosines of cyclic angles", &effort, |report| {
+            orbit::search(case, &effort, false, report, progress)?;
+            orbit::close(case, &effort, report)
+        })?;
+        counts::conclude(case, &effort, report)?;
     }
     Ok(())
 }

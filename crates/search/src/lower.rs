@@ -37,7 +37,8 @@ pub fn prefer(
     let mut told = Vec::new();
     for (place, other) in report.found.iter().enumerate() {
         let is_integral = other.kind == "integral" || other.kind == FURTHER_INTEGRAL;
-        let function = other.function.as_ref().filter(|_| is_integral && other.verdict == Verdict::Proved);
+        let function =
+            other.function.as_ref().filter(|_| is_integral && other.verdict == Verdict::Proved);
         if let Some(function) = function.filter(|_| is_integral) {
             told.push((place, function.clone(), degrees.of_formula(function)?));
         }
@@ -45,9 +46,13 @@ pub fn prefer(
     if told.len() > MOST_TOLD || told.iter().any(|(_, other, _)| other.text() == formula.text()) {
         return Ok(());
     }
-    let is_first = |place: usize| report.found[place].kind == "integral" && report.found[place].with.is_empty();
-    let mut higher: Vec<_> =
-        told.iter().filter(|(at, _, degree)| is_first(*at) && degree.is_none_or(|degree| degree > own)).collect();
+    let is_first = |place: usize| {
+        report.found[place].kind == "integral" && report.found[place].with.is_empty()
+    };
+    let mut higher: Vec<_> = told
+        .iter()
+        .filter(|(at, _, degree)| is_first(*at) && degree.is_none_or(|degree| degree > own))
+        .collect();
     higher.sort_by_key(|(_, _, degree)| std::cmp::Reverse(degree.unwrap_or(u32::MAX)));
     for (place, _, _) in higher {
         effort.halt.check()?;

@@ -187,11 +187,8 @@ impl LinearForms {
             Err(SearchError::NoChart) => return Ok(None),
             made => made?,
         };
-        let product = |own: &Vec<u32>| Column::Product {
-            derivation: 0,
-            factor: 0,
-            exponents: own.clone(),
-        };
+        let product =
+            |own: &Vec<u32>| Column::Product { derivation: 0, factor: 0, exponents: own.clone() };
         system.columns = monomials.iter().map(product).collect();
         system.columns.push(Column::Given(unit));
         system.columns.extend(known.iter().map(|(_, output)| Column::Given(*output)));
@@ -296,9 +293,7 @@ fn circular(case: &Case, positions: &[Formula]) -> Result<Vec<Formula>, SearchEr
             angles.extend(given.iter().position(|own| graph.place(*own) == argument));
         }
     }
-    let both = |k: &usize| {
-        ["sin", "cos"].map(|name| Formula::call(name, &[&positions[*k]]))
-    };
+    let both = |k: &usize| ["sin", "cos"].map(|name| Formula::call(name, &[&positions[*k]]));
     Ok(angles.iter().flat_map(both).collect::<Result<_, _>>()?)
 }
 

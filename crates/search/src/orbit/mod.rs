@@ -25,10 +25,12 @@
 //! logarithms   integrals of maps by monomials
 //! exponents    densities, and integrals with powers, logarithms and exponentials, from cofactors
 //! quotients    fractions over powers of factors in these exponents
+//! squares      polynomials in the parameters without common factors, and their roots
 //! magnitude    f or |f| under a logarithm
 //! weighted     integrals of fields in the plane that are multiples of a density
 //! adjoin       functions of the state as further variables
 //! explicit     all of these for Lagrangian systems that are solved for their accelerations
+//! subfield     all of these for the variables whose rates do without functions
 //! rounds       all parts of a field, within growing limits
 //! part         all of these in the variables of a part of the field
 //! closure      brackets of integrals, and their derivatives along symmetry fields
@@ -82,6 +84,8 @@ mod separate;
 mod setting;
 mod shared;
 mod sparse;
+mod squares;
+mod subfield;
 mod tangents;
 mod taylor;
 mod turned;
@@ -202,6 +206,9 @@ fn along(
     }
     if !is_field && !is_extended {
         return Ok(());
+    }
+    if is_extended && !is_done(report) {
+        subfield::search(case, effort, further, report, progress)?;
     }
     if is_extended {
         let known = found(case, effort, report)?;

@@ -2,7 +2,7 @@
 
 use super::super::origin::TheoremOrigin;
 use super::super::{Excluded, SearchError, SearchReport};
-use super::angle::ConjugatePair;
+use super::angle::{ConjugatePair, SquareOfRoot};
 use super::darboux::DarbouxSearch as Darboux;
 use super::exponents::ExponentSystem;
 use super::factor::RatedPolynomial;
@@ -11,8 +11,8 @@ use super::known::IndependentIntegrals;
 use super::rational::RationalSearch;
 use super::setting::{ExtendedCase, OrbitSetting};
 use super::{
-    OrbitReport, RoundLimits, fractions, map_integrals, monomials, no_others, own_factors, polynomials,
-    relations, unbound, weighted,
+    OrbitReport, RoundLimits, fractions, map_integrals, monomials, no_others, own_factors,
+    polynomials, relations, unbound, weighted,
 };
 use liouville::formula::Formula;
 
@@ -126,7 +126,7 @@ impl VariableSet {
                 self.combined =
                     combine(setting, variables, &self.factors, self.combined, known, report)?;
                 for [even, odd, square] in &origin.extension.circles {
-                    let square = (square.clone(), square.constant());
+                    let square = SquareOfRoot::of(square.clone());
                     let pair = ConjugatePair::rated(setting, [even, odd], square, 1)?;
                     let is_new =
                         |pair: &ConjugatePair| !self.pairs.iter().any(|own| own.is_same(pair));
