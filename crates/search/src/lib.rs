@@ -4,6 +4,9 @@
 //! ```text
 //! count      number of integrals polynomial in the velocities there are, with any coefficients
 //! integrals  relations between L_vT for terms T that the system offers, at random points mod p
+//! momenta    those linear in the velocities, with any coefficients; functions of constant rate
+//! lower      integrals of lower degree in place of others
+//! cyclic     sines and cosines of cyclic angles
 //! densities  relations between div v and L_v ln f for factors f; powers of polynomials, counted
 //! verdict    each find is judged as a claim like any other
 //! orbit      relations between monomials along an orbit mod p: rational integrals of any field
@@ -35,6 +38,7 @@ mod linear;
 mod lists;
 mod local;
 mod lower;
+mod lowest;
 mod maps;
 mod meter;
 mod momenta;

@@ -11,14 +11,12 @@ use super::orbit::FURTHER_INTEGRAL;
 use super::symbols::symbolised;
 use super::{Effort, SearchReport, ask};
 use liouville::case::Case;
-use liouville::claim::{Claim, MOST_COMPARED};
 use liouville::formula::Formula;
 use liouville::graph::{Evaluator, Expr, Step, Tape};
 use liouville::mechanics::Phase;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
 use liouville::number::{BinaryOperation, UnaryFunction};
 use liouville::proof::{root_numbers, statement_seed};
-use liouville::verdict::Verdict;
 
 /// Highest degree that is recognised.
 const MOST_DEGREE: usize = 16;
@@ -77,45 +75,14 @@ impl Generators {
         Ok((with.each.len() > self.each.len()).then_some(with))
     }
 
-    /// Independent ones of the lowest degrees among the energy, and the integrals found, claimed and told as
-    /// further ones; `None` where these are no others than are told.
-    pub fn lowest(
-        case: &Case,
-        effort: &Effort,
-        report: &SearchReport,
-    ) -> Result<Option<Self>, SearchError> {
-        let further = report.found.iter().filter(|found| found.kind == FURTHER_INTEGRAL);
-        let further = further.filter_map(|found| found.function.clone());
-        let claimed = report.claimed.iter().map(|own| own.formula.clone());
-        let mut others: Vec<Formula> = further.chain(claimed).collect();
-        let mut all = Self::energy(case, effort)?;
-        for formula in report.functions("integral") {
-            all.add(case, formula, effort.options.seed)?;
-        }
-        others.retain(|own| all.formulas().all(|other| other.text() != own.text()));
-        let before = all.each.len();
-        for formula in &others {
-            all.add(case, formula, effort.options.seed)?;
-        }
-        if all.each.len() == before {
-            return Ok(None);
-        }
-        all.each.sort_by_key(|(_, degree)| *degree);
-        let mut lowest = Self { each: Vec::new(), coordinates: all.coordinates };
-        for (formula, degree) in all.each.into_iter().take(MOST_COMPARED) {
-            effort.halt.check()?;
-            let with = lowest.formulas().cloned().chain([formula.clone()]).collect();
-            let judged = ask::judged_alone(case, Claim::independent(with), effort)?;
-            if judged.is_some_and(|own| own.verdict == Verdict::Proved) {
-                lowest.each.push((formula, degree));
-            }
-        }
-        Ok(Some(lowest))
+    /// The same splitting of the state with other integrals.
+    pub fn replaced(self, each: Vec<(Formula, u32)>) -> Self {
+        Self { each, ..self }
     }
 
     /// Adds an integral if its degree can be determined: that in the velocities, or in all variables of
     /// a field without a level.
-    fn add(&mut self, case: &Case, formula: &Formula, seed: u64) -> Result<(), SearchError> {
+    pub fn add(&mut self, case: &Case, formula: &Formula, seed: u64) -> Result<(), SearchError> {
         let degree = match &self.coordinates {
             Some(coordinates) => degree_in(case, formula, coordinates, seed)?,
             None if case.model.level.is_empty() => degree_in_state(case, formula, seed)?,
@@ -295,10 +262,19 @@ fn on_lines(
     let (graph, slope) = match made {
         Some(own) => (own.graph, own.outputs[0]),
         // As numbers of their own, functions of the positions give a degree that is not too low.
-        None => match symbolised(&graph, &[vec![slope]]).filter(|_| read == Reading::Polynomial) {
-            Some((graph, outputs)) => (graph, outputs[0][0]),
-            None => (graph, slope),
-        },
+        None => {
+            let reached = graph.reached([slope]);
+            let is_fixed = |place: usize| match graph.step(place) {
+                Step::Unary(UnaryFunction::Sqrt, a) => !is_moving(&a),
+                Step::Power(a, exponent) => exponent.to_integer().is_some() || !is_moving(&a),
+                step => !has_function(step),
+            };
+            let is_fixed = (0..graph.len()).filter(|k| reached[*k]).all(is_fixed);
+            match is_fixed.then(|| symbolised(&graph, &[vec![slope]])).flatten() {
+                Some((graph, outputs)) => (graph, outputs[0][0]),
+                None => (graph, slope),
+            }
+        }
     };
     // No constant of the formula can be chosen to vanish modulo the prime.
     let mut rng = SearchStream::Products.under(statement_seed(seed, &graph, &[slope]));

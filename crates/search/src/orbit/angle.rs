@@ -243,7 +243,7 @@ fn of_functions(vector: &ParametricVector, monomials: &[Formula]) -> Result<Part
     made.polynomials = vec![squares::multiple(&p, &rest), squares::multiple(&p, &-rest), q];
     let fraction = |place: usize| -> Result<Formula, FormulaError> {
         let (above, below) = (made.formula(place)?, made.formula(2)?);
-        if is_one(&below) { Ok(above) } else { above.bracketed() / &below.bracketed() }
+        if is_one(&below) { Ok(above) } else { above / &below }
     };
     let square = SquareOfRoot {
         formula: fraction(0)?,

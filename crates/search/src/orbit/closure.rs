@@ -187,7 +187,8 @@ impl Closure<'_, '_> {
         let (most_degree, most_terms) = candidate.most;
         let is_component = degree <= most_degree
             && terms <= (2 * most_terms).min(MOST_TERMS[1])
-            && self.algebra.is_of_field(&candidate.polynomial);
+            && (self.algebra.is_of_field(&candidate.polynomial)
+                || !self.setting.effort.terms.is_empty());
         if !is_independent && !is_component {
             return Ok(false);
         }

@@ -17,6 +17,7 @@ use super::exponents::ExponentSystem;
 use super::factor::RatedPolynomial;
 use super::known::IndependentIntegrals;
 use super::setting::OrbitSetting;
+use super::unbound;
 
 /// Kind of these finds.
 const KIND: &str = "darboux-polynomial";
@@ -76,8 +77,22 @@ pub fn search(
     ExponentSystem::of(setting, &all, &factors, &[])?.search(known, report)
 }
 
+/// Adds to the factors of an extended case what [`of_extension`] lists.
+pub fn extend(
+    setting: &OrbitSetting<'_>,
+    factors: &mut Vec<RatedPolynomial>,
+) -> Result<(), SearchError> {
+    for formula in of_extension(setting)? {
+        if factors.iter().all(|own| own.formula.text() != formula.text()) {
+            let rated = RatedPolynomial::of(setting, &formula, 1)?;
+            factors.extend(rated.filter(|own| unbound::changes(setting, own)));
+        }
+    }
+    Ok(())
+}
+
 /// Variables of an extended case that divide their own rates, and 1 ± s for the partner s of one on a circle.
-pub fn of_extension(setting: &OrbitSetting<'_>) -> Result<Vec<Formula>, SearchError> {
+fn of_extension(setting: &OrbitSetting<'_>) -> Result<Vec<Formula>, SearchError> {
     let Some(origin) = setting.origin else { return Ok(Vec::new()) };
     let (graph, rates) = recorded(setting.case, |jet| jet.phase.field().to_vec())?;
     let first = setting.case.model.free_components();

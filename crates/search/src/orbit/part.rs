@@ -115,14 +115,7 @@ impl VariableSet {
                     unbound::search(setting, limits, &mut self.factors, report, progress)?;
                 }
                 // After the others: a density without velocities comes first, and they have the exponent 1.
-                for formula in own_factors::of_extension(setting)? {
-                    let has = |own: &RatedPolynomial| own.formula.text() == formula.text();
-                    if self.factors.iter().any(has) {
-                        continue;
-                    }
-                    let rated = RatedPolynomial::of(setting, &formula, 1)?;
-                    self.factors.extend(rated.filter(|own| unbound::changes(setting, own)));
-                }
+                own_factors::extend(setting, &mut self.factors)?;
                 self.combined =
                     combine(setting, variables, &self.factors, self.combined, known, report)?;
                 for [even, odd, square] in &origin.extension.circles {
