@@ -37,7 +37,10 @@ pub fn lowest(
     each.sort_by_key(|(_, degree)| *degree);
     let mut kept: Vec<(Formula, u32)> = Vec::new();
     for (formula, degree) in each.into_iter().take(MOST_COMPARED) {
-        effort.halt.check()?;
+        // What a stopped search has counted is concluded from.
+        if effort.halt.check().is_err() {
+            return Ok(None);
+        }
         let with = kept.iter().map(|(own, _)| own.clone()).chain([formula.clone()]).collect();
         let judged = ask::judged_alone(case, Claim::independent(with), effort)?;
         if judged.is_some_and(|own| own.verdict == Verdict::Proved) {
