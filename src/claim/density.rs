@@ -23,6 +23,7 @@ pub struct Density(pub Formula);
 impl Statement for Density {
     const NAME: &'static str = "density";
     const OF_MAPS: bool = true;
+    const IS_OF_MEASURE: bool = true;
     const UNDEFINED: &'static str = ": ∇ln ρ is needed, which has no value where ρ is 0 or has no \
                                      gradient";
 

@@ -17,6 +17,7 @@ pub struct DensityInVariables(Formula);
 impl Statement for DensityInVariables {
     const NAME: &'static str = "density-in-variables";
     const JETS: Jets = Jets::Twice;
+    const IS_OF_MEASURE: bool = true;
     const UNDEFINED: &'static str = ": the new variables may be dependent there, as N*(Ĩ*ω − (Ĩ*ω,γ)*γ) \
                                      is, to which + (ω,γ)*γ may be added";
 

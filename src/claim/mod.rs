@@ -143,6 +143,12 @@ macro_rules! kinds {
                 match self { $(ClaimKind::$kind(_) => $kind::NEGATED,)* }
             }
 
+            /// Whether the claim is about almost all states: one that a value does not vanish, or one
+            /// about a measure.
+            pub fn is_of_almost_all(&self) -> bool {
+                match self { $(ClaimKind::$kind(_) => $kind::NEGATED || $kind::IS_OF_MEASURE,)* }
+            }
+
             /// Whether the place of the claim is the image of one in new variables.
             pub fn is_at_images(&self) -> bool {
                 match self { $(ClaimKind::$kind(_) => $kind::AT_IMAGES,)* }

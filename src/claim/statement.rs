@@ -54,6 +54,8 @@ pub trait Statement: Clone {
     const COMPANIONS: &'static [&'static str] = &[];
     /// Whether the claim is that the residual is *not* identically zero.
     const NEGATED: bool = false;
+    /// Whether the claim is about a measure, of which states of lower dimension have none.
+    const IS_OF_MEASURE: bool = false;
     /// Whether the claim may hold in wider places, and whether that is of interest.
     const WIDENS: bool = true;
 

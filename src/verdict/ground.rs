@@ -6,10 +6,11 @@ use super::judging::Judging;
 use super::ladder::{LADDER_BITS, PRECISE_STATES};
 use super::sampler::{Sampler, TAPE_LANES};
 use crate::claim::LevelSubset;
-use crate::graph::Expr;
-use crate::mechanics::Chart;
+use crate::graph::{Expr, Fault};
+use crate::mechanics::{Chart, combinations};
 use crate::number::arb::ArbBall;
 use crate::number::ball::Ball;
+use crate::number::rational::Rational;
 
 impl Judging<'_> {
     /// Checks that the motion stays on a part of the level.
@@ -87,11 +88,38 @@ impl Judging<'_> {
     }
 
     /// Returns the values that must vanish for states to be on the level and to stay there.
-    pub(super) fn level_values(&self, place: &LevelSubset) -> Vec<Expr> {
+    pub(super) fn level_values(
+        &self,
+        place: &LevelSubset,
+        sampler: &Sampler,
+    ) -> Result<Vec<Expr>, Fault> {
         let kept = |all: &[Expr]| -> Vec<Expr> {
             let pairs = all.iter().zip(&place.kept).filter(|(_, kept)| **kept);
             pairs.map(|(value, _)| *value).collect()
         };
-        [kept(&self.common.level), kept(&self.common.level_rates)].concat()
+        let rates = match self.is_at_rest(sampler)? {
+            true => Vec::new(),
+            false => kept(&self.common.level_rates),
+        };
+        Ok([kept(&self.common.level), rates].concat())
+    }
+
+    /// Whether the states are a part of lower dimension on which the field folds to 0, as at the vertex of a
+    /// cone: a motion that starts there stays.
+    pub(super) fn is_at_rest(&self, sampler: &Sampler) -> Result<bool, Fault> {
+        if !sampler.is_thin() || self.case.model.system.is_map() {
+            return Ok(false);
+        }
+        let Some(choices) = combinations(sampler.recipes()) else { return Ok(false) };
+        let field = std::slice::from_ref(&self.common.field);
+        for fixed in choices {
+            let (graph, values) = sampler.compose(self.graph, field, &fixed)?;
+            let is_zero =
+                |value: &Expr| graph.constant_value(*value).is_some_and(Rational::is_zero);
+            if !values.concat().iter().all(is_zero) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
     }
 }

@@ -195,7 +195,7 @@ impl Judging<'_> {
     ) -> Result<(), JudgeError> {
         let mut unsettled: Vec<_> =
             open.iter_mut().filter(|(_, status)| status.settled.is_none()).collect();
-        let ground = self.level_values(place);
+        let ground = self.level_values(place, sampler)?;
         if unsettled.is_empty() && ground.is_empty() {
             return Ok(());
         }

@@ -47,7 +47,7 @@ impl Judging<'_> {
         let kept: Vec<usize> =
             (0..slopes.len()).filter(|index| sampler.kept().get(*index) == Some(&true)).collect();
         // Nothing is proved of states that are found numerically.
-        if kept.is_empty() || sampler.is_numerical() {
+        if kept.is_empty() || sampler.is_numerical() || self.is_at_rest(sampler)? {
             return Ok(Vec::new());
         }
         let choices = combinations(sampler.recipes());

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::claim_state::ClaimState;
+use super::claim_state::{ClaimState, undecide};
 use super::evidence::{DensitySign, Evidence, Independence, Method, Proof, Verdict};
 use super::judge::JudgeError;
 use super::judging::Judging;
@@ -41,11 +41,11 @@ impl Judging<'_> {
         if let Some(pieces) = self.solved_pieces(sampler)? {
             return Ok(Some(pieces));
         }
-        let place = PlaceParts::of(case, sampler);
+        let place = PlaceParts::of(case, sampler)?;
         let Some(choices) = combinations(&place.draws) else { return Ok(None) };
         let mut pieces = Vec::new();
         for fixed in &choices {
-            let Some(parts) = place.divided(case, fixed)? else { return Ok(None) };
+            let Some(parts) = place.divided(fixed)? else { return Ok(None) };
             let recipes = place.recipes(fixed);
             let of_part = |part| sampler.on_part(part, recipes.clone());
             let mut own: Vec<Sampler> = parts.iter().map(of_part).collect::<Result<_, Fault>>()?;
@@ -137,11 +137,17 @@ impl Judging<'_> {
                 let mut states: Vec<ClaimState> =
                     open.iter().map(|_| ClaimState::default()).collect();
                 let items = open.iter().zip(&mut states).map(|((item, _), state)| (*item, state));
-                // Independence is asked at almost every state.
-                let is_asked =
-                    |item: &RecordedClaim<'_>| !(sampler.is_thin() && item.claim.kind.is_negated());
-                let items = items.filter(|(item, _)| is_asked(item));
-                self.climb_on(place, sampler, items.collect())?;
+                let is_asked = |item: &RecordedClaim<'_>| {
+                    !(sampler.is_thin() && item.claim.kind.is_of_almost_all())
+                };
+                let (items, others): (Vec<_>, Vec<_>) = items.partition(|(item, _)| is_asked(item));
+                self.climb_on(place, sampler, items)?;
+                for (_, status) in others {
+                    status.is_void = true;
+                    let reason = "the parts of the level that are known are of lower dimension, \
+                                  where the claim says nothing";
+                    undecide(status, reason.to_string());
+                }
                 let drawn = sampler.balls(0);
                 let is_state = |lane: usize| drawn.iter().all(|block| block.is_defined(lane));
                 let (is_thin, has_states) = (sampler.is_thin(), (0..TAPE_LANES).any(is_state));

@@ -17,18 +17,21 @@ impl Cover<'_> {
         let mut order: Vec<(Vec<usize>, usize)> =
             (0..node.equations.len()).map(|index| (contained(index), index)).collect();
         order.sort_by_key(|(inputs, index)| (inputs.len(), *index));
-        for (inputs, index) in order {
-            if let Some(factors) = node.factors(index) {
-                return Ok(Some(factors));
-            }
-            if let Some(factors) = node.polynomial_factors(index)? {
-                return Ok(Some(factors));
-            }
-            // The last coordinates are preferred, as where a level has one solution.
+        for equations in order.chunk_by(|(one, _), (other, _)| one.len() == other.len()) {
+            // Of equations with as many unknowns one with the best solution is taken.
             let mut ways: Vec<(usize, Coefficients)> = Vec::new();
-            for draw in inputs.into_iter().rev() {
-                if let Some(found) = Coefficients::of(node, index, draw)? {
-                    ways.push((found.cost(self), found));
+            for (inputs, index) in equations {
+                if let Some(factors) = node.factors(*index) {
+                    return Ok(Some(factors));
+                }
+                if let Some(factors) = node.polynomial_factors(*index)? {
+                    return Ok(Some(factors));
+                }
+                // The last coordinates are preferred, as where a level has one solution.
+                for draw in inputs.iter().rev() {
+                    if let Some(found) = Coefficients::of(node, *index, *draw)? {
+                        ways.push((found.cost(self), found));
+                    }
                 }
             }
             ways.sort_by_key(|(cost, _)| *cost);
@@ -37,21 +40,28 @@ impl Cover<'_> {
                     return Ok(Some(children));
                 }
             }
-            if let Some([plus, minus]) = node.by_sign(index)? {
-                // Where −X is nowhere positive, it is 0 if it is not negative, and so is X.
-                return Ok(Some(
-                    match (self.is_nowhere_positive(&plus), self.is_nowhere_positive(&minus)) {
-                        (_, true) => vec![plus],
-                        (true, false) => vec![minus],
-                        (false, false) => vec![plus, minus],
-                    },
-                ));
-            }
-            if let Some(child) = node.without_root(index)? {
-                return Ok(Some(vec![child]));
+            for (_, index) in equations {
+                if let Some(children) = self.by_sign_or_root(node, *index)? {
+                    return Ok(Some(children));
+                }
             }
         }
         Ok(None)
+    }
+
+    /// Divides a node by the sign of a modulus in an equation, or writes the equation without a root.
+    fn by_sign_or_root(&self, node: &Node, index: usize) -> Result<Option<Vec<Node>>, Fault> {
+        if let Some([plus, minus]) = node.by_sign(index)? {
+            // Where −X is nowhere positive, it is 0 if it is not negative, and so is X.
+            return Ok(Some(
+                match (self.is_nowhere_positive(&plus), self.is_nowhere_positive(&minus)) {
+                    (_, true) => vec![plus],
+                    (true, false) => vec![minus],
+                    (false, false) => vec![plus, minus],
+                },
+            ));
+        }
+        Ok(node.without_root(index)?.map(|child| vec![child]))
     }
 
     /// Whether the last fact of a node is nowhere positive in the ranges.

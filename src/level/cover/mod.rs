@@ -73,7 +73,7 @@ impl Cover<'_> {
             let children = match node.equations.first() {
                 // The equations are dependent on a part of the level.
                 None if node.solved < count => None,
-                None if self.is_empty(&node) => Some(Vec::new()),
+                None if self.is_empty(&node)? => Some(Vec::new()),
                 None => match self.edge(&node)? {
                     Some(edge) => Some(vec![edge]),
                     None => {
@@ -100,10 +100,15 @@ impl Cover<'_> {
     }
 
     /// Whether a part is known to contain no state.
-    fn is_empty(&self, node: &Node) -> bool {
+    fn is_empty(&self, node: &Node) -> Result<bool, Fault> {
         let (graph, facts) = (&node.graph, &node.facts);
+        for divisor in &node.divisors {
+            if self.is_zero(graph, *divisor, facts)? {
+                return Ok(true);
+            }
+        }
         // 0 vanishes wherever the facts hold.
-        is_nowhere_zero(graph, self.extents, facts, &[graph.at(0)])
+        Ok(is_nowhere_zero(graph, self.extents, facts, &[graph.at(0)]))
     }
 
     /// Divides a node by one of its equations, unless it is known to have no points.
@@ -137,13 +142,21 @@ impl Cover<'_> {
         Ok(None)
     }
 
-    fn known(&self, graph: &Graph, value: Expr, facts: &[Expr]) -> Result<Known, Fault> {
-        let prover = Prover { sources: &[], extents: self.extents, seed: self.seed };
+    fn prover(&self) -> Prover<'_> {
+        Prover { sources: &[], extents: self.extents, seed: self.seed }
+    }
+
+    /// Whether a value is proved to be 0 wherever the facts hold.
+    fn is_zero(&self, graph: &Graph, value: Expr, facts: &[Expr]) -> Result<bool, Fault> {
         let group = Group { facts: facts.to_vec(), ..Group::of(vec![value]) };
-        if prover.prove(graph, &[group])?.iter().all(GroupOutcome::is_zero) {
+        Ok(self.prover().prove(graph, &[group])?.iter().all(GroupOutcome::is_zero))
+    }
+
+    fn known(&self, graph: &Graph, value: Expr, facts: &[Expr]) -> Result<Known, Fault> {
+        if self.is_zero(graph, value, facts)? {
             return Ok(Known::Zero);
         }
-        Ok(match prover.is_nonzero_on_all_cells(graph, value)? {
+        Ok(match self.prover().is_nonzero_on_all_cells(graph, value)? {
             true => Known::Thin,
             false => Known::Open,
         })

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use num_traits::Zero;
 
 use super::{Cover, Part};
-use crate::graph::{Expr, Fault, Graph, Step, record};
+use crate::graph::{Expr, Fault, Graph, Step, literally, record};
 use crate::mechanics::{Draw, Phase};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
@@ -23,6 +23,8 @@ pub struct Node {
     pub equations: Vec<Expr>,
     /// Values that are not negative.
     pub facts: Vec<Expr>,
+    /// Values that are not 0: divisors of the equations and of the formulas.
+    pub divisors: Vec<Expr>,
     /// Draws that can be solved for.
     pub free: Vec<usize>,
     /// Number of draws that were solved for.
@@ -48,6 +50,8 @@ pub struct Additions {
     pub value: Option<Expr>,
     pub equations: Vec<Expr>,
     pub facts: Vec<Expr>,
+    /// What the value is divided by.
+    pub divisor: Option<Expr>,
 }
 
 impl Node {
@@ -55,7 +59,7 @@ impl Node {
     /// antiderivatives.
     pub fn whole(cover: &Cover<'_>) -> Result<Option<Self>, Fault> {
         let model = cover.model;
-        let (graph, (made, equations)) = record(cover.draws.len(), |inputs| {
+        let (graph, (made, equations, written)) = record(cover.draws.len(), |inputs| {
             let mut inputs = inputs.to_vec();
             for (input, value) in inputs.iter_mut().zip(cover.fixed) {
                 if let Some(value) = value {
@@ -65,10 +69,11 @@ impl Node {
             let (parameters, state) = model.make_parameters(&inputs);
             let phase = Phase::new(model, &parameters, state);
             let kept = model.level.iter().zip(cover.kept).filter(|(_, kept)| **kept);
-            let equations = kept.map(|(equation, _)| phase.level_function(&equation.function));
-            let equations: Vec<Expr> = equations.collect();
+            let all = || kept.clone().map(|(equation, _)| phase.level_function(&equation.function));
+            let equations: Vec<Expr> = all().collect();
+            let written: Vec<Expr> = literally(|| all().collect());
             let made: Vec<Expr> = parameters.iter().chain(state).copied().collect();
-            (made, equations)
+            (made, equations, written)
         })?;
         if graph.inputs() > cover.draws.len() {
             return Ok(None);
@@ -79,11 +84,12 @@ impl Node {
             Draw::OneOf(_) | Draw::Sign => false,
         };
         let free = (0..cover.draws.len()).filter(is_free).collect();
+        let divisors = divisors(&graph, &written);
         let (graph, facts) = (Arc::new(graph), Vec::new());
-        Ok(Some(Self { graph, made, equations, facts, free, solved: 0 }))
+        Ok(Some(Self { graph, made, equations, facts, divisors, free, solved: 0 }))
     }
 
-    /// Drops what is 0 by its form; `None` if an equation or a fact cannot hold.
+    /// Drops what is a number; `None` if an equation or a fact cannot hold, or a divisor is 0.
     pub fn simplified(mut self) -> Option<Self> {
         let graph = Arc::clone(&self.graph);
         let number = |value: &Expr| graph.constant_value(*value);
@@ -92,11 +98,13 @@ impl Node {
             return None;
         }
         if self.facts.iter().any(|fact| number(fact).is_some_and(Rational::is_negative))
+            || self.divisors.iter().any(|divisor| number(divisor).is_some_and(Rational::is_zero))
             || self.equations.iter().any(|own| number(own).is_some_and(|value| !value.is_zero()))
         {
             return None;
         }
         self.facts.retain(|fact| number(fact).is_none());
+        self.divisors.retain(|divisor| number(divisor).is_none());
         self.equations.retain(|equation| number(equation).is_none());
         Some(self)
     }
@@ -236,7 +244,7 @@ impl Node {
     ) -> Result<Self, Fault> {
         let kept = (0..self.equations.len()).filter(|index| change.dropped != Some(*index));
         let equations: Vec<Expr> = kept.map(|index| self.equations[index]).collect();
-        let all = self.made.iter().chain(&self.equations).chain(&self.facts);
+        let all = self.made.iter().chain(&self.equations).chain(&self.facts).chain(&self.divisors);
         let reached = self.graph.reached(all.copied());
         let (graph, found) = record(self.graph.inputs(), |inputs| {
             let replay = |inputs: &[Expr]| {
@@ -261,11 +269,24 @@ impl Node {
             };
             let equations = [at(&equations)?, more.equations].concat();
             let facts = [at(&self.facts)?, more.facts].concat();
-            Some((at(&self.made)?, equations, facts))
+            let mut divisors = at(&self.divisors)?;
+            divisors.extend(more.divisor);
+            Some((at(&self.made)?, equations, facts, divisors))
         })?;
-        let (made, equations, facts) = found.ok_or(Fault::ForeignValue)?;
+        let (made, equations, facts, divisors) = found.ok_or(Fault::ForeignValue)?;
         let free = self.free.iter().copied().filter(|draw| change.solved != Some(*draw)).collect();
         let solved = self.solved + usize::from(change.solved.is_some());
-        Ok(Self { graph: Arc::new(graph), made, equations, facts, free, solved })
+        Ok(Self { graph: Arc::new(graph), made, equations, facts, divisors, free, solved })
     }
+}
+
+/// Lists what some values are divided by.
+fn divisors(graph: &Graph, values: &[Expr]) -> Vec<Expr> {
+    let reached = graph.reached(values.iter().copied());
+    let divisor = |(place, step): (usize, Step<'_>)| match step {
+        Step::Unary(UnaryFunction::Recip, a) if reached[place] => Some(graph.at(a)),
+        Step::Power(a, exponent) if reached[place] && exponent.is_negative() => Some(graph.at(a)),
+        _ => None,
+    };
+    graph.steps().enumerate().take(reached.len()).filter_map(divisor).collect()
 }

@@ -182,7 +182,8 @@ impl Coefficients {
                 let [low, high] = [&range.low, &range.high].map(Expr::rational);
                 facts.extend([value - low, high - value]);
             }
-            Some(Additions { value: Some(value), facts, ..Additions::default() })
+            let divisor = Some(at(self.divisor())?);
+            Some(Additions { value: Some(value), facts, divisor, ..Additions::default() })
         })
     }
 

@@ -106,10 +106,10 @@ impl Sampler {
     /// Makes a sampler of the only part of a place that may contain states, as |x| + |y| = 1 has one for
     /// x, y > 0; `None` where there are several, or the place cannot be divided.
     fn only_part(&self, case: &Case) -> Result<Option<Self>, Fault> {
-        let cover = PlaceParts::of(case, self);
+        let cover = PlaceParts::of(case, self)?;
         let Some(choices) = combinations(&cover.draws) else { return Ok(None) };
         let [fixed] = &choices[..] else { return Ok(None) };
-        let Some(parts) = cover.divided(case, fixed)? else { return Ok(None) };
+        let Some(parts) = cover.divided(fixed)? else { return Ok(None) };
         match &parts[..] {
             [part] if !part.is_thin => {
                 let own = self.on_part(part, cover.recipes(fixed))?;

@@ -198,7 +198,11 @@ impl<'s> OrbitSearch<'s> {
         for _ in 0..MOST_BOXES {
             let starts = boxes(nodes, Some(&radii));
             let period = Enclosure::about(nodes.period, radii[radii.len() - 1]);
-            let passages = passages(shooting, nodes, &starts, period)?;
+            let passages = match passages(shooting, nodes, &starts, period) {
+                // What is not contracted grows until no step is proved.
+                Err(Obstacle::NoStep(_)) if contraction >= 1.0 => break,
+                found => found?,
+            };
             let columns = shooting.derivative(nodes, frames, &starts, &passages);
             let (moved, norm) = inverse.defects(&columns, &radii);
             contraction = norm;

@@ -24,7 +24,7 @@ pub enum Obstacle {
     /// The equations are singular.
     #[error(
         "the equations for the orbit are singular: it is degenerate, or one of a family of closed \
-         orbits, or there is none"
+         orbits, from which `integrals` of the claim single one out, or there is none"
     )]
     Degenerate,
     /// Newton's method does not converge.
@@ -34,7 +34,10 @@ pub enum Obstacle {
     #[error("no step of the series is proved near t = {0:.3}: a pole or a branch is too near")]
     NoStep(f64),
     /// The boxes are not mapped into themselves.
-    #[error("the boxes are not contracted (norm {0:.1e}): the orbit is degenerate or nearly so")]
+    #[error(
+        "the boxes are not contracted (norm {0:.1e}): the orbit is degenerate or nearly so, or one of a \
+         family of closed orbits, from which `integrals` of the claim single one out"
+    )]
     NoContraction(f64),
     /// The boxes are not mapped into themselves for all values of the parameters.
     #[error(

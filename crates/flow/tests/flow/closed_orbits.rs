@@ -223,7 +223,15 @@ fn integrals_are_used_only_where_they_are_proved() {
     assert_eq!(held.verdict, Verdict::Proved, "T = 4 K(sin 30°): {:?}", held.evidence);
     assert_known(&held, "period", 6.743_001_419_250_383, 1e-11);
     let free = pendulum("");
-    assert_eq!(free.verdict, Verdict::Undecided, "one of a family: {:?}", free.evidence);
+    let oscillator = judged(
+        "title = \"oscillator\"\n[state]\nx = \"-2..2\"\ny = \"-2..2\"\n[field]\n\"x'\" = \"y\"\n\
+         \"y'\" = \"−x\"\n[[claim]]\nclosed-orbit = 6.283185\nstate = { x = \"1\" }\n",
+    );
+    for free in [free, oscillator] {
+        assert_eq!(free.verdict, Verdict::Undecided, "one of a family: {:?}", free.evidence);
+        let reason = free.evidence.reason.unwrap_or_default();
+        assert!(reason.contains("one of a family"), "{reason}");
+    }
     // Kept wherever they have a value; the orbit meets x = 0.
     for kink in ["(p²/2 − cos(x))*√(x²)/√(x²)", "(p²/2 − cos(x))*|x|/x"] {
         let found = pendulum(&format!("integrals = [\"{kink}\"]"));
