@@ -133,9 +133,11 @@ fn products(of: &[usize]) -> Vec<Vec<usize>> {
 
 /// Monomials of degree at most 1 in the velocities, with what is known.
 struct LinearForms {
-    /// Variables: positions, sines and cosines of them, velocities.
+    /// Variables in the order of the state, followed by sines, cosines and components of products.
     terms: Vec<Formula>,
-    /// Number of those before the velocities.
+    /// Their places among the positions, sines and cosines of them, components of products, and velocities.
+    order: Vec<usize>,
+    /// Number of variables before the velocities.
     positions: usize,
     monomials: Vec<Vec<u32>>,
     system: LinearSystem,
@@ -192,8 +194,14 @@ impl LinearForms {
         system.columns = monomials.iter().map(product).collect();
         system.columns.push(Column::Given(unit));
         system.columns.extend(known.iter().map(|(_, output)| Column::Given(*output)));
-        let terms = all;
-        Ok(Some(Self { terms, positions, monomials, system, known, driven, one: unit }))
+        // Products are written in the order of the state.
+        let names: Vec<String> =
+            (0..case.model.dimension()).map(|k| case.model.component_name(k)).collect();
+        let place = |own: &Formula| names.iter().position(|name| name == own.text());
+        let mut order: Vec<usize> = (0..all.len()).collect();
+        order.sort_by_key(|k| place(&all[*k]).unwrap_or(names.len()));
+        let terms = order.iter().map(|k| all[*k].clone()).collect();
+        Ok(Some(Self { terms, order, positions, monomials, system, known, driven, one: unit }))
     }
 
     /// Columns of monomials that do not depend on others on the level, without the first, 1.
@@ -225,7 +233,10 @@ impl LinearForms {
         let known = |k: usize| self.known.get(k - self.monomials.len() - 1);
         let function = |k: &usize| -> FormulaResult {
             match self.monomials.get(*k) {
-                Some(own) => power_product(&self.terms, own),
+                Some(own) => {
+                    let ordered: Vec<u32> = self.order.iter().map(|place| own[*place]).collect();
+                    power_product(&self.terms, &ordered)
+                }
                 None if *k == self.monomials.len() => Ok(one()),
                 None => Ok(known(*k).map_or_else(one, |(own, _)| own.bracketed())),
             }

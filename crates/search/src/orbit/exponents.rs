@@ -171,7 +171,7 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         let variables = self.variables.len();
         let most = self.setting.origin.map_or(variables, |own| own.case.model.dimension());
         let has_density = report.formulas("density").next().is_some();
-        let has_rate = report.formulas(CONSTANT_RATE).next().is_some();
+        let has_rate = report.found.iter().any(|own| own.kind == CONSTANT_RATE);
         if has_density && has_rate && known.within(self.variables) + 1 >= most {
             return Ok(());
         }
