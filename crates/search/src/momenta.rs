@@ -264,7 +264,7 @@ impl LinearForms {
             true => sum,
             false => match found.sum_with_plus(&last, rest)? {
                 Some((negative, true)) => negative,
-                _ if rest.len() == 1 && is_one(&rest[0].above) => -&sum.bracketed(),
+                _ if rest.len() == 1 && found.polynomials[split].len() == 1 => -&sum,
                 _ => -&sum.bracketed(),
             },
         };

@@ -216,6 +216,9 @@ impl Closure<'_, '_> {
         let Some(formula) = claims::written_integral(self.setting, formula) else {
             return Ok(false);
         };
+        if report.found.iter().any(|own| own.formula == formula.text()) {
+            return Ok(false);
+        }
         let statement = OrbitStatement::Integral(formula.clone());
         let Some(found) = claims::judged_here(self.setting, &statement)? else { return Ok(false) };
         let case = claims::judged_case(self.setting);
