@@ -20,18 +20,23 @@ const MOST_CHOICES: usize = 64;
 
 /// Lists all choices of listed values, by draw; `None` if there are too many.
 pub fn combinations(recipes: &[Draw]) -> Option<Vec<Vec<Option<Rational>>>> {
-    let mut all: Vec<Vec<Option<Rational>>> = vec![Vec::new()];
+    let mut all: Vec<Vec<Option<Rational>>> = vec![Vec::with_capacity(recipes.len())];
     for recipe in recipes {
-        let values: Vec<Option<Rational>> = match recipe {
-            Draw::Within(_) | Draw::Of(..) | Draw::Sign => vec![None],
-            Draw::OneOf(values) => values.iter().cloned().map(Some).collect(),
+        let values = match recipe {
+            Draw::Within(_) | Draw::Of(..) | Draw::Sign => {
+                all.iter_mut().for_each(|chosen| chosen.push(None));
+                continue;
+            }
+            Draw::OneOf(values) => values,
         };
-        all = all
-            .into_iter()
-            .flat_map(|chosen| {
-                values.iter().map(move |value| [&chosen[..], std::slice::from_ref(value)].concat())
-            })
-            .collect();
+        let with = |chosen: &[Option<Rational>], value: &Rational| {
+            let mut more = Vec::with_capacity(recipes.len());
+            more.extend_from_slice(chosen);
+            more.push(Some(value.clone()));
+            more
+        };
+        let of_one = |chosen: &Vec<_>| values.iter().map(|value| with(chosen, value)).collect();
+        all = all.iter().flat_map(|chosen| -> Vec<Vec<_>> { of_one(chosen) }).collect();
         if all.len() > MOST_CHOICES {
             return None;
         }
@@ -102,5 +107,32 @@ impl Phase<'_, Expr> {
         };
         let choices = self.model().undetermined.iter();
         choices.map(|own| literally(|| distance(own).apply(UnaryFunction::Recip))).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn choices_are_in_the_order_of_the_lists() {
+        let list =
+            |values: &[i64]| Draw::OneOf(values.iter().copied().map(Rational::from).collect());
+        let draws = [Draw::Sign, list(&[1, 2]), Draw::Sign, list(&[3]), list(&[4, 5, 6])];
+        let all = combinations(&draws).expect("few choices");
+        let expected: Vec<Vec<Option<Rational>>> = [[1, 3, 4], [1, 3, 5], [1, 3, 6]]
+            .into_iter()
+            .chain([[2, 3, 4], [2, 3, 5], [2, 3, 6]])
+            .map(|own| {
+                let [a, b, c] = own.map(|value| Some(Rational::from(value)));
+                vec![None, a, None, b, c]
+            })
+            .collect();
+        assert_eq!(all, expected);
+        assert_eq!(combinations(&[]), Some(vec![Vec::new()]));
+        assert_eq!(combinations(&[list(&[]), Draw::Sign]), Some(Vec::new()));
+        let many: Vec<i64> = (0..=MOST_CHOICES as i64).collect();
+        assert_eq!(combinations(&[list(&many)]), None);
+        assert_eq!(combinations(&[list(&many), list(&[])]), None, "too many before there are none");
     }
 }

@@ -6,7 +6,7 @@
 
 use std::cell::LazyCell;
 
-use super::cell_rank::{CellRank, DrawnMatrix};
+use super::cell_rank::{CellRank, DrawnMatrix, RankQuestion};
 use super::coverage::{self, Slopes};
 use super::judging::Judging;
 use super::pivot_space::PivotSpace;
@@ -113,7 +113,7 @@ impl Judging<'_> {
             let (required, facts) = (point, Vec::new());
             let matrix = DrawnMatrix { graph: &graph, rows, rank, required, facts };
             let chosen = sampler.with(&fixed);
-            let what = match self.rank_of_drawn(&chosen, &matrix)? {
+            let what = match self.rank_of_drawn(&chosen, &matrix, RankQuestion::Known)? {
                 CellRank::Full => continue,
                 CellRank::Drops => "has fewer dimensions than the level",
                 CellRank::Unknown => "is not known to have all dimensions of the level",

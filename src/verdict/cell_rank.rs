@@ -29,6 +29,15 @@ pub enum CellRank {
     Unknown,
 }
 
+/// What is asked about a rank.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RankQuestion {
+    /// Whether it is full or drops.
+    Known,
+    /// Whether it is known to drop: that it is unknown tells as much as that it is full.
+    Drops,
+}
+
 /// A matrix as a function of the draws, with what exists and is not negative at the states.
 pub struct DrawnMatrix<'a> {
     /// Graph of all values.
@@ -48,9 +57,9 @@ impl Judging<'_> {
     pub(super) fn rank_on_cells(
         &self,
         sampler: &Sampler,
-        rows: &[Vec<Expr>],
-        rank: usize,
+        (rows, rank): (&[Vec<Expr>], usize),
         requirement: &[Expr],
+        question: RankQuestion,
     ) -> Result<CellRank, Fault> {
         let Some(choices) = combinations(sampler.recipes()) else { return Ok(CellRank::Unknown) };
         if sampler.is_numerical() {
@@ -72,7 +81,7 @@ impl Judging<'_> {
             };
             let rows = outputs.chunks(width).map(<[Expr]>::to_vec).collect();
             let matrix = DrawnMatrix { graph: &graph, rows, rank, required, facts };
-            match self.rank_of_drawn(&sampler.with(&fixed), &matrix)? {
+            match self.rank_of_drawn(&sampler.with(&fixed), &matrix, question)? {
                 CellRank::Full => {}
                 CellRank::Drops => return Ok(CellRank::Drops),
                 CellRank::Unknown => all = CellRank::Unknown,
@@ -86,6 +95,7 @@ impl Judging<'_> {
         &self,
         sampler: &Sampler,
         matrix: &DrawnMatrix<'_>,
+        question: RankQuestion,
     ) -> Result<CellRank, Fault> {
         let DrawnMatrix { graph, required, facts, .. } = matrix;
         let (extents, sources) = (sampler.extents(), sampler.sources());
@@ -115,6 +125,8 @@ impl Judging<'_> {
         let prover = Prover { sources: &sources, extents: &extents, seed: self.options.seed };
         Ok(match prover.zeros(&made, value, one, &group)? {
             Zeros::Thin => CellRank::Full,
+            // Bounds on boxes take the longest.
+            Zeros::Unknown if question == RankQuestion::Drops => CellRank::Unknown,
             _ if is_nowhere_zero(&made, &extents, &group.facts, &[value]) => CellRank::Full,
             Zeros::OnACell => CellRank::Drops,
             Zeros::Unknown => CellRank::Unknown,

@@ -1,6 +1,6 @@
 //! Conditions that claims presuppose.
 
-use super::cell_rank::CellRank;
+use super::cell_rank::{CellRank, RankQuestion};
 use super::claim_state::{are_zero, undecide};
 use super::evidence::{Flaw, Verdict};
 use super::field::{Answer, PrimeFieldStates, Query};
@@ -116,7 +116,7 @@ impl Judging<'_> {
     }
 
     /// Returns the message on a condition that fails, or on an essential one that is not known to
-    /// hold.
+    /// hold and without which the claim is not known to.
     fn failure(
         &self,
         sampler: &Sampler,
@@ -133,7 +133,20 @@ impl Judging<'_> {
                         let reason = format!("{otherwise}: {found} of {rank} dimensions are left");
                         return Ok(Some(reason));
                     }
-                    Some(_) => self.rank_on_cells(sampler, rows, *rank, &item.requirement)?,
+                    Some(_) => {
+                        let of = |question| {
+                            self.rank_on_cells(sampler, (rows, *rank), &item.requirement, question)
+                        };
+                        match of(RankQuestion::Drops)? {
+                            CellRank::Unknown if condition.is_essential => {
+                                if self.holds_of_all_values(item)? {
+                                    return Ok(None);
+                                }
+                                of(RankQuestion::Known)?
+                            }
+                            known => known,
+                        }
+                    }
                     None => CellRank::Unknown,
                 };
                 Ok(match known {

@@ -76,7 +76,12 @@ impl Judging<'_> {
         for bits in LADDER_BITS {
             let domain = ArbBall::new(bits);
             for index in 0..PRECISE_STATES {
-                let values = run.at(&domain, &sampler.states(&domain, 1, index));
+                let states = sampler.states(&domain, 1, index);
+                // A rate may have a value where a component that it does not contain has none.
+                if !states.iter().all(Option::is_some) {
+                    continue;
+                }
+                let values = run.at(&domain, &states);
                 if let Some(found) = values.output(0).as_ref().filter(|x| x.excludes_zero()) {
                     return Some(found.rough());
                 }

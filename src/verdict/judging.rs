@@ -2,6 +2,7 @@
 //! cases.
 
 use std::cell::{OnceCell, RefCell};
+use std::rc::Rc;
 
 use rustc_hash::FxHashMap;
 
@@ -20,7 +21,7 @@ use super::run::{Doubles, Run};
 use super::sampler::{Sampler, TAPE_LANES};
 use crate::case::Case;
 use crate::claim::LevelSubset;
-use crate::graph::{Expr, Graph};
+use crate::graph::{Expr, Fault, Graph};
 use crate::level::{self, Order};
 use crate::mechanics::{Chart, Variable};
 use crate::number::ball::{Ball, Balls};
@@ -44,6 +45,8 @@ pub struct Judging<'a> {
     pub(super) pieces: RefCell<FxHashMap<Vec<bool>, Option<Pieces>>>,
     /// Equations of the level whose slopes depend on each other at the states.
     pub(super) flat: RefCell<Vec<FlatEquation>>,
+    /// Samplers of whole places, by the equations that hold there.
+    samplers: RefCell<FxHashMap<Vec<bool>, Rc<Sampler>>>,
     /// Whether the map is proved to be one-to-one, by the equations that hold at a place and by the
     /// states that count.
     pub(super) one_to_one: RefCell<FxHashMap<(Vec<bool>, SecondState), bool>>,
@@ -69,6 +72,7 @@ impl<'a> Judging<'a> {
             thin_image: OnceCell::new(),
             pieces: RefCell::default(),
             flat: RefCell::default(),
+            samplers: RefCell::default(),
             one_to_one: RefCell::default(),
         }
     }
@@ -85,6 +89,16 @@ impl<'a> Judging<'a> {
 }
 
 impl Judging<'_> {
+    /// Returns the sampler of a whole place.
+    pub(super) fn sampler_at(&self, place: &LevelSubset) -> Result<Rc<Sampler>, Fault> {
+        if let Some(known) = self.samplers.borrow().get(&place.kept) {
+            return Ok(Rc::clone(known));
+        }
+        let made = Rc::new(Sampler::new(self.case, place, self.options.seed)?);
+        self.samplers.borrow_mut().insert(place.kept.clone(), Rc::clone(&made));
+        Ok(made)
+    }
+
     pub(super) fn run(&self, outputs: &[Expr]) -> Run {
         Run::new(self.graph, outputs, self.inputs)
     }
@@ -94,7 +108,7 @@ impl Judging<'_> {
     pub fn check(&self) -> Result<Vec<String>, JudgeError> {
         self.check_independence()?;
         let level = LevelSubset::level(&self.case.model);
-        let sampler = Sampler::new(self.case, &level, self.options.seed)?;
+        let sampler = self.sampler_at(&level)?;
         let Some(pieces) = self.pieces(&sampler)? else { return self.check_on(&sampler) };
         // A part may have no states in the declared ranges, or none at which the field exists, as the
         // apex of a cone.
@@ -216,7 +230,7 @@ impl Judging<'_> {
             return Ok(None);
         }
         let everywhere = LevelSubset::everywhere(&self.case.model);
-        let sampler = Sampler::new(self.case, &everywhere, self.options.seed)?;
+        let sampler = self.sampler_at(&everywhere)?;
         let queries: Vec<Query> =
             open.iter().map(|(_, defects)| Query::of(defects.clone())).collect();
         let answers = PrimeFieldStates::new(self, &sampler).test(&queries)?;
@@ -272,7 +286,7 @@ impl Judging<'_> {
             return Ok(());
         }
         let everywhere = LevelSubset::everywhere(&self.case.model);
-        let sampler = Sampler::new(self.case, &everywhere, self.options.seed)?;
+        let sampler = self.sampler_at(&everywhere)?;
         let values =
             self.run(&self.common.dependence.concat()).at(&Ball::<TAPE_LANES>, &sampler.balls(0));
         let width = self.case.model.dimension();

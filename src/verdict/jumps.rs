@@ -184,16 +184,16 @@ fn divided(from: f64, to: f64) -> [f64; POINTS] {
 /// Whether values contain what can jump: a quotient with a modulus, or with the root, logarithm or
 /// broken power of a square, or an arctangent or exponential of a quotient. Other quotients jump on sets that no motion meets.
 fn may_jump(graph: &Graph, values: &[Expr]) -> bool {
-    let reached = graph.reached(values.iter().copied());
     let may_be_corner = |step: Step<'_>| match step {
         Step::Unary(function, _) => !matches!(function, UnaryFunction::Neg | UnaryFunction::Recip),
         Step::Power(_, exponent) => exponent.to_integer().is_none(),
         Step::Binary(BinaryOperation::Pow, ..) => true,
         _ => false,
     };
-    if !graph.steps().zip(&reached).any(|(step, reached)| *reached && may_be_corner(step)) {
+    if !graph.has_step(values, may_be_corner) {
         return false;
     }
+    let reached = graph.reached(values.iter().copied());
     let mut is_quotient = vec![false; reached.len()];
     let (mut has_corner, mut has_quotient) = (false, false);
     for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {

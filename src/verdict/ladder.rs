@@ -44,7 +44,7 @@ impl Judging<'_> {
         place: &LevelSubset,
         open: Open<'f, 'r>,
     ) -> Result<(), JudgeError> {
-        let sampler = Sampler::new(self.case, place, self.options.seed)?;
+        let sampler = self.sampler_at(place)?;
         match self.pieces(&sampler)? {
             Some(pieces) => self.climb_pieces(place, &pieces, open),
             None => self.climb_on(place, &sampler, open),

@@ -1,7 +1,7 @@
 //! Slopes of the level equations at the states: where they depend on each other, rates that are 0 do not
 //! keep the motion on the level.
 
-use super::cell_rank::CellRank;
+use super::cell_rank::{CellRank, RankQuestion};
 use super::claim_state::{ClaimState, undecide};
 use super::evidence::Verdict;
 use super::judging::Judging;
@@ -61,7 +61,7 @@ impl Judging<'_> {
             let rank_of = |count: usize| {
                 let rows: Vec<Vec<Expr>> =
                     kept[..count].iter().map(|index| slopes[*index].clone()).collect();
-                self.rank_on_cells(&chosen, &rows, count, &[])
+                self.rank_on_cells(&chosen, (&rows, count), &[], RankQuestion::Known)
             };
             if let Some(index) = self.without_slope(sampler, &kept, &fixed)? {
                 found.push(FlatEquation { index, is_lost: true });

@@ -34,6 +34,7 @@ impl Judging<'_> {
         let case = self.case;
         let is_whole = matches!(case.chart, Chart::Equations)
             && !sampler.is_numerical()
+            && sampler.has_states()
             && self.missed_part(sampler)?.is_none();
         if !matches!(case.chart, Chart::Equations) || is_whole {
             return Ok(None);

@@ -42,6 +42,9 @@ const PIECES: usize = 64;
 /// Values at some states, one row for each input or output.
 type Rows = Vec<[f64; STARTS]>;
 
+/// A tape with its working memory.
+type Runner<'t> = Evaluator<'t, Float<STARTS>>;
+
 impl Judging<'_> {
     /// Finds a state of the level, as text, near which a density is infinite and the field is not.
     ///
@@ -199,36 +202,45 @@ impl PoleSearch<'_> {
     fn pole(&self, inputs: usize) -> Option<Vec<f64>> {
         let mut point = self.starts(inputs);
         let ranges = self.ranges();
-        let before = output(self.density, &point);
-        let speed = lengths(self.field, &point);
-        let first = output(&self.divisor, &point);
+        let [mut divisor, mut density, mut field, mut state] =
+            [&self.divisor, self.density, self.field, self.state].map(runner);
+        let before = output(&mut density, &point);
+        let speed = lengths(&mut field, &point);
+        let first = output(&mut divisor, &point);
         let mut value = first;
         // The divisor and the density on the way, once the divisor is small.
         let mut midway = [None; STARTS];
         for _ in 0..STEPS {
             let slopes: Vec<[f64; STARTS]> =
-                ranges.iter().map(|(place, _)| self.slope(&point, *place)).collect();
+                ranges.iter().map(|(place, _)| slope(&mut divisor, &mut point, *place)).collect();
             let lengths: [f64; STARTS] =
                 std::array::from_fn(|i| slopes.iter().map(|slope| slope[i] * slope[i]).sum());
+            let mut is_moved = false;
             for ((place, [low, high]), slope) in ranges.iter().zip(&slopes) {
                 for i in 0..STARTS {
                     let step = DAMPED * value[i] * slope[i] / lengths[i];
                     if step.is_finite() && value[i].abs() > LEAST_DECREASE * first[i].abs() {
-                        point[*place][i] = (point[*place][i] - step).clamp(*low, *high);
+                        let next = (point[*place][i] - step).clamp(*low, *high);
+                        is_moved |= next != point[*place][i];
+                        point[*place][i] = next;
                     }
                 }
             }
-            value = output(&self.divisor, &point);
+            value = output(&mut divisor, &point);
             let is_midway =
                 |i: &usize| midway[*i].is_none() && value[*i].abs() <= MIDWAY * first[*i].abs();
             let reached: Vec<usize> = (0..STARTS).filter(is_midway).collect();
             if !reached.is_empty() {
-                let density = output(self.density, &point);
+                let density = output(&mut density, &point);
                 reached.into_iter().for_each(|i| midway[i] = Some((value[i], density[i])));
             }
+            // Further steps would be from the same points.
+            if !is_moved {
+                break;
+            }
         }
-        let after = output(self.density, &point);
-        let (last, states) = (lengths(self.field, &point), rows(self.state, &point));
+        let after = output(&mut density, &point);
+        let (last, states) = (lengths(&mut field, &point), rows(&mut state, &point));
         (0..STARTS).find_map(|i| {
             let vanishes = value[i].abs() <= LEAST_DECREASE * first[i].abs();
             let grows = after[i].abs() >= LEAST_INCREASE * before[i].abs() && before[i] != 0.0;
@@ -239,51 +251,61 @@ impl PoleSearch<'_> {
             // Far away in a chart, a point that another one covers looks like a hypersurface.
             let is_near = state.iter().chain(&place).all(|x| x.abs() <= FARTHEST);
             let is_pole = vanishes && grows && has_field && is_near;
-            let (divisor, density) = midway[i].filter(|_| is_pole)?;
+            let (before, other) = midway[i].filter(|_| is_pole)?;
             // ρ grows like a power of the divisor, X^(−q).
-            let power = -(after[i] / density).abs().ln() / (value[i] / divisor).abs().ln();
-            (!self.is_integrable(&place, &ranges, power)).then_some(state)
+            let power = -(after[i] / other).abs().ln() / (value[i] / before).abs().ln();
+            (!is_integrable(&mut divisor, &place, &ranges, power)).then_some(state)
         })
     }
-
-    /// Whether the divisor to a negative power can be integrated over the draws about a zero: if X grows
-    /// like |x|^p in c directions, X^(−q) can for pq < c.
-    fn is_integrable(&self, place: &[f64], ranges: &[(usize, [f64; 2])], power: f64) -> bool {
-        let mut value = |displaced: &[f64]| {
-            let mut point: Rows = place.iter().map(|x| [*x; STARTS]).collect();
-            let moved = ranges.iter().zip(displaced);
-            moved.for_each(|((place, _), step)| point[*place] = point[*place].map(|x| x + step));
-            output(&self.divisor, &point)[0]
-        };
-        let form = LocalForm::of(ranges.len(), &mut value);
-        form.is_some_and(|form| form.order * power < (1.0 - MARGIN) * form.codimension as f64)
-    }
-
-    /// Difference quotient of the divisor by one draw.
-    fn slope(&self, point: &Rows, place: usize) -> [f64; STARTS] {
-        let steps = point[place].map(|x| DIFFERENCE * x.abs().max(1e-3));
-        let mut moved = point.clone();
-        let mut at = |sign: f64| {
-            moved[place] = std::array::from_fn(|i| point[place][i] + sign * steps[i]);
-            output(&self.divisor, &moved)
-        };
-        let (above, below) = (at(1.0), at(-1.0));
-        std::array::from_fn(|i| (above[i] - below[i]) / (2.0 * steps[i]))
-    }
 }
 
-fn rows(tape: &Tape, point: &Rows) -> Rows {
-    let mut evaluator = Evaluator::new(tape, Float::<STARTS>);
-    evaluator.run(point);
-    evaluator.outputs().copied().collect()
+/// Whether the divisor to a negative power can be integrated over the draws about a zero: if X grows
+/// like |x|^p in c directions, X^(−q) can for pq < c.
+fn is_integrable(
+    divisor: &mut Runner<'_>,
+    place: &[f64],
+    ranges: &[(usize, [f64; 2])],
+    power: f64,
+) -> bool {
+    let mut value = |displaced: &[f64]| {
+        let mut point: Rows = place.iter().map(|x| [*x; STARTS]).collect();
+        let moved = ranges.iter().zip(displaced);
+        moved.for_each(|((place, _), step)| point[*place] = point[*place].map(|x| x + step));
+        output(divisor, &point)[0]
+    };
+    let form = LocalForm::of(ranges.len(), &mut value);
+    form.is_some_and(|form| form.order * power < (1.0 - MARGIN) * form.codimension as f64)
 }
 
-fn output(tape: &Tape, point: &Rows) -> [f64; STARTS] {
-    rows(tape, point).first().copied().unwrap_or([f64::NAN; STARTS])
+/// Difference quotient of the divisor by one draw; the point stays what it is.
+fn slope(divisor: &mut Runner<'_>, point: &mut Rows, place: usize) -> [f64; STARTS] {
+    let here = point[place];
+    let steps = here.map(|x| DIFFERENCE * x.abs().max(1e-3));
+    let mut at = |sign: f64| {
+        point[place] = std::array::from_fn(|i| here[i] + sign * steps[i]);
+        output(divisor, point)
+    };
+    let (above, below) = (at(1.0), at(-1.0));
+    point[place] = here;
+    std::array::from_fn(|i| (above[i] - below[i]) / (2.0 * steps[i]))
+}
+
+fn runner(tape: &Tape) -> Runner<'_> {
+    Evaluator::new(tape, Float::<STARTS>)
+}
+
+fn rows(runner: &mut Runner<'_>, point: &Rows) -> Rows {
+    runner.run(point);
+    runner.outputs().copied().collect()
+}
+
+fn output(runner: &mut Runner<'_>, point: &Rows) -> [f64; STARTS] {
+    runner.run(point);
+    runner.outputs().next().copied().unwrap_or([f64::NAN; STARTS])
 }
 
 /// Lengths of the vectors that a tape computes.
-fn lengths(tape: &Tape, point: &Rows) -> [f64; STARTS] {
-    let rows = rows(tape, point);
+fn lengths(runner: &mut Runner<'_>, point: &Rows) -> [f64; STARTS] {
+    let rows = rows(runner, point);
     std::array::from_fn(|i| rows.iter().map(|row| row[i] * row[i]).sum::<f64>().sqrt())
 }

@@ -12,7 +12,7 @@ use num_integer::Integer;
 use rustc_hash::FxHashSet;
 
 use super::antiderivative_value;
-use super::claim_state::undecide;
+use super::claim_state::{ClaimState, undecide};
 use super::evidence::Verdict;
 use super::judging::Judging;
 use super::ladder::Open;
@@ -53,14 +53,17 @@ impl Judging<'_> {
         sampler: &Sampler,
         open: &mut Open<'_, '_>,
     ) -> Result<(), Fault> {
-        let of_states = || signs(sampler.graph(), sampler.made().iter().copied());
-        let of_claims = || signs(self.graph, (0..self.graph.len()).map(|k| self.graph.at(k)));
-        if sampler.is_numerical() || (of_claims().is_empty() && of_states().is_empty()) {
+        let is_proved =
+            |status: &ClaimState| status.settled == Some(Verdict::Proved) && status.is_zero;
+        if sampler.is_numerical() || !open.iter().any(|(_, status)| is_proved(status)) {
+            return Ok(());
+        }
+        let of_states = signs(sampler.graph(), sampler.made().iter().copied());
+        if of_states.is_empty() && !self.graph.steps().any(has_sign) {
             return Ok(());
         }
         for (item, status) in open.iter_mut() {
-            let is_proved = status.settled == Some(Verdict::Proved) && status.is_zero;
-            if !is_proved || !self.has_cells(sampler, item) {
+            if !is_proved(status) || (of_states.is_empty() && !self.has_cells(item)) {
                 continue;
             }
             if let Some((numbers, residual)) = self.contradiction(sampler, item)? {
@@ -90,11 +93,11 @@ impl Judging<'_> {
         Ok(())
     }
 
-    /// Whether a proof of the claim has more than one cell, as far as its expressions show.
-    fn has_cells(&self, sampler: &Sampler, item: &RecordedClaim<'_>) -> bool {
-        let outputs = item.residual.iter().chain(&item.requirement).copied();
-        !signs(self.graph, outputs).is_empty()
-            || !signs(sampler.graph(), sampler.made().iter().copied()).is_empty()
+    /// Whether a proof of the claim has more than one cell, as far as its expressions show; the states
+    /// may add others.
+    fn has_cells(&self, item: &RecordedClaim<'_>) -> bool {
+        let outputs = [&item.residual[..], &item.requirement].concat();
+        self.graph.has_step(&outputs, has_sign) && !signs(self.graph, outputs).is_empty()
     }
 
     /// Searches for a state at which the residual is not 0.
@@ -155,13 +158,14 @@ struct SignSearch<'t> {
 impl SignSearch<'_> {
     /// Tests some states, and states between those whose signs differ.
     fn run(&mut self, states: Vec<Numbers>) -> Option<Contradiction> {
-        let mut first: Vec<(Numbers, Signs)> = Vec::new();
+        let mut signs = Vec::with_capacity(states.len());
         for block in states.chunks(TAPE_LANES) {
             match self.signs_at(block) {
-                Ok(signs) => first.extend(block.iter().cloned().zip(signs)),
+                Ok(found) => signs.extend(found),
                 Err(contradiction) => return Some(contradiction),
             }
         }
+        let first: Vec<(Numbers, Signs)> = states.into_iter().zip(signs).collect();
         let differ = |pair: &&[(Numbers, Signs)]| pair[0].1 != pair[1].1;
         let pairs = first.windows(2).filter(differ).take(MOST_PAIRS);
         let mut open: VecDeque<_> =
@@ -243,6 +247,15 @@ impl SignSearch<'_> {
     }
 }
 
+/// Whether a step may have values below it whose signs divide the states into cells.
+fn has_sign(step: Step<'_>) -> bool {
+    match step {
+        Step::Unary(function, _) => matches!(function, UnaryFunction::Abs | UnaryFunction::Sqrt),
+        Step::Power(_, exponent) => exponent.to_integer().is_none(),
+        _ => false,
+    }
+}
+
 /// Finds the places of values whose signs divide the states into cells: arguments of moduli, and
 /// factors under roots of even index.
 fn signs(graph: &Graph, outputs: impl IntoIterator<Item = Expr>) -> Vec<usize> {
@@ -313,7 +326,7 @@ mod tests {
         let options = Options::default();
         let bench = Judging::new(&case, &common, &options, &graph, inputs);
         let sampler = Sampler::new(&case, &claim.place, 1).expect("samples");
-        assert!(bench.has_cells(&sampler, &item), "{identity} has cells");
+        assert!(bench.has_cells(&item), "{identity} has cells");
         bench.contradiction(&sampler, &item).expect("looks").map(|(_, (residual, _))| residual)
     }
 

@@ -18,7 +18,7 @@ use super::judging::Judging;
 use super::preimages::SecondState;
 use super::recorded::{RecordedClaim, Wider};
 use super::run::{Doubles, Values};
-use super::sampler::{Sampler, TAPE_LANES};
+use super::sampler::TAPE_LANES;
 use crate::claim::{LevelSubset, Need};
 use crate::graph::{Expr, Step};
 use crate::number::UnaryFunction;
@@ -108,7 +108,7 @@ impl Judging<'_> {
         if candidates.is_empty() {
             return Ok(());
         }
-        let sampler = Sampler::new(self.case, place, self.options.seed)?;
+        let sampler = self.sampler_at(place)?;
         if self.missed_part(&sampler)?.is_some() || !self.flat_equations(&sampler)?.is_empty() {
             return Ok(());
         }

@@ -71,8 +71,6 @@ impl Cover<'_> {
             let Some(node) = node.simplified() else { continue };
             let Some(node) = node.without_zero_roots()? else { continue };
             let children = match node.equations.first() {
-                // The equations are dependent on a part of the level.
-                None if node.solved < count => None,
                 None if self.is_empty(&node)? => Some(Vec::new()),
                 None => match self.edge(&node)? {
                     Some(edge) => Some(vec![edge]),

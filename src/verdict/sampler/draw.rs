@@ -63,10 +63,12 @@ impl Sampler {
         start: u64,
         sets: usize,
     ) -> Vec<D::Block> {
+        let shared: Vec<Vec<Rational>> =
+            (0..sets).map(|set| self.draws.state(self.seed, set as u64)).collect();
         let state = |lane: usize| {
-            let mut values = self.draws.state(self.seed, (lane * sets / TAPE_LANES) as u64);
-            let own = self.draws.edge(self.seed, start + lane as u64);
-            values[self.parameter_draws..].clone_from_slice(&own[self.parameter_draws..]);
+            let mut values = self.draws.edge(self.seed, start + lane as u64);
+            let own = &shared[lane * sets / TAPE_LANES];
+            values[..self.parameter_draws].clone_from_slice(&own[..self.parameter_draws]);
             values
         };
         self.made_in(domain, &(0..TAPE_LANES).map(state).collect::<Vec<_>>())

@@ -16,13 +16,14 @@ pub use maker::Maker;
 pub use place_parts::PlaceParts;
 pub use ranges::{extent, inside};
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use crate::case::Case;
 use crate::claim::LevelSubset;
 use crate::graph::{Expr, Fault, Graph, Tape, literally, record};
 use crate::level::{self, Order, Part, Pivot, Solution};
 use crate::mechanics::{Chart, Draw, DrawSource, combinations};
+use crate::number::ball::Balls;
 use crate::number::rational::Rational;
 use crate::proof::{Extent, InputDistribution};
 
@@ -57,9 +58,9 @@ pub struct Sampler {
     /// Whether each level equation holds at the states.
     kept: Vec<bool>,
     /// Tape for parameters and state, undefined where they are out of range.
-    tape: Tape,
+    tape: Arc<Tape>,
     /// Tape for parameters and state wherever they exist.
-    unguarded: Tape,
+    unguarded: Arc<Tape>,
     /// Whether some draws lead to no state.
     is_guarded: bool,
     /// Whether the states are made with moduli.
@@ -67,6 +68,8 @@ pub struct Sampler {
     newton: Option<NumericalLevel>,
     /// Whether the states are a part of lower dimension than the place.
     is_thin: bool,
+    /// First block of states, once it was asked for.
+    first: Arc<OnceLock<Vec<Balls<TAPE_LANES>>>>,
 }
 
 impl Sampler {
@@ -155,7 +158,8 @@ impl Sampler {
             let guarded = guarded(&solved.made, facts.iter().copied());
             (solved.made, guarded, facts, solved.pivots)
         })?;
-        let (tape, unguarded) = (Tape::new(&graph, &guarded), Tape::new(&graph, &made));
+        let (tape, unguarded) =
+            (Tape::new(&graph, &guarded).into(), Tape::new(&graph, &made).into());
         let is_guarded = solution.is_some();
         let has_moduli = level::has_moduli(&graph, &guarded);
         let dimension = model.dimension();
@@ -181,6 +185,7 @@ impl Sampler {
             has_moduli,
             newton,
             is_thin: false,
+            first: Arc::default(),
         };
         Ok(match sampler.is_guarded && !sampler.has_states() {
             true => sampler.narrowed(),
@@ -211,8 +216,8 @@ impl Sampler {
             seed: self.seed,
             draws: DrawSource::new(&recipes),
             recipes,
-            tape: Tape::new(&graph, &guarded),
-            unguarded: Tape::new(&graph, &made),
+            tape: Tape::new(&graph, &guarded).into(),
+            unguarded: Tape::new(&graph, &made).into(),
             is_guarded: true,
             has_moduli: level::has_moduli(&graph, &guarded),
             graph: Arc::new(graph),
@@ -226,6 +231,7 @@ impl Sampler {
             kept: self.kept.clone(),
             newton: None,
             is_thin: part.is_thin,
+            first: Arc::default(),
         }
         .narrowed())
     }
@@ -263,9 +269,13 @@ impl Sampler {
 
     /// Makes a sampler of the same states with the listed numbers fixed.
     pub fn with(&self, fixed: &[Option<Rational>]) -> Self {
+        if fixed.iter().all(Option::is_none) {
+            return self.clone();
+        }
         let pairs = self.recipes.iter().zip(fixed);
         let recipes: Vec<Draw> = pairs.map(|(draw, fixed)| draw.fixed(fixed.as_ref())).collect();
-        Self { draws: DrawSource::new(&recipes), recipes, ..self.clone() }
+        let (draws, first) = (DrawSource::new(&recipes), Arc::default());
+        Self { draws, recipes, first, ..self.clone() }
     }
 
     /// Returns the distribution of each number.

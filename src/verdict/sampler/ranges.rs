@@ -1,5 +1,7 @@
 //! Ranges of draws, and guards that leave no state out of range.
 
+use std::sync::Arc;
+
 use num_dual::DualNum;
 
 use crate::case::Case;
@@ -74,6 +76,7 @@ impl Sampler {
             }
         }
         self.draws = DrawSource::new(&self.recipes);
+        self.first = Arc::default();
         self
     }
 }

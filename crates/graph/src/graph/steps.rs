@@ -130,6 +130,14 @@ impl Graph {
         reached
     }
 
+    /// Whether one of the steps that some outputs need is such a step. Takes as long as these, but for a
+    /// bit a node of the graph.
+    pub fn has_step(&self, outputs: &[Expr], mut is_such: impl FnMut(Step<'_>) -> bool) -> bool {
+        let mut found = false;
+        self.visit(outputs, |node| found = found || is_such(self.step_of(node)));
+        found
+    }
+
     /// Repeats the reached steps with other inputs in the recording under way; returns the new value
     /// of each place.
     pub fn repeated(&self, reached: &[bool], inputs: &[Expr]) -> Vec<Option<Expr>> {
@@ -207,6 +215,15 @@ mod tests {
     use super::super::record;
     use super::*;
     use num_dual::DualNum;
+
+    #[test]
+    fn steps_are_found_among_those_that_are_needed() {
+        let build = |x: &[Expr]| [x[0].sqrt() * x[1] + x[0], x[1] * x[1] - x[0]];
+        let (graph, [with, without]) = record(2, build).expect("records");
+        let is_root = |step: Step<'_>| matches!(step, Step::Unary(UnaryFunction::Sqrt, _));
+        assert!(graph.has_step(&[with], is_root) && graph.has_step(&[without, with], is_root));
+        assert!(!graph.has_step(&[without], is_root) && !graph.has_step(&[], is_root));
+    }
 
     #[test]
     fn a_replay_repeats_and_replaces() {

@@ -1,5 +1,7 @@
 //! The tape: a graph laid out as a straight line of instructions over numbered slots.
 
+use std::cell::Cell;
+
 use super::{Expr, Graph, Node};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
@@ -49,9 +51,17 @@ impl Tape {
     pub fn new(graph: &Graph, outputs: &[Expr]) -> Self {
         let roots: Vec<usize> =
             outputs.iter().map(|expr| expr.id().map_or(0, |id| id.0 as usize)).collect();
-        let (last_use, mut used, mut constants) = last_uses(graph, &roots);
-        used.reverse();
-        constants.reverse();
+        let mut layout = LAYOUT.take();
+        layout.fill(graph, &roots);
+        let tape = Self::laid_out(graph, &roots, &mut layout);
+        if layout.places.len() <= MOST_KEPT {
+            LAYOUT.set(layout);
+        }
+        tape
+    }
+
+    fn laid_out(graph: &Graph, roots: &[usize], layout: &mut Layout) -> Self {
+        let Layout { places, used, constants } = layout;
         let mut tape = Tape {
             inputs: graph.inputs(),
             constants: Vec::with_capacity(constants.len()),
@@ -60,51 +70,48 @@ impl Tape {
             outputs: Vec::new(),
             slots: 0,
         };
-        let mut slot_of: Vec<Slot> = vec![0; last_use.len()];
-        for (index, constant) in constants {
-            slot_of[index] = (tape.inputs + tape.constants.len()) as Slot;
-            tape.constants.push(graph.constants[constant as usize].clone());
+        for (index, constant) in constants.iter().rev() {
+            places[*index].slot = (tape.inputs + tape.constants.len()) as Slot;
+            tape.constants.push(graph.constants[*constant as usize].clone());
         }
         let mut slots =
             Slots { free: Vec::new(), next: (tape.inputs + tape.constants.len()) as Slot };
-        for index in used.into_iter().map(|index| index as usize) {
-            let release = |argument: usize, slots: &mut Slots| {
-                if last_use[argument] as usize == index {
-                    slots.free.push(slot_of[argument]);
+        for index in used.iter().rev() {
+            // Returns the slot of an argument, and makes it free after its last use.
+            let read = |argument: super::NodeId, slots: &mut Slots| {
+                let Place { last, slot } = places[argument.0 as usize];
+                if last == *index {
+                    slots.free.push(slot);
                 }
+                slot
             };
-            let instruction = match graph.nodes[index] {
+            let instruction = match graph.nodes[*index as usize] {
                 Node::Constant(_) => continue,
                 Node::Input(input) => {
-                    slot_of[index] = input;
+                    places[*index as usize].slot = input;
                     continue;
                 }
                 Node::Unary(function, a) => {
-                    release(a.0 as usize, &mut slots);
-                    let a = slot_of[a.0 as usize];
+                    let a = read(a, &mut slots);
                     Instruction::Unary { function, a, out: slots.take() }
                 }
                 Node::Power(a, exponent) => {
-                    release(a.0 as usize, &mut slots);
-                    let a = slot_of[a.0 as usize];
+                    let a = read(a, &mut slots);
                     let value = graph.constants[exponent as usize].clone();
                     tape.exponents.push(value);
                     let exponent = (tape.exponents.len() - 1) as u32;
                     Instruction::Power { a, exponent, out: slots.take() }
                 }
                 Node::Binary(operation, a, b) => {
-                    release(a.0 as usize, &mut slots);
-                    if a != b {
-                        release(b.0 as usize, &mut slots);
-                    }
-                    let (a, b) = (slot_of[a.0 as usize], slot_of[b.0 as usize]);
+                    let (is_square, a) = (a == b, read(a, &mut slots));
+                    let b = if is_square { a } else { read(b, &mut slots) };
                     Instruction::Binary { operation, a, b, out: slots.take() }
                 }
             };
-            slot_of[index] = instruction.out();
+            places[*index as usize].slot = instruction.out();
             tape.instructions.push(instruction);
         }
-        tape.outputs = roots.iter().map(|root| slot_of[*root]).collect();
+        tape.outputs = roots.iter().map(|root| places[*root].slot).collect();
         tape.slots = slots.next as usize;
         tape
     }
@@ -164,43 +171,76 @@ impl Node {
 const UNUSED: u32 = u32::MAX;
 const KEPT: u32 = u32::MAX - 1;
 
-/// Finds the index of each node's last user, as far as the last root: past the end for an output,
-/// `UNUSED` for a node without users, `KEPT` for inputs and constants, whose slots are not used again;
-/// then the nodes that have users, and the constants among them, the last one first.
-fn last_uses(graph: &Graph, roots: &[usize]) -> (Vec<u32>, Vec<u32>, Vec<(usize, u32)>) {
-    let nodes = graph.nodes.len();
-    let end = roots.iter().filter(|root| **root < nodes).max().map_or(0, |last| last + 1);
-    let mut last = vec![UNUSED; end];
-    for root in roots.iter().filter(|root| **root < nodes) {
-        last[*root] = end as u32;
-    }
-    let (mut used, mut constants) = (Vec::with_capacity(end), Vec::new());
-    for index in (0..end).rev() {
-        if last[index] == UNUSED {
-            continue;
+/// Number of nodes up to which the memory of a layout is kept for the next one.
+const MOST_KEPT: usize = 1 << 16;
+
+thread_local! {
+    /// Memory of the last layout on this thread.
+    static LAYOUT: Cell<Layout> = const {
+        Cell::new(Layout { places: Vec::new(), used: Vec::new(), constants: Vec::new() })
+    };
+}
+
+/// What is found of the nodes before they are laid out.
+#[derive(Default)]
+struct Layout {
+    /// Each node as far as the last root.
+    places: Vec<Place>,
+    /// Nodes that have users, the last one first.
+    used: Vec<u32>,
+    /// Constants among them with their numbers, the last one first.
+    constants: Vec<(usize, u32)>,
+}
+
+/// A node in a layout.
+#[derive(Clone, Copy)]
+struct Place {
+    /// Index of the last user: past the end for an output, `UNUSED` for a node without users, `KEPT`
+    /// for inputs and constants, whose slots are not used again.
+    last: u32,
+    /// Slot, once it has one.
+    slot: Slot,
+}
+
+impl Layout {
+    /// Finds the last uses of the nodes that some roots need.
+    fn fill(&mut self, graph: &Graph, roots: &[usize]) {
+        let nodes = graph.nodes.len();
+        let end = roots.iter().filter(|root| **root < nodes).max().map_or(0, |last| last + 1);
+        let Self { places, used, constants } = self;
+        places.clear();
+        places.resize(end, Place { last: UNUSED, slot: 0 });
+        used.clear();
+        constants.clear();
+        for root in roots.iter().filter(|root| **root < nodes) {
+            places[*root].last = end as u32;
         }
-        let mut read = |argument: super::NodeId| {
-            let entry = &mut last[argument.0 as usize];
-            if *entry == UNUSED {
-                *entry = index as u32;
-            }
-        };
-        match graph.nodes[index] {
-            Node::Constant(constant) => {
-                last[index] = KEPT;
-                constants.push((index, constant));
+        for index in (0..end).rev() {
+            if places[index].last == UNUSED {
                 continue;
             }
-            Node::Input(_) => last[index] = KEPT,
-            Node::Unary(_, a) | Node::Power(a, _) => read(a),
-            Node::Binary(_, a, b) => {
-                read(a);
-                read(b);
+            let mut read = |argument: super::NodeId| {
+                let last = &mut places[argument.0 as usize].last;
+                if *last == UNUSED {
+                    *last = index as u32;
+                }
+            };
+            match graph.nodes[index] {
+                Node::Constant(constant) => {
+                    places[index].last = KEPT;
+                    constants.push((index, constant));
+                    continue;
+                }
+                Node::Input(_) => places[index].last = KEPT,
+                Node::Unary(_, a) | Node::Power(a, _) => read(a),
+                Node::Binary(_, a, b) => {
+                    read(a);
+                    read(b);
+                }
             }
+            used.push(index as u32);
         }
-        used.push(index as u32);
     }
-    (last, used, constants)
 }
 
 struct Slots {
@@ -214,5 +254,35 @@ impl Slots {
             self.next += 1;
             self.next - 1
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::record;
+    use super::*;
+
+    #[test]
+    fn a_layout_leaves_nothing_for_the_next_one() {
+        let graph = |count: usize| {
+            let build = |x: &[Expr]| {
+                let mut values = vec![x[0], x[1]];
+                for k in 2..count {
+                    let next = values[k - 1] * values[k - 2] + values[k / 2];
+                    values.push(next * Expr::from(k as f64));
+                }
+                values
+            };
+            record(2, build).expect("records")
+        };
+        let all = [40, 7, 200, 3, 90].map(graph);
+        for (graph, values) in &all {
+            for outputs in [&values[values.len() - 1..], &values[1..2], values] {
+                let own = format!("{:?}", Tape::new(graph, outputs));
+                let lay_out = || format!("{:?}", Tape::new(graph, outputs));
+                let alone = std::thread::scope(|scope| scope.spawn(lay_out).join());
+                assert_eq!(own, alone.expect("a thread of its own"));
+            }
+        }
     }
 }

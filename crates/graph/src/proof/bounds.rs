@@ -8,7 +8,7 @@
 //!
 //! docs/soundness.md, "Degrees".
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use crate::graph::{Graph, Step};
 use crate::number::{BinaryOperation, UnaryFunction};
@@ -35,6 +35,8 @@ pub struct Bound {
 
 /// Number of the list without factors.
 const NONE: u32 = 0;
+/// Number of lists for which there is room from the beginning.
+const USUAL: usize = 256;
 
 /// Degree and height of a factor.
 #[derive(Clone, Copy, Debug)]
@@ -59,12 +61,12 @@ struct FactorLists {
     entries: Vec<(u32, f64)>,
     /// Begin and end of each list.
     ranges: Vec<[usize; 2]>,
-    /// Lists combined so far: values of one formula mostly have the same few lists.
-    combined: FxHashMap<(u64, Combination), u32>,
+    /// Lists combined so far, by both and the rule: values of one formula mostly have the same few lists.
+    combined: FxHashMap<u64, u32>,
 }
 
 /// Rule by which the exponents of two lists are combined.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Combination {
     /// Those of a product: added.
     Sum,
@@ -79,7 +81,7 @@ impl Bounds {
             bounds: Vec::with_capacity(reached.len()),
             factors: Vec::new(),
             lists: FactorLists::new(),
-            weights: Vec::new(),
+            weights: Vec::with_capacity(USUAL),
             numerator_of: FxHashMap::default(),
         };
         for (place, step) in graph.steps().enumerate() {
@@ -229,8 +231,10 @@ fn added(a: f64, b: f64) -> f64 {
 impl FactorLists {
     /// Makes the list without factors.
     fn new() -> Self {
-        let combined = FxHashMap::default();
-        Self { entries: Vec::new(), ranges: vec![[0; 2]], combined }
+        let mut ranges = Vec::with_capacity(USUAL);
+        ranges.push([0; 2]);
+        let combined = FxHashMap::with_capacity_and_hasher(USUAL, FxBuildHasher);
+        Self { entries: Vec::with_capacity(8 * USUAL), ranges, combined }
     }
 
     /// Returns a list.
@@ -257,8 +261,8 @@ impl FactorLists {
 
     /// Combines exponents factor by factor; an absent factor has exponent 0.
     fn combine(&mut self, x: u32, y: u32, how: Combination) -> u32 {
-        // Both ways of combining are symmetric.
-        let key = (u64::from(x.min(y)) << 32 | u64::from(x.max(y)), how);
+        // Both ways of combining are symmetric; a graph has fewer than 2^31 lists.
+        let key = u64::from(x.min(y)) << 33 | u64::from(x.max(y)) << 1 | how as u64;
         if let Some(list) = self.combined.get(&key) {
             return *list;
         }

@@ -1,7 +1,5 @@
 //! The search through all cells: rewriting, division and testing.
 
-use rustc_hash::FxHashMap;
-
 use crate::graph::{Expr, Fault, Graph, Step, literally};
 use crate::number::UnaryFunction;
 
@@ -301,11 +299,11 @@ impl Explorer<'_> {
         let reached = graph.reached(outputs.iter().copied());
         let replayed = |inputs: &[Expr], at: &dyn Fn(Expr) -> Option<Expr>| {
             let inputs = with_signs(inputs, cell.fixed.iter().copied());
-            let mut made = FxHashMap::default();
+            let mut made = vec![None; graph.len()];
             for (place, value) in special.iter().zip(&cell.values) {
-                made.insert(*place, at(algebraic.values[cell.graph.place(*value)]?)?);
+                made[*place] = Some(at(algebraic.values[cell.graph.place(*value)]?)?);
             }
-            let values = graph.repeated_with(&reached, &inputs, |place| made.get(&place).copied());
+            let values = graph.repeated_with(&reached, &inputs, |place| made[place]);
             outputs.iter().map(|output| values[graph.place(*output)]).collect::<Option<Vec<Expr>>>()
         };
         let Some((extended, made)) = algebraic.with(replayed)? else {

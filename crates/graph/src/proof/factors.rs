@@ -15,17 +15,28 @@ fn numerator(graph: &Graph, value: Expr, with_quotients: bool) -> Option<Polynom
     if with_quotients { Some(read.above) } else { read.polynomial() }
 }
 
+/// Whether a value contains a divisor.
+fn is_quotient(graph: &Graph, value: Expr) -> bool {
+    let is_divided = |step: Step<'_>| match step {
+        Step::Unary(UnaryFunction::Recip, _) => true,
+        Step::Power(_, exponent) => exponent.is_negative(),
+        _ => false,
+    };
+    graph.steps().zip(graph.reached([value])).any(|(step, reached)| reached && is_divided(step))
+}
+
 /// Factors of a value, as polynomials in the inputs.
 pub struct Factors(Vec<Polynomial>);
 
 impl Factors {
     /// Finds factors of which one is 0 wherever the value, a quotient of polynomials, is 0; `None` if it
-    /// does not fall apart.
+    /// is a polynomial that does not fall apart.
     pub fn of(graph: &Graph, value: Expr) -> Option<Self> {
         let whole = numerator(graph, value, true)?;
         let factors = whole.factors();
         let is_whole = factors.first() == whole.monic().as_ref();
-        (factors.len() > 1 || factors.len() == 1 && !is_whole).then_some(Self(factors))
+        let is_simpler = !is_whole || is_quotient(graph, value);
+        (factors.len() > 1 || factors.len() == 1 && is_simpler).then_some(Self(factors))
     }
 
     /// Number of factors.

@@ -61,7 +61,10 @@ impl RequiredRoots {
 /// Computes Jacobi's symbol of an integer over an odd number.
 fn jacobi(integer: &Rational, odd: u64) -> i32 {
     let remainder = match integer.to_integer() {
-        Some(small) => i128::from(small).rem_euclid(i128::from(odd)) as u64,
+        Some(small) => match small.unsigned_abs() % odd {
+            rest if rest != 0 && small < 0 => odd - rest,
+            rest => rest,
+        },
         None => integer.parts().0.mod_floor(&BigInt::from(odd)).to_u64().unwrap_or(0),
     };
     let (mut a, mut n) = (remainder, odd);
@@ -82,6 +85,54 @@ fn jacobi(integer: &Rational, odd: u64) -> i32 {
 
 /// Number of odd primes modulo which residues of random primes are chosen: up to 23.
 const CHOSEN: usize = 8;
+/// Product of these and 8.
+const STEP: u64 = step();
+/// For each of them, and at last for 8, a number with the residue 1 modulo it, and 0 modulo the others.
+const UNITS: [u64; CHOSEN + 1] = units();
+/// Squares other than 0 modulo the small primes, as bits.
+const SQUARES: [u64; SMALL_PRIMES.len()] = squares();
+
+const fn step() -> u64 {
+    let (mut step, mut k) = (8, 1);
+    while k <= CHOSEN {
+        step *= SMALL_PRIMES[k];
+        k += 1;
+    }
+    step
+}
+
+const fn units() -> [u64; CHOSEN + 1] {
+    let (mut units, mut k) = ([0; CHOSEN + 1], 0);
+    while k <= CHOSEN {
+        let own = if k == CHOSEN { 8 } else { SMALL_PRIMES[k + 1] };
+        units[k] = STEP / own;
+        while units[k] % own != 1 {
+            units[k] += STEP / own;
+        }
+        k += 1;
+    }
+    units
+}
+
+const fn squares() -> [u64; SMALL_PRIMES.len()] {
+    let (mut squares, mut k) = ([0; SMALL_PRIMES.len()], 0);
+    while k < squares.len() {
+        let mut root = 1;
+        while root < SMALL_PRIMES[k] {
+            squares[k] |= 1 << (root * root % SMALL_PRIMES[k]);
+            root += 1;
+        }
+        k += 1;
+    }
+    squares
+}
+
+/// Whether Jacobi's symbol (q/n) of an odd small prime q, by its index, is 1 for an n = 3 mod 4 with this
+/// residue modulo q: it is (n/q), with the other sign if q = 3 mod 4.
+const fn is_root_of(index: usize, residue: u64) -> bool {
+    let is_square = SQUARES[index] >> residue & 1 == 1;
+    residue != 0 && is_square == (SMALL_PRIMES[index] % 4 == 1)
+}
 /// Lower bound of the random primes.
 const LEAST: u64 = 1 << 60;
 
@@ -138,37 +189,32 @@ impl ProofRng {
             return self.prime(&[3, 5], &[2, 3]);
         }
         // The residues modulo 8 and the first odd primes are chosen, those of the others are tested.
-        let (chosen, tested) = SMALL_PRIMES[1..].split_at(CHOSEN);
-        let step = 8 * chosen.iter().product::<u64>();
-        let tested: Vec<Rational> = tested.iter().map(|q| Rational::from(*q as i64)).collect();
         loop {
-            let mut residue = 7;
-            let mut modulus = 8;
-            for q in chosen {
-                let own = self.residue(*q);
-                while residue % q != own {
-                    residue += modulus;
-                }
-                modulus *= q;
+            let mut residue = 7 * UNITS[CHOSEN];
+            for (index, unit) in UNITS[..CHOSEN].iter().enumerate() {
+                residue += self.residue(index + 1) * unit;
             }
             let candidate =
-                LEAST - LEAST % step + residue + step * (self.0.next_u64() % (LEAST / step));
+                LEAST - LEAST % STEP + residue % STEP + STEP * (self.0.next_u64() % (LEAST / STEP));
+            let is_root = |index: usize| is_root_of(index, candidate % SMALL_PRIMES[index]);
             let has_root = |n: &Rational| jacobi(n, candidate) == 1;
-            let all = tested.iter().chain(numbers);
-            if candidate >= LEAST && all.into_iter().all(has_root) && is_prime(candidate) {
+            if candidate >= LEAST
+                && (CHOSEN + 1..SMALL_PRIMES.len()).all(is_root)
+                && numbers.iter().all(has_root)
+                && is_prime(candidate)
+            {
                 return Modulus::new(candidate);
             }
         }
     }
 
-    /// Draws a residue modulo an odd prime q of the primes p = 3 mod 4 modulo which q is a square; other
-    /// than 1 for q = 5.
-    fn residue(&mut self, q: u64) -> u64 {
+    /// Draws a residue modulo an odd small prime q, by its index, of the primes p = 3 mod 4 modulo which q is
+    /// a square; other than 1 for q = 5.
+    fn residue(&mut self, index: usize) -> u64 {
+        let q = SMALL_PRIMES[index];
         loop {
             let residue = 1 + self.0.next_u64() % (q - 1);
-            // (q/p) = (p/q), with the other sign if q = 3 mod 4.
-            let symbol = if q % 4 == 3 { -1 } else { 1 };
-            if jacobi(&Rational::from(residue as i64), q) == symbol && (q, residue) != (5, 1) {
+            if is_root_of(index, residue) && (q, residue) != (5, 1) {
                 return residue;
             }
         }
@@ -193,6 +239,23 @@ impl ProofRng {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn symbols_of_small_primes_are_those_of_jacobi() {
+        for n in (3..20_000u64).step_by(4) {
+            for (index, q) in SMALL_PRIMES.into_iter().enumerate().skip(1) {
+                let symbol = jacobi(&Rational::from(q as i64), n);
+                assert_eq!(is_root_of(index, n % q), symbol == 1, "({q}/{n})");
+            }
+        }
+        for (k, unit) in UNITS.into_iter().enumerate() {
+            for (own, q) in SMALL_PRIMES[1..=CHOSEN].iter().chain([&8]).enumerate() {
+                assert_eq!(unit % q, u64::from(own == k), "{unit} modulo {q}");
+            }
+        }
+        assert_eq!(jacobi(&Rational::from(-3), 7), 1, "4 = 2²");
+        assert_eq!(jacobi(&Rational::from(-14), 7), 0);
+    }
 
     #[test]
     fn primes_are_as_asked() {

@@ -20,7 +20,9 @@ mod search;
 #[cfg(test)]
 mod tests;
 
-pub use search::{is_missing, is_nowhere_zero, is_seen_nowhere_zero, narrowed, point, sign};
+pub use search::{
+    MOST_PIECES, is_missing, is_nowhere_zero, is_seen_nowhere_zero, narrowed, point, sign,
+};
 
 use crate::graph::Graph;
 

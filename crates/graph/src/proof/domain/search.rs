@@ -11,7 +11,7 @@ use crate::proof::rewrite::conditions;
 use super::{KnownSign, Region};
 
 /// Largest number of parts of the box used to show that a value does not vanish.
-const MOST_PIECES: usize = 1 << 12;
+pub const MOST_PIECES: usize = 1 << 12;
 /// Largest number of parts of a box that are searched for a point.
 const MOST_BOXES: usize = 1 << 12;
 

@@ -11,10 +11,15 @@ use crate::graph::{Expr, Fault, Graph, Need, literally, record};
 use crate::number::UnaryFunction;
 
 use super::cells::Leaf;
+use super::domain::MOST_PIECES;
 use super::evident::is_never_negative;
 use super::trial::TrialResult;
-use super::{Group, GroupOutcome, Prover, QuestionData, buckets::buckets, is_nowhere_zero, sign};
+use super::{
+    Group, GroupOutcome, Prover, QuestionData, buckets::buckets, is_seen_nowhere_zero, sign,
+};
 
+/// Number of pieces of the ranges in which a value is first seen not to vanish.
+const FEW_PIECES: usize = 64;
 /// Largest number of known arguments with which one is compared.
 const MOST_OTHERS: usize = 16;
 
@@ -120,12 +125,24 @@ impl Prover<'_> {
         group: &Group,
         value: Expr,
     ) -> Result<bool, Fault> {
+        // Many pieces of the ranges take the longest.
+        let is_seen = |pieces: usize| {
+            is_seen_nowhere_zero(question.graph, self.extents, &group.facts, &[value], pieces)
+        };
+        Ok(is_seen(FEW_PIECES)
+            || self.is_almost_nowhere_zero(question.graph, value)?
+            || self.is_nonzero_on_cells(question, group, value)?
+            || is_seen(MOST_PIECES))
+    }
+
+    /// Whether a value is proved not to be identically zero on the cells where the required values exist.
+    fn is_nonzero_on_cells(
+        &self,
+        question: &QuestionData<'_>,
+        group: &Group,
+        value: Expr,
+    ) -> Result<bool, Fault> {
         let graph = question.graph;
-        if is_nowhere_zero(graph, self.extents, &group.facts, &[value])
-            || self.is_almost_nowhere_zero(graph, value)?
-        {
-            return Ok(true);
-        }
         let alone = Group { outputs: vec![value], presence: Vec::new(), ..group.clone() };
         let wide = Group { outputs: [&[value], &group.required[..]].concat(), ..alone.clone() };
         let Some(bucket) = buckets(graph, &[wide], &question.sources).pop() else {
