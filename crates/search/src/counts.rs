@@ -10,6 +10,7 @@ use super::budget::STEPS;
 use super::continued::named;
 use super::jets::{DimensionCount, MotionAtPoint, VelocityPolynomials};
 use super::local::{Coordinates, Local};
+use super::lowest::lowest;
 use super::origin::{RemarkOrigin, TheoremOrigin};
 use super::products::Generators;
 use super::{Effort, Excluded, SearchError, SearchReport};
@@ -289,8 +290,19 @@ pub fn conclude(
     if report.counts.is_empty() {
         return Ok(());
     }
-    let all = Generators::all(case, effort, report)?;
+    let mut all = Generators::all(case, effort, report)?;
     // A rank is that for one of the listed values.
+    if !has_lists(case)
+        && let Some(low) = lowest(case, effort, report)?
+    {
+        let own = report.counts.iter().filter(|count| !count.free);
+        let of = |of: &Generators| -> usize {
+            own.clone().map(|count| of.products(count.degree, count.mixed)).sum()
+        };
+        if of(&low) > of(&all) {
+            all = low;
+        }
+    }
     let further = match has_lists(case) {
         true => None,
         false => all.with_further(case, effort, report)?,

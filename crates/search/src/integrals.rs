@@ -7,6 +7,8 @@ use super::budget::Budget;
 use super::library;
 use super::linear::SampledFunctions;
 use super::lists::{ListedCase, combinations};
+use super::lower::{Degrees, prefer};
+use super::momenta;
 use super::origin::RemarkOrigin;
 use super::second_opinion::{self, second_opinion};
 use super::terms::{is_one, recorded, sum};
@@ -18,6 +20,9 @@ use liouville::graph::Expr;
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 use liouville::verdict::{ClaimReport, Independence, Verdict};
+
+/// Largest number of integrals that are kept although they are functions of others.
+const MOST_DEPENDENT: usize = 12;
 
 /// Searches for integrals; proved ones go into the report.
 pub fn integrals(
@@ -37,13 +42,40 @@ pub fn integrals(
             new && holds(found)
         })
         .collect();
-    // Of functions that depend on each other, the shortest is reported.
+    // Of functions that depend on each other, the shortest is reported; those linear in the velocities first.
     proved.sort_by_key(|(formula, _)| formula.text().chars().count());
-    for (formula, found) in proved {
+    let (linear, proved) = split(case, proved, effort)?;
+    for (formula, found) in linear {
         effort.halt.check()?;
         tell(case, &formula, found, effort, report)?;
     }
+    momenta::integrals(case, effort, report)?;
+    for (formula, found) in proved {
+        effort.halt.check()?;
+        tell(case, &formula, found, effort, report)?;
+        // Others may be no polynomials in those that are told.
+        let is_told = report.found.iter().any(|own| own.formula == formula.text());
+        if !is_told && report.dependent.len() < MOST_DEPENDENT {
+            report.dependent.push(formula);
+        }
+    }
     Ok(())
+}
+
+/// Proved integrals with their reports.
+type Proved = Vec<(Formula, ClaimReport)>;
+
+/// Separates the integrals of degree at most 1 in the velocities of a Lagrangian system.
+fn split(case: &Case, proved: Proved, effort: &Effort) -> Result<(Proved, Proved), SearchError> {
+    let Some(degrees) = Degrees::of(case, effort) else { return Ok((Vec::new(), proved)) };
+    let (mut linear, mut others) = (Vec::new(), Vec::new());
+    for own in proved {
+        match degrees.of_formula(&own.0)?.is_some_and(|degree| degree <= 1) {
+            true => linear.push(own),
+            false => others.push(own),
+        }
+    }
+    Ok((linear, others))
 }
 
 /// Adds an integral to the report, unless it depends on those already there.
@@ -63,7 +95,7 @@ pub fn tell(
         return Ok(());
     }
     if independent(case, &told, formula, effort)?.is_none() {
-        return Ok(());
+        return prefer(case, formula, found, effort, report);
     }
     let known = claimed_by(case, formula, effort, report)?;
     report.found.push(Found::new("integral", formula, known, found, &case.model));

@@ -4,6 +4,9 @@
 //! ```text
 //! count      number of integrals polynomial in the velocities there are, with any coefficients
 //! integrals  relations between L_vT for terms T that the system offers, at random points mod p
+//! momenta    those linear in the velocities, with any coefficients; functions of constant rate
+//! lower      integrals of lower degree in place of others
+//! cyclic     sines and cosines of cyclic angles
 //! densities  relations between div v and L_v ln f for factors f; powers of polynomials, counted
 //! verdict    each find is judged as a claim like any other
 //! orbit      relations between monomials along an orbit mod p: rational integrals of any field
@@ -19,6 +22,7 @@ mod budget;
 mod conditions;
 mod continued;
 mod counts;
+mod cyclic;
 mod densities;
 mod echelon;
 mod effort;
@@ -33,8 +37,11 @@ mod library;
 mod linear;
 mod lists;
 mod local;
+mod lower;
+mod lowest;
 mod maps;
 mod meter;
+mod momenta;
 mod multipliers;
 mod orbit;
 mod origin;
@@ -211,7 +218,7 @@ fn along_orbits(
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
     // Theorems on orbits hold for both signs of each root, and are about fields without moduli.
-    let known = report.functions("integral").count();
+    let known: Vec<String> = report.formulas("integral").map(str::to_string).collect();
     report.stage("relations along an orbit", effort, |report| {
         orbit::search(case, effort, grows, report, progress)
     })?;
@@ -219,9 +226,21 @@ fn along_orbits(
         progress("brackets and derivatives of integrals");
         orbit::close(case, effort, report)
     })?;
+    report.stage("functions of constant rate", effort, |report| {
+        momenta::rates(case, effort, report)?;
+        lower::remove_repeated(case, effort, report)
+    })?;
     let is_further = |own: &Found| own.kind == orbit::FURTHER_INTEGRAL;
-    if report.functions("integral").count() > known || report.found.iter().any(is_further) {
+    let is_same = report.formulas("integral").eq(known.iter().map(String::as_str));
+    if !is_same || report.found.iter().any(is_further) {
         counts::conclude(case, effort, report)?;
+    }
+    if let Some(effort) = cyclic::with_circles(case, effort, report)? {
+        report.stage("sines and cosines of cyclic angles", &effort, |report| {
+            orbit::search(case, &effort, false, report, progress)?;
+            orbit::close(case, &effort, report)
+        })?;
+        counts::conclude(case, &effort, report)?;
     }
     Ok(())
 }

@@ -8,6 +8,7 @@ use super::echelon::Echelon;
 use super::local::Coordinates;
 use super::local::functions::{adjoined, roles};
 use super::orbit::FURTHER_INTEGRAL;
+use super::symbols::symbolised;
 use super::{Effort, SearchReport, ask};
 use liouville::case::Case;
 use liouville::formula::Formula;
@@ -74,9 +75,14 @@ impl Generators {
         Ok((with.each.len() > self.each.len()).then_some(with))
     }
 
+    /// The same splitting of the state with other integrals.
+    pub fn replaced(self, each: Vec<(Formula, u32)>) -> Self {
+        Self { each, ..self }
+    }
+
     /// Adds an integral if its degree can be determined: that in the velocities, or in all variables of
     /// a field without a level.
-    fn add(&mut self, case: &Case, formula: &Formula, seed: u64) -> Result<(), SearchError> {
+    pub fn add(&mut self, case: &Case, formula: &Formula, seed: u64) -> Result<(), SearchError> {
         let degree = match &self.coordinates {
             Some(coordinates) => degree_in(case, formula, coordinates, seed)?,
             None if case.model.level.is_empty() => degree_in_state(case, formula, seed)?,
@@ -255,7 +261,20 @@ fn on_lines(
     let made = adjoined(&graph, &[slope], before, &roles(&draws, coordinates.positions))?;
     let (graph, slope) = match made {
         Some(own) => (own.graph, own.outputs[0]),
-        None => (graph, slope),
+        // As numbers of their own, functions of the positions give a degree that is not too low.
+        None => {
+            let reached = graph.reached([slope]);
+            let is_fixed = |place: usize| match graph.step(place) {
+                Step::Unary(UnaryFunction::Sqrt, a) => !is_moving(&a),
+                Step::Power(a, exponent) => exponent.to_integer().is_some() || !is_moving(&a),
+                step => !has_function(step),
+            };
+            let is_fixed = (0..graph.len()).filter(|k| reached[*k]).all(is_fixed);
+            match is_fixed.then(|| symbolised(&graph, &[vec![slope]])).flatten() {
+                Some((graph, outputs)) => (graph, outputs[0][0]),
+                None => (graph, slope),
+            }
+        }
     };
     // No constant of the formula can be chosen to vanish modulo the prime.
     let mut rng = SearchStream::Products.under(statement_seed(seed, &graph, &[slope]));

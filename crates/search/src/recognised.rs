@@ -8,6 +8,7 @@ use super::ansatz::system::{Column, LinearSystem, PrimePoint};
 use super::ask::{judged_alone, proved_energy};
 use super::echelon::Echelon;
 use super::local::Coordinates;
+use super::lower::Degrees;
 use super::products::degree_in;
 use super::{Effort, Found, SearchError, SearchReport};
 use liouville::case::Case;
@@ -177,9 +178,15 @@ fn exchange(
     let fixed: Vec<&Vec<u64>> = gradients[first + count..].iter().collect();
     let rank = sums.rank(&[&fixed[..], &own[..]].concat());
     let mut is_new = vec![false; count];
+    let degrees = Degrees::of(case, effort);
     for (formula, gradient) in sums.formulas.iter().zip(&gradients) {
         effort.halt.check()?;
         let size = formula.text().chars().count();
+        let degree = |own: &Formula| match &degrees {
+            Some(degrees) => degrees.of_formula(own),
+            None => Ok(None),
+        };
+        let new_degree = degree(formula)?;
         let mut order: Vec<usize> = (0..count)
             .filter(|k| !is_new[*k] && length(report, places[*k]) > size.max(SHORT))
             .filter(|k| {
@@ -188,7 +195,14 @@ fn exchange(
             })
             .collect();
         order.sort_by_key(|k| std::cmp::Reverse(length(report, places[*k])));
-        let takes_place = order.into_iter().find(|k| {
+        // One of lower degree in the velocities says more.
+        let mut kept = Vec::new();
+        for k in order {
+            if degree(&others[k])?.is_none_or(|own| new_degree.is_none_or(|new| new <= own)) {
+                kept.push(k);
+            }
+        }
+        let takes_place = kept.into_iter().find(|k| {
             let mut changed = own.clone();
             changed[*k] = gradient;
             let all = [&fixed[..], &changed[..]].concat();

@@ -6,6 +6,7 @@
 
 use super::super::echelon::Echelon;
 use super::super::local::{random, sign};
+use super::super::symbols::symbolised;
 use super::super::terms::recorded;
 use super::super::{Effort, Halt, SearchError};
 use super::Coordinates;
@@ -89,6 +90,25 @@ impl LinearSystem {
         effort: &Effort,
         make: impl FnOnce(&DualPoint<'_, Expr>, &mut Recording),
     ) -> Result<Self, SearchError> {
+        Self::recorded(case, effort, false, make)
+    }
+
+    /// Records as [`record`](Self::record) does, with numbers in place of functions that have no values
+    /// modulo a prime.
+    pub fn record_with_symbols(
+        case: &Case,
+        effort: &Effort,
+        make: impl FnOnce(&DualPoint<'_, Expr>, &mut Recording),
+    ) -> Result<Self, SearchError> {
+        Self::recorded(case, effort, true, make)
+    }
+
+    fn recorded(
+        case: &Case,
+        effort: &Effort,
+        has_symbols: bool,
+        make: impl FnOnce(&DualPoint<'_, Expr>, &mut Recording),
+    ) -> Result<Self, SearchError> {
         let seed = effort.options.seed;
         let Coordinates { names, radicands } = Coordinates::of(case)?;
         let (graph, (recording, own)) = recorded(case, |jet| {
@@ -105,6 +125,10 @@ impl LinearSystem {
         }
         let fixed = vec![None; sampler.recipes().len()];
         let (graph, outputs) = sampler.compose(&graph, &[recording.outputs], &fixed)?;
+        let (graph, outputs) = match has_symbols.then(|| symbolised(&graph, &outputs)).flatten() {
+            Some(made) => made,
+            None => (graph, outputs),
+        };
         let outputs = outputs.concat();
         // No constant of the system can be chosen to vanish modulo a prime.
         let seed = statement_seed(seed, &graph, &outputs);

@@ -12,13 +12,14 @@ use num_bigint::BigInt;
 use num_traits::Zero;
 
 use super::super::SearchError;
-use super::super::ansatz::coefficients::Ratio;
+use super::super::ansatz::coefficients::{Polynomial, Ratio};
 use super::super::ansatz::monomials::power_product;
 use super::super::ansatz::system::PrimePoint;
 use super::super::terms::{combined, is_one, primitive, recorded};
 use super::factor::RatedPolynomial;
 use super::images::{self, Images, ParametricVector};
 use super::setting::{OrbitSetting, PrimePhasePoint, run};
+use super::squares::{self, SquareFraction};
 
 /// Number of choices of the parameters tried until √D exists.
 const TRIES: u64 = 16;
@@ -34,13 +35,35 @@ pub enum AngleForm {
     Hyperbolic,
 }
 
+/// The square D of a root.
+#[derive(Clone)]
+pub struct SquareOfRoot {
+    formula: Formula,
+    /// −D
+    opposite: Formula,
+    /// Value, if it is a number.
+    number: Option<Rational>,
+}
+
+impl SquareOfRoot {
+    /// Reads D.
+    pub fn of(formula: Formula) -> Self {
+        let number = formula.constant();
+        let opposite = match &number {
+            Some(number) => Formula::number(-number),
+            None => -&formula,
+        };
+        Self { formula, opposite, number }
+    }
+}
+
 /// A pair of conjugate polynomials g ± √D h.
 #[derive(Clone)]
 pub struct ConjugatePair {
     even: RatedPolynomial,
     odd: RatedPolynomial,
-    /// D, and its value if it is a number.
-    square: (Formula, Option<Rational>),
+    /// D
+    square: SquareOfRoot,
     tape: Tape,
 }
 
@@ -91,14 +114,14 @@ impl ConjugatePair {
         Self::rated(setting, [&even, &odd], square, degree)
     }
 
-    /// The pair g ± √D h with its rates; `square` is D, and its value if it is a number.
+    /// The pair g ± √D h with its rates; `square` is D.
     pub fn rated(
         setting: &OrbitSetting<'_>,
         [even, odd]: [&Formula; 2],
-        square: (Formula, Option<Rational>),
+        square: SquareOfRoot,
         degree: u32,
     ) -> Result<Option<Self>, SearchError> {
-        let (graph, value) = recorded(setting.case, |jet| jet.phase.scalar(&square.0))?;
+        let (graph, value) = recorded(setting.case, |jet| jet.phase.scalar(&square.formula))?;
         let tape = Tape::new(&graph, &[value]);
         let (Some(even), Some(odd)) = (
             RatedPolynomial::of(setting, even, degree)?,
@@ -149,7 +172,7 @@ impl ConjugatePair {
     }
 
     fn root(&self, form: AngleForm) -> Result<Option<Formula>, FormulaError> {
-        let (formula, number) = &self.square;
+        let SquareOfRoot { formula, opposite, number } = &self.square;
         let own = match (number, form) {
             (Some(number), _) => {
                 let own = if form == AngleForm::Circular { -number } else { number.clone() };
@@ -161,15 +184,15 @@ impl ConjugatePair {
                 }
                 Formula::number(own)
             }
-            (None, AngleForm::Circular) => -formula,
+            (None, AngleForm::Circular) => opposite.clone(),
             (None, AngleForm::Hyperbolic) => formula.clone(),
         };
         Formula::call("sqrt", &[&own]).map(Some)
     }
 }
 
-/// g, h and D, and D as a number.
-type Parts = Option<(Formula, Formula, (Formula, Option<Rational>))>;
+/// g, h and D.
+type Parts = Option<(Formula, Formula, SquareOfRoot)>;
 
 /// Writes a pair with numbers as coefficients, those of g, of h, and D; D becomes a whole number
 /// without small square factors.
@@ -187,22 +210,46 @@ fn of_numbers(numbers: &[Rational], monomials: &[Formula]) -> Result<Parts, Form
     let (even, odd) = multiples.split_at(even.len() + 1);
     let (even, odd) = (combined(even, monomials)?, combined(odd, monomials)?);
     let rest = Rational::from_parts(rest, BigInt::from(1));
-    let square = (Formula::number(rest.clone()), Some(rest));
+    let square = SquareOfRoot::of(Formula::number(rest));
     Ok(even.zip(odd).map(|(even, odd)| (even, odd, square)))
 }
 
-/// Writes a pair with coefficients that are functions of the parameters.
+/// Writes a pair with coefficients that are functions of the parameters; where D is the square of such a
+/// function, up to a number, this number is in its place.
 fn of_functions(vector: &ParametricVector, monomials: &[Formula]) -> Result<Parts, FormulaError> {
     let count = monomials.len() - 1;
-    let terms: Vec<Ratio> = monomials.iter().cloned().map(Ratio::of).collect();
+    let all = &vector.coefficients.polynomials;
     // The common denominator, at the end, belongs to the last monomial.
-    let of_even: Vec<usize> = (0..count).chain([2 * count + 1]).collect();
-    let even = vector.coefficients.sum(&of_even, &terms)?;
-    let odd = vector.coefficients.sum(&(count..2 * count).collect::<Vec<_>>(), &terms[..count])?;
-    let square = vector.exponent(2 * count)?;
-    // A number may be too large to be an entry.
-    let number = vector.number(2 * count).or_else(|| square.constant());
-    let square = (square, number);
+    let even: Vec<&Polynomial> = all[..count].iter().chain([&all[2 * count + 1]]).collect();
+    let odd: Vec<&Polynomial> = all[count..2 * count].iter().collect();
+    let [above, below] = squares::reduced(&all[2 * count], &all[2 * count + 1]);
+    let Some(SquareFraction { numbers: [n, d], roots: [upper, lower], rest: [p, q] }) =
+        squares::square_fraction(&above, &below)
+    else {
+        return Ok(None);
+    };
+    // √(n/d) = k √s/d with n d = k² s
+    let (root, rest) = without_squares(&n * &d);
+    let even = even.into_iter().map(|own| squares::multiple(&squares::times(own, &lower), &d));
+    let odd = odd.into_iter().map(|own| squares::multiple(&squares::times(own, &upper), &root));
+    let mut made = vector.coefficients.clone();
+    made.polynomials =
+        squares::without_common(even.chain(odd).collect(), &[upper, lower, q.clone()]);
+    let terms: Vec<Ratio> = monomials.iter().cloned().map(Ratio::of).collect();
+    let even = made.sum(&(0..=count).collect::<Vec<_>>(), &terms)?;
+    let odd = made.sum(&(count + 1..2 * count + 1).collect::<Vec<_>>(), &terms[..count])?;
+    let number = Some(Rational::from_parts(rest.clone(), BigInt::from(1)));
+    let is_number = squares::is_one(&p) && squares::is_one(&q);
+    made.polynomials = vec![squares::multiple(&p, &rest), squares::multiple(&p, &-rest), q];
+    let fraction = |place: usize| -> Result<Formula, FormulaError> {
+        let (above, below) = (made.formula(place)?, made.formula(2)?);
+        if is_one(&below) { Ok(above) } else { above / &below }
+    };
+    let square = SquareOfRoot {
+        formula: fraction(0)?,
+        opposite: fraction(1)?,
+        number: number.filter(|_| is_number),
+    };
     Ok(even.zip(odd).map(|(even, odd)| (even, odd, square)))
 }
 

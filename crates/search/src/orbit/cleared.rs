@@ -220,6 +220,11 @@ impl ClearedField {
     }
 }
 
+/// Factors of the denominators of a field of fractions that vary with the state, with their degrees.
+pub fn denominators(case: &Case) -> Result<Vec<(Formula, u32)>, SearchError> {
+    Ok(ClearedField::of(case)?.map(|own| own.factors).unwrap_or_default())
+}
+
 /// Names of the inputs of a recording: components of the free parameters, and of the state.
 pub fn input_names(case: &Case) -> Vec<String> {
     let model = &case.model;

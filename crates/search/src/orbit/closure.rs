@@ -187,7 +187,8 @@ impl Closure<'_, '_> {
         let (most_degree, most_terms) = candidate.most;
         let is_component = degree <= most_degree
             && terms <= (2 * most_terms).min(MOST_TERMS[1])
-            && self.algebra.is_of_field(&candidate.polynomial);
+            && (self.algebra.is_of_field(&candidate.polynomial)
+                || !self.setting.effort.terms.is_empty());
         if !is_independent && !is_component {
             return Ok(false);
         }
@@ -215,6 +216,9 @@ impl Closure<'_, '_> {
         let Some(formula) = claims::written_integral(self.setting, formula) else {
             return Ok(false);
         };
+        if report.found.iter().any(|own| own.formula == formula.text()) {
+            return Ok(false);
+        }
         let statement = OrbitStatement::Integral(formula.clone());
         let Some(found) = claims::judged_here(self.setting, &statement)? else { return Ok(false) };
         let case = claims::judged_case(self.setting);

@@ -27,7 +27,7 @@ pub fn search(
     let has_orbits = !report.orbits.is_empty();
     for found in &own.found {
         effort.halt.check()?;
-        take(case, &field, found, effort, report)?;
+        take(case, &|text| field.back(text), found, effort, report)?;
     }
     if field.is_whole && !has_orbits {
         report.orbits.extend(own.orbits);
@@ -40,15 +40,16 @@ pub fn search(
     Ok(())
 }
 
-/// Judges a find as a claim about the case, and adds it to the report if it is proved.
-fn take(
+/// Judges a find of another field, whose formulas `back` writes in the names of the case, as a claim about the
+/// case, and adds it to the report if it is proved.
+pub fn take(
     case: &Case,
-    field: &ExplicitField,
+    back: &dyn Fn(&str) -> String,
     found: &Found,
     effort: &Effort,
     report: &mut SearchReport,
 ) -> Result<(), SearchError> {
-    let read = |text: &str| case.formula(&field.back(text)).ok();
+    let read = |text: &str| case.formula(&back(text)).ok();
     let Some(formula) = found.function.as_ref().and_then(|own| read(own.text())) else {
         return Ok(());
     };
@@ -74,7 +75,7 @@ fn take(
     if found.kind == "integral" {
         return tell(case, &formula, judged, effort, report);
     }
-    let with = found.with.iter().map(|(what, own)| (*what, field.back(own))).collect();
+    let with = found.with.iter().map(|(what, own)| (*what, back(own))).collect();
     report
         .found
         .push(Found { with, ..Found::new(found.kind, &formula, None, judged, &case.model) });

@@ -171,7 +171,8 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         let variables = self.variables.len();
         let most = self.setting.origin.map_or(variables, |own| own.case.model.dimension());
         let has_density = report.formulas("density").next().is_some();
-        if has_density && known.within(self.variables) + 1 >= most {
+        let has_rate = report.found.iter().any(|own| own.kind == CONSTANT_RATE);
+        if has_density && has_rate && known.within(self.variables) + 1 >= most {
             return Ok(());
         }
         let own = quotients::terms(self.setting, self.variables, self.factors);

@@ -25,10 +25,12 @@
 //! logarithms   integrals of maps by monomials
 //! exponents    densities, and integrals with powers, logarithms and exponentials, from cofactors
 //! quotients    fractions over powers of factors in these exponents
+//! squares      polynomials in the parameters without common factors, and their roots
 //! magnitude    f or |f| under a logarithm
 //! weighted     integrals of fields in the plane that are multiples of a density
 //! adjoin       functions of the state as further variables
 //! explicit     all of these for Lagrangian systems that are solved for their accelerations
+//! subfield     all of these for the variables whose rates do without functions
 //! rounds       all parts of a field, within growing limits
 //! part         all of these in the variables of a part of the field
 //! closure      brackets of integrals, and their derivatives along symmetry fields
@@ -82,6 +84,8 @@ mod separate;
 mod setting;
 mod shared;
 mod sparse;
+mod squares;
+mod subfield;
 mod tangents;
 mod taylor;
 mod turned;
@@ -98,11 +102,15 @@ use liouville::verdict::Verdict;
 
 pub use self::adjoin::{root_steps, roots};
 pub use self::closure::{FURTHER_INTEGRAL, close};
+pub use self::darboux::KIND as DARBOUX;
+pub use self::exponents::CONSTANT_RATE;
+pub use self::images::coefficients;
 use self::known::IndependentIntegrals;
 use self::limits::{EXTENDED, FURTHER, MODEST, RoundLimits};
 use self::line::degree_of_field;
 use self::part::VariableSet;
 use self::setting::OrbitSetting;
+pub use self::sparse::sparse as with_few_entries;
 use super::ask::proved_energy;
 use super::{Effort, SearchError, SearchReport, branches};
 
@@ -198,6 +206,9 @@ fn along(
     }
     if !is_field && !is_extended {
         return Ok(());
+    }
+    if is_extended && !is_done(report) {
+        subfield::search(case, effort, further, report, progress)?;
     }
     if is_extended {
         let known = found(case, effort, report)?;

@@ -12,11 +12,12 @@ use liouville::number::{BinaryOperation, UnaryFunction};
 use super::super::terms::{is_one, recorded};
 use super::super::{SearchError, SearchReport};
 use super::claims::{self, OrbitStatement};
-use super::cleared::input_names;
+use super::cleared::{denominators, input_names};
 use super::exponents::ExponentSystem;
 use super::factor::RatedPolynomial;
 use super::known::IndependentIntegrals;
 use super::setting::OrbitSetting;
+use super::unbound;
 
 /// Kind of these finds.
 const KIND: &str = "darboux-polynomial";
@@ -69,8 +70,46 @@ pub fn search(
             factors.extend(RatedPolynomial::of(setting, function, 1)?);
         }
     }
+    for (denominator, degree) in denominators(setting.case)? {
+        factors.extend(RatedPolynomial::of(setting, &denominator, degree)?);
+    }
     let all: Vec<usize> = (0..setting.dimension()).collect();
     ExponentSystem::of(setting, &all, &factors, &[])?.search(known, report)
+}
+
+/// Adds to the factors of an extended case what [`of_extension`] lists.
+pub fn extend(
+    setting: &OrbitSetting<'_>,
+    factors: &mut Vec<RatedPolynomial>,
+) -> Result<(), SearchError> {
+    for formula in of_extension(setting)? {
+        if factors.iter().all(|own| own.formula.text() != formula.text()) {
+            let rated = RatedPolynomial::of(setting, &formula, 1)?;
+            factors.extend(rated.filter(|own| unbound::changes(setting, own)));
+        }
+    }
+    Ok(())
+}
+
+/// Variables of an extended case that divide their own rates, and 1 ± s for the partner s of one on a circle.
+fn of_extension(setting: &OrbitSetting<'_>) -> Result<Vec<Formula>, SearchError> {
+    let Some(origin) = setting.origin else { return Ok(Vec::new()) };
+    let (graph, rates) = recorded(setting.case, |jet| jet.phase.field().to_vec())?;
+    let first = setting.case.model.free_components();
+    let mut found = Vec::new();
+    for (k, name) in setting.terms.iter().enumerate() {
+        let place = graph.place(rates[k]);
+        let is_constant = graph.constant_value(rates[k]).is_some();
+        if is_constant || origin.extension.has_inverse(name) || !divides(&graph, place, first + k) {
+            continue;
+        }
+        found.push(name.clone());
+        if let Some(partner) = origin.extension.partner(name) {
+            let one = Formula::number(1);
+            found.extend([(&one + &partner)?.bracketed(), (&one - &partner)?.bracketed()]);
+        }
+    }
+    Ok(found)
 }
 
 /// Whether a step is seen to be a multiple of an input, by its operations.

@@ -2,7 +2,7 @@
 
 use super::super::origin::TheoremOrigin;
 use super::super::{Excluded, SearchError, SearchReport};
-use super::angle::ConjugatePair;
+use super::angle::{ConjugatePair, SquareOfRoot};
 use super::darboux::DarbouxSearch as Darboux;
 use super::exponents::ExponentSystem;
 use super::factor::RatedPolynomial;
@@ -11,8 +11,8 @@ use super::known::IndependentIntegrals;
 use super::rational::RationalSearch;
 use super::setting::{ExtendedCase, OrbitSetting};
 use super::{
-    OrbitReport, RoundLimits, fractions, map_integrals, monomials, no_others, polynomials,
-    relations, unbound, weighted,
+    OrbitReport, RoundLimits, fractions, map_integrals, monomials, no_others, own_factors,
+    polynomials, relations, unbound, weighted,
 };
 use liouville::formula::Formula;
 
@@ -114,10 +114,12 @@ impl VariableSet {
                     self.is_unbound = true;
                     unbound::search(setting, limits, &mut self.factors, report, progress)?;
                 }
+                // After the others: a density without velocities comes first, and they have the exponent 1.
+                own_factors::extend(setting, &mut self.factors)?;
                 self.combined =
                     combine(setting, variables, &self.factors, self.combined, known, report)?;
                 for [even, odd, square] in &origin.extension.circles {
-                    let square = (square.clone(), square.constant());
+                    let square = SquareOfRoot::of(square.clone());
                     let pair = ConjugatePair::rated(setting, [even, odd], square, 1)?;
                     let is_new =
                         |pair: &ConjugatePair| !self.pairs.iter().any(|own| own.is_same(pair));

@@ -138,7 +138,7 @@ fn found_before(
 }
 
 /// Whether a polynomial is not 0 on the level, and no integral there.
-fn changes(setting: &OrbitSetting<'_>, rated: &RatedPolynomial) -> bool {
+pub fn changes(setting: &OrbitSetting<'_>, rated: &RatedPolynomial) -> bool {
     let Some(at) = setting.at(0, 0) else { return false };
     let values = (0..POINTS).filter_map(|number| rated.at(&at, &setting.point(&at, number)?));
     values.into_iter().any(|(value, rate)| value != 0 && rate != 0)

@@ -9,6 +9,7 @@ mod exponentials;
 mod factors;
 mod functions;
 mod irrational;
+mod low_degree;
 mod maps;
 mod parameters;
 mod rates;

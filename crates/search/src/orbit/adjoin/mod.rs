@@ -193,6 +193,17 @@ impl Extension {
         self.inverses.iter().any(|name| formula.uses(name))
     }
 
+    /// Sine of the argument of a cosine by its name, or the other way round.
+    pub fn partner(&self, name: &Formula) -> Option<Formula> {
+        let place = self.names.iter().position(|own| own == name.text())?;
+        let is_partner = |atom: &Atom| match (&self.ring.atoms[place], atom) {
+            (Atom::Sine(a), Atom::Cosine(b)) | (Atom::Cosine(a), Atom::Sine(b)) => a == b,
+            _ => false,
+        };
+        let other = self.ring.atoms.iter().position(is_partner)?;
+        self.case.formula(&self.names[other]).ok()
+    }
+
     /// Half of each argument of a sine or cosine.
     pub fn halves(&self) -> Vec<Divided> {
         let angles = self.angles.iter();

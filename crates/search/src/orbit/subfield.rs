@@ -1,0 +1,71 @@
+//! The part of a field that does without its functions, as a field of its own.
+//!
+//! Of a sleigh with its positions, the heading and the velocities form such a part: their rates contain no
+//! sine. What is found for them is judged as a claim about the whole case.
+
+use std::fmt::Write;
+
+use liouville::case::Case;
+use liouville::formula::Type;
+use liouville::mechanics::{ParameterOrigin, SamplerSpec, System};
+
+use super::super::terms::recorded;
+use super::super::{Effort, SearchError, SearchReport};
+use super::{blocks, explicit};
+
+/// Searches the largest closed set of variables whose rates are rational, unless these are all.
+pub fn search(
+    case: &Case,
+    effort: &Effort,
+    further: bool,
+    report: &mut SearchReport,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(), SearchError> {
+    let Some(part) = rational_part(case)? else { return Ok(()) };
+    let mut own = SearchReport::default();
+    super::search(&part, effort, further, &mut own, progress)?;
+    for found in &own.found {
+        effort.halt.check()?;
+        explicit::take(case, &|text| text.to_string(), found, effort, report)?;
+    }
+    Ok(())
+}
+
+/// The field of these variables; `None` if there are fewer than two, or no others.
+fn rational_part(case: &Case) -> Result<Option<Case>, SearchError> {
+    let model = &case.model;
+    let System::Field(field) = &model.system else { return Ok(None) };
+    if !model.level.is_empty() || model.state.iter().any(|own| own.kind != Type::Scalar) {
+        return Ok(None);
+    }
+    let (graph, rates) = recorded(case, |jet| jet.phase.field().to_vec())?;
+    let is_rational = |set: &Vec<usize>| {
+        let reached = graph.reached(set.iter().map(|k| rates[*k]));
+        (0..graph.len())
+            .filter(|place| reached[*place])
+            .all(|place| graph.step(place).is_rational())
+    };
+    let sets = blocks::closed(case)?.into_iter().filter(is_rational);
+    let mut part: Vec<usize> = sets.flatten().collect();
+    part.sort_unstable();
+    part.dedup();
+    if part.len() < 2 || part.len() == model.dimension() {
+        return Ok(None);
+    }
+    let mut text = "title = \"part\"\nsystem = \"field\"\n[parameters]\n".to_string();
+    for own in model.free_parameters() {
+        let ParameterOrigin::Free(recipe) = &own.origin else { return Ok(None) };
+        let _ = writeln!(text, "\"{}\" = \"{}\"", own.name, recipe.text());
+    }
+    text.push_str("[state]\n");
+    for k in &part {
+        let Some(draw) = case.free_draws.get(*k) else { return Ok(None) };
+        let range = SamplerSpec::Scalar(draw.clone()).text();
+        let _ = writeln!(text, "\"{}\" = \"{range}\"", model.state[*k].name);
+    }
+    text.push_str("[field]\n");
+    for k in part.iter().filter(|k| model.state[**k].name != "t") {
+        let _ = writeln!(text, "\"{}'\" = \"{}\"", model.state[*k].name, field[*k].text());
+    }
+    Ok(Case::parse(&text, &[]).ok())
+}
