@@ -36,7 +36,7 @@ pub struct Part {
     /// Whether the part is of lower dimension than the level.
     pub is_thin: bool,
     /// Whether it has the dimension that n variables and k equations leave.
-    is_whole: bool,
+    pub is_whole: bool,
 }
 
 /// A level to be divided.

@@ -114,7 +114,7 @@ impl Sampler {
         let [fixed] = &choices[..] else { return Ok(None) };
         let Some(parts) = cover.divided(fixed)? else { return Ok(None) };
         match &parts[..] {
-            [part] if !part.is_thin => {
+            [part] if part.is_whole => {
                 let own = self.on_part(part, cover.recipes(fixed))?;
                 Ok(own.has_states().then_some(own))
             }
