@@ -238,7 +238,8 @@ fn along_orbits(
     if let Some(effort) = cyclic::with_circles(case, effort, report)? {
         report.stage("sines and cosines of cyclic angles", &effort, |report| {
             orbit::search(case, &effort, false, report, progress)?;
-            orbit::close(case, &effort, report)
+            orbit::close(case, &effort, report)?;
+            lower::remove_repeated(case, &effort, report)
         })?;
         counts::conclude(case, &effort, report)?;
     }

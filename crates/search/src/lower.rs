@@ -78,8 +78,8 @@ pub fn prefer(
     Ok(())
 }
 
-/// Removes functions of constant rate, and Darboux polynomials with one cofactor, that are functions of others
-/// of their kind; short ones are kept.
+/// Removes functions of constant rate, further integrals, and Darboux polynomials with one cofactor, that are
+/// functions of others of their kind; short ones are kept.
 pub fn remove_repeated(
     case: &Case,
     effort: &Effort,
@@ -89,8 +89,12 @@ pub fn remove_repeated(
     for (place, own) in report.found.iter().enumerate() {
         for (other_place, other) in report.found.iter().enumerate().skip(place + 1) {
             let is_alike = own.kind == other.kind
-                && (own.kind == CONSTANT_RATE || own.kind == DARBOUX && own.with == other.with)
-                && own.with.len() == other.with.len();
+                && match own.kind {
+                    FURTHER_INTEGRAL => true,
+                    CONSTANT_RATE => own.with.len() == other.with.len(),
+                    DARBOUX => own.with == other.with,
+                    _ => false,
+                };
             let both = own.function.as_ref().zip(other.function.as_ref()).filter(|_| is_alike);
             let Some((a, b)) = both else { continue };
             let claim = Claim::independent(vec![a.clone(), b.clone()]);

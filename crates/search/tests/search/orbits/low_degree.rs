@@ -148,3 +148,13 @@ fn a_longitude_gives_all_components_of_the_angular_momentum() {
     let linear = [all(&found, "integral"), all(&found, "further-integral")].concat();
     assert_eq!(linear.len(), 3, "{linear:?}");
 }
+
+#[test]
+fn polar_coordinates_have_the_cartesian_momenta() {
+    let found =
+        searched(&lagrangian("", "r f r' f'", "kinetic = \"(r'² + r²*f'²)/2\"\n"), &effort(1));
+    let linear = [all(&found, "integral"), all(&found, "further-integral")].concat();
+    let is_momentum = |own: &&&str| own.contains("cos(f)") && own.contains("sin(f)");
+    assert_eq!(linear.iter().filter(is_momentum).count(), 2, "{linear:?}");
+    assert!(is_counted(&found), "{:?}", found.counts);
+}
