@@ -29,7 +29,7 @@ pub enum CellRank {
     Unknown,
 }
 
-/// What is asked about a rank.
+/// Question about a rank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RankQuestion {
     /// Whether it is full or drops.

@@ -39,7 +39,7 @@ pub fn prefer(
         let is_integral = other.kind == "integral" || other.kind == FURTHER_INTEGRAL;
         let function =
             other.function.as_ref().filter(|_| is_integral && other.verdict == Verdict::Proved);
-        if let Some(function) = function.filter(|_| is_integral) {
+        if let Some(function) = function {
             told.push((place, function.clone(), degrees.of_formula(function)?));
         }
     }

@@ -70,7 +70,9 @@ impl Generators {
         let mut with = self.clone();
         let own = report.found.iter().filter(|found| found.kind == FURTHER_INTEGRAL);
         for formula in own.filter_map(|found| found.function.as_ref()) {
-            with.add(case, formula, effort.options.seed)?;
+            if self.formulas().all(|known| known.text() != formula.text()) {
+                with.add(case, formula, effort.options.seed)?;
+            }
         }
         Ok((with.each.len() > self.each.len()).then_some(with))
     }

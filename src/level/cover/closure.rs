@@ -1,8 +1,8 @@
 //! Parts of lower dimension that lie in the closure of others, where nothing is to be asked of them.
 
+use super::solving::is_sum_or_product;
 use super::{Cover, Known, Part};
-use crate::graph::{Expr, Fault, Step, record};
-use crate::number::UnaryFunction;
+use crate::graph::{Expr, Fault, record};
 
 impl Cover<'_> {
     /// Leaves out the parts of lower dimension that lie in the closure of a part of full dimension.
@@ -65,12 +65,10 @@ impl Cover<'_> {
 /// Whether the formulas of a part are polynomials, and nothing but ranges bounds it.
 fn is_smooth(part: &Part) -> bool {
     let reached = part.graph.reached(part.made.iter().copied());
-    let is_polynomial = |step: Step<'_>| match step {
-        Step::Constant(_) | Step::Input(_) | Step::Unary(UnaryFunction::Neg, _) => true,
-        Step::Unary(..) => false,
-        Step::Binary(operation, ..) => operation != crate::number::BinaryOperation::Pow,
-        Step::Power(_, exponent) => exponent.to_integer().is_some_and(|exponent| exponent >= 0),
-    };
     part.is_bounded_by_ranges
-        && part.graph.steps().zip(&reached).all(|(step, reached)| !*reached || is_polynomial(step))
+        && part
+            .graph
+            .steps()
+            .zip(&reached)
+            .all(|(step, reached)| !*reached || is_sum_or_product(step))
 }

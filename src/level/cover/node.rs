@@ -54,7 +54,7 @@ pub struct Additions {
     pub facts: Vec<Expr>,
     /// Facts that the value is within its range.
     pub bounds: Vec<Expr>,
-    /// What the value is divided by.
+    /// Divisor of the value.
     pub divisor: Option<Expr>,
 }
 

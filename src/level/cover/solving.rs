@@ -226,17 +226,21 @@ fn is_polynomial(graph: &Graph, reached: &[bool], draw: usize) -> bool {
             Step::Input(input) => input == draw,
             _ => step.arguments().any(|argument| depends[argument]),
         };
-        let is_sum_or_product = match step {
-            Step::Constant(_) | Step::Input(_) | Step::Unary(UnaryFunction::Neg, _) => true,
-            Step::Binary(operation, ..) => operation != BinaryOperation::Pow,
-            Step::Power(_, exponent) => exponent.to_integer().is_some_and(|exponent| exponent >= 0),
-            Step::Unary(..) => false,
-        };
-        if reached[place] && depends[place] && !is_sum_or_product {
+        if reached[place] && depends[place] && !is_sum_or_product(step) {
             return false;
         }
     }
     true
+}
+
+/// Whether a step makes a polynomial of polynomials.
+pub fn is_sum_or_product(step: Step<'_>) -> bool {
+    match step {
+        Step::Constant(_) | Step::Input(_) | Step::Unary(UnaryFunction::Neg, _) => true,
+        Step::Binary(operation, ..) => operation != BinaryOperation::Pow,
+        Step::Power(_, exponent) => exponent.to_integer().is_some_and(|exponent| exponent >= 0),
+        Step::Unary(..) => false,
+    }
 }
 
 /// Differentiates a recorded value by an input.

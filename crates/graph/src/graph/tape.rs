@@ -181,7 +181,7 @@ thread_local! {
     };
 }
 
-/// What is found of the nodes before they are laid out.
+/// Properties of the nodes before they are laid out.
 #[derive(Default)]
 struct Layout {
     /// Each node as far as the last root.
