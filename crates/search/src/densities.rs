@@ -7,6 +7,7 @@ use super::ask::{holds, judged_alone};
 use super::integrals::tell;
 use super::library;
 use super::linear::SampledFunctions;
+use super::orbit::merged;
 use super::terms::{one, powers, recorded};
 use super::{Effort, Found, SearchError, SearchReport};
 use liouville::case::Case;
@@ -63,6 +64,7 @@ pub fn densities(
     for (form, rate) in forms.into_iter().zip(moving) {
         let Exponents::Found(product) = logarithms.solve(case, rate, effort)? else { continue };
         let formula = multiplied(&[vec![form], product].concat())?;
+        let formula = case.formula(&merged(formula.text())).unwrap_or(formula);
         let judged = judged_alone(case, Claim::integral(&formula), effort)?;
         if let Some(found) = judged.filter(holds) {
             tell(case, &formula, found, effort, report)?;

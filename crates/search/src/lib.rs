@@ -222,6 +222,9 @@ fn along_orbits(
     report.stage("relations along an orbit", effort, |report| {
         orbit::search(case, effort, grows, report, progress)
     })?;
+    report.stage("sines and exponentials of cyclic coordinates", effort, |report| {
+        orbit::harmonics(case, effort, report, progress)
+    })?;
     report.stage("brackets of integrals", effort, |report| {
         progress("brackets and derivatives of integrals");
         orbit::close(case, effort, report)

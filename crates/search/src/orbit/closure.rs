@@ -216,7 +216,8 @@ impl Closure<'_, '_> {
         let Some(formula) = claims::written_integral(self.setting, formula) else {
             return Ok(false);
         };
-        if report.found.iter().any(|own| own.formula == formula.text()) {
+        let bare = |text: &str| text.trim_start_matches('(').trim_end_matches(')').to_string();
+        if report.found.iter().any(|own| bare(&own.formula) == bare(formula.text())) {
             return Ok(false);
         }
         let statement = OrbitStatement::Integral(formula.clone());

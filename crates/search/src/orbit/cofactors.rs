@@ -14,7 +14,7 @@ impl DarbouxSearch<'_, '_> {
         let (m, setting) = (at.modulus, self.setting);
         let highest = self.degree.saturating_sub(1) as u32;
         let all = monomials::up_to(self.variables, setting.dimension(), highest);
-        let all = setting.standard(all);
+        let all = setting.independent(all, self.variables);
         let mut echelon = Echelon::new(all.len() + 1, m);
         for number in 0..(all.len() + SPARE_ORDERS) as u64 {
             setting.effort.halt.check()?;

@@ -61,7 +61,7 @@ impl DarbouxSearch<'_, '_> {
     ) -> Result<(), SearchError> {
         let setting = self.setting;
         let all = monomials::up_to(self.variables, setting.dimension(), degree);
-        let all = setting.standard(all);
+        let all = setting.independent(all, self.variables);
         let mut seen: Vec<Vec<Vec<u32>>> = Vec::new();
         for prime in 0..PRIMES[usize::from(degree > 2)] {
             let Some(at) = self.setting.split(prime, 0) else { return Ok(()) };
@@ -94,7 +94,8 @@ impl DarbouxSearch<'_, '_> {
                 {
                     let before = factors.len();
                     self.tell(&formula, degree * count as u32, factors, report)?;
-                    if count == 2 && factors.len() > before {
+                    // On a level the product may be one of known factors.
+                    if count == 2 && (factors.len() > before || setting.shape.is_some()) {
                         pairs.extend(self.pair(&support, degree, &factors[..before])?);
                     }
                 }

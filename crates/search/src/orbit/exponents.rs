@@ -10,7 +10,7 @@ use liouville::graph::Tape;
 use super::super::ansatz::system::PrimePoint;
 use super::super::budget::Budget;
 use super::super::echelon::Echelon;
-use super::super::terms::{is_one, recorded};
+use super::super::terms::{TermSum, is_one, recorded};
 use super::super::{SearchError, SearchReport};
 use super::angle::{AngleForm, ConjugatePair};
 use super::claims::{self, OrbitStatement};
@@ -20,6 +20,7 @@ use super::known::IndependentIntegrals;
 use super::monomials;
 use super::quotients::{self, Quotient, rate_of_monomial};
 use super::setting::{OrbitSetting, SPARE_ORDERS, run};
+use liouville::claim::LevelSubset;
 use liouville::formula::Formula;
 use liouville::verdict::Flaw;
 
@@ -32,6 +33,9 @@ const DEGREE: u32 = 4;
 const MOST_KNOWN: usize = 12;
 /// Largest number of functions of such rates.
 const MOST_RATES: usize = 4;
+
+/// Number of further choices of the parameters for exponents that are numbers.
+const CHOICES: u64 = 3;
 
 /// Kind of a function Σ α ln f + g whose rate is a constant, or an integral.
 pub const CONSTANT_RATE: &str = "function-of-constant-rate";
@@ -67,8 +71,10 @@ pub struct Style {
 /// Records the divergence of a field; of an extended one that of the field itself.
 pub fn divergence(setting: &OrbitSetting<'_>) -> Result<Tape, SearchError> {
     let own = setting.origin.map(|origin| &origin.extension.divergence);
-    let (graph, divergence) = recorded(setting.case, |jet| {
-        own.map_or_else(|| jet.divergence(), |formula| jet.phase.scalar(formula))
+    let kept = LevelSubset::level(&setting.case.model).kept;
+    let (graph, divergence) = recorded(setting.case, |jet| match own {
+        Some(formula) => jet.phase.scalar(formula),
+        None => jet.divergence() - jet.level_cofactor(&kept),
     })?;
     Ok(Tape::new(&graph, &[divergence]))
 }
@@ -111,10 +117,17 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
 
     /// Null vectors on some columns, each with its last nonzero entry, 1, in a different column.
     fn relations(&self, at: &PrimePoint, columns: &[usize]) -> Result<Vec<Vec<u64>>, SearchError> {
-        let mut echelon = Echelon::new(columns.len(), at.modulus);
+        self.common(std::slice::from_ref(at), columns)
+    }
+
+    /// Null vectors for several choices of the parameters in one field.
+    fn common(&self, all: &[PrimePoint], columns: &[usize]) -> Result<Vec<Vec<u64>>, SearchError> {
+        let Some(first) = all.first() else { return Ok(Vec::new()) };
+        let mut echelon = Echelon::new(columns.len(), first.modulus);
         let (mut dependent, budget) = (0, Budget::of(self.setting.effort));
         for number in 0..4 * (columns.len() + SPARE_ORDERS) as u64 {
             budget.check(&echelon)?;
+            let at = &all[number as usize % all.len()];
             let Some(row) = self.row(at, number, columns)? else { continue };
             dependent = if echelon.push(row) { 0 } else { dependent + 1 };
             if dependent == SPARE_ORDERS {
@@ -248,16 +261,21 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         if self.known.is_empty() || self.known.len() > MOST_KNOWN {
             return Ok(());
         }
-        self.columns.retain(|column| matches!(column, RateTerm::Monomial(_)));
+        let is_function = |column: &RateTerm| {
+            matches!(column, RateTerm::Monomial(_) | RateTerm::Factor(_) | RateTerm::Angle(_))
+        };
+        self.columns.retain(is_function);
         let first = self.columns.len();
         self.columns.extend((0..self.known.len()).map(RateTerm::Known));
+        self.columns.push(RateTerm::Constant);
         let Some(at) = self.setting.at(0, 0) else { return Ok(()) };
         let all: Vec<usize> = (0..self.columns.len()).collect();
         let mut told = 0;
         for vector in self.relations(&at, &all)? {
             self.setting.effort.halt.check()?;
             let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
-            let is_driven = support.last().is_some_and(|last| *last >= first);
+            let is_known = |column: &usize| matches!(self.columns[*column], RateTerm::Known(_));
+            let is_driven = support.iter().any(is_known);
             // Integrals that depend on each other have no function.
             if !is_driven || support[0] >= first || told == MOST_RATES {
                 continue;
@@ -284,34 +302,40 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         Ok(())
     }
 
-    /// The combination of known integrals in a null vector.
+    /// The combination of known integrals, and a number, in a null vector.
     fn combination(
         &self,
         support: &[usize],
         first: usize,
         vector: &images::ParametricVector,
     ) -> Result<Option<Formula>, SearchError> {
-        let mut sum: Option<Formula> = None;
+        let mut sum = TermSum::default();
         for (place, column) in support.iter().enumerate().filter(|(_, column)| **column >= first) {
-            let integral = &self.known[*column - first].formula;
             let factor = vector.coefficients.formula(place)?;
-            let own = match is_one(&factor) {
-                true => integral.clone(),
-                false => (&factor * integral)?,
-            };
-            sum = Some(match sum {
-                None => own,
-                Some(sum) => (&sum + &own)?,
-            });
+            let is_below = factor.constant().is_some_and(|own| own.is_negative());
+            let factor = if is_below { -&factor } else { factor };
+            match &self.columns[*column] {
+                RateTerm::Known(own) if is_one(&factor) => {
+                    sum.add(is_below, &self.known[*own].formula)?;
+                }
+                RateTerm::Known(own) => {
+                    sum.add(is_below, &(&factor * &self.known[*own].formula)?)?
+                }
+                _ => sum.add(!is_below, &factor)?,
+            }
         }
-        Ok(sum)
+        Ok(sum.total())
     }
 
-    /// Whether a null vector says that a variable has a constant rate.
+    /// Whether a null vector says that a variable of the case has a constant rate.
     fn is_variable(&self, support: &[usize]) -> bool {
+        let origin = self.setting.origin;
+        let state = origin.map_or(self.setting.dimension(), |own| own.case.model.dimension());
         match support {
             [first, _] => match &self.columns[*first] {
-                RateTerm::Monomial(own) => own.iter().sum::<u32>() == 1,
+                RateTerm::Monomial(own) => {
+                    own.iter().sum::<u32>() == 1 && own[..state].contains(&1)
+                }
                 _ => false,
             },
             _ => false,
@@ -376,13 +400,55 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         Ok(())
     }
 
+    /// The density that is a product of powers of factors with numbers as exponents, for all values of the
+    /// parameters: others are its products with integrals.
+    fn numeric_density(
+        &self,
+    ) -> Result<Option<(Vec<usize>, images::ParametricVector)>, SearchError> {
+        if self.setting.coordinates().is_empty() {
+            return Ok(None);
+        }
+        let is_own =
+            |k: &usize| matches!(self.columns[*k], RateTerm::Factor(_) | RateTerm::Divergence);
+        let columns: Vec<usize> = (0..self.columns.len()).filter(is_own).collect();
+        let several = |at: &PrimePoint, columns: &[usize]| {
+            let others = (1..=CHOICES).map_while(|index| self.setting.at(0, index));
+            let same = others.filter(|own| own.modulus.prime() == at.modulus.prime());
+            let all: Vec<PrimePoint> = [at.clone()].into_iter().chain(same).collect();
+            self.common(&all, columns)
+        };
+        let Some(at) = self.setting.at(0, 0) else { return Ok(None) };
+        let of_density = |own: &Vec<u64>| own.last().is_some_and(|last| *last != 0);
+        let Some(found) = several(&at, &columns)?.into_iter().find(of_density) else {
+            return Ok(None);
+        };
+        let support: Vec<usize> =
+            (0..columns.len()).filter(|k| found[*k] != 0).map(|k| columns[k]).collect();
+        if support.len() < 2 {
+            return Ok(None);
+        }
+        let make = |at: &PrimePoint| several(at, &support).ok()?.pop();
+        let images = Images { setting: self.setting, width: support.len(), is_split: false, make };
+        Ok(images::vector(&images)?.map(|vector| (support, vector)))
+    }
+
     fn density(&self, support: &[usize], report: &mut SearchReport) -> Result<(), SearchError> {
         if report.formulas("density").next().is_some() {
             return Ok(());
         }
-        let Some(vector) = self.vector(support)? else { return Ok(()) };
+        let numeric = self.numeric_density()?;
+        let support = numeric.as_ref().map_or(support, |(own, _)| own.as_slice());
+        let found = match &numeric {
+            Some((_, vector)) => Some(vector),
+            None => None,
+        };
+        let general = match found {
+            Some(_) => None,
+            None => self.vector(support)?,
+        };
+        let Some(vector) = found.or(general.as_ref()) else { return Ok(()) };
         for style in self.styles(support) {
-            let Some(formula) = self.product(support, &vector, style)? else { continue };
+            let Some(formula) = self.product(support, vector, style)? else { continue };
             let statement = OrbitStatement::Density(formula.clone());
             let (setting, none) = (self.setting, Vec::new());
             if claims::other(setting, "density", &formula, &statement, none, report)? {

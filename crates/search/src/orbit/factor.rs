@@ -58,7 +58,8 @@ impl RatedPolynomial {
         degree: usize,
     ) -> Result<Option<Formula>, SearchError> {
         let highest = degree.saturating_sub(1) as u32;
-        let all = setting.standard(monomials::up_to(variables, setting.dimension(), highest));
+        let all = monomials::up_to(variables, setting.dimension(), highest);
+        let all = setting.independent(all, variables);
         let make = |at: &PrimePoint| {
             let m = at.modulus;
             let mut echelon = Echelon::new(all.len() + 1, m);

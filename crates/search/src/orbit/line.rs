@@ -59,13 +59,23 @@ pub struct Special {
 impl<'s, 'c> RandomLine<'s, 'c> {
     /// Draws a line, or a conic where the states lie on one.
     pub fn draw(setting: &'s OrbitSetting<'c>, at: &'s PrimePoint, number: u64) -> Option<Self> {
-        let start = setting.point(at, (number << 1) | (1 << 40))?;
-        let direction = setting.point(at, (number << 1) | (1 << 40) | 1)?.state;
+        let own = Self::straight(setting, at, number)?;
         let conic = match &setting.conic {
-            Some(shape) => Some(shape.draw(&at.modulus, &start.state, &direction)?),
+            Some(shape) => Some(shape.draw(&at.modulus, &own.start.state, &own.direction)?),
             None => None,
         };
-        Some(Self { setting, at, start, direction, conic })
+        Some(Self { conic, ..own })
+    }
+
+    /// Draws a line, on a level that is an affine space too.
+    fn straight(setting: &'s OrbitSetting<'c>, at: &'s PrimePoint, number: u64) -> Option<Self> {
+        let start = setting.point(at, (number << 1) | (1 << 40))?;
+        let mut direction = setting.point(at, (number << 1) | (1 << 40) | 1)?.state;
+        if setting.shape.is_some() && setting.conic.is_none() {
+            let pairs = direction.iter().zip(&start.state);
+            direction = pairs.map(|(x, own)| at.modulus.sub(*x, *own)).collect();
+        }
+        Some(Self { setting, at, start, direction, conic: None })
     }
 
     fn point(&self, place: u64) -> PrimePhasePoint {
@@ -317,7 +327,8 @@ fn determinants(
 /// Degree of a field in the state; `None` if it is not a polynomial of low degree.
 pub fn degree_of_field(setting: &OrbitSetting<'_>) -> Result<Option<usize>, SearchError> {
     let Some(at) = setting.at(0, 0) else { return Ok(None) };
-    match RandomLine::draw(setting, &at, 0) {
+    // The field is one outside of its level, too.
+    match RandomLine::straight(setting, &at, 0) {
         Some(line) => line.degree(),
         None => Ok(None),
     }

@@ -11,7 +11,9 @@
 //! graded, turned, sparse   polynomial integrals of higher degree, class by class; bases with few terms
 //! rational     rational ones, as P and Q of the relations P − c Q
 //! line         points of a line whose orbits satisfy an additional relation
-//! conic        conics in place of lines, where functions satisfy relations
+//! conic        conics in place of lines, where functions satisfy relations, and on spheres
+//! level_shape  levels that are spheres or affine spaces
+//! harmonics    integrals with sines and exponentials of cyclic coordinates
 //! darboux, shared  Darboux polynomials: the relations at these points, and those of several lines
 //! cofactors    whether a polynomial modulo a prime is one
 //! separate     those whose coefficients depend on the parameters, one by one
@@ -56,10 +58,12 @@ mod finite_order;
 mod fraction;
 pub mod fractions;
 mod graded;
+mod harmonics;
 mod images;
 mod known;
 mod lattice;
 mod leading;
+mod level_shape;
 mod limits;
 mod line;
 mod logarithms;
@@ -100,10 +104,11 @@ use liouville::formula::Formula;
 use liouville::mechanics::System;
 use liouville::verdict::Verdict;
 
-pub use self::adjoin::{root_steps, roots};
+pub use self::adjoin::{merged, root_steps, roots};
 pub use self::closure::{FURTHER_INTEGRAL, close};
 pub use self::darboux::KIND as DARBOUX;
 pub use self::exponents::CONSTANT_RATE;
+pub use self::harmonics::search as harmonics;
 pub use self::images::coefficients;
 use self::known::IndependentIntegrals;
 use self::limits::{EXTENDED, FURTHER, MODEST, RoundLimits};
@@ -367,7 +372,8 @@ fn along_orbits(
     let limits = if setting.origin.is_some() { EXTENDED } else { MODEST };
     let mut outcome =
         rounds::search(setting, &mut parts, (limits, next), &mut known, report, progress);
-    if has_line && degree.is_none() && setting.origin.is_none() && outcome.is_ok() {
+    let is_plain = setting.origin.is_none() && !setting.is_on_level();
+    if has_line && degree.is_none() && is_plain && outcome.is_ok() {
         outcome = cleared::search(setting, limits.steps, &mut known, report, progress)
             .and_then(|()| own_factors::search(setting, &mut known, report));
     }

@@ -77,18 +77,54 @@ pub fn search(
     ExponentSystem::of(setting, &all, &factors, &[])?.search(known, report)
 }
 
-/// Adds to the factors of an extended case what [`of_extension`] lists.
+/// Adds to the factors of an extended case what [`of_extension`] and [`rates_on_lines`] list.
 pub fn extend(
     setting: &OrbitSetting<'_>,
     factors: &mut Vec<RatedPolynomial>,
 ) -> Result<(), SearchError> {
-    for formula in of_extension(setting)? {
+    for formula in of_extension(setting)?.into_iter().chain(rates_on_lines(setting)?) {
         if factors.iter().all(|own| own.formula.text() != formula.text()) {
             let rated = RatedPolynomial::of(setting, &formula, 1)?;
             factors.extend(rated.filter(|own| unbound::changes(setting, own)));
         }
     }
     Ok(())
+}
+
+/// Lists the variables among these that divide their own rates, on the level of the case or not.
+pub fn of_level(
+    setting: &OrbitSetting<'_>,
+    variables: &[usize],
+) -> Result<Vec<Formula>, SearchError> {
+    let (graph, rates) = recorded(setting.case, |jet| jet.phase.field().to_vec())?;
+    let first = setting.case.model.free_components();
+    let is_own = |k: &&usize| {
+        graph.constant_value(rates[**k]).is_none()
+            && divides(&graph, graph.place(rates[**k]), first + **k)
+    };
+    Ok(variables.iter().filter(is_own).map(|k| setting.terms[*k].clone()).collect())
+}
+
+/// Rates P(x) that depend on x alone, which divide their own: P' = (∂P/∂x) P.
+fn rates_on_lines(setting: &OrbitSetting<'_>) -> Result<Vec<Formula>, SearchError> {
+    let Some(origin) = setting.origin else { return Ok(Vec::new()) };
+    let (graph, rates) = recorded(origin.case, |jet| jet.phase.field().to_vec())?;
+    let first = origin.case.model.free_components();
+    let is_alone = |k: &usize| {
+        let inputs = graph.inputs_of(rates[*k]);
+        inputs.iter().filter(|own| **own >= first).eq([&(first + k)])
+    };
+    let alone: Vec<usize> = (0..rates.len()).filter(is_alone).collect();
+    let (graph, rates) = recorded(setting.case, |jet| jet.phase.field().to_vec())?;
+    let inputs = input_names(setting.case).into_iter().map(|name| setting.case.formula(&name));
+    let Ok(inputs) = inputs.collect::<Result<Vec<Formula>, _>>() else { return Ok(Vec::new()) };
+    if alone.is_empty() || inputs.len() != graph.inputs() {
+        return Ok(Vec::new());
+    }
+    let places: Vec<usize> = alone.iter().map(|k| graph.place(rates[*k])).collect();
+    let steps = WrittenSteps::of(&graph, &inputs, &places)?;
+    let written = places.into_iter().filter_map(|place| steps.all[place].clone());
+    Ok(written.map(|own| own.bracketed()).collect())
 }
 
 /// Variables of an extended case that divide their own rates, and 1 ± s for the partner s of one on a circle.

@@ -18,6 +18,10 @@ use liouville::formula::Formula;
 
 /// Largest degree of a Darboux polynomial.
 pub const DARBOUX: u32 = 12;
+/// Largest number of components of a sphere whose angles take part.
+const MOST_ON_SPHERE: usize = 4;
+/// Share of the steps on a line that may be taken on a conic.
+const ON_CONICS: f64 = 0.25;
 /// Family of the theorem on Darboux polynomials, before the degree.
 pub const DARBOUX_FAMILY: &str = "Darboux polynomials of degree up to";
 /// Bound above the degrees of the relations.
@@ -110,7 +114,9 @@ impl VariableSet {
                         self.factors.extend(RatedPolynomial::of(setting, formula, 1)?);
                     }
                 }
-                if !self.is_unbound && !is_complete(setting, known) {
+                // A field on a line has no integral, and a function of constant rate.
+                let is_line = origin.case.model.dimension() == 1;
+                if !self.is_unbound && (is_line || !is_complete(setting, known)) {
                     self.is_unbound = true;
                     unbound::search(setting, limits, &mut self.factors, report, progress)?;
                 }
@@ -131,8 +137,16 @@ impl VariableSet {
             return Ok(());
         };
         let search = Darboux { setting, variables, degree };
+        if setting.shape.is_some() && self.next_darboux == 1 {
+            // A variable that the level writes in others is a factor, too.
+            for name in own_factors::of_level(setting, variables)? {
+                search.tell(&name, 1, &mut self.factors, report)?;
+            }
+            self.pairs.extend(on_sphere(setting, variables)?);
+        }
+        let share = if setting.conic.is_some() { ON_CONICS } else { 1.0 };
         while self.next_darboux <= DARBOUX
-            && monomials::steps(count, self.next_darboux, degree) <= limits.steps
+            && monomials::steps(count, self.next_darboux, degree) <= share * limits.steps
         {
             progress(&format!("Darboux polynomials of degree {}", self.next_darboux));
             search.of_degree(self.next_darboux, &mut self.factors, &mut self.pairs, report)?;
@@ -178,7 +192,8 @@ impl VariableSet {
             let system = ExponentSystem::of(setting, &self.variables, &self.factors, &self.pairs)?;
             system.search_with_fractions(known, report)?;
             if self.with_fractions.is_none() && self.variables.len() == setting.dimension() {
-                let system = ExponentSystem::of(setting, &self.variables, &[], &[])?;
+                let (variables, pairs) = (&self.variables, &self.pairs);
+                let system = ExponentSystem::of(setting, variables, &self.factors, pairs)?;
                 system.search_rates(known, report)?;
             }
             self.with_fractions = Some(counts);
@@ -378,6 +393,26 @@ fn is_complete(setting: &OrbitSetting<'_>, known: &IndependentIntegrals) -> bool
     let is_full =
         |origin: ExtendedCase<'_>| known.formulas().count() + 1 >= origin.case.model.dimension();
     setting.origin.is_some_and(is_full)
+}
+
+/// Pairs x ± iy of components of a sphere in these variables: the zeros of both are zeros of other factors there.
+fn on_sphere(
+    setting: &OrbitSetting<'_>,
+    variables: &[usize],
+) -> Result<Vec<ConjugatePair>, SearchError> {
+    let sphere: &[usize] = setting.shape.as_ref().map_or(&[], |own| own.sphere.as_slice());
+    let mut pairs = Vec::new();
+    if sphere.len() > MOST_ON_SPHERE || sphere.iter().any(|k| !variables.contains(k)) {
+        return Ok(pairs);
+    }
+    for (place, second) in sphere.iter().enumerate() {
+        for first in &sphere[..place] {
+            let parts = [&setting.terms[*first], &setting.terms[*second]];
+            let square = SquareOfRoot::of(Formula::number(-1));
+            pairs.extend(ConjugatePair::rated(setting, parts, square, 1)?);
+        }
+    }
+    Ok(pairs)
 }
 
 /// Searches for densities and integrals from cofactors, if there are more of them than at the last

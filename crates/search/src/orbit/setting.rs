@@ -19,6 +19,7 @@ use super::super::terms::{read, recorded};
 use super::super::{Effort, SearchError};
 use super::adjoin::Extension;
 use super::conic::ConicShape;
+use super::level_shape::LevelShape;
 use super::limits::StepsLeft;
 use super::monomials::{self, MonomialSeries};
 use super::primes;
@@ -62,8 +63,10 @@ pub struct OrbitSetting<'c> {
     pub tangents: Tangents,
     /// Components of the state as terms.
     pub terms: Vec<Formula>,
-    /// Relations between adjoined functions, where they are circles and hyperbolas alone.
+    /// Relations between adjoined functions, where they are circles and hyperbolas alone, or a sphere.
     pub conic: Option<ConicShape>,
+    /// Form of the level, where lines or conics lie on it.
+    pub shape: Option<LevelShape>,
     /// Steps that may still be taken for coefficients which depend on the parameters.
     pub steps: StepsLeft,
     points: Points,
@@ -107,7 +110,7 @@ impl<'c> OrbitSetting<'c> {
         let tangents = Tangents::of(&extension.case, &extension.axes)?;
         let origin = Some(ExtendedCase { case, extension });
         let conic = extension.conic();
-        Ok(made.map(|own| Self { origin, tangents, conic, ..own }))
+        Ok(made.map(|own| Self { origin, tangents, conic, shape: None, ..own }))
     }
 
     /// Records a case; the text is the reason why it has no orbits modulo primes.
@@ -145,7 +148,7 @@ impl<'c> OrbitSetting<'c> {
         let prime = |number| Coordinates::prime(&radicands, seed, number);
         let primes = (0..PRIMES).map(prime).collect();
         let split_primes = primes::split(seed, PRIMES as usize, &radicands);
-        Ok(Ok(Self {
+        let mut setting = Self {
             case,
             origin: None,
             effort,
@@ -153,12 +156,19 @@ impl<'c> OrbitSetting<'c> {
             tangents: Tangents::of(case, &[])?,
             terms,
             conic: None,
+            shape: None,
             steps: StepsLeft::of(effort),
             points,
             coordinates: named,
             primes,
             split_primes,
-        }))
+        };
+        if setting.is_on_level() && setting.flow.is_rational_in_state && !setting.flow.is_map {
+            setting.shape = LevelShape::of(&setting)?;
+            let sphere = setting.shape.iter().find(|own| !own.sphere.is_empty());
+            setting.conic = sphere.map(|own| ConicShape::Sphere(own.sphere.clone()));
+        }
+        Ok(Ok(setting))
     }
 
     /// Number of components of the state.
@@ -179,10 +189,21 @@ impl<'c> OrbitSetting<'c> {
         monomials
     }
 
-    /// Whether polynomials are found on lines of states: the field is rational there. Roots of numbers
-    /// and parameters are coefficients like others; theorems ask for a rational field themselves.
+    /// The same on the level of the case, where its shape is known, in the variables of a list.
+    pub fn independent(&self, monomials: Vec<Vec<u32>>, variables: &[usize]) -> Vec<Vec<u32>> {
+        let mut all = self.standard(monomials);
+        if let Some(shape) = &self.shape {
+            all.retain(|own| shape.is_independent(own, variables));
+        }
+        all
+    }
+
+    /// Whether polynomials are found on lines of states, or on conics: the field is rational there. Roots of
+    /// numbers and parameters are coefficients like others; theorems ask for a rational field themselves.
     pub fn has_lines(&self) -> bool {
-        !self.is_on_level() && self.flow.is_rational_in_state && !self.flow.is_map
+        (!self.is_on_level() || self.shape.is_some())
+            && self.flow.is_rational_in_state
+            && !self.flow.is_map
     }
 
     /// Whether a parameter has a list of several values.

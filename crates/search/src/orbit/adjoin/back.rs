@@ -115,9 +115,23 @@ impl Back {
             }
             None => powers.push((base, above, below)),
         };
-        for (is_below, part) in parts {
-            for (divides, factor) in factors(part) {
-                let sign = if divides == *is_below { 1 } else { -1 };
+        let mut open: Vec<(bool, &str)> = parts.iter().rev().copied().collect();
+        while let Some((is_below, part)) = open.pop() {
+            // Products in brackets are opened.
+            let all = factors(part);
+            if all.len() > 1 {
+                let own = all.into_iter().map(|(divides, own)| (divides != is_below, own));
+                open.extend(own.rev());
+                continue;
+            }
+            if let Some(inner) = inside(part)
+                && let [(false, only)] = terms(inner)[..]
+            {
+                open.push((is_below, only));
+                continue;
+            }
+            for (divides, factor) in all {
+                let sign = if divides == is_below { 1 } else { -1 };
                 let (base, power) = base_and_power(factor);
                 let own = self.entries.iter().find(|entry| entry.name == base);
                 match own.map(|entry| (entry, entry.inverse.as_ref())) {
@@ -168,6 +182,11 @@ impl Back {
             entry.map(|entry| entry.text.clone())
         })
     }
+}
+
+/// Text of a product with one power of each factor: r²*w for r*(r*w).
+pub fn merged(text: &str) -> String {
+    Back { entries: Vec::new() }.rewritten(text)
 }
 
 /// Replaces the words of a text for which there is another.
@@ -292,6 +311,7 @@ mod tests {
             ("(2*aux6 − x³*u²)/(x^5)", "2/x^6 − u²/x²"),
             ("(2*u + 3)/(aux6)", "2*u*x + 3*x"),
             ("−2*x", "−2*x"),
+            ("r*(r*w)/(s*w)", "r²/s"),
         ];
         for (text, wanted) in pairs {
             assert_eq!(back.rewritten(text), wanted);

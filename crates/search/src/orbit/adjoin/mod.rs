@@ -60,7 +60,7 @@ use liouville::number::rational::Rational;
 
 use self::absence::AdjoinedPolynomials;
 use self::back::Back;
-pub use self::back::with_signs;
+pub use self::back::{merged, with_signs};
 use self::bases::{circles, factors};
 pub use self::derivations::{FieldComponents, IntegralAlgebra};
 pub use self::explicit::ExplicitField;
@@ -175,7 +175,7 @@ impl Extension {
         let varying = atoms.iter().filter(|atom| !is_constant(atom));
         let roles: Vec<ConicRole> = varying.map(role).collect::<Option<_>>()?;
         let binds = |own: &ConicRole| matches!(own, ConicRole::Sine | ConicRole::InverseOf(_));
-        (!self.has_level && roles.iter().any(binds)).then_some(ConicShape(roles))
+        (!self.has_level && roles.iter().any(binds)).then_some(ConicShape::Functions(roles))
     }
 
     /// Adjoined exponentials.

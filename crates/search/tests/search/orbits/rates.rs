@@ -100,3 +100,42 @@ pairs = [['x', 'p'], ['y', 'q']]
     let own = own.expect("it is a function of the others, and no polynomial in them");
     assert!(own.formula.contains("2*x*y*q") && own.with.is_empty(), "{own:?}");
 }
+
+#[test]
+fn rates_may_be_integrals_of_factors_and_angles() {
+    let cases = [
+        (["x²*y", "-x*y²", "0"], "ln(y)", "x*y"),
+        (["-y*(1 + z)", "x*(1 + z)", "0"], "atan(x/y)", "z"),
+        (["x*(y + z)", "y*z", "-y*z"], "ln(", "y + z"),
+    ];
+    for (rates, function, rate) in cases {
+        let found = searched(&field("", &rates), &Effort::default());
+        let mut own = found.found.iter().filter(|own| own.kind == "function-of-constant-rate");
+        let is_wanted =
+            own.any(|own| own.formula.contains(function) && own.with[0].1.contains(rate));
+        assert!(is_wanted, "{function}");
+    }
+}
+
+#[test]
+fn roots_of_constant_rate_and_fields_on_a_line_are_told() {
+    let line = |parameters: &str, rate: &str| {
+        let found = searched(&field(parameters, &[rate]), &Effort::default());
+        let own = found.found.into_iter().filter(|own| own.kind == "function-of-constant-rate");
+        let own: Vec<String> = own.map(|own| own.formula).collect();
+        assert_eq!(own.len(), 1, "{rate}: {own:?}");
+        own
+    };
+    assert_eq!(line("k = '0.5..1'", "-k*√x"), ["2*√(x)"], "Torricelli");
+    let growth = "a = '2..3'\nb = '0.5..1'";
+    line(growth, "a*x^(2/3) - b*x");
+    line("", "3*x^(1/3) - 3*x");
+    line(growth, "a*x*(1 - (x/9)^b)");
+}
+
+#[test]
+fn densities_have_numbers_as_exponents() {
+    let parameters = "a = '0.5..2'\nb = '0.5..2'\nc = '0.5..2'\nd = '0.5..2'";
+    let found = searched(&field(parameters, &["x*(a - b*y)", "y*(c*x - d)"]), &Effort::default());
+    assert_eq!(found.formulas("density").collect::<Vec<_>>(), ["y^(−1)*x^(−1)"]);
+}
