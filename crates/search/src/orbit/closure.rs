@@ -12,6 +12,7 @@ use super::super::absence::rank;
 use super::super::integrals::claimed_by;
 use super::super::products::Generators;
 use super::super::{Effort, Found, SearchError, SearchReport};
+use super::adjoin;
 use super::adjoin::{FieldComponents, IntegralAlgebra, RingPolynomial, polynomial_text};
 use super::claims::{self, OrbitStatement};
 use super::factor::RatedPolynomial;
@@ -216,8 +217,8 @@ impl Closure<'_, '_> {
         let Some(formula) = claims::written_integral(self.setting, formula) else {
             return Ok(false);
         };
-        let bare = |text: &str| text.trim_start_matches('(').trim_end_matches(')').to_string();
-        if report.found.iter().any(|own| bare(&own.formula) == bare(formula.text())) {
+        let bare = adjoin::merged(formula.text());
+        if report.found.iter().any(|own| adjoin::merged(&own.formula) == bare) {
             return Ok(false);
         }
         let statement = OrbitStatement::Integral(formula.clone());

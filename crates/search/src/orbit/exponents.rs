@@ -10,7 +10,7 @@ use liouville::graph::Tape;
 use super::super::ansatz::system::PrimePoint;
 use super::super::budget::Budget;
 use super::super::echelon::Echelon;
-use super::super::terms::{TermSum, is_one, recorded};
+use super::super::terms::recorded;
 use super::super::{SearchError, SearchReport};
 use super::angle::{AngleForm, ConjugatePair};
 use super::claims::{self, OrbitStatement};
@@ -21,21 +21,11 @@ use super::monomials;
 use super::quotients::{self, Quotient, rate_of_monomial};
 use super::setting::{OrbitSetting, SPARE_ORDERS, run};
 use liouville::claim::LevelSubset;
-use liouville::formula::Formula;
-use liouville::verdict::Flaw;
 
 /// Largest number of monomials of g.
 const MONOMIALS: usize = 60;
 /// Largest degree of g.
 const DEGREE: u32 = 4;
-
-/// Largest number of integrals of which a rate may be a combination.
-const MOST_KNOWN: usize = 12;
-/// Largest number of functions of such rates.
-const MOST_RATES: usize = 4;
-
-/// Number of further choices of the parameters for exponents that are numbers.
-const CHOICES: u64 = 3;
 
 /// Kind of a function Σ α ln f + g whose rate is a constant, or an integral.
 pub const CONSTANT_RATE: &str = "function-of-constant-rate";
@@ -92,7 +82,7 @@ pub struct ExponentSystem<'s, 'c> {
     pub columns: Vec<RateTerm>,
     divergence: Tape,
     /// Known integrals that are rates.
-    known: Vec<RatedPolynomial>,
+    pub known: Vec<RatedPolynomial>,
 }
 
 impl<'s, 'c> ExponentSystem<'s, 'c> {
@@ -116,12 +106,20 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
     }
 
     /// Null vectors on some columns, each with its last nonzero entry, 1, in a different column.
-    fn relations(&self, at: &PrimePoint, columns: &[usize]) -> Result<Vec<Vec<u64>>, SearchError> {
+    pub fn relations(
+        &self,
+        at: &PrimePoint,
+        columns: &[usize],
+    ) -> Result<Vec<Vec<u64>>, SearchError> {
         self.common(std::slice::from_ref(at), columns)
     }
 
     /// Null vectors for several choices of the parameters in one field.
-    fn common(&self, all: &[PrimePoint], columns: &[usize]) -> Result<Vec<Vec<u64>>, SearchError> {
+    pub fn common(
+        &self,
+        all: &[PrimePoint],
+        columns: &[usize],
+    ) -> Result<Vec<Vec<u64>>, SearchError> {
         let Some(first) = all.first() else { return Ok(Vec::new()) };
         let mut echelon = Echelon::new(columns.len(), first.modulus);
         let (mut dependent, budget) = (0, Budget::of(self.setting.effort));
@@ -245,88 +243,6 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         Ok(())
     }
 
-    /// Searches for functions whose rate is a combination of known integrals, where none has a constant
-    /// rate: with G' = 0 and F' = G, F − tG is an integral.
-    pub fn search_rates(
-        mut self,
-        known: &IndependentIntegrals,
-        report: &mut SearchReport,
-    ) -> Result<(), SearchError> {
-        if report.formulas(CONSTANT_RATE).next().is_some() {
-            return Ok(());
-        }
-        for formula in known.formulas() {
-            self.known.extend(RatedPolynomial::of(self.setting, formula, 1)?);
-        }
-        if self.known.is_empty() || self.known.len() > MOST_KNOWN {
-            return Ok(());
-        }
-        let is_function = |column: &RateTerm| {
-            matches!(column, RateTerm::Monomial(_) | RateTerm::Factor(_) | RateTerm::Angle(_))
-        };
-        self.columns.retain(is_function);
-        let first = self.columns.len();
-        self.columns.extend((0..self.known.len()).map(RateTerm::Known));
-        self.columns.push(RateTerm::Constant);
-        let Some(at) = self.setting.at(0, 0) else { return Ok(()) };
-        let all: Vec<usize> = (0..self.columns.len()).collect();
-        let mut told = 0;
-        for vector in self.relations(&at, &all)? {
-            self.setting.effort.halt.check()?;
-            let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
-            let is_known = |column: &usize| matches!(self.columns[*column], RateTerm::Known(_));
-            let is_driven = support.iter().any(is_known);
-            // Integrals that depend on each other have no function.
-            if !is_driven || support[0] >= first || told == MOST_RATES {
-                continue;
-            }
-            let Some(vector) = self.vector(&support)? else { continue };
-            let Some(rate) = self.combination(&support, first, &vector)? else { continue };
-            // An integral that jumps is not constant along a motion across.
-            let statement = OrbitStatement::Integral(rate.clone());
-            let Some(judged) = claims::proved(self.setting, &statement)? else { continue };
-            if judged.evidence.flaws.contains(&Flaw::Jumps) {
-                continue;
-            }
-            for style in self.styles(&support) {
-                let Some(function) = self.logarithm(&support, &vector, style)? else { continue };
-                let statement =
-                    OrbitStatement::Rate { function: function.clone(), rate: rate.clone() };
-                let (setting, with) = (self.setting, vec![("rate", &rate)]);
-                if claims::other(setting, CONSTANT_RATE, &function, &statement, with, report)? {
-                    told += 1;
-                    break;
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// The combination of known integrals, and a number, in a null vector.
-    fn combination(
-        &self,
-        support: &[usize],
-        first: usize,
-        vector: &images::ParametricVector,
-    ) -> Result<Option<Formula>, SearchError> {
-        let mut sum = TermSum::default();
-        for (place, column) in support.iter().enumerate().filter(|(_, column)| **column >= first) {
-            let factor = vector.coefficients.formula(place)?;
-            let is_below = factor.constant().is_some_and(|own| own.is_negative());
-            let factor = if is_below { -&factor } else { factor };
-            match &self.columns[*column] {
-                RateTerm::Known(own) if is_one(&factor) => {
-                    sum.add(is_below, &self.known[*own].formula)?;
-                }
-                RateTerm::Known(own) => {
-                    sum.add(is_below, &(&factor * &self.known[*own].formula)?)?
-                }
-                _ => sum.add(!is_below, &factor)?,
-            }
-        }
-        Ok(sum.total())
-    }
-
     /// Whether a null vector says that a variable of the case has a constant rate.
     fn is_variable(&self, support: &[usize]) -> bool {
         let origin = self.setting.origin;
@@ -343,14 +259,17 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
     }
 
     /// Coefficients of the null vector on a support, for all values of the parameters.
-    fn vector(&self, support: &[usize]) -> Result<Option<images::ParametricVector>, SearchError> {
+    pub fn vector(
+        &self,
+        support: &[usize],
+    ) -> Result<Option<images::ParametricVector>, SearchError> {
         let make = |at: &PrimePoint| self.relations(at, support).ok()?.pop();
         let images = Images { setting: self.setting, width: support.len(), is_split: false, make };
         images::vector(&images)
     }
 
     /// Ways to write a function, which differ in their domains.
-    fn styles(&self, support: &[usize]) -> Vec<Style> {
+    pub fn styles(&self, support: &[usize]) -> Vec<Style> {
         let has_angle =
             support.iter().any(|column| matches!(self.columns[*column], RateTerm::Angle(_)));
         let forms: &[AngleForm] = match has_angle {
@@ -399,62 +318,20 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         }
         Ok(())
     }
+}
 
-    /// The density that is a product of powers of factors with numbers as exponents, for all values of the
-    /// parameters: others are its products with integrals.
-    fn numeric_density(
-        &self,
-    ) -> Result<Option<(Vec<usize>, images::ParametricVector)>, SearchError> {
-        if self.setting.coordinates().is_empty() {
-            return Ok(None);
-        }
-        let is_own =
-            |k: &usize| matches!(self.columns[*k], RateTerm::Factor(_) | RateTerm::Divergence);
-        let columns: Vec<usize> = (0..self.columns.len()).filter(is_own).collect();
-        let several = |at: &PrimePoint, columns: &[usize]| {
-            let others = (1..=CHOICES).map_while(|index| self.setting.at(0, index));
-            let same = others.filter(|own| own.modulus.prime() == at.modulus.prime());
-            let all: Vec<PrimePoint> = [at.clone()].into_iter().chain(same).collect();
-            self.common(&all, columns)
-        };
-        let Some(at) = self.setting.at(0, 0) else { return Ok(None) };
-        let of_density = |own: &Vec<u64>| own.last().is_some_and(|last| *last != 0);
-        let Some(found) = several(&at, &columns)?.into_iter().find(of_density) else {
-            return Ok(None);
-        };
-        let support: Vec<usize> =
-            (0..columns.len()).filter(|k| found[*k] != 0).map(|k| columns[k]).collect();
-        if support.len() < 2 {
-            return Ok(None);
-        }
-        let make = |at: &PrimePoint| several(at, &support).ok()?.pop();
-        let images = Images { setting: self.setting, width: support.len(), is_split: false, make };
-        Ok(images::vector(&images)?.map(|vector| (support, vector)))
+/// Searches for densities and integrals from cofactors, if there are more of them than at the last
+/// time; returns how many there are.
+pub fn combine(
+    setting: &OrbitSetting<'_>,
+    variables: &[usize],
+    factors: &[RatedPolynomial],
+    last: Option<usize>,
+    known: &mut IndependentIntegrals,
+    report: &mut SearchReport,
+) -> Result<Option<usize>, SearchError> {
+    if last != Some(factors.len()) {
+        ExponentSystem::of(setting, variables, factors, &[])?.search(known, report)?;
     }
-
-    fn density(&self, support: &[usize], report: &mut SearchReport) -> Result<(), SearchError> {
-        if report.formulas("density").next().is_some() {
-            return Ok(());
-        }
-        let numeric = self.numeric_density()?;
-        let support = numeric.as_ref().map_or(support, |(own, _)| own.as_slice());
-        let found = match &numeric {
-            Some((_, vector)) => Some(vector),
-            None => None,
-        };
-        let general = match found {
-            Some(_) => None,
-            None => self.vector(support)?,
-        };
-        let Some(vector) = found.or(general.as_ref()) else { return Ok(()) };
-        for style in self.styles(support) {
-            let Some(formula) = self.product(support, vector, style)? else { continue };
-            let statement = OrbitStatement::Density(formula.clone());
-            let (setting, none) = (self.setting, Vec::new());
-            if claims::other(setting, "density", &formula, &statement, none, report)? {
-                break;
-            }
-        }
-        Ok(())
-    }
+    Ok(Some(factors.len()))
 }

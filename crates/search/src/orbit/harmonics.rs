@@ -17,6 +17,7 @@ use super::super::terms::{is_one, recorded};
 use super::super::{Effort, SearchError, SearchReport};
 use super::images::{self, Images};
 use super::monomials::{self, value};
+use super::phase::{Multiple, Phase};
 use super::quotients::rate_of_monomial;
 use super::setting::{OrbitSetting, SPARE_ORDERS};
 use super::{adjoin, claims, degree_of_field, found};
@@ -77,26 +78,6 @@ fn cyclic(case: &Case) -> Result<Vec<usize>, SearchError> {
             && field.iter().all(|rate| !graph.depends_on(*rate, first + k))
     };
     Ok((0..case.model.dimension()).filter(is_cyclic).collect())
-}
-
-/// A factor of an argument.
-#[derive(Clone, Debug)]
-enum Multiple {
-    Number(Rational),
-    /// A coordinate of the parameters, or its inverse.
-    Parameter {
-        place: usize,
-        is_below: bool,
-    },
-}
-
-/// A function of cyclic coordinates.
-#[derive(Clone, Debug)]
-struct Phase {
-    /// Coordinates with the signs in which they occur.
-    parts: Vec<(usize, bool)>,
-    multiple: Multiple,
-    is_circular: bool,
 }
 
 /// The search in the variables of one field.
@@ -228,7 +209,7 @@ impl<'s, 'c> HarmonicSearch<'s, 'c> {
         let m = at.modulus;
         let mut echelon = Echelon::new(rows.all.len(), m);
         for own in &rows.states {
-            let growth = m.mul(factor, phase.rate(at, own));
+            let growth = m.mul(factor, phase.rate(at, &own.state));
             let entries = own.rates.iter().zip(&own.values);
             echelon
                 .push(entries.map(|(rate, value)| m.add(*rate, m.mul(growth, *value))).collect());
@@ -275,7 +256,7 @@ impl<'s, 'c> HarmonicSearch<'s, 'c> {
         for number in 0..4 * (all.len() + SPARE_ORDERS) as u64 {
             self.setting.effort.halt.check()?;
             let Some(own) = self.row(at, number, &monomials)? else { continue };
-            let growth = m.mul(factor, phase.rate(at, &own));
+            let growth = m.mul(factor, phase.rate(at, &own.state));
             // Of cos mφ and of sin mφ.
             for is_odd in [false, true] {
                 if is_odd && !phase.is_circular {
@@ -375,57 +356,4 @@ fn columns(phase: &Phase, monomials: &[Vec<u32>]) -> Vec<TermColumn> {
         monomials.iter().map(move |own| TermColumn { monomial: own.clone(), is_odd })
     };
     parities.iter().flat_map(of).collect()
-}
-
-impl Phase {
-    /// Value of the multiple.
-    fn factor(&self, at: &PrimePoint) -> Option<u64> {
-        match &self.multiple {
-            Multiple::Number(own) => at.modulus.rational(own),
-            Multiple::Parameter { place, is_below } => {
-                let own = *at.coordinates.get(*place)?;
-                let is_value = own != 0 || !is_below;
-                is_value.then(|| if *is_below { at.modulus.inverse(own) } else { own })
-            }
-        }
-    }
-
-    /// Rate at a state, without the multiple.
-    fn rate(&self, at: &PrimePoint, row: &StateRow) -> u64 {
-        let m = at.modulus;
-        self.parts.iter().fold(0, |sum, (k, is_negative)| match is_negative {
-            true => m.sub(sum, row.state[*k]),
-            false => m.add(sum, row.state[*k]),
-        })
-    }
-
-    /// Argument of the sine or exponential.
-    fn argument(&self, setting: &OrbitSetting<'_>) -> Result<Formula, FormulaError> {
-        let mut sum: Option<Formula> = None;
-        for (k, is_negative) in &self.parts {
-            let own = &setting.terms[*k];
-            sum = Some(match (sum, is_negative) {
-                (None, false) => own.clone(),
-                (None, true) => -own,
-                (Some(sum), false) => (&sum + own)?,
-                (Some(sum), true) => (&sum - own)?,
-            });
-        }
-        let sum = sum.unwrap_or_else(|| Formula::number(0));
-        let bracketed = if self.parts.len() > 1 { sum.bracketed() } else { sum.clone() };
-        match &self.multiple {
-            Multiple::Number(own) if *own == Rational::from(1) => Ok(sum),
-            Multiple::Number(own) if own.parts().1 == 1.into() => {
-                &Formula::number(own.clone()) * &bracketed
-            }
-            Multiple::Number(own) => {
-                let below = Rational::from_parts(own.parts().1, 1.into());
-                &bracketed / &Formula::number(below)
-            }
-            Multiple::Parameter { place, is_below } => {
-                let own = &setting.coordinates()[*place];
-                if *is_below { &bracketed / own } else { own * &bracketed }
-            }
-        }
-    }
 }

@@ -5,12 +5,17 @@ use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
 use super::super::streams::SearchStream;
 use super::super::terms::recorded;
+use super::angle::{ConjugatePair, SquareOfRoot};
 use super::setting::{OrbitSetting, run};
 use liouville::claim::LevelSubset;
+use liouville::formula::Formula;
 use liouville::graph::Tape;
 
 /// Number of points, on the level or not, at which slopes are compared.
 const POINTS: u64 = 3;
+
+/// Largest number of components of a sphere whose angles take part.
+const MOST_ON_SPHERE: usize = 4;
 
 /// Form of a level.
 #[derive(Clone, Debug)]
@@ -75,7 +80,7 @@ fn sphere(at: &PrimePoint, all: &[(Vec<u64>, Vec<u64>)]) -> Option<LevelShape> {
     let (state, slopes) = all.first()?;
     let block: Vec<usize> = (0..slopes.len()).filter(|k| slopes[*k] != 0).collect();
     let last = *block.last().filter(|_| block.len() > 1 && slopes.len() == state.len())?;
-    let is_zero = state.iter().any(|own| *own == 0);
+    let is_zero = state.contains(&0);
     let ratio = (!is_zero).then(|| m.mul(slopes[last], m.inverse(state[last])))?;
     let is_multiple = |(state, slopes): &(Vec<u64>, Vec<u64>)| {
         slopes.iter().enumerate().all(|(k, slope)| match block.contains(&k) {
@@ -85,4 +90,24 @@ fn sphere(at: &PrimePoint, all: &[(Vec<u64>, Vec<u64>)]) -> Option<LevelShape> {
     };
     let leading = vec![((last, 2), block.clone())];
     all.iter().all(is_multiple).then_some(LevelShape { sphere: block, leading })
+}
+
+/// Pairs x ± iy of components of a sphere in these variables: the zeros of both are zeros of other factors there.
+pub fn pairs(
+    setting: &OrbitSetting<'_>,
+    variables: &[usize],
+) -> Result<Vec<ConjugatePair>, SearchError> {
+    let sphere: &[usize] = setting.shape.as_ref().map_or(&[], |own| own.sphere.as_slice());
+    let mut pairs = Vec::new();
+    if sphere.len() > MOST_ON_SPHERE || sphere.iter().any(|k| !variables.contains(k)) {
+        return Ok(pairs);
+    }
+    for (place, second) in sphere.iter().enumerate() {
+        for first in &sphere[..place] {
+            let parts = [&setting.terms[*first], &setting.terms[*second]];
+            let square = SquareOfRoot::of(Formula::number(-1));
+            pairs.extend(ConjugatePair::rated(setting, parts, square, 1)?);
+        }
+    }
+    Ok(pairs)
 }

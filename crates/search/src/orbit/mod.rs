@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! taylor       series of orbits, and points of the orbits of maps
-//! setting      points, orbits, and the relations between monomials along them
+//! setting, draws   points, orbits, and the relations between monomials along them
 //! relations    number of algebraic integrals; none is a theorem
 //! tangents     directions of the state itself, where its functions are variables
 //! polynomials  polynomial integrals
@@ -11,9 +11,8 @@
 //! graded, turned, sparse   polynomial integrals of higher degree, class by class; bases with few terms
 //! rational     rational ones, as P and Q of the relations P − c Q
 //! line         points of a line whose orbits satisfy an additional relation
-//! conic        conics in place of lines, where functions satisfy relations, and on spheres
-//! level_shape  levels that are spheres or affine spaces
-//! harmonics    integrals with sines and exponentials of cyclic coordinates
+//! conic, level_shape  conics in place of lines, where functions satisfy relations, and on spheres
+//! harmonics, phase   integrals with sines and exponentials of cyclic coordinates
 //! darboux, shared  Darboux polynomials: the relations at these points, and those of several lines
 //! cofactors    whether a polynomial modulo a prime is one
 //! separate     those whose coefficients depend on the parameters, one by one
@@ -25,10 +24,9 @@
 //! map_densities, map_integrals  densities and polynomial integrals of maps
 //! map_fractions, map_products  densities of maps that are fractions, or products
 //! logarithms   integrals of maps by monomials
-//! exponents    densities, and integrals with powers, logarithms and exponentials, from cofactors
+//! exponents, driven, product_densities  densities, and integrals with powers, logarithms and exponentials, from cofactors
 //! quotients    fractions over powers of factors in these exponents
-//! squares      polynomials in the parameters without common factors, and their roots
-//! magnitude    f or |f| under a logarithm
+//! squares, magnitude  polynomials in the parameters, and their roots; f or |f| under a logarithm
 //! weighted     integrals of fields in the plane that are multiples of a density
 //! adjoin       functions of the state as further variables
 //! explicit     all of these for Lagrangian systems that are solved for their accelerations
@@ -51,6 +49,8 @@ mod closure;
 mod cofactors;
 mod conic;
 mod darboux;
+mod draws;
+mod driven;
 mod explicit;
 mod exponents;
 mod factor;
@@ -76,8 +76,10 @@ pub mod monomials;
 pub mod no_others;
 mod own_factors;
 mod part;
+mod phase;
 mod polynomials;
 mod primes;
+mod product_densities;
 mod products;
 mod quotients;
 mod rational;

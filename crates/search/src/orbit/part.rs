@@ -4,22 +4,20 @@ use super::super::origin::TheoremOrigin;
 use super::super::{Excluded, SearchError, SearchReport};
 use super::angle::{ConjugatePair, SquareOfRoot};
 use super::darboux::DarbouxSearch as Darboux;
-use super::exponents::ExponentSystem;
+use super::exponents::{ExponentSystem, combine};
 use super::factor::RatedPolynomial;
 use super::graded::GradedSearch;
 use super::known::IndependentIntegrals;
 use super::rational::RationalSearch;
 use super::setting::{ExtendedCase, OrbitSetting};
 use super::{
-    OrbitReport, RoundLimits, fractions, map_integrals, monomials, no_others, own_factors,
-    polynomials, relations, unbound, weighted,
+    OrbitReport, RoundLimits, fractions, level_shape, map_integrals, monomials, no_others,
+    own_factors, polynomials, relations, unbound, weighted,
 };
 use liouville::formula::Formula;
 
 /// Largest degree of a Darboux polynomial.
 pub const DARBOUX: u32 = 12;
-/// Largest number of components of a sphere whose angles take part.
-const MOST_ON_SPHERE: usize = 4;
 /// Share of the steps on a line that may be taken on a conic.
 const ON_CONICS: f64 = 0.25;
 /// Family of the theorem on Darboux polynomials, before the degree.
@@ -142,7 +140,7 @@ impl VariableSet {
             for name in own_factors::of_level(setting, variables)? {
                 search.tell(&name, 1, &mut self.factors, report)?;
             }
-            self.pairs.extend(on_sphere(setting, variables)?);
+            self.pairs.extend(level_shape::pairs(setting, variables)?);
         }
         let share = if setting.conic.is_some() { ON_CONICS } else { 1.0 };
         while self.next_darboux <= DARBOUX
@@ -393,40 +391,4 @@ fn is_complete(setting: &OrbitSetting<'_>, known: &IndependentIntegrals) -> bool
     let is_full =
         |origin: ExtendedCase<'_>| known.formulas().count() + 1 >= origin.case.model.dimension();
     setting.origin.is_some_and(is_full)
-}
-
-/// Pairs x ± iy of components of a sphere in these variables: the zeros of both are zeros of other factors there.
-fn on_sphere(
-    setting: &OrbitSetting<'_>,
-    variables: &[usize],
-) -> Result<Vec<ConjugatePair>, SearchError> {
-    let sphere: &[usize] = setting.shape.as_ref().map_or(&[], |own| own.sphere.as_slice());
-    let mut pairs = Vec::new();
-    if sphere.len() > MOST_ON_SPHERE || sphere.iter().any(|k| !variables.contains(k)) {
-        return Ok(pairs);
-    }
-    for (place, second) in sphere.iter().enumerate() {
-        for first in &sphere[..place] {
-            let parts = [&setting.terms[*first], &setting.terms[*second]];
-            let square = SquareOfRoot::of(Formula::number(-1));
-            pairs.extend(ConjugatePair::rated(setting, parts, square, 1)?);
-        }
-    }
-    Ok(pairs)
-}
-
-/// Searches for densities and integrals from cofactors, if there are more of them than at the last
-/// time; returns how many there are.
-fn combine(
-    setting: &OrbitSetting<'_>,
-    variables: &[usize],
-    factors: &[RatedPolynomial],
-    last: Option<usize>,
-    known: &mut IndependentIntegrals,
-    report: &mut SearchReport,
-) -> Result<Option<usize>, SearchError> {
-    if last != Some(factors.len()) {
-        ExponentSystem::of(setting, variables, factors, &[])?.search(known, report)?;
-    }
-    Ok(Some(factors.len()))
 }

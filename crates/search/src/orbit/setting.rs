@@ -2,12 +2,9 @@
 
 use liouville::case::Case;
 use liouville::claim::LevelSubset;
-use liouville::graph::{Evaluator, Expr, Step, Tape, record};
+use liouville::graph::{Evaluator, Tape};
 use liouville::mechanics::Draw;
-use liouville::number::BinaryOperation;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
-use liouville::number::rational::Rational;
-use liouville::scalar::Scalar;
 use liouville::verdict::Sampler;
 
 use super::super::ansatz::Coordinates;
@@ -19,6 +16,7 @@ use super::super::terms::{read, recorded};
 use super::super::{Effort, SearchError};
 use super::adjoin::Extension;
 use super::conic::ConicShape;
+use super::draws::without_ranges;
 use super::level_shape::LevelShape;
 use super::limits::StepsLeft;
 use super::monomials::{self, MonomialSeries};
@@ -378,25 +376,6 @@ impl<'c> OrbitSetting<'c> {
         }
         Ok(Some(OrbitRelations { point, vectors, free }))
     }
-}
-
-/// The map from draws to parameters and states without the terms 0·√(…) by which a state out of its
-/// declared range has no value: modulo a prime there are no ranges.
-fn without_ranges(sampler: &Sampler) -> Result<Tape, SearchError> {
-    let graph = sampler.graph();
-    let reached = graph.reached(sampler.made().iter().copied());
-    let is_zero =
-        |place: usize| matches!(graph.step(place), Step::Constant(value) if value.is_zero());
-    let (made, outputs) = record(graph.inputs(), |inputs| {
-        let zero = Expr::rational(&Rational::from(0));
-        let values = graph.replay(&reached, inputs, |_, step, _| match step {
-            Step::Binary(BinaryOperation::Mul, a, b) if is_zero(a) || is_zero(b) => Some(zero),
-            _ => None,
-        });
-        let value = |own: &Expr| values[graph.place(*own)].unwrap_or(zero);
-        sampler.made().iter().map(value).collect::<Vec<_>>()
-    })?;
-    Ok(Tape::new(&made, &outputs))
 }
 
 /// Runs a tape at one point; `None` where an output has no value.

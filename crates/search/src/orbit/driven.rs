@@ -1,0 +1,100 @@
+//! Functions whose rate is a combination of known integrals.
+
+use super::super::terms::{TermSum, is_one};
+use super::super::{SearchError, SearchReport};
+use super::claims::{self, OrbitStatement};
+use super::exponents::{CONSTANT_RATE, ExponentSystem, RateTerm};
+use super::factor::RatedPolynomial;
+use super::images;
+use super::known::IndependentIntegrals;
+use liouville::formula::Formula;
+use liouville::verdict::Flaw;
+
+/// Largest number of integrals of which a rate may be a combination.
+const MOST_KNOWN: usize = 12;
+/// Largest number of functions of such rates.
+const MOST_RATES: usize = 4;
+
+impl ExponentSystem<'_, '_> {
+    /// Searches for functions whose rate is a combination of known integrals, where none has a constant
+    /// rate: with G' = 0 and F' = G, F − tG is an integral.
+    pub fn search_rates(
+        mut self,
+        known: &IndependentIntegrals,
+        report: &mut SearchReport,
+    ) -> Result<(), SearchError> {
+        if report.formulas(CONSTANT_RATE).next().is_some() {
+            return Ok(());
+        }
+        for formula in known.formulas() {
+            self.known.extend(RatedPolynomial::of(self.setting, formula, 1)?);
+        }
+        if self.known.is_empty() || self.known.len() > MOST_KNOWN {
+            return Ok(());
+        }
+        let is_function = |column: &RateTerm| {
+            matches!(column, RateTerm::Monomial(_) | RateTerm::Factor(_) | RateTerm::Angle(_))
+        };
+        self.columns.retain(is_function);
+        let first = self.columns.len();
+        self.columns.extend((0..self.known.len()).map(RateTerm::Known));
+        self.columns.push(RateTerm::Constant);
+        let Some(at) = self.setting.at(0, 0) else { return Ok(()) };
+        let all: Vec<usize> = (0..self.columns.len()).collect();
+        let mut told = 0;
+        for vector in self.relations(&at, &all)? {
+            self.setting.effort.halt.check()?;
+            let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+            let is_known = |column: &usize| matches!(self.columns[*column], RateTerm::Known(_));
+            let is_driven = support.iter().any(is_known);
+            // Integrals that depend on each other have no function.
+            if !is_driven || support[0] >= first || told == MOST_RATES {
+                continue;
+            }
+            let Some(vector) = self.vector(&support)? else { continue };
+            let Some(rate) = self.combination(&support, first, &vector)? else { continue };
+            // An integral that jumps is not constant along a motion across.
+            let statement = OrbitStatement::Integral(rate.clone());
+            let Some(judged) = claims::proved(self.setting, &statement)? else { continue };
+            if judged.evidence.flaws.contains(&Flaw::Jumps) {
+                continue;
+            }
+            for style in self.styles(&support) {
+                let Some(function) = self.logarithm(&support, &vector, style)? else { continue };
+                let statement =
+                    OrbitStatement::Rate { function: function.clone(), rate: rate.clone() };
+                let (setting, with) = (self.setting, vec![("rate", &rate)]);
+                if claims::other(setting, CONSTANT_RATE, &function, &statement, with, report)? {
+                    told += 1;
+                    break;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The combination of known integrals, and a number, in a null vector.
+    fn combination(
+        &self,
+        support: &[usize],
+        first: usize,
+        vector: &images::ParametricVector,
+    ) -> Result<Option<Formula>, SearchError> {
+        let mut sum = TermSum::default();
+        for (place, column) in support.iter().enumerate().filter(|(_, column)| **column >= first) {
+            let factor = vector.coefficients.formula(place)?;
+            let is_below = factor.constant().is_some_and(|own| own.is_negative());
+            let factor = if is_below { -&factor } else { factor };
+            match &self.columns[*column] {
+                RateTerm::Known(own) if is_one(&factor) => {
+                    sum.add(is_below, &self.known[*own].formula)?;
+                }
+                RateTerm::Known(own) => {
+                    sum.add(is_below, &(&factor * &self.known[*own].formula)?)?
+                }
+                _ => sum.add(!is_below, &factor)?,
+            }
+        }
+        Ok(sum.total())
+    }
+}
