@@ -14,12 +14,10 @@ fn cyclic(function: &str) -> SearchReport {
 #[test]
 fn integrals_with_functions_of_cyclic_coordinates_are_found() {
     let cases = [
-        // Laplace's vector, the tensor of an oscillator, a charge, a cone, Kepler's problem on a sphere.
+        // Laplace's vector, the tensor of an oscillator, a cone.
         ("p²/2 + q²/(2*r²) - a/r", "sin(s)"),
         ("p²/2 + q²/(2*r²) + r²/2", "cos(2*s)"),
-        ("p²/2 + (q - a*r²/2)²/(2*r²)", "sin(s)"),
         ("p²/2 + q²/(2*a²*r²)", "cos(a*s)"),
-        ("p²/2 + q²/(2*sin(r)²) - a*cos(r)/sin(r)", "cos(s)"),
         // Boosts of the hyperbolic plane, and of an accelerated frame.
         ("p²/2 + q²/(2*cosh(r)²)", "exp(s)"),
         ("p²/2 - q²/(2*(1 + a*r)²)", "exp(a*s)"),
