@@ -23,7 +23,7 @@ impl Condition {
     /// Requires that values do not jump, or the claim says nothing of motions across the jump.
     pub fn continuous(values: Vec<Expr>, what: &str) -> Self {
         let need = Need::Continuous { values };
-        let otherwise = format!("{what} jumps: this says nothing of motions across");
+        let otherwise = format!("{what} jumps: motions across the jump are not covered");
         Self { need, otherwise, is_essential: false }
     }
 

@@ -78,9 +78,10 @@ pub fn text(title: &str, report: &SearchReport) -> String {
     for opinion in &report.opinions {
         let Some(zero) = opinion.largest_zero else { continue };
         let verdict = if opinion.agrees() { "agree" } else { "DO NOT AGREE" };
+        let relations = if opinion.relations == 1 { "relation" } else { "relations" };
         out.push_str(&format!(
             "\nsecond opinion, terms over {}: the singular values of {} terms at {} states in f64 {verdict} \
-             with {} relations: {:.1e}, then {zero:.1e}\n",
+             with {} {relations}: {:.1e}, then {zero:.1e}\n",
             opinion.denominator, opinion.terms, opinion.states, opinion.relations, opinion.smallest
         ));
     }

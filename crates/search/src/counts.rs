@@ -16,7 +16,7 @@ use super::products::Generators;
 use super::{Effort, Excluded, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::formula::Formula;
-use liouville::mechanics::Draw;
+use liouville::mechanics::{Draw, System};
 use liouville::number::rational::Rational;
 
 /// Largest number of combinations of listed values that are counted one by one.
@@ -206,8 +206,8 @@ impl<'c> CountedMotion<'c> {
     }
 }
 
-/// Records the equations of motion for each combination of listed values; `None`, with a remark, if
-/// there are too many combinations or nothing can be counted.
+/// Records the equations of motion for each combination of listed values; `None`, with a remark, if there are
+/// too many combinations or nothing can be counted, and without one for a field, which has no velocities.
 pub fn locals(case: &Case, report: &mut SearchReport) -> Result<Option<Vec<Local>>, SearchError> {
     let recorded = || -> Result<Vec<Local>, SearchError> {
         let all = listed(&case.model.parameter_draws());
@@ -218,6 +218,12 @@ pub fn locals(case: &Case, report: &mut SearchReport) -> Result<Option<Vec<Local
         all.iter().map(|fixed| Local::with(case, coordinates.clone(), fixed)).collect()
     };
     let locals = match recorded() {
+        // Nobody expects a count of velocities where there are none.
+        Err(SearchError::Unsplit(_))
+            if matches!(case.model.system, System::Field(_) | System::Hamiltonian(_)) =>
+        {
+            return Ok(None);
+        }
         Err(error @ SearchError::Unsplit(_)) => {
             report.remark(error.to_string());
             return Ok(None);

@@ -1,5 +1,6 @@
 //! Functions whose rate is a combination of known integrals.
 
+use super::super::ansatz::system::PrimePoint;
 use super::super::terms::{TermSum, is_one};
 use super::super::{SearchError, SearchReport};
 use super::claims::{self, OrbitStatement};
@@ -61,6 +62,9 @@ impl ExponentSystem<'_, '_> {
             }
             for style in self.styles(&support) {
                 let Some(function) = self.logarithm(&support, &vector, style)? else { continue };
+                if self.is_time_by_rate(&at, &function)? {
+                    break;
+                }
                 let statement =
                     OrbitStatement::Rate { function: function.clone(), rate: rate.clone() };
                 let (setting, with) = (self.setting, vec![("rate", &rate)]);
@@ -71,6 +75,18 @@ impl ExponentSystem<'_, '_> {
             }
         }
         Ok(())
+    }
+
+    /// Whether a function is t v(F) for a variable t with v(t) = 1, which says no more than v(v(F)) = 0.
+    fn is_time_by_rate(&self, at: &PrimePoint, function: &Formula) -> Result<bool, SearchError> {
+        let setting = self.setting;
+        let Some(own) = RatedPolynomial::of(setting, function, 1)? else { return Ok(false) };
+        let Some(point) = setting.point(at, 1 << 42) else { return Ok(false) };
+        let Some(orbit) = setting.along(at, &point, 2)? else { return Ok(false) };
+        let Some((value, rate)) = own.at(at, &point) else { return Ok(false) };
+        let m = &at.modulus;
+        let mut times = orbit.iter().filter(|series| series[1] == m.one());
+        Ok(times.any(|series| m.mul(series[0], rate) == value))
     }
 
     /// The combination of known integrals, and a number, in a null vector.
