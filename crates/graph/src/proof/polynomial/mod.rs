@@ -7,9 +7,13 @@
 mod bound;
 mod divisors;
 mod fraction;
+mod irreducible;
+mod lifting;
 mod linear;
+mod modular;
 mod monomial;
 mod span;
+mod whole;
 
 #[cfg(test)]
 mod tests;
