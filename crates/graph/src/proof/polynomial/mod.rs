@@ -5,6 +5,7 @@
 //! a normal form.
 
 mod bound;
+mod definite;
 mod divisors;
 mod fraction;
 mod irreducible;
@@ -89,6 +90,11 @@ impl Polynomial {
             None => Some(Rational::from(0)),
             Some((monomial, value)) => monomial.0.is_empty().then(|| value.clone()),
         }
+    }
+
+    /// Returns the terms, each as a number and the exponents of the variables.
+    pub fn terms(&self) -> impl DoubleEndedIterator<Item = (&Rational, &[(u32, u32)])> {
+        self.terms.iter().map(|(monomial, value)| (value, &monomial.0[..]))
     }
 
     /// Number of terms.
