@@ -27,8 +27,12 @@ impl Arena {
         if self.nodes.len() > MOST_NODES {
             return None;
         }
-        let mut reading =
-            Reading { same: same(self), arena: self, parts: Vec::new(), work: MOST_POLYNOMIAL_WORK };
+        let mut reading = Reading {
+            same: same(self),
+            arena: self,
+            parts: Vec::new(),
+            work: MOST_POLYNOMIAL_WORK,
+        };
         let whole = reading.polynomial(node)?;
         let parts = reading.parts;
         let factors = whole.factors();

@@ -12,6 +12,7 @@ use crate::number::arb::ArbBall;
 use crate::number::float::Float;
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, Domain, UnaryFunction};
+use crate::proof::is_square;
 
 /// Number of points into which a line, or a part of it, is divided at a time.
 const POINTS: usize = 64;
@@ -196,6 +197,7 @@ fn may_jump(graph: &Graph, values: &[Expr]) -> bool {
     let reached = graph.reached(values.iter().copied());
     let mut is_quotient = vec![false; reached.len()];
     let (mut has_corner, mut has_quotient) = (false, false);
+    let mut radicands = Vec::new();
     for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
         let below = step.arguments().any(|argument| is_quotient[argument]);
         is_quotient[place] = below
@@ -216,8 +218,12 @@ fn may_jump(graph: &Graph, values: &[Expr]) -> bool {
             Step::Unary(UnaryFunction::Atan | UnaryFunction::Exp, _) => below,
             _ => false,
         };
+        if let Step::Unary(UnaryFunction::Sqrt, a) = step {
+            radicands.push(a);
+        }
     }
-    has_corner && has_quotient
+    let is_written_out = |radicand: &usize| is_square(graph, graph.at(*radicand));
+    has_quotient && (has_corner || radicands.iter().any(is_written_out))
 }
 
 fn is_constant(graph: &Graph, place: usize) -> bool {

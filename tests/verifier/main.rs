@@ -16,6 +16,7 @@ mod labels;
 mod lanes;
 mod language;
 mod level_cells;
+mod expanded_levels;
 mod level_parts;
 mod local;
 mod many_variables;

@@ -14,6 +14,9 @@ fn polynomial(graph: &Graph, value: Expr) -> Option<Polynomial> {
     read.polynomial()
 }
 
+/// Largest number of steps of a value that may be a square.
+const MOST_STEPS: usize = 80;
+
 /// Factors of a value, as polynomials in inputs and in values of functions.
 pub struct Factors {
     all: Vec<Polynomial>,
@@ -54,9 +57,7 @@ impl Factors {
 pub(super) fn fraction_in_functions(graph: &Graph, value: Expr) -> Option<(Fraction, Vec<usize>)> {
     let is_variable = |step: Step<'_>| match step {
         Step::Input(_) => true,
-        Step::Unary(function, _) => {
-            !matches!(function, UnaryFunction::Neg | UnaryFunction::Recip)
-        }
+        Step::Unary(function, _) => !matches!(function, UnaryFunction::Neg | UnaryFunction::Recip),
         _ => false,
     };
     let reached = graph.reached([value]);
@@ -69,6 +70,21 @@ pub(super) fn fraction_in_functions(graph: &Graph, value: Expr) -> Option<(Fract
     };
     let whole = fraction(graph, graph.place(value), &|at, _| variable(at))?;
     Some((whole, places))
+}
+
+/// Whether a value, a quotient of polynomials in inputs and functions, is the square of one times a number, or has
+/// a factor as 1 − cos u, which is the square 2 sin²(u/2).
+pub fn is_square(graph: &Graph, value: Expr) -> bool {
+    let size = graph.reached([value]).into_iter().filter(|reached| *reached).count();
+    let whole = (size <= MOST_STEPS).then(|| fraction_in_functions(graph, value)).flatten();
+    let Some((whole, places)) = whole else { return false };
+    let is_turn = |variable: &u32| {
+        let step = places.get(*variable as usize).map(|place| graph.step(*place));
+        matches!(step, Some(Step::Unary(UnaryFunction::Sin | UnaryFunction::Cos, _)))
+    };
+    let vanishes =
+        |variable: u32| [false, true].iter().any(|own| whole.above.vanishes_at(variable, *own));
+    whole.square().is_some() || whole.above.variables().into_iter().filter(is_turn).any(vanishes)
 }
 
 /// Values that are combinations of others with rational multiples.
@@ -118,8 +134,8 @@ mod tests {
     use num_dual::DualNum;
 
     use super::*;
-    use crate::number::rational::Rational;
     use crate::graph::{Evaluator, Tape, record};
+    use crate::number::rational::Rational;
     use crate::proof::rng::ProofRng;
 
     /// Number of factors found of a value, whose product is proved to be a multiple of it.
@@ -129,7 +145,8 @@ mod tests {
         let reached = graph.reached([value]);
         let (graph, [product, value]) = record(3, |x| {
             let values = graph.repeated(&reached, x);
-            let all = (0..found.count()).map(|index| found.value(index, |place| values[place]).expect("recorded"));
+            let all = (0..found.count())
+                .map(|index| found.value(index, |place| values[place]).expect("recorded"));
             let product = all.reduce(|a, b| a * b).expect("several");
             [product, values[graph.place(value)].expect("replayed")]
         })
@@ -162,6 +179,19 @@ mod tests {
         assert_eq!(factors(|x| (x[0] + 1.0) * (x[0] * x[0] - 3.0)), 2, "of one variable");
         assert_eq!(factors(|x| x[0] * (x[0] + 1.0) * (x[1] * x[1] - x[1])), 4, "of one variable");
         assert_eq!(factors(|x| (x[0] + 2.0).exp() * x[1] - x[1]), 2, "with a function");
+    }
+
+    #[test]
+    fn squares_that_are_written_out_are_seen() {
+        let is_square = |build: &dyn Fn(&[Expr]) -> Expr| {
+            let (graph, value) = record(3, |x| build(x)).expect("records");
+            super::is_square(&graph, value)
+        };
+        assert!(is_square(&|x| x[0] * x[0] - x[0] * x[1] * 2.0 + x[1] * x[1]), "(x − y)²");
+        assert!(is_square(&|x| -x[0].cos().powi(2) + 1.0), "sin²x");
+        assert!(is_square(&|x| x[0].cos() + 1.0), "2 cos²(x/2)");
+        assert!(!is_square(&|x| x[0].cos() + 2.0));
+        assert!(!is_square(&|x| x[0] * x[0] - x[0] * x[1] + x[1] * x[1]));
     }
 
     #[test]

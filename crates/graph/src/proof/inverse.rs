@@ -49,7 +49,9 @@ impl Inverted {
         }
         let value = &(-&rest) * &slope?.recip()?;
         let is_at_least_one = value.abs() >= Rational::from(1);
-        let at = |quarters| Some(Solutions::Quarters(quarters_within(graph, argument, inputs, quarters)?));
+        let at = |quarters| {
+            Some(Solutions::Quarters(quarters_within(graph, argument, inputs, quarters)?))
+        };
         let solutions = match (function, value.to_integer()) {
             (UnaryFunction::Exp, _) if value.is_negative() || value.is_zero() => Solutions::None,
             (UnaryFunction::Exp, Some(1)) => Solutions::Number(Rational::from(0)),

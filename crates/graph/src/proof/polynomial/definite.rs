@@ -20,7 +20,8 @@ impl Polynomial {
                 let powers = rest.by_powers(variable);
                 let (2, head) = powers.last()? else { return None };
                 let head = head.number()?;
-                let slope = powers.iter().find(|(power, _)| *power == 1).map(|(_, own)| own.clone());
+                let slope =
+                    powers.iter().find(|(power, _)| *power == 1).map(|(_, own)| own.clone());
                 let slope = slope.unwrap_or_default();
                 Some((Self::variable(variable), head, slope))
             });
@@ -44,10 +45,12 @@ impl Polynomial {
                         squares.push(root);
                     } else {
                         for (value, exponents) in rest.terms() {
-                            if !has_sign(value) || exponents.iter().any(|(_, power)| power % 2 == 1) {
+                            if !has_sign(value) || exponents.iter().any(|(_, power)| power % 2 == 1)
+                            {
                                 return None;
                             }
-                            let halved = exponents.iter().map(|(variable, power)| (*variable, power / 2));
+                            let halved =
+                                exponents.iter().map(|(variable, power)| (*variable, power / 2));
                             squares.push(Self::of_term(&Rational::from(1), halved));
                         }
                     }

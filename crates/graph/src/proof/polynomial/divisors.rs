@@ -31,6 +31,18 @@ impl Polynomial {
         Some(self.scaled(&value.recip()?))
     }
 
+    /// Whether the polynomial is 0 wherever a variable is 1, or −1.
+    pub fn vanishes_at(&self, variable: u32, is_negative: bool) -> bool {
+        let value = if is_negative { -1 } else { 1 };
+        let sum =
+            self.by_powers(variable).into_iter().fold(Self::default(), |sum, (power, own)| {
+                // ±1 to any power
+                let factor = if power % 2 == 1 { value } else { 1 };
+                sum.plus(&own.scaled(&Rational::from(factor)))
+            });
+        sum.is_zero()
+    }
+
     /// Returns the coefficients by powers of a variable.
     pub(super) fn by_powers(&self, variable: u32) -> Vec<(u32, Self)> {
         let all = self.collected(&[variable]).into_iter();

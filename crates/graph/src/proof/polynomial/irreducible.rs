@@ -202,9 +202,8 @@ mod tests {
     }
 
     fn product(factors: &[Polynomial]) -> Polynomial {
-        let times = |all: Polynomial, own: &Polynomial| {
-            all.times(own, &mut { MOST_WORK }).expect("small")
-        };
+        let times =
+            |all: Polynomial, own: &Polynomial| all.times(own, &mut { MOST_WORK }).expect("small");
         factors.iter().fold(number(1), times)
     }
 

@@ -79,7 +79,8 @@ impl<'p> Lifting<'p> {
         for order in 1..self.whole.len() {
             let own = |degree: usize| -> Form {
                 let head = self.head.get(order).into_iter().flatten();
-                let at = |value: &Coefficients| [vec![BigInt::zero(); degree], value.clone()].concat();
+                let at =
+                    |value: &Coefficients| [vec![BigInt::zero(); degree], value.clone()].concat();
                 head.map(|(monomial, value)| (monomial.clone(), at(value))).collect()
             };
             left.push(own(of_g));

@@ -142,13 +142,25 @@ mod tests {
     #[test]
     fn polynomials_with_known_factors_fall_apart() {
         assert_eq!(degrees(&[-1, 0, 0, 1]), Some(vec![1, 2]), "x³ − 1");
-        assert_eq!(degrees(&[1, 0, 0, 0, 1]), Some(vec![4]), "x⁴ + 1, which falls apart modulo each prime");
+        assert_eq!(
+            degrees(&[1, 0, 0, 0, 1]),
+            Some(vec![4]),
+            "x⁴ + 1, which falls apart modulo each prime"
+        );
         assert_eq!(degrees(&[4, 0, 0, 0, 1]), Some(vec![2, 2]), "x⁴ + 4");
         assert_eq!(degrees(&[4, 0, -5, 0, 1]), Some(vec![1, 1, 1, 1]), "(x² − 1)(x² − 4)");
         assert_eq!(degrees(&[1, 0, -10, 0, 1]), Some(vec![4]), "the conjugates of √2 + √3");
-        assert_eq!(degrees(&[-2, -1, 5, 7, 6]), Some(vec![1, 1, 2]), "(2x − 1)(3x + 2)(x² + x + 1)");
+        assert_eq!(
+            degrees(&[-2, -1, 5, 7, 6]),
+            Some(vec![1, 1, 2]),
+            "(2x − 1)(3x + 2)(x² + x + 1)"
+        );
         assert_eq!(degrees(&[1, 2, 1]), None, "(x + 1)²");
-        assert_eq!(degrees(&[-1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1]), Some(vec![1, 1, 2, 2, 2, 4]), "x¹² − 1");
+        assert_eq!(
+            degrees(&[-1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1]),
+            Some(vec![1, 1, 2, 2, 2, 4]),
+            "x¹² − 1"
+        );
     }
 
     #[test]
