@@ -16,7 +16,7 @@ use super::modular::{Coefficients, Residues, trimmed};
 use super::{Monomial, Polynomial};
 
 /// Largest number of products of coefficients in one lifting.
-const MOST_PRODUCTS: usize = 2_000_000;
+const MOST_PRODUCTS: usize = 500_000;
 /// Largest number of terms of a polynomial about the point.
 const MOST_TERMS: usize = 3000;
 
