@@ -19,6 +19,8 @@ use crate::proof::is_square;
 const POINTS: usize = 64;
 /// Number of lines through pairs of states.
 const LINES: u64 = 16;
+/// The same where each point takes long.
+const FEW_LINES: u64 = 4;
 /// Number of divisions: before the sides of a jump are first compared, and in all.
 const EARLY: usize = 3;
 const LATE: usize = 6;
@@ -59,7 +61,8 @@ impl Judging<'_> {
             Digits::Double => Along::Double(Evaluator::new(&tape, DoubleDoubles)),
         };
         let mut precise = Evaluator::new(&tape, ArbBall::new(PRECISION));
-        (0..LINES).find_map(|line| {
+        let lines = if digits == Digits::Double { FEW_LINES } else { LINES };
+        (0..lines).find_map(|line| {
             let ends = [2 * line, 2 * line + 1].map(|index| sampler.nearest_draws(index));
             let line = Line::between(sampler, ends, graph.inputs());
             let jump = line.jump(&mut along).filter(|jump| line.is_real(&mut precise, jump))?;
