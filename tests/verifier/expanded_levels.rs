@@ -76,3 +76,45 @@ fn levels_of_products_that_are_written_out_have_all_of_their_parts() {
     }
     assert!(proved > 150 && refuted > 150, "{proved} proved and {refuted} refuted");
 }
+
+#[test]
+fn sums_of_squares_are_0_where_each_square_is_and_differences_are_not() {
+    let mut proved = 0;
+    for index in 0..LEVELS / 2 {
+        let mut draws = Draws(5000 + index);
+        let (one, two, other) = (draws.line(), draws.line(), draws.line());
+        let squares = |factor: i64| {
+            let second = two.times(&two);
+            let scaled = second.times(&Polynomial(vec![(factor, [0; 4])]));
+            Polynomial([one.times(&one).0, scaled.0].concat())
+        };
+        let claims = [&one, &two, &other].map(Polynomial::text);
+        let points: Vec<[i64; 4]> = (0..81)
+            .map(|k| [k % 3 - 1, k / 3 % 3 - 1, k / 9 % 3 - 1, k / 27 - 1])
+            .filter(|at| one.value(at) == 0 && two.value(at) == 0)
+            .collect();
+        let sum = squares(2);
+        if let Some(found) = verdicts(&sum.text(), &claims, index) {
+            for own in &found[..2] {
+                assert!(*own != Verdict::Refuted, "a square is not 0 on {}", sum.text());
+                proved += usize::from(*own == Verdict::Proved);
+            }
+            let is_zero = points.iter().all(|at| other.value(at) == 0);
+            let holds = matches!(found[2], Verdict::Proved | Verdict::Confirmed);
+            assert!(is_zero || !holds, "{} is told to be 0 on {}", claims[2], sum.text());
+        }
+        // x² = 2y² has the zeros x = ±√2 y, unless x and y are multiples of each other.
+        let minor = |i: usize, j: usize| {
+            one.slope(&[0; 4], i) * two.slope(&[0; 4], j)
+                - one.slope(&[0; 4], j) * two.slope(&[0; 4], i)
+        };
+        let are_independent = (0..4).any(|i| (0..i).any(|j| minor(i, j) != 0));
+        let difference = squares(-2);
+        if let (true, Some(found)) = (are_independent, verdicts(&difference.text(), &claims, index))
+        {
+            let holds = |own: &Verdict| matches!(own, Verdict::Proved | Verdict::Confirmed);
+            assert!(!found[..2].iter().any(holds), "{claims:?} on {}", difference.text());
+        }
+    }
+    assert!(proved > 60, "{proved} are proved");
+}

@@ -10,7 +10,7 @@ const LEVELS: u64 = 120;
 
 /// A sum of monomials with small coefficients.
 #[derive(Clone)]
-pub struct Polynomial(Vec<(i64, [u32; 4])>);
+pub struct Polynomial(pub Vec<(i64, [u32; 4])>);
 
 impl Polynomial {
     pub fn value(&self, at: &[i64; 4]) -> i64 {

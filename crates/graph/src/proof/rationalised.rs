@@ -92,6 +92,8 @@ pub fn vanishing_root(graph: &Graph, reached: &[bool]) -> Option<usize> {
 
 #[cfg(test)]
 mod tests {
+    use num_dual::DualNum;
+
     use super::*;
     use crate::graph::{Evaluator, Tape, record};
 
