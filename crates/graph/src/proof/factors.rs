@@ -57,7 +57,11 @@ impl Factors {
 pub(super) fn fraction_in_functions(graph: &Graph, value: Expr) -> Option<(Fraction, Vec<usize>)> {
     let is_variable = |step: Step<'_>| match step {
         Step::Input(_) => true,
-        Step::Unary(function, _) => !matches!(function, UnaryFunction::Neg | UnaryFunction::Recip),
+        Step::Unary(function, _) => {
+            use UnaryFunction::{Atan, Cos, Exp, Ln, Sin};
+            // Roots and moduli are divided by their own rules.
+            matches!(function, Exp | Ln | Sin | Cos | Atan)
+        }
         _ => false,
     };
     let reached = graph.reached([value]);
