@@ -95,14 +95,19 @@ fn unknown_rate(key: &str, unreadable: Unreadable, variables: &[Variable]) -> Pr
             let meant = look_alike(&name, variables.iter().map(|own| own.name.as_str()));
             let names: Vec<&str> = variables.iter().map(|v| v.name.as_str()).collect();
             let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
-            let is_vector =
-                |own: &&Variable| own.name == stem && matches!(own.kind, Type::Vector(_));
-            let remedy = match names.as_slice() {
-                _ if stem != name && variables.iter().any(|own| is_vector(&own)) => {
-                    format!("write \"{stem}[{}]'\"", &name[stem.len()..])
+            let is_vector = |of: &&str| {
+                let is_of =
+                    |own: &Variable| own.name == **of && matches!(own.kind, Type::Vector(_));
+                variables.iter().any(is_of)
+            };
+            // x_2 is read as x2.
+            let vector = [stem, stem.trim_end_matches('_')].into_iter().find(is_vector);
+            let remedy = match (names.as_slice(), vector) {
+                (_, Some(vector)) if stem != name => {
+                    format!("write \"{vector}[{}]'\"", &name[stem.len()..])
                 }
                 _ if meant.is_some() => meant.unwrap_or_default(),
-                [] => "declare the variable in [state] first".to_string(),
+                ([], _) => "declare the variable in [state] first".to_string(),
                 _ => format!("[state] has {}; write \"x'\" = \"…\"", names.join(", ")),
             };
             (format!("`{}` is not the rate of a state variable", excerpt(key)), remedy)

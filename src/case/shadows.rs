@@ -51,10 +51,13 @@ fn is_component(vocabulary: &Vocabulary, name: &str) -> bool {
 /// Warning about a hidden name.
 pub fn warning(vocabulary: &Vocabulary, name: &str) -> String {
     let hidden = format!("`{name}` already has a meaning here, and this file gives it another");
-    let variable = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
     match vocabulary.find(name).is_some() && is_component(vocabulary, name) {
         true => {
-            format!("{hidden}: write {variable}[{}] for the component", &name[variable.len()..])
+            // x_2 is read as x2.
+            let is_known = vocabulary.find(stem).is_some();
+            let variable = if is_known { stem } else { stem.trim_end_matches('_') };
+            format!("{hidden}: write {variable}[{}] for the component", &name[stem.len()..])
         }
         false => hidden,
     }

@@ -18,7 +18,8 @@ struct Term {
 impl Formula {
     /// Returns formulas of which one is 0 at exactly those real points at which this one is, where all of
     /// them have values everywhere: those of a product, of a power, of |A|, and of k Aⁿ − l Bⁿ = 0, which is
-    /// A = r B, and A = −r B for even n, with rⁿ = l/k; and k |u| − l |v| = 0, which is k² |u|² = l² |v|² for l/k ≥ 0.
+    /// A = r B, and A = −r B for even n, with rⁿ = l/k; and k |u| − l |v| = 0, which is k² |u|² = l² |v|² for l/k ≥ 0;
+    /// and those over ℚ of a sum, as a polynomial in its parts.
     /// `None` if the formula is none of these.
     pub(crate) fn factors(&self) -> Option<Vec<Formula>> {
         let mut arena = self.arena.clone();
@@ -44,8 +45,11 @@ impl Formula {
                     let (a, b) = (*a, *b);
                     match difference(&mut arena, a, b) {
                         Some(parts) => open.extend(parts.into_iter().rev()),
-                        None => found.push(node),
+                        None => found.extend(expanded(&mut arena, node)),
                     }
+                }
+                NodeOperation::Add(..) | NodeOperation::Sum(_) => {
+                    found.extend(expanded(&mut arena, node));
                 }
                 _ => found.push(node),
             }
@@ -60,6 +64,11 @@ impl Formula {
         };
         Some(found.into_iter().map(of_node).collect())
     }
+}
+
+/// Returns the factors of a sum that is written out, or the sum.
+fn expanded(arena: &mut Arena, node: NodeId) -> Vec<NodeId> {
+    arena.expanded_factors(node).unwrap_or_else(|| vec![node])
 }
 
 /// Reads a node as a term.

@@ -51,6 +51,7 @@ mod diagnosis;
 mod elementary;
 mod error;
 mod evaluate;
+mod expanded;
 mod factors;
 mod functions;
 mod homogeneity;

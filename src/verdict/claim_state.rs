@@ -49,6 +49,9 @@ pub struct ClaimState {
     pub partial: Option<String>,
     /// Whether a value that does not vanish is shown not to on a part of the states only.
     pub is_on_a_part: bool,
+    /// Number of the parts of the level on which it is shown not to vanish, and of all, if it vanishes on the
+    /// others.
+    pub parts: Option<(usize, usize)>,
     /// Lanes of the first block at which f64 finds no state, or no required value.
     pub missing: Vec<usize>,
 }

@@ -57,9 +57,17 @@ pub fn report(
         }
         if claim.kind.is_negated() && status.is_on_a_part {
             evidence.add_flaw(Flaw::OnAPart);
-            evidence.remark = Some(match evidence.remark {
-                Some(remark) => format!("{ON_A_PART}; {remark}"),
+            let own = match status.parts {
+                Some((shown, all)) => {
+                    format!(
+                        "true on {shown} of the {all} parts of the level, and false on the others"
+                    )
+                }
                 None => ON_A_PART.to_string(),
+            };
+            evidence.remark = Some(match evidence.remark {
+                Some(remark) => format!("{own}; {remark}"),
+                None => own,
             });
         }
     }

@@ -9,14 +9,18 @@ use super::witness::briefly;
 use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape};
 use crate::mechanics::{Draw, combinations};
 use crate::number::arb::ArbBall;
+use crate::number::double_double::{DoubleDouble, DoubleDoubles};
 use crate::number::float::Float;
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, Domain, UnaryFunction};
+use crate::proof::is_square;
 
 /// Number of points into which a line, or a part of it, is divided at a time.
 const POINTS: usize = 64;
 /// Number of lines through pairs of states.
 const LINES: u64 = 16;
+/// The same where each point takes long.
+const FEW_LINES: u64 = 4;
 /// Number of divisions: before the sides of a jump are first compared, and in all.
 const EARLY: usize = 3;
 const LATE: usize = 6;
@@ -34,23 +38,31 @@ impl Judging<'_> {
     ///
     /// `None` if no jump was met on the lines that were tried.
     pub(super) fn jump(&self, sampler: &Sampler, values: &[Expr]) -> Result<Option<String>, Fault> {
-        if !may_jump(self.graph, values) {
-            return Ok(None);
-        }
+        let Some(digits) = may_jump(self.graph, values) else { return Ok(None) };
         let Some(fixed) = combinations(sampler.recipes()).and_then(|all| all.into_iter().next())
         else {
             return Ok(None);
         };
         let (graph, groups) = sampler.compose(self.graph, &[values.to_vec()], &fixed)?;
-        Ok(self.jump_of(sampler, &graph, &groups.concat()))
+        Ok(self.jump_of(sampler, &graph, &groups.concat(), digits))
     }
 
     /// Finds a state near which a value jumps that is a function of the draws.
-    fn jump_of(&self, sampler: &Sampler, graph: &Graph, values: &[Expr]) -> Option<String> {
+    fn jump_of(
+        &self,
+        sampler: &Sampler,
+        graph: &Graph,
+        values: &[Expr],
+        digits: Digits,
+    ) -> Option<String> {
         let tape = Tape::new(graph, values);
-        let mut along = Evaluator::new(&tape, Float::<POINTS>);
+        let mut along = match digits {
+            Digits::Single => Along::Single(Evaluator::new(&tape, Float::<POINTS>)),
+            Digits::Double => Along::Double(Evaluator::new(&tape, DoubleDoubles)),
+        };
         let mut precise = Evaluator::new(&tape, ArbBall::new(PRECISION));
-        (0..LINES).find_map(|line| {
+        let lines = if digits == Digits::Double { FEW_LINES } else { LINES };
+        (0..lines).find_map(|line| {
             let ends = [2 * line, 2 * line + 1].map(|index| sampler.nearest_draws(index));
             let line = Line::between(sampler, ends, graph.inputs());
             let jump = line.jump(&mut along).filter(|jump| line.is_real(&mut precise, jump))?;
@@ -58,7 +70,7 @@ impl Judging<'_> {
             let model = &self.case.model;
             let state = &sampler.made()[model.free_components()..];
             let tape = Tape::new(sampler.graph(), state);
-            let mut state = Evaluator::new(&tape, Float::<POINTS>);
+            let mut state = Along::Single(Evaluator::new(&tape, Float::<POINTS>));
             let state = line.values(&mut state, [place; POINTS]);
             let state = state.iter().map(|x| x[0]).collect::<Vec<_>>();
             Some(briefly(model, &state))
@@ -67,19 +79,51 @@ impl Judging<'_> {
 
     /// Returns a warning if states jump along a line on a level whose equations may jump.
     pub(super) fn jump_of_level(&self, sampler: &Sampler) -> Option<String> {
-        if sampler.is_numerical() || !may_jump(self.graph, &self.common.level) {
-            return None;
-        }
+        let digits =
+            may_jump(self.graph, &self.common.level).filter(|_| !sampler.is_numerical())?;
         let state = &sampler.made()[self.case.model.free_components()..];
-        let place = self.jump_of(sampler, sampler.graph(), state);
+        let place = self.jump_of(sampler, sampler.graph(), state, digits);
         place.map(|place| {
             format!("near {place} the level jumps: what holds on it says nothing of motions across")
         })
     }
 }
 
+/// Numbers that follow a line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Digits {
+    Single,
+    /// Twice as many: a square that is written out is lost in f64 where it is small.
+    Double,
+}
+
 /// Values at points of lines.
-type Along<'t> = Evaluator<'t, Float<POINTS>>;
+enum Along<'t> {
+    Single(Evaluator<'t, Float<POINTS>>),
+    Double(Evaluator<'t, DoubleDoubles>),
+}
+
+impl Along<'_> {
+    fn values(&mut self, inputs: &[[f64; POINTS]]) -> Vec<[f64; POINTS]> {
+        match self {
+            Along::Single(run) => {
+                run.run(inputs);
+                run.outputs().copied().collect()
+            }
+            Along::Double(run) => {
+                let mut all: Vec<[f64; POINTS]> = Vec::new();
+                for point in 0..POINTS {
+                    let at = inputs.iter().map(|own| DoubleDouble::from_f64(own[point]));
+                    run.run(&at.collect::<Vec<_>>());
+                    let values: Vec<f64> = run.outputs().map(|value| value.hi).collect();
+                    all.resize(values.len(), [f64::NAN; POINTS]);
+                    all.iter_mut().zip(values).for_each(|(own, value)| own[point] = value);
+                }
+                all
+            }
+        }
+    }
+}
 
 /// A jump that is met on a line.
 struct Jump {
@@ -116,8 +160,7 @@ impl Line {
     fn values(&self, along: &mut Along<'_>, places: [f64; POINTS]) -> Vec<[f64; POINTS]> {
         let input = |(from, to): (&f64, &f64)| places.map(|place| from + place * (to - from));
         let inputs: Vec<[f64; POINTS]> = self.from.iter().zip(&self.to).map(input).collect();
-        along.run(&inputs);
-        along.outputs().copied().collect()
+        along.values(&inputs)
     }
 
     /// Whether a value changes by half of a jump at least between its places, with many digits: less
@@ -183,7 +226,8 @@ fn divided(from: f64, to: f64) -> [f64; POINTS] {
 
 /// Whether values contain what can jump: a quotient with a modulus, or with the root, logarithm or
 /// broken power of a square, or an arctangent or exponential of a quotient. Other quotients jump on sets that no motion meets.
-fn may_jump(graph: &Graph, values: &[Expr]) -> bool {
+/// Returns the digits that are needed to see it.
+fn may_jump(graph: &Graph, values: &[Expr]) -> Option<Digits> {
     let may_be_corner = |step: Step<'_>| match step {
         Step::Unary(function, _) => !matches!(function, UnaryFunction::Neg | UnaryFunction::Recip),
         Step::Power(_, exponent) => exponent.to_integer().is_none(),
@@ -191,11 +235,12 @@ fn may_jump(graph: &Graph, values: &[Expr]) -> bool {
         _ => false,
     };
     if !graph.has_step(values, may_be_corner) {
-        return false;
+        return None;
     }
     let reached = graph.reached(values.iter().copied());
     let mut is_quotient = vec![false; reached.len()];
     let (mut has_corner, mut has_quotient) = (false, false);
+    let mut radicands = Vec::new();
     for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
         let below = step.arguments().any(|argument| is_quotient[argument]);
         is_quotient[place] = below
@@ -216,8 +261,16 @@ fn may_jump(graph: &Graph, values: &[Expr]) -> bool {
             Step::Unary(UnaryFunction::Atan | UnaryFunction::Exp, _) => below,
             _ => false,
         };
+        if let Step::Unary(UnaryFunction::Sqrt, a) = step {
+            radicands.push(a);
+        }
     }
-    has_corner && has_quotient
+    let is_written_out = |radicand: &usize| is_square(graph, graph.at(*radicand));
+    match (has_quotient, has_corner) {
+        (false, _) => None,
+        (true, true) => Some(Digits::Single),
+        (true, false) => radicands.iter().any(is_written_out).then_some(Digits::Double),
+    }
 }
 
 fn is_constant(graph: &Graph, place: usize) -> bool {

@@ -116,6 +116,7 @@ impl Judging<'_> {
                 // A state at which the residual is not 0 refutes, unless no motion belongs to it.
                 || (!found.is_lost && status.settled != Some(Verdict::Proved))
                 || evidence.holds.iter().any(|place| place == EVERYWHERE)
+                || (item.claim.kind.name() == "integral" && self.is_kept_everywhere(kept))
             {
                 continue;
             }
@@ -137,6 +138,14 @@ impl Judging<'_> {
             };
             undecide(status, reason);
         }
+    }
+
+    /// Whether the form of the rates shows that the functions of some equations are constant on every motion, which
+    /// then stays on their level, whatever their slopes.
+    fn is_kept_everywhere(&self, kept: &[bool]) -> bool {
+        let rates = self.common.level_rates.iter().zip(kept).filter(|(_, kept)| **kept);
+        let is_zero = |rate: &Expr| self.graph.constant_value(*rate).is_some_and(Rational::is_zero);
+        !self.case.model.system.is_map() && rates.into_iter().all(|(rate, _)| is_zero(rate))
     }
 
     /// Whether some state exists in exact numbers: f64 does not know that √0 does.

@@ -171,9 +171,10 @@ impl Judging<'_> {
                     });
                     let all: Vec<ClaimState> = all.collect();
                     let is_on_a_part = all.iter().any(|state| state.is_on_a_part);
+                    let parts = if let [only] = &all[..] { only.parts } else { None };
                     // One choice of listed values for which a value vanishes refutes the claim.
                     let found = first(all, |state| state.settled != Some(Verdict::Refuted));
-                    ClaimState { is_on_a_part, ..found }
+                    ClaimState { is_on_a_part, parts, ..found }
                 }
                 false => on_all(choices.into_iter().flatten().collect()),
             };
@@ -197,11 +198,13 @@ fn on_some(states: Vec<ClaimState>) -> ClaimState {
     let count = states.iter().filter(|state| is_shown(state)).count();
     let (all, is_on_a_part) = (states.len(), states.iter().any(|state| state.is_on_a_part));
     let is_proved = |state: &ClaimState| state.settled == Some(Verdict::Proved);
+    let is_known = !is_on_a_part && states.iter().all(|own| is_shown(own) || is_proved(own));
     let mut found = match count {
         0 => first(states, |state| !is_proved(state)),
         _ => first(states, is_shown),
     };
     found.is_on_a_part = count > 0 && (is_on_a_part || count < all);
+    found.parts = (is_known && count > 0).then_some((count, all));
     found
 }
 

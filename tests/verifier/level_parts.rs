@@ -4,23 +4,23 @@
 use liouville::case::Case;
 use liouville::verdict::{Options, Verdict, judge};
 
-const NAMES: [&str; 4] = ["x", "y", "z", "w"];
+pub const NAMES: [&str; 4] = ["x", "y", "z", "w"];
 /// Number of levels.
 const LEVELS: u64 = 120;
 
 /// A sum of monomials with small coefficients.
 #[derive(Clone)]
-struct Polynomial(Vec<(i64, [u32; 4])>);
+pub struct Polynomial(pub Vec<(i64, [u32; 4])>);
 
 impl Polynomial {
-    fn value(&self, at: &[i64; 4]) -> i64 {
+    pub fn value(&self, at: &[i64; 4]) -> i64 {
         let term = |(factor, powers): &(i64, [u32; 4])| {
             at.iter().zip(powers).fold(*factor, |product, (x, power)| product * x.pow(*power))
         };
         self.0.iter().map(term).sum()
     }
 
-    fn slope(&self, at: &[i64; 4], along: usize) -> i64 {
+    pub fn slope(&self, at: &[i64; 4], along: usize) -> i64 {
         let term = |(factor, powers): &(i64, [u32; 4])| {
             let mut powers = *powers;
             let power = powers[along];
@@ -30,14 +30,14 @@ impl Polynomial {
         Polynomial(self.0.iter().map(term).collect()).value(at)
     }
 
-    fn times(&self, other: &Self) -> Self {
+    pub fn times(&self, other: &Self) -> Self {
         let product = |(a, p): &(i64, [u32; 4]), (b, q): &(i64, [u32; 4])| {
             (a * b, std::array::from_fn(|k| p[k] + q[k]))
         };
         Self(self.0.iter().flat_map(|a| other.0.iter().map(move |b| product(a, b))).collect())
     }
 
-    fn text(&self) -> String {
+    pub fn text(&self) -> String {
         let power = |(name, power): (&&str, &u32)| format!("*{name}^{power}");
         let term = |(factor, powers): &(i64, [u32; 4])| {
             format!("({factor}){}", NAMES.iter().zip(powers).map(power).collect::<String>())
@@ -47,10 +47,10 @@ impl Polynomial {
 }
 
 /// A reproducible sequence of numbers.
-struct Draws(u64);
+pub struct Draws(pub u64);
 
 impl Draws {
-    fn below(&mut self, count: u64) -> u64 {
+    pub fn below(&mut self, count: u64) -> u64 {
         self.0 =
             self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 33) % count
@@ -61,7 +61,7 @@ impl Draws {
     }
 
     /// A form of degree 2, or one less a number.
-    fn polynomial(&mut self) -> Polynomial {
+    pub fn polynomial(&mut self) -> Polynomial {
         let mut terms = Vec::new();
         for _ in 0..2 + self.below(3) {
             let mut powers = [0; 4];
@@ -77,7 +77,7 @@ impl Draws {
     }
 
     /// A linear form.
-    fn line(&mut self) -> Polynomial {
+    pub fn line(&mut self) -> Polynomial {
         let mut terms = Vec::new();
         for _ in 0..1 + self.below(2) {
             let mut powers = [0; 4];

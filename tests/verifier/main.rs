@@ -8,6 +8,7 @@ mod dissipation;
 mod documents;
 mod domains;
 mod doubts;
+mod expanded_levels;
 mod functional_equations;
 mod geometry;
 mod golden;

@@ -27,6 +27,12 @@ impl Cover<'_> {
                 if let Some(factors) = node.polynomial_factors(*index)? {
                     return Ok(Some(factors));
                 }
+                if let Some(child) = node.squares(*index)? {
+                    return Ok(Some(vec![child]));
+                }
+                if let Some(solutions) = node.inverted(*index, self.extents)? {
+                    return Ok(Some(solutions));
+                }
                 // The last coordinates are preferred, as where a level has one solution.
                 for draw in inputs.iter().rev() {
                     if let Some(found) = Coefficients::of(node, *index, *draw)? {

@@ -9,7 +9,7 @@ use crate::graph::{Expr, Fault, Graph, Step, literally, record};
 use crate::mechanics::{Draw, Phase};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
-use crate::proof::{Factors, Rationalised, vanishing_root};
+use crate::proof::{Extent, Factors, Inverted, Rationalised, vanishing_root};
 use crate::scalar::Scalar;
 
 /// Points with free coordinates at which equations hold and facts are not negative.
@@ -205,14 +205,49 @@ impl Node {
         let Some(factors) = Factors::of(&self.graph, self.equations[index]) else {
             return Ok(None);
         };
-        let change = Change { dropped: Some(index), solved: None, replaced: None };
         let with = |factor: usize| {
-            self.changed(&change, |inputs, _| {
-                let equations = vec![factors.value(factor, inputs)?];
-                Some(Additions { equations, ..Additions::default() })
-            })
+            self.replaced(index, |at| Some(vec![factors.value(factor, |place| at(place))?]))
         };
         (0..factors.count()).map(with).collect::<Result<Vec<Self>, Fault>>().map(Some)
+    }
+
+    /// Writes an equation that is a sum of squares as several; `None` if it is none.
+    pub fn squares(&self, index: usize) -> Result<Option<Self>, Fault> {
+        let Some(squares) = Factors::of_squares(&self.graph, self.equations[index]) else {
+            return Ok(None);
+        };
+        let all = 0..squares.count();
+        self.replaced(index, |at| {
+            all.map(|own| squares.value(own, |place| at(place))).collect::<Option<Vec<Expr>>>()
+        })
+        .map(Some)
+    }
+
+    /// Divides an equation f(u) = c with a function f by its solutions u inside the extents of the draws; `None` if
+    /// it is none.
+    pub fn inverted(&self, index: usize, extents: &[Extent]) -> Result<Option<Vec<Self>>, Fault> {
+        let Some(found) = Inverted::of(&self.graph, self.equations[index], extents) else {
+            return Ok(None);
+        };
+        let with = |solution: usize| {
+            self.replaced(index, |at| Some(vec![found.value(solution, |place| at(place))?]))
+        };
+        (0..found.count()).map(with).collect::<Result<Vec<Self>, Fault>>().map(Some)
+    }
+
+    /// Puts others, made from the values at places, in the place of an equation.
+    fn replaced(
+        &self,
+        index: usize,
+        others: impl FnOnce(&dyn Fn(usize) -> Option<Expr>) -> Option<Vec<Expr>>,
+    ) -> Result<Self, Fault> {
+        let change = Change { dropped: Some(index), solved: None, replaced: None };
+        let reached = self.graph.reached([self.equations[index]]);
+        self.changed(&change, |inputs, _| {
+            let own = self.graph.repeated(&reached, inputs);
+            let equations = others(&|place| own.get(place).copied().flatten())?;
+            Some(Additions { equations, ..Additions::default() })
+        })
     }
 
     /// Writes an equation A + B √C = 0 as A² = B²C, with the fact −A B ≥ 0; `None` if it is none.

@@ -210,6 +210,21 @@ fn names_that_a_file_takes_from_the_system_are_told() {
 }
 
 #[test]
+fn a_hidden_component_is_written_with_its_index() {
+    for name in ["x2", "x_2"] {
+        let text = format!(
+            "title = 'x'\n[parameters]\n{name} = '1..2'\n[state]\nx = 'vector(3, -2..2)'\n[field]\n\
+             \"x'\" = '0*x'\n[[claim]]\nintegral = '{name}'\n"
+        );
+        let path = folder("component", &[("case.toml", &text)]);
+        let output =
+            liouville(&["check", path.to_str().expect("UTF-8")]).output().expect("it runs");
+        let report = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(report.contains("write x[2] for the component"), "{report}");
+    }
+}
+
+#[test]
 fn what_has_nothing_to_show_shows_nothing() {
     liouville(&["table", "1", "no-such-folder"])
         .assert()

@@ -2,136 +2,93 @@
 
 use crate::graph::{Expr, Graph, Step};
 
-use super::polynomial::{MOST_WORK, Polynomial, Span, fraction};
+use super::polynomial::{Fraction, Polynomial, Span, fraction};
 use crate::number::UnaryFunction;
-use crate::number::rational::Rational;
 
-/// Reads a value as a polynomial in the inputs: the numerator, where it is a quotient.
-fn numerator(graph: &Graph, value: Expr, with_quotients: bool) -> Option<Polynomial> {
+/// Reads a value as a polynomial in the inputs.
+fn polynomial(graph: &Graph, value: Expr) -> Option<Polynomial> {
     let read = fraction(graph, graph.place(value), &|_, step| match step {
         Step::Input(input) => u32::try_from(input).ok().map(Polynomial::variable),
         _ => None,
     })?;
-    if with_quotients { Some(read.above) } else { read.polynomial() }
+    read.polynomial()
 }
 
-/// Whether a value contains a divisor.
-fn is_quotient(graph: &Graph, value: Expr) -> bool {
-    let is_divided = |step: Step<'_>| match step {
-        Step::Unary(UnaryFunction::Recip, _) => true,
-        Step::Power(_, exponent) => exponent.is_negative(),
-        _ => false,
-    };
-    graph.steps().zip(graph.reached([value])).any(|(step, reached)| reached && is_divided(step))
-}
+/// Largest number of steps of a value that may be a square.
+const MOST_STEPS: usize = 80;
 
-/// Factors of a value, as polynomials in the inputs.
-pub struct Factors(Vec<Polynomial>);
+/// Factors of a value, as polynomials in inputs and in values of functions.
+pub struct Factors {
+    all: Vec<Polynomial>,
+    /// Places of the inputs and of the functions, by variable.
+    places: Vec<usize>,
+}
 
 impl Factors {
-    /// Finds factors of which one is 0 wherever the value, a quotient of polynomials, is 0; `None` if it
-    /// is a polynomial that does not fall apart.
+    /// Finds factors of which one is 0 wherever the value, a quotient of polynomials in inputs and functions, is
+    /// 0; `None` if it is a polynomial that does not fall apart.
     pub fn of(graph: &Graph, value: Expr) -> Option<Self> {
-        let whole = numerator(graph, value, true)?;
-        let factors = whole.factors();
-        let is_whole = factors.first() == whole.monic().as_ref();
-        let is_simpler = !is_whole || is_quotient(graph, value);
-        (factors.len() > 1 || factors.len() == 1 && is_simpler).then_some(Self(factors))
+        let (whole, places) = fraction_in_functions(graph, value)?;
+        let all = whole.above.factors();
+        let is_whole = all.first() == whole.above.monic().as_ref();
+        let is_simpler = !is_whole || whole.below.number().is_none();
+        (all.len() > 1 || all.len() == 1 && is_simpler).then_some(Self { all, places })
+    }
+
+    /// Finds several polynomials that are all 0 exactly where a value is 0, a sum of squares with factors of one
+    /// sign; `None` if it is none.
+    pub fn of_squares(graph: &Graph, value: Expr) -> Option<Self> {
+        let (whole, places) = fraction_in_functions(graph, value)?;
+        Some(Self { all: whole.polynomial()?.squares()?, places })
     }
 
     /// Number of factors.
     pub fn count(&self) -> usize {
-        self.0.len()
+        self.all.len()
     }
 
-    /// Records a factor in the recording under way.
-    pub fn value(&self, index: usize, inputs: &[Expr]) -> Option<Expr> {
-        self.0.get(index)?.value(&|variable: u32| inputs.get(variable as usize).copied())
-    }
-}
-
-/// An equation without the last root of another one.
-pub struct Rationalised {
-    /// The equation A² − B²C, where the other is A + B √C.
-    equation: Polynomial,
-    /// C, and −A B unless B is 0: they are not negative where the other equation holds.
-    facts: Vec<Polynomial>,
-    /// Places of the inputs and of the roots that remain, by variable.
-    places: Vec<usize>,
-}
-
-impl Rationalised {
-    /// Writes a value A + B √C, with polynomials A, B and C in inputs and roots, without its last root;
-    /// `None` if it is none.
-    pub fn of(graph: &Graph, value: Expr) -> Option<Self> {
-        let reached = graph.reached([value]);
-        let steps = graph.steps().enumerate().filter(|(place, _)| reached[*place]);
-        let variables = steps.filter(|(_, step)| {
-            matches!(step, Step::Input(_) | Step::Unary(UnaryFunction::Sqrt, _))
-        });
-        let places: Vec<usize> = variables.map(|(place, _)| place).collect();
-        let is_root = |place: &&usize| matches!(graph.step(**place), Step::Unary(..));
-        let last = *places.iter().rfind(is_root)?;
-        let Step::Unary(_, radicand) = graph.step(last) else { return None };
-        let variable = |place: usize| -> Option<u32> {
-            places.binary_search(&place).ok().and_then(|index| u32::try_from(index).ok())
-        };
-        let read =
-            |place: usize| fraction(graph, place, &|at, _| variable(at).map(Polynomial::variable));
-        let whole = read(graph.place(value))?.above;
-        let square = read(radicand)?.polynomial()?;
-        let [a, b] = whole.split(variable(last)?, &square)?;
-        let mut work = MOST_WORK;
-        let (equation, facts) = match b.is_zero() {
-            true => (a, vec![square]),
-            false => {
-                let minus = Rational::from(-1);
-                let other = b.times(&b, &mut work)?.times(&square, &mut work)?.scaled(&minus);
-                let fact = a.times(&b, &mut work)?.scaled(&minus);
-                (a.times(&a, &mut work)?.plus(&other), vec![square, fact])
-            }
-        };
-        Some(Self { equation, facts, places })
-    }
-
-    /// Records the equation and the facts, from the values at places.
-    pub fn values(&self, at: impl Fn(usize) -> Option<Expr>) -> Option<(Expr, Vec<Expr>)> {
-        let of = |variable: u32| at(*self.places.get(variable as usize)?);
-        let facts = self.facts.iter().map(|fact| fact.value(&of)).collect::<Option<_>>()?;
-        Some((self.equation.value(&of)?, facts))
+    /// Records a factor from the values at places.
+    pub fn value(&self, index: usize, at: impl Fn(usize) -> Option<Expr>) -> Option<Expr> {
+        self.all.get(index)?.value(&|variable: u32| at(*self.places.get(variable as usize)?))
     }
 }
 
-/// Finds the place of a root whose radicand, a quotient of polynomials in inputs and in the roots before it, is 0
-/// wherever these have values.
-pub fn vanishing_root(graph: &Graph, reached: &[bool]) -> Option<usize> {
-    let root = |place: usize| match graph.step(place) {
-        Step::Unary(UnaryFunction::Sqrt, radicand) => Some(radicand),
-        _ => None,
-    };
-    let is_variable = |place: &usize| {
-        reached[*place] && (matches!(graph.step(*place), Step::Input(_)) || root(*place).is_some())
-    };
-    let places: Vec<usize> = (0..reached.len()).filter(is_variable).collect();
-    let variable = |place: usize| -> Option<u32> {
-        places.binary_search(&place).ok().and_then(|index| u32::try_from(index).ok())
-    };
-    let read =
-        |place: usize| fraction(graph, place, &|at, _| variable(at).map(Polynomial::variable));
-    let roots: Vec<(usize, usize)> =
-        places.iter().filter_map(|place| Some((*place, root(*place)?))).collect();
-    let vanishes = |index: usize| -> Option<bool> {
-        let mut above = read(roots[index].1)?.above;
-        for (place, radicand) in roots[..index].iter().rev() {
-            let own = variable(*place)?;
-            if above.variables().contains(&own) {
-                let [even, odd] = above.split(own, &read(*radicand)?.polynomial()?)?;
-                above = even.plus(&odd.times(&Polynomial::variable(own), &mut { MOST_WORK })?);
-            }
+/// Reads a value as a quotient of polynomials in inputs and in values of functions, whose places are returned.
+pub(super) fn fraction_in_functions(graph: &Graph, value: Expr) -> Option<(Fraction, Vec<usize>)> {
+    let is_variable = |step: Step<'_>| match step {
+        Step::Input(_) => true,
+        Step::Unary(function, _) => {
+            use UnaryFunction::{Atan, Cos, Exp, Ln, Sin};
+            // Roots and moduli are divided by their own rules.
+            matches!(function, Exp | Ln | Sin | Cos | Atan)
         }
-        Some(above.is_zero())
+        _ => false,
     };
-    (1..roots.len()).find(|index| vanishes(*index) == Some(true)).map(|index| roots[index].0)
+    let reached = graph.reached([value]);
+    let steps = graph.steps().enumerate().filter(|(place, _)| reached[*place]);
+    let places: Vec<usize> =
+        steps.filter(|(_, step)| is_variable(*step)).map(|(place, _)| place).collect();
+    let variable = |place: usize| -> Option<Polynomial> {
+        let index = places.binary_search(&place).ok()?;
+        Some(Polynomial::variable(u32::try_from(index).ok()?))
+    };
+    let whole = fraction(graph, graph.place(value), &|at, _| variable(at))?;
+    Some((whole, places))
+}
+
+/// Whether a value, a quotient of polynomials in inputs and functions, is the square of one times a number, or has
+/// a factor as 1 − cos u, which is the square 2 sin²(u/2).
+pub fn is_square(graph: &Graph, value: Expr) -> bool {
+    let size = graph.reached([value]).into_iter().filter(|reached| *reached).count();
+    let whole = (size <= MOST_STEPS).then(|| fraction_in_functions(graph, value)).flatten();
+    let Some((whole, places)) = whole else { return false };
+    let is_turn = |variable: &u32| {
+        let step = places.get(*variable as usize).map(|place| graph.step(*place));
+        matches!(step, Some(Step::Unary(UnaryFunction::Sin | UnaryFunction::Cos, _)))
+    };
+    let vanishes =
+        |variable: u32| [false, true].iter().any(|own| whole.above.vanishes_at(variable, *own));
+    whole.square().is_some() || whole.above.variables().into_iter().filter(is_turn).any(vanishes)
 }
 
 /// Values that are combinations of others with rational multiples.
@@ -148,7 +105,7 @@ impl LinearDependence {
     /// last ones first. Values that are no polynomials in the inputs as they stand are passed over.
     pub fn of(graph: &Graph, values: &[Expr], may_be_left_out: &[bool]) -> Self {
         let mut polynomials: Vec<Option<Polynomial>> =
-            values.iter().map(|value| numerator(graph, *value, false)).collect();
+            values.iter().map(|value| polynomial(graph, *value)).collect();
         // A number is no equation between variables, and no combination explains it.
         polynomials.iter_mut().for_each(|own| {
             own.take_if(|own| own.number().is_some());
@@ -182,6 +139,7 @@ mod tests {
 
     use super::*;
     use crate::graph::{Evaluator, Tape, record};
+    use crate::number::rational::Rational;
     use crate::proof::rng::ProofRng;
 
     /// Number of factors found of a value, whose product is proved to be a multiple of it.
@@ -191,7 +149,8 @@ mod tests {
         let reached = graph.reached([value]);
         let (graph, [product, value]) = record(3, |x| {
             let values = graph.repeated(&reached, x);
-            let all = (0..found.count()).map(|index| found.value(index, x).expect("recorded"));
+            let all = (0..found.count())
+                .map(|index| found.value(index, |place| values[place]).expect("recorded"));
             let product = all.reduce(|a, b| a * b).expect("several");
             [product, values[graph.place(value)].expect("replayed")]
         })
@@ -223,7 +182,22 @@ mod tests {
         assert!(Factors::of(&twice.0, twice.1).is_some(), "(x − 1)²");
         assert_eq!(factors(|x| (x[0] + 1.0) * (x[0] * x[0] - 3.0)), 2, "of one variable");
         assert_eq!(factors(|x| x[0] * (x[0] + 1.0) * (x[1] * x[1] - x[1])), 4, "of one variable");
-        assert_eq!(factors(|x| (x[0] + 2.0).sin() * x[1]), 1, "no polynomial");
+        let function = record(3, |x| (x[0] + 2.0).exp() * x[1] - x[1]).expect("records");
+        let found = Factors::of(&function.0, function.1).map(|found| found.count());
+        assert_eq!(found, Some(2), "with a function");
+    }
+
+    #[test]
+    fn squares_that_are_written_out_are_seen() {
+        let is_square = |build: &dyn Fn(&[Expr]) -> Expr| {
+            let (graph, value) = record(3, |x| build(x)).expect("records");
+            super::is_square(&graph, value)
+        };
+        assert!(is_square(&|x| x[0] * x[0] - x[0] * x[1] * 2.0 + x[1] * x[1]), "(x − y)²");
+        assert!(is_square(&|x| -x[0].cos().powi(2) + 1.0), "sin²x");
+        assert!(is_square(&|x| x[0].cos() + 1.0), "2 cos²(x/2)");
+        assert!(!is_square(&|x| x[0].cos() + 2.0));
+        assert!(!is_square(&|x| x[0] * x[0] - x[0] * x[1] + x[1] * x[1]));
     }
 
     #[test]
@@ -238,37 +212,6 @@ mod tests {
             assert!(factors(|x| left(x) * right(x)) >= 2, "seed {seed}");
             factors(|x| left(x) * right(x) + x[0] * x[1] * x[2]);
         }
-    }
-
-    #[test]
-    fn an_equation_without_a_root_has_the_same_zeros() {
-        let zeros = |build: &dyn Fn(&[Expr]) -> Expr, points: &[[i64; 2]]| -> Vec<bool> {
-            let (graph, value) = record(2, |x| build(x)).expect("records");
-            let other = Rationalised::of(&graph, value).expect("has a root");
-            let reached = graph.reached([value]);
-            let (graph, values) = record(2, |x| {
-                let own = graph.repeated(&reached, x);
-                let (equation, facts) = other.values(|place| own[place]).expect("recorded");
-                [vec![equation], facts].concat()
-            })
-            .expect("records");
-            let tape = Tape::new(&graph, &values);
-            let mut run = Evaluator::new(&tape, crate::number::exact::Exact);
-            let mut is_zero = |x: &[i64; 2]| {
-                run.run(&x.map(|x| Some(Rational::from(x))));
-                let value = |k: usize| run.output(k).clone().expect("a value");
-                value(0).is_zero() && (1..values.len()).all(|k| !value(k).is_negative())
-            };
-            points.iter().map(&mut is_zero).collect()
-        };
-        let root = |x: &[Expr]| x[0] - x[1].sqrt();
-        assert_eq!(zeros(&root, &[[3, 9], [-3, 9], [3, 8], [0, 0]]), [true, false, false, true]);
-        let sum = |x: &[Expr]| x[0] + x[1].sqrt() * (x[0] - 4.0);
-        assert_eq!(zeros(&sum, &[[2, 1], [-4, 1], [0, 0], [3, 9]]), [true, false, true, true]);
-        // The root goes, and y is still not negative.
-        let square =
-            |x: &[Expr]| (x[1].sqrt() + x[0]) * (x[1].sqrt() - x[0]) + x[0] * x[0] - x[1] + x[0];
-        assert_eq!(zeros(&square, &[[0, 4], [0, -4], [1, 4]]), [true, false, false]);
     }
 
     #[test]

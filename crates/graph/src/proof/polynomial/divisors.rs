@@ -31,6 +31,18 @@ impl Polynomial {
         Some(self.scaled(&value.recip()?))
     }
 
+    /// Whether the polynomial is 0 wherever a variable is 1, or −1.
+    pub fn vanishes_at(&self, variable: u32, is_negative: bool) -> bool {
+        let value = if is_negative { -1 } else { 1 };
+        let sum =
+            self.by_powers(variable).into_iter().fold(Self::default(), |sum, (power, own)| {
+                // ±1 to any power
+                let factor = if power % 2 == 1 { value } else { 1 };
+                sum.plus(&own.scaled(&Rational::from(factor)))
+            });
+        sum.is_zero()
+    }
+
     /// Returns the coefficients by powers of a variable.
     pub(super) fn by_powers(&self, variable: u32) -> Vec<(u32, Self)> {
         let all = self.collected(&[variable]).into_iter();
@@ -38,7 +50,7 @@ impl Polynomial {
     }
 
     /// Returns the greatest common divisor of the coefficients by powers of a variable.
-    fn content(&self, variable: u32, work: &mut usize) -> Option<Self> {
+    pub(super) fn content(&self, variable: u32, work: &mut usize) -> Option<Self> {
         let mut content = Self::default();
         for (_, own) in self.by_powers(variable) {
             content = content.common_divisor(&own, work)?;
@@ -128,9 +140,23 @@ impl Polynomial {
         if repeated.number().is_some() { None } else { self.over(&repeated, work) }
     }
 
-    /// Divides into factors that are no numbers: those that miss a variable of the others, and of one
-    /// variable linear ones, each once. The polynomial is 0 where one of them is. Others may remain in
-    /// one factor.
+    /// Divides a polynomial whose factors contain all of its variables, as far as is known.
+    fn factors_of_all(self, work: &mut usize) -> Vec<Self> {
+        if let Some(found) = self.divided() {
+            return found;
+        }
+        let first = self.variables().first().copied();
+        let once = first.and_then(|first| self.without_repetitions(first, work));
+        let (once, is_other) = match once {
+            Some(once) => (once, true),
+            None => (self, false),
+        };
+        let found = if is_other { once.divided() } else { None };
+        found.unwrap_or_else(|| once.linear_factors())
+    }
+
+    /// Divides into factors over ℚ that are no numbers, each once. The polynomial is 0 where one of them is.
+    /// Several may remain in one where it is too large to be divided.
     pub fn factors(&self) -> Vec<Self> {
         let (mut open, mut factors) = (vec![self.clone()], Vec::new());
         let mut work = MOST_WORK;
@@ -148,10 +174,7 @@ impl Polynomial {
                 Some(parts) => open.extend(parts),
                 None if own.number().is_some() => {}
                 None => {
-                    let first = own.variables().first().copied();
-                    let once = first.and_then(|first| own.without_repetitions(first, &mut work));
-                    let once = once.unwrap_or(own);
-                    for factor in once.linear_factors() {
+                    for factor in own.factors_of_all(&mut work) {
                         let factor = factor.monic().unwrap_or(factor);
                         if !factors.contains(&factor) {
                             factors.push(factor);

@@ -5,11 +5,16 @@
 //! a normal form.
 
 mod bound;
+mod definite;
 mod divisors;
 mod fraction;
+mod irreducible;
+mod lifting;
 mod linear;
+mod modular;
 mod monomial;
 mod span;
+mod whole;
 
 #[cfg(test)]
 mod tests;
@@ -85,6 +90,11 @@ impl Polynomial {
             None => Some(Rational::from(0)),
             Some((monomial, value)) => monomial.0.is_empty().then(|| value.clone()),
         }
+    }
+
+    /// Returns the terms, each as a number and the exponents of the variables.
+    pub fn terms(&self) -> impl DoubleEndedIterator<Item = (&Rational, &[(u32, u32)])> {
+        self.terms.iter().map(|(monomial, value)| (value, &monomial.0[..]))
     }
 
     /// Number of terms.
