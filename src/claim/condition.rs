@@ -20,7 +20,7 @@ impl Condition {
         Self { need, otherwise: otherwise.to_string(), is_essential: false }
     }
 
-    /// Requires that values do not jump, or the claim says nothing of motions across the jump.
+    /// Requires that values do not jump, or the claim does not cover motions across the jump.
     pub fn continuous(values: Vec<Expr>, what: &str) -> Self {
         let need = Need::Continuous { values };
         let otherwise = format!("{what} jumps: motions across the jump are not covered");

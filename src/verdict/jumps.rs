@@ -84,7 +84,7 @@ impl Judging<'_> {
         let state = &sampler.made()[self.case.model.free_components()..];
         let place = self.jump_of(sampler, sampler.graph(), state, digits);
         place.map(|place| {
-            format!("near {place} the level jumps: what holds on it says nothing of motions across")
+            format!("near {place} the level jumps: motions across the jump are not covered")
         })
     }
 }
