@@ -205,9 +205,8 @@ impl Node {
         let Some(factors) = Factors::of(&self.graph, self.equations[index]) else {
             return Ok(None);
         };
-        let with = |factor: usize| {
-            self.replaced(index, |at| Some(vec![factors.value(factor, |place| at(place))?]))
-        };
+        let with =
+            |factor: usize| self.replaced(index, |at| Some(vec![factors.value(factor, at)?]));
         (0..factors.count()).map(with).collect::<Result<Vec<Self>, Fault>>().map(Some)
     }
 
@@ -218,7 +217,7 @@ impl Node {
         };
         let all = 0..squares.count();
         self.replaced(index, |at| {
-            all.map(|own| squares.value(own, |place| at(place))).collect::<Option<Vec<Expr>>>()
+            all.map(|own| squares.value(own, at)).collect::<Option<Vec<Expr>>>()
         })
         .map(Some)
     }
@@ -229,9 +228,8 @@ impl Node {
         let Some(found) = Inverted::of(&self.graph, self.equations[index], extents) else {
             return Ok(None);
         };
-        let with = |solution: usize| {
-            self.replaced(index, |at| Some(vec![found.value(solution, |place| at(place))?]))
-        };
+        let with =
+            |solution: usize| self.replaced(index, |at| Some(vec![found.value(solution, at)?]));
         (0..found.count()).map(with).collect::<Result<Vec<Self>, Fault>>().map(Some)
     }
 

@@ -137,7 +137,7 @@ impl Polynomial {
     /// Finds two factors, of which the first is a product of as few of those at the point as possible.
     fn split_from(&self, start: &Start) -> Option<[Self; 2]> {
         let count = start.factors.len();
-        if count < 2 || count > MOST_FACTORS {
+        if !(2..=MOST_FACTORS).contains(&count) {
             return None;
         }
         let times = |all: Coefficients, own: &Coefficients| -> Coefficients {
