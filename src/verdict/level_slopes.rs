@@ -95,8 +95,8 @@ impl Judging<'_> {
         Ok(kept.iter().zip(&slopes).find(|(_, own)| is_lost(own)).map(|(index, _)| *index))
     }
 
-    /// Leaves claims undecided that rest on the slopes of such equations: all but identities, and what holds
-    /// everywhere.
+    /// Leaves claims undecided that rest on the slopes of such equations: all but identities and limits, which
+    /// say nothing of motions, and what holds everywhere.
     pub(super) fn leave_flat_levels(
         &self,
         recorded: &[RecordedClaim<'_>],
@@ -111,7 +111,7 @@ impl Judging<'_> {
             };
             status.is_flat = true;
             let evidence = &mut status.evidence;
-            if item.claim.kind.name() == "identity"
+            if matches!(item.claim.kind.name(), "identity" | "limit")
                 || status.settled == Some(Verdict::Undecided)
                 // A state at which the residual is not 0 refutes, unless no motion belongs to it.
                 || (!found.is_lost && status.settled != Some(Verdict::Proved))

@@ -197,7 +197,8 @@ impl Judging<'_> {
     ///
     /// So it is if the wider place is all of space, the residual is the same, and all that counts
     /// has a value on an open set, where it is continuous. √(z x²) has one for z < 0 on the slice
-    /// x = 0 alone, which no state of space comes near.
+    /// x = 0 alone, which no state of space comes near. What the residual needs elsewhere, as ε/(ε + x²) at ε = 0,
+    /// may have a value at almost every state of space, and at none of a part of the level.
     fn is_continued(&self, place: &LevelSubset, item: &RecordedClaim<'_>, wider: &Wider) -> bool {
         let is_space = place.kept.iter().all(|kept| !kept);
         let required = self.common.required_at(&item.claim.place.kept);
@@ -211,6 +212,7 @@ impl Judging<'_> {
         is_space
             && wider.residual == item.residual
             && !item.claim.kind.is_negated()
+            && (item.presence.is_empty() || self.is_total(item, wider))
             && !self.graph.steps().zip(reached).any(|(step, reached)| reached && is_root(step))
     }
 }
