@@ -293,10 +293,10 @@ fn trust_says_what_is_insisted_on() {
     assert_eq!(seen["cases"][0]["claims"][0]["verdict"], "confirmed", "f64 cannot tell");
     let seen = json(&["check", "--json", near], 1);
     assert_eq!(seen["cases"][0]["claims"][0]["verdict"], "refuted", "more digits can");
-    let numerical = "title = 'circle'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = 'y*(x² + 3*y²)'\n\
-         \"y'\" = '−x*(x² + 3*y²)'\n[level]\nequations = ['x^4 + y^4 + 2*x²*y² = 1']\n[[claim]]\n\
-         integral = 'x² + y²'\n[[claim]]\nidentity = 'x² + y² = 1'\n";
-    let path = folder("numerical", &[("circle.toml", numerical)]).join("circle.toml");
+    let numerical = "title = 'curve'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = '5*y^4 + 1'\n\
+         \"y'\" = '−5*x^4 − 1'\n[level]\nequations = ['x^5 + x + y^5 + y = 1']\n[[claim]]\n\
+         integral = 'x^5 + x + y^5 + y'\n[[claim]]\nidentity = 'x^5 + x = 1 − y − y^5'\n";
+    let path = folder("numerical", &[("curve.toml", numerical)]).join("curve.toml");
     let path = path.to_str().expect("UTF-8");
     let seen = json(&["check", "--json", path], 0);
     assert_eq!(seen["cases"][0]["claims"][0]["verdict"], "proved", "it holds in the plane");
