@@ -19,6 +19,10 @@ pub struct Modulus {
     one: u64,
     /// 2^128 mod p, which turns an integer into its image.
     square: u64,
+    /// Number of products that a sum may get before it is reduced.
+    most_products: u64,
+    /// Number of products whose sum is reduced as one product is.
+    few_products: usize,
 }
 
 impl Modulus {
@@ -32,7 +36,12 @@ impl Modulus {
         let wide = u128::from(prime);
         let one = ((1u128 << 64) % wide) as u64;
         let square = (u128::from(one) * u128::from(one) % wide) as u64;
-        Self { prime, negative_inverse: inverse.wrapping_neg(), one, square }
+        let room = (1u128 << 127) - (wide << 64);
+        let most_products = u64::try_from(room / (wide * wide)).unwrap_or(u64::MAX);
+        // Their sum is below 2^64 p.
+        let few_products = usize::try_from((1u128 << 64) / wide).unwrap_or(usize::MAX);
+        let negative_inverse = inverse.wrapping_neg();
+        Self { prime, negative_inverse, one, square, most_products, few_products }
     }
 
     /// Returns the prime.
@@ -94,7 +103,12 @@ impl Modulus {
     /// Computes x y.
     #[inline(always)]
     pub fn mul(&self, x: u64, y: u64) -> u64 {
-        let product = u128::from(x) * u128::from(y);
+        self.reduced_below(u128::from(x) * u128::from(y))
+    }
+
+    /// Returns the residue of a sum of products below 2^64 p.
+    #[inline(always)]
+    fn reduced_below(&self, product: u128) -> u64 {
         let factor = (product as u64).wrapping_mul(self.negative_inverse);
         // product + factor p is divisible by 2^64 and below 2^64 · 2p.
         let sum = ((product + u128::from(factor) * u128::from(self.prime)) >> 64) as u64;
@@ -104,9 +118,7 @@ impl Modulus {
     /// Returns the number of products of residues that may be added to a widened residue before it
     /// is reduced: so many that the sum stays below 2^127. It is 24 or more for primes below 2^61.
     pub fn most_products(&self) -> u64 {
-        let prime = u128::from(self.prime);
-        let room = (1u128 << 127) - (prime << 64);
-        u64::try_from(room / (prime * prime)).unwrap_or(u64::MAX)
+        self.most_products
     }
 
     /// Returns x as a sum of products, to which others x y may be added as they are.
@@ -124,6 +136,39 @@ impl Modulus {
         (whole >> 64) as u64 % self.prime
     }
 
+    /// Computes Σ x_j y_j over two rows of one length.
+    pub fn dot(&self, x: &[u64], y: &[u64]) -> u64 {
+        let pairs = x.chunks(self.few_products).zip(y.chunks(self.few_products));
+        pairs.fold(0, |sum, (x, y)| self.add(sum, self.few(x.iter().zip(y))))
+    }
+
+    /// Computes Σ x_j y_{n−1−j} over two rows of length n.
+    pub fn convolved(&self, x: &[u64], y: &[u64]) -> u64 {
+        let pairs = x.chunks(self.few_products).zip(y.rchunks(self.few_products));
+        pairs.fold(0, |sum, (x, y)| self.add(sum, self.few(x.iter().zip(y.iter().rev()))))
+    }
+
+    /// Computes a sum of products of residues that are few.
+    #[inline(always)]
+    fn few<'x>(&self, pairs: impl Iterator<Item = (&'x u64, &'x u64)>) -> u64 {
+        self.reduced_below(
+            pairs.fold(0, |sum, (x, y)| {
+                sum.wrapping_add(u128::from(*x).wrapping_mul(u128::from(*y)))
+            }),
+        )
+    }
+
+    /// Returns 1/0 = 0, 1/1, 1/2, … up to the inverse of `last`, which is less than p.
+    pub fn inverses_up_to(&self, last: usize) -> Vec<u64> {
+        let mut all = vec![0, self.one];
+        for k in 2..=last as u64 {
+            // p = q k + r, so that 1/k = −q/r.
+            let (quotient, rest) = (self.integer(self.prime / k), (self.prime % k) as usize);
+            all.push(self.sub(0, self.mul(quotient, all[rest])));
+        }
+        all
+    }
+
     /// Computes x^n.
     pub fn power(&self, x: u64, n: u64) -> u64 {
         let mut result = self.one;
@@ -136,24 +181,36 @@ impl Modulus {
         result
     }
 
-    /// Computes 1/x for x ≠ 0, by Euclid's algorithm, which takes some forty steps; 0 for 0.
+    /// Computes 1/x for x ≠ 0, by some 43 steps without divisions (Kaliski 1995); 0 for 0.
     pub fn inverse(&self, x: u64) -> u64 {
-        let (mut above, mut below) = (self.prime, x % self.prime);
-        // The signs of the factors of x alternate, so that magnitudes are enough.
-        let (mut before, mut factor) = (0u64, 1u64);
-        let mut is_negative = false;
-        while below > 1 {
-            let quotient = above / below;
-            (above, below) = (below, above - quotient * below);
-            (before, factor) = (factor, before + quotient * factor);
-            is_negative = !is_negative;
-        }
-        if below == 0 {
+        let (mut u, mut v) = (self.prime, x % self.prime);
+        if v == 0 {
             return 0;
         }
-        let inverse = if is_negative { self.prime - factor } else { factor };
-        // Of x 2^64 this is the inverse; twice 2^64 brings it to the form of residues.
-        self.mul(self.mul(inverse, self.square), self.square)
+        // p = first v + second u, and x second = ±v 2^k, x first = ∓u 2^k modulo p.
+        let (mut first, mut second) = (0u64, 1u64);
+        let mut k = v.trailing_zeros();
+        v >>= k;
+        let mut is_negative = false;
+        while u != v {
+            // Which one is the smaller is a fair coin, so that branches would be predicted wrongly.
+            let is_less = v < u;
+            is_negative ^= is_less;
+            (u, v) = (u.min(v), u.abs_diff(v));
+            (first, second) = if is_less { (second, first) } else { (first, second) };
+            let zeros = v.trailing_zeros();
+            v >>= zeros;
+            second = second.wrapping_add(first);
+            first <<= zeros;
+            k += zeros;
+        }
+        // Of x 2^64 it is the inverse times 2^-k; that times 2^128 has the form of residues.
+        let mut inverse = if is_negative { self.prime - second } else { second };
+        if k <= 64 {
+            inverse = self.mul(inverse, self.square);
+            k += 64;
+        }
+        self.mul(self.mul(inverse, 1 << (128 - k)), self.square)
     }
 
     /// Computes all 1/x by one inversion (Montgomery 1987); `UNDEFINED` for 0 and for undefined

@@ -127,7 +127,22 @@ fn sums_of_products_are_reduced_late() {
         let most = m.widened(greatest) + square * u128::from(count);
         let expected = (0..count).fold(greatest, |sum, _| m.add(sum, m.mul(greatest, greatest)));
         assert_eq!(m.reduced(most), expected, "the largest residues modulo {prime}");
-        for x in numbers {
+        let longest = (2 * count + 3) as usize;
+        for row in [vec![greatest; longest], numbers.clone(), numbers[..1].to_vec(), Vec::new()] {
+            let other: Vec<u64> = row.iter().enumerate().map(|(k, x)| x - k as u64 % 5).collect();
+            let reversed: Vec<u64> = other.iter().rev().copied().collect();
+            let pairs = row.iter().zip(&reversed);
+            let expected = pairs.fold(0, |sum, (x, y)| m.add(sum, m.mul(*x, *y)));
+            assert_eq!(m.convolved(&row, &other), expected, "{} modulo {prime}", row.len());
+            assert_eq!(m.dot(&row, &reversed), expected, "{} modulo {prime}", row.len());
+        }
+        for (k, inverse) in m.inverses_up_to(500).into_iter().enumerate() {
+            assert_eq!(inverse, m.inverse(m.integer(k as u64)), "1/{k} modulo {prime}");
+        }
+        assert_eq!(m.inverse(0), 0, "modulo {prime}");
+        let powers = (0..64).map(|k| (1u64 << k) % prime).filter(|x| *x != 0);
+        let extremes = powers.flat_map(|x| [x, prime - x]);
+        for x in numbers.into_iter().chain(extremes) {
             assert_eq!(m.mul(x, m.inverse(x)), m.one(), "x/x modulo {prime}");
             assert_eq!(m.inverse(x), m.power(x, prime - 2), "as by Fermat modulo {prime}");
         }
