@@ -36,6 +36,8 @@ pub enum ProofStream {
     Factors = 10,
     /// Points for relations that determine values.
     Inverses = 11,
+    /// Points and polynomials for the factors of polynomials.
+    Divisors = 12,
 }
 
 /// Random numbers for tests in fields, disjoint from all streams of states.
@@ -148,6 +150,12 @@ impl ProofRng {
         Self::in_stream(ChaCha8Rng::from_seed(digest.0), stream as u64)
     }
 
+    /// Makes random numbers that are the same for every statement, for what a search tries: its finds are
+    /// proved in other ways.
+    pub fn for_trials(stream: ProofStream) -> Self {
+        Self::new(0, stream as u64)
+    }
+
     fn in_stream(mut stream: ChaCha8Rng, purpose: u64) -> Self {
         stream.set_stream((1 << 63) | purpose);
         Self(stream)
@@ -228,6 +236,11 @@ impl ProofRng {
                 return value;
             }
         }
+    }
+
+    /// Draws one of `count` numbers from 0 on, all of nearly the same probability where they are few.
+    pub fn below(&mut self, count: u64) -> u64 {
+        self.0.next_u64() % count
     }
 
     /// Draws a fair coin.

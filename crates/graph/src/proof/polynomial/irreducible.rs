@@ -8,9 +8,10 @@ use num_integer::Integer;
 use num_traits::{One, Zero};
 
 use crate::number::rational::Rational;
+use crate::proof::rng::{ProofRng, ProofStream};
 
 use super::lifting::Lifting;
-use super::modular::Coefficients;
+use super::modular::{Coefficients, product};
 use super::whole::{irreducible_factors, primitive};
 use super::{MOST_WORK, Polynomial};
 
@@ -83,14 +84,13 @@ impl Polynomial {
         }
         let mut best: Option<Start> = None;
         let mut count = 0;
-        let mut draw = 1u64;
+        let mut rng = ProofRng::for_trials(ProofStream::Divisors);
         for round in 0..MOST_POINTS {
             let reach = (2 + round / 3).min(COORDINATES.len() as u64);
             let point: Vec<(u32, i64)> = others
                 .iter()
                 .map(|variable| {
-                    draw = draw.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(3);
-                    let index = if round == 0 { 0 } else { (draw >> 33) % reach };
+                    let index = if round == 0 { 0 } else { rng.below(reach) };
                     (*variable, COORDINATES[index as usize])
                 })
                 .collect();
@@ -140,13 +140,6 @@ impl Polynomial {
         if !(2..=MOST_FACTORS).contains(&count) {
             return None;
         }
-        let times = |all: Coefficients, own: &Coefficients| -> Coefficients {
-            let mut product = vec![BigInt::zero(); all.len() + own.len() - 1];
-            for (i, x) in all.iter().enumerate() {
-                own.iter().enumerate().for_each(|(j, y)| product[i + j] += x * y);
-            }
-            product
-        };
         let mut lifting = match start.point.is_empty() {
             true => None,
             false => Some(Lifting::of(self, start.main, &start.point)?),
@@ -158,7 +151,7 @@ impl Polynomial {
             let of = |is_chosen: bool| {
                 let own = start.factors.iter().enumerate();
                 let own = own.filter(|(k, _)| (set >> k & 1 == 1) == is_chosen);
-                own.fold(vec![BigInt::one()], |all, (_, own)| times(all, own))
+                own.fold(vec![BigInt::one()], |all, (_, own)| product(&all, own))
             };
             let factor = match &mut lifting {
                 None => univariate(start.main, &of(true)),
@@ -269,11 +262,8 @@ mod tests {
     #[test]
     fn random_products_of_linear_and_quadratic_factors_fall_apart() {
         let all: [Polynomial; 4] = variables();
-        let mut state = 11u64;
-        let mut below = move |count: u64| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            (state >> 33) % count
-        };
+        let mut rng = ProofRng::new(11, 0);
+        let mut below = move |count: u64| rng.below(count);
         for round in 0..60 {
             let parts = 2 + usize::from(round % 3 == 0);
             let factors: Vec<Polynomial> = (0..parts)

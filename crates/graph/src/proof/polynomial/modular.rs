@@ -4,6 +4,8 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, Zero};
 
+use crate::proof::rng::{ProofRng, ProofStream};
+
 /// Coefficients by increasing powers, the last of them not 0.
 pub type Coefficients = Vec<BigInt>;
 
@@ -38,16 +40,7 @@ impl Residues {
 
     /// Computes the product.
     pub fn times(&self, a: &[BigInt], b: &[BigInt]) -> Coefficients {
-        if a.is_empty() || b.is_empty() {
-            return Vec::new();
-        }
-        let mut product = vec![BigInt::zero(); a.len() + b.len() - 1];
-        for (i, x) in a.iter().enumerate() {
-            for (j, y) in b.iter().enumerate() {
-                product[i + j] += x * y;
-            }
-        }
-        self.reduced(&product)
+        self.reduced(&product(a, b))
     }
 
     /// Multiplies by a number.
@@ -169,18 +162,15 @@ impl Residues {
         // Half of all polynomials are squares modulo a factor, independently of the others.
         let exponent: BigInt = (self.prime.pow(u32::try_from(degree).ok()?) - 1) >> 1;
         let one = vec![BigInt::one()];
-        let mut draw = 1u64;
+        let mut rng = ProofRng::for_trials(ProofStream::Divisors);
         for _ in 0..MOST_TRIES {
             let Some(own) = open.pop() else { break };
             if own.len() == degree + 1 {
                 found.push(own);
                 continue;
             }
-            let digits = (0..own.len() - 1).map(|_| {
-                draw = draw.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-                BigInt::from(draw >> 32)
-            });
-            let drawn = trimmed(digits.collect());
+            let drawn = (0..own.len() - 1).map(|_| BigInt::from(rng.below(1 << 32))).collect();
+            let drawn = trimmed(drawn);
             let square = self.minus(&self.power(&drawn, &exponent, &own), &one);
             let part = self.common_divisor(&square, &own);
             if part.len() > 1 && part.len() < own.len() {
@@ -193,6 +183,20 @@ impl Residues {
         }
         open.is_empty().then_some(())
     }
+}
+
+/// Computes the product of polynomials with whole coefficients.
+pub fn product(a: &[BigInt], b: &[BigInt]) -> Coefficients {
+    if a.is_empty() || b.is_empty() {
+        return Vec::new();
+    }
+    let mut product = vec![BigInt::zero(); a.len() + b.len() - 1];
+    for (i, x) in a.iter().enumerate() {
+        for (j, y) in b.iter().enumerate() {
+            product[i + j] += x * y;
+        }
+    }
+    product
 }
 
 /// Leaves out leading zeros.

@@ -114,26 +114,18 @@ fn combined(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::proof::polynomial::modular::product;
+    use crate::proof::rng::ProofRng;
 
     fn whole(of: &[i64]) -> Coefficients {
         of.iter().map(|value| BigInt::from(*value)).collect()
     }
 
-    fn times(a: &[BigInt], b: &[BigInt]) -> Coefficients {
-        let mut product = vec![BigInt::zero(); a.len() + b.len() - 1];
-        for (i, x) in a.iter().enumerate() {
-            for (j, y) in b.iter().enumerate() {
-                product[i + j] += x * y;
-            }
-        }
-        product
-    }
-
     fn degrees(of: &[i64]) -> Option<Vec<usize>> {
         let whole = whole(of);
         let factors = irreducible_factors(&whole)?;
-        let product = factors.iter().fold(vec![BigInt::one()], |all, own| times(&all, own));
-        assert_eq!(product, whole, "the product of the factors");
+        let whole_again = factors.iter().fold(vec![BigInt::one()], |all, own| product(&all, own));
+        assert_eq!(whole_again, whole, "the product of the factors");
         let mut degrees: Vec<usize> = factors.iter().map(|own| own.len() - 1).collect();
         degrees.sort_unstable();
         Some(degrees)
@@ -165,11 +157,8 @@ mod tests {
 
     #[test]
     fn random_products_have_their_factors() {
-        let mut state = 7u64;
-        let mut digit = move || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            i64::try_from((state >> 33) % 19).expect("small") - 9
-        };
+        let mut rng = ProofRng::new(7, 0);
+        let mut digit = move || i64::try_from(rng.below(19)).expect("small") - 9;
         for _ in 0..60 {
             // p ≡ 3 modulo 9 with constant term 3: irreducible by Eisenstein's criterion at 3.
             let mut eisenstein = |degree: usize, constant: i64| -> Coefficients {
@@ -178,8 +167,8 @@ mod tests {
                 whole(&all)
             };
             let parts = [eisenstein(2, 3), eisenstein(3, 6), eisenstein(4, -3)];
-            let product = parts.iter().fold(vec![BigInt::one()], |all, own| times(&all, own));
-            let mut found = irreducible_factors(&product).expect("no repeated factor");
+            let all = parts.iter().fold(vec![BigInt::one()], |all, own| product(&all, own));
+            let mut found = irreducible_factors(&all).expect("no repeated factor");
             found.sort_by_key(Vec::len);
             assert_eq!(found, parts);
         }
