@@ -8,6 +8,7 @@ use super::absence::{has_lists, rank};
 use super::ansatz::monomials::AnsatzVariables;
 use super::budget::STEPS;
 use super::continued::named;
+use super::hypotheses::stated;
 use super::jets::{DimensionCount, MotionAtPoint, VelocityPolynomials};
 use super::local::{Coordinates, Local};
 use super::lowest::lowest;
@@ -16,7 +17,7 @@ use super::products::Generators;
 use super::{Effort, Excluded, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::formula::Formula;
-use liouville::mechanics::{Draw, System};
+use liouville::mechanics::Draw;
 use liouville::number::rational::Rational;
 
 /// Largest number of combinations of listed values that are counted one by one.
@@ -219,9 +220,7 @@ pub fn locals(case: &Case, report: &mut SearchReport) -> Result<Option<Vec<Local
     };
     let locals = match recorded() {
         // Nobody expects a count of velocities where there are none.
-        Err(SearchError::Unsplit(_))
-            if matches!(case.model.system, System::Field(_) | System::Hamiltonian(_)) =>
-        {
+        Err(SearchError::Unsplit(_)) if !Coordinates::are_expected(&case.model.system) => {
             return Ok(None);
         }
         Err(error @ SearchError::Unsplit(_)) => {
@@ -357,9 +356,7 @@ pub fn conclude(
         dimension: last.dimension,
         known: last.known,
         error_log2: None,
-        theorem: format!(
-            "For generic values of the free parameters, and the given values of the fixed ones, {what}{forces}"
-        ),
+        theorem: stated(&case.model, &format!("{what}{forces}")),
         origin: TheoremOrigin::IntegralCount { free: free_only },
         values: None,
     };

@@ -105,7 +105,8 @@ impl Echelon {
     fn scaled(&mut self, wide: &[u128], pivot: usize, entry: u64) -> SparseRow {
         let m = self.modulus;
         let inverse = m.inverse(entry);
-        let (mut columns, mut values) = (Vec::new(), Vec::new());
+        let most = wide[pivot + 1..].iter().filter(|sum| **sum != 0).count();
+        let (mut columns, mut values) = (Vec::with_capacity(most), Vec::with_capacity(most));
         for (column, sum) in wide.iter().enumerate().skip(pivot + 1) {
             let value = if *sum == 0 { 0 } else { m.mul(m.reduced(*sum), inverse) };
             if value != 0 {

@@ -29,6 +29,7 @@ mod effort;
 mod error;
 mod expansion;
 mod halt;
+mod hypotheses;
 mod integrals;
 mod irrational;
 mod jet_equations;
@@ -49,6 +50,7 @@ mod products;
 mod rates;
 mod recognised;
 mod reduced;
+mod repeated;
 mod report;
 mod room;
 mod second_opinion;
@@ -231,7 +233,7 @@ fn along_orbits(
     })?;
     report.stage("functions of constant rate", effort, |report| {
         momenta::rates(case, effort, report)?;
-        lower::remove_repeated(case, effort, report)
+        repeated::remove(case, effort, report)
     })?;
     let is_further = |own: &Found| own.kind == orbit::FURTHER_INTEGRAL;
     let is_same = report.formulas("integral").eq(known.iter().map(String::as_str));
@@ -242,7 +244,7 @@ fn along_orbits(
         report.stage("sines and cosines of cyclic angles", &effort, |report| {
             orbit::search(case, &effort, false, report, progress)?;
             orbit::close(case, &effort, report)?;
-            lower::remove_repeated(case, &effort, report)
+            repeated::remove(case, &effort, report)
         })?;
         counts::conclude(case, &effort, report)?;
     }

@@ -12,7 +12,7 @@ use liouville::verdict::{ClaimReport, Verdict};
 use super::ask::{independent, judged_alone};
 use super::integrals::claimed_by;
 use super::local::Coordinates;
-use super::orbit::{CONSTANT_RATE, DARBOUX, FURTHER_INTEGRAL};
+use super::orbit::FURTHER_INTEGRAL;
 use super::products::degree_in;
 use super::{Effort, Found, SearchError, SearchReport};
 
@@ -75,41 +75,6 @@ pub fn prefer(
         let known = claimed_by(case, formula, effort, report)?;
         report.found.push(Found::new(FURTHER_INTEGRAL, formula, known, found, &case.model));
     }
-    Ok(())
-}
-
-/// Removes functions of constant rate, further integrals, and Darboux polynomials with one cofactor, that are
-/// functions of others of their kind; short ones are kept.
-pub fn remove_repeated(
-    case: &Case,
-    effort: &Effort,
-    report: &mut SearchReport,
-) -> Result<(), SearchError> {
-    let mut repeated = Vec::new();
-    for (place, own) in report.found.iter().enumerate() {
-        for (other_place, other) in report.found.iter().enumerate().skip(place + 1) {
-            let is_alike = own.kind == other.kind
-                && match own.kind {
-                    FURTHER_INTEGRAL => true,
-                    CONSTANT_RATE => own.with.len() == other.with.len(),
-                    DARBOUX => own.with == other.with,
-                    _ => false,
-                };
-            let both = own.function.as_ref().zip(other.function.as_ref()).filter(|_| is_alike);
-            let Some((a, b)) = both else { continue };
-            let claim = Claim::independent(vec![a.clone(), b.clone()]);
-            let judged = judged_alone(case, claim, effort)?;
-            if judged.is_some_and(|judged| judged.verdict == Verdict::Refuted) {
-                let is_longer = other.formula.chars().count() < own.formula.chars().count();
-                repeated.push(if is_longer { place } else { other_place });
-            }
-        }
-    }
-    let mut place = 0;
-    report.found.retain(|_| {
-        place += 1;
-        !repeated.contains(&(place - 1))
-    });
     Ok(())
 }
 

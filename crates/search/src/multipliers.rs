@@ -12,6 +12,7 @@ use serde::Serialize;
 
 use super::ask::{holds, judged_alone};
 use super::counts::{free_motion, largest, locals};
+use super::hypotheses::stated;
 use super::integrals::{over_denominators, terms};
 use super::jets::{DimensionCount, MotionAtPoint, VelocityPolynomials};
 use super::local::Local;
@@ -75,7 +76,7 @@ pub fn multipliers(
         report.multipliers.extend(counted);
         match excess {
             None => {
-                report.excluded.push(theorem(effort, is_free, mixed));
+                report.excluded.push(theorem(case, effort, is_free, mixed));
                 return Ok(());
             }
             Some(MultiplierReport { alpha: Some(alpha), free: false, .. }) => {
@@ -146,7 +147,7 @@ fn find(
     Ok(())
 }
 
-fn theorem(effort: &Effort, free: bool, mixed: bool) -> Excluded {
+fn theorem(case: &Case, effort: &Effort, free: bool, mixed: bool) -> Excluded {
     let degree = effort.degree.min(MOST_DEGREE);
     let forces = match (free, mixed) {
         (true, _) => {
@@ -170,9 +171,7 @@ fn theorem(effort: &Effort, free: bool, mixed: bool) -> Excluded {
         dimension: 0,
         known: 0,
         error_log2: None,
-        theorem: format!(
-            "For generic values of the free parameters, and the given values of the fixed ones, {what}.{forces}"
-        ),
+        theorem: stated(&case.model, &format!("{what}.{forces}")),
         origin: TheoremOrigin::DensityCount { free },
         values: None,
     }

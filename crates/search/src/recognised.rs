@@ -74,11 +74,13 @@ struct Sums {
 }
 
 impl Sums {
+    /// Those shorter than the longest integral that is told.
     fn of(
         case: &Case,
         effort: &Effort,
         terms: &[Formula],
         others: &[Formula],
+        longest: usize,
     ) -> Result<Option<Self>, SearchError> {
         let mut rates = LinearSystem::record(case, effort, |jet, recording| {
             let moved = jet.along_field();
@@ -101,6 +103,9 @@ impl Sums {
         let mut formulas = Vec::new();
         for vector in vectors {
             let own: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+            if length(own.iter().map(|k| &terms[kept[*k]])) >= longest {
+                continue;
+            }
             let support: Vec<usize> = own.iter().map(|k| columns[*k]).collect();
             let Some(coefficients) = PrimitiveVector::of(&rates, &support)? else { continue };
             let functions: Vec<Ratio> =
@@ -142,6 +147,11 @@ impl Sums {
     }
 }
 
+/// Least length of a sum of multiples of formulas.
+fn length<'f>(formulas: impl Iterator<Item = &'f Formula>) -> usize {
+    formulas.map(|own| own.text().chars().count()).sum()
+}
+
 /// Takes short sums of products in place of long integrals, where all integrals together remain functions
 /// of those that are told.
 fn exchange(
@@ -163,15 +173,15 @@ fn exchange(
     }
     let count = others.len();
     others.extend(proved_energy(case, effort)?);
-    let length = |report: &SearchReport, place: usize| report.found[place].formula.chars().count();
-    let Some(longest) = places.iter().map(|place| length(report, *place)).max() else {
+    let told = |report: &SearchReport, place: usize| report.found[place].formula.chars().count();
+    let Some(longest) = places.iter().map(|place| told(report, *place)).max() else {
         return Ok(());
     };
     if longest <= SHORT {
         return Ok(());
     }
     let terms = terms(products, MOST_DEGREE)?;
-    let Some(sums) = Sums::of(case, effort, &terms, &others)? else { return Ok(()) };
+    let Some(sums) = Sums::of(case, effort, &terms, &others, longest)? else { return Ok(()) };
     let Some(gradients) = sums.gradients() else { return Ok(()) };
     let first = sums.formulas.len();
     let mut own: Vec<&Vec<u64>> = gradients[first..first + count].iter().collect();
@@ -188,13 +198,13 @@ fn exchange(
         };
         let new_degree = degree(formula)?;
         let mut order: Vec<usize> = (0..count)
-            .filter(|k| !is_new[*k] && length(report, places[*k]) > size.max(SHORT))
+            .filter(|k| !is_new[*k] && told(report, places[*k]) > size.max(SHORT))
             .filter(|k| {
                 let text = &report.found[places[*k]].formula;
                 report.excluded.iter().all(|own| !own.theorem.contains(text.as_str()))
             })
             .collect();
-        order.sort_by_key(|k| std::cmp::Reverse(length(report, places[*k])));
+        order.sort_by_key(|k| std::cmp::Reverse(told(report, places[*k])));
         // One of lower degree in the velocities says more.
         let mut kept = Vec::new();
         for k in order {
@@ -318,6 +328,10 @@ fn shorter(
         return Ok(None);
     };
     let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+    let used = support.iter().filter(|k| **k < terms.len()).map(|k| &terms[*k]);
+    if length(used) >= function.text().chars().count() {
+        return Ok(None);
+    }
     let Some(coefficients) = PrimitiveVector::of(&system, &support)? else { return Ok(None) };
     let (own, last): (Vec<usize>, usize) = ((0..support.len() - 1).collect(), support.len() - 1);
     let functions: Vec<Ratio> = own.iter().map(|k| Ratio::of(terms[support[*k]].clone())).collect();

@@ -16,9 +16,10 @@ use super::super::terms::{TermSum, combined, is_one};
 use super::monomials::power_product;
 use super::system::{LinearSystem, PrimePoint};
 use super::{Coordinates, TENSOR};
-use fitted::{Fitted, evaluate};
+use fitted::{Fitted, PointPowers};
 use liouville::formula::{Formula, FormulaError, FormulaResult};
 use liouville::proof::reconstruct;
+pub use numbers::has_products;
 use numbers::{Number, Roots, numbers};
 pub use vectors::{NullVector, Vectors};
 
@@ -242,19 +243,27 @@ impl VectorSamples<'_> {
         let modulus = self.known.first()?.0.modulus;
         let m = &modulus;
         let mut denominators: Vec<Fitted> = Vec::new();
+        // By column, what was found without denominators.
+        let mut alone: Vec<Option<(Fitted, Fitted)>> = vec![None; self.source.width()];
         'again: loop {
             let mut found = Vec::new();
-            for column in 0..self.source.width() {
+            for (column, alone) in alone.iter_mut().enumerate() {
+                if alone.is_none() {
+                    *alone = self.fraction(kept, column, &[]);
+                }
                 // A polynomial has a lower degree without the denominators.
                 if !denominators.is_empty()
-                    && let Some((above, below)) = self.fraction(kept, column, &[])
+                    && let Some((above, below)) = &*alone
                     && below.degree == 0
                 {
-                    let own = above.scaled(m, m.inverse(below.images[0].1));
+                    let own = above.clone().scaled(m, m.inverse(below.images[0].1));
                     found.push(denominators.iter().fold(own, |all, one| all.times(m, one)));
                     continue;
                 }
-                let (above, below) = self.fraction(kept, column, &denominators)?;
+                let (above, below) = match denominators.is_empty() {
+                    true => alone.clone()?,
+                    false => self.fraction(kept, column, &denominators)?,
+                };
                 if below.degree > 0 {
                     denominators.push(below);
                     continue 'again;
@@ -312,17 +321,20 @@ impl VectorSamples<'_> {
             let (upper, lower) = (monomials(above, 1), monomials(below, 0));
             let terms = unknowns + denominators.iter().map(|own| own.images.len()).sum::<usize>();
             let rows = unknowns + SPARE_SAMPLES;
+            let given = denominators.iter().map(|own| own.degree).max().unwrap_or(0);
+            let highest = above.max(below).max(given);
             self.takes((rows * (terms * kept.len() * POWER + unknowns * unknowns / 2)) as f64)?;
             let mut echelon = Echelon::new(unknowns, m);
             for (at, vector) in &self.known[..unknowns + SPARE_SAMPLES] {
                 self.source.halt().check().ok()?;
                 let point: Vec<u64> = kept.iter().map(|k| at.coordinates[*k]).collect();
+                let point = PointPowers::of(&m, &point, highest);
                 let value = denominators
                     .iter()
                     .fold(vector[column], |value, own| m.mul(value, own.evaluate(&m, &point)));
                 let minus = m.sub(0, value);
-                let row = upper.iter().map(|a| evaluate(&m, &point, a));
-                let row = row.chain(lower.iter().map(|a| m.mul(minus, evaluate(&m, &point, a))));
+                let row = upper.iter().map(|a| point.monomial(&m, a));
+                let row = row.chain(lower.iter().map(|a| m.mul(minus, point.monomial(&m, a))));
                 echelon.push(row.collect());
             }
             if let Some(vector) = echelon.null_space().first() {

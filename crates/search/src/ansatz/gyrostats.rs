@@ -24,6 +24,7 @@ use super::gyro_slots::Part;
 use super::size::SystemSize;
 use super::system::{Column, LinearSystem};
 use super::{factors, note_unwritten, written};
+use crate::hypotheses::stated;
 use crate::local::Coordinates;
 use crate::origin::{RemarkOrigin, TheoremOrigin};
 use liouville::case::Case;
@@ -307,7 +308,6 @@ impl GyroSearch<'_> {
             true => "",
             false => ", up to rotors without effect,",
         };
-        let at = "For generic values of the free parameters, and the given values of the fixed ones, at most";
         let lower = self.degree - 1;
         let gained = match positions.is_empty() {
             true => "constant coefficients".to_string(),
@@ -324,7 +324,7 @@ impl GyroSearch<'_> {
                     "rotors that preserve {integral} with terms of degree at most {gain} in the positions"
                 ),
                 format!(
-                    "{at} {dimension} independent directions of a rotor{aside} allow, to first order in it, \
+                    "at most {dimension} independent directions of a rotor{aside} allow, to first order in it, \
                      an integral {integral} + F₁ with F₁ of degree {lower} in the velocities and coefficients that are polynomials of degree at most {gain} in the positions over {over}{then}."
                 ),
             ),
@@ -334,7 +334,7 @@ impl GyroSearch<'_> {
                 (
                     format!("gyroscopic terms that preserve {integral}, combinations of {all}"),
                     format!(
-                        "{at} {dimension} independent combinations of the {kind} {all} allow, to first order in them, \
+                        "at most {dimension} independent combinations of the {kind} {all} allow, to first order in them, \
                          an integral {integral} + F₁ with F₁ of degree at most {lower} in {} and {gained}{then}.",
                         names(&mut heads.iter())
                     ),
@@ -348,12 +348,13 @@ impl GyroSearch<'_> {
                 (
                     format!("forces {form}"),
                     format!(
-                        "{at} {dimension} independent forces {form}, allow, to first order in them, \
+                        "at most {dimension} independent forces {form}, allow, to first order in them, \
                          an integral {integral} + F₁ with F₁ of degree at most {lower} in {heads} and {gained}{then}."
                     ),
                 )
             }
         };
+        let theorem = stated(&self.case.model, &theorem);
         let (origin, values) = (TheoremOrigin::Forces, None);
         Ok(Excluded { ansatz, dimension, known: told, error_log2: None, theorem, origin, values })
     }

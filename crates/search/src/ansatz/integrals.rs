@@ -16,6 +16,7 @@ use super::system::{Column, LinearSystem};
 use super::theorem::{Outcome, theorem};
 use super::{factors, note_unwritten};
 use crate::absence::has_lists;
+use crate::hypotheses::stated;
 use crate::origin::{RemarkOrigin, TheoremOrigin};
 use liouville::case::Case;
 use liouville::claim::Claim;
@@ -293,7 +294,7 @@ impl IntegralSearch<'_> {
         let has_constants = matches!(self.exponents(positions), (0, _) | (_, true));
         let open = found.iter().filter(|own| **own == Outcome::Open).count();
         report.excluded.push(Excluded {
-            theorem: theorem(&what, has_constants, dimension, found),
+            theorem: stated(&self.case.model, &theorem(&what, has_constants, dimension, found)),
             ansatz: what,
             dimension,
             known: dimension - open,

@@ -16,6 +16,7 @@ use super::force_text::{ForcedIntegral, SurvivingForce};
 use super::note_unwritten;
 use super::size::SystemSize;
 use super::system::{Column, LinearSystem};
+use crate::hypotheses::stated;
 use crate::origin::{RemarkOrigin, TheoremOrigin};
 use liouville::case::Case;
 use liouville::claim::Claim;
@@ -323,11 +324,14 @@ impl ForceSearch<'_> {
             origin: TheoremOrigin::Forces,
             values: None,
             error_log2: None,
-            theorem: format!(
-                "For generic values of the free parameters, and the given values of the fixed ones, at most {dimension} independent {kind} of this form{aside} \
+            theorem: stated(
+                &self.case.model,
+                &format!(
+                    "at most {dimension} independent {kind} of this form{aside} \
                  allow an integral {} + G({names}) with G = Σ p/d, p of degree at most {gain}{}.",
-                self.integral,
-                if told == dimension && told > 0 { ": those listed here" } else { "" }
+                    self.integral,
+                    if told == dimension && told > 0 { ": those listed here" } else { "" }
+                ),
             ),
         }
     }

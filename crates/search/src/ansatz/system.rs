@@ -4,6 +4,8 @@
 //! d(W x^a) = x^a (W Σ a_i dx_i/x_i + dW): the tape computes x, dx, W and dW once for each state,
 //! and all columns follow from them.
 
+use std::sync::OnceLock;
+
 use super::super::echelon::Echelon;
 use super::super::local::{random, sign};
 use super::super::symbols::symbolised;
@@ -32,6 +34,8 @@ const SYSTEM_LANES: usize = 8;
 const SPARE_ROWS: usize = 8;
 /// Largest number of choices of parameters tried until some state has a value, roots included.
 const MOST_DRAWS: usize = 64;
+/// Number of primes that are kept.
+const KEPT_PRIMES: usize = 8;
 
 /// A column of a linear system.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -77,6 +81,8 @@ pub struct LinearSystem {
     coordinates: Vec<Formula>,
     /// Numbers under roots in the field.
     radicands: Vec<Rational>,
+    /// The first primes, drawn when they are asked for.
+    primes: [OnceLock<Modulus>; KEPT_PRIMES],
     seed: u64,
     /// Condition for an early end of eliminations.
     halt: Halt,
@@ -142,6 +148,7 @@ impl LinearSystem {
             own,
             coordinates: names,
             radicands,
+            primes: Default::default(),
             seed,
             halt: effort.halt.clone(),
             states: KeptStates::default(),
@@ -171,7 +178,11 @@ impl LinearSystem {
     /// Makes choice `index` of the parameters, modulo the prime with index `prime`; `None` where no
     /// state has a value.
     pub fn at(&self, prime: u64, index: u64) -> Option<PrimePoint> {
-        let modulus = Coordinates::prime(&self.radicands, self.seed, prime);
+        let drawn = || Coordinates::prime(&self.radicands, self.seed, prime);
+        let modulus = match self.primes.get(prime as usize) {
+            Some(kept) => *kept.get_or_init(drawn),
+            None => drawn(),
+        };
         let mut rng =
             SearchStream::Equations.under(self.seed ^ index.wrapping_mul(0x9e37_79b9_7f4a_7c15));
         for _ in 0..MOST_DRAWS {

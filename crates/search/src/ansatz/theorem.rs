@@ -11,13 +11,11 @@ pub enum Outcome {
     Open,
 }
 
-/// Writes the theorem that bounds the integrals of an ansatz, given the outcomes for the null vectors that
+/// Writes the statement that bounds the integrals of an ansatz, given the outcomes for the null vectors that
 /// are no products of known integrals; constants are among these products or not.
 pub fn theorem(what: &str, has_constants: bool, dimension: usize, found: &[Outcome]) -> String {
-    let generic =
-        "For generic values of the free parameters, and the given values of the fixed ones,";
     if dimension == 0 {
-        return format!("{generic} no integrals are {what}, constants aside.");
+        return format!("no integrals are {what}, constants aside.");
     }
     let constants = if has_constants { "constants and " } else { "" };
     let spanned = match dimension - found.len() {
@@ -26,7 +24,7 @@ pub fn theorem(what: &str, has_constants: bool, dimension: usize, found: &[Outco
         part => format!("a subspace of dimension {part}"),
     };
     let mut parts = vec![format!(
-        "{generic} the integrals that are {what} form a space of dimension at most {dimension}; {constants}\
+        "the integrals that are {what} form a space of dimension at most {dimension}; {constants}\
          products of known integrals span {spanned}"
     )];
     for (outcome, one, several) in [

@@ -3,7 +3,6 @@
 use std::cell::Cell;
 
 use liouville::case::Case;
-use liouville::mechanics::System;
 
 use super::relation::{self, ScalarParameter};
 use super::{MOST_LISTED, ParameterCondition, minors};
@@ -11,7 +10,7 @@ use crate::budget::STEPS;
 use crate::counts::size;
 use crate::jets::VelocityPolynomials;
 use crate::lists::{self, ListedCase};
-use crate::local::Local;
+use crate::local::{Coordinates, Local};
 use crate::origin::ConditionOrigin;
 use crate::{Effort, SearchError, SearchReport};
 
@@ -31,9 +30,7 @@ pub fn conditions(
 ) -> Result<(), SearchError> {
     match Local::of(case) {
         // Those of fields are sought elsewhere.
-        Err(SearchError::Unsplit(_))
-            if matches!(case.model.system, System::Field(_) | System::Hamiltonian(_)) =>
-        {
+        Err(SearchError::Unsplit(_)) if !Coordinates::are_expected(&case.model.system) => {
             return Ok(());
         }
         Err(error @ SearchError::Unsplit(_)) => {

@@ -65,6 +65,11 @@ impl Coordinates {
         }
     }
 
+    /// Whether a system has velocities that may be known: fields and Hamilton's equations have none.
+    pub fn are_expected(system: &System) -> bool {
+        !matches!(system, System::Field(_) | System::Hamiltonian(_))
+    }
+
     /// Components of the state as given positions, and all others as velocities.
     pub fn divided(case: &Case, positions: &[usize]) -> Self {
         let others = (0..case.model.dimension()).filter(|k| !positions.contains(k));

@@ -17,16 +17,13 @@ const MOST_KNOWN: usize = 12;
 const MOST_RATES: usize = 4;
 
 impl ExponentSystem<'_, '_> {
-    /// Searches for functions whose rate is a combination of known integrals, where none has a constant
-    /// rate: with G' = 0 and F' = G, F − tG is an integral.
+    /// Searches for functions whose rate is a combination of known integrals: with G' = 0 and F' = G, F − tG
+    /// is an integral, whether or not another function has a constant rate.
     pub fn search_rates(
         mut self,
         known: &IndependentIntegrals,
         report: &mut SearchReport,
     ) -> Result<(), SearchError> {
-        if report.formulas(CONSTANT_RATE).next().is_some() {
-            return Ok(());
-        }
         for formula in known.formulas() {
             self.known.extend(RatedPolynomial::of(self.setting, formula, 1)?);
         }

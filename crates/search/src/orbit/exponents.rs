@@ -224,17 +224,14 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
                 }
                 // The field itself says that t' = 1.
                 RateTerm::Constant if self.is_variable(&support) => {}
-                // Others differ from the first by integrals.
+                // One that is longer differs from a known one by an integral.
                 RateTerm::Constant if has_quotients => {
                     let is_told = report.found.iter().any(|own| own.kind == CONSTANT_RATE);
                     if is_whole && !is_told {
                         self.rate(&support, report)?;
                     }
                 }
-                RateTerm::Constant if report.formulas(CONSTANT_RATE).next().is_none() => {
-                    self.rate(&support, report)?;
-                }
-                RateTerm::Constant => {}
+                RateTerm::Constant => self.rate(&support, report)?,
                 RateTerm::Divergence if has_quotients && !is_whole => {}
                 RateTerm::Divergence if support.len() > 1 => self.density(&support, report)?,
                 RateTerm::Divergence | RateTerm::Known(_) => {}

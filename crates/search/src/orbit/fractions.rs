@@ -7,6 +7,7 @@ use liouville::case::Case;
 use liouville::formula::Formula;
 
 use super::super::continued::named;
+use super::super::hypotheses::stated;
 use super::super::origin::TheoremOrigin;
 use super::super::{Effort, Excluded, SearchError, SearchReport};
 use super::adjoin::{self, Extension};
@@ -67,14 +68,7 @@ pub fn none_is(class: &str) -> String {
 
 /// Completes a statement to a sentence that names the parameters for which it holds.
 pub fn sentence(case: &Case, statement: &str) -> String {
-    let generic =
-        "For generic values of the free parameters, and the given values of the fixed ones, ";
-    if case.model.free_components() > 0 {
-        return format!("{generic}{statement}.");
-    }
-    let mut letters = statement.chars();
-    let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
-    format!("{first}{}.", letters.as_str())
+    format!("{}.", stated(&case.model, statement))
 }
 
 /// States the theorem for the highest degree in reach: that there are no integrals besides the known

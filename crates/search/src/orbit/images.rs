@@ -7,7 +7,7 @@ use liouville::number::rational::Rational;
 use num_traits::ToPrimitive;
 
 use super::super::ansatz::Coordinates;
-use super::super::ansatz::coefficients::{PrimitiveVector, Vectors};
+use super::super::ansatz::coefficients::{PrimitiveVector, Vectors, has_products};
 use super::super::ansatz::system::PrimePoint;
 use super::super::terms::{is_one, numeric_exponent};
 use super::super::{Halt, SearchError};
@@ -15,6 +15,10 @@ use super::setting::OrbitSetting;
 
 /// Largest number of choices of the parameters for one vector.
 const MOST_CHOICES: usize = 160;
+/// Number of choices for one vector, however many steps they take.
+const FEW_CHOICES: usize = 32;
+/// Largest number of steps for more choices.
+const STEPS: f64 = 1e9;
 /// Number of entries of a vector that are tried as 1.
 const MOST_UNITS: usize = 4;
 /// Number of choices of the parameters tried until one has the vector.
@@ -49,6 +53,10 @@ impl<F: Fn(&PrimePoint) -> Option<Vec<u64>>> Vectors for Images<'_, '_, F> {
         self.setting.steps.takes(steps)
     }
 
+    fn taken(&self) -> f64 {
+        self.setting.steps.taken()
+    }
+
     fn image(&self, prime: u64, index: u64) -> Option<(PrimePoint, Vec<u64>)> {
         let at = match self.is_split {
             true => self.setting.split(prime, index)?,
@@ -69,6 +77,8 @@ struct Limited<'v> {
     unit: usize,
     multiplies_roots: bool,
     images: &'v RefCell<Vec<Image>>,
+    /// Number of steps that had been taken before the first image.
+    before: f64,
 }
 
 /// Prime and number of a choice of the parameters, and the vector there if there is one.
@@ -81,7 +91,9 @@ impl Limited<'_> {
         if let Some((_, known)) = images.iter().find(|(own, _)| *own == (prime, index)) {
             return known.clone();
         }
-        if images.len() == MOST_CHOICES || !self.takes(0.0) {
+        let is_long = self.source.taken() - self.before > STEPS;
+        let most = if is_long { FEW_CHOICES } else { MOST_CHOICES };
+        if images.len() >= most || !self.takes(0.0) {
             return None;
         }
         self.halt().check().ok()?;
@@ -131,15 +143,16 @@ pub fn coefficients(source: &dyn Vectors) -> Result<Option<PrimitiveVector>, Sea
         return Ok(None);
     };
     let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
-    let images = RefCell::default();
+    let (images, before) = (RefCell::default(), source.taken());
     let roots = source.names().iter().filter(|name| Coordinates::is_root(name)).count();
     let units = || (0..support.len()).rev().take(MOST_UNITS);
-    let with_products = units().filter(|_| roots > 1).map(|unit| (unit, true));
+    let with_products = units().filter(|_| has_products(roots)).map(|unit| (unit, true));
     // A common factor with the entry that is 1 lowers the degrees of the others, and numbers without
     // products of roots are shorter.
     for (unit, multiplies_roots) in units().map(|unit| (unit, false)).chain(with_products) {
         let own = support.clone();
-        let limited = Limited { source, support: own, unit, multiplies_roots, images: &images };
+        let images = &images;
+        let limited = Limited { source, support: own, unit, multiplies_roots, images, before };
         let Some(mut found) = PrimitiveVector::through(&limited)? else { continue };
         let mut own = support.into_iter().zip(std::mem::take(&mut found.polynomials)).peekable();
         let next =

@@ -17,6 +17,11 @@ use liouville::formula::{Formula, Type};
 /// Number of the random point at which gradients are compared.
 const POINT: u64 = 1 << 50;
 
+/// Whether so many independent integrals are all that a case may have: of a field one less than its dimension.
+pub fn has_all(case: &Case, integrals: usize) -> bool {
+    integrals + usize::from(!case.model.system.is_map()) >= case.model.dimension()
+}
+
 /// An integral with the variables that it may contain.
 #[derive(Clone, Debug)]
 struct KnownIntegral {

@@ -12,6 +12,8 @@ const SHARE: f64 = 0.25;
 pub struct StepsLeft {
     /// Those of the search for coefficients which depend on the parameters.
     coefficients: Cell<f64>,
+    /// Those that have been taken of these.
+    taken: Cell<f64>,
     /// Those of series along lines of states.
     series: Cell<f64>,
     /// Time of a count.
@@ -24,6 +26,7 @@ impl StepsLeft {
         let all = effort.seconds * STEPS;
         Self {
             coefficients: Cell::new(SHARE * all),
+            taken: Cell::new(0.0),
             series: Cell::new(all),
             seconds: effort.seconds,
         }
@@ -32,7 +35,13 @@ impl StepsLeft {
     /// Takes some for coefficients; `false` if none are left.
     pub fn takes(&self, steps: f64) -> bool {
         self.coefficients.set(self.coefficients.get() - steps);
+        self.taken.set(self.taken.get() + steps);
         self.coefficients.get() > 0.0
+    }
+
+    /// Number of those taken for coefficients; 0 where they are not limited.
+    pub fn taken(&self) -> f64 {
+        if self.coefficients.get().is_finite() { self.taken.get() } else { 0.0 }
     }
 
     /// Takes some for series that are about to be computed; fails if fewer are left.
@@ -78,3 +87,20 @@ pub const FURTHER: [RoundLimits; 4] = [
     RoundLimits { monomials: 1700, degree: 24, steps: 2e10, graded: 2e11 },
     RoundLimits { monomials: 3200, degree: 24, steps: 2e11, graded: 2e12 },
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_are_counted_until_the_limits_are_lifted() {
+        let steps = StepsLeft::of(&Effort { seconds: 1.0, ..Effort::default() });
+        assert!(steps.takes(0.2 * STEPS), "a quarter may be taken");
+        assert!(!steps.takes(0.2 * STEPS), "nothing is left");
+        assert!((steps.taken() - 0.4 * STEPS).abs() < 1.0, "both are counted");
+        assert!(steps.takes_series(2.0 * STEPS).is_err(), "series have a limit of their own");
+        steps.lift();
+        assert!(steps.takes(STEPS) && steps.takes_series(2.0 * STEPS).is_ok());
+        assert!(steps.taken() < 1.0, "without limits nothing is counted");
+    }
+}

@@ -10,12 +10,11 @@
 //! equations takes the place of the line: polynomials of degree n times D^n are polynomials of degree
 //! 2n in t.
 
-use liouville::number::prime::Modulus;
-
+use super::super::SearchError;
 use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
-use super::super::{Halt, SearchError};
 use super::conic::Conic;
+use super::determinants::determinants;
 use super::factor::RatedPolynomial;
 use super::monomials::MonomialSeries;
 use super::setting::{OrbitSetting, PrimePhasePoint, SPARE_ORDERS};
@@ -205,15 +204,13 @@ impl<'s, 'c> RandomLine<'s, 'c> {
     fn rows(
         &self,
         place: u64,
-        monomials: &[Vec<u32>],
+        series: &MonomialSeries,
         orders: usize,
     ) -> Result<Option<Vec<Vec<u64>>>, SearchError> {
         let Some(orbit) = self.setting.along(self.at, &self.point(place), orders)? else {
             return Ok(None);
         };
-        MonomialSeries::new(self.at.modulus, &orbit)
-            .rows(monomials, &self.setting.effort.halt)
-            .map(Some)
+        series.rows(&self.at.modulus, &orbit, &self.setting.effort.halt).map(Some)
     }
 
     /// Finds the special places on the line for polynomials in these monomials, without the zeros of
@@ -226,7 +223,8 @@ impl<'s, 'c> RandomLine<'s, 'c> {
     ) -> Result<SpecialPlaces, SearchError> {
         let (m, halt) = (self.at.modulus, &self.setting.effort.halt);
         let none = SpecialPlaces { is_whole: true, ..SpecialPlaces::default() };
-        let Some(generic) = self.reduced(m.integer(1 << 40), monomials)? else { return Ok(none) };
+        let all = MonomialSeries::of(monomials);
+        let Some(generic) = self.reduced(m.integer(1 << 40), &all)? else { return Ok(none) };
         let columns: Vec<usize> =
             (0..monomials.len()).filter(|column| generic.has_pivot(*column)).collect();
         let own: Vec<Vec<u32>> = columns.iter().map(|column| monomials[*column].clone()).collect();
@@ -240,11 +238,14 @@ impl<'s, 'c> RandomLine<'s, 'c> {
         // Degrees in the state of the two determinants.
         let degrees = [0, 1].map(|more| total + growth * (rank * (rank - 1) / 2 + more));
         let (mut first, mut second) = (Vec::new(), Vec::new());
-        self.setting.steps.takes_series(count as f64 * self.setting.flow.steps(rank + 1))?;
+        let series = MonomialSeries::of(&own);
+        let steps = count as f64 * self.setting.flow.steps(rank + 1);
+        self.setting.steps.takes_series(steps)?;
+        self.setting.steps.takes(steps);
         for t in 0..count as u64 {
             halt.check()?;
-            let Some(rows) = self.rows(m.integer(t), &own, rank + 1)? else { return Ok(none) };
-            let (a, b) = determinants(&m, rows, halt)?;
+            let Some(rows) = self.rows(m.integer(t), &series, rank + 1)? else { return Ok(none) };
+            let (a, b) = determinants(&m, &rows, halt)?;
             first.push(self.cleared(a, m.integer(t), degrees[0]));
             second.push(self.cleared(b, m.integer(t), degrees[1]));
         }
@@ -261,11 +262,11 @@ impl<'s, 'c> RandomLine<'s, 'c> {
         for place in roots(&m, &rest, halt)? {
             let factor = [m.sub(0, place), m.one()];
             rest = self.without(rest, &factor)?;
-            let Some(echelon) = self.reduced(place, monomials)? else { continue };
+            let Some(echelon) = self.reduced(place, &all)? else { continue };
             let pivots = (0..monomials.len()).filter(|column| echelon.has_pivot(*column)).count();
             let excess = rank.saturating_sub(pivots);
             if excess > 0 {
-                let first = self.rows(place, monomials, 2)?;
+                let first = self.rows(place, &all, 2)?;
                 let is_at_rest = first.is_some_and(|rows| rows[1].iter().all(|entry| *entry == 0));
                 found.push(Special { echelon, excess, is_at_rest });
             }
@@ -274,11 +275,11 @@ impl<'s, 'c> RandomLine<'s, 'c> {
     }
 
     /// Taylor coefficients of the monomials at a place, reduced.
-    fn reduced(&self, place: u64, monomials: &[Vec<u32>]) -> Result<Option<Echelon>, SearchError> {
-        let Some(rows) = self.rows(place, monomials, monomials.len() + SPARE_ORDERS)? else {
+    fn reduced(&self, place: u64, series: &MonomialSeries) -> Result<Option<Echelon>, SearchError> {
+        let Some(rows) = self.rows(place, series, series.count() + SPARE_ORDERS)? else {
             return Ok(None);
         };
-        let mut echelon = Echelon::new(monomials.len(), self.at.modulus);
+        let mut echelon = Echelon::new(series.count(), self.at.modulus);
         let mut dependent = 0;
         for row in rows {
             self.setting.effort.halt.check()?;
@@ -289,39 +290,6 @@ impl<'s, 'c> RandomLine<'s, 'c> {
         }
         Ok(Some(echelon))
     }
-}
-
-/// Determinants of n + 1 rows of length n, once without the last and once without the one before.
-fn determinants(
-    m: &Modulus,
-    mut rows: Vec<Vec<u64>>,
-    halt: &Halt,
-) -> Result<(u64, u64), SearchError> {
-    let size = rows.len() - 1;
-    let mut product = m.one();
-    for done in 0..size - 1 {
-        let Some(pivot) = (done..size).find(|column| rows[done][*column] != 0) else {
-            return Ok((0, 0));
-        };
-        halt.check()?;
-        if pivot != done {
-            rows.iter_mut().for_each(|row| row.swap(done, pivot));
-            product = m.sub(0, product);
-        }
-        product = m.mul(product, rows[done][done]);
-        let inverse = m.inverse(rows[done][done]);
-        let (upper, lower) = rows.split_at_mut(done + 1);
-        let pivot = &upper[done][done + 1..];
-        for row in lower {
-            let factor = m.sub(0, m.mul(row[done], inverse));
-            if factor != 0 {
-                for (entry, own) in row[done + 1..].iter_mut().zip(pivot) {
-                    *entry = m.add(*entry, m.mul(factor, *own));
-                }
-            }
-        }
-    }
-    Ok((m.mul(product, rows[size - 1][size - 1]), m.mul(product, rows[size][size - 1])))
 }
 
 /// Degree of a field in the state; `None` if it is not a polynomial of low degree.

@@ -17,6 +17,7 @@ use super::super::integrals::tell;
 use super::super::{Effort, SearchError, SearchReport};
 use super::adjoin::MonomialMap;
 use super::cleared::input_names;
+use super::known::has_all;
 use super::setting::OrbitSetting;
 use super::{along_orbits, magnitude};
 
@@ -30,7 +31,7 @@ pub fn search(
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    if report.functions("integral").count() >= case.model.dimension() {
+    if has_all(case, report.functions("integral").count()) {
         return Ok(());
     }
     let Some(map) = MonomialMap::of(case)? else { return Ok(()) };

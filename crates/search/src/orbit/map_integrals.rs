@@ -57,7 +57,7 @@ impl MonomialChanges<'_, '_> {
 }
 
 /// Searches for integrals of a map that are sums of these monomials in some variables; the first
-/// monomial is the constant.
+/// monomial is the constant. Returns whether some cannot be written.
 pub fn polynomials(
     setting: &OrbitSetting<'_>,
     variables: &[usize],
@@ -65,18 +65,19 @@ pub fn polynomials(
     degree: u32,
     known: &mut IndependentIntegrals,
     report: &mut SearchReport,
-) -> Result<(), SearchError> {
-    let Some((_, monomials)) = all.split_first() else { return Ok(()) };
+) -> Result<bool, SearchError> {
+    let Some((_, monomials)) = all.split_first() else { return Ok(false) };
     let (graph, map) = recorded(setting.case, |jet| jet.phase.field().to_vec())?;
     let map = Tape::new(&graph, &map);
     let changes = MonomialChanges { setting, monomials, map: &map };
-    let Some(at) = setting.at(0, 0) else { return Ok(()) };
-    let Some(echelon) = changes.echelon(&at)? else { return Ok(()) };
+    let Some(at) = setting.at(0, 0) else { return Ok(false) };
+    let Some(echelon) = changes.echelon(&at)? else { return Ok(false) };
     let vectors = sparse(&at.modulus, echelon.null_space());
     if vectors.is_empty() {
-        return Ok(());
+        return Ok(false);
     }
-    let Some((point, mut gradients)) = known.gradients(setting, &at)? else { return Ok(()) };
+    let mut is_unwritten = false;
+    let Some((point, mut gradients)) = known.gradients(setting, &at)? else { return Ok(false) };
     for vector in vectors {
         setting.effort.halt.check()?;
         let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
@@ -94,6 +95,7 @@ pub fn polynomials(
         let Some(coefficients) = images::coefficients(&images)? else {
             let what = format!("an integral of degree {degree} with {} terms", support.len());
             note_unwritten(setting.case, &what, report);
+            is_unwritten = true;
             continue;
         };
         let functions: Vec<Ratio> = picked
@@ -106,5 +108,5 @@ pub fn polynomials(
             known.add(formula, Some(degree), variables);
         }
     }
-    Ok(())
+    Ok(is_unwritten)
 }

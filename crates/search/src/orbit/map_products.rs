@@ -23,6 +23,7 @@ use super::super::linear::SampledFunctions;
 use super::super::origin::RemarkOrigin;
 use super::super::terms::{one, powers, read, recorded, sum};
 use super::super::{Effort, Found, SearchError, SearchReport};
+use super::known::has_all;
 use super::map_densities::note_unproved;
 use super::{factors, magnitude, monomials};
 
@@ -43,7 +44,7 @@ pub fn search(
     let System::Map(images) = &case.model.system else { return Ok(()) };
     let dimension = case.model.dimension();
     let has_density = report.formulas("density").next().is_some();
-    let is_complete = report.functions("integral").count() >= dimension;
+    let is_complete = has_all(case, report.functions("integral").count());
     if !case.model.level.is_empty() || (has_density && is_complete) {
         return Ok(());
     }

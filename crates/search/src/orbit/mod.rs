@@ -10,9 +10,9 @@
 //! leading      parts of highest degree that no polynomial integral has
 //! graded, turned, sparse   polynomial integrals of higher degree, class by class; bases with few terms
 //! rational     rational ones, as P and Q of the relations P − c Q
-//! line         points of a line whose orbits satisfy an additional relation
+//! line, determinants   points of a line whose orbits satisfy an additional relation
 //! conic, level_shape  conics in place of lines, where functions satisfy relations, and on spheres
-//! harmonics, phase   integrals with sines and exponentials of cyclic coordinates
+//! harmonics, harmonic_rows, phase   integrals with sines and exponentials of cyclic coordinates
 //! darboux, shared  Darboux polynomials: the relations at these points, and those of several lines
 //! cofactors    whether a polynomial modulo a prime is one
 //! separate     those whose coefficients depend on the parameters, one by one
@@ -29,10 +29,8 @@
 //! squares, magnitude  polynomials in the parameters, and their roots; f or |f| under a logarithm
 //! weighted     integrals of fields in the plane that are multiples of a density
 //! adjoin       functions of the state as further variables
-//! explicit     all of these for Lagrangian systems that are solved for their accelerations
-//! subfield     all of these for the variables whose rates do without functions
-//! rounds       all parts of a field, within growing limits
-//! part         all of these in the variables of a part of the field
+//! explicit, subfield   all of these for solved Lagrangian systems, for rates without functions
+//! rounds, part   all of these in the variables of each part of a field, within growing limits
 //! closure      brackets of integrals, and their derivatives along symmetry fields
 //! claims       judgement of each find as a claim like any other
 //! fractions    for claims of absence: relations that known integrals do not explain
@@ -49,6 +47,7 @@ mod closure;
 mod cofactors;
 mod conic;
 mod darboux;
+mod determinants;
 mod draws;
 mod driven;
 mod explicit;
@@ -58,6 +57,7 @@ mod finite_order;
 mod fraction;
 pub mod fractions;
 mod graded;
+mod harmonic_rows;
 mod harmonics;
 mod images;
 mod known;
@@ -112,7 +112,7 @@ pub use self::darboux::KIND as DARBOUX;
 pub use self::exponents::CONSTANT_RATE;
 pub use self::harmonics::search as harmonics;
 pub use self::images::coefficients;
-use self::known::IndependentIntegrals;
+use self::known::{IndependentIntegrals, has_all};
 use self::limits::{EXTENDED, FURTHER, MODEST, RoundLimits};
 use self::line::degree_of_field;
 use self::part::VariableSet;
@@ -195,8 +195,7 @@ fn along(
     };
     let mut divided = Vec::new();
     let mut is_extended = false;
-    let is_done =
-        |report: &SearchReport| report.functions("integral").count() + 1 >= case.model.dimension();
+    let is_done = |report: &SearchReport| has_all(case, report.functions("integral").count());
     let before = report.orbits.len();
     // At last with half of each angle.
     for _ in 0..2 {

@@ -6,7 +6,6 @@ use liouville::number::prime::Modulus;
 
 use super::super::series::exponents;
 use super::super::{Halt, SearchError};
-use super::taylor::convolved;
 
 /// Exponents of all monomials up to a degree in some of the variables, low degrees first; the
 /// constant is the first.
@@ -57,70 +56,94 @@ pub fn at_points(
     Ok(rows)
 }
 
-/// Series of monomials along an orbit, made on demand.
-pub struct MonomialSeries<'o> {
-    modulus: Modulus,
-    orbit: &'o [Vec<u64>],
-    known: FxHashMap<Vec<u32>, Vec<u64>>,
+/// The products by which the series of monomials along an orbit are made, each from that of a lower monomial.
+pub struct MonomialSeries {
+    factors: Vec<SeriesFactors>,
+    /// Place of each monomial among these.
+    columns: Vec<usize>,
 }
 
-impl<'o> MonomialSeries<'o> {
-    /// Takes the series of the variables.
-    pub fn new(modulus: Modulus, orbit: &'o [Vec<u64>]) -> Self {
-        Self { modulus, orbit, known: FxHashMap::default() }
+/// Factors of a series.
+#[derive(Clone, Copy)]
+enum SeriesFactors {
+    /// None: the series of 1.
+    One,
+    /// That of a variable.
+    Variable(usize),
+    /// An earlier series, and that of a variable.
+    Product(usize, usize),
+}
+
+impl MonomialSeries {
+    /// Plans the series of some monomials.
+    pub fn of(monomials: &[Vec<u32>]) -> Self {
+        let (mut factors, mut known) = (Vec::new(), FxHashMap::default());
+        let columns = monomials.iter().map(|own| place(own, &mut factors, &mut known)).collect();
+        Self { factors, columns }
     }
 
-    fn orders(&self) -> usize {
-        self.orbit.first().map_or(0, Vec::len)
+    /// Number of the monomials.
+    pub fn count(&self) -> usize {
+        self.columns.len()
     }
 
-    /// Computes the series of a monomial.
-    fn series(&mut self, exponents: &[u32]) -> Vec<u64> {
-        if let Some(known) = self.known.get(exponents) {
-            return known.clone();
-        }
-        let m = self.modulus;
-        let made = match exponents.iter().rposition(|power| *power > 0) {
-            None => {
-                let mut one = vec![0; self.orders()];
-                one[..1].fill(m.one());
-                one
+    /// Returns the matrix of the coefficients along an orbit: one row for each order, one column for each
+    /// monomial.
+    pub fn rows(
+        &self,
+        m: &Modulus,
+        orbit: &[Vec<u64>],
+        halt: &Halt,
+    ) -> Result<Vec<Vec<u64>>, SearchError> {
+        let orders = orbit.first().map_or(0, Vec::len);
+        let mut series = vec![0; self.factors.len() * orders];
+        for (place, own) in self.factors.iter().enumerate().filter(|_| orders > 0) {
+            if place % 16 == 15 {
+                halt.check()?;
+                halt.meter().set(place, self.factors.len());
             }
-            Some(variable) => {
-                let mut lower = exponents.to_vec();
-                lower[variable] -= 1;
-                let (rest, orbit) = (self.series(&lower), &self.orbit[variable]);
-                match lower.iter().all(|power| *power == 0) {
-                    true => orbit.clone(),
-                    false => {
-                        let orders = 0..self.orders();
-                        orders.map(|k| convolved(&m, &rest[..=k], &orbit[..=k])).collect()
+            let (before, rest) = series.split_at_mut(place * orders);
+            match *own {
+                SeriesFactors::One => rest[0] = m.one(),
+                SeriesFactors::Variable(variable) => {
+                    rest[..orders].copy_from_slice(&orbit[variable]);
+                }
+                SeriesFactors::Product(lower, variable) => {
+                    let (lower, other) = (&before[lower * orders..], &orbit[variable]);
+                    for (k, entry) in rest[..orders].iter_mut().enumerate() {
+                        *entry = m.convolved(&lower[..=k], &other[..=k]);
                     }
                 }
             }
-        };
-        self.known.insert(exponents.to_vec(), made.clone());
-        made
-    }
-
-    /// Returns the matrix of the coefficients: one row for each order, one column for each
-    /// monomial.
-    pub fn rows(
-        &mut self,
-        monomials: &[Vec<u32>],
-        halt: &Halt,
-    ) -> Result<Vec<Vec<u64>>, SearchError> {
-        let mut columns = Vec::with_capacity(monomials.len());
-        for (place, own) in monomials.iter().enumerate() {
-            if place % 16 == 15 {
-                halt.check()?;
-                halt.meter().set(place, monomials.len());
-            }
-            columns.push(self.series(own));
         }
-        let row = |k: usize| columns.iter().map(|column| column[k]).collect();
-        Ok((0..self.orders()).map(row).collect())
+        let row = |k: usize| self.columns.iter().map(|place| series[place * orders + k]).collect();
+        Ok((0..orders).map(row).collect())
     }
+}
+
+/// Place of the series of a monomial, which is added with those it needs if it is not there.
+fn place(
+    exponents: &[u32],
+    factors: &mut Vec<SeriesFactors>,
+    known: &mut FxHashMap<Vec<u32>, usize>,
+) -> usize {
+    if let Some(place) = known.get(exponents) {
+        return *place;
+    }
+    let made = match exponents.iter().rposition(|power| *power > 0) {
+        None => SeriesFactors::One,
+        Some(variable) => {
+            let mut lower = exponents.to_vec();
+            lower[variable] -= 1;
+            match lower.iter().all(|power| *power == 0) {
+                true => SeriesFactors::Variable(variable),
+                false => SeriesFactors::Product(place(&lower, factors, known), variable),
+            }
+        }
+    };
+    factors.push(made);
+    known.insert(exponents.to_vec(), factors.len() - 1);
+    factors.len() - 1
 }
 
 /// Value of a monomial at a point.

@@ -7,7 +7,7 @@ use super::darboux::DarbouxSearch as Darboux;
 use super::exponents::{ExponentSystem, combine};
 use super::factor::RatedPolynomial;
 use super::graded::GradedSearch;
-use super::known::IndependentIntegrals;
+use super::known::{IndependentIntegrals, has_all};
 use super::rational::RationalSearch;
 use super::setting::{ExtendedCase, OrbitSetting};
 use super::{
@@ -44,6 +44,8 @@ pub struct VariableSet {
     with_angles: Option<(usize, usize)>,
     /// The same at the last search with fractions.
     with_fractions: Option<(usize, usize)>,
+    /// Number of integrals of which one could not be written: functions of it are no easier to write.
+    unwritten: usize,
     /// Whether factors without the relations between the functions have been searched.
     is_unbound: bool,
     /// Relations of each degree that has been searched.
@@ -64,6 +66,7 @@ impl VariableSet {
             combined: None,
             with_angles: None,
             with_fractions: None,
+            unwritten: 0,
             is_unbound: false,
             done: Vec::new(),
         }
@@ -283,28 +286,29 @@ impl VariableSet {
             && variables.len() == setting.dimension()
             && known.algebraic_within(variables) > 1
             && !setting.flow.is_map;
-        if may_depend || step.integrals > known.algebraic_within(variables) {
-            match setting.flow.is_map {
-                true => map_integrals::polynomials(
-                    setting, variables, monomials, degree, known, report,
-                )?,
-                false => {
-                    polynomials::polynomials(setting, variables, monomials, degree, known, report)?;
-                }
-            }
+        let counted = step.integrals;
+        let is_open = |known: &IndependentIntegrals| counted > known.algebraic_within(variables);
+        // On a level others may be easier to write, as polynomials that are equal there to fractions.
+        if counted <= self.unwritten && !may_depend && !setting.is_on_level() {
+            return Ok(());
         }
-        if step.integrals > known.algebraic_within(variables) {
-            let rational = RationalSearch { setting, variables, monomials, degree };
-            rational.search(&at, &step.relations, step.integrals, known, report)?;
+        let mut is_unwritten = false;
+        if may_depend || is_open(known) {
+            let search = match setting.flow.is_map {
+                true => map_integrals::polynomials,
+                false => polynomials::polynomials,
+            };
+            is_unwritten = search(setting, variables, monomials, degree, known, report)?;
         }
-        // The reduced relations depend on the order, and another may have shorter ones.
-        if step.integrals > known.algebraic_within(variables) && setting.flow.is_map {
-            let mut monomials = monomials.to_vec();
-            monomials.sort_by_key(|own| (own.iter().sum::<u32>(), own.clone()));
-            if let Some(relations) = setting.relations(&at, 0, &monomials)? {
-                let rational = RationalSearch { setting, variables, monomials: &monomials, degree };
-                rational.search(&at, &relations, step.integrals, known, report)?;
-            }
+        let rational = RationalSearch { setting, variables, monomials, degree };
+        if is_open(known) {
+            rational.search(&at, &step.relations, counted, known, report)?;
+        }
+        if is_open(known) && setting.flow.is_map {
+            rational.search_in_other_order(&at, counted, known, report)?;
+        }
+        if is_unwritten && is_open(known) {
+            self.unwritten = counted;
         }
         Ok(())
     }
@@ -388,7 +392,6 @@ impl VariableSet {
 
 /// Whether all integrals of an extended case are known: one less than its dimension.
 fn is_complete(setting: &OrbitSetting<'_>, known: &IndependentIntegrals) -> bool {
-    let is_full =
-        |origin: ExtendedCase<'_>| known.formulas().count() + 1 >= origin.case.model.dimension();
+    let is_full = |origin: ExtendedCase<'_>| has_all(origin.case, known.formulas().count());
     setting.origin.is_some_and(is_full)
 }

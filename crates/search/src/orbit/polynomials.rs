@@ -25,7 +25,7 @@ const SHORT: usize = 12;
 const MOST_DEPENDENT: usize = 12;
 
 /// Searches for integrals that are sums of these monomials in some variables, of at most this degree;
-/// returns whether some was found.
+/// returns whether some cannot be written.
 pub fn polynomials(
     setting: &OrbitSetting<'_>,
     variables: &[usize],
@@ -71,7 +71,7 @@ pub fn polynomials(
         })
         .collect();
     let Some(new) = complement(&system, &at, &vectors, &products)? else { return Ok(false) };
-    let mut found = false;
+    let mut is_unwritten = false;
     for vector in new {
         effort.halt.check()?;
         let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
@@ -80,6 +80,7 @@ pub fn polynomials(
         else {
             let what = format!("an integral of degree {degree} with {} terms", support.len());
             note_unwritten(case, &what, report);
+            is_unwritten = true;
             continue;
         };
         let functions: Result<Vec<Ratio>, _> = support
@@ -90,7 +91,6 @@ pub fn polynomials(
         let Some(formula) = sum else { continue };
         if claims::integral(setting, &formula, report)? {
             known.add(formula, Some(degree), variables);
-            found = true;
         } else if degree <= LOW
             && variables.len() == setting.dimension()
             && support.len() <= SHORT
@@ -99,5 +99,5 @@ pub fn polynomials(
             report.dependent.extend(claims::written_integral(setting, &formula));
         }
     }
-    Ok(found)
+    Ok(is_unwritten)
 }

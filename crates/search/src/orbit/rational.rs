@@ -71,6 +71,24 @@ impl RationalSearch<'_, '_> {
         Ok(found)
     }
 
+    /// Searches in another order of the monomials, on which the reduced relations depend: there may be
+    /// shorter ones.
+    pub fn search_in_other_order(
+        &self,
+        at: &PrimePoint,
+        wanted: usize,
+        known: &mut IndependentIntegrals,
+        report: &mut SearchReport,
+    ) -> Result<(), SearchError> {
+        let mut monomials = self.monomials.to_vec();
+        monomials.sort_by_key(|own| (own.iter().sum::<u32>(), own.clone()));
+        if let Some(relations) = self.setting.relations(at, 0, &monomials)? {
+            let other = RationalSearch { monomials: &monomials, ..*self };
+            other.search(at, &relations, wanted, known, report)?;
+        }
+        Ok(())
+    }
+
     fn picked(&self, support: &[usize]) -> Vec<Vec<u32>> {
         support.iter().map(|k| self.monomials[*k].clone()).collect()
     }

@@ -101,6 +101,10 @@ impl<F: Fn(&PrimePoint) -> Option<Vec<u64>>> Vectors for SmallImages<'_, '_, '_,
         self.search.setting.steps.takes(steps)
     }
 
+    fn taken(&self) -> f64 {
+        self.search.setting.steps.taken()
+    }
+
     fn image(&self, prime: u64, index: u64) -> Option<(PrimePoint, Vec<u64>)> {
         let at = self.search.setting.small(prime, index)?;
         let mut vector = (self.make)(&at)?;

@@ -355,7 +355,7 @@ impl<'c> OrbitSetting<'c> {
         let Some((point, orbit)) = self.orbit(at, number, orders)? else { return Ok(None) };
         let rows = match self.flow.is_map {
             true => monomials::at_points(&at.modulus, &orbit, all, &self.effort.halt)?,
-            false => MonomialSeries::new(at.modulus, &orbit).rows(all, &self.effort.halt)?,
+            false => MonomialSeries::of(all).rows(&at.modulus, &orbit, &self.effort.halt)?,
         };
         let mut echelon = Echelon::new(all.len(), at.modulus);
         let mut dependent = 0;

@@ -31,6 +31,8 @@ enum Rule {
 #[derive(Clone, Debug)]
 pub struct Flow {
     steps: Vec<Rule>,
+    /// Whether an operation depends on the state.
+    varies: Vec<bool>,
     rates: Vec<usize>,
     /// Whether it is a map: the rates are the components of the image.
     pub is_map: bool,
@@ -74,7 +76,7 @@ impl Flow {
         let (mut is_rational, mut is_rational_in_state) = (true, true);
         let mut varies = vec![false; graph.len()];
         let mut at = vec![0; graph.len()];
-        let mut steps = Vec::new();
+        let (mut steps, mut steps_vary) = (Vec::new(), Vec::new());
         for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
             varies[place] = match step {
                 Step::Input(input) => input >= parameters,
@@ -104,9 +106,11 @@ impl Flow {
             };
             at[place] = steps.len();
             steps.push(own);
+            steps_vary.push(varies[place]);
         }
         let rates = places.into_iter().map(|place| at[place]).collect();
-        Some(Self { steps, rates, is_map: false, is_rational, is_rational_in_state })
+        let varies = steps_vary;
+        Some(Self { steps, varies, rates, is_map: false, is_rational, is_rational_in_state })
     }
 
     /// Computes the coefficients of order below `orders` of the orbit from a state, or as many points
@@ -171,29 +175,49 @@ impl Flow {
         orders: usize,
         halt: &Halt,
     ) -> Result<Option<Vec<Vec<u64>>>, SearchError> {
-        let mut orbit: Vec<Vec<u64>> = state.iter().map(|x| vec![*x]).collect();
+        let mut orbit: Vec<Vec<u64>> = Vec::with_capacity(state.len());
+        for x in state {
+            let mut series = Vec::with_capacity(orders.max(1));
+            series.push(*x);
+            orbit.push(series);
+        }
         let Some(constants) = self.constants(m, parameters) else { return Ok(None) };
         let Some(exponents) = self.exponents(m) else { return Ok(None) };
-        let mut values: Vec<Vec<u64>> = vec![Vec::with_capacity(orders); self.steps.len()];
+        // The coefficients of each operation, one operation after another.
+        let mut values: Vec<u64> = vec![0; self.steps.len() * orders];
+        let at = |place: usize| place * orders;
         let mut inverses: Vec<u64> = vec![0; self.steps.len()];
-        let mut by_order = vec![0, m.one()];
+        // Coefficients times their orders, of what is raised to a power.
+        let mut slopes: Vec<Vec<u64>> = vec![Vec::new(); self.steps.len()];
+        let by_order = m.inverses_up_to(orders);
         for k in 0..orders.saturating_sub(1) {
             if k % 64 == 63 {
                 halt.check()?;
                 halt.meter().set(k, orders);
             }
-            by_order.push(m.inverse(m.integer(k as u64 + 2)));
             for (place, step) in self.steps.iter().enumerate() {
+                if k > 0 && !self.varies[place] {
+                    continue;
+                }
+                let own = at(place);
                 let next = match step {
-                    Rule::Constant(_) | Rule::Parameter(_) if k > 0 => 0,
                     Rule::Constant(_) | Rule::Parameter(_) => constants[place],
                     Rule::Variable(i) => orbit[*i][k],
-                    Rule::Minus(a) => m.sub(0, values[*a][k]),
-                    Rule::Sum(a, b) => m.add(values[*a][k], values[*b][k]),
-                    Rule::Difference(a, b) => m.sub(values[*a][k], values[*b][k]),
-                    Rule::Product(a, b) => convolved(m, &values[*a][..=k], &values[*b][..=k]),
+                    Rule::Minus(a) => m.sub(0, values[at(*a) + k]),
+                    Rule::Sum(a, b) => m.add(values[at(*a) + k], values[at(*b) + k]),
+                    Rule::Difference(a, b) => m.sub(values[at(*a) + k], values[at(*b) + k]),
+                    // All coefficients of a constant but the first are 0.
+                    Rule::Product(a, b) if !self.varies[*a] => {
+                        m.mul(values[at(*a)], values[at(*b) + k])
+                    }
+                    Rule::Product(a, b) if !self.varies[*b] => {
+                        m.mul(values[at(*a) + k], values[at(*b)])
+                    }
+                    Rule::Product(a, b) => {
+                        m.convolved(&values[at(*a)..=at(*a) + k], &values[at(*b)..=at(*b) + k])
+                    }
                     Rule::Inverse(a) | Rule::Power(a, _) if k == 0 => {
-                        let start = values[*a][0];
+                        let start = values[at(*a)];
                         let power = match step {
                             Rule::Power(_, exponent) => power(m, start, exponent),
                             _ => (start != 0).then(|| m.inverse(start)),
@@ -203,25 +227,25 @@ impl Flow {
                         power
                     }
                     Rule::Inverse(a) => {
-                        let sum = convolved(m, &values[*a][1..=k], &values[place][..k]);
+                        let x = &values[at(*a) + 1..=at(*a) + k];
+                        let sum = m.convolved(x, &values[own..own + k]);
                         m.sub(0, m.mul(sum, inverses[place]))
                     }
-                    // y = x^q: x y' = q x' y.
+                    // y = x^q: x y' = q x' y, so that k x₀ y_k = Σ (q j − (k − j)) x_j y_{k−j}.
                     Rule::Power(a, _) => {
-                        let (x, y) = (&values[*a], &values[place]);
-                        let q = exponents[place];
-                        let sum = (1..=k).fold(0, |sum, j| {
-                            let (own, rest) = (m.integer(j as u64), m.integer((k - j) as u64));
-                            let factor = m.sub(m.mul(q, own), rest);
-                            m.add(sum, m.mul(factor, m.mul(x[j], y[k - j])))
-                        });
+                        let (x, y) = (&values[at(*a) + 1..=at(*a) + k], &values[own..own + k]);
+                        let order = m.integer(k as u64);
+                        slopes[place].push(m.mul(order, x[k - 1]));
+                        let by_slopes = m.convolved(&slopes[place], y);
+                        let all = m.mul(m.add(exponents[place], m.one()), by_slopes);
+                        let sum = m.sub(all, m.mul(order, m.convolved(x, y)));
                         m.mul(sum, m.mul(inverses[place], by_order[k]))
                     }
                 };
-                values[place].push(next);
+                values[own + k] = next;
             }
             for (variable, rate) in orbit.iter_mut().zip(&self.rates) {
-                variable.push(m.mul(values[*rate][k], by_order[k + 1]));
+                variable.push(m.mul(values[at(*rate) + k], by_order[k + 1]));
             }
         }
         Ok(Some(orbit))
@@ -255,11 +279,6 @@ fn power(m: &Modulus, x: u64, exponent: &Rational) -> Option<u64> {
     };
     let raised = m.power(base, above.unsigned_abs());
     (x != 0).then(|| if above < 0 { m.inverse(raised) } else { raised })
-}
-
-/// Computes Σ x_j y_{n−1−j} over two rows of length n.
-pub fn convolved(m: &Modulus, x: &[u64], y: &[u64]) -> u64 {
-    x.iter().zip(y.iter().rev()).fold(0, |sum, (x, y)| m.add(sum, m.mul(*x, *y)))
 }
 
 #[cfg(test)]

@@ -21,11 +21,10 @@ pub fn degree(f: &[u64]) -> Option<usize> {
 pub fn interpolated(m: &Modulus, values: &[u64], halt: &Halt) -> Result<Vec<u64>, SearchError> {
     let count = values.len();
     let numbers: Vec<u64> = (0..count as u64).map(|k| m.integer(k)).collect();
-    let inverses: Vec<u64> =
-        numbers.iter().map(|x| if *x == 0 { 0 } else { m.inverse(*x) }).collect();
+    let inverses = m.inverses_up_to(count);
     // Newton's divided differences in place.
     let mut slopes = values.to_vec();
-    for (level, inverse) in inverses.iter().enumerate().skip(1) {
+    for (level, inverse) in inverses[..count].iter().enumerate().skip(1) {
         halt.check()?;
         for k in (level..count).rev() {
             slopes[k] = m.mul(m.sub(slopes[k], slopes[k - 1]), *inverse);
@@ -35,32 +34,42 @@ pub fn interpolated(m: &Modulus, values: &[u64], halt: &Halt) -> Result<Vec<u64>
     for k in (0..count).rev() {
         halt.check()?;
         // f ← f (t − k) + slope
-        f.insert(0, 0);
-        for place in 0..f.len() - 1 {
-            f[place] = m.sub(f[place], m.mul(numbers[k], f[place + 1]));
+        let mut carried = slopes[k];
+        for entry in &mut f {
+            carried = m.sub(carried, m.mul(numbers[k], *entry));
+            std::mem::swap(entry, &mut carried);
         }
-        f[0] = m.add(f[0], slopes[k]);
+        f.push(carried);
     }
     Ok(trimmed(f))
 }
 
 /// Divides by a polynomial that is not 0; returns quotient and remainder.
 pub fn divided(m: &Modulus, f: &[u64], by: &[u64]) -> (Vec<u64>, Vec<u64>) {
-    let mut rest = f.to_vec();
-    let Some(low) = degree(by) else { return (Vec::new(), rest) };
-    let inverse = m.inverse(by[low]);
-    let mut quotient = vec![0; rest.len().saturating_sub(low)];
+    let Some(low) = degree(by) else { return (Vec::new(), f.to_vec()) };
+    let inverse = if by[low] == m.one() { m.one() } else { m.inverse(by[low]) };
+    let mut quotient = vec![0; f.len().saturating_sub(low)];
+    // Sums of products, which are reduced when they are needed, or when a further one might not fit.
+    let mut rest: Vec<u128> = f.iter().map(|entry| m.widened(*entry)).collect();
+    let mut pending = 0;
     for place in (low..rest.len()).rev() {
-        let factor = m.mul(rest[place], inverse);
+        let factor = m.mul(m.reduced(rest[place]), inverse);
         if factor == 0 {
             continue;
         }
         quotient[place - low] = factor;
-        for (k, entry) in by[..=low].iter().enumerate() {
-            let own = &mut rest[place - low + k];
-            *own = m.sub(*own, m.mul(factor, *entry));
+        if pending == m.most_products() {
+            rest[..place].iter_mut().for_each(|sum| *sum = m.widened(m.reduced(*sum)));
+            pending = 0;
+        }
+        pending += 1;
+        let minus = u128::from(m.sub(0, factor));
+        for (sum, entry) in rest[place - low..place].iter_mut().zip(by) {
+            *sum = sum.wrapping_add(minus.wrapping_mul(u128::from(*entry)));
         }
     }
+    rest.truncate(low);
+    let rest = rest.into_iter().map(|sum| m.reduced(sum)).collect();
     (trimmed(quotient), trimmed(rest))
 }
 
@@ -72,11 +81,16 @@ pub fn gcd(m: &Modulus, f: &[u64], g: &[u64], halt: &Halt) -> Result<Vec<u64>, S
         let rest = divided(m, &f, &g).1;
         (f, g) = (g, rest);
     }
+    Ok(monic(m, f))
+}
+
+/// Makes the leading coefficient 1.
+fn monic(m: &Modulus, mut f: Vec<u64>) -> Vec<u64> {
     if let Some(last) = f.last().copied() {
         let inverse = m.inverse(last);
         f.iter_mut().for_each(|entry| *entry = m.mul(*entry, inverse));
     }
-    Ok(f)
+    f
 }
 
 /// Removes all common factors with `other`.
@@ -99,12 +113,12 @@ fn product(m: &Modulus, f: &[u64], g: &[u64], by: &[u64]) -> Vec<u64> {
     if f.is_empty() || g.is_empty() {
         return Vec::new();
     }
-    let mut all = vec![0; f.len() + g.len() - 1];
-    for (i, x) in f.iter().enumerate() {
-        for (j, y) in g.iter().enumerate() {
-            all[i + j] = m.add(all[i + j], m.mul(*x, *y));
-        }
-    }
+    let coefficient = |k: usize| {
+        // f_j g_(k−j) for all j within both.
+        let (first, last) = ((k + 1).saturating_sub(g.len()), k.min(f.len() - 1));
+        m.convolved(&f[first..=last], &g[k - last..=k - first])
+    };
+    let all: Vec<u64> = (0..f.len() + g.len() - 1).map(coefficient).collect();
     divided(m, &all, by).1
 }
 
@@ -132,6 +146,7 @@ pub fn roots(m: &Modulus, f: &[u64], halt: &Halt) -> Result<Vec<u64>, SearchErro
         return Ok(Vec::new());
     }
     let t = [0, m.one()];
+    let f = &monic(m, trimmed(f.to_vec()));
     let mut frobenius = power(m, &t, m.prime(), f, halt)?;
     frobenius.resize(frobenius.len().max(2), 0);
     frobenius[1] = m.sub(frobenius[1], m.one());

@@ -202,19 +202,30 @@ impl TruncatedSeries {
         }
         let inverse = m.inverse(a[0]);
         let MonomialTable { degrees, pairs, .. } = &*self.monomials;
+        let slopes: Vec<u64> =
+            a.iter().zip(degrees).map(|(a, n)| m.mul(*a, self.integers[*n as usize])).collect();
+        let next = m.add(exponent, m.one());
         let mut p = self.number(first);
         for k in 1..p.len() {
             let degree = degrees[k] as usize;
-            // The weight q deg i − deg j of a_i p_j depends on deg i alone.
-            let weights: Vec<u64> = (0..=degree)
-                .map(|n| m.sub(m.mul(exponent, self.integers[n]), self.integers[degree - n]))
-                .collect();
-            let mut sum = 0;
+            // The weight q deg i − deg j of a_i p_j is (q + 1) deg i − deg k.
+            let (mut by_slopes, mut plain, mut pending) = (0u128, 0u128, 0);
             for (i, j) in pairs[k].iter().map(|(i, j)| (*i as usize, *j as usize)) {
-                if i != 0 && a[i] != 0 {
-                    sum = m.add(sum, m.mul(weights[degrees[i] as usize], m.mul(a[i], p[j])));
+                if i == 0 || a[i] == 0 {
+                    continue;
                 }
+                if pending == self.most_products {
+                    by_slopes = m.widened(m.reduced(by_slopes));
+                    plain = m.widened(m.reduced(plain));
+                    pending = 0;
+                }
+                pending += 1;
+                let other = u128::from(p[j]);
+                by_slopes = by_slopes.wrapping_add(u128::from(slopes[i]).wrapping_mul(other));
+                plain = plain.wrapping_add(u128::from(a[i]).wrapping_mul(other));
             }
+            let all = m.mul(self.integers[degree], m.reduced(plain));
+            let sum = m.sub(m.mul(next, m.reduced(by_slopes)), all);
             p[k] = m.mul(m.mul(sum, inverse), self.inverses[degree]);
         }
         Some(p)

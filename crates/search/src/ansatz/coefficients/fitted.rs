@@ -21,8 +21,8 @@ impl Fitted {
     }
 
     /// Evaluates it at a point.
-    pub fn evaluate(&self, m: &Modulus, point: &[u64]) -> u64 {
-        let terms = self.images.iter().map(|(a, image)| m.mul(*image, evaluate(m, point, a)));
+    pub fn evaluate(&self, m: &Modulus, point: &PointPowers) -> u64 {
+        let terms = self.images.iter().map(|(a, image)| m.mul(*image, point.monomial(m, a)));
         terms.fold(0, |sum, term| m.add(sum, term))
     }
 
@@ -50,8 +50,22 @@ impl Fitted {
     }
 }
 
-/// Evaluates a monomial.
-pub fn evaluate(m: &Modulus, point: &[u64], exponents: &[u32]) -> u64 {
-    let powers = point.iter().zip(exponents).map(|(x, a)| m.power(*x, u64::from(*a)));
-    powers.fold(m.one(), |product, power| m.mul(product, power))
+/// Powers of the coordinates of a point, from the first power on.
+pub struct PointPowers(Vec<Vec<u64>>);
+
+impl PointPowers {
+    /// Computes the powers up to the highest.
+    pub fn of(m: &Modulus, point: &[u64], highest: u32) -> Self {
+        let powers = |x: &u64| {
+            let next = |last: &u64| Some(m.mul(*last, *x));
+            std::iter::successors(Some(*x), next).take(highest as usize).collect()
+        };
+        Self(point.iter().map(powers).collect())
+    }
+
+    /// Evaluates a monomial, whose exponents are not above the highest.
+    pub fn monomial(&self, m: &Modulus, exponents: &[u32]) -> u64 {
+        let used = self.0.iter().zip(exponents).filter(|(_, exponent)| **exponent > 0);
+        used.fold(m.one(), |product, (own, exponent)| m.mul(product, own[*exponent as usize - 1]))
+    }
 }

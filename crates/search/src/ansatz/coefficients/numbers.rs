@@ -13,6 +13,11 @@ use liouville::formula::Formula;
 /// Largest number of roots whose products are taken as well.
 const MOST_MULTIPLIED: usize = 4;
 
+/// Whether so many roots have products that are taken.
+pub fn has_products(roots: usize) -> bool {
+    (2..=MOST_MULTIPLIED).contains(&roots)
+}
+
 /// A number a/d, or (a + Σ b √n)/d with the places of the roots whose product √n is among those of a
 /// field.
 #[derive(Clone, Debug)]
@@ -59,7 +64,7 @@ impl Roots {
         let places: Vec<usize> = (0..names.len()).filter(is_root).collect();
         let count = places.len();
         let mut products: Vec<Vec<usize>> = (0..count).map(|root| vec![root]).collect();
-        if with_products && count <= MOST_MULTIPLIED {
+        if with_products && has_products(count) {
             // Without these the sums of multiples of several roots are no field.
             let all = 1usize..1 << count;
             let chosen = all.map(|set| (0..count).filter(|k| set >> k & 1 == 1).collect());

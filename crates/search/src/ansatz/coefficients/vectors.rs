@@ -16,6 +16,10 @@ pub trait Vectors {
     fn takes(&self, _steps: f64) -> bool {
         true
     }
+    /// Number of elementary steps that have been taken, where they are limited.
+    fn taken(&self) -> f64 {
+        0.0
+    }
     /// Whether products of roots are among its numbers.
     fn multiplies_roots(&self) -> bool {
         true

@@ -9,10 +9,11 @@ use liouville::graph::{Expr, Graph};
 use liouville::mechanics::LagrangianEquations;
 use liouville::number::rational::Rational;
 
+use super::constrained::ConstrainedVelocities;
 use super::matrices::Rows;
 use super::polynomial::RingPolynomial;
 use super::read::StepReader;
-use super::reduction::{Reduction, substituted};
+use super::reduction::Reduction;
 use super::ring::{AdjoinedRing, Atom};
 
 /// Equations as polynomials of a ring.
@@ -67,133 +68,55 @@ impl ReadEquations {
 
     /// Solves for the rates of positions and independent velocities; `velocities` are their variables.
     pub fn solved(&self, velocities: &[usize], ring: &mut AdjoinedRing) -> Option<SolvedMotion> {
-        let (one, minus) = (Rational::from(1), Rational::from(-1));
-        let is_velocity = |own: &RingPolynomial| {
-            own.variables().iter().any(|variable| velocities.contains(variable))
-        };
-        if self.slopes.iter().flatten().any(is_velocity) {
-            return None;
-        }
-        let reduction = Reduction::of(&ring.atoms, false);
-        let (dependent, determinant) = self.pivots(velocities.len(), &reduction)?;
-        let is_whole = determinant.value().is_some();
-        let independent: Vec<usize> =
-            (0..velocities.len()).filter(|i| !dependent.contains(i)).collect();
-        let columns = |places: &[usize]| -> Rows {
-            let row = |row: &Vec<RingPolynomial>| places.iter().map(|i| row[*i].clone()).collect();
-            self.slopes.iter().map(row).collect()
-        };
-        let inverse = ring.inverse(&determinant)?;
-        let reduction = Reduction::of(&ring.atoms, false);
-        let adjugate = reduction.adjugate(&columns(&dependent))?;
-        // −a_D⁻¹ of a vector.
-        let given = |side: &[RingPolynomial]| -> Option<Vec<RingPolynomial>> {
-            let entry = |row: &Vec<RingPolynomial>| {
-                let own = reduction.product(&reduction.dot(row, side)?, &inverse)?;
-                Some(own.times_number(&minus))
-            };
-            adjugate.iter().map(entry).collect()
-        };
-        let zero = RingPolynomial::default();
-        let at_rest: Vec<(usize, RingPolynomial)> =
-            velocities.iter().map(|w| (*w, zero.clone())).collect();
-        let rest: Option<Vec<_>> =
-            self.constraints.iter().map(|own| substituted(own, &at_rest)).collect();
-        let shift = given(&rest?)?;
-        // By independent velocity, the dependent velocities.
-        let images: Option<Rows> = independent
-            .iter()
-            .map(|i| given(&self.slopes.iter().map(|row| row[*i].clone()).collect::<Vec<_>>()))
-            .collect();
-        let images = images?;
-        let mut replaced = Vec::new();
-        for (k, place) in dependent.iter().enumerate() {
-            let mut sum = shift[k].clone();
-            for (i, image) in independent.iter().zip(&images) {
-                let own = RingPolynomial::variable(velocities[*i], 1);
-                sum = sum.plus(&image[k].times(&own)?, &one)?;
+        let constrained =
+            ConstrainedVelocities::of(&self.slopes, &self.constraints, velocities, ring)?;
+        let accelerations = self.accelerations(&constrained, ring)?;
+        let parameters = ring.atoms.iter().position(|atom| matches!(atom, Atom::State))?;
+        let mut rates = Vec::new();
+        for (place, rate) in self.drift.iter().enumerate() {
+            match velocities.iter().position(|w| *w == parameters + place) {
+                None => rates.push((place, constrained.on_level(rate)?)),
+                Some(w) => {
+                    let own = constrained.independent.iter().position(|i| *i == w);
+                    rates.extend(own.map(|own| (place, accelerations[own].clone())));
+                }
             }
-            replaced.push((velocities[*place], reduction.reduced(&sum)?));
         }
-        let on_level = |own: &RingPolynomial| reduction.reduced(&substituted(own, &replaced)?);
-        let all = |own: &[RingPolynomial]| -> Option<Vec<RingPolynomial>> {
-            own.iter().map(on_level).collect()
-        };
-        let accelerations = given(&all(&self.carried)?)?;
-        let drive = all(&self.drive)?;
-        // Columns of S, and M S, M c.
-        let spread = |own: Option<usize>, others: &[RingPolynomial]| -> Vec<RingPolynomial> {
-            let mut all = vec![zero.clone(); velocities.len()];
-            if let Some(i) = own {
-                all[i] = RingPolynomial::constant(one.clone());
-            }
-            dependent.iter().zip(others).for_each(|(place, own)| all[*place] = own.clone());
-            all
-        };
-        let directions: Rows =
-            independent.iter().zip(&images).map(|(i, own)| spread(Some(*i), own)).collect();
+        let level = constrained.all_on_level(&self.others)?;
+        Some(SolvedMotion { rates, level, is_whole: constrained.is_whole })
+    }
+
+    /// Rates of the independent velocities: G u' = Sᵀ(d − M c).
+    fn accelerations(
+        &self,
+        constrained: &ConstrainedVelocities,
+        ring: &mut AdjoinedRing,
+    ) -> Option<Vec<RingPolynomial>> {
+        let reduction = &constrained.reduction;
         // The masses of an L that is not quadratic contain velocities.
-        let mass = self.mass.iter().map(|row| all(row)).collect::<Option<Rows>>()?;
+        let mass: Option<Rows> =
+            self.mass.iter().map(|row| constrained.all_on_level(row)).collect();
+        let mass = mass?;
         let times_mass = |own: &[RingPolynomial]| -> Option<Vec<RingPolynomial>> {
             mass.iter().map(|row| reduction.dot(row, own)).collect()
         };
+        let directions = constrained.directions();
         let moved: Option<Rows> = directions.iter().map(|own| times_mass(own)).collect();
         let moved = moved?;
         let gram: Option<Rows> = directions
             .iter()
-            .map(|a| moved.iter().map(|b| reduction.dot(a, b)).collect::<Option<Vec<_>>>())
+            .map(|a| moved.iter().map(|b| reduction.dot(a, b)).collect())
             .collect();
-        let gram = gram?;
-        let carried = times_mass(&spread(None, &accelerations))?;
+        let given = constrained.given(&constrained.all_on_level(&self.carried)?)?;
+        let carried = times_mass(&constrained.spread(None, &given))?;
+        let drive = constrained.all_on_level(&self.drive)?;
+        let minus = Rational::from(-1);
         let free: Option<Vec<RingPolynomial>> =
             drive.iter().zip(&carried).map(|(a, b)| a.plus(b, &minus)).collect();
         let free = free?;
-        let sides: Option<Vec<_>> =
+        let sides: Option<Vec<RingPolynomial>> =
             directions.iter().map(|own| reduction.dot(own, &free)).collect();
-        let solved = Quotients::of(&gram, &sides?, ring)?;
-        let mut rates = Vec::new();
-        let parameters = ring.atoms.iter().position(|atom| matches!(atom, Atom::State))?;
-        for (place, rate) in self.drift.iter().enumerate() {
-            match velocities.iter().position(|w| *w == parameters + place) {
-                None => rates.push((place, on_level(rate)?)),
-                Some(w) => {
-                    let Some(own) = independent.iter().position(|i| *i == w) else { continue };
-                    rates.push((place, solved.0[own].clone()));
-                }
-            }
-        }
-        Some(SolvedMotion { rates, level: all(&self.others)?, is_whole })
-    }
-
-    /// Velocities for which the constraints are solved, with the determinant of their slopes: a number if
-    /// possible, otherwise that with fewest terms.
-    fn pivots(
-        &self,
-        velocities: usize,
-        reduction: &Reduction,
-    ) -> Option<(Vec<usize>, RingPolynomial)> {
-        let count = self.slopes.len();
-        let mut best: Option<(Vec<usize>, RingPolynomial)> = None;
-        let mut chosen: Vec<usize> = (0..count).collect();
-        loop {
-            let rows = self.slopes.iter();
-            let square: Rows =
-                rows.map(|row| chosen.iter().map(|i| row[*i].clone()).collect()).collect();
-            let determinant = reduction.determinant(&square)?;
-            if determinant.value().is_some_and(|value| !value.is_zero()) {
-                return Some((chosen, determinant));
-            }
-            let terms = determinant.terms().count();
-            if terms > 0 && best.as_ref().is_none_or(|(_, own)| terms < own.terms().count()) {
-                best = Some((chosen.clone(), determinant));
-            }
-            // The next combination, the last places first.
-            let Some(place) = (0..count).rev().find(|k| chosen[*k] < velocities - count + k) else {
-                return best;
-            };
-            chosen[place] += 1;
-            (place + 1..count).for_each(|k| chosen[k] = chosen[k - 1] + 1);
-        }
+        Some(Quotients::of(&gram?, &sides?, ring)?.0)
     }
 }
 

@@ -12,7 +12,7 @@
 //! bases        denominators, radicands and other functions as factors
 //! absence      the polynomials that a theorem of absence covers
 //! implied      relations between these that known integrals imply
-//! equations    equations of a Lagrangian, solved for independent accelerations
+//! equations, constrained  equations of a Lagrangian, solved for independent accelerations
 //! explicit     their field as a case
 //! reduction    normal form on circles
 //! matrices     determinants and adjugates of polynomials
@@ -32,6 +32,7 @@ pub mod absence;
 mod atom;
 mod back;
 mod bases;
+mod constrained;
 mod derivations;
 mod equations;
 mod explicit;
