@@ -5,6 +5,8 @@
 //! A claim passes when its verdict is the one its file expects and, if it is refuted, its witness
 //! refutes it again. A case is judged once, for the first of its claims that runs.
 
+#[path = "common/files.rs"]
+mod files;
 #[path = "common/witness.rs"]
 mod witness;
 
@@ -12,8 +14,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::{Arc, OnceLock};
 
+use files::files;
 use libtest_mimic::{Arguments, Failed, Trial};
-use liouville::case::{Case, is_case_file, labels};
+use liouville::case::{Case, labels};
 use liouville::verdict::{CaseReport, JudgeError, Options};
 use liouville_search::judge;
 
@@ -21,9 +24,10 @@ fn main() -> ExitCode {
     let arguments = Arguments::from_args();
     let mut trials = Vec::new();
     let mut claims = 0;
-    for path in files(Path::new("cases")) {
+    for path in files(Path::new("../cases")) {
         let (_, case) = Case::read(&path, &[]);
         let name = path.with_extension("").display().to_string().replace('\\', "/");
+        let name = name.trim_start_matches("../");
         match case {
             Err(error) => {
                 let problem = error.to_string();
@@ -81,19 +85,4 @@ impl Judged {
             claim.evidence
         )))
     }
-}
-
-fn files(folder: &Path) -> Vec<PathBuf> {
-    let entries = std::fs::read_dir(folder).expect("the catalogue is a folder");
-    let mut entries: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
-    entries.sort();
-    let mut found = Vec::new();
-    for entry in entries {
-        if entry.is_dir() {
-            found.extend(files(&entry));
-        } else if is_case_file(&entry) {
-            found.push(entry);
-        }
-    }
-    found
 }

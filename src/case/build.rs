@@ -373,26 +373,3 @@ fn column(root: &CaseTable<'_>) -> Result<Option<Column>, Mistake> {
     section.finish();
     Ok(Some(Column { table, column, words, caption, notes }))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::Case;
-
-    const FIELD: &str = "title = 't'\n[state]\nx = '1..2'\n[field]\n\"x'\" = 'x'\n";
-
-    #[test]
-    fn long_chains_of_names_take_no_deep_stack() {
-        let links: Vec<String> = (0..5000).map(|k| format!("b{} = 'b{k} + x'\n", k + 1)).collect();
-        for order in [links.concat(), links.iter().rev().cloned().collect()] {
-            let text = format!(
-                "{FIELD}[[claim]]\nrate = 'b5000'\nequals = 'b5000'\n[let]\nb0 = 'x'\n{order}"
-            );
-            let judged = std::thread::Builder::new().stack_size(1 << 20).spawn(move || {
-                let case = Case::parse(&text, &[]).expect("a case");
-                crate::verdict::judge(&case, &crate::verdict::Options::default()).map(|_| ())
-            });
-            let judged = judged.expect("a thread").join().expect("no stack overflows");
-            assert!(judged.is_ok(), "the chain is judged");
-        }
-    }
-}

@@ -170,38 +170,3 @@ fn of_density(claim: &PlacedClaim) -> Option<String> {
         format!("the density of `{}` is {number}: that of a measure is positive", claim.name)
     })
 }
-
-#[cfg(test)]
-mod tests {
-    use crate::case::Case;
-
-    fn remarks(more: &str) -> Vec<String> {
-        let text = format!("title = 't'\n{more}");
-        Case::parse(&text, &[]).expect("a case").remarks
-    }
-
-    const FLOW: &str = "[state]\nx = '1..2'\n[field]\n\"x'\" = 'k*x'\n";
-    const CLAIM: &str = "[[claim]]\nrate = 'x'\nequals = 'k*x'\n";
-
-    #[test]
-    fn slips_that_are_no_mistakes_are_remarked() {
-        let told = |parameters: &str, more: &str, wanted: &str| {
-            let all = remarks(&format!("[parameters]\n{parameters}\n{FLOW}{CLAIM}{more}"));
-            assert_eq!(all.len(), usize::from(!wanted.is_empty()), "{all:?}");
-            assert!(all.iter().all(|text| text.contains(wanted)), "{all:?}");
-        };
-        told("k = 1", "", "");
-        told("k = 1\nspare = 2", "", "`spare` stands in no formula");
-        told("k = 1\nspare = 'spare2'\nspare2 = 1", "", "`spare` stands in no formula");
-        told("k = '1-3'", "", "`k = \"1-3\"` is the number -2; a range is written \"1..3\"");
-        told("k = '3 − 1'", "", "is the number 2");
-        told("k = 1", "[body]\nshape = 'ball'\n", "[body] is not read");
-        told("k = 1", "[section]\ng0 = 'pi'\nenergy = 1\n", "[section] is not read");
-        told("k = 1", "[[claim]]\ndensity = '0'\nexpect = 'open'\n", "of a measure is positive");
-        told("k = 1", "[[claim]]\ndensity = -1\nexpect = 'open'\n", "of a measure is positive");
-        told("k = 1", "[[claim]]\ndensity = '1/x'\nexpect = 'open'\n", "");
-        told("k = 'A1'\nA = [1, 2]\nA1 = 3", "[let]\nB = 'A'\n", "hides that component of `A`");
-        let all = remarks(&format!("[parameters]\nk = 1\n{FLOW}"));
-        assert!(all.len() == 1 && all[0].contains("there are no claims"), "{all:?}");
-    }
-}

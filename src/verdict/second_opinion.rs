@@ -111,32 +111,40 @@ impl Judging<'_> {
         let open = vec![None; sampler.recipes().len()];
         let (graph, groups) = sampler.compose_groups(self.graph, &[group], &open)?;
         let Some(group) = groups.into_iter().next() else { return Ok(None) };
-        let all = group.outputs.iter().chain(&group.required).copied();
-        let signs = signs(&graph, all.clone());
-        let facts = group.facts.iter().copied();
-        let outputs: Vec<Expr> =
-            signs.iter().map(|place| graph.at(*place)).chain(facts).chain(all).collect();
-        let tape = Tape::new(&graph, &outputs);
-        let free = graph.inputs().saturating_sub(sampler.recipes().len());
-        let is_range = |draw: &Draw| matches!(draw, Draw::Within(_) | Draw::Of(..));
-        let mut search = SignSearch {
-            evaluator: Evaluator::new(&tape, Ball::<TAPE_LANES>),
-            is_range: sampler.recipes().iter().map(is_range).collect(),
-            further: (0..free)
-                .map(|k| Ball::<TAPE_LANES>.constant(&antiderivative_value(k)))
-                .collect(),
-            signs: signs.len(),
-            facts: group.facts.len(),
-            residuals: group.outputs.len(),
-        };
         let mut states = Vec::new();
         for start in 0..BLOCKS {
             let indices = (1 + start) * TAPE_LANES as u64..(2 + start) * TAPE_LANES as u64;
             states.extend(indices.clone().map(|index| sampler.nearest_draws(index)));
             states.extend(indices.map(|index| sampler.nearest_edge(index)));
         }
-        Ok(search.run(states))
+        Ok(contradiction_among(&graph, &group, sampler.recipes(), states))
     }
+}
+
+/// Searches for a state at which the outputs of a group are not 0, among given ones and between them.
+fn contradiction_among(
+    graph: &Graph,
+    group: &Group,
+    recipes: &[Draw],
+    states: Vec<Numbers>,
+) -> Option<Contradiction> {
+    let all = group.outputs.iter().chain(&group.required).copied();
+    let signs = signs(graph, all.clone());
+    let facts = group.facts.iter().copied();
+    let outputs: Vec<Expr> =
+        signs.iter().map(|place| graph.at(*place)).chain(facts).chain(all).collect();
+    let tape = Tape::new(graph, &outputs);
+    let free = graph.inputs().saturating_sub(recipes.len());
+    let is_range = |draw: &Draw| matches!(draw, Draw::Within(_) | Draw::Of(..));
+    let mut search = SignSearch {
+        evaluator: Evaluator::new(&tape, Ball::<TAPE_LANES>),
+        is_range: recipes.iter().map(is_range).collect(),
+        further: (0..free).map(|k| Ball::<TAPE_LANES>.constant(&antiderivative_value(k))).collect(),
+        signs: signs.len(),
+        facts: group.facts.len(),
+        residuals: group.outputs.len(),
+    };
+    search.run(states)
 }
 
 /// Precision in bits of a printed state that contradicts a proof.
@@ -303,48 +311,58 @@ fn factors(graph: &Graph, radicand: usize, add: &mut impl FnMut(usize)) {
 mod tests {
     use super::*;
     use crate::graph::record;
-    use crate::mechanics::Phase;
-    use crate::mechanics::calculus::DualPoint;
-    use crate::verdict::Options;
-    use crate::verdict::recorded::SharedTerms;
+    use crate::mechanics::Range;
+    use crate::scalar::Scalar;
+    use num_dual::DualNum;
 
-    /// Finds the residual at a state that contradicts `identity`, with y' = 0 and a given range of
-    /// x.
-    fn found(range: &str, identity: &str) -> Option<f64> {
-        let text = format!(
-            "title = \"signs\"\nsystem = \"field\"\n[state]\nx = \"{range}\"\ny = \"1..2\"\n\
-             [field]\nx = \"y\"\ny = \"0\"\n[[claim]]\nidentity = \"{identity} = 0\"\n"
-        );
-        let case = crate::case::Case::parse(&text, &[]).expect("a case");
-        let (model, claim) = (&case.model, &case.claims[0]);
-        let inputs = model.free_components() + model.dimension();
-        let (graph, (common, item)) = record(inputs, |inputs| {
-            let jet = DualPoint::new(Phase::new(model, &[], inputs));
-            (SharedTerms::of(&jet), RecordedClaim::new(claim, &jet))
-        })
-        .expect("records");
-        let options = Options::default();
-        let bench = Judging::new(&case, &common, &options, &graph, inputs);
-        let sampler = Sampler::new(&case, &claim.place, 1).expect("samples");
-        assert!(bench.has_cells(&item), "{identity} has cells");
-        bench.contradiction(&sampler, &item).expect("looks").map(|(_, (residual, _))| residual)
+    /// Finds the value at a state that contradicts `identity` = 0, with x in a range and y in 1..2.
+    fn found(range: [i64; 2], scale: i64, identity: fn(&Expr, &Expr) -> Expr) -> Option<f64> {
+        let (graph, residual) =
+            record(2, |inputs| identity(&inputs[0], &inputs[1])).expect("records");
+        let [low, high] = range.map(|end| Rational::new(end, scale));
+        let one = |low: Rational, high: Rational| Draw::Within(Range { low, high });
+        let recipes = [one(low, high), one(1.into(), 2.into())];
+        let group = Group::of(vec![residual]);
+        assert!(!signs(&graph, [residual]).is_empty(), "there are cells");
+        let [low, high] = range.map(|end| end as f64 / scale as f64);
+        // Evenly inside the ranges, and at the ends of that of x.
+        let inside = (0..64).map(|k| (f64::from(k) + 0.5) / 64.0);
+        let edges = (0..64).map(|k| f64::from(k % 2));
+        let states = inside.chain(edges).enumerate().map(|(k, share)| {
+            let y = 1.0 + (k as f64 * 0.618_034).fract();
+            vec![(low + share * (high - low), true), (y, true)]
+        });
+        contradiction_among(&graph, &group, &recipes, states.collect())
+            .map(|(_, (residual, _))| residual)
+    }
+
+    fn number(numerator: i64, denominator: i64) -> Expr {
+        Expr::rational(&Rational::new(numerator, denominator))
     }
 
     #[test]
     fn cells_at_the_end_of_a_range_are_looked_at() {
-        assert!(found("-0.0001..2", "abs(x) - x").is_some_and(|residual| residual > 0.0));
-        assert!(found("-1..2000000", "sqrt(x^2*y) - x*sqrt(y)").is_some());
+        let near = found([-1, 20_000], 10_000, |x, _| x.modulus() - *x);
+        assert!(near.is_some_and(|residual| residual > 0.0), "|x| = x");
+        let far = found([-1, 2_000_000], 1, |x, y| (*x * *x * *y).sqrt() - *x * y.sqrt());
+        assert!(far.is_some(), "√(x² y) = x √y");
     }
 
     #[test]
     fn thin_cells_between_two_others_are_looked_at() {
-        let identity = "abs(x - 1.4) + abs(x - 1.40001) - abs(2*x - 2.80001)";
-        assert!(found("0..2", identity).is_some_and(|residual| residual > 0.0));
+        let thin = found([0, 2], 1, |x, _| {
+            let [low, high] = [number(7, 5), number(140_001, 100_000)];
+            (*x - low).modulus() + (*x - high).modulus()
+                - (number(2, 1) * *x - number(280_001, 100_000)).modulus()
+        });
+        assert!(thin.is_some_and(|residual| residual > 0.0));
     }
 
     #[test]
     fn true_identities_are_not_contradicted() {
-        assert_eq!(found("-1..2", "abs(x)*abs(x) - x^2"), None);
-        assert_eq!(found("-1..2", "sqrt(x^2*y) - abs(x)*sqrt(y)"), None);
+        let square = found([-1, 2], 1, |x, _| x.modulus() * x.modulus() - *x * *x);
+        assert_eq!(square, None, "|x|² = x²");
+        let root = found([-1, 2], 1, |x, y| (*x * *x * *y).sqrt() - x.modulus() * y.sqrt());
+        assert_eq!(root, None, "√(x² y) = |x| √y");
     }
 }

@@ -28,6 +28,6 @@ fn check_all(path: &str, at_least: usize) {
 
 #[test]
 fn the_cases_of_the_guide_run() {
-    check_all("docs/writing-a-case.md", 1);
-    check_all("docs/systems.md", 1);
+    check_all("../docs/writing-a-case.md", 1);
+    check_all("../docs/systems.md", 1);
 }

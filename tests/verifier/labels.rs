@@ -7,9 +7,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use liouville::case::{Case, Expect, is_case_file, labels};
+use liouville::case::{Case, Expect, labels};
 use liouville::claim::STATEMENTS;
 use serde::Deserialize;
+
+use crate::CASES;
+use crate::files::files;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -65,26 +68,21 @@ struct Stated {
 }
 
 fn papers() -> Papers {
-    let text = std::fs::read_to_string("cases/papers.toml").expect("the list of papers");
+    let text = std::fs::read_to_string("../cases/papers.toml").expect("the list of papers");
     toml::from_str(&text).expect("papers with items")
 }
 
-/// Returns all claims of a folder, those about motion and of absence among them.
-fn claims(folder: &Path) -> Vec<Stated> {
-    let mut found = Vec::new();
-    for path in entries(folder) {
-        if path.is_dir() {
-            found.extend(claims(&path));
-        } else if is_case_file(&path) {
-            let case = Case::read(&path, &[]).1.unwrap_or_else(|e| panic!("{path:?}: {e}"));
-            found.extend(claims_of(&case, &path));
-        }
-    }
-    found
+/// Returns all claims of the catalogue, those about motion and of absence among them.
+fn claims() -> Vec<Stated> {
+    let of = |path: PathBuf| {
+        let case = Case::read(&path, &[]).1.unwrap_or_else(|e| panic!("{path:?}: {e}"));
+        claims_of(&case, &path)
+    };
+    files(Path::new(CASES)).into_iter().flat_map(of).collect()
 }
 
 fn claims_of(case: &Case, path: &Path) -> Vec<Stated> {
-    let inside = path.strip_prefix("cases").expect("a path of the catalogue").with_extension("");
+    let inside = path.strip_prefix(CASES).expect("a path of the catalogue").with_extension("");
     let inside = inside.display().to_string().replace('\\', "/");
     let stated = |name: &str, source: &str, cell: Option<&str>, expect, kind| Stated {
         name: format!("{inside} # {name}"),
@@ -109,11 +107,6 @@ fn claims_of(case: &Case, path: &Path) -> Vec<Stated> {
     claims.chain(absent).chain(motions).collect()
 }
 
-fn entries(folder: &Path) -> Vec<PathBuf> {
-    let entries = std::fs::read_dir(folder).expect("a folder");
-    entries.flatten().map(|entry| entry.path()).collect()
-}
-
 /// Whether a label is a number, theorem, cell, figure or erratum of a paper, and not a section.
 fn is_statement(label: &str) -> bool {
     let named =
@@ -126,7 +119,7 @@ fn is_statement(label: &str) -> bool {
 
 #[test]
 fn every_statement_of_the_papers_is_a_claim_or_has_a_reason() {
-    let all = claims(Path::new("cases"));
+    let all = claims();
     let by_name: BTreeMap<&str, &Stated> = all.iter().map(|own| (own.name.as_str(), own)).collect();
     let mut count = 0;
     for paper in papers().paper {
@@ -161,7 +154,7 @@ fn every_statement_of_the_papers_is_a_claim_or_has_a_reason() {
 
 #[test]
 fn every_label_of_the_catalogue_is_listed() {
-    let all = claims(Path::new("cases"));
+    let all = claims();
     for paper in papers().paper {
         let listed: BTreeSet<&str> = paper.items().map(|item| item.label.as_str()).collect();
         for own in all.iter().filter(|own| paper.folders.contains(&own.folder)) {
@@ -180,8 +173,8 @@ fn every_label_of_the_catalogue_is_listed() {
 
 #[test]
 fn every_erratum_is_explained_and_decided() {
-    let page = std::fs::read_to_string("docs/errata.md").expect("the page of errata");
-    let all = claims(Path::new("cases"));
+    let page = std::fs::read_to_string("../docs/errata.md").expect("the page of errata");
+    let all = claims();
     for paper in papers().paper {
         for erratum in &paper.erratum {
             let label = &erratum.label;
@@ -211,7 +204,7 @@ fn the_papers_are_named_in_full() {
 
 #[test]
 fn every_kind_of_claim_is_seen_to_hold_and_to_fail() {
-    let all = claims(Path::new("cases"));
+    let all = claims();
     for statement in STATEMENTS {
         for expect in [Expect::Holds, Expect::Fails] {
             let count = all.iter().filter(|own| own.kind == *statement && own.expect == expect);

@@ -1,5 +1,6 @@
 //! Tests of the verifier through its public interface, one module a subject.
 
+mod arbitrary;
 mod bodies;
 #[path = "../common/mod.rs"]
 mod common;
@@ -9,6 +10,8 @@ mod documents;
 mod domains;
 mod doubts;
 mod expanded_levels;
+#[path = "../common/files.rs"]
+mod files;
 mod functional_equations;
 mod geometry;
 mod golden;
@@ -24,11 +27,18 @@ mod masses;
 mod mutated;
 mod newton_euler;
 mod poles;
+mod program;
 #[path = "../common/random.rs"]
 mod random;
+mod remarks;
+mod samples;
 mod sweep;
 mod systems;
+mod ties;
 mod user_fields;
 mod values;
 mod verdicts;
 mod wide_balls;
+
+/// Folder of the catalogue, from that of this package.
+const CASES: &str = "../cases";

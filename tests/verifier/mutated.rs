@@ -2,24 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use liouville::case::{Case, is_case_file};
+use liouville::case::Case;
 use proptest::prelude::*;
 
-fn files(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in std::fs::read_dir(folder).expect("a folder").flatten() {
-        let path = entry.path();
-        if path.is_dir() {
-            files(&path, found);
-        } else if is_case_file(&path) {
-            found.push(path);
-        }
-    }
-}
+use crate::CASES;
+use crate::files::files;
 
 fn catalogue() -> Vec<String> {
-    let mut found = Vec::new();
-    files(Path::new("cases"), &mut found);
-    found.sort();
+    let found = files(Path::new(CASES));
     let read = |path: &PathBuf| std::fs::read_to_string(path).expect("UTF-8");
     found.iter().map(read).chain([FAMILY.to_string()]).collect()
 }

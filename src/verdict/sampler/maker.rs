@@ -167,30 +167,3 @@ impl Maker<'_> {
         self.evaluator.outputs().cloned().collect()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::case::Case;
-    use crate::claim::LevelSubset;
-
-    #[test]
-    fn the_first_block_is_that_of_the_same_draws() {
-        let text = "title = \"a list\"\nsystem = \"field\"\n[parameters]\nk = \"one of 1, 2, 3\"\n\
-                    [state]\nx = \"0..1\"\n[field]\nx = \"k*x\"\n[[claim]]\nidentity = \"x + k = k + x\"\n";
-        let case = Case::parse(text, &[]).expect("a case");
-        let sampler = Sampler::new(&case, &LevelSubset::level(&case.model), 1).expect("samples");
-        let all = |sampler: &Sampler| {
-            let made = format!("{:?}", sampler.maker().balls(0));
-            assert_eq!(made, format!("{:?}", sampler.balls(0)), "the first time");
-            assert_eq!(made, format!("{:?}", sampler.balls(0)), "the second time");
-            made
-        };
-        let whole = all(&sampler);
-        for value in 1..=3 {
-            let chosen = sampler.with(&[Some(Rational::from(value)), None]);
-            assert_ne!(all(&chosen), whole, "one value of the list");
-        }
-        assert_eq!(all(&sampler), whole);
-    }
-}

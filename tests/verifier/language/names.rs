@@ -1,6 +1,7 @@
 //! Names: in any order, lists by their use, numbers that do not change.
 
 use liouville::case::Case;
+use liouville::verdict::{Options, judge};
 
 use crate::language::{error, settled};
 
@@ -156,4 +157,20 @@ integral = "x² + y²"
     let told =
         error("title = 't'\n[state]\nx = '0..1'\n[let]\nk = \"2*x'\"\n[field]\n\"x'\" = 'k'\n");
     assert_eq!(told[0].1, "`k` contains a rate, which [field] defines");
+}
+
+#[test]
+fn long_chains_of_names_take_no_deep_stack() {
+    const FIELD: &str = "title = 't'\n[state]\nx = '1..2'\n[field]\n\"x'\" = 'x'\n";
+    let links: Vec<String> = (0..5000).map(|k| format!("b{} = 'b{k} + x'\n", k + 1)).collect();
+    for order in [links.concat(), links.iter().rev().cloned().collect()] {
+        let text =
+            format!("{FIELD}[[claim]]\nrate = 'b5000'\nequals = 'b5000'\n[let]\nb0 = 'x'\n{order}");
+        let judged = std::thread::Builder::new().stack_size(1 << 20).spawn(move || {
+            let case = Case::parse(&text, &[]).expect("a case");
+            judge(&case, &Options::default()).map(|_| ())
+        });
+        let judged = judged.expect("a thread").join().expect("no stack overflows");
+        assert!(judged.is_ok(), "the chain is judged");
+    }
 }
