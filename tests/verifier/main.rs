@@ -24,6 +24,7 @@ mod level_parts;
 mod local;
 mod many_variables;
 mod masses;
+mod merge;
 mod mutated;
 mod newton_euler;
 mod poles;

@@ -1,10 +1,7 @@
 //! Merging by value: merged nodes have the same values, different ones stay apart, and the closed
 //! formulas of the mechanics are proved equal to the definitions by the tool.
 
-#[path = "../../../tests/common/mod.rs"]
-mod common;
-
-use common::case;
+use crate::common::case;
 use liouville::case::Case;
 use liouville::claim::LevelSubset;
 use liouville::graph::{Evaluator, Expr, Graph, Points, Tape, record};

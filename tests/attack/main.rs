@@ -17,77 +17,41 @@ use std::process::ExitCode;
 
 use libtest_mimic::{Arguments, Failed, Trial};
 
-#[path = "attack/branching.rs"]
 mod branching;
-#[path = "attack/claim.rs"]
 mod claim;
-#[path = "attack/derive.rs"]
 mod derive;
-#[path = "attack/draw.rs"]
 mod draw;
-#[path = "attack/expr.rs"]
 mod expr;
-#[path = "attack/float.rs"]
 mod float;
-#[path = "attack/flow.rs"]
 mod flow;
-#[path = "attack/grow.rs"]
 mod grow;
-#[path = "attack/hint.rs"]
 mod hint;
-#[path = "attack/interval.rs"]
 mod interval;
-#[path = "attack/jet.rs"]
 mod jet;
-#[path = "attack/levels.rs"]
 mod levels;
-#[path = "attack/library.rs"]
 mod library;
-#[path = "attack/lies.rs"]
 mod lies;
-#[path = "attack/limits.rs"]
 mod limits;
-#[path = "attack/lines.rs"]
 mod lines;
-#[path = "attack/oracle.rs"]
 mod oracle;
-#[path = "attack/own.rs"]
 mod own;
-#[path = "attack/point.rs"]
 mod point;
-#[path = "attack/print.rs"]
 mod print;
-#[path = "attack/random.rs"]
 mod random;
-#[path = "attack/real.rs"]
 mod real;
-#[path = "attack/rewrite.rs"]
 mod rewrite;
-#[path = "attack/run.rs"]
 mod run;
-#[path = "attack/scene.rs"]
 mod scene;
-#[path = "attack/scout.rs"]
 mod scout;
-#[path = "attack/seek.rs"]
 mod seek;
-#[path = "attack/series.rs"]
 mod series;
-#[path = "attack/sheets.rs"]
 mod sheets;
-#[path = "attack/shrink.rs"]
 mod shrink;
-#[path = "attack/spoil.rs"]
 mod spoil;
-#[path = "attack/table.rs"]
 mod table;
-#[path = "attack/told.rs"]
 mod told;
-#[path = "attack/values.rs"]
 mod values;
-#[path = "attack/witness.rs"]
 mod witness;
-#[path = "attack/wrong.rs"]
 mod wrong;
 
 fn main() -> ExitCode {
