@@ -8,6 +8,7 @@ mod dissipation;
 mod documents;
 mod domains;
 mod doubts;
+mod ends_of_ranges;
 mod expanded_levels;
 mod functional_equations;
 mod geometry;
@@ -26,6 +27,9 @@ mod newton_euler;
 mod poles;
 #[path = "../common/random.rs"]
 mod random;
+mod regular_parts;
+mod roots_of_levels;
+mod silent_states;
 mod sweep;
 mod systems;
 mod user_fields;
