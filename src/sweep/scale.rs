@@ -19,7 +19,10 @@ pub fn ratios(graph: &Graph, sizes: &[Expr], square: Expr) -> Result<(Graph, Vec
     let (made, found) = record(graph.inputs(), |inputs| {
         let values = graph.repeated(&reached, inputs);
         let root = root(graph, &values, graph.place(square))?;
-        sizes.iter().map(|size| Some(values[graph.place(*size)]? / root)).collect::<Option<Vec<_>>>()
+        sizes
+            .iter()
+            .map(|size| Some(values[graph.place(*size)]? / root))
+            .collect::<Option<Vec<_>>>()
     })?;
     found.map(|found| (made, found)).ok_or(Fault::ForeignValue)
 }

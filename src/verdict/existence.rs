@@ -67,7 +67,9 @@ impl Judging<'_> {
             let kind = item.claim.kind.name();
             let why = match is_seen {
                 true => "is not told from 0 at the states that were tried",
-                false => "is enclosed at none, as the form of a root alone shows that it has a value",
+                false => {
+                    "is enclosed at none, as the form of a root alone shows that it has a value"
+                }
             };
             status.settled = Some(Verdict::Refuted);
             status.evidence.method = Method::PrimeField;

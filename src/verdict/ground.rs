@@ -114,7 +114,8 @@ impl Judging<'_> {
             let is_void = |sign: i64| {
                 let mut chosen = fixed.clone();
                 chosen[draw] = Some(Rational::from(sign));
-                let groups = sampler.compose_groups(self.graph, std::slice::from_ref(&group), &chosen)?;
+                let groups =
+                    sampler.compose_groups(self.graph, std::slice::from_ref(&group), &chosen)?;
                 let (graph, groups) = groups;
                 let mut values = groups.iter().flat_map(|group| &group.required);
                 Ok::<bool, Fault>(values.any(|value| graph.is_nowhere_defined(*value)))

@@ -36,9 +36,8 @@ impl Judging<'_> {
     pub(super) fn check_slopes(&self, sampler: &Sampler) -> Result<(), Fault> {
         for found in self.flat_equations(sampler)? {
             let mut flat = self.flat.borrow_mut();
-            let is_same = |own: &FlatEquation| {
-                (own.index, own.is_lost) == (found.index, found.is_lost)
-            };
+            let is_same =
+                |own: &FlatEquation| (own.index, own.is_lost) == (found.index, found.is_lost);
             if !flat.iter().any(is_same) {
                 let near = sampler.is_part().then(|| self.state_of(sampler)).flatten();
                 flat.push(FlatEquation { near, ..found });

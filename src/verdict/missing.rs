@@ -203,8 +203,9 @@ impl Judging<'_> {
         }
         if count > 0 {
             let states = is_counted.into_iter().filter(|own| *own).count();
-            let remark =
-                format!("nothing is said at {count} of {states} states, where a formula has no value");
+            let remark = format!(
+                "nothing is said at {count} of {states} states, where a formula has no value"
+            );
             status.evidence.add_remark(remark);
         }
     }
@@ -229,4 +230,3 @@ fn number<const N: usize>(block: &Balls<N>, lane: usize) -> Number {
     Approximation::from_double_double(block.mid[lane], 0.0, block.rad[lane])
         .map_or(Number::Doubtful, Number::Ball)
 }
-

@@ -62,10 +62,7 @@ fn what_fails_on_a_regular_part_is_refuted() {
         // Along the lines p q = 0, and more slowly where they meet.
         let (p, q) = (flat.text(), regular.text());
         let ([a, b, _], [c, d, _]) = (flat.0, regular.0);
-        let field = [
-            format!("({b})*{q} + ({d})*{p}"),
-            format!("−(({a})*{q} + ({c})*{p})"),
-        ];
+        let field = [format!("({b})*{q} + ({d})*{p}"), format!("−(({a})*{q} + ({c})*{p})")];
         // The squares of p and of q with all products are written out by the form as sums.
         let level = format!("({p}*{p})*{q} + 0*x");
         let written = format!("{p}*{p}*({c})*x + {p}*{p}*({d})*y + {p}*{p}*({})", regular.0[2]);
@@ -94,8 +91,8 @@ fn what_fails_on_a_regular_part_is_refuted() {
 fn the_flat_part_is_named_and_decides_nothing() {
     let level = "(exp(x) − 2)*sin(y)^2";
     let field = ["(exp(x) − 2)*y", "1 + (exp(x) − 2)*x"];
-    let claims = ["integral = \"y\"", "integral = \"x\"", "density = \"1 + y^2\""]
-        .map(str::to_string);
+    let claims =
+        ["integral = \"y\"", "integral = \"x\"", "density = \"1 + y^2\""].map(str::to_string);
     let found = judged(level, field, &claims);
     assert_eq!(found[0].verdict, Verdict::Refuted, "y' = 1 on e^x = 2: {:?}", found[0]);
     assert_eq!(found[1].verdict, Verdict::Undecided, "x' = 0 on e^x = 2: {:?}", found[1]);

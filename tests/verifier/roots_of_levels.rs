@@ -13,7 +13,9 @@ fn judged(level: &str, claims: &[String]) -> Result<Vec<ClaimReport>, String> {
          [level]\nequations = [\"{level} = 0\"]\n{claims}"
     );
     let case = Case::parse(&text, &[]).map_err(|error| format!("{error}\n{text}"))?;
-    judge(&case, &Options::default()).map(|report| report.claims).map_err(|e| format!("{e}\n{text}"))
+    judge(&case, &Options::default())
+        .map(|report| report.claims)
+        .map_err(|e| format!("{e}\n{text}"))
 }
 
 fn verdicts(level: &str, claims: &[String]) -> Vec<Verdict> {
@@ -77,6 +79,22 @@ fn powers_of_one_exponential_fall_apart() {
 }
 
 #[test]
+fn exponentials_of_sums_are_products() {
+    let own = |claims: [&str; 2]| claims.map(|claim| format!("identity = \"{claim}\""));
+    let found = verdicts("exp(x + y) − exp(x) − exp(y) + 1", &own(["x*y = 0", "x = 0"]));
+    assert_eq!(found, [Verdict::Proved, Verdict::Refuted], "(e^x − 1)(e^y − 1)");
+    let found = verdicts("2*exp(x − y) − exp(y + z)", &own(["2*y + z = x + log(2)", "x = 0"]));
+    assert_eq!(found, [Verdict::Proved, Verdict::Refuted], "2e^(x − y) = e^(y + z)");
+    let level = "exp(3*x − y) − 2*exp(x) − z*exp(2*x − y) + 2*z";
+    let claims = own(["(z − exp(x))*(2*x − y − log(2)) = 0", "z = exp(x)"]);
+    assert_eq!(
+        verdicts(level, &claims),
+        [Verdict::Proved, Verdict::Refuted],
+        "(e^x − z)(e^(2x − y) − 2)"
+    );
+}
+
+#[test]
 fn levels_with_a_factor_that_is_nowhere_0_have_states() {
     let level = "(x^3 − 3*x + 1)*(y^2 + 1)";
     let claims = ["x^3 = 3*x − 1", "x = |x|"].map(|own| format!("identity = \"{own}\""));
@@ -105,12 +123,14 @@ fn zeros_at_which_another_equation_has_no_value_are_left_out() {
     for k in 1..6 {
         // One of the zeros of the second equation is a pole of the first.
         let level = format!("x/(y − {k}/4) = 0\", \"(y − {k}/4)*(y + {k}/8)*(1 + z^2)");
-        let claims =
-            [format!("y = −{k}/8"), format!("y = {k}/4"), "z = 0".to_string()];
+        let claims = [format!("y = −{k}/8"), format!("y = {k}/4"), "z = 0".to_string()];
         let claims = claims.map(|own| format!("identity = \"{own}\""));
         let found = verdicts(&level, &claims);
         assert_eq!(found, [Verdict::Proved, Verdict::Refuted, Verdict::Refuted], "{level}");
         let level = format!("x/(y − {k}/4) = 0\", \"y^2 − {k}/8*y − {}/32", k * k);
-        assert_eq!(verdicts(&level, &claims), [Verdict::Proved, Verdict::Refuted, Verdict::Refuted]);
+        assert_eq!(
+            verdicts(&level, &claims),
+            [Verdict::Proved, Verdict::Refuted, Verdict::Refuted]
+        );
     }
 }

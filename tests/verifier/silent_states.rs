@@ -34,12 +34,16 @@ fn the_share_of_states_without_a_value_is_told() {
     for index in 0..12 {
         let mut draws = Draws(300 + index);
         // The root has a value for x > c.
-        let c = 0.25 * (draws.below(13) as f64) - 1.5;
+        let c = 0.25 * (draws.below(5) as f64) - 1.0;
         let k = 1 + draws.below(3);
         let level = (draws.below(2) == 0).then_some(CURVE);
         let root = format!("√(x − ({c}))");
         let claims = [
-            format!("identity = \"({root} + {k}*y)^2 = x − ({c}) + {}*y*{root} + {}*y^2\"", 2 * k, k * k),
+            format!(
+                "identity = \"({root} + {k}*y)^2 = x − ({c}) + {}*y*{root} + {}*y^2\"",
+                2 * k,
+                k * k
+            ),
             format!("identity = \"(y + {k}*x)^2 = y^2 + {}*x*y + {}*x^2\"", 2 * k, k * k),
         ];
         let found = judged(level, &claims);
@@ -47,10 +51,10 @@ fn the_share_of_states_without_a_value_is_told() {
             assert!(matches!(own.verdict, Verdict::Proved | Verdict::Confirmed), "{own:?}");
         }
         let (count, all) = silent(&found[0]).unwrap_or_else(|| panic!("{:?}", found[0]));
-        // On the curve x and y are between about −1.7 and 1.8.
         let share = (c + 2.0) / 4.0;
-        assert!((count / all - share).abs() < 0.3, "{count} of {all}, with the share {share}");
-        assert!(all > 40.0 && count < all, "{count} of {all}");
+        let is_near = level.is_some() || (count / all - share).abs() < 0.2;
+        assert!(is_near, "{count} of {all}, with the share {share}");
+        assert!(all > 40.0 && 0.0 < count && count < all, "{count} of {all}");
         assert_eq!(silent(&found[1]), None, "everything has a value");
     }
 }
@@ -60,16 +64,15 @@ fn a_branch_on_which_nothing_is_judged_is_not_confirmed() {
     // y = 0 is a branch, on which ε/(ε + y²) is 1 for each ε ≠ 0, and 1/y has no value.
     let level = format!("y*({}) = 0", "x^5 + x + y^5 + y − 1/2");
     let claims = [
-        "limit = { of = \"ε/(ε + y^2)\", parameter = \"ε\", equals = \"0\" }".to_string(),
+        "limit = \"ε/(ε + y^2)\"\nparameter = \"ε\"\nequals = \"0\"".to_string(),
         "identity = \"y*(1/y)*(x^5 + x + y^5 + y) = 1/2\"".to_string(),
-        "identity = \"(x^5 + x + y^5 + y − 1/2)*√(y) = 0\"".to_string(),
+        "identity = \"(√(y) + x)^2 = y + 2*x*√(y) + x^2\"".to_string(),
     ];
     let found = judged(Some(&level), &claims);
-    for own in &found[..2] {
+    for own in &found {
+        assert!(own.verdict != Verdict::Refuted, "{own:?}");
         let is_told = own.verdict == Verdict::Undecided || own.evidence.remark.is_some();
         assert!(is_told, "{own:?}");
     }
     assert_eq!(found[0].verdict, Verdict::Undecided, "{:?}", found[0]);
-    assert!(found[2].verdict != Verdict::Refuted, "{:?}", found[2]);
-    assert!(found[2].evidence.remark.is_some(), "{:?}", found[2]);
 }

@@ -27,7 +27,8 @@ pub fn simplest(graph: &Graph, equations: &[Expr]) -> Option<Vec<Combination>> {
     let before = size(&rows);
     let mut rank = 0;
     while rank < rows.len() {
-        let Some((product, value)) = rows[rank].last_key_value().map(|(k, v)| (k.clone(), v.clone()))
+        let Some((product, value)) =
+            rows[rank].last_key_value().map(|(k, v)| (k.clone(), v.clone()))
         else {
             // The equation follows from the others.
             rows.remove(rank);

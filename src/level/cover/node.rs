@@ -227,13 +227,13 @@ impl Node {
         (0..factors.count()).map(with).collect::<Result<Vec<Self>, Fault>>().map(Some)
     }
 
-    /// Divides by the differences of an equation c Aⁿ + d Bⁿ = 0; `None` if it is none.
+    /// Divides by the differences of an equation c Aⁿ + d Bⁿ = 0, or c e^u + d e^v = 0; `None` if it is none.
     pub fn powers(&self, index: usize) -> Result<Option<Vec<Self>>, Fault> {
-        let Some(found) = Factors::of_powers(&self.graph, self.equations[index]) else {
-            return Ok(None);
-        };
-        let with =
-            |own: usize| self.replaced(index, |at| Some(vec![found.value(own, at)?]));
+        let equation = self.equations[index];
+        let found = Factors::of_exponentials(&self.graph, equation)
+            .or_else(|| Factors::of_powers(&self.graph, equation));
+        let Some(found) = found else { return Ok(None) };
+        let with = |own: usize| self.replaced(index, |at| Some(vec![found.value(own, at)?]));
         (0..found.count()).map(with).collect::<Result<Vec<Self>, Fault>>().map(Some)
     }
 

@@ -22,6 +22,20 @@ pub(super) enum Variable {
 }
 
 impl Variable {
+    /// Returns the places of u_i, with whole numbers n_i, of which the variable is e^(Σ n_i u_i).
+    pub(super) fn exponent(&self, graph: &Graph) -> Option<Vec<(usize, i64)>> {
+        let argument = |place: usize| match graph.step(place) {
+            Step::Unary(UnaryFunction::Exp, a) => Some(a),
+            _ => None,
+        };
+        match self {
+            Self::Place(place) => Some(vec![(argument(*place)?, 1)]),
+            Self::Exponential(powers) => {
+                powers.iter().map(|(place, power)| Some((argument(*place)?, *power))).collect()
+            }
+        }
+    }
+
     /// Records the value from the values at places.
     pub(super) fn value(&self, at: &impl Fn(usize) -> Option<Expr>) -> Option<Expr> {
         match self {
@@ -69,6 +83,12 @@ impl Exponentials {
         if !(2..=MOST).contains(&places.len()) {
             return None;
         }
+        // Exponents of few terms come first, and are kept.
+        let mut order: Vec<usize> = (0..places.len()).collect();
+        order.sort_by_key(|index| (exponents[*index].size(), *index));
+        let places: Vec<usize> = order.iter().map(|index| places[*index]).collect();
+        let exponents: Vec<Polynomial> =
+            order.iter().map(|index| exponents[*index].clone()).collect();
         let mut rows = whole_rows(&exponents)?;
         let count = rows.len();
         let unit = |k: usize| (0..count).map(|j| i64::from(j == k)).collect::<Vec<i64>>();

@@ -26,9 +26,10 @@ pub struct Factors {
     variables: Vec<Variable>,
 }
 
-/// A polynomial, or A − r B.
+/// A polynomial, a sum of multiples of values at places less ln a, or A − r B.
 enum Factor {
     Whole(Polynomial),
+    Exponent { terms: Vec<(usize, i64)>, value: Rational },
     Difference { above: Polynomial, below: Polynomial, root: SignedRoot },
 }
 
@@ -57,10 +58,9 @@ impl Factors {
         let is_simpler = !is_whole || whole.below.number().is_none();
         let count = all.len();
         let is_exponential = |own: &Polynomial| match own.as_term() {
-            Some((_, [(variable, _)])) => matches!(
-                variables.get(*variable as usize),
-                Some(Variable::Exponential(_))
-            ),
+            Some((_, [(variable, _)])) => {
+                matches!(variables.get(*variable as usize), Some(Variable::Exponential(_)))
+            }
             _ => false,
         };
         all.retain(|own| !is_exponential(own));
@@ -77,12 +77,46 @@ impl Factors {
         Some(Self { all, variables })
     }
 
+    /// Finds the exponent that is 0 exactly where a value c e^u + d e^v with several exponentials is: u − v − ln(−d/c), and
+    /// none for −d/c < 0. `None` if it is none.
+    pub fn of_exponentials(graph: &Graph, value: Expr) -> Option<Self> {
+        let Read { whole, variables } = Read::of(graph, value)?;
+        let above = &whole.above;
+        let mut found = above.terms();
+        let (Some((one, first)), Some((two, second)), None) =
+            (found.next(), found.next(), found.next())
+        else {
+            return None;
+        };
+        if above.variables().len() < 2 {
+            return None;
+        }
+        let mut terms: Vec<(usize, i64)> = Vec::new();
+        for (sign, powers) in [(1, first), (-1, second)] {
+            for (variable, power) in powers {
+                let own = variables.get(*variable as usize)?.exponent(graph)?;
+                let times = sign * i64::from(*power);
+                for (place, count) in own {
+                    terms.push((place, count.checked_mul(times)?));
+                }
+            }
+        }
+        let value = -&(two * &one.recip()?);
+        let factor = Factor::Exponent { terms, value: value.clone() };
+        let all = if value.is_negative() { Vec::new() } else { vec![factor] };
+        Some(Self { all, variables })
+    }
+
     /// Finds one or two differences of which one is 0 exactly where a value c Aⁿ + d Bⁿ with n ≥ 3 is: A − r B, and
     /// A + r B for even n, with r = ⁿ√(−d/c). `None` if it is none.
     pub fn of_powers(graph: &Graph, value: Expr) -> Option<Self> {
         let Read { whole, variables } = Read::of(graph, value)?;
         let found = whole.polynomial()?.binomial()?;
-        let signs = if found.exponent % 2 == 0 { vec![false, true] } else { vec![found.ratio.is_negative()] };
+        let signs = if found.exponent % 2 == 0 {
+            vec![false, true]
+        } else {
+            vec![found.ratio.is_negative()]
+        };
         let of_sign = |is_negative: bool| {
             let root =
                 SignedRoot { is_negative, radicand: found.ratio.abs(), index: found.exponent };
@@ -98,9 +132,18 @@ impl Factors {
 
     /// Records a factor from the values at places.
     pub fn value(&self, index: usize, at: impl Fn(usize) -> Option<Expr>) -> Option<Expr> {
-        let of = |variable: u32| self.variables.get(variable as usize)?.value(&at);
+        let at = &at;
+        let of = |variable: u32| self.variables.get(variable as usize)?.value(at);
         Some(match self.all.get(index)? {
             Factor::Whole(own) => own.value(&of)?,
+            Factor::Exponent { terms, value } => {
+                let logarithm = Expr::rational(value).apply(UnaryFunction::Ln);
+                let add = |sum: Expr, (place, count): &(usize, i64)| {
+                    Some(sum + at(*place)? * Expr::rational(&Rational::from(*count)))
+                };
+                let zero = Expr::rational(&Rational::from(0));
+                terms.iter().try_fold(zero, add)? - logarithm
+            }
             Factor::Difference { above, below, root } => {
                 above.value(&of)? - root.value() * below.value(&of)?
             }
@@ -120,7 +163,10 @@ impl Read {
         let places = places_of_variables(graph, value);
         let Some(related) = Exponentials::of(graph, &places) else {
             let (whole, places) = fraction_in_functions(graph, value)?;
-            return Some(Self { whole, variables: places.into_iter().map(Variable::Place).collect() });
+            return Some(Self {
+                whole,
+                variables: places.into_iter().map(Variable::Place).collect(),
+            });
         };
         let first = places.len();
         let given = |at: usize, _: Step<'_>| {
