@@ -61,7 +61,8 @@ mod tests {
         let cube: &[(u32, u32)] = &[(0, 3)];
         assert_eq!(read(&[(1, cube), (-2, &[(1, 3)])]).map(|own| own.0), Some(3), "x³ = 2y³");
         assert_eq!(read(&[(1, cube), (5, &[])]), Some((3, Rational::from(-5))), "x³ = −5");
-        let (six, nine): (&[(u32, u32)], &[(u32, u32)]) = (&[(0, 6)], &[(1, 9), (2, 3)]);
+        let six: &[(u32, u32)] = &[(0, 6)];
+        let nine: &[(u32, u32)] = &[(1, 9), (2, 3)];
         let found = of(&[(1, nine), (-7, six)]).binomial().expect("y⁹z³ = 7x⁶");
         let sides = [of(&[(1, &[(1, 3), (2, 1)])]), of(&[(1, &[(0, 2)])])];
         assert!(sides.contains(&found.above) && sides.contains(&found.below), "{found:?}");
