@@ -18,7 +18,7 @@ struct Term {
 impl Formula {
     /// Returns formulas of which one is 0 at exactly those real points at which this one is, where all of
     /// them have values everywhere: those of a product, of a power, of |A|, and of k Aⁿ − l Bⁿ = 0, which is
-    /// A = r B, and A = −r B for even n, with rⁿ = l/k; and k |u| − l |v| = 0, which is k² |u|² = l² |v|² for l/k ≥ 0;
+    /// A = r B, and A = −r B for even n, with rⁿ = l/k, a rational r or n > 2; and k |u| − l |v| = 0, which is k² |u|² = l² |v|² for l/k ≥ 0;
     /// and those over ℚ of a sum, as a polynomial in its parts.
     /// `None` if the formula is none of these.
     pub(crate) fn factors(&self) -> Option<Vec<Formula>> {
@@ -146,15 +146,30 @@ fn difference(arena: &mut Arena, a: NodeId, b: NodeId) -> Option<Vec<NodeId>> {
     if exponent < 2 || below.base.is_some() && below.exponent != exponent {
         return None;
     }
-    let root = root(&ratio, exponent)?;
+    let is_even = exponent.is_multiple_of(2);
+    if is_even && ratio.is_negative() {
+        return None;
+    }
+    let rational = root(&ratio, exponent);
+    // Quadratic equations are solved by their own rules.
+    if rational.is_none() && exponent < 3 {
+        return None;
+    }
     let mut push = |operation| arena.push(operation, Type::Scalar, span.clone());
-    let number = push(NodeOperation::Number(root));
+    let number = match rational {
+        Some(root) => push(NodeOperation::Number(root)),
+        None => {
+            let size = push(NodeOperation::Number(ratio.abs()));
+            let root = push(NodeOperation::Power(size, Rational::new(1, i64::from(exponent))));
+            if ratio.is_negative() { push(NodeOperation::Negate(root)) } else { root }
+        }
+    };
     let other = match below.base {
         Some(other) => push(NodeOperation::Multiply(number, other)),
         None => number,
     };
     let mut parts = vec![push(NodeOperation::Subtract(base, other))];
-    if exponent % 2 == 0 {
+    if is_even {
         parts.push(push(NodeOperation::Add(base, other)));
     }
     Some(parts)

@@ -47,6 +47,7 @@
 //! ```
 
 mod generator;
+mod scale;
 
 use std::ops::Range;
 
@@ -103,8 +104,8 @@ pub struct Sweep<'c> {
     engine: Engine,
     /// Number of components that vanish where the claim holds.
     components: usize,
-    /// Whether the square of the scale follows them.
-    has_scale: bool,
+    /// The same components, computed without the square of the scale, which follows them then, and their sizes.
+    careful: Option<Tape>,
     /// Tape from draws to parameters and state.
     point: Tape,
 }
@@ -172,14 +173,18 @@ impl<'c> Sweep<'c> {
                 scale.map_or(size, |square| size / num_dual::DualNum::sqrt(&square))
             };
             let components = residual.len();
+            let sizes: Vec<_> = residual.iter().map(|own| own.modulus()).collect();
             let mut ratios = residual.into_iter().map(ratio).collect::<Vec<_>>();
-            ratios.extend(scale.filter(|_| components > 0));
+            if let Some(square) = scale.filter(|_| components > 0) {
+                ratios.push(square);
+                ratios.extend(&sizes);
+            }
             let mut system = requirement::of_system(&jet.phase);
             system.extend(requirement::of_level(&jet.phase));
             let required = requirement::of_claim(&jet, &claim.kind, &system);
-            ([ratios, inputs.to_vec(), required], components)
+            ([ratios, inputs.to_vec(), required, sizes], components)
         })?;
-        let ([ratios, inputs, required], components) = groups;
+        let ([ratios, inputs, required, mut sizes], components) = groups;
         if components == 0 {
             return Err(SweepError::NoResidual);
         }
@@ -188,13 +193,23 @@ impl<'c> Sweep<'c> {
         let point = Tape::new(&own, &points.concat());
         // What is written and was simplified away still has to have a value.
         let left_out = graph.left_out(&ratios, &required);
+        let careful = match ratios.get(components) {
+            Some(square) => {
+                sizes.push(*square);
+                let (graph, sizes) = sampler.compose_in_ranges(&graph, &sizes, &left_out)?;
+                let (graph, ratios) =
+                    scale::ratios(&graph, &sizes[..components], sizes[components])?;
+                Some(Tape::new(&graph, &ratios))
+            }
+            None => None,
+        };
         let (graph, ratios) = sampler.compose_in_ranges(&graph, &ratios, &left_out)?;
         Ok(Self {
             case,
             generator: Generator::new(recipes, seed),
             engine: Engine::new(&Tape::new(&graph, &ratios), means),
             components,
-            has_scale: ratios.len() > components,
+            careful,
             point,
         })
     }
@@ -260,8 +275,17 @@ impl<'c> Sweep<'c> {
             for component in 1..self.components {
                 worse(&mut ratios, runner.output(component));
             }
-            if self.has_scale {
-                without_overflow(&mut ratios, runner.output(self.components));
+            if let Some(careful) = &self.careful {
+                for lane in 0..lanes {
+                    let square = runner.output(self.components).0[lane];
+                    let has_sizes = || {
+                        let sizes = self.components + 1..2 * self.components + 1;
+                        sizes.into_iter().all(|size| runner.output(size).0[lane].is_finite())
+                    };
+                    if !(scale::LEAST..=scale::MOST).contains(&square) && has_sizes() {
+                        ratios.0[lane] = careful_ratio(careful, runner.inputs(), lane);
+                    }
+                }
             }
             found = found.and(peak(&ratios.0[..lanes], start));
         }
@@ -278,13 +302,12 @@ fn worse(ratios: &mut RowBlock, others: &RowBlock) {
     }
 }
 
-/// Leaves ratios to a scale undefined that is beyond the range of f64: any residual is 0 times infinity.
-fn without_overflow(ratios: &mut RowBlock, squares: &RowBlock) {
-    for (ratio, square) in ratios.0.iter_mut().zip(&squares.0) {
-        if *square == f64::INFINITY {
-            *ratio = f64::NAN;
-        }
-    }
+/// Computes the largest ratio at one state, from its draws; NaN where one has no value.
+fn careful_ratio(tape: &Tape, inputs: &[RowBlock], lane: usize) -> f64 {
+    let mut evaluator = Evaluator::new(tape, Float::<1>);
+    evaluator.run(&inputs.iter().map(|row| [row.0[lane]]).collect::<Vec<_>>());
+    let larger = |most: f64, own: f64| if own > most || own.is_nan() { own } else { most };
+    evaluator.outputs().map(|value| value[0]).fold(0.0, larger)
 }
 
 /// Largest of some numbers, in two passes without a branch on any of them.

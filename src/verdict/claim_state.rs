@@ -41,6 +41,9 @@ pub struct ClaimState {
     pub is_unseen: bool,
     /// Whether the slopes of the level's equations depend on each other at states of the place.
     pub is_flat: bool,
+    /// Whether the states are a part of full dimension on which these slopes are independent, while on others
+    /// they depend on each other.
+    pub is_regular: bool,
     /// Whether the states are a part of lower dimension than the place.
     pub is_thin: bool,
     /// Whether the part has states, though perhaps none at which the claim has a value.
@@ -104,11 +107,14 @@ pub fn are_zero(graph: &Graph, values: &[Expr]) -> bool {
 /// Records the results of the first block other than the residual: whether the formula is defined,
 /// the quadratures are functions of their variables, the residual is resolved, and the integral is
 /// new.
+///
+/// On a level that is not divided the residual must have a value at each state that counts: a part of the
+/// level may have few of them.
 pub fn classify<D: Enclosing>(
     item: &RecordedClaim<'_>,
     span: &Span,
-    values: &Values<D>,
-    existing: &[bool],
+    (values, existing): (&Values<D>, &[bool]),
+    is_numerical: bool,
     status: &mut ClaimState,
 ) {
     let result = |range: &Range<usize>, scale: &Range<usize>| {
@@ -157,7 +163,7 @@ pub fn classify<D: Enclosing>(
             format!("the residual is undefined at all {TAPE_LANES} states that were drawn{hint}");
         status.undefined.get_or_insert(reason);
     }
-    status.blurred = residual.blur(kind);
+    status.blurred = residual.blur(kind, is_numerical);
 }
 
 /// Result of a block of states for a residual.
@@ -220,9 +226,11 @@ impl BlockResult {
         (self.existing - self.defined) * MOST_LACKING > self.existing
     }
 
-    /// Returns the reason why zeros in these enclosures would not be significant, if there is one.
-    pub fn blur(&self, kind: &str) -> Option<String> {
-        if !self.excludes_zero && self.is_partial() {
+    /// Returns the reason why zeros in these enclosures would not be significant, if there is one: a residual
+    /// without a value at some of the states that count, at any of them if all are asked.
+    pub fn blur(&self, kind: &str, asks_all: bool) -> Option<String> {
+        let lacks = asks_all && self.defined < self.existing;
+        if !self.excludes_zero && (self.is_partial() || lacks) {
             return Some(format!(
                 "the residual of this {kind} has no value at {} of {} states at which all that is \
                  written has one",

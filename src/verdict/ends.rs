@@ -32,7 +32,7 @@ impl Judging<'_> {
 }
 
 /// Iterates over draws of states near the ends of the range of one draw, and near those of all.
-fn near_ends(sampler: &Sampler) -> impl Iterator<Item = Vec<Rational>> + '_ {
+pub(super) fn near_ends(sampler: &Sampler) -> impl Iterator<Item = Vec<Rational>> + '_ {
     let recipes = sampler.recipes();
     let ranged: Vec<usize> =
         (0..recipes.len()).filter(|k| matches!(recipes[*k], Draw::Within(_))).collect();

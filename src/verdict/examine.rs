@@ -35,11 +35,12 @@ impl Judging<'_> {
             return;
         }
         let residuals = seen.values.range(span.residual.clone());
-        let mut states = 0;
+        let (mut states, mut lacking) = (0, 0);
         let (mut largest, mut scaled) = (0f64, 0f64);
         for lane in (0..D::LANES).filter(|lane| seen.existing[*lane]) {
             let enclosures = || residuals.iter().map(|block| D::enclosure(block, lane));
             if enclosures().any(|enclosure| enclosure.is_none()) {
+                lacking += 1;
                 continue;
             }
             states += 1;
@@ -47,6 +48,15 @@ impl Judging<'_> {
                 largest = largest.max(mid.abs());
                 scaled = scaled.max(if mid == 0.0 { 0.0 } else { mid.abs() / rad });
             }
+        }
+        // A part of a level that is not divided may have few of the states.
+        if lacking > 0 && sampler.is_numerical() {
+            let of = lacking + states;
+            status.blurred.get_or_insert_with(|| {
+                format!(
+                    "the residual has no value at {lacking} of {of} states at which all that is written has one"
+                )
+            });
         }
         let evidence = &mut status.evidence;
         if start > 0 || evidence.samples == 0 {

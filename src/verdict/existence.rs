@@ -7,156 +7,23 @@ use super::evidence::{Method, Verdict, Witness};
 use super::examine::BlockValues;
 use super::field::Where;
 use super::judging::Judging;
-use super::ladder::{FEW_OPERATIONS, LADDER_BITS, Open, PRECISE_STATES};
+use super::ladder::{LADDER_BITS, Open, PRECISE_STATES};
 use super::recorded::RecordedClaim;
 use super::sampler::{Sampler, TAPE_LANES};
 use super::witness;
 use crate::graph::{Evaluator, Fault, Tape};
 use crate::mechanics::Draw;
 use crate::number::Enclosing;
-use crate::number::arb::{Approximation, ArbBall};
-use crate::number::ball::{Ball, Balls};
+use crate::number::arb::ArbBall;
+use crate::number::ball::Ball;
 use crate::number::mixed::{Mixed, Number};
 use crate::number::rational::Rational;
 use crate::proof::{Extent, InputRegion};
 
-/// Largest number of states without a value in f64 that are examined further, for residuals of
-/// many operations.
-const MOST_MISSING: usize = 16;
 /// Largest number of choices of signs with which a state is sought.
 const MOST_SIGNS: usize = 16;
-/// Number of steps through a range, of which states beside another are a few away.
-const BESIDE: i64 = 1 << 30;
-/// Share of doubtful states above which a claim is not confirmed: one in this many.
-const MAX_DOUBTFUL: usize = 4;
-
-/// Lists draws of two states beside a drawn one, on opposite sides of it, in the ranges.
-fn beside(sampler: &Sampler, index: u64) -> [Vec<Rational>; 2] {
-    let exact = sampler.drawn(&Mixed::new(LADDER_BITS[0]), 1, index);
-    [1, -1].map(|side| {
-        let moved = |(k, (value, draw)): (usize, (&Number, &Draw))| {
-            let Number::Exact(value) = value else { return Rational::from(0) };
-            let step = Rational::new(side * (k as i64 % 7 + 1), BESIDE);
-            match draw {
-                Draw::Within(range) => {
-                    let away = &step * &(&range.high - &range.low);
-                    let moved = value + &away;
-                    let is_inside = moved >= range.low && moved <= range.high;
-                    if is_inside { moved } else { value - &away }
-                }
-                Draw::Of(..) => value + &step,
-                Draw::OneOf(_) | Draw::Sign => value.clone(),
-            }
-        };
-        exact.iter().zip(sampler.recipes()).enumerate().map(moved).collect()
-    })
-}
 
 impl Judging<'_> {
-    /// Examines states of the first block at which a required value is undefined in f64: √0 exists.
-    pub(super) fn missing_states(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
-        let is_asked = |status: &ClaimState| status.settled.is_none() && !status.missing.is_empty();
-        if !open.iter().any(|(_, status)| is_asked(status)) {
-            return;
-        }
-        let found = sampler.is_numerical().then(|| sampler.balls(0));
-        let unsettled = open.iter_mut().filter(|(_, status)| status.settled.is_none());
-        for (item, status) in unsettled {
-            let mut missing = std::mem::take(&mut status.missing);
-            // Where Newton's method fails there is no state.
-            if let Some(found) = &found {
-                missing.retain(|lane| found.iter().all(|block| block.is_defined(*lane)));
-            }
-            if missing.is_empty() {
-                continue;
-            }
-            let (run, layout) = self.lay_out(sampler, std::iter::once(*item), false);
-            let (span, domain) = (&layout.spans[0], Mixed::new(LADDER_BITS[0]));
-            let is_small = status.evidence.operations <= FEW_OPERATIONS;
-            let looked = if is_small { missing.len() } else { missing.len().min(MOST_MISSING) };
-            let (mut doubtful, mut partial, mut supposed) = (0, None, None);
-            for lane in &missing[..looked] {
-                let index = *lane as u64;
-                let state = match &found {
-                    Some(found) => found.iter().map(|block| number(block, *lane)).collect(),
-                    None => sampler.states(&domain, 1, index),
-                };
-                let values = run.at(&domain, &state);
-                let existing = layout.existing(&values, span);
-                let required = [layout.common.clone(), span.requirement.clone()];
-                let mut required = required.into_iter().flat_map(|range| values.range(range));
-                let is_doubtful = required.any(|value| *value == Number::Doubtful);
-                doubtful += usize::from(is_doubtful);
-                if supposed.is_none() && is_doubtful && !status.is_zero {
-                    let domain = Mixed::supposing_roots(LADDER_BITS[0]);
-                    let state = match &found {
-                        Some(_) => state.clone(),
-                        None => sampler.states(&domain, 1, index),
-                    };
-                    let values = run.at(&domain, &state);
-                    let residual = values.range(span.residual.clone());
-                    let fails = residual.iter().any(|value| Mixed::excludes_zero(value, 0));
-                    supposed = (fails && layout.existing(&values, span)[0]).then_some(index);
-                }
-                if found.is_some() {
-                    continue;
-                }
-                let seen = BlockValues { values: &values, existing: &existing };
-                let residual = span.residual.clone();
-                if self.seek_witness(
-                    sampler,
-                    index,
-                    residual.clone(),
-                    &seen,
-                    LADDER_BITS[0],
-                    status,
-                ) {
-                    break;
-                }
-                let residual = values.existing(&[residual]);
-                match (existing[0], residual[0]) {
-                    // √0 may exist at this state alone: then the claim says nothing.
-                    (true, true) if status.is_zero => {
-                        let beside = beside(sampler, index).into_iter().any(|numbers| {
-                            let values = run.at(&domain, &sampler.made_from(&domain, &numbers));
-                            layout.existing(&values, span)[0]
-                        });
-                        if beside {
-                            status.undefined = None;
-                        }
-                    }
-                    (true, true) => status.undefined = None,
-                    // Where √X is 0 on an open set, its derivative is not X'/(2√X).
-                    (true, false) => partial = partial.or(Some(index)),
-                    (false, _) => {}
-                }
-            }
-            if let Some(index) = supposed.filter(|_| status.settled.is_none()) {
-                status.blurred.get_or_insert_with(|| {
-                    format!(
-                        "at state {index} it is not known whether a root has a value, as what is under \
-                         it is 0 up to rounding; if it has one, the claim fails there"
-                    )
-                });
-            }
-            if let Some(index) = partial.filter(|_| !status.is_zero) {
-                status.blurred.get_or_insert_with(|| {
-                    format!(
-                        "at state {index} all that is written has a value, but the residual has none"
-                    )
-                });
-            }
-            if doubtful * missing.len() * MAX_DOUBTFUL >= looked * TAPE_LANES && !status.is_zero {
-                status.blurred.get_or_insert_with(|| {
-                    format!(
-                        "at {doubtful} of {looked} states it is not known whether the formula has a \
-                         value"
-                    )
-                });
-            }
-        }
-    }
-
     /// Refutes claims that are not identities in prime fields, once a state is known at which they
     /// count; with a witness if one is found.
     pub(super) fn real_states(
@@ -188,19 +55,27 @@ impl Judging<'_> {
         status: &mut ClaimState,
     ) -> Result<bool, Fault> {
         let chosen = sampler.with(&found.fixed);
-        let exists = match found.parts.proper() {
+        let is_seen = match found.parts.proper() {
             None => self.drawn_state(item, &chosen, None, status),
             Some(parts) => {
                 parts.iter().any(|part| self.drawn_state(item, &chosen, Some(part), status))
                     || parts.iter().any(|part| self.state_inside(item, &chosen, part, status))
             }
-        } || self.has_state_around(&chosen, found)?;
-        if exists && status.settled.is_none() {
+        };
+        let exists = is_seen || self.has_state_around(&chosen, found)?;
+        if exists && status.settled.is_none() && !self.find_witness(item, &chosen, status) {
             let kind = item.claim.kind.name();
+            let why = match is_seen {
+                true => "is not told from 0 at the states that were tried",
+                false => {
+                    "is enclosed at none, as the form of a root alone shows that it has a value"
+                }
+            };
             status.settled = Some(Verdict::Refuted);
             status.evidence.method = Method::PrimeField;
             status.evidence.reason = Some(format!(
-                "modulo a prime the residual of this {kind} is not 0, so it is not an identity"
+                "modulo a prime the residual of this {kind} is not 0, so it is not an identity; no state is \
+                 printed, since the residual {why}"
             ));
         }
         Ok(exists)
@@ -271,7 +146,14 @@ impl Judging<'_> {
             .map(|(draw, x)| draw.only().or_else(|| Rational::from_f64(*x)))
             .collect();
         let Some(numbers) = numbers else { return false };
-        match self.examined_at(item, sampler, &numbers, status) {
+        let mut found = AtNumbers::Small;
+        for bits in LADDER_BITS {
+            found = self.examined_with(bits, item, sampler, &numbers, status);
+            if found != AtNumbers::Small {
+                break;
+            }
+        }
+        match found {
             AtNumbers::NoState => false,
             AtNumbers::Refuted | AtNumbers::Small => true,
             // As at √0, the state may be alone, and then counts for nothing.
@@ -287,8 +169,20 @@ impl Judging<'_> {
         numbers: &[Rational],
         status: &mut ClaimState,
     ) -> AtNumbers {
+        self.examined_with(LADDER_BITS[0], item, sampler, numbers, status)
+    }
+
+    /// Examines a claim in the same way with other numbers of bits.
+    fn examined_with(
+        &self,
+        bits: u32,
+        item: &RecordedClaim<'_>,
+        sampler: &Sampler,
+        numbers: &[Rational],
+        status: &mut ClaimState,
+    ) -> AtNumbers {
         let (run, layout) = self.lay_out(sampler, std::iter::once(item), false);
-        let (span, domain) = (&layout.spans[0], Mixed::new(LADDER_BITS[0]));
+        let (span, domain) = (&layout.spans[0], Mixed::new(bits));
         let values = run.at(&domain, &sampler.made_from(&domain, numbers));
         if !layout.existing(&values, span)[0] {
             return AtNumbers::NoState;
@@ -301,7 +195,7 @@ impl Judging<'_> {
         let away = residuals.iter().find(|value| Mixed::excludes_zero(value, 0));
         if let Some((mid, rad)) = away.and_then(|value| Mixed::enclosure(value, 0)) {
             let digits = away.and_then(|value| Mixed::beyond_f64(value, 0));
-            let printed = sampler.printed_from(numbers, LADDER_BITS[0]);
+            let printed = sampler.printed_from(numbers, bits);
             let witness = witness::witness(self.case, None, &printed, (mid, rad));
             let found = format!("{mid:.3e} ± {rad:.1e} at a state that was looked for");
             status.evidence.witness = Some(Witness { digits, ..witness });
@@ -329,12 +223,6 @@ pub(super) enum AtNumbers {
     Zero,
     /// They enclose 0, or have no value.
     Small,
-}
-
-/// Number enclosed by a ball in f64.
-fn number<const N: usize>(block: &Balls<N>, lane: usize) -> Number {
-    Approximation::from_double_double(block.mid[lane], 0.0, block.rad[lane])
-        .map_or(Number::Doubtful, Number::Ball)
 }
 
 /// Returns the ranges of the draws in a part of the states, with each choice of the signs that the

@@ -178,7 +178,7 @@ impl Judging<'_> {
         for ((item, status), span) in open.iter_mut().zip(&layout.spans) {
             let existing = layout.existing(&values, span);
             status.missing = (0..TAPE_LANES).filter(|lane| !existing[*lane]).collect();
-            classify(item, span, &values, &existing, status);
+            classify(item, span, (&values, &existing), sampler.is_numerical(), status);
             if status.settled.is_none() && status.undefined.is_none() {
                 let seen = BlockValues { values: &values, existing: &existing };
                 self.check_value(sampler, 0, span, &seen, f64::MANTISSA_DIGITS, status);
@@ -284,7 +284,7 @@ impl Judging<'_> {
             let method = Method::DoubleDoubleBall;
             status.evidence.method = method;
             let existing = layout.existing(&values, span);
-            classify(item, span, &values, &existing, status);
+            classify(item, span, (&values, &existing), false, status);
             if status.undefined.is_some() && self.is_out_of_range(item, sampler) {
                 status.undefined = None;
             }

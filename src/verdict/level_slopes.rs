@@ -7,7 +7,8 @@ use super::evidence::Verdict;
 use super::judging::Judging;
 use super::ladder::{LADDER_BITS, PRECISE_STATES};
 use super::recorded::RecordedClaim;
-use super::sampler::Sampler;
+use super::sampler::{Sampler, TAPE_LANES};
+use super::witness::briefly;
 use crate::graph::{Expr, Fault};
 use crate::mechanics::combinations;
 use crate::number::mixed::{Mixed, Number};
@@ -18,12 +19,14 @@ const EVERYWHERE: &str = "everywhere";
 
 /// An equation of the level whose slope is not known to be independent of those before it at almost every
 /// state.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FlatEquation {
     /// Index of the equation.
     pub index: usize,
     /// Whether it is known to depend on them at states; otherwise nothing is known.
     pub is_lost: bool,
+    /// A state of the part of the level where that is so, unless the level has one part only.
+    pub near: Option<String>,
 }
 
 impl Judging<'_> {
@@ -33,11 +36,24 @@ impl Judging<'_> {
     pub(super) fn check_slopes(&self, sampler: &Sampler) -> Result<(), Fault> {
         for found in self.flat_equations(sampler)? {
             let mut flat = self.flat.borrow_mut();
-            if !flat.contains(&found) {
-                flat.push(found);
+            let is_same =
+                |own: &FlatEquation| (own.index, own.is_lost) == (found.index, found.is_lost);
+            if !flat.iter().any(is_same) {
+                let near = sampler.is_part().then(|| self.state_of(sampler)).flatten();
+                flat.push(FlatEquation { near, ..found });
             }
         }
         Ok(())
+    }
+
+    /// Writes the first state in f64 that is known.
+    fn state_of(&self, sampler: &Sampler) -> Option<String> {
+        let blocks = sampler.balls(0);
+        let is_state = |lane: &usize| blocks.iter().all(|block| block.is_defined(*lane));
+        let lane = (0..TAPE_LANES).find(is_state)?;
+        let model = &self.case.model;
+        let state = blocks[model.free_components()..].iter().map(|block| block.mid[lane]);
+        Some(briefly(model, &state.collect::<Vec<f64>>()))
     }
 
     /// Finds these equations among those that hold at the states of a sampler, at most one for each choice
@@ -64,7 +80,7 @@ impl Judging<'_> {
                 self.rank_on_cells(&chosen, (&rows, count), &[], RankQuestion::Known)
             };
             if let Some(index) = self.without_slope(sampler, &kept, &fixed)? {
-                found.push(FlatEquation { index, is_lost: true });
+                found.push(FlatEquation { index, is_lost: true, near: None });
                 continue;
             }
             if rank_of(kept.len())? == CellRank::Full {
@@ -73,7 +89,8 @@ impl Judging<'_> {
             for (before, index) in kept.iter().enumerate() {
                 let rank = rank_of(before + 1)?;
                 if rank != CellRank::Full {
-                    found.push(FlatEquation { index: *index, is_lost: rank == CellRank::Drops });
+                    let is_lost = rank == CellRank::Drops;
+                    found.push(FlatEquation { index: *index, is_lost, near: None });
                     break;
                 }
             }
@@ -110,6 +127,28 @@ impl Judging<'_> {
                 continue;
             };
             status.is_flat = true;
+            let near = found.near.as_ref().map(|near| format!(", as near {near}"));
+            let near = near.unwrap_or_default();
+            let equation = &self.case.model.level[found.index].text;
+            // There a state at which the residual is not 0 belongs to a motion on the level.
+            if status.is_regular
+                && status.settled == Some(Verdict::Refuted)
+                && !item.claim.kind.is_negated()
+            {
+                if !found.is_lost {
+                    continue;
+                }
+                let own = format!(
+                    "refuted on a part of the level where the slopes of its equations are independent; \
+                     that of `{equation}` is 0, or depends on others, on another part{near}"
+                );
+                let reason = match status.evidence.reason.take() {
+                    Some(before) => format!("{before}; {own}"),
+                    None => own,
+                };
+                status.evidence.reason = Some(reason);
+                continue;
+            }
             let evidence = &mut status.evidence;
             if matches!(item.claim.kind.name(), "identity" | "limit")
                 || status.settled == Some(Verdict::Undecided)
@@ -122,11 +161,10 @@ impl Judging<'_> {
             }
             (evidence.proof, evidence.witness) = (None, None);
             evidence.holds.clear();
-            let equation = &self.case.model.level[found.index].text;
             let reason = match found.is_lost {
                 true => format!(
-                    "the slope of `{equation}` is 0 at states of the level, or depends there on those of \
-                     the equations before it, so that it is not known whether the motion stays: write \
+                    "the slope of `{equation}` is 0 at states of the level{near}, or depends there on those \
+                     of the equations before it, so that it is not known whether the motion stays: write \
                      x = 1 for (x − 1)² = 0, and leave out values of parameters and states for which an \
                      equation is a square"
                 ),

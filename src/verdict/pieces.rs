@@ -159,6 +159,12 @@ impl Judging<'_> {
             }
             found.push(own);
         }
+        if !self.flat.borrow().is_empty() {
+            for (sampler, states) in pieces.iter().flatten().zip(found.iter_mut().flatten()) {
+                let is_regular = !sampler.is_thin() && self.flat_equations(sampler)?.is_empty();
+                states.iter_mut().for_each(|state| state.is_regular = is_regular);
+            }
+        }
         for (item, status) in open.into_iter().rev() {
             let of_choice = |parts: &mut Vec<Vec<ClaimState>>| {
                 parts.iter_mut().filter_map(Vec::pop).collect::<Vec<ClaimState>>()
@@ -222,8 +228,13 @@ fn on_all(states: Vec<ClaimState>) -> ClaimState {
     if states.iter().all(|state| state.is_thin) && void.iter().any(is_without_value) {
         return first(void, is_without_value);
     }
-    if states.iter().any(|state| state.settled == Some(Verdict::Refuted)) {
-        return first(states, |state| state.settled == Some(Verdict::Refuted));
+    // Where the slopes are independent a refutation says most.
+    let is_refuted = |state: &ClaimState| state.settled == Some(Verdict::Refuted);
+    if let Some(index) = states.iter().position(|state| is_refuted(state) && state.is_regular) {
+        return states.swap_remove(index);
+    }
+    if states.iter().any(is_refuted) {
+        return first(states, is_refuted);
     }
     if !states.iter().all(ClaimState::holds) {
         return first(states, |state| !state.holds());
@@ -241,6 +252,10 @@ fn on_all(states: Vec<ClaimState>) -> ClaimState {
         all.is_thin &= state.is_thin;
     }
     all.evidence.remark = remark;
+    if void.iter().any(|state| state.is_void && is_without_value(state)) {
+        let remark = "nothing is said on a part of the level, where a formula has no value";
+        all.evidence.add_remark(remark.to_string());
+    }
     if is_unseen {
         let evidence = &mut all.evidence;
         let is_open = evidence.sign.is_some_and(|sign| sign != DensitySign::Changes);

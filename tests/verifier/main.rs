@@ -9,6 +9,7 @@ mod dissipation;
 mod documents;
 mod domains;
 mod doubts;
+mod ends_of_ranges;
 mod expanded_levels;
 #[path = "../common/files.rs"]
 mod files;
@@ -31,8 +32,11 @@ mod poles;
 mod program;
 #[path = "../common/random.rs"]
 mod random;
+mod regular_parts;
 mod remarks;
+mod roots_of_levels;
 mod samples;
+mod silent_states;
 mod sweep;
 mod systems;
 mod ties;

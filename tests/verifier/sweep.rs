@@ -112,13 +112,24 @@ fn solved_variables_keep_their_ranges() {
 
 #[test]
 fn a_scale_beyond_f64_hides_no_residual() {
-    for (power, is_defined) in [(150, true), (160, false)] {
+    let peak = |field: &str, integral: &str| {
         let text = format!(
-            "title = 'x'\n[state]\nx = '1..2'\n[field]\n\"x'\" = '1e{power}*x'\n[[claim]]\nintegral = 'x'\n"
+            "title = 'x'\n[state]\nx = '1..2'\ny = '1..2'\n[field]\n\"x'\" = '{field}*x'\n\
+             \"y'\" = '{field}*y'\n[[claim]]\nintegral = '{integral}'\n"
         );
         let case = Case::parse(&text, &[]).expect("a case");
         let found = sweep(&case, 0, Backend::Quickest).run(0..100, f64::INFINITY);
-        assert_eq!(found.peak.map(|peak| peak.ratio), is_defined.then_some(1.0), "10^{power}");
-        assert_eq!(found.defined, if is_defined { 100 } else { 0 });
+        assert_eq!(found.defined, 100, "{field}, {integral}: {found:?}");
+        found.peak.expect("it has values").ratio
+    };
+    let near = peak("1", "x/y + x*y");
+    for power in [150, 160, 250, 306, -150, -160, -250, -300] {
+        let found = peak(&format!("1e{power}"), "x/y + x*y");
+        assert!((found - near).abs() < 1e-13, "10^{power}: {found} and {near}");
+        // The slope is as small as the field is large.
+        let other = peak(&format!("1e{power}"), &format!("1e{}*(x/y + x*y)", -power));
+        assert!((other - near).abs() < 1e-13, "10^{power}: {other} and {near}");
+        let rounding = peak(&format!("1e{power}"), "x/y");
+        assert!(rounding < 1e-15, "10^{power}: {rounding}");
     }
 }

@@ -27,6 +27,9 @@ impl Cover<'_> {
                 if let Some(factors) = node.polynomial_factors(*index)? {
                     return Ok(Some(factors));
                 }
+                if let Some(parts) = node.powers(*index)? {
+                    return Ok(Some(parts));
+                }
                 if let Some(child) = node.squares(*index)? {
                     return Ok(Some(vec![child]));
                 }

@@ -6,6 +6,7 @@
 //! each root. docs/soundness.md, "Level sets".
 
 mod closure;
+mod combinations;
 mod division;
 mod node;
 mod solving;
@@ -70,6 +71,7 @@ impl Cover<'_> {
     pub fn parts(&self) -> Result<Option<Vec<Part>>, Fault> {
         let count = self.kept.iter().filter(|kept| **kept).count();
         let Some(whole) = Node::whole(self)? else { return Ok(None) };
+        let whole = whole.combined()?;
         let (mut open, mut parts) = (vec![whole], Vec::new());
         for _ in 0..MOST_NODES {
             let Some(node) = open.pop() else { return self.without_closures(parts).map(Some) };

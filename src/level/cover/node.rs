@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use num_traits::Zero;
 
-use super::{Cover, Part};
+use super::{Cover, Part, combinations};
 use crate::graph::{Expr, Fault, Graph, Step, literally, record};
 use crate::mechanics::{Draw, Phase};
 use crate::number::rational::Rational;
@@ -101,6 +101,23 @@ impl Node {
             free,
             solved,
         }))
+    }
+
+    /// Puts combinations with fewer terms in the place of the equations.
+    pub fn combined(self) -> Result<Self, Fault> {
+        let Some(found) = combinations::simplest(&self.graph, &self.equations) else {
+            return Ok(self);
+        };
+        let reached = self.graph.reached(self.equations.iter().copied());
+        let bare = Self { equations: Vec::new(), ..self.clone() };
+        let change = Change { dropped: None, solved: None, replaced: None };
+        bare.changed(&change, |inputs, _| {
+            let own = self.graph.repeated(&reached, inputs);
+            let at = |place: usize| own.get(place).copied().flatten();
+            let all = found.iter().map(|one| combinations::value(one, &at));
+            let equations = all.collect::<Option<Vec<Expr>>>()?;
+            Some(Additions { equations, ..Additions::default() })
+        })
     }
 
     /// Drops what is a number; `None` if an equation or a fact cannot hold, or a divisor is 0.
@@ -208,6 +225,16 @@ impl Node {
         let with =
             |factor: usize| self.replaced(index, |at| Some(vec![factors.value(factor, at)?]));
         (0..factors.count()).map(with).collect::<Result<Vec<Self>, Fault>>().map(Some)
+    }
+
+    /// Divides by the differences of an equation c Aⁿ + d Bⁿ = 0, or c e^u + d e^v = 0; `None` if it is none.
+    pub fn powers(&self, index: usize) -> Result<Option<Vec<Self>>, Fault> {
+        let equation = self.equations[index];
+        let found = Factors::of_exponentials(&self.graph, equation)
+            .or_else(|| Factors::of_powers(&self.graph, equation));
+        let Some(found) = found else { return Ok(None) };
+        let with = |own: usize| self.replaced(index, |at| Some(vec![found.value(own, at)?]));
+        (0..found.count()).map(with).collect::<Result<Vec<Self>, Fault>>().map(Some)
     }
 
     /// Writes an equation that is a sum of squares as several; `None` if it is none.

@@ -91,7 +91,10 @@ impl Coefficients {
         const PARAMETER: usize = 10_000;
         let of_degree = if self.is_linear() { 0 } else { ROOT };
         let of_draw = if self.draw < cover.parameters { PARAMETER } else { 0 };
-        of_degree + of_draw + self.graph.inputs_of(self.divisor()).len()
+        // Roots of numbers are worse than numbers.
+        let divisor = self.divisor();
+        let of_divisor = usize::from(self.number(divisor).is_none());
+        of_degree + of_draw + of_divisor + self.graph.inputs_of(divisor).len()
     }
 
     /// Divides a node into the solutions of the equation, and what they may miss; `None` if the

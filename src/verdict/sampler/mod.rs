@@ -103,7 +103,17 @@ impl Sampler {
             true => sampler.only_part(case)?,
             false => None,
         };
-        Ok(part.unwrap_or(sampler))
+        if let Some(part) = part {
+            return Ok(part);
+        }
+        // A factor that is nowhere 0 may have been solved for: (x³ − 3x + 1)(y² + 1) = 0.
+        if sampler.solution.is_some() && !sampler.has_states() {
+            let found = Self::of_solution(case, None, place, seed, is_charted, None)?;
+            if found.has_states() {
+                return Ok(found);
+            }
+        }
+        Ok(sampler)
     }
 
     /// Makes a sampler of the only part of a place that may contain states, as |x| + |y| = 1 has one for
@@ -239,6 +249,11 @@ impl Sampler {
     /// Whether the states are a part of lower dimension than the place.
     pub fn is_thin(&self) -> bool {
         self.is_thin
+    }
+
+    /// Whether the states are one part of the place, made by formulas of its own.
+    pub fn is_part(&self) -> bool {
+        self.branch.is_some() || self.is_guarded && self.solution.is_none()
     }
 
     /// Whether some draws may lead to no state.

@@ -2,8 +2,11 @@
 
 use crate::graph::{Expr, Graph, Step};
 
-use super::polynomial::{Fraction, Polynomial, Span, fraction};
+use super::exponentials::{Exponentials, Variable};
+use super::polynomial::{Fraction, Polynomial, Span, fraction, fraction_of};
 use crate::number::UnaryFunction;
+use crate::number::rational::Rational;
+use crate::scalar::Scalar;
 
 /// Reads a value as a polynomial in the inputs.
 fn polynomial(graph: &Graph, value: Expr) -> Option<Polynomial> {
@@ -19,27 +22,107 @@ const MOST_STEPS: usize = 80;
 
 /// Factors of a value, as polynomials in inputs and in values of functions.
 pub struct Factors {
-    all: Vec<Polynomial>,
-    /// Places of the inputs and of the functions, by variable.
-    places: Vec<usize>,
+    all: Vec<Factor>,
+    variables: Vec<Variable>,
+}
+
+/// A polynomial, a sum of multiples of values at places less ln a, or A − r B.
+enum Factor {
+    Whole(Polynomial),
+    Exponent { terms: Vec<(usize, i64)>, value: Rational },
+    Difference { above: Polynomial, below: Polynomial, root: SignedRoot },
+}
+
+/// A number ± ⁿ√a with a ≥ 0.
+#[derive(Clone)]
+struct SignedRoot {
+    is_negative: bool,
+    radicand: Rational,
+    index: u32,
+}
+
+impl SignedRoot {
+    fn value(&self) -> Expr {
+        let root = Expr::rational(&self.radicand).power(&Rational::new(1, i64::from(self.index)));
+        if self.is_negative { -root } else { root }
+    }
 }
 
 impl Factors {
     /// Finds factors of which one is 0 wherever the value, a quotient of polynomials in inputs and functions, is
-    /// 0; `None` if it is a polynomial that does not fall apart.
+    /// 0, none if it never is; `None` if it is a polynomial that does not fall apart.
     pub fn of(graph: &Graph, value: Expr) -> Option<Self> {
-        let (whole, places) = fraction_in_functions(graph, value)?;
-        let all = whole.above.factors();
+        let Read { whole, variables } = Read::of(graph, value)?;
+        let mut all = whole.above.factors();
         let is_whole = all.first() == whole.above.monic().as_ref();
         let is_simpler = !is_whole || whole.below.number().is_none();
-        (all.len() > 1 || all.len() == 1 && is_simpler).then_some(Self { all, places })
+        let count = all.len();
+        let is_exponential = |own: &Polynomial| match own.as_term() {
+            Some((_, [(variable, _)])) => {
+                matches!(variables.get(*variable as usize), Some(Variable::Exponential(_)))
+            }
+            _ => false,
+        };
+        all.retain(|own| !is_exponential(own));
+        let is_divided = count > 1 || count > all.len() || count == 1 && is_simpler;
+        let all = all.into_iter().map(Factor::Whole).collect();
+        is_divided.then_some(Self { all, variables })
     }
 
     /// Finds several polynomials that are all 0 exactly where a value is 0, a sum of squares with factors of one
     /// sign; `None` if it is none.
     pub fn of_squares(graph: &Graph, value: Expr) -> Option<Self> {
-        let (whole, places) = fraction_in_functions(graph, value)?;
-        Some(Self { all: whole.polynomial()?.squares()?, places })
+        let Read { whole, variables } = Read::of(graph, value)?;
+        let all = whole.polynomial()?.squares()?.into_iter().map(Factor::Whole).collect();
+        Some(Self { all, variables })
+    }
+
+    /// Finds the exponent that is 0 exactly where a value c e^u + d e^v with several exponentials is: u − v − ln(−d/c), and
+    /// none for −d/c < 0. `None` if it is none.
+    pub fn of_exponentials(graph: &Graph, value: Expr) -> Option<Self> {
+        let Read { whole, variables } = Read::of(graph, value)?;
+        let above = &whole.above;
+        let mut found = above.terms();
+        let (Some((one, first)), Some((two, second)), None) =
+            (found.next(), found.next(), found.next())
+        else {
+            return None;
+        };
+        if above.variables().len() < 2 {
+            return None;
+        }
+        let mut terms: Vec<(usize, i64)> = Vec::new();
+        for (sign, powers) in [(1, first), (-1, second)] {
+            for (variable, power) in powers {
+                let own = variables.get(*variable as usize)?.exponent(graph)?;
+                let times = sign * i64::from(*power);
+                for (place, count) in own {
+                    terms.push((place, count.checked_mul(times)?));
+                }
+            }
+        }
+        let value = -&(two * &one.recip()?);
+        let factor = Factor::Exponent { terms, value: value.clone() };
+        let all = if value.is_negative() { Vec::new() } else { vec![factor] };
+        Some(Self { all, variables })
+    }
+
+    /// Finds one or two differences of which one is 0 exactly where a value c Aⁿ + d Bⁿ with n ≥ 3 is: A − r B, and
+    /// A + r B for even n, with r = ⁿ√(−d/c). `None` if it is none.
+    pub fn of_powers(graph: &Graph, value: Expr) -> Option<Self> {
+        let Read { whole, variables } = Read::of(graph, value)?;
+        let found = whole.polynomial()?.binomial()?;
+        let signs = if found.exponent % 2 == 0 {
+            vec![false, true]
+        } else {
+            vec![found.ratio.is_negative()]
+        };
+        let of_sign = |is_negative: bool| {
+            let root =
+                SignedRoot { is_negative, radicand: found.ratio.abs(), index: found.exponent };
+            Factor::Difference { above: found.above.clone(), below: found.below.clone(), root }
+        };
+        Some(Self { all: signs.into_iter().map(of_sign).collect(), variables })
     }
 
     /// Number of factors.
@@ -49,12 +132,58 @@ impl Factors {
 
     /// Records a factor from the values at places.
     pub fn value(&self, index: usize, at: impl Fn(usize) -> Option<Expr>) -> Option<Expr> {
-        self.all.get(index)?.value(&|variable: u32| at(*self.places.get(variable as usize)?))
+        let at = &at;
+        let of = |variable: u32| self.variables.get(variable as usize)?.value(at);
+        Some(match self.all.get(index)? {
+            Factor::Whole(own) => own.value(&of)?,
+            Factor::Exponent { terms, value } => {
+                let logarithm = Expr::rational(value).apply(UnaryFunction::Ln);
+                let add = |sum: Expr, (place, count): &(usize, i64)| {
+                    Some(sum + at(*place)? * Expr::rational(&Rational::from(*count)))
+                };
+                let zero = Expr::rational(&Rational::from(0));
+                terms.iter().try_fold(zero, add)? - logarithm
+            }
+            Factor::Difference { above, below, root } => {
+                above.value(&of)? - root.value() * below.value(&of)?
+            }
+        })
     }
 }
 
-/// Reads a value as a quotient of polynomials in inputs and in values of functions, whose places are returned.
-pub(super) fn fraction_in_functions(graph: &Graph, value: Expr) -> Option<(Fraction, Vec<usize>)> {
+/// A value as a quotient of polynomials in inputs and in values of functions.
+struct Read {
+    whole: Fraction,
+    variables: Vec<Variable>,
+}
+
+impl Read {
+    /// Reads a value; exponentials whose exponents are related are products of powers of few.
+    fn of(graph: &Graph, value: Expr) -> Option<Self> {
+        let places = places_of_variables(graph, value);
+        let Some(related) = Exponentials::of(graph, &places) else {
+            let (whole, places) = fraction_in_functions(graph, value)?;
+            return Some(Self {
+                whole,
+                variables: places.into_iter().map(Variable::Place).collect(),
+            });
+        };
+        let first = places.len();
+        let given = |at: usize, _: Step<'_>| {
+            let index = places.binary_search(&at).ok()?;
+            match related.at(at, first) {
+                Some(own) => Some(own),
+                None => Some(Fraction::whole(Polynomial::variable(u32::try_from(index).ok()?))),
+            }
+        };
+        let whole = fraction_of(graph, graph.place(value), &given)?.without_common_terms()?;
+        let own = places.into_iter().map(Variable::Place);
+        Some(Self { whole, variables: own.chain(related.variables()).collect() })
+    }
+}
+
+/// Lists the places of inputs and of values of functions in a value.
+fn places_of_variables(graph: &Graph, value: Expr) -> Vec<usize> {
     let is_variable = |step: Step<'_>| match step {
         Step::Input(_) => true,
         Step::Unary(function, _) => {
@@ -66,8 +195,12 @@ pub(super) fn fraction_in_functions(graph: &Graph, value: Expr) -> Option<(Fract
     };
     let reached = graph.reached([value]);
     let steps = graph.steps().enumerate().filter(|(place, _)| reached[*place]);
-    let places: Vec<usize> =
-        steps.filter(|(_, step)| is_variable(*step)).map(|(place, _)| place).collect();
+    steps.filter(|(_, step)| is_variable(*step)).map(|(place, _)| place).collect()
+}
+
+/// Reads a value as a quotient of polynomials in inputs and in values of functions, whose places are returned.
+pub(super) fn fraction_in_functions(graph: &Graph, value: Expr) -> Option<(Fraction, Vec<usize>)> {
+    let places = places_of_variables(graph, value);
     let variable = |place: usize| -> Option<Polynomial> {
         let index = places.binary_search(&place).ok()?;
         Some(Polynomial::variable(u32::try_from(index).ok()?))

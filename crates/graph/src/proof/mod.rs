@@ -42,6 +42,7 @@ mod domain;
 mod elimination;
 mod evident;
 mod explore;
+mod exponentials;
 mod extent;
 mod fact;
 mod factors;

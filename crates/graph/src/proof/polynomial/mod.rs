@@ -4,6 +4,7 @@
 //! roots, symbols). Large ones are given up: the aim is to find b in √(x² + 2x + 1) = |x + 1|, not
 //! a normal form.
 
+mod binomial;
 mod bound;
 mod definite;
 mod divisors;
