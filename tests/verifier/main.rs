@@ -30,6 +30,7 @@ mod mutated;
 mod newton_euler;
 mod poles;
 mod program;
+mod proofs;
 #[path = "../common/random.rs"]
 mod random;
 mod regular_parts;

@@ -78,9 +78,6 @@ mod tower;
 mod trial;
 mod void;
 
-#[cfg(test)]
-mod tests;
-
 pub use angles::{arguments as angle_arguments, without_arctangents};
 pub use bounds::InputDistribution;
 pub use combination::combinations;

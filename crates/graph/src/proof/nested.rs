@@ -12,9 +12,6 @@
 //! the left side has a value and u ≠ 0: u and a - u have the sum a and a product that is not
 //! negative, so both are negative only where a + b y = -(√-u ± √(u - a))² is.
 
-#[cfg(test)]
-mod tests;
-
 use crate::graph::{Expr, Graph, Step};
 use crate::number::exact::square_root;
 use crate::number::rational::Rational;

@@ -10,9 +10,6 @@ mod monomials;
 mod search;
 mod solved;
 
-#[cfg(test)]
-mod tests;
-
 use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, literally, record};
 use crate::number::ball::{Ball, Balls};
 use crate::number::rational::Rational;

@@ -158,6 +158,3 @@ impl Prover<'_> {
         Ok(leaves.iter().all(is_nonzero))
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -2,9 +2,9 @@
 
 use num_dual::DualNum;
 
-use crate::graph::Expr;
-use crate::proof::tests::{is_proved, prove};
-use crate::scalar::Scalar;
+use super::{is_proved, prove};
+use liouville::graph::Expr;
+use liouville::scalar::Scalar;
 
 /// Computes a + b + c ± 2√(ab) ± 2√(bc) ± 2√(ac) with given signs.
 fn triple(x: &[Expr], signs: [f64; 3]) -> Expr {

@@ -1,10 +1,12 @@
+//! Claims that presuppose values.
+
 use num_dual::DualNum;
 
-use crate::graph::{Expr, literally, record};
-use crate::number::UnaryFunction;
-use crate::number::rational::Rational;
-use crate::proof::rng::ProofRng;
-use crate::proof::{Extent, Group, GroupOutcome, Prover};
+use liouville::graph::{Expr, literally, record};
+use liouville::number::UnaryFunction;
+use liouville::number::rational::Rational;
+use liouville::proof::ProofRng;
+use liouville::proof::{Extent, Group, GroupOutcome, Prover};
 
 /// The outcome for a value that is 0 and presupposes another one, over inputs in -2..2.
 fn outcome(required: bool, build: impl FnOnce(&[Expr]) -> Expr) -> GroupOutcome {

@@ -1,15 +1,20 @@
 //! The examples of docs/soundness.md.
 
+mod combinations;
+mod determined;
+mod nested;
+mod presence;
+
 use num_dual::DualNum;
 
-use super::*;
-use crate::graph::record;
-use crate::number::UnaryFunction;
-use crate::number::rational::Rational;
-use crate::scalar::Scalar;
+use liouville::graph::{Expr, record};
+use liouville::number::UnaryFunction;
+use liouville::number::rational::Rational;
+use liouville::proof::{Extent, Group, GroupOutcome, Prover};
+use liouville::scalar::Scalar;
 
 /// Proves over inputs in 1..2, or in -2..-1 for the negative ones.
-pub(super) fn prove(negative: &[bool], build: impl FnOnce(&[Expr]) -> Expr) -> GroupOutcome {
+fn prove(negative: &[bool], build: impl FnOnce(&[Expr]) -> Expr) -> GroupOutcome {
     let (graph, value) = record(negative.len(), build).expect("records");
     let [one, two] = [1, 2].map(Rational::from);
     let extent = |negative: &bool| match negative {
@@ -21,7 +26,7 @@ pub(super) fn prove(negative: &[bool], build: impl FnOnce(&[Expr]) -> Expr) -> G
     prover.prove(&graph, &[Group::of(vec![value])]).expect("records").remove(0)
 }
 
-pub(super) fn is_proved(outcome: &GroupOutcome) -> bool {
+fn is_proved(outcome: &GroupOutcome) -> bool {
     matches!(outcome, GroupOutcome::Zero(certificate) if certificate.error_log2 < -100.0)
 }
 

@@ -1,10 +1,12 @@
+//! Values that determine their arguments.
+
 use num_dual::DualNum;
 
-use super::Determination;
-use crate::graph::{Expr, record};
-use crate::number::UnaryFunction;
-use crate::proof::Prover;
-use crate::proof::rng::ProofRng;
+use liouville::graph::{Expr, record};
+use liouville::number::UnaryFunction;
+use liouville::proof::Determination;
+use liouville::proof::ProofRng;
+use liouville::proof::Prover;
 
 /// Whether the inputs after the first `constants` ones are determined by these values of them.
 fn determined(inputs: usize, constants: usize, build: impl FnOnce(&[Expr]) -> Vec<Expr>) -> bool {
