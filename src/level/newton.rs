@@ -12,6 +12,7 @@ use crate::mechanics::{LevelFunction, Model, Phase};
 use crate::number::UnaryFunction;
 use crate::number::ball::{Ball, Balls};
 use crate::number::float::Float;
+use crate::proof::has_flat_factor;
 
 /// Largest number of Newton steps; quadratic convergence needs far fewer.
 const MAX_STEPS: usize = 60;
@@ -29,6 +30,7 @@ pub struct Newton {
     dimension: usize,
     equations: usize,
     has_corners: bool,
+    has_flat_factors: bool,
 }
 
 impl Newton {
@@ -49,7 +51,8 @@ impl Newton {
             let slopes = functions.iter().flat_map(|f| jet.gradient(|at| at.level_function(f)));
             (values, slopes.collect::<Vec<Expr>>())
         })?;
-        Ok(Self::of(&graph, &values, &slopes, parameters))
+        let has_flat_factors = values.iter().any(|value| has_flat_factor(&graph, *value));
+        Ok(Self { has_flat_factors, ..Self::of(&graph, &values, &slopes, parameters) })
     }
 
     /// Prepares equations by their values and, row by row, their slopes along the coordinates; the
@@ -58,12 +61,18 @@ impl Newton {
         let tape = Tape::new(graph, &[values, slopes].concat());
         let equations = values.len();
         let dimension = slopes.len().checked_div(equations).unwrap_or_default();
-        Self { tape, parameters, dimension, equations, has_corners: has_moduli(graph, values) }
+        let has_corners = has_moduli(graph, values);
+        Self { tape, parameters, dimension, equations, has_corners, has_flat_factors: false }
     }
 
     /// Whether some equation contains a modulus.
     pub fn has_corners(&self) -> bool {
         self.has_corners
+    }
+
+    /// Whether some equation of the level has a factor whose zeros have no slopes, and so are not found.
+    pub fn has_flat_factors(&self) -> bool {
+        self.has_flat_factors
     }
 
     /// Encloses a point of the level near `start`, in a box.

@@ -28,6 +28,7 @@ mod masses;
 mod merge;
 mod mutated;
 mod newton_euler;
+mod numerical_levels;
 mod poles;
 mod program;
 mod proofs;

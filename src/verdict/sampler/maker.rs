@@ -38,6 +38,12 @@ impl Sampler {
                  max: parts of the level may be missed; write a case for each sign",
             );
         }
+        if numerical.has_flat_factors() {
+            return Some(
+                "the states are found numerically, and an equation of the level has a factor with slope \
+                 0 wherever it is 0: its zeros are not found; write a case for each factor",
+            );
+        }
         let mut maker = self.maker();
         let meets_ends =
             |attempt| numerical.meets_ends(maker.tried(0, &[attempt; TAPE_LANES], None));

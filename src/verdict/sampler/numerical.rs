@@ -48,6 +48,11 @@ impl NumericalLevel {
         self.newton.has_corners()
     }
 
+    /// Whether an equation of the level has a factor whose zeros Newton's method does not find.
+    pub(super) fn has_flat_factors(&self) -> bool {
+        self.newton.has_flat_factors()
+    }
+
     /// Compares the box of a state with the ranges.
     fn position<const N: usize>(&self, values: &[Balls<N>], lane: usize) -> Position {
         let of_state = values[self.parameters..].iter().zip(&self.ranges);

@@ -43,9 +43,14 @@ impl Sampler {
         let start = index - index % TAPE_LANES as u64;
         let lane = (index % TAPE_LANES as u64) as usize;
         let balls = LazyCell::new(|| self.balls(start));
+        // Newton's method may start from later draws than the first.
+        let is_drawn = |k: usize, exact: &Rational| {
+            self.newton.is_none()
+                || (exact.to_f64().0 - balls[k].mid[lane]).abs() <= balls[k].rad[lane]
+        };
         let text = |(k, value): (usize, Option<Rational>)| match value {
-            Some(exact) => exact.to_string(),
-            None => format!("{:?}", balls[k].mid[lane]),
+            Some(exact) if is_drawn(k, &exact) => exact.to_string(),
+            _ => format!("{:?}", balls[k].mid[lane]),
         };
         self.exact(index).into_iter().enumerate().map(text).collect()
     }

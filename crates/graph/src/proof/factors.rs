@@ -152,14 +152,14 @@ impl Factors {
 }
 
 /// A value as a quotient of polynomials in inputs and in values of functions.
-struct Read {
-    whole: Fraction,
+pub(super) struct Read {
+    pub(super) whole: Fraction,
     variables: Vec<Variable>,
 }
 
 impl Read {
     /// Reads a value; exponentials whose exponents are related are products of powers of few.
-    fn of(graph: &Graph, value: Expr) -> Option<Self> {
+    pub(super) fn of(graph: &Graph, value: Expr) -> Option<Self> {
         let places = places_of_variables(graph, value);
         let Some(related) = Exponentials::of(graph, &places) else {
             let (whole, places) = fraction_in_functions(graph, value)?;
