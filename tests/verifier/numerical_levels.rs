@@ -1,9 +1,7 @@
 //! Levels that are solved by numbers: what is confirmed on them, and the witnesses found there.
 
-use liouville::case::Case;
+use liouville::case::{Case, Setting};
 use liouville::verdict::{ClaimReport, Options, Verdict, evaluate, judge, read_state};
-
-use liouville::case::Setting;
 
 fn text(parameters: &str, level: &str, claims: &[&str]) -> String {
     let claims: String =
@@ -25,11 +23,7 @@ fn nothing_is_confirmed_beside_factors_without_slopes() {
     let curve = "(y^5 + y + x^5 + x − 1)";
     for flat in ["(x − y)^2", "x^2", "(1 − cos(x))", "(exp(2*y) − 2*exp(y) + 1)", "(x^2 + y^2)"]
     {
-        let claims = [
-            format!("identity = \"y^5 + y = 1 − x − x^5\""),
-            "rate = \"z\"\nequals = \"1\"".into(),
-        ];
-        let claims: Vec<&str> = claims.iter().map(String::as_str).collect();
+        let claims = ["identity = \"y^5 + y = 1 − x − x^5\"", "rate = \"z\"\nequals = \"1\""];
         let found = judged(&text("", &format!("{flat}*{curve}"), &claims));
         assert!(
             matches!(found[0].verdict, Verdict::Undecided | Verdict::Refuted),
