@@ -66,16 +66,14 @@ impl Judging<'_> {
         if exists && status.settled.is_none() && !self.find_witness(item, &chosen, status) {
             let kind = item.claim.kind.name();
             let why = match is_seen {
-                true => "is not told from 0 at the states that were tried",
-                false => {
-                    "is enclosed at none, as the form of a root alone shows that it has a value"
-                }
+                true => "the residual's enclosures at the states that were tried contain 0",
+                false => "that the residual has a value is known from the form of a root alone",
             };
             status.settled = Some(Verdict::Refuted);
             status.evidence.method = Method::PrimeField;
             status.evidence.reason = Some(format!(
                 "modulo a prime the residual of this {kind} is not 0, so it is not an identity; no state is \
-                 printed, since the residual {why}"
+                 printed: {why}"
             ));
         }
         Ok(exists)

@@ -1,12 +1,11 @@
 //! Factors whose slopes are 0 wherever they are.
 
 use crate::graph::{Expr, Graph, Step};
-use crate::number::BinaryOperation;
-use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
+use crate::number::{BinaryOperation, UnaryFunction};
 
 use super::factors::{Read, is_square};
-use super::polynomial::MOST_WORK;
+use super::polynomial::{MOST_WORK, Polynomial};
 
 /// Whether a value has a factor whose slopes are 0 at all its zeros, and which has zeros, as far as its form
 /// shows: a power, a square that is written out, a sum of squares, 1 − cos u. Newton's method finds no zeros of it.
@@ -31,16 +30,10 @@ pub fn has_flat_factor(graph: &Graph, value: Expr) -> bool {
 fn has_flat_polynomial(graph: &Graph, value: Expr) -> bool {
     let Some(Read { whole, .. }) = Read::of(graph, value) else { return false };
     let factors = whole.above.factors();
-    let product = factors.iter().try_fold(None, |product, own| match product {
-        None => Some(Some(own.clone())),
-        Some(product) => Some(Some(own.times(&product, &mut { MOST_WORK })?)),
-    });
-    let is_repeated = match product {
-        Some(Some(product)) => product.monic() != whole.above.monic(),
-        _ => false,
-    };
-    let is_flat =
-        |squares: Vec<_>| squares.iter().all(|own: &super::Polynomial| own.number().is_none());
+    let one = Polynomial::of_term(&Rational::from(1), []);
+    let product = factors.iter().try_fold(one, |all, own| own.times(&all, &mut { MOST_WORK }));
+    let is_repeated = product.is_some_and(|own| own.monic() != whole.above.monic());
+    let is_flat = |squares: Vec<Polynomial>| squares.iter().all(|own| own.number().is_none());
     is_repeated || factors.iter().any(|own| own.squares().is_some_and(is_flat))
 }
 

@@ -20,8 +20,8 @@ pub struct Binomial {
 }
 
 impl Polynomial {
-    /// Reads a polynomial of two terms without a common factor as c Aⁿ + d Bⁿ with the largest n; `None` for n < 3, which
-    /// quadratic equations are solved for, and where A and B are 0 together with it.
+    /// Reads a polynomial of two terms without a common factor as c Aⁿ + d Bⁿ with the largest n; `None` for n < 3, as quadratic
+    /// equations are solved by rules of their own, and where all zeros are common zeros of A and B.
     pub fn binomial(&self) -> Option<Binomial> {
         let mut terms = self.terms();
         let (Some((first, one)), Some((second, two)), None) =

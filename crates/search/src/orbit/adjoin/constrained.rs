@@ -70,7 +70,7 @@ impl ConstrainedVelocities {
         Some(made)
     }
 
-    /// What the dependent velocities are.
+    /// The dependent velocities, as functions of the others.
     fn on_constraints(
         &self,
         constraints: &[RingPolynomial],
