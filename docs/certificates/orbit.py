@@ -6,6 +6,7 @@ docs/closed-orbits.md asks of the numbers is computed here, in intervals of inte
 Exit code 0 if every file passes, 1 otherwise. Python 3.11 or later, standard library only.
 """
 
+import functools
 import re
 import sys
 from fractions import Fraction
@@ -20,6 +21,7 @@ ROUNDS = 100
 
 # --- intervals (low, high) of integers, in units of 2^-192 -------------------------------------------
 
+@functools.lru_cache(1 << 16)
 def exact(value):
     """Interval of a fraction or a float."""
     value = Fraction(value) * ONE
@@ -38,11 +40,20 @@ def sub(a, b):
     return a[0] - b[1], a[1] - b[0]
 
 
+def ends(a, b):
+    """Least and greatest product, in units of 2^-384."""
+    (p, q), (r, s) = a, b
+    if p >= 0:
+        return (p if r >= 0 else q) * r, (q if s >= 0 else p) * s
+    if q <= 0:
+        return p * s if s >= 0 else q * s, p * r if r <= 0 else q * r
+    products = p * r, p * s, q * r, q * s
+    return min(products), max(products)
+
+
 def mul(a, b):
-    if a == ZERO or b == ZERO:
-        return ZERO
-    ends = a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1]
-    return min(ends) >> BITS, -(-max(ends) >> BITS)
+    low, high = ends(a, b)
+    return low >> BITS, -(-high >> BITS)
 
 
 def inverse(a):
@@ -145,6 +156,8 @@ class Motion:
             divergence = step("sum", divergence, derivative({name: unit})[k].rate)
         self.rates.append(divergence)
         self.steps = list(self.program)
+        # The state and the parameters alone: what the ends of points, and of parts of a period, take.
+        self.plain = needed(self.steps, self.rates[:n + q])
         self.constants = {name: formulas[name] for name in parameters}
 
     def number(self, text, busy=()):
@@ -158,14 +171,22 @@ class Motion:
 
     def step(self, start, h, order, rho):
         """Encloses the variables after the time h, by tails in the norm of radius rho."""
-        series = [[] for _ in self.steps]
+        return self.run(self.steps, self.rates, start, h, order, rho)
+
+    def state_after(self, start, h, order, rho):
+        """Encloses the state after the time h."""
+        steps, rates = self.plain
+        return self.run(steps, rates, start[:len(rates)], h, order, rho)[:self.n]
+
+    def run(self, steps, rates, start, h, order, rho):
+        series = [[] for _ in steps]
         state = [[value] for value in start]
         for k in range(order):
-            for place, (kind, *args) in enumerate(self.steps):
+            for place, (kind, *args) in enumerate(steps):
                 series[place].append(coefficient(kind, args, series, state, k, place))
-            for row, rate in zip(state, self.rates):
+            for row, rate in zip(state, rates):
                 row.append(mul(series[rate][k], exact(Fraction(1, k + 1))))
-        rests = self.remainders(series, state, h, order, rho)
+        rests = self.remainders(steps, rates, series, state, h, order, rho)
         ends = []
         for row, rest in zip(state, rests):
             total = ZERO
@@ -174,7 +195,7 @@ class Motion:
             ends.append((total[0] - rest, total[1] + rest))
         return ends
 
-    def remainders(self, series, state, h, order, rho):
+    def remainders(self, steps, rates, series, state, h, order, rho):
         radius = exact(rho)[1]
         require(size(h) < radius, "a step is longer than the radius of its tails")
         powers = [ONE]
@@ -188,7 +209,7 @@ class Motion:
             return sum(up(terms[a][k], sums[b][order - k]) for k in range(1, order))
 
         pairs = {}
-        for place, (kind, *args) in enumerate(self.steps):
+        for place, (kind, *args) in enumerate(steps):
             if kind == "product":
                 pairs[place] = cross(*args)
             elif kind == "reciprocal":
@@ -198,7 +219,7 @@ class Motion:
         most = ONE + max(up(size(a), p) for row in state for a, p in zip(row, powers))
         for _ in range(ROUNDS):
             bounds = []
-            for place, (kind, *args) in enumerate(self.steps):
+            for place, (kind, *args) in enumerate(steps):
                 own = [bounds[a] for a in args] if kind not in ("constant", "input") else []
                 norms = [sums[a][0] for a in args] if own else []
                 if kind == "input":
@@ -215,7 +236,7 @@ class Motion:
                     bounds.append(-(-up(defect, norm) * ONE // (ONE - defect)))
                 else:
                     bounds.append(sum(own))
-            moved = [-(-up(radius, bounds[rate]) // (order + 1)) for rate in self.rates]
+            moved = [-(-up(radius, bounds[rate]) // (order + 1)) for rate in rates]
             new = [a + b for a, b in zip(last, moved)]
             if all(a <= b for a, b in zip(new, tails)):
                 power = ONE
@@ -236,11 +257,27 @@ class Motion:
         return end[first:first + self.n]
 
     def field(self, state, is_wide):
+        steps, rates = self.plain
         values, inputs = [], [[value] for value in self.start(state, is_wide)]
-        for kind, *args in self.steps:
+        for kind, *args in steps:
             values.append([])
             values[-1].append(coefficient(kind, args, values, inputs, 0, len(values) - 1))
-        return [values[rate][0] for rate in self.rates[:self.n]]
+        return [values[rate][0] for rate in rates[:self.n]]
+
+
+def needed(steps, rates):
+    """The steps that some rates depend on, and the places of the rates among them."""
+    kept = set(rates)
+    for place in reversed(range(len(steps))):
+        kind, *args = steps[place]
+        if place in kept and kind not in ("constant", "input"):
+            kept.update(args)
+    places = {old: new for new, old in enumerate(sorted(kept))}
+
+    def moved(kind, *args):
+        return (kind, *args) if kind in ("constant", "input") else (kind, *map(places.get, args))
+
+    return [moved(*steps[old]) for old in sorted(kept)], [places[rate] for rate in rates]
 
 
 def coefficient(kind, args, series, state, k, place):
@@ -266,10 +303,10 @@ def coefficient(kind, args, series, state, k, place):
     if kind == "difference":
         return sub(a[k], b[k])
     low = high = 0
-    for i in range(k + 1):
-        part = mul(a[i], b[k - i])
+    for x, y in zip(a, b[k::-1]):
+        part = ends(x, y)
         low, high = low + part[0], high + part[1]
-    return low, high
+    return low >> BITS, -(-high >> BITS)
 
 
 # --- Krawczyk's test -------------------------------------------------------------------------------------
@@ -285,11 +322,11 @@ def approximate_inverse(columns, count):
         rows[j], rows[pivot] = rows[pivot], rows[j]
         require(rows[j][j] != 0, "the equations are singular")
         by = 1 / rows[j][j]
-        rows[j] = [x * by for x in rows[j]]
+        rows[j][j:] = own = [x * by for x in rows[j][j:]]
         for i in range(count):
             factor = rows[i][j]
             if i != j and factor:
-                rows[i] = [x - factor * y for x, y in zip(rows[i], rows[j])]
+                rows[i][j:] = [x - factor * y for x, y in zip(rows[i][j:], own)]
     return [row[count:] for row in rows]
 
 
@@ -320,7 +357,7 @@ def prove(motion, proof):
         following, share = (i + 1) % m, exact(shares[i])
         point = [exact(x) for x in nodes[i]]
         h = mul(share, exact(period))
-        end = motion.step(motion.start(point, False), h, order, tails[i])[:n]
+        end = motion.state_after(motion.start(point, False), h, order, tails[i])
         residual += [sub(x, exact(y)) for x, y in zip(end, nodes[following])]
         if motion.q:
             moved = motion.step(motion.start(point, True), h, order, tails[i])
@@ -379,7 +416,7 @@ def least(motion, boxes, shares, turn, tails, order, slopes):
 
     def after(i, low, high):
         time = mul((exact(low)[0], exact(high)[1]), turn)
-        return motion.step(motion.start(boxes[i], True), time, order, tails[i])[:motion.n]
+        return motion.state_after(motion.start(boxes[i], True), time, order, tails[i])
 
     def rises(k):
         field = motion.field(after(0, k * window, (k + 1) * window), True)

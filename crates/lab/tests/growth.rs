@@ -5,9 +5,11 @@
 //! nodes of small members are counted by the program itself, and may not become more; without
 //! valgrind, or on another processor, they are counted alone.
 
-use std::process::Command;
+mod callgrind;
+
 use std::time::Duration;
 
+use callgrind::all_counts;
 use liouville::case::Case;
 use liouville::verdict::{RecordedSize, recorded_size};
 use liouville_lab::growth::{CaseFamily, FAMILIES, SizePoint, at_size, measure};
@@ -53,30 +55,16 @@ fn counted_record(case: &Case) -> RecordedSize {
     recorded_size(case).expect("records")
 }
 
-/// The counted work: run by the test below under valgrind.
+/// The counted work: run by the test below under valgrind, at the small size and at its double.
 #[test]
 fn workload() {
     let Ok(member) = std::env::var(MEMBER) else { return };
     let (name, size) = member.split_once(' ').expect("a name and a size");
-    let case = case(name, size.parse().expect("a size"));
-    assert!(counted_record(&case).operations > 0, "the residuals have operations");
-}
-
-/// Counts instructions of recording; fails with the reason if they cannot be counted.
-fn count(name: &str, size: u64) -> Result<u64, String> {
-    let own = std::env::current_exe().map_err(|error| error.to_string())?;
-    let output = Command::new("valgrind")
-        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
-        .arg("--toggle-collect=*counted_record*")
-        .arg(own)
-        .args(["--exact", "workload", "--test-threads=1"])
-        .env(MEMBER, format!("{name} {size}"))
-        .output()
-        .map_err(|error| format!("no valgrind: {error}"))?;
-    let text = String::from_utf8_lossy(&output.stderr);
-    let collected = text.lines().find_map(|line| line.split("Collected :").nth(1));
-    let count = collected.and_then(|count| count.trim().parse().ok());
-    count.filter(|count| *count > 0).ok_or_else(|| format!("valgrind counted nothing: {text}"))
+    let size: u64 = size.parse().expect("a size");
+    for size in [size, 2 * size] {
+        let case = case(name, size);
+        assert!(counted_record(&case).operations > 0, "the residuals have operations");
+    }
 }
 
 /// Exponent e of y ~ x^e from two points.
@@ -108,21 +96,12 @@ fn small_members_take_no_more_operations_than_before() {
 
 #[test]
 fn instructions_of_recording_grow_as_its_residuals() {
-    if !cfg!(target_arch = "x86_64") {
-        println!("counted on x86-64 only");
-        return;
-    }
-    for (name, size, most) in MEMBERS {
-        let counts = match (count(name, size), count(name, 2 * size)) {
-            (Ok(small), Ok(large)) => [small, large],
-            (Err(reason), _) | (_, Err(reason)) if reason.starts_with("no valgrind") => {
-                println!("not counted, {reason}");
-                return;
-            }
-            (Err(reason), _) | (_, Err(reason)) => panic!("{name}: {reason}"),
-        };
+    let members = MEMBERS.map(|(name, size, _)| format!("{name} {size}"));
+    let Some(all) = all_counts(MEMBER, &members, &["counted_record"]) else { return };
+    for ((name, size, most), counts) in MEMBERS.into_iter().zip(all) {
+        let [small, large] = counts[..] else { panic!("{name}: {counts:?} instructions") };
         let sizes = [size, 2 * size].map(|size| counted_record(&case(name, size)).operations);
-        let found = exponent(sizes, counts.map(|count| count as f64));
+        let found = exponent(sizes, [small as f64, large as f64]);
         println!("{name}: {counts:?} instructions for {sizes:?} operations, exponent {found:.2}");
         assert!(found <= most, "{name}: {found:.2}, {counts:?} instructions");
     }

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Output};
+use std::sync::OnceLock;
 
 use liouville::verdict::{ClaimReport, Options};
 use liouville_cli::report::motion_certificate::{sealed, verify};
@@ -78,7 +79,7 @@ fn certificates_that_were_tampered_with_are_refused() {
 #[test]
 fn forged_certificates_are_refused_with_their_place() {
     let (folder, _) = certified("forged", &["cases/classical/planar"]);
-    let orbits = of_the_limit_cycle("orbits-forged");
+    let orbits = of_the_limit_cycle();
     let orbit = orbits.iter().find(|file| !file.contains("for-all")).expect("at one value");
     let text = fs::read_to_string(orbit).expect("a certificate");
     let twice = text.replacen("\"settings\"", "\"settings\": [\"μ=2\"], \"settings\"", 1);
@@ -158,11 +159,10 @@ fn what_cannot_be_certified_is_told() {
     assert!(output.status.code() == Some(2) && told.contains("cannot make the folder"), "{told}");
 }
 
-/// Writes the certificates of van der Pol's limit cycle.
-fn of_the_limit_cycle(folder: &str) -> Vec<String> {
+/// Writes the certificates of the motions of a case.
+fn of_motions(folder: &str, case: &str) -> Vec<String> {
     let path = scratch(folder);
     let shown = path.display().to_string();
-    let case = "cases/classical/flows/van-der-pol-cycle.toml";
     let arguments = ["check", "-q", "--motion", "--certificate", &shown, case];
     let output = run(env!("CARGO_BIN_EXE_liouville"), &arguments);
     assert!(output.status.success(), "{}", text(&output.stderr));
@@ -172,9 +172,15 @@ fn of_the_limit_cycle(folder: &str) -> Vec<String> {
     files
 }
 
+/// Certificates of van der Pol's limit cycle, which several tests read.
+fn of_the_limit_cycle() -> &'static [String] {
+    static FILES: OnceLock<Vec<String>> = OnceLock::new();
+    FILES.get_or_init(|| of_motions("orbits", "cases/classical/flows/van-der-pol-cycle.toml"))
+}
+
 #[test]
 fn closed_orbits_are_proved_again_from_their_certificates() {
-    let files = of_the_limit_cycle("orbits");
+    let files = of_the_limit_cycle();
     assert_eq!(files.len(), 2, "at one value of μ, and in a box: {files:?}");
     let program = env!("CARGO_BIN_EXE_liouville");
     let named: Vec<&str> = files.iter().map(String::as_str).collect();
@@ -255,7 +261,7 @@ fn ball(value: &Value) -> [f64; 2] {
 
 #[test]
 fn orbits_with_other_numbers_are_refused() {
-    let files = of_the_limit_cycle("orbits-tampered");
+    let files = of_the_limit_cycle();
     let file = files.iter().find(|file| !file.contains("for-all")).expect("at one value");
     let whole: Value =
         serde_json::from_str(&fs::read_to_string(file).expect("a file")).expect("JSON");
@@ -337,7 +343,7 @@ fn least_periods_are_stated_only_where_they_are_proved_again() {
         }
         (own, sealed(whole["statement"].clone(), whole["proof"].clone()))
     };
-    let cycle = of_the_limit_cycle("least");
+    let cycle = of_the_limit_cycle();
     let cycle = cycle.iter().find(|file| !file.contains("for-all")).expect("at one value");
     let (own, again) = of_least(cycle, true.into());
     assert_eq!(own, Value::Bool(true), "proved");
@@ -348,15 +354,9 @@ fn least_periods_are_stated_only_where_they_are_proved_again() {
 
     let path = scratch("twice");
     fs::create_dir_all(&path).expect("a folder");
-    let (case, shown) = (path.join("case.toml"), path.display().to_string());
+    let case = path.join("case.toml");
     fs::write(&case, TWICE).expect("written");
-    let arguments =
-        ["check", "-q", "--motion", "--certificate", &shown, &case.display().to_string()];
-    let output = run(env!("CARGO_BIN_EXE_liouville"), &arguments);
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    let mut files = fs::read_dir(&path).expect("a folder").flatten().map(|own| own.path());
-    let twice = files.find(|own| own.extension().is_some_and(|end| end == "json"));
-    let twice = twice.expect("a certificate").display().to_string();
+    let twice = of_motions("twice/certificates", &case.display().to_string()).remove(0);
     let (own, again) = of_least(&twice, false.into());
     assert_eq!(own, Value::Bool(false), "a period, and not the least");
     let theorem = verified(&again).expect("proved again").evidence.theorem.unwrap_or_default();

@@ -5,6 +5,10 @@ use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+/// Number of seeds to test; a correct answer does not depend on the states drawn, and a wrong one that
+/// is avoided by chance at one seed appears at another.
+const SEEDS: u64 = 5;
+
 /// A system with claims about it.
 #[derive(Clone, Debug)]
 pub struct Group {
@@ -14,6 +18,8 @@ pub struct Group {
     pub case: String,
     /// Whether all claims are in one file.
     pub together: bool,
+    /// Number of seeds to test.
+    pub seeds: u64,
     /// Claims with their answers.
     pub claims: Vec<Claim>,
 }
@@ -42,6 +48,8 @@ pub struct Asked {
     pub least: Option<(u32, usize)>,
     /// Whether there is a density that depends on the positions alone.
     pub density: bool,
+    /// Number of seeds to test.
+    pub seeds: u64,
 }
 
 /// A file that is refused, with the line that the complaint shows.
@@ -149,7 +157,13 @@ fn group(table: &Table<'_, '_>) -> Group {
         other => panic!("a claim has answers and a text: {other:?}"),
     });
     let claims = claims.collect();
-    Group { shows: table.text("shows"), case, together: table.has("together"), claims }
+    Group {
+        shows: table.text("shows"),
+        case,
+        together: table.has("together"),
+        seeds: table.seeds(),
+        claims,
+    }
 }
 
 fn asked(table: &Table<'_, '_>) -> Asked {
@@ -163,6 +177,7 @@ fn asked(table: &Table<'_, '_>) -> Asked {
         wrong: table.texts("false"),
         least,
         density: table.has("density"),
+        seeds: table.seeds(),
     }
 }
 
@@ -191,6 +206,11 @@ impl Table<'_, '_> {
             Some(DeValue::Integer(number)) => number.to_string().parse().expect("a small number"),
             other => panic!("`{key}` is a number, not {other:?}"),
         }
+    }
+
+    /// Returns the number of seeds: few where a judgement takes seconds.
+    fn seeds(&self) -> u64 {
+        if self.has("seeds") { self.number("seeds") as u64 } else { SEEDS }
     }
 
     fn table(&self, key: &str) -> Option<Table<'_, '_>> {

@@ -9,9 +9,6 @@ use liouville::verdict::{ClaimReport, DensitySign, Independence, Options, judge}
 use crate::file::{Claim, Group, Mutation};
 use crate::right::Answer;
 
-/// Seeds to test; a correct answer does not depend on the states drawn.
-const SEEDS: std::ops::RangeInclusive<u64> = 1..=5;
-
 /// Makes one test for each claim.
 pub fn trials(group: Group) -> Vec<Trial> {
     let group = Arc::new(group);
@@ -34,7 +31,7 @@ fn check(group: &Group, index: usize) -> Result<(), Failed> {
     for claim in claims {
         text.push_str(&format!("[[claim]]\n{}\nexpect = \"open\"\n", claim.body));
     }
-    for seed in SEEDS {
+    for seed in 1..=group.seeds {
         let answer = answer(&text, place, seed);
         if !answer.is(&claim.right) {
             let told = answer.told();

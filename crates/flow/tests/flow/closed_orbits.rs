@@ -7,6 +7,7 @@ mod least;
 mod nearby;
 
 use std::path::Path;
+use std::sync::OnceLock;
 
 use liouville::case::Case;
 use liouville::verdict::{ClaimReport, Method, Options, Trust, Verdict};
@@ -28,6 +29,13 @@ fn catalogue(path: &str) -> Vec<ClaimReport> {
     closed_orbits(case.unwrap_or_else(|error| panic!("{}: {error}", path.display())))
 }
 
+/// Closed orbits of figure 8 or 6, which several tests read.
+fn of_figure(number: u32) -> &'static [ClaimReport] {
+    static FIGURES: [OnceLock<Vec<ClaimReport>>; 2] = [const { OnceLock::new() }; 2];
+    FIGURES[usize::from(number == 6)]
+        .get_or_init(|| catalogue(&format!("figures/fig-{number}.toml")))
+}
+
 fn judged(text: &str) -> ClaimReport {
     let case = Case::parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
     closed_orbits(case).remove(0)
@@ -44,13 +52,13 @@ fn assert_known(claim: &ClaimReport, quantity: &str, known: f64, error: f64) {
 
 #[test]
 fn orbits_of_figures_8_and_6_lie_in_known_enclosures() {
-    let sink = catalogue("figures/fig-8.toml");
+    let sink = of_figure(8);
     assert!(sink.iter().all(|claim| claim.agrees), "{sink:#?}");
     assert_eq!(sink[0].verdict, Verdict::Proved, "{:?}", sink[0].evidence);
     assert_eq!(sink[0].evidence.method, Method::EnclosedOrbit);
     assert_known(&sink[0], "period", 3.197_991_923_280_6, 1.8e-12);
     assert_known(&sink[0], "∮ div v dt", -0.020_093_772_942_156, 9.3e-10);
-    let source = catalogue("figures/fig-6.toml");
+    let source = of_figure(6);
     assert!(source.iter().all(|claim| claim.agrees), "{source:#?}");
     assert_known(&source[0], "period", 7.476_033_955_448, 3.0e-12);
     assert_known(&source[0], "∮ div v dt", 0.016_576_105_702_552_8, 4.5e-10);

@@ -93,6 +93,8 @@ impl<'m> Elimination<'m> {
 
 #[cfg(test)]
 mod tests {
+    use liouville::proof::ProofRng;
+
     use super::*;
 
     /// Determinant by the first row.
@@ -111,15 +113,12 @@ mod tests {
     #[test]
     fn determinants_are_those_of_their_expansion() {
         let m = Modulus::new(2_305_843_009_213_693_951);
-        let mut state = 5u64;
+        let mut rng = ProofRng::new(5, 0);
         let mut zeros = 0;
         for round in 0..200 {
             let size = 1 + round % 5;
-            let mut entry = |_| {
-                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-                // Many zeros, so that pivots are at other places and some rows depend on others.
-                m.integer((state >> 33) % 3)
-            };
+            // Many zeros, so that pivots are at other places and some rows depend on others.
+            let mut entry = |_| m.integer(rng.below(3));
             let rows: Vec<Vec<u64>> =
                 (0..=size).map(|_| (0..size).map(&mut entry).collect()).collect();
             let others = [&rows[..size - 1], &rows[size..]].concat();

@@ -1,27 +1,27 @@
 //! Certificates of horseshoes: replayed as they are, refused with the place where they were changed.
 
 use std::fs;
+use std::sync::OnceLock;
 
-use super::{ball, is_there, run, scratch, text, verified};
+use super::{ball, is_there, of_motions, run, text, verified};
 use liouville_cli::report::motion_certificate::sealed;
 use serde_json::Value;
 
 /// Writes the certificate of a horseshoe of a case.
 fn of_a_horseshoe(folder: &str, case: &str) -> String {
-    let path = scratch(folder);
-    let shown = path.display().to_string();
-    let case = format!("crates/cli/tests/certificates/{case}.toml");
-    let arguments = ["check", "-q", "--motion", "--certificate", &shown, &case];
-    let output = run(env!("CARGO_BIN_EXE_liouville"), &arguments);
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    let mut entries = fs::read_dir(&path).expect("a folder").flatten();
-    entries.next().expect("one certificate").path().display().to_string()
+    of_motions(folder, &format!("crates/cli/tests/certificates/{case}.toml")).remove(0)
+}
+
+/// Certificate of a horseshoe of Duffing's oscillator, which several tests read.
+fn of_duffing() -> &'static str {
+    static FILE: OnceLock<String> = OnceLock::new();
+    FILE.get_or_init(|| of_a_horseshoe("horseshoe", "duffing"))
 }
 
 #[test]
 fn horseshoes_are_proved_again_from_their_certificates() {
-    let file = of_a_horseshoe("horseshoe", "duffing");
-    let output = run(env!("CARGO_BIN_EXE_liouville"), &["verify", &file]);
+    let file = of_duffing();
+    let output = run(env!("CARGO_BIN_EXE_liouville"), &["verify", file]);
     let told = text(&output.stdout);
     assert!(output.status.success(), "{told}{}", text(&output.stderr));
     assert!(told.ends_with("1 certificate: 1 proved, 0 refused\n"), "{told}");
@@ -30,7 +30,7 @@ fn horseshoes_are_proved_again_from_their_certificates() {
         assert!(told.contains(part), "{told}");
     }
     if is_there() {
-        let output = run("python3", &["docs/certificates/orbit.py", &file]);
+        let output = run("python3", &["docs/certificates/orbit.py", file]);
         let told = text(&output.stdout);
         assert!(!output.status.success() && told.contains("format"), "{told}");
     }
@@ -85,7 +85,7 @@ fn changed(whole: &Value, pointer: &str, change: &dyn Fn(&Value) -> Value) -> Va
 
 #[test]
 fn horseshoes_with_other_numbers_are_refused_with_the_place() {
-    let file = of_a_horseshoe("horseshoe-tampered", "duffing");
+    let file = of_duffing();
     let whole: Value =
         serde_json::from_str(&fs::read_to_string(file).expect("a file")).expect("JSON");
     let sets = whole["proof"]["sets"].as_array().expect("a list").clone();

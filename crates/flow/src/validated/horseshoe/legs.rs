@@ -21,6 +21,7 @@ const LEAST: f64 = 1e-14;
 const STRETCH: usize = 256;
 
 /// Leg of a motion from a surface to another.
+#[derive(Clone, Copy)]
 pub struct Leg<'l> {
     /// Chart and approximate point at the middle of the rectangle.
     pub chart: &'l SurfaceChart,

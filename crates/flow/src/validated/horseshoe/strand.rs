@@ -61,26 +61,34 @@ impl<'s> Strand<'s> {
         last: &Rectangle,
     ) -> Result<(Vec<Crossed>, Vec<[f64; 2]>), PathProblem> {
         let mut known = guess;
+        known[0] = [known[0][0].max(first[0]), known[0][1].max(first[1])];
+        let mut found = crossed(shooting, &self.legs(&known)).map_err(PathProblem::Leg)?;
         for _ in 0..ENLARGED {
-            known[0] = [known[0][0].max(first[0]), known[0][1].max(first[1])];
-            let found = crossed(shooting, &self.legs(&known)).map_err(PathProblem::Leg)?;
             let maps: Vec<PlaneMap> = found.iter().map(|one| one.map).collect();
             let halves = fitted(&maps, &known, first[1], last);
             if !halves.iter().flatten().all(|x| x.is_finite() && *x > 0.0) {
                 return Err(PathProblem::Fit);
             }
-            let mut fits = true;
-            for (known, half) in known.iter_mut().zip(&halves) {
+            let mut enlarged = Vec::new();
+            for (place, (known, half)) in known.iter_mut().zip(&halves).enumerate() {
+                let before = *known;
                 for (known, half) in known.iter_mut().zip(half) {
                     if half > known {
-                        fits = false;
                         *known = GROWTH * half;
                     }
                 }
+                if *known != before {
+                    enlarged.push(place);
+                }
             }
-            if fits {
+            if enlarged.is_empty() {
                 return Ok((found, halves));
             }
+            // The others are known over their rectangles.
+            let legs = self.legs(&known);
+            let legs: Vec<Leg<'_>> = enlarged.iter().map(|place| legs[*place]).collect();
+            let again = crossed(shooting, &legs).map_err(PathProblem::Leg)?;
+            enlarged.into_iter().zip(again).for_each(|(place, own)| found[place] = own);
         }
         Err(PathProblem::Fit)
     }

@@ -3,7 +3,7 @@
 
 use liouville::verdict::Verdict;
 
-use super::{catalogue, judged};
+use super::{judged, of_figure};
 
 /// The cycle on the unit circle, with a further term in x' and a value of b.
 fn circle(term: &str, b: &str) -> String {
@@ -58,7 +58,6 @@ fn where_it_has_values_the_orbit_persists() {
         let theorem = theorem(term, b);
         assert!(theorem.ends_with("for these parameters and all near them"), "{term}: {theorem}");
     }
-    let figure = catalogue("figures/fig-8.toml").remove(0);
-    let theorem = figure.evidence.theorem.expect("stated");
+    let theorem = of_figure(8)[0].evidence.theorem.as_ref().expect("stated");
     assert!(theorem.contains("near them for which the motion keeps"), "{theorem}");
 }
