@@ -5,6 +5,7 @@ use super::Formula;
 use super::arena::{Arena, Constant, ElementaryFunction, NodeId, NodeOperation};
 use super::expanded::Reading;
 use super::kind::Type;
+use super::scope::Symbol;
 use crate::number::rational::Rational;
 use crate::proof::{MOST_POLYNOMIAL_WORK, Polynomial};
 
@@ -14,12 +15,17 @@ const MOST_FACTORS: usize = 16;
 impl Formula {
     /// Returns formulas that are all 0 at exactly those points at which this one is 0, and that have values where it
     /// has: one in which each factor stands once, or several for a sum of squares. `None` if each factor stands
-    /// once already, as far as is known.
-    pub(crate) fn with_simple_factors(&self) -> Option<Vec<Formula>> {
+    /// once already, as far as is known. Slopes of squares are independent along the coordinates; `is_fixed` tells
+    /// parameters.
+    pub(crate) fn with_simple_factors(
+        &self,
+        is_coordinate: &dyn Fn(Symbol) -> bool,
+        is_fixed: &dyn Fn(Symbol) -> bool,
+    ) -> Option<Vec<Formula>> {
         let mut arena = self.arena.clone();
         let whole = arena.nodes.len().checked_sub(1)?;
         let product = Product::of(&mut arena, whole)?;
-        let simpler = Simpler::of(&arena, &product)?;
+        let simpler = Simpler::of(&arena, &product, is_coordinate, is_fixed)?;
         let of_all = |above: Vec<Factor>| {
             let mut arena = arena.clone();
             let own = above.into_iter().map(|own| simpler.pushed(&mut arena, own, whole));
@@ -137,7 +143,12 @@ struct Simpler {
 }
 
 impl Simpler {
-    fn of(arena: &Arena, product: &Product) -> Option<Self> {
+    fn of(
+        arena: &Arena,
+        product: &Product,
+        is_coordinate: &dyn Fn(Symbol) -> bool,
+        is_fixed: &dyn Fn(Symbol) -> bool,
+    ) -> Option<Self> {
         let mut reading = Reading::of(arena)?;
         let (mut found, mut seen) = (Vec::new(), Vec::<Polynomial>::new());
         let mut is_simpler = product.is_simpler;
@@ -176,8 +187,16 @@ impl Simpler {
         if !(0..u32::try_from(parts.len()).ok()?).all(is_kept) {
             return None;
         }
+        let is_one = |index: u32, is_such: &dyn Fn(Symbol) -> bool| {
+            parts.get(index as usize).and_then(|part| symbol(arena, *part)).is_some_and(is_such)
+        };
+        let is_coordinate = |index: u32| is_one(index, is_coordinate);
+        let is_plain = |own: &Polynomial| {
+            own.variables().into_iter().all(|own| is_coordinate(own) || is_one(own, is_fixed))
+        };
         if let ([only], true) = (&seen[..], product.roots.is_empty())
-            && let Some(squares) = only.independent_squares()
+            && is_plain(only)
+            && let Some(squares) = only.independent_squares(is_coordinate)
         {
             let equations = squares.into_iter().map(|own| vec![Factor::Polynomial(own)]);
             return Some(Self { equations: equations.collect(), parts });
@@ -202,6 +221,18 @@ impl Simpler {
                 arena.scalar(NodeOperation::Function(function, half), of)
             }
         }
+    }
+}
+
+/// Returns the symbol that a node, or the vector of which it is a component, is.
+fn symbol(arena: &Arena, node: NodeId) -> Option<Symbol> {
+    match arena.nodes[node].operation {
+        NodeOperation::Symbol(slot) => arena.symbols.get(slot).map(|(symbol, _)| *symbol),
+        NodeOperation::Component(of, _) => match arena.nodes[of].operation {
+            NodeOperation::Symbol(_) => symbol(arena, of),
+            _ => None,
+        },
+        _ => None,
     }
 }
 
