@@ -251,7 +251,11 @@ fn half_angle(arena: &Arena, parts: &[NodeId], factor: &Polynomial) -> Option<Fa
     let (Some(one), Some(two), None) = (terms.next(), terms.next(), terms.next()) else {
         return None;
     };
-    let (number, (slope, exponents)) = if one.1.is_empty() { (one.0, two) } else { (two.0, one) };
+    let (number, (slope, exponents)) = match (one.1, two.1) {
+        ([], _) => (one.0, two),
+        (_, []) => (two.0, one),
+        _ => return None,
+    };
     let [(variable, 1)] = exponents else { return None };
     let ratio = number * &slope.recip()?;
     let is_minus = match ratio.to_integer()? {

@@ -6,7 +6,8 @@ use liouville::case::Case;
 use liouville::verdict::{Options, Verdict, judge};
 
 /// Ranges of the variables.
-const STATE: &str = "x = \"-2..2\"\ny = \"-2..2\"\nz = \"-2..2\"\n";
+const STATE: &str = "x = \"-2..2\"\ny = \"-2..2\"\nz = \"-2..2\"\n\
+                     w = \"-2..2\"\n";
 
 /// Judges claims on a level, or says why the file is refused.
 fn judged(levels: &[String], field: &[String; 3], claims: &[&str]) -> Result<Vec<Verdict>, String> {
@@ -15,7 +16,7 @@ fn judged(levels: &[String], field: &[String; 3], claims: &[&str]) -> Result<Vec
     let [x, y, z] = field;
     let levels: Vec<String> = levels.iter().map(|own| format!("\"{own} = 0\"")).collect();
     let text = format!(
-        "title = \"t\"\n[state]\n{STATE}[field]\n\"x'\" = \"{x}\"\n\"y'\" = \"{y}\"\n\"z'\" = \"{z}\"\n\
+        "title = \"t\"\n[state]\n{STATE}[field]\n\"x'\" = \"{x}\"\n\"y'\" = \"{y}\"\n\"z'\" = \"{z}\"\n\"w'\" = \"0\"\n\
          [level]\nequations = [{}]\n{claims}",
         levels.join(", ")
     );
@@ -114,6 +115,15 @@ fn squares_of_half_angles_are_taken_once() {
     {
         assert_eq!(judged(&[level.to_string()], &rate, &claims).as_ref(), Ok(&simple), "{level}");
     }
+    // Only a number beside the sine makes a square.
+    for (level, claim) in [
+        ("y − sin(x)", "y = sin(x)"),
+        ("y − cos(x)", "y = cos(x)"),
+        ("1/2 − sin(x)", "sin(x) = 1/2"),
+    ] {
+        let found = judged(&[level.to_string()], &at_rest(), &[&format!("identity = \"{claim}\"")]);
+        assert!(matches!(found.as_deref(), Ok([Verdict::Proved | Verdict::Confirmed])), "{level}");
+    }
     let claims = ["identity = \"sin(x) = 1\"", "identity = \"x = y\""];
     let found = judged(&["1 − sin(x)".to_string()], &at_rest(), &claims);
     assert_eq!(found, Ok(vec![Verdict::Proved, Verdict::Refuted]));
@@ -134,4 +144,33 @@ fn what_has_no_value_elsewhere_stays() {
     let found =
         judged(&["(x − 1)^2*(x − 2)/(x − 1)".to_string()], &at_rest(), &["identity = \"x = 2\""]);
     assert!(found.as_ref().is_ok_and(|own| own[0] != Verdict::Refuted) || found.is_err());
+}
+
+#[test]
+fn equations_that_follow_from_others_say_nothing_more() {
+    let parts = ["exp(x)", "sin(y)", "√(z + 3)", "x*y", "y^2*exp(x)"];
+    for index in 0..8 {
+        let mut draws = Draws(150 + index);
+        let mut number = || [-2, -1, 1, 3][draws.below(4) as usize];
+        let [a, b, c, d] = [(); 4].map(|()| number());
+        let part = |k: u64| parts[((index + k) % 5) as usize];
+        let f = format!("({a})*{} + ({b})*z − 1/3", part(0));
+        let g = format!("({c})*{} + y", part(1));
+        let both = [f.clone(), g.clone()];
+        let claims = ["identity = \"x = 7\"", "identity = \"y^2*z = z*y*y\""];
+        let claims: Vec<&str> = claims.to_vec();
+        let simple = judged(&both, &at_rest(), &claims);
+        for third in [
+            format!("({d})*({f}) − 3*({g})"),
+            format!("({})*({g})", part(2)),
+            format!("({d})*({f}) − 3*({g}) + √(z + 3) − √(z + 3)"),
+        ] {
+            let has_root = both.iter().any(|own| own.contains('√'));
+            if third.contains('√') && !has_root {
+                continue;
+            }
+            let levels = [f.clone(), g.clone(), third.clone()];
+            assert_eq!(judged(&levels, &at_rest(), &claims), simple, "{levels:?}");
+        }
+    }
 }
