@@ -97,7 +97,7 @@ fn sums_of_squares_say_what_their_roots_do() {
         ];
         let simple = judged(&[p.text(), q.text()], &field, &claims);
         let [one, two] = [&p, &q].map(|own| own.text());
-        let sum = format!("({one})^2 + 3*({two})^4");
+        let sum = format!("({one})^2 + 3*({two})^2");
         assert_eq!(judged(&[sum.clone()], &field, &claims), simple, "{sum}");
         let sum = Polynomial([p.times(&p).0, q.times(&q).0].concat()).text();
         assert_eq!(judged(&[sum.clone()], &field, &claims), simple, "{sum}");
@@ -159,7 +159,7 @@ fn equations_that_follow_from_others_say_nothing_more() {
         let both = [f.clone(), g.clone()];
         let claims = ["identity = \"x = 7\"", "identity = \"y^2*z = z*y*y\""];
         let claims: Vec<&str> = claims.to_vec();
-        let simple = judged(&both, &at_rest(), &claims);
+        let simple = judged(&both, &at_rest(), &claims).ok();
         for third in [
             format!("({d})*({f}) − 3*({g})"),
             format!("({})*({g})", part(2)),
@@ -170,7 +170,7 @@ fn equations_that_follow_from_others_say_nothing_more() {
                 continue;
             }
             let levels = [f.clone(), g.clone(), third.clone()];
-            assert_eq!(judged(&levels, &at_rest(), &claims), simple, "{levels:?}");
+            assert_eq!(judged(&levels, &at_rest(), &claims).ok(), simple, "{levels:?}");
         }
     }
 }
