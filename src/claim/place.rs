@@ -29,10 +29,9 @@ impl LevelSubset {
         let wanted = plain(text);
         // An equation between vectors, and one between sums of squares, is several.
         let exact = model.level.iter().position(|equation| plain(&equation.text) == wanted);
-        let all = model.level.iter().enumerate();
         let kept: Vec<bool> = match exact {
-            Some(index) => all.map(|(other, _)| other == index).collect(),
-            None => all.map(|(_, equation)| plain(equation.whole_text()) == wanted).collect(),
+            Some(index) => (0..model.level.len()).map(|other| other == index).collect(),
+            None => model.level.iter().map(|own| plain(own.whole_text()) == wanted).collect(),
         };
         kept.contains(&true).then_some(Self { kept })
     }

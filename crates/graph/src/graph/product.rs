@@ -38,7 +38,6 @@ mod tests {
     use super::super::record;
     use super::*;
     use crate::graph::Expr;
-    use crate::scalar::Scalar;
     use num_dual::DualNum;
 
     #[test]
