@@ -12,10 +12,10 @@ use super::section::CaseTable;
 use super::systems::{ModelParts, Reading};
 use super::{
     AbsenceClaim, Case, Column, MotionClaim, PlacedClaim, TABLE_ROWS, absences, charts,
-    homogeneous, implied, lists, map, one_sided, poincare, remarks, shadows, toml_errors,
+    homogeneous, implied, lists, map, one_sided, poincare, remarks, repeated, shadows, toml_errors,
     variables, velocities, weights,
 };
-use crate::mechanics::{Chart, LevelFunction, Model, Surface, System, TIME};
+use crate::mechanics::{Chart, LevelEquation, LevelFunction, Model, Surface, System, TIME};
 
 /// The keys of a case file.
 const KEYS: [&str; 21] = [
@@ -266,18 +266,22 @@ fn no_open_level(root: &CaseTable<'_>, model: &Model) -> Result<(), Mistake> {
     Ok(())
 }
 
-/// Leaves out equations of `[level]` that follow from others, and rejects one that contradicts them;
-/// returns remarks.
+/// Simplifies equations of `[level]` with repeated factors, leaves out those that follow from others, and rejects one
+/// that contradicts them; returns remarks.
 fn no_implied_level(root: &CaseTable<'_>, model: &mut Model) -> Result<Vec<String>, Mistake> {
     let Some(section) = root.table("level") else { return Ok(Vec::new()) };
     let texts = section.texts("equations").unwrap_or_default();
     let texts: Vec<String> = texts.iter().map(|text| text.value.trim().to_string()).collect();
-    implied::leave_out(model, |equation| implied::is_one_of(equation, &texts)).map_err(|text| {
+    let is_given = |equation: &LevelEquation| implied::is_one_of(equation, &texts);
+    let mut remarks = repeated::count_factors_once(model, is_given);
+    let left_out = implied::leave_out(model, is_given).map_err(|text| {
         let span = root.find(&text).map(|start| start..start + text.len());
         let message = format!("`{text}` contradicts the equations before it");
         let remedy = "correct one of them: together they have no solution".to_string();
         Mistake::new(span, Problem::Sense { message, remedy })
-    })
+    })?;
+    remarks.extend(left_out);
+    Ok(remarks)
 }
 
 /// Extends a support function that is not homogeneous of degree 1 off the unit sphere.

@@ -6,7 +6,8 @@ use super::section::{CaseTable, SpannedStr};
 use crate::formula::{Formula, FormulaError, Scope, Symbol, SymbolOrigin, Type, Value, excerpt};
 use crate::graph::{Expr, record};
 use crate::mechanics::{
-    Dependence, LevelEquation, LevelFunction, RootEquation, Vocabulary, VocabularyEntry, components,
+    Dependence, ENTRY, LevelEquation, LevelFunction, RootEquation, Vocabulary, VocabularyEntry,
+    components,
 };
 use crate::proof::{Group, Prover};
 
@@ -155,9 +156,6 @@ fn equation(
 
 /// Largest number of entries among which repetitions are sought, of which there are n² pairs.
 const MOST_COMPARED: usize = 96;
-
-/// Text between an equation and the place of an entry.
-pub const ENTRY: &str = ", entry ";
 
 /// Splits an equation into those of its entries, each with its text.
 ///

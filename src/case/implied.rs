@@ -1,6 +1,5 @@
 //! Equations of a level and constraints that follow from others, or contradict them.
 
-use super::equations::ENTRY;
 use crate::graph::{literally, record};
 use crate::mechanics::{
     LevelEquation, LevelFunction, Meaning, Model, Phase, Quantity, System, VocabularyEntry,
@@ -45,8 +44,7 @@ pub fn leave_out(
 
 /// Whether an equation of the level is one of these texts, or an entry of one.
 pub fn is_one_of(equation: &LevelEquation, texts: &[String]) -> bool {
-    let text = equation.text.split_once(ENTRY).map_or(&*equation.text, |(text, _)| text);
-    texts.iter().any(|own| own == text)
+    texts.iter().any(|own| own == equation.whole_text())
 }
 
 /// Leaves out constraints of a nonholonomic system on velocities that are combinations of the others with rational

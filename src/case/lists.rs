@@ -91,8 +91,16 @@ fn tell(best: &mut Attempt, other: &Attempt, name: &str, is_diagonal: bool) {
         true => ("a diagonal matrix", "a vector"),
         false => ("a vector", "a diagonal matrix"),
     };
-    let would_be_mended =
-        |mistake: &&mut Mistake| may_be_of_kind(mistake) && !is_in(mistake, &other.mistakes);
+    // A sum with a number is wrong for both, and says so in different words.
+    let is_wrong_for_both = |mistake: &Mistake| {
+        let place = |own: &Mistake| own.span.clone().unwrap_or_default();
+        let (from, to) = (place(mistake).start, place(mistake).end);
+        let overlaps = |own: &Mistake| place(own).start < to && from < place(own).end;
+        other.mistakes.iter().any(|own| may_be_of_kind(own) && overlaps(own))
+    };
+    let would_be_mended = |mistake: &&mut Mistake| {
+        may_be_of_kind(mistake) && !is_in(mistake, &other.mistakes) && !is_wrong_for_both(mistake)
+    };
     for mistake in best.mistakes.iter_mut().filter(would_be_mended).filter(|_| makes_others) {
         mistake.problem = Problem::Other {
             message: format!(

@@ -37,6 +37,7 @@ mod order;
 mod parameters;
 mod poincare;
 mod remarks;
+mod repeated;
 mod section;
 mod shadows;
 mod shaped;
@@ -71,6 +72,7 @@ pub use lines::FixedLine;
 pub use one_sided::OneSided;
 pub use parameters::Setting;
 pub use poincare::{Angle, Direction, SectionPlan};
+pub use remarks::NO_CLAIMS;
 pub use utf8::{NotUtf8, utf8};
 pub use value::{FormulaSource, ValueSpec};
 

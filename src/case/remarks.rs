@@ -15,6 +15,10 @@ use crate::number::rational::Rational;
 /// Keys whose texts are words, and no formulas.
 const WORDS: [&str; 7] = ["title", "source", "note", "name", "system", "cell", "table"];
 
+/// Remark on a file without claims.
+pub const NO_CLAIMS: &str = "there are no claims: `liouville report` lists the invariants of a system, \
+                             `liouville search` looks for others";
+
 /// Names that the tables of a system read without being told.
 fn implied(system: &System) -> &'static [&'static str] {
     match system {
@@ -39,9 +43,7 @@ pub fn remarks(
     all.extend(differences(root));
     all.extend(claims.iter().filter_map(of_density));
     if is_without_claims {
-        let text = "there are no claims: `liouville report` lists the invariants of a system, \
-                    `liouville search` looks for others";
-        all.push(text.to_string());
+        all.push(NO_CLAIMS.to_string());
     }
     all
 }

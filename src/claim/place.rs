@@ -26,10 +26,14 @@ impl LevelSubset {
             let text: String = text.split_whitespace().collect();
             text.replace('−', "-").replace("gamma", "γ").replace("omega", "ω")
         };
-        let index = model.level.iter().position(|equation| plain(&equation.text) == plain(text))?;
-        let mut place = Self::everywhere(model);
-        place.kept[index] = true;
-        Some(place)
+        let wanted = plain(text);
+        // An equation between vectors, and one between sums of squares, is several.
+        let exact = model.level.iter().position(|equation| plain(&equation.text) == wanted);
+        let kept: Vec<bool> = match exact {
+            Some(index) => (0..model.level.len()).map(|other| other == index).collect(),
+            None => model.level.iter().map(|own| plain(own.whole_text()) == wanted).collect(),
+        };
+        kept.contains(&true).then_some(Self { kept })
     }
 
     /// Lists the places of interest that properly contain this one, widest first.

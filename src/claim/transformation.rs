@@ -5,9 +5,10 @@ use super::elsewhere::{one_antiderivative, system_at, written_at};
 use super::statement::open_constant;
 use super::{Condition, Jets, Need, Reader, Statement, difference, quadrature_defects};
 use crate::formula::{Formula, Type};
-use crate::graph::{Expr, record};
+use crate::graph::{Expr, Step, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{Dependence, Meaning, Model, Phase, TIME, Variable};
+use crate::number::UnaryFunction;
 use crate::scalar::Scalar;
 
 /// A map σ of phase space to itself, which may change parameters too.
@@ -85,6 +86,21 @@ impl Transformation {
     fn formulas(&self) -> Vec<&Formula> {
         let parameters = self.parameters.iter().map(|(_, image)| image);
         self.state.iter().flatten().chain(parameters).collect()
+    }
+
+    /// Returns the remark for a map with a modulus.
+    fn kinks(&self, model: &Model) -> Option<String> {
+        let parameters = model.free_components();
+        let recorded = record(parameters + model.dimension(), |inputs| {
+            let (parameters, state) = inputs.split_at(parameters);
+            self.image(&Phase::new(model, parameters, state))
+        });
+        let is_modulus = |step: Step<'_>| matches!(step, Step::Unary(UnaryFunction::Abs, _));
+        let has_kinks = recorded.is_ok_and(|(graph, image)| graph.has_step(&image, is_modulus));
+        has_kinks.then(|| {
+            "the map has kinks where what is in |…| is 0, and may take states on both sides to one"
+                .to_string()
+        })
     }
 
     /// Computes σ(x).
@@ -197,6 +213,10 @@ impl Statement for Symmetry {
 
     fn formulas(&self) -> Vec<&Formula> {
         self.map.formulas().into_iter().chain(&self.time).collect()
+    }
+
+    fn remark(&self, model: &Model) -> Option<String> {
+        self.map.kinks(model)
     }
 
     fn changes(&self) -> Vec<usize> {

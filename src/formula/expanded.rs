@@ -1,7 +1,7 @@
 //! Factors of a formula that is written out: a² − 3ab + 2b² is (a − b)(a − 2b), where a and b may be (M,γ) and
 //! (γ,γ).
 
-use super::arena::{Arena, NodeId, NodeOperation};
+use super::arena::{Arena, ElementaryFunction, NodeId, NodeOperation};
 use super::kind::Type;
 use crate::number::rational::Rational;
 use crate::proof::{MOST_POLYNOMIAL_WORK, Polynomial};
@@ -12,27 +12,19 @@ const MOST_POWER: i64 = 16;
 const MOST_NODES: usize = 1000;
 
 /// A scalar as a polynomial in parts that are no sums and no products.
-struct Reading<'a> {
+pub(super) struct Reading<'a> {
     arena: &'a Arena,
     /// The first node with the same value, of each node.
     same: Vec<NodeId>,
     /// Parts, by variable.
-    parts: Vec<NodeId>,
+    pub parts: Vec<NodeId>,
     work: usize,
 }
 
 impl Arena {
     /// Appends factors of a node, of which one is 0 where it is, and no others; `None` if there is but one.
     pub fn expanded_factors(&mut self, node: NodeId) -> Option<Vec<NodeId>> {
-        if self.nodes.len() > MOST_NODES {
-            return None;
-        }
-        let mut reading = Reading {
-            same: same(self),
-            arena: self,
-            parts: Vec::new(),
-            work: MOST_POLYNOMIAL_WORK,
-        };
+        let mut reading = Reading::of(self)?;
         let whole = reading.polynomial(node)?;
         let parts = reading.parts;
         let factors = whole.factors();
@@ -43,7 +35,13 @@ impl Arena {
         Some(factors.iter().map(|factor| self.push_polynomial(factor, &parts, node)).collect())
     }
 
-    fn push_polynomial(&mut self, polynomial: &Polynomial, parts: &[NodeId], of: NodeId) -> NodeId {
+    /// Appends a polynomial in some parts, as it is written out.
+    pub(super) fn push_polynomial(
+        &mut self,
+        polynomial: &Polynomial,
+        parts: &[NodeId],
+        of: NodeId,
+    ) -> NodeId {
         let span = self.nodes[of].span.clone();
         let mut push = |operation| self.push(operation, Type::Scalar, span.clone());
         let mut sum: Option<NodeId> = None;
@@ -95,7 +93,28 @@ fn same(arena: &Arena) -> Vec<NodeId> {
     same
 }
 
-impl Reading<'_> {
+impl<'a> Reading<'a> {
+    /// Begins the reading of nodes of a formula; `None` if it is large.
+    pub fn of(arena: &'a Arena) -> Option<Self> {
+        let is_small = arena.nodes.len() <= MOST_NODES;
+        is_small.then(|| Self {
+            same: same(arena),
+            arena,
+            parts: Vec::new(),
+            work: MOST_POLYNOMIAL_WORK,
+        })
+    }
+
+    /// Reads a node as a polynomial, or as one part if it is too large.
+    pub fn polynomial_or_part(&mut self, node: NodeId) -> Option<Polynomial> {
+        let before = self.parts.len();
+        let found = self.polynomial(node);
+        if found.is_none() {
+            self.parts.truncate(before);
+        }
+        found.or_else(|| self.part(node))
+    }
+
     /// Lists what a sum, product or power is made of; `None` if the node is a part.
     fn arguments(&self, node: NodeId) -> Option<Vec<NodeId>> {
         Some(match &self.arena.nodes[node].operation {
@@ -167,11 +186,32 @@ impl Reading<'_> {
     }
 
     fn part(&mut self, node: NodeId) -> Option<Polynomial> {
+        // e^(2u) is (e^u)².
+        if let Some((other, power)) = self.as_power(node) {
+            let base = self.part(other)?;
+            let one = Polynomial::constant(&Rational::from(1));
+            return (0..power).try_fold(one, |all, _| all.times(&base, &mut self.work));
+        }
         let first = self.same[node];
         let index = self.parts.iter().position(|own| *own == first).unwrap_or(self.parts.len());
         if index == self.parts.len() {
             self.parts.push(first);
         }
         u32::try_from(index).ok().map(Polynomial::variable)
+    }
+
+    /// Returns a node e^u, and n, of a node e^(nu).
+    fn as_power(&self, node: NodeId) -> Option<(NodeId, i64)> {
+        let exponent = |node: NodeId| match self.arena.nodes[node].operation {
+            NodeOperation::Function(ElementaryFunction::Exp, exponent) => Some(exponent),
+            _ => None,
+        };
+        let NodeOperation::Multiply(a, b) = self.arena.nodes[exponent(node)?].operation else {
+            return None;
+        };
+        let times = self.arena.constant(a)?.to_integer()?;
+        let is_base = |own: &NodeId| exponent(*own).is_some_and(|u| self.same[u] == self.same[b]);
+        let other = (0..self.arena.nodes.len()).find(is_base)?;
+        (2..=MOST_POWER).contains(&times).then_some((other, times))
     }
 }

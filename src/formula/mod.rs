@@ -68,6 +68,7 @@ mod partial;
 mod poles;
 mod powers;
 mod scope;
+mod simple_factors;
 mod slopes;
 mod spelling;
 mod substitute;

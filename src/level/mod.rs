@@ -10,7 +10,7 @@
 //! parameter   F(x) = c for a free parameter c that occurs nowhere else: c = F(x)
 //! ```
 //!
-//! Each step uses the results of the steps before it. docs/soundness.md, "Level sets", states when
+//! Each step uses the results of the steps before it. docs/soundness-levels.md, "Level sets", states when
 //! no part of a level is missed.
 
 mod analysis;

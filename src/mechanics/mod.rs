@@ -46,8 +46,8 @@ pub use hamiltonian::HamiltonianSystem;
 pub use lagrangian::{Algebra, EquationTerms, Lagrangian, LagrangianEquations, VariableRole};
 pub use listed::{ListedValues, combinations};
 pub use model::{
-    LevelEquation, LevelFunction, MatrixShape, Model, Parameter, ParameterOrigin, RootEquation,
-    TIME, Variable, components,
+    ENTRY, LevelEquation, LevelFunction, MatrixShape, Model, Parameter, ParameterOrigin,
+    RootEquation, TIME, Variable, components,
 };
 pub use parts::EquationPart;
 pub use phase::Phase;

@@ -116,6 +116,16 @@ pub struct LevelEquation {
     pub root: Option<RootEquation>,
 }
 
+/// Text between an equation and the place of an entry.
+pub const ENTRY: &str = ", entry ";
+
+impl LevelEquation {
+    /// Text of the equation, between vectors, say, of which this one is an entry, or its own.
+    pub fn whole_text(&self) -> &str {
+        self.text.split_once(ENTRY).map_or(&*self.text, |(text, _)| text)
+    }
+}
+
 /// An equation √A = e, or |x| = e.
 #[derive(Clone, Debug)]
 pub struct RootEquation {

@@ -1,7 +1,7 @@
 //! Ranks of matrices on all parts of the states: a determinant that is not 0 at one state may still be 0
 //! on a cell of signs of moduli and roots, or for one of the listed values.
 //!
-//! docs/soundness.md, "Ranks on all cells".
+//! docs/soundness-levels.md, "Ranks on all cells".
 
 use super::conjugates::{SignChoices, columns_with_few_signs, with_all_signs};
 use super::coverage::{RANK_BITS, proved_rank};

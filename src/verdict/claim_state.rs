@@ -39,6 +39,8 @@ pub struct ClaimState {
     /// Whether the residual is known to be zero wherever it has a value, and no state is known at which
     /// the claim has one.
     pub is_unseen: bool,
+    /// Whether it is known of all states of the first block that a formula of the claim has no value there.
+    pub is_silent: bool,
     /// Whether the slopes of the level's equations depend on each other at states of the place.
     pub is_flat: bool,
     /// Whether the states are a part of full dimension on which these slopes are independent, while on others

@@ -6,16 +6,11 @@ use super::judging::Judging;
 use super::ladder::{LADDER_BITS, PRECISE_STATES};
 use super::sampler::{Sampler, TAPE_LANES};
 use crate::claim::LevelSubset;
-use crate::graph::{Expr, Fault, Step};
-use crate::mechanics::{Chart, Draw, combinations};
-use crate::number::UnaryFunction;
+use crate::graph::{Expr, Fault};
+use crate::mechanics::{Chart, combinations};
 use crate::number::arb::ArbBall;
 use crate::number::ball::Ball;
 use crate::number::rational::Rational;
-use crate::proof::Group;
-
-/// Largest number of signs of roots that are tried one by one.
-const MOST_SIGNS: usize = 8;
 
 impl Judging<'_> {
     /// Checks that the motion stays on a part of the level.
@@ -95,38 +90,6 @@ impl Judging<'_> {
         let bits = LADDER_BITS[LADDER_BITS.len() - 1];
         let is_solved = matches!(self.case.chart, Chart::Equations);
         (!is_solved).then(|| format!("less than {bits} bits resolve"))
-    }
-
-    /// Leaves out the signs of roots for which an equation of the level, as it is written, has no value: y(y − 1) = 0
-    /// has two zeros, and x/y = 0 a value at one of them.
-    pub(super) fn without_void_signs(&self, sampler: Sampler) -> Result<Sampler, Fault> {
-        let signs = sampler.recipes().iter().enumerate();
-        let signs = signs.filter(|(_, draw)| matches!(draw, Draw::Sign)).map(|(draw, _)| draw);
-        let signs: Vec<usize> = signs.take(MOST_SIGNS).collect();
-        let required = self.common.required_of_level(sampler.kept());
-        let is_divisor = |step: Step<'_>| matches!(step, Step::Unary(UnaryFunction::Recip, _));
-        if signs.is_empty() || !self.graph.has_step(&required, is_divisor) {
-            return Ok(sampler);
-        }
-        let group = Group { required, ..Group::default() };
-        let mut fixed = vec![None; sampler.recipes().len()];
-        for draw in signs {
-            let is_void = |sign: i64| {
-                let mut chosen = fixed.clone();
-                chosen[draw] = Some(Rational::from(sign));
-                let groups =
-                    sampler.compose_groups(self.graph, std::slice::from_ref(&group), &chosen)?;
-                let (graph, groups) = groups;
-                let mut values = groups.iter().flat_map(|group| &group.required);
-                Ok::<bool, Fault>(values.any(|value| graph.is_nowhere_defined(*value)))
-            };
-            fixed[draw] = match (is_void(1)?, is_void(-1)?) {
-                (true, false) => Some(Rational::from(-1)),
-                (false, true) => Some(Rational::from(1)),
-                _ => None,
-            };
-        }
-        Ok(sampler.with(&fixed))
     }
 
     /// Returns the values that must vanish for states to be on the level and to stay there.

@@ -94,8 +94,7 @@ impl Judging<'_> {
         if let Some(known) = self.samplers.borrow().get(&place.kept) {
             return Ok(Rc::clone(known));
         }
-        let made = Sampler::new(self.case, place, self.options.seed)?;
-        let made = Rc::new(self.without_void_signs(made)?);
+        let made = Rc::new(Sampler::new(self.case, place, self.options.seed)?);
         self.samplers.borrow_mut().insert(place.kept.clone(), Rc::clone(&made));
         Ok(made)
     }

@@ -69,8 +69,11 @@ impl Judging<'_> {
         self.decide(place, sampler, missed.as_deref(), &mut open)?;
         self.settle_parts(sampler, &mut open)?;
         self.settle_images(sampler, &mut open)?;
-        let mut holding: Open<'_, '_> =
-            open.into_iter().filter(|(_, status)| status.holds()).collect();
+        let (mut holding, others): (Open<'_, '_>, Open<'_, '_>) =
+            open.into_iter().partition(|(_, status)| status.holds());
+        for (item, status) in others.into_iter().filter(|(_, status)| status.is_unseen) {
+            self.remark_missing(sampler, (item, status), &[]);
+        }
         self.settle_novelty(sampler, &mut holding)?;
         self.settle_conditions(sampler, &mut holding)?;
         self.remark_voids(sampler, &mut holding)?;

@@ -166,15 +166,17 @@ impl Judging<'_> {
 }
 
 impl Judging<'_> {
-    /// Remarks of a claim that holds at how many of the states of the first block it says nothing, as a formula
-    /// of it has no value there; states with listed values that are named already are left out.
+    /// Remarks of a claim that holds, or of whose residual no value is known, at how many of the states of the first
+    /// block it says nothing, as a formula of it has no value there; states with listed values that are named
+    /// already are left out.
     pub(super) fn remark_missing(
         &self,
         sampler: &Sampler,
         (item, status): (&RecordedClaim<'_>, &mut ClaimState),
         voids: &[Choice],
     ) {
-        if status.missing.is_empty() || !status.holds() || item.claim.kind.is_negated() {
+        let is_asked = status.holds() || status.is_unseen;
+        if status.missing.is_empty() || !is_asked || item.claim.kind.is_negated() {
             return;
         }
         let (run, layout) = self.lay_out(sampler, std::iter::once(item), false);
@@ -182,7 +184,7 @@ impl Judging<'_> {
         let blocks = sampler.balls(0);
         let values = run.at(&Ball::<TAPE_LANES>, &blocks);
         let mut is_counted = values.existing(std::slice::from_ref(&layout.common));
-        let mut count = 0;
+        let (mut count, mut doubtful) = (0, 0);
         for (lane, is_counted) in is_counted.iter_mut().enumerate().filter(|(_, own)| **own) {
             let index = lane as u64;
             let is_void = |numbers: &[Number]| voids.iter().any(|void| has(numbers, void));
@@ -199,10 +201,20 @@ impl Judging<'_> {
             };
             let values = run.at(&domain, &state);
             let required = values.range(span.requirement.clone());
-            count += usize::from(required.into_iter().any(|value| *value == Number::Nothing));
+            let is_any = |number: Number| required.iter().any(|value| **value == number);
+            match is_any(Number::Nothing) {
+                true => count += 1,
+                false => doubtful += usize::from(is_any(Number::Doubtful)),
+            }
+        }
+        let states = is_counted.into_iter().filter(|own| *own).count();
+        if count == 0 && status.holds() && doubtful * MAX_DOUBTFUL >= states.max(1) {
+            status.evidence.add_remark(format!(
+                "at {doubtful} of {states} states it is not known whether a formula has a value"
+            ));
         }
         if count > 0 {
-            let states = is_counted.into_iter().filter(|own| *own).count();
+            status.is_silent = count == states;
             let remark = format!(
                 "nothing is said at {count} of {states} states, where a formula has no value"
             );

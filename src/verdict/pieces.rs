@@ -252,9 +252,12 @@ fn on_all(states: Vec<ClaimState>) -> ClaimState {
         all.is_thin &= state.is_thin;
     }
     all.evidence.remark = remark;
-    if void.iter().any(|state| state.is_void && is_without_value(state)) {
+    let silent: Vec<&ClaimState> = void.iter().filter(|state| is_without_value(state)).collect();
+    if silent.iter().any(|state| state.is_void || state.is_silent) {
         let remark = "nothing is said on a part of the level, where a formula has no value";
         all.evidence.add_remark(remark.to_string());
+    } else if let Some(remark) = silent.iter().find_map(|state| state.evidence.remark.as_ref()) {
+        all.evidence.add_remark(format!("on a part of the level: {remark}"));
     }
     if is_unseen {
         let evidence = &mut all.evidence;

@@ -160,14 +160,9 @@ impl SharedTerms {
 impl SharedTerms {
     /// Returns the values that exist at every state at which these equations of the level hold.
     pub fn required_at(&self, kept: &[bool]) -> Vec<Expr> {
-        let level = self.required_of_level(kept);
-        self.requirement.iter().chain(&self.motion).copied().chain(level).collect()
-    }
-
-    /// Returns the values of these equations as written, which exist where they hold.
-    pub fn required_of_level(&self, kept: &[bool]) -> Vec<Expr> {
         let level = self.level_requirement.iter().zip(kept).filter(|(_, kept)| **kept);
-        level.flat_map(|(values, _)| values).copied().collect()
+        let level = level.flat_map(|(values, _)| values);
+        self.requirement.iter().chain(&self.motion).chain(level).copied().collect()
     }
 }
 

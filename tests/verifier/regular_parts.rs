@@ -63,9 +63,10 @@ fn what_fails_on_a_regular_part_is_refuted() {
         let (p, q) = (flat.text(), regular.text());
         let ([a, b, _], [c, d, _]) = (flat.0, regular.0);
         let field = [format!("({b})*{q} + ({d})*{p}"), format!("−(({a})*{q} + ({c})*{p})")];
-        // The squares of p and of q with all products are written out by the form as sums.
-        let level = format!("({p}*{p})*{q} + 0*x");
-        let written = format!("{p}*{p}*({c})*x + {p}*{p}*({d})*y + {p}*{p}*({})", regular.0[2]);
+        // Both p and e^p − 1 are 0 where p is, and their product has no slope there.
+        let level = format!("({p}*(exp({p}) − 1))*{q} + 0*x");
+        let twice = format!("{p}*(exp({p}) − 1)");
+        let written = format!("{twice}*({c})*x + {twice}*({d})*y + {twice}*({})", regular.0[2]);
         for level in [&level, &written] {
             let claims = [
                 format!("integral = \"{}\"", other.text()),
@@ -89,7 +90,7 @@ fn what_fails_on_a_regular_part_is_refuted() {
 
 #[test]
 fn the_flat_part_is_named_and_decides_nothing() {
-    let level = "(exp(x) − 2)*sin(y)^2";
+    let level = "(exp(x) − 2)*y*sin(y)";
     let field = ["(exp(x) − 2)*y", "1 + (exp(x) − 2)*x"];
     let claims =
         ["integral = \"y\"", "integral = \"x\"", "density = \"1 + y^2\""].map(str::to_string);

@@ -2,7 +2,7 @@
 
 use super::level_parts::Draws;
 use liouville::case::Case;
-use liouville::verdict::{ClaimReport, Options, Verdict, judge};
+use liouville::verdict::{ClaimReport, Options, Verdict, evaluate, judge};
 
 /// Judges claims about x' = y' = 0, on a level if one is given.
 fn judged(level: Option<&str>, claims: &[String]) -> Vec<ClaimReport> {
@@ -75,4 +75,46 @@ fn a_branch_on_which_nothing_is_judged_is_not_confirmed() {
         assert!(is_told, "{own:?}");
     }
     assert_eq!(found[0].verdict, Verdict::Undecided, "{:?}", found[0]);
+}
+
+#[test]
+fn a_part_where_the_claim_has_no_value_is_named() {
+    // Each claim holds wherever it has a value, as it contains the equation. On y = 1 it has none; where that is
+    // not divided off, balls do not show it.
+    for (level, claim, told) in [
+        ("x*(y − 1) = 0", "x*(y − 1)*√(−x^2) = 0", "nothing is said on a part of the level"),
+        (
+            "(y − 1)*(y − exp(x)) = 0",
+            "(y − 1)*(y − exp(x))/(y − 1 + |y − 1|) = 0",
+            "states it is not known whether a formula has a value",
+        ),
+    ] {
+        let found = judged(Some(level), &[format!("identity = \"{claim}\"")]);
+        assert_eq!(found[0].verdict, Verdict::Proved, "{claim}");
+        let remark = found[0].evidence.remark.clone().unwrap_or_default();
+        assert!(remark.contains(told), "{claim}: {remark}");
+    }
+    let found = judged(Some("x*(y − 1) = 0"), &["identity = \"x*(y − 1)*√(1 + x^2) = 0\"".into()]);
+    assert_eq!(found[0].evidence.remark, None, "it has a value on both");
+}
+
+#[test]
+fn states_at_which_an_equation_has_no_value_are_not_drawn() {
+    let text = "title = \"t\"\n[state]\nx = \"-2..2\"\ny = \"-2..2\"\nz = \"-2..2\"\n\
+                [field]\n\"x'\" = \"0\"\n\"y'\" = \"0\"\n\"z'\" = \"0\"\n\
+                [level]\nequations = [\"y*(y − 1) = 0\", \"x/y = 0\"]\n\
+                [[claim]]\nidentity = \"z = 7*y\"\nexpect = \"open\"\n";
+    let case = Case::parse(text, &[]).expect("a case");
+    for index in 0..8 {
+        let point = evaluate(&case, None, 1, index).expect("evaluated");
+        let y = point.state.iter().find(|(name, _)| name == "y").map(|(_, value)| value.concat());
+        assert_eq!(y.as_deref(), Some("1"), "state {index}");
+    }
+    let found = judge(&case, &Options::default()).expect("judged").claims;
+    let witness = found[0].evidence.witness.as_ref().expect("a witness");
+    let index = witness.index.expect("a state that was drawn");
+    let point = evaluate(&case, None, 1, index).expect("evaluated");
+    let own = |name: &str| point.state.iter().find(|own| own.0 == name).map(|own| own.1.concat());
+    let z = format!("z={}", own("z").expect("z"));
+    assert!(witness.state.split(' ').any(|part| part == z), "state {index}: {z}, {witness:?}");
 }

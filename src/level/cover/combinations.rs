@@ -101,23 +101,17 @@ fn is_sum(step: Step<'_>) -> bool {
 /// Reads the value at a place as a product of values that are no products, and a number; `None` if it has many
 /// factors.
 fn product(graph: &Graph, place: usize) -> Option<(Vec<usize>, Rational)> {
-    let (mut open, mut factors, mut number) = (vec![place], Vec::new(), Rational::from(1));
-    for _ in 0..MOST_TERMS {
-        let Some(place) = open.pop() else {
-            factors.sort_unstable();
-            return Some((factors, number));
-        };
-        match graph.step(place) {
+    let (mut factors, mut number) = (Vec::new(), Rational::from(1));
+    for (count, (place, step)) in graph.factors_at(place, |_| None).enumerate() {
+        match step {
+            _ if count == MOST_TERMS => return None,
             Step::Constant(value) => number = &number * value,
-            Step::Unary(UnaryFunction::Neg, a) => {
-                number = -&number;
-                open.push(a);
-            }
-            Step::Binary(BinaryOperation::Mul, a, b) => open.extend([a, b]),
+            Step::Unary(UnaryFunction::Neg, _) => number = -&number,
             _ => factors.push(place),
         }
     }
-    None
+    factors.sort_unstable();
+    Some((factors, number))
 }
 
 /// Records a combination from the values at places.

@@ -3,7 +3,7 @@
 //! The level is divided until each part is a graph: the states of a part are made from free
 //! coordinates by formulas. A product is 0 where a factor is; |X| is X or −X; λc + μ = 0 is solved for
 //! c where λ ≠ 0, and what that leaves out is λ = μ = 0; a c² + b c + d = 0 in the same way, once for
-//! each root. docs/soundness.md, "Level sets".
+//! each root. docs/soundness-levels.md, "Level sets".
 
 mod closure;
 mod combinations;

@@ -7,8 +7,8 @@ use num_traits::Zero;
 use super::{Cover, Part, combinations};
 use crate::graph::{Expr, Fault, Graph, Step, literally, record};
 use crate::mechanics::{Draw, Phase};
+use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
-use crate::number::{BinaryOperation, UnaryFunction};
 use crate::proof::{Extent, Factors, Inverted, Rationalised, vanishing_root};
 use crate::scalar::Scalar;
 
@@ -189,19 +189,18 @@ impl Node {
 
     /// Divides by the factors of an equation; `None` if it is no product, root or modulus.
     pub fn factors(&self, index: usize) -> Option<Vec<Self>> {
-        let (mut open, mut factors) = (vec![self.graph.place(self.equations[index])], Vec::new());
-        let mut is_product = false;
-        while let Some(place) = open.pop() {
-            match self.graph.step(place) {
-                Step::Unary(UnaryFunction::Neg, a) => open.push(a),
-                Step::Binary(BinaryOperation::Mul, a, b) => {
-                    is_product = true;
-                    open.extend([b, a]);
-                }
-                Step::Unary(UnaryFunction::Sqrt | UnaryFunction::Abs, a) => {
-                    is_product = true;
-                    open.push(a);
-                }
+        let inside = |step: Step<'_>| match step {
+            Step::Unary(UnaryFunction::Sqrt | UnaryFunction::Abs, a) => Some(a),
+            _ => None,
+        };
+        let whole = self.graph.place(self.equations[index]);
+        let (mut factors, mut is_product) = (Vec::new(), false);
+        let mut unsigned = whole;
+        for (place, step) in self.graph.factors_at(whole, inside) {
+            // What is walked first, but for signs, is the value itself if it is no product.
+            is_product |= place != unsigned;
+            match step {
+                Step::Unary(UnaryFunction::Neg, a) => unsigned = a,
                 // A quotient is 0 where its numerator is.
                 Step::Unary(UnaryFunction::Recip, _) => {}
                 Step::Constant(value) if !value.is_zero() => {}

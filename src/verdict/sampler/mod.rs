@@ -10,6 +10,7 @@ mod numerical;
 mod place_parts;
 mod print;
 mod ranges;
+mod void_signs;
 
 pub use branches::Branch;
 pub use maker::Maker;
@@ -75,6 +76,10 @@ pub struct Sampler {
 impl Sampler {
     /// Makes a sampler of states at `place`.
     pub fn new(case: &Case, place: &LevelSubset, seed: u64) -> Result<Self, Fault> {
+        Self::of_place(case, place, seed)?.without_void_signs(case)
+    }
+
+    fn of_place(case: &Case, place: &LevelSubset, seed: u64) -> Result<Self, Fault> {
         let (model, kept) = (&case.model, &place.kept);
         let some = kept.iter().any(|kept| *kept);
         let is_charted = match &case.chart {

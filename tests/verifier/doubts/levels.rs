@@ -66,7 +66,7 @@ fn a_witness_with_a_root_of_nothing_is_printed() {
 
 #[test]
 fn dependent_level_equations_are_told() {
-    for second in ["x² = 1", "exp(x) = e", "0*x = 0"] {
+    for second in ["exp(x) = e", "0*x = 0"] {
         let text = format!(
             "title = 'x'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = '0*x'\n\"y'\" = 'x'\n\
              [level]\nequations = ['x = 1', '{second}']\n"
@@ -84,7 +84,9 @@ fn level_equations_that_follow_from_others_are_left_out() {
              [[claim]]\nidentity = 'x² = x'\n"
         )
     };
-    for second in ["x = 1", "2*x = 2", "a*x + 2*x = a*x + 2", "(x + 1)² − x² = 3"] {
+    for second in
+        ["x = 1", "2*x = 2", "a*x + 2*x = a*x + 2", "(x + 1)² − x² = 3", "x² = 1", "y*a*x = a*y"]
+    {
         let case = Case::parse(&text(second), &[]).expect("a case");
         let remark = "follows from the other equations of the level, and is left out";
         assert!(

@@ -20,6 +20,7 @@ mod merge;
 mod plan;
 mod points;
 mod presence;
+mod product;
 mod recording;
 mod scaled;
 mod simplify;

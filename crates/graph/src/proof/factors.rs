@@ -3,16 +3,22 @@
 use crate::graph::{Expr, Graph, Step};
 
 use super::exponentials::{Exponentials, Variable};
-use super::polynomial::{Fraction, Polynomial, Span, fraction, fraction_of};
-use crate::number::UnaryFunction;
+use super::polynomial::{Fraction, MOST_WORK, Polynomial, Span, fraction, fraction_of};
 use crate::number::rational::Rational;
+use crate::number::{BinaryOperation, UnaryFunction};
 use crate::scalar::Scalar;
 
-/// Reads a value as a polynomial in the inputs.
+/// Reads a value as a polynomial in inputs and in values that are no sums and no products, by their places.
 fn polynomial(graph: &Graph, value: Expr) -> Option<Polynomial> {
-    let read = fraction(graph, graph.place(value), &|_, step| match step {
-        Step::Input(input) => u32::try_from(input).ok().map(Polynomial::variable),
-        _ => None,
+    let read = fraction(graph, graph.place(value), &|at, step| {
+        let is_part = match step {
+            Step::Constant(_) | Step::Unary(UnaryFunction::Neg, _) => false,
+            Step::Unary(UnaryFunction::Recip, a) => !matches!(graph.step(a), Step::Constant(_)),
+            Step::Input(_) | Step::Unary(..) => true,
+            Step::Binary(operation, ..) => operation == BinaryOperation::Pow,
+            Step::Power(_, exponent) => exponent.to_integer().is_none_or(|power| power < 0),
+        };
+        is_part.then(|| u32::try_from(at).ok().map(Polynomial::variable)).flatten()
     })?;
     read.polynomial()
 }
@@ -234,8 +240,9 @@ pub struct LinearDependence {
 }
 
 impl LinearDependence {
-    /// Finds values, among those that may be left out, that are combinations of the others left, the
-    /// last ones first. Values that are no polynomials in the inputs as they stand are passed over.
+    /// Finds values, among those that may be left out, that are combinations of the others left, or multiples of one
+    /// of them, the last ones first. All are recorded literally, and are polynomials in inputs and other values;
+    /// what needs more than the others to have a value stays.
     pub fn of(graph: &Graph, values: &[Expr], may_be_left_out: &[bool]) -> Self {
         let mut polynomials: Vec<Option<Polynomial>> =
             values.iter().map(|value| polynomial(graph, *value)).collect();
@@ -256,7 +263,15 @@ impl LinearDependence {
             let Some(own) = polynomials[index].take() else { continue };
             let mut others = Span::default();
             polynomials.iter().flatten().for_each(|other| others.add(other));
-            match others.rest(&own).is_zero() {
+            let is_multiple = |other: &Polynomial| own.over(other, &mut { MOST_WORK }).is_some();
+            let follows =
+                others.rest(&own).is_zero() || polynomials.iter().flatten().any(is_multiple);
+            let left = values
+                .iter()
+                .enumerate()
+                .filter(|(other, _)| *other != index && !implied.contains(other));
+            let left: Vec<Expr> = left.map(|(_, value)| *value).collect();
+            match follows && graph.left_out(&left, &[values[index]]).is_empty() {
                 true => implied.push(index),
                 false => polynomials[index] = Some(own),
             }
@@ -271,7 +286,7 @@ mod tests {
     use num_dual::DualNum;
 
     use super::*;
-    use crate::graph::{Evaluator, Tape, record};
+    use crate::graph::{Evaluator, Tape, literally, record};
     use crate::number::rational::Rational;
     use crate::proof::rng::ProofRng;
 
@@ -364,10 +379,21 @@ mod tests {
         assert_eq!(dependence(&|x| with(x, x[0] + x[1] * two + x[2] * 2.000001 - three)), none);
         let contradiction = dependence(&|x| with(x, x[0] + x[1] * two + x[2] - 4.0));
         assert_eq!(contradiction.contradiction, Some(2));
-        // A multiple by a variable says nothing where the variable is 0, and the other way round.
-        assert_eq!(dependence(&|x| with(x, x[0] * (x[0] + x[1] - one))), none);
+        // A multiple by a variable says nothing where the variable is 0, and follows everywhere.
+        assert_eq!(dependence(&|x| with(x, x[0] * (x[0] + x[1] - one))), left_out(&[2]));
         assert_eq!(dependence(&|x| with(x, x[0] - x[0] + x[1] * 0.0)), none, "no equation");
         assert_eq!(dependence(&|x| with(x, (x[0] + x[1] - one).sin())), none);
+        let of_functions = |x: &[Expr]| [x[0].exp() - x[2], x[1].sin() - x[0] * x[1].sqrt()];
+        let third = |x: &[Expr]| {
+            let [f, g] = of_functions(x);
+            vec![f, g, f * two - g * three]
+        };
+        assert_eq!(dependence(&third), left_out(&[2]), "in functions");
+        let more = |x: &[Expr]| {
+            let [f, g] = of_functions(x);
+            vec![f, g, literally(|| f * two - g * three + x[2].ln() - x[2].ln())]
+        };
+        assert_eq!(dependence(&more), none, "ln z has a value for z > 0 alone");
         let twice = dependence(&|x| vec![x[0] - one, x[0] * two - two, x[0] * three - three]);
         assert_eq!(twice, left_out(&[1, 2]));
     }

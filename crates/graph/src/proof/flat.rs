@@ -1,8 +1,8 @@
 //! Factors whose slopes are 0 wherever they are.
 
 use crate::graph::{Expr, Graph, Step};
+use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
-use crate::number::{BinaryOperation, UnaryFunction};
 
 use super::factors::{Read, is_square};
 use super::polynomial::{MOST_WORK, Polynomial};
@@ -10,12 +10,11 @@ use super::polynomial::{MOST_WORK, Polynomial};
 /// Whether a value has a factor whose slopes are 0 at all its zeros, and which has zeros, as far as its form
 /// shows: a power, a square that is written out, a sum of squares, 1 − cos u. Newton's method finds no zeros of it.
 pub fn has_flat_factor(graph: &Graph, value: Expr) -> bool {
-    let (mut open, mut factors) = (vec![graph.place(value)], Vec::new());
-    while let Some(place) = open.pop() {
-        match graph.step(place) {
-            Step::Unary(UnaryFunction::Neg, a) => open.push(a),
-            Step::Binary(BinaryOperation::Mul, a, b) => open.extend([a, b]),
-            Step::Constant(_) | Step::Unary(UnaryFunction::Recip | UnaryFunction::Exp, _) => {}
+    let mut factors = Vec::new();
+    for (place, step) in graph.factors_at(graph.place(value), |_| None) {
+        match step {
+            Step::Constant(_)
+            | Step::Unary(UnaryFunction::Neg | UnaryFunction::Recip | UnaryFunction::Exp, _) => {}
             Step::Power(_, exponent) if *exponent > Rational::from(1) => return true,
             _ if factors.contains(&place) => return true,
             _ => factors.push(place),

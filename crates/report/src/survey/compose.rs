@@ -43,6 +43,7 @@ pub fn of_claims(case: &Case, report: &CaseReport, seed: u64, origin: &str) -> D
     let lists = lists.into_iter().chain([("Parameters:", own.parameters)]);
     let stated = lists.filter(|(_, lines)| !lines.is_empty());
     let told = report.warnings.iter().map(|warning| text(format!("Warning: {warning}.")));
+    let told = told.chain(report.remarks.iter().map(|remark| text(format!("Remark: {remark}."))));
     let sections = [
         DocumentSection::new(
             "The system",
@@ -120,6 +121,7 @@ fn system(survey: &Survey) -> Vec<SectionBlock> {
     found.push(SectionBlock::Folded("how each was decided", grounds.collect()));
     found.extend(survey.notes.iter().map(|note| text(format!("Note: {note}"))));
     found.extend(survey.warnings.iter().map(|warning| text(format!("Warning: {warning}."))));
+    found.extend(survey.remarks.iter().map(|remark| text(format!("Remark: {remark}."))));
     found
 }
 

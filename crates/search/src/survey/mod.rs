@@ -37,7 +37,7 @@ mod tests;
 
 use serde::Serialize;
 
-use liouville::case::{Case, Expect};
+use liouville::case::{Case, Expect, NO_CLAIMS};
 use liouville::mechanics::TIME;
 use liouville::verdict::{JudgeError, Options, Verdict};
 use liouville_flow::observe::evidence_against_density;
@@ -124,6 +124,9 @@ pub struct Survey {
     pub search: SearchOutcome,
     /// Physical impossibilities of the states drawn.
     pub warnings: Vec<String>,
+    /// Remarks on what the file says.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub remarks: Vec<String>,
 }
 
 /// Tries all known formulas on a case; `progress` is called with a description of the next part, whose
@@ -260,6 +263,7 @@ fn of_all_values(
         undecided: sorted.undecided,
         search,
         warnings: own.warnings,
+        remarks: own.remarks.into_iter().filter(|own| own != NO_CLAIMS).collect(),
     })
 }
 

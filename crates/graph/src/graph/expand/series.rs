@@ -88,6 +88,14 @@ impl Series {
         }
     }
 
+    /// Whether the form shows that the value tends to −∞ like a power of 1/δ.
+    fn tends_below_all(&self) -> bool {
+        let Ok(((order, logs), value)) = self.leading() else { return false };
+        // ln δ is negative.
+        let is_even = logs.rem_euclid(2) == 0;
+        order < 0 && value.folded().is_some_and(|c| !c.is_zero() && c.is_negative() == is_even)
+    }
+
     fn scaled(&self, by: Expr) -> Self {
         self.shifted(by, (0, 0))
     }
@@ -285,6 +293,10 @@ impl Arithmetic {
 
     /// Computes e^a.
     pub fn exponential(&mut self, a: &Series) -> Result<Series, Failure> {
+        if a.tends_below_all() {
+            // Smaller than every power of δ.
+            return Ok(Series { terms: BTreeMap::new(), end: LARGEST });
+        }
         let (first, rest) = a.around_zero()?;
         if first.keys().any(|logs| !(0..=1).contains(logs)) {
             return Err(Failure::Form);

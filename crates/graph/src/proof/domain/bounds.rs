@@ -232,7 +232,8 @@ impl Reach<'_> {
                 }
                 Rule::Unary(UnaryFunction::Ln, a) => [Some((a, Extent::POSITIVE)), None],
                 Rule::Power(a, exponent) if exponent.to_integer().is_none() => {
-                    [Some((a, Extent::POSITIVE)), None]
+                    let inverse = exponent.recip().map(|own| value.within(true).power(&own));
+                    [Some((a, inverse.unwrap_or(Extent::POSITIVE).within(true))), None]
                 }
                 Rule::Raised(a, _) => [Some((a, Extent::POSITIVE)), None],
                 Rule::Sum(a, b) if a != b => {

@@ -2,6 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use num_traits::{Signed, ToPrimitive};
+
 use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
 
@@ -71,7 +73,7 @@ impl Extent {
         match exponent.to_integer() {
             // Roots and powers of positive numbers are positive.
             None if self.high < 0.0 => Self::EMPTY,
-            None => Self::POSITIVE,
+            None => self.within(true).broken_power(exponent).unwrap_or(Self::POSITIVE),
             Some(n) if n.unsigned_abs() <= MOST_POWER => {
                 let power = self.whole_power(n.unsigned_abs());
                 if n < 0 { power.reciprocal() } else { power }
@@ -79,6 +81,36 @@ impl Extent {
             Some(n) if n % 2 == 0 => Self::POSITIVE,
             Some(_) => self.sign().map_or(Self::ALL, |positive| Self::ALL.within(positive)),
         }
+    }
+
+    /// Computes x^(a/b) of numbers that are not negative; `None` for large a or b.
+    fn broken_power(self, exponent: &Rational) -> Option<Self> {
+        /// Largest a and b.
+        const MOST: u64 = 64;
+        let (above, below) = exponent.parts();
+        let (above, below) = (above.abs().to_u64()?, below.to_u64()?);
+        if above > MOST || below > MOST {
+            return None;
+        }
+        let end = |x: f64| Self { low: x, high: x }.whole_power(above).root(below);
+        let power = Self { low: end(self.low).low, high: end(self.high).high };
+        Some(if exponent.is_negative() { power.reciprocal() } else { power })
+    }
+
+    /// Encloses the numbers that are not negative and whose n-th power is such a number.
+    fn root(self, n: u64) -> Self {
+        /// Shares by which an estimate is moved until its power shows that it is a bound.
+        const SHARES: [f64; 3] = [1e-15, 1e-12, 1e-6];
+        let bound = |x: f64, side: f64| {
+            let near = libm::pow(x, 1.0 / n as f64);
+            SHARES.into_iter().map(|share| near * (1.0 + side * share)).find(|end| {
+                let power = Self { low: *end, high: *end }.whole_power(n);
+                if side > 0.0 { power.low >= x } else { power.high <= x }
+            })
+        };
+        let low = if self.low > 0.0 { bound(self.low, -1.0) } else { None };
+        let high = if self.high < f64::INFINITY { bound(self.high, 1.0) } else { None };
+        Self { low: low.unwrap_or(0.0), high: high.unwrap_or(f64::INFINITY) }
     }
 
     /// Computes x^n.

@@ -38,6 +38,25 @@ fn sines_and_powers_hold_their_values() {
             assert!(inside(power, at.powi(n as i32)), "{at}^{n} in {extent:?}: {power:?}");
         }
     }
+    for round in 0..2000 {
+        let low = if round % 9 == 0 { 0.0 } else { libm::exp(20.0 * share() - 10.0) };
+        let width = if low == 0.0 { 1.0 } else { low };
+        let extent = Extent { low, high: low + width * share() };
+        let at = low + share() * (extent.high - low);
+        for (above, below) in [(1, 3), (-1, 3), (2, 3), (7, 5), (-3, 4), (1, 64), (63, 2)] {
+            let power = extent.power(&Rational::new(above, below));
+            let value = libm::pow(at, above as f64 / below as f64);
+            let slack = 1e-11 * value;
+            assert!(
+                power.low <= value + slack && value - slack <= power.high,
+                "{at}^{above}/{below}"
+            );
+            let is_narrow = power.high <= power.low * (2.1 + 2e-6) || above.abs() > below;
+            assert!(low == 0.0 || is_narrow, "{extent:?}^{above}/{below}: {power:?}");
+            let back = power.power(&Rational::new(below, above));
+            assert!(back.low <= at * (1.0 + 1e-9) && at <= back.high * (1.0 + 1e-9), "{at}");
+        }
+    }
     let narrow = Extent { low: 0.3, high: 1.0 };
     assert!(narrow.unary(UnaryFunction::Cos).low > 0.54, "cos is positive from 0.3 to 1");
     let odd = Extent { low: -2.0, high: 3.0 }.power(&Rational::from(3));

@@ -2,9 +2,34 @@
 
 use crate::number::rational::Rational;
 
-use super::{MOST_WORK, Polynomial};
+use super::{MOST_WORK, Polynomial, Span};
 
 impl Polynomial {
+    /// Returns several polynomials of degree 1 that are all 0 at exactly the real points at which this one is, a sum of
+    /// squares with factors of one sign; their slopes along the coordinates, which are some of the variables, are
+    /// independent. `None` if it is none.
+    pub fn independent_squares(&self, is_coordinate: impl Fn(u32) -> bool) -> Option<Vec<Self>> {
+        let mut slopes = Span::default();
+        let once = |own: Self| {
+            let [only] = <[Self; 1]>::try_from(own.factors()).ok()?;
+            let mut slope = Self::default();
+            for (value, powers) in only.terms() {
+                match powers {
+                    [] => {}
+                    [(variable, 1)] if is_coordinate(*variable) => {
+                        slope = slope.plus(&Self::variable(*variable).scaled(value));
+                    }
+                    [(_, 1)] => {}
+                    _ => return None,
+                }
+            }
+            let is_independent = !slopes.rest(&slope).is_zero();
+            slopes.add(&slope);
+            is_independent.then_some(only)
+        };
+        self.squares()?.into_iter().map(once).collect()
+    }
+
     /// Returns several polynomials l with p = Σ d l², where all numbers d have one sign: p is 0 at exactly the real
     /// points at which all of them are. One that is a number says that there are none. `None` if no such sum is
     /// found by completing squares, one variable after another.
@@ -79,6 +104,21 @@ mod tests {
             let own = own.plus(&Polynomial::constant(&Rational::from(*d)));
             sum.plus(&square(&own).scaled(&Rational::from(*factor)))
         })
+    }
+
+    #[test]
+    fn sums_of_independent_squares_are_told_from_others() {
+        let count = |p: &Polynomial| p.independent_squares(|_| true).map(|all| all.len());
+        assert_eq!(count(&sum(&[(1, [1, 0, 0, -1]), (4, [1, 2, 0, 3])])), Some(2));
+        let cyclic = sum(&[(1, [1, -1, 0, 0]), (1, [0, 1, -1, 0]), (1, [1, 0, -1, 0])]);
+        assert_eq!(count(&cyclic), Some(2), "x = y = z");
+        assert_eq!(count(&sum(&[(1, [1, 0, 0, 0]), (1, [0, 0, 0, 3])])), None, "x² + 9");
+        let [x, y] = [0, 1].map(Polynomial::variable);
+        assert_eq!(count(&square(&square(&x)).plus(&square(&y))), Some(2), "x⁴ + y²");
+        let product = x.times(&y, &mut { MOST_WORK }).expect("small");
+        assert_eq!(count(&square(&x).plus(&square(&product))), None, "x = 0, xy = 0");
+        let of_one = square(&x).plus(&square(&y)).independent_squares(|own| own == 0);
+        assert_eq!(of_one, None, "y has no slope along x");
     }
 
     #[test]
