@@ -138,7 +138,7 @@ pub enum JudgeError {
         by: String,
     },
     /// The motion leaves the level set.
-    #[error("the level set is not invariant: along the motion `{equation}` changes at rate {rate}")]
+    #[error("the level set is not invariant: the motion leaves `{equation}` at rate {rate}")]
     NotInvariant {
         /// Equation that is not invariant.
         equation: String,

@@ -28,6 +28,7 @@ mod many_variables;
 mod masses;
 mod merge;
 mod mutated;
+mod nesting;
 mod newton_euler;
 mod numerical_levels;
 mod poles;

@@ -169,7 +169,7 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
         ),
         (
             "singular-level",
-            turning("[level]\nequations = ['(x*exp(x) + y*exp(y))^3 = 0']"),
+            turning("[level]\nequations = ['(x*exp(x) + y*exp(y))*(exp(x*exp(x) + y*exp(y)) − 1) = 0']"),
             "no state on the level set",
             "may not all vanish",
         ),
