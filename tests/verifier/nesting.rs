@@ -5,7 +5,7 @@ use liouville::verdict::evaluate;
 
 fn case(formula: &str) -> String {
     format!(
-        "title = 't'\n[state]\nx = '1..2'\nγ = 'vector(1..2)'\n[field]\n\"x'\" = '1'\n\"γ'\" = '[0, 0, 0]'\n\
+        "title = 't'\n[state]\nx = '1..2'\n\"γ\" = 'vector(1..2)'\n[field]\n\"x'\" = '1'\n\"γ'\" = '[0, 0, 0]'\n\
          [[claim]]\nintegral = '{formula}'\n"
     )
 }

@@ -108,3 +108,11 @@ fn close(a: &Value<f64>, b: &Value<f64>) -> bool {
     let size = b.iter().fold(1.0, |size: f64, x| size.max(x.abs()));
     a.len() == b.len() && a.iter().zip(&b).all(|(a, b)| (a - b).abs() <= 1e-9 * size)
 }
+
+/// Runs a test of formulas that nest: frames that are not optimised are too large for the stack of a test.
+fn on_a_large_stack(test: impl FnOnce() + Send + 'static) {
+    let thread = std::thread::Builder::new().stack_size(16 << 20).spawn(test).expect("a thread");
+    if let Err(panic) = thread.join() {
+        std::panic::resume_unwind(panic);
+    }
+}

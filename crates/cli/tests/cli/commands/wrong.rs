@@ -308,7 +308,7 @@ fn starts_without_a_value_are_told_alike_by_all_commands() {
         &["chart", &case, "--x", "a=1..2", "--y", "a=1..2"],
     ] {
         let found = liouville(&[&["motion"], command].concat()).assert().code(2);
-        found.stderr(contains("along the motion `x² + 2*y² = 1` changes"));
+        found.stderr(contains("the motion leaves `x² + 2*y² = 1` at rate"));
     }
 }
 
