@@ -173,6 +173,12 @@ fn wrong_input_gets_a_clear_message_and_exit_code_2() {
             "no state on the level set",
             "may not all vanish",
         ),
+        (
+            "left-squares",
+            turning("[level]\nequations = ['x² + (y − 1)² = 0']"),
+            "left-squares.toml:9:15",
+            "the motion stays on it",
+        ),
         ("no-level", turning("[level]\nequations = ['1 = 0']"), "contains no state variable", "leave it out"),
         (
             "open-level",
