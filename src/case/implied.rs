@@ -44,7 +44,7 @@ pub fn leave_out(
 
 /// Whether an equation of the level is one of these texts, or an entry of one.
 pub fn is_one_of(equation: &LevelEquation, texts: &[String]) -> bool {
-    texts.iter().any(|own| own == equation.whole_text())
+    texts.iter().any(|own| own == equation.written())
 }
 
 /// Leaves out constraints of a nonholonomic system on velocities that are combinations of the others with rational

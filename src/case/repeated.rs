@@ -29,7 +29,7 @@ pub fn count_factors_once(
         let is_alone = found.len() == 1;
         remarks.push(match is_alone {
             true => format!(
-                "each factor of `{text}` counts once: it has the same zeros, and slopes and densities are \
+                "each factor of `{text}` counts once: the zeros are the same, and slopes and densities are \
                  those of the simple factors"
             ),
             false => format!("`{text}` is a sum of squares, and says that each of them is 0"),

@@ -1,4 +1,4 @@
-//! Kinks of a body's surface, which the criterion for a density takes for smooth.
+//! Kinks of a body's surface, which the criterion for a density takes for smooth, and of maps.
 
 use num_dual::DualNum;
 use num_traits::One;
@@ -14,6 +14,15 @@ pub(super) fn remark(model: &Model) -> Option<String> {
     may_have_kinks(model).then(|| {
         "it is not known that the surface is smooth for all γ: the density is positive and smooth where \
          the support function is"
+            .to_string()
+    })
+}
+
+/// Returns the remark for a map with a modulus.
+pub(super) fn of_map(graph: &Graph, image: &[Expr]) -> Option<String> {
+    let is_modulus = |step: Step<'_>| matches!(step, Step::Unary(UnaryFunction::Abs, _));
+    graph.has_step(image, is_modulus).then(|| {
+        "the map has kinks where what is in |…| is 0, and may take states on both sides to one"
             .to_string()
     })
 }

@@ -31,7 +31,7 @@ impl LevelSubset {
         let exact = model.level.iter().position(|equation| plain(&equation.text) == wanted);
         let kept: Vec<bool> = match exact {
             Some(index) => (0..model.level.len()).map(|other| other == index).collect(),
-            None => model.level.iter().map(|own| plain(own.whole_text()) == wanted).collect(),
+            None => model.level.iter().map(|own| plain(own.written()) == wanted).collect(),
         };
         kept.contains(&true).then_some(Self { kept })
     }

@@ -3,12 +3,11 @@
 use super::clock::clock;
 use super::elsewhere::{one_antiderivative, system_at, written_at};
 use super::statement::open_constant;
-use super::{Condition, Jets, Need, Reader, Statement, difference, quadrature_defects};
+use super::{Condition, Jets, Need, Reader, Statement, difference, kinks, quadrature_defects};
 use crate::formula::{Formula, Type};
-use crate::graph::{Expr, Step, record};
+use crate::graph::{Expr, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{Dependence, Meaning, Model, Phase, TIME, Variable};
-use crate::number::UnaryFunction;
 use crate::scalar::Scalar;
 
 /// A map σ of phase space to itself, which may change parameters too.
@@ -95,12 +94,7 @@ impl Transformation {
             let (parameters, state) = inputs.split_at(parameters);
             self.image(&Phase::new(model, parameters, state))
         });
-        let is_modulus = |step: Step<'_>| matches!(step, Step::Unary(UnaryFunction::Abs, _));
-        let has_kinks = recorded.is_ok_and(|(graph, image)| graph.has_step(&image, is_modulus));
-        has_kinks.then(|| {
-            "the map has kinks where what is in |…| is 0, and may take states on both sides to one"
-                .to_string()
-        })
+        recorded.ok().and_then(|(graph, image)| kinks::of_map(&graph, &image))
     }
 
     /// Computes σ(x).

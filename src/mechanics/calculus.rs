@@ -6,7 +6,8 @@ use std::cell::OnceCell;
 use num_dual::Dual;
 
 use super::elimination::transversals;
-use super::model::{LevelFunction, Model};
+use super::level_equation::LevelFunction;
+use super::model::Model;
 use super::phase::Phase;
 use super::variables::VariablesJet;
 use crate::formula::Formula;

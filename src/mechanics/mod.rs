@@ -14,6 +14,7 @@ mod flat_base;
 mod hamiltonian;
 pub mod iterate;
 mod lagrangian;
+mod level_equation;
 mod linear;
 mod listed;
 mod memo;
@@ -44,11 +45,9 @@ pub use draws::DrawSource;
 pub use flat_base::FlatBase;
 pub use hamiltonian::HamiltonianSystem;
 pub use lagrangian::{Algebra, EquationTerms, Lagrangian, LagrangianEquations, VariableRole};
+pub use level_equation::{ENTRY, LevelEquation, LevelFunction, RootEquation, written};
 pub use listed::{ListedValues, combinations};
-pub use model::{
-    ENTRY, LevelEquation, LevelFunction, MatrixShape, Model, Parameter, ParameterOrigin,
-    RootEquation, TIME, Variable, components,
-};
+pub use model::{MatrixShape, Model, Parameter, ParameterOrigin, TIME, Variable, components};
 pub use parts::EquationPart;
 pub use phase::Phase;
 pub use quantity::{

@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use super::System;
+use super::level_equation::{LevelEquation, LevelFunction};
 use super::listed::ListedValues;
 use super::recipe::{Draw, SamplerSpec};
 use super::variables::NewVariables;
@@ -103,49 +104,6 @@ impl Variable {
 /// Number of components of a value of this type.
 pub fn components(kind: Type) -> usize {
     kind.size()
-}
-
-/// One equation F = 0 of the level set.
-#[derive(Clone, Debug)]
-pub struct LevelEquation {
-    /// Text of the equation as the user or the paper writes it, such as `(ω,γ) = 0`.
-    pub text: String,
-    /// Function F, a scalar.
-    pub function: LevelFunction,
-    /// Sides of the equation if one of them is a root: A = e² is solved in place of √A = e.
-    pub root: Option<RootEquation>,
-}
-
-/// Text between an equation and the place of an entry.
-pub const ENTRY: &str = ", entry ";
-
-impl LevelEquation {
-    /// Text of the equation, between vectors, say, of which this one is an entry, or its own.
-    pub fn whole_text(&self) -> &str {
-        self.text.split_once(ENTRY).map_or(&*self.text, |(text, _)| text)
-    }
-}
-
-/// An equation √A = e, or |x| = e.
-#[derive(Clone, Debug)]
-pub struct RootEquation {
-    /// Radicand A, or x.
-    pub radicand: Formula,
-    /// Whether the equation is |x| = e.
-    pub is_modulus: bool,
-    /// Other side e, which is not negative on the level.
-    pub other_side: Formula,
-}
-
-/// The function whose zeros are the points of a level equation.
-#[derive(Clone, Debug)]
-pub enum LevelFunction {
-    /// Function F0 = (γ,γ) - 1 of a rolling body or a ball.
-    UnitNormal,
-    /// Function F1 = (ω,γ) of the constraint that prevents spinning.
-    NoSpin,
-    /// The difference of the two sides of an equation.
-    Formula(Formula),
 }
 
 /// A mechanical system with its names and its level set, the subject of a case.

@@ -158,7 +158,6 @@ fn equations_that_follow_from_others_say_nothing_more() {
         let g = format!("({c})*{} + y", part(1));
         let both = [f.clone(), g.clone()];
         let claims = ["identity = \"x = 7\"", "identity = \"y^2*z = z*y*y\""];
-        let claims: Vec<&str> = claims.to_vec();
         let simple = judged(&both, &at_rest(), &claims).ok();
         for third in [
             format!("({d})*({f}) − 3*({g})"),

@@ -7,7 +7,7 @@ use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::FileFailure;
 use liouville::case::{CaseError, Mistake};
-use liouville::mechanics::ENTRY;
+use liouville::mechanics::written;
 use liouville::verdict::JudgeError;
 
 /// Failures for the mistakes in the file `path` with the text `source`.
@@ -29,8 +29,7 @@ fn of_mistake(path: &str, source: &str, mistake: &Mistake, colour: bool) -> File
 /// Failure for an error that prevents judging the case in the file `path` with the text `source`.
 pub fn of_judging(path: &str, source: &str, error: &JudgeError, colour: bool) -> FileFailure {
     let place = |text: &str| {
-        // One of several equations for which one is written.
-        let written = text.split_once(ENTRY).map_or(text, |(whole, _)| whole);
+        let written = written(text);
         source.find(written).map(|start| start..start + written.len())
     };
     let span = match error {

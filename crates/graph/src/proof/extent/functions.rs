@@ -73,7 +73,7 @@ impl Extent {
         match exponent.to_integer() {
             // Roots and powers of positive numbers are positive.
             None if self.high < 0.0 => Self::EMPTY,
-            None => self.within(true).broken_power(exponent).unwrap_or(Self::POSITIVE),
+            None => self.within(true).fractional_power(exponent).unwrap_or(Self::POSITIVE),
             Some(n) if n.unsigned_abs() <= MOST_POWER => {
                 let power = self.whole_power(n.unsigned_abs());
                 if n < 0 { power.reciprocal() } else { power }
@@ -84,7 +84,7 @@ impl Extent {
     }
 
     /// Computes x^(a/b) of numbers that are not negative; `None` for large a or b.
-    fn broken_power(self, exponent: &Rational) -> Option<Self> {
+    fn fractional_power(self, exponent: &Rational) -> Option<Self> {
         /// Largest a and b.
         const MOST: u64 = 64;
         let (above, below) = exponent.parts();
