@@ -157,3 +157,40 @@ fn multipliers(counts: &[MultiplierReport]) -> String {
     }
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use liouville_search::{CountReport, OrbitReport};
+
+    use super::*;
+
+    #[test]
+    fn numbers_say_what_is_counted() {
+        let count = |dimension, known| CountReport {
+            degree: 2,
+            mixed: true,
+            free: false,
+            dimension,
+            known,
+            unknowns: 5,
+            equations: 6,
+        };
+        let mut report = SearchReport { counts: vec![count(7, 6)], ..SearchReport::default() };
+        let header = "linearly independent integrals polynomial in the velocities, with any smooth \
+                      coefficients, products and constants included:\n";
+        assert!(text("x", &report).contains(header));
+        assert!(text("x", &report).contains("  7   1 of them not known"));
+        report.is_complete = true;
+        assert!(text("x", &report).contains("  7   1 of them a function of those known"));
+        report.counts = vec![count(8, 6), CountReport { mixed: false, ..count(2, 2) }];
+        assert!(text("x", &report).contains("  8   2 of them functions of those known"));
+        report.counts.remove(0);
+        assert!(text("x", &report).contains("products included:"), "constants are of degree 0");
+        report.orbits = vec![OrbitReport { degree: 2, monomials: 15, relations: 1, integrals: 1 }];
+        let own = "1 relation between the 15 monomials of degree at most 2 along an orbit: 1 algebraic integral\n";
+        assert!(text("x", &report).contains(own));
+        report.orbits[0].relations = 0;
+        let own = "no relation between the 15 monomials of degree at most 2 holds along an orbit\n";
+        assert!(text("x", &report).contains(own));
+    }
+}

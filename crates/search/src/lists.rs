@@ -3,8 +3,8 @@
 //! A find is proved for all listed values. A theorem of absence holds for the values of its count: so it
 //! is computed for each combination of values, or names those for which it is stated.
 
-use super::orbit::OrbitReport;
 use super::hypotheses::headed;
+use super::orbit::OrbitReport;
 use super::origin::RemarkOrigin;
 use super::{Effort, Excluded, Found, SearchError, SearchReport};
 use liouville::case::Case;
@@ -239,7 +239,9 @@ pub fn name_first(
     let outcome = run(case, effort, report, progress);
     if let Some(values) = first_values(case) {
         let stated = report.excluded.split_off(before);
-        report.excluded.extend(stated.into_iter().map(|own| named(own, &values, &case.model, &case.model)));
+        report
+            .excluded
+            .extend(stated.into_iter().map(|own| named(own, &values, &case.model, &case.model)));
     }
     outcome
 }

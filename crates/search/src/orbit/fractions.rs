@@ -75,9 +75,9 @@ pub fn sentence(case: &Case, statement: &str) -> String {
 /// are none of a lower degree says less.
 pub fn is_covered(report: &SearchReport, degree: u32) -> bool {
     let is_of_all = |own: &Excluded| own.origin == TheoremOrigin::Orbit && own.known > 0;
-    (degree..=DEGREE).map(family).any(|family| {
-        report.excluded.iter().any(|own| is_of_all(own) && own.ansatz == family)
-    })
+    (degree..=DEGREE)
+        .map(family)
+        .any(|family| report.excluded.iter().any(|own| is_of_all(own) && own.ansatz == family))
 }
 
 /// Family of a theorem.

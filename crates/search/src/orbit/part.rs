@@ -332,6 +332,7 @@ impl VariableSet {
         };
         let names: Vec<String> = setting.terms.iter().map(ToString::to_string).collect();
         let statement = no_others::statement(&names.join(", "), shown.degree, &known);
+        let statement = no_others::explained(setting, statement, &known, &[], report)?;
         // The theorem of a shorter search.
         report.excluded.retain(|own| own.origin != TheoremOrigin::Darboux);
         report.excluded.push(Excluded {
