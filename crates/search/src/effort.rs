@@ -89,7 +89,7 @@ impl FurtherTerm {
                 let read = Formula::parse(text, &model.vocabulary);
                 let formula = read.map_err(|error| unread(error.to_string()))?;
                 match formula.value_type() {
-                    Type::Scalar => Ok(primitive(formula, model)),
+                    Type::Scalar => Ok(formula),
                     _ => Err(unread("it is not a scalar".to_string())),
                 }
             }
@@ -97,8 +97,8 @@ impl FurtherTerm {
     }
 }
 
-/// A term without a number as its first factor or last divisor: terms have coefficients of their own.
-fn primitive(term: Formula, model: &Model) -> Formula {
+/// A term of a sum without a number as its first factor or last divisor: it has a coefficient of its own.
+pub fn primitive(term: Formula, model: &Model) -> Formula {
     let is_number = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_digit());
     let number = |text: &str| text.parse::<i64>().ok().map(Formula::number);
     let text = term.text();
@@ -133,7 +133,7 @@ mod tests {
         let case = Case::parse(text, &[]).expect("a case");
         let read = |text: &str| {
             let term = FurtherTerm::from(text).read(&case.model).expect("a term");
-            term.text().to_string()
+            primitive(term, &case.model).text().to_string()
         };
         for (text, expected) in [
             ("K*cos(x)/4", "K*cos(x)"),
