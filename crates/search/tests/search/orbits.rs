@@ -22,7 +22,7 @@ use std::time::{Duration, Instant};
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::verdict::{Options, Verdict};
-use liouville_search::{Effort, Halt, SearchReport, search};
+use liouville_search::{Effort, Excluded, Halt, SearchReport, search};
 
 fn searched(text: &str, effort: &Effort) -> SearchReport {
     let case = Case::parse(text, &[]).expect("a case");
