@@ -31,13 +31,37 @@ pub fn simpler_forms(
 ) -> Vec<SimplerForm> {
     let Some(read) = ReadValue::of(graph, value, first, names) else { return Vec::new() };
     let divides = read.whole.below.number().is_none();
-    let over = match divides {
-        true => format!("/({})", read.whole.below.text(&read.names)),
-        false => String::new(),
+    let whole = |text: String| match divides {
+        true => format!("({text})/({})", read.whole.below.text(&read.names)),
+        false => text,
     };
     let forms = [read.factored(), read.collected()];
-    let found = forms.into_iter().flatten().filter(|text| text.len() < MOST_LETTERS);
-    found.map(|text| SimplerForm { text: format!("({text}){over}"), divides }).collect()
+    let found = forms.into_iter().flatten().map(|text| whole(text).replace(" + -", " - "));
+    found
+        .filter(|text| text.len() < MOST_LETTERS)
+        .map(|text| SimplerForm { text, divides })
+        .collect()
+}
+
+/// Writes c Π f^m with f in brackets where it is a sum.
+fn product(coefficient: String, factors: impl Iterator<Item = (String, bool, u32)>) -> String {
+    let mut all: Vec<String> = Vec::new();
+    let sign = match coefficient.as_str() {
+        "1" => "",
+        "-1" => "-",
+        _ => {
+            all.push(coefficient);
+            ""
+        }
+    };
+    all.extend(factors.filter(|(.., power)| *power > 0).map(|(text, is_sum, power)| {
+        let base = if is_sum { format!("({text})") } else { text };
+        if power == 1 { base } else { format!("{base}^{power}") }
+    }));
+    match all.is_empty() {
+        true => format!("{sign}1"),
+        false => format!("{sign}{}", all.join("*")),
+    }
 }
 
 /// Divides a fraction by what divides both of its parts; a denominator that is a number becomes 1.
@@ -96,15 +120,16 @@ impl ReadValue {
     fn factored(&self) -> Option<String> {
         let mut rest = self.whole.above.clone();
         let mut work = MOST_WORK;
-        let mut written = String::new();
+        let mut factors = Vec::new();
         for factor in rest.factors() {
             let mut count = 0;
             while let Some(less) = rest.over(&factor, &mut work) {
                 (rest, count) = (less, count + 1);
             }
-            written += &format!("*({})^{count}", factor.text(&self.names));
+            let is_sum = factor.as_term().is_none_or(|(_, powers)| powers.len() > 1);
+            factors.push((factor.text(&self.names), is_sum, count));
         }
-        Some(format!("({}){written}", rest.number()?))
+        Some(product(rest.number()?.to_string(), factors.into_iter()))
     }
 
     /// Writes Σ c x^k.
@@ -112,11 +137,14 @@ impl ReadValue {
         let is_own = |variable: &u32| self.is_own[*variable as usize];
         let own: Vec<u32> = self.whole.above.variables().into_iter().filter(is_own).collect();
         let power = |(variable, exponent): (&u32, &u32)| {
-            format!("*({})^{exponent}", self.names[*variable as usize])
+            (self.names[*variable as usize].clone(), false, *exponent)
         };
         let term = |(powers, coefficient): (&Vec<u32>, &Polynomial)| {
-            let present = own.iter().zip(powers).filter(|(_, exponent)| **exponent > 0);
-            format!("({}){}", coefficient.text(&self.names), present.map(power).collect::<String>())
+            let coefficient = match coefficient.number() {
+                Some(number) => number.to_string(),
+                None => format!("({})", coefficient.text(&self.names)),
+            };
+            product(coefficient, own.iter().zip(powers).map(power))
         };
         let terms: Vec<String> = self.whole.above.collected(&own).iter().map(term).collect();
         (!terms.is_empty()).then(|| terms.join(" + "))
@@ -189,11 +217,10 @@ mod tests {
     fn values_are_divided_into_factors_and_collected() {
         let own = forms(|v| v[0] * v[1] * v[2].modulus() - v[1] * v[2].modulus() * 3.0);
         assert_eq!(own.len(), 2);
-        assert!(own[0].contains("(x)^1") && own[0].contains("abs(y)"), "{own:?}");
-        assert_eq!(own[1], "((-3 + a)*(x)^1*(abs(y))^1)", "{own:?}");
+        assert_eq!(own[1], "(a - 3)*x*abs(y)", "{own:?}");
         let own = forms(|v| (v[1] - 1.0) * (v[1].recip() - 1.0) * v[1]);
-        assert_eq!(own[0], "((-1)*(-1 + x)^2)", "x cancels: {own:?}");
+        assert_eq!(own[0], "-(x - 1)^2", "x cancels: {own:?}");
         let own = forms(|v| v[1].sin() / v[2] - v[0] / v[2]);
-        assert!(own.iter().all(|text| text.ends_with("/(y)")), "{own:?}");
+        assert!(own.iter().all(|text| text.ends_with(")/(y)")), "{own:?}");
     }
 }
