@@ -122,9 +122,15 @@ impl Judging<'_> {
                 undecide(status, reason.to_string());
             }
         }
+        for (item, status) in open.iter_mut().filter(|(_, status)| status.holds()) {
+            if let Some(reason) = self.lost_bases(place, sampler, item)? {
+                status.evidence.proof = None;
+                undecide(status, reason.to_string());
+            }
+        }
         let is_confirmed = |status: &ClaimState| status.settled == Some(Verdict::Confirmed);
         if open.iter().any(|(_, status)| is_confirmed(status))
-            && let Some(reason) = sampler.unreached()
+            && let Some(reason) = sampler.unreached()?
         {
             let confirmed = open.iter_mut().filter(|(_, status)| is_confirmed(status));
             confirmed.for_each(|(_, status)| undecide(status, reason.to_string()));

@@ -29,6 +29,7 @@ mod judging;
 mod jumps;
 mod ladder;
 mod level_slopes;
+mod listed_powers;
 mod local_form;
 mod missing;
 mod moduli;

@@ -113,7 +113,7 @@ impl Judging<'_> {
                 *is_doubtful |= seen.is_doubtful;
             }
         }
-        let unreached = sampler.unreached();
+        let unreached = sampler.unreached()?;
         for (((_, _, status), (sign, is_doubtful)), proved) in
             open.iter_mut().zip(found).zip(proved)
         {

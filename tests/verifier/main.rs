@@ -23,6 +23,7 @@ mod language;
 mod level_cells;
 mod level_parts;
 mod limits;
+mod listed_powers;
 mod local;
 mod many_variables;
 mod masses;

@@ -37,6 +37,27 @@ fn nothing_is_confirmed_beside_factors_without_slopes() {
 }
 
 #[test]
+fn nothing_is_confirmed_beside_factors_that_are_not_met() {
+    let curve = "(y^5 + y + z^5 + z − 1/2)";
+    let found = |factor: &str| {
+        judged(&text("", &format!("{factor}*{curve}"), &["identity = \"y^5 + y = 1/2 − z − z^5\""]))
+            .swap_remove(0)
+    };
+    for factor in [
+        "(sqrt(1 + (x − sin(y))^2) − 1)",
+        "(exp((x − sin(y))^2) − 1)",
+        "sqrt(x − sin(y))",
+        "acosh(1 + x − sin(y))",
+        "(x − sin(y) − sin(x − sin(y)))",
+    ] {
+        assert_eq!(found(factor).verdict, Verdict::Undecided, "0 at x = sin y: {factor}");
+    }
+    for factor in ["(2 + x^2)", "exp(x)", "(x + 5)"] {
+        assert_eq!(found(factor).verdict, Verdict::Confirmed, "nowhere 0: {factor}");
+    }
+}
+
+#[test]
 fn printed_witnesses_are_on_the_level() {
     // Of most parameters that are drawn there is no state; others are drawn then.
     for (parameters, level) in [

@@ -1,7 +1,7 @@
 //! Blocks of balls: enclosures of parameters and states.
 
 use crate::engine::{BallEngine, BallRunner};
-use crate::graph::{Evaluator, Tape};
+use crate::graph::{Evaluator, Fault, Tape};
 use crate::mechanics::Streams;
 use crate::number::ball::{Ball, Balls};
 use crate::number::rational::Rational;
@@ -30,27 +30,33 @@ impl Sampler {
 
     /// Returns the reason why the states may leave out a part of a level without parametrisation, if
     /// one is known.
-    pub(in crate::verdict) fn unreached(&self) -> Option<&'static str> {
-        let numerical = self.newton.as_ref()?;
+    pub(in crate::verdict) fn unreached(&self) -> Result<Option<&'static str>, Fault> {
+        let Some(numerical) = &self.newton else { return Ok(None) };
         if numerical.has_corners() {
-            return Some(
+            return Ok(Some(
                 "the states are found numerically, and an equation of the level contains |·|, min or \
                  max: parts of the level may be missed; write a case for each sign",
-            );
+            ));
         }
         if numerical.has_flat_factors() {
-            return Some(
+            return Ok(Some(
                 "the states are found numerically, and an equation of the level has a factor with slope \
                  0 wherever it is 0: its zeros are not found; write a case for each factor",
-            );
+            ));
+        }
+        if numerical.factors().has_unmet(self, &self.balls(0))? {
+            return Ok(Some(
+                "the states are found numerically, and an equation of the level has a factor that is 0 at \
+                 none of those found: a part of the level may be missed; write a case for each factor",
+            ));
         }
         let mut maker = self.maker();
         let meets_ends =
             |attempt| numerical.meets_ends(maker.tried(0, &[attempt; TAPE_LANES], None));
-        (0..NUMERICAL_ATTEMPTS).any(meets_ends).then_some(
+        Ok((0..NUMERICAL_ATTEMPTS).any(meets_ends).then_some(
             "the states are found numerically, and those at the end of a range, up to rounding, are \
              left out; make the range larger",
-        )
+        ))
     }
 }
 

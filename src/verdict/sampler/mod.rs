@@ -10,6 +10,7 @@ mod numerical;
 mod place_parts;
 mod print;
 mod ranges;
+mod unmet;
 mod void_signs;
 
 pub use branches::Branch;

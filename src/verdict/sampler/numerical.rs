@@ -1,6 +1,7 @@
 //! States on a level without parametrisation, inside the declared ranges.
 
 use super::ranges::inside;
+use super::unmet::LevelFactors;
 use crate::case::Case;
 use crate::graph::Fault;
 use crate::level::Newton;
@@ -10,6 +11,7 @@ use crate::number::ball::Balls;
 #[derive(Clone)]
 pub(super) struct NumericalLevel {
     newton: Newton,
+    factors: LevelFactors,
     /// Number of components of the parameters, which come before the state.
     parameters: usize,
     /// Range of each coordinate of the state that has one.
@@ -20,6 +22,7 @@ impl NumericalLevel {
     pub(super) fn new(case: &Case, kept: &[bool]) -> Result<Self, Fault> {
         Ok(Self {
             newton: Newton::new(&case.model, kept)?,
+            factors: LevelFactors::new(case, kept)?,
             parameters: case.model.free_components(),
             ranges: case.free_draws.iter().map(inside).collect(),
         })
@@ -51,6 +54,11 @@ impl NumericalLevel {
     /// Whether an equation of the level has a factor whose zeros Newton's method does not find.
     pub(super) fn has_flat_factors(&self) -> bool {
         self.newton.has_flat_factors()
+    }
+
+    /// Returns the factors of the equations.
+    pub(super) fn factors(&self) -> &LevelFactors {
+        &self.factors
     }
 
     /// Compares the box of a state with the ranges.
