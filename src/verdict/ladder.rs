@@ -123,7 +123,7 @@ impl Judging<'_> {
             }
         }
         for (item, status) in open.iter_mut().filter(|(_, status)| status.holds()) {
-            if let Some(reason) = self.lost_bases(sampler, item)? {
+            if let Some(reason) = self.lost_bases(place, sampler, item)? {
                 status.evidence.proof = None;
                 undecide(status, reason.to_string());
             }

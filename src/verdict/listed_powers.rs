@@ -1,14 +1,16 @@
 //! Powers whose exponents are whole numbers for some listed values.
 
 use super::field::TOO_MANY_COMBINATIONS;
+use super::judge::JudgeError;
 use super::judging::Judging;
 use super::recorded::RecordedClaim;
 use super::sampler::Sampler;
+use crate::claim::LevelSubset;
 use crate::graph::{Expr, Fault, Graph, Step, record};
 use crate::mechanics::{Draw, combinations};
-use crate::number::BinaryOperation;
 use crate::number::rational::Rational;
-use crate::proof::{Extent, sign};
+use crate::number::{BinaryOperation, UnaryFunction};
+use crate::proof::{Extent, Group, GroupOutcome, Prover, sign};
 use crate::scalar::Scalar;
 
 const WHOLE_POWER: &str = "a power has an exponent from a list that contains whole numbers: it counts for positive \
@@ -18,16 +20,21 @@ const WHOLE_POWER: &str = "a power has an exponent from a list that contains who
 impl Judging<'_> {
     /// Returns the reason why a claim that holds may fail for negative bases: ln X belongs to what a claim requires
     /// for each power X^a with a parameter a, while the same whole number in the file takes any base.
+    ///
+    /// A claim that is proved without these logarithms, for listed values for which the exponent is whole, fails for
+    /// no base.
     pub(super) fn lost_bases(
         &self,
+        place: &LevelSubset,
         sampler: &Sampler,
         item: &RecordedClaim<'_>,
-    ) -> Result<Option<&'static str>, Fault> {
+    ) -> Result<Option<&'static str>, JudgeError> {
         if !sampler.recipes().iter().any(|own| matches!(own, Draw::OneOf(_))) {
             return Ok(None);
         }
         let common = self.common.required_at(sampler.kept());
-        let all = [&item.requirement[..], &item.residual, &self.common.field, &common].concat();
+        let required = [&item.requirement[..], &common].concat();
+        let all = [&required[..], &item.residual, &self.common.field].concat();
         let own = powers(self.graph, all);
         let made = powers(sampler.graph(), sampler.made().to_vec());
         if own.is_empty() && made.is_empty() {
@@ -36,11 +43,32 @@ impl Judging<'_> {
         let Some(choices) = combinations(sampler.recipes()) else {
             return Ok(Some(TOO_MANY_COMBINATIONS));
         };
-        let extents = sampler.extents();
+        let (extents, sources) = (sampler.extents(), sampler.sources());
+        let prover = Prover { sources: &sources, extents: &extents, seed: self.options.seed };
+        let defects = item.context.quadrature_defects.clone();
+        let outputs = [item.residual.clone(), defects, self.level_values(place, sampler)?].concat();
         for fixed in choices {
-            let (graph, own) = sampler.compose(self.graph, &own, &fixed)?;
-            let (drawn, made) = with_listed(sampler.graph(), &made, &fixed)?;
-            if has_lost_base(&graph, &own, &extents) || has_lost_base(&drawn, &made, &extents) {
+            let (graph, drawn) = sampler.compose(self.graph, &own, &fixed)?;
+            let (made_graph, made) = with_listed(sampler.graph(), &made, &fixed)?;
+            let lost = lost_bases(&graph, &drawn, &extents);
+            if lost.is_empty() && lost_bases(&made_graph, &made, &extents).is_empty() {
+                continue;
+            }
+            let bases: Vec<usize> =
+                lost.into_iter().map(|index| self.graph.place(own[index][0])).collect();
+            let is_of_base = |value: &&Expr| match self.graph.step(self.graph.place(**value)) {
+                Step::Unary(UnaryFunction::Ln, a) => bases.contains(&a),
+                _ => false,
+            };
+            let kept = required.iter().filter(|value| !is_of_base(value)).copied().collect();
+            let presence = item.presence.clone();
+            let group =
+                Group { outputs: outputs.clone(), required: kept, presence, ..Group::default() };
+            let (graph, groups) = sampler.compose_groups(self.graph, &[group], &fixed)?;
+            let outcomes = prover.prove(&graph, &groups)?;
+            let is_proved =
+                |one: &GroupOutcome| matches!(one, GroupOutcome::Zero(_) | GroupOutcome::Void);
+            if sampler.is_numerical() || !outcomes.iter().all(is_proved) {
                 return Ok(Some(WHOLE_POWER));
             }
         }
@@ -80,13 +108,14 @@ fn with_listed(
     values.map(|values| (made, values)).ok_or(Fault::ForeignValue)
 }
 
-/// Whether some power has a whole exponent and a base that is not known to be positive.
-fn has_lost_base(graph: &Graph, powers: &[Vec<Expr>], extents: &[Extent]) -> bool {
-    powers.iter().any(|power| {
+/// Lists the powers with a whole exponent and a base that is not known to be positive.
+fn lost_bases(graph: &Graph, powers: &[Vec<Expr>], extents: &[Extent]) -> Vec<usize> {
+    let is_lost = |power: &Vec<Expr>| {
         let [base, exponent] = power[..] else { return false };
         let is_whole =
             graph.constant_value(exponent).is_some_and(|value| value.to_integer().is_some());
         let known = || sign(graph, extents, &[base], &[], base);
         is_whole && !known().is_some_and(|known| known.is_positive)
-    })
+    };
+    (0..powers.len()).filter(|index| is_lost(&powers[*index])).collect()
 }
