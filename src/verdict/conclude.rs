@@ -38,9 +38,9 @@ pub fn report(
     }
     if claim.kind.is_inequality() && verdict == Verdict::Confirmed {
         verdict = Verdict::Undecided;
-        let reason = "it holds at all states that were tried, and bounds over the ranges do not show more: \
-                      give the rate by equals, as a formula whose sign is seen";
-        evidence.reason = Some(reason.to_string());
+        let reason =
+            "it holds at all states that were tried, and bounds over the ranges do not show more";
+        evidence.reason = Some(format!("{reason}; {}", advice_on_rate(&claim.kind)));
         evidence.holds.clear();
     }
     if matches!(verdict, Verdict::Proved | Verdict::Confirmed)
@@ -136,5 +136,15 @@ pub fn report(
         cell: claim.cell.clone(),
         note: claim.note.clone(),
         evidence,
+    }
+}
+
+/// Says how a rate is written so that its sign is seen.
+pub(super) fn advice_on_rate(kind: &ClaimKind) -> &'static str {
+    match kind {
+        ClaimKind::Lyapunov(own) if own.without_rate().is_none() => {
+            "the sign of the formula under `equals` is not seen: write it as a sum of terms that are never positive"
+        }
+        _ => "write the rate under `equals` as a sum of terms that are never positive",
     }
 }

@@ -1,5 +1,5 @@
-//! Rates of Lyapunov functions as sums of squares: found in numbers or by completing squares, and
-//! then judged as if the user had given them by `equals`.
+//! Rates of Lyapunov functions in forms that show their sign: sums of squares, found in numbers or by completing
+//! squares, products and collected terms; judged as if the user had given them by `equals`.
 
 use std::collections::BTreeSet;
 
@@ -15,7 +15,7 @@ use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{ParameterOrigin, Phase, SamplerSpec};
 use crate::number::ball::Ball;
 use crate::number::rational::Rational;
-use crate::proof::completed_squares;
+use crate::proof::{completed_squares, simpler_forms};
 use crate::scalar::Scalar;
 
 /// Largest number of vectors whose squares are tried.
@@ -23,8 +23,7 @@ const MOST_VECTORS: usize = 32;
 /// Largest number of rates that are judged for one claim.
 const MOST_RATES: usize = 6;
 
-/// Judges anew each Lyapunov function whose rate has no known sign, with rates that are sums of
-/// squares.
+/// Judges anew each Lyapunov function whose rate has no known sign, with other forms of its rate.
 pub(super) fn find_rates(
     case: &Case,
     options: &Options,
@@ -53,7 +52,7 @@ pub(super) fn find_rates(
     Ok(())
 }
 
-/// Lists sums of squares that the rate may be.
+/// Lists forms that the rate may have.
 fn rates(
     case: &Case,
     claim: &PlacedClaim,
@@ -83,6 +82,10 @@ fn rates(
         .map(|found| found.text)
         .into_iter()
         .collect();
+    let simpler = simpler_forms(&graph, growth, free, &names);
+    all.extend(
+        simpler.into_iter().filter(|form| may_divide || !form.divides).map(|form| form.text),
+    );
     let vectors = vectors(case, function);
     let numbers = numbers(case);
     let (graph, outputs) = record(free + model.dimension(), |inputs| {

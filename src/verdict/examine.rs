@@ -1,6 +1,7 @@
 //! Evaluation of one residual by the enclosures of a block of states.
 
 use super::claim_state::{ClaimState, undecide};
+use super::conclude::advice_on_rate;
 use super::evidence::{Method, Verdict, Witness};
 use super::judging::Judging;
 use super::pass::Total;
@@ -148,9 +149,8 @@ pub fn complete(item: &RecordedClaim<'_>, status: &mut ClaimState) {
         status.settled = Some(Verdict::Proved);
         status.evidence.method = Method::PrimeField;
     } else if status.is_nonzero() && item.claim.kind.is_inequality() {
-        let reason = "no state is known at which the rate is positive, and it is not proved that there \
-                      is none; write the rate under `equals` as a sum of terms that are never positive";
-        undecide(status, reason.to_string());
+        let reason = "no state is known at which the rate is positive, and it is not proved that there is none";
+        undecide(status, format!("{reason}; {}", advice_on_rate(&item.claim.kind)));
     } else if status.is_nonzero() {
         undecide(
             status,

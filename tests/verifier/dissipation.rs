@@ -142,3 +142,30 @@ fn descent_of_a_potential_is_seen() {
     verdicts(&flow("−"), &[Proved]);
     verdicts(&flow("2*"), &[Refuted]);
 }
+
+#[test]
+fn rates_whose_terms_cancel_are_seen() {
+    let flow = |range: &str, x: &str, y: &str, function: &str| {
+        format!(
+            "title = 'x'\n[parameters]\na = '0.5..2'\nb = '0.5..1'\n[state]\nx = '0.2..2'\ny = '{range}'\n\
+             [field]\n\"x'\" = '{x}'\n\"y'\" = '{y}'\n{}",
+            lyapunov(function)
+        )
+    };
+    for (range, x, y, function, twin) in [
+        // −b y² |y|, −a x⁴, −(x − 1)², −a (x − 1)² − b (y − 1)², (b − 1) x − 2b x², −b
+        ("-1..1", "y", "−sin(x) − b*y*|y|", "y²/2 − cos(x)", "y²/2 + cos(x)"),
+        ("-1..1", "y − a*x^3", "−x", "(x² + y²)/2", "(y² − x²)/2"),
+        ("-1..1", "x*(1 − x)", "0", "x − ln(x)", "x + ln(x)"),
+        ("0.2..2", "a*x*(1 − x)", "b*y*(1 − y)", "x − ln(x) + y − ln(y)", "x − ln(x) − y + ln(y)"),
+        ("0.2..2", "b*x*(1 − x) − x", "b*y*(y − x)", "x", "y"),
+        ("0.2..2", "−a*x*y + b", "a*x*y − 2*b", "x + y", "−x − y"),
+    ] {
+        verdicts(&flow(range, x, y, function), &[Proved]);
+        verdicts(&flow(range, x, y, twin), &[Refuted]);
+    }
+    // 10⁻⁹ x y changes its sign with y.
+    let near = flow("-1..1", "−x^3 + x*y/10^9", "0", "x");
+    let found = judged(&near).claims[0].verdict;
+    assert!(matches!(found, Refuted | Undecided), "{}", found.word());
+}

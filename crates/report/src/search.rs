@@ -23,8 +23,12 @@ pub fn json(title: &str, report: &SearchReport) -> Result<String, serde_json::Er
 /// Renders the report as text.
 pub fn text(title: &str, report: &SearchReport) -> String {
     let mut out = format!("{title}\n");
-    if !report.counts.is_empty() {
-        out.push_str("\nintegrals polynomial in the velocities, with any smooth coefficients:\n");
+    if let Some(first) = report.counts.first() {
+        let and = if first.mixed { " and constants" } else { "" };
+        out.push_str(&format!(
+            "\nlinearly independent integrals polynomial in the velocities, with any smooth coefficients, \
+             products{and} included:\n"
+        ));
     }
     for count in &report.counts {
         let degree = match count.mixed {
@@ -35,6 +39,8 @@ pub fn text(title: &str, report: &SearchReport) -> String {
             (0, _) if count.dimension == 0 => "none".to_string(),
             (0, false) => "all known".to_string(),
             (0, true) => "powers of the energy".to_string(),
+            (1, false) if report.is_complete => "1 of them a function of those known".to_string(),
+            (new, false) if report.is_complete => format!("{new} of them functions of those known"),
             (new, false) => format!("{new} of them not known"),
             (new, true) => format!("{new} of them no power of the energy"),
         };
@@ -46,15 +52,17 @@ pub fn text(title: &str, report: &SearchReport) -> String {
     }
     out.push_str(&multipliers(&report.multipliers));
     if let Some(last) = report.orbits.last() {
-        out.push_str(&format!(
-            "\nrelations of degree at most {} along an orbit, in {} monomials: {}, algebraic integrals: {}\n",
-            last.degree, last.monomials, last.relations, last.integrals
-        ));
+        out.push_str(&format!("\n{}\n", last.sentence()));
     }
     for found in &report.found {
         out.push_str(&format!("\n{} {}\n  {}\n", found.kind, found.verdict.word(), found.formula));
         for (what, text) in &found.with {
-            out.push_str(&format!("  with the {what} {text}\n"));
+            out.push_str(&match *what {
+                // Its source, and no condition.
+                "bracket" if found.kind == "further-integral" => format!("  the bracket {text}\n"),
+                "derivative along" => format!("  the derivative along {text}\n"),
+                what => format!("  with the {what} {text}\n"),
+            });
         }
         for (name, text) in &found.abbreviations {
             out.push_str(&format!("    {name} = {text}\n"));
@@ -77,12 +85,19 @@ pub fn text(title: &str, report: &SearchReport) -> String {
     }
     for opinion in &report.opinions {
         let Some(zero) = opinion.largest_zero else { continue };
-        let verdict = if opinion.agrees() { "agree" } else { "DO NOT AGREE" };
-        let relations = if opinion.relations == 1 { "relation" } else { "relations" };
+        let verdict = if opinion.agrees() { "agrees" } else { "DOES NOT AGREE" };
+        let (vanish, relations) = match opinion.relations {
+            1 => ("1 singular value vanishes".to_string(), "1 relation".to_string()),
+            more => (format!("{more} singular values vanish"), format!("{more} relations")),
+        };
+        let over = match opinion.denominator.as_str() {
+            "1" => String::new(),
+            denominator => format!(" over {denominator}"),
+        };
         out.push_str(&format!(
-            "\nsecond opinion, terms over {}: the singular values of {} terms at {} states in f64 {verdict} \
-             with {} {relations}: {:.1e}, then {zero:.1e}\n",
-            opinion.denominator, opinion.terms, opinion.states, opinion.relations, opinion.smallest
+            "\nsecond opinion in f64 on the rates of {} terms{over} at {} states: {vanish} (at most \
+             {zero:.1e}, the others at least {:.1e}), which {verdict} with {relations} modulo a prime\n",
+            opinion.terms, opinion.states, opinion.smallest
         ));
     }
     for condition in &report.conditions {
@@ -141,4 +156,42 @@ fn multipliers(counts: &[MultiplierReport]) -> String {
         }
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use liouville_search::{CountReport, OrbitReport};
+
+    use super::*;
+
+    #[test]
+    fn numbers_say_what_is_counted() {
+        let count = |dimension, known| CountReport {
+            degree: 2,
+            mixed: true,
+            free: false,
+            dimension,
+            known,
+            unknowns: 5,
+            equations: 6,
+        };
+        let mut report = SearchReport::default();
+        report.counts = vec![count(7, 6)];
+        let header = "linearly independent integrals polynomial in the velocities, with any smooth \
+                      coefficients, products and constants included:\n";
+        assert!(text("x", &report).contains(header));
+        assert!(text("x", &report).contains("  7   1 of them not known"));
+        report.is_complete = true;
+        assert!(text("x", &report).contains("  7   1 of them a function of those known"));
+        report.counts = vec![count(8, 6), CountReport { mixed: false, ..count(2, 2) }];
+        assert!(text("x", &report).contains("  8   2 of them functions of those known"));
+        report.counts.remove(0);
+        assert!(text("x", &report).contains("products included:"), "constants are of degree 0");
+        report.orbits = vec![OrbitReport { degree: 2, monomials: 15, relations: 1, integrals: 1 }];
+        let own = "1 relation between the 15 monomials of degree at most 2 along an orbit: 1 algebraic integral\n";
+        assert!(text("x", &report).contains(own));
+        report.orbits[0].relations = 0;
+        let own = "no relation between the 15 monomials of degree at most 2 holds along an orbit\n";
+        assert!(text("x", &report).contains(own));
+    }
 }

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::absence::{has_lists, rank};
 use super::ansatz::monomials::AnsatzVariables;
+use super::ask::{judged_alone, proved_energy};
 use super::budget::STEPS;
 use super::continued::named;
 use super::hypotheses::stated;
@@ -16,9 +17,11 @@ use super::origin::{RemarkOrigin, TheoremOrigin};
 use super::products::Generators;
 use super::{Effort, Excluded, SearchError, SearchReport};
 use liouville::case::Case;
+use liouville::claim::{Claim, MOST_COMPARED};
 use liouville::formula::Formula;
-use liouville::mechanics::Draw;
+use liouville::mechanics::{Draw, System};
 use liouville::number::rational::Rational;
+use liouville::verdict::Verdict;
 
 /// Largest number of combinations of listed values that are counted one by one.
 const MOST_LISTED: usize = 64;
@@ -324,6 +327,8 @@ pub fn conclude(
         }
     }
     let all = further.unwrap_or(all);
+    let is_missing = |count: &CountReport| !count.free && count.dimension > count.known;
+    report.is_complete = report.counts.iter().any(is_missing) && has_all(case, effort, report)?;
     note_missing(case, effort, report);
     let free_only = report.counts.iter().all(|count| count.free);
     let complete = |count: &&CountReport| count.dimension == count.known;
@@ -334,8 +339,11 @@ pub fn conclude(
         (true, _) => {
             " Leading forms are integrals of the free motion, so this holds for every gyrostat and every potential."
         }
-        (false, true) => " Potential, gyrostat and moments are those of the case.",
-        (false, false) => "",
+        // Of a body the motion without them is counted as well.
+        (false, true) if !matches!(case.model.system, System::Lagrangian(_)) => {
+            " Potential, gyrostat and moments are those of the case."
+        }
+        (false, _) => "",
     };
     let generators = all.each().filter(|(_, own)| *own <= degree);
     let formulas: Vec<&Formula> = generators.map(|(formula, _)| formula).collect();
@@ -368,11 +376,25 @@ pub fn conclude(
     Ok(())
 }
 
+/// Whether the energy and the integrals found are proved to be as many independent ones as a motion in these
+/// coordinates has: any other one is a function of them near almost every state.
+fn has_all(case: &Case, effort: &Effort, report: &SearchReport) -> Result<bool, SearchError> {
+    let Ok(coordinates) = Coordinates::of(case) else { return Ok(false) };
+    let own = report.of_case("integral").filter(|own| own.verdict == Verdict::Proved);
+    let mut all: Vec<Formula> = proved_energy(case, effort)?.into_iter().collect();
+    all.extend(own.filter_map(|own| own.function.clone()));
+    if all.len() + 1 != coordinates.count() || all.len() > MOST_COMPARED {
+        return Ok(false);
+    }
+    let judged = judged_alone(case, Claim::independent(all), effort)?;
+    Ok(judged.is_some_and(|judged| judged.verdict == Verdict::Proved))
+}
+
 /// Tells the first degree at which more integrals are counted than known, in place of an earlier one,
-/// where an ansatz may find them that was not asked for.
+/// where an ansatz may find them that was not asked for; not where they are functions of those known.
 fn note_missing(case: &Case, effort: &Effort, report: &mut SearchReport) {
     report.remarks.retain(|remark| remark.origin != RemarkOrigin::MoreCounted);
-    if effort.ansatz.wanted || AnsatzVariables::of(case).is_none() {
+    if report.is_complete || effort.ansatz.wanted || AnsatzVariables::of(case).is_none() {
         return;
     }
     let counts = report.counts.iter().filter(|count| !count.free);

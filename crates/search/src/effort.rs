@@ -96,3 +96,57 @@ impl FurtherTerm {
         }
     }
 }
+
+/// A term of a sum without a number as its first factor or last divisor: it has a coefficient of its own.
+pub fn primitive(term: Formula, model: &Model) -> Formula {
+    let is_number = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_digit());
+    let number = |text: &str| text.parse::<i64>().ok().map(Formula::number);
+    let text = term.text();
+    let parsed = |text: &str| Formula::parse(text, &model.vocabulary).ok();
+    let divided = || {
+        let (rest, below) = text.rsplit_once('/').filter(|(_, below)| is_number(below))?;
+        let rest = parsed(rest)?;
+        let same = (&rest / &number(below)?).ok()?;
+        (same.text() == text).then_some(rest)
+    };
+    let multiplied = || {
+        let (above, rest) = text.split_once('*').filter(|(above, _)| is_number(above))?;
+        let rest = parsed(rest)?;
+        let same = (&number(above)? * &rest).ok()?;
+        (same.text() == text).then_some(rest)
+    };
+    match divided().or_else(multiplied) {
+        Some(rest) => primitive(rest, model),
+        None => term,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use liouville::case::Case;
+
+    use super::*;
+
+    #[test]
+    fn numbers_at_the_ends_of_a_term_are_left_out() {
+        let text = "title='x'\n[parameters]\nK='1..2'\n[state]\nx='1..2'\n[field]\n\"x'\"='K*x'\n";
+        let case = Case::parse(text, &[]).expect("a case");
+        let read = |text: &str| {
+            let term = FurtherTerm::from(text).read(&case.model).expect("a term");
+            primitive(term, &case.model).text().to_string()
+        };
+        for (text, expected) in [
+            ("K*cos(x)/4", "K*cos(x)"),
+            ("2*K*x/6", "K*x"),
+            ("x²/2", "x²"),
+            ("1 + x/4", "1 + x/4"),
+            ("2*x + 1", "2*x + 1"),
+            ("K/x", "K/x"),
+            ("x^3/K/5", "x^3/K"),
+            ("4", "4"),
+            ("1/4", "1"),
+        ] {
+            assert_eq!(read(text), expected, "{text}");
+        }
+    }
+}

@@ -4,6 +4,7 @@ use num_dual::Dual;
 
 use super::ask::{are_comparable, compared, holds, independent, judged};
 use super::budget::Budget;
+use super::effort::primitive;
 use super::library;
 use super::linear::SampledFunctions;
 use super::lists::{ListedCase, combinations};
@@ -140,7 +141,7 @@ pub fn terms(
 ) -> Result<Vec<Formula>, SearchError> {
     let model = &case.model;
     let own: Result<Vec<Formula>, SearchError> =
-        effort.terms.iter().map(|term| term.read(model)).collect();
+        effort.terms.iter().map(|term| Ok(primitive(term.read(model)?, model))).collect();
     if let Some(count) = library::without_squares(model) {
         report.remark(format!("products of the {count} variables are not among the terms"));
     }

@@ -3,11 +3,12 @@
 //! A find is proved for all listed values. A theorem of absence holds for the values of its count: so it
 //! is computed for each combination of values, or names those for which it is stated.
 
+use super::hypotheses::headed;
 use super::orbit::OrbitReport;
 use super::origin::RemarkOrigin;
 use super::{Effort, Excluded, Found, SearchError, SearchReport};
 use liouville::case::Case;
-use liouville::mechanics::{Draw, ParameterOrigin, SamplerSpec};
+use liouville::mechanics::{Draw, Model, ParameterOrigin, SamplerSpec};
 use liouville::number::rational::Rational;
 
 /// Largest number of combinations of listed values that are searched one by one.
@@ -118,6 +119,9 @@ pub fn by_values(
     let Some(all) = combinations(case) else { return Ok(()) };
     let effort = Effort { seconds: effort.seconds / all.len() as f64, ..effort.clone() };
     let mut theorems: Vec<(Excluded, Vec<&str>)> = Vec::new();
+    let model = &case.model;
+    // In these the listed values are given, each in the same place.
+    let fixed = all.first().map_or(model, |own| &own.case.model);
     let mut finds = Vec::new();
     let mut orbits = Vec::new();
     for ListedCase { case, values } in &all {
@@ -162,10 +166,10 @@ pub fn by_values(
     for (theorem, values) in theorems {
         report.excluded.push(match values.len() == all.len() {
             true => Excluded {
-                theorem: headed("For each of the listed values", &theorem.theorem),
+                theorem: headed("each of the listed values", model, fixed, &theorem.theorem),
                 ..theorem
             },
-            false => named(theorem, &values.join(", or ")),
+            false => named(theorem, &values.join(", or "), model, fixed),
         });
     }
     report.excluded.extend(kept);
@@ -210,17 +214,15 @@ fn note_orbits(orbits: &[(&str, Option<OrbitReport>)], report: &mut SearchReport
     let told = report.orbits.last().map(number);
     let text = |(values, own): &(&str, Option<OrbitReport>)| {
         let own = own.as_ref().filter(|own| Some(number(own)) != told)?;
-        let OrbitReport { degree, relations, integrals, .. } = own;
-        Some(format!(
-            "for {values}, relations of degree at most {degree} along an orbit: {relations}, algebraic \
-             integrals: {integrals}"
-        ))
+        Some(format!("for {values}, {}", own.sentence()))
     };
     let others: Vec<String> = orbits.iter().filter_map(text).collect();
+    if others.is_empty() {
+        // What is counted for each is not told as that of the first.
+        report.remarks.retain(|own| own.origin != RemarkOrigin::FirstValues);
+    }
     report.remark(match others.as_slice() {
-        [] => {
-            "for each of the listed values there are as many relations along an orbit".to_string()
-        }
+        [] => "relations along an orbit are as many for each of the listed values".to_string(),
         others => others.join("; "),
     });
 }
@@ -237,29 +239,21 @@ pub fn name_first(
     let outcome = run(case, effort, report, progress);
     if let Some(values) = first_values(case) {
         let stated = report.excluded.split_off(before);
-        report.excluded.extend(stated.into_iter().map(|own| named(own, &values)));
+        report
+            .excluded
+            .extend(stated.into_iter().map(|own| named(own, &values, &case.model, &case.model)));
     }
     outcome
 }
 
-/// States a theorem for some values.
-fn named(theorem: Excluded, values: &str) -> Excluded {
+/// States a theorem about a case with `fixed` values for some values of the lists of `model`.
+fn named(theorem: Excluded, values: &str, model: &Model, fixed: &Model) -> Excluded {
     Excluded {
         ansatz: format!("{}, for {values}", theorem.ansatz),
-        theorem: headed(&format!("For {values}"), &theorem.theorem),
+        theorem: headed(values, model, fixed, &theorem.theorem),
         values: Some(values.to_string()),
         ..theorem
     }
-}
-
-/// Puts a hypothesis before a theorem.
-fn headed(hypothesis: &str, theorem: &str) -> String {
-    if let Some(rest) = theorem.strip_prefix("For ") {
-        return format!("{hypothesis}, and {rest}");
-    }
-    let mut letters = theorem.chars();
-    let first: String = letters.next().into_iter().flat_map(char::to_lowercase).collect();
-    format!("{hypothesis}, {first}{}", letters.as_str())
 }
 
 #[cfg(test)]
@@ -287,13 +281,5 @@ mod tests {
         assert_eq!((values[0], values[4]), ("a = 1 and b = 2", "a = 0 and b = 3"));
         let many = case("a='one of 1, 2, 3, 4, 5'\nb='one of 1, 2, 3, 4'\nc='one of 1, 2, 3, 4'");
         assert!(combinations(&many).is_none(), "80 are too many");
-    }
-
-    #[test]
-    fn hypotheses_come_first() {
-        let own = headed("For a = 0", "For generic values of b, there is none.");
-        assert_eq!(own, "For a = 0, and generic values of b, there is none.");
-        let own = headed("For a = 0", "There is none.");
-        assert_eq!(own, "For a = 0, there is none.");
     }
 }

@@ -75,6 +75,8 @@ pub enum RemarkOrigin {
     Irrational,
     /// Integrals are not written for the values of lists.
     Lists,
+    /// Relations are counted for the first values of lists.
+    FirstValues,
     /// Anything else.
     Other,
 }

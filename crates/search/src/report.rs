@@ -176,6 +176,10 @@ pub struct SearchReport {
     pub remarks: Vec<Remark>,
     /// Parts that a stopped search did not reach; empty for a complete search.
     pub unreached: Vec<String>,
+    /// Whether integrals that are counted and not known are functions of those known, as these are as many
+    /// independent ones as there can be.
+    #[serde(skip)]
+    pub is_complete: bool,
     /// Parts that could not be carried out as no terms have values modulo a prime.
     #[serde(skip)]
     pub(crate) without_points: Vec<String>,

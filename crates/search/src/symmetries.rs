@@ -169,7 +169,12 @@ fn spelled(
     let mut shown = shown.join(", ");
     let mut claim = Claim::symmetry_field(entries.clone());
     if let Some(weight) = multiples.last().filter(|weight| !weight.is_zero()) {
-        shown.push_str(&format!("; [u,v] = {weight} v"));
+        let one = BigInt::from(1);
+        shown.push_str(&match weight {
+            own if *own == one => "; [u,v] = v".to_string(),
+            own if *own == -one => "; [u,v] = −v".to_string(),
+            own => format!("; [u,v] = {own} v"),
+        });
         claim = claim.with("weight", whole(weight));
     }
     Ok((shown, entries, claim))

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use crate::graph::{Expr, Graph, Step};
 use crate::number::rational::Rational;
 
+use super::collected::reduced;
 use super::polynomial::{MOST_WORK, Polynomial, fraction};
 
 /// Largest number of variables of a form.
@@ -35,7 +36,7 @@ pub fn completed_squares(
         Step::Input(number) => u32::try_from(number).ok().map(Polynomial::variable),
         _ => None,
     };
-    let whole = fraction(graph, graph.place(value), &input)?;
+    let whole = reduced(fraction(graph, graph.place(value), &input)?)?;
     let is_coefficient = |variable: &u32| (*variable as usize) < first;
     if !whole.below.variables().iter().all(is_coefficient) {
         return None;

@@ -33,6 +33,7 @@ mod cells;
 mod characters;
 mod choices;
 mod classes;
+mod collected;
 mod combination;
 mod coprime;
 mod determined;
@@ -81,6 +82,7 @@ mod void;
 
 pub use angles::{arguments as angle_arguments, without_arctangents};
 pub use bounds::InputDistribution;
+pub use collected::simpler_forms;
 pub use combination::combinations;
 pub use coprime::{are_coprime, are_polynomials, is_single_valued};
 pub use determined::Determination;

@@ -97,9 +97,15 @@ impl Mechanical {
         let allowed = if lagrangian.vakonomic { 0 } else { lagrangian.constraints.len() };
         let units = UnitVectors::of(model, lagrangian)?;
         if model.level.len() != allowed + units.count() || units.others.len() != allowed {
-            return Err(SearchError::Unsplit(
-                "it is a Lagrangian system on a level set other than its constraints and unit vectors",
-            ));
+            return Err(SearchError::Unsplit(match lagrangian.vakonomic {
+                true => {
+                    "the constraints of a vakonomic system are a level set, which leaves no independent \
+                     velocities"
+                }
+                false => {
+                    "it is a Lagrangian system on a level set other than its constraints and unit vectors"
+                }
+            }));
         }
         let (mut positions, mut velocities, mut start) = (Vec::new(), Vec::new(), 0);
         for (role, variable) in lagrangian.roles.iter().zip(&model.state) {

@@ -205,6 +205,8 @@ impl ClearedField {
         };
         let names: Vec<String> = setting.terms.iter().map(ToString::to_string).collect();
         let statement = no_others::statement(&names.join(", "), shown.degree, known);
+        let poles = &self.factors;
+        let statement = no_others::explained(setting, statement, known, poles, report)?;
         let statement = format!("for the field times {}, {statement}", self.denominator);
         report.excluded.retain(|own| own.origin != TheoremOrigin::Darboux);
         report.excluded.push(Excluded {

@@ -140,6 +140,27 @@ pub struct OrbitReport {
     pub integrals: usize,
 }
 
+impl OrbitReport {
+    /// The numbers in words, beginning with a small letter.
+    pub fn sentence(&self) -> String {
+        let Self { degree, monomials, relations, integrals } = self;
+        let who = format!("{monomials} monomials of degree at most {degree}");
+        if *relations == 0 {
+            return format!("no relation between the {who} holds along an orbit");
+        }
+        let relations = match relations {
+            1 => "1 relation".to_string(),
+            more => format!("{more} relations"),
+        };
+        let integrals = match integrals {
+            0 => "no algebraic integral".to_string(),
+            1 => "1 algebraic integral".to_string(),
+            more => format!("{more} independent algebraic integrals"),
+        };
+        format!("{relations} between the {who} along an orbit: {integrals}")
+    }
+}
+
 /// Searches a field for integrals; proved ones go into the report. If `further`, the limits grow while
 /// there is time.
 pub fn search(

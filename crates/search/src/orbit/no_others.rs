@@ -12,7 +12,9 @@ use liouville::mechanics::{Draw, Phase, System};
 use liouville::proof::{PolynomialBounds, polynomial_bounds, statement_seed};
 use liouville::verdict::Options;
 
-use super::super::{Effort, SearchError};
+use super::super::{Effort, SearchError, SearchReport};
+use super::claims::{self, OrbitStatement};
+use super::darboux::KIND as DARBOUX;
 use super::factor::RatedPolynomial;
 use super::line::RandomLine;
 use super::monomials;
@@ -51,6 +53,37 @@ pub fn statement(names: &str, degree: u32, known: &[Formula]) -> String {
             format!("every {class} is a product of factors of {}", known.join(", "))
         }
     }
+}
+
+/// Says of the factors in a statement that are not told as Darboux polynomials what they are: integrals, or
+/// factors of the denominator of the field.
+pub fn explained(
+    setting: &OrbitSetting<'_>,
+    statement: String,
+    known: &[Formula],
+    denominators: &[(Formula, u32)],
+    report: &SearchReport,
+) -> Result<String, SearchError> {
+    let is_told = |own: &Formula| {
+        report.found.iter().any(|found| found.kind == DARBOUX && found.formula == own.text())
+    };
+    let (mut integrals, mut poles) = (Vec::new(), Vec::new());
+    for own in known.iter().filter(|own| !is_told(own)) {
+        let statement = OrbitStatement::Integral(own.clone());
+        if denominators.iter().any(|(other, _)| other.text() == own.text()) {
+            poles.push(own.text());
+        } else if claims::proved(setting, &statement)?.is_some() {
+            integrals.push(own.text());
+        }
+    }
+    let clause = |all: &[&str], one: &str, several: &str| match all {
+        [] => String::new(),
+        [only] => format!("; {only} is {one}"),
+        all => format!("; {} are {several}", all.join(" and ")),
+    };
+    let integrals = clause(&integrals, "an integral", "integrals");
+    let poles = clause(&poles, "a factor of the denominator", "factors of the denominator");
+    Ok(format!("{statement}{integrals}{poles}"))
 }
 
 /// Sizes of the field, and of the polynomials that are known.

@@ -332,6 +332,7 @@ impl VariableSet {
         };
         let names: Vec<String> = setting.terms.iter().map(ToString::to_string).collect();
         let statement = no_others::statement(&names.join(", "), shown.degree, &known);
+        let statement = no_others::explained(setting, statement, &known, &[], report)?;
         // The theorem of a shorter search.
         report.excluded.retain(|own| own.origin != TheoremOrigin::Darboux);
         report.excluded.push(Excluded {
@@ -363,6 +364,9 @@ impl VariableSet {
         if setting.flow.is_map && !setting.fills_space()? {
             return Ok(());
         }
+        if fractions::is_covered(report, degree) {
+            return Ok(());
+        }
         let names: Vec<String> = setting.terms.iter().map(ToString::to_string).collect();
         let names = names.join(", ");
         let statement = |degree: u32| {
@@ -378,7 +382,7 @@ impl VariableSet {
         }
         report.excluded.retain(|own| !is_stated(own, 1..degree));
         report.excluded.push(Excluded {
-            ansatz: format!("fractions of polynomials of degree up to {degree}"),
+            ansatz: fractions::family(degree),
             dimension: 0,
             known: 0,
             error_log2: None,

@@ -23,10 +23,9 @@ pub fn note(
         report.remark(OF_STEPS.to_string());
     }
     if is_of_lists {
-        report.remark(format!(
-            "relations along an orbit are counted for {}",
-            lists::first_values(setting.case).unwrap_or_default()
-        ));
+        let values = lists::first_values(setting.case).unwrap_or_default();
+        let text = format!("relations along an orbit are counted for {values}");
+        report.remark_of(RemarkOrigin::FirstValues, text);
     }
     if is_open {
         report.remark_of(RemarkOrigin::Lists, OF_LISTS.to_string());

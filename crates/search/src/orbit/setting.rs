@@ -115,11 +115,11 @@ impl<'c> OrbitSetting<'c> {
     pub fn of(case: &'c Case, effort: &'c Effort) -> Result<Result<Self, String>, SearchError> {
         let model = &case.model;
         let Some(flow) = Flow::of(case)? else {
-            return Ok(Err(
-                "the field or map has no values modulo a prime: it contains |x|, exp, ln, sin, \
-                           cos, atan or x^y"
-                    .to_string(),
-            ));
+            let what = if model.system.is_map() { "map" } else { "field" };
+            let functions = Flow::missing(case)?;
+            return Ok(Err(format!(
+                "the {what} has no values modulo a prime, as it contains {functions}"
+            )));
         };
         let names: Vec<String> = (0..model.dimension()).map(|k| model.component_name(k)).collect();
         let terms = read(names.iter().map(String::as_str), &model.vocabulary);

@@ -56,6 +56,37 @@ impl Flow {
         Ok(read.map(|own| Self { is_map: model.system.is_map(), ..own }))
     }
 
+    /// The functions in the field of a case, or in the map, that prime fields lack, in words.
+    pub fn missing(case: &Case) -> Result<String, SearchError> {
+        let (graph, rates) = recorded(case, |jet| jet.phase.field().to_vec())?;
+        let reached = graph.reached(rates);
+        let name = |step: Step<'_>| match step {
+            Step::Unary(UnaryFunction::Exp, _) => Some("exp"),
+            Step::Unary(UnaryFunction::Ln, _) => Some("ln"),
+            Step::Unary(UnaryFunction::Sin, _) => Some("sin"),
+            Step::Unary(UnaryFunction::Cos, _) => Some("cos"),
+            Step::Unary(UnaryFunction::Atan, _) => Some("atan"),
+            Step::Unary(UnaryFunction::Abs, _) => Some("|x|"),
+            Step::Binary(BinaryOperation::Pow, ..) => Some("x^y"),
+            Step::Input(_) | Step::Constant(_) | Step::Unary(..) => None,
+            Step::Binary(..) | Step::Power(..) => None,
+        };
+        let steps = graph.steps().zip(reached).filter(|(_, is_reached)| *is_reached);
+        let mut names: Vec<&str> = Vec::new();
+        for own in steps.filter_map(|(step, _)| name(step)) {
+            if !names.contains(&own) {
+                names.push(own);
+            }
+        }
+        let inputs = case.model.free_components() + case.model.dimension();
+        names.extend((graph.inputs() > inputs).then_some("∫"));
+        Ok(match names.split_last() {
+            Some((last, [])) => last.to_string(),
+            Some((last, others)) => format!("{} and {last}", others.join(", ")),
+            None => String::new(),
+        })
+    }
+
     /// Elementary steps of the series of an orbit up to this order: one for each product of two
     /// coefficients, and some for each coefficient, whose sums are reduced and kept.
     pub fn steps(&self, orders: usize) -> f64 {

@@ -123,13 +123,13 @@ fn symmetry_fields_are_found_and_proved() {
     let cases: [(&str, &[&str]); 4] = [
         (
             "plane/revolution",
-            &["ω: [ω[2], −ω[1], 0], γ: [γ[2], −γ[1], 0]", "ω: [ω[1], ω[2], ω[3]]; [u,v] = 1 v"],
+            &["ω: [ω[2], −ω[1], 0], γ: [γ[2], −γ[1], 0]", "ω: [ω[1], ω[2], ω[3]]; [u,v] = v"],
         ),
-        ("plane/balanced-ball", &["ω: [ω[1], ω[2], ω[3]]; [u,v] = 1 v"]),
+        ("plane/balanced-ball", &["ω: [ω[1], ω[2], ω[3]]; [u,v] = v"]),
         ("plane/balanced-ball-gyrostat", &[]),
         (
             "flat-base/symmetric-base",
-            &["ω1: ω2, ω2: −ω1, r1: r2, r2: −r1", "ω1: ω1, ω2: ω2; [u,v] = 1 v"],
+            &["ω1: ω2, ω2: −ω1, r1: r2, r2: −r1", "ω1: ω1, ω2: ω2; [u,v] = v"],
         ),
     ];
     for (path, expected) in cases {

@@ -6,3 +6,4 @@ mod orbits;
 mod plants;
 mod ratios;
 mod shapes;
+mod wording;
