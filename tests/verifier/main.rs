@@ -45,6 +45,7 @@ mod samples;
 mod silent_states;
 mod sweep;
 mod systems;
+mod textbook;
 mod ties;
 mod user_fields;
 mod values;
