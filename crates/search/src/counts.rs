@@ -6,8 +6,8 @@ use serde::Serialize;
 
 use super::absence::{has_lists, rank};
 use super::ansatz::monomials::AnsatzVariables;
-use super::ask::{judged_alone, proved_energy};
 use super::budget::STEPS;
+use super::complete::are_all;
 use super::continued::named;
 use super::hypotheses::stated;
 use super::jets::{DimensionCount, MotionAtPoint, VelocityPolynomials};
@@ -17,11 +17,9 @@ use super::origin::{RemarkOrigin, TheoremOrigin};
 use super::products::Generators;
 use super::{Effort, Excluded, SearchError, SearchReport};
 use liouville::case::Case;
-use liouville::claim::{Claim, MOST_COMPARED};
 use liouville::formula::Formula;
 use liouville::mechanics::{Draw, System};
 use liouville::number::rational::Rational;
-use liouville::verdict::Verdict;
 
 /// Largest number of combinations of listed values that are counted one by one.
 const MOST_LISTED: usize = 64;
@@ -328,7 +326,7 @@ pub fn conclude(
     }
     let all = further.unwrap_or(all);
     let is_missing = |count: &CountReport| !count.free && count.dimension > count.known;
-    report.is_complete = report.counts.iter().any(is_missing) && has_all(case, effort, report)?;
+    report.is_complete = report.counts.iter().any(is_missing) && are_all(case, effort, report)?;
     note_missing(case, effort, report);
     let free_only = report.counts.iter().all(|count| count.free);
     let complete = |count: &&CountReport| count.dimension == count.known;
@@ -374,20 +372,6 @@ pub fn conclude(
         None => report.excluded.push(stated),
     }
     Ok(())
-}
-
-/// Whether the energy and the integrals found are proved to be as many independent ones as a motion in these
-/// coordinates has: any other one is a function of them near almost every state.
-fn has_all(case: &Case, effort: &Effort, report: &SearchReport) -> Result<bool, SearchError> {
-    let Ok(coordinates) = Coordinates::of(case) else { return Ok(false) };
-    let own = report.of_case("integral").filter(|own| own.verdict == Verdict::Proved);
-    let mut all: Vec<Formula> = proved_energy(case, effort)?.into_iter().collect();
-    all.extend(own.filter_map(|own| own.function.clone()));
-    if all.len() + 1 != coordinates.count() || all.len() > MOST_COMPARED {
-        return Ok(false);
-    }
-    let judged = judged_alone(case, Claim::independent(all), effort)?;
-    Ok(judged.is_some_and(|judged| judged.verdict == Verdict::Proved))
 }
 
 /// Tells the first degree at which more integrals are counted than known, in place of an earlier one,

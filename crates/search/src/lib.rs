@@ -19,6 +19,7 @@ mod ansatz;
 mod ask;
 mod branches;
 mod budget;
+mod complete;
 mod conditions;
 mod continued;
 mod counts;

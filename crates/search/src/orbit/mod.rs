@@ -85,6 +85,7 @@ mod quotients;
 mod rational;
 mod relations;
 mod remarks;
+mod report;
 mod rounds;
 mod separate;
 mod setting;
@@ -98,8 +99,6 @@ mod turned;
 mod unbound;
 mod univariate;
 mod weighted;
-
-use serde::Serialize;
 
 use liouville::case::Case;
 use liouville::formula::Formula;
@@ -116,6 +115,7 @@ use self::known::{IndependentIntegrals, has_all};
 use self::limits::{EXTENDED, FURTHER, MODEST, RoundLimits};
 use self::line::degree_of_field;
 use self::part::VariableSet;
+pub use self::report::OrbitReport;
 use self::setting::OrbitSetting;
 pub use self::sparse::sparse as with_few_entries;
 use super::ask::proved_energy;
@@ -126,40 +126,6 @@ const FEW_ROOTS: usize = 4;
 
 /// Number of the further limits with functions as variables, before the field is searched without them.
 const WITH_FUNCTIONS: usize = 2;
-
-/// Relations between monomials of at most a degree along one orbit.
-#[derive(Clone, Debug, Serialize)]
-pub struct OrbitReport {
-    /// Highest degree.
-    pub degree: u32,
-    /// Number of monomials.
-    pub monomials: usize,
-    /// Number of relations between them along the orbit of a random point.
-    pub relations: usize,
-    /// Number of independent algebraic integrals to which they belong.
-    pub integrals: usize,
-}
-
-impl OrbitReport {
-    /// The numbers in words, beginning with a small letter.
-    pub fn sentence(&self) -> String {
-        let Self { degree, monomials, relations, integrals } = self;
-        let who = format!("{monomials} monomials of degree at most {degree}");
-        if *relations == 0 {
-            return format!("no relation between the {who} holds along an orbit");
-        }
-        let relations = match relations {
-            1 => "1 relation".to_string(),
-            more => format!("{more} relations"),
-        };
-        let integrals = match integrals {
-            0 => "no algebraic integral".to_string(),
-            1 => "1 algebraic integral".to_string(),
-            more => format!("{more} independent algebraic integrals"),
-        };
-        format!("{relations} between the {who} along an orbit: {integrals}")
-    }
-}
 
 /// Searches a field for integrals; proved ones go into the report. If `further`, the limits grow while
 /// there is time.

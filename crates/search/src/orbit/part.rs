@@ -361,10 +361,8 @@ impl VariableSet {
         }
         let none = self.done.iter().rfind(|own| own.relations == 0);
         let Some(degree) = none.map(|own| own.degree) else { return Ok(()) };
-        if setting.flow.is_map && !setting.fills_space()? {
-            return Ok(());
-        }
-        if fractions::is_covered(report, degree) {
+        let is_partial = setting.flow.is_map && !setting.fills_space()?;
+        if is_partial || fractions::is_covered(report, degree) {
             return Ok(());
         }
         let names: Vec<String> = setting.terms.iter().map(ToString::to_string).collect();
