@@ -16,7 +16,7 @@ use super::{
     Case, Column, TABLE_ROWS, charts, homogeneous, implied, lists, map, one_sided, poincare,
     remarks, repeated, shadows, toml_errors, variables, velocities, weights,
 };
-use crate::mechanics::{Chart, LevelEquation, LevelFunction, Model, Surface, System, TIME};
+use crate::mechanics::{Chart, LevelEquation, LevelFunction, Model, Surface, System};
 
 /// The keys of a case file.
 const KEYS: [&str; 21] = [
@@ -64,8 +64,10 @@ pub struct Attempt {
     case: Option<Case>,
     /// Names of the claims that were read, by their places.
     places: Places,
-    /// Whether claims were left out, as they use `t`.
+    /// Whether claims or abbreviations were left out, as they use `t`.
     leaves_out: bool,
+    /// Whether a formula outside of claims and abbreviations uses `t`, which is not declared.
+    lacks_time: bool,
     /// Mistakes found in the attempt.
     pub mistakes: Vec<Mistake>,
     /// Parameters that are lists of numbers.
@@ -84,7 +86,7 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
     let attempt = lists::settled(&|diagonal| {
         let with = |time: Time| read(&Assumed { time, diagonal: diagonal.clone() });
         let attempt = with(Time::Absent);
-        if attempt.lacks_time() {
+        if attempt.lacks_time {
             return with(Time::Present(BTreeSet::new()));
         }
         match attempt.leaves_out {
@@ -115,7 +117,9 @@ impl Attempt {
             read(&root, settings, assumed, &mut noted)
         };
         let Noted { lists, places, leaves_out } = noted;
-        Self { case, places, leaves_out, mistakes: mistakes.into_list(), lists }
+        let leaves_out = leaves_out || mistakes.leaves_out();
+        let lacks_time = mistakes.lacks_time_since(0);
+        Self { case, places, leaves_out, lacks_time, mistakes: mistakes.into_list(), lists }
     }
 
     /// Attaches the same system without `t`; the mistakes of either stop both.
@@ -128,11 +132,6 @@ impl Attempt {
             (Some(_), None) => Self { case: None, ..other },
             (None, _) => self,
         }
-    }
-
-    /// Whether a formula outside of claims uses `t`, which is not declared.
-    fn lacks_time(&self) -> bool {
-        self.mistakes.iter().any(|mistake| mistake.unknown_name() == Some(TIME))
     }
 }
 

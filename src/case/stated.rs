@@ -6,7 +6,6 @@ use super::claims::{self, ClaimContext};
 use super::clock::Places;
 use super::section::CaseTable;
 use super::{AbsenceClaim, MotionClaim, PlacedClaim, absences};
-use crate::mechanics::TIME;
 
 /// Whether time is a variable of the state.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -46,7 +45,7 @@ impl ReadClaims {
                 continue;
             }
             let is_left_out = match time {
-                Time::Absent => root.mistakes().lacks_since(before, TIME),
+                Time::Absent => root.mistakes().lacks_time_since(before),
                 Time::Present(others) => others.contains(&place),
             };
             if is_left_out {

@@ -42,6 +42,7 @@ mod remarks;
 mod repeated_factors;
 mod roots_of_levels;
 mod samples;
+mod signs_of_rates;
 mod silent_states;
 mod sweep;
 mod systems;

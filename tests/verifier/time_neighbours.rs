@@ -51,7 +51,7 @@ fn no_claim_depends_on_another_that_uses_t() {
     let [alone, beside] = both(DAMPED, "density = \"exp(c*t)\"", &claims);
     assert_eq!(alone, beside);
     let proved = alone.iter().filter(|(_, verdict)| *verdict == Verdict::Proved).count();
-    assert_eq!(proved, 8, "{alone:?}");
+    assert_eq!(proved, 7, "{alone:?}");
     let claims = ["symmetry-field = { x = \"x\" }\nweight = \"1\"", "no-density-near = {}"];
     let [alone, beside] = both(SQUARE, "integral = \"t + 1/x\"", &claims);
     assert_eq!(alone, beside);
@@ -67,6 +67,19 @@ fn reports_keep_the_order_and_the_names_of_the_file() {
     assert_eq!(names.len(), 4);
     assert!(names[1].ends_with("(2)") && names[2].ends_with("(3)"), "{names:?}");
     assert!(found.claims.iter().all(|claim| claim.verdict == Verdict::Proved), "{names:?}");
+}
+
+#[test]
+fn abbreviations_that_use_t_leave_other_claims_alone() {
+    let names = "[let]\ng = \"exp(c*t)\"\nh = \"2*g\"\n";
+    let rest = "[[claim]]\nfixed-point = {}\n[[claim]]\nno-density-near = {}\n";
+    for used in ["", "[[claim]]\ndensity = \"h\"\n"] {
+        let found = report(&format!("{DAMPED}{names}{rest}{used}"));
+        assert_eq!(found.claims.len(), 2 + usize::from(!used.is_empty()));
+        assert!(found.claims.iter().all(|claim| claim.verdict == Verdict::Proved), "{used}");
+    }
+    let error = Case::parse(&format!("{DAMPED}{names}[[claim]]\nintegral = \"h + z\"\n"), &[]);
+    assert!(error.expect_err("z is unknown").to_string().contains("`z`"));
 }
 
 #[test]
