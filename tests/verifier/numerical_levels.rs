@@ -58,6 +58,46 @@ fn nothing_is_confirmed_beside_factors_that_are_not_met() {
 }
 
 #[test]
+fn nothing_is_confirmed_that_fails_at_zeros_of_a_factor() {
+    let curve = "(y^5 + y + x^5 + x + z − 1)";
+    // Each f has zeros in the ranges, off the curve; each head is 0 where f is, and nearly all have no slope there.
+    let zeros = ["(x − sin(y))", "(y*exp(x) − 1)", "(x + y − z)", "(z^2 − x)", "(x*y + z − 1/2)"];
+    let heads = [
+        "sqrt(F)",
+        "F^(3/2)",
+        "sqrt(sqrt(F))",
+        "sqrt(F^2)",
+        "abs(F)",
+        "F*abs(F)",
+        "(sqrt(4 + F^4) − 2)",
+        "((8 + F^2)^(1/3) − 2)",
+        "ln(1 + F^2)",
+        "atan(F^2)",
+        "(2^(F^2) − 1)",
+        "F*sin(F)",
+        "(F − atan(F))",
+        "(exp(F) − 1 − F)",
+        "asin(sqrt(F))",
+        "(1 − 1/cosh(F))",
+        "F*sqrt(F)*(2 + cos(F))",
+        "(abs(1 + F^2) − 1)",
+    ];
+    for (turn, head) in heads.into_iter().enumerate() {
+        let zero = zeros[turn % zeros.len()];
+        let level = format!("{}*{curve}", head.replace('F', zero));
+        let claims = ["identity = \"y^5 + y + z = 1 − x − x^5\""];
+        // The field of `text` leaves this level.
+        let all = text("", &level, &claims).replace("\"z'\" = \"1\"", "\"z'\" = \"0\"");
+        let found = judged(&all).swap_remove(0);
+        assert!(
+            matches!(found.verdict, Verdict::Undecided | Verdict::Refuted),
+            "{level}: {:?}",
+            found.verdict
+        );
+    }
+}
+
+#[test]
 fn printed_witnesses_are_on_the_level() {
     // Of most parameters that are drawn there is no state; others are drawn then.
     for (parameters, level) in [
