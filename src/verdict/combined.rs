@@ -29,7 +29,7 @@ impl Judging<'_> {
         let (level, rates) = (kept(&self.common.level), kept(&self.common.level_rates));
         let mut of_rates: Option<Option<Certificate>> = None;
         for (item, status) in open.iter_mut() {
-            if status.settled.is_some() || status.undefined.is_some() || status.is_zero {
+            if status.settled.is_some() || status.is_zero {
                 continue;
             }
             let is_of_points = match item.claim.kind.name() {
@@ -123,12 +123,15 @@ impl Judging<'_> {
 /// Settles a claim as proved at all points of its level.
 fn prove(status: &mut ClaimState, proof: Proof) {
     status.rung(Method::PrimeField, proof.to_string());
-    status.evidence.method = Method::PrimeField;
     status.evidence.proof = Some(proof);
-    status.is_zero = true;
-    status.is_combination = true;
-    status.blurred = None;
-    status.settled = Some(Verdict::Proved);
+    (status.is_zero, status.is_combination) = (true, true);
+    (status.blurred, status.partial, status.evidence.silence) = (None, None, None);
+    status.nonzero.clear();
+    // Whether there is a state is not yet known.
+    if status.undefined.is_none() {
+        status.evidence.method = Method::PrimeField;
+        status.settled = Some(Verdict::Proved);
+    }
 }
 
 /// Whether a step makes a value that counts as a symbol: it is no sum, product or quotient.
