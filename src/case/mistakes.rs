@@ -83,6 +83,22 @@ impl Mistakes {
         self.list.borrow().is_empty()
     }
 
+    /// Number of mistakes so far.
+    pub fn len(&self) -> usize {
+        self.list.borrow().len()
+    }
+
+    /// Whether one of the mistakes after the first `before` is that this name is unknown.
+    pub fn lacks_since(&self, before: usize, name: &str) -> bool {
+        let list = self.list.borrow();
+        list.iter().skip(before).any(|mistake| mistake.unknown_name() == Some(name))
+    }
+
+    /// Forgets all mistakes after the first `before`.
+    pub fn forget_since(&self, before: usize) {
+        self.list.borrow_mut().truncate(before);
+    }
+
     /// Returns all mistakes, except missing keys of a table in which a key is misspelt.
     pub fn into_list(self) -> Vec<Mistake> {
         let mut list = self.list.into_inner();

@@ -49,6 +49,7 @@ mod sweep;
 mod systems;
 mod textbook;
 mod ties;
+mod time_neighbours;
 mod user_fields;
 mod values;
 mod verdicts;
