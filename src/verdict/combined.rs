@@ -49,7 +49,7 @@ impl Judging<'_> {
                     if of_rates.is_none() {
                         of_rates = Some(self.combination(&level, &rates)?);
                     }
-                    let Some(Some(kept)) = of_rates.clone() else { continue };
+                    let Some(Some(kept)) = of_rates else { continue };
                     own.and(kept)
                 }
             };

@@ -15,6 +15,9 @@ use super::{Group, GroupOutcome, Prover};
 /// Number of points beyond the number of multiples.
 const SPARE_POINTS: usize = 4;
 
+/// Multiples, a row for each value, and a certificate of the sums.
+type ProvedMultiples = (Vec<Vec<Rational>>, Certificate);
+
 /// Expresses each value as Σ mᵢ bᵢ with the same values b and rational multiples m, one row for
 /// each value; `None` unless all are proved to be such sums at all inputs.
 ///
@@ -45,7 +48,7 @@ fn proved(
     values: &[Expr],
     basis: &[Expr],
     seed: u64,
-) -> Result<Option<(Vec<Vec<Rational>>, Certificate)>, Fault> {
+) -> Result<Option<ProvedMultiples>, Fault> {
     let Some(multiples) = guessed(graph, values, basis, seed) else { return Ok(None) };
     let all = [values, basis].concat();
     let reached = graph.reached(all.iter().copied());
