@@ -185,6 +185,21 @@ pub fn entries(
 /// independent names; `None` if nothing is proved.
 fn independent(function: &Formula, vocabulary: &Vocabulary) -> Option<Vec<usize>> {
     let count = components(function.value_type());
+    fresh(count, vocabulary, &|inputs| valued(function, vocabulary, inputs).components())
+}
+
+/// Lists the scalars that are not 0, and neither equal nor opposite to one before, in the same way.
+pub fn fresh_scalars(functions: &[Formula], vocabulary: &Vocabulary) -> Option<Vec<usize>> {
+    fresh(functions.len(), vocabulary, &|inputs| {
+        functions.iter().flat_map(|own| valued(own, vocabulary, inputs).components()).collect()
+    })
+}
+
+fn fresh(
+    count: usize,
+    vocabulary: &Vocabulary,
+    values: &dyn Fn(&[Expr]) -> Vec<Expr>,
+) -> Option<Vec<usize>> {
     if count > MOST_COMPARED {
         return None;
     }
@@ -192,7 +207,7 @@ fn independent(function: &Formula, vocabulary: &Vocabulary) -> Option<Vec<usize>
     let size = |(_, entry): (Symbol, &VocabularyEntry)| components(entry.kind);
     let inputs = vocabulary.iter().map(size).sum();
     let (graph, groups) = record(inputs, |inputs| {
-        let entries = valued(function, vocabulary, inputs).components();
+        let entries = values(inputs);
         let both = |(i, j): &(usize, usize)| [entries[*i] - entries[*j], entries[*i] + entries[*j]];
         entries.iter().copied().chain(pairs.iter().flat_map(both)).collect::<Vec<Expr>>()
     })

@@ -1,40 +1,55 @@
 //! Equations of a level with repeated factors, which have the zeros of simpler ones.
 
-use crate::formula::Symbol;
-use crate::mechanics::{ENTRY, LevelEquation, LevelFunction, Meaning, Model};
+use super::equations::fresh_scalars;
+use crate::formula::{Formula, Symbol};
+use crate::mechanics::{
+    ENTRY, LevelEquation, LevelFunction, Meaning, Model, ParameterOrigin, SamplerSpec,
+};
+use crate::proof::{Extent, KnownSign};
+
+/// Largest number of times that what stands for an equation is simplified again.
+const MOST_ROUNDS: usize = 3;
+
+/// Simpler equations in the place of one.
+struct Simpler {
+    functions: Vec<Formula>,
+    /// Whether the equation was a sum of values of one sign.
+    is_sum: bool,
+}
 
 /// Puts simpler equations with the same zeros in the place of those in which a factor is repeated, as (x − y)² = 0, or
-/// which are sums of squares; returns a remark on each. Those that `is_given` does not accept stay.
+/// which are sums of values of one sign; returns a remark on each. Those that `is_given` does not accept stay.
 pub fn count_factors_once(
     model: &mut Model,
     is_given: impl Fn(&LevelEquation) -> bool,
 ) -> Vec<String> {
     let (mut remarks, mut level) = (Vec::new(), Vec::new());
-    let is_coordinate =
-        |own: Symbol| matches!(model.vocabulary.entry(own).meaning, Meaning::State(_));
-    let is_fixed =
-        |own: Symbol| matches!(model.vocabulary.entry(own).meaning, Meaning::Parameter(_));
-    let simpler = |equation: &LevelEquation| match &equation.function {
-        LevelFunction::Formula(function) if is_given(equation) => {
-            function.with_simple_factors(&is_coordinate, &is_fixed)
-        }
-        _ => None,
-    };
     for equation in &model.level {
-        let Some(found) = simpler(equation) else {
+        let found = match &equation.function {
+            LevelFunction::Formula(function) if is_given(equation) => {
+                simpler(model, function, MOST_ROUNDS)
+            }
+            _ => None,
+        };
+        let Some(Simpler { functions, is_sum }) = found else {
             level.push(equation.clone());
             continue;
         };
         let text = &equation.text;
-        let is_alone = found.len() == 1;
-        remarks.push(match is_alone {
-            true => format!(
+        let is_alone = functions.len() == 1;
+        remarks.push(match (is_alone, is_sum) {
+            (false, true) => format!(
+                "`{text}` is a sum of values that are nowhere negative, and says that each of them is 0"
+            ),
+            (false, false) => {
+                format!("`{text}` is a sum of squares, and says that each of them is 0")
+            }
+            (true, _) => format!(
                 "each factor of `{text}` counts once: the zeros are the same, and slopes and densities are \
                  those of the simple factors"
             ),
-            false => format!("`{text}` is a sum of squares, and says that each of them is 0"),
         });
-        for (index, function) in (1..).zip(found) {
+        for (index, function) in (1..).zip(functions) {
             let text = if is_alone { text.clone() } else { format!("{text}{ENTRY}{index}") };
             let function = LevelFunction::Formula(function);
             level.push(LevelEquation { text, function, root: None });
@@ -42,4 +57,62 @@ pub fn count_factors_once(
     }
     model.level = level;
     remarks
+}
+
+/// Finds simpler equations with the zeros of one.
+fn simpler(model: &Model, function: &Formula, rounds: usize) -> Option<Simpler> {
+    let meaning = |own: Symbol| &model.vocabulary.entry(own).meaning;
+    let is_coordinate = |own: Symbol| matches!(meaning(own), Meaning::State(_));
+    let is_fixed = |own: Symbol| matches!(meaning(own), Meaning::Parameter(_));
+    let is_total = |own: Symbol| match meaning(own) {
+        Meaning::State(_) => true,
+        Meaning::Parameter(index) => {
+            let parameter = model.parameters.get(*index);
+            parameter.is_some_and(|own| !matches!(own.origin, ParameterOrigin::Formula(_)))
+        }
+        _ => false,
+    };
+    let sign = |own: Symbol| match meaning(own) {
+        Meaning::Parameter(index) => sign_of(&model.parameters.get(*index)?.origin),
+        _ => None,
+    };
+    let simple = function.with_simple_factors(&is_coordinate, &is_fixed);
+    let (functions, is_sum) = match simple {
+        Some(functions) => (functions, false),
+        None => {
+            let all = function.as_definite_sum(&sign, &is_total)?;
+            let kept = fresh_scalars(&all, &model.vocabulary)?;
+            (kept.into_iter().filter_map(|index| all.get(index).cloned()).collect(), true)
+        }
+    };
+    if rounds == 0 {
+        return Some(Simpler { functions, is_sum });
+    }
+    let mut found = Simpler { functions: Vec::new(), is_sum };
+    for function in functions {
+        match simpler(model, &function, rounds - 1) {
+            Some(own) => {
+                found.is_sum |= own.is_sum;
+                found.functions.extend(own.functions);
+            }
+            None => found.functions.push(function),
+        }
+    }
+    Some(found)
+}
+
+/// Returns the sign of a parameter, or of all of its components.
+fn sign_of(origin: &ParameterOrigin) -> Option<KnownSign> {
+    let extent = match origin {
+        ParameterOrigin::Fixed(values) => {
+            let (least, greatest) = (values.iter().min()?, values.iter().max()?);
+            Extent::between(least, greatest)
+        }
+        ParameterOrigin::Free(SamplerSpec::Scalar(draw) | SamplerSpec::Vector(_, draw)) => {
+            draw.extent()
+        }
+        _ => return None,
+    };
+    let may_vanish = !extent.excludes_zero();
+    extent.sign().map(|is_positive| KnownSign { is_positive, may_vanish })
 }

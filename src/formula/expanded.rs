@@ -76,7 +76,7 @@ impl Arena {
 }
 
 /// Returns, for each node, the first one of the same operation on the same values.
-fn same(arena: &Arena) -> Vec<NodeId> {
+pub(super) fn same(arena: &Arena) -> Vec<NodeId> {
     let mut same: Vec<NodeId> = Vec::new();
     let mut known: Vec<(NodeOperation, NodeId)> = Vec::new();
     for (id, node) in arena.nodes.iter().enumerate() {
@@ -103,6 +103,11 @@ impl<'a> Reading<'a> {
             parts: Vec::new(),
             work: MOST_POLYNOMIAL_WORK,
         })
+    }
+
+    /// Whether two nodes have the same value.
+    pub fn is_same(&self, one: NodeId, other: NodeId) -> bool {
+        self.same[one] == self.same[other]
     }
 
     /// Reads a node as a polynomial, or as one part if it is too large.

@@ -5,6 +5,7 @@ use super::Formula;
 use super::arena::{Arena, Constant, ElementaryFunction, NodeId, NodeOperation};
 use super::expanded::Reading;
 use super::kind::Type;
+use super::reduced::Reduced;
 use super::scope::Symbol;
 use crate::number::rational::Rational;
 use crate::proof::{MOST_POLYNOMIAL_WORK, Polynomial};
@@ -49,7 +50,7 @@ impl Formula {
 
 impl Arena {
     /// Appends a scalar that belongs to the text of a node.
-    fn scalar(&mut self, operation: NodeOperation, of: NodeId) -> NodeId {
+    pub(super) fn scalar(&mut self, operation: NodeOperation, of: NodeId) -> NodeId {
         let span = self.nodes[of].span.clone();
         self.push(operation, Type::Scalar, span)
     }
@@ -151,9 +152,13 @@ impl Simpler {
     ) -> Option<Self> {
         let mut reading = Reading::of(arena)?;
         let (mut found, mut seen) = (Vec::new(), Vec::<Polynomial>::new());
-        let mut is_simpler = product.is_simpler;
+        let (mut is_simpler, mut implied) = (product.is_simpler, Vec::<u32>::new());
         for node in &product.above {
-            let own = reading.polynomial_or_part(*node)?;
+            let mut own = reading.polynomial_or_part(*node)?;
+            if let Some(reduced) = Reduced::of(arena, &reading, &own) {
+                implied.extend(reduced.implied);
+                own = reduced.polynomial;
+            }
             let factors = own.factors();
             if own.is_zero() || seen.len() + factors.len() > MOST_FACTORS {
                 return None;
@@ -182,7 +187,9 @@ impl Simpler {
             }
         }
         // What cancels may have had no value.
-        let is_kept = |index: u32| seen.iter().any(|own| own.variables().contains(&index));
+        let is_kept = |index: u32| {
+            implied.contains(&index) || seen.iter().any(|own| own.variables().contains(&index))
+        };
         let parts = reading.parts;
         if !(0..u32::try_from(parts.len()).ok()?).all(is_kept) {
             return None;
@@ -225,7 +232,7 @@ impl Simpler {
 }
 
 /// Returns the symbol that a node, or the vector of which it is a component, is.
-fn symbol(arena: &Arena, node: NodeId) -> Option<Symbol> {
+pub(super) fn symbol(arena: &Arena, node: NodeId) -> Option<Symbol> {
     match arena.nodes[node].operation {
         NodeOperation::Symbol(slot) => arena.symbols.get(slot).map(|(symbol, _)| *symbol),
         NodeOperation::Component(of, _) => match arena.nodes[of].operation {
@@ -237,7 +244,7 @@ fn symbol(arena: &Arena, node: NodeId) -> Option<Symbol> {
 }
 
 /// Whether a polynomial is the product of some factors, up to a number.
-fn is_product(whole: &Polynomial, factors: &[Polynomial]) -> bool {
+pub(super) fn is_product(whole: &Polynomial, factors: &[Polynomial]) -> bool {
     let mut work = MOST_POLYNOMIAL_WORK;
     let one = Polynomial::constant(&Rational::from(1));
     let product = factors.iter().try_fold(one, |all, own| all.times(own, &mut work));

@@ -36,6 +36,9 @@ pub struct ClaimState {
     pub undefined: Option<String>,
     /// Description of the rounding that blurred the residual.
     pub blurred: Option<String>,
+    /// Whether the residual is proved to be a combination of the level functions: 0 at all points of the level,
+    /// also at those that no state comes near.
+    pub is_combination: bool,
     /// Whether it is known that there is no state at which all formulas of the claim have a value.
     pub is_void: bool,
     /// Whether the residual is known to be zero wherever it has a value, and no state is known at which

@@ -97,6 +97,9 @@ impl Judging<'_> {
         let settled = open.iter().filter(|(_, status)| status.settled.is_some());
         self.tell(settled.count() as f64);
         if self.options.trust != Trust::Float {
+            if sampler.is_numerical() || missed.is_some() {
+                self.combine(sampler, open)?;
+            }
             self.fields(place, sampler, open)?;
         }
         self.further_states(sampler, open);
@@ -110,6 +113,7 @@ impl Judging<'_> {
             if !sampler.is_numerical() {
                 self.states_beside_moduli(sampler, open)?;
                 self.states_near_ends(sampler, open);
+                self.combine(sampler, open)?;
             }
         }
         for (item, status) in open.iter_mut() {
@@ -117,7 +121,7 @@ impl Judging<'_> {
                 complete(item, status);
             }
             // A claim that holds at the computed states need not hold on the part they miss.
-            if let (Some(reason), true) = (missed, status.holds()) {
+            if let (Some(reason), true) = (missed, status.holds() && !status.is_combination) {
                 status.evidence.proof = None;
                 undecide(status, reason.to_string());
             }

@@ -9,6 +9,7 @@ mod around;
 mod branches;
 mod cell_rank;
 mod claim_state;
+mod combined;
 mod conclude;
 mod conditions;
 mod conjugates;

@@ -114,12 +114,19 @@ impl PivotSpace {
 
     /// Whether values are known to have no common zero at any real point of the level.
     pub fn have_no_zero(&self, values: &[Expr]) -> bool {
-        // Equations among the dependencies of the values first.
+        // Facts that are few and near first: each further input is one more to divide.
         let inputs: Vec<usize> = values.iter().flat_map(|x| self.inputs_of(*x)).collect();
-        let is_near = |x: &&Expr| self.inputs_of(**x).iter().all(|k| inputs.contains(k));
-        let near: Vec<Expr> = self.level.iter().filter(is_near).copied().collect();
-        let have_none = |level: &[Expr]| is_nowhere_zero(&self.graph, &self.extents, level, values);
-        have_none(&near) || (near.len() < self.level.len() && have_none(&self.level))
+        let within = |is_near: &dyn Fn(usize) -> bool| -> Vec<Expr> {
+            let of = |x: &&Expr| self.inputs_of(**x).into_iter().all(is_near);
+            self.level.iter().filter(of).copied().collect()
+        };
+        let near = within(&|k| inputs.contains(&k));
+        let with_parameters = within(&|k| k < self.first || inputs.contains(&k));
+        let mut tried = None;
+        [&near, &with_parameters, &self.level].into_iter().any(|level| {
+            let is_new = tried.replace(level.len()) != Some(level.len());
+            is_new && is_nowhere_zero(&self.graph, &self.extents, level, values)
+        })
     }
 
     fn inputs_of(&self, value: Expr) -> Vec<usize> {

@@ -2,8 +2,10 @@
 
 mod arbitrary;
 mod bodies;
+mod combinations;
 #[path = "../common/mod.rs"]
 mod common;
+mod definite_sums;
 mod derivatives;
 mod dissipation;
 mod documents;

@@ -9,10 +9,14 @@ use super::digest::SeedDigest;
 use super::elimination::reduce;
 use super::reconstruct::reconstruct;
 use super::rng::{ProofRng, ProofStream};
-use super::{Group, Prover};
+use super::trial::Certificate;
+use super::{Group, GroupOutcome, Prover};
 
 /// Number of points beyond the number of multiples.
 const SPARE_POINTS: usize = 4;
+
+/// Multiples, a row for each value, and a certificate of the sums.
+type ProvedMultiples = (Vec<Vec<Rational>>, Certificate);
 
 /// Expresses each value as Σ mᵢ bᵢ with the same values b and rational multiples m, one row for
 /// each value; `None` unless all are proved to be such sums at all inputs.
@@ -25,6 +29,26 @@ pub fn combinations(
     basis: &[Expr],
     seed: u64,
 ) -> Result<Option<Vec<Vec<Rational>>>, Fault> {
+    Ok(proved(graph, values, basis, seed)?.map(|(multiples, _)| multiples))
+}
+
+/// Proves that each value is a sum Σ mᵢ bᵢ with rational multiples m; `None` where that is not known.
+pub fn combination_certificate(
+    graph: &Graph,
+    values: &[Expr],
+    basis: &[Expr],
+    seed: u64,
+) -> Result<Option<Certificate>, Fault> {
+    Ok(proved(graph, values, basis, seed)?.map(|(_, certificate)| certificate))
+}
+
+/// Finds multiples, and a certificate of the sums.
+fn proved(
+    graph: &Graph,
+    values: &[Expr],
+    basis: &[Expr],
+    seed: u64,
+) -> Result<Option<ProvedMultiples>, Fault> {
     let Some(multiples) = guessed(graph, values, basis, seed) else { return Ok(None) };
     let all = [values, basis].concat();
     let reached = graph.reached(all.iter().copied());
@@ -40,8 +64,10 @@ pub fn combinations(
     })?;
     let Some(defects) = defects else { return Ok(None) };
     let prover = Prover { sources: &[], extents: &[], seed };
-    let outcomes = prover.prove(&graph, &[Group::of(defects)])?;
-    Ok(outcomes.iter().all(|outcome| outcome.is_zero()).then_some(multiples))
+    Ok(match prover.prove(&graph, &[Group::of(defects)])?.pop() {
+        Some(GroupOutcome::Zero(certificate)) => Some((multiples, certificate)),
+        _ => None,
+    })
 }
 
 /// Finds multiples at random points modulo a prime.

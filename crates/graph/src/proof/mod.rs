@@ -85,7 +85,7 @@ mod void;
 pub use angles::{arguments as angle_arguments, without_arctangents};
 pub use bounds::InputDistribution;
 pub use collected::{NamedPolynomial, simpler_forms};
-pub use combination::combinations;
+pub use combination::{combination_certificate, combinations};
 pub use coprime::{are_coprime, are_polynomials, is_single_valued};
 pub use determined::Determination;
 pub use digest::statement_seed;

@@ -135,6 +135,11 @@ impl<'r> Reach<'r> {
         self.places.binary_search(&place).unwrap_or(0)
     }
 
+    /// Supposes that values, by number, are 0: what is bounded then holds at their common zeros alone.
+    pub fn suppose_zero(&mut self, numbers: &[usize]) {
+        numbers.iter().for_each(|number| self.steps[*number].is_zero = true);
+    }
+
     /// Lists the places of the reached values in order.
     pub fn places(&self) -> &[usize] {
         &self.places

@@ -66,6 +66,8 @@ pub fn is_seen_nowhere_zero(
     let places: Vec<usize> = values.iter().map(|value| graph.place(*value)).collect();
     let mut reach = region.reached(&places);
     let numbers: Vec<usize> = places.iter().map(|place| reach.number(*place)).collect();
+    // What follows from the zeros may contradict a fact at sight: q − p = 0 and |q − p|² = 1.
+    reach.suppose_zero(&numbers);
     let used = reach.inputs().to_vec();
     let mut open = vec![region.whole()];
     for _ in 0..pieces {

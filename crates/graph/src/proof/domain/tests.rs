@@ -99,3 +99,19 @@ fn numbers_beyond_f64_have_no_sign_by_accident() {
     assert_eq!(sign_of(&[(0, 2)], power), None, "1 − x^1000000 has both signs");
     assert_eq!(sign_of(&[(2, 3)], power), Some(false));
 }
+
+#[test]
+fn common_zeros_contradict_facts_at_sight() {
+    // q − p = 0 and |q − p|² = 1 in ℝ³
+    let build = |x: &[Expr], length: f64| {
+        let differences = [0, 1, 2].map(|k| x[k + 3] - x[k]);
+        let square = differences.iter().fold(Expr::from(0.0), |sum, own| sum + *own * *own);
+        (differences, [square - length, -(square - length)])
+    };
+    let inputs = [Extent::between(&Rational::from(-2), &Rational::from(2)); 6];
+    let (graph, (values, facts)) = record(6, |x| build(x, 1.0)).expect("records");
+    assert!(is_seen_nowhere_zero(&graph, &inputs, &facts, &values, 8), "|q − p| = 1");
+    assert!(!is_seen_nowhere_zero(&graph, &inputs, &facts, &values[..2], 8), "the third is ±1");
+    let (graph, (values, facts)) = record(6, |x| build(x, 0.0)).expect("records");
+    assert!(!is_seen_nowhere_zero(&graph, &inputs, &facts, &values, 8), "q = p");
+}

@@ -44,7 +44,7 @@ impl Polynomial {
     }
 
     /// Returns the coefficients by powers of a variable.
-    pub(super) fn by_powers(&self, variable: u32) -> Vec<(u32, Self)> {
+    pub fn by_powers(&self, variable: u32) -> Vec<(u32, Self)> {
         let all = self.collected(&[variable]).into_iter();
         all.map(|(powers, own)| (powers.first().copied().unwrap_or(0), own)).collect()
     }

@@ -1,0 +1,166 @@
+//! Claims proved on a level without its states: their residuals are sums Σ m F of the level functions F, with
+//! multipliers m that have values where the residuals have.
+//!
+//! docs/soundness-levels.md, "Combinations of the equations", states the theorem.
+
+use super::claim_state::{ClaimState, are_zero};
+use super::evidence::{Method, Proof, Verdict};
+use super::judging::Judging;
+use super::ladder::Open;
+use super::recorded::RecordedClaim;
+use super::sampler::Sampler;
+use crate::graph::{Expr, Fault, Graph, Need, Step, record};
+use crate::number::{BinaryOperation, UnaryFunction};
+use crate::proof::{Certificate, combination_certificate};
+
+/// Largest number of products of a multiplier and a level function.
+const MOST_PRODUCTS: usize = 400;
+/// Largest number of quotients that are tried as multipliers.
+const MOST_QUOTIENTS: usize = 24;
+
+impl Judging<'_> {
+    /// Proves open claims whose residuals are combinations of the level functions; those about motions need that
+    /// the rates of these functions are, too.
+    pub(super) fn combine(&self, sampler: &Sampler, open: &mut Open<'_, '_>) -> Result<(), Fault> {
+        let kept = |all: &[Expr]| -> Vec<Expr> {
+            let pairs = all.iter().zip(sampler.kept()).filter(|(_, kept)| **kept);
+            pairs.map(|(value, _)| *value).collect()
+        };
+        let (level, rates) = (kept(&self.common.level), kept(&self.common.level_rates));
+        let mut of_rates: Option<Option<Certificate>> = None;
+        for (item, status) in open.iter_mut() {
+            if status.settled.is_some() || status.is_zero {
+                continue;
+            }
+            let is_of_points = match item.claim.kind.name() {
+                "identity" => true,
+                "integral" | "rate" => false,
+                _ => continue,
+            };
+            let is_sound = are_zero(self.graph, &item.context.quadrature_defects)
+                && self.has_value_where_asked(sampler, item, is_of_points);
+            if !is_sound {
+                continue;
+            }
+            let Some(own) = self.combination(&level, &item.residual)? else { continue };
+            let certificate = match is_of_points {
+                true => own,
+                false => {
+                    if of_rates.is_none() {
+                        of_rates = Some(self.combination(&level, &rates)?);
+                    }
+                    let Some(Some(kept)) = of_rates else { continue };
+                    own.and(kept)
+                }
+            };
+            prove(status, Proof::from(certificate));
+        }
+        Ok(())
+    }
+
+    /// Whether the residual of a claim has a value wherever the claim asks for it: what it needs is needed by the
+    /// formulas as they are written, or by the motion.
+    fn has_value_where_asked(
+        &self,
+        sampler: &Sampler,
+        item: &RecordedClaim<'_>,
+        is_of_points: bool,
+    ) -> bool {
+        let mut asked = [&item.requirement[..], &self.common.required_at(sampler.kept())].concat();
+        let mut needed = item.residual.clone();
+        if !is_of_points {
+            asked.extend(&self.common.field);
+            needed.extend(&self.common.level_rates);
+        }
+        let needs = |values: Vec<Expr>| -> Vec<(usize, Need)> {
+            let reached = self.graph.reached(values);
+            self.graph.needs(&reached).collect()
+        };
+        let known = needs(asked);
+        needs(needed).into_iter().all(|(place, need)| {
+            known.iter().any(|(own, known)| *own == place && known.includes(need))
+        })
+    }
+
+    /// Proves that values are combinations of the level functions.
+    fn combination(&self, level: &[Expr], values: &[Expr]) -> Result<Option<Certificate>, Fault> {
+        let graph = self.graph;
+        let all = [values, level].concat();
+        let reached = graph.reached(all.iter().copied());
+        let symbols: Vec<usize> = (0..reached.len())
+            .filter(|place| reached[*place] && is_symbol(graph.step(*place)))
+            .collect();
+        let multipliers = multipliers(graph, &reached, &symbols);
+        if level.is_empty() || (multipliers.len() + 1) * level.len() > MOST_PRODUCTS {
+            return Ok(None);
+        }
+        let first = graph.inputs();
+        let (graph, made) = record(first + symbols.len(), |inputs| {
+            let given = |place: usize| {
+                let found = symbols.binary_search(&place).ok()?;
+                inputs.get(first + found).copied()
+            };
+            let made = graph.repeated_with(&reached, &inputs[..first], given);
+            let at = |value: &Expr| made[graph.place(*value)];
+            let values: Option<Vec<Expr>> = values.iter().map(at).collect();
+            let mut basis: Vec<Expr> = level.iter().map(at).collect::<Option<_>>()?;
+            for place in &multipliers {
+                let multiplier = made[*place]?;
+                basis.extend(
+                    level
+                        .iter()
+                        .map(|own| Some(multiplier * at(own)?))
+                        .collect::<Option<Vec<Expr>>>()?,
+                );
+            }
+            Some((values?, basis))
+        })?;
+        let Some((values, basis)) = made else { return Ok(None) };
+        combination_certificate(&graph, &values, &basis, self.options.seed)
+    }
+}
+
+/// Settles a claim as proved at all points of its level.
+fn prove(status: &mut ClaimState, proof: Proof) {
+    status.rung(Method::PrimeField, proof.to_string());
+    status.evidence.proof = Some(proof);
+    (status.is_zero, status.is_combination) = (true, true);
+    (status.blurred, status.partial, status.evidence.silence) = (None, None, None);
+    status.nonzero.clear();
+    // Whether there is a state is not yet known.
+    if status.undefined.is_none() {
+        status.evidence.method = Method::PrimeField;
+        status.settled = Some(Verdict::Proved);
+    }
+}
+
+/// Whether a step makes a value that counts as a symbol: it is no sum, product or quotient.
+fn is_symbol(step: Step<'_>) -> bool {
+    match step {
+        Step::Constant(_) | Step::Input(_) => false,
+        Step::Unary(function, _) => !matches!(function, UnaryFunction::Neg | UnaryFunction::Recip),
+        Step::Binary(operation, ..) => operation == BinaryOperation::Pow,
+        Step::Power(_, exponent) => exponent.to_integer().is_none(),
+    }
+}
+
+/// Lists the places of the multipliers that are tried: inputs, symbols, and quotients, such as the reactions of
+/// constraints.
+fn multipliers(graph: &Graph, reached: &[bool], symbols: &[usize]) -> Vec<usize> {
+    let places = || (0..reached.len()).filter(|place| reached[*place]);
+    let is_input = |place: &usize| matches!(graph.step(*place), Step::Input(_));
+    let is_inverse =
+        |place: usize| matches!(graph.step(place), Step::Unary(UnaryFunction::Recip, _));
+    let is_quotient = |place: &usize| match graph.step(*place) {
+        Step::Binary(BinaryOperation::Mul, a, b) => is_inverse(a) || is_inverse(b),
+        _ => false,
+    };
+    let mut found: Vec<usize> = places().filter(is_input).collect();
+    found.extend(symbols);
+    // Those that were made last are nearest to the values.
+    let mut quotients: Vec<usize> = places().filter(is_quotient).collect();
+    quotients.reverse();
+    quotients.truncate(MOST_QUOTIENTS);
+    found.extend(quotients);
+    found
+}

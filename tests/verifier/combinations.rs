@@ -1,0 +1,86 @@
+//! Claims that follow from the equations of a level, each with a multiplier.
+
+use liouville::case::Case;
+use liouville::verdict::{Options, Verdict, judge};
+
+fn judged(text: &str) -> Vec<Verdict> {
+    let case = Case::parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let report = judge(&case, &Options::default()).unwrap_or_else(|error| panic!("{error}"));
+    report.claims.into_iter().map(|claim| claim.verdict).collect()
+}
+
+fn with_claims(text: &str, claims: &[&str]) -> String {
+    let claims = claims.iter().map(|own| format!("[[claim]]\n{own}\nexpect = \"open\"\n"));
+    format!("title = \"t\"\n{text}{}", claims.collect::<String>())
+}
+
+#[test]
+fn rods_may_have_lengths_of_a_range() {
+    for n in [2, 3] {
+        let text = format!(
+            "system = \"nonholonomic\"\n[parameters]\na = \"0.5..1\"\nb = \"1..2\"\n\
+             [state]\np = \"vector({n}, -1..1)\"\nq = \"vector({n}, -2..2)\"\n\
+             \"p'\" = \"vector({n}, -1..1)\"\n\"q'\" = \"vector({n}, -1..1)\"\n\
+             [lagrangian]\nkinetic = \"(p',p')/2 + (q',q')/2\"\npotential = \"p2 + q2\"\n\
+             constraints = [\"(p,p) = a²\", \"|q − p|² = b²\"]\n"
+        );
+        // A density asks that the parametrisation misses nothing.
+        let claims = [
+            "integral = \"energy\"",
+            "integral = \"energy + p1\"",
+            "density = \"2*a²*b² − (p, q − p)²\"",
+        ];
+        let found = judged(&with_claims(&text, &claims));
+        assert_eq!(found, [Verdict::Proved, Verdict::Refuted, Verdict::Proved], "in ℝ^{n}");
+    }
+}
+
+#[test]
+fn what_follows_from_closed_rods_is_proved() {
+    let text = "[state]\np = \"vector(2, -2..2)\"\nq = \"vector(2, -1..4)\"\n\
+         [level]\nequations = [\"(p,p) = 1\", \"|q − p|² = 4\", \"|q − [2, 0]|² = 4\"]\n\
+         [field]\n\"p'\" = \"[0, 0]\"\n\"q'\" = \"[0, 0]\"\n";
+    let claims = [
+        "identity = \"(q,q) − 4*q1 = 0\"",
+        "identity = \"(q,q) − 2*(p,q) = 3\"",
+        "identity = \"(q,q) − 2*(p,q) = 4\"",
+    ];
+    let found = judged(&with_claims(text, &claims));
+    assert_eq!(found, [Verdict::Proved, Verdict::Proved, Verdict::Refuted]);
+}
+
+/// A level that is found numerically, that of eˣ + x + eʸ + y, with a motion along it.
+fn curve(field: &str) -> String {
+    format!(
+        "[state]\nx = \"-2..2\"\ny = \"-2..2\"\nz = \"-2..2\"\n\
+         [field]\n{field}\n[level]\nequations = [\"exp(y) + y + exp(x) + x = 3\"]\n"
+    )
+}
+
+#[test]
+fn multiples_of_the_equation_are_proved_and_others_are_not() {
+    let rest = "\"x'\" = \"0\"\n\"y'\" = \"0\"\n\"z'\" = \"0\"";
+    let own = "(exp(y) + y + exp(x) + x − 3)";
+    for (number, (factor, more)) in
+        [("1", "0"), ("(2*x − z + 3)", "0"), ("sin(z)", "0"), ("x", "x^3/1000"), ("(y + 1)", "z^2")]
+            .into_iter()
+            .enumerate()
+    {
+        let claim = format!("identity = \"{factor}*{own} + {more} = 0\"");
+        let found = judged(&with_claims(&curve(rest), &[&claim]));
+        let is_proved = found[0] == Verdict::Proved;
+        assert_eq!(is_proved, number < 3, "{claim}: {found:?}");
+    }
+}
+
+#[test]
+fn integrals_need_that_the_motion_stays() {
+    // (F_y, −F_x) keeps F, and a multiple of F is 0 on the level.
+    let own = "(exp(y) + y + exp(x) + x − 3)";
+    let along =
+        format!("\"x'\" = \"exp(y) + 1\"\n\"y'\" = \"−exp(x) − 1 + {own}\"\n\"z'\" = \"x*{own}\"");
+    let claims = ["integral = \"z\"", "rate = \"z\"\nequals = \"0\"", "integral = \"x\""];
+    let found = judged(&with_claims(&curve(&along), &claims));
+    assert_eq!(found[..2], [Verdict::Proved, Verdict::Proved]);
+    assert_eq!(found[2], Verdict::Refuted);
+}
