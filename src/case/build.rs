@@ -11,7 +11,7 @@ use super::parameters::{self, Setting};
 use super::section::CaseTable;
 use super::systems::{ModelParts, Reading};
 use super::{
-    AbsenceClaim, Case, Column, MotionClaim, PlacedClaim, TABLE_ROWS, absences, charts,
+    AbsenceClaim, Case, CaseRemark, Column, MotionClaim, PlacedClaim, TABLE_ROWS, absences, charts,
     homogeneous, implied, lists, map, one_sided, poincare, remarks, repeated, shadows, toml_errors,
     variables, velocities, weights,
 };
@@ -145,13 +145,15 @@ fn read(
     let has_variables = variables::read(root, &mut parts.model);
     // the parts below are judged only if everything read so far is complete
     let is_whole = parts.is_whole && has_variables && mistakes.is_empty();
-    let (mut warnings, mut remarks) = (Vec::new(), Vec::new());
+    let (mut warnings, mut remarks) = (Vec::new(), Vec::<CaseRemark>::new());
     if is_whole {
         extend_support(&mut parts.model);
-        remarks.extend(implied::leave_out_constraints(&mut parts.model));
+        let left_out = implied::leave_out_constraints(&mut parts.model);
+        remarks.extend(left_out.into_iter().map(CaseRemark::from));
         warnings.extend(root.keep(velocities::check(root, &parts.model)).unwrap_or_default());
         root.keep(no_open_level(root, &parts.model));
-        remarks.extend(root.keep(no_implied_level(root, &mut parts.model)).unwrap_or_default());
+        let left_out = root.keep(no_implied_level(root, &mut parts.model)).unwrap_or_default();
+        remarks.extend(left_out.into_iter().map(CaseRemark::from));
     }
     read_chart(root, &mut parts);
     if is_whole && mistakes.is_empty() {

@@ -290,6 +290,6 @@ fn judge_all(
     find_rates(case, options, &mut claims)?;
     let mutants = options.mutants.then(|| mutate(case, &claims, options)).transpose()?;
     let (motions_left, absences_left) = (case.motions.len(), case.absences.len());
-    let remarks = case.remarks.clone();
+    let remarks = case.remarks.iter().map(ToString::to_string).collect();
     Ok(CaseReport { claims, warnings, remarks, mutants, motions_left, absences_left })
 }

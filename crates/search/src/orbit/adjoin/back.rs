@@ -5,7 +5,7 @@
 use num_integer::Integer;
 
 use super::parsed::{
-    base_and_power, closes, factors, inside, is_bracketed, is_modulus, terms, unbracketed,
+    base_and_power, closes, factors, inside, is_bracketed, is_modulus, is_name, terms, unbracketed,
 };
 use super::polynomial::RingPolynomial;
 use super::ring::{AdjoinedRing, Atom, Of};
@@ -263,8 +263,7 @@ fn raised(base: &str, power: u64, order: u64) -> String {
     let common = power.gcd(&order).max(1);
     let (power, order) = (power / common, order / common);
     let is_number = base.chars().all(|letter| letter.is_ascii_digit());
-    let is_name = base.chars().all(|letter| letter.is_alphanumeric() && !"²³".contains(letter));
-    let is_tight = is_name || is_bracketed(base) || is_modulus(base);
+    let is_tight = is_name(base) || is_bracketed(base) || is_modulus(base);
     let bracketed = match is_tight && !(is_number && power > 1) {
         true => base.to_string(),
         false => format!("({base})"),
