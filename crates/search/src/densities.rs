@@ -8,11 +8,11 @@ use super::integrals::tell;
 use super::library;
 use super::linear::SampledFunctions;
 use super::orbit::merged;
-use super::terms::{one, powers, recorded};
+use super::terms::{multiplied, one, powers, recorded};
 use super::{Effort, Found, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::claim::{Claim, LevelSubset};
-use liouville::formula::{Formula, FormulaResult};
+use liouville::formula::Formula;
 use liouville::graph::{Expr, Graph};
 use liouville::number::rational::Rational;
 use liouville::verdict::Verdict;
@@ -94,14 +94,6 @@ enum Exponents {
     None,
     /// The target has no values modulo a prime.
     Unknown,
-}
-
-/// Product of some factors; 1 of none.
-fn multiplied(factors: &[Formula]) -> FormulaResult {
-    match factors.split_first() {
-        None => Ok(one()),
-        Some((first, others)) => others.iter().try_fold(first.clone(), |all, next| &all * next),
-    }
 }
 
 impl Logarithms {

@@ -135,6 +135,14 @@ pub fn equation(coefficients: &[Rational], terms: &[&str]) -> String {
     format!("{text} = 0")
 }
 
+/// Product of some factors; 1 of none.
+pub fn multiplied(factors: &[Formula]) -> FormulaResult {
+    match factors.split_first() {
+        None => Ok(one()),
+        Some((first, others)) => others.iter().try_fold(first.clone(), |all, next| &all * next),
+    }
+}
+
 /// Factors of Π f^α, where each α is a combination of the exponents.
 pub fn powers(
     coefficients: &[Rational],

@@ -16,6 +16,7 @@ mod functions;
 mod guess;
 mod horseshoe;
 mod krawczyk;
+mod lanes;
 mod laws;
 mod least;
 mod motion;

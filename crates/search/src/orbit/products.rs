@@ -5,7 +5,7 @@ use liouville::formula::{Formula, FormulaError};
 use super::super::SearchError;
 use super::super::ansatz::coefficients::Ratio;
 use super::super::ansatz::monomials::power_product;
-use super::super::terms::{is_one, one};
+use super::super::terms::{is_one, multiplied};
 use super::exponents::{ExponentSystem, RateTerm, Style};
 use super::images;
 use super::magnitude::magnitude;
@@ -127,10 +127,6 @@ impl ExponentSystem<'_, '_> {
             };
             powers.push(Formula::call("exp", &[&whole])?);
         }
-        let product = match powers.split_first() {
-            None => one(),
-            Some((first, others)) => others.iter().try_fold(first.clone(), |all, own| all * own)?,
-        };
-        Ok(Some(product))
+        Ok(Some(multiplied(&powers)?))
     }
 }
