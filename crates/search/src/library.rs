@@ -223,7 +223,9 @@ fn pieces(model: &Model) -> Pieces {
                     Type::VECTOR => pieces.linear.push(own),
                     Type::Scalar => pieces.forms.push(own),
                     Type::Vector(length) => {
-                        pieces.forms.extend(kept((1..=length).map(|i| own.element(i, &model.vocabulary))));
+                        pieces
+                            .forms
+                            .extend(kept((1..=length).map(|i| own.element(i, &model.vocabulary))));
                     }
                     Type::Matrix(..) => {
                         let places = variable.kind.places();

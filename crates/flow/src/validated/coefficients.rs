@@ -2,17 +2,18 @@
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes become vectors")]
 
-use std::ops::Range;
-
 use liouville::graph::{Kernel, with_widest_vectors};
 use liouville::number::ball::{Ball, Balls};
 use liouville::number::{BinaryOperation as Binary, Domain, UnaryFunction};
 
 use super::enclosure::{Enclosure, raised};
-pub use super::lanes::{BOXES, Lane};
 use super::plan::{EnclosedSum, Plan, PowerExponent, RowRule};
 use crate::taylor::form::Row;
 
+/// Number of boxes expanded at once.
+pub const BOXES: usize = 8;
+/// One f64 for each box.
+pub type Lane = [f64; BOXES];
 /// One ball for each box.
 pub type Block = Balls<BOXES>;
 
@@ -34,7 +35,7 @@ impl<'p> Coefficients<'p> {
     /// Prepares expansions to this order.
     pub fn new(plan: &'p Plan, order: usize) -> Self {
         let stride = order + 1;
-        let zeros = vec![Lane::ZERO; plan.rows * stride];
+        let zeros = vec![[0.0; BOXES]; plan.rows * stride];
         Self { plan, order, stride, mid: zeros.clone(), rad: zeros.clone(), magnitude: zeros }
     }
 
@@ -60,7 +61,7 @@ impl<'p> Coefficients<'p> {
     #[inline(always)]
     pub fn get(&self, row: Row, n: usize) -> Block {
         let place = row * self.stride + n;
-        Balls::new(*self.mid[place], *self.rad[place])
+        Balls::new(self.mid[place], self.rad[place])
     }
 
     /// Bounds of the magnitudes of a row's coefficients.
@@ -82,27 +83,22 @@ impl<'p> Coefficients<'p> {
     /// Encloses Σ x_k y_{n-k} over k from `first` to `last`.
     #[inline(always)]
     fn convolved(&self, x: Row, y: Row, n: usize, first: usize, last: usize) -> Block {
-        let (mut mid, mut rad, mut size) = (Lane::ZERO, Lane::ZERO, Lane::ZERO);
-        if first <= last {
-            let (x, y) = (x * self.stride, y * self.stride + n);
-            let (forwards, backwards) = (x + first..x + last + 1, y - last..y - first + 1);
-            let factors = |range: Range<usize>| {
-                self.mid[range.clone()]
-                    .iter()
-                    .zip(&self.rad[range.clone()])
-                    .zip(&self.magnitude[range])
-            };
-            let pairs = factors(forwards).zip(factors(backwards).rev());
-            for (((xm, xr), xa), ((ym, yr), ya)) in pairs {
-                mid = mid.plus(&xm.times(ym));
-                rad = rad.plus(&xr.times(ya).plus(&xa.times(yr)));
-                size = size.plus(&xa.times(ya));
+        let (mut mid, mut rad, mut size) = ([0.0; BOXES], [0.0; BOXES], [0.0; BOXES]);
+        let (x, y) = (x * self.stride, y * self.stride + n);
+        for k in first..=last {
+            let (xm, ym) = (&self.mid[x + k], &self.mid[y - k]);
+            let (xr, yr) = (&self.rad[x + k], &self.rad[y - k]);
+            let (xa, ya) = (&self.magnitude[x + k], &self.magnitude[y - k]);
+            for lane in 0..BOXES {
+                mid[lane] += xm[lane] * ym[lane];
+                rad[lane] += xr[lane] * ya[lane] + xa[lane] * yr[lane];
+                size[lane] += xa[lane] * ya[lane];
             }
         }
         // The error of a sum of n products is at most γ_n times the sum of their magnitudes.
         let share = (n as f64 + 4.0) * f64::EPSILON / 2.0;
         let rad = std::array::from_fn(|lane| raised(rad[lane] + share * size[lane], 2 * n + 4));
-        Balls::new(*mid, rad)
+        Balls::new(mid, rad)
     }
 
     /// Encloses Σ k x_k y_{n-k} over k from 1 to `last`.

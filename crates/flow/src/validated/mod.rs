@@ -16,7 +16,6 @@ mod functions;
 mod guess;
 mod horseshoe;
 mod krawczyk;
-mod lanes;
 mod laws;
 mod least;
 mod motion;

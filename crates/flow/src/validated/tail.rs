@@ -75,16 +75,16 @@ pub struct Tails<'c, 'p> {
 impl<'c, 'p> Tails<'c, 'p> {
     fn new(coefficients: &'c Coefficients<'p>) -> Self {
         let order = coefficients.order;
-        let zeros = vec![Lane::ZERO; coefficients.plan.rows * (order + 1)];
+        let zeros = vec![[0.0; BOXES]; coefficients.plan.rows * (order + 1)];
         Self {
             coefficients,
             order,
-            radius: Lane::ZERO,
+            radius: [0.0; BOXES],
             terms: zeros.clone(),
             sums: zeros.clone(),
             weighted_sums: zeros,
-            norms: vec![Lane::ZERO; coefficients.plan.rows],
-            tails: vec![Lane::ZERO; coefficients.plan.rows],
+            norms: vec![[0.0; BOXES]; coefficients.plan.rows],
+            tails: vec![[0.0; BOXES]; coefficients.plan.rows],
         }
     }
 
@@ -92,24 +92,25 @@ impl<'c, 'p> Tails<'c, 'p> {
     #[inline(always)]
     fn measure(&mut self) {
         let (order, stride) = (self.order, self.order + 1);
-        let mut powers = vec![Lane([1.0; BOXES]); order];
+        let mut powers = vec![[1.0; BOXES]; order];
         for k in 1..order {
-            powers[k] = powers[k - 1].times(&self.radius);
+            for lane in 0..BOXES {
+                powers[k][lane] = powers[k - 1][lane] * self.radius[lane];
+            }
         }
         for row in 0..self.coefficients.plan.rows {
-            let own = row * stride..row * stride + order;
-            let magnitudes = &self.coefficients.magnitudes(row)[..order];
-            let terms = self.terms[own.clone()].iter_mut().zip(&mut self.sums[own.clone()]);
-            let places = terms.zip(&mut self.weighted_sums[own]);
-            let (mut sum, mut weighted) = (Lane::ZERO, Lane::ZERO);
-            let all = places.zip(magnitudes.iter().zip(&powers)).enumerate();
-            for (k, (((term, sums), weighted_sums), (magnitude, power))) in all.rev() {
-                *term = magnitude.times(power).each(above);
-                sum = sum.plus(term);
-                weighted = weighted.plus(&term.each(|x| k as f64 * x));
-                (*sums, *weighted_sums) = (sum, weighted);
+            let place = row * stride;
+            let magnitudes = self.coefficients.magnitudes(row);
+            for k in (0..order).rev() {
+                for lane in 0..BOXES {
+                    let term = above(magnitudes[k][lane] * powers[k][lane]);
+                    self.terms[place + k][lane] = term;
+                    self.sums[place + k][lane] = self.sums[place + k + 1][lane] + term;
+                    self.weighted_sums[place + k][lane] =
+                        self.weighted_sums[place + k + 1][lane] + k as f64 * term;
+                }
             }
-            self.norms[row] = sum.each(above);
+            self.norms[row] = self.sums[place].map(above);
         }
     }
 
@@ -128,10 +129,14 @@ impl<'c, 'p> Tails<'c, 'p> {
     fn crossed(&self, a: Row, b: Row, sums: &[Lane]) -> Lane {
         let stride = self.order + 1;
         let (a, b) = (a * stride, b * stride);
-        let terms = &self.terms[a + 1..a + self.order];
-        let sums = &sums[b + 1..b + self.order];
-        let pairs = terms.iter().zip(sums.iter().rev());
-        pairs.fold(Lane::ZERO, |total, (term, sum)| total.plus(&term.times(sum))).each(above)
+        let mut total = [0.0; BOXES];
+        for k in 1..self.order {
+            let (term, sum) = (&self.terms[a + k], &sums[b + self.order - k]);
+            for lane in 0..BOXES {
+                total[lane] += term[lane] * sum[lane];
+            }
+        }
+        total.map(above)
     }
 
     fn cross(&self, a: Row, b: Row, lane: usize) -> f64 {
@@ -211,19 +216,23 @@ impl<'c, 'p> Tails<'c, 'p> {
 
     #[inline(always)]
     fn tail_of_sum(&self, sum: &EnclosedSum, crosses: &[Lane]) -> Lane {
-        let mut total = Lane::ZERO;
+        let mut total = [0.0; BOXES];
         for (weight, x) in &sum.linear {
-            let weight = weight.magnitude();
-            total = total.plus(&self.tails[*x].each(|tail| weight * tail));
+            let (weight, tail) = (weight.magnitude(), &self.tails[*x]);
+            for lane in 0..BOXES {
+                total[lane] += weight * tail[lane];
+            }
         }
         for ((weight, x, y), cross) in sum.products.iter().zip(crosses) {
             let weight = weight.magnitude();
             let (a, b) = (&self.tails[*x], &self.tails[*y]);
             let (norm, other) = (&self.norms[*x], &self.norms[*y]);
-            let moved = norm.times(b).plus(&other.times(a)).plus(&a.times(b));
-            total = total.plus(&cross.plus(&moved).each(|own| weight * own));
+            for lane in 0..BOXES {
+                let moved = norm[lane] * b[lane] + other[lane] * a[lane] + a[lane] * b[lane];
+                total[lane] += weight * (cross[lane] + moved);
+            }
         }
-        total.each(above)
+        total.map(above)
     }
 
     /// Bounds ‖[x_N y_N]‖ of all products of sums, in order.
@@ -250,7 +259,7 @@ impl<'c, 'p> Tails<'c, 'p> {
                     rest = others;
                     self.tail_of_sum(sum, own)
                 }
-                _ => Lane::from_fn(|lane| self.tail(*out, operation, lane)),
+                _ => std::array::from_fn(|lane| self.tail(*out, operation, lane)),
             };
         }
     }
@@ -265,19 +274,19 @@ impl<'c, 'p> Tails<'c, 'p> {
             .map(|row| {
                 let last = self.coefficients.magnitudes(row)[order];
                 let power = |lane: usize| (0..order).fold(1.0, |p, _| p * self.radius[lane]);
-                Lane::from_fn(|lane| above(last[lane] * power(lane)))
+                std::array::from_fn(|lane| above(last[lane] * power(lane)))
             })
             .collect();
         let crosses = self.crosses();
         for (row, last) in last.iter().enumerate() {
-            self.tails[row] = last.each(|x| above(FIRST_SIZE * x));
+            self.tails[row] = last.map(|x| above(FIRST_SIZE * x));
         }
         let largest = |tails: &[Lane], lane: usize| {
             tails[..plan.dimension].iter().fold(0.0, |a: f64, tail| a.max(tail[lane]))
         };
         // A tail above all that is known of the state is useless.
         let known = &self.norms[..plan.dimension];
-        let limit = Lane::from_fn(|lane| 1.0 + largest(known, lane));
+        let limit: Lane = std::array::from_fn(|lane| 1.0 + largest(known, lane));
         let (mut settled, mut hopeless) = ([false; BOXES], [false; BOXES]);
         for _ in 0..ROUNDS {
             // Where the state's tails are settled this changes nothing.
@@ -346,8 +355,8 @@ impl Kernel for Settling<'_, '_, '_> {
 pub fn states(coefficients: &Coefficients<'_>, h: &Block, hope: &mut f64) -> [Option<End>; BOXES] {
     let (plan, order) = (coefficients.plan, coefficients.order);
     let mut tails = Tails::new(coefficients);
-    let longest = Lane::from_fn(|lane| raised(h.mid[lane] + h.rad[lane], 1));
-    tails.radius = longest.each(|h| hope.min(FIRST) * h);
+    let longest: Lane = std::array::from_fn(|lane| raised(h.mid[lane] + h.rad[lane], 1));
+    tails.radius = longest.map(|h| hope.min(FIRST) * h);
     let mut settled = [false; BOXES];
     loop {
         with_widest_vectors(Settling(&mut tails, &mut settled));
@@ -363,18 +372,18 @@ pub fn states(coefficients: &Coefficients<'_>, h: &Block, hope: &mut f64) -> [Op
             break;
         }
     }
-    let ratios = tails.radius.iter().zip(longest.iter()).map(|(radius, h)| radius / h);
+    let ratios = tails.radius.iter().zip(&longest).map(|(radius, h)| radius / h);
     *hope = HOPE * ratios.fold(LEAST, f64::max);
     let remainder = |row: usize, lane: usize| {
         let ratio = above(longest[lane] / tails.radius[lane]);
         above((0..=order).fold(tails.integrated(row, lane), |p, _| p * ratio))
     };
     let rests: Vec<Lane> =
-        (0..plan.dimension).map(|row| Lane::from_fn(|lane| remainder(row, lane))).collect();
+        (0..plan.dimension).map(|row| std::array::from_fn(|lane| remainder(row, lane))).collect();
     let ends: Vec<Block> = rests
         .iter()
         .enumerate()
-        .map(|(row, rest)| add(&coefficients.polynomial(row, h), &Balls::new([0.0; BOXES], **rest)))
+        .map(|(row, rest)| add(&coefficients.polynomial(row, h), &Balls::new([0.0; BOXES], *rest)))
         .collect();
     std::array::from_fn(|lane| {
         let end = |block: &Block| Enclosure { mid: block.mid[lane], rad: block.rad[lane] };

@@ -21,7 +21,7 @@ use super::super::ask::judged_alone;
 use super::super::integrals::tell_if_proved;
 use super::super::linear::SampledFunctions;
 use super::super::origin::RemarkOrigin;
-use super::super::terms::{multiplied, one, powers, read, recorded, sum};
+use super::super::terms::{Power, multiplied, one, powers, read, recorded, sum};
 use super::super::{Effort, Found, SearchError, SearchReport};
 use super::known::has_told_all;
 use super::map_densities::note_unproved;
@@ -171,7 +171,7 @@ struct ProductFind<'f> {
 
 impl ProductFind<'_> {
     /// Factors with exponents; those with broken ones are moduli where they may be negative.
-    fn product(&self, exponents: &[Rational]) -> Result<Vec<Formula>, SearchError> {
+    fn product(&self, exponents: &[Rational]) -> Result<Vec<Power>, SearchError> {
         let mut bases = Vec::new();
         for (factor, exponent) in self.factors.iter().zip(exponents) {
             let is_whole = exponent.parts().1 == 1.into();
@@ -191,7 +191,8 @@ impl ProductFind<'_> {
     ) -> Result<(), SearchError> {
         let mut all = self.product(exponents)?;
         if !coefficients.iter().all(Rational::is_zero) {
-            all.push(Formula::call("exp", &[&exact_sum(coefficients, self.terms)?])?);
+            let exponential = Formula::call("exp", &[&exact_sum(coefficients, self.terms)?])?;
+            all.push((exponential, one()));
         }
         let density = multiplied(&all)?;
         let Some(found) = judged_alone(self.case, Claim::density(&density), self.effort)? else {

@@ -58,7 +58,10 @@ fn candidates(case: &Case) -> Vec<MapCandidate> {
                 Some(MapCandidate {
                     name: map.name(axial < 0),
                     key: key(axial),
-                    images: vec![("ω".into(), turned), ("γ".into(), map.image(scope, &gamma, 1).ok()?)],
+                    images: vec![
+                        ("ω".into(), turned),
+                        ("γ".into(), map.image(scope, &gamma, 1).ok()?),
+                    ],
                     // |γ| = 1, and (ω,γ) = 0 without spin, on the fixed spaces of both.
                     fixed_set: fixed(axial, map, |along, velocity| match map.determinant() {
                         _ if spins => along.checked_sub(1).map(|d| d + velocity),
@@ -80,7 +83,10 @@ fn candidates(case: &Case) -> Vec<MapCandidate> {
                 Some(MapCandidate {
                     name: map.name(axial < 0),
                     key: key(axial),
-                    images: vec![("M".into(), turned), (second.into(), map.image(scope, &place, 1).ok()?)],
+                    images: vec![
+                        ("M".into(), turned),
+                        (second.into(), map.image(scope, &place, 1).ok()?),
+                    ],
                     fixed_set: fixed(axial, map, |along, velocity| match is_level {
                         true => Some(along + velocity),
                         false => along.checked_sub(1).map(|d| d + velocity),
