@@ -63,6 +63,7 @@ impl Case {
         let mut asked = self.clone();
         asked.motions.clear();
         asked.absences.clear();
+        asked.without_time = None;
         if let Some(section) = root.table("let") {
             abbreviate(&section, &mut asked.model);
         }

@@ -4,18 +4,19 @@ use std::collections::BTreeSet;
 
 use toml::de::DeTable;
 
-use super::claims::{self, ClaimContext};
+use super::claims::ClaimContext;
+use super::clock::Places;
 use super::error::{CaseError, Mistake, Problem};
 use super::mistakes::Mistakes;
 use super::parameters::{self, Setting};
 use super::section::CaseTable;
+use super::stated::{ReadClaims, Time};
 use super::systems::{ModelParts, Reading};
 use super::{
-    AbsenceClaim, Case, CaseRemark, Column, MotionClaim, PlacedClaim, TABLE_ROWS, absences, charts,
-    homogeneous, implied, lists, map, one_sided, poincare, remarks, repeated, shadows, toml_errors,
-    variables, velocities, weights,
+    Case, CaseRemark, Column, TABLE_ROWS, charts, homogeneous, implied, lists, map, one_sided,
+    poincare, remarks, repeated, shadows, toml_errors, variables, velocities, weights,
 };
-use crate::mechanics::{Chart, LevelEquation, LevelFunction, Model, Surface, System, TIME};
+use crate::mechanics::{Chart, LevelEquation, LevelFunction, Model, Surface, System};
 
 /// The keys of a case file.
 const KEYS: [&str; 21] = [
@@ -45,8 +46,8 @@ const KEYS: [&str; 21] = [
 /// Facts that a file leaves to be inferred from its formulas.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Assumed {
-    /// Whether time is a state variable.
-    pub time: bool,
+    /// Use of time.
+    pub time: Time,
     /// Names of the lists that are diagonal matrices; the others are vectors.
     pub diagonal: BTreeSet<String>,
 }
@@ -61,6 +62,12 @@ impl Assumed {
 /// Result of one attempt to read a file.
 pub struct Attempt {
     case: Option<Case>,
+    /// Names of the claims that were read, by their places.
+    places: Places,
+    /// Whether claims or abbreviations were left out, as they use `t`.
+    leaves_out: bool,
+    /// Whether a formula outside of claims and abbreviations uses `t`, which is not declared.
+    lacks_time: bool,
     /// Mistakes found in the attempt.
     pub mistakes: Vec<Mistake>,
     /// Parameters that are lists of numbers.
@@ -77,10 +84,15 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
     }
     let read = |assumed: &Assumed| Attempt::new(text, document.get_ref(), settings, assumed);
     let attempt = lists::settled(&|diagonal| {
-        let mut assumed = Assumed { time: false, diagonal: diagonal.clone() };
-        let attempt = read(&assumed);
-        assumed.time = attempt.lacks_time();
-        if assumed.time { read(&assumed) } else { attempt }
+        let with = |time: Time| read(&Assumed { time, diagonal: diagonal.clone() });
+        let attempt = with(Time::Absent);
+        if attempt.lacks_time {
+            return with(Time::Present(BTreeSet::new()));
+        }
+        match attempt.leaves_out {
+            true => with(Time::Present(attempt.places.keys().copied().collect())).beside(attempt),
+            false => attempt,
+        }
     });
     match attempt.case {
         Some(case) if attempt.mistakes.is_empty() => Ok(case),
@@ -88,20 +100,38 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
     }
 }
 
+/// What is noted while a file is read.
+#[derive(Default)]
+struct Noted {
+    lists: Vec<String>,
+    places: Places,
+    leaves_out: bool,
+}
+
 impl Attempt {
     fn new(text: &str, table: &DeTable<'_>, settings: &[Setting], assumed: &Assumed) -> Self {
         let mistakes = Mistakes::default();
-        let mut lists = Vec::new();
+        let mut noted = Noted::default();
         let case = {
             let root = CaseTable::new("the file", table, 0..0, text, &mistakes);
-            read(&root, settings, assumed, &mut lists)
+            read(&root, settings, assumed, &mut noted)
         };
-        Self { case, mistakes: mistakes.into_list(), lists }
+        let Noted { lists, places, leaves_out } = noted;
+        let leaves_out = leaves_out || mistakes.leaves_out();
+        let lacks_time = mistakes.lacks_time_since(0);
+        Self { case, places, leaves_out, lacks_time, mistakes: mistakes.into_list(), lists }
     }
 
-    /// Whether a formula uses `t`, which is not declared.
-    fn lacks_time(&self) -> bool {
-        self.mistakes.iter().any(|mistake| mistake.unknown_name() == Some(TIME))
+    /// Attaches the same system without `t`; the mistakes of either stop both.
+    fn beside(mut self, other: Self) -> Self {
+        match (&mut self.case, other.case) {
+            (Some(case), Some(without)) => {
+                case.attach_without_time(&self.places, without, &other.places);
+                self
+            }
+            (Some(_), None) => Self { case: None, ..other },
+            (None, _) => self,
+        }
     }
 }
 
@@ -110,7 +140,7 @@ fn read(
     root: &CaseTable<'_>,
     settings: &[Setting],
     assumed: &Assumed,
-    lists: &mut Vec<String>,
+    noted: &mut Noted,
 ) -> Option<Case> {
     let mistakes = root.mistakes();
     if !root.allow(&KEYS) && root.entries().iter().any(|(_, value)| value.get_ref().is_table()) {
@@ -131,7 +161,7 @@ fn read(
 
     let mut reading = Reading::new(root, settings, assumed);
     reading.read_parameters();
-    lists.append(&mut reading.lists);
+    noted.lists.append(&mut reading.lists);
     let (system, mut parts) = reading.read()?;
     if let (Some(section), true) = (root.table("hamiltonian"), system != "field") {
         root.mistakes().add(section.complaint(Problem::Other {
@@ -167,7 +197,9 @@ fn read(
         plan: section.as_ref(),
         source: &source,
     };
-    let ReadClaims { claims, motions, absences } = read_claims(root, &context);
+    let ReadClaims { claims, motions, absences, places, leaves_out } =
+        ReadClaims::new(root, &context, &assumed.time);
+    (noted.places, noted.leaves_out) = (places, leaves_out);
     let check = root.keep(root.boolean("check-weights")).flatten().unwrap_or(true);
     let dimensions = root.table("dimensions");
     let column = root.keep(column(root)).flatten();
@@ -204,6 +236,7 @@ fn read(
         notes: notes.into_iter().map(|note| note.value).collect(),
         warnings,
         remarks,
+        without_time: None,
     })
 }
 
@@ -221,37 +254,6 @@ fn one_of_field_and_map(root: &CaseTable<'_>, system: &str) {
         let (message, remedy) = (message.to_string(), remedy.to_string());
         root.mistakes().add(section.complaint(Problem::Other { message, remedy }));
     }
-}
-
-/// Claims that can be read, by the way in which they are judged.
-#[derive(Default)]
-struct ReadClaims {
-    claims: Vec<PlacedClaim>,
-    motions: Vec<MotionClaim>,
-    absences: Vec<AbsenceClaim>,
-}
-
-fn read_claims(root: &CaseTable<'_>, context: &ClaimContext<'_>) -> ReadClaims {
-    let (mut stated, mut names) = (ReadClaims::default(), Vec::new());
-    for section in root.tables("claim") {
-        if claims::is_misspelt(&section) {
-            continue;
-        }
-        if absences::is_about_absence(&section) {
-            let claim = root.keep(absences::read(&section, context, &names));
-            names.extend(claim.iter().map(|claim| claim.name.clone()));
-            stated.absences.extend(claim);
-        } else if claims::is_about_motion(&section) {
-            let claim = root.keep(claims::read_motion(&section, context, &names));
-            names.extend(claim.iter().map(|claim| claim.name.clone()));
-            stated.motions.extend(claim);
-        } else {
-            let claim = root.keep(claims::read(&section, context, &names));
-            names.extend(claim.iter().map(|claim| claim.name.clone()));
-            stated.claims.extend(claim);
-        }
-    }
-    stated
 }
 
 /// Rejects a level equation with an ∫: its open constant does not fix a level set.

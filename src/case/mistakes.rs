@@ -6,6 +6,7 @@ use rustc_hash::FxHashSet;
 
 use super::error::{Mistake, Problem};
 use crate::formula::canonical_name;
+use crate::mechanics::TIME;
 
 /// Mistakes so far, and the names that are unknown only because of them.
 #[derive(Default)]
@@ -14,6 +15,8 @@ pub struct Mistakes {
     failed: RefCell<FxHashSet<String>>,
     /// Abbreviations that are not known yet because they contain rates.
     waiting: RefCell<Vec<String>>,
+    /// Abbreviations that are left out, as they use time.
+    timed: RefCell<FxHashSet<String>>,
     /// Whether a table could not be read, so that any name may be unknown.
     blind: Cell<bool>,
 }
@@ -81,6 +84,41 @@ impl Mistakes {
     /// Whether there are no mistakes so far.
     pub fn is_empty(&self) -> bool {
         self.list.borrow().is_empty()
+    }
+
+    /// Number of mistakes so far.
+    pub fn len(&self) -> usize {
+        self.list.borrow().len()
+    }
+
+    /// Notes that an abbreviation is left out, as it uses time.
+    pub fn leave_out(&self, name: &str) {
+        self.timed.borrow_mut().insert(name.to_string());
+    }
+
+    /// Whether this abbreviation is left out.
+    pub fn is_left_out(&self, name: &str) -> bool {
+        self.timed.borrow().contains(name)
+    }
+
+    /// Whether abbreviations are left out.
+    pub fn leaves_out(&self) -> bool {
+        !self.timed.borrow().is_empty()
+    }
+
+    /// Whether one of the mistakes after the first `before` is that time is unknown, or a name that uses it.
+    pub fn lacks_time_since(&self, before: usize) -> bool {
+        let (list, timed) = (self.list.borrow(), self.timed.borrow());
+        let is_of_time = |written: &str| {
+            let name = canonical_name(written).unwrap_or_else(|| written.to_string());
+            written == TIME || bases(&name).any(|base| timed.contains(base))
+        };
+        list.iter().skip(before).any(|mistake| mistake.unknown_name().is_some_and(is_of_time))
+    }
+
+    /// Forgets all mistakes after the first `before`.
+    pub fn forget_since(&self, before: usize) {
+        self.list.borrow_mut().truncate(before);
     }
 
     /// Returns all mistakes, except missing keys of a table in which a key is misspelt.

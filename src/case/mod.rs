@@ -11,6 +11,7 @@ mod builder;
 mod charts;
 mod claim_error;
 mod claims;
+mod clock;
 mod complex;
 mod entries;
 mod equations;
@@ -43,6 +44,7 @@ mod shadows;
 mod shaped;
 mod shapes;
 mod state;
+mod stated;
 mod synonyms;
 mod systems;
 mod toml_errors;
@@ -65,6 +67,7 @@ pub use crate::claim::Expect;
 pub use builder::ModelBuilder;
 pub use claim_error::ClaimError;
 pub use claims::claim_keys;
+pub use clock::TimeParts;
 pub use error::{CaseError, Mistake, Problem};
 pub use kinds::SYSTEM_NAMES;
 pub use labels::{is_labelled, labels, matches};
@@ -123,6 +126,8 @@ pub struct Case {
     pub warnings: Vec<String>,
     /// Remarks on what the file may say by mistake, such as parameters without use.
     pub remarks: Vec<CaseRemark>,
+    /// The system without `t`, where claims alone use `t`.
+    without_time: Option<clock::WithoutTime>,
 }
 
 /// A column of one of the paper's tables.

@@ -9,8 +9,10 @@ use toml::de::DeValue;
 use super::error::{Mistake, Problem};
 use super::mistakes::bases;
 use super::section::SpannedStr;
+use super::stated::Time;
 use super::systems::Reading;
 use crate::formula::canonical_name;
+use crate::mechanics::TIME;
 
 /// Name of `[parameters]` or `[let]` that waits for the names it uses.
 pub struct WaitingName<'s> {
@@ -58,6 +60,11 @@ enum WaitingState {
 fn is_reaction(name: &str) -> bool {
     let name = canonical_name(name).unwrap_or_default();
     name.strip_prefix('μ').is_some_and(|index| index.chars().all(|c| c.is_ascii_digit()))
+}
+
+/// Whether a formula cannot be read as it uses time.
+fn lacks_time(mistake: &Mistake) -> bool {
+    mistake.unknown_name() == Some(TIME)
 }
 
 impl<'s> WaitingName<'s> {
@@ -111,7 +118,10 @@ impl Reading<'_, '_> {
                         self.later(top, other, stage)
                     }
                     Some(other) if self.items[other].state == WaitingState::Failed => {
-                        self.give_up(top);
+                        match self.mistakes().is_left_out(&self.items[other].name) {
+                            true => self.leave_out(top, mistake),
+                            false => self.give_up(top),
+                        }
                         WaitingState::Failed
                     }
                     _ => self.trouble(top, mistake, stage),
@@ -179,9 +189,28 @@ impl Reading<'_, '_> {
         if waits {
             return WaitingState::Later;
         }
-        self.mistakes().add(mistake);
-        self.give_up(item);
+        match is_abbreviation && self.assumed.time == Time::Absent && lacks_time(&mistake) {
+            true => self.leave_out(item, mistake),
+            false => {
+                self.mistakes().add(mistake);
+                self.give_up(item);
+            }
+        }
         WaitingState::Failed
+    }
+
+    /// Leaves out an abbreviation that uses time; a parameter cannot.
+    fn leave_out(&mut self, item: usize, mistake: Mistake) {
+        match &self.items[item].kind {
+            ItemKind::Abbreviation(_) => {
+                self.items[item].state = WaitingState::Failed;
+                self.mistakes().leave_out(&self.items[item].name);
+            }
+            ItemKind::Parameter(..) => {
+                self.mistakes().add(mistake);
+                self.give_up(item);
+            }
+        }
     }
 
     /// Reports that a name is defined in terms of itself.

@@ -12,6 +12,7 @@ use super::order::{Stage, WaitingName};
 use super::parameters::Setting;
 use super::section::{CaseTable, SpannedStr};
 use super::state::{self, State};
+use super::stated::Time;
 use super::{kinds, shadows, shaped};
 use crate::formula::{Formula, Scope, Symbol, Type, canonical_name, names_in};
 use crate::mechanics::{
@@ -209,7 +210,8 @@ impl<'r, 's> Reading<'r, 's> {
     /// Adds time as a variable where formulas use it and it has no other meaning.
     fn add_time(&mut self, reach: Dependence) {
         let is_discrete = self.root.has("map");
-        if self.assumed.time && !is_discrete && self.vocabulary.find(TIME).is_none() {
+        if self.assumed.time != Time::Absent && !is_discrete && self.vocabulary.find(TIME).is_none()
+        {
             self.state.add_time(&mut self.vocabulary, reach);
         }
     }

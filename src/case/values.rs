@@ -22,9 +22,25 @@ impl Case {
     /// do not have the types that the kind of claim requires.
     pub fn with_claims(&self, claims: &[Claim]) -> Result<Self, ClaimError> {
         let mut taken = self.without_claims();
+        let mut other = self.case_without_time().map(Self::without_claims);
+        let mut names = Vec::new();
         for claim in claims {
-            let placed = self.placed(claim, &taken.claims)?;
-            taken.claims.push(placed);
+            let own = self.placed(claim, &names);
+            // What does not use `t` is placed in the system without it, too.
+            let elsewhere = other.as_ref().and_then(|other| other.placed(claim, &names).ok());
+            match &own {
+                Err(error) if elsewhere.is_none() => return Err(error.clone()),
+                _ => {}
+            }
+            let placed = own.as_ref().ok().or(elsewhere.as_ref());
+            names.extend(placed.map(|placed| placed.name.clone()));
+            taken.claims.extend(own.ok());
+            if let (Some(other), Some(placed)) = (&mut other, elsewhere) {
+                other.claims.push(placed);
+            }
+        }
+        if let Some(other) = other {
+            taken.attach(other, names);
         }
         Ok(taken)
     }
@@ -35,10 +51,11 @@ impl Case {
         bare.claims.clear();
         bare.motions.clear();
         bare.absences.clear();
+        bare.without_time = None;
         bare
     }
 
-    fn placed(&self, claim: &Claim, before: &[PlacedClaim]) -> Result<PlacedClaim, ClaimError> {
+    fn placed(&self, claim: &Claim, taken: &[String]) -> Result<PlacedClaim, ClaimError> {
         let model = &self.model;
         let values = ClaimTable { claim, model };
         values.check_keys()?;
@@ -66,7 +83,7 @@ impl Case {
         }
         let (place, only_there) = values.place()?;
         Ok(PlacedClaim {
-            name: values.name(&kind, before)?,
+            name: values.name(&kind, taken)?,
             source: claim.source().to_string(),
             place,
             only_there,
@@ -140,8 +157,8 @@ impl ClaimTable<'_> {
     }
 
     /// Returns the name that is set, or the text of the statement, with a number if it is taken.
-    fn name(&self, kind: &ClaimKind, before: &[PlacedClaim]) -> Result<String, ClaimError> {
-        let is_taken = |name: &String| before.iter().any(|claim| claim.name == *name);
+    fn name(&self, kind: &ClaimKind, taken: &[String]) -> Result<String, ClaimError> {
+        let is_taken = |name: &String| taken.contains(name);
         if let Some(name) = self.claim.name().map(str::to_string) {
             if is_taken(&name) {
                 let message = format!("two claims are called `{name}`");

@@ -24,6 +24,6 @@ pub fn clock(model: &Model) -> Option<usize> {
 pub fn never_rests(model: &Model, name: &str) -> Option<Objection> {
     clock(model).map(|_| Objection {
         message: format!("`{name}`: `t` is a variable of rate 1 here, so that nothing rests"),
-        remedy: "if only claims use `t`, write these into a file of their own",
+        remedy: "remove `t` from [state] if only claims use it; points that rest need equations without `t`",
     })
 }

@@ -2,7 +2,7 @@
 
 use num_dual::DualNum;
 
-use super::of_bracket::{defects, of, scalar_in, variables};
+use super::of_bracket::{defects, images_as_written, of, scalar_in, variables};
 use super::{Jets, Reader, Statement};
 use crate::formula::Formula;
 use crate::graph::{Expr, literally};
@@ -46,7 +46,10 @@ impl Statement for DensityInVariables {
         let there = &jet.in_variables(variables).phase;
         let mut divisors = there.evaluate_literally(&self.0).components();
         divisors.push(literally(|| determinant(&jet.slopes_of_variables(variables))));
-        divisors.into_iter().map(|value| literally(|| value.recip())).collect()
+        let inverse = |value: Expr| literally(|| value.recip());
+        let mut values: Vec<Expr> = divisors.into_iter().map(inverse).collect();
+        values.extend(images_as_written(variables, &jet.phase));
+        values
     }
 
     fn quadrature_defects_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {

@@ -11,7 +11,8 @@ use crate::mechanics::{Model, Phase};
 /// phase space.
 pub(super) fn system_at(at: &Phase<'_, Expr>) -> Vec<Expr> {
     let model = at.model();
-    let formulas = model.parameter_formulas().chain(model.dynamics());
+    let own = model.equations_of_motion();
+    let formulas = model.parameter_formulas_of(&own).into_iter().chain(own);
     formulas.flat_map(|formula| written_at(at, formula)).collect()
 }
 

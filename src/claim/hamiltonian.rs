@@ -1,8 +1,8 @@
 //! Hamiltonian form in the variables of `[variables]` with the bracket of `[poisson]`.
 
 use super::of_bracket::{
-    CHOICE, are_not_zero, bracket_of, defects, of, scalar_in, slope, they_vary, turned, variables,
-    written,
+    CHOICE, are_not_zero, bracket_of, defects, images_as_written, of, scalar_in, slope, they_vary,
+    turned, variables, written,
 };
 use super::{Condition, Reader, Statement, difference};
 use crate::formula::{Formula, Type};
@@ -53,7 +53,9 @@ impl Statement for Hamiltonian {
         let variables = of(jet.phase.model());
         let there = &jet.in_variables(variables).phase;
         let functions = [&self.hamiltonian].into_iter().chain(&self.multiplier);
-        written(variables, &[self.bracket], functions, there)
+        let mut values = images_as_written(variables, &jet.phase);
+        values.extend(written(variables, &[self.bracket], functions, there));
+        values
     }
 
     fn quadrature_defects_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {

@@ -15,17 +15,29 @@ use crate::scalar::Scalar;
 pub struct Lyapunov {
     function: Formula,
     rate: Option<Formula>,
+    /// Form of the rate that shows its sign.
+    form: Option<Formula>,
 }
 
 impl Lyapunov {
-    /// Returns F, if no rate is given.
-    pub(crate) fn without_rate(&self) -> Option<&Formula> {
-        self.rate.is_none().then_some(&self.function)
+    /// Returns F.
+    pub(crate) fn function(&self) -> &Formula {
+        &self.function
     }
 
-    /// Returns the same claim with a rate.
-    pub(crate) fn with_rate(&self, rate: Formula) -> Self {
-        Self { function: self.function.clone(), rate: Some(rate) }
+    /// Whether a rate is given.
+    pub(crate) fn has_rate(&self) -> bool {
+        self.rate.is_some()
+    }
+
+    /// Whether another form of the rate is tried.
+    pub(crate) fn has_form(&self) -> bool {
+        self.form.is_some()
+    }
+
+    /// Returns the same claim with another form of the rate, whose sign is that of the rate.
+    pub(crate) fn with_form(&self, form: Formula) -> Self {
+        Self { form: Some(form), ..self.clone() }
     }
 
     /// Computes L_vF, or F∘Φ - F.
@@ -45,7 +57,7 @@ impl Statement for Lyapunov {
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let function = from.required(Self::NAME, Some(Type::Scalar))?;
-        Ok(Self { function, rate: from.formula("equals", Some(Type::Scalar))? })
+        Ok(Self { function, rate: from.formula("equals", Some(Type::Scalar))?, form: None })
     }
 
     fn at_images_of_maps(&self) -> Vec<&Formula> {
@@ -53,7 +65,7 @@ impl Statement for Lyapunov {
     }
 
     fn formulas(&self) -> Vec<&Formula> {
-        [&self.function].into_iter().chain(&self.rate).collect()
+        [&self.function].into_iter().chain(&self.rate).chain(&self.form).collect()
     }
 
     fn text(&self) -> Option<String> {
@@ -83,13 +95,10 @@ impl Statement for Lyapunov {
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {
         let growth = self.growth(jet);
         let excess = |x: T| x + x.modulus();
-        match &self.rate {
-            None => vec![excess(growth)],
-            Some(rate) => {
-                let rate = jet.phase.scalar(rate);
-                vec![growth - rate, excess(rate)]
-            }
-        }
+        let forms: Vec<T> =
+            self.rate.iter().chain(&self.form).map(|rate| jet.phase.scalar(rate)).collect();
+        let shown = forms.last().copied().unwrap_or(growth);
+        forms.into_iter().map(|rate| growth - rate).chain([excess(shown)]).collect()
     }
 
     fn context(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> ResidualContext {

@@ -74,7 +74,9 @@ impl<S: OfBracket> Statement for S {
     fn written_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
         let variables = of(jet.phase.model());
         let there = &jet.in_variables(variables).phase;
-        written(variables, &self.brackets(), self.functions().into_iter(), there)
+        let mut values = images_as_written(variables, &jet.phase);
+        values.extend(written(variables, &self.brackets(), self.functions().into_iter(), there));
+        values
     }
 
     fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
@@ -180,7 +182,19 @@ pub(super) fn written<'f>(
     there: &Phase<'_, Expr>,
 ) -> Vec<Expr> {
     let brackets = brackets.iter().map(|bracket| &variables.brackets[*bracket]);
-    there.literal_values(functions.chain(brackets.flat_map(Poisson::given_blocks)))
+    let own = functions.chain(brackets.flat_map(Poisson::given_blocks)).collect();
+    with_parameters(own, there)
+}
+
+/// Records the new variables as written.
+pub(super) fn images_as_written(variables: &NewVariables, phase: &Phase<'_, Expr>) -> Vec<Expr> {
+    with_parameters(variables.images.iter().collect(), phase)
+}
+
+/// Records formulas as written, with the parameters in them.
+fn with_parameters(own: Vec<&Formula>, phase: &Phase<'_, Expr>) -> Vec<Expr> {
+    let parameters = phase.model().parameter_formulas_of(&own);
+    phase.literal_values(parameters.into_iter().chain(own))
 }
 
 /// Computes values that vanish exactly when each ∫ in functions of the new variables, and in the

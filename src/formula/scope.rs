@@ -76,13 +76,23 @@ pub(super) fn resolve(written: &str, scope: &dyn Scope) -> Option<NameMeaning> {
         _ => {}
     }
     // the spelling as written may be the one in the scope: `gamma3` where `gamma` is declared
-    component(&name, scope).or_else(|| component(written, scope))
+    let both = component(&name, scope).or_else(|| component(written, scope));
+    both.or_else(|| component(&with_digits_last(&name)?, scope))
+}
+
+/// Writes the rate of a component, as q1', as a component of a rate: q'1.
+fn with_digits_last(name: &str) -> Option<String> {
+    let bare = name.trim_end_matches('\'');
+    let stem = bare.trim_end_matches(|c: char| c.is_ascii_digit());
+    let (digits, primes) = (&bare[stem.len()..], &name[bare.len()..]);
+    (!digits.is_empty() && !primes.is_empty()).then(|| format!("{stem}{primes}{digits}"))
 }
 
 /// Name under which the scope knows a symbol that is written by its name or a component's.
 pub(super) fn name_of(written: &str, symbol: Symbol, scope: &dyn Scope) -> String {
     let canonical = canonical_name(written).unwrap_or_else(|| written.to_string());
-    for name in [canonical.as_str(), written] {
+    let moved = with_digits_last(&canonical);
+    for name in [canonical.as_str(), written].into_iter().chain(moved.as_deref()) {
         let digits = name.bytes().rev().take_while(u8::is_ascii_digit).count();
         for count in 0..=digits.min(2) {
             let base = &name[..name.len() - count];

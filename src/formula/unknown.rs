@@ -80,9 +80,6 @@ impl Parser<'_> {
         if let Some(base) = name.strip_suffix("dot").filter(|base| known(&format!("{base}'"))) {
             return Some(format!("the rate of `{base}` is written `{base}'`"));
         }
-        if let Some(entry) = rate_entry(name, known) {
-            return Some(format!("an entry is written `{entry}`"));
-        }
         if name.starts_with('∂') || self.builder.text[span.start..].starts_with("d/dt") {
             return Some(
                 "derivatives are taken for you: rate = \"F\" claims the rate of F, and `x'` is \
@@ -124,16 +121,6 @@ impl Parser<'_> {
         }
         listed(names)
     }
-}
-
-/// The entry q'[2] that a name as q2' stands for, if q' is known.
-fn rate_entry(name: &str, known: impl Fn(&str) -> bool) -> Option<String> {
-    let base = name.trim_end_matches('\'');
-    let stem = base.trim_end_matches(|c: char| c.is_ascii_digit());
-    let (primes, digits) = (&name[base.len()..], &base[stem.len()..]);
-    let own = format!("{stem}{primes}");
-    let is_entry = !primes.is_empty() && !digits.is_empty() && !stem.is_empty();
-    (is_entry && known(&own)).then(|| format!("{own}[{digits}]"))
 }
 
 /// Known names, in one sentence.

@@ -246,10 +246,49 @@ impl Model {
         })
     }
 
+    /// Returns the formulas of those parameters that formulas use, directly or through others; of all parameters
+    /// where the system is a body, which uses its parameters itself.
+    pub fn parameter_formulas_of(&self, formulas: &[&Formula]) -> Vec<&Formula> {
+        use System::{Field, Hamiltonian, Lagrangian, Map};
+        if !matches!(self.system, Field(_) | Hamiltonian(_) | Lagrangian(_) | Map(_)) {
+            return self.parameter_formulas().collect();
+        }
+        let mut reached: Vec<Symbol> = Vec::new();
+        let mut own: Vec<&Formula> = Vec::new();
+        let mut reach = |formula: &Formula| {
+            let new: Vec<Symbol> =
+                formula.symbols().filter(|symbol| !reached.contains(symbol)).collect();
+            reached.extend(&new);
+            new
+        };
+        let mut next: Vec<Symbol> = formulas.iter().flat_map(|formula| reach(formula)).collect();
+        while let Some(symbol) = next.pop() {
+            let formula = match self.vocabulary.entry(symbol).meaning {
+                Meaning::Parameter(index) => match &self.parameters[index].origin {
+                    ParameterOrigin::Formula(formula) => Some(formula),
+                    _ => None,
+                },
+                Meaning::Abbreviation(index) => self.abbreviations.get(index),
+                Meaning::State(_) | Meaning::Quantity(_) => None,
+            };
+            let Some(formula) = formula else { continue };
+            if matches!(self.vocabulary.entry(symbol).meaning, Meaning::Parameter(_)) {
+                own.push(formula);
+            }
+            next.extend(reach(formula));
+        }
+        own
+    }
+
     /// Returns the formulas of the equations of motion and of the new variables.
     pub fn dynamics(&self) -> Vec<&Formula> {
         let images = self.variables.iter().flat_map(|variables| &variables.images);
-        self.system.functions().into_iter().chain(&self.extension).chain(images).collect()
+        self.equations_of_motion().into_iter().chain(images).collect()
+    }
+
+    /// Returns the formulas of the equations of motion.
+    pub fn equations_of_motion(&self) -> Vec<&Formula> {
+        self.system.functions().into_iter().chain(&self.extension).collect()
     }
 
     /// Number of state variables of the system, without those that a case adds.

@@ -10,8 +10,10 @@ use super::sampler::TAPE_LANES;
 use crate::graph::{Expr, Graph};
 use crate::number::Enclosing;
 
-/// Smallest share of states of the first block that confirms a claim: one in this many.
+/// Smallest share of the states of the first block at which a claim has a meaning that confirms it: one in this many.
 const MIN_SHARE: usize = 4;
+/// Smallest number of such states.
+const LEAST_RESOLVED: usize = 8;
 /// Largest share of states that count without a value of the residual: one in this many.
 const MOST_LACKING: usize = 16;
 /// Number of bits of the residual's scale that must exceed its error bound for a state to count: a
@@ -220,7 +222,12 @@ impl BlockResult {
 
     /// Whether all enclosures contain 0, and enough of them are narrow.
     pub fn is_zero(&self) -> bool {
-        !self.excludes_zero && self.resolved * MIN_SHARE >= self.states && !self.is_partial()
+        !self.excludes_zero && self.is_resolved() && !self.is_partial()
+    }
+
+    /// Whether enclosures are narrow at enough of the states at which all required values exist.
+    fn is_resolved(&self) -> bool {
+        self.resolved >= LEAST_RESOLVED && self.resolved * MIN_SHARE >= self.existing
     }
 
     /// Whether the residual is undefined at many of the states at which all required values exist.
@@ -240,12 +247,19 @@ impl BlockResult {
                 self.existing
             ));
         }
-        (!self.excludes_zero && self.resolved * MIN_SHARE < self.states).then(|| {
-            format!(
+        if self.excludes_zero || self.is_resolved() {
+            return None;
+        }
+        Some(match self.existing < LEAST_RESOLVED {
+            true => format!(
+                "all that this {kind} contains has a value at {} of {} states, which are too few",
+                self.existing, self.states
+            ),
+            false => format!(
                 "rounding hides the residual of this {kind}: only at {} of {} states is its error \
                  bound 2^{RESOLVED_BITS} times below the terms that are added",
-                self.resolved, self.states
-            )
+                self.resolved, self.existing
+            ),
         })
     }
 

@@ -142,7 +142,7 @@ pub fn report(
 /// Says how a rate is written so that its sign is seen.
 pub(super) fn advice_on_rate(kind: &ClaimKind) -> &'static str {
     match kind {
-        ClaimKind::Lyapunov(own) if own.without_rate().is_none() => {
+        ClaimKind::Lyapunov(own) if own.has_rate() => {
             "the sign of the formula under `equals` is not seen: write it as a sum of terms that are never positive"
         }
         _ => "write the rate under `equals` as a sum of terms that are never positive",

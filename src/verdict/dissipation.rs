@@ -7,6 +7,7 @@ use super::evidence::{ClaimReport, Verdict};
 use super::judge::{JudgeError, Options, Trust, judge};
 use super::run::{Doubles, Run};
 use super::sampler::{Sampler, TAPE_LANES};
+use super::sum_of_squares::sum_of_squares;
 use crate::case::{Case, PlacedClaim};
 use crate::claim::{ClaimKind, Lyapunov};
 use crate::formula::{Formula, Type};
@@ -15,7 +16,7 @@ use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{ParameterOrigin, Phase, SamplerSpec};
 use crate::number::ball::Ball;
 use crate::number::rational::Rational;
-use crate::proof::{completed_squares, simpler_forms};
+use crate::proof::{NamedPolynomial, completed_squares, simpler_forms};
 use crate::scalar::Scalar;
 
 /// Largest number of vectors whose squares are tried.
@@ -32,12 +33,14 @@ pub(super) fn find_rates(
     for (claim, report) in case.claims.iter().zip(reports) {
         let ClaimKind::Lyapunov(own) = &claim.kind else { continue };
         let is_open = report.verdict == Verdict::Undecided && options.trust != Trust::Float;
-        let (true, Some(function)) = (is_open, own.without_rate()) else { continue };
-        for text in rates(case, claim, own, function, options.seed)? {
+        if !is_open || own.has_form() {
+            continue;
+        }
+        for text in rates(case, claim, own, own.function(), options.seed)? {
             let Ok(rate) = case.formula(&text) else { continue };
             let mut alone = case.clone();
             (alone.motions, alone.absences) = (Vec::new(), Vec::new());
-            let kind = ClaimKind::Lyapunov(own.with_rate(rate));
+            let kind = ClaimKind::Lyapunov(own.with_form(rate));
             alone.claims = vec![PlacedClaim { kind, ..claim.clone() }];
             let judged = judge(&alone, &Options { mutants: false, ..*options })?;
             let proved = judged.claims.into_iter().find(|one| one.verdict == Verdict::Proved);
@@ -82,7 +85,7 @@ fn rates(
         .map(|found| found.text)
         .into_iter()
         .collect();
-    let simpler = simpler_forms(&graph, growth, free, &names);
+    let simpler = simpler_forms(&graph, growth, free, &names, &written_as_squares);
     all.extend(
         simpler.into_iter().filter(|form| may_divide || !form.divides).map(|form| form.text),
     );
@@ -113,6 +116,26 @@ fn rates(
     all.retain(|text| seen.insert(text.clone()));
     all.truncate(MOST_RATES);
     Ok(all)
+}
+
+/// Writes a polynomial as a sum of squares.
+fn written_as_squares(own: &NamedPolynomial<'_>) -> Option<String> {
+    let monomial = |(value, powers): &(Rational, Vec<u32>)| {
+        let named = powers.iter().zip(&own.names).filter(|(power, _)| **power > 0);
+        let powers = named.map(|(power, name)| match power {
+            1 => (*name).to_string(),
+            _ => format!("{name}^{power}"),
+        });
+        let number = (!value.is_one()).then(|| format!("({value})"));
+        let all: Vec<String> = number.into_iter().chain(powers).collect();
+        if all.is_empty() { "1".to_string() } else { all.join("*") }
+    };
+    let square = |(factor, terms): &(Rational, Vec<(Rational, Vec<u32>)>)| {
+        let sum: Vec<String> = terms.iter().map(monomial).collect();
+        format!("({factor})*({})^2", sum.join(" + "))
+    };
+    let squares = sum_of_squares(&own.terms)?;
+    Some(squares.iter().map(square).collect::<Vec<String>>().join(" + "))
 }
 
 /// The input that a component of the parameters is equal to.

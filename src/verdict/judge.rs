@@ -11,7 +11,7 @@ use super::judging::Judging;
 use super::mutants::{MutationReport, mutate};
 use super::recorded::{RecordedClaim, SharedTerms};
 use super::sampler::TAPE_LANES;
-use crate::case::Case;
+use crate::case::{Case, TimeParts};
 use crate::claim::LevelSubset;
 use crate::graph::{Fault, Graph, record};
 use crate::mechanics::Phase;
@@ -223,7 +223,7 @@ fn recording(case: &Case) -> Result<(Graph, (Vec<RecordedClaim<'_>>, SharedTerms
         let jet = DualPoint::new(Phase::new(model, parameters, state));
         let recorded: Vec<RecordedClaim<'_>> =
             case.claims.iter().map(|claim| RecordedClaim::new(claim, &jet)).collect();
-        (recorded, SharedTerms::of(&jet))
+        (recorded, SharedTerms::of(&case.chart, &jet))
     })
 }
 
@@ -242,6 +242,9 @@ pub fn judge_telling(
     options: &Options,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<CaseReport, JudgeError> {
+    if let Some(parts) = case.time_parts() {
+        return judge_time_parts(case, &parts, options, progress);
+    }
     // A claim may be decided on several parts of its place, and conditions and wider places follow: the
     // last bit is told at the end.
     let most = case.claims.len() as f64 - REST;
@@ -255,6 +258,32 @@ pub fn judge_telling(
     };
     let report = judge_all(case, options, &decided)?;
     progress(case.claims.len() as f64 - *lock());
+    Ok(report)
+}
+
+/// Judges the claims that use `t`, and the others without it.
+fn judge_time_parts(
+    case: &Case,
+    parts: &TimeParts,
+    options: &Options,
+    progress: &(dyn Fn(f64) + Sync),
+) -> Result<CaseReport, JudgeError> {
+    let mut report = judge_telling(&parts.without_time, options, progress)?;
+    let other = judge_telling(&parts.with_time, options, progress)?;
+    report.claims.extend(other.claims);
+    parts.sort(&mut report.claims, |claim| &claim.name);
+    for warning in other.warnings {
+        if !report.warnings.contains(&warning) {
+            report.warnings.push(warning);
+        }
+    }
+    report.remarks = case.remarks.iter().map(ToString::to_string).collect();
+    report.mutants = match (report.mutants, other.mutants) {
+        (Some(own), Some(other)) => Some(own.and(other)),
+        (own, other) => own.or(other),
+    };
+    report.motions_left += other.motions_left;
+    report.absences_left += other.absences_left;
     Ok(report)
 }
 

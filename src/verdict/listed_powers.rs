@@ -115,7 +115,7 @@ fn lost_bases(graph: &Graph, powers: &[Vec<Expr>], extents: &[Extent]) -> Vec<us
         let is_whole =
             graph.constant_value(exponent).is_some_and(|value| value.to_integer().is_some());
         let known = || sign(graph, extents, &[base], &[], base);
-        is_whole && !known().is_some_and(|known| known.is_positive)
+        is_whole && !known().is_some_and(|known| known.is_positive && !known.may_vanish)
     };
     (0..powers.len()).filter(|index| is_lost(&powers[*index])).collect()
 }

@@ -52,6 +52,7 @@ mod second_opinion;
 mod signs;
 mod state;
 mod statement;
+mod sum_of_squares;
 mod values;
 mod voids;
 mod wider_domain;

@@ -39,6 +39,17 @@ pub struct MutationReport {
     pub discovered: Vec<MutantReport>,
 }
 
+impl MutationReport {
+    /// Combines the mutants of different claims.
+    pub(super) fn and(mut self, other: Self) -> Self {
+        self.killed += other.killed;
+        self.equivalent += other.equivalent;
+        self.survived.extend(other.survived);
+        self.discovered.extend(other.discovered);
+        self
+    }
+}
+
 /// A mutant for the report.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct MutantReport {
@@ -88,7 +99,7 @@ pub fn mutate(
                 candidates.push(Candidate { claim, mutant, residual });
             }
         }
-        (candidates, SharedTerms::of(&jet))
+        (candidates, SharedTerms::of(&case.chart, &jet))
     })?;
     let bench = Judging::new(case, &common, options, &graph, inputs);
     let mut report = MutationReport::default();
@@ -223,7 +234,7 @@ fn depends(
                 own.iter().zip(new).map(|(a, b)| *b - *a).collect()
             })),
         }
-        (rows, SharedTerms::of(&jet))
+        (rows, SharedTerms::of(&case.chart, &jet))
     })?;
     // A mutant that is neither an integral nor a density is equivalent to any other true statement
     // in its place.

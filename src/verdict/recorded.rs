@@ -12,7 +12,7 @@ use crate::formula::Formula;
 use crate::graph::{Expr, literally};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::elimination::rejection;
-use crate::mechanics::{LevelEquation, LevelFunction, System};
+use crate::mechanics::{Chart, LevelEquation, LevelFunction, System};
 use crate::number::Enclosing;
 
 /// A claim with all expressions recorded for it.
@@ -58,7 +58,9 @@ impl<'c> RecordedClaim<'c> {
             residual: residual(&claim.place),
             presence,
             requirement: {
-                let mut values = jet.phase.literal_values(claim.kind.formulas());
+                let formulas = claim.kind.formulas();
+                let parameters = jet.phase.model().parameter_formulas_of(&formulas);
+                let mut values = jet.phase.literal_values(parameters.into_iter().chain(formulas));
                 values.extend(claim.kind.further_requirement(jet));
                 values
             },
@@ -106,8 +108,8 @@ pub struct SharedTerms {
 }
 
 impl SharedTerms {
-    /// Records these expressions.
-    pub fn of(jet: &DualPoint<'_, Expr>) -> Self {
+    /// Records these expressions for a case with this chart.
+    pub fn of(chart: &Chart, jet: &DualPoint<'_, Expr>) -> Self {
         let phase = &jet.phase;
         let image = phase.model().system.is_map().then(|| jet.image());
         let rate = |function| match &image {
@@ -123,7 +125,14 @@ impl SharedTerms {
             field: phase.field().to_vec(),
             requirement: {
                 let model = phase.model();
-                phase.literal_values(model.parameter_formulas().chain(model.dynamics()))
+                let motion = model.equations_of_motion();
+                let system =
+                    motion.iter().copied().chain(model.level_formulas()).collect::<Vec<_>>();
+                let parameters = match chart {
+                    Chart::Given(_) => model.parameter_formulas().collect(),
+                    _ => model.parameter_formulas_of(&system),
+                };
+                phase.literal_values(parameters.into_iter().chain(motion))
             },
             motion: phase.existence_of_motion(),
             level_requirement: {

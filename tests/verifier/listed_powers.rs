@@ -35,3 +35,76 @@ fn positive_bases_and_fractions_lose_nothing() {
     assert_eq!(verdict("2, 1/2", "1/2..2", "", integral), Verdict::Proved);
     assert_eq!(verdict("2, 3", "-2..2", "", "identity = \"x^a = 2*x^a\""), Verdict::Refuted);
 }
+
+/// Value of a power: of any base if the exponent is whole, of a positive one otherwise.
+fn power(base: f64, exponent: f64) -> f64 {
+    match exponent.fract() == 0.0 {
+        true => base.powi(exponent as i32),
+        false if base > 0.0 => base.powf(exponent),
+        false => f64::NAN,
+    }
+}
+
+/// An identity of powers of a base with the exponents a and a + 1, and its two sides at a base and an exponent.
+type Identity = (&'static str, fn(f64, f64) -> [f64; 2]);
+
+const IDENTITIES: [Identity; 8] = [
+    ("(B)^a*abs(B) = (B)^(a + 1)", |b, a| [power(b, a) * b.abs(), power(b, a + 1.0)]),
+    ("(B)^a*(B) = (B)^(a + 1)", |b, a| [power(b, a) * b, power(b, a + 1.0)]),
+    ("(B)^a = abs(B)^a", |b, a| [power(b, a), power(b.abs(), a)]),
+    ("(-(B))^a = (B)^a", |b, a| [power(-b, a), power(b, a)]),
+    ("((B)^a)^2 = (B)^(2*a)", |b, a| [power(b, a).powi(2), power(b, 2.0 * a)]),
+    ("sqrt((B)^(2*a)) = (B)^a", |b, a| [power(b, 2.0 * a).sqrt(), power(b, a)]),
+    ("sqrt((B)^(2*a)) = abs((B)^a)", |b, a| [power(b, 2.0 * a).sqrt(), power(b, a).abs()]),
+    ("(B)*(1 + (B)^a) = 0", |b, a| [b * (1.0 + power(b, a)), 0.0]),
+];
+
+#[test]
+fn what_is_proved_holds_for_each_listed_number_in_the_file() {
+    let bases: [(&str, fn(f64, f64) -> f64); 5] = [
+        ("x", |x, _| x),
+        ("abs(x)", |x, _| x.abs()),
+        ("-x", |x, _| -x),
+        ("y", |_, y| y),
+        ("x + y", |x, y| x + y),
+    ];
+    let exponents: [(&str, [f64; 2]); 6] = [
+        ("2, 4", [2.0, 4.0]),
+        ("1, 3", [1.0, 3.0]),
+        ("2, 3", [2.0, 3.0]),
+        ("1/2, 2", [0.5, 2.0]),
+        ("-1, 2", [-1.0, 2.0]),
+        ("1/3, 5/2", [1.0 / 3.0, 2.5]),
+    ];
+    let (mut proved, mut wrong) = (0, 0);
+    for (case, (words, listed)) in exponents.into_iter().enumerate() {
+        for (turn, (base, value)) in bases.into_iter().enumerate() {
+            for (row, (identity, sides)) in IDENTITIES.into_iter().enumerate() {
+                // A third of all is enough, with each base, list and identity several times.
+                if (case + turn + row) % 3 != 0 {
+                    continue;
+                }
+                let (range, least) =
+                    if (turn + row) % 2 == 0 { ("0..2", 0) } else { ("-2..2", -8) };
+                let level = if row % 2 == 0 { "" } else { "[level]\nequations = [\"x*y = 0\"]" };
+                let claim = format!("identity = \"{}\"", identity.replace('B', base));
+                let holds = listed.iter().all(|a| {
+                    let grid = (least..=8).flat_map(|i| (-8..=8).map(move |j| (i, j)));
+                    let on_level = grid.filter(|(i, j)| level.is_empty() || i * j == 0);
+                    on_level.map(|(i, j)| (f64::from(i) / 4.0, f64::from(j) / 4.0)).all(|(x, y)| {
+                        let [left, right] = sides(value(x, y), *a);
+                        !(left - right).is_finite() || (left - right).abs() < 1e-9
+                    })
+                });
+                let found = verdict(words, range, level, &claim);
+                proved += usize::from(found == Verdict::Proved);
+                wrong += usize::from(!holds);
+                assert!(
+                    holds || ![Verdict::Proved, Verdict::Confirmed].contains(&found),
+                    "{claim} is {found:?} for a of {words}, x of {range} {level}"
+                );
+            }
+        }
+    }
+    assert!(proved >= 20 && wrong >= 20, "{proved} proved, {wrong} false");
+}

@@ -96,10 +96,11 @@ impl Heading {
 
 /// Sets the formulas of the claims that fill cells of a table.
 fn statements(case: &Case) -> BTreeMap<String, Layout> {
-    let in_table = case.claims.iter().filter(|claim| case.column.is_some() && claim.cell.is_some());
+    let claims = case.homes().flat_map(|home| home.claims.iter().map(move |claim| (home, claim)));
+    let in_table = claims.filter(|(_, claim)| case.column.is_some() && claim.cell.is_some());
     in_table
-        .filter_map(|claim| {
-            let layout = typeset::claim::statement(&case.model, claim)?;
+        .filter_map(|(home, claim)| {
+            let layout = typeset::claim::statement(&home.model, claim)?;
             Some((claim.name.clone(), layout))
         })
         .collect()

@@ -78,6 +78,7 @@ impl ModelBuilder {
             notes: Vec::new(),
             warnings,
             remarks: Vec::new(),
+            without_time: None,
         };
         build::extend_support(&mut case.model);
         let is_open = |equation: &&LevelEquation| match &equation.function {

@@ -174,3 +174,25 @@ fn long_chains_of_names_take_no_deep_stack() {
         assert!(judged.is_ok(), "the chain is judged");
     }
 }
+
+#[test]
+fn components_of_rates_are_written_as_in_print() {
+    settled(
+        r#"
+title = "rates"
+[state]
+q = "vector(2, 1..2)"
+"q'" = "vector(2, 1..2)"
+[lagrangian]
+kinetic = "(q',q')/2"
+[[claim]]
+identity = "[q1', q2'] = q'"
+[[claim]]
+integral = "q₁'*q2 − q1*q′₂"
+"#,
+    );
+    let told = error(
+        "title = 't'\n[state]\nx1 = '0..1'\n[field]\n\"x1'\" = 'x1'\n[[claim]]\nidentity = \"x2' = 0\"\n",
+    );
+    assert_eq!(told[0].1, "unknown name `x2'`");
+}

@@ -9,7 +9,7 @@ use crate::report::motion_certificate::{horseshoe_certificate, motion_certificat
 use crate::report::{FileOutcome, RunReport};
 use liouville::case::{Case, MotionClaim};
 use liouville::claim::motion::MotionKind;
-use liouville::verdict::{ClaimReport, Method, Verdict, statements};
+use liouville::verdict::{CaseReport, ClaimReport, Method, Verdict, statements};
 use liouville_flow::observe;
 use rayon::prelude::*;
 
@@ -65,6 +65,24 @@ fn of_case(outcome: &FileOutcome, options: &CheckArgs) -> Result<Made, String> {
     }
     let (text, case) = source::read(path, &read_settings(&options.settings)?);
     let Ok(case) = case else { return Ok(Vec::new()) };
+    let origin = CaseOrigin { path: &outcome.path, text: &text, settings: &options.settings };
+    match case.time_parts() {
+        None => of_part(&case, report, &origin, options),
+        Some(parts) => {
+            let mut made = of_part(&parts.without_time, report, &origin, options)?;
+            made.extend(of_part(&parts.with_time, report, &origin, options)?);
+            Ok(made)
+        }
+    }
+}
+
+/// Makes the certificates of the claims that a case contains.
+fn of_part(
+    case: &Case,
+    report: &CaseReport,
+    origin: &CaseOrigin<'_>,
+    options: &CheckArgs,
+) -> Result<Made, String> {
     let by_name = |claim: &ClaimReport| {
         case.claims.iter().position(|own| own.name == claim.name && !own.kind.is_negated())
     };
@@ -78,19 +96,18 @@ fn of_case(outcome: &FileOutcome, options: &CheckArgs) -> Result<Made, String> {
         .filter(is_by_points)
         .filter_map(|claim| Some((by_name(claim)?, claim)))
         .collect();
-    let origin = CaseOrigin { path: &outcome.path, text: &text, settings: &options.settings };
-    let of_motion = of_motion(&case, &report.claims, &origin, options);
+    let of_motion = of_motion(case, &report.claims, origin, options);
     if proved.is_empty() {
         return Ok(of_motion);
     }
     let claims: Vec<usize> = proved.iter().map(|(index, _)| *index).collect();
-    let found = statements(&case, &claims, options.sampling.seed)
-        .map_err(|error| format!("error: {}: {error}", outcome.path))?;
+    let found = statements(case, &claims, options.sampling.seed)
+        .map_err(|error| format!("error: {}: {error}", origin.path))?;
     Ok(proved
         .iter()
         .zip(&found)
         .map(|((_, claim), statement)| {
-            let made = certificate(&case, &origin, claim, statement, options.sampling.seed);
+            let made = certificate(case, origin, claim, statement, options.sampling.seed);
             (claim.name.clone(), made.map(|json| format!("{json:#}\n")))
         })
         .chain(of_motion)

@@ -50,20 +50,26 @@ impl RequestedClaims {
     /// Removes what need not be judged: other claims of a case may matter to those that are meant,
     /// but motions take minutes and do not.
     pub fn prepare(&self, case: &mut Case) {
-        let (whole, column) = (case.source.clone(), case.column.clone());
-        let takes = |name: &str, source: &str, cell: Option<&str>| {
-            self.takes(&RequestedClaim { name, source, cell }, &whole, column.as_ref())
+        let has_meant = |own: &Case| {
+            let claims = own.claims.iter().map(|own| (&own.name, &own.source, &own.cell));
+            let absences = own.absences.iter().map(|own| (&own.name, &own.source, &own.cell));
+            claims.chain(absences).any(|(name, source, cell)| {
+                let claim = RequestedClaim { name, source, cell: cell.as_deref() };
+                self.takes(&claim, &own.source, own.column.as_ref())
+            })
         };
-        case.motions.retain(|own| takes(&own.name, &own.source, None));
-        let mut claims = case.claims.iter().map(|own| (&own.name, &own.source, &own.cell));
-        let mut absences = case.absences.iter().map(|own| (&own.name, &own.source, &own.cell));
-        let is_meant = |(name, source, cell): (&String, &String, &Option<String>)| {
-            takes(name, source, cell.as_deref())
-        };
-        if !claims.any(is_meant) && !absences.any(is_meant) {
-            case.claims.clear();
-            case.absences.clear();
-        }
+        let has_none = !case.homes().any(has_meant);
+        case.change_claims(&|own| {
+            let (whole, column) = (own.source.clone(), own.column.clone());
+            own.motions.retain(|own| {
+                let claim = RequestedClaim { name: &own.name, source: &own.source, cell: None };
+                self.takes(&claim, &whole, column.as_ref())
+            });
+            if has_none {
+                own.claims.clear();
+                own.absences.clear();
+            }
+        });
     }
 }
 

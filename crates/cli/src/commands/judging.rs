@@ -270,6 +270,12 @@ pub(super) fn stated(case: &Case, motions: bool) -> Vec<ClaimReport> {
         note: None,
         evidence: Evidence::default(),
     };
+    if let Some(parts) = case.time_parts() {
+        let mut all = stated(&parts.without_time, motions);
+        all.extend(stated(&parts.with_time, motions));
+        parts.sort(&mut all, |claim| &claim.name);
+        return all;
+    }
     let claims = case.claims.iter().map(|own| ClaimReport {
         formula: own.kind.text(),
         place: own.place.name(&case.model),

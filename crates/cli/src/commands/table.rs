@@ -90,11 +90,14 @@ pub fn run(options: &TableArgs) -> Result<CommandOutput, String> {
 /// Keeps the claims that a table needs: those in its cells, and all of a case with claims of
 /// absence, which count what the others state.
 fn keep_table(case: &mut Case, number: u32) {
-    case.motions.clear();
-    if case.column.as_ref().is_none_or(|column| column.table != number) {
-        case.claims.clear();
-        case.absences.clear();
-    } else if case.absences.is_empty() {
-        case.claims.retain(|claim| claim.cell.is_some());
-    }
+    let has_absences = case.homes().any(|own| !own.absences.is_empty());
+    case.change_claims(&|case| {
+        case.motions.clear();
+        if case.column.as_ref().is_none_or(|column| column.table != number) {
+            case.claims.clear();
+            case.absences.clear();
+        } else if !has_absences {
+            case.claims.retain(|claim| claim.cell.is_some());
+        }
+    });
 }

@@ -130,7 +130,7 @@ pub fn verify(
         Case::parse(text, &settings(&given)?).map_err(|error| format!("the case: {error}"))?;
     let about = statement.at("claim")?;
     let name = about.text("name")?;
-    let claim = case.motions.iter().find(|own| own.name == name);
+    let claim = case.home(name).motions.iter().find(|own| own.name == name);
     let claim = claim.ok_or_else(|| format!("the case has no claim `{name}` about motion"))?;
     let (kind, formula) = (claim.kind.name(), claim.kind.text());
     for (part, own) in [("kind", kind), ("formula", formula.as_str())] {

@@ -14,7 +14,8 @@ use liouville::number::rational::Rational;
 /// everywhere are left out.
 pub fn as_written(phase: &Phase<'_, Expr>) -> Vec<Expr> {
     let model = phase.model();
-    phase.literal_values(model.parameter_formulas().chain(model.dynamics()))
+    let own = model.equations_of_motion();
+    phase.literal_values(model.parameter_formulas_of(&own).into_iter().chain(own))
 }
 
 /// Compiles a model's field with the operations that were left out of it as rates of further

@@ -60,6 +60,10 @@ pub fn observe(case: &Case, options: &Options) -> Vec<ClaimReport> {
 /// Judges the claims about motion on the threads of the pool at work, and hands over the reports in
 /// the order of the claims, each once those before it are made.
 pub fn observe_each(case: &Case, options: &Options, keep: &mut (dyn FnMut(ClaimReport) + Send)) {
+    if let Some(parts) = case.time_parts() {
+        observe_each(&parts.without_time, options, keep);
+        return observe_each(&parts.with_time, options, keep);
+    }
     let scene = FollowedCase::new(case, options.seed);
     let halt = Halt::current();
     let waiting: BTreeMap<usize, ClaimReport> = BTreeMap::new();
@@ -122,12 +126,19 @@ pub fn verify_horseshoe(
     chaos(case, claim, options, |request| replay_horseshoe(request, data))
 }
 
+/// Returns the case in which a claim is judged, and the claim as it is read there.
+fn home<'c>(case: &'c Case, claim: &'c MotionClaim) -> (&'c Case, &'c MotionClaim) {
+    let home = case.home(&claim.name);
+    (home, home.motions.iter().find(|own| own.name == claim.name).unwrap_or(claim))
+}
+
 fn orbit(
     case: &Case,
     claim: &MotionClaim,
     options: &Options,
     proof: impl FnOnce(&Request<'_>) -> Result<ProvedOrbit, Obstacle>,
 ) -> Result<(ClaimReport, ProvedOrbit), String> {
+    let (case, claim) = home(case, claim);
     let MotionKind::ClosedOrbit(kind) = &claim.kind else {
         return Err("the claim is not about a closed orbit".to_string());
     };
@@ -141,6 +152,7 @@ fn chaos(
     options: &Options,
     proof: impl FnOnce(&Request<'_>) -> Result<ProvedHorseshoe, Obstacle>,
 ) -> Result<(ClaimReport, ProvedHorseshoe), String> {
+    let (case, claim) = home(case, claim);
     let MotionKind::Horseshoe(kind) = &claim.kind else {
         return Err("the claim is not about a horseshoe".to_string());
     };

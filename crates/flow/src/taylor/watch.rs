@@ -22,7 +22,8 @@ pub(crate) type Written = Vec<(String, Vec<Expr>)>;
 /// everywhere are left out.
 pub(crate) fn written(phase: &Phase<'_, Expr>) -> Written {
     let model = phase.model();
-    let formulas = model.parameter_formulas().chain(model.dynamics());
+    let own = model.equations_of_motion();
+    let formulas = model.parameter_formulas_of(&own).into_iter().chain(own);
     let known = formulas.filter(|formula| !model.has_antiderivative(formula));
     let all = known.map(|f| (f.text().trim().to_string(), phase.literal_values([f])));
     all.filter(|(_, values)| !values.is_empty()).collect()

@@ -1,11 +1,12 @@
 //! Values as formulas of a simpler form: divided into factors, and collected in the variables of the state.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 
 use crate::graph::{Expr, Graph, Step};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
 
+use super::paired::pairs;
 use super::polynomial::{Fraction, MOST_WORK, Polynomial, fraction};
 
 /// Longest text.
@@ -19,8 +20,20 @@ pub struct SimplerForm {
     pub divides: bool,
 }
 
+/// A polynomial in values whose names are given.
+pub struct NamedPolynomial<'n> {
+    /// Coefficients, each with the powers of the values.
+    pub terms: Vec<(Rational, Vec<u32>)>,
+    /// Names of the values.
+    pub names: Vec<&'n str>,
+}
+
+/// A way of writing a polynomial, up to the given sign, so that it is seen never to be negative.
+pub type ShownSign<'f> = &'f dyn Fn(&NamedPolynomial<'_>) -> Option<String>;
+
 /// Writes a value as c Π f^m / q, and as Σ c x^k / q, where x are the inputs from `first` on and functions of
-/// them, c depends on the inputs before alone, and nothing cancels; `names` are those of the inputs.
+/// them, c depends on the inputs before alone, and nothing cancels; `names` are those of the inputs. Factors of odd
+/// powers are written by `shown` where it can.
 ///
 /// Empty if the value is no quotient of polynomials in inputs and functions, or if it is too large.
 pub fn simpler_forms(
@@ -28,6 +41,7 @@ pub fn simpler_forms(
     value: Expr,
     first: usize,
     names: &[String],
+    shown: ShownSign<'_>,
 ) -> Vec<SimplerForm> {
     let Some(read) = ReadValue::of(graph, value, first, names) else { return Vec::new() };
     let divides = read.whole.below.number().is_none();
@@ -35,7 +49,7 @@ pub fn simpler_forms(
         true => format!("({text})/({})", read.whole.below.text(&read.names)),
         false => text,
     };
-    let forms = [read.factored(), read.collected()];
+    let forms = [read.factored(graph, names, shown), read.collected()];
     let found = forms.into_iter().flatten().map(|text| whole(text).replace(" + -", " - "));
     found
         .filter(|text| text.len() < MOST_LETTERS)
@@ -80,8 +94,10 @@ pub fn reduced(whole: Fraction) -> Option<Fraction> {
 }
 
 /// A reduced fraction in inputs and values of functions, with the names of these.
-struct ReadValue {
+pub(super) struct ReadValue {
     whole: Fraction,
+    /// Places of the variables of the fraction.
+    pub(super) places: Vec<usize>,
     names: Vec<String>,
     /// Whether a variable depends on the inputs from a given one on.
     is_own: Vec<bool>,
@@ -112,12 +128,13 @@ impl ReadValue {
         Some(Self {
             whole: reduced(whole)?,
             names: written?,
+            places: places.clone(),
             is_own: places.iter().map(of_state).collect(),
         })
     }
 
-    /// Writes c Π f^m.
-    fn factored(&self) -> Option<String> {
+    /// Writes c Π f^m, with pairs of factors that have the same sign in brackets.
+    fn factored(&self, graph: &Graph, names: &[String], shown: ShownSign<'_>) -> Option<String> {
         let mut rest = self.whole.above.clone();
         let mut work = MOST_WORK;
         let mut factors = Vec::new();
@@ -126,10 +143,48 @@ impl ReadValue {
             while let Some(less) = rest.over(&factor, &mut work) {
                 (rest, count) = (less, count + 1);
             }
-            let is_sum = factor.as_term().is_none_or(|(_, powers)| powers.len() > 1);
-            factors.push((factor.text(&self.names), is_sum, count));
+            factors.push((factor, count));
         }
-        Some(product(rest.number()?.to_string(), factors.into_iter()))
+        let mut coefficient = rest.number()?;
+        let mut written = Vec::new();
+        for pair in pairs(self, graph, names, &factors) {
+            let [(first, own), (second, other)] = pair.factors;
+            factors[first].1 -= 1;
+            factors[second].1 -= 1;
+            coefficient = &(&coefficient * &own) * &other;
+            written.push((pair.text, false, 1));
+        }
+        for (factor, count) in factors {
+            let is_sum = factor.as_term().is_none_or(|(_, powers)| powers.len() > 1);
+            let signs = if is_sum && count % 2 == 1 { &[1, -1][..] } else { &[] };
+            let found = signs.iter().find_map(|sign| {
+                let own = self.named(&factor.scaled(&Rational::from(*sign)));
+                Some((Rational::from(*sign), shown(&own)?))
+            });
+            match found {
+                Some((sign, text)) => {
+                    coefficient = &coefficient * &sign;
+                    written.push((text, true, count));
+                }
+                None => written.push((factor.text(&self.names), is_sum, count)),
+            }
+        }
+        Some(product(coefficient.to_string(), written.into_iter()))
+    }
+
+    /// Names the variables of a polynomial.
+    fn named(&self, polynomial: &Polynomial) -> NamedPolynomial<'_> {
+        let variables = polynomial.variables();
+        let terms = polynomial.terms().map(|(value, powers)| {
+            let power = |variable: &u32| {
+                powers.iter().find(|(own, _)| own == variable).map_or(0, |(_, power)| *power)
+            };
+            (value.clone(), variables.iter().map(power).collect())
+        });
+        NamedPolynomial {
+            terms: terms.collect(),
+            names: variables.iter().map(|own| self.names[*own as usize].as_str()).collect(),
+        }
     }
 
     /// Writes Σ c x^k.
@@ -151,6 +206,20 @@ impl ReadValue {
     }
 }
 
+/// Reads a value as a fraction of the variables at known places.
+pub(super) fn read_with(graph: &Graph, place: usize, places: &[usize]) -> Option<Fraction> {
+    let missing = Cell::new(false);
+    let read = fraction(graph, place, &|at, step| {
+        if !is_variable(step) {
+            return None;
+        }
+        let index = places.iter().position(|own| *own == at);
+        missing.set(missing.get() || index.is_none());
+        u32::try_from(index.unwrap_or_default()).ok().map(Polynomial::variable)
+    });
+    read.filter(|_| !missing.get())
+}
+
 /// Whether a step is read as a variable: an input, or a function that is no sum, product or whole power.
 fn is_variable(step: Step<'_>) -> bool {
     match step {
@@ -162,7 +231,7 @@ fn is_variable(step: Step<'_>) -> bool {
 }
 
 /// Writes the value at a place; `None` if it is too long.
-fn text(graph: &Graph, place: usize, names: &[String]) -> Option<String> {
+pub(super) fn text(graph: &Graph, place: usize, names: &[String]) -> Option<String> {
     let reached = graph.reached_from(&[place]);
     let mut texts: Vec<String> = Vec::with_capacity(place + 1);
     for (at, step) in graph.steps().enumerate().take(place + 1) {
@@ -210,7 +279,10 @@ mod tests {
     fn forms(build: impl FnOnce(&[Expr]) -> Expr) -> Vec<String> {
         let names = ["a", "x", "y"].map(String::from);
         let (graph, value) = record(3, build).expect("records");
-        simpler_forms(&graph, value, 1, &names).into_iter().map(|form| form.text).collect()
+        simpler_forms(&graph, value, 1, &names, &|_| None)
+            .into_iter()
+            .map(|form| form.text)
+            .collect()
     }
 
     #[test]

@@ -24,6 +24,7 @@
 //! | `elimination`, `rank`, `reconstruct`, `coprime` | linear algebra and polynomials modulo a prime |
 //! | `determined` | values that others determine |
 
+mod alike;
 mod angles;
 mod bounded;
 mod bounds;
@@ -60,6 +61,7 @@ mod nonzero;
 mod numbers;
 mod opposed;
 mod outcome;
+mod paired;
 mod plain;
 mod polynomial;
 mod polynomials;
@@ -82,7 +84,7 @@ mod void;
 
 pub use angles::{arguments as angle_arguments, without_arctangents};
 pub use bounds::InputDistribution;
-pub use collected::simpler_forms;
+pub use collected::{NamedPolynomial, simpler_forms};
 pub use combination::combinations;
 pub use coprime::{are_coprime, are_polynomials, is_single_valued};
 pub use determined::Determination;

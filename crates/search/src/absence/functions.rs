@@ -4,6 +4,7 @@
 //! An integral P/Q gives a relation along each orbit. If the relations along the orbit of a random
 //! point modulo a prime are those that the known integrals imply, it is a function of these.
 
+use super::super::orbit::fractions::Degree;
 use super::super::orbit::{self, fractions};
 use super::super::{Effort, SearchError, SearchReport};
 use super::{AbsenceCase, AbsenceOutcome};
@@ -17,7 +18,9 @@ const MONOMIALS: usize = 1500;
 pub fn no_integral(asked: &AbsenceCase<'_>, degree: u32) -> Result<AbsenceOutcome, SearchError> {
     let (case, effort) = (asked.case, &asked.effort);
     let mut known = asked.known.formulas();
-    let compared = |known: &[Formula]| fractions::compared(case, effort, known, degree, MONOMIALS);
+    let compared = |known: &[Formula]| {
+        fractions::compared(case, effort, known, Degree::AsWritten(degree), MONOMIALS)
+    };
     let mut made = compared(known)?;
     // Functions of others say nothing more, and may contain functions that cannot be read.
     let basis = match &made {
@@ -35,7 +38,9 @@ pub fn no_integral(asked: &AbsenceCase<'_>, degree: u32) -> Result<AbsenceOutcom
         Err(reason) => return Ok(AbsenceOutcome::Open(reason)),
     };
     let statement = compared.statement(case, effort, known)?;
-    let fractions::Compared { class, monomials, relations, implied, .. } = compared;
+    let fractions::Compared { class, degree: counted, monomials, relations, implied, .. } =
+        compared;
+    let mut higher = None;
     if let Some(statement) = statement {
         let counted = match relations {
             0 => format!("no relation between {monomials} monomials along an orbit"),
@@ -63,19 +68,24 @@ pub fn no_integral(asked: &AbsenceCase<'_>, degree: u32) -> Result<AbsenceOutcom
         for found in &report.found {
             let Some(function) = &found.function else { continue };
             let own = found.kind == "integral" && found.with.is_empty();
-            if own
-                && found.verdict == Verdict::Proved
-                && fractions::is_within(case, &effort, known, function, (&class, degree))?
-                && asked.is_new(function)?
-            {
-                let exhibit = format!("integral, proved: {}", found.formula);
-                return Ok(AbsenceOutcome::Exhibited(exhibit));
+            if own && found.verdict == Verdict::Proved && asked.is_new(function)? {
+                if fractions::is_within(case, &effort, known, function, (&class, counted, degree))?
+                {
+                    let exhibit = format!("integral, proved: {}", found.formula);
+                    return Ok(AbsenceOutcome::Exhibited(exhibit));
+                }
+                higher.get_or_insert_with(|| found.formula.clone());
             }
         }
     }
+    let found = match higher {
+        Some(formula) => {
+            format!("{formula} is an integral, and it is open whether one of degree {degree} is")
+        }
+        None => "no other integral was found in closed form".to_string(),
+    };
     Ok(AbsenceOutcome::Open(format!(
-        "{} between {monomials} monomials along an orbit, and known integrals imply {implied}; no other \
-         integral was found in closed form",
+        "{} between {monomials} monomials along an orbit, and known integrals imply {implied}; {found}",
         several(relations)
     )))
 }

@@ -82,20 +82,41 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
 
 /// Adds verdicts on the claims of absence to a report on the others.
 pub fn complete(case: &Case, options: &Options, report: &mut CaseReport) -> Result<(), JudgeError> {
-    if !case.absences.is_empty() {
-        let reports = match options.trust {
-            // Counts rest on proved integrals.
-            Trust::Float => {
-                let best = Options { trust: Trust::Best, mutants: false, ..*options };
-                verdict::judge(case, &best)?.claims
-            }
-            Trust::Best | Trust::Proof => report.claims.clone(),
-        };
-        let told = judged(case, &reports, options);
-        report.claims.extend(told);
-    }
+    let told = match case.time_parts() {
+        Some(parts) => {
+            let mut both = reports_of(&parts.without_time, options, report)?;
+            both.extend(reports_of(&parts.with_time, options, report)?);
+            parts.sort(&mut both, |claim| &claim.name);
+            both
+        }
+        None => reports_of(case, options, report)?,
+    };
+    report.claims.extend(told);
     report.absences_left = 0;
     Ok(())
+}
+
+/// Reports on the claims of absence of a case; `report` contains those on its other claims.
+fn reports_of(
+    case: &Case,
+    options: &Options,
+    report: &CaseReport,
+) -> Result<Vec<ClaimReport>, JudgeError> {
+    if case.absences.is_empty() {
+        return Ok(Vec::new());
+    }
+    let known = match options.trust {
+        // Counts rest on proved integrals.
+        Trust::Float => {
+            let best = Options { trust: Trust::Best, mutants: false, ..*options };
+            verdict::judge(case, &best)?.claims
+        }
+        Trust::Best | Trust::Proof => {
+            let of = |name: &str| report.claims.iter().find(|claim| claim.name == name).cloned();
+            case.claims.iter().filter_map(|claim| of(&claim.name)).collect()
+        }
+    };
+    Ok(judged(case, &known, options))
 }
 
 /// Reports on all claims of absence; `judged` are the reports on the other claims.

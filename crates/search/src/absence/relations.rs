@@ -16,8 +16,9 @@ pub fn no_invariant_relation(
     asked: &AbsenceCase<'_>,
     degree: u32,
 ) -> Result<AbsenceOutcome, SearchError> {
-    // Known integrals are not polynomials that are counted here.
-    let effort = &Effort { terms: Vec::new(), ..asked.effort.clone() };
+    // Known integrals are not polynomials that are counted here, and no others matter than those of this degree.
+    let lower = asked.effort.degree.min(degree);
+    let effort = &Effort { terms: Vec::new(), degree: lower, ..asked.effort.clone() };
     let case = asked.case;
     let mut known: Vec<Formula> = Vec::new();
     for (claim, report) in case.claims.iter().zip(asked.reports) {

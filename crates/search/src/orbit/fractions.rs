@@ -21,8 +21,19 @@ const DEGREE: u32 = 8;
 /// Largest number of its monomials.
 const UNASKED: usize = 300;
 
+/// Degree of fractions of polynomials.
+#[derive(Clone, Copy, Debug)]
+pub enum Degree {
+    /// In the state and the functions of the class.
+    OfClass(u32),
+    /// In the state, the functions of the class, and the exponentials, sines and cosines that the field contains.
+    AsWritten(u32),
+}
+
 /// Relations between the polynomials of a class along one orbit, and those that are explained.
 pub struct Compared {
+    /// Degree of the polynomials of the class that are compared.
+    pub degree: u32,
     /// Class of polynomials, in words.
     pub class: String,
     /// Number of its monomials.
@@ -99,7 +110,10 @@ pub fn conclude(
             if known.is_empty() && is_covered(report, degree) {
                 return Ok(());
             }
-            let Ok(compared) = compared(case, effort, known, degree, UNASKED)? else { continue };
+            let Ok(compared) = compared(case, effort, known, Degree::OfClass(degree), UNASKED)?
+            else {
+                continue;
+            };
             let is_stated = compared.by.is_empty() && !has_functions;
             let Some(statement) = compared.statement(case, effort, known)?.filter(|_| !is_stated)
             else {
@@ -134,7 +148,7 @@ pub fn compared(
     case: &Case,
     effort: &Effort,
     known: &[Formula],
-    degree: u32,
+    degree: Degree,
     most: usize,
 ) -> Result<Result<Compared, String>, SearchError> {
     let none = |reason: &str| Ok(Err(reason.to_string()));
@@ -149,6 +163,10 @@ pub fn compared(
             "the functions in the field, or in the known integrals, may depend on each other, or are \
              functions inside of functions or logarithms: nothing is counted",
         );
+    };
+    let (asked, degree) = match degree {
+        Degree::OfClass(degree) => (degree, degree),
+        Degree::AsWritten(degree) => (degree, degree.saturating_mul(extension.share())),
     };
     let setting = match OrbitSetting::extended(case, &extension, effort)? {
         Ok(setting) => setting,
@@ -167,8 +185,14 @@ pub fn compared(
     }
     if all.is_empty() || all.len() > most {
         let count = if all.is_empty() { listed } else { all.len() };
+        let words = match asked == degree {
+            true => format!("degree {degree}"),
+            false => format!("degree {asked}, which is up to {degree} in {}", {
+                extension.words(&setting.terms, class, degree)
+            }),
+        };
         return Ok(Err(format!(
-            "degree {degree} has {count} unknowns, more than {most}: ask for a lower one"
+            "{words} has {count} unknowns, more than {most}: ask for a lower one"
         )));
     }
     let Some(at) = setting.at(0, 0) else { return none("no orbit has a series modulo a prime") };
@@ -177,6 +201,7 @@ pub fn compared(
     };
     let implied = extension.implied(&setting, &at, &relations.point, &all)?;
     Ok(Ok(Compared {
+        degree,
         class: extension.words(&setting.terms, class, degree),
         monomials: all.len(),
         relations: relations.free.len(),
@@ -185,14 +210,14 @@ pub fn compared(
     }))
 }
 
-/// Whether an integral is a fraction of polynomials of this degree in the same functions; `known` are
-/// the integrals that were given with the class.
+/// Whether an integral is a fraction of polynomials of a degree, as it is written or in the functions of the class;
+/// `known` are the integrals that were given with the class, whose polynomials have the degree `counted`.
 pub fn is_within(
     case: &Case,
     effort: &Effort,
     known: &[Formula],
     integral: &Formula,
-    (class, degree): (&str, u32),
+    (class, counted, degree): (&str, u32, u32),
 ) -> Result<bool, SearchError> {
     let all: Vec<Formula> = known.iter().chain([integral]).cloned().collect();
     let Some(extension) = adjoin::always_extended(case, effort, &all)? else {
@@ -201,8 +226,9 @@ pub fn is_within(
     let is_same = |extension: &Extension| -> Result<bool, SearchError> {
         let Some(own) = &extension.class else { return Ok(false) };
         let setting = OrbitSetting::extended(case, extension, effort)?;
-        Ok(setting.is_ok_and(|setting| extension.words(&setting.terms, own, degree) == class))
+        Ok(setting.is_ok_and(|setting| extension.words(&setting.terms, own, counted) == class))
     };
-    let low = extension.degree(known.len()).is_some_and(|own| own <= degree);
-    Ok(low && is_same(&extension)?)
+    let low = |own: Option<u32>| own.is_some_and(|own| own <= degree);
+    Ok(low(extension.written_degree(known.len()))
+        || low(extension.degree(known.len())) && is_same(&extension)?)
 }

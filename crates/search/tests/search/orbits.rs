@@ -16,6 +16,7 @@ mod maps;
 mod parameters;
 mod rates;
 mod threads;
+mod written_degrees;
 
 use std::time::{Duration, Instant};
 

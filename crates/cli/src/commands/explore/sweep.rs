@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use liouville::case::{Case, PlacedClaim};
 use liouville::formula::Type;
 use liouville::part::Part;
 use liouville::sweep::{Extremes, Peak, Sweep as States};
@@ -103,10 +104,16 @@ impl SweepJob {
         Ok(Self { options, opened, claims, out })
     }
 
+    /// Returns a claim with the case in which it is judged.
+    fn claim(&self, place: usize) -> (&Case, &PlacedClaim) {
+        let claim = &self.opened.case.claims[place];
+        let home = self.opened.case.home(&claim.name);
+        (home, home.claim(&claim.name).unwrap_or(claim))
+    }
+
     /// Sweeps one claim over the states of a part.
     fn sweep(&self, place: usize, part: Part, tick: &dyn Fn(u64)) -> Unit {
-        let (case, seed) = (&self.opened.case, self.options.subject.seed);
-        let claim = &case.claims[place];
+        let ((case, claim), seed) = (self.claim(place), self.options.subject.seed);
         let name = claim.name.clone();
         let range = part.range(self.options.states);
         let sweep = match States::new(case, claim, seed) {
@@ -131,7 +138,7 @@ impl SweepJob {
 
     /// Combines the results of a claim over parts in order.
     fn combined(&self, place: usize, units: &[Unit]) -> Found {
-        let claim = &self.opened.case.claims[place];
+        let (case, claim) = self.claim(place);
         let own = units.iter().filter(|unit| unit.claim == claim.name);
         let mut found = Extremes::default();
         let mut reason = None;
@@ -141,9 +148,9 @@ impl SweepJob {
             reason = reason.or(why.clone());
         }
         let at = found.peak.and_then(|peak| {
-            let sweep = States::new(&self.opened.case, claim, self.options.subject.seed).ok()?;
+            let sweep = States::new(case, claim, self.options.subject.seed).ok()?;
             let (parameters, state) = sweep.state(peak.index);
-            let model = &self.opened.case.model;
+            let model = &case.model;
             let kinds = model.free_parameters().map(|own| own.kind);
             let parameters = parameters.into_iter().zip(kinds).map(written).collect();
             let kinds = model.state.iter().map(|own| own.kind);

@@ -1,9 +1,12 @@
 //! Bounds of values on a part of a region, forwards from the inputs and backwards from the facts.
 
+use std::f64::consts::PI;
+
 use rustc_hash::FxHashMap;
 
 use crate::graph::{Kernel, with_widest_vectors};
 use crate::number::UnaryFunction;
+use crate::proof::alike::Likeness;
 use crate::proof::extent::Extent;
 use crate::proof::fact::SignFact;
 
@@ -19,6 +22,20 @@ fn narrow(bound: &mut Extent, other: Extent) -> bool {
     let is_narrower = common != *bound;
     *bound = common;
     is_narrower
+}
+
+/// Bounds a product of values whose signs are alike or opposite.
+fn signed(likeness: Likeness, product: Extent, bounds: &[Extent]) -> Extent {
+    match likeness {
+        Likeness::Signed(is_positive) => product.within(is_positive),
+        Likeness::WithinHalfTurns(angle, is_positive) => {
+            let is_near = |[low, high]: [f64; 2]| -PI <= low && high <= PI;
+            match bounds[angle].ends().is_some_and(is_near) {
+                true => product.within(is_positive),
+                false => product,
+            }
+        }
+    }
 }
 
 /// Bounds a value from its arguments.
@@ -41,7 +58,10 @@ fn of_step(step: &ReachedStep<'_>, bounds: &[Extent], part: &[Extent]) -> Extent
         Rule::Sum(a, b) => bounds[a].plus(bounds[b]),
         Rule::Difference(a, b) => bounds[a].plus(bounds[b].negated()),
         Rule::Square(a) => bounds[a].square(),
-        Rule::Product(a, b) => bounds[a].times(bounds[b]),
+        Rule::Product(a, b) => match step.likeness {
+            None => bounds[a].times(bounds[b]),
+            Some(own) => signed(own, bounds[a].times(bounds[b]), bounds),
+        },
         Rule::Raised(a, _) => match bounds[a].within(true).is_empty() {
             true => Extent::EMPTY,
             false => Extent::POSITIVE,

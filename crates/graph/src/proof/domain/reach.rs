@@ -3,6 +3,7 @@
 use crate::graph::Step;
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
+use crate::proof::alike::{Likeness, likeness};
 use crate::proof::extent::Extent;
 use crate::proof::fact::SignFact;
 
@@ -86,6 +87,8 @@ pub(super) struct ReachedStep<'r> {
     pub rule: Rule<'r>,
     pub is_zero: bool,
     pub is_nonzero: bool,
+    /// What is known of the signs of the factors of a product, with numbers for places.
+    pub likeness: Option<Likeness>,
 }
 
 impl<'r> Reach<'r> {
@@ -102,6 +105,12 @@ impl<'r> Reach<'r> {
             rule: rule(graph.step(*place), &numbers),
             is_zero: region.classes.is_zero(*place),
             is_nonzero: region.classes.is_nonzero(*place),
+            likeness: match graph.step(*place) {
+                Step::Binary(BinaryOperation::Mul, a, b) if a != b => {
+                    likeness(graph, a, b).map(|own| numbered(own, &numbers))
+                }
+                _ => None,
+            },
         };
         let steps: Vec<ReachedStep<'_>> = places.iter().map(step).collect();
         let facts = region.facts.iter().map(|(place, fact)| (numbers[*place], *fact)).collect();
@@ -134,6 +143,14 @@ impl<'r> Reach<'r> {
     /// Lists the reached inputs: number of the value, and index of the input.
     pub fn inputs(&self) -> &[(usize, usize)] {
         &self.inputs
+    }
+}
+
+/// Replaces a place by the number of the value.
+fn numbered(own: Likeness, numbers: &[usize]) -> Likeness {
+    match own {
+        Likeness::WithinHalfTurns(place, sign) => Likeness::WithinHalfTurns(numbers[place], sign),
+        Likeness::Signed(_) => own,
     }
 }
 

@@ -98,6 +98,12 @@ impl Extension {
         Some(degree)
     }
 
+    /// Numerator and denominator of a known integral, by its place among those given.
+    pub(super) fn sides(&self, place: usize) -> Option<[RingPolynomial; 2]> {
+        let own = self.fractions().into_iter().find(|own| own.place == place)?;
+        Some([own.above, own.below])
+    }
+
     fn fractions(&self) -> Vec<Fraction> {
         let fraction = |(place, own): &(usize, RingPolynomial)| {
             let [above, below] = self.ring.cleared(own)?;

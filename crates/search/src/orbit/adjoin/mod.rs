@@ -11,6 +11,7 @@
 //! read         recorded formulas as polynomials of the ring
 //! bases        denominators, radicands and other functions as factors
 //! absence      the polynomials that a theorem of absence covers
+//! share        degrees in the functions that a file writes, and in those of a ring
 //! implied      relations between these that known integrals imply
 //! equations, constrained  equations of a Lagrangian, solved for independent accelerations
 //! explicit     their field as a case
@@ -49,6 +50,7 @@ mod read;
 mod reduction;
 mod ring;
 mod roots;
+mod share;
 mod write;
 
 pub use self::write::written as polynomial_text;
@@ -97,6 +99,8 @@ pub struct Extension {
     /// The known integrals as polynomials of the ring, by their places among those given.
     read: Vec<(usize, RingPolynomial)>,
     ring: AdjoinedRing,
+    /// Number of the functions of the ring that the field contains.
+    functions_of_field: usize,
     /// Functions whose powers may be factors of densities and integrals.
     pub factors: Vec<Formula>,
     /// g, h and D of such functions g² − D h², with components g and h of the state and a number D.
@@ -270,7 +274,7 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
         return Ok(None);
     }
     let names = RingNames::of(case, ring);
-    let ReadParts { field, divergence, known, level, further, .. } = read.parts;
+    let ReadParts { field, divergence, known, level, further, functions_of_field, .. } = read.parts;
     let Some(rates) = ring.rates(&field) else { return Ok(None) };
     let Some(text) = write::case(case, ring, (&rates, &level), &names) else { return Ok(None) };
     let Ok(extended) = Case::parse(&text.concat(), &[]) else { return Ok(None) };
@@ -309,6 +313,7 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
         names: names.extended,
         has_level: !case.model.level.is_empty(),
         ring: read.ring,
+        functions_of_field,
     }))
 }
 

@@ -39,6 +39,8 @@ pub struct ReadParts {
     pub further: Vec<Option<RingPolynomial>>,
     /// Number of variables of the ring that the field and its divergence need.
     pub of_field: usize,
+    /// Number of exponentials, sines and cosines that they contain.
+    pub functions_of_field: usize,
     /// Components of the state whose rates are others, with these.
     pub moved_by: Vec<(usize, usize)>,
 }
@@ -97,7 +99,7 @@ pub fn read_with(
         };
         let (field, level) = (each(&field, ring)?, each(&level, ring)?);
         let divergence = reader.read(place(&divergence), ring)?;
-        let of_field = ring.atoms.len();
+        let (of_field, functions_of_field) = (ring.atoms.len(), ring.functions.len());
         for own in &typed {
             reader.read(place(own), ring);
         }
@@ -115,7 +117,16 @@ pub fn read_with(
         let further = further.iter().map(|own| reader.read(place(own), ring)).collect();
         let moved_by = Vec::new();
         let known = integrals;
-        Some(ReadParts { field, divergence, known, level, further, of_field, moved_by })
+        Some(ReadParts {
+            field,
+            divergence,
+            known,
+            level,
+            further,
+            of_field,
+            functions_of_field,
+            moved_by,
+        })
     };
     let made = refined((parameters, model.dimension()), divided, read);
     Ok(made.map(|(ring, parts)| {

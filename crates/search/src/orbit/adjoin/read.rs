@@ -7,6 +7,12 @@ use liouville::number::{BinaryOperation, UnaryFunction};
 use super::polynomial::RingPolynomial;
 use super::ring::AdjoinedRing;
 
+/// Whether a step is a function whose powers, and products with others, are written as one function, too.
+pub fn is_counted(step: Step<'_>) -> bool {
+    use UnaryFunction::{Cos, Exp, Sin};
+    matches!(step, Step::Unary(Exp | Sin | Cos, _) | Step::Binary(BinaryOperation::Pow, ..))
+}
+
 /// Steps of a recording as polynomials.
 #[derive(Clone)]
 pub struct StepReader<'g> {
@@ -25,7 +31,11 @@ impl<'g> StepReader<'g> {
         let reached = self.graph.reached_from(&[place]);
         for own in (0..=place).filter(|own| reached[*own]) {
             if self.values[own].is_none() {
-                self.values[own] = Some(self.step(own, ring)?);
+                let value = self.step(own, ring)?;
+                if is_counted(self.graph.step(own)) && !ring.functions.contains(&value) {
+                    ring.functions.push(value.clone());
+                }
+                self.values[own] = Some(value);
             }
         }
         self.values[place].clone()

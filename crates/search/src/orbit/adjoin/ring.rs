@@ -35,6 +35,8 @@ pub struct AdjoinedRing {
     pub divided: Vec<Divided>,
     /// Whether reading failed as an argument has to be divided.
     pub is_refined: bool,
+    /// Exponentials, sines and cosines that were read, as polynomials of the ring.
+    pub functions: Vec<RingPolynomial>,
 }
 
 /// A quotient in which the functions are adjoined; `None` where this is impossible.

@@ -1,0 +1,158 @@
+//! Products of two values that have the same sign: (p − q)(F(p) − F(q)) for an increasing F, and p sin p for |p| ≤ π.
+
+use crate::graph::{Graph, Step};
+use crate::number::rational::Rational;
+use crate::number::{BinaryOperation, UnaryFunction};
+
+/// What is known of the signs of two values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Likeness {
+    /// Their product is not negative wherever it exists, or not positive.
+    Signed(bool),
+    /// The same where the value at this place is between −π and π.
+    WithinHalfTurns(usize, bool),
+}
+
+/// A value or a number.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Side {
+    /// The value at a place.
+    Place(usize),
+    /// A number.
+    Number(Rational),
+}
+
+/// Finds what is known of the signs of the values at two places.
+pub fn likeness(graph: &Graph, a: usize, b: usize) -> Option<Likeness> {
+    let (a, b) = (without_factor(graph, a), without_factor(graph, b));
+    one_way(graph, a, b).or_else(|| one_way(graph, b, a))
+}
+
+/// The same where the second value is the one with functions.
+fn one_way(
+    graph: &Graph,
+    (plain, sign): (usize, bool),
+    (place, other): (usize, bool),
+) -> Option<Likeness> {
+    if let Step::Unary(UnaryFunction::Sin, p) = graph.step(place) {
+        let (p, own) = without_factor(graph, p);
+        let is_positive = (sign == other) == own;
+        return (p == plain)
+            .then_some(Likeness::WithinHalfTurns(argument(graph, place), is_positive));
+    }
+    let wholes = [difference(graph, place), (Side::Place(place), Side::Number(Rational::from(0)))];
+    wholes.into_iter().find_map(|(above, below)| {
+        let (p, q) = arguments(graph, &above, &below)?;
+        let is_whole = |side: &Side| *side == Side::Place(plain);
+        let is_zero = |side: &Side| matches!(side, Side::Number(value) if value.is_zero());
+        let own = difference(graph, plain);
+        let straight = own == (p.clone(), q.clone()) || is_whole(&p) && is_zero(&q);
+        let turned = own == (q.clone(), p.clone()) || is_whole(&q) && is_zero(&p);
+        (straight || turned).then_some(Likeness::Signed((sign == other) == straight))
+    })
+}
+
+fn argument(graph: &Graph, place: usize) -> usize {
+    match graph.step(place) {
+        Step::Unary(_, a) => a,
+        _ => place,
+    }
+}
+
+/// The value without a minus and a number as its factors, and whether these are positive.
+fn without_factor(graph: &Graph, mut place: usize) -> (usize, bool) {
+    let mut is_positive = true;
+    loop {
+        let factor = |k: usize| match graph.step(k) {
+            Step::Constant(value) if !value.is_zero() => Some(!value.is_negative()),
+            _ => None,
+        };
+        let (next, own) = match graph.step(place) {
+            Step::Unary(UnaryFunction::Neg, a) => (a, false),
+            Step::Binary(BinaryOperation::Mul, a, b) => match (factor(a), factor(b)) {
+                (Some(own), None) => (b, own),
+                (None, Some(own)) => (a, own),
+                _ => return (place, is_positive),
+            },
+            _ => return (place, is_positive),
+        };
+        place = next;
+        is_positive = is_positive == own;
+    }
+}
+
+/// Splits a value p − q.
+fn difference(graph: &Graph, place: usize) -> (Side, Side) {
+    let side = |k: usize| match graph.step(k) {
+        Step::Constant(value) => Side::Number(value.clone()),
+        _ => Side::Place(k),
+    };
+    let opposite = |k: usize| match graph.step(k) {
+        Step::Constant(value) => Some(Side::Number(-value)),
+        Step::Unary(UnaryFunction::Neg, a) => Some(side(a)),
+        _ => None,
+    };
+    match graph.step(place) {
+        Step::Binary(BinaryOperation::Sub, a, b) => (side(a), side(b)),
+        Step::Binary(BinaryOperation::Add, a, b) => match (opposite(a), opposite(b)) {
+            (_, Some(other)) => (side(a), other),
+            (Some(other), _) => (side(b), other),
+            _ => (Side::Place(place), Side::Number(Rational::from(0))),
+        },
+        _ => (Side::Place(place), Side::Number(Rational::from(0))),
+    }
+}
+
+/// An increasing function.
+#[derive(Clone, Debug, PartialEq)]
+enum Increasing {
+    Unary(UnaryFunction),
+    Power(Rational),
+}
+
+/// p and q with F(p) and F(q) for values, of which one at least is not a number.
+pub fn arguments(graph: &Graph, above: &Side, below: &Side) -> Option<(Side, Side)> {
+    let function = [above, below].into_iter().find_map(|side| match side {
+        Side::Place(place) => increasing(graph.step(*place)),
+        Side::Number(_) => None,
+    });
+    let (function, _) = function?;
+    let of = |side: &Side| match side {
+        Side::Place(place) => {
+            let (own, argument) = increasing(graph.step(*place))?;
+            (own == function).then_some(Side::Place(argument))
+        }
+        Side::Number(value) => Some(Side::Number(preimage(&function, value)?)),
+    };
+    Some((of(above)?, of(below)?))
+}
+
+/// The function of a step that increases wherever it has a value, and the place of its argument.
+fn increasing(step: Step<'_>) -> Option<(Increasing, usize)> {
+    use UnaryFunction::{Atan, Exp, Ln, Sqrt};
+    match step {
+        Step::Unary(function @ (Atan | Exp | Ln | Sqrt), a) => {
+            Some((Increasing::Unary(function), a))
+        }
+        Step::Power(a, exponent) if !exponent.is_negative() && !exponent.is_zero() => {
+            let is_even = exponent.to_integer().is_some_and(|power| power % 2 == 0);
+            (!is_even).then(|| (Increasing::Power(exponent.clone()), a))
+        }
+        _ => None,
+    }
+}
+
+/// The number at which an increasing function has a value, if both are short.
+fn preimage(function: &Increasing, value: &Rational) -> Option<Rational> {
+    let number = |own: i64| Some(Rational::from(own));
+    match function {
+        Increasing::Unary(UnaryFunction::Exp) if value.is_one() => number(0),
+        Increasing::Unary(UnaryFunction::Ln) if value.is_zero() => number(1),
+        Increasing::Unary(UnaryFunction::Exp | UnaryFunction::Ln) => None,
+        _ if value.is_zero() => number(0),
+        Increasing::Unary(UnaryFunction::Sqrt) | Increasing::Power(_) if value.is_one() => {
+            number(1)
+        }
+        _ => None,
+    }
+}
