@@ -79,7 +79,8 @@ impl Case {
     /// Warnings and remarks of the reader.
     #[getter]
     fn remarks(&self) -> Vec<String> {
-        [self.inner.warnings.as_slice(), &self.inner.remarks].concat()
+        let remarks = self.inner.remarks.iter().map(ToString::to_string);
+        self.inner.warnings.iter().cloned().chain(remarks).collect()
     }
 
     /// Names of the state's components.

@@ -13,8 +13,8 @@ use super::section::CaseTable;
 use super::stated::{ReadClaims, Time};
 use super::systems::{ModelParts, Reading};
 use super::{
-    Case, Column, TABLE_ROWS, charts, homogeneous, implied, lists, map, one_sided, poincare,
-    remarks, repeated, shadows, toml_errors, variables, velocities, weights,
+    Case, CaseRemark, Column, TABLE_ROWS, charts, homogeneous, implied, lists, map, one_sided,
+    poincare, remarks, repeated, shadows, toml_errors, variables, velocities, weights,
 };
 use crate::mechanics::{Chart, LevelEquation, LevelFunction, Model, Surface, System};
 
@@ -175,13 +175,15 @@ fn read(
     let has_variables = variables::read(root, &mut parts.model);
     // the parts below are judged only if everything read so far is complete
     let is_whole = parts.is_whole && has_variables && mistakes.is_empty();
-    let (mut warnings, mut remarks) = (Vec::new(), Vec::new());
+    let (mut warnings, mut remarks) = (Vec::new(), Vec::<CaseRemark>::new());
     if is_whole {
         extend_support(&mut parts.model);
-        remarks.extend(implied::leave_out_constraints(&mut parts.model));
+        let left_out = implied::leave_out_constraints(&mut parts.model);
+        remarks.extend(left_out.into_iter().map(CaseRemark::from));
         warnings.extend(root.keep(velocities::check(root, &parts.model)).unwrap_or_default());
         root.keep(no_open_level(root, &parts.model));
-        remarks.extend(root.keep(no_implied_level(root, &mut parts.model)).unwrap_or_default());
+        let left_out = root.keep(no_implied_level(root, &mut parts.model)).unwrap_or_default();
+        remarks.extend(left_out.into_iter().map(CaseRemark::from));
     }
     read_chart(root, &mut parts);
     if is_whole && mistakes.is_empty() {

@@ -75,7 +75,7 @@ pub use lines::FixedLine;
 pub use one_sided::OneSided;
 pub use parameters::Setting;
 pub use poincare::{Angle, Direction, SectionPlan};
-pub use remarks::NO_CLAIMS;
+pub use remarks::CaseRemark;
 pub use utf8::{NotUtf8, utf8};
 pub use value::{FormulaSource, ValueSpec};
 
@@ -125,7 +125,7 @@ pub struct Case {
     /// Warnings about statements that may be unintended.
     pub warnings: Vec<String>,
     /// Remarks on what the file may say by mistake, such as parameters without use.
-    pub remarks: Vec<String>,
+    pub remarks: Vec<CaseRemark>,
     /// The system without `t`, where claims alone use `t`.
     without_time: Option<clock::WithoutTime>,
 }

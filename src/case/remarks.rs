@@ -1,6 +1,8 @@
 //! Remarks on what a file may say by mistake: parameters without use, tables that are not read,
 //! differences in place of ranges, densities that are no measures.
 
+use std::fmt;
+
 use rustc_hash::FxHashSet;
 use toml::de::DeValue;
 
@@ -15,9 +17,32 @@ use crate::number::rational::Rational;
 /// Keys whose texts are words, and no formulas.
 const WORDS: [&str; 7] = ["title", "source", "note", "name", "system", "cell", "table"];
 
-/// Remark on a file without claims.
-pub const NO_CLAIMS: &str = "there are no claims: `liouville report` lists the invariants of a system, \
-                             `liouville search` looks for others";
+/// A remark on what a file may say by mistake.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum CaseRemark {
+    /// The file has no claims.
+    NoClaims,
+    /// Any other, as it is printed.
+    Text(String),
+}
+
+impl From<String> for CaseRemark {
+    fn from(text: String) -> Self {
+        Self::Text(text)
+    }
+}
+
+impl fmt::Display for CaseRemark {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoClaims => out.write_str(
+                "there are no claims: `liouville report` lists the invariants of a system, \
+                 `liouville search` looks for others",
+            ),
+            Self::Text(text) => out.write_str(text),
+        }
+    }
+}
 
 /// Names that the tables of a system read without being told.
 fn implied(system: &System) -> &'static [&'static str] {
@@ -36,16 +61,14 @@ pub fn remarks(
     model: &Model,
     claims: &[PlacedClaim],
     is_without_claims: bool,
-) -> Vec<String> {
+) -> Vec<CaseRemark> {
     let mut all = unread(root, system, model);
     all.extend(without_use(root, model));
     all.extend(of_components(model));
     all.extend(differences(root));
     all.extend(claims.iter().filter_map(of_density));
-    if is_without_claims {
-        all.push(NO_CLAIMS.to_string());
-    }
-    all
+    let no_claims = is_without_claims.then_some(CaseRemark::NoClaims);
+    all.into_iter().map(CaseRemark::from).chain(no_claims).collect()
 }
 
 /// Tables that the system does not read.

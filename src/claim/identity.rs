@@ -2,7 +2,7 @@
 
 use num_dual::DualNum;
 
-use super::statement::open_constant;
+use super::statement::{OfMotions, open_constant};
 use super::{Condition, Need, Reader, ResidualContext, Statement, difference};
 use crate::formula::Formula;
 use crate::graph::Expr;
@@ -37,6 +37,7 @@ pub struct Relation {
 impl Statement for Identity {
     const NAME: &'static str = "identity";
     const OF_MAPS: bool = true;
+    const OF_MOTIONS: OfMotions = OfMotions::Nothing;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let (left, right) = from.equation(Self::NAME)?;

@@ -1,5 +1,6 @@
 //! First integrals: L_vF = 0, or F∘Φ = F for a map; for scalars, vectors and matrices.
 
+use super::statement::OfMotions;
 use super::{Condition, Novelty, Reader, ResidualContext, Statement, difference};
 use crate::formula::Formula;
 use crate::graph::Expr;
@@ -15,6 +16,7 @@ pub struct Integral(pub Formula);
 impl Statement for Integral {
     const NAME: &'static str = "integral";
     const OF_MAPS: bool = true;
+    const OF_MOTIONS: OfMotions = OfMotions::Constancy;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         from.required(Self::NAME, None).map(Self)

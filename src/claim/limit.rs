@@ -5,7 +5,7 @@ use num_traits::{One, Zero};
 
 use super::elsewhere::{inside, one_antiderivative};
 use super::expansion::{Stated, defects, expansions, sides};
-use super::statement::open_constant;
+use super::statement::{OfMotions, open_constant};
 use super::{Condition, Reader, ResidualContext, Statement};
 use crate::formula::{Formula, Type, Value};
 use crate::graph::{Expansion, Expr, Side};
@@ -71,6 +71,7 @@ fn uses(model: &Model, formula: &Formula, parameter: usize) -> bool {
 impl Statement for Limit {
     const NAME: &'static str = "limit";
     const OF_MAPS: bool = true;
+    const OF_MOTIONS: OfMotions = OfMotions::Nothing;
     const COMPANIONS: &'static [&'static str] = &["equals", "parameter", "slope"];
     const UNDEFINED: &'static str = ": it is read off the formula where the parameter is 0, and with a slope off its second derivative, or \
          off an expansion in powers and logarithms of the parameter, and none of these is known";

@@ -84,7 +84,7 @@ pub use place::LevelSubset;
 pub use quadrature::quadrature_defects;
 
 pub use reader::{ComplexFormula, Reader};
-pub use statement::{Jets, Objection, Statement};
+pub use statement::{Jets, Objection, OfMotions, Statement};
 pub use symmetry_field::SymmetryField;
 pub use transformation::{Map, Reversor, Symmetry};
 pub use value::{Claim, Locus};
@@ -158,6 +158,11 @@ macro_rules! kinds {
             /// likely.
             pub fn is_inequality(&self) -> bool {
                 match self { $(ClaimKind::$kind(_) => $kind::IS_INEQUALITY,)* }
+            }
+
+            /// What the claim says of motions.
+            pub fn of_motions(&self) -> OfMotions {
+                match self { $(ClaimKind::$kind(_) => $kind::OF_MOTIONS,)* }
             }
 
             /// Whether the claim can be about a map instead of a flow.

@@ -20,6 +20,17 @@ pub enum Jets {
     TwoPoints,
 }
 
+/// What a claim says of motions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OfMotions {
+    /// Nothing: it is about values at states.
+    Nothing,
+    /// That a function is constant on each: nothing else, where every motion stays on its level.
+    Constancy,
+    /// Anything else, such as rates at the states of a level, where motions stay on it.
+    Rates,
+}
+
 /// The reason why a claim does not apply to a model.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Objection {
@@ -67,6 +78,9 @@ pub trait Statement: Clone {
 
     /// Whether the claim is an inequality, which holding at the states tried does not make likely.
     const IS_INEQUALITY: bool = false;
+
+    /// What the claim says of motions, which may leave a level.
+    const OF_MOTIONS: OfMotions = OfMotions::Rates;
 
     /// Whether the claim can be about a map instead of a flow.
     const OF_MAPS: bool = false;

@@ -5,8 +5,8 @@ use super::bond::Bond;
 use super::compose::{Draft, FormulaResult};
 use super::error::FormulaError;
 use super::kind::Type;
-use super::typing::{Infix, Operand};
-use super::{Formula, functions};
+use super::typing::Infix;
+use super::{Formula, Scope, functions};
 
 impl Formula {
     /// Dot product `(a,b)`.
@@ -64,24 +64,21 @@ impl Formula {
         draft.build(|builder| builder.index(&a, &places, brackets))
     }
 
-    /// Component of a named vector by its name, counted from 1: `γ3`, where the scope has no name of
-    /// its own for it; as [`component`] otherwise.
+    /// Component of a vector by its name, counted from 1: `γ3`, where this is what the scope reads in it; as
+    /// [`component`] otherwise.
     ///
     /// [`component`]: Formula::component
-    pub fn element(&self, index: usize) -> FormulaResult {
-        let is_named = matches!(self.arena.nodes.as_slice(), [only] if only.operation == NodeOperation::Symbol(0));
-        let has_digits = self.written().ends_with(|c: char| c.is_ascii_digit());
-        if !is_named || has_digits || self.bond() < Bond::Whole || !(1..=9).contains(&index) {
-            return self.component(&[index]);
-        }
-        let mut draft = Draft::default();
-        let vector = draft.place(self, false);
-        draft.write(&index.to_string());
-        let span = 0..draft.text.len();
-        draft.arena.nodes[vector.node].span = span.clone();
-        let place = [(i64::try_from(index).unwrap_or(i64::MAX), span.clone())];
-        let end = span.end..span.end;
-        draft.build(|builder| builder.index(&Operand { span, ..vector }, &place, end))
+    pub fn element(&self, index: usize, scope: &dyn Scope) -> FormulaResult {
+        let by_index = self.component(&[index])?;
+        let name = self.value_type().component(self.text().trim(), index - 1);
+        // A name of the scope may be the same, as x2 next to a vector x.
+        let operations = |own: &Formula| -> Vec<NodeOperation> {
+            own.arena.nodes.iter().map(|node| node.operation.clone()).collect()
+        };
+        let is_same = |own: &Formula| {
+            own.arena.symbols == by_index.arena.symbols && operations(own) == operations(&by_index)
+        };
+        Ok(Self::parse(&name, scope).ok().filter(is_same).unwrap_or(by_index))
     }
 
     /// Vector `[a, b, …]` of scalars.

@@ -277,7 +277,7 @@ fn judge_time_parts(
             report.warnings.push(warning);
         }
     }
-    report.remarks.clone_from(&case.remarks);
+    report.remarks = case.remarks.iter().map(ToString::to_string).collect();
     report.mutants = match (report.mutants, other.mutants) {
         (Some(own), Some(other)) => Some(own.and(other)),
         (own, other) => own.or(other),
@@ -319,6 +319,6 @@ fn judge_all(
     find_rates(case, options, &mut claims)?;
     let mutants = options.mutants.then(|| mutate(case, &claims, options)).transpose()?;
     let (motions_left, absences_left) = (case.motions.len(), case.absences.len());
-    let remarks = case.remarks.clone();
+    let remarks = case.remarks.iter().map(ToString::to_string).collect();
     Ok(CaseReport { claims, warnings, remarks, mutants, motions_left, absences_left })
 }

@@ -9,6 +9,7 @@ use super::ladder::{LADDER_BITS, PRECISE_STATES};
 use super::recorded::RecordedClaim;
 use super::sampler::{Sampler, TAPE_LANES};
 use super::witness::briefly;
+use crate::claim::OfMotions;
 use crate::graph::{Expr, Fault};
 use crate::mechanics::combinations;
 use crate::number::mixed::{Mixed, Number};
@@ -112,8 +113,8 @@ impl Judging<'_> {
         Ok(kept.iter().zip(&slopes).find(|(_, own)| is_lost(own)).map(|(index, _)| *index))
     }
 
-    /// Leaves claims undecided that rest on the slopes of such equations: all but identities and limits, which
-    /// say nothing of motions, and what holds everywhere.
+    /// Leaves claims undecided that rest on the slopes of such equations: all but those that say nothing of
+    /// motions, and what holds everywhere.
     pub(super) fn leave_flat_levels(
         &self,
         recorded: &[RecordedClaim<'_>],
@@ -150,12 +151,13 @@ impl Judging<'_> {
                 continue;
             }
             let evidence = &mut status.evidence;
-            if matches!(item.claim.kind.name(), "identity" | "limit")
+            let subject = item.claim.kind.of_motions();
+            if subject == OfMotions::Nothing
                 || status.settled == Some(Verdict::Undecided)
                 // A state at which the residual is not 0 refutes, unless no motion belongs to it.
                 || (!found.is_lost && status.settled != Some(Verdict::Proved))
                 || evidence.holds.iter().any(|place| place == EVERYWHERE)
-                || (item.claim.kind.name() == "integral" && self.is_kept_everywhere(kept))
+                || (subject == OfMotions::Constancy && self.is_kept_everywhere(kept))
             {
                 continue;
             }

@@ -4,7 +4,8 @@ use liouville::case::Case;
 
 fn remarks(more: &str) -> Vec<String> {
     let text = format!("title = 't'\n{more}");
-    Case::parse(&text, &[]).expect("a case").remarks
+    let case = Case::parse(&text, &[]).expect("a case");
+    case.remarks.iter().map(ToString::to_string).collect()
 }
 
 const FLOW: &str = "[state]\nx = '1..2'\n[field]\n\"x'\" = 'k*x'\n";

@@ -8,11 +8,11 @@ use super::integrals::tell;
 use super::library;
 use super::linear::SampledFunctions;
 use super::orbit::merged;
-use super::terms::{one, powers, recorded};
+use super::terms::{Power, multiplied, one, powers, recorded};
 use super::{Effort, Found, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::claim::{Claim, LevelSubset};
-use liouville::formula::{Formula, FormulaResult};
+use liouville::formula::Formula;
 use liouville::graph::{Expr, Graph};
 use liouville::number::rational::Rational;
 use liouville::verdict::Verdict;
@@ -63,7 +63,7 @@ pub fn densities(
     }
     for (form, rate) in forms.into_iter().zip(moving) {
         let Exponents::Found(product) = logarithms.solve(case, rate, effort)? else { continue };
-        let formula = multiplied(&[vec![form], product].concat())?;
+        let formula = multiplied(&[vec![(form, one())], product].concat())?;
         let formula = case.formula(&merged(formula.text())).unwrap_or(formula);
         let judged = judged_alone(case, Claim::integral(&formula), effort)?;
         if let Some(found) = judged.filter(holds) {
@@ -89,19 +89,11 @@ pub fn tell_volume(
 /// Exponents for which rates add up to 0.
 enum Exponents {
     /// The factors with their exponents.
-    Found(Vec<Formula>),
+    Found(Vec<Power>),
     /// There are none.
     None,
     /// The target has no values modulo a prime.
     Unknown,
-}
-
-/// Product of some factors; 1 of none.
-fn multiplied(factors: &[Formula]) -> FormulaResult {
-    match factors.split_first() {
-        None => Ok(one()),
-        Some((first, others)) => others.iter().try_fold(first.clone(), |all, next| &all * next),
-    }
 }
 
 impl Logarithms {

@@ -2,7 +2,7 @@
 
 use num_dual::Dual;
 
-use super::ask::{are_comparable, compared, holds, independent, judged};
+use super::ask::{are_comparable, compared, holds, independent, judged, judged_alone};
 use super::budget::Budget;
 use super::effort::primitive;
 use super::library;
@@ -101,6 +101,20 @@ pub fn tell(
     let known = claimed_by(case, formula, effort, report)?;
     report.found.push(Found::new("integral", formula, known, found, &case.model));
     Ok(())
+}
+
+/// Judges whether a function is an integral, and adds it to the report if it is proved to be one.
+pub fn tell_if_proved(
+    case: &Case,
+    formula: &Formula,
+    effort: &Effort,
+    report: &mut SearchReport,
+) -> Result<(), SearchError> {
+    let judged = judged_alone(case, Claim::integral(formula), effort)?;
+    match judged.filter(|own| own.verdict == Verdict::Proved) {
+        Some(found) => tell(case, formula, found, effort, report),
+        None => Ok(()),
+    }
 }
 
 /// Name of a claim of the case of which an integral is a function, for each combination of listed

@@ -223,7 +223,9 @@ fn pieces(model: &Model) -> Pieces {
                     Type::VECTOR => pieces.linear.push(own),
                     Type::Scalar => pieces.forms.push(own),
                     Type::Vector(length) => {
-                        pieces.forms.extend(kept((1..=length).map(|i| own.component(&[i]))));
+                        pieces
+                            .forms
+                            .extend(kept((1..=length).map(|i| own.element(i, &model.vocabulary))));
                     }
                     Type::Matrix(..) => {
                         let places = variable.kind.places();
@@ -247,7 +249,7 @@ fn linear_forms(model: &Model, pieces: &Pieces) -> Vec<Formula> {
         System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_)
     ) {
         for vector in &pieces.linear {
-            forms.extend(kept((1..=3).map(|k| vector.component(&[k]))));
+            forms.extend(kept((1..=3).map(|k| vector.element(k, &model.vocabulary))));
         }
     }
     forms

@@ -1,14 +1,11 @@
 //! Components and volume that a map keeps, and parts of a search that maps do not have.
 
-use super::ask::judged_alone;
 use super::densities::tell_volume;
-use super::integrals::tell;
+use super::integrals::tell_if_proved;
 use super::terms::{read, recorded};
 use super::{Effort, SearchError, SearchReport};
 use liouville::case::Case;
-use liouville::claim::Claim;
 use liouville::graph::Step;
-use liouville::verdict::Verdict;
 
 /// Tells the components of the state that a map keeps.
 pub fn kept(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<(), SearchError> {
@@ -22,10 +19,7 @@ pub fn kept(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<(
         }
         let name = model.component_name(component);
         for formula in read([name.as_str()], &model.vocabulary) {
-            let judged = judged_alone(case, Claim::integral(&formula), effort)?;
-            if let Some(found) = judged.filter(|own| own.verdict == Verdict::Proved) {
-                tell(case, &formula, found, effort, report)?;
-            }
+            tell_if_proved(case, &formula, effort, report)?;
         }
     }
     Ok(())

@@ -19,7 +19,7 @@ use super::ansatz::monomials::power_product;
 use super::ansatz::subspace::complement;
 use super::ansatz::system::{Column, LinearSystem, PrimePoint};
 use super::ask::{judged_alone, proved_energy};
-use super::integrals::tell;
+use super::integrals::tell_if_proved;
 use super::orbit::{CONSTANT_RATE, coefficients, with_few_entries};
 use super::terms::{is_one, one, read, recorded};
 use super::{Effort, Found, SearchError, SearchReport};
@@ -62,10 +62,7 @@ pub fn integrals(
         let Some((formula, _)) = found.sum_with_plus(&places, &forms.functions(&support)?)? else {
             continue;
         };
-        let judged = judged_alone(case, Claim::integral(&formula), effort)?;
-        if let Some(judged) = judged.filter(|own| own.verdict == Verdict::Proved) {
-            tell(case, &formula, judged, effort, report)?;
-        }
+        tell_if_proved(case, &formula, effort, report)?;
     }
     Ok(())
 }

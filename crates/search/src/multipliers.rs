@@ -17,7 +17,7 @@ use super::integrals::{over_denominators, terms};
 use super::jets::{DimensionCount, MotionAtPoint, VelocityPolynomials};
 use super::local::Local;
 use super::origin::TheoremOrigin;
-use super::terms::{is_one, numeric_exponent};
+use super::terms::{multiplied, numeric_exponent};
 use super::{Effort, Excluded, Found, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::claim::Claim;
@@ -134,10 +134,7 @@ fn find(
     candidates.sort_by_key(|formula| formula.text().chars().count());
     let power = numeric_exponent(Rational::new(alpha.signum(), alpha.abs()))?;
     for polynomial in candidates {
-        let formula = match is_one(&power) {
-            true => polynomial,
-            false => polynomial.bracketed().power(&power)?,
-        };
+        let formula = multiplied(&[(polynomial, power.clone())])?;
         let judged = judged_alone(case, Claim::density(&formula), effort)?;
         if let Some(found) = judged.filter(holds) {
             report.found.push(Found::new("density", &formula, None, found, &case.model));

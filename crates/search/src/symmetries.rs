@@ -180,13 +180,17 @@ fn spelled(
     Ok((shown, entries, claim))
 }
 
-/// The state's components: `ω[1]`, `x`.
+/// The state's components: `ω1`, `x`.
 fn component_names(case: &Case) -> Result<Vec<Formula>, FormulaError> {
     let mut names = Vec::new();
     for variable in &case.model.state {
         let own = case.formula(&variable.name)?;
         names.extend(match variable.kind {
             Type::Scalar => vec![own],
+            Type::Vector(length) => {
+                let scope = &case.model.vocabulary;
+                (1..=length).map(|index| own.element(index, scope)).collect::<Result<_, _>>()?
+            }
             kind => {
                 kind.places().iter().map(|place| own.component(place)).collect::<Result<_, _>>()?
             }

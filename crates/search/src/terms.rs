@@ -135,19 +135,47 @@ pub fn equation(coefficients: &[Rational], terms: &[&str]) -> String {
     format!("{text} = 0")
 }
 
-/// Factors of Π f^α, where each α is a combination of the exponents.
+/// A factor with its exponent.
+pub type Power = (Formula, Formula);
+
+/// Product of powers, those with negative whole exponents below the line: `(x + y)/(x*z²)`; 1 of none.
+pub fn multiplied(powers: &[Power]) -> FormulaResult {
+    let (mut above, mut below): (Option<Formula>, Option<Formula>) = (None, None);
+    for (base, exponent) in powers {
+        let divisor = exponent.constant().filter(Rational::is_negative);
+        let (place, own) = match divisor.and_then(|value| (-&value).to_integer()) {
+            Some(power) => (&mut below, whole_power(base, power)?),
+            None if is_one(exponent) => (&mut above, base.clone()),
+            None => (&mut above, base.power(exponent)?),
+        };
+        *place = Some(match place.take() {
+            None => own,
+            Some(all) => (&all * &own)?,
+        });
+    }
+    let above = above.unwrap_or_else(one);
+    below.map_or(Ok(above.clone()), |below| &above / &below)
+}
+
+/// A positive power: `x`, `x²`, `x^11`.
+fn whole_power(base: &Formula, power: i64) -> FormulaResult {
+    match power {
+        1 => Ok(base.clone()),
+        2 => base.raised(2),
+        3 => base.raised(3),
+        _ => base.power(&Formula::number(power)),
+    }
+}
+
+/// Factors of Π f^α with their exponents, where each α is a combination of some.
 pub fn powers(
     coefficients: &[Rational],
     factors: &[Formula],
     exponents: &[Formula],
-) -> Result<Vec<Formula>, FormulaError> {
+) -> Result<Vec<Power>, FormulaError> {
     let each = coefficients.chunks(exponents.len().max(1));
     let used = factors.iter().zip(each).filter(|(_, own)| !own.iter().all(Rational::is_zero));
-    used.map(|(factor, own)| {
-        let exponent = exponent(own, exponents)?;
-        if is_one(&exponent) { Ok(factor.clone()) } else { factor.power(&exponent) }
-    })
-    .collect()
+    used.map(|(factor, own)| Ok((factor.clone(), exponent(own, exponents)?))).collect()
 }
 
 /// Σ a_j e_j as an exponent: `2`, `(1/2)`, `((1 + k*R)/2)`.
@@ -185,6 +213,20 @@ mod tests {
         fn names(&self) -> Vec<String> {
             Vec::new()
         }
+    }
+
+    #[test]
+    fn powers_that_divide_stand_below_the_line() {
+        let f = |text: &str| Formula::parse(text, &TermLetters).expect("a formula");
+        let product = |own: &[(&str, &str)]| {
+            let powers: Vec<Power> = own.iter().map(|(base, power)| (f(base), f(power))).collect();
+            multiplied(&powers).expect("scalars").to_string()
+        };
+        assert_eq!(product(&[]), "1");
+        assert_eq!(product(&[("a", "(−1)"), ("b", "(−1)")]), "1/(a*b)");
+        assert_eq!(product(&[("a + b", "1"), ("a", "(−2)"), ("c", "−11")]), "(a + b)/(a²*c^11)");
+        assert_eq!(product(&[("a + b", "−1"), ("a", "(−1/2)")]), "a^(−1/2)/(a + b)");
+        assert_eq!(product(&[("a", "k"), ("b", "−k")]), "a^k*b^(−k)", "of an unknown sign");
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Construction of the case from its declarations.
 
 use super::super::value::FormulaSource;
-use super::super::{Case, ClaimError, build, implied, repeated, shadows};
+use super::super::{Case, CaseRemark, ClaimError, build, implied, repeated, shadows};
 use super::{BodyPart, Build, ModelBuilder};
 use crate::formula::{Formula, Scope, Symbol, Type, names_in};
 use crate::mechanics::{
@@ -91,12 +91,13 @@ impl ModelBuilder {
             |equation: &LevelEquation| matches!(equation.function, LevelFunction::Formula(_));
         match open {
             None => {
-                case.remarks = repeated::count_factors_once(&mut case.model, is_written);
+                let mut remarks = repeated::count_factors_once(&mut case.model, is_written);
                 let left_out = implied::leave_out(&mut case.model, is_written);
-                case.remarks.extend(left_out.map_err(|text| {
+                remarks.extend(left_out.map_err(|text| {
                     let message = "a level equation contradicts those before it";
                     ClaimError::new(&text, message, "correct one of them")
                 })?);
+                case.remarks = remarks.into_iter().map(CaseRemark::from).collect();
                 Ok(case)
             }
             Some(text) => {

@@ -91,6 +91,39 @@ fn operators_keep_their_meaning_and_read_back() {
 }
 
 #[test]
+fn components_have_the_names_that_mean_them() {
+    /// A vector x of length 12, and one with a name in the way of a component.
+    struct Long;
+    impl Scope for Long {
+        fn lookup(&self, name: &str) -> Option<(Symbol, Type)> {
+            match name {
+                "x" => Some((Symbol(0), Type::Vector(12))),
+                "H_" => Some((Symbol(1), Type::VECTOR)),
+                "γ" => Some((Symbol(2), Type::VECTOR)),
+                "γ3" => Some((Symbol(3), Type::Scalar)),
+                _ => None,
+            }
+        }
+
+        fn names(&self) -> Vec<String> {
+            ["x", "H_", "γ", "γ3"].map(String::from).to_vec()
+        }
+    }
+    let element = |name: &str, index: usize| {
+        let own = Formula::parse(name, &Long).expect("a vector").element(index, &Long);
+        own.map(|own| own.to_string()).ok()
+    };
+    let named = |text: &str| Some(text.to_string());
+    assert_eq!(element("x", 1), named("x1"));
+    assert_eq!(element("x", 12), named("x12"), "not x1 and a 2");
+    assert_eq!(element("H_", 2), named("H_2"), "a name may end so");
+    assert_eq!(element("γ", 2), named("γ2"));
+    assert_eq!(element("γ", 3), named("γ[3]"), "γ3 is another variable");
+    assert_eq!(element("(γ × H_)", 1), named("(γ × H_)[1]"), "it has no name");
+    assert_eq!([element("x", 0), element("x", 13)], [None, None], "there is none");
+}
+
+#[test]
 fn vectors_and_matrices_compose() {
     for a in VECTORS.map(read) {
         for b in VECTORS.map(read) {

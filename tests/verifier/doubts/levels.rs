@@ -90,7 +90,7 @@ fn level_equations_that_follow_from_others_are_left_out() {
         let case = Case::parse(&text(second), &[]).expect("a case");
         let remark = "follows from the other equations of the level, and is left out";
         assert!(
-            case.remarks.iter().any(|own| own.contains(remark)),
+            case.remarks.iter().any(|own| own.to_string().contains(remark)),
             "{second}: {:?}",
             case.remarks
         );

@@ -185,7 +185,8 @@ fn read(slot: &Mutex<Slot>, work: &JudgingJob) {
             slot.heading = Heading { equations, ..Heading::of(&case, &text) };
             slot.is_read = true;
             slot.stated = stated(&case, work.motions);
-            (slot.warnings, slot.remarks) = (case.warnings.clone(), case.remarks.clone());
+            slot.warnings = case.warnings.clone();
+            slot.remarks = case.remarks.iter().map(ToString::to_string).collect();
             (slot.case, slot.text) = (Some(case), text);
         }
     }

@@ -13,7 +13,7 @@ use super::super::ansatz::system::{Column, LinearSystem, PrimePoint};
 use super::super::ask::judged_alone;
 use super::super::multipliers::WEIGHTS;
 use super::super::products::{DEGREE_PRIMES, Generators};
-use super::super::terms::{is_one, numeric_exponent};
+use super::super::terms::{is_one, multiplied, numeric_exponent};
 use super::known::{contains_integrals, has_lists, rank};
 use super::leading;
 use super::{AbsenceCase, AbsenceOutcome, Counted, claimed_densities, generated};
@@ -330,10 +330,7 @@ impl<'a> Counting<'a> {
             let Some(vector) = found.first() else { continue };
             let root = numeric_exponent(Rational::new(alpha.signum(), alpha.abs()))?;
             if let Some(polynomial) = self.written(vector, *direction)? {
-                let formula = match is_one(&root) {
-                    true => polynomial,
-                    false => polynomial.bracketed().power(&root)?,
-                };
+                let formula = multiplied(&[(polynomial, root.clone())])?;
                 if let Some(exhibit) = claimed_densities::exhibit(self.asked, &formula)? {
                     return Ok(AbsenceOutcome::Exhibited(exhibit));
                 }

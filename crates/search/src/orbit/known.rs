@@ -22,6 +22,11 @@ pub fn has_all(case: &Case, integrals: usize) -> bool {
     integrals + usize::from(!case.model.system.is_map()) >= case.model.dimension()
 }
 
+/// Whether the integrals of a report are all that the case may have.
+pub fn has_told_all(case: &Case, report: &SearchReport) -> bool {
+    has_all(case, report.functions("integral").count())
+}
+
 /// An integral with the variables that it may contain.
 #[derive(Clone, Debug)]
 struct KnownIntegral {

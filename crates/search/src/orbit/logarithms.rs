@@ -7,17 +7,14 @@
 //! or none.
 
 use liouville::case::Case;
-use liouville::claim::Claim;
 use liouville::formula::Formula;
 use liouville::number::rational::Rational;
-use liouville::verdict::Verdict;
 
-use super::super::ask::judged_alone;
-use super::super::integrals::tell;
+use super::super::integrals::tell_if_proved;
 use super::super::{Effort, SearchError, SearchReport};
 use super::adjoin::MonomialMap;
 use super::cleared::input_names;
-use super::known::has_all;
+use super::known::has_told_all;
 use super::setting::OrbitSetting;
 use super::{along_orbits, magnitude};
 
@@ -31,7 +28,7 @@ pub fn search(
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    if has_all(case, report.functions("integral").count()) {
+    if has_told_all(case, report) {
         return Ok(());
     }
     let Some(map) = MonomialMap::of(case)? else { return Ok(()) };
@@ -53,10 +50,7 @@ pub fn search(
     for text in found.chain(pairs.unwrap_or_default()) {
         effort.halt.check()?;
         let Ok(formula) = case.formula(&map.back(&text, &logarithms, parameters)) else { continue };
-        let judged = judged_alone(case, Claim::integral(&formula), effort)?;
-        if let Some(found) = judged.filter(|own| own.verdict == Verdict::Proved) {
-            tell(case, &formula, found, effort, report)?;
-        }
+        tell_if_proved(case, &formula, effort, report)?;
     }
     Ok(())
 }

@@ -18,12 +18,12 @@ use num_dual::DualNum;
 
 use super::super::ansatz::monomials::power_product;
 use super::super::ask::judged_alone;
-use super::super::integrals::tell;
+use super::super::integrals::tell_if_proved;
 use super::super::linear::SampledFunctions;
 use super::super::origin::RemarkOrigin;
-use super::super::terms::{one, powers, read, recorded, sum};
+use super::super::terms::{Power, multiplied, one, powers, read, recorded, sum};
 use super::super::{Effort, Found, SearchError, SearchReport};
-use super::known::has_all;
+use super::known::has_told_all;
 use super::map_densities::note_unproved;
 use super::{factors, magnitude, monomials};
 
@@ -44,7 +44,7 @@ pub fn search(
     let System::Map(images) = &case.model.system else { return Ok(()) };
     let dimension = case.model.dimension();
     let has_density = report.formulas("density").next().is_some();
-    let is_complete = has_all(case, report.functions("integral").count());
+    let is_complete = has_told_all(case, report);
     if !case.model.level.is_empty() || (has_density && is_complete) {
         return Ok(());
     }
@@ -171,7 +171,7 @@ struct ProductFind<'f> {
 
 impl ProductFind<'_> {
     /// Factors with exponents; those with broken ones are moduli where they may be negative.
-    fn product(&self, exponents: &[Rational]) -> Result<Vec<Formula>, SearchError> {
+    fn product(&self, exponents: &[Rational]) -> Result<Vec<Power>, SearchError> {
         let mut bases = Vec::new();
         for (factor, exponent) in self.factors.iter().zip(exponents) {
             let is_whole = exponent.parts().1 == 1.into();
@@ -191,7 +191,8 @@ impl ProductFind<'_> {
     ) -> Result<(), SearchError> {
         let mut all = self.product(exponents)?;
         if !coefficients.iter().all(Rational::is_zero) {
-            all.push(Formula::call("exp", &[&exact_sum(coefficients, self.terms)?])?);
+            let exponential = Formula::call("exp", &[&exact_sum(coefficients, self.terms)?])?;
+            all.push((exponential, one()));
         }
         let density = multiplied(&all)?;
         let Some(found) = judged_alone(self.case, Claim::density(&density), self.effort)? else {
@@ -229,19 +230,7 @@ impl ProductFind<'_> {
             }
             sum(&numbers, &terms)?
         };
-        let judged = judged_alone(self.case, Claim::integral(&integral), self.effort)?;
-        if let Some(found) = judged.filter(|own| own.verdict == Verdict::Proved) {
-            tell(self.case, &integral, found, self.effort, report)?;
-        }
-        Ok(())
-    }
-}
-
-/// Product of some factors; 1 of none.
-fn multiplied(factors: &[Formula]) -> FormulaResult {
-    match factors.split_first() {
-        None => Ok(one()),
-        Some((first, others)) => others.iter().try_fold(first.clone(), |all, next| &all * next),
+        tell_if_proved(self.case, &integral, self.effort, report)
     }
 }
 

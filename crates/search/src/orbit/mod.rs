@@ -111,7 +111,7 @@ pub use self::darboux::KIND as DARBOUX;
 pub use self::exponents::CONSTANT_RATE;
 pub use self::harmonics::search as harmonics;
 pub use self::images::coefficients;
-use self::known::{IndependentIntegrals, has_all};
+use self::known::{IndependentIntegrals, has_told_all};
 use self::limits::{EXTENDED, FURTHER, MODEST, RoundLimits};
 use self::line::degree_of_field;
 use self::part::VariableSet;
@@ -182,7 +182,7 @@ fn along(
     };
     let mut divided = Vec::new();
     let mut is_extended = false;
-    let is_done = |report: &SearchReport| has_all(case, report.functions("integral").count());
+    let is_done = |report: &SearchReport| has_told_all(case, report);
     let before = report.orbits.len();
     // At last with half of each angle.
     for _ in 0..2 {

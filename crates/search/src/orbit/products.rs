@@ -5,7 +5,7 @@ use liouville::formula::{Formula, FormulaError};
 use super::super::SearchError;
 use super::super::ansatz::coefficients::Ratio;
 use super::super::ansatz::monomials::power_product;
-use super::super::terms::{is_one, one};
+use super::super::terms::{Power, is_one, multiplied, one};
 use super::exponents::{ExponentSystem, RateTerm, Style};
 use super::images;
 use super::magnitude::magnitude;
@@ -79,7 +79,7 @@ impl ExponentSystem<'_, '_> {
         vector: &images::ParametricVector,
         style: Style,
     ) -> Result<Option<Formula>, SearchError> {
-        let mut powers: Vec<Formula> = Vec::new();
+        let mut powers: Vec<Power> = Vec::new();
         let mut exponent = (Vec::new(), Vec::new());
         for (place, column) in support.iter().enumerate() {
             match &self.columns[*column] {
@@ -101,11 +101,7 @@ impl ExponentSystem<'_, '_> {
                         true => self.factors[*own].formula.clone(),
                         false => self.base(*own, style)?,
                     };
-                    let power = vector.exponent(place)?;
-                    powers.push(match is_one(&power) {
-                        true => base,
-                        false => base.power(&power)?,
-                    });
+                    powers.push((base, vector.exponent(place)?));
                 }
                 RateTerm::Angle(own) => {
                     let Some(angle) = self.pairs[*own].formula(style.angle)? else {
@@ -125,12 +121,8 @@ impl ExponentSystem<'_, '_> {
                 true => above,
                 false => (above / &below)?,
             };
-            powers.push(Formula::call("exp", &[&whole])?);
+            powers.push((Formula::call("exp", &[&whole])?, one()));
         }
-        let product = match powers.split_first() {
-            None => one(),
-            Some((first, others)) => others.iter().try_fold(first.clone(), |all, own| all * own)?,
-        };
-        Ok(Some(product))
+        Ok(Some(multiplied(&powers)?))
     }
 }

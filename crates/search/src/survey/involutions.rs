@@ -10,7 +10,7 @@ use super::question::{FixedSet, SurveyQuestion, TestedClaim};
 use liouville::case::Case;
 use liouville::claim::{Claim, Reversor, Statement, Symmetry};
 use liouville::formula::{Formula, FormulaResult, Type};
-use liouville::mechanics::System;
+use liouville::mechanics::{System, Vocabulary};
 use liouville::verdict::{JudgeError, Options};
 
 /// A signed permutation: component i is `signs[i]` times component `places[i]`.
@@ -46,6 +46,7 @@ pub fn find(case: &Case, options: &Options) -> Result<Vec<TestedClaim>, JudgeErr
 fn candidates(case: &Case) -> Vec<MapCandidate> {
     let turns = || Turn::all().into_iter();
     let variable = |name: &str| case.formula(name);
+    let scope = &case.model.vocabulary;
     match &case.model.system {
         system @ (System::Rubber(_) | System::Spinning(_)) => {
             let spins = matches!(system, System::Spinning(_));
@@ -53,11 +54,14 @@ fn candidates(case: &Case) -> Vec<MapCandidate> {
                 return Vec::new();
             };
             let candidate = |map: &FrameMap, axial: i8| {
-                let turned = map.image(&omega, axial * map.determinant()).ok()?;
+                let turned = map.image(scope, &omega, axial * map.determinant()).ok()?;
                 Some(MapCandidate {
                     name: map.name(axial < 0),
                     key: key(axial),
-                    images: vec![("ω".into(), turned), ("γ".into(), map.image(&gamma, 1).ok()?)],
+                    images: vec![
+                        ("ω".into(), turned),
+                        ("γ".into(), map.image(scope, &gamma, 1).ok()?),
+                    ],
                     // |γ| = 1, and (ω,γ) = 0 without spin, on the fixed spaces of both.
                     fixed_set: fixed(axial, map, |along, velocity| match map.determinant() {
                         _ if spins => along.checked_sub(1).map(|d| d + velocity),
@@ -75,11 +79,14 @@ fn candidates(case: &Case) -> Vec<MapCandidate> {
                 return Vec::new();
             };
             both(FrameMap::all(case), |map, axial| {
-                let turned = map.image(&momentum, axial * map.determinant()).ok()?;
+                let turned = map.image(scope, &momentum, axial * map.determinant()).ok()?;
                 Some(MapCandidate {
                     name: map.name(axial < 0),
                     key: key(axial),
-                    images: vec![("M".into(), turned), (second.into(), map.image(&place, 1).ok()?)],
+                    images: vec![
+                        ("M".into(), turned),
+                        (second.into(), map.image(scope, &place, 1).ok()?),
+                    ],
                     fixed_set: fixed(axial, map, |along, velocity| match is_level {
                         true => Some(along + velocity),
                         false => along.checked_sub(1).map(|d| d + velocity),
@@ -180,9 +187,9 @@ impl FrameMap {
     }
 
     /// sign·Q x as a formula, x a variable.
-    fn image(&self, x: &Formula, sign: i8) -> FormulaResult {
+    fn image(&self, scope: &Vocabulary, x: &Formula, sign: i8) -> FormulaResult {
         match self {
-            Self::Turn(turn) => turn.image(x, sign),
+            Self::Turn(turn) => turn.image(scope, x, sign),
             Self::Mirror(mirror) => mirror.image(x, sign),
         }
     }
@@ -222,6 +229,7 @@ const MOST_COMPONENTS: usize = 6;
 /// are many.
 fn sign_changes(case: &Case) -> Vec<MapCandidate> {
     let model = &case.model;
+    let scope = &model.vocabulary;
     let single = model.dimension() <= MOST_COMPONENTS;
     let parts = |kind: Type| match kind {
         Type::Vector(length) if single => length,
@@ -248,7 +256,7 @@ fn sign_changes(case: &Case) -> Vec<MapCandidate> {
                 let whole = !flips.contains(&false);
                 fixed -= if whole { variable.len() } else { flips.iter().filter(|f| **f).count() };
                 let part = |k: usize| -> FormulaResult {
-                    Ok(signed(own.component(&[k + 1])?, if flips[k] { -1 } else { 1 }))
+                    Ok(signed(own.element(k + 1, scope)?, if flips[k] { -1 } else { 1 }))
                 };
                 let parts: Result<Vec<Formula>, _> = (0..flips.len()).map(part).collect();
                 let image = match whole {
@@ -292,9 +300,9 @@ impl Turn {
         format!("{minus}{}", self.places[i] + 1)
     }
 
-    fn image(self, x: &Formula, sign: i8) -> FormulaResult {
+    fn image(self, scope: &Vocabulary, x: &Formula, sign: i8) -> FormulaResult {
         let part = |i: usize| -> FormulaResult {
-            Ok(signed(x.element(self.places[i] + 1)?, self.signs[i] * sign))
+            Ok(signed(x.element(self.places[i] + 1, scope)?, self.signs[i] * sign))
         };
         let [a, b, c] = [part(0)?, part(1)?, part(2)?];
         Formula::vector(&[&a, &b, &c])

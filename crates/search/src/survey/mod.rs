@@ -37,7 +37,7 @@ mod tests;
 
 use serde::Serialize;
 
-use liouville::case::{Case, Expect, NO_CLAIMS};
+use liouville::case::{Case, CaseRemark, Expect};
 use liouville::mechanics::TIME;
 use liouville::verdict::{JudgeError, Options, Verdict};
 use liouville_flow::observe::evidence_against_density;
@@ -233,6 +233,9 @@ fn of_all_values(
         progress("closed orbits");
         hierarchy.grounds.extend(evidence_against_density(case, options));
     }
+    // A report lists the claims that hold itself.
+    let remarks = case.remarks.iter().filter(|own| **own != CaseRemark::NoClaims);
+    let remarks = remarks.map(ToString::to_string).collect();
     Ok(Survey {
         title: case.title.clone(),
         system: case.system.clone(),
@@ -263,7 +266,7 @@ fn of_all_values(
         undecided: sorted.undecided,
         search,
         warnings: own.warnings,
-        remarks: own.remarks.into_iter().filter(|own| own != NO_CLAIMS).collect(),
+        remarks,
     })
 }
 

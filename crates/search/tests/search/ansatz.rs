@@ -121,11 +121,8 @@ fn integrals_are_counted() {
 #[test]
 fn symmetry_fields_are_found_and_proved() {
     let cases: [(&str, &[&str]); 4] = [
-        (
-            "plane/revolution",
-            &["ω: [ω[2], −ω[1], 0], γ: [γ[2], −γ[1], 0]", "ω: [ω[1], ω[2], ω[3]]; [u,v] = v"],
-        ),
-        ("plane/balanced-ball", &["ω: [ω[1], ω[2], ω[3]]; [u,v] = v"]),
+        ("plane/revolution", &["ω: [ω2, −ω1, 0], γ: [γ2, −γ1, 0]", "ω: [ω1, ω2, ω3]; [u,v] = v"]),
+        ("plane/balanced-ball", &["ω: [ω1, ω2, ω3]; [u,v] = v"]),
         ("plane/balanced-ball-gyrostat", &[]),
         (
             "flat-base/symmetric-base",
@@ -297,7 +294,7 @@ fn densities_that_depend_on_the_velocities_are_counted_and_found() {
     );
     let report = search(&damped, &effort(2), &mut |_| {}).expect("it can be searched");
     let density: Vec<&str> = report.formulas("density").collect();
-    assert_eq!(density, ["(x')^(−1)"], "div v = −c, and no density of x alone");
+    assert_eq!(density, ["1/x'"], "div v = −c, and no density of x alone");
     let last = report.multipliers.last().expect("they were counted");
     assert_eq!((last.degree, last.alpha, last.dimension), (1, Some(-1), 1));
     assert!(report.excluded.iter().all(|one| !one.theorem.contains("P^(1/α)")), "no theorem");

@@ -5,7 +5,7 @@
 use num_integer::Integer;
 
 use super::parsed::{
-    base_and_power, closes, factors, inside, is_bracketed, is_modulus, terms, unbracketed,
+    base_and_power, closes, factors, inside, is_bracketed, is_modulus, is_name, terms, unbracketed,
 };
 use super::polynomial::RingPolynomial;
 use super::ring::{AdjoinedRing, Atom, Of};
@@ -75,7 +75,7 @@ impl Back {
         if let [(_, only)] = all.as_slice()
             && let Some(below) = only.strip_prefix("1/")
         {
-            return below.split('/').collect::<Vec<_>>().join("*");
+            return unbracketed(below).to_string();
         }
         let negative = all.iter().filter(|(is_negative, _)| *is_negative).count();
         if 2 * negative > all.len() {
@@ -154,8 +154,12 @@ impl Back {
         if above.is_empty() {
             above.push("1".to_string());
         }
-        let made = raised(-1).fold(above.join("*"), |made, own| format!("{made}/{own}"));
-        self.replaced(&made)
+        let (above, below) = (above.join("*"), raised(-1).collect::<Vec<_>>());
+        self.replaced(&match below.as_slice() {
+            [] => above,
+            [only] => format!("{above}/{only}"),
+            several => format!("{above}/({})", several.join("*")),
+        })
     }
 
     /// Rewrites what stands in the brackets of a factor.
@@ -263,8 +267,7 @@ fn raised(base: &str, power: u64, order: u64) -> String {
     let common = power.gcd(&order).max(1);
     let (power, order) = (power / common, order / common);
     let is_number = base.chars().all(|letter| letter.is_ascii_digit());
-    let is_name = base.chars().all(|letter| letter.is_alphanumeric() && !"²³".contains(letter));
-    let is_tight = is_name || is_bracketed(base) || is_modulus(base);
+    let is_tight = is_name(base) || is_bracketed(base) || is_modulus(base);
     let bracketed = match is_tight && !(is_number && power > 1) {
         true => base.to_string(),
         false => format!("({base})"),
@@ -311,6 +314,7 @@ mod tests {
             ("(2*aux6 − x³*u²)/(x^5)", "2/x^6 − u²/x²"),
             ("(2*u + 3)/(aux6)", "2*u*x + 3*x"),
             ("−2*x", "−2*x"),
+            ("u/(x*y²)", "u/(x*y²)"),
             ("r*(r*w)/(s*w)", "r²/s"),
         ];
         for (text, wanted) in pairs {

@@ -7,6 +7,13 @@ pub fn is_bracketed(text: &str) -> bool {
     start.is_some_and(|start| closes(&text[start..]))
 }
 
+/// Whether a text is one name, such as x, γ3, q' or H_1: a power of it needs no brackets.
+pub fn is_name(text: &str) -> bool {
+    text.chars().all(|letter| {
+        letter.is_alphanumeric() && !"²³".contains(letter) || matches!(letter, '_' | '\'')
+    })
+}
+
 /// Whether a text is a modulus as a whole.
 pub fn is_modulus(text: &str) -> bool {
     text.starts_with('|') && closes(text)

@@ -7,6 +7,7 @@ use liouville::mechanics::{Draw, Model, SamplerSpec};
 use liouville::number::rational::Rational;
 
 use super::names_are_foreign;
+use super::parsed::is_name;
 use super::polynomial::RingPolynomial;
 use super::ring::{AdjoinedRing, Atom, ConstantFunction, Of};
 
@@ -126,7 +127,7 @@ fn general_power(ring: &AdjoinedRing, own: &RingPolynomial, names: &[String]) ->
     let rest = monomial.iter().filter(|(other, _)| *other != place).copied().collect();
     let tight = |own: &RingPolynomial| {
         let text = written(own, names);
-        match text.chars().all(char::is_alphanumeric) && !text.ends_with(['²', '³']) {
+        match is_name(&text) {
             true => text,
             false => format!("({text})"),
         }
@@ -154,8 +155,7 @@ pub fn written(own: &RingPolynomial, names: &[String]) -> String {
         }
         for (variable, power) in monomial {
             let name = &names[*variable];
-            let is_name = name.chars().all(|letter| letter.is_alphanumeric() || letter == '_');
-            let base = if is_name { name.clone() } else { format!("({name})") };
+            let base = if is_name(name) { name.clone() } else { format!("({name})") };
             factors.push(match power {
                 1 => name.clone(),
                 2 => format!("{base}²"),

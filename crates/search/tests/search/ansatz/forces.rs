@@ -89,7 +89,7 @@ fn potentials_of_hamiltons_equations_are_found() {
     let sphere = "[level]\nequations = ['(γ,γ) = 1']\n";
     let lagrange = forced(&top("e(3)", sphere));
     let found = told(&lagrange);
-    assert!(found.contains(&("M[3]", "f1(γ3) for any function f1")), "{found:?}");
+    assert!(found.contains(&("M3", "f1(γ3) for any function f1")), "{found:?}");
     assert!(found.contains(&("(M,γ)", "f1(γ1, γ2, γ3) for any function f1")), "{found:?}");
     // On a level of other functions potentials that are equal there act in different ways.
     let plain = "title = 'x'\n[state]\nx = '0.5..2'\np = '-1..1'\n[level]\nequations = ['x = 1']\n\

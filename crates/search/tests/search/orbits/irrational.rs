@@ -62,7 +62,7 @@ fn factors_with_irrational_coefficients_are_written() {
     // Conjugate over the Gaussian numbers.
     let report = searched(&field("", &["√2*x - y", "x + √2*y"]), &Effort::default());
     assert_eq!(cofactor(&report, "x² + y²"), Some("2*√(2)"), "{:?}", report.found);
-    assert_eq!(report.formulas("density").next(), Some("(x² + y²)^(−1)"));
+    assert_eq!(report.formulas("density").next(), Some("1/(x² + y²)"));
     assert!(integral(&report).is_some_and(|own| own.contains("atan")), "{:?}", report.found);
 }
 

@@ -50,7 +50,7 @@ fn a_linear_integral_takes_the_place_of_its_square() {
     let rest = "kinetic = \"((1 + y²)*x'² + y'²)/2\"\npotential = 'l*y²/2'\n\
                 forces = { x = \"y*y'*x'\", y = \"−y*x'²\" }\n";
     let found = searched(&lagrangian("l", "x y x' y'", rest), &effort(1));
-    assert_eq!(all(&found, "integral"), ["((1 + y²)^(1/2))*(x')"]);
+    assert_eq!(all(&found, "integral"), ["((1 + y²)^(1/2))*x'"]);
     assert_eq!(all(&found, "density"), ["(1 + y²)^(1/2)"], "without velocities");
     assert!(is_counted(&found));
     // Two of three components of a velocity determine the third by the energy, up to its sign.
@@ -138,7 +138,7 @@ fn roots_of_squares_are_written_without_roots() {
     let rest = "kinetic = \"(x'² + y'²)/2 + B*(x*y' - y*x')/2\"\npotential = '-K*x - N*y'\n";
     let found = searched(&lagrangian("B K N", "x y x' y'", rest), &effort(1));
     let angles = all(&found, "function-of-constant-rate");
-    assert!(angles.contains(&"atan((N − B*(x'))/(K + B*(y')))"), "{angles:?}");
+    assert!(angles.contains(&"atan((N − B*x')/(K + B*y'))"), "{angles:?}");
 }
 
 #[test]
