@@ -27,7 +27,7 @@ fn verdicts(case: &Case) -> Vec<Verdict> {
 
 fn is_replaced(level: &str) -> bool {
     let case = case(PARAMETERS, SPACE, ALONG, &[level], &["identity = \"x = y\""]);
-    case.remarks.iter().any(|remark| remark.contains("nowhere negative"))
+    case.remarks.iter().any(|remark| remark.to_string().contains("nowhere negative"))
 }
 
 #[test]

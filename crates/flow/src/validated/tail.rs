@@ -17,6 +17,8 @@
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes become vectors")]
 
+mod crosses;
+
 use super::coefficients::{BOXES, Block, Coefficients, Lane, add};
 use super::enclosure::{Enclosure, raised};
 use super::plan::{EnclosedSum, RowRule};
@@ -124,54 +126,30 @@ impl<'c, 'p> Tails<'c, 'p> {
         above(self.weighted_sums[row * (self.order + 1)][lane])
     }
 
-    /// Bounds ‖[a_N b_N]‖, given the sums of b or those of θb.
-    #[inline(always)]
-    fn crossed(&self, a: Row, b: Row, sums: &[Lane]) -> Lane {
-        let stride = self.order + 1;
-        let (a, b) = (a * stride, b * stride);
-        let mut total = [0.0; BOXES];
-        for k in 1..self.order {
-            let (term, sum) = (&self.terms[a + k], &sums[b + self.order - k]);
-            for lane in 0..BOXES {
-                total[lane] += term[lane] * sum[lane];
-            }
-        }
-        total.map(above)
-    }
-
-    fn cross(&self, a: Row, b: Row, lane: usize) -> f64 {
-        self.crossed(a, b, &self.sums)[lane]
-    }
-
-    /// Bounds ‖[a_N θb_N]‖.
-    fn cross_weighted(&self, a: Row, b: Row, lane: usize) -> f64 {
-        self.crossed(a, b, &self.weighted_sums)[lane]
-    }
-
-    /// Bounds ‖1/b‖ for b with this tail, given the row of its reciprocal.
-    fn reciprocal(&self, inverse: Row, b: Row, tail: f64, lane: usize) -> f64 {
+    /// Bounds ‖1/b‖ for b with this tail, given the row of its reciprocal and ‖[q_N b_N]‖.
+    fn reciprocal(&self, inverse: Row, cross: f64, tail: f64, lane: usize) -> f64 {
         let norm = self.norm(inverse, lane);
-        over_rest(norm, self.cross(inverse, b, lane) + norm * tail)
+        over_rest(norm, cross + norm * tail)
     }
 
-    /// Bounds the tail of a row from those of its arguments.
-    fn tail(&self, out: Row, operation: &RowRule, lane: usize) -> f64 {
+    /// Bounds the tail of a row from those of its arguments; `crosses` are those of the operation.
+    fn tail(&self, out: Row, operation: &RowRule, crosses: &[Lane], lane: usize) -> f64 {
         let n = self.order as f64;
+        let cross = |number: usize| crosses[number][lane];
         let tail = |row: &Row| self.tails[*row][lane];
         let found = match operation {
             // Sums have their own rule; a derivative is read by rules that do without its tail.
             RowRule::Sum(_) | RowRule::Theta(_) => f64::INFINITY,
             RowRule::Recip(x) => {
                 let norm = self.norm(out, lane);
-                let defect = above(self.cross(out, *x, lane) + norm * tail(x));
+                let defect = above(cross(0) + norm * tail(x));
                 over_rest(defect * norm, defect)
             }
             RowRule::Power { x, inverse, exponent } => {
                 let q = exponent.value.magnitude();
                 // x_N^q = z_N + τ with x_N θτ = q τ θx_N + [q z_N θx_N - x_N θz_N].
-                let bound = self.reciprocal(*inverse, *x, 0.0, lane);
-                let rest =
-                    q * self.cross_weighted(out, *x, lane) + self.cross_weighted(*x, out, lane);
+                let bound = self.reciprocal(*inverse, cross(0), 0.0, lane);
+                let rest = q * cross(1) + cross(2);
                 let slope = q * bound * self.weighted_norm(*x, lane) / n;
                 let own = over_rest(bound * rest / n, slope);
                 // (1 + w)^q - 1 has the majorant (1 - w)^(-|q|) - 1 ≤ e^(|q| w/(1 - w)) - 1.
@@ -180,35 +158,33 @@ impl<'c, 'p> Tails<'c, 'p> {
                 own + (self.norm(out, lane) + own) * moved
             }
             RowRule::Exp(x) => {
-                let rest = self.cross_weighted(out, *x, lane) / n;
+                let rest = cross(0) / n;
                 let own = over_rest(rest, self.weighted_norm(*x, lane) / n);
                 own + (self.norm(out, lane) + own) * growth(tail(x))
             }
             RowRule::Ln { x, inverse } => {
                 // ln x_N = l_N + τ with x_N θτ = -[x_N θl_N].
-                let bound = self.reciprocal(*inverse, *x, 0.0, lane);
-                let own = bound * self.cross_weighted(*x, out, lane) / n;
+                let bound = self.reciprocal(*inverse, cross(0), 0.0, lane);
+                let own = bound * cross(1) / n;
                 let share = above(bound * tail(x));
                 own + over_rest(share, share)
             }
             RowRule::Sin { x, cosine: other } | RowRule::Cos { x, sine: other } => {
-                let rest = self.cross_weighted(out, *x, lane);
-                let rest = rest.max(self.cross_weighted(*other, *x, lane)) / n;
+                let rest = cross(0).max(cross(1)) / n;
                 let own = over_rest(rest, self.weighted_norm(*x, lane) / n);
                 // |cos α - 1| and |sin α| are below e^|α| - 1.
                 let moved = growth(tail(x));
                 own + (self.norm(out, lane) + self.norm(*other, lane) + 2.0 * own) * moved
             }
-            RowRule::Atan { x, square, inverse } => {
+            RowRule::Atan { x, inverse, .. } => {
                 // atan x_N = y_N + τ with (1 + x_N²) θτ = -[(1 + x_N²) θy_N].
-                let beyond = self.cross(*x, *x, lane);
-                let bound = self.reciprocal(*inverse, *square, beyond, lane);
-                let rest = self.cross_weighted(*square, out, lane)
-                    + beyond * self.weighted_norm(out, lane);
+                let beyond = cross(0);
+                let bound = self.reciprocal(*inverse, cross(1), beyond, lane);
+                let rest = cross(2) + beyond * self.weighted_norm(out, lane);
                 let own = bound * rest / n;
                 let (norm, moved) = (self.norm(*x, lane), tail(x));
                 let beyond = above(beyond + 2.0 * norm * moved + moved * moved);
-                own + moved * self.reciprocal(*inverse, *square, beyond, lane)
+                own + moved * self.reciprocal(*inverse, cross(1), beyond, lane)
             }
         };
         above(found)
@@ -235,31 +211,16 @@ impl<'c, 'p> Tails<'c, 'p> {
         total.map(above)
     }
 
-    /// Bounds ‖[x_N y_N]‖ of all products of sums, in order.
-    #[inline(always)]
-    fn crosses(&self) -> Vec<Lane> {
-        let mut crosses = Vec::new();
-        for (_, operation) in &self.coefficients.plan.operations {
-            let RowRule::Sum(sum) = operation else { continue };
-            for (_, x, y) in &sum.products {
-                crosses.push(self.crossed(*x, *y, &self.sums));
-            }
-        }
-        crosses
-    }
-
     /// Computes the tails of all rows from those of the state.
     #[inline(always)]
     fn spread(&mut self, crosses: &[Lane]) {
         let mut rest = crosses;
         for (out, operation) in &self.coefficients.plan.operations {
+            let (own, others) = rest.split_at(Self::cross_count(operation));
+            rest = others;
             self.tails[*out] = match operation {
-                RowRule::Sum(sum) => {
-                    let (own, others) = rest.split_at(sum.products.len());
-                    rest = others;
-                    self.tail_of_sum(sum, own)
-                }
-                _ => std::array::from_fn(|lane| self.tail(*out, operation, lane)),
+                RowRule::Sum(sum) => self.tail_of_sum(sum, own),
+                _ => std::array::from_fn(|lane| self.tail(*out, operation, own, lane)),
             };
         }
     }

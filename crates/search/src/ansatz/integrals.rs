@@ -327,52 +327,6 @@ mod tests {
     }
 
     #[test]
-    fn integrals_are_found_without_terms() {
-        let ball = "title='x'\nsystem='rubber-plane'\n[parameters]\nm='0.5..2'\nR='1..3'\n\
-                    I='inertia(0.5..5)'\n";
-        let cases = [
-            (format!("{ball}[body]\nshape='ball'\n"), 4),
-            (
-                "title='x'\nsystem='rubber-plane'\n[parameters]\nm=1.3\nR=3\nI=[2.6,1.2,1.8]\n\
-                 c=[0.7,-0.4,1.1]\n[body]\nshape='ball'\n"
-                    .to_string(),
-                4,
-            ),
-            (format!("{ball}S='vector(-1..1)'\n[body]\nshape='ball'\ngyrostat='S'\n"), 4),
-            (
-                "title='x'\nsystem='rubber-plane'\n[parameters]\nm='0.5..2'\nB='diag(1..4)'\n\
-                 \"μ\"='1..2'\nI='m*B + μ*E'\n[body]\nshape='ellipsoid'\n"
-                    .to_string(),
-                4,
-            ),
-            (
-                "title='x'\nsystem='flat-base'\n[parameters]\nm='0.5..2'\nk='0.2..1'\nz=0\n\
-                 I='inertia(0.5..5)'\n[body]\nheight='z'\n"
-                    .to_string(),
-                4,
-            ),
-            (
-                "title='x'\nsystem='rubber-sphere'\n[parameters]\nm=1\nR=1\nk=-2\nI=[1.37,2.91,3.73]\n\
-                 [body]\nshape='ball'\n"
-                    .to_string(),
-                8,
-            ),
-        ];
-        for (text, positions) in cases {
-            let report = searched(&text, &effort(2, positions));
-            let found: Vec<&str> = report.formulas("integral").collect();
-            assert_eq!(
-                found.len(),
-                1,
-                "{text}: {found:?} {:?} {:?}",
-                report.remarks,
-                report.excluded
-            );
-            assert_eq!(report.found[0].verdict, Verdict::Proved, "{text}");
-        }
-    }
-
-    #[test]
     fn nothing_is_found_where_there_is_nothing_and_what_is_too_large_is_left_out() {
         let body = "title='x'\nsystem='rubber-plane'\n[parameters]\nm='0.5..2'\nB='diag(1..4)'\n\
                     I='inertia(0.5..5)'\n[body]\nshape='ellipsoid'\n";

@@ -1,7 +1,7 @@
 //! Invariants of textbook bodies, found without any option.
 
 use liouville::verdict::Verdict;
-use liouville_search::{SearchReport, search};
+use liouville_search::{Ansatz, Effort, SearchReport, search};
 
 use super::{case, effort};
 
@@ -35,4 +35,47 @@ fn invariants_with_a_free_tensor_of_inertia_are_found() {
     let has = |kind: &str| report.functions(kind).count() == 1;
     assert!(has("integral") && has("density"), "{:?}", report.found);
     assert!(report.found.iter().all(|own| own.verdict == Verdict::Proved), "{:?}", report.found);
+}
+
+#[test]
+fn integrals_are_found_without_terms() {
+    let ball = "title='x'\nsystem='rubber-plane'\n[parameters]\nm='0.5..2'\nR='1..3'\n\
+                I='inertia(0.5..5)'\n";
+    let cases = [
+        (format!("{ball}[body]\nshape='ball'\n"), 4),
+        (
+            "title='x'\nsystem='rubber-plane'\n[parameters]\nm=1.3\nR=3\nI=[2.6,1.2,1.8]\n\
+             c=[0.7,-0.4,1.1]\n[body]\nshape='ball'\n"
+                .to_string(),
+            4,
+        ),
+        (format!("{ball}S='vector(-1..1)'\n[body]\nshape='ball'\ngyrostat='S'\n"), 4),
+        (
+            "title='x'\nsystem='rubber-plane'\n[parameters]\nm='0.5..2'\nB='diag(1..4)'\n\
+             \"μ\"='1..2'\nI='m*B + μ*E'\n[body]\nshape='ellipsoid'\n"
+                .to_string(),
+            4,
+        ),
+        (
+            "title='x'\nsystem='flat-base'\n[parameters]\nm='0.5..2'\nk='0.2..1'\nz=0\n\
+             I='inertia(0.5..5)'\n[body]\nheight='z'\n"
+                .to_string(),
+            4,
+        ),
+        (
+            "title='x'\nsystem='rubber-sphere'\n[parameters]\nm=1\nR=1\nk=-2\nI=[1.37,2.91,3.73]\n\
+             [body]\nshape='ball'\n"
+                .to_string(),
+            8,
+        ),
+    ];
+    for (text, positions) in cases {
+        let ansatz = Ansatz { wanted: true, positions, ..Ansatz::default() };
+        let effort = Effort { blind: true, ansatz, ..effort(2) };
+        let report = search(&case(&text), &effort, &mut |_| {}).expect("it can be searched");
+        let found: Vec<&str> = report.formulas("integral").collect();
+        assert_eq!(found.len(), 1, "{text}: {found:?} {:?} {:?}", report.remarks, report.excluded);
+        let is_proved = report.found.iter().all(|own| own.verdict == Verdict::Proved);
+        assert!(is_proved, "{text}");
+    }
 }
