@@ -2,13 +2,18 @@
 
 use super::equations::fresh_scalars;
 use crate::formula::{Formula, Symbol};
+use crate::graph::{Expr, literally, record};
+use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{
-    ENTRY, LevelEquation, LevelFunction, Meaning, Model, ParameterOrigin, SamplerSpec,
+    ENTRY, LevelEquation, LevelFunction, Meaning, Model, ParameterOrigin, Phase, SamplerSpec,
 };
-use crate::proof::{Extent, KnownSign};
+use crate::proof::{Extent, InputDistribution, KnownSign, LinearDependence, Prover};
 
 /// Largest number of times that what stands for an equation is simplified again.
 const MOST_ROUNDS: usize = 3;
+
+/// Seed of the points at which slopes are compared.
+const SEED: u64 = 1;
 
 /// Simpler equations in the place of one.
 struct Simpler {
@@ -82,7 +87,10 @@ fn simpler(model: &Model, function: &Formula, rounds: usize) -> Option<Simpler> 
         None => {
             let all = function.as_definite_sum(&sign, &is_total)?;
             let kept = fresh_scalars(&all, &model.vocabulary)?;
-            (kept.into_iter().filter_map(|index| all.get(index).cloned()).collect(), true)
+            let kept = kept.into_iter().filter_map(|index| all.get(index).cloned());
+            let kept: Vec<Formula> = kept.collect();
+            // Equations that say the same of a variable, as sin x = 0 and cos x = 1, have no level of their own.
+            are_independent(model, &kept).then_some((kept, true))?
         }
     };
     if rounds == 0 {
@@ -99,6 +107,31 @@ fn simpler(model: &Model, function: &Formula, rounds: usize) -> Option<Simpler> 
         }
     }
     Some(found)
+}
+
+/// Whether the slopes of functions, without those that follow from others, are independent at almost every state.
+fn are_independent(model: &Model, functions: &[Formula]) -> bool {
+    let free = model.free_components();
+    let recorded = record(free + model.dimension(), |inputs| {
+        let (parameters, state) = inputs.split_at(free);
+        let jet = DualPoint::new(Phase::new(model, parameters, state));
+        let values = functions.iter().map(|own| jet.phase.scalar(own));
+        let values: Vec<Expr> = literally(|| values.collect());
+        (values, functions.iter().flat_map(|own| jet.gradients(own)).collect::<Vec<Vec<Expr>>>())
+    });
+    let Ok((graph, (values, rows))) = recorded else { return false };
+    let found = LinearDependence::of(&graph, &values, &vec![true; values.len()]);
+    if found.contradiction.is_some() {
+        // The reader of the level tells it.
+        return true;
+    }
+    let kept = rows.into_iter().enumerate().filter(|(index, _)| !found.implied.contains(index));
+    let rows: Vec<Vec<Expr>> = kept.map(|(_, row)| row).collect();
+    let sources = vec![InputDistribution::Uniform; graph.inputs()];
+    let extents = vec![Extent::ALL; graph.inputs()];
+    let prover = Prover { sources: &sources, extents: &extents, seed: SEED };
+    let ranks = prover.ranks(&graph, &rows, &[rows.len()]);
+    ranks.is_ok_and(|ranks| ranks.is_some_and(|ranks| ranks == [rows.len()]))
 }
 
 /// Returns the sign of a parameter, or of all of its components.

@@ -141,7 +141,7 @@ impl Claim {
             Err(lack) => At::Without(lack),
             Ok(list) => {
                 let largest = list.iter().max_by_key(|x| height(x)).filter(|x| !is_zero(x));
-                match (largest, scene.lack_elsewhere(values)) {
+                match (largest, scene.lack_elsewhere(values, &self.trees())) {
                     (_, Err(lack)) => At::Without(lack),
                     (None, Ok(())) => At::Zero,
                     (Some(largest), Ok(())) => match sure_sign(largest) {

@@ -342,7 +342,7 @@ fn signs_at(scene: &Scene, tree: &Tree, points: &[Point]) -> Signs {
         }
         let Some(values) = scene.values(point) else { continue };
         let value = (Place { values: &values, along: &[] }).value(tree);
-        if scene.lack_elsewhere(&values).is_err() {
+        if scene.lack_elsewhere(&values, &[tree]).is_err() {
             continue;
         }
         match value.and_then(|value| real::sure_sign(&value)) {

@@ -267,16 +267,31 @@ impl Scene {
         Some(values)
     }
 
-    /// Checks that what the claim does not mention is defined as well: the parameters and the
-    /// equations of motion belong to every claim.
-    pub fn lack_elsewhere(&self, values: &[Found<Real>]) -> Found<()> {
+    /// Checks that what the claim does not mention is defined as well: the equations of motion belong to every
+    /// claim, and the parameters that these, the level or the claim's formulas use.
+    pub fn lack_elsewhere(&self, values: &[Found<Real>], claim: &[&Tree]) -> Found<()> {
         let place = Place { values, along: &[] };
         let rates = self.field.iter().map(|(_, rate)| place.value(rate));
-        let parts = values.iter().cloned().chain(rates).map(|found| found.map(|_| ()));
+        let used =
+            values.iter().enumerate().filter(|(at, own)| own.is_ok() || self.uses(*at, claim));
+        let parts = used.map(|(_, own)| own.clone()).chain(rates).map(|found| found.map(|_| ()));
         let mut all = Ok(());
         for part in parts {
             all = both(all, part).map(|_| ());
         }
         all
+    }
+
+    /// Whether a symbol matters to a claim with these formulas.
+    fn uses(&self, place: usize, claim: &[&Tree]) -> bool {
+        let level = self.level.iter().flat_map(|level| &level.equations);
+        let mut trees = claim
+            .iter()
+            .copied()
+            .chain(self.field.iter().map(|(_, rate)| rate))
+            .chain(level.flat_map(|(a, b)| [a, b]));
+        let is_free = !matches!(self.symbols[place].origin, Origin::Formula(_));
+        let has_chart = self.level.as_ref().is_some_and(|level| level.chart.is_some());
+        is_free || has_chart || trees.any(|tree| tree.has(place))
     }
 }

@@ -154,7 +154,7 @@ fn a_lyapunov_function_falls_at_all_states() {
         ],
     );
     assert_eq!(found, [Proved, Proved, Refuted, Refuted, Refuted, Proved, Proved]);
-    // −x² + xy − y² has no term to be seen by; that it is not positive is not known by bounds
+    // −x² + xy − y² has no term to be seen by; the form that is found has
     let mixed = ["−x/2 + y/2", "−y/2", "0*z"];
     let found = verdicts(
         mixed,
@@ -165,7 +165,7 @@ fn a_lyapunov_function_falls_at_all_states() {
             "lyapunov = 'x² + y²'\nequals = '−(x − y/2)² − y²/4'",
         ],
     );
-    assert_eq!(found, [Undecided, Proved, Refuted]);
+    assert_eq!(found, [Proved, Proved, Refuted]);
 }
 
 #[test]

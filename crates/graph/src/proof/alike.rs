@@ -43,12 +43,20 @@ fn one_way(
     let wholes = [difference(graph, place), (Side::Place(place), Side::Number(Rational::from(0)))];
     wholes.into_iter().find_map(|(above, below)| {
         let (p, q) = arguments(graph, &above, &below)?;
-        let is_whole = |side: &Side| *side == Side::Place(plain);
         let is_zero = |side: &Side| matches!(side, Side::Number(value) if value.is_zero());
+        // The sign of p itself, where the other argument is 0.
+        let whole = |side: &Side, rest: &Side| match side {
+            Side::Place(place) if is_zero(rest) => {
+                let (own, is_positive) = without_factor(graph, *place);
+                (own == plain).then_some(is_positive)
+            }
+            _ => None,
+        };
         let own = difference(graph, plain);
-        let straight = own == (p.clone(), q.clone()) || is_whole(&p) && is_zero(&q);
-        let turned = own == (q.clone(), p.clone()) || is_whole(&q) && is_zero(&p);
-        (straight || turned).then_some(Likeness::Signed((sign == other) == straight))
+        let straight = (own == (p.clone(), q.clone())).then_some(true).or_else(|| whole(&p, &q));
+        let turned = (own == (q.clone(), p.clone())).then_some(true).or_else(|| whole(&q, &p));
+        let is_straight = straight.or_else(|| turned.map(|own| !own))?;
+        Some(Likeness::Signed((sign == other) == is_straight))
     })
 }
 
