@@ -111,6 +111,13 @@ impl Case {
         }
     }
 
+    /// Detaches the same system without `t`, with the names of all claims in their order.
+    pub(super) fn take_without_time(&mut self) -> Option<(Case, Vec<String>)> {
+        let stands = self.stands_without_time().is_some();
+        let own = self.without_time.take().filter(|_| stands)?;
+        Some((*own.case, own.order))
+    }
+
     /// Returns the same system without `t`, with its claims.
     pub(super) fn case_without_time(&self) -> Option<&Case> {
         self.stands_without_time().map(|own| &*own.case)

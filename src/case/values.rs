@@ -112,12 +112,20 @@ impl Case {
         let canonical = canonical_name(name).ok_or_else(|| {
             ClaimError::new(name, "this is not a name", "write letters, then digits, primes or _")
         })?;
+        self.model.vocabulary.check_own(formula).map_err(|other| stranger(name, &other))?;
+        let without_time = self.take_without_time();
         let model = &mut self.model;
-        model.vocabulary.check_own(formula).map_err(|other| stranger(name, &other))?;
         let reach =
             model.vocabulary.reach(formula).map_or(Dependence::Parameters, |entry| entry.reach);
         model.vocabulary.define(&canonical, model.abbreviations.len(), formula, reach);
         model.abbreviations.push(formula.clone());
+        if let Some((mut other, order)) = without_time {
+            // A name for what uses `t` is left out there.
+            if let Ok(formula) = other.formula(formula.text()) {
+                other.define(name, &formula)?;
+            }
+            self.attach(other, order);
+        }
         Ok(())
     }
 }

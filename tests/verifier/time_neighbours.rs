@@ -113,3 +113,19 @@ fn claims_as_values_are_judged_without_t_too() {
     assert_eq!(found.claims.len(), 2);
     assert!(found.claims.iter().all(|claim| claim.verdict == Verdict::Proved));
 }
+
+#[test]
+fn names_that_are_added_and_changes_of_the_system_leave_no_claim_out() {
+    let text =
+        format!("{SQUARE}[[claim]]\nintegral = \"t + 1/x\"\n[[claim]]\nfixed-point = {{}}\n");
+    let mut case = Case::parse(&text, &[]).expect("a case");
+    for formula in ["x^2", "t*x"] {
+        let formula = case.formula(formula).expect("a formula");
+        case.define(&format!("f{}", case.model.abbreviations.len()), &formula).expect("a name");
+    }
+    let found = judge(&case, &Options::default()).expect("judged");
+    let kinds: Vec<&str> = found.claims.iter().map(|claim| claim.kind).collect();
+    assert_eq!(kinds, ["integral", "fixed-point"]);
+    case.model.abbreviations.clear();
+    assert!(case.time_parts().is_none(), "another system than that of the file");
+}
