@@ -10,6 +10,7 @@ mod build;
 mod builder;
 mod charts;
 mod claim_error;
+mod claim_table;
 mod claims;
 mod clock;
 mod complex;

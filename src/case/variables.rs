@@ -4,11 +4,11 @@ use std::borrow::Cow;
 
 use toml::Spanned;
 
+use super::claim_table::stranger;
 use super::error::{Mistake, Problem};
 use super::formulas::formula;
 use super::parameters::named;
 use super::section::{CaseTable, SpannedStr};
-use super::values::stranger;
 use super::{Case, ClaimError};
 use crate::formula::{Formula, Scope, Type, canonical_name};
 use crate::mechanics::{

@@ -19,6 +19,7 @@ mod linear;
 mod listed;
 mod memo;
 mod model;
+mod model_formulas;
 mod parts;
 mod phase;
 mod quantity;

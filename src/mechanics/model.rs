@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::System;
-use super::level_equation::{LevelEquation, LevelFunction};
+use super::level_equation::LevelEquation;
 use super::listed::ListedValues;
 use super::recipe::{Draw, SamplerSpec};
 use super::variables::NewVariables;
@@ -195,100 +195,6 @@ impl Model {
         let mut texts = all.iter().flat_map(|formula| formula.antiderivative_texts());
         let first = texts.next();
         texts.any(|text| Some(text) != first)
-    }
-
-    /// Whether the value of a parameter is written into the case, or into one of these formulas, as
-    /// a size or an index, so that the parameter cannot change.
-    pub fn is_rigid(&self, parameter: usize, formulas: &[&Formula]) -> bool {
-        let given = self.parameter_formulas();
-        let own = self.functions().into_iter().chain(&self.abbreviations).chain(given);
-        let all = own.chain(formulas.iter().copied());
-        let symbols = all.flat_map(Formula::fixed_symbols).chain(&self.fixed).copied();
-        let mut reached: Vec<Symbol> = symbols.collect();
-        let mut next = 0;
-        while let Some(symbol) = reached.get(next).copied() {
-            next += 1;
-            let formula = match self.vocabulary.entry(symbol).meaning {
-                Meaning::Parameter(index) if index == parameter => return true,
-                Meaning::Parameter(index) => match &self.parameters[index].origin {
-                    ParameterOrigin::Formula(formula) => Some(formula),
-                    _ => None,
-                },
-                Meaning::Abbreviation(index) => self.abbreviations.get(index),
-                _ => None,
-            };
-            let inner = formula.into_iter().flat_map(Formula::symbols);
-            let new: Vec<Symbol> = inner.filter(|symbol| !reached.contains(symbol)).collect();
-            reached.extend(new);
-        }
-        false
-    }
-
-    /// Returns the formulas that are functions of the state apart from the claims: the equations of
-    /// motion, the new variables, and the level.
-    pub fn functions(&self) -> Vec<&Formula> {
-        self.dynamics().into_iter().chain(self.level_formulas()).collect()
-    }
-
-    /// Returns the formulas of level functions that the file gives.
-    pub fn level_formulas(&self) -> impl Iterator<Item = &Formula> {
-        self.level.iter().filter_map(|equation| match &equation.function {
-            LevelFunction::Formula(formula) => Some(formula),
-            _ => None,
-        })
-    }
-
-    /// Returns the formulas of parameters that are computed from others.
-    pub fn parameter_formulas(&self) -> impl Iterator<Item = &Formula> {
-        self.parameters.iter().filter_map(|parameter| match &parameter.origin {
-            ParameterOrigin::Formula(formula) => Some(formula),
-            _ => None,
-        })
-    }
-
-    /// Returns the formulas of those parameters that formulas use, directly or through others; of all parameters
-    /// where the system is a body, which uses its parameters itself.
-    pub fn parameter_formulas_of(&self, formulas: &[&Formula]) -> Vec<&Formula> {
-        use System::{Field, Hamiltonian, Lagrangian, Map};
-        if !matches!(self.system, Field(_) | Hamiltonian(_) | Lagrangian(_) | Map(_)) {
-            return self.parameter_formulas().collect();
-        }
-        let mut reached: Vec<Symbol> = Vec::new();
-        let mut own: Vec<&Formula> = Vec::new();
-        let mut reach = |formula: &Formula| {
-            let new: Vec<Symbol> =
-                formula.symbols().filter(|symbol| !reached.contains(symbol)).collect();
-            reached.extend(&new);
-            new
-        };
-        let mut next: Vec<Symbol> = formulas.iter().flat_map(|formula| reach(formula)).collect();
-        while let Some(symbol) = next.pop() {
-            let formula = match self.vocabulary.entry(symbol).meaning {
-                Meaning::Parameter(index) => match &self.parameters[index].origin {
-                    ParameterOrigin::Formula(formula) => Some(formula),
-                    _ => None,
-                },
-                Meaning::Abbreviation(index) => self.abbreviations.get(index),
-                Meaning::State(_) | Meaning::Quantity(_) => None,
-            };
-            let Some(formula) = formula else { continue };
-            if matches!(self.vocabulary.entry(symbol).meaning, Meaning::Parameter(_)) {
-                own.push(formula);
-            }
-            next.extend(reach(formula));
-        }
-        own
-    }
-
-    /// Returns the formulas of the equations of motion and of the new variables.
-    pub fn dynamics(&self) -> Vec<&Formula> {
-        let images = self.variables.iter().flat_map(|variables| &variables.images);
-        self.equations_of_motion().into_iter().chain(images).collect()
-    }
-
-    /// Returns the formulas of the equations of motion.
-    pub fn equations_of_motion(&self) -> Vec<&Formula> {
-        self.system.functions().into_iter().chain(&self.extension).collect()
     }
 
     /// Number of state variables of the system, without those that a case adds.

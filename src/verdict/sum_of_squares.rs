@@ -22,6 +22,8 @@ const MOST_MONOMIALS: usize = 24;
 const MOST_FREE: usize = 160;
 /// Largest number of steps of Newton's method.
 const STEPS: usize = 80;
+/// Largest pressure on the multiple of the unit matrix.
+const MOST_PRESSURE: f64 = 1e9;
 /// Denominators of the fractions to which numbers are rounded.
 const DENOMINATORS: [i64; 10] = [1, 2, 3, 4, 6, 12, 60, 120, 1 << 10, 1 << 20];
 
@@ -121,35 +123,37 @@ impl GramSpace {
         let size = self.monomials.len();
         let number = |value: &Rational| value.to_f64().0;
         let origin = DMatrix::from_fn(size, size, |i, j| number(&self.origin[i][j]));
-        let mut directions: Vec<DMatrix<f64>> = self
+        let mut directions: Vec<Direction> = self
             .free
             .iter()
             .map(|direction| {
-                let mut own = DMatrix::zeros(size, size);
                 let changes = [1.0, number(&Self::opposite(*direction))];
-                for ((i, j), change) in direction.iter().zip(changes) {
-                    own[(*i, *j)] += change;
-                    if i != j {
-                        own[(*j, *i)] += change;
-                    }
-                }
-                own
+                let pairs = direction.iter().zip(changes);
+                let both = |((i, j), change): (&(usize, usize), f64)| {
+                    let own = [(*i, *j, change), (*j, *i, change)];
+                    own.into_iter().take(if i == j { 1 } else { 2 })
+                };
+                pairs.flat_map(both).collect()
             })
             .collect();
         // With a multiple of the unit matrix added there is a beginning; its factor is pressed below 0.
         let lowest = origin.clone().symmetric_eigenvalues().min();
         let mut point = vec![0.0; directions.len()];
         if lowest <= 0.0 {
-            directions.push(DMatrix::identity(size, size));
+            directions.push((0..size).map(|k| (k, k, 1.0)).collect());
             point.push(1.0 - 2.0 * lowest);
             let mut pressure = 1.0;
-            while point.last().is_some_and(|last| *last >= 0.0) {
-                let last = point.last().copied();
+            loop {
                 point = maximal(&origin, &directions, point, pressure)?;
-                pressure *= 8.0;
-                if pressure > 1e12 || last.is_none() {
+                let factor = *point.last()?;
+                if factor < 0.0 {
+                    break;
+                }
+                // The least factor is at most this much smaller.
+                if factor > size as f64 / pressure || pressure > MOST_PRESSURE {
                     return None;
                 }
+                pressure *= 8.0;
             }
             directions.pop();
             point.pop();
@@ -158,16 +162,22 @@ impl GramSpace {
     }
 }
 
+/// Entries of a symmetric matrix that are not 0.
+type Direction = Vec<(usize, usize, f64)>;
+
 /// Maximizes ln det(Q + Σ x_k N_k) − p x_last by Newton's method.
 fn maximal(
     origin: &DMatrix<f64>,
-    directions: &[DMatrix<f64>],
+    directions: &[Direction],
     mut point: Vec<f64>,
     pressure: f64,
 ) -> Option<Vec<f64>> {
     let at = |point: &[f64]| {
-        let sum = origin.clone();
-        point.iter().zip(directions).fold(sum, |sum, (x, own)| sum + own * *x)
+        let mut sum = origin.clone();
+        for (x, direction) in point.iter().zip(directions) {
+            direction.iter().for_each(|(i, j, value)| sum[(*i, *j)] += value * x);
+        }
+        sum
     };
     let value = |own: &Cholesky<f64, Dyn>, point: &[f64]| {
         2.0 * own.l_dirty().diagonal().iter().map(|x| libm::log(*x)).sum::<f64>()
@@ -177,17 +187,24 @@ fn maximal(
     let mut factored = Cholesky::new(at(&point))?;
     for _ in 0..STEPS {
         let inverse = factored.inverse();
-        let moved: Vec<DMatrix<f64>> = directions.iter().map(|own| &inverse * own).collect();
-        let mut slope = DVector::from_fn(count, |k, _| moved[k].trace());
+        let mut slope = DVector::from_fn(count, |k, _| {
+            directions[k].iter().map(|(i, j, value)| inverse[(*j, *i)] * value).sum::<f64>()
+        });
         if let Some(last) = count.checked_sub(1) {
             slope[last] -= pressure;
         }
-        let curvature = DMatrix::from_fn(count, count, |k, l| {
-            moved[k].component_mul(&moved[l].transpose()).sum()
-        });
+        // tr(Q⁻¹N Q⁻¹M)
+        let product = |left: &Direction, right: &Direction| -> f64 {
+            let of = |(i, j, a): &(usize, usize, f64)| {
+                let terms = right.iter().map(|(k, l, b)| inverse[(*l, *i)] * inverse[(*j, *k)] * b);
+                a * terms.sum::<f64>()
+            };
+            left.iter().map(of).sum()
+        };
+        let curvature =
+            DMatrix::from_fn(count, count, |k, l| product(&directions[k], &directions[l]));
         let step = Cholesky::new(curvature)?.solve(&slope);
-        let gain = step.dot(&slope);
-        if gain < 1e-12 {
+        if step.dot(&slope) < 1e-12 {
             break;
         }
         let before = value(&factored, &point);
@@ -254,10 +271,10 @@ fn decomposed(mut matrix: Vec<Vec<Rational>>) -> Option<Vec<(Rational, Vec<Ratio
         let row: Vec<Rational> = (0..size)
             .map(|j| if j < k { Rational::from(0) } else { &matrix[k][j] * &inverse })
             .collect();
-        for i in k + 1..size {
-            let factor = matrix[i][k].clone();
-            for j in k + 1..size {
-                matrix[i][j] = &matrix[i][j] - &(&factor * &row[j]);
+        for other in &mut matrix[k + 1..] {
+            let factor = other[k].clone();
+            for (entry, value) in other.iter_mut().zip(&row).skip(k + 1) {
+                *entry = &*entry - &(&factor * value);
             }
         }
         all.push((pivot, row));

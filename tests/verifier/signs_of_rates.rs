@@ -69,6 +69,21 @@ fn entropy_grows_in_a_reversible_reaction() {
     assert_eq!(found, Verdict::Refuted, "another rate");
 }
 
+#[test]
+fn entropy_grows_in_a_cycle_of_reactions() {
+    let text = |sign: &str| {
+        format!(
+            "title = 't'\ncheck-weights = false\n[parameters]\nk = '1/2..2'\nl = '1/2..2'\n[state]\na = '0..3'\n\
+             b = '0..3'\nc = '0..3'\n[field]\n\"a'\" = 'k*(b - a) + l*(c - a)'\n\
+             \"b'\" = 'k*(a - b) {sign} k*(c - b)'\n\"c'\" = '-({sign} k*(c - b)) - l*(c - a)'\n[[claim]]\n\
+             lyapunov = 'a*log(a) + b*log(b) + c*log(c)'\nexpect = 'open'\n"
+        )
+    };
+    let (found, remark) = verdict(&text("+"));
+    assert_eq!(found, Verdict::Proved, "{remark}");
+    assert_eq!(verdict(&text("-")).0, Verdict::Refuted, "a reaction that runs backwards");
+}
+
 /// A factor F(p) − F(q), or sin p, and its value.
 type Factor = (&'static str, fn(f64, f64) -> f64);
 

@@ -223,9 +223,8 @@ fn pieces(model: &Model) -> Pieces {
                     Type::VECTOR => pieces.linear.push(own),
                     Type::Scalar => pieces.forms.push(own),
                     Type::Vector(length) => {
-                        pieces
-                            .forms
-                            .extend(kept((1..=length).map(|i| own.element(i, &model.vocabulary))));
+                        let all = (1..=length).map(|k| own.element(k, &model.vocabulary));
+                        pieces.forms.extend(kept(all));
                     }
                     Type::Matrix(..) => {
                         let places = variable.kind.places();

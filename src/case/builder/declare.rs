@@ -1,11 +1,11 @@
 //! Declaration of names, level equations and parts of a body.
 
 use super::super::ClaimError;
+use super::super::claim_table::stranger;
 use super::super::equations::{entries, level_equation};
 use super::super::parameters::{NO_NAME, origin_of};
 use super::super::shapes::{GivenValue, list, state_draws};
 use super::super::value::{FormulaSource, ValueSpec};
-use super::super::values::stranger;
 use super::{BodyPart, Build, ModelBuilder};
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{Dependence, Meaning, Parameter, ParameterOrigin};

@@ -113,7 +113,7 @@ fn difference(graph: &Graph, place: usize) -> (Side, Side) {
 
 /// An increasing function.
 #[derive(Clone, Debug, PartialEq)]
-enum Increasing {
+pub(super) enum Increasing {
     Unary(UnaryFunction),
     Power(Rational),
 }
@@ -136,7 +136,7 @@ pub fn arguments(graph: &Graph, above: &Side, below: &Side) -> Option<(Side, Sid
 }
 
 /// The function of a step that increases wherever it has a value, and the place of its argument.
-fn increasing(step: Step<'_>) -> Option<(Increasing, usize)> {
+pub(super) fn increasing(step: Step<'_>) -> Option<(Increasing, usize)> {
     use UnaryFunction::{Atan, Exp, Ln, Sqrt};
     match step {
         Step::Unary(function @ (Atan | Exp | Ln | Sqrt), a) => {

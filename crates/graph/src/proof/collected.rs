@@ -6,7 +6,7 @@ use crate::graph::{Expr, Graph, Step};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
 
-use super::paired::pairs;
+use super::paired::{pair_sum, pairs};
 use super::polynomial::{Fraction, MOST_WORK, Polynomial, fraction};
 
 /// Longest text.
@@ -32,7 +32,7 @@ pub struct NamedPolynomial<'n> {
 pub type ShownSign<'f> = &'f dyn Fn(&NamedPolynomial<'_>) -> Option<String>;
 
 /// Writes a value as c Π f^m / q, and as Σ c x^k / q, where x are the inputs from `first` on and functions of
-/// them, c depends on the inputs before alone, and nothing cancels; `names` are those of the inputs. Factors of odd
+/// them, c depends on the inputs before alone, and nothing cancels, and as Σ k (x − y)(F(x) − F(y)); `names` are those of the inputs. Factors of odd
 /// powers are written by `shown` where it can.
 ///
 /// Empty if the value is no quotient of polynomials in inputs and functions, or if it is too large.
@@ -49,7 +49,8 @@ pub fn simpler_forms(
         true => format!("({text})/({})", read.whole.below.text(&read.names)),
         false => text,
     };
-    let forms = [read.factored(graph, names, shown), read.collected()];
+    let forms =
+        [read.factored(graph, names, shown), read.collected(), pair_sum(&read, graph, names)];
     let found = forms.into_iter().flatten().map(|text| whole(text).replace(" + -", " - "));
     found
         .filter(|text| text.len() < MOST_LETTERS)
@@ -95,10 +96,10 @@ pub fn reduced(whole: Fraction) -> Option<Fraction> {
 
 /// A reduced fraction in inputs and values of functions, with the names of these.
 pub(super) struct ReadValue {
-    whole: Fraction,
+    pub(super) whole: Fraction,
     /// Places of the variables of the fraction.
     pub(super) places: Vec<usize>,
-    names: Vec<String>,
+    pub(super) names: Vec<String>,
     /// Whether a variable depends on the inputs from a given one on.
     is_own: Vec<bool>,
 }

@@ -4,7 +4,7 @@ use crate::graph::{Graph, Step};
 use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
 
-use super::alike::{Side, arguments};
+use super::alike::{Side, arguments, increasing};
 use super::collected::{ReadValue, read_with, text};
 use super::polynomial::Polynomial;
 
@@ -45,6 +45,50 @@ pub(super) fn pairs(
         }
     }
     found
+}
+
+/// Writes a value Σ k (x − y)(F(x) − F(y)) in this form, for variables x and y and factors k that contain none of them.
+pub(super) fn pair_sum(read: &ReadValue, graph: &Graph, names: &[String]) -> Option<String> {
+    let place_of = |variable: u32| read.places.get(variable as usize).copied();
+    // Functions with their arguments, by variables.
+    let functions: Vec<(u32, u32)> = (0..read.places.len() as u32)
+        .filter_map(|variable| {
+            let (_, argument) = increasing(graph.step(place_of(variable)?))?;
+            let argument = read.places.iter().position(|place| *place == argument)?;
+            Some((variable, u32::try_from(argument).ok()?))
+        })
+        .collect();
+    let own: Vec<u32> = functions.iter().map(|(variable, _)| *variable).collect();
+    let arguments: Vec<u32> = functions.iter().map(|(_, argument)| *argument).collect();
+    let count = functions.len();
+    let unit = |powers: &[u32]| {
+        let place = powers.iter().position(|power| *power == 1)?;
+        (powers.iter().sum::<u32>() == 1).then_some(place)
+    };
+    let mut factors: Vec<Vec<Option<Polynomial>>> = vec![vec![None; count]; count];
+    for (powers, coefficient) in read.whole.above.collected(&own) {
+        let row = unit(&powers)?;
+        for (powers, factor) in coefficient.collected(&arguments) {
+            factors[row][unit(&powers)?] = Some(factor);
+        }
+    }
+    let mut terms = Vec::new();
+    for (row, factors) in factors.iter().enumerate() {
+        for (column, factor) in factors.iter().enumerate().take(row) {
+            let Some(factor) = factor else { continue };
+            let side = |k: usize| Some(Side::Place(place_of(own[k])?));
+            let argument = |k: usize| Some(Side::Place(place_of(arguments[k])?));
+            let seen = Seen {
+                share: Rational::from(1),
+                above: side(row)?,
+                below: side(column)?,
+                p: argument(row)?,
+                q: argument(column)?,
+            };
+            terms.push(format!("-({})*{}", factor.text(&read.names), seen.text(graph, names)?));
+        }
+    }
+    (count > 1 && !terms.is_empty()).then(|| terms.join(" "))
 }
 
 /// A factor k (F(p) − F(q)), or k sin p.
