@@ -45,6 +45,9 @@ fn power(base: f64, exponent: f64) -> f64 {
     }
 }
 
+/// A base, and its value at x and y.
+type Base = (&'static str, fn(f64, f64) -> f64);
+
 /// An identity of powers of a base with the exponents a and a + 1, and its two sides at a base and an exponent.
 type Identity = (&'static str, fn(f64, f64) -> [f64; 2]);
 
@@ -61,7 +64,7 @@ const IDENTITIES: [Identity; 8] = [
 
 #[test]
 fn what_is_proved_holds_for_each_listed_number_in_the_file() {
-    let bases: [(&str, fn(f64, f64) -> f64); 5] = [
+    let bases: [Base; 5] = [
         ("x", |x, _| x),
         ("abs(x)", |x, _| x.abs()),
         ("-x", |x, _| -x),

@@ -27,7 +27,8 @@ fn both(system: &str, with_time: &str, claims: &[&str]) -> [Vec<(String, Verdict
     let beside = verdicts(report(&format!("{system}{timed}{plain}{named}")));
     assert_eq!(beside.len(), claims.len() + 2, "every claim is judged");
     let users = beside.iter().filter(|(name, _)| !alone.iter().any(|(other, _)| other == name));
-    assert_eq!(users.map(|(_, verdict)| *verdict).collect::<Vec<_>>(), [Verdict::Proved; 2]);
+    let users: Vec<Verdict> = users.map(|(_, verdict)| *verdict).collect();
+    assert_eq!(users, [Verdict::Proved; 2], "the claims that use t");
     let names: Vec<&String> = alone.iter().map(|(name, _)| name).collect();
     let others = beside.into_iter().filter(|(name, _)| names.contains(&name)).collect();
     [alone, others]
