@@ -75,7 +75,7 @@ fn entropy_grows_in_a_cycle_of_reactions() {
         format!(
             "title = 't'\ncheck-weights = false\n[parameters]\nk = '1/2..2'\nl = '1/2..2'\n[state]\na = '0..3'\n\
              b = '0..3'\nc = '0..3'\n[field]\n\"a'\" = 'k*(b - a) + l*(c - a)'\n\
-             \"b'\" = 'k*(a - b) {sign} k*(c - b)'\n\"c'\" = '-({sign} k*(c - b)) - l*(c - a)'\n[[claim]]\n\
+             \"b'\" = 'k*(a - b) {sign} k*(c - b)'\n\"c'\" = '-(0 {sign} k*(c - b)) - l*(c - a)'\n[[claim]]\n\
              lyapunov = 'a*log(a) + b*log(b) + c*log(c)'\nexpect = 'open'\n"
         )
     };
