@@ -7,16 +7,14 @@ use crate::graph::Expr;
 use crate::mechanics::Phase;
 use crate::mechanics::calculus::DualPoint;
 
-/// Records some formulas of a case as written, and the formulas of the parameters in them. Formulas with an
+/// Records some formulas of a case as written, with the parameters in them. Formulas with an
 /// ∫ are left out: as written they could have an antiderivative of their own.
 pub fn of_formulas<'f>(
     phase: &'f Phase<'f, Expr>,
     formulas: impl IntoIterator<Item = &'f Formula>,
 ) -> Vec<Expr> {
     let model = phase.model();
-    let own: Vec<&Formula> = formulas.into_iter().collect();
-    let all = model.parameter_formulas_of(&own).into_iter().chain(own);
-    phase.literal_values(all.filter(|formula| !model.has_antiderivative(formula)))
+    phase.literal_values(formulas.into_iter().filter(|formula| !model.has_antiderivative(formula)))
 }
 
 /// Records the equations of motion as written.

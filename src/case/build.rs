@@ -100,7 +100,7 @@ pub fn build(text: &str, settings: &[Setting]) -> Result<Case, CaseError> {
     }
 }
 
-/// What is noted while a file is read.
+/// Notes taken while a file is read.
 #[derive(Default)]
 struct Noted {
     lists: Vec<String>,

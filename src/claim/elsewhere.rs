@@ -10,9 +10,7 @@ use crate::mechanics::{Model, Phase};
 /// Records the equations of motion as written at a point: where they have no value the point is not in
 /// phase space.
 pub(super) fn system_at(at: &Phase<'_, Expr>) -> Vec<Expr> {
-    let model = at.model();
-    let own = model.equations_of_motion();
-    let formulas = model.parameter_formulas_of(&own).into_iter().chain(own);
+    let formulas = at.model().equations_of_motion().into_iter();
     formulas.flat_map(|formula| written_at(at, formula)).collect()
 }
 

@@ -160,7 +160,7 @@ macro_rules! kinds {
                 match self { $(ClaimKind::$kind(_) => $kind::IS_INEQUALITY,)* }
             }
 
-            /// What the claim says of motions.
+            /// Statement of the claim on motions.
             pub fn of_motions(&self) -> OfMotions {
                 match self { $(ClaimKind::$kind(_) => $kind::OF_MOTIONS,)* }
             }

@@ -182,19 +182,12 @@ pub(super) fn written<'f>(
     there: &Phase<'_, Expr>,
 ) -> Vec<Expr> {
     let brackets = brackets.iter().map(|bracket| &variables.brackets[*bracket]);
-    let own = functions.chain(brackets.flat_map(Poisson::given_blocks)).collect();
-    with_parameters(own, there)
+    there.literal_values(functions.chain(brackets.flat_map(Poisson::given_blocks)))
 }
 
 /// Records the new variables as written.
 pub(super) fn images_as_written(variables: &NewVariables, phase: &Phase<'_, Expr>) -> Vec<Expr> {
-    with_parameters(variables.images.iter().collect(), phase)
-}
-
-/// Records formulas as written, with the parameters in them.
-fn with_parameters(own: Vec<&Formula>, phase: &Phase<'_, Expr>) -> Vec<Expr> {
-    let parameters = phase.model().parameter_formulas_of(&own);
-    phase.literal_values(parameters.into_iter().chain(own))
+    phase.literal_values(&variables.images)
 }
 
 /// Computes values that vanish exactly when each ∫ in functions of the new variables, and in the

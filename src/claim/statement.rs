@@ -20,7 +20,7 @@ pub enum Jets {
     TwoPoints,
 }
 
-/// What a claim says of motions.
+/// Statement of a claim on motions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OfMotions {
     /// Nothing: it is about values at states.
@@ -79,7 +79,7 @@ pub trait Statement: Clone {
     /// Whether the claim is an inequality, which holding at the states tried does not make likely.
     const IS_INEQUALITY: bool = false;
 
-    /// What the claim says of motions, which may leave a level.
+    /// Statement of the claim on motions, which may leave a level.
     const OF_MOTIONS: OfMotions = OfMotions::Rates;
 
     /// Whether the claim can be about a map instead of a flow.

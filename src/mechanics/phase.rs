@@ -262,10 +262,12 @@ impl Phase<'_, Expr> {
 
     /// Evaluates as written what a formula has no value without, though its value need not show it: the
     /// integrand of each ∫, and the logarithm of the base of each power with an exponent that varies,
-    /// which may come out as a whole number.
+    /// which may come out as a whole number; so of the formulas of the parameters in it.
     pub fn presupposed(&self, formula: &Formula) -> Vec<Expr> {
         let model = self.model();
-        let all = model.vocabulary.with_abbreviations(formula, &model.abbreviations).into_iter();
+        let own = std::iter::once(formula).chain(model.parameter_formulas_of(&[formula]));
+        let all =
+            own.flat_map(|own| model.vocabulary.with_abbreviations(own, &model.abbreviations));
         let of = |used: &Formula| {
             literally(|| {
                 let mut lookup = |symbol| self.literal_value(symbol);

@@ -9,6 +9,7 @@ use super::judging::Judging;
 use super::ladder::Open;
 use super::recorded::RecordedClaim;
 use super::sampler::Sampler;
+use crate::claim::ClaimKind;
 use crate::graph::{Expr, Fault, Graph, Need, Step, record};
 use crate::number::{BinaryOperation, UnaryFunction};
 use crate::proof::{Certificate, combination_certificate};
@@ -32,9 +33,9 @@ impl Judging<'_> {
             if status.settled.is_some() || status.is_zero {
                 continue;
             }
-            let is_of_points = match item.claim.kind.name() {
-                "identity" => true,
-                "integral" | "rate" => false,
+            let is_of_points = match &item.claim.kind {
+                ClaimKind::Identity(_) => true,
+                ClaimKind::Integral(_) | ClaimKind::Rate(_) => false,
                 _ => continue,
             };
             let is_sound = are_zero(self.graph, &item.context.quadrature_defects)

@@ -58,9 +58,7 @@ impl<'c> RecordedClaim<'c> {
             residual: residual(&claim.place),
             presence,
             requirement: {
-                let formulas = claim.kind.formulas();
-                let parameters = jet.phase.model().parameter_formulas_of(&formulas);
-                let mut values = jet.phase.literal_values(parameters.into_iter().chain(formulas));
+                let mut values = jet.phase.literal_values(claim.kind.formulas());
                 values.extend(claim.kind.further_requirement(jet));
                 values
             },

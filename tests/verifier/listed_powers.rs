@@ -111,3 +111,14 @@ fn what_is_proved_holds_for_each_listed_number_in_the_file() {
     }
     assert!(proved >= 20 && wrong >= 20, "{proved} proved, {wrong} false");
 }
+
+#[test]
+fn points_are_asked_where_their_parameters_have_values() {
+    // K has a value for a > 0 alone, and there a|a| is a².
+    let text = "title = \"t\"\ncheck-weights = false\n[parameters]\na = \"-2..2\"\nc = \"1..2\"\n\
+                K = \"a^(c - c + 2)\"\n[state]\nx = \"-2..2\"\n[field]\n\"x'\" = \"x - abs(a)*a\"\n\
+                [[claim]]\nfixed-point = { x = \"K\" }\n";
+    let case = Case::parse(text, &[]).expect("a case");
+    let report = judge(&case, &Options::default()).expect("judged");
+    assert_eq!(report.claims[0].verdict, Verdict::Proved, "{:?}", report.claims[0].evidence);
+}

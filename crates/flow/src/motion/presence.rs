@@ -13,9 +13,7 @@ use liouville::number::rational::Rational;
 /// Formulas of the system and of its parameters, recorded as written; those that have a value
 /// everywhere are left out.
 pub fn as_written(phase: &Phase<'_, Expr>) -> Vec<Expr> {
-    let model = phase.model();
-    let own = model.equations_of_motion();
-    phase.literal_values(model.parameter_formulas_of(&own).into_iter().chain(own))
+    phase.literal_values(phase.model().equations_of_motion())
 }
 
 /// Compiles a model's field with the operations that were left out of it as rates of further

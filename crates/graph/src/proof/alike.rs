@@ -4,7 +4,7 @@ use crate::graph::{Graph, Step};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
 
-/// What is known of the signs of two values.
+/// Relation of the signs of two values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Likeness {
     /// Their product is not negative wherever it exists, or not positive.

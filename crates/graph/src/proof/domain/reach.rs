@@ -87,7 +87,7 @@ pub(super) struct ReachedStep<'r> {
     pub rule: Rule<'r>,
     pub is_zero: bool,
     pub is_nonzero: bool,
-    /// What is known of the signs of the factors of a product, with numbers for places.
+    /// Relation of the signs of the factors of a product, with numbers for places.
     pub likeness: Option<Likeness>,
 }
 
