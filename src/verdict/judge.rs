@@ -8,9 +8,11 @@ use super::conclude::report;
 use super::dissipation::find_rates;
 use super::evidence::ClaimReport;
 use super::judging::Judging;
+use super::listed_levels::judge_listed_levels;
 use super::mutants::{MutationReport, mutate};
 use super::recorded::{RecordedClaim, SharedTerms};
 use super::sampler::TAPE_LANES;
+use super::voids::Choice;
 use crate::case::{Case, TimeParts};
 use crate::claim::LevelSubset;
 use crate::graph::{Fault, Graph, record};
@@ -223,7 +225,7 @@ fn recording(case: &Case) -> Result<(Graph, (Vec<RecordedClaim<'_>>, SharedTerms
         let jet = DualPoint::new(Phase::new(model, parameters, state));
         let recorded: Vec<RecordedClaim<'_>> =
             case.claims.iter().map(|claim| RecordedClaim::new(claim, &jet)).collect();
-        (recorded, SharedTerms::of(&case.chart, &jet))
+        (recorded, SharedTerms::of(&jet))
     })
 }
 
@@ -311,11 +313,13 @@ fn judge_all(
     }
     bench.extend_domain(&recorded, &mut statuses)?;
     bench.leave_flat_levels(&recorded, &mut statuses);
+    let voids: Vec<Vec<Choice>> = statuses.iter().map(|status| status.voids.clone()).collect();
     let mut claims: Vec<ClaimReport> = recorded
         .iter()
         .zip(statuses)
         .map(|(item, status)| report(case, item, status, options))
         .collect();
+    judge_listed_levels(case, options, &mut claims, &voids)?;
     find_rates(case, options, &mut claims)?;
     let mutants = options.mutants.then(|| mutate(case, &claims, options)).transpose()?;
     let (motions_left, absences_left) = (case.motions.len(), case.absences.len());
