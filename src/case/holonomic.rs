@@ -1,17 +1,17 @@
 //! Constraints on the coordinates of a Lagrangian system: their rates are those on the velocities.
 
+use super::systems::Reading;
 use crate::formula::{Formula, FormulaError, Type};
-use crate::mechanics::{Meaning, Variable, VariableRole, Vocabulary};
+use crate::mechanics::{Meaning, Variable, VariableRole};
 
 /// Returns the rate Σ (∂F/∂q) q' of a constraint F = 0 that contains coordinates and no velocity; `None`
 /// for another one.
 pub fn rate(
     function: &Formula,
-    (vocabulary, abbreviations): (&Vocabulary, &[Formula]),
-    variables: &[Variable],
+    reading: &Reading<'_, '_>,
     roles: &[VariableRole],
 ) -> Result<Option<Formula>, FormulaError> {
-    let used = vocabulary.uses(function, abbreviations);
+    let used = reading.vocabulary.uses(function, &reading.abbreviations);
     let is_still = used.iter().all(|entry| match entry.meaning {
         Meaning::State(index) => {
             !matches!(roles[index], VariableRole::Velocity | VariableRole::Multiplier)
@@ -22,13 +22,14 @@ pub fn rate(
     let is_used = |index: usize| {
         used.iter().any(|entry| matches!(entry.meaning, Meaning::State(own) if own == index))
     };
+    let variables = &reading.state.variables;
     let own = variables.iter().zip(roles).enumerate().filter(|(index, _)| is_used(*index));
     let terms: Vec<String> =
         own.flat_map(|(_, (variable, role))| terms(function, variable, role, variables)).collect();
     if !is_still || terms.is_empty() {
         return Ok(None);
     }
-    Formula::parse(&terms.join(" + "), vocabulary).map(Some)
+    Formula::parse(&terms.join(" + "), &reading.vocabulary).map(Some)
 }
 
 /// Writes the parts of the rate that a variable contributes.

@@ -73,11 +73,8 @@ fn constraints(
     for (text, function) in given {
         let rate = match vakonomic {
             true => None,
-            false => {
-                let names = (&reading.vocabulary, reading.abbreviations.as_slice());
-                holonomic::rate(&function, names, &reading.state.variables, roles)
-                    .map_err(|error| Mistake::new(None, Problem::Formula(error)))?
-            }
+            false => holonomic::rate(&function, reading, roles)
+                .map_err(|error| Mistake::new(None, Problem::Formula(error)))?,
         };
         let sides = equations::both_sides(&text, &reading.vocabulary);
         constraints.push(rate.clone().unwrap_or_else(|| function.clone()));

@@ -1,14 +1,13 @@
-//! Constraints of a nonholonomic system with repeated factors: their slopes vanish where they hold, and leave the
-//! reactions open.
+//! Constraints on velocities with repeated factors: their slopes vanish where they hold, and leave the reactions
+//! open.
 
-use super::equations::{level_equation, rate_text};
-use super::{holonomic, implied, repeated};
+use super::equations::level_equation;
+use super::{implied, repeated};
 use crate::formula::Formula;
-use crate::mechanics::{LevelEquation, LevelFunction, Model, System, VariableRole};
+use crate::mechanics::{LevelEquation, LevelFunction, Model, System};
 
 /// A constraint with its equations of the level.
 struct Constraint {
-    /// Function of the velocities: a rate, or the constraint itself.
     function: Formula,
     level: Vec<LevelEquation>,
 }
@@ -27,17 +26,20 @@ pub fn count_factors_once(model: &mut Model) -> Vec<String> {
     for (constraint, (is_rate, place)) in lagrangian.constraints.iter().zip(places) {
         end = place + 1;
         let own = &model.level[place - usize::from(is_rate)..end];
+        // The rate of a constraint on coordinates is that of the formula as written.
         let found = match &own[0].function {
-            LevelFunction::Formula(function) => repeated::simpler(model, function),
+            LevelFunction::Formula(function) if !is_rate => repeated::simpler(model, function),
             _ => None,
         };
         let counts = found.as_ref().map(|found| found.functions.len());
         let is_open = counts.is_some_and(|count| count == 1 || !implied::uses_reactions(model));
-        let simpler = found.filter(|_| is_open).and_then(|found| {
+        let simpler = found.filter(|_| is_open).map(|found| {
             let (text, remark) = (&own[0].text, found.remark(&own[0].text));
-            let parts = found.named(text).into_iter();
-            let made = parts.map(|(text, function)| made(model, &lagrangian.roles, text, function));
-            Some((remark, made.collect::<Option<Vec<Constraint>>>()?))
+            let made = |(text, function): (String, Formula)| Constraint {
+                level: vec![level_equation(text, function.clone(), None)],
+                function,
+            };
+            (remark, found.named(text).into_iter().map(made).collect::<Vec<Constraint>>())
         });
         match simpler {
             Some((remark, made)) => {
@@ -62,21 +64,4 @@ pub fn count_factors_once(model: &mut Model) -> Vec<String> {
         model.vocabulary = model.vocabulary.only(|entry| !implied::is_reaction(entry));
     }
     remarks
-}
-
-/// Makes a constraint of a function: its rate, if it contains coordinates alone.
-fn made(
-    model: &Model,
-    roles: &[VariableRole],
-    text: String,
-    function: Formula,
-) -> Option<Constraint> {
-    let names = (&model.vocabulary, model.abbreviations.as_slice());
-    let rate = holonomic::rate(&function, names, &model.state, roles).ok()?;
-    let mut level = vec![level_equation(text.clone(), function.clone(), None)];
-    if let Some(rate) = &rate {
-        let text = rate_text(&text, &model.vocabulary);
-        level.push(level_equation(text, rate.clone(), None));
-    }
-    Some(Constraint { function: rate.unwrap_or(function), level })
 }
