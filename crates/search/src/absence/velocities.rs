@@ -204,7 +204,10 @@ fn no_density(
         }];
     let mut seen = 0;
     for part in parts {
-        part(&mut report)?;
+        match part(&mut report) {
+            Err(SearchError::Stopped) => {}
+            other => other?,
+        }
         for found in &report.found[seen..] {
             let is_proved = found.kind == "density" && found.verdict == Verdict::Proved;
             let Some(function) = found.function.as_ref().filter(|_| is_proved) else { continue };
