@@ -123,6 +123,12 @@ pub enum JudgeError {
     /// The field is defined nowhere.
     #[error("the equations of motion are undefined at all {0} states that were drawn")]
     Singular(u64),
+    /// The slopes of a constraint vanish where it holds.
+    #[error(
+        "the slopes of the constraint `{0}` by the velocities are 0, or have no value, at all {1} states that were \
+         drawn: its reaction is not determined"
+    )]
+    Slopeless(String, u64),
     /// The numbers of the field are beyond the range of f64.
     #[error(
         "the equations of motion are beyond the range of f64 at all {0} states that were drawn"
@@ -185,6 +191,10 @@ impl JudgeError {
             JudgeError::Singular(_) => {
                 "look for a division by zero, the root of a negative number, a singular inertia \
                  tensor, or a kinetic energy that leaves out a velocity"
+            }
+            JudgeError::Slopeless(..) => {
+                "write an equation with the same zeros and other slopes, as x' = y*z' in the place of \
+                 (x' - y*z')^2 = 0"
             }
             JudgeError::Discrete => {
                 "claim the invariants of a map, and let `liouville check` judge them"

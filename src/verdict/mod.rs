@@ -54,6 +54,7 @@ mod run;
 mod sampler;
 mod second_opinion;
 mod signs;
+mod slopes_of_constraints;
 mod state;
 mod statement;
 mod sum_of_squares;

@@ -1,6 +1,7 @@
 //! Searches of own fields by orbits modulo a prime: rational integrals, Darboux polynomials,
 //! densities, and theorems that never exclude what was planted.
 
+mod absence;
 mod benchmark;
 mod closure;
 mod counts;
