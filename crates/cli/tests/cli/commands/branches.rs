@@ -79,7 +79,7 @@ fn a_branch_with_a_fold_is_reported_drawn_and_written() {
 fn what_was_reached_is_kept_at_a_limit() {
     let (_, case) = place("stopped");
     let arguments = [&["motion", "continue", &case][..], &BRANCH].concat();
-    let slow = ["--step", "1e-5", "--count", "100000", "--within", "4", "--json"];
+    let slow = ["--step", "1e-5", "--count", "100000", "--within", "2", "--json"];
     let begun = Instant::now();
     let found = json(&[&arguments[..], &slow].concat(), 3);
     assert!(begun.elapsed() < Duration::from_secs(20), "the limit is kept");
