@@ -85,19 +85,13 @@ impl<'p> Coefficients<'p> {
     fn convolved(&self, x: Row, y: Row, n: usize, first: usize, last: usize) -> Block {
         let (mut mid, mut rad, mut size) = ([0.0; BOXES], [0.0; BOXES], [0.0; BOXES]);
         let (x, y) = (x * self.stride, y * self.stride + n);
-        let (xs, ys) = (x + first..x + last + 1, y - last..y + 1 - first);
-        let middles = self.mid[xs.clone()].iter().zip(self.mid[ys.clone()].iter().rev());
-        let radii = self.rad[xs.clone()].iter().zip(self.rad[ys.clone()].iter().rev());
-        let sizes = self.magnitude[xs].iter().zip(self.magnitude[ys].iter().rev());
-        for (((xm, ym), (xr, yr)), (xa, ya)) in middles.zip(radii).zip(sizes) {
-            // In one loop, the lanes would be torn apart.
+        for k in first..=last {
+            let (xm, ym) = (&self.mid[x + k], &self.mid[y - k]);
+            let (xr, yr) = (&self.rad[x + k], &self.rad[y - k]);
+            let (xa, ya) = (&self.magnitude[x + k], &self.magnitude[y - k]);
             for lane in 0..BOXES {
                 mid[lane] += xm[lane] * ym[lane];
-            }
-            for lane in 0..BOXES {
                 rad[lane] += xr[lane] * ya[lane] + xa[lane] * yr[lane];
-            }
-            for lane in 0..BOXES {
                 size[lane] += xa[lane] * ya[lane];
             }
         }

@@ -14,9 +14,8 @@ impl Tails<'_, '_> {
         let stride = self.order + 1;
         let (a, b) = (a * stride, b * stride);
         let mut total = [0.0; BOXES];
-        let terms = &self.terms[a + 1..a + self.order];
-        let sums = &sums[b + 1..b + self.order];
-        for (term, sum) in terms.iter().zip(sums.iter().rev()) {
+        for k in 1..self.order {
+            let (term, sum) = (&self.terms[a + k], &sums[b + self.order - k]);
             for lane in 0..BOXES {
                 total[lane] += term[lane] * sum[lane];
             }
