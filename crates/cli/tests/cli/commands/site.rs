@@ -76,10 +76,10 @@ fn a_site_has_a_page_for_each_case_and_names_those_that_fail() {
 #[test]
 fn a_site_that_is_stopped_lists_what_was_not_reached() {
     let cases = folder("site-limit", &[("a.toml", GOOD), ("b.toml", super::limits::LONG)]);
-    let (done, out) = site(&cases, "site-stopped", &["--within", "2"]);
+    let (done, out) = site(&cases, "site-stopped", &["--within", "4"]);
     done.code(3)
         .stdout(contains("1 page; 1 not reached"))
-        .stderr(contains("not finished: stopped after 2 s"));
+        .stderr(contains("not finished: stopped after 4 s"));
     let index = fs::read_to_string(out.join("index.html")).expect("an index");
     assert!(index.contains("not reached") && index.contains("<p>b.toml</p>"), "{index}");
     assert_eq!(files(&out).len(), 3, "no file is left half written");
