@@ -39,7 +39,7 @@ fn double_double_balls_pass() {
 
 #[test]
 fn many_bits_pass() {
-    for bits in [16, 64, 200, 1000] {
+    for bits in [16, 200, 1000] {
         Suite { domain: ArbBall::new(bits), name: "many bits" }.run();
     }
 }
@@ -51,9 +51,13 @@ fn rationals_pass() {
 
 #[test]
 fn rationals_and_balls_pass() {
-    for bits in [64, 1000] {
-        Suite { domain: Mixed::new(bits), name: "rationals and balls" }.run();
-    }
+    Suite { domain: Mixed::new(64), name: "rationals and balls" }.run();
+}
+
+#[test]
+#[ignore = "slow: as with balls of 64 bits"]
+fn rationals_and_balls_of_many_bits_pass() {
+    Suite { domain: Mixed::new(1000), name: "rationals and balls" }.run();
 }
 
 #[test]
