@@ -83,6 +83,7 @@ fn symmetric(name: &str, lines: &[FixedLine], points: usize) -> Result<Symmetric
 }
 
 #[test]
+#[ignore = "slow: liouville-cli lists the same orbits, from fewer points"]
 fn symmetric_points_of_an_ellipsoid_are_those_of_its_symmetries() {
     let lines = [FixedLine::Equator, FixedLine::Meridian, FixedLine::QuarterMeridian];
     let found = symmetric("fig-A2", &lines, 200).expect("the ellipsoid has these reversors");

@@ -46,6 +46,7 @@ fn conditions_on_parameters_are_found() {
 }
 
 #[test]
+#[ignore = "slow: one condition is found for bodies above, and two at once for small fields below"]
 fn conditions_of_codimension_two_are_met_in_small_fields() {
     let mut wanted = Effort { by_class: false, by_factors: false, ..effort(0) };
     wanted.conditions = Some(ConditionTarget::Existence);
