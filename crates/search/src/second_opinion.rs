@@ -1,15 +1,11 @@
 //! Check of the relations in f64: singular values of the same matrix, with a gap at their number.
 
-use nalgebra::{DMatrix, SVD};
 use serde::Serialize;
 
 use super::linear::SampledFunctions;
 
 /// Number of states beyond the number of terms.
 const SPARE_STATES: usize = 32;
-
-/// Limit on the rounds of a decomposition, of which each value takes two or three.
-const MOST_ROUNDS: usize = 100_000;
 
 /// Singular values on both sides of the gap expected from the relations modulo a prime.
 #[derive(Clone, Debug, Serialize)]
@@ -62,9 +58,8 @@ pub fn second_opinion(
         0.0 => 0.0,
         length => rows[i][j] / length,
     };
-    let matrix = DMatrix::from_fn(rows.len(), terms, entry);
-    let values = SVD::try_new(matrix, false, false, f64::EPSILON, MOST_ROUNDS)?.singular_values;
-    let largest = values.iter().next().copied().filter(|value| *value > 0.0)?;
+    let values = faer::Mat::from_fn(rows.len(), terms, entry).singular_values().ok()?;
+    let largest = values.first().copied().filter(|value| *value > 0.0)?;
     let kept = terms.checked_sub(relations).filter(|kept| *kept > 0)?;
     Some(SecondOpinion {
         denominator: denominator.to_string(),
