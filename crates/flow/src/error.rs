@@ -4,9 +4,7 @@ use liouville::graph::Fault;
 use liouville::number::UnaryFunction;
 use serde::{Deserialize, Serialize};
 
-/// Number of steps that nobody waits for.
-pub(super) const ENDLESS: f64 = 1e9;
-/// Number of steps that no motion takes, whatever their size.
+/// Number of steps that no motion takes.
 pub(super) const MOST_STEPS: f64 = 1e10;
 
 /// Reason why a motion cannot be computed.
@@ -287,7 +285,7 @@ fn shrinking(time: f64, step: f64, state: &[f64]) -> String {
     let state: Vec<String> = state.iter().map(|x| format!("{x:.3e}")).collect();
     format!(
         "the motion runs away, or turns ever faster: at t = {time}, near the state [{}], a step is \
-         {:.1e}, and the rest of the time would take more than {ENDLESS:e} of them",
+         {:.1e}, and the rest of the time would take more than {MOST_STEPS:e} steps",
         state.join(", "),
         step.abs()
     )

@@ -191,9 +191,9 @@ fn sizes_have_to_agree() {
                of length 3";
     error("(u,γ)", dot, "(u,γ)", None);
     let product = "a matrix of size 4×4 does not multiply a vector of length 3";
-    error("A*γ", product, "A*γ", Some("the factor on the right has 4 rows"));
+    error("A*γ", product, "A*γ", Some("`A` has 4 columns, and `γ` has 3 components"));
     let product = "a matrix of size 4×4 does not multiply a matrix of size 2×4";
-    error("A*P", product, "A*P", Some("the factor on the right has 4 rows"));
+    error("A*P", product, "A*P", Some("`A` has 4 columns, and `P` has 2 rows"));
     error("u × v", "`×` takes vectors of length 3, this is a vector of length 4", "u", None);
     error("P²", "a matrix of size 2×4 has no powers", "P", None);
     error(

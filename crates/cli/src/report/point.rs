@@ -163,7 +163,8 @@ pub fn text<N: Decimal>(report: &PointReport<N>) -> String {
     }
     if all_values(report).iter().any(|value| value.number().as_deref() == Some(OVERFLOW)) {
         let further = if N::HAS_ERRORS { ": --digits 10 goes further than f64" } else { "" };
-        line("overflow", format!("a number, or one that it is formed of, is too large{further}"));
+        let reason = "a number, or one that it is formed of, is too large, or too near 0";
+        line("overflow", format!("{reason}{further}"));
     }
     out
 }
