@@ -257,7 +257,7 @@ pub fn expect(section: &CaseTable<'_>) -> Result<Expect, Mistake> {
         found => Err(other(
             &text,
             format!("`expect` is \"holds\", \"fails\" or \"open\", not \"{found}\""),
-            "write the expected verdict",
+            "write what you expect of the claim: holds, fails or open",
         )),
     }
 }

@@ -80,7 +80,8 @@ pub enum FlowError {
     },
     /// The section uses variables that this system does not have.
     #[error(
-        "sections in the variables (1.17) are for a body that rolls without spinning, with the state ω, γ alone"
+        "without --section, a section is in the variables (l, L/G) of a body that rolls without spinning, with \
+         the state ω, γ alone; this system is another"
     )]
     NoAndoyer,
     /// The case has no section.
@@ -313,11 +314,15 @@ fn singular(time: f64, state: &[f64]) -> String {
 fn never_crossed(time: f64, crossings: usize, others: usize) -> String {
     let others = match others {
         0 => String::new(),
+        1 => "; it is crossed once in the direction that does not count".to_string(),
         count => format!("; it is crossed {count} times in the direction that does not count"),
     };
-    format!(
-        "the section is not met again after {crossings} crossings, up to t = {time:.4e}{others}"
-    )
+    let crossed = match crossings {
+        0 => "the motion never crosses the section".to_string(),
+        1 => "the motion does not cross the section again after 1 crossing".to_string(),
+        _ => format!("the motion does not cross the section again after {crossings} crossings"),
+    };
+    format!("{crossed}, up to t = {time:.4e}{others}")
 }
 
 impl FlowError {

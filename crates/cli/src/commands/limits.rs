@@ -64,6 +64,16 @@ impl fmt::Display for Stop {
     }
 }
 
+impl Stop {
+    /// Message of a command that was ended early; the remedy of a job in parts counts for every reason.
+    pub fn message(&self, of_parts: Option<&str>) -> String {
+        let is_limit = matches!(self, Stop::Time(_) | Stop::Memory(_));
+        let remedy = of_parts.or(is_limit.then_some("allow more, or ask for less"));
+        let help = remedy.map_or(String::new(), |remedy| format!("\nhelp: {remedy}"));
+        format!("error: not finished: {self}{help}")
+    }
+}
+
 impl LimitArgs {
     /// Whether there is a limit.
     fn is_some(&self) -> bool {
