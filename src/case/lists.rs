@@ -47,9 +47,10 @@ pub fn settled(read: &dyn Fn(&BTreeSet<String>) -> Attempt) -> Attempt {
 /// Rank of an attempt, low for a good one: of two with as many mistakes, that is the better in which more
 /// was read, and then that in which more mistakes are of sizes alone.
 fn rank(attempt: &Attempt) -> (usize, bool, usize) {
-    let of_kinds = attempt.mistakes.iter().filter(|mistake| {
-        may_be_of_kind(mistake) && sizes_error(mistake).is_none()
-    });
+    let of_kinds = attempt
+        .mistakes
+        .iter()
+        .filter(|mistake| may_be_of_kind(mistake) && sizes_error(mistake).is_none());
     (of_kind(attempt), !attempt.is_whole, of_kinds.count())
 }
 

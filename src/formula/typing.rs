@@ -200,7 +200,8 @@ impl Builder<'_> {
                 };
                 let (left, right) = (left.in_full(), right.in_full());
                 let message = format!("a {left} does not multiply a {right}");
-                let help = format!("`{a}` has {}, and `{b}` has {rows}", several(columns, "column"));
+                let help =
+                    format!("`{a}` has {}, and `{b}` has {rows}", several(columns, "column"));
                 return Err(FormulaError::new(span, message).with_help(help).with_sizes());
             }
         })

@@ -60,7 +60,9 @@ pub fn text(title: &str, report: &SearchReport) -> String {
         for (what, text) in &found.with {
             out.push_str(&match *what {
                 // Its source, and no condition.
-                "bracket" if found.kind == "further-integral" => format!("  as the bracket {text}\n"),
+                "bracket" if found.kind == "further-integral" => {
+                    format!("  as the bracket {text}\n")
+                }
                 "derivative along" => format!("  as the derivative along {text}\n"),
                 what => format!("  with the {what} {text}\n"),
             });

@@ -2,8 +2,8 @@
 
 use liouville_search::survey::HierarchyClass;
 
-use crate::{FileFailure, counted};
 use crate::typeset::mathml::escaped;
+use crate::{FileFailure, counted};
 
 const STYLE: &str = include_str!("survey/page.css");
 

@@ -274,7 +274,8 @@ fn listed(draws: &[Draw]) -> Vec<Vec<Option<Rational>>> {
 pub fn size(coordinates: &Coordinates, degree: u32, mixed: bool) -> (u64, f64) {
     let (positions, velocities) = (coordinates.positions as u32, coordinates.velocities as u32);
     let powers = |degree: u32| binomial(degree + velocities - 1, velocities - 1);
-    let powers: u64 = if mixed { (0..=degree).map(powers).fold(0, u64::saturating_add) } else { powers(degree) };
+    let powers: u64 =
+        if mixed { (0..=degree).map(powers).fold(0, u64::saturating_add) } else { powers(degree) };
     let monomials = binomial(2 * degree + 3 + positions, positions);
     let unknowns = powers.saturating_mul(monomials);
     // All pairs of monomials are listed, and each unknown meets all terms of the rates.

@@ -36,6 +36,7 @@ fn unknown_names_are_guessed_at() {
     error("mγ3", "unknown name `mγ3`", "mγ3", Some("write `m*γ3`?"));
     error("x + g2", "unknown name `g2`", "g2", Some("did you mean `g1`?"));
     error("X", "unknown name `X`", "X", Some("did you mean `x`?"));
+    error("omga", "unknown name `omga`", "omga", Some("did you mean `omega`?"));
     let names = "the names here are A, B, I, P, R, c, g1, k, m, n, r', u, v, x, y, Ĩ, γ, ω; \
                  others are declared in [parameters] or [let]";
     error("energy", "unknown name `energy`", "energy", Some(names));

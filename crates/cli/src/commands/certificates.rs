@@ -173,8 +173,7 @@ fn summary(folder: &Path, written: usize, missing: &[Missing]) -> String {
         (Missing::NoProgram, "at states that no formula makes, or with too many listed values"),
         (Missing::NoBound, "whose bound is too weak, or without value for some listed values"),
     ];
-    let mut text =
-        format!("{} in {}", counted(written, "certificate"), folder.display());
+    let mut text = format!("{} in {}", counted(written, "certificate"), folder.display());
     for (reason, words) in reasons {
         match count(reason) {
             0 => {}

@@ -204,4 +204,11 @@ mod tests {
             assert!(parse_seconds(text).is_err(), "{text}");
         }
     }
+
+    #[test]
+    fn a_limit_can_be_raised_and_a_signal_cannot() {
+        assert!(Stop::Memory(10).message(None).contains("\nhelp: allow more"));
+        assert_eq!(Stop::Signal.message(None), "error: not finished: stopped by a signal");
+        assert!(Stop::Signal.message(Some("run it again")).ends_with("\nhelp: run it again"));
+    }
 }

@@ -6,8 +6,8 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, SystemTime};
 
 use super::limits::signals;
-use crate::report::counted;
 use super::{CheckArgs, CommandOutput, check, files, finish, source};
+use crate::report::counted;
 
 /// Time between two looks at the files.
 const GLANCE: Duration = Duration::from_millis(250);

@@ -122,7 +122,10 @@ pub fn text<N: Decimal>(report: &PointReport<N>) -> String {
         line(equation, format!("off by {}", shown(value)));
     }
     if report.level.iter().any(|(_, value)| is_off(value)) {
-        line("warning", "this state is off the level: claims on the level do not concern it".into());
+        line(
+            "warning",
+            "this state is off the level: claims on the level do not concern it".into(),
+        );
     }
     let rates: Vec<String> = report.field.iter().map(|rate| shown(rate)).collect();
     let rates = rates.join("\n                   ");

@@ -4,8 +4,8 @@ use serde_json::{Value, json};
 
 use super::counted;
 use super::data::missing;
-use super::section::left_out;
 use super::section::drawing::shade;
+use super::section::left_out;
 use liouville::case::{Case, Direction};
 use liouville_draw::{Axis, CountGrid, Layer, Plot, gradient, math};
 use liouville_flow::{SurfaceOrbit, SurfaceRequest};

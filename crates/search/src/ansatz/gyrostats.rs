@@ -338,7 +338,12 @@ impl GyroSearch<'_> {
                     format!(
                         "{}, to first order in {}, \
                          an integral {integral} + F₁ with F₁ of degree at most {lower} in {} and {gained}{then}.",
-                        at_most(dimension, "nonzero combination", "combinations", &format!(" of the {kind} {all}")),
+                        at_most(
+                            dimension,
+                            "nonzero combination",
+                            "combinations",
+                            &format!(" of the {kind} {all}")
+                        ),
                         referred(dimension),
                         names(&mut heads.iter())
                     ),

@@ -3,11 +3,11 @@
 use liouville::number::UnaryFunction;
 use liouville::number::rational::Rational;
 
+use super::super::counted;
 use super::ExportedCase;
 use super::lines::CodeLines;
 use super::names::ExportNames;
 use super::python::code_name;
-use super::super::counted;
 use super::target::{Target, TargetTerm, comments, double, is_plain, usual};
 
 /// C.

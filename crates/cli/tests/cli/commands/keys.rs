@@ -71,7 +71,11 @@ fn the_keys_of_reports_are_those_of_the_document() {
             false,
         ),
         ("`sweep --json`", &["sweep P --states 1000"], true),
-        ("`motion basins --json`", &["motion basins P --x x=0..1 --y p=0..1 --size 3x3 --time 50"], true),
+        (
+            "`motion basins --json`",
+            &["motion basins P --x x=0..1 --y p=0..1 --size 3x3 --time 50"],
+            true,
+        ),
         (
             "`motion diagram --json`",
             &["motion diagram P --over a=1..2 --section x=0 --count 2 --crossings 2"],
