@@ -698,9 +698,11 @@ def main(files):
             word, reason = "REFUSED", f": {problem}"
         counts[word] += 1
         print(f"{word:<8} {name}{reason}")
-    print(f"{len(files) - others} certificates: {counts['text']} passed from the text of the case, "
+    count = len(files) - others
+    noun = "certificate" if count == 1 else "certificates"
+    print(f"{count} {noun}: {counts['text']} passed from the text of the case, "
           f"{counts['program']} passed for the program, {counts['REFUSED']} refused")
-    return 1 if counts["REFUSED"] or len(files) == others else 0
+    return 1 if counts["REFUSED"] or not count else 0
 
 
 if __name__ == "__main__":

@@ -601,7 +601,8 @@ def main(files):
             refused += 1
             print(f"REFUSED {name}: {problem}", flush=True)
     count = len(files) - others
-    print(f"{count} certificates: {count - refused} proved, {refused} refused")
+    noun = "certificate" if count == 1 else "certificates"
+    print(f"{count} {noun}: {count - refused} proved, {refused} refused")
     return 1 if refused or not count else 0
 
 

@@ -108,8 +108,8 @@ impl LimitArgs {
         let peak = kilobytes("VmHWM:")?.div_ceil(1024);
         (peak > most).then(|| {
             format!(
-                "error: --megabytes {most}: the program took {peak} megabytes, and was done before it \
-                 was stopped\nhelp: the results are whole; allow {peak} or more"
+                "error: --megabytes {most}: the program took {peak} megabytes, and had finished before it \
+                 was stopped\nhelp: the results are complete; allow {peak} or more"
             )
         })
     }

@@ -196,7 +196,7 @@ fn closed_orbits_are_proved_again_from_their_certificates() {
         let output = run("python3", &["docs/certificates/orbit.py", narrow]);
         let told = text(&output.stdout);
         assert!(output.status.success(), "{told}{}", text(&output.stderr));
-        assert!(told.ends_with("1 certificates: 1 proved, 0 refused\n"), "{told}");
+        assert!(told.ends_with("1 certificate: 1 proved, 0 refused\n"), "{told}");
         let output = run("python3", &["docs/certificates/check.py", narrow]);
         let told = text(&output.stdout);
         assert!(told.contains("which `liouville verify` checks"), "{told}");
