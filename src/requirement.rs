@@ -20,8 +20,7 @@ pub fn of_formulas<'f>(
 /// Records the equations of motion as written.
 pub fn of_system(phase: &Phase<'_, Expr>) -> Vec<Expr> {
     let model = phase.model();
-    let mut values =
-        of_formulas(phase, model.system.functions().into_iter().chain(&model.extension));
+    let mut values = of_formulas(phase, model.equations_of_motion());
     values.extend(phase.existence_of_motion());
     values
 }

@@ -14,7 +14,8 @@ use super::stated::{ReadClaims, Time};
 use super::systems::{ModelParts, Reading};
 use super::{
     Case, CaseRemark, Column, TABLE_ROWS, charts, homogeneous, implied, lists, map, one_sided,
-    poincare, remarks, repeated, shadows, toml_errors, variables, velocities, weights,
+    poincare, remarks, repeated, repeated_constraints, shadows, toml_errors, variables, velocities,
+    weights,
 };
 use crate::mechanics::{Chart, LevelEquation, LevelFunction, Model, Surface, System};
 
@@ -182,6 +183,8 @@ fn read(
     let (mut warnings, mut remarks) = (Vec::new(), Vec::<CaseRemark>::new());
     if is_whole {
         extend_support(&mut parts.model);
+        let counted_once = repeated_constraints::count_factors_once(&mut parts.model);
+        remarks.extend(counted_once.into_iter().map(CaseRemark::from));
         let left_out = implied::leave_out_constraints(&mut parts.model);
         remarks.extend(left_out.into_iter().map(CaseRemark::from));
         warnings.extend(root.keep(velocities::check(root, &parts.model)).unwrap_or_default());

@@ -283,6 +283,10 @@ impl Reader for ClaimTable<'_> {
         self.complaint(key, format!("{inner}: {message}"), remedy)
     }
 
+    fn not_a_variable(&self, key: &'static str, name: &str, remedy: String) -> ClaimError {
+        self.complaint(key, format!("`{name}` is not a state variable"), &remedy)
+    }
+
     fn complaint(&self, _: &'static str, message: String, remedy: &str) -> ClaimError {
         ClaimError::new(&self.what(), message, remedy)
     }

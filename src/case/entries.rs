@@ -163,6 +163,11 @@ impl Reader for Entries<'_, '_> {
         Mistake::at(span, Problem::Other { message, remedy: remedy.to_string() })
     }
 
+    fn not_a_variable(&self, key: &'static str, name: &str, remedy: String) -> Mistake {
+        let span = place_of(self.section, key);
+        Mistake::at(span, Problem::NotAVariable { name: name.to_string(), remedy })
+    }
+
     fn complaint(&self, key: &'static str, message: String, remedy: &str) -> Mistake {
         let span = place_of(self.section, key);
         Mistake::at(span, Problem::Other { message, remedy: remedy.to_string() })

@@ -139,6 +139,14 @@ pub enum Problem {
         /// Name that it depends on.
         name: String,
     },
+    /// The name is none of a state variable.
+    #[error("`{name}` is not a state variable")]
+    NotAVariable {
+        /// Name.
+        name: String,
+        /// Suggested correction.
+        remedy: String,
+    },
     /// The parameter is not a number, a list or a range.
     #[error("{0}")]
     Parameter(String),
@@ -218,6 +226,7 @@ impl Mistake {
     pub(super) fn unknown_name(&self) -> Option<&str> {
         match &self.problem {
             Problem::Formula(error) => error.unknown_name(),
+            Problem::NotAVariable { name, .. } => Some(name),
             _ => None,
         }
     }
@@ -239,6 +248,7 @@ impl Mistake {
             Problem::MissingKey { remedy, .. }
             | Problem::Incomplete { remedy, .. }
             | Problem::Sense { remedy, .. }
+            | Problem::NotAVariable { remedy, .. }
             | Problem::Other { remedy, .. } => Some(remedy.clone()),
             Problem::Cycle(..) => Some("define one of them without the others".to_string()),
             Problem::BadName { name, .. } => Some(match name.split_once('[') {

@@ -2,7 +2,8 @@
 
 use crate::graph::{literally, record};
 use crate::mechanics::{
-    LevelEquation, LevelFunction, Meaning, Model, Phase, Quantity, System, VocabularyEntry,
+    Lagrangian, LevelEquation, LevelFunction, Meaning, Model, Phase, Quantity, System,
+    VocabularyEntry,
 };
 use crate::proof::LinearDependence;
 
@@ -73,21 +74,22 @@ pub fn leave_out_constraints(model: &mut Model) -> Vec<String> {
     remarks
 }
 
-fn is_reaction(entry: &VocabularyEntry) -> bool {
+/// Whether an entry is the name of a reaction.
+pub fn is_reaction(entry: &VocabularyEntry) -> bool {
     matches!(entry.meaning, Meaning::Quantity(Quantity::Reaction(_)))
 }
 
-/// Lists such constraints by their number and that of their equation of the level.
-fn implied_constraints(model: &Model) -> Vec<(usize, usize)> {
-    let System::Lagrangian(lagrangian) = &model.system else { return Vec::new() };
+/// Whether the equations of motion or the abbreviations contain reactions.
+pub fn uses_reactions(model: &Model) -> bool {
     let formulas = model.dynamics().into_iter().chain(&model.abbreviations).chain(&model.extension);
     let mut used =
         formulas.flat_map(|formula| model.vocabulary.uses(formula, &model.abbreviations));
-    let count = lagrangian.constraints.len();
-    if lagrangian.vakonomic || count < 2 || used.any(is_reaction) {
-        return Vec::new();
-    }
-    // Each constraint is an equation of the level, after the one whose rate it is.
+    used.any(is_reaction)
+}
+
+/// Places of the constraints among the equations of the level, and whether each is the rate of the equation before it;
+/// `None` where the level is not theirs.
+pub fn places_of_constraints(lagrangian: &Lagrangian, model: &Model) -> Option<Vec<(bool, usize)>> {
     let (mut places, mut place) = (Vec::new(), 0);
     for constraint in &lagrangian.constraints {
         let is_own = |place: usize| match model.level.get(place).map(|own| &own.function) {
@@ -97,11 +99,21 @@ fn implied_constraints(model: &Model) -> Vec<(usize, usize)> {
         let is_rate = !is_own(place);
         place += usize::from(is_rate);
         if !is_own(place) {
-            return Vec::new();
+            return None;
         }
         places.push((is_rate, place));
         place += 1;
     }
+    Some(places)
+}
+
+/// Lists such constraints by their number and that of their equation of the level.
+fn implied_constraints(model: &Model) -> Vec<(usize, usize)> {
+    let System::Lagrangian(lagrangian) = &model.system else { return Vec::new() };
+    if lagrangian.vakonomic || lagrangian.constraints.len() < 2 || uses_reactions(model) {
+        return Vec::new();
+    }
+    let Some(places) = places_of_constraints(lagrangian, model) else { return Vec::new() };
     let recorded = record(model.free_components() + model.dimension(), |inputs| {
         let (parameters, state) = inputs.split_at(model.free_components());
         let phase = Phase::new(model, parameters, state);

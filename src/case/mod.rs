@@ -40,6 +40,7 @@ mod parameters;
 mod poincare;
 mod remarks;
 mod repeated;
+mod repeated_constraints;
 mod section;
 mod shadows;
 mod shaped;

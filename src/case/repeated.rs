@@ -16,10 +16,38 @@ const MOST_ROUNDS: usize = 3;
 const SEED: u64 = 1;
 
 /// Simpler equations in the place of one.
-struct Simpler {
-    functions: Vec<Formula>,
+pub(super) struct Simpler {
+    pub(super) functions: Vec<Formula>,
     /// Whether the equation was a sum of values of one sign.
     is_sum: bool,
+}
+
+impl Simpler {
+    /// Says what stands for an equation.
+    pub(super) fn remark(&self, text: &str) -> String {
+        match (self.functions.len() == 1, self.is_sum) {
+            (false, true) => format!(
+                "`{text}` is a sum of values that are nowhere negative, and says that each of them is 0"
+            ),
+            (false, false) => {
+                format!("`{text}` is a sum of squares, and says that each of them is 0")
+            }
+            (true, _) => format!(
+                "each factor of `{text}` counts once: the zeros are the same, and slopes and densities are \
+                 those of the simple factors"
+            ),
+        }
+    }
+
+    /// Lists the simpler equations as functions with their texts.
+    pub(super) fn named(self, text: &str) -> Vec<(String, Formula)> {
+        let is_alone = self.functions.len() == 1;
+        let name = |index: usize| match is_alone {
+            true => text.to_string(),
+            false => format!("{text}{ENTRY}{index}"),
+        };
+        (1..).zip(self.functions).map(|(index, function)| (name(index), function)).collect()
+    }
 }
 
 /// Puts simpler equations with the same zeros in the place of those in which a factor is repeated, as (x − y)² = 0, or
@@ -31,41 +59,28 @@ pub fn count_factors_once(
     let (mut remarks, mut level) = (Vec::new(), Vec::new());
     for equation in &model.level {
         let found = match &equation.function {
-            LevelFunction::Formula(function) if is_given(equation) => {
-                simpler(model, function, MOST_ROUNDS)
-            }
+            LevelFunction::Formula(function) if is_given(equation) => simpler(model, function),
             _ => None,
         };
-        let Some(Simpler { functions, is_sum }) = found else {
+        let Some(found) = found else {
             level.push(equation.clone());
             continue;
         };
-        let text = &equation.text;
-        let is_alone = functions.len() == 1;
-        remarks.push(match (is_alone, is_sum) {
-            (false, true) => format!(
-                "`{text}` is a sum of values that are nowhere negative, and says that each of them is 0"
-            ),
-            (false, false) => {
-                format!("`{text}` is a sum of squares, and says that each of them is 0")
-            }
-            (true, _) => format!(
-                "each factor of `{text}` counts once: the zeros are the same, and slopes and densities are \
-                 those of the simple factors"
-            ),
-        });
-        for (index, function) in (1..).zip(functions) {
-            let text = if is_alone { text.clone() } else { format!("{text}{ENTRY}{index}") };
-            let function = LevelFunction::Formula(function);
-            level.push(LevelEquation { text, function, root: None });
-        }
+        remarks.push(found.remark(&equation.text));
+        level.extend(found.named(&equation.text).into_iter().map(|(text, function)| {
+            LevelEquation { text, function: LevelFunction::Formula(function), root: None }
+        }));
     }
     model.level = level;
     remarks
 }
 
 /// Finds simpler equations with the zeros of one.
-fn simpler(model: &Model, function: &Formula, rounds: usize) -> Option<Simpler> {
+pub(super) fn simpler(model: &Model, function: &Formula) -> Option<Simpler> {
+    simpler_in(model, function, MOST_ROUNDS)
+}
+
+fn simpler_in(model: &Model, function: &Formula, rounds: usize) -> Option<Simpler> {
     let meaning = |own: Symbol| &model.vocabulary.entry(own).meaning;
     let is_coordinate = |own: Symbol| matches!(meaning(own), Meaning::State(_));
     let is_fixed = |own: Symbol| matches!(meaning(own), Meaning::Parameter(_));
@@ -98,7 +113,7 @@ fn simpler(model: &Model, function: &Formula, rounds: usize) -> Option<Simpler> 
     }
     let mut found = Simpler { functions: Vec::new(), is_sum };
     for function in functions {
-        match simpler(model, &function, rounds - 1) {
+        match simpler_in(model, &function, rounds - 1) {
             Some(own) => {
                 found.is_sum |= own.is_sum;
                 found.functions.extend(own.functions);

@@ -48,10 +48,9 @@ impl Components {
         for (name, formula) in given {
             let entry = model.vocabulary.find(&name);
             let Some(Meaning::State(index)) = entry.map(|entry| entry.meaning) else {
-                let message = format!("`{name}` is not a state variable");
                 let names: Vec<&str> = model.state.iter().map(|own| own.name.as_str()).collect();
                 let remedy = format!("the state variables are {}", names.join(", "));
-                return Err(from.complaint(key, message, &remedy));
+                return Err(from.not_a_variable(key, &name, remedy));
             };
             if model.state[index].kind != formula.value_type() {
                 return Err(from.unlike(key, model.state[index].kind, formula.value_type()));

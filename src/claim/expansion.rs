@@ -32,7 +32,7 @@ pub fn sides(model: &Model, parameter: usize) -> Vec<Side> {
     }
 }
 
-/// Expands a value from each side on which it exists; `None` if it is not known on one, or exists on
+/// Expands a value from each side on which it exists, for each choice of signs on which that depends; `None` if it is not known on one, or exists on
 /// none.
 pub fn expansions<T: Scalar>(
     value: T,
@@ -43,7 +43,7 @@ pub fn expansions<T: Scalar>(
     let mut found = Vec::new();
     for side in sides {
         match value.expanded(parameter, *side, order) {
-            Expanded::Terms(expansion) => found.push((*side, expansion)),
+            Expanded::Terms(all) => found.extend(all.into_iter().map(|own| (*side, own))),
             Expanded::Void => {}
             Expanded::Unknown => return None,
         }
@@ -73,5 +73,6 @@ pub fn defects<T: Scalar>(side: Side, expansion: &Expansion<T>, stated: &Stated<
         }
     }
     defects.extend(open.into_iter().map(|(_, value)| -value));
-    defects
+    let weighted = |defect: T| expansion.weights.iter().fold(defect, |own, weight| own * *weight);
+    defects.into_iter().map(weighted).collect()
 }

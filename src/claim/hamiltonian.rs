@@ -10,7 +10,7 @@ use crate::graph::Expr;
 use crate::mechanics::calculus::DualPoint;
 use crate::scalar::Scalar;
 
-/// The claim N⁻¹y' = P ∂H/∂y and P + Pᵀ = 0.
+/// The claim N⁻¹y' = P ∂H/∂y and P + Pᵀ = 0, with t' = 1 where time is one of the variables and has no bracket.
 #[derive(Clone, Debug)]
 pub struct Hamiltonian {
     hamiltonian: Formula,
@@ -39,6 +39,9 @@ impl Statement for Hamiltonian {
         let tensor = variables.tensor(self.bracket, &there.phase);
         let claimed = turned(&tensor, &gradient).into_iter().map(|x| x * multiplier).collect();
         let mut residual = difference(variables.rates(jet), claimed);
+        if let Some(clock) = variables.clock(self.bracket) {
+            residual[clock] = variables.rates(jet)[clock] - T::one();
+        }
         residual.extend(variables.symmetric_part(&tensor));
         residual
     }

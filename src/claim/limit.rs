@@ -152,6 +152,7 @@ impl Statement for Limit {
         for formula in functions.into_iter().chain([&self.function]) {
             let expanded = self.expanded(&jet.phase, &at, formula);
             let values = at.evaluate_literally(formula).components();
+            let sides: Vec<Side> = expanded.iter().flatten().flatten().map(|own| own.0).collect();
             for (value, expanded) in values.into_iter().zip(expanded) {
                 match expanded {
                     Some(sides) => {
@@ -160,7 +161,10 @@ impl Statement for Limit {
                     None => presence.extend(inside(vec![value])),
                 }
             }
-            presence.extend(at.presupposed(formula));
+            match sides.is_empty() {
+                true => presence.extend(at.presupposed(formula)),
+                false => presence.extend(self.presupposed(&jet.phase, formula, &sides)),
+            }
         }
         presence
     }
@@ -210,6 +214,21 @@ impl Statement for Limit {
 type BySide<T> = Option<Vec<(Side, Expansion<T>)>>;
 
 impl Limit {
+    /// What the powers in an expanded formula need for small values of the parameter: ln ε of ε^ε.
+    fn presupposed(&self, phase: &Phase<'_, Expr>, formula: &Formula, sides: &[Side]) -> Vec<Expr> {
+        let parameter = phase.configuration.parameter(self.parameter).components();
+        let needed = |value: Expr| {
+            let expanded = parameter.first().and_then(|own| expansions(value, *own, sides, 0));
+            let all = expanded.unwrap_or_default();
+            let is_missing = |side: &Side| all.iter().all(|(own, _)| own != side);
+            match sides.iter().any(is_missing) {
+                true => vec![Expr::undefined()],
+                false => all.into_iter().flat_map(|(_, own)| own.guards).collect(),
+            }
+        };
+        phase.presupposed(formula).into_iter().flat_map(needed).collect()
+    }
+
     /// Expands the components of a formula that have no value where the parameter is 0.
     fn expanded<T: Scalar>(
         &self,

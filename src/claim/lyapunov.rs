@@ -3,7 +3,7 @@
 //! The inequality x ≤ 0 is the equation x + |x| = 0. It is proved if intervals show that x is positive
 //! at no state, and refuted by a state at which x is positive.
 
-use super::{Condition, Objection, Reader, ResidualContext, Statement};
+use super::{Condition, Excess, Objection, Reader, ResidualContext, Statement};
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
 use crate::mechanics::Model;
@@ -46,6 +46,24 @@ impl Lyapunov {
             true => jet.image().scalar(&self.function) - jet.phase.scalar(&self.function),
             false => jet.lie_derivative(|at| at.scalar(&self.function)),
         }
+    }
+
+    /// Returns the rate, and Σ|∂F/∂xₖ·xₖ'|, or |F∘Φ| + |F|.
+    fn excess(&self, jet: &DualPoint<'_, Expr>) -> Excess {
+        let phase = &jet.phase;
+        let scale = match phase.model().system.is_map() {
+            true => {
+                let ends = [jet.image().scalar(&self.function), phase.scalar(&self.function)];
+                ends.map(Scalar::modulus).into_iter().sum()
+            }
+            false => {
+                let slopes = jet.gradients(&self.function).concat();
+                let terms = slopes.into_iter().zip(phase.field());
+                terms.map(|(slope, rate)| (slope * *rate).modulus()).sum()
+            }
+        };
+        let shown = self.form.as_ref().or(self.rate.as_ref());
+        Excess { value: shown.map_or_else(|| self.growth(jet), |form| phase.scalar(form)), scale }
     }
 }
 
@@ -104,6 +122,7 @@ impl Statement for Lyapunov {
     fn context(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> ResidualContext {
         ResidualContext {
             value: vec![jet.phase.scalar(&self.function)],
+            excess: Some(self.excess(jet)),
             ..ResidualContext::default()
         }
     }

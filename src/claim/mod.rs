@@ -371,6 +371,17 @@ pub struct ResidualContext {
     /// Values that are zero exactly when the integrand of each ∫ is a function of its variable, on
     /// the level.
     pub quadrature_defects: Vec<Expr>,
+    /// Value that an inequality says is never positive.
+    pub excess: Option<Excess>,
+}
+
+/// Value that an inequality says is never positive.
+#[derive(Clone, Copy, Debug)]
+pub struct Excess {
+    /// The value.
+    pub value: Expr,
+    /// Sum of the moduli of its terms.
+    pub scale: Expr,
 }
 
 /// Values that relate an integral to those common to all cases.

@@ -89,6 +89,9 @@ pub trait Reader {
     /// Makes a complaint about an entry.
     fn complaint(&self, key: &'static str, message: String, remedy: &str) -> Self::Error;
 
+    /// Makes a complaint about a name that is none of a state variable.
+    fn not_a_variable(&self, key: &'static str, name: &str, remedy: String) -> Self::Error;
+
     /// Returns the formula of a key, in the names of the case.
     fn formula(
         &self,

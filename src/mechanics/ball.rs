@@ -144,6 +144,10 @@ impl Dynamics for BallOnSurface {
         self.surface.formula().into_iter().chain(self.dimensional()).collect()
     }
 
+    fn constants(&self) -> Vec<&Formula> {
+        [&self.mass, &self.radius, &self.moment].into_iter().chain(&self.rotation).collect()
+    }
+
     fn dimensional(&self) -> Vec<&Formula> {
         self.potential.iter().filter_map(Potential::formula).collect()
     }

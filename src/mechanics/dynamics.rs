@@ -18,6 +18,11 @@ pub(super) trait Dynamics {
     /// Returns the formulas of the equations of motion that may depend on the state.
     fn functions(&self) -> Vec<&Formula>;
 
+    /// Returns the formulas of the constants in the equations of motion.
+    fn constants(&self) -> Vec<&Formula> {
+        Vec::new()
+    }
+
     /// Returns those of the formulas whose physical dimensions are checked: all but lists of
     /// parameters.
     fn dimensional(&self) -> Vec<&Formula> {

@@ -109,6 +109,11 @@ impl Dynamics for FlatBase {
         self.potential.iter().collect()
     }
 
+    fn constants(&self) -> Vec<&Formula> {
+        let always = [&self.mass, &self.inertia, &self.curvature, &self.height];
+        always.into_iter().chain(&self.gyrostat).collect()
+    }
+
     /// Returns the rates (ω₁', ω₂', r₁', r₂').
     fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         let [w1, w2, r1, r2] = coordinates(phase);

@@ -1,6 +1,5 @@
 //! The formulas of a model, and those that others use.
 
-use super::System;
 use super::level_equation::LevelFunction;
 use super::model::{Model, ParameterOrigin};
 use super::vocabulary::Meaning;
@@ -56,13 +55,8 @@ impl Model {
         })
     }
 
-    /// Returns the formulas of those parameters that formulas use, directly or through others; of all parameters
-    /// where the system is a body, which uses its parameters itself.
+    /// Returns the formulas of those parameters that formulas use, directly or through others.
     pub fn parameter_formulas_of(&self, formulas: &[&Formula]) -> Vec<&Formula> {
-        use System::{Field, Hamiltonian, Lagrangian, Map};
-        if !matches!(self.system, Field(_) | Hamiltonian(_) | Lagrangian(_) | Map(_)) {
-            return self.parameter_formulas().collect();
-        }
         let mut reached: Vec<Symbol> = Vec::new();
         let mut own: Vec<&Formula> = Vec::new();
         let mut reach = |formula: &Formula| {
@@ -96,8 +90,9 @@ impl Model {
         self.equations_of_motion().into_iter().chain(images).collect()
     }
 
-    /// Returns the formulas of the equations of motion.
+    /// Returns the formulas of the equations of motion, with those of the constants in them.
     pub fn equations_of_motion(&self) -> Vec<&Formula> {
-        self.system.functions().into_iter().chain(&self.extension).collect()
+        let own = self.system.functions().into_iter().chain(self.system.constants());
+        own.chain(&self.extension).collect()
     }
 }

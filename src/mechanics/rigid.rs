@@ -150,6 +150,15 @@ impl RigidBody {
         self.dimensional().into_iter().chain(&self.moment).collect()
     }
 
+    /// Returns m, I, k, and S.
+    pub(super) fn constants(&self) -> Vec<&Formula> {
+        [&self.mass, &self.inertia]
+            .into_iter()
+            .chain(&self.curvature)
+            .chain(&self.gyrostat)
+            .collect()
+    }
+
     /// Returns the formulas of the surface and of the potential.
     pub(super) fn dimensional(&self) -> Vec<&Formula> {
         let potential = self.potential.as_ref().and_then(Potential::formula);

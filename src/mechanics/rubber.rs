@@ -71,6 +71,10 @@ impl Dynamics for Rubber {
         self.0.functions()
     }
 
+    fn constants(&self) -> Vec<&Formula> {
+        self.0.constants()
+    }
+
     fn dimensional(&self) -> Vec<&Formula> {
         self.0.dimensional()
     }

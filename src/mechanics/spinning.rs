@@ -148,6 +148,10 @@ impl Dynamics for Spinning {
         self.0.functions()
     }
 
+    fn constants(&self) -> Vec<&Formula> {
+        self.0.constants()
+    }
+
     fn dimensional(&self) -> Vec<&Formula> {
         self.0.dimensional()
     }

@@ -57,6 +57,11 @@ impl System {
         for_each_kind!(self, one => one.functions())
     }
 
+    /// Returns the formulas of the constants in the equations of motion.
+    pub fn constants(&self) -> Vec<&Formula> {
+        for_each_kind!(self, one => one.constants())
+    }
+
     /// Returns those of the formulas whose physical dimensions are checked: all but lists of
     /// parameters.
     pub fn dimensional(&self) -> Vec<&Formula> {

@@ -6,9 +6,9 @@ use num_dual::Dual;
 
 use super::calculus::DualPoint;
 use super::elimination::trace_of_quotient;
-use super::model::{Model, Variable};
+use super::model::{Model, TIME, Variable};
 use super::phase::Phase;
-use crate::formula::Formula;
+use crate::formula::{Formula, Type};
 use crate::scalar::Scalar;
 
 /// New variables as functions of the state, and a bracket for them.
@@ -85,6 +85,14 @@ impl NewVariables {
     #[inline(never)]
     pub fn symmetric_part<T: Scalar>(&self, matrix: &[Vec<T>]) -> Vec<T> {
         symmetric_part(&self.model.state, matrix)
+    }
+
+    /// Returns the component that is time, where it has no bracket with any.
+    pub fn clock(&self, bracket: usize) -> Option<usize> {
+        let state = &self.model.state;
+        let index = state.iter().position(|own| own.name == TIME && own.kind == Type::Scalar)?;
+        let is_free = self.brackets[bracket].blocks[index].iter().all(Option::is_none);
+        is_free.then(|| state[..index].iter().map(Variable::len).sum())
     }
 
     /// Returns the tensor P of a bracket at a point of the new variables, by rows.

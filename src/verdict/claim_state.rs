@@ -7,6 +7,7 @@ use super::field::Where;
 use super::recorded::{RecordedClaim, Span};
 use super::run::Values;
 use super::sampler::TAPE_LANES;
+use super::voids::Choice;
 use crate::graph::{Expr, Graph};
 use crate::number::Enclosing;
 
@@ -62,6 +63,8 @@ pub struct ClaimState {
     /// Number of the parts of the level on which it is shown not to vanish, and of all, if it vanishes on the
     /// others.
     pub parts: Option<(usize, usize)>,
+    /// Listed values for which the claim says nothing.
+    pub voids: Vec<Choice>,
     /// Lanes of the first block at which f64 finds no state, or no required value.
     pub missing: Vec<usize>,
 }
@@ -130,7 +133,10 @@ pub fn classify<D: Enclosing>(
     };
     let (kind, none) = (item.claim.kind.name(), 0..0);
     status.undefined = None;
-    if result(&span.value, &none).defined == 0 {
+    if !values.existing(&[]).contains(&true) {
+        status.undefined =
+            Some(format!("none of {TAPE_LANES} draws leads to a state of this place"));
+    } else if result(&span.value, &none).defined == 0 {
         let hint = item.claim.kind.hint_when_undefined();
         status.undefined =
             Some(format!("the formula of this {kind} has no value at {TAPE_LANES} states{hint}"));

@@ -8,9 +8,11 @@ use super::conclude::report;
 use super::dissipation::find_rates;
 use super::evidence::ClaimReport;
 use super::judging::Judging;
+use super::listed_levels::judge_listed_levels;
 use super::mutants::{MutationReport, mutate};
 use super::recorded::{RecordedClaim, SharedTerms};
 use super::sampler::TAPE_LANES;
+use super::voids::Choice;
 use crate::case::{Case, TimeParts};
 use crate::claim::LevelSubset;
 use crate::graph::{Fault, Graph, record};
@@ -121,6 +123,12 @@ pub enum JudgeError {
     /// The field is defined nowhere.
     #[error("the equations of motion are undefined at all {0} states that were drawn")]
     Singular(u64),
+    /// The slopes of a constraint vanish where it holds.
+    #[error(
+        "the slopes of the constraint `{0}` by the velocities are 0, or have no value, at all {1} states that were \
+         drawn: its reaction is not determined"
+    )]
+    Slopeless(String, u64),
     /// The numbers of the field are beyond the range of f64.
     #[error(
         "the equations of motion are beyond the range of f64 at all {0} states that were drawn"
@@ -184,6 +192,10 @@ impl JudgeError {
                 "look for a division by zero, the root of a negative number, a singular inertia \
                  tensor, or a kinetic energy that leaves out a velocity"
             }
+            JudgeError::Slopeless(..) => {
+                "write an equation with the same zeros and other slopes, as x' = y*z' in the place of \
+                 (x' - y*z')^2 = 0"
+            }
             JudgeError::Discrete => {
                 "claim the invariants of a map, and let `liouville check` judge them"
             }
@@ -223,7 +235,7 @@ fn recording(case: &Case) -> Result<(Graph, (Vec<RecordedClaim<'_>>, SharedTerms
         let jet = DualPoint::new(Phase::new(model, parameters, state));
         let recorded: Vec<RecordedClaim<'_>> =
             case.claims.iter().map(|claim| RecordedClaim::new(claim, &jet)).collect();
-        (recorded, SharedTerms::of(&case.chart, &jet))
+        (recorded, SharedTerms::of(&jet))
     })
 }
 
@@ -311,11 +323,13 @@ fn judge_all(
     }
     bench.extend_domain(&recorded, &mut statuses)?;
     bench.leave_flat_levels(&recorded, &mut statuses);
+    let voids: Vec<Vec<Choice>> = statuses.iter().map(|status| status.voids.clone()).collect();
     let mut claims: Vec<ClaimReport> = recorded
         .iter()
         .zip(statuses)
         .map(|(item, status)| report(case, item, status, options))
         .collect();
+    judge_listed_levels(case, options, &mut claims, &voids)?;
     find_rates(case, options, &mut claims)?;
     let mutants = options.mutants.then(|| mutate(case, &claims, options)).transpose()?;
     let (motions_left, absences_left) = (case.motions.len(), case.absences.len());

@@ -19,6 +19,7 @@ use super::preimages::SecondState;
 use super::recorded::SharedTerms;
 use super::run::{Doubles, Run};
 use super::sampler::{Sampler, TAPE_LANES};
+use super::slopes_of_constraints;
 use crate::case::Case;
 use crate::claim::LevelSubset;
 use crate::graph::{Expr, Fault, Graph};
@@ -120,6 +121,7 @@ impl Judging<'_> {
                     error @ (JudgeError::Unreachable(_)
                     | JudgeError::Overflow(_)
                     | JudgeError::Singular(_)
+                    | JudgeError::Slopeless(..)
                     | JudgeError::FieldOverflow(_)),
                 ) => lacking = Some(error),
                 Err(error) => return Err(error),
@@ -182,7 +184,10 @@ impl Judging<'_> {
             };
             return Err(match (0..TAPE_LANES).all(overflows) {
                 true => JudgeError::FieldOverflow(all),
-                false => JudgeError::Singular(all),
+                false => match slopes_of_constraints::slopeless(model, &states) {
+                    Some(text) => JudgeError::Slopeless(text, all),
+                    None => JudgeError::Singular(all),
+                },
             });
         }
         for (equation, index) in model.level.iter().zip(rates..physics) {

@@ -12,14 +12,13 @@
 use super::claim_state::{ClaimState, NO_QUADRATURE, are_zero, classify, fold, undecide};
 use super::evidence::{Method, Proof, Verdict};
 use super::examine::{BlockValues, complete};
-use super::field::{Answer, PrimeFieldStates, Query, TOO_MANY_COMBINATIONS};
+use super::field::{Answer, PrimeFieldStates, Query};
 use super::judge::{JudgeError, Trust};
 use super::judging::Judging;
 use super::recorded::{OutputLayout, RecordedClaim, Span};
 use super::run::Run;
 use super::sampler::{Sampler, TAPE_LANES};
 use crate::claim::LevelSubset;
-use crate::mechanics::combinations;
 use crate::number::arb::ArbBall;
 use crate::number::ball::Ball;
 use crate::number::double_double_ball::DoubleDoubleBall;
@@ -82,7 +81,7 @@ impl Judging<'_> {
     }
 
     /// Climbs until each claim is decided.
-    fn decide(
+    pub(super) fn decide(
         &self,
         place: &LevelSubset,
         sampler: &Sampler,
@@ -113,6 +112,7 @@ impl Judging<'_> {
             if !sampler.is_numerical() {
                 self.states_beside_moduli(sampler, open)?;
                 self.states_near_ends(sampler, open);
+                self.ascend(sampler, open);
                 self.combine(sampler, open)?;
             }
         }
@@ -127,7 +127,8 @@ impl Judging<'_> {
             }
         }
         for (item, status) in open.iter_mut().filter(|(_, status)| status.holds()) {
-            if let Some(reason) = self.lost_bases(place, sampler, item)? {
+            let residual = [&item.residual[..], &item.context.quadrature_defects].concat();
+            if let Some(reason) = self.lost_bases(place, sampler, item, &residual)? {
                 status.evidence.proof = None;
                 undecide(status, reason.to_string());
             }
@@ -140,46 +141,6 @@ impl Judging<'_> {
             confirmed.for_each(|(_, status)| undecide(status, reason.to_string()));
         }
         self.second_opinion(sampler, open)?;
-        Ok(())
-    }
-
-    /// Decides claims that something does *not* vanish, separately for each choice of listed
-    /// values: one choice for which it vanishes refutes the claim.
-    fn climb_each(
-        &self,
-        place: &LevelSubset,
-        sampler: &Sampler,
-        missed: Option<&str>,
-        open: Open<'_, '_>,
-    ) -> Result<(), JudgeError> {
-        let Some(choices) = combinations(sampler.recipes()) else {
-            for (_, status) in open {
-                undecide(status, TOO_MANY_COMBINATIONS.to_string());
-            }
-            return Ok(());
-        };
-        for (item, status) in open {
-            for fixed in &choices {
-                let mut one = ClaimState::default();
-                let chosen = sampler.with(fixed);
-                self.decide(place, &chosen, missed, &mut vec![(item, &mut one)])?;
-                self.settle_parts(&chosen, &mut vec![(item, &mut one)])?;
-                one.is_on_a_part |= status.is_on_a_part;
-                let refuted = one.settled == Some(Verdict::Refuted);
-                if !refuted || status.settled.is_none() {
-                    *status = one;
-                } else {
-                    status.is_on_a_part = one.is_on_a_part;
-                }
-                if !refuted {
-                    let listed = chosen.listed(self.case);
-                    let reason = status.evidence.reason.get_or_insert_default();
-                    let separator = if reason.is_empty() { "" } else { ": " };
-                    *reason = format!("for {listed}{separator}{reason}");
-                    break;
-                }
-            }
-        }
         Ok(())
     }
 

@@ -21,20 +21,21 @@ impl Judging<'_> {
     /// Returns the reason why a claim that holds may fail for negative bases: ln X belongs to what a claim requires
     /// for each power X^a with a parameter a, while the same whole number in the file takes any base.
     ///
-    /// A claim that is proved without these logarithms, for listed values for which the exponent is whole, fails for
+    /// `residual` is what vanishes if the claim holds. A claim that is proved without these logarithms, for listed values for which the exponent is whole, fails for
     /// no base.
     pub(super) fn lost_bases(
         &self,
         place: &LevelSubset,
         sampler: &Sampler,
         item: &RecordedClaim<'_>,
+        residual: &[Expr],
     ) -> Result<Option<&'static str>, JudgeError> {
         if !sampler.recipes().iter().any(|own| matches!(own, Draw::OneOf(_))) {
             return Ok(None);
         }
         let common = self.common.required_at(sampler.kept());
         let required = [&item.requirement[..], &common].concat();
-        let all = [&required[..], &item.residual, &self.common.field].concat();
+        let all = [&required[..], residual, &self.common.field].concat();
         let own = powers(self.graph, all);
         let made = powers(sampler.graph(), sampler.made().to_vec());
         if own.is_empty() && made.is_empty() {
@@ -45,8 +46,7 @@ impl Judging<'_> {
         };
         let (extents, sources) = (sampler.extents(), sampler.sources());
         let prover = Prover { sources: &sources, extents: &extents, seed: self.options.seed };
-        let defects = item.context.quadrature_defects.clone();
-        let outputs = [item.residual.clone(), defects, self.level_values(place, sampler)?].concat();
+        let outputs = [residual, &self.level_values(place, sampler)?].concat();
         for fixed in choices {
             let (graph, drawn) = sampler.compose(self.graph, &own, &fixed)?;
             let (made_graph, made) = with_listed(sampler.graph(), &made, &fixed)?;

@@ -6,6 +6,7 @@
 //! tolerance.
 
 mod around;
+mod ascent;
 mod branches;
 mod cell_rank;
 mod claim_state;
@@ -15,6 +16,7 @@ mod conditions;
 mod conjugates;
 mod coverage;
 mod dissipation;
+mod each_choice;
 mod ends;
 mod equations;
 mod evidence;
@@ -30,6 +32,7 @@ mod judging;
 mod jumps;
 mod ladder;
 mod level_slopes;
+mod listed_levels;
 mod listed_powers;
 mod local_form;
 mod missing;
@@ -51,6 +54,7 @@ mod run;
 mod sampler;
 mod second_opinion;
 mod signs;
+mod slopes_of_constraints;
 mod state;
 mod statement;
 mod sum_of_squares;

@@ -12,7 +12,7 @@ use crate::formula::Formula;
 use crate::graph::{Expr, literally};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::elimination::rejection;
-use crate::mechanics::{Chart, LevelEquation, LevelFunction, System};
+use crate::mechanics::{LevelEquation, LevelFunction, System};
 use crate::number::Enclosing;
 
 /// A claim with all expressions recorded for it.
@@ -106,8 +106,8 @@ pub struct SharedTerms {
 }
 
 impl SharedTerms {
-    /// Records these expressions for a case with this chart.
-    pub fn of(chart: &Chart, jet: &DualPoint<'_, Expr>) -> Self {
+    /// Records these expressions.
+    pub fn of(jet: &DualPoint<'_, Expr>) -> Self {
         let phase = &jet.phase;
         let image = phase.model().system.is_map().then(|| jet.image());
         let rate = |function| match &image {
@@ -121,17 +121,7 @@ impl SharedTerms {
         let gradients = jet.level_gradients(&vec![own; phase.model().level.len()]);
         Self {
             field: phase.field().to_vec(),
-            requirement: {
-                let model = phase.model();
-                let motion = model.equations_of_motion();
-                let system =
-                    motion.iter().copied().chain(model.level_formulas()).collect::<Vec<_>>();
-                let parameters = match chart {
-                    Chart::Given(_) => model.parameter_formulas().collect(),
-                    _ => model.parameter_formulas_of(&system),
-                };
-                phase.literal_values(parameters.into_iter().chain(motion))
-            },
+            requirement: phase.literal_values(phase.model().equations_of_motion()),
             motion: phase.existence_of_motion(),
             level_requirement: {
                 let formula = |equation: &LevelEquation| match &equation.function {

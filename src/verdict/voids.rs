@@ -26,6 +26,7 @@ impl Judging<'_> {
         let voids = self.void_choices(sampler, holding)?;
         for ((item, status), voids) in holding.iter_mut().zip(voids) {
             self.remark_missing(sampler, (item, status), &voids);
+            status.voids = voids;
         }
         Ok(())
     }
@@ -67,7 +68,8 @@ impl Judging<'_> {
             for (choices, cause) in
                 [(&still, "the equations of motion have"), (&*void, "a formula has")]
             {
-                let named = choices.iter().map(|fixed| sampler.with(fixed).listed(self.case));
+                let named =
+                    choices.iter().map(|fixed| sampler.with(fixed).listed(self.case, |_| true));
                 if let Some(named) = named_of(&named.collect::<Vec<String>>()) {
                     let remark = format!("nothing is said for {named}, where {cause} no value");
                     status.evidence.add_remark(remark);

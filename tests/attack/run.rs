@@ -12,8 +12,8 @@ use super::table::{Table, constructs};
 use super::told::{Told, told};
 use super::wrong::{Truth, Wrong, weighed};
 
-/// Number of cases with 10 000 claims.
-const CASES: u64 = 8_200;
+/// Number of cases with 5 000 claims.
+const CASES: u64 = 4_100;
 
 /// A plan of a run: the number of cases, the seed, and single cases if wanted.
 #[derive(Clone, Debug)]

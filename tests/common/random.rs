@@ -7,10 +7,16 @@
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 
+/// Number of draws: `LIOUVILLE_DRAWS` times as many as usual.
+pub fn draws(usual: u32) -> u32 {
+    let times = std::env::var("LIOUVILLE_DRAWS").ok();
+    usual * times.map_or(1, |text| text.parse().expect("LIOUVILLE_DRAWS is a number"))
+}
+
 /// Returns the settings for `cases` random bodies, the same in every run.
 pub fn config(cases: u32) -> Config {
     Config {
-        cases,
+        cases: draws(cases),
         rng_seed: RngSeed::Fixed(2013),
         failure_persistence: None,
         max_shrink_iters: 32,

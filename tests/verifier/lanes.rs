@@ -172,7 +172,7 @@ fn assert_contained(lanes: &Lanes, index: usize) -> Result<bool, TestCaseError> 
 fn check(inputs: impl Strategy<Value = BigRational>, steps: std::ops::Range<usize>) {
     let strategy = (prop::collection::vec(inputs, INPUTS), prop::collection::vec(step(), steps));
     let (all, compared) = (Cell::new(0u32), Cell::new(0u32));
-    let outcome = TestRunner::new(config(5000)).run(&strategy, |(values, steps)| {
+    let outcome = TestRunner::new(config(2000)).run(&strategy, |(values, steps)| {
         let inputs: Vec<Rational> = values.iter().map(rational).collect();
         let lanes = lanes(&inputs, |inputs| run(inputs, &steps));
         for index in INPUTS..lanes.ball.len() {

@@ -9,6 +9,7 @@ mod holonomic;
 mod matrices;
 mod mistakes;
 mod names;
+mod repeated_constraints;
 
 use liouville::case::Case;
 use liouville::verdict::{Options, Verdict, judge};

@@ -157,3 +157,20 @@ fn quartic_forms_are_proved_where_they_are_sums_of_squares() {
         assert_eq!(of_rate(rate, "-1..1").0, Verdict::Refuted, "{rate}");
     }
 }
+
+#[test]
+fn rates_that_are_positive_on_a_thin_part_are_refuted() {
+    let (found, _) = verdict(
+        "title = 't'\ncheck-weights = false\n[state]\nx = '-1..1'\ny = '-1..1'\n[field]\n\"x'\" = '-x - y'\n\
+         \"y'\" = '-y'\n[[claim]]\nlyapunov = '|x| + 999/1000*|y|'\nexpect = 'open'\n",
+    );
+    assert_eq!(found, Verdict::Refuted, "positive for |x| < |y|/1000 of opposite signs");
+    let nearly = ["-x^2 + 2001/1000*x*y - y^2", "-x^4 + 2*x^2*y^2 - y^4 + x^3*y/100000"];
+    let clearly = ["-x^2 + 2000/1000*x*y - y^2", "-x^4 + 2*x^2*y^2 - y^4"];
+    for rate in nearly {
+        assert_eq!(of_rate(rate, "-2..2").0, Verdict::Refuted, "{rate}");
+    }
+    for rate in clearly {
+        assert_eq!(of_rate(rate, "-2..2").0, Verdict::Proved, "{rate}");
+    }
+}

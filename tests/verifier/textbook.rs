@@ -9,7 +9,7 @@ use liouville_search::judge;
 use rayon::prelude::*;
 
 #[test]
-#[ignore = "takes ten seconds"]
+#[ignore = "slow: judges 171 files; the catalogue takes the same paths"]
 fn textbook_claims_are_proved_and_their_twins_refuted() {
     let paths = files(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/textbook")));
     assert_eq!(paths.len(), 171);

@@ -35,7 +35,8 @@ pub fn of_judging(path: &str, source: &str, error: &JudgeError, colour: bool) ->
     let span = match error {
         JudgeError::NotInvariant { equation, .. }
         | JudgeError::OffSolution { equation, .. }
-        | JudgeError::Dependent(equation) => place(equation),
+        | JudgeError::Dependent(equation)
+        | JudgeError::Slopeless(equation, _) => place(equation),
         JudgeError::Quadrature(formula) => place(formula),
         JudgeError::OffLevel { equation, .. } => place("[level.chart]").or_else(|| place(equation)),
         JudgeError::PartialChart { .. } => place("[level.chart]"),

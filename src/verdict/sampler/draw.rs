@@ -2,6 +2,7 @@
 
 use crate::graph::Evaluator;
 use crate::number::Domain;
+use crate::number::ball::{Ball, Balls};
 use crate::number::rational::Rational;
 
 use super::{Sampler, TAPE_LANES};
@@ -21,6 +22,14 @@ impl Sampler {
     /// Computes parameters and one state from given numbers instead of draws.
     pub fn made_from<D: Domain + Clone>(&self, domain: &D, numbers: &[Rational]) -> Vec<D::Block> {
         self.made_in(domain, &[numbers.to_vec()])
+    }
+
+    /// Computes parameters and states from given numbers, one list for each lane, as balls.
+    pub fn balls_from(&self, lanes: &[Vec<f64>; TAPE_LANES]) -> Vec<Balls<TAPE_LANES>> {
+        let mut evaluator = Evaluator::new(&self.tape, Ball::<TAPE_LANES>);
+        let column = |k: usize| Balls::about(|lane| (lanes[lane][k], true));
+        evaluator.run(&(0..self.draws.len()).map(column).collect::<Vec<_>>());
+        evaluator.outputs().cloned().collect()
     }
 
     pub(super) fn numbers(&self, lanes: usize, start: u64) -> Vec<Vec<Rational>> {

@@ -356,7 +356,7 @@ impl Sampler {
             is_seen |= rank.is_some();
             if let Some(found) = rank.filter(|found| *found < dimension) {
                 let listed = match self.has_lists() {
-                    true => format!(", for {}", chosen.listed(case)),
+                    true => format!(", for {}", chosen.listed(case, |_| true)),
                     false => String::new(),
                 };
                 return Err(JudgeError::PartialChart { found, dimension, listed });

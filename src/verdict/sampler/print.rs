@@ -76,16 +76,17 @@ impl Sampler {
         self.exact_from(numbers.to_vec()).into_iter().enumerate().map(text).collect()
     }
 
-    /// Lists the parameters drawn from lists, with the values they have at every state.
-    pub fn listed(&self, case: &Case) -> String {
-        let mut draws = self.recipes.iter();
+    /// Lists the parameters drawn from lists, with the values they have at every state, where the draws
+    /// count.
+    pub fn listed(&self, case: &Case, counts: impl Fn(usize) -> bool) -> String {
+        let mut draws = self.recipes.iter().enumerate();
         let mut listed = Vec::new();
         for parameter in case.model.free_parameters() {
             let ParameterOrigin::Free(recipe) = &parameter.origin else { continue };
             let own = draws.by_ref().take(recipe.draws().len());
             let values: Vec<String> = own
-                .filter_map(|draw| match draw {
-                    Draw::OneOf(values) => Some(values.first()?.to_string()),
+                .filter_map(|(place, draw)| match draw {
+                    Draw::OneOf(values) if counts(place) => Some(values.first()?.to_string()),
                     _ => None,
                 })
                 .collect();

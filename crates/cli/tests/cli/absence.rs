@@ -275,7 +275,8 @@ fn what_cannot_be_counted_has_a_reason() {
     let with = |rates: [&str; 3]| field(rates.map(str::to_string), claim);
     let open = [
         with(["ln(x)", "y", "z"]),
-        with(["k*y", "x", "z"]).replace("[state]", "[parameters]\nk = 'one of 1, 2'\n[state]"),
+        with(["k*y*z + 1", "x", "z"])
+            .replace("[state]", "[parameters]\nk = 'one of 1, 2, 3, 4, 5, 6, 7, 8, 9'\n[state]"),
         "title='t'\n[state]\nx='-1..1'\ny='-1..1'\n[field]\n\"x'\"='y'\n\"y'\"='−x'\n[level]\n\
          equations=['x² + y² = 1']\n"
             .to_string()

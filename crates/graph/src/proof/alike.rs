@@ -4,6 +4,9 @@ use crate::graph::{Graph, Step};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
 
+/// Depth to which a value is looked at for its sign.
+const MOST_STEPS: usize = 6;
+
 /// Relation of the signs of two values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Likeness {
@@ -11,6 +14,18 @@ pub enum Likeness {
     Signed(bool),
     /// The same where the value at this place is between −π and π.
     WithinHalfTurns(usize, bool),
+}
+
+impl Likeness {
+    /// Replaces the place by the number of its value.
+    pub fn numbered(self, numbers: &[usize]) -> Self {
+        match self {
+            Likeness::WithinHalfTurns(place, is_positive) => {
+                Likeness::WithinHalfTurns(numbers[place], is_positive)
+            }
+            Likeness::Signed(_) => self,
+        }
+    }
 }
 
 /// A value or a number.
@@ -52,12 +67,34 @@ fn one_way(
             }
             _ => None,
         };
+        // The sign of p − q is that of p, where q = −c p.
+        let turns = |side: &Side, rest: &Side| match (side, rest) {
+            (Side::Place(p), Side::Place(q)) => {
+                let ((p, is_positive), (q, other)) =
+                    (without_factor(graph, *p), without_factor(graph, *q));
+                (p == q && p == plain && is_positive != other).then_some(is_positive)
+            }
+            _ => None,
+        };
         let own = difference(graph, plain);
-        let straight = (own == (p.clone(), q.clone())).then_some(true).or_else(|| whole(&p, &q));
+        let straight = (own == (p.clone(), q.clone())).then_some(true);
+        let straight = straight.or_else(|| whole(&p, &q)).or_else(|| turns(&p, &q));
         let turned = (own == (q.clone(), p.clone())).then_some(true).or_else(|| whole(&q, &p));
         let is_straight = straight.or_else(|| turned.map(|own| !own))?;
         Some(Likeness::Signed((sign == other) == is_straight))
     })
+}
+
+/// Whether a value may be a difference of values of increasing functions, or the sine of an angle.
+pub fn contains_increasing(graph: &Graph, place: usize) -> bool {
+    let (place, _) = without_factor(graph, place);
+    let (above, below) = difference(graph, place);
+    let is_value = |side: &Side| match side {
+        Side::Place(own) => increasing(graph.step(*own)).is_some(),
+        Side::Number(_) => false,
+    };
+    let is_sine = matches!(graph.step(place), Step::Unary(UnaryFunction::Sin, _));
+    is_sine || is_value(&above) || is_value(&below)
 }
 
 fn argument(graph: &Graph, place: usize) -> usize {
@@ -67,7 +104,7 @@ fn argument(graph: &Graph, place: usize) -> usize {
     }
 }
 
-/// The value without a minus and a number as its factors, and whether these are positive.
+/// The value without a minus, numbers and positive values as its factors, and whether these are positive.
 fn without_factor(graph: &Graph, mut place: usize) -> (usize, bool) {
     let mut is_positive = true;
     loop {
@@ -80,12 +117,30 @@ fn without_factor(graph: &Graph, mut place: usize) -> (usize, bool) {
             Step::Binary(BinaryOperation::Mul, a, b) => match (factor(a), factor(b)) {
                 (Some(own), None) => (b, own),
                 (None, Some(own)) => (a, own),
+                _ if is_positive_by_form(graph, b, MOST_STEPS) => (a, true),
+                _ if is_positive_by_form(graph, a, MOST_STEPS) => (b, true),
                 _ => return (place, is_positive),
             },
             _ => return (place, is_positive),
         };
         place = next;
         is_positive = is_positive == own;
+    }
+}
+
+/// Whether the form shows that a value is positive wherever it exists.
+fn is_positive_by_form(graph: &Graph, place: usize, depth: usize) -> bool {
+    let is_positive = |place: usize| depth > 0 && is_positive_by_form(graph, place, depth - 1);
+    match graph.step(place) {
+        Step::Constant(value) => !value.is_negative() && !value.is_zero(),
+        Step::Unary(UnaryFunction::Exp, _) | Step::Binary(BinaryOperation::Pow, ..) => true,
+        Step::Unary(UnaryFunction::Recip | UnaryFunction::Sqrt, a) | Step::Power(a, _) => {
+            is_positive(a)
+        }
+        Step::Binary(BinaryOperation::Add | BinaryOperation::Mul, a, b) => {
+            is_positive(a) && is_positive(b)
+        }
+        _ => false,
     }
 }
 

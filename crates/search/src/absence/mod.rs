@@ -6,8 +6,10 @@
 //! polynomials  polynomials in all variables of a field, by random states
 //! gradients    whether an integral is no function of others
 //! leading      when products of known integrals cannot cancel
+//! found        integrals of a field that a search finds
 //! functions    fractions of polynomials in the state and functions of it, along an orbit
 //! relations    Darboux polynomials of a field, on random lines
+//! by_value     each combination of listed values where no count takes all of them
 //! claimed_densities  densities of the file, and 1, that refute a claim
 //! ```
 //!
@@ -15,7 +17,9 @@
 //! below. If both bounds agree, there are no others. Otherwise one of the others is sought and
 //! proved: a witness that refutes the claim.
 
+mod by_value;
 mod claimed_densities;
+mod found;
 mod functions;
 mod gradients;
 mod known;
@@ -38,7 +42,7 @@ use liouville::case::{AbsenceClaim, Case, Expect};
 use liouville::claim::absence::Absence;
 use liouville::formula::Formula;
 use liouville::graph::Step;
-use liouville::mechanics::{Draw, System};
+use liouville::mechanics::{Draw, Model, System};
 use liouville::number::{BinaryOperation, UnaryFunction};
 use liouville::verdict::{
     self, CaseReport, ClaimReport, Evidence, JudgeError, Method, Options, Trust, Verdict,
@@ -133,6 +137,11 @@ fn judged(case: &Case, judged: &[ClaimReport], options: &Options) -> Vec<ClaimRe
             Ok((case, known, coordinates)) => (case, known, coordinates),
             Err(error) => return AbsenceOutcome::Open(error.to_string()),
         };
+        match by_value::judged(case, &claim.kind, coordinates, judged, options) {
+            Ok(Some(outcome)) => return outcome,
+            Ok(None) => {}
+            Err(error) => return AbsenceOutcome::Open(error.to_string()),
+        }
         let asked = AbsenceCase::new(case, (known, coordinates), judged, options);
         asked.judge(&claim.kind).unwrap_or_else(|error| AbsenceOutcome::Open(error.to_string()))
     };
@@ -142,6 +151,8 @@ fn judged(case: &Case, judged: &[ClaimReport], options: &Options) -> Vec<ClaimRe
 /// A case whose claims of absence are judged.
 struct AbsenceCase<'a> {
     case: &'a Case,
+    /// The case whose parameters are named in theorems: with the lists of which `case` has one value.
+    named: &'a Model,
     known: &'a ProvedIntegrals,
     /// Coordinates of the level, or the reason why positions and velocities are not known.
     coordinates: &'a Result<Coordinates, SearchError>,
@@ -169,7 +180,7 @@ impl<'a> AbsenceCase<'a> {
             options,
             ..Effort::default()
         };
-        Self { case, known, coordinates, reports, effort }
+        Self { case, named: &case.model, known, coordinates, reports, effort }
     }
 
     fn judge(&self, kind: &Absence) -> Result<AbsenceOutcome, SearchError> {
@@ -275,12 +286,12 @@ impl<'a> AbsenceCase<'a> {
 
     /// Returns the beginning of a sentence that names the parameters for which a count holds.
     fn parameters(&self) -> String {
-        let draws = self.case.model.parameter_draws();
+        let draws = self.named.parameter_draws();
         let is_listed = |draw: &&Draw| matches!(draw, Draw::OneOf(values) if values.len() > 1);
         let is_fixed = |draw: &Draw| matches!(draw, Draw::OneOf(_));
         let listed = draws.iter().any(|draw| is_listed(&draw));
         match (draws.iter().all(is_fixed), listed) {
-            (true, false) if self.case.model.parameters.is_empty() => "",
+            (true, false) if self.named.parameters.is_empty() => "",
             (true, false) => "For the given values of the parameters, ",
             (true, true) => "For each combination of the listed values of the parameters, ",
             (false, false) => {

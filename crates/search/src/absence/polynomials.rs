@@ -17,7 +17,7 @@ use super::super::products::{DEGREE_PRIMES, Generators};
 use super::super::terms::{is_one, multiplied, numeric_exponent};
 use super::known::{contains_integrals, has_lists, rank};
 use super::leading;
-use super::{AbsenceCase, AbsenceOutcome, Counted, claimed_densities, generated};
+use super::{AbsenceCase, AbsenceOutcome, Counted, claimed_densities, found, generated};
 use liouville::claim::Claim;
 use liouville::formula::{Formula, FormulaError};
 use liouville::graph::Expr;
@@ -257,6 +257,10 @@ impl<'a> Counting<'a> {
                 Some((formula, false)) => doubtful = doubtful.or(Some(formula)),
                 None => {}
             }
+        }
+        // Coefficients may be no fractions of the parameters, as with rotations.
+        if let Some(exhibit) = found::integral(self.asked, self.degree)? {
+            return Ok(AbsenceOutcome::Exhibited(exhibit));
         }
         if let Some(formula) = doubtful {
             return Ok(AbsenceOutcome::Open(format!(

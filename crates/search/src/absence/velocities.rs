@@ -132,7 +132,7 @@ fn no_integral(
 }
 
 /// A part of a search.
-type Part<'p> = &'p mut dyn FnMut(&mut SearchReport) -> Result<(), SearchError>;
+pub type Part<'p> = &'p mut dyn FnMut(&mut SearchReport) -> Result<(), SearchError>;
 
 /// Returns an integral of a report that refutes the claim.
 fn witness(
@@ -155,7 +155,7 @@ fn witness(
 }
 
 /// Writes a find with the definitions of the names that it uses.
-fn shown(what: &str, found: &Found) -> String {
+pub fn shown(what: &str, found: &Found) -> String {
     let names: Vec<String> =
         found.abbreviations.iter().map(|(name, text)| format!("{name} = {text}")).collect();
     let names = if names.is_empty() { String::new() } else { format!(", {}", names.join(", ")) };
@@ -194,16 +194,20 @@ fn no_density(
             counted: "0 are counted".to_string(),
         });
     }
-    if report.multipliers.is_empty() {
-        return Ok(AbsenceOutcome::Open(reasons(&report, "nothing can be counted")));
-    }
+    let reason = match report.multipliers.is_empty() {
+        true => reasons(&report, "nothing can be counted"),
+        false => "the count allows a density, but none was found in closed form".to_string(),
+    };
     let parts: [Part<'_>; 2] =
         [&mut |report| densities::densities(case, effort, report), &mut |report| {
             orbit::search(case, effort, false, report, &mut |_| {})
         }];
     let mut seen = 0;
     for part in parts {
-        part(&mut report)?;
+        match part(&mut report) {
+            Err(SearchError::Stopped) => {}
+            other => other?,
+        }
         for found in &report.found[seen..] {
             let is_proved = found.kind == "density" && found.verdict == Verdict::Proved;
             let Some(function) = found.function.as_ref().filter(|_| is_proved) else { continue };
@@ -215,9 +219,7 @@ fn no_density(
         }
         seen = report.found.len();
     }
-    Ok(AbsenceOutcome::Open(
-        "the count allows a density, but none was found in closed form".to_string(),
-    ))
+    Ok(AbsenceOutcome::Open(reason))
 }
 
 fn reasons(report: &SearchReport, otherwise: &str) -> String {

@@ -1,6 +1,7 @@
 //! Searches of own fields by orbits modulo a prime: rational integrals, Darboux polynomials,
 //! densities, and theorems that never exclude what was planted.
 
+mod absence;
 mod benchmark;
 mod closure;
 mod counts;
@@ -215,7 +216,7 @@ fn planted_integrals_with_functions_are_never_excluded() {
     let plants = std::env::var("LIOUVILLE_PLANTS").ok().and_then(|text| text.parse().ok());
     let mut numbers = Numbers(23);
     let mut generated = 0;
-    for plant in 0..plants.unwrap_or(24) {
+    for plant in 0..plants.unwrap_or(12) {
         let mut form = || {
             let [x, y, one] = numbers.form();
             ([x, y], format!("(({x})*x + ({y})*y + ({one}))"))
@@ -324,20 +325,20 @@ fn searches_stop_in_time() {
     let rates: String = (0..9).map(rate).collect();
     let text = format!("title = 'x'\nsystem = 'field'\n[state]\n{state}[field]\n{rates}");
     let start = Instant::now();
-    let effort = Effort { halt: Halt::within(Duration::from_secs(4)), ..Effort::default() };
+    let effort = Effort { halt: Halt::within(Duration::from_secs(2)), ..Effort::default() };
     let report = searched(&text, &effort);
     // In the dev profile the last part of an elimination takes longer.
-    assert!(start.elapsed() < Duration::from_secs(7), "{:?}", start.elapsed());
+    assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
     assert!(!report.orbits.is_empty(), "what was reached is told");
     // Volterra's chain: a thousand unknown entries of a bracket, and as many solutions of P ∂H = 0.
     let rate = |k: usize| format!("\"x{k}'\" = 'x{k}*(x{} - x{})'\n", k % 8 + 1, (k + 6) % 8 + 1);
     let rates: String = (1..=8).map(rate).collect();
     let state: String = names[..8].iter().map(|name| format!("{name} = '0.5..2'\n")).collect();
     let text = format!("title = 'x'\nsystem = 'field'\n[state]\n{state}[field]\n{rates}");
-    let (start, halt) = (Instant::now(), Halt::within(Duration::from_secs(2)));
+    let (start, halt) = (Instant::now(), Halt::within(Duration::from_secs(1)));
     let poisson = Some(liouville_search::Hamiltonians::Known);
     let report = searched(&text, &Effort { poisson, halt, ..Effort::default() });
-    assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
+    assert!(start.elapsed() < Duration::from_secs(4), "{:?}", start.elapsed());
     assert!(report.formulas("integral").count() > 1, "what was found before is told");
 }
 

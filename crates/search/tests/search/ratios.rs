@@ -1,5 +1,7 @@
 //! Theorems on fields with roots whose ratio is a number: √(9x) is 3√x, and not −3√x.
 
+use std::ops::RangeInclusive;
+
 use liouville::case::Case;
 use liouville_search::{Ansatz, Effort, Hamiltonians, search};
 
@@ -45,7 +47,17 @@ fn friction_that_is_zero_excludes_no_density() {
 
 #[test]
 fn forces_that_cancel_leave_all_integrals() {
-    for seed in 1..=4 {
+    forces_cancel(1..=1);
+}
+
+#[test]
+#[ignore = "slow: three more seeds"]
+fn forces_that_cancel_leave_all_integrals_for_each_seed() {
+    forces_cancel(2..=4);
+}
+
+fn forces_cancel(seeds: RangeInclusive<u64>) {
+    for seed in seeds {
         for potential in [
             "(x² + y²)/2 + (√(121*x) − 11*√x)*y",
             "(√(3 + 2*√2) − √2)*x²/2 + y²/2",
@@ -100,6 +112,16 @@ fn numbers_under_roots_that_are_no_ratio_leave_theorems() {
 
 #[test]
 fn independent_roots_of_irrational_multiples_leave_theorems() {
+    independent_roots(1..=1);
+}
+
+#[test]
+#[ignore = "slow: two more seeds"]
+fn independent_roots_of_irrational_multiples_leave_theorems_for_each_seed() {
+    independent_roots(2..=3);
+}
+
+fn independent_roots(seeds: RangeInclusive<u64>) {
     // The roots of √2 x and of y have no ratio, and 1 + √2 is no square.
     for (potential, is_excluded) in [
         ("√(√2*x) + (x² + y²)/2", true),
@@ -109,7 +131,7 @@ fn independent_roots_of_irrational_multiples_leave_theorems() {
         ("√(2 + √2)*√(2 − √2)*x²/2 + y²/√2", false),
         ("√(√2*x + √y) + x*y", false),
     ] {
-        for seed in 1..=3 {
+        for seed in seeds.clone() {
             let text = motion(&format!("potential = '{potential}'"));
             let (theorems, _) = told(&text, &of_seed(seed));
             assert_eq!(!theorems.is_empty(), is_excluded, "{potential}, {seed}: {theorems:?}");

@@ -39,7 +39,7 @@ fn potentials_of_exponentials_are_counted() {
 fn planted_integrals_with_exponentials_are_never_excluded() {
     let mut dice = Dice(11);
     let mut refuted = 0;
-    for plant in 0..24 {
+    for plant in 0..12 {
         let (m, n) = turn(plant);
         let (a, b, r, s) = (dice.unit(), dice.unit(), dice.unit(), dice.unit());
         // Separable in turned coordinates; Toda's two particles with any rate; and what is refused.
@@ -54,7 +54,7 @@ fn planted_integrals_with_exponentials_are_never_excluded() {
         assert_ne!(report.verdict, Verdict::Proved, "an integral is there:\n{text}");
         refuted += usize::from(report.verdict == Verdict::Refuted);
     }
-    assert!(refuted >= 10, "{refuted} of 24 plants are exhibited");
+    assert!(refuted >= 5, "{refuted} of 12 plants are exhibited");
 }
 
 #[test]

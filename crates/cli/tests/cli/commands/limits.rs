@@ -17,14 +17,14 @@ fn claims_beyond_a_limit_are_undecided_and_told() {
     let path = folder("limits", &[("a-good.toml", GOOD), ("b-long.toml", LONG)]);
     let path = path.to_str().expect("UTF-8");
     let started = Instant::now();
-    let report = json(&["check", "--json", path, "--within", "3"], 3);
+    let report = json(&["check", "--json", path, "--within", "2"], 3);
     assert!(started.elapsed() < Duration::from_secs(15), "the limit is kept");
     let claims = |case: usize| report["cases"][case]["claims"].as_array().expect("claims").clone();
     assert!(claims(0).iter().all(|claim| claim["verdict"] != "undecided"), "the other file");
     assert_eq!(claims(1).len(), 2, "no claim is lost");
     for claim in claims(1) {
         assert_eq!(claim["verdict"], "undecided");
-        assert_eq!(claim["evidence"]["reason"], "not reached: stopped after 3 s");
+        assert_eq!(claim["evidence"]["reason"], "not reached: stopped after 2 s");
     }
     let summary = &report["summary"];
     assert_eq!((&summary["unreached"], &summary["disagreements"]), (&2.into(), &0.into()));
@@ -151,7 +151,7 @@ fn an_interrupt_keeps_what_there_is() {
             .stdout(Stdio::piped())
             .spawn()
             .expect("it runs");
-        std::thread::sleep(Duration::from_secs(2));
+        std::thread::sleep(Duration::from_secs(1));
         let sent = Command::new("kill").args([signal, &child.id().to_string()]).status();
         assert!(sent.is_ok_and(|status| status.success()), "the signal is sent");
         let output = child.wait_with_output().expect("it ends");

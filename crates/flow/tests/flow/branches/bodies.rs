@@ -38,7 +38,7 @@ fn follow(case: &Case, near: [f64; 2], varied: &str, range: [&str; 2]) -> Branch
 }
 
 #[test]
-#[ignore = "takes half a minute"]
+#[ignore = "slow: a long branch; shorter ones are followed in branches.rs"]
 fn a_branch_over_the_energy_goes_through_the_points_at_single_energies() {
     let case = figure("fig-5");
     let plan = case.section.as_ref().expect("a section");
@@ -83,6 +83,7 @@ fn symmetric(name: &str, lines: &[FixedLine], points: usize) -> Result<Symmetric
 }
 
 #[test]
+#[ignore = "slow: liouville-cli lists the same orbits, from fewer points"]
 fn symmetric_points_of_an_ellipsoid_are_those_of_its_symmetries() {
     let lines = [FixedLine::Equator, FixedLine::Meridian, FixedLine::QuarterMeridian];
     let found = symmetric("fig-A2", &lines, 200).expect("the ellipsoid has these reversors");

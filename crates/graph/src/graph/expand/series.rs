@@ -9,10 +9,12 @@ use crate::graph::Expr;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
+use super::scaled::quarter_turn;
+
 /// Order of a remainder that is 0.
-const EXACT: i32 = i32::MAX;
+pub(super) const EXACT: i32 = i32::MAX;
 /// Largest order of a term, in either direction, and of a power of the logarithm.
-const LARGEST: i32 = 1 << 16;
+pub(super) const LARGEST: i32 = 1 << 16;
 /// Largest number of terms.
 const MOST_TERMS: usize = 96;
 
@@ -25,6 +27,8 @@ pub enum Failure {
     Root,
     /// Too few terms are known.
     Terms,
+    /// A sign that decides which of two exponentials is the larger one.
+    Sign,
     /// A form that is not expanded, such as exp(1/δ).
     Form,
 }
@@ -32,9 +36,9 @@ pub enum Failure {
 /// Σ c δ^i (ln δ)^j + o(δ^end), where every c is a value that was not folded to 0.
 #[derive(Clone, Debug)]
 pub struct Series {
-    terms: BTreeMap<(i32, i32), Expr>,
+    pub(super) terms: BTreeMap<(i32, i32), Expr>,
     /// Order before which all terms are known.
-    end: i32,
+    pub(super) end: i32,
 }
 
 /// The arithmetic of expansions with a number of known orders.
@@ -43,6 +47,10 @@ pub struct Arithmetic {
     pub orders: i32,
     /// Values without which what is expanded has none for small δ.
     pub guards: Vec<Expr>,
+    /// Values that are supposed to be positive, or negative.
+    pub supposed: Vec<(Expr, bool)>,
+    /// Value whose sign is needed, and not supposed.
+    pub open: Option<Expr>,
 }
 
 fn whole(value: i64) -> Expr {
@@ -72,12 +80,12 @@ impl Series {
         (self.end >= order).then(|| known.map(|(at, value)| (*at, *value)).collect())
     }
 
-    fn is_exactly_zero(&self) -> bool {
+    pub(super) fn is_exactly_zero(&self) -> bool {
         self.terms.is_empty() && self.end == EXACT
     }
 
     /// Returns the first term, which has to be alone at its order.
-    fn leading(&self) -> Result<((i32, i32), Expr), Failure> {
+    pub(super) fn leading(&self) -> Result<((i32, i32), Expr), Failure> {
         let mut terms = self.terms.iter();
         let Some((order, value)) = terms.next() else {
             return Err(if self.end == EXACT { Failure::NoValue } else { Failure::Terms });
@@ -96,7 +104,7 @@ impl Series {
         order < 0 && value.folded().is_some_and(|c| !c.is_zero() && c.is_negative() == is_even)
     }
 
-    fn scaled(&self, by: Expr) -> Self {
+    pub(super) fn scaled(&self, by: Expr) -> Self {
         self.shifted(by, (0, 0))
     }
 
@@ -151,7 +159,7 @@ impl Series {
 }
 
 impl Arithmetic {
-    fn guard(&mut self, value: Expr) {
+    pub(super) fn guard(&mut self, value: Expr) {
         if !value.is_always_defined() {
             self.guards.push(value);
         }
@@ -271,17 +279,8 @@ impl Arithmetic {
         })
     }
 
-    /// Computes a^y for a > 0.
-    pub fn power_of(&mut self, a: &Series, y: &Series) -> Result<Series, Failure> {
-        let by_value = match (y.end, y.terms.len()) {
-            (EXACT, 0) => Some(Expr::zero()),
-            (EXACT, 1) => y.terms.get(&(0, 0)).copied(),
-            _ => None,
-        };
-        let Some(exponent) = by_value else {
-            let logarithm = self.logarithm(a)?;
-            return self.exponential(&self.product(y, &logarithm)?);
-        };
+    /// Computes a^y for a > 0 and a value y.
+    pub fn power_of(&mut self, a: &Series, exponent: Expr) -> Result<Series, Failure> {
         let (order, value, rest) = self.normal(a)?;
         if order != (0, 0) {
             return Err(Failure::Form);
@@ -364,8 +363,7 @@ impl Arithmetic {
             let rest = self.arctangent(&inverse)?.negated();
             let ((_, logs), value) = a.leading()?;
             let sign = self.sign(value, logs);
-            let quarter = Expr::one().atan() * whole(2) * sign;
-            return Ok(rest.plus(&Series::constant(quarter)));
+            return Ok(rest.plus(&quarter_turn(sign)));
         }
         // atan(c + u) = atan c + atan(u/(1 + c² + c u))
         let (value, rest) = a.about_a_value()?;
@@ -382,7 +380,7 @@ impl Arithmetic {
 
     /// Computes the modulus: the first term decides the sign.
     pub fn modulus(&mut self, a: &Series) -> Result<Series, Failure> {
-        if a.is_exactly_zero() {
+        if a.terms.is_empty() {
             return Ok(a.clone());
         }
         let ((_, logs), value) = a.leading()?;
@@ -391,7 +389,7 @@ impl Arithmetic {
     }
 
     /// Returns the sign of c (ln δ)^j, where ln δ is negative.
-    fn sign(&mut self, value: Expr, logs: i32) -> Expr {
+    pub(super) fn sign(&mut self, value: Expr, logs: i32) -> Expr {
         let inverse = value.recip();
         self.guard(inverse);
         let sign = value.modulus() * inverse;

@@ -17,7 +17,7 @@ const PASSES: usize = 3;
 
 /// Intersects a bound with another, and tells whether it has changed.
 #[inline(always)]
-fn narrow(bound: &mut Extent, other: Extent) -> bool {
+pub(super) fn narrow(bound: &mut Extent, other: Extent) -> bool {
     let common = bound.common(other);
     let is_narrower = common != *bound;
     *bound = common;
@@ -29,13 +29,17 @@ fn signed(likeness: Likeness, product: Extent, bounds: &[Extent]) -> Extent {
     match likeness {
         Likeness::Signed(is_positive) => product.within(is_positive),
         Likeness::WithinHalfTurns(angle, is_positive) => {
-            let is_near = |[low, high]: [f64; 2]| -PI <= low && high <= PI;
-            match bounds[angle].ends().is_some_and(is_near) {
+            match is_within_half_turns(bounds[angle]) {
                 true => product.within(is_positive),
                 false => product,
             }
         }
     }
+}
+
+/// Whether an angle is between −π and π.
+pub(super) fn is_within_half_turns(angle: Extent) -> bool {
+    angle.ends().is_some_and(|[low, high]| -PI <= low && high <= PI)
 }
 
 /// Bounds a value from its arguments.
@@ -141,6 +145,7 @@ impl Reach<'_> {
                 }
             }
             is_narrower |= self.share()?;
+            is_narrower |= self.follow_links();
             // Where no bound has changed, a further pass changes none.
             if pass + 1 == PASSES || !(self.backward(pass == 0) || is_narrower) {
                 break;
@@ -323,6 +328,7 @@ mod tests {
                     }
                 }
                 self.share()?;
+                self.follow_links();
                 if pass + 1 < PASSES {
                     self.backward(true);
                 }

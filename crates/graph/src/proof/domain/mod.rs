@@ -14,6 +14,7 @@
 //! says nothing about x there.
 
 mod bounds;
+mod linked;
 mod reach;
 mod search;
 

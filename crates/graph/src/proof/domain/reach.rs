@@ -8,6 +8,7 @@ use crate::proof::extent::Extent;
 use crate::proof::fact::SignFact;
 
 use super::Region;
+use super::linked::{Link, links};
 
 /// The reached values of a region in order, numbered from 0, with memory for their bounds.
 pub struct Reach<'r> {
@@ -19,6 +20,8 @@ pub struct Reach<'r> {
     pub(super) facts: Vec<(usize, SignFact)>,
     /// Inputs among the values: number and index.
     pub(super) inputs: Vec<(usize, usize)>,
+    /// Facts and values that are asked for whose signs follow from one another.
+    pub(super) links: Vec<Link>,
     pub(super) bounds: Vec<Extent>,
     pub(super) changes: Changes,
 }
@@ -107,7 +110,7 @@ impl<'r> Reach<'r> {
             is_nonzero: region.classes.is_nonzero(*place),
             likeness: match graph.step(*place) {
                 Step::Binary(BinaryOperation::Mul, a, b) if a != b => {
-                    likeness(graph, a, b).map(|own| numbered(own, &numbers))
+                    likeness(graph, a, b).map(|own| own.numbered(&numbers))
                 }
                 _ => None,
             },
@@ -119,12 +122,14 @@ impl<'r> Reach<'r> {
             _ => None,
         };
         let inputs = steps.iter().enumerate().filter_map(input).collect();
+        let links = links(graph, &asked, &numbers);
         Self {
             region,
             places,
             steps,
             facts,
             inputs,
+            links,
             bounds: Vec::new(),
             changes: Changes::default(),
         }
@@ -148,14 +153,6 @@ impl<'r> Reach<'r> {
     /// Lists the reached inputs: number of the value, and index of the input.
     pub fn inputs(&self) -> &[(usize, usize)] {
         &self.inputs
-    }
-}
-
-/// Replaces a place by the number of the value.
-fn numbered(own: Likeness, numbers: &[usize]) -> Likeness {
-    match own {
-        Likeness::WithinHalfTurns(place, sign) => Likeness::WithinHalfTurns(numbers[place], sign),
-        Likeness::Signed(_) => own,
     }
 }
 

@@ -3,8 +3,11 @@
 use num_dual::DualNum;
 
 use super::*;
-use crate::graph::{Expr, record};
+use crate::graph::{Evaluator, Expr, Tape, record};
+use crate::number::float::Float;
+use crate::number::prime::Modulus;
 use crate::number::rational::Rational;
+use crate::proof::ProofRng;
 use crate::scalar::Scalar;
 
 /// Finds the sign over all inputs between these ends, where some values are not negative.
@@ -114,4 +117,101 @@ fn common_zeros_contradict_facts_at_sight() {
     assert!(!is_seen_nowhere_zero(&graph, &inputs, &facts, &values[..2], 8), "the third is ±1");
     let (graph, (values, facts)) = record(6, |x| build(x, 0.0)).expect("records");
     assert!(!is_seen_nowhere_zero(&graph, &inputs, &facts, &values, 8), "q = p");
+}
+
+/// Whether intervals show that two values are never positive together, for x and y between −3 and 3.
+fn exclude_each_other(build: impl FnOnce(&[Expr]) -> [Expr; 2]) -> bool {
+    let (graph, values) = record(2, build).expect("records");
+    let inputs = [Extent::between(&Rational::from(-3), &Rational::from(3)); 2];
+    let facts = values.map(|value| (graph.place(value), SignFact::Positive));
+    let classes = Classes::default();
+    Region { graph: &graph, inputs: &inputs, facts: &facts, classes: &classes }.is_empty()
+}
+
+#[test]
+fn signs_of_functions_follow_from_those_of_their_arguments() {
+    assert!(exclude_each_other(|x| [x[0], -x[0].sinh()]));
+    assert!(!exclude_each_other(|x| [x[0], x[0].sinh()]));
+    assert!(exclude_each_other(|x| [-x[0], x[0].tanh() * x[1].exp()]));
+    assert!(!exclude_each_other(|x| [-x[0], x[0].tanh() * x[1]]), "for y < 0");
+    assert!(exclude_each_other(|x| [x[0] - x[1], x[1].powi(3) - x[0].powi(3)]));
+    assert!(!exclude_each_other(|x| [x[0] - x[1], x[1].powi(2) - x[0].powi(2)]), "0 > x > y");
+    assert!(!exclude_each_other(|x| [x[0] - x[1], x[0].recip() - x[1].recip()]), "x > 0 > y");
+    assert!(exclude_each_other(|x| [x[0] - x[1], x[1].exp() - x[0].exp()]));
+    assert!(exclude_each_other(|x| [-x[0], x[0].atan()]));
+    assert!(exclude_each_other(|x| [-x[0], x[0].sin()]), "|x| ≤ 3 < π");
+    assert!(!exclude_each_other(|x| [-x[0], (x[0] * whole(2)).sin()]), "2x = −4");
+    assert!(exclude_each_other(|x| [x[0] - 1.0, -x[0].ln()]));
+    assert!(!exclude_each_other(|x| [x[0] - 0.5, -x[0].ln()]), "x = 3/4");
+}
+
+fn whole(n: i64) -> Expr {
+    Expr::rational(&Rational::from(n))
+}
+
+#[test]
+fn no_region_with_a_point_is_called_empty() {
+    const POINTS: usize = 41;
+    let (mut empty, modulus) = (0, Modulus::new((1 << 61) - 1));
+    for seed in 0..600 {
+        let mut rng = ProofRng::new(seed, 0);
+        let mut draw = |n: usize| (rng.element(&modulus) % n as u64) as usize;
+        let choices: [usize; 10] = std::array::from_fn(|_| draw(840));
+        let build = |x: &[Expr]| {
+            let argument = |k: usize| match k % 8 {
+                0 | 1 => x[0],
+                2 => x[1],
+                3 => -x[0],
+                4 => x[0] * whole(2),
+                5 => x[1] * whole(-3),
+                6 => x[0] + x[1],
+                _ => whole(1),
+            };
+            let function = |k: usize, p: Expr| match k % 9 {
+                0 => p.exp(),
+                1 => p.atan(),
+                2 => p.ln(),
+                3 => p.sqrt(),
+                4 => p.powi(3),
+                5 => p.powi(2),
+                6 => p.recip(),
+                7 => p.sin(),
+                _ => p,
+            };
+            let value = |own: &[usize]| {
+                let (p, q) = (argument(own[0]), argument(own[1]));
+                let difference = match own[2] % 3 {
+                    0 => function(own[3], p),
+                    _ => function(own[3], p) - function(own[3], q),
+                };
+                let scaled = match own[4] % 4 {
+                    0 => difference * x[1].exp(),
+                    1 => difference * x[1],
+                    _ => difference,
+                };
+                if own[4] % 7 < 3 { scaled } else { -scaled }
+            };
+            let plain = [argument(choices[0]), argument(choices[1])];
+            let first = match choices[2] % 3 {
+                0 => plain[0],
+                1 => plain[0] - plain[1],
+                _ => value(&choices[..5]),
+            };
+            [if choices[3] % 2 == 0 { first } else { -first }, value(&choices[5..])]
+        };
+        if !exclude_each_other(build) {
+            continue;
+        }
+        empty += 1;
+        let (graph, values) = record(2, build).expect("records");
+        let tape = Tape::new(&graph, &values);
+        let mut evaluator = Evaluator::new(&tape, Float::<1>);
+        for point in 0..POINTS * POINTS {
+            let at = |k: usize| k as f64 * 6.0 / (POINTS - 1) as f64 - 3.0;
+            evaluator.run(&[[at(point % POINTS)], [at(point / POINTS)]]);
+            let both: Vec<f64> = evaluator.outputs().map(|block| block[0]).collect();
+            assert!(both.iter().any(|value| !(*value > 1e-9)), "seed {seed}: {both:?}");
+        }
+    }
+    assert!(empty > 60, "{empty} regions are empty");
 }

@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use liouville::case::Case;
-use liouville_search::{ConditionTarget, search};
+use liouville_search::{ConditionTarget, Effort, search};
 
 use crate::ansatz::{case, effort, searched};
 
 #[test]
 fn conditions_on_parameters_are_found() {
-    let mut wanted = effort(0);
+    let mut wanted = Effort { by_class: false, by_factors: false, ..effort(0) };
     wanted.conditions = Some(ConditionTarget::Existence);
     let ellipsoid = case(
         "title = 'x'\nsystem = 'rubber-plane'\n[parameters]\nm = '0.5..2'\nB = 'diag(1..3)'\n\
@@ -46,8 +46,9 @@ fn conditions_on_parameters_are_found() {
 }
 
 #[test]
+#[ignore = "slow: one condition is found for bodies above, and two at once for small fields below"]
 fn conditions_of_codimension_two_are_met_in_small_fields() {
-    let mut wanted = effort(0);
+    let mut wanted = Effort { by_class: false, by_factors: false, ..effort(0) };
     wanted.conditions = Some(ConditionTarget::Existence);
     let ellipsoid = case(
         "title = 'x'\nsystem = 'rubber-sphere'\n[parameters]\nm = '0.5..2'\nk = '0.1..0.3'\n\

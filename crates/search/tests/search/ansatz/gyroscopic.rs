@@ -2,12 +2,12 @@
 
 use liouville::claim::Claim;
 use liouville::verdict::{Options, Verdict};
-use liouville_search::{SearchReport, search};
+use liouville_search::{Effort, SearchReport, search};
 
 use super::{case, effort, searched, told};
 
 fn turned(text: &str) -> SearchReport {
-    let mut wanted = effort(2);
+    let mut wanted = Effort { by_class: false, by_factors: false, ..effort(2) };
     wanted.ansatz.gyrostats = true;
     search(&case(text), &wanted, &mut |_| {}).expect("it can be searched")
 }

@@ -6,7 +6,7 @@ use super::{case, effort};
 use liouville_search::search;
 
 fn fields(text: &str) -> Vec<String> {
-    let effort = Effort { by_class: false, ..effort(1) };
+    let effort = Effort { by_class: false, by_factors: false, ..effort(1) };
     let report = search(&case(text), &effort, &mut |_| {}).expect("it can be searched");
     report.formulas("symmetry-field").map(str::to_string).collect()
 }

@@ -91,7 +91,7 @@ constraints = [
     \"y' + R*(a'*sin(a)*cos(b) + (c' + b'*cos(a))*sin(b)) = 0\",
 ]
 ";
-    let found = searched(text, &effort(1));
+    let found = searched(text, &Effort { by_class: false, ..effort(1) });
     assert_eq!(found.formulas("density").collect::<Vec<_>>(), ["sin(a)²"]);
     let translations = ["x: 1", "y: 1", "c: 1"];
     let symmetries: Vec<&str> = found.formulas("symmetry-field").collect();

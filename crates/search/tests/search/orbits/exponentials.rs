@@ -42,21 +42,33 @@ fn functions_of_parameters_exclude_nothing() {
     );
 }
 
+fn without_classes() -> Effort {
+    Effort { by_class: false, ..Effort::default() }
+}
+
 #[test]
 fn darboux_polynomials_may_rest_on_relations() {
-    let effort = Effort { by_class: false, ..Effort::default() };
-    // v(x − sin t) = x² − sin² t only where sin² + cos² = 1.
-    let report = searched(&field("", &["x² + cos(z) - 1 + cos(z)²", "0*y", "1"]), &effort);
-    assert_eq!(cofactor(&report, "x − sin(z)"), Some("x + sin(z)"), "{:?}", report.found);
+    let effort = without_classes();
     let found = |rates: [&str; 2], polynomial: &str| {
         let report = searched(&field("", &rates), &effort);
         let own = cofactor(&report, polynomial).map(str::to_string);
         assert!(own.is_some(), "{rates:?}: {:?}", report.found);
     };
+    // v(x − sin t) = x² − sin² t only where sin² + cos² = 1.
     found(["x² + cos(y) - 1 + cos(y)²", "1"], "x − sin(y)");
     // The same for a hyperbola, 1 = e^y e^(−y).
     found(["x² + exp(y) - exp(2*y)*exp(y)*exp(-y)", "1"], "x − exp(y)");
-    found(["x² + exp(-y)*(-1 - exp(-y)*(exp(y)*exp(-y))^2)", "1"], "x − exp(−y)");
+}
+
+#[test]
+#[ignore = "slow: as in two variables, and for 1/e^y as for e^y"]
+fn darboux_polynomials_may_rest_on_other_relations() {
+    let text = field("", &["x² + cos(z) - 1 + cos(z)²", "0*y", "1"]);
+    let report = searched(&text, &without_classes());
+    assert_eq!(cofactor(&report, "x − sin(z)"), Some("x + sin(z)"), "{:?}", report.found);
+    let text = field("", &["x² + exp(-y)*(-1 - exp(-y)*(exp(y)*exp(-y))^2)", "1"]);
+    let report = searched(&text, &without_classes());
+    assert!(cofactor(&report, "x − exp(−y)").is_some(), "{:?}", report.found);
 }
 
 #[test]

@@ -7,7 +7,8 @@ use super::{field, searched};
 
 fn conditions(text: &str, degree: u32) -> SearchReport {
     let conditions = Some(ConditionTarget::Existence);
-    searched(text, &Effort { conditions, degree, ..Effort::default() })
+    let effort = Effort { by_class: false, by_factors: false, ..Effort::default() };
+    searched(text, &Effort { conditions, degree, ..effort })
 }
 
 fn equations(report: &SearchReport) -> Vec<&str> {

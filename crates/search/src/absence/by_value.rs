@@ -1,0 +1,69 @@
+//! Claims of absence for each combination of listed values: one invariant for one of them contradicts the claim.
+
+use super::super::lists::{ListedCase, combinations, first_values};
+use super::super::local::Coordinates;
+use super::super::{Effort, SearchError};
+use super::known::ProvedIntegrals;
+use super::{AbsenceCase, AbsenceOutcome, MOST_TIME};
+use crate::Halt;
+use liouville::case::Case;
+use liouville::claim::absence::Absence;
+use liouville::verdict::{ClaimReport, Options};
+
+/// Largest number of combinations that are judged.
+const MOST: usize = 8;
+
+/// Judges a claim that no count decides for all listed values together; `None` if no parameter has a list of
+/// several values, or the count takes each of them.
+pub fn judged(
+    case: &Case,
+    kind: &Absence,
+    coordinates: &Result<Coordinates, SearchError>,
+    reports: &[ClaimReport],
+    options: Options,
+) -> Result<Option<AbsenceOutcome>, SearchError> {
+    let is_of_velocities = coordinates.is_ok() && !matches!(kind, Absence::NoInvariantRelation(_));
+    if is_of_velocities || first_values(case).is_none() {
+        return Ok(None);
+    }
+    let reason = "a parameter has a list of values: write a separate case for each value";
+    let all = combinations(case).unwrap_or_default();
+    let mut open = (all.len() > MOST || all.is_empty()).then(|| reason.to_string());
+    let mut theorems: Vec<(String, String)> = Vec::new();
+    let share = MOST_TIME / all.len().clamp(1, MOST) as u32;
+    for ListedCase { case: fixed, values } in all.iter().take(MOST) {
+        let effort = Effort { options, ..Effort::default() };
+        // What is proved for all values is proved for each.
+        let known = ProvedIntegrals::of(fixed, reports, &effort)?;
+        let coordinates = Coordinates::of(fixed);
+        let mut asked = AbsenceCase::new(fixed, (&known, &coordinates), reports, options);
+        asked.effort.halt = Halt::within(share);
+        asked.named = &case.model;
+        let told =
+            asked.judge(kind).unwrap_or_else(|error| AbsenceOutcome::Open(error.to_string()));
+        match told {
+            AbsenceOutcome::Exhibited(what) => {
+                return Ok(Some(AbsenceOutcome::Exhibited(format!("for {values}, {what}"))));
+            }
+            AbsenceOutcome::Open(reason) | AbsenceOutcome::Bounded(reason) => {
+                open = open.or_else(|| Some(format!("for {values}: {reason}")));
+            }
+            AbsenceOutcome::Excluded { theorem, counted } => {
+                theorems.push((theorem, counted));
+            }
+        }
+    }
+    if let Some(reason) = open {
+        return Ok(Some(AbsenceOutcome::Open(reason)));
+    }
+    let Some((theorem, counted)) = theorems.first().cloned() else {
+        return Ok(Some(AbsenceOutcome::Open(reason.to_string())));
+    };
+    let is_same = theorems.iter().all(|(other, _)| *other == theorem);
+    let each = theorems.into_iter().zip(&all);
+    let each: Vec<String> =
+        each.map(|((own, _), listed)| format!("{own} ({})", listed.values)).collect();
+    // The functions that are counted may differ.
+    let theorem = if is_same { theorem } else { each.join(" ") };
+    Ok(Some(AbsenceOutcome::Excluded { theorem, counted }))
+}

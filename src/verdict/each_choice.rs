@@ -1,0 +1,73 @@
+//! Claims that something does *not* vanish: one choice of listed values for which it vanishes refutes such a claim.
+
+use super::claim_state::{ClaimState, undecide};
+use super::evidence::Verdict;
+use super::field::TOO_MANY_COMBINATIONS;
+use super::judge::JudgeError;
+use super::judging::Judging;
+use super::ladder::Open;
+use super::recorded::RecordedClaim;
+use super::sampler::Sampler;
+use crate::claim::LevelSubset;
+use crate::mechanics::{Draw, combinations};
+
+impl Judging<'_> {
+    /// Decides such claims separately for each choice of the listed values that they depend on.
+    pub(super) fn climb_each(
+        &self,
+        place: &LevelSubset,
+        sampler: &Sampler,
+        missed: Option<&str>,
+        open: Open<'_, '_>,
+    ) -> Result<(), JudgeError> {
+        for (item, status) in open {
+            let used = self.draws_used(item, sampler);
+            let only = |(draw, is_used): (&Draw, &bool)| match draw {
+                Draw::OneOf(values) if !is_used => values.first().cloned(),
+                _ => None,
+            };
+            let others: Vec<_> = sampler.recipes().iter().zip(&used).map(only).collect();
+            let sampler = sampler.with(&others);
+            let Some(choices) = combinations(sampler.recipes()) else {
+                undecide(status, TOO_MANY_COMBINATIONS.to_string());
+                continue;
+            };
+            for fixed in &choices {
+                let mut one = ClaimState::default();
+                let chosen = sampler.with(fixed);
+                self.decide(place, &chosen, missed, &mut vec![(item, &mut one)])?;
+                self.settle_parts(&chosen, &mut vec![(item, &mut one)])?;
+                one.is_on_a_part |= status.is_on_a_part;
+                let refuted = one.settled == Some(Verdict::Refuted);
+                if !refuted || status.settled.is_none() {
+                    *status = one;
+                } else {
+                    status.is_on_a_part = one.is_on_a_part;
+                }
+                if !refuted {
+                    let listed = chosen.listed(self.case, |draw| used[draw]);
+                    if !listed.is_empty() {
+                        let reason = status.evidence.reason.get_or_insert_default();
+                        let separator = if reason.is_empty() { "" } else { ": " };
+                        *reason = format!("for {listed}{separator}{reason}");
+                    }
+                    break;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a claim depends on each draw.
+    fn draws_used(&self, item: &RecordedClaim<'_>, sampler: &Sampler) -> Vec<bool> {
+        let mut values = self.common.required_at(sampler.kept());
+        values.extend(item.residual.iter().chain(&item.requirement).chain(&item.presence));
+        let inputs = values.into_iter().flat_map(|value| self.graph.inputs_of(value));
+        let made = inputs.filter_map(|input| sampler.made().get(input));
+        let mut used = vec![false; sampler.recipes().len()];
+        for draw in made.flat_map(|value| sampler.graph().inputs_of(*value)) {
+            used[draw] = true;
+        }
+        used
+    }
+}

@@ -1,0 +1,187 @@
+//! Levels that depend on listed values: each value is judged as the same number in the file, for which the level may be
+//! another one, as x² + y² = p is a point for p = 0.
+
+use super::evidence::{ClaimReport, Verdict};
+use super::field::TOO_MANY_COMBINATIONS;
+use super::judge::{JudgeError, Options, judge};
+use super::voids::Choice;
+use crate::case::{Case, Expect, PlacedClaim};
+use crate::formula::{Formula, Symbol};
+use crate::mechanics::{
+    Chart, Draw, LevelEquation, LevelFunction, Meaning, ParameterOrigin, SamplerSpec,
+};
+use crate::number::rational::Rational;
+
+/// Largest number of combinations that are judged.
+const MOST: usize = 16;
+
+/// Judges the claims that hold once more for each combination of the listed values that their levels depend on, and
+/// keeps the first report by which one does not hold; `voids` are the values for which each claim says nothing.
+pub(super) fn judge_listed_levels(
+    case: &Case,
+    options: &Options,
+    reports: &mut [ClaimReport],
+    voids: &[Vec<Choice>],
+) -> Result<(), JudgeError> {
+    for ((claim, report), voids) in case.claims.iter().zip(reports).zip(voids) {
+        let holds = matches!(report.verdict, Verdict::Proved | Verdict::Confirmed);
+        let lists = if holds { lists_of_level(case, claim) } else { Vec::new() };
+        if lists.is_empty() {
+            continue;
+        }
+        let Some(combinations) = combinations(&lists) else {
+            leave_open(report, TOO_MANY_COMBINATIONS.to_string());
+            continue;
+        };
+        for values in combinations {
+            if voids.iter().any(|void| is_void(void, &values)) {
+                continue;
+            }
+            let named = named(case, &values);
+            match judged(case, options, claim, &values) {
+                Ok(one) if one.verdict == Verdict::Proved || one.verdict == report.verdict => {}
+                Ok(one) => {
+                    *report = one;
+                    let reason = report.evidence.reason.take().unwrap_or_default();
+                    let separator = if reason.is_empty() { "" } else { ": " };
+                    report.evidence.reason = Some(format!("for {named}{separator}{reason}"));
+                    if let Some(witness) = &mut report.evidence.witness {
+                        let name = |own: &Listed| case.model.parameters[own.parameter].name.clone();
+                        let own =
+                            values.iter().map(|(list, value)| (name(list), value.to_string()));
+                        witness.parameters.extend(own);
+                    }
+                    break;
+                }
+                Err(error) => {
+                    leave_open(report, format!("for {named}: {error}"));
+                    break;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Judges a claim in the case with these values.
+fn judged(
+    case: &Case,
+    options: &Options,
+    claim: &PlacedClaim,
+    values: &Values<'_>,
+) -> Result<ClaimReport, JudgeError> {
+    let mut fixed = case.clone();
+    (fixed.motions, fixed.absences) = (Vec::new(), Vec::new());
+    fixed.claims = vec![claim.clone()];
+    for (list, value) in values {
+        fixed.model.parameters[list.parameter].origin =
+            ParameterOrigin::Fixed(vec![(*value).clone()]);
+    }
+    let mut judged = judge(&fixed, &Options { mutants: false, ..*options })?;
+    Ok(judged.claims.swap_remove(0))
+}
+
+/// Names values as `p = 0 and q = 1`.
+fn named(case: &Case, values: &Values<'_>) -> String {
+    let one = |(list, value): &(&Listed, &Rational)| {
+        format!("{} = {value}", case.model.parameters[list.parameter].name)
+    };
+    values.iter().map(one).collect::<Vec<String>>().join(" and ")
+}
+
+/// Leaves a claim undecided.
+fn leave_open(report: &mut ClaimReport, reason: String) {
+    report.verdict = Verdict::Undecided;
+    report.agrees = report.expect == Expect::Open;
+    let evidence = &mut report.evidence;
+    (evidence.proof, evidence.independence, evidence.volume) = (None, None, None);
+    evidence.holds.clear();
+    evidence.reason = Some(reason);
+}
+
+/// A parameter with a list of several values.
+struct Listed {
+    parameter: usize,
+    /// First draw of the parameter.
+    draw: usize,
+    /// Values, unless the parameter is no scalar.
+    values: Option<Vec<Rational>>,
+}
+
+/// A value of each such parameter.
+type Values<'l> = Vec<(&'l Listed, &'l Rational)>;
+
+/// Lists the parameters with several values in the equations of a claim's place, or in the chart of it.
+fn lists_of_level(case: &Case, claim: &PlacedClaim) -> Vec<Listed> {
+    let (model, kept) = (&case.model, &claim.place.kept);
+    let function = |(equation, _): (&LevelEquation, &bool)| match &equation.function {
+        LevelFunction::Formula(formula) => Some(formula.clone()),
+        _ => None,
+    };
+    let equations = model.level.iter().zip(kept).filter(|(_, kept)| **kept);
+    let mut formulas: Vec<Formula> = equations.filter_map(function).collect();
+    let mut used: Vec<Symbol> = Vec::new();
+    if let Chart::Given(chart) = &case.chart
+        && kept.iter().all(|kept| *kept)
+    {
+        let names = chart.formulas.iter().flat_map(Formula::named_symbols);
+        let own =
+            names.filter_map(|(_, name)| model.vocabulary.find(name)).map(|entry| &entry.meaning);
+        let parameters = own.filter_map(|meaning| match meaning {
+            Meaning::Parameter(index) => Some(*index),
+            _ => None,
+        });
+        formulas.extend(
+            parameters.filter_map(|index| case.formula(&model.parameters[index].name).ok()),
+        );
+    }
+    let all: Vec<&Formula> = formulas.iter().collect();
+    for formula in model.parameter_formulas_of(&all).into_iter().chain(all) {
+        let own = model.vocabulary.with_abbreviations(formula, &model.abbreviations);
+        used.extend(own.into_iter().flat_map(Formula::symbols));
+    }
+    let is_used = |parameter: usize| {
+        used.iter().any(|symbol| {
+            matches!(model.vocabulary.entry(*symbol).meaning, Meaning::Parameter(own) if own == parameter)
+        })
+    };
+    let (mut lists, mut draw) = (Vec::new(), 0);
+    for (parameter, own) in model.parameters.iter().enumerate() {
+        let ParameterOrigin::Free(spec) = &own.origin else { continue };
+        let draws = spec.draws();
+        let several = |draw: &Draw| matches!(draw, Draw::OneOf(values) if values.len() > 1);
+        if draws.iter().any(several) && is_used(parameter) {
+            let values = match spec {
+                SamplerSpec::Scalar(Draw::OneOf(values)) => Some(values.clone()),
+                _ => None,
+            };
+            lists.push(Listed { parameter, draw, values });
+        }
+        draw += draws.len();
+    }
+    lists
+}
+
+/// Combines the values of some lists; `None` if there are too many, or some parameter is no scalar.
+fn combinations(lists: &[Listed]) -> Option<Vec<Values<'_>>> {
+    let mut all: Vec<Values<'_>> = vec![Vec::new()];
+    for list in lists {
+        let values = list.values.as_ref()?;
+        let mut next = Vec::with_capacity(all.len() * values.len());
+        for own in &all {
+            next.extend(values.iter().map(|value| [&own[..], &[(list, value)]].concat()));
+        }
+        all = next;
+        if all.len() > MOST {
+            return None;
+        }
+    }
+    Some(all)
+}
+
+/// Whether nothing is said for these values.
+fn is_void(void: &Choice, values: &Values<'_>) -> bool {
+    values
+        .iter()
+        .all(|(list, value)| void.get(list.draw).is_some_and(|own| own.as_ref() == Some(value)))
+}
