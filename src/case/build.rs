@@ -69,6 +69,8 @@ pub struct Attempt {
     leaves_out: bool,
     /// Whether a formula outside of claims and abbreviations uses `t`, which is not declared.
     lacks_time: bool,
+    /// Whether the system was read without mistakes, so that all claims could be judged.
+    pub is_whole: bool,
     /// Mistakes found in the attempt.
     pub mistakes: Vec<Mistake>,
     /// Parameters that are lists of numbers.
@@ -107,6 +109,7 @@ struct Noted {
     lists: Vec<String>,
     places: Places,
     leaves_out: bool,
+    is_whole: bool,
 }
 
 impl Attempt {
@@ -117,10 +120,11 @@ impl Attempt {
             let root = CaseTable::new("the file", table, 0..0, text, &mistakes);
             read(&root, settings, assumed, &mut noted)
         };
-        let Noted { lists, places, leaves_out } = noted;
+        let Noted { lists, places, leaves_out, is_whole } = noted;
         let leaves_out = leaves_out || mistakes.leaves_out();
         let lacks_time = mistakes.lacks_time_since(0);
-        Self { case, places, leaves_out, lacks_time, mistakes: mistakes.into_list(), lists }
+        let mistakes = mistakes.into_list();
+        Self { case, places, leaves_out, lacks_time, is_whole, mistakes, lists }
     }
 
     /// Attaches the same system without `t`; the mistakes of either stop both.
@@ -203,6 +207,7 @@ fn read(
     let ReadClaims { claims, motions, absences, places, leaves_out } =
         ReadClaims::new(root, &context, &assumed.time);
     (noted.places, noted.leaves_out) = (places, leaves_out);
+    noted.is_whole = is_whole;
     let check = root.keep(root.boolean("check-weights")).flatten().unwrap_or(true);
     let dimensions = root.table("dimensions");
     let column = root.keep(column(root)).flatten();

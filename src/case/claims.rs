@@ -67,6 +67,7 @@ pub fn read(
         source: source(section, context)?,
         place,
         only_there,
+        is_wanted: true,
         expect: expect(section)?,
         cell: cell(section)?,
         note: section.text("note")?.map(|text| text.value),
@@ -225,7 +226,8 @@ fn place(
                     equations.join(", ")
                 ),
             };
-            Err(other(&text, format!("`{equation}` is not a place of this case"), &remedy))
+            let message = format!("`{equation}` is not a place of this case");
+            Err(Mistake::at(text.span.clone(), Problem::Sense { message, remedy }))
         }
     }
 }
@@ -255,7 +257,7 @@ pub fn expect(section: &CaseTable<'_>) -> Result<Expect, Mistake> {
         found => Err(other(
             &text,
             format!("`expect` is \"holds\", \"fails\" or \"open\", not \"{found}\""),
-            "write the expected verdict",
+            "write what you expect of the claim: holds, fails or open",
         )),
     }
 }

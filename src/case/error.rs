@@ -195,6 +195,11 @@ impl CaseError {
         Self { mistakes: vec![Mistake::whole(problem)] }
     }
 
+    /// The error of a source from which no case can be read.
+    pub fn of_source(message: String, remedy: String) -> Self {
+        Self::whole(Problem::Other { message, remedy })
+    }
+
     /// All mistakes, in the order of the file.
     pub fn mistakes(&self) -> &[Mistake] {
         &self.mistakes

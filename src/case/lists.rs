@@ -8,6 +8,7 @@ use std::collections::BTreeSet;
 
 use super::build::Attempt;
 use super::error::{Mistake, Problem};
+use crate::formula::FormulaError;
 
 /// Number of lists above which at most two of them are tried as matrices at once.
 const MOST_TRIED: usize = 6;
@@ -25,7 +26,7 @@ pub fn settled(read: &dyn Fn(&BTreeSet<String>) -> Attempt) -> Attempt {
     lists.dedup();
     for subset in subsets(&lists) {
         let attempt = read(&subset);
-        if of_kind(&attempt) < of_kind(&best) {
+        if rank(&attempt) < rank(&best) {
             (best, chosen) = (attempt, subset);
         }
         if of_kind(&best) == 0 {
@@ -39,7 +40,41 @@ pub fn settled(read: &dyn Fn(&BTreeSet<String>) -> Attempt) -> Attempt {
         }
         tell(&mut best, &read(&other), name, chosen.contains(name));
     }
+    tell_diagonal(&mut best, &chosen);
     best
+}
+
+/// Rank of an attempt, low for a good one: of two with as many mistakes, that is the better in which more
+/// was read, and then that in which more mistakes are of sizes alone.
+fn rank(attempt: &Attempt) -> (usize, bool, usize) {
+    let of_kinds = attempt
+        .mistakes
+        .iter()
+        .filter(|mistake| may_be_of_kind(mistake) && sizes_error(mistake).is_none());
+    (of_kind(attempt), !attempt.is_whole, of_kinds.count())
+}
+
+/// The error of a mistake that is of sizes alone.
+fn sizes_error(mistake: &Mistake) -> Option<&FormulaError> {
+    match &mistake.problem {
+        Problem::Formula(error) => Some(error).filter(|error| error.is_of_sizes()),
+        _ => None,
+    }
+}
+
+/// Says that a list is read as a diagonal matrix where the size of a matrix does not fit.
+fn tell_diagonal(attempt: &mut Attempt, chosen: &BTreeSet<String>) {
+    let names: Vec<String> = chosen.iter().map(|name| format!("`{name}`")).collect();
+    let words = match names.as_slice() {
+        [] => return,
+        [name] => format!("the list {name} is read as a diagonal matrix"),
+        names => format!("the lists {} are read as diagonal matrices", names.join(", ")),
+    };
+    for mistake in &mut attempt.mistakes {
+        let Some(error) = sizes_error(mistake) else { continue };
+        let help = error.help().map_or(words.clone(), |help| format!("{help}; {words}"));
+        mistake.problem = Problem::Formula(error.clone().with_help(help));
+    }
 }
 
 /// Number of mistakes that a list of the wrong type may cause.
@@ -59,6 +94,11 @@ fn may_be_of_kind(mistake: &Mistake) -> bool {
         | Problem::Cycle(..) => false,
         _ => true,
     }
+}
+
+/// Whether the mistake is one of types, which are checked wherever a formula is read.
+fn is_of_types(mistake: &Mistake) -> bool {
+    matches!(mistake.problem, Problem::Formula(_) | Problem::WrongKind { .. })
 }
 
 /// Subsets of the lists, small ones first.
@@ -98,8 +138,13 @@ fn tell(best: &mut Attempt, other: &Attempt, name: &str, is_diagonal: bool) {
         let overlaps = |own: &Mistake| place(own).start < to && from < place(own).end;
         other.mistakes.iter().any(|own| may_be_of_kind(own) && overlaps(own))
     };
+    // Other mistakes are sought in a complete system only.
+    let is_sought = |mistake: &Mistake| other.is_whole || is_of_types(mistake);
     let would_be_mended = |mistake: &&mut Mistake| {
-        may_be_of_kind(mistake) && !is_in(mistake, &other.mistakes) && !is_wrong_for_both(mistake)
+        may_be_of_kind(mistake)
+            && is_sought(mistake)
+            && !is_in(mistake, &other.mistakes)
+            && !is_wrong_for_both(mistake)
     };
     for mistake in best.mistakes.iter_mut().filter(would_be_mended).filter(|_| makes_others) {
         mistake.problem = Problem::Other {

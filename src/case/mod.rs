@@ -182,6 +182,8 @@ pub struct PlacedClaim {
     pub place: LevelSubset,
     /// Whether it is claimed to fail outside of the place.
     pub only_there: bool,
+    /// Whether a report on it is wanted; otherwise it is judged for the sake of others.
+    pub is_wanted: bool,
     /// Expectation of the file.
     pub expect: Expect,
     /// Table row this claim belongs to.

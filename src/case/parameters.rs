@@ -63,6 +63,11 @@ impl<'r, 's> Reading<'r, 's> {
             Refusal::Form(message, remedy) => {
                 Mistake::at(value.span(), Problem::Sense { message, remedy })
             }
+            Refusal::OneValue(only) => {
+                let message = Refusal::empty_range(&only, &only);
+                let remedy = format!("write {only} for one value");
+                Mistake::at(value.span(), Problem::Sense { message, remedy })
+            }
             Refusal::Size(error, start) => {
                 let inner = start + error.span().start..start + error.span().end;
                 let place = text().map_or(value.span(), |text| text.locate(inner));
@@ -101,8 +106,12 @@ impl<'r, 's> Reading<'r, 's> {
         if let Some(setting) = setting
             && let Some(expected) = self.kind_of_written(value).filter(|known| *known != kind)
         {
-            let problem = format!("`{name}` is a {expected}, and this is a {kind}");
-            return Err(set_to(setting, &problem, "give a value of the same kind"));
+            let (own, given) = match expected.differs_in_size(kind) {
+                true => (expected.in_full(), kind.in_full()),
+                false => (expected.to_string(), kind.to_string()),
+            };
+            let problem = format!("`{name}` is a {own}, and this is a {given}");
+            return Err(set_to(setting, &problem, &form_of(&name, expected)));
         }
         if let (Some(setting), Ok(GivenValue::Drawn(recipe))) =
             (setting, shapes::given(value, &self.vocabulary))
@@ -170,6 +179,27 @@ pub fn origin_of(formula: Formula) -> ParameterOrigin {
     match constant(&formula) {
         Some(values) => ParameterOrigin::Fixed(values),
         None => ParameterOrigin::Formula(formula),
+    }
+}
+
+/// Advice on the form of a value of a type.
+fn form_of(name: &str, kind: Type) -> String {
+    const MOST_WRITTEN: usize = 4;
+    let listed = |count: usize| {
+        let mut all: Vec<String> = (1..=count.min(MOST_WRITTEN)).map(|k| k.to_string()).collect();
+        if count > MOST_WRITTEN {
+            all.push("…".to_string());
+        }
+        format!("[{}]", all.join(", "))
+    };
+    match kind {
+        Type::Scalar => format!("give a number: {name}=5/4"),
+        Type::Vector(length) => format!("give {length} components: {name}={}", listed(length)),
+        Type::Matrix(rows, columns) if rows == columns => format!(
+            "give the {rows} numbers of its diagonal, {name}={}, or its rows, {name}=[[…], …]",
+            listed(rows)
+        ),
+        Type::Matrix(rows, _) => format!("give its {rows} rows: {name}=[[…], …]"),
     }
 }
 

@@ -192,6 +192,7 @@ fn of_density(claim: &PlacedClaim) -> Option<String> {
     let number = claim.kind.text()?.replace('−', "-").parse::<Rational>().ok()?;
     let is_positive = !number.is_zero() && !number.is_negative();
     (!is_positive).then(|| {
-        format!("the density of `{}` is {number}: that of a measure is positive", claim.name)
+        let density = "the density of a measure must be positive";
+        format!("the claimed density `{}` is {number}; {density}", claim.name)
     })
 }

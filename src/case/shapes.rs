@@ -32,6 +32,15 @@ pub enum Refusal {
     Form(String, String),
     /// A size in the value cannot be read; it begins at this byte of the text.
     Size(FormulaError, usize),
+    /// The ends of a range are this one number.
+    OneValue(Rational),
+}
+
+impl Refusal {
+    /// Message about a range that contains no number between its ends.
+    pub fn empty_range(low: &Rational, high: &Rational) -> String {
+        format!("the range {low}..{high} is empty")
+    }
 }
 
 impl From<String> for Refusal {
@@ -219,14 +228,11 @@ fn range(low: &str, high: &str) -> Result<Range, Refusal> {
     let read = |text: &str| text.parse::<Rational>().map_err(|error| error.to_string());
     let range = Range { low: read(low)?, high: read(high)? };
     let (width, _) = (&range.high - &range.low).to_f64();
-    let message = || format!("the range {}..{} is empty", range.low, range.high);
     match range.low.cmp(&range.high) {
-        Ordering::Equal => {
-            Err(Refusal::Form(message(), format!("write {} for one value", range.low)))
-        }
+        Ordering::Equal => Err(Refusal::OneValue(range.low)),
         Ordering::Greater => {
             let remedy = format!("the lower end comes first: {}..{}", range.high, range.low);
-            Err(Refusal::Form(message(), remedy))
+            Err(Refusal::Form(Refusal::empty_range(&range.low, &range.high), remedy))
         }
         Ordering::Less if width.is_normal() => Ok(range),
         Ordering::Less => Err("this range is beyond the range of f64".to_string())?,

@@ -116,6 +116,11 @@ fn variable(
         Refusal::Form(message, remedy) => {
             Mistake::at(value.span(), Problem::Other { message, remedy })
         }
+        Refusal::OneValue(only) => {
+            let message = Refusal::empty_range(&only, &only);
+            let remedy = format!("write a wider range, or declare `{name}` in [parameters]");
+            Mistake::at(value.span(), Problem::Other { message, remedy })
+        }
         Refusal::Size(error, start) => {
             let inner = start + error.span().start..start + error.span().end;
             let text = section.as_text(name, value);

@@ -92,6 +92,7 @@ impl ValueSpec {
                 Refusal::Message(message) => message,
                 Refusal::Form(message, remedy) => format!("{message}: {remedy}"),
                 Refusal::Size(error, _) => error.to_string(),
+                Refusal::OneValue(value) => Refusal::empty_range(&value, &value),
             }),
         }
     }

@@ -85,6 +85,7 @@ impl Case {
             source: claim.source().to_string(),
             place,
             only_there,
+            is_wanted: true,
             expect: claim.expect(),
             cell: claim.cell().map(str::to_string),
             note: claim.note().map(str::to_string),

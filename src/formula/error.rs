@@ -20,6 +20,8 @@ struct PlacedFault {
     unknown: Option<String>,
     /// Whether an index is too large or too small.
     out_of_range: bool,
+    /// Whether the kinds of the operands fit, but their sizes do not.
+    of_sizes: bool,
 }
 
 impl FormulaError {
@@ -30,10 +32,11 @@ impl FormulaError {
             help: None,
             unknown: None,
             out_of_range: false,
+            of_sizes: false,
         }))
     }
 
-    pub(super) fn with_help(mut self, help: impl Into<String>) -> Self {
+    pub(crate) fn with_help(mut self, help: impl Into<String>) -> Self {
         self.0.help = Some(help.into());
         self
     }
@@ -53,6 +56,17 @@ impl FormulaError {
     /// Whether the error is an index that is too large or too small.
     pub fn is_out_of_range(&self) -> bool {
         self.0.out_of_range
+    }
+
+    /// Marks the error as one about sizes alone.
+    pub(super) fn with_sizes(mut self) -> Self {
+        self.0.of_sizes = true;
+        self
+    }
+
+    /// Whether the kinds of the operands fit, but their sizes do not.
+    pub fn is_of_sizes(&self) -> bool {
+        self.0.of_sizes
     }
 
     /// Unknown name that caused the error, as written.

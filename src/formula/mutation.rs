@@ -74,8 +74,14 @@ impl Formula {
     /// Replaces the part of `node` in the text.
     fn edit(&self, node: NodeId, by: &str, change: String) -> MutantEdit {
         let span = &self.arena.nodes[node].span;
-        let (before, after) = (self.text.get(..span.start), self.text.get(span.end..));
-        let text = format!("{}({by}){}", before.unwrap_or(""), after.unwrap_or(""));
+        let before = self.text.get(..span.start).unwrap_or("");
+        let after = self.text.get(span.end..).unwrap_or("");
+        let would_join =
+            before.ends_with(char::is_alphanumeric) || after.starts_with(char::is_alphanumeric);
+        let text = match is_one_operand(by) && !would_join {
+            true => format!("{before}{by}{after}"),
+            false => format!("{before}({by}){after}"),
+        };
         MutantEdit { text, change }
     }
 
@@ -187,6 +193,19 @@ struct MutantEdit {
     change: String,
 }
 
+/// Whether a text is a name, a whole number, or all inside one pair of parentheses.
+fn is_one_operand(text: &str) -> bool {
+    if text.chars().all(char::is_alphanumeric) || text == "Ĩ" {
+        return !text.is_empty();
+    }
+    let mut depth = 0;
+    let closes = text.char_indices().find_map(|(place, sign)| {
+        depth += i32::from(sign == '(') - i32::from(sign == ')');
+        (depth <= 0).then_some(place)
+    });
+    text.starts_with('(') && closes == Some(text.len() - 1)
+}
+
 /// Names of the same type, the most easily confused first.
 fn others(name: &str, kind: Type, scope: &dyn Scope) -> Vec<String> {
     let likely: &[&str] = match kind {
@@ -234,11 +253,11 @@ mod tests {
         let found = texts("(J*ω,ω) − 2*m*R²");
         for expected in [
             "(J*ω,ω) + 2*m*R²",
-            "(J*ω,ω) − (3)*m*R²",
+            "(J*ω,ω) − 3*m*R²",
             "(J*ω,ω) − 2*m*((R)^(3))",
-            "((I)*ω,ω) − 2*m*R²",
-            "(J*(γ),ω) − 2*m*R²",
-            "((J*ω,ω))",
+            "(I*ω,ω) − 2*m*R²",
+            "(J*γ,ω) − 2*m*R²",
+            "(J*ω,ω)",
             "(J*ω,ω) − 2*(R)*R²",
             "(2*((J*ω,ω))) − 2*m*R²",
         ] {

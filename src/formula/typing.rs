@@ -177,9 +177,13 @@ impl Builder<'_> {
             (Matrix(rows, inner), Matrix(length, columns)) if inner == length => {
                 self.push_sized(NodeOperation::Compose(x, y), Matrix(rows, columns), span)?
             }
-            (Vector(_), Vector(_)) => {
+            (Vector(m), Vector(n)) => {
                 let (a, b) = (self.written(a), self.written(b));
                 let error = FormulaError::new(span, "`*` does not multiply two vectors");
+                if m != n {
+                    let help = format!("`{a}` has {m} components, and `{b}` has {n}");
+                    return Err(error.with_help(help));
+                }
                 return Err(error.with_help(format!("write `({a},{b})` or `{a} × {b}`")));
             }
             (Vector(_), Matrix(..)) => {
@@ -188,10 +192,17 @@ impl Builder<'_> {
                 return Err(error.with_help(format!("write `{b}ᵀ*{a}`")));
             }
             (left @ Matrix(_, columns), right) => {
+                let (a, b) = (self.written(a), self.written(b));
+                let rows = match right {
+                    Vector(length) => format!("{length} components"),
+                    Matrix(rows, _) => several(rows, "row"),
+                    Scalar => "none".to_string(),
+                };
                 let (left, right) = (left.in_full(), right.in_full());
                 let message = format!("a {left} does not multiply a {right}");
-                let help = format!("the factor on the right has {columns} rows");
-                return Err(FormulaError::new(span, message).with_help(help));
+                let help =
+                    format!("`{a}` has {}, and `{b}` has {rows}", several(columns, "column"));
+                return Err(FormulaError::new(span, message).with_help(help).with_sizes());
             }
         })
     }
@@ -250,6 +261,14 @@ impl Builder<'_> {
             (Type::Vector(_), Type::Matrix(..)) => error,
             _ => error.with_help(help),
         })
+    }
+}
+
+/// A number with its noun.
+fn several(number: usize, noun: &str) -> String {
+    match number {
+        1 => format!("1 {noun}"),
+        _ => format!("{number} {noun}s"),
     }
 }
 

@@ -21,7 +21,7 @@ impl Builder<'_> {
                 a.value_type.in_full(),
                 b.value_type.in_full()
             );
-            return Err(FormulaError::new(span, message));
+            return Err(FormulaError::new(span, message).with_sizes());
         }
         Ok(self.push(NodeOperation::Dot(a.node, b.node), Type::Scalar, span))
     }

@@ -105,7 +105,7 @@ impl Parser<'_> {
             if called { functions::names().chain(binders::names()).collect() } else { vec![] };
         let all = || names.iter().map(String::as_str).chain(own.iter().copied());
         let guess = [name, &canonical].into_iter().find_map(|name| nearest(name, all()));
-        let guess = guess.map(str::to_string).or_else(|| greek(name).filter(|name| known(name)));
+        let guess = guess.map(str::to_string).or_else(|| greek(name, known));
         if let Some(guess) = guess {
             return Some(format!("did you mean `{guess}`?"));
         }
@@ -142,9 +142,11 @@ fn listed(names: Vec<String>) -> Option<String> {
 /// Sentence on adding names.
 const OWN: &str = "others are declared in [parameters] or [let]";
 
-/// Greek letter whose English name is misspelled at the start of a name, with what follows it.
-fn greek(name: &str) -> Option<String> {
+/// English name of a Greek letter that is misspelled at the start of a name, with what follows it, if
+/// the whole is a known name.
+fn greek(name: &str, known: impl Fn(&str) -> bool) -> Option<String> {
     let stem = name.trim_end_matches(|c: char| c.is_ascii_digit() || matches!(c, '_' | '\''));
     let letter = nearest(stem, spelled_names())?;
-    canonical_name(&format!("{letter}{}", &name[stem.len()..]))
+    let meant = format!("{letter}{}", &name[stem.len()..]);
+    canonical_name(&meant).filter(|name| known(name)).map(|_| meant)
 }

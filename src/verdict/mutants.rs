@@ -68,7 +68,7 @@ struct Candidate<'c> {
     residual: Vec<Expr>,
 }
 
-/// Mutates every formula that is expected to hold and does.
+/// Mutates every formula of a wanted claim that is expected to hold and does.
 pub fn mutate(
     case: &Case,
     reports: &[ClaimReport],
@@ -88,7 +88,7 @@ pub fn mutate(
         let jet = DualPoint::new(Phase::new(model, parameters, state));
         let mut candidates = Vec::new();
         for claim in &held {
-            let Some(formula) = claim.kind.formula() else { continue };
+            let Some(formula) = claim.kind.formula().filter(|_| claim.is_wanted) else { continue };
             for mutant in formula.mutants(&model.vocabulary) {
                 let Some(kind) = claim.kind.about(mutant.formula.clone()) else { continue };
                 let residual = [

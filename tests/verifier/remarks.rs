@@ -25,8 +25,8 @@ fn slips_that_are_no_mistakes_are_remarked() {
     told("k = '3 − 1'", "", "is the number 2");
     told("k = 1", "[body]\nshape = 'ball'\n", "[body] is not read");
     told("k = 1", "[section]\ng0 = 'pi'\nenergy = 1\n", "[section] is not read");
-    told("k = 1", "[[claim]]\ndensity = '0'\nexpect = 'open'\n", "of a measure is positive");
-    told("k = 1", "[[claim]]\ndensity = -1\nexpect = 'open'\n", "of a measure is positive");
+    told("k = 1", "[[claim]]\ndensity = '0'\nexpect = 'open'\n", "of a measure must be positive");
+    told("k = 1", "[[claim]]\ndensity = -1\nexpect = 'open'\n", "of a measure must be positive");
     told("k = 1", "[[claim]]\ndensity = '1/x'\nexpect = 'open'\n", "");
     told("k = 'A1'\nA = [1, 2]\nA1 = 3", "[let]\nB = 'A'\n", "hides that component of `A`");
     let all = remarks(&format!("[parameters]\nk = 1\n{FLOW}"));

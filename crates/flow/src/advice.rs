@@ -31,7 +31,7 @@ impl FlowError {
                 "ask for values that exist along all motions, such as |x| and not ln(x)"
             }
             FlowError::NoAndoyer => {
-                "for other systems give a surface, such as --section 'x = 0', and starts by states"
+                "give a surface, such as --section 'x = 0', and starts by states"
             }
             FlowError::NoSection => "add [section] with g0 and energy",
             FlowError::Arbitrary => "give a shape and a potential by formulas",

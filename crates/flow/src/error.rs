@@ -4,9 +4,7 @@ use liouville::graph::Fault;
 use liouville::number::UnaryFunction;
 use serde::{Deserialize, Serialize};
 
-/// Number of steps that nobody waits for.
-pub(super) const ENDLESS: f64 = 1e9;
-/// Number of steps that no motion takes, whatever their size.
+/// Number of steps that no motion takes.
 pub(super) const MOST_STEPS: f64 = 1e10;
 
 /// Reason why a motion cannot be computed.
@@ -82,7 +80,8 @@ pub enum FlowError {
     },
     /// The section uses variables that this system does not have.
     #[error(
-        "sections in the variables (1.17) are for a body that rolls without spinning, with the state ω, γ alone"
+        "without --section, a section is in the variables (l, L/G) of a body that rolls without spinning, with \
+         the state ω, γ alone; this system is another"
     )]
     NoAndoyer,
     /// The case has no section.
@@ -287,7 +286,7 @@ fn shrinking(time: f64, step: f64, state: &[f64]) -> String {
     let state: Vec<String> = state.iter().map(|x| format!("{x:.3e}")).collect();
     format!(
         "the motion runs away, or turns ever faster: at t = {time}, near the state [{}], a step is \
-         {:.1e}, and the rest of the time would take more than {ENDLESS:e} of them",
+         {:.1e}, and the rest of the time would take more than {MOST_STEPS:e} steps",
         state.join(", "),
         step.abs()
     )
@@ -315,11 +314,15 @@ fn singular(time: f64, state: &[f64]) -> String {
 fn never_crossed(time: f64, crossings: usize, others: usize) -> String {
     let others = match others {
         0 => String::new(),
+        1 => "; it is crossed once in the direction that does not count".to_string(),
         count => format!("; it is crossed {count} times in the direction that does not count"),
     };
-    format!(
-        "the section is not met again after {crossings} crossings, up to t = {time:.4e}{others}"
-    )
+    let crossed = match crossings {
+        0 => "the motion never crosses the section".to_string(),
+        1 => "the motion does not cross the section again after 1 crossing".to_string(),
+        _ => format!("the motion does not cross the section again after {crossings} crossings"),
+    };
+    format!("{crossed}, up to t = {time:.4e}{others}")
 }
 
 impl FlowError {

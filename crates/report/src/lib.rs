@@ -25,6 +25,14 @@ use liouville::case::{Case, Column};
 use liouville::formula::Layout;
 use liouville::verdict::{CaseReport, ClaimReport, EquationsSize, MutationReport, Verdict};
 
+/// Writes a number with its noun: 1 case, 2 cases.
+pub fn counted(count: usize, noun: &str) -> String {
+    match count {
+        1 => format!("1 {noun}"),
+        _ => format!("{count} {noun}s"),
+    }
+}
+
 /// Outcome for one file of a run.
 #[derive(Debug)]
 pub struct FileOutcome {

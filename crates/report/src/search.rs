@@ -42,7 +42,8 @@ pub fn text(title: &str, report: &SearchReport) -> String {
             (1, false) if report.is_complete => "1 of them a function of those known".to_string(),
             (new, false) if report.is_complete => format!("{new} of them functions of those known"),
             (new, false) => format!("{new} of them not known"),
-            (new, true) => format!("{new} of them no power of the energy"),
+            (1, true) => "1 of them is not a power of the energy".to_string(),
+            (new, true) => format!("{new} of them are not powers of the energy"),
         };
         let motion = if count.free { "free motion, " } else { "" };
         out.push_str(&format!(
@@ -59,8 +60,10 @@ pub fn text(title: &str, report: &SearchReport) -> String {
         for (what, text) in &found.with {
             out.push_str(&match *what {
                 // Its source, and no condition.
-                "bracket" if found.kind == "further-integral" => format!("  the bracket {text}\n"),
-                "derivative along" => format!("  the derivative along {text}\n"),
+                "bracket" if found.kind == "further-integral" => {
+                    format!("  as the bracket {text}\n")
+                }
+                "derivative along" => format!("  as the derivative along {text}\n"),
                 what => format!("  with the {what} {text}\n"),
             });
         }

@@ -2,8 +2,8 @@
 
 use liouville_search::survey::HierarchyClass;
 
-use crate::FileFailure;
 use crate::typeset::mathml::escaped;
+use crate::{FileFailure, counted};
 
 const STYLE: &str = include_str!("survey/page.css");
 
@@ -143,13 +143,6 @@ pub fn index(title: &str, origin: &str, pages: &[Page], order: SiteOrder) -> Str
         out.push_str(&format!("{content}</section>\n"));
     }
     out + "</main>\n</body>\n</html>\n"
-}
-
-fn counted(count: usize, what: &str) -> String {
-    match count {
-        1 => format!("1 {what}"),
-        _ => format!("{count} {what}s"),
-    }
 }
 
 impl Page {

@@ -141,12 +141,20 @@ pub fn named<'f>(
             partial.push(formula.text());
         }
     }
-    let names = names.join(" and ");
+    let names = enumerated(&names);
     Ok(match partial.as_slice() {
         [] => names,
         [only] => format!("{names}, where {only} has a value"),
-        several => format!("{names}, where {} have values", several.join(" and ")),
+        several => format!("{names}, where {} have values", enumerated(several)),
     })
+}
+
+/// Writes a list: a; a and b; a, b and c.
+fn enumerated(names: &[&str]) -> String {
+    match names {
+        [before @ .., last] if !before.is_empty() => format!("{} and {last}", before.join(", ")),
+        _ => names.concat(),
+    }
 }
 
 /// Whether roots, moduli, and roots of what stands under logarithms, have arguments without functions

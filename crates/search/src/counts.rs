@@ -274,7 +274,8 @@ fn listed(draws: &[Draw]) -> Vec<Vec<Option<Rational>>> {
 pub fn size(coordinates: &Coordinates, degree: u32, mixed: bool) -> (u64, f64) {
     let (positions, velocities) = (coordinates.positions as u32, coordinates.velocities as u32);
     let powers = |degree: u32| binomial(degree + velocities - 1, velocities - 1);
-    let powers: u64 = if mixed { (0..=degree).map(powers).sum() } else { powers(degree) };
+    let powers: u64 =
+        if mixed { (0..=degree).map(powers).fold(0, u64::saturating_add) } else { powers(degree) };
     let monomials = binomial(2 * degree + 3 + positions, positions);
     let unknowns = powers.saturating_mul(monomials);
     // All pairs of monomials are listed, and each unknown meets all terms of the rates.
@@ -282,8 +283,12 @@ pub fn size(coordinates: &Coordinates, degree: u32, mixed: bool) -> (u64, f64) {
     (unknowns, steps / STEPS)
 }
 
+/// Returns the binomial coefficient, or the largest number below 2⁶⁴ in place of a larger one.
 fn binomial(n: u32, k: u32) -> u64 {
-    (1..=u64::from(k)).fold(1, |product, i| product * (u64::from(n - k) + i) / i)
+    let number = (1..=u128::from(k)).try_fold(1u128, |product, i| {
+        product.checked_mul(u128::from(n - k) + i).map(|product| product / i)
+    });
+    number.and_then(|number| u64::try_from(number).ok()).unwrap_or(u64::MAX)
 }
 
 /// States the theorem of absence that follows from the counts and the integrals known so far, in

@@ -36,6 +36,7 @@ fn unknown_names_are_guessed_at() {
     error("mγ3", "unknown name `mγ3`", "mγ3", Some("write `m*γ3`?"));
     error("x + g2", "unknown name `g2`", "g2", Some("did you mean `g1`?"));
     error("X", "unknown name `X`", "X", Some("did you mean `x`?"));
+    error("omga", "unknown name `omga`", "omga", Some("did you mean `omega`?"));
     let names = "the names here are A, B, I, P, R, c, g1, k, m, n, r', u, v, x, y, Ĩ, γ, ω; \
                  others are declared in [parameters] or [let]";
     error("energy", "unknown name `energy`", "energy", Some(names));
@@ -191,9 +192,9 @@ fn sizes_have_to_agree() {
                of length 3";
     error("(u,γ)", dot, "(u,γ)", None);
     let product = "a matrix of size 4×4 does not multiply a vector of length 3";
-    error("A*γ", product, "A*γ", Some("the factor on the right has 4 rows"));
+    error("A*γ", product, "A*γ", Some("`A` has 4 columns, and `γ` has 3 components"));
     let product = "a matrix of size 4×4 does not multiply a matrix of size 2×4";
-    error("A*P", product, "A*P", Some("the factor on the right has 4 rows"));
+    error("A*P", product, "A*P", Some("`A` has 4 columns, and `P` has 2 rows"));
     error("u × v", "`×` takes vectors of length 3, this is a vector of length 4", "u", None);
     error("P²", "a matrix of size 2×4 has no powers", "P", None);
     error(

@@ -43,6 +43,14 @@ identity = "(J, [1,1,1]) = 33"
     assert!(told[2].1.contains("unequal weight"), "{told:?}");
     let unequal = error(&late.replace(" + foo", "").replace(" + bar", ""));
     assert!(unequal[0].1.contains("unequal weight"), "{unequal:?}");
+    let ball = "title = 't'\nsystem = 'rubber-plane'\n[body]\nshape = 'ball'\n[parameters]\nm = 1\n\
+                R = 1\nI = [1, 2, 2]\n";
+    let claim = "[[claim]]\nintegral = 'energy'\nwhere = 'on the level'\n";
+    let told = error(&format!("{ball}{claim}{claim}"));
+    assert_eq!(told.len(), 2, "{told:?}");
+    for (_, message, _) in &told {
+        assert_eq!(message, "`on the level` is not a place of this case");
+    }
     let set = |value: &str| {
         let setting = liouville::case::Setting { name: "I".into(), value: value.into() };
         let text = "title = 't'\nsystem = 'rubber-plane'\n[parameters]\nm = 1\nR = 2\n\

@@ -34,8 +34,11 @@ pub enum Action {
         /// Case or folder of the catalogue, such as plane/balanced-ball or plane
         name: PathBuf,
         /// Folder to write to
-        #[arg(default_value = ".")]
+        #[arg(default_value = ".", conflicts_with = "out")]
         folder: PathBuf,
+        /// The same folder
+        #[arg(long, value_name = "FOLDER")]
+        out: Option<PathBuf>,
     },
 }
 
@@ -46,7 +49,7 @@ pub fn run(options: &Cases) -> Result<CommandOutput, String> {
             [(_, text)] => text.to_string(),
             several => several.iter().map(|(name, _)| format!("{name}\n")).collect(),
         },
-        Action::Copy { name, folder } => copy(name, folder)?,
+        Action::Copy { name, folder, out } => copy(name, out.as_ref().unwrap_or(folder))?,
     };
     Ok(CommandOutput { text, code: 0 })
 }

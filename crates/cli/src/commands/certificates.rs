@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::report::certificate::{CaseOrigin, Missing, certificate};
 use crate::report::motion_certificate::{horseshoe_certificate, motion_certificate};
-use crate::report::{FileOutcome, RunReport};
+use crate::report::{FileOutcome, RunReport, counted};
 use liouville::case::{Case, MotionClaim};
 use liouville::claim::motion::MotionKind;
 use liouville::verdict::{CaseReport, ClaimReport, Method, Verdict, statements};
@@ -173,10 +173,11 @@ fn summary(folder: &Path, written: usize, missing: &[Missing]) -> String {
         (Missing::NoProgram, "at states that no formula makes, or with too many listed values"),
         (Missing::NoBound, "whose bound is too weak, or without value for some listed values"),
     ];
-    let mut text = format!("{written} certificates in {}", folder.display());
+    let mut text = format!("{} in {}", counted(written, "certificate"), folder.display());
     for (reason, words) in reasons {
         match count(reason) {
             0 => {}
+            1 => text.push_str(&format!("; 1 proof {words} has none")),
             n => text.push_str(&format!("; {n} proofs {words} have none")),
         }
     }

@@ -4,7 +4,7 @@ use std::io::IsTerminal;
 
 use crate::report::terminal::{Detail, Style};
 use crate::report::{diagnostic, json, records, terminal};
-use liouville::case::{Case, Column, is_labelled, labels, matches};
+use liouville::case::{Case, Column, PlacedClaim, is_labelled, labels, matches};
 use liouville::verdict::{ClaimReport, Options};
 use liouville_report::annotations;
 
@@ -47,8 +47,8 @@ impl RequestedClaims {
         self.takes(&own, &case.source, case.column.as_ref())
     }
 
-    /// Removes what need not be judged: other claims of a case may matter to those that are meant,
-    /// but motions take minutes and do not.
+    /// Removes what need not be judged, and marks the claims that are meant: other claims of a case may
+    /// matter to these, but motions take minutes and do not.
     pub fn prepare(&self, case: &mut Case) {
         let has_meant = |own: &Case| {
             let claims = own.claims.iter().map(|own| (&own.name, &own.source, &own.cell));
@@ -65,6 +65,11 @@ impl RequestedClaims {
                 let claim = RequestedClaim { name: &own.name, source: &own.source, cell: None };
                 self.takes(&claim, &whole, column.as_ref())
             });
+            for claim in &mut own.claims {
+                let PlacedClaim { name, source, cell, .. } = &*claim;
+                let asked = RequestedClaim { name, source, cell: cell.as_deref() };
+                claim.is_wanted = self.takes(&asked, &whole, column.as_ref());
+            }
             if has_none {
                 own.claims.clear();
                 own.absences.clear();

@@ -17,7 +17,11 @@ pub struct Completions {
 #[derive(Debug, Args)]
 pub struct Man {
     /// Folder to write the pages to
-    pub folder: PathBuf,
+    #[arg(required_unless_present = "out", conflicts_with = "out")]
+    pub folder: Option<PathBuf>,
+    /// The same folder
+    #[arg(long, value_name = "FOLDER")]
+    pub out: Option<PathBuf>,
 }
 
 /// Name of the program.
@@ -30,9 +34,11 @@ pub fn completions(options: &Completions) -> Result<CommandOutput, String> {
 }
 
 pub fn man(options: &Man) -> Result<CommandOutput, String> {
-    let folder = options.folder.display();
-    std::fs::create_dir_all(&options.folder)
-        .and_then(|()| clap_mangen::generate_to(Arguments::described(), &options.folder))
+    let given = options.out.as_ref().or(options.folder.as_ref());
+    let path = given.ok_or("error: no folder is given\nhelp: add --out FOLDER")?;
+    let folder = path.display();
+    std::fs::create_dir_all(path)
+        .and_then(|()| clap_mangen::generate_to(Arguments::described(), path))
         .map_err(|error| format!("error: cannot write to {folder}: {error}"))?;
     Ok(CommandOutput { text: format!("{folder}\nnext: man -l {folder}/{PROGRAM}.1\n"), code: 0 })
 }

@@ -1,6 +1,6 @@
 //! Case files of paths: collected in order, with the problems of those that cannot be read.
 
-use std::io::IsTerminal;
+use std::io::{ErrorKind, IsTerminal};
 use std::path::{Path, PathBuf};
 
 use crate::report::{FileFailure, diagnostic};
@@ -35,8 +35,13 @@ pub(super) fn collect(paths: &[PathBuf]) -> Vec<Found> {
             }
             Err(error) => {
                 let message = format!("cannot read {}: {error}", path.display());
-                let help = "give case files, folders of them, or cases of `liouville cases list`";
-                files.push(Err((path.clone(), plain(path, &message, help))));
+                let otherwise =
+                    "give case files, folders of them, or cases of `liouville cases list`";
+                let help = match error.kind() {
+                    ErrorKind::NotFound => source::no_file(path, otherwise),
+                    _ => otherwise.to_string(),
+                };
+                files.push(Err((path.clone(), plain(path, &message, &help))));
             }
         }
     }

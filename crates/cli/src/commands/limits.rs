@@ -64,6 +64,16 @@ impl fmt::Display for Stop {
     }
 }
 
+impl Stop {
+    /// Message of a command that was ended early; the remedy of a job in parts counts for every reason.
+    pub fn message(&self, of_parts: Option<&str>) -> String {
+        let is_limit = matches!(self, Stop::Time(_) | Stop::Memory(_));
+        let remedy = of_parts.or(is_limit.then_some("allow more, or ask for less"));
+        let help = remedy.map_or(String::new(), |remedy| format!("\nhelp: {remedy}"));
+        format!("error: not finished: {self}{help}")
+    }
+}
+
 impl LimitArgs {
     /// Whether there is a limit.
     fn is_some(&self) -> bool {
@@ -98,8 +108,8 @@ impl LimitArgs {
         let peak = kilobytes("VmHWM:")?.div_ceil(1024);
         (peak > most).then(|| {
             format!(
-                "error: --megabytes {most}: the program took {peak} megabytes, and was done before it \
-                 was stopped\nhelp: the results are whole; allow {peak} or more"
+                "error: --megabytes {most}: the program took {peak} megabytes, and had finished before it \
+                 was stopped\nhelp: the results are complete; allow {peak} or more"
             )
         })
     }
@@ -193,5 +203,12 @@ mod tests {
         for text in ["0", "-1", "soon", "nan", "1e400"] {
             assert!(parse_seconds(text).is_err(), "{text}");
         }
+    }
+
+    #[test]
+    fn a_limit_can_be_raised_and_a_signal_cannot() {
+        assert!(Stop::Memory(10).message(None).contains("\nhelp: allow more"));
+        assert_eq!(Stop::Signal.message(None), "error: not finished: stopped by a signal");
+        assert!(Stop::Signal.message(Some("run it again")).ends_with("\nhelp: run it again"));
     }
 }

@@ -16,10 +16,10 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     ColorChoice::from(read.color).write_global();
     let mut command = read.command;
     let own = arguments.get(1..).unwrap_or_default();
-    let mut remedy = "allow more, or ask for less".to_string();
+    let mut remedy = None;
     if let Some(share) = share(&mut command) {
         share.keep(own);
-        remedy = share.remedy();
+        remedy = Some(share.remedy());
     }
     let (limits, all) = (limits(&command), all_limits(&command));
     if let Err(problem) = limits.check() {
@@ -28,7 +28,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     match limits.run(move || whole(&command)) {
         Ok(answer) => bounded(finish(answer), all),
         Err(stop) => {
-            anstream::eprintln!("error: not finished: {stop}\nhelp: {remedy}");
+            anstream::eprintln!("{}", stop.message(remedy.as_deref()));
             STOPPED
         }
     }

@@ -7,6 +7,7 @@ use std::time::{Duration, SystemTime};
 
 use super::limits::signals;
 use super::{CheckArgs, CommandOutput, check, files, finish, source};
+use crate::report::counted;
 
 /// Time between two looks at the files.
 const GLANCE: Duration = Duration::from_millis(250);
@@ -33,7 +34,8 @@ pub fn run(options: &CheckArgs) -> Result<CommandOutput, String> {
             anstream::print!("{CLEAR}");
         }
         let code = finish(answer);
-        anstream::eprintln!("\n{} files watched; Ctrl-C ends", seen.len());
+        let watched = counted(seen.len(), "file");
+        anstream::eprintln!("\n{watched} watched; press Ctrl-C to stop");
         while snapshot(&options.paths) == seen {
             if signal.load(Ordering::Relaxed) {
                 return Ok(CommandOutput { text: String::new(), code });

@@ -114,7 +114,7 @@ impl Set {
         if let Some(first) = missing.first() {
             let (count, of) = (missing.len(), header.of);
             let are = if count == 1 { "is" } else { "are" };
-            let others = if count == 1 { "" } else { "\nand so on" };
+            let others = if count == 1 { "" } else { "\ncompute the other parts in the same way" };
             let away = away(&header.inputs());
             return Err(format!(
                 "error: {count} of {of} parts {are} missing: {}\nhelp: {}{others}{away}",

@@ -188,6 +188,9 @@ pub fn text(run: &BenchRun, style: Style) -> String {
         }
         out.push('\n');
     }
+    if run.measured.is_empty() {
+        return out;
+    }
     let features = match vector_features() {
         [] => "baseline".to_string(),
         features => features.join(" "),

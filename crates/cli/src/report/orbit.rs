@@ -2,6 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
+use super::counted;
 use liouville::case::Case;
 use liouville::mechanics::Variable;
 use liouville::number::arb::Approximation;
@@ -70,10 +71,10 @@ pub fn text(case: &Case, orbit: &Orbit, precision: Precision) -> String {
     };
     line(case.title.clone());
     line(format!(
-        "Taylor series of order {} in {}, {} steps",
+        "Taylor series of order {} in {}, {}",
         orbit.order,
         precision_name(precision),
-        orbit.steps
+        counted(orbit.steps as usize, "step")
     ));
     for (time, state) in
         [("0".to_string(), &orbit.start.state), (written(orbit.time, precision), &orbit.end)]

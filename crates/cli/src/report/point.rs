@@ -121,6 +121,12 @@ pub fn text<N: Decimal>(report: &PointReport<N>) -> String {
     for (equation, value) in &report.level {
         line(equation, format!("off by {}", shown(value)));
     }
+    if report.level.iter().any(|(_, value)| is_off(value)) {
+        line(
+            "warning",
+            "this state is off the level: claims on the level do not concern it".into(),
+        );
+    }
     let rates: Vec<String> = report.field.iter().map(|rate| shown(rate)).collect();
     let rates = rates.join("\n                   ");
     if let Some(determinant) = &report.determinant {
@@ -163,9 +169,19 @@ pub fn text<N: Decimal>(report: &PointReport<N>) -> String {
     }
     if all_values(report).iter().any(|value| value.number().as_deref() == Some(OVERFLOW)) {
         let further = if N::HAS_ERRORS { ": --digits 10 goes further than f64" } else { "" };
-        line("overflow", format!("a number, or one that it is formed of, is too large{further}"));
+        let reason = "a number, or one that it is formed of, is too large, or too near 0";
+        line("overflow", format!("{reason}{further}"));
     }
     out
+}
+
+/// Difference of the sides of an equation up to which a state counts as on the level.
+const ON_LEVEL: f64 = 1e-9;
+
+/// Whether a difference of sides is not 0 up to rounding of the given state.
+fn is_off<N: Decimal>(value: &N) -> bool {
+    let number = value.number().and_then(|number| number.parse::<f64>().ok());
+    number.is_some_and(|number| number.abs() > ON_LEVEL + value.error().unwrap_or(0.0))
 }
 
 /// All numbers of a report.

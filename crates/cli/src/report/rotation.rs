@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use super::counted;
 use super::cycle::shown;
 use super::data::quoted;
 use super::facts;
@@ -68,11 +69,11 @@ impl RotationReport<'_> {
         let resonant = count(&|row| row.resonance().is_some());
         let without = count(&|row| row.found.is_none());
         let mut out = format!(
-            "{}\n{}, rotation numbers {}: {} motions, {resonant} at a fraction, {without} without a number\n",
+            "{}\n{}, rotation numbers {}: {}, {resonant} at a fraction, {without} without a number\n",
             self.case.title,
             self.section(),
             self.around,
-            self.rows.len(),
+            counted(self.rows.len(), "motion"),
         );
         let varying = self.varying();
         let titles: String =
@@ -82,7 +83,10 @@ impl RotationReport<'_> {
             let at: String =
                 varying.iter().map(|place| format!("{:>14.8}", row.start[*place])).collect();
             let words = match (&row.found, &row.problem) {
-                (_, Some(problem)) => format!("ended after {} crossings: {problem}", row.crossings),
+                (_, Some(problem)) => {
+                    let crossings = counted(row.crossings, "crossing");
+                    format!("ended after {crossings}: {problem}")
+                }
                 (None, None) => "none: the order of the angles is not kept".to_string(),
                 (Some(found), None) => match found.resonance {
                     Some((p, q)) => format!("{}  {p}/{q}", shown(found.turns)),

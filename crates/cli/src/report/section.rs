@@ -8,7 +8,14 @@ use serde_json::{Value, json};
 use liouville::case::{Case, Direction};
 use liouville_flow::{AreaForm, Character, SectionOrbit, SectionRequest};
 
+use super::counted;
 use super::exponents::{MotionRow, classes};
+
+/// Says that crossings in the other direction are left out.
+pub fn left_out(others: usize) -> String {
+    let are = if others == 1 { "is" } else { "are" };
+    format!("{} in the other direction {are} left out", counted(others, "crossing"))
+}
 
 /// A section with its request.
 pub struct SectionReport<'r> {
@@ -36,27 +43,31 @@ impl SectionReport<'_> {
         let steps: u64 = self.orbits.iter().map(|orbit| orbit.steps).sum();
         let worst = self.orbits.iter().map(|orbit| orbit.drift).fold(0.0, f64::max);
         let mut out = format!(
-            "{}\nsection g = {}, energy {}: {} orbits, {crossings} crossings, {steps} steps\n\
+            "{}\nsection g = {}, energy {}: {}, {}, {}\n\
              largest drift of the energy {worst:.1e}\n",
             self.case.title,
             request.g0,
             request.energy,
-            self.orbits.len()
+            counted(self.orbits.len(), "orbit"),
+            counted(crossings, "crossing"),
+            counted(steps as usize, "step")
         );
         let falling = self.count(|orbit| orbit.crossings.iter().filter(|c| !c.rising).count());
         let others = self.count(|orbit| orbit.others);
         let tangencies = self.count(|orbit| orbit.tangencies);
         match request.direction {
             Direction::Both if falling > 0 && falling < crossings => out.push_str(&format!(
-                "{falling} of the crossings have g' < 0: the section is not crossed one way only\n"
+                "{falling} of the crossings {} g' < 0: the section is not crossed one way only\n",
+                if falling == 1 { "has" } else { "have" }
             )),
             Direction::Up | Direction::Down if others > 0 => {
-                out.push_str(&format!("{others} crossings in the other direction are left out\n"));
+                out.push_str(&format!("{}\n", left_out(others)));
             }
             _ => {}
         }
         if tangencies > 0 {
-            out.push_str(&format!("{tangencies} times the section was touched, not crossed\n"));
+            let times = counted(tangencies, "time");
+            out.push_str(&format!("{times} the section was touched, not crossed\n"));
         }
         let mut problems: Vec<(String, usize)> = Vec::new();
         for problem in self.orbits.iter().filter_map(|orbit| orbit.problem.as_ref()) {
@@ -66,7 +77,8 @@ impl SectionReport<'_> {
             }
         }
         for (problem, count) in problems {
-            out.push_str(&format!("{count} orbits ended early; the first: {problem}\n"));
+            let orbits = counted(count, "orbit");
+            out.push_str(&format!("{orbits} ended early; the first: {problem}\n"));
         }
         for area in self.areas {
             out.push_str(&area_line(area));

@@ -2,8 +2,10 @@
 
 use serde_json::{Value, json};
 
+use super::counted;
 use super::data::missing;
 use super::section::drawing::shade;
+use super::section::left_out;
 use liouville::case::{Case, Direction};
 use liouville_draw::{Axis, CountGrid, Layer, Plot, gradient, math};
 use liouville_flow::{SurfaceOrbit, SurfaceRequest};
@@ -30,10 +32,12 @@ impl SurfaceReport<'_> {
         let crossings = self.count(|orbit| orbit.crossings.len());
         let steps: u64 = self.orbits.iter().map(|orbit| orbit.steps).sum();
         let mut out = format!(
-            "{}\nsection {}: {} orbits, {crossings} crossings, {steps} steps\n",
+            "{}\nsection {}: {}, {}, {}\n",
             self.case.title,
             self.request.surface.text(),
-            self.orbits.len()
+            counted(self.orbits.len(), "orbit"),
+            counted(crossings, "crossing"),
+            counted(steps as usize, "step")
         );
         let drifts = self.orbits.iter().filter_map(|orbit| orbit.drift);
         if let Some(worst) = drifts.reduce(|a, b| if b > a || b.is_nan() { b } else { a }) {
@@ -44,22 +48,27 @@ impl SurfaceReport<'_> {
             (self.count(|orbit| orbit.others), self.count(|orbit| orbit.tangencies));
         match self.request.direction {
             Direction::Both if falling > 0 && falling < crossings => {
-                out.push_str(&format!("{falling} of the crossings are downwards\n"));
+                let are = if falling == 1 { "is" } else { "are" };
+                out.push_str(&format!("{falling} of the crossings {are} downwards\n"));
             }
             Direction::Up | Direction::Down if others > 0 => {
-                out.push_str(&format!("{others} crossings in the other direction are left out\n"));
+                out.push_str(&format!("{}\n", left_out(others)));
             }
             _ => {}
         }
         if tangencies > 0 {
-            out.push_str(&format!("{tangencies} times the surface was touched, not crossed\n"));
+            let times = counted(tangencies, "time");
+            out.push_str(&format!("{times} the surface was touched, not crossed\n"));
         }
         let met = self.orbits.iter().flat_map(|orbit| &orbit.crossings).map(|met| &met.at);
         out.push_str(&missing(self.request.axes.titles(), met));
         for (name, orbit) in self.names.iter().zip(self.orbits) {
             if let Some(problem) = &orbit.problem {
-                let found = orbit.crossings.len();
-                out.push_str(&format!("{name}: ended after {found} crossings: {problem}\n"));
+                let after = match orbit.crossings.len() {
+                    0 => String::new(),
+                    found => format!("ended after {}: ", counted(found, "crossing")),
+                };
+                out.push_str(&format!("{name}: {after}{problem}\n"));
             }
         }
         out

@@ -3,7 +3,7 @@
 use comfy_table::{Cell, Color, ContentArrangement, Table, presets};
 
 use super::evidence::{details, equations, measured};
-use super::{FileOutcome, RunReport, diagnostic};
+use super::{FileOutcome, RunReport, counted, diagnostic};
 use liouville::case::Expect;
 use liouville::verdict::{
     CaseReport, ClaimReport, DensitySign, Independence, Measurement, Method, Verdict,
@@ -237,7 +237,7 @@ fn remark(claim: &ClaimReport) -> String {
             words.push(match &evidence.proof {
                 Some(proof) => format!("{}, error < 2^{:.0}", evidence.method, proof.error_log2),
                 None if evidence.samples > 0 => {
-                    format!("{}, {} states", evidence.method, evidence.samples)
+                    format!("{}, {}", evidence.method, counted(evidence.samples, "state"))
                 }
                 None => evidence.method.to_string(),
             });
@@ -291,10 +291,7 @@ fn mutants(run: &RunReport) -> String {
 
 fn summary(run: &RunReport) -> String {
     let summary = run.summary();
-    let count = |number: usize, noun: &str| match number {
-        1 => format!("1 {noun}"),
-        _ => format!("{number} {noun}s"),
-    };
+    let count = |number: usize, noun: &str| counted(number, noun);
     let mut line = format!(
         "{}, {}: {} proved, {} confirmed, {} refuted, {} undecided; {} against expectation",
         count(summary.cases, "case"),

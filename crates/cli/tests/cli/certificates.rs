@@ -41,7 +41,8 @@ fn certified(folder: &str, cases: &[&str]) -> (PathBuf, Vec<String>) {
     let mut files: Vec<String> = entries.map(|own| own.path().display().to_string()).collect();
     files.sort();
     let told = text(&output.stderr);
-    assert!(told.contains(&format!("{} certificates in {shown}", files.len())), "{told}");
+    let noun = if files.len() == 1 { "certificate" } else { "certificates" };
+    assert!(told.contains(&format!("{} {noun} in {shown}", files.len())), "{told}");
     (path, files)
 }
 
@@ -208,7 +209,11 @@ fn closed_orbits_are_proved_again_from_their_certificates() {
         let output = run("python3", &["docs/certificates/orbit.py", narrow]);
         let told = text(&output.stdout);
         assert!(output.status.success(), "{told}{}", text(&output.stderr));
-        assert!(told.ends_with("1 certificates: 1 proved, 0 refused\n"), "{told}");
+        assert!(told.ends_with("1 certificate: 1 proved, 0 refused\n"), "{told}");
+        let output = run("python3", &["docs/certificates/check.py", narrow]);
+        let told = text(&output.stdout);
+        assert!(told.contains("which `liouville verify` checks"), "{told}");
+        assert!(told.starts_with("other ") && told.ends_with(" 0 refused\n"), "{told}");
     }
     // One digit of the text of the case.
     let changed = fs::read_to_string(&files[0]).expect("a certificate").replace("= 1\\n", "= 2\\n");

@@ -1,6 +1,6 @@
 //! Time, step and progress of one motion, by which one whose end is out of reach is found.
 
-use crate::error::{ENDLESS, MOST_STEPS};
+use crate::error::MOST_STEPS;
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::watch::Edge;
 use liouville::number::double_double::DoubleDouble;
@@ -13,6 +13,8 @@ const SHRUNK: f64 = 1e6;
 const EARLY: [u64; 2] = [1 << 11, 1 << 12];
 /// Multiple of [`MOST_STEPS`] that counts as out of any reach.
 const HOPELESS: f64 = 1e6;
+/// Ratio of the steps at two looks, above which they go on shrinking at the same rate.
+const TREND: f64 = 1.5;
 /// Ratio of the longest steps at two looks, below which steps do not grow.
 const GROWTH: f64 = 1.1;
 
@@ -84,6 +86,8 @@ pub(crate) struct Pace {
     /// Time and number of steps at the last look.
     before: f64,
     counted: u64,
+    /// Mean step and time at the last looks after 2^k steps, the later one first.
+    marks: [Option<(f64, f64)>; 2],
     /// Why the end is out of reach, if it is.
     pub(crate) lost: Option<Lost>,
 }
@@ -108,7 +112,11 @@ impl Pace {
         }
         let mean = (now - self.before).abs() / (steps - self.counted) as f64;
         let most = MOST_STEPS * if is_early { HOPELESS } else { 1.0 };
-        let is_shrunk = mean * SHRUNK < self.longest && left.abs() > mean * ENDLESS;
+        if steps.is_power_of_two() {
+            self.marks = [Some((mean, now)), self.marks[0]];
+        }
+        let rest = left.abs() / mean * self.growth(mean, now, left);
+        let is_shrunk = mean * SHRUNK < self.longest && rest > MOST_STEPS;
         // Steps that grow, as on the way to infinity, may still arrive.
         let is_steady = self.former > 0.0 && self.longest < GROWTH * self.former;
         self.lost = match () {
@@ -117,5 +125,40 @@ impl Pace {
             () => None,
         };
         (self.former, self.before, self.counted) = (self.longest, now, steps);
+    }
+
+    /// Factor by which the rest of the time takes more steps than at their present size, if they go on
+    /// shrinking as e^(−kt).
+    fn growth(&self, mean: f64, now: f64, left: f64) -> f64 {
+        let Some((earlier, time)) = self.marks[1] else { return 1.0 };
+        if earlier < TREND * mean {
+            return 1.0;
+        }
+        let exponent = (earlier / mean).ln() * (left / (now - time)).abs();
+        exponent.exp_m1() / exponent
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_that_shrink_are_counted_at_the_rate_at_which_they_do() {
+        // About e^(10t) steps lead to the time t.
+        let followed = |until: f64| {
+            let (mut pace, mut now, mut steps) = (Pace::default(), 0.0, 0);
+            while pace.lost.is_none() && now < until {
+                let step = 0.1 * f64::exp(-10.0 * now);
+                now += step;
+                steps += 1;
+                pace.keep(step, steps, now, until - now);
+            }
+            (matches!(pace.lost, Some(Lost::Shrinking)), steps)
+        };
+        let (is_lost, steps) = followed(3.0);
+        assert!(is_lost && steps < 1 << 22, "{steps} steps of e^30");
+        let (is_lost, steps) = followed(1.7);
+        assert!(!is_lost && steps > 20_000_000, "{steps} steps of e^17");
     }
 }

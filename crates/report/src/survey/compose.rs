@@ -311,9 +311,9 @@ fn excluded(survey: &Survey) -> Vec<SectionBlock> {
         let has_free = survey.parameters.iter().any(|one| one.value.is_none());
         found.push(text(match has_free {
             true => {
-                "Known of such systems, and not true of this one for all values of the parameters:"
+                "Properties of related systems that this one does not have for all values of the parameters:"
             }
-            false => "Known of such systems, and refuted for this one:",
+            false => "Properties of related systems that are refuted for this one:",
         }));
         found.extend(blocks(&survey.fails));
     }
@@ -325,8 +325,9 @@ fn theorems(search: &SearchOutcome) -> Vec<SectionBlock> {
         search.excluded.iter().map(|one| text(format!("Theorem. {}", one.theorem))).collect();
     if !search.counts.is_empty() {
         found.push(text(
-            "Integrals polynomial in the velocities, with any smooth coefficients in the positions: at most \
-             so many independent over the constants, and how many products of known ones are among them.",
+            "Integrals polynomial in the velocities, with any smooth coefficients in the positions: upper \
+             bounds on the number of integrals that are linearly independent over the constants, and how \
+             many of these are products of known integrals.",
         ));
         let row = |count: &liouville_search::CountReport| {
             let degree = match (count.mixed, count.free) {

@@ -12,6 +12,7 @@ use super::super::ansatz::subspace::complement;
 use super::super::ansatz::system::{Column, LinearSystem, PrimePoint};
 use super::super::ask::judged_alone;
 use super::super::multipliers::WEIGHTS;
+use super::super::orbit::monomials::count;
 use super::super::products::{DEGREE_PRIMES, Generators};
 use super::super::terms::{is_one, multiplied, numeric_exponent};
 use super::known::{contains_integrals, has_lists, rank};
@@ -43,19 +44,19 @@ pub fn judge(
     if contains_integrals(asked.case)? {
         return open("the field contains ∫".to_string());
     }
-    let mut monomials = variables.monomials(0, 0..=degree);
-    monomials.sort_by_key(|own| own.iter().sum::<u32>());
-    let unknowns = monomials.len() as f64;
+    let unknowns = count(variables.count(), degree);
     let systems = match counted {
         Counted::Integrals => 2.0,
         Counted::Densities => WEIGHTS.len() as f64 + 2.0,
     };
-    let seconds = systems * unknowns.powi(3) / STEPS;
+    let seconds = systems * (unknowns as f64).powi(3) / STEPS;
     if seconds > asked.effort.seconds {
         return open(format!(
             "degree {degree} has {unknowns} unknowns, and may take {seconds:.0} s: ask for a lower one"
         ));
     }
+    let mut monomials = variables.monomials(0, 0..=degree);
+    monomials.sort_by_key(|own| own.iter().sum::<u32>());
     let counting = Counting::new(asked, variables, degree, monomials)?;
     let Some(counting) = counting else { return Ok(None) };
     match counted {

@@ -23,6 +23,7 @@ use super::gyro_second::{GyroDirection, Survivors};
 use super::gyro_slots::Part;
 use super::size::SystemSize;
 use super::system::{Column, LinearSystem};
+use super::theorem::{at_most, referred};
 use super::{factors, note_unwritten, written};
 use crate::hypotheses::stated;
 use crate::local::Coordinates;
@@ -324,8 +325,9 @@ impl GyroSearch<'_> {
                     "rotors that preserve {integral} with terms of degree at most {gain} in the positions"
                 ),
                 format!(
-                    "at most {dimension} independent directions of a rotor{aside} allow, to first order in it, \
-                     an integral {integral} + F₁ with F₁ of degree {lower} in the velocities and coefficients that are polynomials of degree at most {gain} in the positions over {over}{then}."
+                    "{}, to first order in it, \
+                     an integral {integral} + F₁ with F₁ of degree {lower} in the velocities and coefficients that are polynomials of degree at most {gain} in the positions over {over}{then}.",
+                    at_most(dimension, "direction", "directions", &format!(" of a rotor{aside}"))
                 ),
             ),
             GyroEntry::Term => {
@@ -334,8 +336,15 @@ impl GyroSearch<'_> {
                 (
                     format!("gyroscopic terms that preserve {integral}, combinations of {all}"),
                     format!(
-                        "at most {dimension} independent combinations of the {kind} {all} allow, to first order in them, \
+                        "{}, to first order in {}, \
                          an integral {integral} + F₁ with F₁ of degree at most {lower} in {} and {gained}{then}.",
+                        at_most(
+                            dimension,
+                            "nonzero combination",
+                            "combinations",
+                            &format!(" of the {kind} {all}")
+                        ),
+                        referred(dimension),
                         names(&mut heads.iter())
                     ),
                 )
@@ -348,8 +357,10 @@ impl GyroSearch<'_> {
                 (
                     format!("forces {form}"),
                     format!(
-                        "at most {dimension} independent forces {form}, allow, to first order in them, \
-                         an integral {integral} + F₁ with F₁ of degree at most {lower} in {heads} and {gained}{then}."
+                        "{}, to first order in {}, \
+                         an integral {integral} + F₁ with F₁ of degree at most {lower} in {heads} and {gained}{then}.",
+                        at_most(dimension, "force", "forces", &format!(" {form},")),
+                        referred(dimension)
                     ),
                 )
             }

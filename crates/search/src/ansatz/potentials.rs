@@ -16,6 +16,7 @@ use super::force_text::{ForcedIntegral, SurvivingForce};
 use super::note_unwritten;
 use super::size::SystemSize;
 use super::system::{Column, LinearSystem};
+use super::theorem::at_most;
 use crate::hypotheses::stated;
 use crate::origin::{RemarkOrigin, TheoremOrigin};
 use liouville::case::Case;
@@ -327,8 +328,8 @@ impl ForceSearch<'_> {
             theorem: stated(
                 &self.case.model,
                 &format!(
-                    "at most {dimension} independent {kind} of this form{aside} \
-                 allow an integral {} + G({names}) with G = Σ p/d, p of degree at most {gain}{}.",
+                    "{} an integral {} + G({names}) with G = Σ p/d, p of degree at most {gain}{}.",
+                    at_most(dimension, self.word(), &kind, &format!(" of this form{aside}")),
                     self.integral,
                     if told == dimension && told > 0 { ": those listed here" } else { "" }
                 ),

@@ -45,6 +45,20 @@ pub fn theorem(what: &str, has_constants: bool, dimension: usize, found: &[Outco
     format!("{}.", parts.join("; "))
 }
 
+/// Writes that at most so many independent ones allow something; `aside` follows the noun.
+pub fn at_most(dimension: usize, one: &str, several: &str, aside: &str) -> String {
+    match dimension {
+        0 => format!("no {one}{aside} allows"),
+        1 => format!("at most 1 independent {one}{aside} allows"),
+        _ => format!("at most {dimension} independent {several}{aside} allow"),
+    }
+}
+
+/// Pronoun for so many of them.
+pub fn referred(dimension: usize) -> &'static str {
+    if dimension > 1 { "them" } else { "it" }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -71,5 +85,9 @@ mod tests {
             "a subspace of dimension 1; 1 further integral is not shown to be independent of these; 2 \
              further integrals are not known.",
         );
+        let forces = |dimension| at_most(dimension, "force", "forces", " of this form");
+        assert_eq!(forces(0), "no force of this form allows");
+        assert_eq!(forces(1), "at most 1 independent force of this form allows");
+        assert_eq!(forces(2), "at most 2 independent forces of this form allow");
     }
 }

@@ -18,9 +18,11 @@ pub fn up_to(variables: &[usize], dimension: usize, degree: u32) -> Vec<Vec<u32>
     (0..=degree).flat_map(|total| exponents(variables.len(), total)).map(spread).collect()
 }
 
-/// Number of monomials up to a degree.
+/// Number of monomials up to a degree, or the largest number there is in place of a larger one.
 pub fn count(variables: usize, degree: u32) -> usize {
-    (1..=variables).fold(1usize, |product, i| product.saturating_mul(degree as usize + i) / i)
+    let product = (1..=variables as u128)
+        .fold(1u128, |product, i| product.saturating_mul(u128::from(degree) + i) / i);
+    usize::try_from(product).unwrap_or(usize::MAX)
 }
 
 /// Number of steps of the eliminations on a line, for monomials up to a degree along a field of

@@ -68,8 +68,8 @@ pub fn run(options: &ContinueArgs) -> Result<CommandOutput, String> {
         other => other?,
     };
     if is_stopped {
-        let words = stop.map_or("stopped".to_string(), |stop| stop.to_string());
-        anstream::eprintln!("error: not finished: {words}\nhelp: allow more, or ask for less");
+        let stopped = "error: not finished: stopped".to_string();
+        anstream::eprintln!("{}", stop.map_or(stopped, |stop| stop.message(None)));
     }
     Ok(CommandOutput { text, code: if is_stopped { STOPPED } else { 0 } })
 }

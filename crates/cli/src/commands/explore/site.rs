@@ -86,7 +86,7 @@ pub fn run(options: &Site) -> Result<CommandOutput, String> {
         out::write(&options.out.join(order.file()), "--out", text)?;
     }
     if let Some(stop) = stop {
-        anstream::eprintln!("error: not finished: {stop}\nhelp: allow more, or ask for less");
+        anstream::eprintln!("{}", stop.message(None));
     }
     Ok(answer(&options.out, &pages))
 }

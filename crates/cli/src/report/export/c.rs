@@ -3,6 +3,7 @@
 use liouville::number::UnaryFunction;
 use liouville::number::rational::Rational;
 
+use super::super::counted;
 use super::ExportedCase;
 use super::lines::CodeLines;
 use super::names::ExportNames;
@@ -180,7 +181,8 @@ impl Target for C {
         text.push_str(&comments(&export.listed(names, 0), "/* ", " */"));
         for body in bodies {
             let count = body.outputs.len();
-            text.push_str(&format!("/* {} writes {count} values. */\n", body.name));
+            let values = counted(count, "value");
+            text.push_str(&format!("/* {} writes {values}. */\n", body.name));
         }
         text.push_str("/* A number without a value is NAN. */\n\n#include <math.h>\n\n");
         let helpers = HELPERS.iter().filter(|(call, _)| code.contains(call));

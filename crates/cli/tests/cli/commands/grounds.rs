@@ -184,3 +184,21 @@ fn a_constraint_is_not_forgotten() {
         liouville(&[&["motion"], wish].concat()).assert().code(2).stderr(told);
     }
 }
+
+#[test]
+fn a_state_off_the_level_is_said_to_be() {
+    let eval = |state: &str| {
+        let arguments = ["eval", "plane/unbalanced-ball", "--state", state];
+        liouville(&arguments).assert().success()
+    };
+    let warning = "this state is off the level";
+    eval("ω=[1,0,0] γ=[1,1,0]").stdout(contains(warning));
+    eval("ω=[0.6,-0.8,1] γ=[0.8,0.6,0]").stdout(contains(warning).not());
+    // Too near 0 for f64, and not undefined.
+    let small = "title = 'small'\n[state]\nx = '0.5..1.5'\n[field]\n\"x'\" = '1'\n[[claim]]\n\
+                 integral = 'x^1000000000000000000000'\n";
+    let home = folder("small", &[("small.toml", small)]);
+    let case = home.join("small.toml").display().to_string();
+    let more = liouville(&["eval", &case, "--state", "x=1/2"]).assert().success();
+    more.stdout(contains("is too large, or too near 0"));
+}

@@ -71,15 +71,19 @@ fn the_keys_of_reports_are_those_of_the_document() {
             false,
         ),
         ("`sweep --json`", &["sweep P --states 1000"], true),
-        ("`basins --json`", &["motion basins P --x x=0..1 --y p=0..1 --size 3x3 --time 50"], true),
         (
-            "`diagram --json`",
+            "`motion basins --json`",
+            &["motion basins P --x x=0..1 --y p=0..1 --size 3x3 --time 50"],
+            true,
+        ),
+        (
+            "`motion diagram --json`",
             &["motion diagram P --over a=1..2 --section x=0 --count 2 --crossings 2"],
             false,
         ),
-        ("`orbit --json`", &["motion orbit P --time 1"], false),
-        ("`exponents --json`", &["motion exponents P --time 50"], false),
-        ("`section --json`", &["motion section P --section x=0 --crossings 3"], false),
+        ("`motion orbit --json`", &["motion orbit P --time 1"], false),
+        ("`motion exponents --json`", &["motion exponents P --time 50"], false),
+        ("`motion section --json`", &["motion section P --section x=0 --crossings 3"], false),
         ("`search --json`", &["search P --degree 2"], false),
     ];
     for (heading, commands, is_whole) in reports {
@@ -89,7 +93,7 @@ fn the_keys_of_reports_are_those_of_the_document() {
             known.extend(documented("`check --json`").into_iter().flatten());
         }
         if heading.contains("section") {
-            known.extend(documented("`orbit --json`").into_iter().flatten());
+            known.extend(documented("`motion orbit --json`").into_iter().flatten());
         }
         let mut found = BTreeSet::new();
         for command in commands {

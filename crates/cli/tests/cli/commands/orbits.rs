@@ -164,7 +164,7 @@ fn sections_by_a_surface_cross_it_to_rounding() {
     wrong("x = y = z", "1,1,20", "one equation");
     wrong("s = 10", "1,1,20", "does not depend on the state");
     wrong("z = q", "1,1,20", "unknown name `q`");
-    wrong("z = -50", "1,1,20", "not met again after 0 crossings");
+    wrong("z = -50", "1,1,20", "the motion never crosses the section");
     wrong("x = 0", "0,0,20", "stays in the surface");
     wrong("z = 1", "0,0,0", "is an equilibrium");
     wrong("z = 27", "1,2,3,4", "or the values of x, y");
@@ -178,7 +178,7 @@ fn a_motion_that_leaves_for_good_does_not_meet_the_section_again() {
     let folder = folder("leaves", &[("kepler.toml", kepler)]);
     let case = path(&folder, "kepler.toml");
     let section = ["motion", "section", &case, "--section", "x = 0", "--start", "1,0,3,0.1"];
-    fails(&section, "not met again after 0 crossings, up to t = 1.0000e15");
+    fails(&section, "the motion never crosses the section, up to t = 1.0000e15");
 }
 
 #[test]
