@@ -135,7 +135,9 @@ impl SharedTerms {
             chart_requirement: match chart {
                 Chart::Given(chart) => {
                     let formulas: Vec<&Formula> = chart.formulas.iter().collect();
-                    let there = phase.in_model(&chart.model, &[]);
+                    // No parameter depends on the inputs of the chart.
+                    let inputs = vec![Expr::zero(); chart.model.dimension()];
+                    let there = phase.in_model(&chart.model, &inputs);
                     there.literal_values(chart.model.parameter_formulas_of(&formulas))
                 }
                 _ => Vec::new(),
