@@ -319,7 +319,7 @@ fn mutants_are_counted() {
 #[test]
 fn mutants_are_those_of_the_claims_that_are_meant() {
     let top = "title = 'top'\n[parameters]\nI = 'inertia(0.5..5)'\n[state]\nM = 'vector(-2..2)'\n\
-               γ = 'vector(-1..1)'\n[field]\n\"M'\" = 'M × inverse(I)*M'\n\"γ'\" = 'γ × inverse(I)*M'\n\
+               \"γ\" = 'vector(-1..1)'\n[field]\n\"M'\" = 'M × inverse(I)*M'\n\"γ'\" = 'γ × inverse(I)*M'\n\
                [[claim]]\nname = 'energy'\nintegral = '(M,inverse(I)*M)'\n[[claim]]\nintegral = '(M,γ)'\n";
     let path = folder("mutants-meant", &[("top.toml", top)]);
     let path = path.to_str().expect("UTF-8");
