@@ -1,15 +1,15 @@
 //! Levels that depend on listed values: each value is judged as the same number in the file, for which the level may be
 //! another one, as x² + y² = p is a point for p = 0.
 
+use std::collections::BTreeSet;
+
 use super::evidence::{ClaimReport, Verdict};
 use super::field::TOO_MANY_COMBINATIONS;
 use super::judge::{JudgeError, Options, judge};
 use super::voids::Choice;
 use crate::case::{Case, Expect, PlacedClaim};
-use crate::formula::{Formula, Symbol};
-use crate::mechanics::{
-    Chart, Draw, LevelEquation, LevelFunction, Meaning, ParameterOrigin, SamplerSpec,
-};
+use crate::formula::Formula;
+use crate::mechanics::{Chart, Draw, LevelFunction, Meaning, Model, ParameterOrigin, SamplerSpec};
 use crate::number::rational::Rational;
 
 /// Largest number of combinations that are judged.
@@ -114,43 +114,24 @@ type Values<'l> = Vec<(&'l Listed, &'l Rational)>;
 /// Lists the parameters with several values in the equations of a claim's place, or in the chart of it.
 fn lists_of_level(case: &Case, claim: &PlacedClaim) -> Vec<Listed> {
     let (model, kept) = (&case.model, &claim.place.kept);
-    let function = |(equation, _): (&LevelEquation, &bool)| match &equation.function {
-        LevelFunction::Formula(formula) => Some(formula.clone()),
-        _ => None,
-    };
-    let equations = model.level.iter().zip(kept).filter(|(_, kept)| **kept);
-    let mut formulas: Vec<Formula> = equations.filter_map(function).collect();
-    let mut used: Vec<Symbol> = Vec::new();
+    let mut equations: Vec<&Formula> = Vec::new();
+    for (equation, _) in model.level.iter().zip(kept).filter(|(_, kept)| **kept) {
+        if let LevelFunction::Formula(formula) = &equation.function {
+            equations.push(formula);
+        }
+    }
+    let mut used = parameters_in(model, &equations);
     if let Chart::Given(chart) = &case.chart
         && kept.iter().all(|kept| *kept)
     {
-        let names = chart.formulas.iter().flat_map(Formula::named_symbols);
-        let own =
-            names.filter_map(|(_, name)| model.vocabulary.find(name)).map(|entry| &entry.meaning);
-        let parameters = own.filter_map(|meaning| match meaning {
-            Meaning::Parameter(index) => Some(*index),
-            _ => None,
-        });
-        formulas.extend(
-            parameters.filter_map(|index| case.formula(&model.parameters[index].name).ok()),
-        );
+        used.extend(parameters_in(&chart.model, &chart.formulas.iter().collect::<Vec<_>>()));
     }
-    let all: Vec<&Formula> = formulas.iter().collect();
-    for formula in model.parameter_formulas_of(&all).into_iter().chain(all) {
-        let own = model.vocabulary.with_abbreviations(formula, &model.abbreviations);
-        used.extend(own.into_iter().flat_map(Formula::symbols));
-    }
-    let is_used = |parameter: usize| {
-        used.iter().any(|symbol| {
-            matches!(model.vocabulary.entry(*symbol).meaning, Meaning::Parameter(own) if own == parameter)
-        })
-    };
     let (mut lists, mut draw) = (Vec::new(), 0);
     for (parameter, own) in model.parameters.iter().enumerate() {
         let ParameterOrigin::Free(spec) = &own.origin else { continue };
         let draws = spec.draws();
         let several = |draw: &Draw| matches!(draw, Draw::OneOf(values) if values.len() > 1);
-        if draws.iter().any(several) && is_used(parameter) {
+        if draws.iter().any(several) && used.contains(&parameter) {
             let values = match spec {
                 SamplerSpec::Scalar(Draw::OneOf(values)) => Some(values.clone()),
                 _ => None,
@@ -160,6 +141,18 @@ fn lists_of_level(case: &Case, claim: &PlacedClaim) -> Vec<Listed> {
         draw += draws.len();
     }
     lists
+}
+
+/// Lists the parameters that some formulas use, directly or through names and other parameters.
+fn parameters_in(model: &Model, formulas: &[&Formula]) -> BTreeSet<usize> {
+    let all = model.parameter_formulas_of(formulas).into_iter().chain(formulas.iter().copied());
+    let written =
+        all.flat_map(|own| model.vocabulary.with_abbreviations(own, &model.abbreviations));
+    let parameter = |symbol| match model.vocabulary.entry(symbol).meaning {
+        Meaning::Parameter(index) => Some(index),
+        _ => None,
+    };
+    written.flat_map(Formula::symbols).filter_map(parameter).collect()
 }
 
 /// Combines the values of some lists; `None` if there are too many, or some parameter is no scalar.

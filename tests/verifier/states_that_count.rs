@@ -110,7 +110,7 @@ fn a_component_of_time_is_a_use_of_time() {
 fn reasons_name_the_listed_parameters_that_a_claim_uses() {
     let text = "title = 't'\ncheck-weights = false\n[parameters]\na = '1..2'\ns = 'one of -1, 1'\nr = 'one of 1, 2'\n\
         [state]\nq = 'vector(3, -1..1)'\np = 'vector(3, -1..1)'\n[field]\n\"q'\" = 'p'\n\"p'\" = '-a*r*q'\n\
-        [[claim]]\nindependent = ['|q × p|', '(p,p)', '(q,q)', '(q,p)']\nexpect = 'fails'\n";
+        [[claim]]\nindependent = ['|q × p|', '(p,p)', '(q,q)', 'r*(q,p)']\nexpect = 'fails'\n";
     let case = Case::parse(text, &[]).expect("a case");
     let report = judge(&case, &Options::default()).expect("judged");
     let claim = &report.claims[0];

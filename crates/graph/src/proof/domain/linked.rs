@@ -3,6 +3,7 @@
 
 use crate::graph::Graph;
 use crate::proof::alike::{Likeness, contains_increasing, likeness};
+use crate::proof::fact::SignFact;
 
 use super::bounds::{is_within_half_turns, narrow};
 use super::reach::Reach;
@@ -36,16 +37,20 @@ pub(super) fn links(graph: &Graph, places: &[usize], numbers: &[usize]) -> Vec<L
 impl Reach<'_> {
     /// Bounds each of two linked values by the sign of the other; returns whether a bound has changed.
     pub(super) fn follow_links(&mut self) -> bool {
-        let Self { links, bounds, changes, .. } = self;
+        let Self { links, facts, bounds, changes, .. } = self;
         let mut is_narrower = false;
         for Link { values: [a, b], likeness } in links.iter() {
             for (from, to) in [(*a, *b), (*b, *a)] {
                 let (known, other) = (bounds[from], bounds[to]);
-                let Some(sign) = known.sign().filter(|_| known.excludes_zero()) else { continue };
+                let Some(sign) = known.sign() else { continue };
                 let is_alike = match *likeness {
+                    // Both are 0 where one of them is.
                     Likeness::Signed(is_alike) => is_alike,
+                    // sin p is 0 for p = ±π, too.
                     Likeness::WithinHalfTurns(angle, is_alike) => {
-                        match is_within_half_turns(bounds[angle]) {
+                        let is_nonzero =
+                            known.excludes_zero() || facts.contains(&(from, SignFact::Positive));
+                        match is_nonzero && is_within_half_turns(bounds[angle]) {
                             true => is_alike,
                             false => continue,
                         }
