@@ -71,7 +71,8 @@ fn tell_diagonal(attempt: &mut Attempt, chosen: &BTreeSet<String>) {
         names => format!("the lists {} are read as diagonal matrices", names.join(", ")),
     };
     for mistake in &mut attempt.mistakes {
-        let Some(error) = sizes_error(mistake) else { continue };
+        let of_matrix = |error: &&FormulaError| error.message().contains("a matrix of size");
+        let Some(error) = sizes_error(mistake).filter(of_matrix) else { continue };
         let help = error.help().map_or(words.clone(), |help| format!("{help}; {words}"));
         mistake.problem = Problem::Formula(error.clone().with_help(help));
     }

@@ -80,8 +80,8 @@ pub enum FlowError {
     },
     /// The section uses variables that this system does not have.
     #[error(
-        "without --section, a section is in the variables (l, L/G) of a body that rolls without spinning, with \
-         the state ω, γ alone; this system is another"
+        "without --section, a section is in the variables (l, L/G): these are for a body that rolls without \
+         spinning, with the state ω, γ alone"
     )]
     NoAndoyer,
     /// The case has no section.

@@ -9,6 +9,8 @@ use liouville::number::double_double::DoubleDouble;
 const STRIDE: u64 = 1 << 18;
 /// Ratio of a motion's longest step to the present ones, above which these count as shrinking.
 const SHRUNK: f64 = 1e6;
+/// The same for ends that are out of any reach.
+const SHRUNK_EARLY: f64 = 1e5;
 /// Numbers of steps at which the pace is looked at before, for ends that are out of any reach.
 const EARLY: [u64; 2] = [1 << 11, 1 << 12];
 /// Multiple of [`MOST_STEPS`] that counts as out of any reach.
@@ -116,7 +118,9 @@ impl Pace {
             self.marks = [Some((mean, now)), self.marks[0]];
         }
         let rest = left.abs() / mean * self.growth(mean, now, left);
-        let is_shrunk = mean * SHRUNK < self.longest && rest > MOST_STEPS;
+        let shrunk = self.longest / mean;
+        let is_shrunk = shrunk > SHRUNK && rest > MOST_STEPS
+            || shrunk > SHRUNK_EARLY && rest > MOST_STEPS * HOPELESS;
         // Steps that grow, as on the way to infinity, may still arrive.
         let is_steady = self.former > 0.0 && self.longest < GROWTH * self.former;
         self.lost = match () {

@@ -32,7 +32,10 @@ fn horseshoes_are_proved_again_from_their_certificates() {
     if is_there() {
         let output = run("python3", &["docs/certificates/orbit.py", file]);
         let told = text(&output.stdout);
-        assert!(!output.status.success() && told.contains("format"), "{told}");
+        assert!(
+            !output.status.success() && told.contains("`liouville verify` checks it"),
+            "{told}"
+        );
     }
 }
 
