@@ -258,7 +258,7 @@ mod tests {
             "(I*ω,ω) − 2*m*R²",
             "(J*γ,ω) − 2*m*R²",
             "(J*ω,ω)",
-            "(J*ω,ω) − 2*(R)*R²",
+            "(J*ω,ω) − 2*R*R²",
             "(2*((J*ω,ω))) − 2*m*R²",
         ] {
             assert!(found.iter().any(|text| text == expected), "{expected} among {found:#?}");
