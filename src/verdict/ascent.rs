@@ -158,7 +158,7 @@ impl<'s> Ascent<'s> {
         for block in all.chunks(TAPE_LANES) {
             let lanes = std::array::from_fn(|lane| block[lane.min(block.len() - 1)].clone());
             let values = self.run.at(&Ball::<TAPE_LANES>, &self.sampler.balls_from(&lanes));
-            let existing = values.existing(&[0..self.required]);
+            let existing = values.existing(std::slice::from_ref(&(0..self.required)));
             for (lane, draws) in block.iter().enumerate().filter(|(lane, _)| existing[*lane]) {
                 let [value, scale] = [0, 1].map(|k| values.output(self.required + k).mid[lane]);
                 let height = match height {
