@@ -1,8 +1,7 @@
 //! Absence of polynomials in all variables of a field, with constant coefficients.
 //!
-//! A row is a random state modulo a prime, with the same parameters in all rows. A column is a
-//! monomial, or its derivative along the field. The rank of such a matrix is at most what it is for generic
-//! parameters, so that the null space is at least as large as the space of integrals.
+//! A row is a random state modulo a prime, with the same parameters in all rows. A column is a monomial, or its
+//! derivative along the field. Its rank is at most that for generic parameters: the null space contains all integrals.
 
 use super::super::SearchError;
 use super::super::ansatz::coefficients::{PrimitiveVector, Ratio};
