@@ -34,7 +34,9 @@ pub(super) fn judge_listed_levels(
             continue;
         };
         for values in combinations {
-            if voids.iter().any(|void| is_void(void, &values)) {
+            // Nothing is said for these values if nothing is for any values of the other lists.
+            let void = voids.iter().filter(|void| agrees(void, &values)).count();
+            if void == choices_of_others(case, &lists) {
                 continue;
             }
             let named = named(case, &values);
@@ -172,9 +174,20 @@ fn combinations(lists: &[Listed]) -> Option<Vec<Values<'_>>> {
     Some(all)
 }
 
-/// Whether nothing is said for these values.
-fn is_void(void: &Choice, values: &Values<'_>) -> bool {
+/// Whether a choice of all listed values contains these.
+fn agrees(choice: &Choice, values: &Values<'_>) -> bool {
     values
         .iter()
-        .all(|(list, value)| void.get(list.draw).is_some_and(|own| own.as_ref() == Some(value)))
+        .all(|(list, value)| choice.get(list.draw).is_some_and(|own| own.as_ref() == Some(value)))
+}
+
+/// Number of choices of the listed values of other parameters.
+fn choices_of_others(case: &Case, lists: &[Listed]) -> usize {
+    let is_other = |(draw, _): &(usize, Draw)| lists.iter().all(|list| list.draw != *draw);
+    let several = |(_, own): (usize, Draw)| match own {
+        Draw::OneOf(values) => Some(values.len()),
+        _ => None,
+    };
+    let draws = case.model.parameter_draws().into_iter().enumerate();
+    draws.filter(is_other).filter_map(several).fold(1, usize::saturating_mul)
 }

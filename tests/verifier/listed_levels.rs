@@ -45,6 +45,19 @@ fn a_value_for_which_the_level_is_a_point_counts() {
 }
 
 #[test]
+fn a_value_is_left_out_only_if_nothing_is_said_for_any_of_another_list() {
+    let level = "[level]\nequations = ['x^2 + y^2 = p']";
+    let claims = ["identity = 'x^2 + y^2 + 0/(p + q) = 1'"];
+    let found =
+        verdicts(&file("p = 'one of 1, 0'\nq = 'one of 0, 1'", PLANE, STILL, level, &claims));
+    assert_ne!(found, [Verdict::Proved], "0 = 1 for p = 0, q = 1");
+    let claims = ["identity = 'x^2 + y^2 + 0/p = 1'"];
+    let found =
+        verdicts(&file("p = 'one of 1, 0'\nq = 'one of 0, 1'", PLANE, STILL, level, &claims));
+    assert_eq!(found, [Verdict::Proved], "nothing is said for p = 0");
+}
+
+#[test]
 fn a_listed_power_in_an_equation_counts_as_that_number() {
     let claims = ["identity = 'y = 0'"];
     for factor in ["x^a", "(x - 1)^a", "abs(x)^a", "x^(a - 1)"] {
