@@ -14,6 +14,8 @@ use crate::number::rational::Rational;
 
 /// Largest number of combinations that are judged.
 const MOST: usize = 16;
+const OF_ENTRIES: &str = "the level depends on a vector or matrix with listed entries: write a separate case for each of \
+                          its values";
 
 /// Judges the claims that hold once more for each combination of the listed values that their levels depend on, and
 /// keeps the first report by which one does not hold; `voids` are the values for which each claim says nothing.
@@ -30,7 +32,11 @@ pub(super) fn judge_listed_levels(
             continue;
         }
         let Some(combinations) = combinations(&lists) else {
-            leave_open(report, TOO_MANY_COMBINATIONS.to_string());
+            let reason = match lists.iter().any(|list| list.values.is_none()) {
+                true => OF_ENTRIES,
+                false => TOO_MANY_COMBINATIONS,
+            };
+            leave_open(report, reason.to_string());
             continue;
         };
         for values in combinations {
