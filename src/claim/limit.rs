@@ -214,7 +214,7 @@ impl Statement for Limit {
 type BySide<T> = Option<Vec<(Side, Expansion<T>)>>;
 
 impl Limit {
-    /// What the powers in an expanded formula need for small values of the parameter: ln ε of ε^ε.
+    /// Returns the values that the powers in an expanded formula need for small values of the parameter: ln ε of ε^ε.
     fn presupposed(&self, phase: &Phase<'_, Expr>, formula: &Formula, sides: &[Side]) -> Vec<Expr> {
         let parameter = phase.configuration.parameter(self.parameter).components();
         let needed = |value: Expr| {

@@ -62,8 +62,8 @@ impl Lyapunov {
                 terms.map(|(slope, rate)| (slope * *rate).modulus()).sum()
             }
         };
-        let shown = self.form.as_ref().or(self.rate.as_ref());
-        Excess { value: shown.map_or_else(|| self.growth(jet), |form| phase.scalar(form)), scale }
+        let value = self.rate.as_ref().map_or_else(|| self.growth(jet), |rate| phase.scalar(rate));
+        Excess { value, scale }
     }
 }
 
@@ -122,7 +122,8 @@ impl Statement for Lyapunov {
     fn context(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> ResidualContext {
         ResidualContext {
             value: vec![jet.phase.scalar(&self.function)],
-            excess: Some(self.excess(jet)),
+            // Of the same rate in another form nothing else is found.
+            excess: self.form.is_none().then(|| self.excess(jet)),
             ..ResidualContext::default()
         }
     }

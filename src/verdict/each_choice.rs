@@ -58,11 +58,15 @@ impl Judging<'_> {
         Ok(())
     }
 
-    /// Whether a claim depends on each draw.
+    /// Whether a claim, or which states there are, depends on each draw.
     fn draws_used(&self, item: &RecordedClaim<'_>, sampler: &Sampler) -> Vec<bool> {
         let mut values = self.common.required_at(sampler.kept());
         values.extend(item.residual.iter().chain(&item.requirement).chain(&item.presence));
-        let inputs = values.into_iter().flat_map(|value| self.graph.inputs_of(value));
+        let level = self.common.level.iter().zip(sampler.kept());
+        values.extend(level.filter(|(_, kept)| **kept).map(|(value, _)| value));
+        let parameters = self.case.model.free_components();
+        let of_values = values.into_iter().flat_map(|value| self.graph.inputs_of(value));
+        let inputs = of_values.chain(parameters..sampler.made().len());
         let made = inputs.filter_map(|input| sampler.made().get(input));
         let mut used = vec![false; sampler.recipes().len()];
         for draw in made.flat_map(|value| sampler.graph().inputs_of(*value)) {

@@ -9,7 +9,9 @@ use super::judge::{JudgeError, Options, judge};
 use super::voids::Choice;
 use crate::case::{Case, Expect, PlacedClaim};
 use crate::formula::Formula;
-use crate::mechanics::{Chart, Draw, LevelFunction, Meaning, Model, ParameterOrigin, SamplerSpec};
+use crate::mechanics::{
+    Chart, Draw, LevelFunction, Meaning, Model, ParameterOrigin, SamplerSpec, combinations,
+};
 use crate::number::rational::Rational;
 
 /// Largest number of combinations that are judged.
@@ -31,20 +33,25 @@ pub(super) fn judge_listed_levels(
         if lists.is_empty() {
             continue;
         }
-        let Some(combinations) = combinations(&lists) else {
-            let reason = match lists.iter().any(|list| list.values.is_none()) {
-                true => OF_ENTRIES,
-                false => TOO_MANY_COMBINATIONS,
-            };
-            leave_open(report, reason.to_string());
-            continue;
+        let choices = match lists.iter().all(|list| list.is_scalar) {
+            true => choices(case, &lists).ok_or(TOO_MANY_COMBINATIONS),
+            false => Err(OF_ENTRIES),
         };
-        for values in combinations {
+        let choices = match choices {
+            Ok(choices) => choices,
+            Err(reason) => {
+                leave_open(report, reason.to_string());
+                continue;
+            }
+        };
+        for choice in choices {
             // Nothing is said for these values if nothing is for any values of the other lists.
-            let void = voids.iter().filter(|void| agrees(void, &values)).count();
+            let void = voids.iter().filter(|void| agrees(void, &choice)).count();
             if void == choices_of_others(case, &lists) {
                 continue;
             }
+            let values: Values<'_> =
+                lists.iter().filter_map(|list| Some((list, choice[list.draw].as_ref()?))).collect();
             let named = named(case, &values);
             match judged(case, options, claim, &values) {
                 Ok(one) if one.verdict == Verdict::Proved || one.verdict == report.verdict => {}
@@ -112,8 +119,7 @@ struct Listed {
     parameter: usize,
     /// First draw of the parameter.
     draw: usize,
-    /// Values, unless the parameter is no scalar.
-    values: Option<Vec<Rational>>,
+    is_scalar: bool,
 }
 
 /// A value of each such parameter.
@@ -140,11 +146,8 @@ fn lists_of_level(case: &Case, claim: &PlacedClaim) -> Vec<Listed> {
         let draws = spec.draws();
         let several = |draw: &Draw| matches!(draw, Draw::OneOf(values) if values.len() > 1);
         if draws.iter().any(several) && used.contains(&parameter) {
-            let values = match spec {
-                SamplerSpec::Scalar(Draw::OneOf(values)) => Some(values.clone()),
-                _ => None,
-            };
-            lists.push(Listed { parameter, draw, values });
+            let is_scalar = matches!(spec, SamplerSpec::Scalar(_));
+            lists.push(Listed { parameter, draw, is_scalar });
         }
         draw += draws.len();
     }
@@ -163,28 +166,20 @@ fn parameters_in(model: &Model, formulas: &[&Formula]) -> BTreeSet<usize> {
     written.flat_map(Formula::symbols).filter_map(parameter).collect()
 }
 
-/// Combines the values of some lists; `None` if there are too many, or some parameter is no scalar.
-fn combinations(lists: &[Listed]) -> Option<Vec<Values<'_>>> {
-    let mut all: Vec<Values<'_>> = vec![Vec::new()];
-    for list in lists {
-        let values = list.values.as_ref()?;
-        let mut next = Vec::with_capacity(all.len() * values.len());
-        for own in &all {
-            next.extend(values.iter().map(|value| [&own[..], &[(list, value)]].concat()));
-        }
-        all = next;
-        if all.len() > MOST {
-            return None;
+/// Lists the choices of these values, by draw; `None` if there are too many.
+fn choices(case: &Case, lists: &[Listed]) -> Option<Vec<Choice>> {
+    let mut draws = case.model.parameter_draws();
+    for (place, draw) in draws.iter_mut().enumerate() {
+        if lists.iter().all(|list| list.draw != place) {
+            *draw = Draw::Sign;
         }
     }
-    Some(all)
+    combinations(&draws).filter(|all| all.len() <= MOST)
 }
 
 /// Whether a choice of all listed values contains these.
-fn agrees(choice: &Choice, values: &Values<'_>) -> bool {
-    values
-        .iter()
-        .all(|(list, value)| choice.get(list.draw).is_some_and(|own| own.as_ref() == Some(value)))
+fn agrees(all: &Choice, some: &Choice) -> bool {
+    some.iter().zip(all).all(|(own, other)| own.is_none() || own == other)
 }
 
 /// Number of choices of the listed values of other parameters.

@@ -1,36 +1,61 @@
-//! Integrals of a field that a search finds where a count leaves room for them.
+//! Invariants that parts of a search find where a count leaves room for them.
 
 use super::super::products::degree_in_state;
-use super::super::{SearchError, SearchReport, integrals, orbit};
+use super::super::{Found, SearchError, SearchReport, integrals, orbit};
 use super::AbsenceCase;
-use super::velocities::{Part, shown};
+use liouville::formula::Formula;
 use liouville::verdict::Verdict;
 
-/// Returns a proved integral that is a polynomial up to a degree in all variables, and no function of the known ones.
-pub fn integral(asked: &AbsenceCase<'_>, most: u32) -> Result<Option<String>, SearchError> {
-    let (case, effort) = (asked.case, &asked.effort);
-    let mut report = SearchReport::default();
-    let parts: [Part<'_>; 2] =
-        [&mut |report| integrals::integrals(case, effort, report), &mut |report| {
-            orbit::search(case, effort, false, report, &mut |_| {})
-        }];
+/// A part of a search.
+pub type Part<'p> = &'p mut dyn FnMut(&mut SearchReport) -> Result<(), SearchError>;
+
+/// Runs parts of a search until a find of a report is proved, of a kind, and wanted; writes it.
+pub fn first(
+    parts: &mut [Part<'_>],
+    report: &mut SearchReport,
+    kind: &str,
+    is_wanted: &dyn Fn(&Formula) -> Result<bool, SearchError>,
+) -> Result<Option<String>, SearchError> {
     let mut seen = 0;
     for part in parts {
-        match part(&mut report) {
+        match part(report) {
             Err(SearchError::Stopped) => {}
             other => other?,
         }
         for found in &report.found[seen..] {
-            let is_proved = found.kind == "integral" && found.verdict == Verdict::Proved;
             // What holds for one listed value says nothing of the others.
-            let is_own = is_proved && found.with.is_empty();
-            let Some(function) = found.function.as_ref().filter(|_| is_own) else { continue };
-            let degree = degree_in_state(case, function, effort.options.seed)?;
-            if degree.is_some_and(|degree| degree <= most) && asked.is_new(function)? {
-                return Ok(Some(shown("integral", found)));
+            let is_own = found.verdict == Verdict::Proved && found.with.is_empty();
+            let function = found.function.as_ref().filter(|_| is_own && found.kind == kind);
+            if let Some(function) = function
+                && is_wanted(function)?
+            {
+                return Ok(Some(shown(kind, found)));
             }
         }
         seen = report.found.len();
     }
     Ok(None)
+}
+
+/// Returns a proved integral that is a polynomial up to a degree in all variables, and no function of the known ones.
+pub fn integral(asked: &AbsenceCase<'_>, most: u32) -> Result<Option<String>, SearchError> {
+    let (case, effort) = (asked.case, &asked.effort);
+    let mut parts: [Part<'_>; 2] =
+        [&mut |report| integrals::integrals(case, effort, report), &mut |report| {
+            orbit::search(case, effort, false, report, &mut |_| {})
+        }];
+    let is_wanted = |function: &Formula| {
+        let degree = degree_in_state(case, function, effort.options.seed)?;
+        Ok(degree.is_some_and(|degree| degree <= most) && asked.is_new(function)?)
+    };
+    first(&mut parts, &mut SearchReport::default(), "integral", &is_wanted)
+}
+
+/// Writes a find with the definitions of the names that it uses.
+pub fn shown(what: &str, found: &Found) -> String {
+    let names: Vec<String> =
+        found.abbreviations.iter().map(|(name, text)| format!("{name} = {text}")).collect();
+    let names = if names.is_empty() { String::new() } else { format!(", {}", names.join(", ")) };
+    let remark = found.evidence.remark.as_ref().map(|remark| format!("; {remark}"));
+    format!("{what}, proved: {}{names}{}", found.formula, remark.unwrap_or_default())
 }

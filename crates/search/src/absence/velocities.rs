@@ -7,7 +7,9 @@ use super::super::products::degree_in;
 use super::super::{
     Effort, Found, SearchError, SearchReport, ansatz, densities, integrals, multipliers, orbit,
 };
+use super::found::{self, Part, shown};
 use super::{AbsenceCase, AbsenceOutcome, Counted, claimed_densities, generated};
+use liouville::formula::Formula;
 use liouville::verdict::Verdict;
 
 /// Judges a claim by Taylor coefficients.
@@ -131,9 +133,6 @@ fn no_integral(
     }))
 }
 
-/// A part of a search.
-pub type Part<'p> = &'p mut dyn FnMut(&mut SearchReport) -> Result<(), SearchError>;
-
 /// Returns an integral of a report that refutes the claim.
 fn witness(
     asked: &AbsenceCase<'_>,
@@ -152,15 +151,6 @@ fn witness(
         }
     }
     Ok(None)
-}
-
-/// Writes a find with the definitions of the names that it uses.
-pub fn shown(what: &str, found: &Found) -> String {
-    let names: Vec<String> =
-        found.abbreviations.iter().map(|(name, text)| format!("{name} = {text}")).collect();
-    let names = if names.is_empty() { String::new() } else { format!(", {}", names.join(", ")) };
-    let remark = found.evidence.remark.as_ref().map(|remark| format!("; {remark}"));
-    format!("{what}, proved: {}{names}{}", found.formula, remark.unwrap_or_default())
 }
 
 fn no_density(
@@ -198,28 +188,15 @@ fn no_density(
         true => reasons(&report, "nothing can be counted"),
         false => "the count allows a density, but none was found in closed form".to_string(),
     };
-    let parts: [Part<'_>; 2] =
+    let mut parts: [Part<'_>; 2] =
         [&mut |report| densities::densities(case, effort, report), &mut |report| {
             orbit::search(case, effort, false, report, &mut |_| {})
         }];
-    let mut seen = 0;
-    for part in parts {
-        match part(&mut report) {
-            Err(SearchError::Stopped) => {}
-            other => other?,
-        }
-        for found in &report.found[seen..] {
-            let is_proved = found.kind == "density" && found.verdict == Verdict::Proved;
-            let Some(function) = found.function.as_ref().filter(|_| is_proved) else { continue };
-            // What holds for one listed value says nothing of the others.
-            if found.with.is_empty() && claimed_densities::is_in_velocities(asked, function, most)?
-            {
-                return Ok(AbsenceOutcome::Exhibited(shown("density", found)));
-            }
-        }
-        seen = report.found.len();
-    }
-    Ok(AbsenceOutcome::Open(reason))
+    let is_wanted = |function: &Formula| claimed_densities::is_in_velocities(asked, function, most);
+    Ok(match found::first(&mut parts, &mut report, "density", &is_wanted)? {
+        Some(exhibit) => AbsenceOutcome::Exhibited(exhibit),
+        None => AbsenceOutcome::Open(reason),
+    })
 }
 
 fn reasons(report: &SearchReport, otherwise: &str) -> String {

@@ -71,7 +71,7 @@ fn minus_one() -> Expr {
 }
 
 impl Arithmetic {
-    /// How e^E goes with δ: it grows beyond all powers of 1/δ, is 1, or is smaller than all powers of δ.
+    /// Growth of e^E with δ → 0: beyond all powers of 1/δ, none where it is 1, or below all powers of δ.
     fn growth(&mut self, exponent: &Pole) -> Result<Ordering, Failure> {
         if exponent.is_empty() {
             return Ok(Ordering::Equal);
