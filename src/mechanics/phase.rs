@@ -20,8 +20,6 @@ use super::rolling::RollingTerms;
 use super::rubber::{NORMAL, angular_velocity, normal};
 use super::vocabulary::Meaning;
 use crate::formula::{Formula, Symbol, Value};
-use crate::graph::{Expr, literally};
-use crate::number::UnaryFunction;
 use crate::scalar::Scalar;
 
 /// A point of phase space over the scalar T.
@@ -52,7 +50,11 @@ impl<'m, T: Scalar> Phase<'m, T> {
     }
 
     #[inline(never)]
-    fn with_parameters(model: &'m Model, parameters: Parameters<T>, state: &[T]) -> Self {
+    pub(super) fn with_parameters(
+        model: &'m Model,
+        parameters: Parameters<T>,
+        state: &[T],
+    ) -> Self {
         let mut rest = state;
         let state = model
             .state
@@ -99,7 +101,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
     }
 
     #[inline(never)]
-    fn literal_value(&self, symbol: Symbol) -> Value<T> {
+    pub(super) fn literal_value(&self, symbol: Symbol) -> Value<T> {
         let formula = |symbol| self.literal_formula(symbol);
         self.literal.value(symbol, &formula, &|symbol| match self.literal_formula(symbol) {
             Some(formula) => self.evaluate_literally(formula),
@@ -244,42 +246,5 @@ impl<'m, T: Scalar> Phase<'m, T> {
             self.configuration.share_contact(&mut lifted.configuration, index - 3 * NORMAL);
         }
         lifted
-    }
-}
-
-impl Phase<'_, Expr> {
-    /// Records the components of formulas so that they are defined exactly where everything written
-    /// is; components that are defined everywhere are omitted.
-    pub fn literal_values<'f>(&self, formulas: impl IntoIterator<Item = &'f Formula>) -> Vec<Expr> {
-        let written = |f: &'f Formula| {
-            let mut values = self.evaluate_literally(f).components();
-            values.extend(self.presupposed(f));
-            values
-        };
-        let values = formulas.into_iter().flat_map(written);
-        values.filter(|value| !value.is_always_defined()).collect()
-    }
-
-    /// Evaluates as written what a formula has no value without, though its value need not show it: the
-    /// integrand of each ∫, and the logarithm of the base of each power with an exponent that varies,
-    /// which may come out as a whole number; so of the formulas of the parameters in it.
-    pub fn presupposed(&self, formula: &Formula) -> Vec<Expr> {
-        let model = self.model();
-        let own = std::iter::once(formula).chain(model.parameter_formulas_of(&[formula]));
-        let all =
-            own.flat_map(|own| model.vocabulary.with_abbreviations(own, &model.abbreviations));
-        let of = |used: &Formula| {
-            literally(|| {
-                let mut lookup = |symbol| self.literal_value(symbol);
-                let bases = used.bases(&|symbol| model.varies(symbol), &mut lookup);
-                let integrands = used.antiderivatives(&mut lookup).into_iter().map(|(f, _)| f);
-                bases
-                    .into_iter()
-                    .map(|base| base.apply(UnaryFunction::Ln))
-                    .chain(integrands)
-                    .collect::<Vec<Expr>>()
-            })
-        };
-        all.flat_map(of).collect()
     }
 }
