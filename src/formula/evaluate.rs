@@ -110,6 +110,17 @@ pub(super) fn literal_values<T: Scalar>(
     arena: &Arena,
     lookup: &mut dyn FnMut(Symbol) -> Value<T>,
 ) -> Vec<Value<T>> {
+    literal_values_with(arena, lookup, &|_, _| false)
+}
+
+/// Evaluates every node in this way, and adds 0·ln X to each power X^Y whose exponent, a node with this value, asks
+/// for it.
+#[inline(never)]
+pub(super) fn literal_values_with<T: Scalar>(
+    arena: &Arena,
+    lookup: &mut dyn FnMut(Symbol) -> Value<T>,
+    asks: &dyn Fn(NodeId, T) -> bool,
+) -> Vec<Value<T>> {
     let symbols: Vec<Value<T>> = arena.symbols.iter().map(|(symbol, _)| lookup(*symbol)).collect();
     T::literally(|| {
         let mut values = Values(Vec::with_capacity(arena.nodes.len()));
@@ -124,6 +135,10 @@ pub(super) fn literal_values<T: Scalar>(
                     if !matches!(arena.nodes[a].operation, NodeOperation::Symbol(_)) =>
                 {
                     with_others(value, &values.0[a])
+                }
+                NodeOperation::PowerOf(a, b) if asks(b, values.scalar(b)) => {
+                    let zero = T::zero() * values.scalar(a).ln();
+                    value.map(|power| power + zero)
                 }
                 _ => value,
             };

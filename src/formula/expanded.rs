@@ -131,7 +131,8 @@ impl<'a> Reading<'a> {
             NodeOperation::Sum(all) | NodeOperation::Product(all) => all.to_vec(),
             NodeOperation::Power(a, exponent) => {
                 let exponent = exponent.to_integer()?;
-                if !(0..=MOST_POWER).contains(&exponent) {
+                // X⁰ has a value where X has one alone.
+                if !(1..=MOST_POWER).contains(&exponent) {
                     return None;
                 }
                 // |v|² is (v,v).

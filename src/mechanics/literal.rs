@@ -1,11 +1,8 @@
 //! Recorded values without which formulas, as written, have none.
 
-use super::configuration::Parameters;
-use super::model::Model;
 use super::phase::Phase;
-use crate::formula::{Formula, Value};
-use crate::graph::{Expr, literally, record};
-use crate::number::UnaryFunction;
+use crate::formula::{Exponents, Formula, Symbol, Value};
+use crate::graph::{Expr, literally, logarithms_times_zero};
 
 impl Phase<'_, Expr> {
     /// Records the components of formulas so that they are defined exactly where everything written
@@ -21,58 +18,45 @@ impl Phase<'_, Expr> {
     }
 
     /// Evaluates as written what a formula has no value without, though its value need not show it: the
-    /// integrand of each ∫, and the logarithm of the base of each power with an exponent that varies,
-    /// which may come out as a whole number; so of the formulas of the parameters in it.
+    /// integrand of each ∫, also of the parameters in it, and the logarithm of the base of each power
+    /// with an exponent that varies, which may come out as a whole number.
     pub fn presupposed(&self, formula: &Formula) -> Vec<Expr> {
         let model = self.model();
         let own = std::iter::once(formula).chain(model.parameter_formulas_of(&[formula]));
-        let all =
-            own.flat_map(|own| model.vocabulary.with_abbreviations(own, &model.abbreviations));
-        let of = |used: &Formula| {
-            literally(|| {
-                let mut lookup = |symbol| self.literal_value(symbol);
-                let bases = used.bases(&|symbol| model.varies(symbol), &mut lookup);
-                let integrands = used.antiderivatives(&mut lookup).into_iter().map(|(f, _)| f);
-                bases
-                    .into_iter()
-                    .map(|base| base.apply(UnaryFunction::Ln))
-                    .chain(integrands)
-                    .collect::<Vec<Expr>>()
-            })
+        let with_names = |own| model.vocabulary.with_abbreviations(own, &model.abbreviations);
+        let all: Vec<&Formula> = own.flat_map(with_names).collect();
+        let varies = |symbol| model.varies(symbol);
+        let has_powers = all.iter().any(|used| used.has_varying_exponent(&varies));
+        let mut found = match has_powers {
+            true => logarithms_times_zero(&self.with_logarithms(formula).components()),
+            false => Vec::new(),
         };
-        all.flat_map(of).collect()
+        found.extend(all.into_iter().flat_map(|used| {
+            literally(|| {
+                let all = used.antiderivatives(&mut |symbol| self.literal_value(symbol));
+                all.into_iter().map(|(integrand, _)| integrand).collect::<Vec<Expr>>()
+            })
+        }));
+        found
     }
 
-    /// Records the parts of a chart's formulas that depend on the parameters alone, such that all exist
-    /// wherever the formulas do.
-    pub fn literal_constants(&self, chart: &Model, formulas: &[Formula]) -> Vec<Expr> {
-        let own = &self.configuration.parameters;
-        let given: Vec<Expr> = own.iter().flatten().flat_map(Value::components).collect();
-        let recorded = record(given.len() + chart.dimension(), |inputs| {
-            let (mut rest, inputs) = inputs.split_at(given.len());
-            let again = |value: &Option<Value<Expr>>| {
-                let value = value.as_ref()?;
-                let (components, others) = rest.split_at(value.components().len());
-                rest = others;
-                Some(Value::from_components(value.value_type(), components))
-            };
-            let parameters: Parameters<Expr> = own.iter().map(again).collect();
-            Phase::with_parameters(chart, parameters, inputs).literal_values(formulas)
-        });
-        // Where nothing is required, more states count.
-        let Ok((graph, outputs)) = recorded else { return Vec::new() };
-        let reached = graph.reached(outputs.iter().copied());
-        let values = literally(|| graph.replay(&reached, &given, |_, _, _| None));
-        let is_part = |place: usize| values[place].is_some();
-        let mut is_needed = vec![false; values.len()];
-        outputs.iter().for_each(|output| is_needed[graph.place(*output)] = true);
-        for (place, step) in graph.steps().enumerate() {
-            if reached[place] && !is_part(place) {
-                step.arguments().for_each(|argument| is_needed[argument] = true);
-            }
-        }
-        let needed = values.iter().zip(is_needed).filter(|(_, is_needed)| *is_needed);
-        let needed = needed.filter_map(|(value, _)| *value);
-        needed.filter(|value| !value.is_always_defined()).collect()
+    /// Records a formula as written, with 0·ln X for each power X^Y that has a value for X > 0 alone.
+    fn with_logarithms(&self, formula: &Formula) -> Value<Expr> {
+        let model = self.model();
+        let exponents = Exponents {
+            varies: &|symbol| model.varies(symbol),
+            is_listed: &|symbol| model.is_listed(symbol),
+            is_number: &|value: Expr| value.is_number(),
+        };
+        formula
+            .evaluate_with_logarithms(&exponents, &mut |symbol| self.symbol_with_logarithms(symbol))
+    }
+
+    fn symbol_with_logarithms(&self, symbol: Symbol) -> Value<Expr> {
+        let formula = |symbol| self.literal_formula(symbol);
+        self.with_logarithms.value(symbol, &formula, &|symbol| match self.literal_formula(symbol) {
+            Some(formula) => self.with_logarithms(formula),
+            None => self.value(symbol),
+        })
     }
 }

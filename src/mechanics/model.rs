@@ -186,6 +186,24 @@ impl Model {
         }
     }
 
+    /// Whether the value of a symbol that varies depends on lists of numbers alone.
+    pub(crate) fn is_listed(&self, symbol: Symbol) -> bool {
+        let all = |formula: &Formula| {
+            formula.symbols().all(|symbol| !self.varies(symbol) || self.is_listed(symbol))
+        };
+        match self.vocabulary.entry(symbol).meaning {
+            Meaning::Parameter(index) => match &self.parameters[index].origin {
+                ParameterOrigin::Fixed(_) => false,
+                ParameterOrigin::Free(recipe) => {
+                    recipe.draws().iter().all(|draw| matches!(draw, Draw::OneOf(_) | Draw::Sign))
+                }
+                ParameterOrigin::Formula(formula) => all(formula),
+            },
+            Meaning::Abbreviation(index) => self.abbreviations.get(index).is_some_and(all),
+            Meaning::State(_) | Meaning::Quantity(_) => false,
+        }
+    }
+
     /// Whether formulas contain different `∫`, each with a constant of its own.
     pub(crate) fn has_several_antiderivatives(&self, formulas: &[&Formula]) -> bool {
         let all = formulas

@@ -29,6 +29,8 @@ pub struct Phase<'m, T> {
     known: Memo<T>,
     /// Values that are defined exactly where the written formulas are.
     literal: Memo<T>,
+    /// The same with the logarithms of bases.
+    pub(super) with_logarithms: Memo<T>,
     motion: OnceCell<Box<RollingTerms<T>>>,
     ball_motion: OnceCell<Box<BallMotion<T>>>,
     /// Rates of the system's variables, without those that a case adds.
@@ -69,6 +71,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
             configuration: Configuration::new(model, parameters, state),
             known: Memo::default(),
             literal: Memo::default(),
+            with_logarithms: Memo::default(),
             motion: OnceCell::new(),
             ball_motion: OnceCell::new(),
             own_field: OnceCell::new(),
@@ -110,7 +113,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
     }
 
     /// Returns the formula that gives a symbol its literal value.
-    fn literal_formula(&self, symbol: Symbol) -> Option<&'m Formula> {
+    pub(super) fn literal_formula(&self, symbol: Symbol) -> Option<&'m Formula> {
         match self.model().vocabulary.entry(symbol).meaning {
             // the value of a changed parameter differs from that of its formula
             Meaning::Parameter(index) if self.configuration.parameters[index].is_some() => None,

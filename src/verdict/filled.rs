@@ -23,7 +23,7 @@ pub fn is_filled(case: &Case, options: &Options) -> Result<bool, JudgeError> {
     let inputs = model.free_components() + model.dimension();
     let (graph, common) = record(inputs, |all| {
         let (parameters, state) = all.split_at(model.free_components());
-        SharedTerms::of(&case.chart, &DualPoint::new(Phase::new(model, parameters, state)))
+        SharedTerms::of(&DualPoint::new(Phase::new(model, parameters, state)))
     })?;
     let judging = Judging::new(case, &common, options, &graph, inputs);
     let sampler = Sampler::new(case, &LevelSubset::level(model), options.seed)?;

@@ -235,7 +235,7 @@ fn recording(case: &Case) -> Result<(Graph, (Vec<RecordedClaim<'_>>, SharedTerms
         let jet = DualPoint::new(Phase::new(model, parameters, state));
         let recorded: Vec<RecordedClaim<'_>> =
             case.claims.iter().map(|claim| RecordedClaim::new(claim, &jet)).collect();
-        (recorded, SharedTerms::of(&case.chart, &jet))
+        (recorded, SharedTerms::of(&jet))
     })
 }
 

@@ -99,7 +99,7 @@ pub fn mutate(
                 candidates.push(Candidate { claim, mutant, residual });
             }
         }
-        (candidates, SharedTerms::of(&case.chart, &jet))
+        (candidates, SharedTerms::of(&jet))
     })?;
     let bench = Judging::new(case, &common, options, &graph, inputs);
     let mut report = MutationReport::default();
@@ -234,7 +234,7 @@ fn depends(
                 own.iter().zip(new).map(|(a, b)| *b - *a).collect()
             })),
         }
-        (rows, SharedTerms::of(&case.chart, &jet))
+        (rows, SharedTerms::of(&jet))
     })?;
     // A mutant that is neither an integral nor a density is equivalent to any other true statement
     // in its place.

@@ -12,7 +12,7 @@ use crate::formula::Formula;
 use crate::graph::{Expr, literally};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::elimination::rejection;
-use crate::mechanics::{Chart, LevelEquation, LevelFunction, System};
+use crate::mechanics::{LevelEquation, LevelFunction, System};
 use crate::number::Enclosing;
 
 /// A claim with all expressions recorded for it.
@@ -89,8 +89,6 @@ pub struct SharedTerms {
     pub motion: Vec<Expr>,
     /// Formulas of the level functions as written, by equation.
     level_requirement: Vec<Vec<Expr>>,
-    /// Parts of a chart of the whole level that depend on the parameters alone.
-    chart_requirement: Vec<Expr>,
     /// Level functions, zero on the level.
     pub level: Vec<Expr>,
     /// Their rates along the motion, or their values at the image of a map.
@@ -108,8 +106,8 @@ pub struct SharedTerms {
 }
 
 impl SharedTerms {
-    /// Records these expressions for a case with this chart.
-    pub fn of(chart: &Chart, jet: &DualPoint<'_, Expr>) -> Self {
+    /// Records these expressions.
+    pub fn of(jet: &DualPoint<'_, Expr>) -> Self {
         let phase = &jet.phase;
         let image = phase.model().system.is_map().then(|| jet.image());
         let rate = |function| match &image {
@@ -131,10 +129,6 @@ impl SharedTerms {
                     _ => Vec::new(),
                 };
                 phase.model().level.iter().map(formula).collect()
-            },
-            chart_requirement: match chart {
-                Chart::Given(chart) => phase.literal_constants(&chart.model, &chart.formulas),
-                _ => Vec::new(),
             },
             level: phase.model().level.iter().map(|e| phase.level_function(&e.function)).collect(),
             level_rates: phase.model().level.iter().map(|e| rate(&e.function)).collect(),
@@ -165,9 +159,7 @@ impl SharedTerms {
     pub fn required_at(&self, kept: &[bool]) -> Vec<Expr> {
         let level = self.level_requirement.iter().zip(kept).filter(|(_, kept)| **kept);
         let level = level.flat_map(|(values, _)| values);
-        let is_charted = kept.iter().all(|kept| *kept);
-        let chart = self.chart_requirement.iter().filter(|_| is_charted);
-        self.requirement.iter().chain(&self.motion).chain(level).chain(chart).copied().collect()
+        self.requirement.iter().chain(&self.motion).chain(level).copied().collect()
     }
 }
 

@@ -64,7 +64,7 @@ pub fn statements(case: &Case, claims: &[usize], seed: u64) -> Result<Vec<Residu
                 }
             })
             .collect();
-        (inputs.to_vec(), recorded, SharedTerms::of(&case.chart, &jet))
+        (inputs.to_vec(), recorded, SharedTerms::of(&jet))
     })?;
     let (level, rates) = (&common.level, &common.level_rates);
     let options = Options { seed, ..Options::default() };

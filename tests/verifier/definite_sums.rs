@@ -121,3 +121,23 @@ fn double_factors_are_seen_through_sines_and_roots() {
     );
     assert!(judge(&left, &Options::default()).is_err(), "the motion leaves the level");
 }
+
+#[test]
+fn powers_with_exponent_0_keep_their_bases() {
+    // (√x)⁰ has a value for x ≥ 0 alone.
+    let state = "x = \"-2..2\"\ny = \"-2..2\"\nz = \"-2..2\"\nq = \"-3..3\"";
+    let field = "\"x'\" = \"0\"\n\"y'\" = \"0\"\n\"z'\" = \"1\"\n\"q'\" = \"0\"";
+    let claims = ["identity = \"x = abs(x)\"", "integral = \"(x − abs(x))*z\""];
+    for level in [
+        "(y − sqrt(x)^0)^2 + q^2",
+        "(y − 1)^2 + q^2*sqrt(x)^0",
+        "(y − log(x)^0)^2 + q^2",
+        "q^2 − 2*q*sqrt(x)^0 + 1",
+        "q^2*y^2 − sqrt(x)^0*y^2",
+    ] {
+        let found = verdicts(&case("", state, field, &[level], &claims));
+        assert!(!found.contains(&Verdict::Refuted), "{level}: {found:?}");
+    }
+    let total = verdicts(&case("", state, field, &["(y − x^0)^2 + q^2"], &claims));
+    assert_eq!(total, [Verdict::Refuted; 2], "x⁰ has a value everywhere");
+}

@@ -122,3 +122,49 @@ fn points_are_asked_where_their_parameters_have_values() {
     let report = judge(&case, &Options::default()).expect("judged");
     assert_eq!(report.claims[0].verdict, Verdict::Proved, "{:?}", report.claims[0].evidence);
 }
+
+/// Verdicts on a = |a| and on an integral that is one for a ≥ 0, beside V in a field.
+fn beside(parameters: &str, rate: &str) -> Vec<Verdict> {
+    let text = format!(
+        "title = \"t\"\ncheck-weights = false\n[parameters]\na = \"-1..1\"\nb = \"0..1\"\n\
+         n = \"one of 2, 3\"\n{parameters}[state]\nx = \"-2..2\"\n[field]\n\"x'\" = \"{rate}\"\n\
+         [[claim]]\nidentity = \"a = abs(a)\"\n[[claim]]\nintegral = \"(a - abs(a))*x\"\n"
+    );
+    let case = Case::parse(&text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let report = judge(&case, &Options::default()).unwrap_or_else(|error| panic!("{error}"));
+    report.claims.into_iter().map(|claim| claim.verdict).collect()
+}
+
+#[test]
+fn powers_in_entries_that_are_not_used_ask_for_nothing() {
+    for (parameters, rate) in [
+        ("V = \"vec(1, a^n)\"\n", "V[1]"),
+        ("V = \"vec(1, a^n)\"\nW = \"2*V\"\n", "W[1]"),
+        ("Z = \"mat(vec(1, a^n), vec(2, 1))\"\n", "Z[1,1] + Z[2,1]"),
+        ("V = \"vec(1, a^b)\"\n", "V[1]"),
+        ("[let]\nV = \"[2, a^n]\"\n", "1 + 0*n"),
+    ] {
+        assert_eq!(beside(parameters, rate), [Verdict::Refuted; 2], "{parameters}{rate}");
+    }
+    for used in ["V[1]*V[2]", "1 + 0*V[2]", "1 + 0*(V, V)"] {
+        assert_eq!(beside("V = \"vec(1, a^n)\"\n", used), [Verdict::Undecided; 2], "{used}");
+        assert_eq!(beside("V = \"vec(1, a^b)\"\n", used), [Verdict::Proved; 2], "{used}");
+    }
+}
+
+#[test]
+fn exponents_that_are_one_number_for_all_listed_values_take_any_base() {
+    let vector = "V = \"vec(n, 2)\"\n";
+    for exponent in ["n - n", "0*n + 2", "n^0", "cos(0*n)", "V[2]", "n + 2 - n"] {
+        let found = beside(vector, &format!("1 + 0*a^({exponent})"));
+        assert_eq!(found, [Verdict::Refuted; 2], "{exponent}");
+    }
+    for exponent in ["n", "2*n", "V[1]", "n + V[2]"] {
+        let found = beside(vector, &format!("1 + 0*a^({exponent})"));
+        assert_eq!(found, [Verdict::Undecided; 2], "{exponent}");
+    }
+    for exponent in ["b - b", "b", "x - x", "n - n + 1/2 + 0*b"] {
+        let found = beside(vector, &format!("1 + 0*a^({exponent})"));
+        assert_eq!(found, [Verdict::Proved; 2], "{exponent}: for a > 0 alone");
+    }
+}

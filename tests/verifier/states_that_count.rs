@@ -40,6 +40,24 @@ fn parameters_that_a_chart_does_not_use_leave_all_states() {
 }
 
 #[test]
+fn a_chart_gives_no_state_where_its_formulas_as_written_have_no_value() {
+    let with = |x: &str, range: &str| {
+        let system = format!(
+            "[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = '1'\n\"y'\" = '0'\n[level]\n\
+             equations = ['y = 1']\n[level.chart]\ninputs = {{ u = '{range}' }}\nx = '{x}'\ny = '1'\n"
+        );
+        beside("1", &system, &["identity = 'x = abs(x)'", "identity = 'a = abs(a)'"])
+    };
+    for positive in ["sqrt(u)^2", "exp(log(u))", "u + 0*log(u)", "u*[1, sqrt(u)][1]"] {
+        assert_eq!(with(positive, "-2..2"), [Verdict::Proved, Verdict::Refuted], "{positive}");
+    }
+    for parameter in ["u + 0*sqrt(a)", "u*sqrt(a)/sqrt(a)", "u + sqrt(a) - sqrt(a)"] {
+        assert_eq!(with(parameter, "-2..2"), [Verdict::Refuted, Verdict::Proved], "{parameter}");
+    }
+    assert_eq!(with("u", "-2..2"), [Verdict::Refuted; 2]);
+}
+
+#[test]
 fn equations_outside_the_place_of_a_claim_leave_all_states() {
     let system = "[state]\nx = '-2..2'\ny = '-5..5'\nz = '-5..5'\n[field]\n\"x'\" = '1'\n\"y'\" = '0'\n\
         \"z'\" = '0'\n[level]\nequations = ['y = 1', 'z = 1 + 0*K']\n";

@@ -44,13 +44,14 @@ impl Sampler {
         let fixed = vec![None; self.draws.len()];
         let (composed, values) = record(self.draws.len(), |draws| {
             let (inputs, own) = self.inputs_from(graph, draws, &fixed)?;
+            let as_made = self.as_made(draws, &fixed, &inputs)?;
             let reached = graph.reached(values.iter().copied());
             let made = graph.repeated(&reached, &inputs);
             let values = values.iter().map(|value| made[graph.place(*value)]);
             let values = values.collect::<Option<Vec<Expr>>>()?;
             let facts = self.facts.iter().map(|value| own[self.graph.place(*value)]);
             let facts = facts.collect::<Option<Vec<Expr>>>()?;
-            let guard = |value: &Expr| guarded(&[*value], facts.iter().copied());
+            let guard = |value: &Expr| guarded(&[*value], facts.iter().chain(&as_made).copied());
             let mut values: Vec<Expr> = values.iter().flat_map(guard).collect();
             let reached = graph.reached(required.iter().copied());
             let made = literally(|| graph.repeated(&reached, &inputs));
@@ -73,6 +74,7 @@ impl Sampler {
     ) -> Result<(Graph, Vec<Group>), Fault> {
         let (composed, groups) = record(self.draws.len(), |draws| {
             let (inputs, own) = self.inputs_from(graph, draws, fixed)?;
+            let as_made = self.as_made(draws, fixed, &inputs)?;
             let values_of = |needed: &mut dyn Iterator<Item = Expr>| {
                 graph.repeated(&graph.reached(needed), &inputs)
             };
@@ -88,7 +90,7 @@ impl Sampler {
             let group = |group: &Group| {
                 let presence = all(&group.presence, &required)?;
                 let mut required = all(&group.required, &required)?;
-                required.extend(&inputs[..self.made.len()]);
+                required.extend(inputs[..self.made.len()].iter().chain(&as_made));
                 let outputs = all(&group.outputs, &outputs)?;
                 Some(Group { outputs, required, facts: facts.clone(), presence })
             };
@@ -105,16 +107,34 @@ impl Sampler {
         draws: &[Expr],
         fixed: &[Option<Rational>],
     ) -> Option<(Vec<Expr>, Vec<Option<Expr>>)> {
-        let draws: Vec<Expr> = draws
-            .iter()
-            .zip(fixed)
-            .map(|(draw, fixed)| fixed.as_ref().map_or(*draw, Expr::rational))
-            .collect();
         let reached = self.graph.reached(self.made.iter().chain(&self.facts).copied());
-        let values = self.graph.repeated(&reached, &draws);
+        let values = self.graph.repeated(&reached, &with_fixed(draws, fixed));
         let made = self.made.iter().map(|value| values[self.graph.place(*value)]);
         let mut inputs = made.collect::<Option<Vec<Expr>>>()?;
         inputs.extend((inputs.len()..graph.inputs()).map(|_| Expr::input()));
         Some((inputs, values))
     }
+
+    /// Records parameters and states once more as they are made, (√u)² as such, where `folded` has something else:
+    /// there is no state where one of them has no value.
+    fn as_made(
+        &self,
+        draws: &[Expr],
+        fixed: &[Option<Rational>],
+        folded: &[Expr],
+    ) -> Option<Vec<Expr>> {
+        let reached = self.graph.reached(self.made.iter().copied());
+        let values = literally(|| self.graph.repeated(&reached, &with_fixed(draws, fixed)));
+        let made = self.made.iter().map(|value| values[self.graph.place(*value)]);
+        let made = made.collect::<Option<Vec<Expr>>>()?;
+        let is_other = |(own, folded): &(Expr, &Expr)| own != *folded && !own.is_always_defined();
+        let others = made.into_iter().zip(folded).filter(is_other);
+        Some(others.map(|(own, _)| own).collect())
+    }
+}
+
+/// Draws, some of them replaced by constants.
+fn with_fixed(draws: &[Expr], fixed: &[Option<Rational>]) -> Vec<Expr> {
+    let pairs = draws.iter().zip(fixed);
+    pairs.map(|(draw, fixed)| fixed.as_ref().map_or(*draw, Expr::rational)).collect()
 }

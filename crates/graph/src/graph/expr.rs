@@ -95,6 +95,11 @@ impl Expr {
         Self::made(|_| super::ONE)
     }
 
+    /// Whether the value is recorded as a number.
+    pub fn is_number(self) -> bool {
+        with_graph(|graph| graph.constant_value(self).is_some())
+    }
+
     /// Whether the recorded form proves that the value is defined for all inputs. Valid only while
     /// the recording runs.
     pub fn is_always_defined(self) -> bool {

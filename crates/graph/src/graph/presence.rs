@@ -108,6 +108,24 @@ pub fn edges(values: &[Expr]) -> Vec<Expr> {
     literally(|| arguments.into_iter().map(|a| a.apply(UnaryFunction::Recip)).collect())
 }
 
+/// Returns the logarithms of which some values contain the product with 0.
+pub fn logarithms_times_zero(values: &[Expr]) -> Vec<Expr> {
+    with_graph(|graph| {
+        let reached = graph.reached(values.iter().copied());
+        let is_zero =
+            |place: usize| matches!(graph.step(place), Step::Constant(value) if value.is_zero());
+        let is_logarithm =
+            |place: &usize| matches!(graph.step(*place), Step::Unary(UnaryFunction::Ln, _));
+        let logarithm = |place: usize| match graph.step(place) {
+            Step::Binary(BinaryOperation::Mul, a, b) if is_zero(a) => Some(b).filter(is_logarithm),
+            Step::Binary(BinaryOperation::Mul, a, b) if is_zero(b) => Some(a).filter(is_logarithm),
+            _ => None,
+        };
+        let found = (0..graph.len()).filter(|place| reached[*place]).filter_map(logarithm);
+        found.map(|place| graph.at(place)).collect()
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::record;
