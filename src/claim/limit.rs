@@ -239,7 +239,10 @@ impl Limit {
         let values = at_zero.evaluate_literally(formula).components();
         // At the end of its domain A may have a value at 0, and none on any side.
         let is_read_off = |value: &T| !value.is_never_defined() && !value.is_on_edge();
-        if values.iter().all(is_read_off) {
+        // ε^ε comes out as 1 at 0, where ln ε has no value.
+        let bases = at_zero.bases_of_powers(formula);
+        let is_power_read_off = bases.iter().all(|base| !base.ln().is_never_defined());
+        if is_power_read_off && values.iter().all(is_read_off) {
             return values.iter().map(|_| None).collect();
         }
         let model = phase.model();
@@ -248,7 +251,7 @@ impl Limit {
         let order = if self.slope.is_some() { 2 } else { 0 };
         let written = phase.evaluate_literally(formula).components();
         let one = |(at_zero, written): (&T, T)| match parameter.first() {
-            Some(parameter) if !is_read_off(at_zero) => {
+            Some(parameter) if !is_power_read_off || !is_read_off(at_zero) => {
                 expansions(written, *parameter, &sides, order)
             }
             _ => None,

@@ -245,6 +245,24 @@ impl<'m, T: Scalar> Phase<'m, T> {
         }
         lifted
     }
+
+    /// Evaluates the bases of the powers with an exponent that varies, in a formula and what it uses.
+    pub fn bases_of_powers(&self, formula: &Formula) -> Vec<T> {
+        let all = self.with_what_it_uses(formula).into_iter();
+        all.flat_map(|used| T::literally(|| self.bases_in(used))).collect()
+    }
+
+    fn bases_in(&self, formula: &Formula) -> Vec<T> {
+        let model = self.model();
+        formula.bases(&|symbol| model.varies(symbol), &mut |symbol| self.literal_value(symbol))
+    }
+
+    /// Lists a formula with the abbreviations in it and in the formulas of its parameters, and these.
+    fn with_what_it_uses<'f>(&'f self, formula: &'f Formula) -> Vec<&'f Formula> {
+        let model = self.model();
+        let own = std::iter::once(formula).chain(model.parameter_formulas_of(&[formula]));
+        own.flat_map(|own| model.vocabulary.with_abbreviations(own, &model.abbreviations)).collect()
+    }
 }
 
 impl Phase<'_, Expr> {
@@ -264,22 +282,15 @@ impl Phase<'_, Expr> {
     /// integrand of each ∫, and the logarithm of the base of each power with an exponent that varies,
     /// which may come out as a whole number; so of the formulas of the parameters in it.
     pub fn presupposed(&self, formula: &Formula) -> Vec<Expr> {
-        let model = self.model();
-        let own = std::iter::once(formula).chain(model.parameter_formulas_of(&[formula]));
-        let all =
-            own.flat_map(|own| model.vocabulary.with_abbreviations(own, &model.abbreviations));
         let of = |used: &Formula| {
             literally(|| {
+                let bases = self.bases_in(used).into_iter();
                 let mut lookup = |symbol| self.literal_value(symbol);
-                let bases = used.bases(&|symbol| model.varies(symbol), &mut lookup);
                 let integrands = used.antiderivatives(&mut lookup).into_iter().map(|(f, _)| f);
-                bases
-                    .into_iter()
-                    .map(|base| base.apply(UnaryFunction::Ln))
-                    .chain(integrands)
-                    .collect::<Vec<Expr>>()
+                let logarithms = bases.map(|base| base.apply(UnaryFunction::Ln));
+                logarithms.chain(integrands).collect::<Vec<Expr>>()
             })
         };
-        all.flat_map(of).collect()
+        self.with_what_it_uses(formula).into_iter().flat_map(of).collect()
     }
 }

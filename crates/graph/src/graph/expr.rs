@@ -144,6 +144,18 @@ impl Expr {
         })
     }
 
+    /// Finds another value of the recording by the node of this one, with what else is found.
+    pub(super) fn read<T>(
+        self,
+        find: impl FnOnce(&Graph, NodeId) -> Option<(NodeId, T)>,
+    ) -> Option<(Self, T)> {
+        with_graph(|graph| {
+            let own = self.node_in(graph);
+            let (node, found) = find(graph, own)?;
+            Some((Self { session: graph.session, node }, found))
+        })
+    }
+
     /// Reports an operation that needs a magnitude or an order.
     pub(super) fn refuse(operation: &'static str) {
         with_graph(|graph| graph.fail(Fault::NeedsValue(operation)));

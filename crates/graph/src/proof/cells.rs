@@ -144,9 +144,11 @@ impl Cell {
 }
 
 /// Lists the values under at most 0, 1, … nested roots, if some root follows one that is nested more
-/// deeply; otherwise nothing. A root can be rewritten by those before it only.
+/// deeply, or a value made of functions does, as cos x for √(1 − sin²x); otherwise nothing. A root can be rewritten by
+/// what is before it only.
 fn layers(graph: &Graph, reached: &[bool]) -> Vec<Vec<bool>> {
     let mut depths = vec![0; graph.len()];
+    let mut has_function = vec![false; graph.len()];
     let (mut deepest, mut is_ordered) = (0, true);
     for place in (0..graph.len()).filter(|place| reached[*place]) {
         let step = graph.step(place);
@@ -155,7 +157,13 @@ fn layers(graph: &Graph, reached: &[bool]) -> Vec<Vec<bool>> {
         // √√x belongs to x, like √x.
         let is_first = step.arguments().all(|argument| !self::is_root(&graph.step(argument)));
         depths[place] = below + usize::from(is_root && is_first);
-        is_ordered &= !is_root || depths[place] >= deepest;
+        let is_function = matches!(
+            step,
+            Step::Unary(UnaryFunction::Exp | UnaryFunction::Sin | UnaryFunction::Cos, _)
+        );
+        has_function[place] =
+            is_function || step.arguments().any(|argument| has_function[argument]);
+        is_ordered &= !is_root && !has_function[place] || depths[place] >= deepest;
         deepest = deepest.max(depths[place]);
     }
     if is_ordered {
