@@ -36,11 +36,12 @@ pub fn count_factors_once(model: &mut Model) -> Vec<String> {
             let (text, remark) = (&own[0].text, found.remark(&own[0].text));
             let made = |(text, function): (String, Formula)| {
                 let level = vec![level_equation(text.clone(), function.clone(), None)];
-                if !is_rate {
-                    return Some(Constraint { level, function });
-                }
                 let roles = &lagrangian.roles;
-                let rate = holonomic::rate_of_simplified(&function, &text, model, roles)?;
+                // A sum of squares may be one of coordinates and velocities.
+                let rate = holonomic::rate_of_simplified(&function, &text, model, roles);
+                let Some(rate) = rate else {
+                    return (!is_rate).then_some(Constraint { level, function });
+                };
                 let text = rate_text(&text, &model.vocabulary);
                 let own = level_equation(text, rate.clone(), None);
                 Some(Constraint { level: [level, vec![own]].concat(), function: rate })

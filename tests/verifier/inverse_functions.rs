@@ -85,9 +85,8 @@ fn differences_of_increasing_functions_have_the_sign_of_the_difference() {
             signs.push(sign * slope);
         }
         let at = |name: &str| text.replace('v', name);
-        let claims = ["x - y", "y - x"].map(|difference| {
-            format!("sign({} - ({})) = sign({difference})", at("x"), at("y"))
-        });
+        let claims = ["x - y", "y - x"]
+            .map(|difference| format!("sign({} - ({})) = sign({difference})", at("x"), at("y")));
         let found = judged("-2..2", "-2..2", &claims);
         let one = signs.iter().all(|sign| *sign == 1);
         let two = signs.iter().all(|sign| *sign == -1);

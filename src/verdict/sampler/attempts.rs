@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use rustc_hash::FxHashMap;
 
-use crate::graph::Evaluator;
+use crate::graph::{Evaluator, Tape};
 use crate::number::ball::{Ball, Balls};
 use crate::number::mixed::{Mixed, Number};
 use crate::number::rational::Rational;
@@ -52,6 +52,8 @@ impl Sampler {
             return attempts;
         }
         let mut evaluator = Evaluator::new(&self.tape, Ball::<TAPE_LANES>);
+        let facts = Tape::new(&self.graph, if self.has_moduli { &self.facts } else { &[] });
+        let mut facts = Evaluator::new(&facts, Ball::<TAPE_LANES>);
         for first in (0..lanes).step_by(TAPE_LANES) {
             let own = &mut attempts[first..lanes.min(first + TAPE_LANES)];
             let at = |lane: usize| start + (first + lane) as u64;
@@ -76,9 +78,19 @@ impl Sampler {
                 let columns: Vec<Balls<TAPE_LANES>> = (0..self.draws.len()).map(column).collect();
                 evaluator.run(&columns);
                 let exists = |lane: usize| evaluator.outputs().all(|block| block.is_defined(lane));
+                facts.run(&columns);
+                // A value that is not negative at states is so, beyond rounding.
+                let is_none = |lane: usize| {
+                    let is_negative = |block: &Balls<TAPE_LANES>| {
+                        block.excludes_zero(lane) && block.mid[lane] < 0.0
+                    };
+                    facts.outputs().any(is_negative)
+                };
                 let mut left = Vec::new();
                 for (place, lane) in open.iter().enumerate() {
-                    match exists(place) || self.exists_exactly(at(*lane), attempt, sets) {
+                    let is_state = exists(place)
+                        || !is_none(place) && self.exists_exactly(at(*lane), attempt, sets);
+                    match is_state {
                         true => own[*lane] = attempt,
                         false => left.push(*lane),
                     }

@@ -8,15 +8,13 @@
 //! tan(π/2 − u/2) = sin u/(1 − cos u)    tan(π/4 + u/2) = cos u/(1 − sin u)
 //! ```
 
-use crate::graph::{Expr, Graph, Step, record};
+use crate::graph::{Expr, Step};
 use crate::number::UnaryFunction::{Atan, Cos, Sin};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
 use super::angles::arguments;
 use super::cells::Cell;
-use super::classes::Classes;
-use super::domain::Region;
 use super::explore::Explorer;
 use super::fact::SignFact;
 use super::relations::Defect;
@@ -117,37 +115,18 @@ impl Explorer<'_> {
                 // (k − ½)π ≤ f u + e π/4 ≤ (k + ½)π, in quarter turns of u
                 let ends = [4 * k - 2, 4 * k + 2].map(|end| (end - form.eighths) / form.halves);
                 let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
-                has_sign(cell, known, self.prover.extents, (u, low), true)
-                    && has_sign(cell, known, self.prover.extents, (u, high), false)
+                let sign = |quarters: i64| {
+                    cell.sign_of(known, self.prover.extents, &[u], |values| {
+                        let turn =
+                            one().apply(Atan) * Expr::rational(&Rational::from(2 * quarters));
+                        Some(values[u]? - turn)
+                    })
+                };
+                sign(low) == Some(true) && sign(high) == Some(false)
             })?;
             let eighths = sign * (form.eighths - 4 * turns);
             let angle = PlainAngle { place: u, halves: sign * form.halves, eighths };
             Some((angle, certificate))
         })
     }
-}
-
-/// Whether u less some quarter turns is known to be nowhere negative, or nowhere positive, on a cell.
-fn has_sign(
-    cell: &Cell,
-    known: &[(usize, SignFact)],
-    inputs: &[super::extent::Extent],
-    (u, quarters): (usize, i64),
-    is_positive: bool,
-) -> bool {
-    let needed: Vec<usize> = known.iter().map(|(place, _)| *place).chain([u]).collect();
-    let reached = cell.graph.reached_from(&needed);
-    let recorded: Result<(Graph, Option<(Expr, Vec<(Expr, SignFact)>)>), _> =
-        record(cell.graph.inputs(), |x| {
-            let values = cell.graph.repeated(&reached, x);
-            let turn = one().apply(Atan) * Expr::rational(&Rational::from(2 * quarters));
-            let fact = |(place, fact): &(usize, SignFact)| Some((values[*place]?, *fact));
-            Some((values[u]? - turn, known.iter().map(fact).collect::<Option<Vec<_>>>()?))
-        });
-    let Ok((graph, Some((value, facts)))) = recorded else { return false };
-    let facts: Vec<(usize, SignFact)> =
-        facts.into_iter().map(|(value, fact)| (graph.place(value), fact)).collect();
-    let classes = &Classes::default();
-    let region = Region { graph: &graph, inputs, facts: &facts, classes };
-    region.sign(graph.place(value)) == Some(is_positive)
 }

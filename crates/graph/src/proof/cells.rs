@@ -14,6 +14,9 @@ use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
+use super::classes::Classes;
+use super::domain::Region;
+use super::extent::Extent;
 use super::fact::SignFact;
 use super::rewrite::{Rewrite, conditions};
 use super::trial::{Certificate, MOST_NESTED, TrialResult, both};
@@ -89,6 +92,32 @@ impl Cell {
     /// Returns the places of the values that are positive on this cell and not on others.
     pub fn signs(&self) -> impl Iterator<Item = usize> {
         self.chosen.iter().map(|index| self.facts[*index].0)
+    }
+
+    /// Finds the sign of a further value, made from those at some places, by intervals, where 0 counts as either sign.
+    pub fn sign_of(
+        &self,
+        known: &[(usize, SignFact)],
+        inputs: &[Extent],
+        places: &[usize],
+        value: impl FnOnce(&[Option<Expr>]) -> Option<Expr>,
+    ) -> Option<bool> {
+        let own: Vec<usize> = known.iter().map(|(place, _)| *place).collect();
+        let reached = self.graph.reached_from(&[&own, places].concat());
+        let (graph, made) = record(self.graph.inputs(), |x| {
+            let values = self.graph.repeated(&reached, x);
+            let facts = own.iter().map(|place| values[*place]).collect::<Option<Vec<Expr>>>()?;
+            Some((value(&values)?, facts))
+        })
+        .ok()?;
+        let (value, values) = made?;
+        let facts: Vec<(usize, SignFact)> = values
+            .into_iter()
+            .zip(known)
+            .map(|(own, (_, fact))| (graph.place(own), *fact))
+            .collect();
+        let classes = &Classes::default();
+        Region { graph: &graph, inputs, facts: &facts, classes }.sign(graph.place(value))
     }
 
     /// Returns the facts, together with those about the radicands of all roots in the values.

@@ -7,12 +7,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::graph::{Expr, Graph, record};
 use crate::number::rational::Rational;
 
 use super::cells::Cell;
-use super::classes::Classes;
-use super::domain::Region;
 use super::explore::Explorer;
 use super::fact::SignFact;
 use super::factors::polynomial;
@@ -66,22 +63,10 @@ impl Explorer<'_> {
         known: &[(usize, SignFact)],
         factor: &Polynomial,
     ) -> Option<bool> {
-        let variables = factor.variables().into_iter().map(|own| own as usize);
-        let needed: Vec<usize> = variables.chain(known.iter().map(|(place, _)| *place)).collect();
-        let reached = cell.graph.reached_from(&needed);
-        let (graph, made): (Graph, Option<(Expr, Vec<(Expr, SignFact)>)>) =
-            record(cell.graph.inputs(), |inputs| {
-                let values = cell.graph.repeated(&reached, inputs);
-                let value = factor.value(&|own| values.get(own as usize).copied().flatten())?;
-                let fact = |(place, fact): &(usize, SignFact)| Some((values[*place]?, *fact));
-                Some((value, known.iter().map(fact).collect::<Option<Vec<_>>>()?))
-            })
-            .ok()?;
-        let (value, facts) = made?;
-        let facts: Vec<(usize, SignFact)> =
-            facts.into_iter().map(|(value, fact)| (graph.place(value), fact)).collect();
-        let (inputs, classes) = (self.prover.extents, &Classes::default());
-        Region { graph: &graph, inputs, facts: &facts, classes }.sign(graph.place(value))
+        let places: Vec<usize> = factor.variables().into_iter().map(|own| own as usize).collect();
+        cell.sign_of(known, self.prover.extents, &places, |values| {
+            factor.value(&|own| values.get(own as usize).copied().flatten())
+        })
     }
 }
 
