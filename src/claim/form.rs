@@ -44,16 +44,17 @@ type Square<T> = Vec<Vec<T>>;
 impl FormBlock {
     fn read<R: Reader>(from: &R, name: &str, entries: Formula) -> Result<Self, R::Error> {
         let model = from.model();
+        let remedy = "write \"q,p\" = \"E\" for the coefficients of dq∧dp";
         let index = |name: &str| {
-            let name = canonical_name(name.trim())?;
-            model.state.iter().position(|variable| variable.name == name)
+            let name = canonical_name(name.trim()).unwrap_or_else(|| name.trim().to_string());
+            let found = model.state.iter().position(|variable| variable.name == name);
+            found.ok_or_else(|| from.not_a_variable(Form::NAME, &name, remedy.to_string()))
         };
-        let pair = name.split_once(',').and_then(|(a, b)| Some((index(a)?, index(b)?)));
-        let Some((row, column)) = pair else {
+        let Some((first, second)) = name.split_once(',') else {
             let message = format!("`{name}` is not a pair of state variables");
-            let remedy = "write \"q,p\" = \"E\" for the coefficients of dq∧dp";
             return Err(from.complaint(Form::NAME, message, remedy));
         };
+        let (row, column) = (index(first)?, index(second)?);
         let kind = match (model.state[row].kind, model.state[column].kind) {
             (Type::Vector(rows), Type::Vector(columns)) => Type::Matrix(rows, columns),
             (Type::Scalar, other) | (other, Type::Scalar) if !matches!(other, Type::Matrix(..)) => {

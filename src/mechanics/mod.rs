@@ -17,6 +17,7 @@ mod lagrangian;
 mod level_equation;
 mod linear;
 mod listed;
+mod literal;
 mod memo;
 mod model;
 mod model_formulas;

@@ -20,8 +20,6 @@ use super::rolling::RollingTerms;
 use super::rubber::{NORMAL, angular_velocity, normal};
 use super::vocabulary::Meaning;
 use crate::formula::{Formula, Symbol, Value};
-use crate::graph::{Expr, literally};
-use crate::number::UnaryFunction;
 use crate::scalar::Scalar;
 
 /// A point of phase space over the scalar T.
@@ -52,7 +50,11 @@ impl<'m, T: Scalar> Phase<'m, T> {
     }
 
     #[inline(never)]
-    fn with_parameters(model: &'m Model, parameters: Parameters<T>, state: &[T]) -> Self {
+    pub(super) fn with_parameters(
+        model: &'m Model,
+        parameters: Parameters<T>,
+        state: &[T],
+    ) -> Self {
         let mut rest = state;
         let state = model
             .state
@@ -99,7 +101,7 @@ impl<'m, T: Scalar> Phase<'m, T> {
     }
 
     #[inline(never)]
-    fn literal_value(&self, symbol: Symbol) -> Value<T> {
+    pub(super) fn literal_value(&self, symbol: Symbol) -> Value<T> {
         let formula = |symbol| self.literal_formula(symbol);
         self.literal.value(symbol, &formula, &|symbol| match self.literal_formula(symbol) {
             Some(formula) => self.evaluate_literally(formula),
@@ -244,53 +246,5 @@ impl<'m, T: Scalar> Phase<'m, T> {
             self.configuration.share_contact(&mut lifted.configuration, index - 3 * NORMAL);
         }
         lifted
-    }
-
-    /// Evaluates the bases of the powers with an exponent that varies, in a formula and what it uses.
-    pub fn bases_of_powers(&self, formula: &Formula) -> Vec<T> {
-        let all = self.with_what_it_uses(formula).into_iter();
-        all.flat_map(|used| T::literally(|| self.bases_in(used))).collect()
-    }
-
-    fn bases_in(&self, formula: &Formula) -> Vec<T> {
-        let model = self.model();
-        formula.bases(&|symbol| model.varies(symbol), &mut |symbol| self.literal_value(symbol))
-    }
-
-    /// Lists a formula with the abbreviations in it and in the formulas of its parameters, and these.
-    fn with_what_it_uses<'f>(&'f self, formula: &'f Formula) -> Vec<&'f Formula> {
-        let model = self.model();
-        let own = std::iter::once(formula).chain(model.parameter_formulas_of(&[formula]));
-        own.flat_map(|own| model.vocabulary.with_abbreviations(own, &model.abbreviations)).collect()
-    }
-}
-
-impl Phase<'_, Expr> {
-    /// Records the components of formulas so that they are defined exactly where everything written
-    /// is; components that are defined everywhere are omitted.
-    pub fn literal_values<'f>(&self, formulas: impl IntoIterator<Item = &'f Formula>) -> Vec<Expr> {
-        let written = |f: &'f Formula| {
-            let mut values = self.evaluate_literally(f).components();
-            values.extend(self.presupposed(f));
-            values
-        };
-        let values = formulas.into_iter().flat_map(written);
-        values.filter(|value| !value.is_always_defined()).collect()
-    }
-
-    /// Evaluates as written what a formula has no value without, though its value need not show it: the
-    /// integrand of each ∫, and the logarithm of the base of each power with an exponent that varies,
-    /// which may come out as a whole number; so of the formulas of the parameters in it.
-    pub fn presupposed(&self, formula: &Formula) -> Vec<Expr> {
-        let of = |used: &Formula| {
-            literally(|| {
-                let bases = self.bases_in(used).into_iter();
-                let mut lookup = |symbol| self.literal_value(symbol);
-                let integrands = used.antiderivatives(&mut lookup).into_iter().map(|(f, _)| f);
-                let logarithms = bases.map(|base| base.apply(UnaryFunction::Ln));
-                logarithms.chain(integrands).collect::<Vec<Expr>>()
-            })
-        };
-        self.with_what_it_uses(formula).into_iter().flat_map(of).collect()
     }
 }

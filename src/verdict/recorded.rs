@@ -89,7 +89,7 @@ pub struct SharedTerms {
     pub motion: Vec<Expr>,
     /// Formulas of the level functions as written, by equation.
     level_requirement: Vec<Vec<Expr>>,
-    /// Formulas of the parameters that a chart of the whole level uses.
+    /// Parts of a chart of the whole level that depend on the parameters alone.
     chart_requirement: Vec<Expr>,
     /// Level functions, zero on the level.
     pub level: Vec<Expr>,
@@ -133,13 +133,7 @@ impl SharedTerms {
                 phase.model().level.iter().map(formula).collect()
             },
             chart_requirement: match chart {
-                Chart::Given(chart) => {
-                    let formulas: Vec<&Formula> = chart.formulas.iter().collect();
-                    // No parameter depends on the inputs of the chart.
-                    let inputs = vec![Expr::zero(); chart.model.dimension()];
-                    let there = phase.in_model(&chart.model, &inputs);
-                    there.literal_values(chart.model.parameter_formulas_of(&formulas))
-                }
+                Chart::Given(chart) => phase.literal_constants(&chart.model, &chart.formulas),
                 _ => Vec::new(),
             },
             level: phase.model().level.iter().map(|e| phase.level_function(&e.function)).collect(),

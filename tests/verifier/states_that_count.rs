@@ -30,6 +30,13 @@ fn parameters_that_a_chart_does_not_use_leave_all_states() {
     assert_eq!(plain, [Verdict::Refuted; 2]);
     let used = beside("sqrt(a)", &format!("{CIRCLE}y = 'sin(u) + 0*K'\n"), &claims);
     assert_eq!(used, [Verdict::Proved; 2], "the chart has no value for a < 0");
+    let of_entry = |y: &str| beside("vec(sqrt(a), 1)", &format!("{CIRCLE}y = '{y}'\n"), &claims);
+    for unused in ["K[2]*sin(u)", "sin(K[2]*u)", "sin(u)^K[2]"] {
+        assert_eq!(of_entry(unused), [Verdict::Refuted; 2], "{unused}");
+    }
+    for used in ["sin(u) + 0*K[1]", "sin(u + 0*u*K[1])", "sin(u) + 0*(K, K)*u"] {
+        assert_eq!(of_entry(used), [Verdict::Proved; 2], "{used}");
+    }
 }
 
 #[test]
@@ -102,6 +109,14 @@ fn a_component_of_time_is_a_use_of_time() {
     let claims = "[[claim]]\nform = { t = '1' }\n[[claim]]\nsymmetry-field = { x = 'x', t = '1' }\n\
         [[claim]]\nfixed-point = {}\n";
     assert_eq!(verdicts(&format!("{system}{claims}")), [Verdict::Proved; 3]);
+    // Cartan's form dx∧dy + dH∧dt.
+    let turning = "title = 't'\ncheck-weights = false\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\
+        \"x'\" = 'y'\n\"y'\" = '-x'\n";
+    let form = |first: &str| {
+        format!("[[claim]]\nform = {{ 'x,y' = '1', 'x,t' = '{first}', 'y,t' = 'y' }}\n")
+    };
+    let text = format!("{turning}{}{}[[claim]]\nfixed-point = {{}}\n", form("x"), form("-x"));
+    assert_eq!(verdicts(&text), [Verdict::Proved, Verdict::Refuted, Verdict::Proved]);
     let wrong = Case::parse(&format!("{system}[[claim]]\nform = {{ s = '1' }}\n"), &[]);
     assert!(wrong.expect_err("no variable s").to_string().contains("`s` is not a state variable"));
 }

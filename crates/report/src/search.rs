@@ -190,7 +190,9 @@ mod tests {
         assert!(text("x", &report).contains("  8   2 of them functions of those known"));
         report.counts.remove(0);
         assert!(text("x", &report).contains("products included:"), "constants are of degree 0");
-        report.orbits = vec![OrbitReport { degree: 2, monomials: 15, relations: 1, integrals: 1 }];
+        let (degree, monomials, variables) = (2, 15, Vec::new());
+        let orbit = OrbitReport { degree, monomials, relations: 1, integrals: 1, variables };
+        report.orbits = vec![orbit];
         let own = "1 relation between the 15 monomials of degree at most 2 along an orbit: 1 algebraic integral\n";
         assert!(text("x", &report).contains(own));
         report.orbits[0].relations = 0;

@@ -187,7 +187,13 @@ fn along(
     // At last with half of each angle.
     for _ in 0..2 {
         let scope = FunctionScope { divided, before, next: &[] };
+        let whole = report.orbits[before..].to_vec();
         let Some(halves) = with_functions(case, effort, scope, report, progress)? else { break };
+        // What whole angles show is told unless their halves show more.
+        if integrals(&report.orbits[before..]) <= integrals(&whole) && !whole.is_empty() {
+            report.orbits.truncate(before);
+            report.orbits.extend(whole);
+        }
         is_extended = true;
         divided = halves;
         if is_done(report) || divided.is_empty() {
@@ -236,6 +242,11 @@ fn along(
         }
         Err(_) => Ok(()),
     }
+}
+
+/// Largest number of algebraic integrals in reports on orbits.
+fn integrals(orbits: &[OrbitReport]) -> usize {
+    orbits.iter().map(|own| own.integrals).max().unwrap_or(0)
 }
 
 /// Whether a case is a Lagrangian system whose velocities are not those of its coordinates.

@@ -274,12 +274,7 @@ impl VariableSet {
             return Err(SearchError::NoSeries);
         };
         self.next += 1;
-        self.done.push(OrbitReport {
-            degree,
-            monomials: monomials.len(),
-            relations: step.relations.vectors.len(),
-            integrals: step.integrals,
-        });
+        self.done.push(OrbitReport::of(setting, degree, monomials.len(), &step));
         let variables = &self.variables;
         // Of low degree there may be others that are functions of those known.
         let may_depend = degree <= polynomials::LOW
