@@ -83,7 +83,6 @@ pub fn on_still_factors(model: &Model, sampler: &Sampler) -> Result<Vec<String>,
 
 /// Whether a formula contains a coordinate, and nothing that velocities are in.
 fn is_still(model: &Model, lagrangian: &Lagrangian, formula: &Formula) -> bool {
-    let used = model.vocabulary.uses(formula, &model.abbreviations);
     let is_moving = |meaning: Meaning| match meaning {
         Meaning::State(index) => {
             matches!(lagrangian.roles[index], VariableRole::Velocity | VariableRole::Multiplier)
@@ -91,6 +90,16 @@ fn is_still(model: &Model, lagrangian: &Lagrangian, formula: &Formula) -> bool {
         Meaning::Quantity(_) => true,
         Meaning::Parameter(_) | Meaning::Abbreviation(_) => false,
     };
-    used.iter().any(|own| matches!(own.meaning, Meaning::State(_)))
-        && !used.iter().any(|own| is_moving(own.meaning))
+    let is_of_state = |meaning: Meaning| matches!(meaning, Meaning::State(_));
+    needs(model, formula, &is_of_state) && !needs(model, formula, &is_moving)
+}
+
+/// Whether a formula needs a name of some kind, itself or by abbreviations.
+fn needs(model: &Model, formula: &Formula, is_meant: &dyn Fn(Meaning) -> bool) -> bool {
+    formula.needs(&|symbol| match model.vocabulary.entry(symbol).meaning {
+        Meaning::Abbreviation(index) => {
+            model.abbreviations.get(index).is_some_and(|own| needs(model, own, is_meant))
+        }
+        meaning => is_meant(meaning),
+    })
 }

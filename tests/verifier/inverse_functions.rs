@@ -84,6 +84,7 @@ fn differences_of_increasing_functions_have_the_sign_of_the_difference() {
             text += &format!(" + ({factor})*{function}");
             signs.push(sign * slope);
         }
+        let text = text.trim_start_matches(" + ");
         let at = |name: &str| text.replace('v', name);
         let claims = ["x - y", "y - x"]
             .map(|difference| format!("sign({} - ({})) = sign({difference})", at("x"), at("y")));

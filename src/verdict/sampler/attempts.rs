@@ -19,9 +19,12 @@ const EXACT_BITS: u32 = 256;
 /// Number of states whose attempts are kept.
 const MOST_KEPT: u64 = 1 << 12;
 
-/// Attempts that are known to lead to a state, or that none does, by state and number of parameter sets.
+/// A state and the number of parameter sets that are shared.
+type Asked = (u64, Option<usize>);
+
+/// The first attempts that lead to states, or 0 where none does.
 #[derive(Clone, Default)]
-pub(super) struct KnownAttempts(Arc<Mutex<FxHashMap<(u64, Option<usize>), u32>>>);
+pub(super) struct KnownAttempts(Arc<Mutex<FxHashMap<Asked, u32>>>);
 
 impl KnownAttempts {
     fn get(&self, index: u64, sets: Option<usize>) -> Option<u32> {

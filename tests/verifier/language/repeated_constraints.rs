@@ -95,6 +95,11 @@ fn repeated_constraints_on_coordinates_say_what_simple_ones_do() {
     let expected = judged(&simple, &CLAIMS).expect("a motion");
     let found = judged(&one("(x - y)^2 + 3*(z - 2*y)^2 = 0"), &CLAIMS).expect("a motion");
     assert_eq!(found, expected);
+    // One of the squares may be that of a velocity.
+    let simple = ["x' = 0".to_string(), "y = 0".to_string()];
+    let expected = judged(&simple, &CLAIMS).expect("a motion");
+    let found = judged(&one("x'^2 + y^2 = 0"), &CLAIMS).expect("a motion");
+    assert_eq!(found, expected);
 }
 
 #[test]

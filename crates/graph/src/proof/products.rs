@@ -43,17 +43,22 @@ impl Explorer<'_> {
         for (own, _) in strict.iter().chain(&others) {
             system.take(own);
         }
-        if system.is_contradictory() {
+        // What the form of one value says alone is left to sums of squares, which are printed.
+        let is_alone = strict.len() + others.len() == 1;
+        if !is_alone && system.is_contradictory() {
             return Some(Next::Empty(None));
         }
+        let mut is_seen = !is_alone;
         for index in 0..system.factors.len() {
             let factor = &system.factors[index];
-            let sign = definite_sign(factor).or_else(|| self.sign_of_factor(cell, known, factor));
+            let definite = definite_sign(factor).filter(|_| !is_alone);
+            let sign = definite.or_else(|| self.sign_of_factor(cell, known, factor));
             if let Some(is_positive) = sign {
                 system.equations.push((1 << index, !is_positive));
+                is_seen = true;
             }
         }
-        system.is_contradictory().then_some(Next::Empty(None))
+        (is_seen && system.is_contradictory()).then_some(Next::Empty(None))
     }
 
     /// Sign of a polynomial in values of a cell, by intervals, where 0 counts as either sign.
