@@ -1,17 +1,57 @@
 //! Constraints on the coordinates of a Lagrangian system: their rates are those on the velocities.
 
-use super::systems::Reading;
-use crate::formula::{Formula, FormulaError, Type};
-use crate::mechanics::{Meaning, Variable, VariableRole};
+use super::equations;
+use crate::formula::{Formula, FormulaError, Scope, Type};
+use crate::mechanics::{Dependence, Meaning, Model, Variable, VariableRole, Vocabulary};
+
+/// Names and variables of a Lagrangian system.
+pub struct Names<'a> {
+    pub vocabulary: &'a Vocabulary,
+    pub abbreviations: &'a [Formula],
+    pub variables: &'a [Variable],
+    pub roles: &'a [VariableRole],
+}
 
 /// Returns the rate Σ (∂F/∂q) q' of a constraint F = 0 that contains coordinates and no velocity; `None`
 /// for another one.
-pub fn rate(
+pub fn rate(function: &Formula, names: &Names<'_>) -> Result<Option<Formula>, FormulaError> {
+    let Some(text) = text_of_rate(function, &format!("({function})"), names) else {
+        return Ok(None);
+    };
+    Formula::parse(&text, names.vocabulary).map(Some)
+}
+
+/// Returns the rate of a function of the coordinates that is not the one of its text, which is that of `equation`.
+pub fn rate_of_simplified(
     function: &Formula,
-    reading: &Reading<'_, '_>,
+    equation: &str,
+    model: &Model,
     roles: &[VariableRole],
-) -> Result<Option<Formula>, FormulaError> {
-    let used = reading.vocabulary.uses(function, &reading.abbreviations);
+) -> Option<Formula> {
+    let mut name = "F".to_string();
+    while model.vocabulary.lookup(&name).is_some() {
+        name.push('F');
+    }
+    let mut vocabulary = model.vocabulary.clone();
+    let index = model.abbreviations.len();
+    vocabulary.define(&name, index, function, Dependence::Configuration);
+    let names = Names {
+        vocabulary: &vocabulary,
+        abbreviations: &model.abbreviations,
+        variables: &model.state,
+        roles,
+    };
+    let text = text_of_rate(function, &name, &names)?;
+    let rate = Formula::parse(&text, &vocabulary).ok()?;
+    let (symbol, _) = vocabulary.lookup(&name)?;
+    let text = equations::rate_text(equation, &model.vocabulary);
+    Some(rate.with_written_out(symbol, function, &text))
+}
+
+/// Writes the rate of a function with a name or a text in brackets.
+fn text_of_rate(function: &Formula, name: &str, names: &Names<'_>) -> Option<String> {
+    let Names { vocabulary, abbreviations, variables, roles } = names;
+    let used = vocabulary.uses(function, abbreviations);
     let is_still = used.iter().all(|entry| match entry.meaning {
         Meaning::State(index) => {
             !matches!(roles[index], VariableRole::Velocity | VariableRole::Multiplier)
@@ -22,24 +62,20 @@ pub fn rate(
     let is_used = |index: usize| {
         used.iter().any(|entry| matches!(entry.meaning, Meaning::State(own) if own == index))
     };
-    let variables = &reading.state.variables;
-    let own = variables.iter().zip(roles).enumerate().filter(|(index, _)| is_used(*index));
+    let own = variables.iter().zip(*roles).enumerate().filter(|(index, _)| is_used(*index));
     let terms: Vec<String> =
-        own.flat_map(|(_, (variable, role))| terms(function, variable, role, variables)).collect();
-    if !is_still || terms.is_empty() {
-        return Ok(None);
-    }
-    Formula::parse(&terms.join(" + "), &reading.vocabulary).map(Some)
+        own.flat_map(|(_, (variable, role))| terms(name, variable, role, variables)).collect();
+    (is_still && !terms.is_empty()).then(|| terms.join(" + "))
 }
 
 /// Writes the parts of the rate that a variable contributes.
 fn terms(
-    function: &Formula,
+    function: &str,
     variable: &Variable,
     role: &VariableRole,
     variables: &[Variable],
 ) -> Vec<String> {
-    let slope = format!("∂({function})/∂{}", variable.name);
+    let slope = format!("∂{function}/∂{}", variable.name);
     let along = |rate: &str| match variable.kind {
         Type::Scalar => format!("{slope}*{rate}"),
         Type::Vector(_) => format!("({slope}, {rate})"),

@@ -70,10 +70,16 @@ fn constraints(
     vakonomic: bool,
 ) -> Result<(Vec<Formula>, Vec<LevelEquation>), Mistake> {
     let (mut constraints, mut level) = (Vec::new(), Vec::new());
+    let names = holonomic::Names {
+        vocabulary: &reading.vocabulary,
+        abbreviations: &reading.abbreviations,
+        variables: &reading.state.variables,
+        roles,
+    };
     for (text, function) in given {
         let rate = match vakonomic {
             true => None,
-            false => holonomic::rate(&function, reading, roles)
+            false => holonomic::rate(&function, &names)
                 .map_err(|error| Mistake::new(None, Problem::Formula(error)))?,
         };
         let sides = equations::both_sides(&text, &reading.vocabulary);

@@ -1,8 +1,8 @@
-//! Constraints on velocities with repeated factors: their slopes vanish where they hold, and leave the reactions
+//! Constraints of a Lagrangian system with repeated factors: their slopes vanish where they hold, and leave the reactions
 //! open.
 
-use super::equations::level_equation;
-use super::{implied, repeated};
+use super::equations::{level_equation, rate_text};
+use super::{holonomic, implied, repeated};
 use crate::formula::Formula;
 use crate::mechanics::{LevelEquation, LevelFunction, Model, System};
 
@@ -13,7 +13,7 @@ struct Constraint {
 }
 
 /// Puts simpler constraints with the same zeros in the place of those in which a factor is repeated, as
-/// (x' − y z')² = 0, or which are sums of values of one sign; returns a remark on each. Where one becomes several,
+/// (x' − y z')² = 0 or (x − y)² = 0, or which are sums of values of one sign; returns a remark on each. Where one becomes several,
 /// reactions have no names.
 pub fn count_factors_once(model: &mut Model) -> Vec<String> {
     let System::Lagrangian(lagrangian) = &model.system else { return Vec::new() };
@@ -26,20 +26,28 @@ pub fn count_factors_once(model: &mut Model) -> Vec<String> {
     for (constraint, (is_rate, place)) in lagrangian.constraints.iter().zip(places) {
         end = place + 1;
         let own = &model.level[place - usize::from(is_rate)..end];
-        // The rate of a constraint on coordinates is that of the formula as written.
         let found = match &own[0].function {
-            LevelFunction::Formula(function) if !is_rate => repeated::simpler(model, function),
+            LevelFunction::Formula(function) => repeated::simpler(model, function),
             _ => None,
         };
         let counts = found.as_ref().map(|found| found.functions.len());
         let is_open = counts.is_some_and(|count| count == 1 || !implied::uses_reactions(model));
-        let simpler = found.filter(|_| is_open).map(|found| {
+        let simpler = found.filter(|_| is_open).and_then(|found| {
             let (text, remark) = (&own[0].text, found.remark(&own[0].text));
-            let made = |(text, function): (String, Formula)| Constraint {
-                level: vec![level_equation(text, function.clone(), None)],
-                function,
+            let made = |(text, function): (String, Formula)| {
+                let level = vec![level_equation(text.clone(), function.clone(), None)];
+                let roles = &lagrangian.roles;
+                // A sum of squares may be one of coordinates and velocities.
+                let rate = holonomic::rate_of_simplified(&function, &text, model, roles);
+                let Some(rate) = rate else {
+                    return (!is_rate).then_some(Constraint { level, function });
+                };
+                let text = rate_text(&text, &model.vocabulary);
+                let own = level_equation(text, rate.clone(), None);
+                Some(Constraint { level: [level, vec![own]].concat(), function: rate })
             };
-            (remark, found.named(text).into_iter().map(made).collect::<Vec<Constraint>>())
+            let all = found.named(text).into_iter().map(made);
+            Some((remark, all.collect::<Option<Vec<Constraint>>>()?))
         });
         match simpler {
             Some((remark, made)) => {

@@ -236,7 +236,8 @@ impl Limit {
         at_zero: &Phase<'_, T>,
         formula: &Formula,
     ) -> Vec<BySide<T>> {
-        let values = at_zero.evaluate_literally(formula).components();
+        // ε^ε comes out as 1 at 0, where ln ε has no value.
+        let values = at_zero.with_logarithms(formula).components();
         // At the end of its domain A may have a value at 0, and none on any side.
         let is_read_off = |value: &T| !value.is_never_defined() && !value.is_on_edge();
         if values.iter().all(is_read_off) {

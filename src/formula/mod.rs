@@ -83,6 +83,7 @@ mod unknown;
 mod value;
 mod weights;
 mod whole;
+mod written_out;
 
 #[cfg(test)]
 mod tests;

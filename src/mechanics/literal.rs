@@ -3,6 +3,28 @@
 use super::phase::Phase;
 use crate::formula::{Exponents, Formula, Symbol, Value};
 use crate::graph::{Expr, literally, logarithms_times_zero};
+use crate::scalar::Scalar;
+
+impl<T: Scalar> Phase<'_, T> {
+    /// Evaluates a formula literally, with 0·ln X for each power X^Y that has a value for X > 0 alone.
+    pub fn with_logarithms(&self, formula: &Formula) -> Value<T> {
+        let model = self.model();
+        let exponents = Exponents {
+            varies: &|symbol| model.varies(symbol),
+            is_listed: &|symbol| model.is_listed(symbol),
+        };
+        formula
+            .evaluate_with_logarithms(&exponents, &mut |symbol| self.symbol_with_logarithms(symbol))
+    }
+
+    fn symbol_with_logarithms(&self, symbol: Symbol) -> Value<T> {
+        let formula = |symbol| self.literal_formula(symbol);
+        self.with_logarithms.value(symbol, &formula, &|symbol| match self.literal_formula(symbol) {
+            Some(formula) => self.with_logarithms(formula),
+            None => self.value(symbol),
+        })
+    }
+}
 
 impl Phase<'_, Expr> {
     /// Records the components of formulas so that they are defined exactly where everything written
@@ -38,25 +60,5 @@ impl Phase<'_, Expr> {
             })
         }));
         found
-    }
-
-    /// Records a formula as written, with 0·ln X for each power X^Y that has a value for X > 0 alone.
-    fn with_logarithms(&self, formula: &Formula) -> Value<Expr> {
-        let model = self.model();
-        let exponents = Exponents {
-            varies: &|symbol| model.varies(symbol),
-            is_listed: &|symbol| model.is_listed(symbol),
-            is_number: &|value: Expr| value.is_number(),
-        };
-        formula
-            .evaluate_with_logarithms(&exponents, &mut |symbol| self.symbol_with_logarithms(symbol))
-    }
-
-    fn symbol_with_logarithms(&self, symbol: Symbol) -> Value<Expr> {
-        let formula = |symbol| self.literal_formula(symbol);
-        self.with_logarithms.value(symbol, &formula, &|symbol| match self.literal_formula(symbol) {
-            Some(formula) => self.with_logarithms(formula),
-            None => self.value(symbol),
-        })
     }
 }

@@ -212,6 +212,7 @@ impl Judging<'_> {
                     .to_string(),
             );
         }
+        warnings.extend(slopes_of_constraints::on_still_factors(model, sampler)?);
         warnings.extend(self.missed_part(sampler)?);
         warnings.extend(self.jump_of_level(sampler));
         Ok(warnings)

@@ -77,6 +77,12 @@ fn limits_by_size_are_proved_and_their_twins_are_not() {
         ("exp(1/ε)/exp(2/ε)", "0", above, wide),
         ("exp(x/ε)/(1 + exp(x/ε))", "0", above, "-2..-1"),
         ("1/(1 + exp(x/ε + 1/ε^2))", "0", above, wide),
+        // 0⁰ comes out as 1, where ln 0 has no value.
+        ("ε^ε", "1", above, wide),
+        ("x + ε^(x*ε)", "x + 1", above, wide),
+        ("|ε|^ε", "1", both, wide),
+        ("ε^(1 + ε)", "0", above, wide),
+        ("(ε*x)^ε", "1", above, "1/2..2"),
     ];
     for (own, to, epsilon, x) in proved {
         let found = verdicts(epsilon, x, &[(own.to_string(), to.to_string())]);
@@ -90,6 +96,8 @@ fn limits_by_size_are_proved_and_their_twins_are_not() {
         ("exp(x/ε)", "0", above, wide),
         ("ε*ln(1 + exp(x/ε))", "x", above, wide),
         ("exp(1/ε)/exp(2/ε)", "1", above, wide),
+        ("ε^ε", "0", above, wide),
+        ("ε^(1 + ε)", "1", above, wide),
     ];
     for (own, to, epsilon, x) in refuted {
         let found = verdicts(epsilon, x, &[(own.to_string(), to.to_string())]);
@@ -105,6 +113,7 @@ fn limits_by_size_are_proved_and_their_twins_are_not() {
         ("tanh((x + |x|)/ε)", "1", above, wide),
         ("exp(-(x + |x|)/ε)", "0", above, wide),
         // No value for small ε.
+        ("ε^ε", "1", below, wide),
         ("(ε - x)^ε", "1", above, "1/2..2"),
     ];
     for (own, to, epsilon, x) in open {

@@ -74,6 +74,11 @@ pub trait Scalar: DualNum<Primitive = f64> + Copy {
         false
     }
 
+    /// Whether the value is known to be the same number for all inputs.
+    fn is_number(&self) -> bool {
+        false
+    }
+
     /// Whether the value is known to exist for no inputs.
     fn is_never_defined(&self) -> bool {
         false

@@ -1,6 +1,10 @@
 //! Draws tried until they lead to a state.
 
-use crate::graph::Evaluator;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use rustc_hash::FxHashMap;
+
+use crate::graph::{Evaluator, Tape};
 use crate::number::ball::{Ball, Balls};
 use crate::number::mixed::{Mixed, Number};
 use crate::number::rational::Rational;
@@ -11,6 +15,30 @@ use super::{Sampler, TAPE_LANES};
 const ATTEMPTS: u32 = 64;
 /// Precision in bits for states that f64 cannot decide.
 const EXACT_BITS: u32 = 256;
+
+/// Number of states whose attempts are kept.
+const MOST_KEPT: u64 = 1 << 12;
+
+/// A state and the number of parameter sets that are shared.
+type Asked = (u64, Option<usize>);
+
+/// The first attempts that lead to states, or 0 where none does.
+#[derive(Clone, Default)]
+pub(super) struct KnownAttempts(Arc<Mutex<FxHashMap<Asked, u32>>>);
+
+impl KnownAttempts {
+    fn get(&self, index: u64, sets: Option<usize>) -> Option<u32> {
+        let known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        known.get(&(index, sets)).copied()
+    }
+
+    fn keep(&self, index: u64, sets: Option<usize>, attempt: u32) {
+        if index < MOST_KEPT {
+            let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            known.insert((index, sets), attempt);
+        }
+    }
+}
 
 /// Returns the set of parameters that a state has if so many sets are shared.
 fn set_of(index: u64, sets: usize) -> usize {
@@ -27,31 +55,53 @@ impl Sampler {
             return attempts;
         }
         let mut evaluator = Evaluator::new(&self.tape, Ball::<TAPE_LANES>);
+        let facts = Tape::new(&self.graph, if self.has_moduli { &self.facts } else { &[] });
+        let mut facts = Evaluator::new(&facts, Ball::<TAPE_LANES>);
         for first in (0..lanes).step_by(TAPE_LANES) {
             let own = &mut attempts[first..lanes.min(first + TAPE_LANES)];
-            let mut open: Vec<usize> = (0..own.len()).collect();
+            let at = |lane: usize| start + (first + lane) as u64;
+            // Exact numbers take long.
+            let known = |lane: usize| self.attempts.get(at(lane), sets).filter(|_| self.has_moduli);
+            let mut open = Vec::new();
+            for (lane, own) in own.iter_mut().enumerate() {
+                match known(lane) {
+                    Some(attempt) => *own = attempt,
+                    None => open.push(lane),
+                }
+            }
+            let asked = open.clone();
             for attempt in 0..ATTEMPTS {
-                let numbers: Vec<Vec<(f64, bool)>> = open
-                    .iter()
-                    .map(|lane| self.nearest(start + (first + lane) as u64, attempt, sets))
-                    .collect();
+                if open.is_empty() {
+                    break;
+                }
+                let numbers: Vec<Vec<(f64, bool)>> =
+                    open.iter().map(|lane| self.nearest(at(*lane), attempt, sets)).collect();
                 let last = open.len() - 1;
                 let column = |k: usize| Balls::about(|lane| numbers[lane.min(last)][k]);
                 let columns: Vec<Balls<TAPE_LANES>> = (0..self.draws.len()).map(column).collect();
                 evaluator.run(&columns);
                 let exists = |lane: usize| evaluator.outputs().all(|block| block.is_defined(lane));
+                facts.run(&columns);
+                // A value that is not negative at states is so, beyond rounding.
+                let is_none = |lane: usize| {
+                    let is_negative = |block: &Balls<TAPE_LANES>| {
+                        block.excludes_zero(lane) && block.mid[lane] < 0.0
+                    };
+                    facts.outputs().any(is_negative)
+                };
                 let mut left = Vec::new();
                 for (place, lane) in open.iter().enumerate() {
-                    let index = start + (first + lane) as u64;
-                    match exists(place) || self.exists_exactly(index, attempt, sets) {
+                    let is_state = exists(place)
+                        || !is_none(place) && self.exists_exactly(at(*lane), attempt, sets);
+                    match is_state {
                         true => own[*lane] = attempt,
                         false => left.push(*lane),
                     }
                 }
                 open = left;
-                if open.is_empty() {
-                    break;
-                }
+            }
+            if self.has_moduli {
+                asked.iter().for_each(|lane| self.attempts.keep(at(*lane), sets, own[*lane]));
             }
         }
         attempts

@@ -31,6 +31,7 @@ use crate::proof::{Extent, InputDistribution};
 
 use super::{JudgeError, coverage};
 
+use attempts::KnownAttempts;
 use numerical::NumericalLevel;
 use ranges::{guarded, ranges};
 
@@ -72,6 +73,8 @@ pub struct Sampler {
     is_thin: bool,
     /// First block of states, once it was asked for.
     first: Arc<OnceLock<Vec<Balls<TAPE_LANES>>>>,
+    /// Attempts at states, once they were asked for.
+    attempts: KnownAttempts,
 }
 
 impl Sampler {
@@ -202,6 +205,7 @@ impl Sampler {
             newton,
             is_thin: false,
             first: Arc::default(),
+            attempts: KnownAttempts::default(),
         };
         Ok(match sampler.is_guarded && !sampler.has_states() {
             true => sampler.narrowed(),
@@ -248,6 +252,7 @@ impl Sampler {
             newton: None,
             is_thin: part.is_thin,
             first: Arc::default(),
+            attempts: KnownAttempts::default(),
         }
         .narrowed())
     }
@@ -296,7 +301,8 @@ impl Sampler {
         let pairs = self.recipes.iter().zip(fixed);
         let recipes: Vec<Draw> = pairs.map(|(draw, fixed)| draw.fixed(fixed.as_ref())).collect();
         let (draws, first) = (DrawSource::new(&recipes), Arc::default());
-        Self { draws, recipes, first, ..self.clone() }
+        let attempts = KnownAttempts::default();
+        Self { draws, recipes, first, attempts, ..self.clone() }
     }
 
     /// Returns the distribution of each number.

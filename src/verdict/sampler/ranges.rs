@@ -13,6 +13,7 @@ use crate::proof::{Extent, narrowed};
 use crate::scalar::Scalar;
 
 use super::Sampler;
+use super::attempts::KnownAttempts;
 
 /// Returns the range of a drawn number.
 pub fn extent(draw: &Draw) -> Extent {
@@ -77,6 +78,7 @@ impl Sampler {
         }
         self.draws = DrawSource::new(&self.recipes);
         self.first = Arc::default();
+        self.attempts = KnownAttempts::default();
         self
     }
 }

@@ -224,10 +224,12 @@ impl DualNum for Expr {
         self.sinh() / self.cosh()
     }
     fn asinh(&self) -> Self {
-        (*self + (*self * *self + Self::one()).sqrt()).ln()
+        let by_root = || (*self + (*self * *self + Self::one()).sqrt()).ln();
+        self.area_of_sine().unwrap_or_else(by_root)
     }
     fn acosh(&self) -> Self {
-        (*self + (*self * *self - Self::one()).sqrt()).ln()
+        let by_root = || (*self + (*self * *self - Self::one()).sqrt()).ln();
+        self.area_of_cosine().unwrap_or_else(by_root)
     }
     fn atanh(&self) -> Self {
         ((Self::one() + *self) / (Self::one() - *self)).ln() / whole(2)

@@ -95,11 +95,6 @@ impl Expr {
         Self::made(|_| super::ONE)
     }
 
-    /// Whether the value is recorded as a number.
-    pub fn is_number(self) -> bool {
-        with_graph(|graph| graph.constant_value(self).is_some())
-    }
-
     /// Whether the recorded form proves that the value is defined for all inputs. Valid only while
     /// the recording runs.
     pub fn is_always_defined(self) -> bool {
@@ -149,6 +144,18 @@ impl Expr {
         })
     }
 
+    /// Finds another value of the recording by the node of this one, with what else is found.
+    pub(super) fn read<T>(
+        self,
+        find: impl FnOnce(&Graph, NodeId) -> Option<(NodeId, T)>,
+    ) -> Option<(Self, T)> {
+        with_graph(|graph| {
+            let own = self.node_in(graph);
+            let (node, found) = find(graph, own)?;
+            Some((Self { session: graph.session, node }, found))
+        })
+    }
+
     /// Reports an operation that needs a magnitude or an order.
     pub(super) fn refuse(operation: &'static str) {
         with_graph(|graph| graph.fail(Fault::NeedsValue(operation)));
@@ -188,6 +195,10 @@ impl Scalar for Expr {
 
     fn is_absent(&self) -> bool {
         self.is_zero_node()
+    }
+
+    fn is_number(&self) -> bool {
+        with_graph(|graph| graph.constant_value(*self).is_some())
     }
 
     fn is_never_defined(&self) -> bool {

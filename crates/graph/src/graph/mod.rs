@@ -15,6 +15,7 @@ mod evaluate;
 mod expand;
 mod expr;
 mod fingerprint;
+mod hyperbolic;
 mod index;
 mod merge;
 mod plan;

@@ -4,6 +4,8 @@ use crate::graph::{Graph, Step};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
 
+use super::monotone::{is_sum_of_functions, sign_by_terms};
+
 /// Depth to which a value is looked at for its sign.
 const MOST_STEPS: usize = 6;
 
@@ -40,7 +42,12 @@ pub enum Side {
 /// Finds what is known of the signs of the values at two places.
 pub fn likeness(graph: &Graph, a: usize, b: usize) -> Option<Likeness> {
     let (a, b) = (without_factor(graph, a), without_factor(graph, b));
-    one_way(graph, a, b).or_else(|| one_way(graph, b, a))
+    one_way(graph, a, b).or_else(|| one_way(graph, b, a)).or_else(|| {
+        let ((plain, sign), (place, other)) = (a, b);
+        let is_alike =
+            sign_by_terms(graph, plain, place).or_else(|| sign_by_terms(graph, place, plain))?;
+        Some(Likeness::Signed((sign == other) == is_alike))
+    })
 }
 
 /// The same where the second value is the one with functions.
@@ -94,7 +101,7 @@ pub fn contains_increasing(graph: &Graph, place: usize) -> bool {
         Side::Number(_) => false,
     };
     let is_sine = matches!(graph.step(place), Step::Unary(UnaryFunction::Sin, _));
-    is_sine || is_value(&above) || is_value(&below)
+    is_sine || is_value(&above) || is_value(&below) || is_sum_of_functions(graph, place)
 }
 
 fn argument(graph: &Graph, place: usize) -> usize {
@@ -129,7 +136,7 @@ fn without_factor(graph: &Graph, mut place: usize) -> (usize, bool) {
 }
 
 /// Whether the form shows that a value is positive wherever it exists.
-fn is_positive_by_form(graph: &Graph, place: usize, depth: usize) -> bool {
+pub(super) fn is_positive_by_form(graph: &Graph, place: usize, depth: usize) -> bool {
     let is_positive = |place: usize| depth > 0 && is_positive_by_form(graph, place, depth - 1);
     match graph.step(place) {
         Step::Constant(value) => !value.is_negative() && !value.is_zero(),

@@ -14,6 +14,9 @@ use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
+use super::classes::Classes;
+use super::domain::Region;
+use super::extent::Extent;
 use super::fact::SignFact;
 use super::rewrite::{Rewrite, conditions};
 use super::trial::{Certificate, MOST_NESTED, TrialResult, both};
@@ -91,6 +94,32 @@ impl Cell {
         self.chosen.iter().map(|index| self.facts[*index].0)
     }
 
+    /// Finds the sign of a further value, made from those at some places, by intervals, where 0 counts as either sign.
+    pub fn sign_of(
+        &self,
+        known: &[(usize, SignFact)],
+        inputs: &[Extent],
+        places: &[usize],
+        value: impl FnOnce(&[Option<Expr>]) -> Option<Expr>,
+    ) -> Option<bool> {
+        let own: Vec<usize> = known.iter().map(|(place, _)| *place).collect();
+        let reached = self.graph.reached_from(&[&own, places].concat());
+        let (graph, made) = record(self.graph.inputs(), |x| {
+            let values = self.graph.repeated(&reached, x);
+            let facts = own.iter().map(|place| values[*place]).collect::<Option<Vec<Expr>>>()?;
+            Some((value(&values)?, facts))
+        })
+        .ok()?;
+        let (value, values) = made?;
+        let facts: Vec<(usize, SignFact)> = values
+            .into_iter()
+            .zip(known)
+            .map(|(own, (_, fact))| (graph.place(own), *fact))
+            .collect();
+        let classes = &Classes::default();
+        Region { graph: &graph, inputs, facts: &facts, classes }.sign(graph.place(value))
+    }
+
     /// Returns the facts, together with those about the radicands of all roots in the values.
     pub fn known(&self) -> Vec<(usize, SignFact)> {
         let mut known = self.facts.clone();
@@ -144,9 +173,11 @@ impl Cell {
 }
 
 /// Lists the values under at most 0, 1, … nested roots, if some root follows one that is nested more
-/// deeply; otherwise nothing. A root can be rewritten by those before it only.
+/// deeply, or a value made of functions does, as cos x for √(1 − sin²x); otherwise nothing. A root can be rewritten by
+/// what is before it only.
 fn layers(graph: &Graph, reached: &[bool]) -> Vec<Vec<bool>> {
     let mut depths = vec![0; graph.len()];
+    let mut has_function = vec![false; graph.len()];
     let (mut deepest, mut is_ordered) = (0, true);
     for place in (0..graph.len()).filter(|place| reached[*place]) {
         let step = graph.step(place);
@@ -155,7 +186,13 @@ fn layers(graph: &Graph, reached: &[bool]) -> Vec<Vec<bool>> {
         // √√x belongs to x, like √x.
         let is_first = step.arguments().all(|argument| !self::is_root(&graph.step(argument)));
         depths[place] = below + usize::from(is_root && is_first);
-        is_ordered &= !is_root || depths[place] >= deepest;
+        let is_function = matches!(
+            step,
+            Step::Unary(UnaryFunction::Exp | UnaryFunction::Sin | UnaryFunction::Cos, _)
+        );
+        has_function[place] =
+            is_function || step.arguments().any(|argument| has_function[argument]);
+        is_ordered &= !is_root && !has_function[place] || depths[place] >= deepest;
         deepest = deepest.max(depths[place]);
     }
     if is_ordered {

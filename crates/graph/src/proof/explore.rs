@@ -229,6 +229,10 @@ impl Explorer<'_> {
             rewrites = angles(graph, &cell.values);
         }
         if rewrites.is_empty() {
+            let found = self.arctangents(cell, known);
+            (rewrites, certificate) = (found.0, both(certificate, found.1));
+        }
+        if rewrites.is_empty() {
             let (sources, digest) = (self.sources, self.digest);
             let rules = Rules { graph, algebraic, sources, digest };
             let found = rules.find(&cell.values);
@@ -356,30 +360,11 @@ impl Explorer<'_> {
             |result: &Option<TrialResult>| matches!(result, None | Some(TrialResult::Zero(_)));
         if cell.is_part() && !results.iter().all(is_zero) {
             // Find out first whether the cell is empty.
-            if let Some(empty) = self.empty(cell, algebraic, trial, tower, known) {
-                return Ok(empty);
-            }
-            if let Some(empty) = self.opposed(cell, algebraic, tower, known)? {
+            if let Some(empty) = self.empty(cell, algebraic, trial, tower, known)? {
                 return Ok(empty);
             }
         }
         Ok(Next::Tested(results))
-    }
-
-    /// The answer for a cell that contains no point, where that is seen.
-    fn empty(
-        &self,
-        cell: &Cell,
-        algebraic: &Algebraic<'_>,
-        trial: &Trial<'_>,
-        tower: &Tower,
-        known: &[(usize, SignFact)],
-    ) -> Option<Next> {
-        let classes = Classes::of(algebraic, trial, tower, self.digest);
-        let inputs = self.prover.extents;
-        let region = Region { graph: &cell.graph, inputs, facts: known, classes: &classes };
-        let is_empty = region.is_empty() || region.is_beyond_bounds();
-        is_empty.then_some(Next::Empty(classes.certificate))
     }
 }
 

@@ -9,7 +9,7 @@ use crate::number::{BinaryOperation, UnaryFunction};
 use crate::scalar::Scalar;
 
 /// Reads a value as a polynomial in inputs and in values that are no sums and no products, by their places.
-fn polynomial(graph: &Graph, value: Expr) -> Option<Polynomial> {
+pub(super) fn polynomial(graph: &Graph, value: Expr) -> Option<Polynomial> {
     let read = fraction(graph, graph.place(value), &|at, step| {
         let is_part = match step {
             Step::Constant(_) | Step::Unary(UnaryFunction::Neg, _) => false,

@@ -13,9 +13,9 @@
 //! | `rng`, `root_numbers`, `digest` | random primes and points, drawn from the seed and the statement |
 //! | `trial` | the test of Theorem 1 |
 //! | `tower`, `characters` | certificates of independence for roots |
-//! | `roots`, `squares`, `nested`, `polynomial` | dependent roots and their expressions |
+//! | `roots`, `squares`, `partners`, `nested`, `polynomial` | dependent roots and their expressions |
 //! | `logarithms`, `powers` | rules of logarithms, powers and exponentials |
-//! | `angles` | sines and cosines of arctangents |
+//! | `angles`, `arctangents` | sines and cosines of arctangents, arctangents of tangents |
 //! | `free_symbols` | symbols in the place of very many roots, moduli and functions |
 //! | `buckets` | values that are proved together |
 //! | `nonzero` | values that are not identically zero on any cell |
@@ -26,6 +26,7 @@
 
 mod alike;
 mod angles;
+mod arctangents;
 mod bounded;
 mod bounds;
 mod branches;
@@ -42,6 +43,7 @@ mod digest;
 mod division;
 mod domain;
 mod elimination;
+mod emptiness;
 mod evident;
 mod explore;
 mod exponentials;
@@ -55,6 +57,7 @@ mod inverse;
 mod logarithms;
 mod lower;
 mod monomial_roots;
+mod monotone;
 mod nested;
 mod next;
 mod nonzero;
@@ -62,11 +65,13 @@ mod numbers;
 mod opposed;
 mod outcome;
 mod paired;
+mod partners;
 mod plain;
 mod polynomial;
 mod polynomials;
 mod powers;
 mod presence;
+mod products;
 mod rank;
 mod rationalised;
 mod reconstruct;

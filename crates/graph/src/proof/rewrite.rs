@@ -8,6 +8,7 @@ use crate::number::{BinaryOperation, UnaryFunction};
 use crate::scalar::Scalar;
 
 use super::angles::Angle;
+use super::arctangents::PlainAngle;
 use super::fact::SignFact;
 use super::nested::DenestedRoot;
 use super::powers::{Logarithm, split_exponential};
@@ -84,6 +85,13 @@ pub enum Rewrite {
         argument: usize,
         /// E as a sum.
         angle: Angle,
+    },
+    /// atan T, by the angle with the tangent T.
+    Arctangent {
+        /// Place of T.
+        argument: usize,
+        /// The angle between −π/2 and π/2.
+        angle: PlainAngle,
     },
 }
 
@@ -193,7 +201,12 @@ impl Rewrite {
                 }
                 _ => None,
             },
-            (Rewrite::Signed { .. } | Rewrite::Power { .. }, _) => None,
+            (Rewrite::Arctangent { argument, angle }, Step::Unary(UnaryFunction::Atan, a)) => {
+                (a == *argument).then(|| angle.value(values)).flatten()
+            }
+            (Rewrite::Signed { .. } | Rewrite::Power { .. } | Rewrite::Arctangent { .. }, _) => {
+                None
+            }
         }
     }
 }

@@ -148,9 +148,18 @@ impl RootFinder<'_> {
         }
         let own = own.arguments.first().copied();
         let places: Vec<usize> = own.into_iter().chain(over.iter().copied()).collect();
-        Ok(written(self.graph, &places, &self.roots_before(base)).map(|written| match &written {
-            DenestedRoot::Square(scale, _) if scale.is_negative() => RootSearch::NeverReal(None),
-            _ => RootSearch::Rewrite(rewrite(Root::Written(written)), None),
+        let found =
+            written(self.graph, &places, &self.roots_before(base)).map(|written| match &written {
+                DenestedRoot::Square(scale, _) if scale.is_negative() => {
+                    RootSearch::NeverReal(None)
+                }
+                _ => RootSearch::Rewrite(rewrite(Root::Written(written)), None),
+            });
+        Ok(found.or_else(|| {
+            let (partner, certificate) =
+                self.square_of_function(own.filter(|_| over.is_empty())?)?;
+            let root = Root::Found(Rational::from(1), Square::Function(partner));
+            Some(RootSearch::Rewrite(rewrite(root), Some(certificate)))
         }))
     }
 

@@ -10,6 +10,7 @@ use crate::scalar::Scalar;
 
 use super::digest::SeedDigest;
 use super::lower::Algebraic;
+use super::partners::PartnerValue;
 use super::reconstruct::reconstruct;
 use super::rng::{ProofRng, ProofStream};
 use super::trial::{MOST_NESTED, PRIMES, Residues, TRIAL_LANES, points, prime_of, suitable_moduli};
@@ -30,6 +31,8 @@ pub enum Square {
     Product(usize, usize),
     /// A quotient of two values.
     Quotient(usize, usize),
+    /// A function that is no value of the graph.
+    Function(PartnerValue),
 }
 
 impl Square {
@@ -38,6 +41,7 @@ impl Square {
         match self {
             Square::One => Vec::new(),
             Square::Value(a) => vec![a],
+            Square::Function(own) => vec![own.place],
             Square::Product(a, b) | Square::Quotient(a, b) => vec![a, b],
         }
     }
@@ -47,6 +51,7 @@ impl Square {
         Some(match self {
             Square::One => Expr::rational(&Rational::from(1)),
             Square::Value(a) => at(a)?,
+            Square::Function(own) => own.value(at)?,
             Square::Product(a, b) => at(a)? * at(b)?,
             Square::Quotient(a, b) => at(a)? / at(b)?,
         })
