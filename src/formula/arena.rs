@@ -233,6 +233,39 @@ impl Arena {
         Some(changed)
     }
 
+    /// Marks the nodes that some others need.
+    pub fn reached(&self, from: impl IntoIterator<Item = NodeId>) -> Vec<bool> {
+        let mut reached = vec![false; self.nodes.len()];
+        from.into_iter().for_each(|node| reached[node] = true);
+        for node in (0..reached.len()).rev() {
+            if reached[node] {
+                self.nodes[node].operation.on(|other| {
+                    reached[other] = true;
+                    other
+                });
+            }
+        }
+        reached
+    }
+
+    /// An arena with the nodes alone that one needs, as its last, and with the symbols in them.
+    pub fn ending_at(&self, last: NodeId) -> Self {
+        let reached = self.reached([last]);
+        let mut made = Self { fixed: self.fixed.clone(), ..Self::default() };
+        let mut places = vec![0; self.nodes.len()];
+        for (node, own) in self.nodes.iter().enumerate().filter(|(node, _)| reached[*node]) {
+            let span = own.span.clone();
+            places[node] = match &own.operation {
+                NodeOperation::Symbol(slot) => {
+                    let (symbol, kind) = self.symbols[*slot];
+                    made.push_symbol(symbol, kind, span, || self.names[*slot].clone())
+                }
+                other => made.push(other.on(|node| places[node]), own.value_type, span),
+            };
+        }
+        made
+    }
+
     /// Returns (v,v) where a node is the norm |v| of a vector.
     pub fn squared_norm(&self, node: NodeId) -> Option<NodeId> {
         match self.nodes[node].operation {

@@ -41,12 +41,6 @@ impl Formula {
         values.pop().unwrap_or_else(|| Value::Scalar(T::undefined()))
     }
 
-    /// Whether the value of the formula needs a symbol of some kind.
-    pub(crate) fn needs(&self, is_meant: &dyn Fn(Symbol) -> bool) -> bool {
-        let last = self.arena.nodes.len().checked_sub(1);
-        last.is_some_and(|last| self.contains(last, is_meant))
-    }
-
     /// Whether a part of the formula contains a symbol of some kind.
     fn contains(&self, part: NodeId, is_meant: &dyn Fn(Symbol) -> bool) -> bool {
         let mut open = vec![part];

@@ -45,8 +45,8 @@ impl Formula {
         if !is_several || zeros.iter().any(Vec::is_empty) {
             return None;
         }
-        let kept = reached(&reading.arena, zeros.iter().flatten().copied());
-        let written = reached(&reading.arena, [whole]);
+        let kept = reading.arena.reached(zeros.iter().flatten().copied());
+        let written = reading.arena.reached([whole]);
         for node in (0..=whole).filter(|node| written[*node] && !kept[*node]) {
             if !reading.is_total(node, is_total) {
                 return None;
@@ -57,26 +57,10 @@ impl Formula {
             let last = factors
                 .into_iter()
                 .reduce(|a, b| arena.scalar(NodeOperation::Multiply(a, b), whole))?;
-            arena.nodes.truncate(last + 1);
-            Some(Formula { text: self.text.clone(), arena })
+            Some(Formula { text: self.text.clone(), arena: arena.ending_at(last) })
         };
         zeros.into_iter().map(of).collect()
     }
-}
-
-/// Marks the nodes that some others need.
-fn reached(arena: &Arena, from: impl IntoIterator<Item = NodeId>) -> Vec<bool> {
-    let mut reached = vec![false; arena.nodes.len()];
-    from.into_iter().for_each(|node| reached[node] = true);
-    for node in (0..reached.len()).rev() {
-        if reached[node] {
-            arena.nodes[node].operation.on(|other| {
-                reached[other] = true;
-                other
-            });
-        }
-    }
-    reached
 }
 
 /// The reading of a formula as a sum of values of one sign.

@@ -131,9 +131,12 @@ impl<'a> Reading<'a> {
             NodeOperation::Sum(all) | NodeOperation::Product(all) => all.to_vec(),
             NodeOperation::Power(a, exponent) => {
                 let exponent = exponent.to_integer()?;
-                // X⁰ has a value where X has one alone.
-                if !(1..=MOST_POWER).contains(&exponent) {
+                if !(0..=MOST_POWER).contains(&exponent) {
                     return None;
+                }
+                // X⁰ has a value where X has one.
+                if exponent == 0 {
+                    return Some(vec![*a]);
                 }
                 // |v|² is (v,v).
                 match self.arena.squared_norm(*a).filter(|_| exponent % 2 == 0) {
@@ -179,6 +182,9 @@ impl<'a> Reading<'a> {
         };
         match &self.arena.nodes[node].operation {
             NodeOperation::Number(value) => Some(Polynomial::constant(value)),
+            NodeOperation::Power(_, exponent) if exponent.is_zero() => {
+                Some(Polynomial::constant(&one))
+            }
             NodeOperation::Negate(_) => Some(of.first()?.scaled(&-&one)),
             NodeOperation::Zero | NodeOperation::Add(..) | NodeOperation::Sum(_) => Some(sum(&one)),
             NodeOperation::Subtract(..) => Some(sum(&-&one)),

@@ -57,11 +57,8 @@ impl Formula {
         if found.is_empty() || found == [whole] {
             return None;
         }
-        let of_node = |node: NodeId| {
-            let mut arena = arena.clone();
-            arena.nodes.truncate(node + 1);
-            Formula { text: self.text.clone(), arena }
-        };
+        let of_node =
+            |node: NodeId| Formula { text: self.text.clone(), arena: arena.ending_at(node) };
         Some(found.into_iter().map(of_node).collect())
     }
 }

@@ -215,8 +215,7 @@ impl Formula {
             NodeOperation::Function(arena::ElementaryFunction::Modulus, a) => (a, true),
             _ => return None,
         };
-        let mut arena = self.arena.clone();
-        arena.nodes.truncate(argument + 1);
+        let arena = self.arena.ending_at(argument);
         Some((Formula { text: self.text.clone(), arena }, is_modulus))
     }
 

@@ -41,8 +41,7 @@ impl Formula {
                 (above, None) => above,
                 (above, Some(below)) => arena.scalar(NodeOperation::Divide(above, below), whole),
             };
-            arena.nodes.truncate(last + 1);
-            Some(Formula { text: self.text.clone(), arena })
+            Some(Formula { text: self.text.clone(), arena: arena.ending_at(last) })
         };
         simpler.equations.iter().cloned().map(of_all).collect()
     }
@@ -191,13 +190,14 @@ impl Simpler {
             implied.contains(&index) || seen.iter().any(|own| own.variables().contains(&index))
         };
         let parts = reading.parts;
-        if !(0..u32::try_from(parts.len()).ok()?).all(is_kept) {
-            return None;
-        }
         let is_one = |index: u32, is_such: &dyn Fn(Symbol) -> bool| {
             parts.get(index as usize).and_then(|part| symbol(arena, *part)).is_some_and(is_such)
         };
         let is_coordinate = |index: u32| is_one(index, is_coordinate);
+        let mut all = 0..u32::try_from(parts.len()).ok()?;
+        if !all.all(|index| is_coordinate(index) || is_kept(index)) {
+            return None;
+        }
         let is_plain = |own: &Polynomial| {
             own.variables().into_iter().all(|own| is_coordinate(own) || is_one(own, is_fixed))
         };

@@ -90,16 +90,7 @@ fn is_still(model: &Model, lagrangian: &Lagrangian, formula: &Formula) -> bool {
         Meaning::Quantity(_) => true,
         Meaning::Parameter(_) | Meaning::Abbreviation(_) => false,
     };
-    let is_of_state = |meaning: Meaning| matches!(meaning, Meaning::State(_));
-    needs(model, formula, &is_of_state) && !needs(model, formula, &is_moving)
-}
-
-/// Whether a formula needs a name of some kind, itself or by abbreviations.
-fn needs(model: &Model, formula: &Formula, is_meant: &dyn Fn(Meaning) -> bool) -> bool {
-    formula.needs(&|symbol| match model.vocabulary.entry(symbol).meaning {
-        Meaning::Abbreviation(index) => {
-            model.abbreviations.get(index).is_some_and(|own| needs(model, own, is_meant))
-        }
-        meaning => is_meant(meaning),
-    })
+    let used = model.vocabulary.uses(formula, &model.abbreviations);
+    let is_of_state = used.iter().any(|own| matches!(own.meaning, Meaning::State(_)));
+    is_of_state && !used.iter().any(|own| is_moving(own.meaning))
 }

@@ -288,7 +288,7 @@ fn mistakes_in_forms_are_told() {
     assert!(mistake("form = { x = '∫(exp(x²), x)' }").0.contains("cannot contain ∫"));
     assert!(mistake("lyapunov = 'x'\nequals = '∫(exp(x²), x)'").0.contains("cannot contain ∫"));
     assert!(mistake("form = { x = '1', 'x,y' = '1' }").0.contains("not of both"));
-    assert!(mistake("form = { 'x,q' = '1' }").0.contains("not a pair"));
+    assert!(mistake("form = { 'x,q' = '1' }").0.contains("`q` is not a state variable"));
     assert!(mistake("form = { 'x,y' = '1', 'y,x' = '1' }").0.contains("given already"));
     assert!(mistake("form = { 'x,y' = '[1, 2]' }").0.contains("compared"));
     assert!(mistake("form = { q = '1' }").0.contains('q'));

@@ -51,8 +51,12 @@ impl Sampler {
             let values = values.collect::<Option<Vec<Expr>>>()?;
             let facts = self.facts.iter().map(|value| own[self.graph.place(*value)]);
             let facts = facts.collect::<Option<Vec<Expr>>>()?;
-            let guard = |value: &Expr| guarded(&[*value], facts.iter().chain(&as_made).copied());
+            let guard = |value: &Expr| guarded(&[*value], facts.iter().copied());
             let mut values: Vec<Expr> = values.iter().flat_map(guard).collect();
+            literally(|| {
+                let all = values.iter_mut();
+                all.for_each(|value| as_made.iter().for_each(|own| *value += *own * Expr::zero()));
+            });
             let reached = graph.reached(required.iter().copied());
             let made = literally(|| graph.repeated(&reached, &inputs));
             let required = required.iter().map(|value| made[graph.place(*value)]);
