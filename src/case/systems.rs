@@ -127,7 +127,12 @@ impl<'r, 's> Reading<'r, 's> {
             undetermined: Vec::new(),
         };
         let free_draws = self.state.draws;
-        Some((text.value, ModelParts { model, chart, free_draws, hidden, alike, is_whole }))
+        // Without constraints every kind is Lagrange's equations.
+        let name = match &model.system {
+            System::Lagrangian(own) if own.constraints.is_empty() => "lagrangian".to_string(),
+            _ => text.value,
+        };
+        Some((name, ModelParts { model, chart, free_draws, hidden, alike, is_whole }))
     }
 
     /// Symbols of whole numbers that sizes, and keys of `[field]`, contain.

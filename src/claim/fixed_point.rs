@@ -9,10 +9,11 @@ use super::point::read_point;
 use super::statement::Objection;
 use super::{ComplexFormula, Reader, Statement, difference};
 use crate::formula::{Formula, Type};
-use crate::graph::Expr;
-use crate::mechanics::Model;
+use crate::graph::{Evaluator, Expr, Tape, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::elimination::characteristic_polynomial;
+use crate::mechanics::{Model, Phase};
+use crate::number::arb::{Approximation, ArbBall};
 use crate::scalar::Scalar;
 
 /// The claim that the field vanishes at a point, and that its linear part there has given
@@ -54,12 +55,16 @@ impl Statement for FixedPoint {
     }
 
     fn remark_on_refutation(&self, model: &Model) -> Option<String> {
-        let has_spectrum = self.spectrum.is_some() || self.polynomial.is_some();
-        (has_spectrum && !model.level.is_empty()).then(|| {
+        if self.spectrum.is_none() && self.polynomial.is_none() {
+            return None;
+        }
+        let across = (!model.level.is_empty()).then(|| {
             "the linear part is that in all of phase space: its eigenvalues across the level belong \
              to the spectrum, as a does for z' = a*z on z = 0"
                 .to_string()
-        })
+        });
+        let parts: Vec<String> = self.half_at_fault(model).into_iter().chain(across).collect();
+        (!parts.is_empty()).then(|| parts.join("; "))
     }
 
     fn objection(&self, model: &Model) -> Option<Objection> {
@@ -84,20 +89,13 @@ impl Statement for FixedPoint {
     }
 
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {
-        let state = self.point.at(&jet.phase);
-        let at = jet.phase.with(&[], &state);
-        let mut residual = match at.model().system.is_map() {
-            true => difference(at.field().to_vec(), state.clone()),
-            false => at.field().to_vec(),
-        };
+        let (state, at) = self.resting(jet);
+        let mut residual = resting_values(&at, &state);
         residual.extend(jet.level_at(&at, kept));
         if self.spectrum.is_none() && self.polynomial.is_none() {
             return residual;
         }
-        let columns: Vec<Vec<T>> = (0..state.len())
-            .map(|j| at.lift_along(j).field().iter().map(|x: &Dual<T>| x.eps).collect())
-            .collect();
-        let found = characteristic_polynomial(&columns);
+        let found = linear_part(&at, state.len());
         if let Some(spectrum) = &self.spectrum {
             let value = |(real, imaginary): &ComplexFormula| {
                 (at.scalar(real), imaginary.as_ref().map(|part| at.scalar(part)))
@@ -112,6 +110,103 @@ impl Statement for FixedPoint {
         }
         residual
     }
+}
+
+impl FixedPoint {
+    /// Says whether the point or the spectrum is wrong, where all parameters have values.
+    fn half_at_fault(&self, model: &Model) -> Option<String> {
+        if model.free_components() > 0 {
+            return None;
+        }
+        let mut count = 0;
+        let (graph, values) = record(model.dimension(), |inputs| {
+            let jet = DualPoint::new(Phase::new(model, &[], inputs));
+            let (state, at) = self.resting(&jet);
+            let mut values = resting_values(&at, &state);
+            values.extend(jet.level_at(&at, &vec![true; model.level.len()]));
+            count = values.len();
+            values.extend(linear_part(&at, state.len()));
+            values
+        })
+        .ok()?;
+        let tape = Tape::new(&graph, &values);
+        let mut evaluator = Evaluator::new(&tape, ArbBall::new(BITS));
+        evaluator.run(&vec![None; model.dimension()]);
+        let found: Option<Vec<(f64, f64)>> =
+            evaluator.outputs().map(|x| x.as_ref().map(Approximation::enclosure)).collect();
+        let found = found?;
+        let (resting, polynomial) = found.split_at(count);
+        if resting.iter().any(|(value, error)| value.abs() > *error) {
+            let values: Vec<String> = resting.iter().map(|(value, _)| short(*value)).collect();
+            return Some(format!(
+                "the point is no fixed point: {} there, not 0",
+                values.join(", ")
+            ));
+        }
+        if resting.iter().any(|(_, error)| *error > RESOLVED) {
+            return None;
+        }
+        Some(format!(
+            "the point is a fixed point to 30 digits, and the spectrum does not fit: the characteristic \
+             polynomial there is {}",
+            written(polynomial)
+        ))
+    }
+
+    /// The claimed point, and the system there.
+    fn resting<'m, T: Scalar>(&self, jet: &DualPoint<'m, T>) -> (Vec<T>, Phase<'m, T>) {
+        let state = self.point.at(&jet.phase);
+        let at = jet.phase.with(&[], &state);
+        (state, at)
+    }
+}
+
+/// Precision at which the two halves of a claim are told apart, in bits.
+const BITS: u32 = 160;
+/// Largest error of values that are taken for 0.
+const RESOLVED: f64 = 1e-30;
+
+/// Values that are 0 at a fixed point.
+fn resting_values<T: Scalar>(at: &Phase<'_, T>, state: &[T]) -> Vec<T> {
+    match at.model().system.is_map() {
+        true => difference(at.field().to_vec(), state.to_vec()),
+        false => at.field().to_vec(),
+    }
+}
+
+/// Coefficients of the characteristic polynomial of the linear part, highest first.
+fn linear_part<T: Scalar>(at: &Phase<'_, T>, dimension: usize) -> Vec<T> {
+    let columns: Vec<Vec<T>> = (0..dimension)
+        .map(|j| at.lift_along(j).field().iter().map(|x: &Dual<T>| x.eps).collect())
+        .collect();
+    characteristic_polynomial(&columns)
+}
+
+/// A number with six digits.
+fn short(value: f64) -> String {
+    let digits = format!("{value:.5e}");
+    digits.parse::<f64>().map_or(digits, |rounded| rounded.to_string())
+}
+
+/// Writes λⁿ + Σ aₖ λᵏ.
+fn written(coefficients: &[(f64, f64)]) -> String {
+    let power = |k: usize| match k {
+        0 => String::new(),
+        1 => "λ".to_string(),
+        _ => format!("λ^{k}"),
+    };
+    let count = coefficients.len();
+    let mut text = power(count);
+    for (place, (value, error)) in coefficients.iter().enumerate() {
+        if value.abs() <= *error {
+            continue;
+        }
+        let sign = if *value < 0.0 { "−" } else { "+" };
+        let (number, of) = (short(value.abs()), power(count - 1 - place));
+        let times = if of.is_empty() { "" } else { "*" };
+        text.push_str(&format!(" {sign} {number}{times}{of}"));
+    }
+    text
 }
 
 /// Reads the coefficients of a characteristic polynomial, if they are given; `is_counted`: there has to
@@ -163,4 +258,33 @@ fn coefficients<T: Scalar>(eigenvalues: &[(T, Option<T>)], dimension: usize) -> 
         }
     }
     polynomial.split_off(1)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::case::Case;
+    use crate::verdict::{Options, Verdict};
+
+    #[test]
+    fn a_wrong_spectrum_is_told_from_a_wrong_point() {
+        let lorenz = |x: &str, spectrum: &str| {
+            let text = format!(
+                "title = 'x'\n[parameters]\nb = '8/3'\n[state]\nx = '-9..9'\ny = '-9..9'\nz = '0..40'\n\
+                 [field]\nx = '10*(y − x)'\ny = '28*x − y − x*z'\nz = 'x*y − b*z'\n[[claim]]\n\
+                 fixed-point = {{ x = '{x}', y = 'sqrt(27*b)', z = '27' }}\nspectrum = [{spectrum}]\n"
+            );
+            let case = Case::parse(&text, &[]).expect("a case");
+            let mut report = crate::verdict::judge(&case, &Options::default()).expect("judged");
+            let own = report.claims.remove(0);
+            assert_eq!(own.verdict, Verdict::Refuted, "{own:?}");
+            own.evidence.remark.unwrap_or_default()
+        };
+        let rounded = "'-13.85', '0.094 ± 10.19*i'";
+        let of_spectrum = lorenz("sqrt(27*b)", rounded);
+        // λ³ + (σ + b + 1) λ² + b (r + σ) λ + 2 b σ (r − 1)
+        let polynomial = "λ^3 + 13.6667*λ^2 + 101.333*λ + 1440";
+        assert!(of_spectrum.contains("is a fixed point to 30 digits"), "{of_spectrum}");
+        assert!(of_spectrum.ends_with(polynomial), "{of_spectrum}");
+        assert!(lorenz("8.48", rounded).contains("is no fixed point"), "the point is rounded");
+    }
 }

@@ -29,6 +29,10 @@ impl Statement for Independent {
     const NEGATED: bool = true;
     const WIDENS: bool = false;
 
+    fn text(&self) -> Option<String> {
+        Some(self.0.iter().map(|own| own.text().trim()).collect::<Vec<_>>().join(", "))
+    }
+
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let formulas = from.list(Self::NAME)?.ok_or_else(|| from.missing(Self::NAME))?;
         let most = MOST_FUNCTIONS.saturating_sub(from.model().level.len());

@@ -23,6 +23,7 @@ mod fixed_point;
 mod form;
 mod hamiltonian;
 mod identity;
+mod images;
 mod independence;
 mod integral;
 mod jacobi_identity;
@@ -58,6 +59,7 @@ use crate::scalar::Scalar;
 
 pub use bracket::Bracket;
 pub use casimir::Casimir;
+pub use clock::clock;
 pub use commutator::Commutator;
 pub use compatible::Compatible;
 pub use components::Components;

@@ -25,6 +25,10 @@ impl Statement for SymmetryField {
         Ok(Self { components, weight: from.formula("weight", Some(Type::Scalar))? })
     }
 
+    fn text(&self) -> Option<String> {
+        Some(self.components.text.clone())
+    }
+
     fn formulas(&self) -> Vec<&Formula> {
         self.components.formulas().chain(&self.weight).collect()
     }

@@ -1,23 +1,14 @@
 //! Maps of phase space: symmetries, reversors, scalings, and maps to other systems.
 
-use super::clock::clock;
 use super::elsewhere::{one_antiderivative, system_at, written_at};
+use super::images::Transformation;
 use super::statement::open_constant;
-use super::{Condition, Jets, Need, Reader, Statement, difference, kinks, quadrature_defects};
+use super::{Condition, Jets, Need, Reader, Statement, difference, quadrature_defects};
 use crate::formula::{Formula, Type};
 use crate::graph::{Expr, record};
 use crate::mechanics::calculus::DualPoint;
-use crate::mechanics::{Dependence, Meaning, Model, Phase, TIME, Variable};
+use crate::mechanics::{Dependence, Meaning, Model, Phase, Variable};
 use crate::scalar::Scalar;
-
-/// A map σ of phase space to itself, which may change parameters too.
-#[derive(Clone, Debug)]
-struct Transformation {
-    /// One image for each state variable; variables without one are unchanged.
-    state: Vec<Option<Formula>>,
-    /// Images of parameters, by index.
-    parameters: Vec<(usize, Formula)>,
-}
 
 /// σ takes solutions to solutions, and the level to itself: dσ·v = λ v∘σ, where t → λt; of a map,
 /// Φ∘σ = σ∘Φ.
@@ -41,111 +32,12 @@ pub struct Map {
     multiplier: Option<Formula>,
 }
 
-impl Transformation {
-    fn read<R: Reader>(from: &R, key: &'static str) -> Result<Self, R::Error> {
-        let model = from.model();
-        let mut map = Self { state: vec![None; model.state.len()], parameters: Vec::new() };
-        let images = from.table(key)?;
-        if images.is_empty() {
-            let message = format!("`{key}` names no variable to transform");
-            return Err(from.complaint(key, message, "give an image: { \"γ\" = \"−γ\" }"));
-        }
-        for (name, image) in images {
-            let expected = match model.vocabulary.find(&name) {
-                Some(entry) => entry,
-                None => return Err(unknown(from, key, &name)),
-            };
-            if expected.kind != image.value_type() {
-                let message = format!(
-                    "`{name}` is a {}, and its image a {}",
-                    expected.kind,
-                    image.value_type()
-                );
-                return Err(from.complaint(key, message, "give an image of the same kind"));
-            }
-            match expected.meaning {
-                Meaning::State(index) => map.state[index] = Some(image),
-                Meaning::Parameter(index) => map.parameters.push((index, image)),
-                _ => return Err(unknown(from, key, &name)),
-            }
-        }
-        Ok(map)
-    }
-
-    /// Gives the variable t its image λt, if the map does not name it.
-    fn scale_clock(&mut self, model: Option<&Model>, factor: Option<&Formula>) {
-        let (Some(model), Some(factor)) = (model, factor) else { return };
-        let Some(index) = clock(model) else { return };
-        let image = Formula::parse(TIME, &model.vocabulary).and_then(|time| factor * &time);
-        if let (None, Ok(image)) = (&self.state[index], image) {
-            self.state[index] = Some(image);
-        }
-    }
-
-    fn formulas(&self) -> Vec<&Formula> {
-        let parameters = self.parameters.iter().map(|(_, image)| image);
-        self.state.iter().flatten().chain(parameters).collect()
-    }
-
-    /// Returns the remark for a map with a modulus.
-    fn kinks(&self, model: &Model) -> Option<String> {
-        let parameters = model.free_components();
-        let recorded = record(parameters + model.dimension(), |inputs| {
-            let (parameters, state) = inputs.split_at(parameters);
-            self.image(&Phase::new(model, parameters, state))
-        });
-        recorded.ok().and_then(|(graph, image)| kinks::of_map(&graph, &image))
-    }
-
-    /// Computes σ(x).
-    fn image<T: Scalar>(&self, at: &Phase<'_, T>) -> Vec<T> {
-        let values = self.state.iter().enumerate().map(|(index, image)| match image {
-            Some(image) => at.evaluate(image),
-            None => at.configuration.variable(index),
-        });
-        values.flat_map(|value| value.components()).collect()
-    }
-
-    /// Returns the point σ(x), with the parameters that σ assigns to it.
-    fn point<'m, T: Scalar>(&self, at: &Phase<'m, T>) -> Phase<'m, T> {
-        let parameters: Vec<_> =
-            self.parameters.iter().map(|(index, image)| (*index, at.evaluate(image))).collect();
-        at.with(&parameters, &self.image(at))
-    }
-
-    /// Zero where the parameters that σ gives do not change along the motion, as parameters must not.
-    fn parameters_move<T: Scalar>(&self, jet: &DualPoint<'_, T>) -> Vec<T> {
-        let images = self.parameters.iter().map(|(_, image)| image);
-        if !jet.phase.model().system.is_map() {
-            return images.flat_map(|image| jet.rates(image)).collect();
-        }
-        let there = jet.image();
-        let values = |at: &Phase<'_, T>, image| at.evaluate(image).components();
-        images
-            .flat_map(|image| difference(values(&there, image), values(&jet.phase, image)))
-            .collect()
-    }
-
-    /// Computes dσ·v.
-    fn pushed<T: Scalar>(&self, jet: &DualPoint<'_, T>) -> Vec<T> {
-        self.image(jet.along_field()).into_iter().map(|x| x.eps).collect()
-    }
-}
-
 impl Map {
     /// Returns the point φ(x).
     fn there<T: Scalar>(&self, phase: &Phase<'_, T>) -> Phase<'_, T> {
         let images = self.images.iter().flat_map(|image| phase.evaluate(image).components());
         phase.in_model(&self.target, &images.collect::<Vec<T>>())
     }
-}
-
-fn unknown<R: Reader>(from: &R, key: &'static str, name: &str) -> R::Error {
-    let message = format!("`{name}` is neither a state variable nor a parameter");
-    let names: Vec<&str> = from.model().state.iter().map(|own| own.name.as_str()).collect();
-    let remedy =
-        format!("the state variables are {}; parameters may change, too", names.join(", "));
-    from.complaint(key, message, &remedy)
 }
 
 /// Whether a scalar formula is recorded as 0.
@@ -165,6 +57,10 @@ impl Statement for Symmetry {
     const COMPANIONS: &'static [&'static str] = &["time"];
     const JETS: Jets = Jets::TwoPoints;
     const OF_MAPS: bool = true;
+
+    fn text(&self) -> Option<String> {
+        Some(self.map.text.clone())
+    }
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let mut map = Transformation::read(from, Self::NAME)?;
@@ -257,6 +153,10 @@ impl Statement for Reversor {
     const NAME: &'static str = "reversor";
     const JETS: Jets = Jets::TwoPoints;
     const OF_MAPS: bool = true;
+
+    fn text(&self) -> Option<String> {
+        Some(self.0.text.clone())
+    }
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let mut map = Transformation::read(from, Self::NAME)?;

@@ -70,6 +70,24 @@ impl Type {
         }
     }
 
+    /// Notation for a value with these components, as `--set` reads it: a diagonal matrix by its diagonal.
+    pub fn as_setting(self, components: &[String]) -> String {
+        let is_zero = |text: &str| text.bytes().all(|byte| matches!(byte, b'0' | b'.' | b'-'));
+        if let Type::Matrix(rows, columns) = self
+            && rows == columns
+            && rows > 1
+            && components.len() == rows * columns
+        {
+            let is_diagonal = |place: usize| place.is_multiple_of(rows + 1);
+            let others = components.iter().enumerate().filter(|(place, _)| !is_diagonal(*place));
+            if others.map(|(_, text)| text).all(|text| is_zero(text)) {
+                let diagonal: Vec<String> = components.iter().step_by(rows + 1).cloned().collect();
+                return format!("[{}]", diagonal.join(", "));
+            }
+        }
+        self.listed(components, ["[", ", ", "]"])
+    }
+
     /// Indices of the components, from 1: none for a scalar.
     pub fn places(self) -> Vec<Vec<usize>> {
         match self {

@@ -64,14 +64,18 @@ impl FlowError {
             FlowError::NoClosedOrbit(_) => {
                 "start nearer to the orbit, or give its period by --time or another --period"
             }
+            FlowError::NeverCloses => {
+                "write a phase in place of t: variables c and s with c' = -w*s, s' = w*c and the level \
+                 c^2 + s^2 = 1, for cos(w*t) and sin(w*t)"
+            }
             FlowError::NearReturn(..) => {
                 "start elsewhere, or follow the orbits over a parameter by `motion continue`: near a \
                  fold two of them meet, and beyond it there is none"
             }
             FlowError::Degenerate(_) => {
-                "where a further integral is kept, closed orbits come in families, and have no \
-                 multipliers; write a system with an energy as [hamiltonian] or [lagrangian], where \
-                 the energy is held"
+                "where an integral besides the energy is kept, closed orbits come in families, and have \
+                 no multipliers: list such integrals in a claim, closed-orbit with integrals = [\"…\"]; \
+                 the energy of a field is one of them"
             }
             FlowError::NoReversor { .. } => {
                 "name another of L=0, l=0, l=π/2, or another section (--g0); `liouville report` lists the reversors of a body"
@@ -88,6 +92,9 @@ impl FlowError {
             FlowError::NoStart => {
                 "give a start nearer to the level, where the slopes of its equations do not vanish, or \
                  another --seed or --index"
+            }
+            FlowError::NoEnergyState { .. } => {
+                "give an energy between these, or a start whose energy is near to it"
             }
             FlowError::Recording(_) => "use operations that hold for every number",
         }

@@ -91,7 +91,7 @@ pub enum FlowError {
     #[error("the shape or the potential is arbitrary, so that no one motion is its own")]
     Arbitrary,
     /// A system that has no motions in time.
-    #[error("the case is a map, and motions are followed of flows")]
+    #[error("the case is a map; only flows have motions to follow")]
     Discrete,
     /// The point does not lie on the sphere.
     #[error("(l, L/G) = ({l}, {z}) is not a point of the section: |L/G| has to be below 1")]
@@ -194,6 +194,9 @@ pub enum FlowError {
     /// Newton's method for a closed orbit does not converge.
     #[error("no closed orbit was found near the start, with a period near {0}")]
     NoClosedOrbit(#[serde(with = "crate::record")] f64),
+    /// Time is a variable of the state.
+    #[error("no motion closes: `t` is a variable of rate 1 here, and grows")]
+    NeverCloses,
     /// Newton's method leaves a distance at which there need be no closed orbit.
     #[error(
         "the motion is back after t = {0} to {1:.1e} only, and Newton's method does not come nearer: there may be no closed orbit, or one with a multiplier near 1"
@@ -260,6 +263,19 @@ pub enum FlowError {
     /// No state on the level set was found.
     #[error("no state on the level set was found near the one that was asked for")]
     NoStart,
+    /// No state with an energy was found.
+    #[error(
+        "no state with the energy {energy} was found near the start; drawn states have energies from \
+         {low} to {high}"
+    )]
+    NoEnergyState {
+        /// Energy that is wanted.
+        energy: String,
+        /// Least energy of some drawn states.
+        low: String,
+        /// Greatest energy of them.
+        high: String,
+    },
     /// The equations cannot be recorded.
     #[error("{0}")]
     #[serde(skip)]

@@ -5,6 +5,7 @@ use super::{Effort, SearchError};
 use liouville::case::{Case, Expect};
 use liouville::claim::{Claim, ClaimKind, Integral, MOST_COMPARED};
 use liouville::formula::{Formula, FormulaError, FormulaResult, Type};
+use liouville::mechanics::{Surface, System};
 use liouville::verdict::{ClaimReport, Evidence, Verdict, judge};
 
 /// Judges claims about a case, and returns the reports.
@@ -35,6 +36,23 @@ pub fn energy(case: &Case) -> Option<Formula> {
     Formula::name("energy", &case.model.vocabulary).ok()
 }
 
+/// The function whose levels are the surfaces on which a ball rolls, if an equation gives the surface:
+/// every such motion keeps it.
+pub fn surface(case: &Case) -> Option<Formula> {
+    match &case.model.system {
+        System::Ball(ball) => match &ball.surface {
+            Surface::Level(function) => Some(function.clone()),
+            Surface::Arbitrary(_) | Surface::Support(_) => None,
+        },
+        _ => None,
+    }
+}
+
+/// Functions that a case has without a search: its energy, and the function of a surface.
+pub fn given(case: &Case) -> impl Iterator<Item = Formula> {
+    energy(case).into_iter().chain(surface(case))
+}
+
 /// Whether a formula is the energy by its name.
 pub fn is_energy(formula: &Formula) -> bool {
     formula.text() == "energy"
@@ -48,8 +66,8 @@ pub fn proved_energy(case: &Case, effort: &Effort) -> Result<Option<Formula>, Se
     Ok(report.filter(|report| report.verdict == Verdict::Proved).map(|_| energy))
 }
 
-/// Returns the grounds on which a formula is not a function of others, the energy and the level
-/// functions; `None` if it is.
+/// Returns the grounds on which a formula is not a function of others, the energy, the function of a
+/// surface and the level functions; `None` if it is.
 pub fn independent(
     case: &Case,
     known: &[Formula],
@@ -61,8 +79,8 @@ pub fn independent(
     Ok(proved.map(|report| report.evidence))
 }
 
-/// Judges whether a formula, others, the energy and the level functions are independent; `None` if there
-/// are too many.
+/// Judges whether a formula, others, the energy, the function of a surface and the level functions are
+/// independent; `None` if there are too many.
 pub fn compared(
     case: &Case,
     known: &[Formula],
@@ -72,13 +90,13 @@ pub fn compared(
     if !are_comparable(case, known) {
         return Ok(None);
     }
-    let all = known.iter().cloned().chain(energy(case)).chain([formula.clone()]);
+    let all = known.iter().cloned().chain(given(case)).chain([formula.clone()]);
     judged_alone(case, Claim::independent(all.collect()), effort)
 }
 
-/// Whether another function can be compared with these, the energy and the level functions.
+/// Whether another function can be compared with these, the given functions and the level functions.
 pub fn are_comparable(case: &Case, known: &[Formula]) -> bool {
-    let others = case.model.level.len() + usize::from(energy(case).is_some());
+    let others = case.model.level.len() + given(case).count();
     known.len() + others < MOST_COMPARED
 }
 

@@ -24,6 +24,7 @@ use liouville::number::{BinaryOperation, UnaryFunction};
 use liouville::proof::{Extent, Prover, is_never_negative, is_single_valued, sign};
 use liouville::verdict::Sampler;
 
+use super::ask::is_energy;
 use super::terms::recorded;
 use super::{Effort, SearchError};
 
@@ -133,7 +134,7 @@ pub fn named<'f>(
 ) -> Result<String, SearchError> {
     let (mut names, mut partial) = (Vec::new(), Vec::new());
     for formula in formulas {
-        names.push(formula.text());
+        names.push(if is_energy(formula) { "the energy" } else { formula.text() });
         let (graph, values) = recorded(case, |jet| jet.phase.literal_values([formula]))?;
         let is_everywhere = is_single_valued(&graph, &values)
             || Drawn::bases(case, formula, effort)?.is_some_and(|drawn| drawn.are_never_negative());

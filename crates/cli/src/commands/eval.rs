@@ -9,6 +9,7 @@ use crate::report::point;
 use crate::report::{CaseDigest, diagnostic};
 use liouville::case::{Case, Setting};
 use liouville::formula::canonical_name;
+use liouville::mechanics::Model;
 use liouville::verdict;
 
 use super::{CommandOutput, LimitArgs, colour, source};
@@ -61,9 +62,14 @@ pub fn run(options: &Eval) -> Result<CommandOutput, String> {
     };
     let (seed, index, state) = (options.seed, options.index, state.as_deref());
     let text = match options.digits {
-        None => written(&verdict::evaluate(&case, state, seed, index).map_err(told)?, options.json),
+        None => written(
+            &verdict::evaluate(&case, state, seed, index).map_err(told)?,
+            &case.model,
+            options.json,
+        ),
         Some(digits) => written(
             &verdict::evaluate_digits(&case, state, seed, index, digits).map_err(told)?,
+            &case.model,
             options.json,
         ),
     }?;
@@ -134,11 +140,12 @@ pub(super) fn read_settings(settings: &[String]) -> Result<Vec<Setting>, String>
 
 fn written<N: point::Decimal>(
     report: &verdict::PointReport<N>,
+    model: &Model,
     json: bool,
 ) -> Result<String, String> {
     match json {
         true => Ok(point::json(report).map_err(|error| format!("error: {error}"))? + "\n"),
-        false => Ok(point::text(report)),
+        false => Ok(point::text(report, model)),
     }
 }
 

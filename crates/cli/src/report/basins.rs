@@ -17,6 +17,9 @@ const ENDED: Paint = Paint::Same([0x4d, 0x4d, 0x4d]);
 /// Largest number of attractors that the text lists.
 const MOST_LINES: usize = 12;
 
+/// Multiple of the width of the starts from which on a component counts as running away from them.
+const FAR: f64 = 10.0;
+
 /// Basins with their request.
 pub struct BasinReport<'r> {
     /// Case of the motions.
@@ -91,7 +94,48 @@ impl BasinReport<'_> {
                 "{share:.1} % of the motions have a neighbour in another basin\n"
             ));
         }
+        out.push_str(&self.running().unwrap_or_default());
         out
+    }
+
+    /// Note on components that run far away from the starts, as angles do that turn: they make all that
+    /// keeps near to the starts one set.
+    fn running(&self) -> Option<String> {
+        if self.has_values {
+            return None;
+        }
+        let titles = self.request.columns.titles();
+        let runs = |title: &String| {
+            let axis = self.request.axes.iter().find(|axis| axis.name == *title)?;
+            let place = titles.iter().position(|other| other == title)?;
+            let (from, to) = (axis.from.to_f64().0, axis.to.to_f64().0);
+            let far = FAR * (to - from);
+            let is_far = |own: &Attractor| {
+                own.ranges
+                    .get(place)
+                    .is_some_and(|[low, high]| *low < from - far || *high > to + far)
+            };
+            self.found.attractors.iter().any(is_far).then_some(())
+        };
+        let names: Vec<&String> = titles.iter().filter(|title| runs(title).is_some()).collect();
+        if names.is_empty() {
+            return None;
+        }
+        let value = |title: &String| match names.contains(&title) {
+            true => format!("cos({title}), sin({title})"),
+            false => title.clone(),
+        };
+        let values: Vec<String> = titles.iter().map(value).collect();
+        let names: Vec<&str> = names.into_iter().map(String::as_str).collect();
+        Some(format!(
+            "note: {} far from the starts, so that sets near to them are not told apart; of an angle \
+             make full turns one by --by '{}'\n",
+            match names.as_slice() {
+                [only] => format!("{only} runs"),
+                all => format!("{} run", all.join(" and ")),
+            },
+            values.join(", ")
+        ))
     }
 
     /// Kind of an attractor, as far as its first motion shows it.

@@ -69,7 +69,8 @@ pub fn text(case: &Case, found: &FoundOrbit) -> String {
             verdict(cycle)
         )),
         (None, Some(count)) => {
-            out.push_str(&format!("closed orbit of {count} crossings: {}\n", verdict(cycle)));
+            let crossings = if count == 1 { "crossing" } else { "crossings" };
+            out.push_str(&format!("closed orbit of {count} {crossings}: {}\n", verdict(cycle)));
         }
         (None, None) => out.push_str(&format!("closed orbit: {}\n", verdict(cycle))),
     }
@@ -89,7 +90,11 @@ pub fn text(case: &Case, found: &FoundOrbit) -> String {
         if multiplier.im < 0.0 {
             continue;
         }
-        out.push_str(&format!("  multiplier{}\n", written(multiplier)));
+        let of = match cycle.turns {
+            0 | 1 => String::new(),
+            turns => format!(", of {turns} turns"),
+        };
+        out.push_str(&format!("  multiplier{}{of}\n", written(multiplier)));
     }
     let volume = cycle.volume;
     let product = product(volume);

@@ -2,6 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
+use liouville::mechanics::Model;
 use liouville::verdict::{Digits, Enclosed, OVERFLOW, PointReport};
 
 /// A number of a report in decimal notation.
@@ -112,10 +113,13 @@ pub fn json<N: Decimal>(report: &PointReport<N>) -> Result<String, serde_json::E
 }
 
 /// Renders the report as text: each number with the bound on its error.
-pub fn text<N: Decimal>(report: &PointReport<N>) -> String {
+pub fn text<N: Decimal>(report: &PointReport<N>, model: &Model) -> String {
     let mut out = String::new();
     let mut line = |name: &str, value: String| out.push_str(&format!("{name:<18} {value}\n"));
-    for (name, values) in report.parameters.iter().chain(&report.state) {
+    for ((name, values), parameter) in report.parameters.iter().zip(model.free_parameters()) {
+        line(name, parameter.kind.as_setting(values));
+    }
+    for (name, values) in &report.state {
         line(name, values.join(", "));
     }
     for (equation, value) in &report.level {

@@ -15,6 +15,7 @@ mod pictures;
 mod site;
 mod start;
 mod tables;
+mod told;
 mod watch;
 mod wrong;
 

@@ -295,3 +295,46 @@ fn planes_of_symmetry_may_be_turned() {
     assert!(reversor("Π\u{303}(c)").is_some(), "a half turn about c keeps n⊗n and c");
     assert!(reversor("Σ\u{303}(p)").is_none(), "p is no axis of the body");
 }
+
+#[test]
+fn a_lagrangian_without_constraints_is_a_lagrangian_system() {
+    let free = "title = 'x'\n[parameters]\nm = 1\n[state]\na = '-3..3'\n\"a'\" = '-2..2'\n[lagrangian]\n\
+                kinetic = \"m*a'²/2\"\npotential = '−cos(a)'\n[[claim]]\nintegral = 'energy'\n";
+    for text in [free.to_string(), format!("system = 'nonholonomic'\n{free}")] {
+        let found = surveyed(&text);
+        assert_eq!(
+            (found.system.as_str(), found.sentence.as_str()),
+            ("lagrangian", "A Lagrangian system.")
+        );
+        assert_eq!(found.description.equations, ["Lagrange's equations"]);
+    }
+    let bound = free
+        .replace(
+            "[lagrangian]",
+            "b = '-3..3'\n\"b'\" = '-2..2'\n[lagrangian]\nconstraints = [\"b' = a*a'\"]",
+        )
+        .replace("m*a'²/2", "m*a'²/2 + b'²/2");
+    let found = surveyed(&format!("system = 'nonholonomic'\n{bound}"));
+    assert_eq!(found.system, "nonholonomic");
+    assert!(found.description.equations[0].contains("reactions"), "{:?}", found.description);
+}
+
+#[test]
+fn fixed_parameters_are_not_called_generic_and_a_driven_system_has_no_energy() {
+    let driven = "title = 'x'\n[state]\n\"φ\" = '-3..3'\np = '-2..2'\n[field]\n\"φ'\" = 'p'\n\
+                  \"p'\" = '−(1 − 2*cos(3*t))*sin(φ)'\n";
+    let found = surveyed(driven);
+    assert_eq!(found.hierarchy.grounds[1], "an integral: not known");
+    let double = "title = 'x'\n[parameters]\ng = 9.81\n[state]\na = '-3..3'\nb = '-3..3'\n\"a'\" = '-2..2'\n\
+                  \"b'\" = '-2..2'\n[lagrangian]\nkinetic = \"a'² + b'²/2 + a'*b'*cos(a − b)\"\n\
+                  potential = '−2*g*cos(a) − g*cos(b)'\n";
+    let found = surveyed(double);
+    assert!(
+        matches!(found.hierarchy.integrals, Integrals::ExcludedToDegree(_)),
+        "{:?}",
+        found.hierarchy
+    );
+    assert!(!found.hierarchy.grounds[1].contains("generic"), "{:?}", found.hierarchy);
+    let free = surveyed(&double.replace("g = 9.81", "g = '9..10'"));
+    assert!(free.hierarchy.grounds[1].contains("for generic parameters"), "{:?}", free.hierarchy);
+}

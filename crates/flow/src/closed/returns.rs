@@ -9,6 +9,7 @@ use crate::section::andoyer::section_functions;
 use crate::section::crossings::CrossingTask;
 use crate::section::surface::CrossingSurface;
 use liouville::case::{Case, Direction};
+use liouville::claim::clock;
 use liouville::number::double_double::DoubleDouble;
 use liouville::scalar::Scalar;
 use num_dual::Dual;
@@ -43,6 +44,9 @@ pub fn closed_orbit(
     surface: Option<&CrossingSurface>,
 ) -> Result<Cycle, FlowError> {
     two_sided(case)?;
+    if clock(&case.model).is_some() {
+        return Err(FlowError::NeverCloses);
+    }
     let model = surface.map_or(&case.model, CrossingSurface::model);
     let has_energy = keeps_energy(case, model, start, time)?;
     let functions = LevelFunctions::with(model, &start.parameters, &|phase| {

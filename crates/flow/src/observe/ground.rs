@@ -7,6 +7,7 @@ use super::scene::FollowedCase;
 use crate::motion::kept::is_proved;
 use crate::{Enclosure, FlowError, Loose, Obstacle, ProvedHorseshoe, ProvedOrbit, Request, Start};
 use liouville::case::Case;
+use liouville::claim::clock;
 use liouville::claim::motion::{Beginning, ClosedOrbit, Horseshoe, Neighbourhood};
 use liouville::formula::Formula;
 use liouville::mechanics::{
@@ -141,12 +142,10 @@ impl<'g> Ground<'g> {
 
     /// Checks that a box of states lies where the integrals are proved.
     fn checked(&self, kept: usize, start: &[Enclosure]) -> Result<(), String> {
-        if kept == 0 || is_inside(&self.case, start) {
-            return Ok(());
+        match outside(&self.case, start) {
+            Some(reason) if kept > 0 => Err(reason),
+            _ => Ok(()),
         }
-        let reason = "the orbit starts outside the ranges of [state], where its integrals are \
-                      proved";
-        Err(reason.to_string())
     }
 
     fn asked_of<T>(
@@ -175,6 +174,12 @@ impl<'g> Ground<'g> {
 fn objection(case: &Case) -> Option<&'static str> {
     if case.model.free_components() > 0 {
         return Some("some parameters have ranges, and an orbit is proved for fixed values");
+    }
+    if clock(&case.model).is_some() {
+        return Some(
+            "no motion closes, as `t` is a variable of rate 1 and grows: write a phase in place of it, \
+             variables c and s with c' = -w*s, s' = w*c and the level c^2 + s^2 = 1",
+        );
     }
     let is_one_sided = case.one_sided.is_some();
     is_one_sided.then_some("under a one-sided constraint no orbit is proved")
@@ -247,22 +252,53 @@ fn kept(case: &Case, integrals: &[Formula], options: &Options) -> Result<bool, S
     Ok(case.model.system.has_energy() && is_proved(case, "energy", options))
 }
 
-/// Whether a box of states lies where identities are proved: near a state that can be drawn they
-/// hold, and an analytic function that is 0 there is 0 along the orbit.
-fn is_inside(case: &Case, state: &[Enclosure]) -> bool {
+/// Reason why a box of states does not lie where identities are proved: near a state that can be drawn
+/// they hold, and an analytic function that is 0 there is 0 along the orbit.
+fn outside(case: &Case, state: &[Enclosure]) -> Option<String> {
+    let of_chart =
+        "the level and the integrals are proved at the drawn states, and the start is none";
     match case.chart {
-        Chart::Rolling | Chart::Sphere => return true,
-        Chart::Given(_) => return false,
+        Chart::Rolling | Chart::Sphere => return None,
+        Chart::Given(_) => return Some(of_chart.to_string()),
         Chart::Free | Chart::Equations => {}
     }
-    let is_within = |(draw, x): (&Draw, &Enclosure)| {
-        let (low, high) = (x.mid - x.rad, x.mid + x.rad);
-        match draw {
-            Draw::Within(range) => range.low.to_f64().0 < low && high < range.high.to_f64().0,
-            Draw::Of(NumberLine::All | NumberLine::Directions, _) => true,
-            Draw::Of(NumberLine::Positive, _) => low > 0.0,
-            Draw::OneOf(_) | Draw::Sign => false,
+    if case.free_draws.len() != state.len() {
+        return Some(of_chart.to_string());
+    }
+    let place = case.free_draws.iter().zip(state).position(|(draw, x)| !is_within(draw, x))?;
+    let (name, draw, start) =
+        (case.model.component_name(place), &case.free_draws[place], &state[place]);
+    // An end of a range belongs to it, but is no inner point.
+    let touches = |end: f64| (end - start.mid).abs() <= start.rad;
+    Some(match draw {
+        Draw::Within(range) => {
+            let (low, high) = (range.low.to_f64().0, range.high.to_f64().0);
+            let ends = range.to_string();
+            match touches(low) || touches(high) {
+                true => format!(
+                    "the enclosure of the start passes the end of the range of `{name}` ({ends}), and \
+                     the level and the integrals are proved inside it: declare a wider one"
+                ),
+                false => format!(
+                    "the orbit starts outside the range of `{name}` ({ends}), and the level and the \
+                     integrals are proved inside it: declare a wider one"
+                ),
+            }
         }
-    };
-    case.free_draws.len() == state.len() && case.free_draws.iter().zip(state).all(is_within)
+        _ => format!(
+            "the orbit starts outside the values of `{name}`, for which the level and the integrals are \
+             proved"
+        ),
+    })
+}
+
+/// Whether an enclosure lies inside the values of a draw.
+fn is_within(draw: &Draw, x: &Enclosure) -> bool {
+    let (low, high) = (x.mid - x.rad, x.mid + x.rad);
+    match draw {
+        Draw::Within(range) => range.low.to_f64().0 < low && high < range.high.to_f64().0,
+        Draw::Of(NumberLine::All | NumberLine::Directions, _) => true,
+        Draw::Of(NumberLine::Positive, _) => low > 0.0,
+        Draw::OneOf(_) | Draw::Sign => false,
+    }
 }

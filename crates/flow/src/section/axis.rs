@@ -67,7 +67,7 @@ impl Coordinate {
         let is_of_state =
             (0..case.model.dimension()).any(|place| case.model.component_name(place) == name);
         let none = || match is_of_state {
-            true => format!("`{name}` is of the state, which moves"),
+            true => format!("`{name}` is a state variable, and changes along the motion"),
             false => format!("there is no `{name}` to vary"),
         };
         let coordinate =

@@ -76,7 +76,31 @@ impl Launches<'_> {
             return Start::near(model, parameters, state);
         }
         let conditions = self.conditions(model, &parameters, &|_| Vec::new())?;
-        moved(&conditions, parameters, &state)
+        moved(&conditions, parameters, &state).map_err(|error| self.of_energy(error))
+    }
+
+    /// The error for a start that is not found, with the energies that there are if one is wanted.
+    fn of_energy(&self, error: FlowError) -> FlowError {
+        const DRAWN: u64 = 64;
+        let (FlowError::NoStart, Some(energy)) = (&error, self.energy) else { return error };
+        let own = |index| {
+            let (parameters, state) = drawn(self.case, self.seed, index).ok()?;
+            let [parameters, state] =
+                [parameters, state].map(|own| own.iter().map(|x| x.to_f64().0).collect::<Vec<_>>());
+            let phase = Phase::new(&self.case.model, &parameters, &state);
+            self.case.model.system.energy(&phase).filter(|energy| energy.is_finite())
+        };
+        let all: Vec<f64> = (0..DRAWN).filter_map(own).collect();
+        let (low, high) =
+            (all.iter().copied().reduce(f64::min), all.iter().copied().reduce(f64::max));
+        match (low, high) {
+            (Some(low), Some(high)) => FlowError::NoEnergyState {
+                energy: energy.to_string(),
+                low: format!("{low:.4}"),
+                high: format!("{high:.4}"),
+            },
+            _ => error,
+        }
     }
 
     /// Returns the starts of many motions from states.
@@ -86,7 +110,9 @@ impl Launches<'_> {
     ) -> Result<Vec<Result<Start, FlowError>>, FlowError> {
         let parameters = drawn(self.case, self.seed, self.index)?.0;
         let conditions = self.conditions(&self.case.model, &parameters, &|_| Vec::new())?;
-        let start = |state: Vec<Rational>| moved(&conditions, parameters.clone(), &state);
+        let start = |state: Vec<Rational>| {
+            moved(&conditions, parameters.clone(), &state).map_err(|error| self.of_energy(error))
+        };
         Ok(states.into_iter().map(start).collect())
     }
 

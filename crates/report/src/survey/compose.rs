@@ -212,10 +212,16 @@ fn integrals(survey: &Survey) -> Vec<SectionBlock> {
     }
     if found.is_empty() {
         found.push(text(match survey.hierarchy.integrals {
-            Integrals::ExcludedToDegree(degree) => format!(
-                "None is known. None that is polynomial in the velocities of degree at most {degree} exists \
-                 for generic values of the free parameters."
-            ),
+            Integrals::ExcludedToDegree(degree) => {
+                let generic = match survey.parameters.iter().any(|one| one.value.is_none()) {
+                    true => " for generic values of the free parameters",
+                    false => "",
+                };
+                format!(
+                    "None is known. None that is polynomial in the velocities of degree at most {degree} \
+                     exists{generic}."
+                )
+            }
             _ => "None is known.".to_string(),
         }));
     }
@@ -234,22 +240,27 @@ fn count(count: &IntegralCount, place: &HierarchyPlace) -> String {
     let found = count.independent.len();
     let verdict = match (found >= count.needed, has_measure) {
         (true, true) if place.integrals == Integrals::EnoughOnAPart => {
-            "with the measure this is enough where they are independent, which is shown on a part of the \
-             states only"
+            "these suffice where they are independent, which is shown on a part of the states only"
         }
-        (true, true) => "with the measure this is enough",
-        (true, false) => "but no measure is known to go with them",
-        (false, _) => "some are missing",
+        (true, true) if count.needed == 0 => "one is known",
+        (true, true) => "these suffice",
+        (true, false) => "no measure is known",
+        (false, _) => "too few integrals are known",
     };
     let known = match found {
         0 => "no integral is proved".to_string(),
         1 => format!("1 independent integral is proved ({})", count.independent.join(", ")),
         _ => format!("{found} independent integrals are proved ({})", count.independent.join(", ")),
     };
+    let space = if count.has_level { "level set" } else { "phase space" };
+    let needed = match count.needed {
+        0 => "only an invariant measure".to_string(),
+        1 => "1 integral and an invariant measure".to_string(),
+        many => format!("{many} integrals and an invariant measure"),
+    };
     format!(
-        "The level set has dimension {}; {known}. The Euler–Jacobi theorem needs {} and a measure: \
-         {verdict}.",
-        count.dimension, count.needed,
+        "The {space} has dimension {}; {known}. The Euler–Jacobi theorem needs {needed}: {verdict}.",
+        count.dimension,
     )
 }
 

@@ -33,11 +33,17 @@ pub fn entry(tested: &TestedClaim) -> JudgedClaim {
             definition.1 = Some(layout.clone());
         }
     }
+    // A claim of the file without a name has its formula in place of it.
+    let is_unnamed = !tested.is_of_family() && statement.as_ref() == Some(&claim.name);
+    let name = match is_unnamed {
+        true => claim.kind.replace('-', " "),
+        false => claim.name.clone(),
+    };
     JudgedClaim {
         mark: mark(claim.verdict),
         verdict: claim.verdict.word(),
-        name: claim.name.clone(),
-        statement: statement.filter(|text| *text != claim.name),
+        statement: statement.filter(|text| *text != name),
+        name,
         layout: tested.shown.statement.clone(),
         definitions,
         remarks: remarks(tested),

@@ -2,7 +2,7 @@
 
 use super::super::ansatz::system::LinearSystem;
 use super::super::ask::{
-    compared, components, energy, independent, is_energy, judged_alone, proved_energy,
+    compared, components, given, independent, is_energy, judged_alone, proved_energy,
 };
 use super::super::continued::is_one_function;
 use super::super::linear::SampledFunctions;
@@ -86,14 +86,15 @@ impl ProvedIntegrals {
         &self.formulas[usize::from(self.has_energy)..]
     }
 
-    /// Returns integrals that are independent of each other and of the energy, such that the others are
+    /// Returns integrals that are independent of each other and of the given functions, such that the others are
     /// proved to be functions of these, short ones first; `None` where neither is proved of one.
     pub fn basis(&self, case: &Case, effort: &Effort) -> Result<Option<Vec<Formula>>, SearchError> {
         let mut basis = Vec::new();
         // That functions are dependent says something of the last if the others are independent.
-        let mut is_independent = match energy(case) {
-            None => true,
-            Some(energy) => judged_alone(case, Claim::independent(vec![energy]), effort)?
+        let given: Vec<Formula> = given(case).collect();
+        let mut is_independent = match given.is_empty() {
+            true => true,
+            false => judged_alone(case, Claim::independent(given), effort)?
                 .is_some_and(|report| report.verdict == Verdict::Proved),
         };
         let mut claimed: Vec<&Formula> = self.claimed().iter().collect();

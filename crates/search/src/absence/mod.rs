@@ -343,7 +343,8 @@ fn generated(
         [] => format!("no integral but a constant is {class}"),
         formulas => {
             let names = named(asked.case, formulas, &asked.effort)?;
-            format!("every integral that is {class} is a polynomial in {names}")
+            let comma = if class.contains(',') { "," } else { "" };
+            format!("every integral that is {class}{comma} is a polynomial in {names}")
         }
     })
 }

@@ -234,7 +234,7 @@ impl<'a> Counting<'a> {
             return Ok(AbsenceOutcome::Excluded {
                 theorem: self.asked.theorem(&generated(self.asked, &self.class(), &space.terms)?),
                 counted: format!(
-                    "at most {dimension} independent integrals, constants included: all known"
+                    "at most {dimension} linearly independent integrals, constants included: all known"
                 ),
             });
         }
@@ -268,7 +268,7 @@ impl<'a> Counting<'a> {
             )));
         }
         Ok(AbsenceOutcome::Bounded(format!(
-            "at most {dimension} independent integrals exist, constants included; {} are known, and no \
+            "at most {dimension} linearly independent integrals exist, constants included; {} are known, and no \
              other was found in closed form",
             space.dimension
         )))

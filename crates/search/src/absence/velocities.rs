@@ -106,7 +106,7 @@ fn no_integral(
         return Ok(AbsenceOutcome::Excluded {
             theorem: asked.theorem(&generated(asked, &class, &known.formulas)?),
             counted: format!(
-                "at most {dimension} independent integrals, constants included: all known"
+                "at most {dimension} linearly independent integrals, constants included: all known"
             ),
         });
     }
@@ -126,7 +126,7 @@ fn no_integral(
     }
     Ok(exhibit.map(AbsenceOutcome::Exhibited).unwrap_or_else(|| {
         AbsenceOutcome::Bounded(format!(
-            "at most {dimension} independent integrals exist, constants included; {} are known, and no \
+            "at most {dimension} linearly independent integrals exist, constants included; {} are known, and no \
              other was found in closed form",
             known.dimension
         ))

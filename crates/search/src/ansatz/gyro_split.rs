@@ -74,7 +74,11 @@ pub fn split(case: &Case, effort: &Effort) -> Result<Result<GyroSplit, String>, 
             };
             let reason = "the field is not of the form x' = u, u' = …, with one velocity for each \
                           position; write the equations with [hamiltonian] or [lagrangian]";
-            let velocities = velocities(case, &positions, effort)?;
+            let velocities = match velocities(case, &positions, effort)? {
+                Velocities::Unsampled => return Ok(Err(UNSAMPLED.to_string())),
+                Velocities::Mixed => None,
+                Velocities::Of(all) => Some(all),
+            };
             Ok(velocities
                 .filter(|own| own.len() == others(model, &positions).len())
                 .map(|velocities| GyroSplit { positions, velocities, has_functions: true })
@@ -146,19 +150,35 @@ fn are_closed(case: &Case, positions: &[usize], effort: &Effort) -> Result<bool,
     }))
 }
 
-/// Velocity that is the rate of each position, in order; `None` if some rate is no variable.
+/// Reason why the rates of a field cannot be compared with its variables.
+const UNSAMPLED: &str = "formulas with exp, ln, sin, cos or general powers of the state or the parameters \
+                         have no values modulo a prime; name what they are of parameters by a parameter, \
+                         as w in place of Ω sin φ";
+
+/// Velocities of the positions of a field.
+enum Velocities {
+    /// The one that is the rate of each position, in order.
+    Of(Vec<usize>),
+    /// Some rate is no variable.
+    Mixed,
+    /// The rates have no values modulo a prime.
+    Unsampled,
+}
+
+/// Finds the velocity that is the rate of each position.
 fn velocities(
     case: &Case,
     positions: &[usize],
     effort: &Effort,
-) -> Result<Option<Vec<usize>>, SearchError> {
+) -> Result<Velocities, SearchError> {
     let (graph, field) = recorded(case, |jet| jet.phase.field().to_vec())?;
     let Some([inputs, rates]) = compared((&graph, &field), |_| false, effort) else {
-        return Ok(None);
+        return Ok(Velocities::Unsampled);
     };
     let start = case.model.free_components();
     let others = others(&case.model, positions);
     let velocity =
         |place: &usize| others.iter().copied().find(|other| inputs[start + other] == rates[*place]);
-    Ok(positions.iter().map(velocity).collect())
+    let found: Option<Vec<usize>> = positions.iter().map(velocity).collect();
+    Ok(found.map_or(Velocities::Mixed, Velocities::Of))
 }

@@ -352,7 +352,7 @@ impl GyroSearch<'_> {
             GyroEntry::Pairs(_) => {
                 let heads = names(&mut heads.iter());
                 let form = format!(
-                    "B w that do no work on w = ({heads}), B skew with entries Σ p/d, p polynomials in {positions} of degree at most {degree}, d one of {over}"
+                    "B w, w = ({heads}), with B skew and entries Σ p/d, p polynomials in {positions} of degree at most {degree}, d one of {over}"
                 );
                 (
                     format!("forces {form}"),

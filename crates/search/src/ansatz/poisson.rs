@@ -9,7 +9,7 @@
 use num_bigint::BigInt;
 use num_integer::Integer;
 
-use super::super::ask::{holds, judged, judged_alone};
+use super::super::ask::{holds, judged, judged_alone, proved_energy};
 use super::super::terms::integers;
 use super::super::{Effort, Found, SearchError, SearchReport, branches};
 use super::bracket_absence::Absence;
@@ -18,7 +18,7 @@ use super::scales::{Scale, Scales};
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::formula::{Formula, FormulaError, Type};
-use liouville::mechanics::LevelFunction;
+use liouville::mechanics::{LevelFunction, System};
 use liouville::number::rational::Rational;
 use liouville::verdict::Verdict;
 
@@ -64,16 +64,22 @@ pub fn brackets(
         found.filter_map(|found| found.function.as_ref()).chain(claimed).cloned().collect()
     };
     let functions = match wanted {
-        Hamiltonians::Known => known.clone(),
+        Hamiltonians::Known => {
+            written_energy(case, effort)?.into_iter().chain(known.clone()).collect()
+        }
         Hamiltonians::Given(text) => {
             vec![super::super::FurtherTerm::from(text.as_str()).read(model)?]
         }
     };
     if functions.is_empty() {
-        report.remark(
-            "no search for brackets: no integral is known; give a Hamiltonian with --poisson=H"
-                .to_string(),
-        );
+        let reason = match proved_energy(case, effort)? {
+            Some(_) => {
+                "the only known integral is the energy; write it in the state and the parameters \
+                        alone with --poisson=H"
+            }
+            None => "no integral is known; give a Hamiltonian with --poisson=H",
+        };
+        report.remark(format!("no search for brackets: {reason}"));
         return Ok(());
     }
     let families = match BracketFamily::all(case, effort) {
@@ -116,6 +122,22 @@ pub fn brackets(
         );
     }
     Ok(())
+}
+
+/// Writes the energy of a Lagrangian system as T + U, where it is this and is conserved: claims about
+/// brackets cannot read it by its name.
+fn written_energy(case: &Case, effort: &Effort) -> Result<Option<Formula>, SearchError> {
+    let System::Lagrangian(own) = &case.model.system else { return Ok(None) };
+    let Some(energy) = proved_energy(case, effort)? else { return Ok(None) };
+    let sum = match &own.potential {
+        None => own.kinetic.clone(),
+        Some(potential) => match potential.text().trim().strip_prefix(['-', '−']) {
+            Some(rest) => case.formula(&format!("{} − {}", own.kinetic.text(), rest.trim()))?,
+            None => (&own.kinetic + potential)?,
+        },
+    };
+    let judged = judged_alone(case, Claim::identity(&energy, &sum), effort)?;
+    Ok(judged.filter(|own| own.verdict == Verdict::Proved).map(|_| sum))
 }
 
 /// Writes functions that are constant on the level: the left sides of its equations where the right

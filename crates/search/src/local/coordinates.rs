@@ -61,6 +61,10 @@ impl Coordinates {
                     kind: LocalKind::Mechanical(Box::new(own)),
                 })
             }
+            (System::Ball(_), _) => Err(SearchError::Unsplit(
+                "the function of the surface is an integral of the positions alone, and its products \
+                 with others have no end; give the surface by `support`",
+            )),
             _ => Err(SearchError::Unsplit("it is not known which variables are velocities")),
         }
     }

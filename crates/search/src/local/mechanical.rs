@@ -103,7 +103,8 @@ impl Mechanical {
                      velocities"
                 }
                 false => {
-                    "it is a Lagrangian system on a level set other than its constraints and unit vectors"
+                    "the system has a constraint on the coordinates alone, or a level of its own; write it in \
+                     coordinates of the surface, such as two angles for a sphere"
                 }
             }));
         }

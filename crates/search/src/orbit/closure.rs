@@ -6,9 +6,12 @@
 //! than those from which they come, not much longer, and contain no other functions than the field.
 
 use liouville::case::Case;
+use liouville::claim::Claim;
 use liouville::formula::Formula;
+use liouville::verdict::Verdict;
 
 use super::super::absence::rank;
+use super::super::ask::{judged_alone, surface};
 use super::super::integrals::claimed_by;
 use super::super::products::Generators;
 use super::super::{Effort, Found, SearchError, SearchReport};
@@ -216,6 +219,9 @@ impl Closure<'_, '_> {
         let Some(formula) = claims::written_integral(self.setting, formula) else {
             return Ok(false);
         };
+        if self.is_of_surface(&formula)? {
+            return Ok(false);
+        }
         let bare = adjoin::merged(formula.text());
         if report.found.iter().any(|own| adjoin::merged(&own.formula) == bare) {
             return Ok(false);
@@ -227,6 +233,15 @@ impl Closure<'_, '_> {
         let found = Found::new(FURTHER_INTEGRAL, &formula, known, found, &case.model);
         report.found.push(Found { with: origin.into_iter().collect(), ..found });
         Ok(true)
+    }
+
+    /// Whether an integral is a function of that whose levels are the surfaces on which a ball rolls.
+    fn is_of_surface(&self, formula: &Formula) -> Result<bool, SearchError> {
+        let case = claims::judged_case(self.setting);
+        let Some(surface) = surface(case) else { return Ok(false) };
+        let claim = Claim::independent(vec![surface, formula.clone()]);
+        let judged = judged_alone(case, claim, self.setting.effort)?;
+        Ok(judged.is_some_and(|own| own.verdict == Verdict::Refuted))
     }
 
     /// Whether a function does not change at random points modulo a prime.

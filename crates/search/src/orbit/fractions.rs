@@ -187,12 +187,12 @@ pub fn compared(
         let count = if all.is_empty() { listed } else { all.len() };
         let words = match asked == degree {
             true => format!("degree {degree}"),
-            false => format!("degree {asked}, which is up to {degree} in {}", {
+            false => format!("degree {asked}, which can be degree {degree} in {},", {
                 extension.words(&setting.terms, class, degree)
             }),
         };
         return Ok(Err(format!(
-            "{words} has {count} unknowns, more than {most}: ask for a lower one"
+            "{words} has {count} unknowns, more than {most}: claim a lower degree"
         )));
     }
     let Some(at) = setting.at(0, 0) else { return none("no orbit has a series modulo a prime") };

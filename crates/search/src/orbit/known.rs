@@ -5,7 +5,7 @@ use liouville::graph::{Step, Tape};
 use liouville::number::{BinaryOperation, UnaryFunction};
 
 use super::super::ansatz::system::PrimePoint;
-use super::super::ask::energy;
+use super::super::ask::given;
 use super::super::products::degree_in_state;
 use super::super::terms::recorded;
 use super::super::{SearchError, SearchReport};
@@ -49,7 +49,8 @@ pub struct IndependentIntegrals {
 }
 
 impl IndependentIntegrals {
-    /// Collects what the search has found before, and the energy where it is conserved.
+    /// Collects what the search has found before, and the energy where it is conserved, and the
+    /// function of a surface.
     pub fn of(setting: &OrbitSetting<'_>, report: &SearchReport) -> Result<Self, SearchError> {
         let case = Some(Box::new(setting.case.clone()));
         let mut known = Self { case, ..Self::default() };
@@ -60,11 +61,11 @@ impl IndependentIntegrals {
             return Ok(known);
         }
         let all: Vec<usize> = (0..setting.dimension()).collect();
-        if let Some(energy) = energy(setting.case) {
-            let statement = OrbitStatement::Integral(energy.clone());
+        for formula in given(setting.case) {
+            let statement = OrbitStatement::Integral(formula.clone());
             if claims::proved(setting, &statement)?.is_some() {
-                let degree = degree(setting, &energy)?;
-                known.add(energy, degree, &all);
+                let degree = degree(setting, &formula)?;
+                known.add(formula, degree, &all);
             }
         }
         for formula in report.functions("integral") {

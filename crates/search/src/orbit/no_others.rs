@@ -50,7 +50,10 @@ pub fn statement(names: &str, degree: u32, known: &[Formula]) -> String {
         [] => format!("no {class} exists, constants aside"),
         known => {
             let known: Vec<&str> = known.iter().map(Formula::text).collect();
-            format!("every {class} is a product of factors of {}", known.join(", "))
+            format!(
+                "every {class} is a constant times a product of factors of {}",
+                known.join(", ")
+            )
         }
     }
 }

@@ -93,10 +93,12 @@ impl HierarchyPlace {
 
 #[cfg(test)]
 mod tests {
+    use super::super::hierarchy::KnownFeatures;
     use super::*;
 
     fn place(measure: MeasureStatus, integrals: Integrals) -> HierarchyPlace {
-        HierarchyPlace::of(measure, integrals, 0, Some(3))
+        let features = KnownFeatures { dimension: Some(3), ..KnownFeatures::default() };
+        HierarchyPlace::of(measure, integrals, features)
     }
 
     fn joined(own: &HierarchyPlace, places: &[HierarchyPlace]) -> HierarchyPlace {

@@ -65,10 +65,12 @@ impl Description {
                     let name = of.map_or(String::new(), |(variable, _)| variable.name.clone());
                     own.functions.push(format!("force on {name} = {}", force.text()));
                 }
-                own.equations.push(match lagrangian.vakonomic {
-                    true => "Lagrange's equations of T − U − Σ λᵢfᵢ".to_string(),
-                    false => "Lagrange's equations with reactions Σ μᵢ ∂fᵢ/∂q'".to_string(),
-                });
+                let equations = match (lagrangian.constraints.is_empty(), lagrangian.vakonomic) {
+                    (true, _) => "Lagrange's equations",
+                    (false, true) => "Lagrange's equations of T − U − Σ λᵢfᵢ",
+                    (false, false) => "Lagrange's equations with reactions Σ μᵢ ∂fᵢ/∂q'",
+                };
+                own.equations.push(equations.to_string());
             }
             System::Hamiltonian(own_function) => {
                 own.function("H", Some(&own_function.function));

@@ -91,16 +91,23 @@ impl HierarchyClass {
     }
 }
 
+/// What is known of a system besides its measures and its integrals.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct KnownFeatures {
+    /// Number of reversors found.
+    pub reversors: usize,
+    /// Whether the energy is proved to be an integral.
+    pub has_energy: bool,
+    /// Dimension of the levels of the energy, if the system does not depend on time and keeps an
+    /// energy: nothing is typical of other systems.
+    pub dimension: Option<usize>,
+    /// Whether parameters are free, so that an absence of integrals is one for generic values.
+    pub has_free: bool,
+}
+
 impl HierarchyPlace {
-    /// Finds the standing of a system with these invariants; `reversors` is the number of reversors
-    /// found. `dimension` is that of the levels of the energy, if the system does not depend on time
-    /// and keeps an energy: nothing is typical of other systems.
-    pub fn of(
-        measure: MeasureStatus,
-        integrals: Integrals,
-        reversors: usize,
-        dimension: Option<usize>,
-    ) -> Self {
+    /// Finds the standing of a system with these invariants.
+    pub fn of(measure: MeasureStatus, integrals: Integrals, features: KnownFeatures) -> Self {
         let has_integral =
             matches!(integrals, Integrals::Enough | Integrals::EnoughOnAPart | Integrals::Some);
         let class = match (measure, has_integral) {
@@ -123,10 +130,12 @@ impl HierarchyPlace {
                 _,
             ) => HierarchyClass::NotKnown,
         };
-        let grounds = vec![grounds_of(measure).to_string(), integrals.grounds()];
-        let mut typical: Vec<String> =
-            typical(class, integrals, dimension).iter().map(|line| line.to_string()).collect();
-        if reversors > 0
+        let grounds = vec![grounds_of(measure).to_string(), integrals.grounds(features)];
+        let mut typical: Vec<String> = typical(class, integrals, features.dimension)
+            .iter()
+            .map(|line| line.to_string())
+            .collect();
+        if features.reversors > 0
             && matches!(
                 class,
                 HierarchyClass::IntegralOnly | HierarchyClass::Neither | HierarchyClass::NotKnown
@@ -168,7 +177,12 @@ fn grounds_of(measure: MeasureStatus) -> &'static str {
 }
 
 impl Integrals {
-    fn grounds(self) -> String {
+    fn grounds(self, features: KnownFeatures) -> String {
+        let wanted = match features.has_energy {
+            true => "an integral besides the energy",
+            false => "an integral",
+        };
+        let generic = if features.has_free { " for generic parameters" } else { "" };
         match self {
             Integrals::Enough => {
                 "integrals: proved, enough for the Euler–Jacobi theorem".to_string()
@@ -180,10 +194,10 @@ impl Integrals {
                 "integrals: proved, but too few for the Euler–Jacobi theorem".to_string()
             }
             Integrals::ExcludedToDegree(degree) => format!(
-                "an integral besides the energy: none known; none that is polynomial in the velocities of \
-                 degree at most {degree} exists for generic parameters; others are not known"
+                "{wanted}: none known; none that is polynomial in the velocities of degree at most \
+                 {degree} exists{generic}; others are not known"
             ),
-            Integrals::NotKnown => "an integral besides the energy: not known".to_string(),
+            Integrals::NotKnown => format!("{wanted}: not known"),
         }
     }
 }

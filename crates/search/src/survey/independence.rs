@@ -12,8 +12,11 @@ use liouville::verdict::{ClaimReport, Flaw, JudgeError, Options, Verdict, judge}
 /// Number of independent integrals against that needed by the theorem of Euler and Jacobi.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct IntegralCount {
-    /// Dimension of the level set.
+    /// Dimension of the level set, or of the phase space without one.
     pub dimension: usize,
+    /// Whether the case has a level set.
+    #[serde(skip)]
+    pub has_level: bool,
     /// Number of integrals that the theorem needs in addition to a density.
     pub needed: usize,
     /// Names of independent integrals, the energy first if there is one.
@@ -72,13 +75,14 @@ pub fn count(
     }
     let on_a_part = usize::from(has_energy) + kept.len() - everywhere;
     let energy = has_energy.then(|| "energy".to_string());
-    let names = kept.iter().map(|k| integrals[*k].claim.name.clone());
+    let names = kept.iter().map(|k| integrals[*k].label());
     // Integrals with a formula may be functions of those without one, so they are not counted
     // twice.
     let beside = kept.iter().filter(|k| !integrals[**k].is_general).count();
     let implied = &implied[beside.min(implied.len())..];
     let count = IntegralCount {
         dimension,
+        has_level: !case.model.level.is_empty(),
         needed: dimension.saturating_sub(2),
         independent: energy.into_iter().chain(names).chain(implied.iter().cloned()).collect(),
         claim: proof,

@@ -7,9 +7,10 @@
 
 use super::mirrors::Mirror;
 use super::question::{FixedSet, SurveyQuestion, TestedClaim};
+use super::sign_changes::sign_changes;
 use liouville::case::Case;
 use liouville::claim::{Claim, Reversor, Statement, Symmetry};
-use liouville::formula::{Formula, FormulaResult, Type};
+use liouville::formula::{Formula, FormulaResult};
 use liouville::mechanics::{System, Vocabulary};
 use liouville::verdict::{JudgeError, Options};
 
@@ -22,11 +23,11 @@ struct Turn {
 
 /// A candidate map: its name, its key in a claim, the images by state variable, the dimension of
 /// its fixed set.
-struct MapCandidate {
-    name: String,
-    key: &'static str,
-    images: Vec<(String, Formula)>,
-    fixed_set: Option<FixedSet>,
+pub(super) struct MapCandidate {
+    pub name: String,
+    pub key: &'static str,
+    pub images: Vec<(String, Formula)>,
+    pub fixed_set: Option<FixedSet>,
 }
 
 /// Finds reversors and symmetries and proves them, reversors first; refuted candidates are omitted.
@@ -128,7 +129,7 @@ fn key(axial: i8) -> &'static str {
 }
 
 /// A formula, or its negative.
-fn signed(formula: Formula, sign: i8) -> Formula {
+pub(super) fn signed(formula: Formula, sign: i8) -> Formula {
     if sign < 0 { -formula } else { formula }
 }
 
@@ -220,65 +221,6 @@ impl Orthogonal for FrameMap {
             Self::Mirror(mirror) => mirror.fixed_space(sign),
         }
     }
-}
-
-/// Largest number of components of a user-defined state for which all sign changes are tried.
-const MOST_COMPONENTS: usize = 6;
-
-/// Lists the sign changes of the components of a state without a frame; of whole variables if there
-/// are many.
-fn sign_changes(case: &Case) -> Vec<MapCandidate> {
-    let model = &case.model;
-    let scope = &model.vocabulary;
-    let single = model.dimension() <= MOST_COMPONENTS;
-    let parts = |kind: Type| match kind {
-        Type::Vector(length) if single => length,
-        _ => 1,
-    };
-    let count: usize = model.state.iter().map(|variable| parts(variable.kind)).sum();
-    if count > MOST_COMPONENTS {
-        return Vec::new();
-    }
-    let mut all = Vec::new();
-    for key in [Reversor::NAME, Symmetry::NAME] {
-        for mask in 1u32..1 << count {
-            let (mut images, mut changed, mut bit) = (Vec::new(), Vec::new(), 0);
-            let mut fixed = model.dimension();
-            for variable in &model.state {
-                let name = &variable.name;
-                let Ok(own) = case.formula(name) else { return Vec::new() };
-                let flips: Vec<bool> =
-                    (bit..bit + parts(variable.kind)).map(|b| mask >> b & 1 == 1).collect();
-                bit += flips.len();
-                if !flips.contains(&true) {
-                    continue;
-                }
-                let whole = !flips.contains(&false);
-                fixed -= if whole { variable.len() } else { flips.iter().filter(|f| **f).count() };
-                let part = |k: usize| -> FormulaResult {
-                    Ok(signed(own.element(k + 1, scope)?, if flips[k] { -1 } else { 1 }))
-                };
-                let parts: Result<Vec<Formula>, _> = (0..flips.len()).map(part).collect();
-                let image = match whole {
-                    true => Ok(-&own),
-                    false => parts.and_then(|parts| variable.kind.filled(&parts)),
-                };
-                let Ok(image) = image else { return Vec::new() };
-                changed.push(format!("{name} → {image}"));
-                images.push((name.clone(), image));
-            }
-            // On a level the dimension depends on the intersection with the fixed space.
-            let known = key == Reversor::NAME && model.level.is_empty();
-            let fixed_set = known.then_some(FixedSet { dimension: Some(fixed) });
-            all.push(MapCandidate {
-                name: format!("{key} {}", changed.join(", ")),
-                key,
-                images,
-                fixed_set,
-            });
-        }
-    }
-    all
 }
 
 impl Turn {

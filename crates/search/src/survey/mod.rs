@@ -27,6 +27,7 @@ mod involutions;
 mod mirrors;
 mod question;
 mod shown;
+mod sign_changes;
 mod sphere;
 mod unknown;
 mod wireframe;
@@ -57,6 +58,7 @@ pub use words::GivenParameter;
 
 use crate::Halt;
 use geometry::Geometry;
+use hierarchy::KnownFeatures;
 use question::SurveyQuestion;
 
 /// All known invariants of a system, with proofs.
@@ -164,8 +166,11 @@ fn of_all_values(
     let claimed: Vec<TestedClaim> = own
         .claims
         .into_iter()
-        .filter(|claim| claim.expect != Expect::Fails)
-        .map(|claim| TestedClaim::claimed(case, claim))
+        .map(|claim| {
+            let remark = (claim.expect == Expect::Fails && claim.verdict == Verdict::Refuted)
+                .then(|| "as the file expects".to_string());
+            TestedClaim { remark, ..TestedClaim::claimed(case, claim) }
+        })
         .collect();
     progress("the geometry");
     let geometry = Geometry::of(case, options)?;
@@ -228,7 +233,13 @@ fn of_all_values(
     let dimension = (independent.has_energy && is_autonomous)
         .then(|| model.dimension().checked_sub(model.level.len() + 1))
         .flatten();
-    let mut hierarchy = HierarchyPlace::of(measure, standing, reversors.len(), dimension);
+    let features = KnownFeatures {
+        reversors: reversors.len(),
+        has_energy: independent.has_energy,
+        dimension,
+        has_free: model.free_components() > 0,
+    };
+    let mut hierarchy = HierarchyPlace::of(measure, standing, features);
     if !matches!(measure, MeasureStatus::ClosedForm | MeasureStatus::ByQuadrature) {
         progress("closed orbits");
         hierarchy.grounds.extend(evidence_against_density(case, options));

@@ -91,6 +91,8 @@ pub struct FixedSet {
 /// Family name of the claims of the case.
 const OWN: &str = "the case itself";
 const SEARCH: &str = "the search";
+/// Largest length of a formula in a list of names, in characters.
+const LABEL: usize = 60;
 
 /// Kinds of claims that are tables of formulas, one for each variable.
 const TABLES: [&str; 3] = ["symmetry-field", "symmetry", "reversor"];
@@ -182,6 +184,17 @@ impl TestedClaim {
     pub fn is_quadrature(&self) -> bool {
         let formulas = self.definitions.iter().map(|one| one.formula.as_str());
         formulas.chain([self.formula()]).any(|text| text.contains('∫'))
+    }
+
+    /// Returns the name of the claim, or the beginning of the formula of a find, which has none.
+    pub fn label(&self) -> String {
+        if self.family != SEARCH {
+            return self.claim.name.clone();
+        }
+        match self.formula().char_indices().nth(LABEL) {
+            Some((end, _)) => format!("{}…", self.formula()[..end].trim_end()),
+            None => self.formula().to_string(),
+        }
     }
 
     /// Returns the formula of the claim, or its name.

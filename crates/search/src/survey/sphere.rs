@@ -158,7 +158,7 @@ impl BodyOnSphere {
         let shown = model.free_parameters().map(|parameter| {
             let (own, others) = rest.split_at(liouville::mechanics::components(parameter.kind));
             rest = others;
-            (parameter.name.clone(), own.join(", "))
+            (parameter.name.clone(), parameter.kind.as_setting(own))
         });
         let shown = shown.collect();
         let numbers = &printed[..model.free_components()];

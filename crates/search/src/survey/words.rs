@@ -32,7 +32,9 @@ pub fn sentence(case: &Case, facts: &[GeometryFact]) -> String {
     };
     match &case.model.system {
         system @ (System::Rubber(_) | System::Spinning(_)) => {
+            let is_disk = facts.iter().any(|fact| fact.holds && fact.id.starts_with("disk about "));
             let shape = match (has("ball"), has("central"), has("ellipsoid"), about()) {
+                _ if is_disk => "a disk".to_string(),
                 (true, true, ..) => "a ball whose mass centre is its centre".to_string(),
                 (true, false, ..) => "a ball with displaced mass centre".to_string(),
                 (_, _, true, None) => "an ellipsoid about its mass centre".to_string(),
@@ -41,7 +43,8 @@ pub fn sentence(case: &Case, facts: &[GeometryFact]) -> String {
                 _ => "a body with a general surface".to_string(),
             };
             // Each part of such a surface may be that of a ball.
-            let parts = match (has("ball") || has("ellipsoid")) && may_have_kinks(&case.model) {
+            let is_smooth = !(has("ball") || has("ellipsoid")) || is_disk;
+            let parts = match !is_smooth && may_have_kinks(&case.model) {
                 true => ", part by part where its support function is smooth,",
                 false => "",
             };
@@ -76,6 +79,7 @@ pub fn sentence(case: &Case, facts: &[GeometryFact]) -> String {
             let with = with(false, ball.potential.is_some());
             format!("A homogeneous ball rolls, with spin, on {surface}{turns}{with}.")
         }
+        System::Lagrangian(own) if own.constraints.is_empty() => "A Lagrangian system.".to_string(),
         System::Lagrangian(_) => format!("A {} system with a Lagrangian.", case.system),
         System::Hamiltonian(_) => "Hamilton's equations for a given function H.".to_string(),
         System::Field(_) => "A vector field given by formulas.".to_string(),

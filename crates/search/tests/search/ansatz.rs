@@ -165,7 +165,7 @@ fn nothing_is_found_where_there_is_nothing() {
     let report = searched("plane/ellipsoid-generic", &effort(4));
     assert_eq!(report.formulas("integral").count() + report.formulas("density").count(), 0);
     let theorem = &report.excluded[0].theorem;
-    assert!(theorem.contains("of degree at most 4 is a polynomial in energy"), "{theorem}");
+    assert!(theorem.contains("of degree at most 4 is a polynomial in the energy"), "{theorem}");
 }
 
 #[test]
@@ -182,7 +182,7 @@ fn a_false_claim_makes_no_theorem() {
                 B = 'diag(1..3)'\n[body]\nshape = 'ellipsoid'\n[[claim]]\nname = 'F'\nintegral = '(Ĩ*ω,ω1*γ)'\n";
     let report = search(&case(body), &effort(2), &mut |_| {}).expect("it can be searched");
     assert!(
-        report.excluded[0].theorem.contains("a polynomial in energy."),
+        report.excluded[0].theorem.contains("a polynomial in the energy."),
         "{:?}",
         report.excluded
     );
@@ -278,7 +278,7 @@ fn a_search_that_is_stopped_tells_what_it_reached() {
         "these are quick"
     );
     let theorem = &report.excluded[0].theorem;
-    assert!(theorem.contains("of degree at most 2 is a polynomial in energy and"), "{theorem}");
+    assert!(theorem.contains("of degree at most 2 is a polynomial in the energy and"), "{theorem}");
 
     let none = Effort { halt: Halt::within(std::time::Duration::ZERO), ..effort };
     let report = search(&case, &none, &mut |_| {}).expect("it can be searched");

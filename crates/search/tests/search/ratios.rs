@@ -69,7 +69,7 @@ fn forces_cancel(seeds: RangeInclusive<u64>) {
         ] {
             let text = motion(&format!("potential = '{potential}'"));
             let (theorems, _) = told(&text, &of_seed(seed));
-            let is_false = |own: &String| own.ends_with("is a polynomial in energy");
+            let is_false = |own: &String| own.ends_with("is a polynomial in the energy");
             assert!(!theorems.iter().any(is_false), "{potential}, seed {seed}: {theorems:?}");
         }
     }

@@ -67,3 +67,21 @@ fn components_of_vectors_are_gathered() {
     assert_eq!(axial.formulas("integral").count(), 1, "{:?}", axial.found);
     assert!(vectors(&axial).is_empty());
 }
+
+#[test]
+fn the_surface_of_a_ball_and_what_follows_from_it_are_no_finds() {
+    let bowl = "title = 'x'\nsystem = 'ball-on-surface'\n[parameters]\nm = 1\nR = 0.5\n\"μ\" = 0.1\ng = 9.81\n\
+                [body]\nsurface = '(r1² + r2²)/2 − r3'\npotential = 'm*g*r3'\n[[claim]]\nintegral = 'energy'\n";
+    let report = searched(bowl);
+    let case = Case::parse(bowl, &[]).expect("a case");
+    let formula = |text: &str| case.formula(text).expect("a formula");
+    let mut known = vec![formula("energy"), formula("(r1² + r2²)/2 − r3")];
+    let is_integral = |kind: &str| kind == "integral" || kind == "further-integral";
+    let own = report.found.iter().filter(|found| is_integral(found.kind));
+    known.extend(own.map(|found| found.function.clone().expect("a function")));
+    assert!(known.len() > 2, "one is found");
+    let judged = case.judge(&[Claim::independent(known)], &Options::default()).expect("judged");
+    assert_eq!(judged.claims[0].verdict, Verdict::Proved, "{:?}", report.found);
+    let words = "the function of the surface is an integral of the positions alone";
+    assert!(report.remarks.iter().any(|own| own.contains(words)), "{:?}", report.remarks);
+}

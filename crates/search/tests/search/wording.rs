@@ -92,7 +92,8 @@ fn factors_that_are_not_told_are_explained() {
     );
     let report = searched(&pole, 2);
     let all = theorems(&report);
-    let of_factors = all.iter().find(|own| own.contains("is a product of factors of"));
+    let of_factors =
+        all.iter().find(|own| own.contains("is a constant times a product of factors of"));
     let own = of_factors.expect("a theorem on Darboux polynomials");
     assert!(own.ends_with(" w, r; r is a factor of the denominator."), "{own}");
 }

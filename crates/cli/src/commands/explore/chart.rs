@@ -41,7 +41,7 @@ pub struct ChartArgs {
     #[command(flatten)]
     pub plane: SectionPlaneArgs,
     /// Start l,L/G on the section; by default the first one of the case
-    #[arg(long, value_name = "L,Z", value_parser = parse_start, allow_hyphen_values = true)]
+    #[arg(long, value_name = "L,Z", value_parser = parse_point, allow_hyphen_values = true)]
     pub start: Option<[f64; 2]>,
     /// Start by exact numbers instead: --state 'ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]'
     #[arg(long, value_name = "STATE", conflicts_with = "start")]
@@ -80,6 +80,15 @@ impl Colour {
 
 /// Limit on the motions along an axis.
 const MAX_SIZE: usize = 4000;
+
+/// Reads a point l,L/G of a section.
+fn parse_point(text: &str) -> Result<[f64; 2], String> {
+    parse_start(text).map_err(|error| {
+        format!(
+            "{error}, for a rolling body with a section; other starts are given by --state 'x=1 …'"
+        )
+    })
+}
 
 /// Reads two numbers, across and up.
 pub fn parse_size(text: &str) -> Result<[usize; 2], String> {

@@ -107,10 +107,7 @@ impl MotionArgs {
         let mut values = values.iter().map(|value| value.to_f64().0.to_string());
         let named = case.model.free_parameters().map(|parameter| {
             let own: Vec<String> = values.by_ref().take(components(parameter.kind)).collect();
-            match own.as_slice() {
-                [one] => format!("{} = {one}", parameter.name),
-                all => format!("{} = [{}]", parameter.name, all.join(", ")),
-            }
+            format!("{} = {}", parameter.name, parameter.kind.as_setting(&own))
         });
         let named: Vec<String> = named.collect();
         match named.is_empty() {

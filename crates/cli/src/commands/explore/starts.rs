@@ -43,7 +43,13 @@ impl Starts {
     pub fn read(&self, case: &Case) -> Result<Vec<(String, GivenStart)>, String> {
         let mut found = Vec::new();
         for text in &self.start {
-            let given = given(case, text).map_err(|error| format!("error: --start: {error}"))?;
+            let given = given(case, text).map_err(|error| {
+                let help = match text.contains('=') {
+                    true => format!("\nhelp: give every variable a value, as {}", example(case)),
+                    false => String::new(),
+                };
+                format!("error: --start: {error}{help}")
+            })?;
             found.push((text.trim().to_string(), given));
         }
         if let Some(path) = &self.starts {

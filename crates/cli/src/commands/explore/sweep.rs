@@ -53,7 +53,7 @@ fn parse_states(text: &str) -> Result<u64, String> {
     let states = exact.or_else(|| rounded().map(|x| x as u64));
     states
         .filter(|n| (1..=MOST as u64).contains(n))
-        .ok_or(format!("write a whole number up to {MOST:e}"))
+        .ok_or(format!("write a whole number from 1 to {MOST:e}"))
 }
 
 pub fn run(options: &Sweep) -> Result<CommandOutput, String> {

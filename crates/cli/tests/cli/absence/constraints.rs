@@ -34,7 +34,7 @@ fn theorem(report: &ClaimReport) -> String {
 fn a_sleigh_on_an_incline_has_the_energy_and_no_measure() {
     let slope = "−m*g*sin(α)*(x + a*cos(φ))";
     let found = theorem(&sleigh(slope, "no-integral = { degree = 2 }"));
-    assert!(found.contains("is a polynomial in energy."), "{found}");
+    assert!(found.contains("is a polynomial in the energy."), "{found}");
     let found = theorem(&sleigh(slope, "no-density = { degree = 2 }"));
     assert!(found.contains("no invariant density of the positions alone"), "{found}");
 }
@@ -44,7 +44,7 @@ fn a_sleigh_on_a_plane_has_two_linear_integrals_and_a_density() {
     // φ' cos κφ + c v sin κφ and φ' sin κφ − c v cos κφ, κ² = ma²/(J + ma²).
     let found = sleigh("0*x", "no-integral = { degree = 1 }");
     let reason = found.evidence.reason.unwrap_or_default();
-    assert!(reason.contains("at most 3 independent integrals"), "{reason}");
+    assert!(reason.contains("at most 3 linearly independent integrals"), "{reason}");
     let found = sleigh("0*x", "no-density = { degree = 1 }");
     assert_eq!(found.verdict, Verdict::Refuted, "{:?}", found.evidence);
     assert!(found.evidence.exhibit.unwrap_or_default().contains("φ'"));
@@ -56,7 +56,7 @@ fn a_double_pendulum_has_the_energy_alone() {
                 potential = \"−g*((m + 1)*cos(φ) + a*cos(θ))\"";
     let judged = |claim: &str| only(&lagrangian(&["φ", "θ"], text, claim));
     let found = theorem(&judged("no-integral = { degree = 4 }"));
-    assert!(found.contains("is a polynomial in energy."), "{found}");
+    assert!(found.contains("is a polynomial in the energy."), "{found}");
     // Without gravity the sum of the momenta is kept.
     let free = text.replace("g*", "0*");
     let found = only(&lagrangian(&["φ", "θ"], &free, "no-integral = { degree = 1 }"));

@@ -30,7 +30,7 @@ fn the_energy_counts_once_however_it_is_claimed() {
     let found = only(&format!("{BALL}{both}{absence}"));
     assert_eq!(found.verdict, Verdict::Proved, "{:?}", found.evidence);
     let theorem = found.evidence.theorem.unwrap_or_default();
-    assert!(theorem.contains("polynomial in energy and |Ĩ*ω × γ|²."), "{theorem}");
+    assert!(theorem.contains("polynomial in the energy and |Ĩ*ω × γ|²."), "{theorem}");
 }
 
 /// A system of two oscillators with some integrals.

@@ -81,7 +81,7 @@ fn known_relations_are_told_from_others() {
     let found = only(&species(&three));
     assert_eq!(found.verdict, Verdict::Proved, "{:?}", found.evidence);
     let theorem = found.evidence.theorem.unwrap_or_default();
-    assert!(theorem.contains("is a product of factors of x, y, z"), "{theorem}");
+    assert!(theorem.contains("is a constant times a product of factors of x, y, z"), "{theorem}");
 }
 
 #[test]

@@ -179,3 +179,24 @@ fn basins_that_cannot_be_drawn_say_why() {
     let own = [&own[..], &["--start", "0,0,1"]].concat();
     liouville(&own).assert().code(2).stderr(contains("one-sided"));
 }
+
+#[test]
+fn an_angle_that_turns_is_told_with_what_to_compare() {
+    let kapitza = "title = 'Kapitza'\n[state]\n\"φ\" = '-3..3'\np = '-2..2'\nc = '-2..2'\ns = '-2..2'\n[field]\n\
+                   \"φ\" = 'p'\np = '-(1 - 20*c)*sin(φ)'\nc = '-10*s'\ns = '10*c'\n[level]\n\
+                   equations = ['c^2 + s^2 = 1']\n";
+    let folder = folder("turning", &[("kapitza.toml", kapitza)]);
+    let case = folder.join("kapitza.toml").display().to_string();
+    let grid = [
+        "--x", "φ=-3..3", "--y", "p=-2..2", "--size", "6x6", "--start", "0,0,1,0", "--time", "200",
+    ];
+    let text = |more: &[&str]| {
+        let all = [&["motion", "basins", &case], &grid[..], more].concat();
+        let output = liouville(&all).assert().success().get_output().stdout.clone();
+        String::from_utf8(output).expect("text")
+    };
+    let plain = text(&[]);
+    assert!(plain.contains("note: φ runs far from the starts"), "{plain}");
+    assert!(plain.contains("--by 'cos(φ), sin(φ), p, c, s'"), "{plain}");
+    assert!(!text(&["--by", "cos(φ), sin(φ), p"]).contains("note:"), "full turns are one");
+}

@@ -338,7 +338,7 @@ fn options_of_parts_belong_together() {
         "--part is for one case",
     );
     fails(&format!("{chart} --part 1/4 --out flow.toml"), "give --out a folder of your own");
-    fails("sweep flow.toml --states 0", "write a whole number up to");
+    fails("sweep flow.toml --states 0", "write a whole number from 1 to");
     fails("sweep flow.toml --claim nothing", "no claim has a name or source like `nothing`");
 }
 

@@ -64,3 +64,20 @@ fn boxes_without_change_of_volume_exclude_nothing() {
     let alone = judged(&one.replace("parameters = { k = \"± 1e-5\" }\n", ""));
     assert_eq!(alone.verdict, Verdict::Proved, "for k = 1 it is kept: {:?}", alone.evidence);
 }
+
+#[test]
+fn a_start_at_the_end_of_a_range_is_told_with_the_range() {
+    let forced = |range: &str| {
+        judged(&format!(
+            "title = 'x'\n[state]\n\"φ\" = '-3..3'\np = '-2..2'\nc = '{range}'\ns = '{range}'\n[field]\n\"φ\" = 'p'\n\
+             p = '−(1 − 2*c)*sin(φ) − p/10'\nc = '−2*s'\ns = '2*c'\n[level]\n\
+             equations = ['c² + s² = 1']\n[[claim]]\nclosed-orbit = 3.14159265\n\
+             state = {{ \"φ\" = '0', p = '0', c = '1', s = '0' }}\n"
+        ))
+    };
+    assert_eq!(forced("-2..2").verdict, Verdict::Proved);
+    let found = forced("-1..1");
+    let reason = found.evidence.reason.clone().unwrap_or_default();
+    assert_eq!(found.verdict, Verdict::Undecided, "{:?}", found.evidence);
+    assert!(reason.contains("passes the end of the range of `c` (-1..1)"), "{reason}");
+}

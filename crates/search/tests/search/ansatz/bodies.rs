@@ -21,7 +21,7 @@ fn the_integrals_of_a_ball_with_its_centre_of_mass_on_its_axis_are_all() {
     assert_eq!(integrals.len(), 2, "{integrals:?}");
     assert!(report.found.iter().all(|own| own.verdict == Verdict::Proved), "{:?}", report.found);
     let theorem = report.excluded.first().map(|own| own.theorem.as_str()).unwrap_or_default();
-    assert!(theorem.contains("is a polynomial in energy, "), "{theorem}");
+    assert!(theorem.contains("is a polynomial in the energy, "), "{theorem}");
 }
 
 #[test]

@@ -137,3 +137,21 @@ fn a_denominator_of_the_field_is_one_of_the_bracket() {
     let with: Vec<_> = report.found.iter().flat_map(|found| &found.with).collect();
     assert!(with.iter().all(|(what, _)| *what != "multiplier"), "{with:?}");
 }
+
+#[test]
+fn the_energy_of_a_lagrangian_is_a_known_hamiltonian() {
+    let pendulum = |claim: &str| {
+        let text = format!(
+            "title = 'x'\n[state]\na = '-3..3'\n\"a'\" = '-2..2'\n[lagrangian]\nkinetic = \"a'²/2\"\n\
+             potential = '−cos(a)'\n[[claim]]\nintegral = \"{claim}\"\n"
+        );
+        let wanted = Effort { poisson: Some(Hamiltonians::Known), ..effort(0) };
+        search(&case(&text), &wanted, &mut |_| {}).expect("it can be searched")
+    };
+    for claim in ["energy", "a'²/2 − cos(a)"] {
+        let report = pendulum(claim);
+        let brackets: Vec<_> = report.found.iter().filter(|own| own.kind == "bracket").collect();
+        assert_eq!(brackets.len(), 1, "{claim}: {:?}", report.remarks);
+        assert_eq!(brackets[0].formula, "{a,a'} = 1", "{claim}");
+    }
+}

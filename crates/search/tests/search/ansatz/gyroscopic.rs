@@ -306,3 +306,19 @@ fn planted_gyroscopic_terms_are_found_and_never_excluded() {
         assert!(gyroscopic(&rotor).contains(&(1, 1)), "{plant}: {:?}", rotor.excluded);
     }
 }
+
+#[test]
+fn sines_of_parameters_are_the_reason_where_rates_have_no_values() {
+    let foucault = |rate: &str| {
+        format!(
+            "title = 'x'\n[parameters]\n\"φ\" = '0..1.5'\n\"Ω\" = '0.1..1'\n[state]\nx = '-1..1'\ny = '-1..1'\n\
+             u = '-1..1'\nv = '-1..1'\n[field]\nx = 'u'\ny = 'v'\nu = '−x + {rate}*v'\n\
+             v = '−y − {rate}*u'\n[[claim]]\nname = 'F'\nintegral = '(u² + v² + x² + y²)/2'\n"
+        )
+    };
+    let report = turned(&foucault("Ω*sin(φ)"));
+    assert!(has_remark(&report, "have no values modulo a prime"), "{:?}", report.remarks);
+    assert!(!has_remark(&report, "not of the form x' = u"), "{:?}", report.remarks);
+    let report = turned(&foucault("Ω"));
+    assert!(!has_remark(&report, "no search for gyroscopic terms"), "{:?}", report.remarks);
+}

@@ -20,7 +20,7 @@ fn a_count_is_explained_by_what_an_orbit_shows() {
     assert_eq!((last.degree, last.dimension, last.known), (4, 4, 4), "1, E, E², F");
     let theorem = report.excluded.iter().find(|own| own.theorem.contains("degree at most 4"));
     let theorem = &theorem.expect("all integrals of degree 4").theorem;
-    assert!(theorem.contains(" in energy and "), "{theorem}");
+    assert!(theorem.contains(" in the energy and "), "{theorem}");
     let counted = |remark: &&Remark| remark.contains("are counted than known");
     assert_eq!(report.remarks.iter().find(counted), None);
 }
