@@ -132,7 +132,7 @@ fn equation(
     let Some((left, right, second)) = sides(&text.value) else {
         let message = format!("each of `{key}` has two sides");
         let remedy = match key {
-            "constraints" => "write \"x'*sin(φ) − y'*cos(φ) = 0\"".to_string(),
+            "constraints" => format!("write \"{} = 0\"", excerpt(text.value.trim())),
             _ => format!("write \"{} = 1\", or another value", excerpt(text.value.trim())),
         };
         return Err(Mistake::at(text.span.clone(), Problem::Other { message, remedy }));

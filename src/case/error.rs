@@ -242,6 +242,13 @@ impl Mistake {
             Problem::UnknownKey { nearest: Some(nearest), .. } => {
                 Some(format!("did you mean `{nearest}`?"))
             }
+            Problem::UnknownKey { key, known, .. } if key == "L" && known.contains(&"kinetic") => {
+                Some(
+                    "write L = T − U in two parts, kinetic = \"T\" and potential = \"U\", or \
+                     kinetic = \"…\" with the whole of L"
+                        .to_string(),
+                )
+            }
             Problem::UnknownKey { nearest: None, known, .. } => {
                 Some(format!("known here: {}", known.join(", ")))
             }

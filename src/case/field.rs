@@ -31,10 +31,12 @@ pub fn given_rates(
             Ok(found) => found,
             Err(Unreadable::Unknown(name)) if section.mistakes().has_failed(&name) => continue,
             Err(unreadable) => {
-                // the rate of a name that looks like this one is not missing too
+                // the rate of a name that looks like this one, or is its position, is not missing too
                 if let Unreadable::Unknown(name) = &unreadable {
-                    let mut own = written.iter().map(|own| skeleton(&own.name));
-                    let place = own.position(|own| own == skeleton(name));
+                    let of = name.strip_suffix('\'').or(of_rate(key.get_ref())).unwrap_or(name);
+                    let place = written
+                        .iter()
+                        .position(|own| own.name == of || skeleton(&own.name) == skeleton(name));
                     place.into_iter().for_each(|place| broken[place] = true);
                 }
                 let problem = unknown_rate(key.get_ref(), unreadable, &written);
@@ -69,6 +71,8 @@ pub fn given_rates(
                 }
                 None => Ok(whole),
             });
+            let is_map = section.is("map");
+            let formulas = formulas.map_err(|mistake| explained(mistake, variables, !is_map));
             match section.keep(formulas) {
                 Some(formulas) => GivenRate::Given(formulas),
                 None => GivenRate::Broken,
@@ -106,6 +110,14 @@ fn unknown_rate(key: &str, unreadable: Unreadable, variables: &[Variable]) -> Pr
                 (_, Some(vector)) if stem != name => {
                     format!("write \"{vector}[{}]'\"", &name[stem.len()..])
                 }
+                (all, _) if name.strip_suffix('\'').is_some_and(|own| all.contains(&own)) => {
+                    format!(
+                        "declare the velocity in [state], as \"{name}\" = \"-1..1\"; its rate is \"{name}'\""
+                    )
+                }
+                (all, _) if of_rate(key).is_some_and(|own| all.contains(&own)) => {
+                    format!("write \"{}'\" = \"…\"", of_rate(key).unwrap_or_default())
+                }
                 _ if meant.is_some() => meant.unwrap_or_default(),
                 ([], _) => "declare the variable in [state] first".to_string(),
                 _ => format!("[state] has {}; write \"x'\" = \"…\"", names.join(", ")),
@@ -114,6 +126,36 @@ fn unknown_rate(key: &str, unreadable: Unreadable, variables: &[Variable]) -> Pr
         }
     };
     Problem::Other { message, remedy }
+}
+
+/// Name of the variable whose rate is written as dx/dt, or as in programs.
+fn of_rate(key: &str) -> Option<&str> {
+    let key = key.trim();
+    let quotient = key.strip_prefix('d').and_then(|rest| rest.strip_suffix("/dt"));
+    let wrapped = |name: &str| key.strip_prefix(name)?.strip_prefix('(')?.strip_suffix(')');
+    let found = quotient.or_else(|| ["D", "der", "diff"].into_iter().find_map(wrapped));
+    let found =
+        found.or_else(|| key.strip_prefix("\\dot").map(|rest| rest.trim_matches(['{', '}'])));
+    let found = found.or_else(|| key.strip_suffix("_dot").or_else(|| key.strip_suffix("dot")));
+    found.or_else(|| key.strip_prefix('d')).map(|name| name.trim().trim_end_matches("(t)"))
+}
+
+/// Says what to write where a formula of [field] or [map] takes a rate or an image for a name.
+fn explained(mistake: Mistake, variables: &[Variable], are_rates: bool) -> Mistake {
+    let name = mistake.unknown_name().unwrap_or_default().to_string();
+    let Some(own) = name.strip_suffix('\'').filter(|own| variables.iter().any(|v| v.name == **own))
+    else {
+        return mistake;
+    };
+    let (what, of) = match are_rates {
+        true => ("rates are functions of the state", "rate"),
+        false => ("images are functions of the state before the step", "image"),
+    };
+    let remedy = format!(
+        "{what}: put the {of} of `{own}` in [let], under a name of its own, and write that name in both"
+    );
+    let problem = Problem::Other { message: format!("unknown name `{name}`"), remedy };
+    Mistake { problem, ..mistake }
 }
 
 /// Reads the rates of all variables; `None` if one is missing, or wrong.
@@ -151,6 +193,12 @@ fn all_of(
             {
                 section.keep(one(names.vocabulary).map(|one| vec![one]))
             }
+            // A position with its velocity in the state is a second-order equation.
+            GivenRate::Missing if are_rates && has_velocity(variable, variables) => {
+                let velocity = Formula::parse(&format!("{}'", variable.name), names.vocabulary);
+                let velocity = velocity.map_err(|error| Mistake::whole(Problem::Formula(error)));
+                section.keep(velocity.map(|own| vec![own]))
+            }
             GivenRate::Missing => {
                 let name = &shaped::written(variable).name;
                 let (message, remedy) = match are_rates {
@@ -175,7 +223,50 @@ fn all_of(
     all
 }
 
+/// Whether another variable is the velocity of this one by its name.
+fn has_velocity(variable: &Variable, variables: &[Variable]) -> bool {
+    let is_velocity = |own: &Variable| {
+        own.name.strip_suffix('\'') == Some(variable.name.as_str()) && own.kind == variable.kind
+    };
+    variable.shape.is_none() && variables.iter().any(is_velocity)
+}
+
 /// Rate of time.
 fn one(vocabulary: &Vocabulary) -> Result<Formula, Mistake> {
     Formula::parse("1", vocabulary).map_err(|error| Mistake::whole(Problem::Formula(error)))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::case::Case;
+    use crate::mechanics::System;
+
+    #[test]
+    fn an_equation_of_second_order_needs_the_range_of_its_velocity_alone() {
+        let text = "title = 'x'\n[state]\nx = '-1..1'\n\"x'\" = '-1..1'\nr = 'vector(-1..1)'\n\
+                    \"r'\" = 'vector(-1..1)'\n[field]\n\"x''\" = '-sin(x)'\n\"r''\" = '-r'\n";
+        let case = Case::parse(text, &[]).expect("a case");
+        let System::Field(rates) = &case.model.system else { panic!("a field") };
+        let texts: Vec<&str> = rates.iter().map(|rate| rate.text()).collect();
+        assert_eq!(texts, ["x'", "-sin(x)", "r'", "-r"]);
+        // Without a range the velocity has no states.
+        let error =
+            Case::parse(&text.replace("\"x'\" = '-1..1'\n", ""), &[]).expect_err("no range");
+        assert!(error.to_string().contains("`x''` is not the rate of a state variable"), "{error}");
+    }
+
+    #[test]
+    fn ends_of_ranges_are_formulas_of_numbers() {
+        let text = "title = 'x'\n[parameters]\na = '0..2*pi'\n[state]\n\"φ\" = '-π..π'\n\
+                    \"θ\" = 'vector(0..pi*(1 + 1)/3)'\nu = 'sqrt(2)..sqrt(3)'\n[field]\n\"φ\" = 'a'\n\"θ\" = 'θ'\nu = '1'\n";
+        let case = Case::parse(text, &[]).expect("a case");
+        let draws: Vec<String> = case.free_draws.iter().map(|draw| format!("{draw:?}")).collect();
+        assert_eq!(draws.len(), 5, "{draws:?}");
+        let shown = case.model.free_parameters().next().expect("a parameter");
+        assert_eq!(format!("{:?}", shown.name), "\"a\"");
+        for (range, word) in [("-k..k", "`-k` is not a number"), ("0..180°", "in degrees")] {
+            let error = Case::parse(&text.replace("-π..π", range), &[]).expect_err("no range");
+            assert!(error.to_string().contains(word), "{range}: {error}");
+        }
+    }
 }

@@ -29,6 +29,9 @@ pub fn range(text: &str) -> Option<(String, String)> {
             (message, format!("write \"{with_points}\""))
         });
     }
+    if let Some(remedy) = inequality(text) {
+        return Some((format!("`{text}` is not a range"), remedy));
+    }
     for sign in [" to ", ":", "–", "—", "…", "±"] {
         let Some((left, right)) = text.split_once(sign) else { continue };
         let (Some(a), Some(b)) = (number(left), number(right)) else { continue };
@@ -47,6 +50,29 @@ pub fn range(text: &str) -> Option<(String, String)> {
     })
 }
 
+/// Range for an inequality such as `0 < a < 1`; of one that is open, an example.
+fn inequality(text: &str) -> Option<String> {
+    let number = |text: &&str| text.parse::<Rational>().is_ok();
+    if text == "positive" {
+        return Some("write a range, such as \"0.5..2\"".to_string());
+    }
+    let is_sign = |c: char| matches!(c, '<' | '>' | '≤' | '≥');
+    text.contains(is_sign).then_some(())?;
+    let parts: Vec<&str> = text
+        .split(|c: char| is_sign(c) || c == '=')
+        .map(str::trim)
+        .filter(|part| !part.is_empty())
+        .collect();
+    let is_falling = text.contains(['>', '≥']);
+    let ends: Vec<&str> = parts.iter().copied().filter(number).collect();
+    match (parts.as_slice(), ends.as_slice()) {
+        ([_, _, _], [high, low]) if is_falling => Some(format!("write \"{low}..{high}\"")),
+        ([_, _, _], [low, high]) => Some(format!("write \"{low}..{high}\"")),
+        ([_] | [_, _], [_]) => Some("write a range with two ends, such as \"0.5..2\"".to_string()),
+        _ => None,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -62,6 +88,12 @@ mod tests {
         assert_eq!(written("0,5..2").as_deref(), Some("write \"0.5..2\""));
         assert_eq!(written("0,5").as_deref(), Some("write 0.5, or a list [0, 5]"));
         assert_eq!(written("1..").as_deref(), Some("write \"0.5..2\""));
+        for text in ["0 < a < 1", "0<=a<=1", "1 > a > 0", "0 ≤ a ≤ 1"] {
+            assert_eq!(written(text).as_deref(), Some("write \"0..1\""), "{text}");
+        }
+        for text in [">0", "a > 0", "0 < a", "positive"] {
+            assert!(written(text).is_some_and(|help| help.contains("\"0.5..2\"")), "{text}");
+        }
         for text in ["1..3", "1-3", "vector(5, -1..1)", "vec(1,2,3)", "m*R", "sum(i, 1..n, a[i])"] {
             assert_eq!(written(text), None, "{text}");
         }

@@ -23,7 +23,9 @@ impl std::str::FromStr for FixedLine {
             "L=0" => Ok(FixedLine::Equator),
             "l=0" => Ok(FixedLine::Meridian),
             "l=π/2" => Ok(FixedLine::QuarterMeridian),
-            _ => Err(format!("`{text}` is not a line; write L=0, l=0 or l=π/2")),
+            _ => Err(format!(
+                "`{text}` is not a line of a rolling body's section; write L=0, l=0 or l=π/2"
+            )),
         }
     }
 }

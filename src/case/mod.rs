@@ -14,6 +14,7 @@ mod claim_table;
 mod claims;
 mod clock;
 mod complex;
+mod ends;
 mod entries;
 mod equations;
 mod error;

@@ -115,6 +115,11 @@ impl<'a> CaseTable<'a> {
         self.complaint(Problem::MissingKey { key, section, remedy })
     }
 
+    /// Whether the table has this name.
+    pub fn is(&self, name: &str) -> bool {
+        self.name.trim_matches(['[', ']']) == name
+    }
+
     /// A mistake of the table as a whole.
     pub fn complaint(&self, problem: Problem) -> Mistake {
         Mistake::new((!self.span.is_empty()).then(|| self.span.clone()), problem)

@@ -6,6 +6,7 @@ use std::cmp::Ordering;
 use toml::Spanned;
 use toml::de::DeValue;
 
+use super::ends::{Side, end};
 use super::foreign;
 use super::section::numbers;
 use crate::formula::{Formula, FormulaError, MAX_COMPONENTS, Scope, Type};
@@ -141,7 +142,10 @@ pub fn described(text: &str, scope: &dyn Scope) -> Result<GivenValue, Refusal> {
         return Err(Refusal::Form(message, remedy));
     }
     let (shape, inner) = match text.split_once('(') {
-        Some((shape, rest)) if text.ends_with(')') => (shape.trim(), &rest[..rest.len() - 1]),
+        // The bracket of an end, as in `0..2*(1 + pi)`, begins no shape.
+        Some((shape, rest)) if text.ends_with(')') && is_shape(shape, rest) => {
+            (shape.trim(), &rest[..rest.len() - 1])
+        }
         _ => ("", text),
     };
     let parts = arguments(inner);
@@ -149,10 +153,13 @@ pub fn described(text: &str, scope: &dyn Scope) -> Result<GivenValue, Refusal> {
     let Some((low, high)) = parts.last().and_then(|(_, last)| last.split_once("..")) else {
         return Ok(GivenValue::Formula(text.to_string()));
     };
-    if low.contains(['(', '[']) || high.contains(['(', '[']) {
+    let has_bracket = low.contains(['(', '[']) || high.contains(['(', '[']);
+    if has_bracket
+        && (end(low, Side::Low, scope).is_none() || end(high, Side::High, scope).is_none())
+    {
         return Ok(GivenValue::Formula(text.to_string()));
     }
-    let range = range(low, high)?;
+    let range = range(low, high, scope)?;
     let inside = start + text.len() - inner.len() - usize::from(inner.len() < text.len());
     let sizes = parts[..parts.len() - 1].iter().map(|(at, size)| {
         let refused = |error| Refusal::Size(error, inside + at);
@@ -224,9 +231,35 @@ fn recipe(shape: &str, sizes: &[i64], range: Range) -> Result<SamplerSpec, Refus
     Ok(recipe)
 }
 
-fn range(low: &str, high: &str) -> Result<Range, Refusal> {
-    let read = |text: &str| text.parse::<Rational>().map_err(|error| error.to_string());
-    let range = Range { low: read(low)?, high: read(high)? };
+/// Whether the bracket that ends a text is that of a shape, not of an end as in `sqrt(2)..sqrt(3)`.
+fn is_shape(shape: &str, rest: &str) -> bool {
+    let mut depth = 1;
+    let inner = &rest[..rest.len() - 1];
+    let is_open = inner.chars().all(|letter| {
+        depth += i32::from(letter == '(') - i32::from(letter == ')');
+        depth > 0
+    });
+    is_open && !shape.contains("..")
+}
+
+fn range(low: &str, high: &str, scope: &dyn Scope) -> Result<Range, Refusal> {
+    let read = |text: &str, side| {
+        let message = || {
+            let text = text.trim();
+            match text.contains('°') {
+                true => {
+                    format!("`{text}` is in degrees, and angles are in radians: write pi/2 for 90°")
+                }
+                false => format!("`{text}` is not a number: write 12, -0.5, 1e-3, 3/7 or 2*pi"),
+            }
+        };
+        // A number with too many digits has a message of its own.
+        match text.parse::<Rational>() {
+            Err(error @ RationalError::TooLong) => Err(error.to_string()),
+            _ => end(text, side, scope).ok_or_else(message),
+        }
+    };
+    let range = Range { low: read(low, Side::Low)?, high: read(high, Side::High)? };
     let (width, _) = (&range.high - &range.low).to_f64();
     match range.low.cmp(&range.high) {
         Ordering::Equal => Err(Refusal::OneValue(range.low)),

@@ -4,7 +4,14 @@ use super::error::{FormulaError, Span, excerpt};
 use super::kind::Type;
 use super::lexer::TokenKind;
 use super::parser::Parser;
+use super::scope::resolve;
 use super::typing::Operand;
+
+/// Units that textbooks write behind numbers.
+const UNITS: [&str; 24] = [
+    "m", "cm", "mm", "km", "s", "ms", "min", "h", "g", "kg", "N", "J", "W", "Hz", "K", "A", "V",
+    "C", "T", "Pa", "rad", "deg", "eV", "au",
+];
 
 const NO_EQUATION: &str = "a formula is a value, not an equation";
 
@@ -35,7 +42,33 @@ impl Parser<'_> {
             let error = FormulaError::new(token.span, "an operator is missing between two vectors");
             return error.with_help(format!("write `({a},{b})` or `{a} × {b}`"));
         }
+        if let Some(help) = self.units(left, &token.span, &b) {
+            return FormulaError::new(token.span, "missing `*`").with_help(help);
+        }
         FormulaError::new(token.span, "missing `*`").with_help(format!("write `{a}*{b}`"))
+    }
+
+    /// Advice where units follow a number to the end of the formula.
+    fn units(&self, left: &Operand, right: &Span, name: &str) -> Option<String> {
+        let number = self.text(&left.span);
+        let is_number = number.chars().all(|c| c.is_ascii_digit() || c == '.');
+        let rest = self.builder.text[right.start..].trim();
+        let is_unit = |word: &str| UNITS.contains(&word);
+        let mut words = rest.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty());
+        let has_other = rest.contains(|c: char| {
+            !c.is_alphanumeric()
+                && !matches!(c, '/' | '*' | '·' | '^' | '²' | '³' | '⁻' | '-' | '−' | ' ')
+        });
+        let is_all =
+            is_number && !has_other && words.clone().next().is_some() && words.all(is_unit);
+        // The name of a parameter is no unit.
+        let is_known = rest == name && resolve(name, self.scope).is_some();
+        (is_all && !is_known).then(|| match rest == name {
+            true => format!(
+                "numbers have no units: write `{number}`, or `{number}*{name}` with a name `{name}`"
+            ),
+            false => format!("numbers have no units: write `{number}`"),
+        })
     }
 
     /// Advice for a token that follows a value and is no factor of it.
@@ -149,10 +182,7 @@ impl Parser<'_> {
                 FormulaError::new(span, format!("this `{found}` closes nothing"))
                     .with_help("remove it, or open a bracket before it")
             }
-            TokenKind::Comparison => {
-                FormulaError::new(span, format!("`{found}` has no meaning in a formula"))
-                    .with_help(NO_EQUATION)
-            }
+            TokenKind::Comparison => self.equation(span),
             TokenKind::Range => FormulaError::new(span, format!("`{found}` has no meaning here"))
                 .with_help("a range is written in [parameters] and [state], and in `sum(i, 1..n, …)`; a formula has one value"),
             TokenKind::Comma if self.is_decimal(&span) => {
@@ -163,6 +193,28 @@ impl Parser<'_> {
                 .with_help("a dot product is written `(a,b)`, a vector `[a,b,c]`"),
             _ => FormulaError::new(span, format!("`{found}` cannot follow a complete formula")),
         }
+    }
+
+    /// The error for a sign of equality or comparison; a name before it, and a constant after it, can be
+    /// left out.
+    pub(super) fn equation(&self, sign: Span) -> FormulaError {
+        let text = self.builder.text;
+        let (before, after) = (text[..sign.start].trim(), text[sign.end..].trim());
+        let is_name = |text: &str| {
+            text.starts_with(char::is_alphabetic)
+                && text.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '\''))
+        };
+        let found = &text[sign.clone()];
+        let spare = match (found, after) {
+            ("=", "const" | "const." | "constant" | "c" | "C") => Some(format!("= {after}")),
+            ("=", _) if is_name(before) => Some(format!("{before} =")),
+            _ => None,
+        };
+        let help = match spare {
+            Some(spare) => format!("{NO_EQUATION}: leave out `{spare}`"),
+            None => NO_EQUATION.to_string(),
+        };
+        FormulaError::new(sign, format!("`{found}` has no meaning in a formula")).with_help(help)
     }
 
     /// Whether a comma stands between digits.

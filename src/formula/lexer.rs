@@ -153,10 +153,21 @@ pub(super) fn superscript_number(text: &str) -> String {
     text.chars().filter_map(plain).collect()
 }
 
+/// Modules of other languages, before whose functions they stand.
+const MODULES: [&str; 9] = ["np", "math", "numpy", "Math", "sympy", "sp", "jnp", "mpmath", "torch"];
+
+/// Whether a text ends with this word.
+fn is_last_word(text: &str, word: &str) -> bool {
+    text.strip_suffix(word).is_some_and(|rest| !rest.ends_with(|c: char| c.is_alphanumeric()))
+}
+
 /// The error for a character without meaning; `before` is the text before it.
 fn stray(c: char, span: Span, before: &str) -> FormulaError {
     let error = FormulaError::new(span, format!("`{c}` has no meaning in a formula"));
     match c {
+        '.' if MODULES.iter().any(|own| is_last_word(before, own)) => {
+            error.with_help("functions are written by their names alone, as `sin(x)`")
+        }
         '.' if follows_a_name(before) => {
             error.with_help("a dot product is written `(a,b)`, a component `a[1]`")
         }

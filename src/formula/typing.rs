@@ -250,7 +250,16 @@ impl Builder<'_> {
             let wrong = if m == 3 { b } else { a };
             let message =
                 format!("`×` takes vectors of length 3, this is a {}", wrong.value_type.in_full());
-            return Err(FormulaError::new(wrong.span.clone(), message));
+            let error = FormulaError::new(wrong.span.clone(), message);
+            return Err(match (m, n) {
+                (2, 2) => {
+                    let entries =
+                        |own: &Operand| [1, 2].map(|k| format!("{}[{k}]", self.written(own)));
+                    let ([a, b], [c, d]) = (entries(a), entries(b));
+                    error.with_help(format!("in the plane write `{a}*{d} - {b}*{c}`"))
+                }
+                _ => error,
+            });
         }
         let sign = if infix == Infix::Outer { "⊗" } else { "×" };
         let message =

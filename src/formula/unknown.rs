@@ -54,6 +54,10 @@ const BOOKS: [(&[&str], &str); 3] = [
 impl Parser<'_> {
     /// The error for an unknown name.
     pub(super) fn unknown_name(&self, name: &str, span: Span) -> FormulaError {
+        let is_first = self.builder.text[..span.start].trim().is_empty();
+        if is_first && self.peek() == TokenKind::Comparison {
+            return self.equation(self.token().span.clone()).with_unknown(name);
+        }
         let called = self.peek() == TokenKind::Open;
         let kind = if called { "function" } else { "name" };
         let error = FormulaError::new(span.clone(), format!("unknown {kind} `{}`", excerpt(name)))
@@ -94,6 +98,13 @@ impl Parser<'_> {
         }
         if let Some(pieces) = split(name, known) {
             return Some(format!("write `{}`?", pieces.join("*")));
+        }
+        let is_lagrangian = known("energy") && !["γ", "ω"].iter().any(|own| known(own));
+        if let ("T" | "U" | "V" | "L", false, true) = (name, called, is_lagrangian) {
+            return Some(format!(
+                "parts of the energy have the names that [let] gives them: {name} = \"…\", to be used in \
+                 [lagrangian] too"
+            ));
         }
         let mut names = self.scope.names();
         names.sort();

@@ -1,5 +1,7 @@
 //! Construction of free parameter values from random draws.
 
+use std::fmt;
+
 use nalgebra::Matrix3;
 
 use crate::formula::{Type, Value};
@@ -25,6 +27,18 @@ impl Range {
     fn halved(&self) -> Self {
         let half = Rational::new(1, 2);
         Self { low: &self.low * &half, high: &self.high * &half }
+    }
+}
+
+impl fmt::Display for Range {
+    /// Prints the ends; those of many digits, such as π, as decimals of f64.
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        const MANY: usize = 20;
+        let end = |end: &Rational| match end.to_string() {
+            long if long.len() > MANY => end.to_f64().0.to_string(),
+            short => short,
+        };
+        write!(out, "{}..{}", end(&self.low), end(&self.high))
     }
 }
 
@@ -64,7 +78,7 @@ impl Draw {
     /// Returns the range or the list as case files write it.
     fn text(&self) -> String {
         match self {
-            Draw::Within(range) | Draw::Of(_, range) => format!("{}..{}", range.low, range.high),
+            Draw::Within(range) | Draw::Of(_, range) => range.to_string(),
             Draw::OneOf(values) => {
                 let values: Vec<String> = values.iter().map(ToString::to_string).collect();
                 format!("one of {}", values.join(", "))
@@ -176,7 +190,7 @@ impl SamplerSpec {
                 format!("{word}({}, {})", sizes.join(", "), draw.text())
             }
         };
-        let ranged = |word: &str, range: &Range| format!("{word}({}..{})", range.low, range.high);
+        let ranged = |word: &str, range: &Range| format!("{word}({range})");
         match self {
             SamplerSpec::Scalar(draw) => draw.text(),
             SamplerSpec::Vector(length, draw) => sized("vector", &[*length], draw),

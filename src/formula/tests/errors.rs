@@ -300,14 +300,29 @@ fn incomplete_formulas_say_so() {
         "*",
         Some("a power is written `a^b`"),
     );
+    let equation = Some("a formula is a value, not an equation");
     let comma = Some("a dot product is written `(a,b)`, a vector `[a,b,c]`");
     error("γ,ω", "a comma is allowed only inside brackets", ",", comma);
     error(
         "x = y",
         "`=` has no meaning in a formula",
         "=",
-        Some("a formula is a value, not an equation"),
+        Some("a formula is a value, not an equation: leave out `x =`"),
     );
+    let sign = "`=` has no meaning in a formula";
+    let without = |part: &str| format!("a formula is a value, not an equation: leave out `{part}`");
+    error("H = x²/2", sign, "=", Some(&without("H =")));
+    error("x² + y² = const", sign, "=", Some(&without("= const")));
+    error("x + y = 2*x", sign, "=", equation);
+    let module = Some("functions are written by their names alone, as `sin(x)`");
+    error("np.sin(x)", "`.` has no meaning in a formula", ".", module);
+    error("2*math.cos(x)", "`.` has no meaning in a formula", ".", module);
+    let units = Some("numbers have no units: write `9.81`");
+    error("9.81 m/s^2", "missing `*`", "m", units);
+    error("9.81 kg*m/s²", "missing `*`", "kg", units);
+    let unit = Some("numbers have no units: write `2`, or `2*kg` with a name `kg`");
+    error("2 kg", "missing `*`", "kg", unit);
+    error("2 m", "missing `*`", "m", Some("write `2*m`"));
     error(
         "1e99999",
         "this number is too long: at most 4000 digits and exponents within ±1000",

@@ -2,6 +2,9 @@
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes become vectors")]
 
+use num_bigint::BigInt;
+use num_integer::Integer;
+
 use super::super::recipe::{Draw, NumberLine, Range};
 use super::super::streams::WIDTH;
 use crate::engine::InputExtent;
@@ -311,7 +314,13 @@ impl Grid {
         let width = &range.high - &range.low;
         let (step, count) = grid(&width);
         let low = range.low.clone();
-        small_grid(&low, &step, count).unwrap_or(Grid::Any { low, step, count })
+        if let Some(grid) = small_grid(&low, &step, count) {
+            return grid;
+        }
+        // From an end of many digits, such as −π, the grid begins at the next multiple of its step.
+        let short = steps_up(&low, &step).map(|steps| &steps * &step);
+        let shortened = short.and_then(|short| small_grid(&short, &step, count - 1));
+        shortened.filter(|_| count > 1).unwrap_or(Grid::Any { low, step, count })
     }
 
     fn nearest(&self, bits: u64) -> (f64, bool) {
@@ -339,6 +348,12 @@ impl Grid {
             }
         }
     }
+}
+
+/// Least whole number of steps that is not below a number.
+fn steps_up(number: &Rational, step: &Rational) -> Option<Rational> {
+    let (above, below) = (number * &step.recip()?).parts();
+    Some(Rational::from_parts(-(-above).div_floor(&below), BigInt::from(1)))
 }
 
 /// Returns a number of a grid, times its denominator.
