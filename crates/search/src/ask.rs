@@ -66,6 +66,16 @@ pub fn proved_energy(case: &Case, effort: &Effort) -> Result<Option<Formula>, Se
     Ok(report.filter(|report| report.verdict == Verdict::Proved).map(|_| energy))
 }
 
+/// The given functions that are proved to be integrals.
+pub fn proved_given(case: &Case, effort: &Effort) -> Result<Vec<Formula>, SearchError> {
+    let mut all: Vec<Formula> = proved_energy(case, effort)?.into_iter().collect();
+    if let Some(surface) = surface(case) {
+        let report = judged_alone(case, Claim::integral(&surface), effort)?;
+        all.extend(report.filter(|own| own.verdict == Verdict::Proved).map(|_| surface));
+    }
+    Ok(all)
+}
+
 /// Returns the grounds on which a formula is not a function of others, the energy, the function of a
 /// surface and the level functions; `None` if it is.
 pub fn independent(

@@ -118,7 +118,7 @@ use self::part::VariableSet;
 pub use self::report::OrbitReport;
 use self::setting::OrbitSetting;
 pub use self::sparse::sparse as with_few_entries;
-use super::ask::proved_energy;
+use super::ask::proved_given;
 use super::{Effort, SearchError, SearchReport, branches};
 
 /// Largest number of roots whose signs at all states are compared with those modulo a prime.
@@ -348,11 +348,11 @@ pub fn factors(
     Ok(own.flatten().collect())
 }
 
-/// Lists the energy and the integrals found so far, as far as they are proved.
+/// Lists the given functions and the integrals found so far, as far as they are proved to be integrals.
 fn found(case: &Case, effort: &Effort, report: &SearchReport) -> Result<Vec<Formula>, SearchError> {
-    let energy = proved_energy(case, effort)?.into_iter();
+    let given = proved_given(case, effort)?.into_iter();
     let own = report.of_case("integral").filter(|found| found.verdict == Verdict::Proved);
-    Ok(energy.chain(own.filter_map(|found| found.function.clone())).collect())
+    Ok(given.chain(own.filter_map(|found| found.function.clone())).collect())
 }
 
 /// Searches the parts of a field, within growing limits: at last those in `next`.
