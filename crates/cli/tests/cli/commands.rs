@@ -15,7 +15,7 @@ mod pictures;
 mod site;
 mod start;
 mod tables;
-mod told;
+mod textbook_inputs;
 mod watch;
 mod wrong;
 

@@ -189,7 +189,7 @@ fn along(
         let scope = FunctionScope { divided, before, next: &[] };
         let whole = report.orbits[before..].to_vec();
         let Some(halves) = with_functions(case, effort, scope, report, progress)? else { break };
-        // What whole angles show is told unless their halves show more.
+        // What whole angles show is reported unless their halves show more.
         if integrals(&report.orbits[before..]) <= integrals(&whole) && !whole.is_empty() {
             report.orbits.truncate(before);
             report.orbits.extend(whole);
