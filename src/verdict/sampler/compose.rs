@@ -127,12 +127,18 @@ impl Sampler {
         fixed: &[Option<Rational>],
         folded: &[Expr],
     ) -> Option<Vec<Expr>> {
-        let reached = self.graph.reached(self.made.iter().copied());
+        let pairs = self.made.iter().zip(folded);
+        let open: Vec<(&Expr, &Expr)> =
+            pairs.filter(|(own, _)| !self.graph.is_always_defined(**own)).collect();
+        if open.is_empty() {
+            return Some(Vec::new());
+        }
+        let reached = self.graph.reached(open.iter().map(|(own, _)| **own));
         let values = literally(|| self.graph.repeated(&reached, &with_fixed(draws, fixed)));
-        let made = self.made.iter().map(|value| values[self.graph.place(*value)]);
+        let made = open.iter().map(|(own, _)| values[self.graph.place(**own)]);
         let made = made.collect::<Option<Vec<Expr>>>()?;
         let is_other = |(own, folded): &(Expr, &Expr)| own != *folded && !own.is_always_defined();
-        let others = made.into_iter().zip(folded).filter(is_other);
+        let others = made.into_iter().zip(open.iter().map(|(_, folded)| *folded)).filter(is_other);
         Some(others.map(|(own, _)| own).collect())
     }
 }
