@@ -14,16 +14,16 @@ const BITS: u32 = 160;
 /// Decimals kept of it, from the first that is not 0: no number of f64 lies between it and the end.
 const DIGITS: i32 = 24;
 
-/// Side of a range.
+/// One of the ends of a range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
+pub enum RangeEnd {
     Low,
     High,
 }
 
 /// Reads an end of a range: the number, or one with few digits outside of it; `None` if the text is no
 /// formula of numbers alone.
-pub fn end(text: &str, side: Side, scope: &dyn Scope) -> Option<Rational> {
+pub fn end(text: &str, side: RangeEnd, scope: &dyn Scope) -> Option<Rational> {
     let text = text.trim();
     if let Ok(number) = text.parse() {
         return Some(number);
@@ -37,7 +37,7 @@ pub fn end(text: &str, side: Side, scope: &dyn Scope) -> Option<Rational> {
 }
 
 /// Encloses a formula of numbers, and rounds the end of the enclosure outward.
-fn rounded(formula: &Formula, side: Side) -> Option<Rational> {
+fn rounded(formula: &Formula, side: RangeEnd) -> Option<Rational> {
     let (graph, values) = graph::record(0, |_| {
         formula.evaluate::<graph::Expr>(&mut |_| unreachable!("it has no symbols")).components()
     })
@@ -48,8 +48,8 @@ fn rounded(formula: &Formula, side: Side) -> Option<Rational> {
     let value = evaluator.outputs().next()?.clone()?;
     let (middle, exponent, radius) = value.parts();
     let end = match side {
-        Side::Low => middle - BigInt::from(radius),
-        Side::High => middle + BigInt::from(radius),
+        RangeEnd::Low => middle - BigInt::from(radius),
+        RangeEnd::High => middle + BigInt::from(radius),
     };
     let two = Rational::from(2).powi(i32::try_from(exponent).ok()?)?;
     let end = &Rational::from_parts(end, BigInt::from(1)) * &two;
@@ -60,8 +60,8 @@ fn rounded(formula: &Formula, side: Side) -> Option<Rational> {
     let unit = Rational::from(10).powi(DIGITS - size.log10().floor() as i32)?;
     let (above, below) = (&end * &unit).parts();
     let digits = match side {
-        Side::Low => above.div_floor(&below),
-        Side::High => -(-above).div_floor(&below),
+        RangeEnd::Low => above.div_floor(&below),
+        RangeEnd::High => -(-above).div_floor(&below),
     };
     Some(&Rational::from_parts(digits, BigInt::from(1)) * &unit.recip()?)
 }
@@ -74,7 +74,7 @@ mod tests {
     #[test]
     fn ends_are_exact_or_outside_by_less_than_f64_sees() {
         let names = Vocabulary::default();
-        let ends = |text: &str| [Side::Low, Side::High].map(|side| end(text, side, &names));
+        let ends = |text: &str| [RangeEnd::Low, RangeEnd::High].map(|side| end(text, side, &names));
         for (text, value) in
             [("3/7", (3, 7)), ("2*3", (6, 1)), ("(1 + 2)/4", (3, 4)), ("-2^3", (-8, 1))]
         {

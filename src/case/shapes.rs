@@ -6,7 +6,7 @@ use std::cmp::Ordering;
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::ends::{Side, end};
+use super::ends::{RangeEnd, end};
 use super::foreign;
 use super::section::numbers;
 use crate::formula::{Formula, FormulaError, MAX_COMPONENTS, Scope, Type};
@@ -155,7 +155,7 @@ pub fn described(text: &str, scope: &dyn Scope) -> Result<GivenValue, Refusal> {
     };
     let has_bracket = low.contains(['(', '[']) || high.contains(['(', '[']);
     if has_bracket
-        && (end(low, Side::Low, scope).is_none() || end(high, Side::High, scope).is_none())
+        && (end(low, RangeEnd::Low, scope).is_none() || end(high, RangeEnd::High, scope).is_none())
     {
         return Ok(GivenValue::Formula(text.to_string()));
     }
@@ -259,7 +259,7 @@ fn range(low: &str, high: &str, scope: &dyn Scope) -> Result<Range, Refusal> {
             _ => end(text, side, scope).ok_or_else(message),
         }
     };
-    let range = Range { low: read(low, Side::Low)?, high: read(high, Side::High)? };
+    let range = Range { low: read(low, RangeEnd::Low)?, high: read(high, RangeEnd::High)? };
     let (width, _) = (&range.high - &range.low).to_f64();
     match range.low.cmp(&range.high) {
         Ordering::Equal => Err(Refusal::OneValue(range.low)),

@@ -5,7 +5,7 @@ use super::{Formula, Symbol, Value, evaluate};
 use crate::scalar::Scalar;
 
 /// Exponents of powers that have a value for positive bases alone.
-pub struct Exponents<'e> {
+pub(crate) struct Exponents<'e> {
     /// Whether a symbol is not the same number everywhere.
     pub varies: &'e dyn Fn(Symbol) -> bool,
     /// Whether a symbol that varies depends on lists of numbers alone.
@@ -14,7 +14,7 @@ pub struct Exponents<'e> {
 
 impl Formula {
     /// Whether the exponent of a power contains a symbol that varies.
-    pub fn has_varying_exponent(&self, varies: &dyn Fn(Symbol) -> bool) -> bool {
+    pub(crate) fn has_varying_exponent(&self, varies: &dyn Fn(Symbol) -> bool) -> bool {
         let mut nodes = self.arena.nodes.iter();
         nodes.any(|node| match node.operation {
             NodeOperation::PowerOf(_, exponent) => self.contains(exponent, varies),
@@ -27,7 +27,7 @@ impl Formula {
     ///
     /// # Panics
     /// As [`evaluate`](Formula::evaluate).
-    pub fn evaluate_with_logarithms<T: Scalar>(
+    pub(crate) fn evaluate_with_logarithms<T: Scalar>(
         &self,
         exponents: &Exponents<'_>,
         lookup: &mut dyn FnMut(Symbol) -> Value<T>,

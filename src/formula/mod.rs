@@ -94,7 +94,7 @@ use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
 pub(crate) use algebra::adjugate;
-pub use bases::Exponents;
+pub(crate) use bases::Exponents;
 pub use compose::FormulaResult;
 pub use error::FormulaError;
 pub(crate) use error::excerpt;

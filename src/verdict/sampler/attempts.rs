@@ -127,8 +127,7 @@ impl Sampler {
     ) -> Vec<Rational> {
         let mut own = self.draws.attempt(self.seed, index, attempt);
         if let Some(sets) = sets {
-            let set = (index % TAPE_LANES as u64) as usize * sets / TAPE_LANES;
-            let shared = self.draws.state(self.seed, set as u64);
+            let shared = self.draws.state(self.seed, set_of(index, sets) as u64);
             own[..self.parameter_draws].clone_from_slice(&shared[..self.parameter_draws]);
         }
         own

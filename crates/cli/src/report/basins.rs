@@ -98,8 +98,8 @@ impl BasinReport<'_> {
         out
     }
 
-    /// Note on components that run far away from the starts, as angles do that turn: they make all that
-    /// keeps near to the starts one set.
+    /// Note on components that run far from the starts, as angles do that turn: all sets near the starts
+    /// then count as one.
     fn running(&self) -> Option<String> {
         if self.has_values {
             return None;
@@ -128,8 +128,8 @@ impl BasinReport<'_> {
         let values: Vec<String> = titles.iter().map(value).collect();
         let names: Vec<&str> = names.into_iter().map(String::as_str).collect();
         Some(format!(
-            "note: {} far from the starts, so that sets near to them are not told apart; of an angle \
-             make full turns one by --by '{}'\n",
+            "note: {} far from the starts, so that sets near them count as one; for an angle, compare \
+             its cosine and sine: --by '{}'\n",
             match names.as_slice() {
                 [only] => format!("{only} runs"),
                 all => format!("{} run", all.join(" and ")),

@@ -19,7 +19,7 @@ const MOST_FACTORS: usize = 24;
 /// A multiple of the value at a place.
 type Term = (Rational, usize);
 
-/// How F(p) compares with F(q).
+/// Comparison of F(p) with F(q).
 #[derive(Clone, Copy, PartialEq)]
 enum Growth {
     /// The values are equal.

@@ -91,7 +91,7 @@ impl HierarchyClass {
     }
 }
 
-/// What is known of a system besides its measures and its integrals.
+/// Features of a system besides its measures and its integrals.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct KnownFeatures {
     /// Number of reversors found.
