@@ -37,7 +37,7 @@ impl Formula {
             self.contains(exponent, &is_free)
                 || (self.contains(exponent, exponents.varies) && !value.is_number())
         };
-        let mut values = evaluate::literal_values_with(&self.arena, lookup, &asks);
+        let mut values = evaluate::literal_values_with(&self.arena, lookup, Some(&asks));
         values.pop().unwrap_or_else(|| Value::Scalar(T::undefined()))
     }
 

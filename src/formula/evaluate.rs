@@ -110,16 +110,16 @@ pub(super) fn literal_values<T: Scalar>(
     arena: &Arena,
     lookup: &mut dyn FnMut(Symbol) -> Value<T>,
 ) -> Vec<Value<T>> {
-    literal_values_with(arena, lookup, &|_, _| false)
+    literal_values_with(arena, lookup, None)
 }
 
-/// Evaluates every node in this way, and adds 0·ln X to each power X^Y whose exponent, a node with this value, asks
-/// for it.
+/// Evaluates every node in this way; if powers are asked, it adds 0·ln X to each X^Y whose exponent, a node with this
+/// value, asks for it, and 0·f to each ∫f.
 #[inline(never)]
 pub(super) fn literal_values_with<T: Scalar>(
     arena: &Arena,
     lookup: &mut dyn FnMut(Symbol) -> Value<T>,
-    asks: &dyn Fn(NodeId, T) -> bool,
+    asks: Option<&dyn Fn(NodeId, T) -> bool>,
 ) -> Vec<Value<T>> {
     let symbols: Vec<Value<T>> = arena.symbols.iter().map(|(symbol, _)| lookup(*symbol)).collect();
     T::literally(|| {
@@ -136,9 +136,13 @@ pub(super) fn literal_values_with<T: Scalar>(
                 {
                     with_others(value, &values.0[a])
                 }
-                NodeOperation::PowerOf(a, b) if asks(b, values.scalar(b)) => {
+                NodeOperation::PowerOf(a, b) if asks.is_some_and(|asks| asks(b, values.scalar(b))) => {
                     let zero = T::zero() * values.scalar(a).ln();
                     value.map(|power| power + zero)
+                }
+                NodeOperation::Antiderivative(integrand, _) if asks.is_some() => {
+                    let zero = T::zero() * values.scalar(integrand);
+                    value.map(|integral| integral + zero)
                 }
                 _ => value,
             };

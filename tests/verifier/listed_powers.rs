@@ -163,6 +163,8 @@ fn exponents_that_are_one_number_for_all_listed_values_take_any_base() {
         let found = beside(vector, &format!("1 + 0*a^({exponent})"));
         assert_eq!(found, [Verdict::Undecided; 2], "{exponent}");
     }
+    let of_integral = beside(vector, "∫(a^(b - b)*x, x)");
+    assert_eq!(of_integral[0], Verdict::Proved, "the integrand has a value for a > 0 alone");
     for exponent in ["b - b", "b", "x - x", "n - n + 1/2 + 0*b"] {
         let found = beside(vector, &format!("1 + 0*a^({exponent})"));
         assert_eq!(found, [Verdict::Proved; 2], "{exponent}: for a > 0 alone");
