@@ -2,6 +2,7 @@
 
 use super::cell_rank::{CellRank, RankQuestion};
 use super::claim_state::{are_zero, undecide};
+use super::cofactors::Cofactor;
 use super::evidence::{Flaw, Verdict};
 use super::field::{Answer, PrimeFieldStates, Query};
 use super::judging::Judging;
@@ -13,7 +14,7 @@ use crate::claim::{Condition, Need};
 use crate::graph::{Expr, Fault, Graph, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{Phase, combinations};
-use crate::proof::{Extent, GroupOutcome, Prover, are_coprime, is_nowhere_zero, sign};
+use crate::proof::{Extent, GroupOutcome, Prover, is_nowhere_zero, sign};
 use crate::scalar::Scalar;
 
 /// The restriction of a claim that does not meet a need.
@@ -43,8 +44,8 @@ impl Judging<'_> {
                     (Need::NotZero { .. } | Need::Positive { .. }, true) => {
                         Some(condition.otherwise.clone())
                     }
-                    (_, true) => None,
-                    (_, false) => self.failure(sampler, item, condition)?,
+                    (_, true) if !condition.is_essential => None,
+                    _ => self.failure(sampler, item, condition)?,
                 };
                 let Some(failure) = failure else {
                     if asks_one_to_one {
@@ -126,7 +127,11 @@ impl Judging<'_> {
         let otherwise = &condition.otherwise;
         match &condition.need {
             Need::Rank { rows, rank } => {
-                let ranks = PrimeFieldStates::new(self, sampler).ranks(rows, &[rows.len()])?;
+                // No field draws states that are found numerically.
+                let ranks = match sampler.is_numerical() {
+                    true => None,
+                    false => PrimeFieldStates::new(self, sampler).ranks(rows, &[rows.len()])?,
+                };
                 let found = ranks.and_then(|ranks| ranks.first().copied());
                 let known = match found {
                     Some(found) if found < *rank => {
@@ -178,8 +183,9 @@ impl Judging<'_> {
                 Ok(is_vacuous.then(|| otherwise.clone()))
             }
             Need::Zeros { function } => {
+                let Some(sampler) = self.filling(sampler)? else { return Ok(None) };
                 let has_none =
-                    self.holds_at_all_states(sampler, *function, &|graph, extents, value| {
+                    self.holds_at_all_states(&sampler, *function, &|graph, extents, value| {
                         is_nowhere_zero(graph, extents, &[], &[value])
                     })?;
                 Ok(has_none.then(|| otherwise.clone()))
@@ -197,7 +203,8 @@ impl Judging<'_> {
                 Ok(place.map(|place| format!("near {place} {otherwise}")))
             }
             Need::ValueOnZeros { function, factor, inverse } => {
-                let is_met = self.has_value_on_zeros(sampler, *function, *factor, *inverse)?;
+                let cofactor = Cofactor { factor: *factor, inverse: *inverse };
+                let is_met = self.has_value_on_zeros(sampler, item, *function, &cofactor)?;
                 Ok((!is_met).then(|| otherwise.clone()))
             }
         }
@@ -264,49 +271,4 @@ impl Judging<'_> {
         }
         Ok(true)
     }
-
-    /// Whether a factor is known to have a value at almost every zero of a function: its
-    /// denominator has no common factor with the function, or no zero.
-    fn has_value_on_zeros(
-        &self,
-        sampler: &Sampler,
-        function: Expr,
-        factor: Expr,
-        inverse: Expr,
-    ) -> Result<bool, Fault> {
-        let mut outputs = vec![function, inverse];
-        outputs.extend(poles(self.graph, factor));
-        if outputs.len() == 2 {
-            return Ok(true);
-        }
-        let Some(combinations) = combinations(sampler.recipes()) else { return Ok(false) };
-        let extents = sampler.extents();
-        for fixed in combinations {
-            let (graph, groups) =
-                sampler.compose(self.graph, std::slice::from_ref(&outputs), &fixed)?;
-            let group = groups.concat();
-            let (function, poles) = (group[0], &group[2..]);
-            // In lowest terms the denominator may be smaller than written.
-            if are_coprime(&graph, &group[..2], self.options.seed) {
-                continue;
-            }
-            if !poles.iter().all(|pole| self.are_apart(&graph, &extents, function, *pole)) {
-                return Ok(false);
-            }
-        }
-        Ok(true)
-    }
-
-    fn are_apart(&self, graph: &Graph, extents: &[Extent], function: Expr, pole: Expr) -> bool {
-        are_coprime(graph, &[function, pole], self.options.seed)
-            || (is_nowhere_zero(graph, extents, &[], &[function, pole])
-                && !is_nowhere_zero(graph, extents, &[], &[function]))
-    }
-}
-
-/// Lists the values that must not be 0 for another value to be bounded nearby.
-fn poles(graph: &Graph, value: Expr) -> Vec<Expr> {
-    let reached = graph.reached([value]);
-    let poles = graph.needs(&reached).filter(|(_, need)| need.is_pole);
-    poles.map(|(place, _)| graph.at(place)).collect()
 }

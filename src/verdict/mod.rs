@@ -10,6 +10,7 @@ mod ascent;
 mod branches;
 mod cell_rank;
 mod claim_state;
+mod cofactors;
 mod combined;
 mod conclude;
 mod conditions;

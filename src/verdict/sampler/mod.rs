@@ -262,6 +262,17 @@ impl Sampler {
         self.is_thin
     }
 
+    /// Whether the draws are the components of the state, so that every state of the place is drawn; a
+    /// chart, or a solution of the level, may miss some.
+    pub fn misses_nothing(&self, case: &Case) -> bool {
+        let is_charted = match case.chart {
+            Chart::Rolling | Chart::Sphere => true,
+            Chart::Free => false,
+            Chart::Given(_) | Chart::Equations => self.kept.contains(&true),
+        };
+        !is_charted && !self.is_part()
+    }
+
     /// Whether the states are one part of the place, made by formulas of its own.
     pub fn is_part(&self) -> bool {
         self.branch.is_some() || self.is_guarded && self.solution.is_none()

@@ -1,0 +1,107 @@
+//! Cofactors of invariant relations, which must have values where F = 0: x' = 1 = (1/x)·x does not
+//! preserve x = 0.
+
+use std::rc::Rc;
+
+use super::field::{Answer, PrimeFieldStates, Query};
+use super::judging::Judging;
+use super::recorded::RecordedClaim;
+use super::sampler::Sampler;
+use crate::claim::LevelSubset;
+use crate::graph::{Expr, Fault, Graph};
+use crate::mechanics::combinations;
+use crate::proof::{Extent, are_coprime, is_nowhere_zero};
+
+/// A cofactor, or a part of it that must have a value.
+pub(super) struct Cofactor {
+    /// Its value, recorded literally.
+    pub factor: Expr,
+    /// Reciprocal of the value.
+    pub inverse: Expr,
+}
+
+impl Judging<'_> {
+    /// Returns the sampler, if its states are a whole place with no exception, or else that of all of
+    /// space, if it is so: a chart may miss exactly the zeros of a function, as the rational one of the
+    /// circle misses those of 1 + y.
+    pub(super) fn filling(&self, sampler: &Sampler) -> Result<Option<Rc<Sampler>>, Fault> {
+        if sampler.misses_nothing(self.case) {
+            return Ok(Some(Rc::new(sampler.clone())));
+        }
+        let space = self.sampler_at(&LevelSubset::everywhere(&self.case.model))?;
+        Ok(space.misses_nothing(self.case).then_some(space))
+    }
+
+    /// Whether a cofactor is known to have a value at every zero of F at which the field has one.
+    ///
+    /// Its poles are poles of the field as written; or no zeros of F; or F and its denominator have no
+    /// common factor in lowest terms: with L_vF = A/B and κ = C/D in lowest terms, AD = BCF, so that D
+    /// divides B.
+    pub(super) fn has_value_on_zeros(
+        &self,
+        sampler: &Sampler,
+        item: &RecordedClaim<'_>,
+        function: Expr,
+        cofactor: &Cofactor,
+    ) -> Result<bool, Fault> {
+        let poles = poles(self.graph, &[cofactor.factor]);
+        if poles.is_empty() {
+            return Ok(true);
+        }
+        let of_field = self::poles(self.graph, &self.common.required_at(sampler.kept()));
+        let is_of_field = |pole: &Expr| *pole != function && of_field.contains(pole);
+        if !sampler.misses_nothing(self.case) && poles.iter().all(is_of_field) {
+            return Ok(true);
+        }
+        let Some(filling) = self.filling(sampler)? else { return Ok(false) };
+        // What is divided by in lowest terms follows from an identity in the same variables.
+        let is_identity =
+            filling.kept() == sampler.kept() || self.holds_in_space(&filling, item)?;
+        let outputs = [&[function, cofactor.inverse][..], &poles].concat();
+        let Some(combinations) = combinations(filling.recipes()) else { return Ok(false) };
+        let extents = filling.extents();
+        for fixed in combinations {
+            let (graph, groups) =
+                filling.compose(self.graph, std::slice::from_ref(&outputs), &fixed)?;
+            let group = groups.concat();
+            let (function, poles) = (group[0], &group[2..]);
+            let are_coprime =
+                |values: &[Expr]| is_identity && are_coprime(&graph, values, self.options.seed);
+            let is_apart = |pole: &Expr| {
+                are_coprime(&[function, *pole]) || are_apart(&graph, &extents, function, *pole)
+            };
+            // In lowest terms the denominator may be smaller than written.
+            if !are_coprime(&group[..2]) && !poles.iter().all(is_apart) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// Whether the equation of a claim is proved at all states of space.
+    fn holds_in_space(&self, space: &Sampler, item: &RecordedClaim<'_>) -> Result<bool, Fault> {
+        let Some(wider) = item.wider.iter().find(|wider| wider.place.kept == space.kept()) else {
+            return Ok(false);
+        };
+        let query = Query {
+            outputs: [&wider.residual[..], &wider.defects].concat(),
+            requirement: item.requirement.clone(),
+            ..Query::default()
+        };
+        let answers = PrimeFieldStates::new(self, space).test(&[query])?;
+        Ok(matches!(answers[..], [Answer::Zero(_)]))
+    }
+}
+
+/// Whether two values are known to have no common zero, and the first to have one.
+fn are_apart(graph: &Graph, extents: &[Extent], function: Expr, pole: Expr) -> bool {
+    is_nowhere_zero(graph, extents, &[], &[function, pole])
+        && !is_nowhere_zero(graph, extents, &[], &[function])
+}
+
+/// Lists the values that must not be 0 for others to be bounded nearby.
+fn poles(graph: &Graph, values: &[Expr]) -> Vec<Expr> {
+    let reached = graph.reached(values.iter().copied());
+    let poles = graph.needs(&reached).filter(|(_, need)| need.is_pole);
+    poles.map(|(place, _)| graph.at(place)).collect()
+}
