@@ -24,10 +24,14 @@ impl Judging<'_> {
         if let Some(known) = self.one_to_one.borrow().get(&key) {
             return Ok(*known);
         }
+        if sampler.is_numerical() {
+            let space = self.sampler_at(&LevelSubset::everywhere(&self.case.model))?;
+            let is_proved = !space.is_numerical() && self.is_one_to_one(&space, states)?;
+            self.one_to_one.borrow_mut().insert(key, is_proved);
+            return Ok(is_proved);
+        }
         // Each part of a level would have a relation of its own, and parts may have common images.
-        let is_whole = !sampler.is_numerical()
-            && self.missed_part(sampler)?.is_none()
-            && self.pieces(sampler)?.is_none();
+        let is_whole = self.missed_part(sampler)?.is_none() && self.pieces(sampler)?.is_none();
         let is_proved = is_whole
             && match states {
                 SecondState::InRanges => self.has_inverse(sampler)?,
@@ -132,29 +136,34 @@ impl Judging<'_> {
         let is_free = !sampler.kept().contains(&true);
         let draws: Option<Vec<usize>> = sampler.made()[free..].iter().map(draw).collect();
         let Some(draws) = draws.filter(|_| is_free) else { return Ok(known) };
-        let (graph, values) = record(free + dimension, |inputs| {
-            let (parameters, state) = inputs.split_at(free);
-            let jet = DualPoint::new(Phase::new(model, parameters, state));
-            let mut values = vec![jet.phase.field().to_vec()];
-            values.extend(jet.derivative());
-            values
-        })?;
-        let (graph, mut values) = sampler.compose(&graph, &values, fixed)?;
-        let slopes = values.split_off(1);
+        let recorded = |with_slopes: bool| {
+            record(free + dimension, |inputs| {
+                let (parameters, state) = inputs.split_at(free);
+                let jet = DualPoint::new(Phase::new(model, parameters, state));
+                let mut values = vec![jet.phase.field().to_vec()];
+                if with_slopes {
+                    values.extend(jet.derivative());
+                }
+                values
+            })
+        };
+        let (graph, values) = recorded(false)?;
+        let (graph, values) = sampler.compose(&graph, &values, fixed)?;
         let images: Vec<Vec<usize>> = values
             .concat()
             .iter()
             .map(|image| {
-                let reached = graph.reached([*image]);
-                let is_used = |input: &usize| {
-                    graph
-                        .steps()
-                        .zip(&reached)
-                        .any(|(step, reached)| *reached && step == Step::Input(*input))
-                };
-                (0..dimension).filter(|k| is_used(&draws[*k])).collect()
+                let inputs = graph.inputs_of(*image);
+                (0..dimension).filter(|k| inputs.contains(&draws[*k])).collect()
             })
             .collect();
+        // Where every component contains two variables none comes first, and slopes take long.
+        if images.iter().all(|image| image.len() != 1) {
+            return Ok(known);
+        }
+        let (graph, values) = recorded(true)?;
+        let (graph, mut values) = sampler.compose(&graph, &values, fixed)?;
+        let slopes = values.split_off(1);
         let mut open: Vec<usize> = (0..images.len()).collect();
         while let Some((place, variable)) = open.iter().enumerate().find_map(|(place, image)| {
             let mut unknown = images[*image].iter().filter(|k| !known.contains(*k));

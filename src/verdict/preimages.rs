@@ -73,7 +73,11 @@ impl Judging<'_> {
             let is_on_level = |value: &Balls<1>| value.mid[0].abs() <= value.rad[0];
             (exist && all[level.clone()].iter().all(is_on_level)).then(|| all[..dimension].to_vec())
         };
-        let drawn = sampler.states_sharing_parameters(&Ball::<TAPE_LANES>, 0, PARAMETER_SETS);
+        // States with other parameters, too, are places to start from.
+        let drawn = match sampler.is_numerical() {
+            true => sampler.balls(0),
+            false => sampler.states_sharing_parameters(&Ball::<TAPE_LANES>, 0, PARAMETER_SETS),
+        };
         let lane = |k: usize| -> Vec<Balls<1>> {
             drawn.iter().map(|block| Balls::new([block.mid[k]], [block.rad[k]])).collect()
         };

@@ -6,7 +6,7 @@ use super::definitions::{Definition, defined, merged};
 use super::question::TestedClaim;
 use liouville::case::Case;
 use liouville::claim::Claim;
-use liouville::formula::Formula;
+use liouville::formula::{Formula, Type};
 use liouville::verdict::{ClaimReport, Flaw, JudgeError, Options, Verdict, judge};
 
 /// Number of independent integrals against that needed by the theorem of Euler and Jacobi.
@@ -50,32 +50,37 @@ pub fn count(
 ) -> Result<IndependentSelection, JudgeError> {
     let dimension = case.model.dimension() - case.model.level.len();
     let has_energy = has_energy(case, options)?;
-    let mut kept: Vec<usize> = Vec::new();
+    let all: Vec<Entry> =
+        (0..integrals.len()).flat_map(|index| entries(case, bindings, integrals, index)).collect();
+    let mut chosen: Vec<&Entry> = Vec::new();
     let (mut proof, mut later) = (None, Vec::new());
-    for index in 0..integrals.len() {
-        let trial: Vec<&TestedClaim> = kept.iter().chain([&index]).map(|k| integrals[*k]).collect();
-        let claim = independent(case, options, bindings, has_energy, &trial)?;
-        match claim.filter(|claim| claim.verdict == Verdict::Proved) {
-            Some(claim) if claim.evidence.has(Flaw::OnAPart) => later.push(index),
+    let trial = |chosen: &[&Entry], entry: &Entry| {
+        let trial: Vec<&Entry> = chosen.iter().copied().chain([entry]).collect();
+        let claim = independent(case, options, bindings, has_energy, integrals, &trial)?;
+        Ok::<_, JudgeError>(claim.filter(|claim| claim.verdict == Verdict::Proved))
+    };
+    for entry in &all {
+        match trial(&chosen, entry)? {
+            Some(claim) if claim.evidence.has(Flaw::OnAPart) => later.push(entry),
             Some(claim) => {
-                kept.push(index);
+                chosen.push(entry);
                 proof = Some(claim);
             }
             None => {}
         }
     }
-    let everywhere = usize::from(has_energy) + kept.len();
-    for index in later {
-        let trial: Vec<&TestedClaim> = kept.iter().chain([&index]).map(|k| integrals[*k]).collect();
-        let claim = independent(case, options, bindings, has_energy, &trial)?;
-        if let Some(claim) = claim.filter(|claim| claim.verdict == Verdict::Proved) {
-            kept.push(index);
+    let everywhere = usize::from(has_energy) + chosen.len();
+    for entry in later {
+        if let Some(claim) = trial(&chosen, entry)? {
+            chosen.push(entry);
             proof = Some(claim);
         }
     }
-    let on_a_part = usize::from(has_energy) + kept.len() - everywhere;
+    let on_a_part = usize::from(has_energy) + chosen.len() - everywhere;
+    let mut kept: Vec<usize> = chosen.iter().map(|entry| entry.index).collect();
+    kept.dedup();
     let energy = has_energy.then(|| "energy".to_string());
-    let names = kept.iter().map(|k| integrals[*k].label());
+    let names = chosen.iter().map(|entry| entry.label(integrals));
     // Integrals with a formula may be functions of those without one, so they are not counted
     // twice.
     let beside = kept.iter().filter(|k| !integrals[**k].is_general).count();
@@ -90,6 +95,44 @@ pub fn count(
     // Integrals without a formula are counted as before.
     let everywhere = count.independent.len() - on_a_part;
     Ok(IndependentSelection { kept, count, everywhere, has_energy })
+}
+
+/// An integral, or one component of an integral that is a vector or a matrix.
+struct Entry {
+    /// Index of the integral.
+    index: usize,
+    /// Place of the component in brackets, as `[1,2]`; empty for a number.
+    place: String,
+}
+
+impl Entry {
+    fn label(&self, integrals: &[&TestedClaim]) -> String {
+        let whole = integrals[self.index].label();
+        match self.place.is_empty() || whole.chars().all(char::is_alphanumeric) {
+            true => format!("{whole}{}", self.place),
+            false => format!("({whole}){}", self.place),
+        }
+    }
+}
+
+/// Lists the components of an integral.
+fn entries(
+    case: &Case,
+    bindings: &[Definition],
+    integrals: &[&TestedClaim],
+    index: usize,
+) -> Vec<Entry> {
+    let (definitions, formulas) = merged(bindings, &integrals[index..=index]);
+    let named = defined(case, &definitions);
+    let formula = named.and_then(|named| named.formula(formulas.first()?).ok());
+    let places = match formula.map_or(Type::Scalar, |formula| formula.value_type()) {
+        Type::Scalar => vec![String::new()],
+        Type::Vector(length) => (1..=length).map(|k| format!("[{k}]")).collect(),
+        Type::Matrix(rows, columns) => {
+            (1..=rows).flat_map(|i| (1..=columns).map(move |j| format!("[{i},{j}]"))).collect()
+        }
+    };
+    places.into_iter().map(|place| Entry { index, place }).collect()
 }
 
 /// Whether the energy is proved to be conserved, and not to be constant on the level.
@@ -115,20 +158,33 @@ fn may_have_energy(case: &Case) -> bool {
     conserved(case) && case.model.vocabulary.find("energy").is_some()
 }
 
+/// Claims that components of integrals are independent of each other and of the energy.
 fn independent(
     case: &Case,
     options: &Options,
     bindings: &[Definition],
     energy: bool,
-    tested: &[&TestedClaim],
+    integrals: &[&TestedClaim],
+    entries: &[&Entry],
 ) -> Result<Option<ClaimReport>, JudgeError> {
-    let (definitions, formulas) = merged(bindings, tested);
-    let Some(named) = defined(case, &definitions) else { return Ok(None) };
-    let energy = energy.then_some("energy");
-    let texts = energy.into_iter().chain(formulas.iter().map(String::as_str));
-    let functions: Option<Vec<Formula>> = texts.map(|text| named.formula(text).ok()).collect();
-    let claim = functions.map(Claim::independent);
-    let asked = claim.and_then(|claim| named.with_claims(&[claim]).ok());
+    let tested: Vec<&TestedClaim> = entries.iter().map(|entry| integrals[entry.index]).collect();
+    let (definitions, formulas) = merged(bindings, &tested);
+    let Some(mut named) = defined(case, &definitions) else { return Ok(None) };
+    let mut functions: Vec<Formula> = Vec::new();
+    functions.extend(energy.then(|| named.formula("energy").ok()).flatten());
+    for (number, (entry, text)) in entries.iter().zip(&formulas).enumerate() {
+        let Ok(mut function) = named.formula(text) else { return Ok(None) };
+        if !entry.place.is_empty() {
+            let name = format!("integral_{}", number + 1);
+            let component = named.define(&name, &function).ok();
+            let component =
+                component.and_then(|()| named.formula(&format!("{name}{}", entry.place)).ok());
+            let Some(component) = component else { return Ok(None) };
+            function = component;
+        }
+        functions.push(function);
+    }
+    let asked = named.with_claims(&[Claim::independent(functions)]).ok();
     match asked {
         Some(asked) => Ok(judge(&asked, options)?.claims.into_iter().next()),
         None => Ok(None),

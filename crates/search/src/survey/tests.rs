@@ -109,3 +109,20 @@ fn no_family_is_dead() {
     }
     assert!(missing.is_empty(), "claims that are proved of no body:\n{}", missing.join("\n"));
 }
+
+#[test]
+fn components_of_vectors_are_integrals_of_their_own() {
+    let text = "[state]\nr = \"vector(0.5..2)\"\np = \"vector(-1..1)\"\n\
+                [hamiltonian]\nfunction = \"(p,p)/2 - 1/|r|\"\npairs = [[\"r\",\"p\"]]\n\
+                [[claim]]\nname = \"L\"\nintegral = \"r × p\"\n\
+                [[claim]]\nname = \"A\"\nintegral = \"p × (r × p) - r/|r|\"\n";
+    let (case, options) = (Case::parse(text, &[]).expect("a case"), Options::default());
+    let claims = liouville::verdict::judge(&case, &options).expect("judged").claims;
+    let claimed: Vec<TestedClaim> =
+        claims.into_iter().map(|claim| TestedClaim::claimed(&case, claim)).collect();
+    let integrals: Vec<&TestedClaim> = claimed.iter().collect();
+    let found = independence::count(&case, &options, &[], &integrals, &[]).expect("judged");
+    // (L, A) = 0 and A² = 1 + 2 energy L².
+    assert_eq!(found.count.independent, ["energy", "L[1]", "L[2]", "L[3]", "A[1]"]);
+    assert_eq!((found.kept, found.count.needed), (vec![0, 1], 4));
+}
