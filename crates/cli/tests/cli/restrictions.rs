@@ -130,6 +130,17 @@ fn densities_with_poles_are_no_measures_and_jumping_integrals_do_not_count() {
 }
 
 #[test]
+fn densities_that_contain_the_time_are_no_measures_of_the_state() {
+    // exp(t/5) is kept by a forced oscillator with friction, whose volumes shrink.
+    let rates = [("x", "y"), ("y", "x − x^3 − y/5 + 3/10*cos(t)")];
+    let forced = field(TWO, &rates, "[[claim]]\ndensity = 'exp(t/5)'\n");
+    assert_eq!(forced.hierarchy.measure, MeasureStatus::WithTime);
+    assert_eq!(forced.hierarchy.class, HierarchyClass::NotKnown);
+    let rates = [("x", "y"), ("y", "x − x^3 + 3/10*cos(t)")];
+    assert_eq!(field(TWO, &rates, "").hierarchy.measure, MeasureStatus::ClosedForm);
+}
+
+#[test]
 fn remarks_on_claims_are_in_the_report() {
     let claims = "[[claim]]\nintegral = '(x² + y²)/a'\n[[claim]]\nsymmetry = { x = '0', y = '0' }\n\
                   [[claim]]\nform = { 'x,y' = '0' }\n";

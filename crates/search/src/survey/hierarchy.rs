@@ -19,6 +19,8 @@ pub enum MeasureStatus {
     ExcludedForConfiguration,
     /// Found with zeros or poles; no positive density is known.
     Singular,
+    /// Found as a function of the state and the time t; no density of the state is known.
+    WithTime,
     /// Unknown.
     NotKnown,
 }
@@ -126,6 +128,7 @@ impl HierarchyPlace {
             (
                 MeasureStatus::ExcludedForConfiguration
                 | MeasureStatus::Singular
+                | MeasureStatus::WithTime
                 | MeasureStatus::NotKnown,
                 _,
             ) => HierarchyClass::NotKnown,
@@ -171,6 +174,10 @@ fn grounds_of(measure: MeasureStatus) -> &'static str {
         MeasureStatus::Singular => {
             "a measure: not known; an invariant density was found, with zeros or poles, and is a measure \
              apart from them"
+        }
+        MeasureStatus::WithTime => {
+            "a measure: not known; the density that was found contains t, so that volumes in the space of \
+             states may shrink with time, and attractors are possible"
         }
         MeasureStatus::NotKnown => "a measure: not known",
     }

@@ -206,7 +206,7 @@ fn of_all_values(
     // The densities of the case and of the search are reported if no family has one.
     let from_family = sorted.densities.iter().any(|one| one.is_measure() && one.is_of_family());
     sorted.densities.retain(|one| !from_family || one.is_of_family());
-    let measure = measure(&sorted);
+    let measure = measure(case, &sorted);
     let hamiltonian = match sorted.densities.iter().find(|one| one.is_measure()) {
         Some(density) => hamiltonian::form(case, options, &geometry.bindings, density)?,
         None => Vec::new(),
@@ -226,7 +226,7 @@ fn of_all_values(
         MeasureStatus::Excluded
         | MeasureStatus::ExcludedAtRotation
         | MeasureStatus::ExcludedForConfiguration => sphere::criterion(case, options)?,
-        MeasureStatus::Singular | MeasureStatus::NotKnown => None,
+        MeasureStatus::Singular | MeasureStatus::WithTime | MeasureStatus::NotKnown => None,
     };
     let model = &case.model;
     let is_autonomous = model.state.iter().all(|variable| variable.name != TIME);
@@ -373,12 +373,13 @@ impl Sorted {
 }
 
 /// Determines the state of knowledge about a density of constant sign.
-fn measure(sorted: &Sorted) -> MeasureStatus {
+fn measure(case: &Case, sorted: &Sorted) -> MeasureStatus {
     let verdict = |kind: &str| {
         let claim = sorted.criterion.iter().find(|one| one.is(kind));
         claim.map_or(Verdict::Undecided, |one| one.claim.verdict)
     };
-    let mut measures = sorted.densities.iter().filter(|one| one.is_measure());
+    let is_of_state = |one: &&TestedClaim| !one.uses_time(case);
+    let mut measures = sorted.densities.iter().filter(|one| one.is_measure()).filter(is_of_state);
     if measures.any(|one| !one.is_quadrature()) {
         return MeasureStatus::ClosedForm;
     }
@@ -387,7 +388,10 @@ fn measure(sorted: &Sorted) -> MeasureStatus {
         (_, Verdict::Refuted) => MeasureStatus::Excluded,
         _ if verdict("smooth-density") == Verdict::Refuted => MeasureStatus::ExcludedAtRotation,
         (Verdict::Refuted, _) => MeasureStatus::ExcludedForConfiguration,
-        _ if sorted.densities.iter().any(TestedClaim::is_measure) => MeasureStatus::ByQuadrature,
+        _ if sorted.densities.iter().filter(is_of_state).any(TestedClaim::is_measure) => {
+            MeasureStatus::ByQuadrature
+        }
+        _ if sorted.densities.iter().any(TestedClaim::is_measure) => MeasureStatus::WithTime,
         _ if !sorted.densities.is_empty() => MeasureStatus::Singular,
         _ => MeasureStatus::NotKnown,
     }

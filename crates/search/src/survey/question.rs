@@ -12,7 +12,7 @@ use super::family::SystemFamily;
 use super::shown::{Shown, Typesetter};
 use liouville::case::Case;
 use liouville::claim::{Claim, ClaimEntry};
-use liouville::mechanics::Meaning;
+use liouville::mechanics::{Meaning, TIME};
 use liouville::verdict::{
     ClaimReport, DensitySign, Flaw, Independence, JudgeError, Options, Verdict, judge,
 };
@@ -139,6 +139,17 @@ impl TestedClaim {
     /// Whether the finding comes from a family, rather than from the case or the search.
     pub fn is_of_family(&self) -> bool {
         self.family != OWN && self.family != SEARCH
+    }
+
+    /// Whether its formula contains the time t as a variable of the state.
+    pub fn uses_time(&self, case: &Case) -> bool {
+        let is_driven = case.model.state.iter().any(|variable| variable.name == TIME);
+        let Some(named) = defined(case, &self.definitions).filter(|_| is_driven) else {
+            return false;
+        };
+        let Ok(formula) = named.formula(self.formula()) else { return false };
+        let used = named.model.vocabulary.uses(&formula, &named.model.abbreviations);
+        used.iter().any(|entry| entry.name == TIME)
     }
 
     /// Whether the claim is known to hold.
