@@ -7,7 +7,7 @@
 
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::pace::Lane;
-use crate::taylor::stepper::Stepper;
+use crate::taylor::stepper::{Accuracy, Stepper};
 use liouville::graph::{Kernel, with_widest_vectors};
 
 /// Multiple of the first term left out, by which the polynomial and the field may differ over a step.
@@ -30,6 +30,8 @@ pub(crate) struct Sampled<T> {
     pub(crate) increments: Vec<T>,
     slopes: Vec<T>,
     states: Vec<T>,
+    /// Difference from the field over a step that is allowed, relative to the state.
+    tolerance: f64,
     /// Largest difference from the field.
     gap: T,
     /// 0 where the field is finite, or else NaN.
@@ -37,10 +39,13 @@ pub(crate) struct Sampled<T> {
 }
 
 impl<T: SeriesNumber> Sampled<T> {
-    pub(crate) fn new(dimension: usize) -> Self {
+    pub(crate) fn new(dimension: usize, accuracy: Accuracy) -> Self {
         let zeros = || vec![T::ZERO; dimension];
         let (increments, slopes, states) = (zeros(), zeros(), zeros());
-        Self { times: T::ZERO, increments, slopes, states, gap: T::ZERO, soundness: T::ZERO }
+        let count = (accuracy.order + 1) as f64;
+        let tolerance = MARGIN * count * libm::exp(-accuracy.kappa * count);
+        let (times, gap, soundness) = (T::ZERO, T::ZERO, T::ZERO);
+        Self { times, increments, slopes, states, tolerance, gap, soundness }
     }
 
     /// Whether the samples were taken at these times.
@@ -105,9 +110,7 @@ impl<T: SeriesNumber> Stepper<T> {
         let at = |value: T| value.lane(index).leading();
         let length = self.lanes[index].step.leading().abs();
         let [still, moving, ..] = self.sizes.norms.map(at);
-        let count = (self.series.order() + 1) as f64;
-        let tolerance = MARGIN * count * libm::exp(-self.kappa * count);
-        let allowed = tolerance * still.max(moving * length);
+        let allowed = self.sampled.tolerance * still.max(moving * length);
         if at(self.sampled.soundness) != 0.0 || !length.is_finite() {
             return false;
         }

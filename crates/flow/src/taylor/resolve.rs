@@ -2,15 +2,16 @@
 //!
 //! A pulse e^(−t²) is far below the rounding of the state before it comes. Its terms show it all the
 //! same: they grow along the order. A step is so short that the last terms of each function, and of
-//! each component of the state, are below a geometric sequence from one of the terms before.
+//! each component of the state, are small beside its largest.
 
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::stepper::Stepper;
 use liouville::graph::{Kernel, with_widest_vectors};
 
-/// Part of the radius of convergence which the terms of a function suggest that a step may reach.
+/// Part of the way to a pole that a step may take: the terms of order n have to be below this to the n-th
+/// power, relative to the largest.
 const REACH: f64 = 0.5;
-/// Number of orders from the term that the last ones are measured by, up to these.
+/// Number of orders from the terms by which the last ones are measured, up to these.
 const APART: usize = 4;
 /// Size of a function below which its terms may underflow.
 const TINY: f64 = 1e-140;
@@ -98,23 +99,23 @@ impl<T: SeriesNumber> Powers<T> {
             let [first, last] = [first, last].map(|x| x.lane(lane).leading());
             // Where terms underflow they tell nothing.
             if last > first && last > TINY {
-                *limit = limit.min(REACH * radius(terms, lane));
+                *limit = limit.min(resolved(terms, lane));
             }
         }
     }
 }
 
-/// Radius of convergence that the last two terms suggest, by the term before that makes it largest.
-fn radius<T: SeriesNumber>(terms: &[T], lane: usize) -> f64 {
+/// Longest step over which the last two terms are small beside the largest of those before.
+fn resolved<T: SeriesNumber>(terms: &[T], lane: usize) -> f64 {
     let size = |n: usize| libm::log(terms[n].lane(lane).leading().abs());
     let count = terms.len();
     let radii = [count - 2, count - 1].map(|n| {
-        let last = size(n);
+        let last = size(n) - n as f64 * libm::log(REACH);
         let before = (0..count - APART).map(|k| (size(k) - last) / (n - k) as f64);
         before.fold(f64::NEG_INFINITY, f64::max)
     });
     match libm::exp(radii[0].min(radii[1])) {
-        radius if radius > 0.0 => radius,
+        step if step > 0.0 => step,
         // All terms before are 0, or one is not finite.
         _ => f64::INFINITY,
     }

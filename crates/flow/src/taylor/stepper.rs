@@ -83,7 +83,7 @@ impl<T: SeriesNumber> Stepper<T> {
             state,
             lanes: vec![idle; T::LANES],
             sizes: Sizes { norms: [T::ZERO; 4], soundness: T::ZERO },
-            sampled: Sampled::new(program.dimension()),
+            sampled: Sampled::new(program.dimension(), accuracy),
             limits: Vec::new(),
             presence: program.presence.clone(),
             halt: Halt::current(),
