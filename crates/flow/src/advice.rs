@@ -19,9 +19,9 @@ impl FlowError {
                 "choose another start, or a shorter time; a formula that goes on there is written \
                  without the operation, as x for x²/x"
             }
-            FlowError::Singular { .. } | FlowError::Shrinking { .. } => {
-                "choose another start, or a shorter time"
-            }
+            FlowError::Singular { .. }
+            | FlowError::TooShort { .. }
+            | FlowError::Shrinking { .. } => "choose another start, or a shorter time",
             FlowError::Endless { .. } => "give a shorter time",
             FlowError::Overflow(_) => {
                 "choose another start or a shorter time, or measure in units in which numbers are \

@@ -30,6 +30,16 @@ pub enum FlowError {
         #[serde(with = "crate::record")]
         state: Vec<f64>,
     },
+    /// The steps become too small, with no sign of a singularity.
+    #[error("{}", too_short(*time, state))]
+    TooShort {
+        /// Time of the last state.
+        #[serde(with = "crate::record")]
+        time: f64,
+        /// Last state.
+        #[serde(with = "crate::record")]
+        state: Vec<f64>,
+    },
     /// A formula of the system has no value where the motion starts, or where it comes to.
     #[error("{}", without_value(formula, *time, place))]
     NoValue {
@@ -325,6 +335,15 @@ fn singular(time: f64, state: &[f64]) -> String {
             format!("the motion runs into a singularity at t = {time}, near the state [{state}]")
         }
     }
+}
+
+fn too_short(time: f64, state: &[f64]) -> String {
+    let state: Vec<String> = state.iter().map(|x| format!("{x:.6}")).collect();
+    format!(
+        "the steps became too short at t = {time}, near the state [{}]: the field varies there over less \
+         than the rounding of the time",
+        state.join(", ")
+    )
 }
 
 fn never_crossed(time: f64, crossings: usize, others: usize) -> String {

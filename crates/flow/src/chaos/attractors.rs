@@ -11,6 +11,9 @@ pub const SAMPLES: usize = 160;
 const NEAR: f64 = 4.0;
 /// Distance that counts as none, as a share of the widths.
 const NONE: f64 = 1e-6;
+/// Ratio of the distances from the last sample in the later half to those in the earlier half, up to which
+/// a motion closes in on it.
+const CLOSER: f64 = 0.75;
 /// Largest number of sets.
 pub const MOST_SETS: usize = 32;
 
@@ -47,6 +50,17 @@ impl Tail {
         self.rows.iter().all(|row| squared(row, first) <= NONE * NONE)
     }
 
+    /// Whether the later half of the samples keeps nearer to the last one than the earlier half: a motion
+    /// on a cycle does not.
+    pub fn closes_in(&self) -> bool {
+        let Some(last) = self.rows.last() else { return false };
+        let (early, late) = self.rows.split_at(self.rows.len() / 2);
+        let farthest = |rows: &[Vec<f64>]| {
+            rows.iter().map(|row| squared(row, last)).fold(0.0, f64::max).sqrt()
+        };
+        farthest(late) <= CLOSER * farthest(early)
+    }
+
     /// Whether the samples lie in the same set as those of another motion.
     pub fn is_with(&self, other: &Self) -> bool {
         let reach = NEAR * self.spread.max(other.spread);
@@ -74,10 +88,11 @@ fn distance(from: &[Vec<f64>], to: &[Vec<f64>], are_same: bool) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::chaos::late::chance;
 
-    /// Samples at the times of basins: k and a share of the golden section.
+    /// Samples at the times of basins: k and a chance.
     fn tail(at: impl Fn(f64) -> [f64; 2]) -> Tail {
-        let time = |k: usize| k as f64 + (k as f64 * 0.618_033_988_749_894_9).fract();
+        let time = |k: usize| k as f64 + chance(k);
         let rows: Vec<Vec<f64>> = (0..SAMPLES).map(|k| at(time(k)).to_vec()).collect();
         Tail::new(&rows, &[1.0, 1.0])
     }
@@ -91,7 +106,9 @@ mod tests {
 
     #[test]
     fn motions_on_one_cycle_are_together_at_any_phase_and_period() {
-        for period in [1.0, 2.0, 0.5, 3.7, 40.0, 79.0] {
+        let golden = 0.618_033_988_749_894_9;
+        let regular = [1.0, 2.0, 0.5, 3.7, 40.0, 79.0, 1.0 + golden, 1.0 / golden, golden * golden];
+        for period in regular.into_iter().chain((1..200).map(|k| f64::from(k) / 37.0)) {
             let (own, other) = (circle(1.0, period, 0.0), circle(1.0, period, 0.37));
             assert!(own.is_settled() && other.is_settled() && !own.is_point(), "{period}");
             assert!(own.is_with(&other), "{period}");
@@ -107,6 +124,7 @@ mod tests {
         assert!(at(0.0).is_with(&tail(|_| [0.0, 0.0])), "also where one has come less near");
         assert!(!tail(|_| [0.0; 2]).is_with(&tail(|_| [1e-3, 0.0])));
         assert!(tail(|_| [0.3, 0.0]).is_point());
+        assert!(at(0.0).closes_in() && !circle(1.0, 3.7, 0.0).closes_in());
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Basins of attraction: the set to which each motion of a grid of starts keeps at late times.
 
 use crate::chaos::attractors::{MOST_SETS, Tail};
-use crate::chaos::late::{GOLDEN, Late, LateMotions, LateSamples};
+use crate::chaos::late::{Late, LateMotions, LateSamples};
 use crate::chaos::shadow::{ShadowStart, Shadowed};
 use crate::error::FlowError;
 use crate::motion::columns::Columns;
@@ -18,6 +18,8 @@ use liouville::number::rational::Rational;
 const WAVE: usize = 4096;
 /// Smallest width, as a share of the values and of the largest one.
 const NARROW: f64 = 1e-3;
+/// Fraction of the golden section, by which the first motions are spread over the grid.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// Logarithm of the contraction over the time from which on a motion tends to a point.
 const CONTRACTION: f64 = 3.0;
 
@@ -294,7 +296,8 @@ impl Found {
                 count: counts[*index],
                 ranges: ranges(&first.rows),
                 last: first.rows.last().cloned().unwrap_or_default(),
-                is_point: first.tail.is_point() || exponents.as_ref().is_ok_and(contracts),
+                is_point: first.tail.is_point()
+                    || first.tail.closes_in() && exponents.as_ref().is_ok_and(contracts),
                 state: first.end.iter().map(|x| x.hi).collect(),
                 exponents,
             }

@@ -16,8 +16,9 @@ use liouville::number::rational::Rational;
 
 /// Share of the time after which samples are taken.
 const LATE: f64 = 0.5;
-/// Fraction of the golden section: the times of samples are in step with no period.
-pub const GOLDEN: f64 = 0.618_033_988_749_894_9;
+/// Increment and factors of a counter's hash (SplitMix64; Steele, Lea, Flood 2014).
+const COUNTER: u64 = 0x9e37_79b9_7f4a_7c15;
+const FACTORS: [u64; 2] = [0xbf58_476d_1ce4_e5b9, 0x94d0_49bb_1331_11eb];
 
 /// Samples of a motion.
 pub struct LateSamples {
@@ -177,10 +178,19 @@ fn take(
     }
 }
 
-/// Time of a sample.
+/// Time of a sample: within the part of its index, at a place as by chance. Places in any regular order
+/// are in step with some period, and all samples of a cycle of that period come to few places of it.
 fn due(time: f64, index: usize) -> f64 {
-    let part = (index as f64 + (index as f64 * GOLDEN).fract()) / SAMPLES as f64;
+    let part = (index as f64 + chance(index)) / SAMPLES as f64;
     time * (LATE + (1.0 - LATE) * part)
+}
+
+/// Number from 0 to 1 for an index.
+pub fn chance(index: usize) -> f64 {
+    let mut bits = (index as u64 + 1).wrapping_mul(COUNTER);
+    bits = (bits ^ (bits >> 30)).wrapping_mul(FACTORS[0]);
+    bits = (bits ^ (bits >> 27)).wrapping_mul(FACTORS[1]);
+    ((bits ^ (bits >> 31)) >> 11) as f64 / (1u64 << 53) as f64
 }
 
 #[cfg(test)]

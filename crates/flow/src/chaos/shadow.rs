@@ -47,8 +47,9 @@ pub(crate) struct Shadowed {
     /// div v as a function of the state and the loose parameters.
     divergence: Tape,
     level: LevelFunctions,
-    /// Number of components of the state, before the loose parameters.
+    /// Number of components of the state, before the loose parameters, and dimension of the level.
     dimension: usize,
+    rank: usize,
 }
 
 impl Shadowed {
@@ -66,7 +67,9 @@ impl Shadowed {
         })?;
         let level = LevelFunctions::new(model, parameters, loose)?;
         let divergence = Tape::new(&graph, &[divergence]);
-        Ok(Self { program, divergence, level, dimension: model.dimension() })
+        let dimension = model.dimension();
+        let rank = dimension.saturating_sub(model.level.len());
+        Ok(Self { program, divergence, level, dimension, rank })
     }
 
     /// Level set on which motions start.
@@ -185,7 +188,7 @@ impl<'w> Worker<'w> {
                 return;
             }
         };
-        let record = Record::short(self.time);
+        let record = Record::short(self.time).on_level(self.equations.rank);
         let end = DoubleDouble::from_f64(record.end().unwrap_or(self.time));
         let distance = DISTANCE * size(state);
         let along = self.equations.level.along(state, loose, 0);

@@ -246,6 +246,8 @@ pub(crate) struct Record {
     extent: Extent,
     /// Smallest exponent that counts as positive, in standard errors.
     errors: f64,
+    /// Whether the motion is on a surface, where there is no chaos.
+    is_on_surface: bool,
 }
 
 impl Record {
@@ -260,6 +262,7 @@ impl Record {
             alignment: None,
             extent: Extent::default(),
             errors: ERRORS,
+            is_on_surface: false,
         }
     }
 
@@ -267,6 +270,12 @@ impl Record {
     /// growth faster than a power of the time counts as chaos.
     pub fn short(time: f64) -> Self {
         Self { errors: 0.0, ..Self::new(time) }
+    }
+
+    /// The record of a motion on a level of this dimension: flows on surfaces have no entropy (Young
+    /// 1977).
+    pub fn on_level(self, dimension: usize) -> Self {
+        Self { is_on_surface: dimension <= 2, ..self }
     }
 
     fn block(&self) -> f64 {
@@ -332,6 +341,9 @@ impl Record {
         }
         if let Some(without_chaos) = self.extent.character() {
             return without_chaos;
+        }
+        if self.is_on_surface {
+            return Character::Regular;
         }
         let keeps_sign = divergence.mean * divergence.later > 0.0
             && divergence.later.abs() > ERRORS * divergence.error;

@@ -27,6 +27,8 @@ const VECTORS: usize = 2;
 struct Bundle {
     program: TaylorProgram,
     dimension: usize,
+    /// Dimension of the level.
+    rank: usize,
 }
 
 impl Bundle {
@@ -34,7 +36,7 @@ impl Bundle {
     fn new(model: &Model, parameters: &[Rational]) -> Result<Self, FlowError> {
         let dimension = model.dimension();
         let program = variational_program(model, parameters, VECTORS)?;
-        Ok(Self { program, dimension })
+        Ok(Self { program, dimension, rank: dimension.saturating_sub(model.level.len()) })
     }
 
     /// All rows at the start of a motion, with the vectors tangent to the level set.
@@ -145,7 +147,7 @@ impl<'t, T: SeriesNumber<One = f64>> Worker<'t, T> {
     fn fill(&mut self, lane: usize, index: usize, progress: &(dyn Fn(f64) + Sync)) {
         match &self.task.begins[index] {
             Ok(begin) => {
-                let record = Record::new(self.task.time);
+                let record = Record::new(self.task.time).on_level(self.task.bundle.rank);
                 let end = record.end().unwrap_or(self.task.time);
                 self.stepper.start(lane, begin, DoubleDouble::from_f64(end));
                 self.running[lane] = Some((index, record, ToldShare::default()));

@@ -10,6 +10,9 @@ use liouville::number::rational::Rational;
 /// Number of values of the parameter, each a tenth of the previous one.
 const VALUES: i64 = 5;
 
+/// Roundings of the constant below which quotients do not differ.
+const ROUNDINGS: f64 = 16.0;
+
 /// Tests whether |F(ε) - F(0)|/ε^order tends to a constant.
 ///
 /// With an error C ε^order (1 + O(ε)) the quotients converge; their last difference is the error of
@@ -53,11 +56,13 @@ pub fn judge(
         Some(stated) => judgement.compare("constant", found, stated),
         None => judgement.show("constant", found),
     }
-    if differences[last - 1] >= differences[0] {
+    // Differences that are rounding have no trend.
+    let rounding = ROUNDINGS * f64::EPSILON * found.value;
+    if differences[last - 1] >= differences[0].max(rounding) {
         judgement.refute("the quotients do not tend to a constant".to_string());
     } else if found.value <= found.error {
         judgement.refute("the quotients tend to 0: the order is higher".to_string());
-    } else if differences.windows(2).any(|pair| pair[1] >= pair[0]) {
+    } else if differences.windows(2).any(|pair| pair[1] >= pair[0].max(rounding)) {
         judgement.leave_open("the quotients do not settle steadily".to_string());
     }
     Ok(judgement)

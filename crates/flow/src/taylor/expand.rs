@@ -10,7 +10,6 @@ use crate::taylor::code::{
 use crate::taylor::number::{BLOCK, SeriesNumber};
 use crate::taylor::series::Series;
 use liouville::graph::Kernel;
-use liouville::number::UnaryFunction;
 
 /// Work of one expansion.
 pub(crate) struct Expansion<'s, T: SeriesNumber>(pub(crate) &'s mut Series<T>);
@@ -38,7 +37,7 @@ impl<T: SeriesNumber> Series<T> {
     /// Computes order 0 of all rows and order 1 of the state, with the slopes.
     #[inline(always)]
     pub(crate) fn begin(&mut self) {
-        self.values();
+        self.code.values(&mut self.memory);
         self.code.slopes(&self.memory);
         self.next_order(0);
     }
@@ -108,40 +107,6 @@ impl<T: SeriesNumber> Series<T> {
             let value = self.memory[component.rate as usize + n] * by_next;
             let mut rows = Rows { memory: &mut self.memory, n: n + 1, copied };
             rows.put(component.place, first(&mut copies, component.copies), value);
-        }
-    }
-
-    /// Computes order 0 of every operation: the functions themselves.
-    #[inline(always)]
-    fn values(&mut self) {
-        let copied = T::copied(self.orders, 0);
-        let mut rows = Rows { memory: &mut self.memory, n: 0, copied };
-        for (operation, finish) in self.code.operations.iter().zip(&self.code.finishes) {
-            let at = |x: &Place| rows.at(*x);
-            let value = match &operation.rule {
-                PlacedRule::Sum => {
-                    let mut sum = operation.constant;
-                    for term in part(&self.code.terms, operation.terms) {
-                        sum = sum.fused(term.fixed, at(&term.x));
-                    }
-                    for factor in part(&self.code.factors, operation.factors) {
-                        let [x, y] = [factor.x, factor.y].map(|k| self.code.terms[k as usize].x);
-                        sum = sum.fused(factor.weight * at(&x), at(&y));
-                    }
-                    sum.settled()
-                }
-                PlacedRule::Theta => T::ZERO,
-                PlacedRule::Recip(x) => at(x).recip(),
-                PlacedRule::Sqrt(x) => at(x).apply(UnaryFunction::Sqrt),
-                PlacedRule::Exp(x) => at(x).apply(UnaryFunction::Exp),
-                PlacedRule::Ln(x) => at(x).apply(UnaryFunction::Ln),
-                PlacedRule::Sin { x, .. } => at(x).apply(UnaryFunction::Sin),
-                PlacedRule::Cos { x, .. } => at(x).apply(UnaryFunction::Cos),
-                PlacedRule::Atan { x, .. } => at(x).apply(UnaryFunction::Atan),
-                PlacedRule::Power { x, exponent, .. } => at(x).power(exponent),
-            };
-            // Order 0 does not enter the inner sums: behind order 1 there are zeros.
-            rows.put(finish.place, &[], value);
         }
     }
 }

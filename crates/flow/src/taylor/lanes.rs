@@ -121,6 +121,10 @@ impl SeriesNumber for Lanes<N> {
         series.by_machine()
     }
     #[inline(always)]
+    fn values_by_machine(series: &mut Series<Self>) -> bool {
+        series.values_by_machine()
+    }
+    #[inline(always)]
     fn nothing() -> [Self; BLOCK] {
         [Self::ZERO; BLOCK]
     }

@@ -3,6 +3,8 @@
 pub(crate) mod batch;
 pub(crate) mod code;
 pub(crate) mod compile;
+pub(crate) mod defect;
+pub(crate) mod ending;
 pub(crate) mod event;
 pub(crate) mod expand;
 pub(crate) mod form;
@@ -11,7 +13,9 @@ pub(crate) mod machine;
 pub(crate) mod merge;
 pub(crate) mod number;
 pub(crate) mod pace;
+pub(crate) mod plain;
 pub(crate) mod program;
+pub(crate) mod resolve;
 pub(crate) mod rounding;
 pub(crate) mod series;
 pub(crate) mod shorten;

@@ -78,6 +78,13 @@ pub trait SeriesNumber:
         false
     }
 
+    /// Computes the field at the probed state by machine code. Returns `false` where there is none for
+    /// such numbers.
+    #[inline(always)]
+    fn values_by_machine(_: &mut Series<Self>) -> bool {
+        false
+    }
+
     /// An empty sum of products.
     fn nothing() -> Self::Partial;
     /// Offset of order n of a copy from its place.
@@ -172,6 +179,10 @@ impl SeriesNumber for f64 {
     #[inline(always)]
     fn by_machine(series: &mut Series<f64>) -> bool {
         series.by_machine()
+    }
+    #[inline(always)]
+    fn values_by_machine(series: &mut Series<f64>) -> bool {
+        series.values_by_machine()
     }
     #[inline(always)]
     fn nothing() -> Lanes<WIDTH> {

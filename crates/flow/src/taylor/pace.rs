@@ -17,6 +17,8 @@ const EARLY: [u64; 2] = [1 << 11, 1 << 12];
 const HOPELESS: f64 = 1e6;
 /// Ratio of the steps at two looks, above which they go on shrinking at the same rate.
 const TREND: f64 = 1.5;
+/// Ratio of the mean steps at two looks, above which they no longer shrink.
+const GOES_ON: f64 = 0.95;
 /// Ratio of the longest steps at two looks, below which steps do not grow.
 const GROWTH: f64 = 1.1;
 
@@ -26,14 +28,21 @@ pub(crate) struct Lane<One> {
     pub(crate) time: DoubleDouble,
     /// Final time; its sign relative to `time` is the direction.
     pub(crate) until: DoubleDouble,
-    /// Step from the present expansion.
+    /// Step from the present expansion, and size of the one before.
     pub(crate) step: One,
+    pub(crate) former: f64,
     pub(crate) steps: u64,
     pub(crate) pace: Pace,
     /// Whether the final time is a stand-in for none.
     pub(crate) is_open: bool,
     /// Whether the present step is cut for a branch point or for a further function.
     pub(crate) is_cut: bool,
+    /// Whether halves of a step no longer change the time, and do not follow the field.
+    pub(crate) is_stuck: bool,
+    /// Number of halves of the present step for its defect, and whether a number that underflows is the
+    /// reason.
+    pub(crate) halves: u32,
+    pub(crate) is_faint: bool,
     /// Operation without a value from a time after the present state on.
     pub(crate) edge: Option<(Edge, One)>,
     /// Operation without a value at the present state, or next to it.
@@ -47,13 +56,23 @@ impl<One: SeriesNumber> Lane<One> {
             time: DoubleDouble::default(),
             until,
             step: One::ZERO,
+            former: 0.0,
             steps: 0,
             pace: Pace::default(),
             is_open: false,
             is_cut: false,
+            is_stuck: false,
+            halves: 0,
+            is_faint: false,
             edge: None,
             lost: None,
         }
+    }
+
+    /// Whether the present step changes the time.
+    pub(crate) fn moves(&self) -> bool {
+        let time = self.time.hi;
+        time + self.step.leading() != time || time == 0.0
     }
 
     /// Begins a step: what has no value at once is lost already.
@@ -70,6 +89,7 @@ impl<One: SeriesNumber> Lane<One> {
         let step = self.step.leading();
         if step != 0.0 {
             self.time = self.time + self.step.pair();
+            self.former = step.abs();
             self.steps += 1;
             let (now, left) = (self.time.hi, (self.until - self.time).hi);
             self.pace.keep(step, self.steps, now, left);
@@ -90,6 +110,8 @@ pub(crate) struct Pace {
     counted: u64,
     /// Mean step and time at the last looks after 2^k steps, the later one first.
     marks: [Option<(f64, f64)>; 2],
+    /// Mean step at the last look that was not early.
+    mean: Option<f64>,
     /// Why the end is out of reach, if it is.
     pub(crate) lost: Option<Lost>,
 }
@@ -117,7 +139,13 @@ impl Pace {
         if steps.is_power_of_two() {
             self.marks = [Some((mean, now)), self.marks[0]];
         }
-        let rest = left.abs() / mean * self.growth(mean, now, left);
+        // What has shrunk once need not go on.
+        let goes_on = !is_early && self.mean.is_some_and(|former| mean < GOES_ON * former);
+        let growth = if goes_on { self.growth(mean, now, left) } else { 1.0 };
+        let rest = left.abs() / mean * growth;
+        if !is_early {
+            self.mean = Some(mean);
+        }
         let shrunk = self.longest / mean;
         let is_shrunk = shrunk > SHRUNK && rest > MOST_STEPS
             || shrunk > SHRUNK_EARLY && rest > MOST_STEPS * HOPELESS;
@@ -164,5 +192,18 @@ mod tests {
         assert!(is_lost && steps < 1 << 22, "{steps} steps of e^30");
         let (is_lost, steps) = followed(1.7);
         assert!(!is_lost && steps > 20_000_000, "{steps} steps of e^17");
+    }
+
+    #[test]
+    fn steps_that_have_shrunk_and_stay_so_go_on() {
+        let (mut pace, mut now, mut steps) = (Pace::default(), 0.0, 0);
+        while steps < 5_000_000 {
+            let step = if steps < 1000 { 0.1 } else { 0.1 * f64::exp(-3e-5 * steps as f64) };
+            let step = step.max(1e-7);
+            now += step;
+            steps += 1;
+            pace.keep(step, steps, now, 200.0);
+            assert!(pace.lost.is_none(), "given up after {steps} steps");
+        }
     }
 }

@@ -23,6 +23,12 @@ pub struct Series<T: SeriesNumber> {
     pub(crate) partial: Vec<T::Partial>,
     pub(crate) inner: Vec<T>,
     pub(crate) memory: Vec<T>,
+    /// Memory for plain values at other states.
+    pub(crate) probed: Vec<T>,
+    /// Places of the rows that are no sums of products.
+    functions: Vec<Place>,
+    /// Places of the arguments of exponential functions.
+    exponents: Vec<Place>,
     /// Places of the rows that are roots or powers, which are not negative.
     roots: Vec<Place>,
     /// Places of the rows that are divided by.
@@ -41,8 +47,17 @@ impl<T: SeriesNumber> Series<T> {
         let aligned = memory.as_ptr().align_offset(LINE).min(line);
         let (code, _) = BoundProgram::new(program, order, aligned);
         let sums = (code.counts.len() + 1).next_multiple_of(BLOCK);
-        let placed = code.operations.iter().zip(&code.finishes);
-        let roots = placed.filter(|(operation, _)| {
+        let placed = || code.operations.iter().zip(&code.finishes);
+        let functions = placed().filter(|(operation, _)| {
+            !matches!(operation.rule, PlacedRule::Sum | PlacedRule::Theta)
+        });
+        let functions = functions.map(|(_, finish)| finish.place).collect();
+        let exponents = code.operations.iter().filter_map(|operation| match operation.rule {
+            PlacedRule::Exp(x) => Some(x),
+            _ => None,
+        });
+        let exponents = exponents.collect();
+        let roots = placed().filter(|(operation, _)| {
             matches!(operation.rule, PlacedRule::Sqrt(_) | PlacedRule::Power { .. })
         });
         let roots = roots.map(|(_, finish)| finish.place).collect();
@@ -66,7 +81,10 @@ impl<T: SeriesNumber> Series<T> {
                 .collect(),
             partial: vec![T::nothing(); sums],
             inner: vec![T::ZERO; sums],
+            probed: memory.clone(),
             memory,
+            functions,
+            exponents,
             roots,
             divisors,
             expansions: 0,
@@ -117,6 +135,13 @@ impl Series<f64> {
         self.machine = Some(machine);
         true
     }
+
+    /// Computes the values at the probed state by machine code. Returns `false` where there is none.
+    #[inline(always)]
+    pub(crate) fn values_by_machine(&mut self) -> bool {
+        let machine = self.machine.as_mut();
+        machine.is_some_and(|machine| machine.begin(&self.inverses, &mut self.probed))
+    }
 }
 
 impl Series<Lanes<MOTION_LANES>> {
@@ -138,6 +163,13 @@ impl Series<Lanes<MOTION_LANES>> {
         self.machine = Some(machine);
         true
     }
+
+    /// Computes the values at the probed state by machine code. Returns `false` where there is none.
+    #[inline(always)]
+    pub(crate) fn values_by_machine(&mut self) -> bool {
+        let machine = self.machine.as_mut();
+        machine.is_some_and(|machine| machine.begin(&self.inverses, &mut self.probed))
+    }
 }
 
 impl<T: SeriesNumber> Series<T> {
@@ -148,14 +180,50 @@ impl<T: SeriesNumber> Series<T> {
         &self.memory[place..=place + self.order]
     }
 
-    /// Coefficients of the roots and powers, orders 0 to `order` - 1.
-    pub fn roots(&self) -> impl Iterator<Item = &[T]> {
-        self.roots.iter().map(|place| &self.memory[*place as usize..][..self.order])
+    /// Coefficients of the rows that are no sums of products, orders 0 to `order` - 1.
+    pub fn functions(&self) -> impl Iterator<Item = &[T]> {
+        self.functions.iter().map(|place| self.row(*place))
     }
 
-    /// Coefficients of the rows that are divided by, orders 0 to `order` - 1.
-    pub fn divisors(&self) -> impl Iterator<Item = &[T]> {
-        self.divisors.iter().map(|place| &self.memory[*place as usize..][..self.order])
+    /// Coefficients of the arguments of exponential functions, orders 0 to `order` - 1.
+    pub fn exponents(&self) -> impl Iterator<Item = &[T]> {
+        self.exponents.iter().map(|place| self.row(*place))
+    }
+
+    #[inline(always)]
+    fn row(&self, place: Place) -> &[T] {
+        &self.memory[place as usize..][..self.order]
+    }
+
+    /// Coefficients of the roots and powers, orders 0 to `order` - 1.
+    pub fn roots(&self) -> impl Iterator<Item = &[T]> {
+        self.roots.iter().map(|place| self.row(*place))
+    }
+
+    /// Rows that are divided by: their places, and coefficients of orders 0 to `order` - 1.
+    pub fn divisors(&self) -> impl Iterator<Item = (Place, &[T])> {
+        self.divisors.iter().map(|place| (*place, self.row(*place)))
+    }
+
+    /// Coefficients of orders 0 and 1 of the arguments of operations that have no value, or no series,
+    /// at 0.
+    pub fn arguments(&self) -> impl Iterator<Item = [T; 2]> {
+        let arguments = self.code.operations.iter().filter_map(|operation| match operation.rule {
+            PlacedRule::Recip(x)
+            | PlacedRule::Sqrt(x)
+            | PlacedRule::Ln(x)
+            | PlacedRule::Power { x, .. } => Some(x as usize),
+            _ => None,
+        });
+        arguments.map(|place| [self.memory[place], self.memory[place + 1]])
+    }
+
+    /// Whether the square of a quotient underflows, by which its series is formed.
+    pub fn is_faint(&self, lane: usize) -> bool {
+        self.divisors.iter().any(|place| {
+            let value = self.memory[*place as usize].lane(lane).leading().recip();
+            (value * value).is_subnormal() || value * value == 0.0
+        })
     }
 
     /// Whether the first operation without a finite value at the state has arguments at which it has
@@ -184,6 +252,12 @@ impl<T: SeriesNumber> Series<T> {
                     | PlacedRule::Power { .. }
             )
         })
+    }
+
+    /// Whether the field contains functions that may be 0 up to rounding over a part of a step, and
+    /// not over the others.
+    pub fn has_pulses(&self) -> bool {
+        !self.exponents.is_empty()
     }
 
     /// Number of further functions.

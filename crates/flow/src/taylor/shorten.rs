@@ -46,8 +46,7 @@ impl<T: SeriesNumber> Stepper<T> {
             }
         }
         let count = self.series.order();
-        let limit = |n: usize| libm::exp((SLACK - self.kappa) * n as f64);
-        let limits = [count - 2, count - 1].map(limit);
+        let limits = limits(count, self.kappa);
         let mut ends = Ends::NONE;
         for _ in 0..MOST_CUTS {
             with_widest_vectors(EndValues { stepper: self, output, ends: &mut ends });
@@ -66,6 +65,28 @@ impl<T: SeriesNumber> Stepper<T> {
         }
         ends
     }
+}
+
+/// Sizes of the last two of some terms, relative to the largest, at which a further function is known.
+fn limits(count: usize, kappa: f64) -> [f64; 2] {
+    [count - 2, count - 1].map(|n| libm::exp((SLACK - kappa) * n as f64))
+}
+
+/// Part of a step on which a function is known by its terms.
+pub(crate) fn known_part<One: SeriesNumber<One = One>>(
+    terms: &[One],
+    step: One,
+    kappa: f64,
+) -> One {
+    let (mut step, limits) = (step, limits(terms.len(), kappa));
+    for _ in 0..MOST_CUTS {
+        let share = Ends::new(terms, step).known_share(0, terms.len(), limits);
+        if share >= 1.0 {
+            break;
+        }
+        step = step * One::float(share);
+    }
+    step
 }
 
 /// A part of a step at whose end a function that vanishes within it is not negative yet.

@@ -7,13 +7,13 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::error::FlowError;
 use crate::halt::Halt;
+use crate::taylor::defect::Sampled;
 use crate::taylor::number::SeriesNumber;
-use crate::taylor::pace::{Lane, Lost};
+use crate::taylor::pace::Lane;
 use crate::taylor::program::TaylorProgram;
 use crate::taylor::series::{Series, increment};
-use crate::taylor::watch::{Edge, Presence};
+use crate::taylor::watch::Presence;
 use liouville::graph::{Kernel, with_widest_vectors};
 use liouville::number::double_double::DoubleDouble;
 
@@ -46,11 +46,17 @@ pub struct Stepper<T: SeriesNumber> {
     /// State, and its rounding remainder.
     state: Vec<T>,
     rest: Vec<T>,
+    /// Largest sizes of the components, and of the divisors, so far.
+    pub(crate) peaks: Vec<T>,
+    pub(crate) heights: Vec<T>,
     pub(crate) lanes: Vec<Lane<T::One>>,
     pub(crate) sizes: Sizes<T>,
+    pub(crate) sampled: Sampled<T>,
+    /// Longest steps over which all functions are resolved.
+    pub(crate) limits: Vec<f64>,
     /// Values that the motions have to have, if they are known.
     pub(crate) presence: Option<Arc<Presence>>,
-    halt: Halt,
+    pub(crate) halt: Halt,
 }
 
 /// Sizes of the present expansions.
@@ -59,24 +65,34 @@ pub(crate) struct Sizes<T> {
     /// Maximum norms of the state's coefficients of orders 0 and 1, and of the last two orders.
     pub(crate) norms: [T; 4],
     /// 0 where all coefficients of the last order are finite, or else NaN.
-    soundness: T,
+    pub(crate) soundness: T,
 }
 
 impl<T: SeriesNumber> Stepper<T> {
     /// Prepares motions of a program's field; each lane needs a start.
     pub fn new(program: &TaylorProgram, accuracy: Accuracy) -> Self {
+        let series = Series::new(program, accuracy.order);
         let idle = Lane::new(DoubleDouble::default());
         let state = vec![T::ZERO; program.dimension()];
         Self {
-            series: Series::new(program, accuracy.order),
+            heights: vec![T::ZERO; series.divisors().count()],
+            series,
             kappa: accuracy.kappa,
             rest: state.clone(),
+            peaks: state.clone(),
             state,
             lanes: vec![idle; T::LANES],
             sizes: Sizes { norms: [T::ZERO; 4], soundness: T::ZERO },
+            sampled: Sampled::new(program.dimension(), accuracy),
+            limits: Vec::new(),
             presence: program.presence.clone(),
             halt: Halt::current(),
         }
+    }
+
+    /// Number of components of the state.
+    pub(crate) fn dimension(&self) -> usize {
+        self.state.len()
     }
 
     /// Starts a motion at time 0 that ends at time `until`, which may be negative.
@@ -84,6 +100,8 @@ impl<T: SeriesNumber> Stepper<T> {
         if T::LANES == 1 {
             self.series.clear();
         }
+        let peaks = self.peaks.iter_mut().chain(&mut self.heights);
+        peaks.for_each(|peak| set(peak, lane, T::One::ZERO));
         self.place(lane, state);
         self.lanes[lane] = Lane::new(until);
     }
@@ -126,7 +144,7 @@ impl<T: SeriesNumber> Stepper<T> {
         for index in 0..T::LANES {
             let size = self.step_size(index);
             let lane = &mut self.lanes[index];
-            (lane.is_cut, lane.edge) = (false, None);
+            (lane.is_cut, lane.edge, lane.halves) = (false, None, 0);
             let left = lane.until - lane.time;
             lane.step = if size < left.hi.abs() {
                 T::One::float(size.copysign(left.hi))
@@ -134,9 +152,11 @@ impl<T: SeriesNumber> Stepper<T> {
                 T::One::split(left).0
             };
         }
+        self.keep_functions();
         self.keep_branches();
         self.keep_quotients();
         self.keep_values();
+        self.keep_defect();
         self.lanes.iter_mut().for_each(Lane::begin);
     }
 
@@ -161,88 +181,6 @@ impl<T: SeriesNumber> Stepper<T> {
     /// Present step of a motion.
     pub fn step(&self, lane: usize) -> T::One {
         self.lanes[lane].step
-    }
-
-    /// Checks the present expansion of a motion; fails where the motion runs into a singularity,
-    /// where its end is out of reach, and once it is stopped.
-    pub fn check(&self, lane: usize) -> Result<(), FlowError> {
-        if self.halt.is_raised() {
-            return Err(FlowError::Stopped);
-        }
-        let motion = &self.lanes[lane];
-        let step = motion.step.leading();
-        let finite = self.is_regular(lane);
-        let left = (motion.until - motion.time).hi.abs();
-        // Less than the time's last place may be left of a very long run.
-        let at_end = left <= f64::EPSILON * motion.time.hi.abs();
-        let advances = at_end || motion.time.hi + step != motion.time.hi || motion.time.hi == 0.0;
-        let time = motion.time.hi;
-        let state = || self.own_state(lane).iter().map(|x| x.hi).collect();
-        match (motion.lost, &self.presence) {
-            (None, _) => {}
-            (Some(Edge::Watched(index)), Some(presence)) => {
-                return Err(self.without_value(lane, presence, presence.formula(index)));
-            }
-            (Some(_), _) => return Err(self.singular(lane)),
-        }
-        match finite && advances && step.is_finite() {
-            true => match motion.pace.lost.filter(|_| !at_end) {
-                None => Ok(()),
-                Some(Lost::Shrinking) => Err(FlowError::Shrinking { time, step, state: state() }),
-                Some(Lost::Endless) if motion.is_open => Ok(()),
-                Some(Lost::Endless) => {
-                    Err(FlowError::Endless { time, step, until: motion.until.hi })
-                }
-            },
-            false => Err(self.singular(lane)),
-        }
-    }
-
-    /// State of the system itself, without further components.
-    fn own_state(&self, lane: usize) -> Vec<DoubleDouble> {
-        let mut state = self.pairs(lane);
-        state.truncate(self.presence.as_ref().map_or(state.len(), |presence| presence.dimension()));
-        state
-    }
-
-    /// Error at a state where the field has no series: a start without a value is told by the formula
-    /// that has none.
-    fn singular(&self, lane: usize) -> FlowError {
-        let (time, state) = (self.lanes[lane].time.hi, self.pairs(lane));
-        let is_lost = self.lanes[lane].lost.is_some();
-        if (time == 0.0 || is_lost)
-            && let Some(presence) = &self.presence
-            && let Some(formula) = presence.missing(&state)
-        {
-            return self.without_value(lane, presence, formula);
-        }
-        let is_too_large = !state.iter().all(|x| x.is_finite());
-        // At the start of a field without poles no coefficient is that of a singularity nearby.
-        let is_first = time == 0.0 && self.series.is_entire();
-        if is_too_large || self.series.overflows(lane) || is_first {
-            return FlowError::Overflow(time);
-        }
-        let state = self.own_state(lane).iter().map(|x| x.hi).collect();
-        FlowError::Singular { time, state }
-    }
-
-    /// Error at a state where a formula has no value.
-    fn without_value(&self, lane: usize, presence: &Presence, formula: &str) -> FlowError {
-        FlowError::NoValue {
-            formula: formula.to_string(),
-            time: self.lanes[lane].time.hi,
-            place: presence.place(&self.pairs(lane)),
-        }
-    }
-
-    /// Whether the present expansion of a motion is finite.
-    fn is_regular(&self, lane: usize) -> bool {
-        self.sizes.soundness.lane(lane).leading() == 0.0
-    }
-
-    /// Whether the present step of a motion is cut where the motion itself may go on.
-    pub fn is_cut(&self, lane: usize) -> bool {
-        self.is_regular(lane) && self.lanes[lane].is_cut
     }
 
     /// Velocity of a motion at its present state.
@@ -315,6 +253,7 @@ impl<T: SeriesNumber> Kernel for ErrorMeasure<'_, T> {
         let mut sizes = Sizes { norms: [T::ZERO; 4], soundness: T::ZERO };
         for row in 0..stepper.state.len() {
             let coefficients = stepper.series.component(row);
+            stepper.peaks[row] = stepper.peaks[row].larger(coefficients[0]);
             for (norm, n) in sizes.norms.iter_mut().zip([0, 1, order - 1, order]) {
                 *norm = norm.larger(coefficients[n]);
             }
@@ -337,9 +276,14 @@ impl<T: SeriesNumber> Kernel for Advance<'_, T> {
     fn run(self) {
         let stepper = self.0;
         let steps = T::from_lanes(|lane| stepper.lanes[lane].step);
+        // The ends of most steps are known from the control of the defect.
+        let is_known = stepper.sampled.is_at(steps);
         for (row, (state, rest)) in stepper.state.iter_mut().zip(&mut stepper.rest).enumerate() {
-            let coefficients = stepper.series.component(row);
-            T::advance(state, rest, increment(coefficients, steps));
+            let increment = match is_known {
+                true => stepper.sampled.increments[row],
+                false => increment(stepper.series.component(row), steps),
+            };
+            T::advance(state, rest, increment);
         }
     }
 }

@@ -7,8 +7,9 @@
 
 use std::sync::Arc;
 
-use crate::taylor::event::{Event, Sides};
+use crate::taylor::event::{Event, Sides, extremum, turns, value};
 use crate::taylor::number::SeriesNumber;
+use crate::taylor::shorten::known_part;
 use crate::taylor::stepper::Stepper;
 use liouville::graph::{Evaluator, Expr, Graph, Step, Tape};
 use liouville::mechanics::{Model, Phase};
@@ -28,6 +29,9 @@ pub(crate) fn written(phase: &Phase<'_, Expr>) -> Written {
     let all = known.map(|f| (f.text().trim().to_string(), phase.literal_values([f])));
     all.filter(|(_, values)| !values.is_empty()).collect()
 }
+
+/// Part of its largest size below which a divisor may be 0 up to rounding.
+const LOW: f64 = 1e-6;
 
 /// Values of an argument at which an operation exists.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -184,6 +188,21 @@ impl Presence {
     }
 }
 
+/// Time within a piece at which a divisor that does not change its sign comes as near to 0 as it may be
+/// wrong by.
+fn touches<One: SeriesNumber<One = One>>(
+    divisor: &[One],
+    length: One,
+    doubt: impl Fn() -> f64,
+) -> Option<One> {
+    let (first, last) = (divisor[1].leading(), value(divisor, length).1.leading());
+    if !turns(first, last, length.leading(), divisor[0].leading() > 0.0) {
+        return None;
+    }
+    let after = extremum(divisor, length);
+    (value(divisor, after).0.leading().abs() <= doubt()).then_some(after)
+}
+
 /// Lanes in which a polynomial may vanish within a step, by the sizes of its terms.
 fn may_vanish<T: SeriesNumber>(polynomial: &[T], steps: T) -> impl Fn(usize) -> bool {
     let size = T::ZERO.larger(steps);
@@ -205,14 +224,22 @@ impl<T: SeriesNumber> Stepper<T> {
     /// in x²/x the series of 1/x cancels, and steps go on through 0.
     pub(crate) fn keep_quotients(&mut self) {
         let steps = T::from_lanes(|lane| self.lanes[lane].step);
-        for divisor in self.series.divisors() {
+        for ((row, divisor), height) in self.series.divisors().zip(&mut self.heights) {
+            *height = height.larger(divisor[0]);
             let may_vanish = may_vanish(divisor, steps);
             for (place, lane) in self.lanes.iter_mut().enumerate() {
-                if !may_vanish(place) {
+                let low = LOW * height.lane(place).leading();
+                let is_low = divisor[0].lane(place).leading().abs() < low;
+                if !is_low && !may_vanish(place) {
                     continue;
                 }
                 let argument: Vec<T::One> = divisor.iter().map(|x| x.lane(place)).collect();
-                if let Some(after) = Domain::Nonzero.left_after(&argument, lane.step) {
+                // Beyond where it is known, a polynomial has zeros that the divisor has not.
+                lane.step = known_part(&argument, lane.step, self.kappa);
+                let vanishes = Domain::Nonzero.left_after(&argument, lane.step);
+                let doubt = || self.series.value_error(row, place, &self.peaks);
+                let touch = || touches(&argument, lane.step, doubt);
+                if let Some(after) = vanishes.or_else(|| touch().filter(|_| is_low)) {
                     lane.step = after;
                     lane.edge = Some((Edge::Divisor, after));
                 }

@@ -1,6 +1,8 @@
 //! Motions: drift of integrals, reversal in time, known solutions, an independent integrator.
 
 mod chaos;
+mod cycles;
+mod jumps;
 mod lanes;
 mod presence;
 mod progress;

@@ -47,6 +47,26 @@ fn contacts_and_limits_of_motions() {
 }
 
 #[test]
+fn pulses_within_a_step_bring_contacts_and_limits() {
+    let texts = [
+        "title = 'a pulse downwards above a floor'\n[state]\nx = '0..2'\np = '-2..2'\nt = '0..60'\n[field]\n\
+         \"x'\" = 'p'\n\"p'\" = '-exp(-(t - 20)^2)'\n[one-sided]\nfunction = 'x'\nreaction = '1'\n\
+         [one-sided.field]\n\"x'\" = '0'\n\"p'\" = '0'\n\"t'\" = '1'\n\
+         [[claim]]\nname = 'none'\ncontacts = []\nexpect = 'fails'\nstate = { x = '1', p = '0', t = '0' }\ntime = 50\n\
+         [[claim]]\nname = 'one'\ncontacts = ['arrives at 20.45247']\nstate = { x = '1', p = '0', t = '0' }\ntime = 50\n",
+        "title = 'an oscillator and a pulse'\n[state]\nx = '-2..2'\np = '-2..2'\nt = '0..60'\n\
+         [parameters]\neps = '0..1/10'\n[field]\n\"x'\" = 'p'\n\"p'\" = '-x + eps*exp(-4*(t - 20)^2)'\n\
+         [[claim]]\nlimit-of-motion = 'x'\nparameter = 'eps'\norder = 1\nstate = { x = '0', p = '0', t = '0' }\n\
+         time = 40\nconstant = '0.760057186'\n",
+    ];
+    for text in texts {
+        for claim in reports(Case::parse(text, &[]).expect("a case"), |_| true) {
+            assert!(claim.agrees, "{} came out {:#?}", claim.name, claim.evidence);
+        }
+    }
+}
+
+#[test]
 fn a_closed_orbit_speaks_against_a_density_where_there_is_none() {
     let options = Options::default();
     let found = evidence_against_density(&catalogue("figures/fig-8.toml"), &options);

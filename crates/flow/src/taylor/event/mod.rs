@@ -11,6 +11,7 @@ mod roots;
 mod sides;
 
 pub use ends::Ends;
+pub(crate) use roots::{extremum, turns};
 pub use sides::Sides;
 
 use crate::taylor::number::SeriesNumber;

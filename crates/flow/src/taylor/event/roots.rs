@@ -45,9 +45,15 @@ pub(super) fn between<T: SeriesNumber<One = T>>(
 }
 
 /// Whether a function with these rates at its ends comes nearer to 0 from a side, and turns back.
-pub(super) fn turns(first: f64, last: f64, length: f64, begin: bool) -> bool {
+pub(crate) fn turns(first: f64, last: f64, length: f64, begin: bool) -> bool {
     let leaves = ((first > 0.0) == (length > 0.0)) == begin;
     (first > 0.0) != (last > 0.0) && !leaves
+}
+
+/// Finds where a function turns that has slopes of different signs at the ends of a piece.
+pub(crate) fn extremum<T: SeriesNumber<One = T>>(polynomial: &[T], length: T) -> T {
+    let rate = slope(polynomial);
+    root(&rate, T::ZERO, length, rate[0].leading() > 0.0)
 }
 
 /// Finds the root between `a`, where the sign is `positive`, and `b`, where it is the other.

@@ -1,0 +1,122 @@
+//! Ends of motions that come early, and their reasons.
+
+use crate::error::FlowError;
+use crate::taylor::number::SeriesNumber;
+use crate::taylor::pace::Lost;
+use crate::taylor::stepper::Stepper;
+use crate::taylor::watch::{Edge, Presence};
+use liouville::number::double_double::DoubleDouble;
+
+/// Number of steps before a singularity at which it counts as near.
+const STEPS_BEFORE: f64 = 64.0;
+/// Ratio of the time since the start to that in which a motion changes by its own size, from which on it
+/// runs into a singularity.
+const SUDDEN: f64 = 1e3;
+
+impl<T: SeriesNumber> Stepper<T> {
+    /// Checks the present expansion of a motion; fails where the motion runs into a singularity,
+    /// where its end is out of reach, and once it is stopped.
+    pub fn check(&self, lane: usize) -> Result<(), FlowError> {
+        if self.halt.is_raised() {
+            return Err(FlowError::Stopped);
+        }
+        let motion = &self.lanes[lane];
+        let step = motion.step.leading();
+        let finite = self.is_regular(lane);
+        let left = (motion.until - motion.time).hi.abs();
+        // Less than the time's last place may be left of a very long run.
+        let at_end = left <= f64::EPSILON * motion.time.hi.abs();
+        let advances = at_end || motion.time.hi + step != motion.time.hi || motion.time.hi == 0.0;
+        let time = motion.time.hi;
+        let state = || self.own_state(lane).iter().map(|x| x.hi).collect();
+        match (motion.lost, &self.presence) {
+            (None, _) => {}
+            (Some(Edge::Watched(index)), Some(presence)) => {
+                return Err(self.without_value(lane, presence, presence.formula(index)));
+            }
+            (Some(_), _) => return Err(self.singular(lane)),
+        }
+        if motion.is_faint {
+            return Err(FlowError::Overflow(time));
+        }
+        match finite && advances && step.is_finite() {
+            true => match motion.pace.lost.filter(|_| !at_end) {
+                None => Ok(()),
+                Some(Lost::Shrinking) => Err(FlowError::Shrinking { time, step, state: state() }),
+                Some(Lost::Endless) if motion.is_open => Ok(()),
+                Some(Lost::Endless) => {
+                    Err(FlowError::Endless { time, step, until: motion.until.hi })
+                }
+            },
+            false => Err(self.singular(lane)),
+        }
+    }
+
+    /// State of the system itself, without further components.
+    fn own_state(&self, lane: usize) -> Vec<DoubleDouble> {
+        let mut state = self.pairs(lane);
+        state.truncate(self.presence.as_ref().map_or(state.len(), |presence| presence.dimension()));
+        state
+    }
+
+    /// Error at a state where the field has no series: a start without a value is told by the formula
+    /// that has none.
+    fn singular(&self, lane: usize) -> FlowError {
+        let (time, state) = (self.lanes[lane].time.hi, self.pairs(lane));
+        let is_lost = self.lanes[lane].lost.is_some();
+        if !is_lost && self.series.overflows(lane) {
+            return FlowError::Overflow(time);
+        }
+        if (time == 0.0 || is_lost)
+            && let Some(presence) = &self.presence
+            && let Some(formula) = presence.missing(&state)
+        {
+            return self.without_value(lane, presence, formula);
+        }
+        let is_too_large = !state.iter().all(|x| x.is_finite());
+        // At the start of a field without poles no coefficient is that of a singularity nearby.
+        let is_first = time == 0.0 && self.series.is_entire();
+        if is_too_large || self.series.overflows(lane) || is_first {
+            return FlowError::Overflow(time);
+        }
+        let state = self.own_state(lane).iter().map(|x| x.hi).collect();
+        match is_lost || self.is_at_end(lane) {
+            true => FlowError::Singular { time, state },
+            // All numbers at the state are finite, and some coefficient is not.
+            false if !self.is_regular(lane) => FlowError::Overflow(time),
+            false => FlowError::TooShort { time, state },
+        }
+    }
+
+    /// Whether a singularity is near: the motion changes by its own size in a small part of the time
+    /// since its start, or the argument of a quotient, a root or a logarithm vanishes within a few
+    /// steps.
+    fn is_at_end(&self, lane: usize) -> bool {
+        let motion = &self.lanes[lane];
+        let at = |value: T| value.lane(lane).leading().abs();
+        let [still, moving, ..] = self.sizes.norms.map(at);
+        let reach = STEPS_BEFORE * motion.former;
+        let mut arguments = self.series.arguments();
+        moving * motion.time.hi.abs() > SUDDEN * still
+            || arguments.any(|[value, rate]| at(value) <= at(rate) * reach)
+    }
+
+    /// Error at a state where a formula has no value.
+    fn without_value(&self, lane: usize, presence: &Presence, formula: &str) -> FlowError {
+        FlowError::NoValue {
+            formula: formula.to_string(),
+            time: self.lanes[lane].time.hi,
+            place: presence.place(&self.pairs(lane)),
+        }
+    }
+
+    /// Whether the present expansion of a motion is finite.
+    pub(crate) fn is_regular(&self, lane: usize) -> bool {
+        self.sizes.soundness.lane(lane).leading() == 0.0
+    }
+
+    /// Whether the present step of a motion is cut where the motion itself may go on.
+    pub fn is_cut(&self, lane: usize) -> bool {
+        self.is_regular(lane) && self.lanes[lane].is_cut
+    }
+}

@@ -1,0 +1,198 @@
+//! Steps over which each function in the field is resolved in proportion to its own size.
+//!
+//! A pulse e^(−t²) is far below the rounding of the state before it comes. Its terms show it all the
+//! same: they grow along the order. A step is so short that the last terms of each function, and of
+//! each component of the state, are small beside its largest.
+
+use crate::taylor::number::SeriesNumber;
+use crate::taylor::stepper::Stepper;
+use liouville::graph::{Kernel, with_widest_vectors};
+
+/// Part of the way to a pole that a step may take: the terms of order n have to be below this to the n-th
+/// power, relative to the largest.
+const REACH: f64 = 0.5;
+/// Number of orders from the terms by which the last ones are measured, up to these.
+const APART: usize = 4;
+/// Size of a function below which its terms may underflow.
+const TINY: f64 = 1e-140;
+/// Exponent of an exponential function below which its terms may.
+const FAINT: f64 = -320.0;
+/// Growth of the exponent over a step which is possible from there on.
+const RISE: f64 = 40.0;
+/// Number of times that a step is halved for an exponent.
+const MOST_HALVES: usize = 60;
+
+impl<T: SeriesNumber> Stepper<T> {
+    /// Shortens steps over which a function in the field, or a component of the state, is not resolved.
+    pub(crate) fn keep_functions(&mut self) {
+        let mut limits = std::mem::take(&mut self.limits);
+        limits.clear();
+        limits.resize(T::LANES, f64::INFINITY);
+        with_widest_vectors(Resolution(self, &mut limits));
+        for argument in self.series.exponents() {
+            for (index, limit) in limits.iter_mut().enumerate() {
+                if argument[0].lane(index).leading() < FAINT {
+                    let step = self.lanes[index].step.leading();
+                    let step = step.abs().min(*limit).copysign(step);
+                    *limit = limit.min(faint(argument, index, step));
+                }
+            }
+        }
+        for (lane, limit) in self.lanes.iter_mut().zip(&limits) {
+            let step = lane.step.leading();
+            if step.abs() > *limit {
+                lane.step = T::One::float(limit.copysign(step));
+            }
+        }
+        self.limits = limits;
+    }
+}
+
+/// Work of comparing the last terms with the first.
+struct Resolution<'s, T: SeriesNumber>(&'s Stepper<T>, &'s mut [f64]);
+
+impl<T: SeriesNumber> Kernel for Resolution<'_, T> {
+    #[inline(always)]
+    fn run(self) {
+        let Self(stepper, limits) = self;
+        let steps = T::from_lanes(|lane| stepper.lanes[lane].step) * T::float(1.0 / REACH);
+        let last = Powers::new(steps, stepper.series.order() - 1);
+        for row in stepper.series.functions() {
+            last.limit(row, limits);
+        }
+        let last = last.next();
+        for row in 0..stepper.dimension() {
+            last.limit(stepper.series.component(row), limits);
+        }
+    }
+}
+
+/// Powers of the steps over their reach.
+struct Powers<T> {
+    first: T,
+    /// Those of the last two orders.
+    last: [T; 2],
+}
+
+impl<T: SeriesNumber> Powers<T> {
+    #[inline(always)]
+    fn new(steps: T, order: usize) -> Self {
+        let first = T::ZERO.larger(steps);
+        let before = (2..order).fold(first, |power, _| power * first);
+        Self { first, last: [before, before * first] }
+    }
+
+    /// Those of one order more.
+    #[inline(always)]
+    fn next(self) -> Self {
+        Self { last: [self.last[1], self.last[1] * self.first], ..self }
+    }
+
+    /// Lowers the limits of the lanes in which the last terms are not small beside the first.
+    #[inline(always)]
+    fn limit(&self, terms: &[T], limits: &mut [f64]) {
+        let count = terms.len();
+        let first = T::ZERO.larger(terms[0]).larger(terms[1] * self.first);
+        let last = T::ZERO.larger(terms[count - 2] * self.last[0]);
+        let last = last.larger(terms[count - 1] * self.last[1]);
+        for (lane, limit) in limits.iter_mut().enumerate() {
+            let [first, last] = [first, last].map(|x| x.lane(lane).leading());
+            // Where terms underflow they tell nothing.
+            if last > first && last > TINY {
+                *limit = limit.min(resolved(terms, lane));
+            }
+        }
+    }
+}
+
+/// Longest step over which the last two terms are small beside the largest of those before.
+fn resolved<T: SeriesNumber>(terms: &[T], lane: usize) -> f64 {
+    let size = |n: usize| libm::log(terms[n].lane(lane).leading().abs());
+    let count = terms.len();
+    let radii = [count - 2, count - 1].map(|n| {
+        let last = size(n) - n as f64 * libm::log(REACH);
+        let before = (0..count - APART).map(|k| (size(k) - last) / (n - k) as f64);
+        before.fold(f64::NEG_INFINITY, f64::max)
+    });
+    match libm::exp(radii[0].min(radii[1])) {
+        step if step > 0.0 => step,
+        // All terms before are 0, or one is not finite.
+        _ => f64::INFINITY,
+    }
+}
+
+/// Length of a step over which an exponent that is far below 0 does not grow too much.
+fn faint<T: SeriesNumber>(exponent: &[T], lane: usize, step: f64) -> f64 {
+    let at = |n: usize| exponent[n].lane(lane).leading();
+    let most = RISE.max(FAINT - at(0));
+    let rise = |step: f64| {
+        let (mut power, mut sum) = (1.0, 0.0);
+        for n in 1..exponent.len() {
+            power *= step;
+            sum += (at(n) * power).max(0.0);
+        }
+        sum
+    };
+    let halves = (0..MOST_HALVES).scan(step, |step, _| {
+        let own = *step;
+        *step *= 0.5;
+        Some(own)
+    });
+    halves.into_iter().find(|step| rise(*step) <= most).unwrap_or(0.0).abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Terms of e^(a t) times a factor.
+    fn exponential(factor: f64, a: f64) -> Vec<f64> {
+        (0..20)
+            .scan(factor, |term, n| {
+                let own = *term;
+                *term *= a / f64::from(n + 1);
+                Some(own)
+            })
+            .collect()
+    }
+
+    fn limit(terms: &[f64], step: f64) -> f64 {
+        let mut limits = [f64::INFINITY];
+        Powers::new(step / REACH, terms.len() - 1).limit(terms, &mut limits);
+        limits[0].min(step)
+    }
+
+    #[test]
+    fn terms_that_grow_shorten_steps() {
+        for factor in [1.0, 1e-40, 1e-150] {
+            let found = limit(&exponential(factor, 20.0), 14.0);
+            assert!(found > 0.2 && found < 0.6, "{factor:e}: {found}");
+            assert_eq!(limit(&exponential(factor, 20.0), 0.1), 0.1, "{factor:e}");
+        }
+        let pole: Vec<f64> = (0..20).map(|n| 2f64.powi(n)).collect();
+        assert!((limit(&pole, 3.0) - 0.25).abs() < 1e-12, "half the way to the pole");
+        assert_eq!(limit(&pole, 0.2), 0.2);
+    }
+
+    #[test]
+    fn what_vanishes_shortens_nothing() {
+        assert_eq!(limit(&[0.0; 20], 1e30), 1e30);
+        let mut terms = [0.0; 20];
+        terms[1] = 1.0;
+        assert_eq!(limit(&terms, 1e30), 1e30, "a polynomial");
+        terms[19] = 1e-20;
+        assert!(limit(&terms, 1e30) < 10.0);
+        let rounding: Vec<f64> =
+            (0..20).map(|n| if n == 0 { 1.0 } else { 1e-17 / 0.2f64.powi(n) }).collect();
+        assert_eq!(limit(&rounding, 0.1), 0.1, "a constant up to rounding");
+    }
+
+    #[test]
+    fn an_exponent_rises_to_where_terms_are_seen() {
+        let exponent = [-2000.0, 1000.0, 0.0];
+        assert_eq!(faint(&exponent, 0, 1.0), 1.0);
+        assert_eq!(faint(&exponent, 0, 8.0), 1.0);
+        assert_eq!(faint(&exponent, 0, -8.0), 8.0, "it falls");
+        assert_eq!(faint(&[-400.0, 1000.0], 0, 1.0), 0.03125);
+    }
+}
