@@ -39,7 +39,7 @@ pub struct Found {
     /// Whether it is a function of the energy and the level. Such finds are not reported, so this
     /// is always `false`.
     pub trivial: bool,
-    /// Name of the claim of the case that implies it.
+    /// Names of the claims of the case that imply it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub known: Option<String>,
     /// Verdict on the claim.
