@@ -379,20 +379,28 @@ pub fn conclude(
     Ok(())
 }
 
-/// Tells the first degree at which more integrals are counted than known, in place of an earlier one,
-/// where an ansatz may find them that was not asked for; not where they are functions of those known.
+/// Tells the first degree at which more integrals are counted than known, in place of an earlier one; not
+/// where they are functions of those known.
 fn note_missing(case: &Case, effort: &Effort, report: &mut SearchReport) {
     report.remarks.retain(|remark| remark.origin != RemarkOrigin::MoreCounted);
-    if report.is_complete || effort.ansatz.wanted || AnsatzVariables::of(case).is_none() {
+    if report.is_complete {
         return;
     }
+    let may_find_more = !effort.ansatz.wanted && AnsatzVariables::of(case).is_some();
     let counts = report.counts.iter().filter(|count| !count.free);
     let missing = counts.filter(|count| count.dimension > count.known).map(|count| count.degree);
     if let Some(degree) = missing.min() {
-        let text = format!(
-            "more integrals of degree {degree} are counted than known: --ansatz looks for them among \
-             polynomials"
-        );
+        let text = match may_find_more {
+            true => format!(
+                "more integrals of degree {degree} are counted than known: --ansatz looks for them among \
+                 polynomials"
+            ),
+            false => format!(
+                "the count leaves room for more integrals of degree {degree} than are known: the number is an \
+                 upper bound, and coefficients may be any functions of the positions, such as solutions of \
+                 linear equations, where the search tries formulas"
+            ),
+        };
         report.remark_of(RemarkOrigin::MoreCounted, text);
     }
 }
