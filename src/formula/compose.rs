@@ -207,6 +207,10 @@ impl Formula {
 
     /// Power with a formula as its exponent.
     pub fn power(&self, exponent: &Formula) -> FormulaResult {
+        let whole = exponent.constant().and_then(|value| value.to_integer()).map(i32::try_from);
+        if let Some(Ok(whole @ 2..100)) = whole {
+            return self.raised(whole);
+        }
         let mut draft = Draft::default();
         let base = draft.place(self, self.bond() < Bond::Whole);
         draft.write("^");
@@ -219,7 +223,7 @@ impl Formula {
         let mut draft = Draft::default();
         let base = draft.place(self, self.bond() < Bond::Whole);
         let start = draft.text.len();
-        draft.write(&superscript(exponent));
+        draft.write(&superscript(i64::from(exponent)));
         let end = draft.text.len();
         let value = Rational::from(i64::from(exponent));
         draft.build(|builder| {
@@ -289,8 +293,8 @@ impl Draft {
     }
 }
 
-/// Number in superscript digits.
-fn superscript(number: i32) -> String {
+/// Number in superscript digits, as exponents are written.
+pub fn superscript(number: i64) -> String {
     let above = |c: char| match c {
         '-' => '⁻',
         '1' => '¹',

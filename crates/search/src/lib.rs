@@ -35,6 +35,7 @@ mod integrals;
 mod irrational;
 mod jet_equations;
 mod jets;
+mod leading;
 mod library;
 mod linear;
 mod lists;
@@ -193,7 +194,8 @@ pub fn search(
     }
     report.stage("shorter formulas", effort, |report| {
         recognised::rewrite(case, effort, report)?;
-        vectors::gather(case, effort, report)
+        vectors::gather(case, effort, report)?;
+        leading::write_without_minus(case, effort, report)
     })?;
     report::note_generic_functions(case, &mut report);
     if !report.orbits.is_empty() {

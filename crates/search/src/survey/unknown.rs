@@ -85,7 +85,7 @@ impl SearchOutcome {
 pub fn of_search(case: &Case, found: Found) -> TestedClaim {
     let names = found.abbreviations.iter().map(|(name, text)| define(name, text)).collect();
     let claim = ClaimReport {
-        name: format!("{} found by search", found.kind),
+        name: found.kind.replace('-', " "),
         formula: Some(found.formula),
         kind: found.kind,
         source: "found by the search".to_string(),

@@ -141,6 +141,14 @@ pub fn run(options: &OrbitArgs) -> Result<CommandOutput, String> {
         false => columns.titles().to_vec(),
     };
     if let Some(out) = &out {
+        if out.ending.is_picture() && tracks.is_none() && titles.len() > 2 && titles[0] != "t" {
+            anstream::eprintln!(
+                "note: the picture shows {} over {}; {} is left out",
+                titles[1],
+                titles[0],
+                titles[2..].join(", ")
+            );
+        }
         let plot = match &tracks {
             _ if !out.ending.is_picture() => None,
             Some(tracks) => Some(orbit::track_plot(tracks)),
