@@ -223,7 +223,7 @@ impl Formula {
         let mut draft = Draft::default();
         let base = draft.place(self, self.bond() < Bond::Whole);
         let start = draft.text.len();
-        draft.write(&superscript(i64::from(exponent)));
+        draft.write(&superscript(exponent));
         let end = draft.text.len();
         let value = Rational::from(i64::from(exponent));
         draft.build(|builder| {
@@ -293,8 +293,16 @@ impl Draft {
     }
 }
 
-/// Number in superscript digits, as exponents are written.
-pub fn superscript(number: i64) -> String {
+/// A whole exponent behind its base: x², and x^100 where it is long.
+pub fn exponent_text(number: i64) -> String {
+    match i32::try_from(number) {
+        Ok(short) if (0..100).contains(&short) => superscript(short),
+        _ => format!("^{number}"),
+    }
+}
+
+/// Number in superscript digits.
+fn superscript(number: i32) -> String {
     let above = |c: char| match c {
         '-' => '⁻',
         '1' => '¹',

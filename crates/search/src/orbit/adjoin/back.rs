@@ -2,7 +2,7 @@
 //!
 //! Terms are rewritten as a person writes them: u² − 2*k/√(x² + y²) for u² − 2*k*w, w = 1/r.
 
-use liouville::formula::superscript;
+use liouville::formula::exponent_text;
 use num_integer::Integer;
 
 use super::parsed::{
@@ -276,7 +276,7 @@ fn raised(base: &str, power: u64, order: u64) -> String {
     match (power, order) {
         (1, 1) if is_number || is_tight => base.to_string(),
         (1, 1) => bracketed,
-        (power, 1) => format!("{bracketed}{}", superscript(power as i64)),
+        (power, 1) => format!("{bracketed}{}", exponent_text(power as i64)),
         (1, 2) => format!("√({})", unbracketed(base)),
         (power, order) => format!("({})^({power}/{order})", unbracketed(base)),
     }
