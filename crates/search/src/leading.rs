@@ -39,9 +39,10 @@ fn changed(case: &Case, effort: &Effort, own: &Found) -> Result<Option<Found>, S
     let Some(function) = &own.function else { return Ok(None) };
     let terms = signed_terms(&own.formula);
     let has_value = |with: &[&str]| own.with.iter().all(|(what, _)| with.contains(what));
+    let is_falling = || own.with.iter().any(|(_, rate)| rate.starts_with('−'));
     let may_turn = match own.kind {
         "integral" | FURTHER_INTEGRAL => true,
-        CONSTANT_RATE => has_value(&["rate"]),
+        CONSTANT_RATE => has_value(&["rate"]) && is_falling(),
         _ => false,
     };
     let text = match may_turn {

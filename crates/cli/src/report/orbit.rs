@@ -279,3 +279,27 @@ pub fn track_plot(tracks: &[Vec<[f64; 2]>]) -> Plot {
     });
     plot
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn curves_beyond_the_colours_are_dashed_and_named() {
+        let row = |t: f64| (0..13).map(|k| DoubleDouble::from_f64(t + f64::from(k))).collect();
+        let rows: Vec<Vec<DoubleDouble>> = vec![row(0.0), row(1.0)];
+        let columns: Vec<String> =
+            ["t".to_string()].into_iter().chain((1..=12).map(|k| format!("x{k}"))).collect();
+        let plot = plot(&columns, &[String::new()], &[&rows[..]]).expect("columns");
+        let dashed = plot.layers.iter().filter(|own| matches!(own, Layer::Dashes(..))).count();
+        assert_eq!((plot.layers.len(), dashed, plot.legend.len()), (12, 4, 12));
+        let (first, ninth) = (&plot.legend[0], &plot.legend[8]);
+        assert!(first.paint == ninth.paint && first.mark != ninth.mark, "told by their strokes");
+    }
+
+    #[test]
+    fn drifts_below_rounding_are_not_numbers() {
+        assert_eq!(shown_drift(6.2e-17, Precision::Float), "< 2e-16");
+        assert_eq!(shown_drift(6.2e-17, Precision::Pair), "6.2e-17");
+    }
+}

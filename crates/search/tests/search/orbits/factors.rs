@@ -19,7 +19,7 @@ fn darboux_polynomials_of_lorenz_are_found_at_their_parameters() {
         (
             "s = '0.5..2'\nr = '0.5..2'",
             ["s*(y - x)", "r*x - y - x*z", "x*y - 2*s*z"],
-            ("−2*s*z + x²", "−2*s"),
+            ("x² − 2*s*z", "−2*s"),
         ),
         ("s = '0.5..2'", ["s*(y - x)", "-y - x*z", "x*y - z"], ("y² + z²", "−2")),
     ];
