@@ -187,9 +187,7 @@ impl Statement for Relation {
         texts.dedup();
         (!texts.is_empty()).then(|| {
             let texts = texts.join("`, `");
-            format!(
-                "the cofactor divides by `{texts}`: F = 0 is invariant only where that is not 0"
-            )
+            format!("the cofactor divides by `{texts}`: F = 0 is invariant where that is not 0")
         })
     }
 

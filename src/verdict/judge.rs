@@ -190,7 +190,7 @@ impl JudgeError {
             }
             JudgeError::Singular(_) => {
                 "look for a division by zero, the root of a negative number, a singular inertia \
-                 tensor, a kinetic energy that leaves out a velocity, or a ball that fills its cavity (k = −1/R)"
+                 tensor, or a kinetic energy that leaves out a velocity"
             }
             JudgeError::Slopeless(..) => {
                 "write an equation with the same zeros and other slopes, as x' = y*z' in the place of \

@@ -54,6 +54,7 @@ mod tests {
     use super::super::{Evaluator, Tape, record};
     use super::*;
     use crate::number::float::Float;
+    use num_dual::DualNum;
 
     #[test]
     fn what_cancels_counts() {
@@ -63,7 +64,8 @@ mod tests {
             squares_of_terms(&[zero * x[1], x[0].sqrt()])
         })
         .expect("records");
-        let mut evaluator = Evaluator::new(&Tape::new(&graph, &sizes), Float::<1>);
+        let tape = Tape::new(&graph, &sizes);
+        let mut evaluator = Evaluator::new(&tape, Float::<1>);
         evaluator.run(&[[1.0], [2.0]]);
         let found: Vec<f64> = evaluator.outputs().map(|value| value[0]).collect();
         // ((1 + 4)² + 1 + 4·4 + 16)·4, and the root is one term.
