@@ -26,7 +26,8 @@ pub fn read(
     let all = [ABSENCES, STATEMENTS, MOTIONS].concat();
     let stated: Vec<&str> = all.iter().copied().filter(|key| section.has(key)).collect();
     section.allow(&[all.as_slice(), &COMMON].concat());
-    let entries = Entries { section, model: context.model, is_whole: context.is_whole };
+    let entries =
+        Entries { section, model: context.model, is_whole: context.is_whole, claims: &[] };
     let kind = match stated.as_slice() {
         [key] => Absence::read(key, &entries).unwrap_or_else(|| Err(statements(section, 0)))?,
         _ => return Err(statements(section, stated.len())),

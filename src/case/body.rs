@@ -212,7 +212,8 @@ fn named_shape(
                 format!("`{needs}` is a {}: write {needs} = \"diag(1..3)\"", entry.kind)
             }
         };
-        let message = format!("a {} needs the {kind} `{needs}`", text.value);
+        let article = if text.value.starts_with(['a', 'e', 'i', 'o']) { "an" } else { "a" };
+        let message = format!("{article} {} needs the {kind} `{needs}`", text.value);
         return Err(Mistake::at(text.span.clone(), Problem::Other { message, remedy }));
     }
     if let Some(entry) = vocabulary.find("c").filter(|entry| entry.kind != Type::VECTOR) {

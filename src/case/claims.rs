@@ -98,11 +98,11 @@ fn rigid_parameter(section: &CaseTable<'_>, key: &'static str, name: &str) -> Mi
     Mistake::at(span, Problem::Other { message, remedy })
 }
 
-/// Reads one claim about motion.
+/// Reads one claim about motion; `before` holds the claims about the equations before it.
 pub fn read_motion(
     section: &CaseTable<'_>,
     context: &ClaimContext<'_>,
-    taken: &[String],
+    (taken, before): (&[String], &[PlacedClaim]),
 ) -> Result<MotionClaim, Mistake> {
     let model = context.model;
     // A companion of a claim about motion, such as density = "none", may be a statement elsewhere.
@@ -116,7 +116,7 @@ pub fn read_motion(
         .filter(|key| !accompanies(key));
     let (key, second) = (stated.next().copied().unwrap_or_default(), stated.next());
     section.allow(&[MOTIONS, STATEMENTS, &COMMON_OF_MOTIONS, MotionKind::companions(key)].concat());
-    let entries = Entries { section, model, is_whole: context.is_whole };
+    let entries = Entries { section, model, is_whole: context.is_whole, claims: before };
     let kind = match (MotionKind::read(key, &entries), second) {
         (Some(kind), None) => kind?,
         _ => return Err(statements(section, 2)),
@@ -161,7 +161,8 @@ fn kind(section: &CaseTable<'_>, context: &ClaimContext<'_>) -> Result<ClaimKind
         STATEMENTS.iter().copied().filter(|key| section.value(key).is_some()).collect();
     let companions = given.first().map_or(&[][..], |key| ClaimKind::companions(key));
     section.allow(&[STATEMENTS, MOTIONS, &COMMON, companions].concat());
-    let entries = Entries { section, model: context.model, is_whole: context.is_whole };
+    let entries =
+        Entries { section, model: context.model, is_whole: context.is_whole, claims: &[] };
     match given.as_slice() {
         ["density"] if section.text("density")?.is_some_and(|text| text.value == "none") => {
             let message = "the absence of a density is claimed near a fixed point".to_string();

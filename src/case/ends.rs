@@ -6,6 +6,7 @@ use num_integer::Integer;
 use super::parameters::constant;
 use crate::formula::{Formula, Scope, Type};
 use crate::graph::{self, Evaluator, Tape};
+use crate::mechanics::Vocabulary;
 use crate::number::arb::ArbBall;
 use crate::number::rational::Rational;
 
@@ -34,6 +35,13 @@ pub fn end(text: &str, side: RangeEnd, scope: &dyn Scope) -> Option<Rational> {
     }
     let exact = constant(&formula).and_then(|values| values.into_iter().next());
     exact.or_else(|| rounded(&formula, side))
+}
+
+/// Reads a number, or a formula of numbers alone such as 2π/3 and √2, which is rounded to f64.
+pub fn number(text: &str) -> Option<Rational> {
+    let text = text.trim();
+    let exact = || end(text, RangeEnd::Low, &Vocabulary::default());
+    text.parse().ok().or_else(|| Rational::from_f64(exact()?.to_f64().0))
 }
 
 /// Encloses a formula of numbers, and rounds the end of the enclosure outward.
@@ -69,7 +77,16 @@ fn rounded(formula: &Formula, side: RangeEnd) -> Option<Rational> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mechanics::Vocabulary;
+
+    #[test]
+    fn numbers_may_be_formulas() {
+        assert_eq!(number(" 3/7 "), Some(Rational::new(3, 7)));
+        for (text, value) in [("2*pi", 2.0 * std::f64::consts::PI), ("sqrt(2)/2", 0.5f64.sqrt())] {
+            let own = number(text).map(|x| x.to_f64().0);
+            assert!(own.is_some_and(|x| (x - value).abs() < 1e-15), "{text}: {own:?}");
+        }
+        assert_eq!((number("1 2"), number("x"), number("")), (None, None, None));
+    }
 
     #[test]
     fn ends_are_exact_or_outside_by_less_than_f64_sees() {

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use toml::de::DeValue;
 
+use super::PlacedClaim;
 use super::complex;
 use super::equations::sides;
 use super::error::{Mistake, Problem};
@@ -21,6 +22,8 @@ pub struct Entries<'e, 's> {
     pub model: &'e Model,
     /// Whether nothing of the case is left out because of a mistake.
     pub is_whole: bool,
+    /// Claims before it, whose names stand for their formulas in a list of integrals.
+    pub claims: &'e [PlacedClaim],
 }
 
 impl Reader for Entries<'_, '_> {
@@ -65,7 +68,15 @@ impl Reader for Entries<'_, '_> {
             return Ok(None);
         }
         let texts = self.section.texts(key)?;
-        let read = |text: &SpannedStr| formula(text, scope, "an entry", None, Dependence::Phase);
+        let claimed = |name: &str| {
+            let own =
+                self.claims.iter().find(|own| key == "integrals" && own.name == name.trim())?;
+            own.kind.formula().cloned()
+        };
+        let read = |text: &SpannedStr| match claimed(&text.value) {
+            Some(formula) => Ok(formula),
+            None => formula(text, scope, "an entry", None, Dependence::Phase),
+        };
         texts.iter().map(read).collect::<Result<_, _>>().map(Some)
     }
 

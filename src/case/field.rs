@@ -39,7 +39,7 @@ pub fn given_rates(
                         .position(|own| own.name == of || skeleton(&own.name) == skeleton(name));
                     place.into_iter().for_each(|place| broken[place] = true);
                 }
-                let problem = unknown_rate(key.get_ref(), unreadable, &written);
+                let problem = unknown_rate(key.get_ref(), unreadable, &written, section.is("map"));
                 section.mistakes().add(Mistake::at(key.span(), problem));
                 continue;
             }
@@ -92,7 +92,14 @@ pub enum GivenRate {
     Missing,
 }
 
-fn unknown_rate(key: &str, unreadable: Unreadable, variables: &[Variable]) -> Problem {
+fn unknown_rate(
+    key: &str,
+    unreadable: Unreadable,
+    variables: &[Variable],
+    is_map: bool,
+) -> Problem {
+    let (prime, what) =
+        if is_map { ("", "variable of the map") } else { ("'", "rate of a state variable") };
     let (message, remedy) = match unreadable {
         Unreadable::Message(message, remedy) => (message, remedy.to_string()),
         Unreadable::Unknown(name) => {
@@ -108,7 +115,7 @@ fn unknown_rate(key: &str, unreadable: Unreadable, variables: &[Variable]) -> Pr
             let vector = [stem, stem.trim_end_matches('_')].into_iter().find(is_vector);
             let remedy = match (names.as_slice(), vector) {
                 (_, Some(vector)) if stem != name => {
-                    format!("write \"{vector}[{}]'\"", &name[stem.len()..])
+                    format!("write \"{vector}[{}]{prime}\"", &name[stem.len()..])
                 }
                 (all, _) if name.strip_suffix('\'').is_some_and(|own| all.contains(&own)) => {
                     format!(
@@ -116,13 +123,16 @@ fn unknown_rate(key: &str, unreadable: Unreadable, variables: &[Variable]) -> Pr
                     )
                 }
                 (all, _) if of_rate(key).is_some_and(|own| all.contains(&own)) => {
-                    format!("write \"{}'\" = \"…\"", of_rate(key).unwrap_or_default())
+                    format!("write \"{}{prime}\" = \"…\"", of_rate(key).unwrap_or_default())
                 }
                 _ if meant.is_some() => meant.unwrap_or_default(),
                 ([], _) => "declare the variable in [state] first".to_string(),
-                _ => format!("[state] has {}; write \"x'\" = \"…\"", names.join(", ")),
+                _ => format!("[state] has {}; write \"x{prime}\" = \"…\"", names.join(", ")),
             };
-            (format!("`{}` is not the rate of a state variable", excerpt(key)), remedy)
+            (
+                format!("`{}` is not {} {what}", excerpt(key), if is_map { "a" } else { "the" }),
+                remedy,
+            )
         }
     };
     Problem::Other { message, remedy }

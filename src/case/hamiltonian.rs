@@ -91,7 +91,8 @@ fn pairs(section: &CaseTable<'_>, state: &[Variable], blocks: &mut Blocks) -> Re
             let name = canonical_name(&text.value).unwrap_or_default();
             let found = state.iter().position(|variable| variable.name == name);
             found.ok_or_else(|| {
-                wrong(&both[place], format!("`{}` is not a state variable", text.value))
+                let (name, remedy) = (text.value.clone(), PAIRS.to_string());
+                Mistake::at(both[place].span(), Problem::NotAVariable { name, remedy })
             })
         };
         let (q, p) = (index(0)?, index(1)?);

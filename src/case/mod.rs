@@ -71,6 +71,7 @@ pub use builder::ModelBuilder;
 pub use claim_error::ClaimError;
 pub use claims::claim_keys;
 pub use clock::TimeParts;
+pub use ends::number;
 pub use error::{CaseError, Mistake, Problem};
 pub use kinds::SYSTEM_NAMES;
 pub use labels::{is_labelled, labels, matches};

@@ -2,6 +2,7 @@
 
 use toml::de::DeValue;
 
+use super::ends::number;
 use super::error::{Mistake, Problem};
 use super::lines::FixedLine;
 use super::section::{CaseTable, SpannedStr, numbers};
@@ -71,9 +72,19 @@ impl std::str::FromStr for Angle {
         let quarter = ["0", "π/2", "π", "3π/2"].iter().position(|name| *name == plain);
         match quarter {
             Some(turns) => Ok(Angle::QuarterTurns(turns as u32)),
-            None => plain.parse().map(Angle::Radians).map_err(|_| {
-                format!("`{text}` is not an angle; write 0, π/2, π, 3π/2, or a number of radians")
-            }),
+            None => {
+                let angle = number(text).ok_or_else(|| {
+                    format!(
+                        "`{text}` is not an angle; write 0, π/2, π, 3π/2, or a number of radians"
+                    )
+                })?;
+                match angle.to_f64().0.abs() <= 2.0 * std::f64::consts::PI {
+                    true => Ok(Angle::Radians(angle)),
+                    false => Err(format!(
+                        "`{text}` is more than one turn, and angles are in radians; write π/2 for 90°"
+                    )),
+                }
+            }
         }
     }
 }

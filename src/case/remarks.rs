@@ -64,6 +64,7 @@ pub fn remarks(
 ) -> Vec<CaseRemark> {
     let mut all = unread(root, system, model);
     all.extend(without_use(root, model));
+    all.extend(without_dimension(root, model));
     all.extend(of_components(model));
     all.extend(differences(root));
     all.extend(claims.iter().filter_map(of_density));
@@ -113,6 +114,29 @@ fn without_use(root: &CaseTable<'_>, model: &Model) -> Vec<String> {
     let names = model.parameters.iter().map(|parameter| parameter.name.as_str());
     let idle: Vec<&str> = names.filter(is_idle).collect();
     idle.iter().map(|name| format!("the parameter `{name}` stands in no formula")).collect()
+}
+
+/// State variables without a dimension, where other names have one.
+fn without_dimension(root: &CaseTable<'_>, model: &Model) -> Option<String> {
+    let (given, declared) = (root.value("dimensions")?, root.value("state")?);
+    let (DeValue::Table(given), DeValue::Table(declared)) = (given.get_ref(), declared.get_ref())
+    else {
+        return None;
+    };
+    let names = |table: &toml::de::DeTable<'_>| -> FxHashSet<String> {
+        table.keys().filter_map(|key| canonical_name(key.get_ref())).collect()
+    };
+    let (given, declared) = (names(given), names(declared));
+    let lacks = |name: &&str| declared.contains(*name) && !given.contains(*name);
+    let open = model.state.iter().map(|own| own.name.as_str()).filter(lacks);
+    let open: Vec<String> = open.map(|name| format!("`{name}`")).collect();
+    (!open.is_empty()).then(|| {
+        format!(
+            "[dimensions] says nothing of {}: sums that contain them are not checked; an angle has the \
+             dimension \"1\"",
+            open.join(", ")
+        )
+    })
 }
 
 /// Adds the names in the texts and keys of a value, but for one.

@@ -140,7 +140,13 @@ impl<'a> CaseTable<'a> {
                 Some(found) => {
                     let message =
                         format!("`{key}` contains the control character U+{:04X}", found as u32);
-                    let remedy = "write text without control characters".to_string();
+                    let remedy = match found {
+                        '\u{c}' | '\u{8}' | '\t' => {
+                            "write formulas in plain text, such as x/(1 + y): LaTeX is not read"
+                        }
+                        _ => "write text without control characters",
+                    };
+                    let remedy = remedy.to_string();
                     Err(Mistake::at(value.span(), Problem::Other { message, remedy }))
                 }
             },

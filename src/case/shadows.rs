@@ -59,7 +59,15 @@ fn is_component(vocabulary: &Vocabulary, name: &str) -> bool {
 
 /// Warning about a hidden name.
 pub fn warning(vocabulary: &Vocabulary, name: &str) -> String {
-    let hidden = format!("`{name}` already has a meaning here, and this file gives it another");
+    let meaning = match name {
+        "e" => " (Euler's number)",
+        "π" => " (the number π)",
+        "E" => " (the unit matrix)",
+        _ if is_function(name) => " (a function)",
+        _ => "",
+    };
+    let hidden =
+        format!("`{name}` already has a meaning here{meaning}, and this file gives it another");
     let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
     match vocabulary.find(name).is_some() && is_component(vocabulary, name) {
         true => {

@@ -70,7 +70,8 @@ impl ReadClaims {
             name = claim.name.clone();
             self.absences.push(claim);
         } else if claims::is_about_motion(section) {
-            let claim = section.keep(claims::read_motion(section, context, names))?;
+            let claim =
+                section.keep(claims::read_motion(section, context, (names, &self.claims)))?;
             name = claim.name.clone();
             self.motions.push(claim);
         } else {

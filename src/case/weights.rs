@@ -140,8 +140,14 @@ fn declared(section: &CaseTable<'_>, model: &Model) -> Result<Vec<WeightSystem>,
     for (key, value) in section.entries() {
         let name = canonical_name(key.get_ref()).unwrap_or_default();
         let Some((symbol, _)) = model.vocabulary.lookup(&name) else {
-            let reason = "no such name is declared".to_string();
-            return Err(Mistake::at(key.span(), Problem::BadName { name, reason }));
+            return Err(Mistake::at(
+                key.span(),
+                Problem::Other {
+                    message: format!("`{name}` has a dimension here, and is not declared"),
+                    remedy: "remove it, or declare it in [parameters], [state] or [let]"
+                        .to_string(),
+                },
+            ));
         };
         let text = section.as_text(key.get_ref(), value)?;
         let words = text.value.split(|c: char| !c.is_alphanumeric());

@@ -5,7 +5,7 @@ use num_dual::DualNum;
 use super::statement::{OfMotions, open_constant};
 use super::{Condition, Need, Reader, ResidualContext, Statement, difference};
 use crate::formula::Formula;
-use crate::graph::Expr;
+use crate::graph::{Expr, squares_of_terms};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::elimination::dot;
 use crate::mechanics::{Dependence, Model};
@@ -187,9 +187,7 @@ impl Statement for Relation {
         texts.dedup();
         (!texts.is_empty()).then(|| {
             let texts = texts.join("`, `");
-            format!(
-                "the cofactor divides by `{texts}`: F = 0 is invariant only where that is not 0"
-            )
+            format!("the cofactor divides by `{texts}`: F = 0 is invariant where that is not 0")
         })
     }
 
@@ -203,10 +201,13 @@ impl Statement for Relation {
     }
 }
 
-/// Returns the square |A|² + |B|² of the scale, and A as the value.
+/// Returns the square of the scale, the sum of |A|², |B|² and the squares of the terms that are added on
+/// both sides, and A as the value. Where B is 0, and where both sides cancel, |A|² + |B|² is rounding alone.
 fn size_of_sides(left: Vec<Expr>, right: Vec<Expr>) -> ResidualContext {
+    let terms = [&left, &right].map(|side| squares_of_terms(side)).concat();
+    let terms: Expr = terms.into_iter().sum();
     ResidualContext {
-        scale: Some(dot(&left, &left) + dot(&right, &right)),
+        scale: Some(dot(&left, &left) + dot(&right, &right) + terms),
         value: left,
         ..ResidualContext::default()
     }

@@ -207,6 +207,10 @@ impl Formula {
 
     /// Power with a formula as its exponent.
     pub fn power(&self, exponent: &Formula) -> FormulaResult {
+        let whole = exponent.constant().and_then(|value| value.to_integer()).map(i32::try_from);
+        if let Some(Ok(whole @ 2..100)) = whole {
+            return self.raised(whole);
+        }
         let mut draft = Draft::default();
         let base = draft.place(self, self.bond() < Bond::Whole);
         draft.write("^");
@@ -286,6 +290,14 @@ impl Draft {
         }
         draft.fix(product);
         Ok(Formula { text: draft.text, arena: draft.arena })
+    }
+}
+
+/// A whole exponent behind its base: x², and x^100 where it is long.
+pub fn exponent_text(number: i64) -> String {
+    match i32::try_from(number) {
+        Ok(short) if (0..100).contains(&short) => superscript(short),
+        _ => format!("^{number}"),
     }
 }
 

@@ -16,6 +16,11 @@ pub enum Type {
     Matrix(usize, usize),
 }
 
+/// Letters of a name behind which a digit would be misread.
+fn ends_a_number(letter: char) -> bool {
+    letter.is_ascii_digit() || letter == '\''
+}
+
 impl Type {
     /// Vectors of ℝ³.
     pub const VECTOR: Type = Type::Vector(3);
@@ -49,7 +54,10 @@ impl Type {
     pub fn component(self, name: &str, place: usize) -> String {
         match self {
             Type::Scalar => name.to_string(),
-            Type::Vector(_) if place >= 99 => format!("{name}[{}]", place + 1),
+            // q11 would be read as the eleventh component of q by a human.
+            Type::Vector(_) if place >= 99 || name.ends_with(ends_a_number) => {
+                format!("{name}[{}]", place + 1)
+            }
             Type::Vector(_) => format!("{name}{}", place + 1),
             Type::Matrix(_, columns) => {
                 format!("{name}[{},{}]", place / columns + 1, place % columns + 1)

@@ -95,7 +95,7 @@ use crate::scalar::Scalar;
 
 pub(crate) use algebra::adjugate;
 pub(crate) use bases::Exponents;
-pub use compose::FormulaResult;
+pub use compose::{FormulaResult, exponent_text};
 pub use error::FormulaError;
 pub(crate) use error::excerpt;
 pub use functions::names as function_names;

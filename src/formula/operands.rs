@@ -112,8 +112,14 @@ impl Parser<'_> {
 
     fn call(&mut self, name: &str, span: Span) -> Parsed {
         if self.peek() != TokenKind::Open {
+            let help = match self.peek() {
+                TokenKind::Caret | TokenKind::Superscript => {
+                    format!("{}; its power is `({name}(x))^2`", functions::usage(name))
+                }
+                _ => functions::usage(name),
+            };
             let error = FormulaError::new(span, format!("`{name}` is a function"));
-            return Err(error.with_help(functions::usage(name)));
+            return Err(error.with_help(help));
         }
         let (arguments, brackets) = self.list(TokenKind::Close)?;
         let span = span.start..brackets.end;

@@ -138,8 +138,13 @@ pub fn classify<D: Enclosing>(
             Some(format!("none of {TAPE_LANES} draws leads to a state of this place"));
     } else if result(&span.value, &none).defined == 0 {
         let hint = item.claim.kind.hint_when_undefined();
-        status.undefined =
-            Some(format!("the formula of this {kind} has no value at {TAPE_LANES} states{hint}"));
+        let what = match hint.is_empty() {
+            true => format!("the formula of this {kind} has no value at {TAPE_LANES} states"),
+            false => {
+                format!("what this {kind} is judged by has no value at {TAPE_LANES} states{hint}")
+            }
+        };
+        status.undefined = Some(what);
     }
     if !span.defects.is_empty() {
         let defects = result(&span.defects, &none);

@@ -10,7 +10,7 @@ use super::sampler::{Sampler, TAPE_LANES};
 use super::sum_of_squares::sum_of_squares;
 use crate::case::{Case, PlacedClaim};
 use crate::claim::{ClaimKind, Lyapunov};
-use crate::formula::{Formula, Type};
+use crate::formula::{Formula, Type, exponent_text};
 use crate::graph::{Expr, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{ParameterOrigin, Phase, SamplerSpec};
@@ -124,7 +124,7 @@ fn written_as_squares(own: &NamedPolynomial<'_>) -> Option<String> {
         let named = powers.iter().zip(&own.names).filter(|(power, _)| **power > 0);
         let powers = named.map(|(power, name)| match power {
             1 => (*name).to_string(),
-            _ => format!("{name}^{power}"),
+            _ => format!("{name}{}", exponent_text(i64::from(*power))),
         });
         let number = (!value.is_one()).then(|| format!("({value})"));
         let all: Vec<String> = number.into_iter().chain(powers).collect();

@@ -1,6 +1,6 @@
 //! States as typed by a user.
 
-use crate::case::Case;
+use crate::case::{Case, number};
 use crate::formula::canonical_name;
 use crate::number::rational::{Rational, RationalError};
 
@@ -39,9 +39,16 @@ pub enum StateError {
     Number(String),
 }
 
-/// Reads `ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]`; matrices row by row, `Q=[[1,0,0],[0,1,0],[0,0,1]]`.
+/// Reads `ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]`; matrices row by row, `Q=[[1,0,0],[0,1,0],[0,0,1]]`; or the
+/// components of the whole state in order, `1,1/2,0`.
 pub fn read_state(case: &Case, text: &str) -> Result<Vec<Rational>, StateError> {
     let variables = &case.model.state;
+    if !text.contains('=') {
+        let all: Option<Vec<Rational>> = text.split(',').map(number).collect();
+        if let Some(all) = all.filter(|all| all.len() == case.model.dimension()) {
+            return Ok(all);
+        }
+    }
     let mut values: Vec<Option<Vec<Rational>>> = vec![None; variables.len()];
     let mut rest = text.trim();
     while !rest.is_empty() {
@@ -60,9 +67,13 @@ pub fn read_state(case: &Case, text: &str) -> Result<Vec<Rational>, StateError> 
         })?;
         // The rows of a matrix may have separate brackets.
         let list = list.replace(['[', ']'], " ");
-        let numbers: Result<Vec<Rational>, _> = list.split(',').map(|x| x.trim().parse()).collect();
-        let numbers =
-            numbers.map_err(|error: RationalError| StateError::Number(error.to_string()))?;
+        let read = |text: &str| {
+            let formula = |error: RationalError| {
+                number(text).ok_or_else(|| StateError::Number(error.to_string()))
+            };
+            text.trim().parse().or_else(formula)
+        };
+        let numbers: Vec<Rational> = list.split(',').map(read).collect::<Result<_, _>>()?;
         let (expected, found) = (variables[index].len(), numbers.len());
         if expected != found {
             return Err(StateError::Length { name, expected, found });

@@ -72,6 +72,21 @@ fn states_without_a_value_do_not_count() {
 }
 
 #[test]
+fn identities_whose_sides_cancel_are_as_small_as_rounding() {
+    let text = "title = 'x'\n[state]\nx = '-1..1'\ny = '-1..1'\n[field]\nx = 'y'\ny = '-x'\n\
+        [[claim]]\nidentity = '(x+y)^2 - x^2 - 2*x*y - y^2 = 0'\n\
+        [[claim]]\nidentity = '0.1*x + 0.2*x - 0.3*x = 0'\n\
+        [[claim]]\nidentity = '(x+y)^2 - x^2 - 2*x*y - 1.001*y^2 = 0'\nexpect = 'fails'\n";
+    let case = Case::parse(text, &[]).unwrap_or_else(|error| panic!("{error}"));
+    let peak = |claim| sweep(&case, claim, Backend::Quickest).run(0..10_000, f64::INFINITY).peak;
+    for claim in 0..2 {
+        let ratio = peak(claim).map(|peak| peak.ratio);
+        assert!(ratio.is_some_and(|x| x < 1e-14), "claim {claim}: {ratio:?}");
+    }
+    assert!(peak(2).is_some_and(|peak| peak.ratio > 1e-4), "a slip is seen: {:?}", peak(2));
+}
+
+#[test]
 fn a_level_without_a_chart_has_no_sweep() {
     let text = "title = 'x'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = '-y'\n\
         \"y'\" = 'x'\n[level]\nequations = ['x⁴ + y⁴ + 2*x²*y² = 1']\n[[claim]]\n\

@@ -51,6 +51,10 @@ const ONE_CASE: &str =
 /// Advice where there is no file of this name: the case of the catalogue that is meant, or `otherwise`.
 pub fn no_file(path: &Path, otherwise: &str) -> String {
     let written = path.to_string_lossy();
+    let file = path.with_extension("toml");
+    if path.extension().is_none() && file.is_file() {
+        return format!("did you mean {}?", file.display());
+    }
     let names = CATALOGUE.iter().map(|(name, _)| short(name));
     match nearest(short(&written), names) {
         Some(name) => format!("did you mean `{name}`, a case of the catalogue?"),

@@ -42,7 +42,8 @@ pub fn math(formula: &str) -> Text {
                 '\'' => '′',
                 other => other,
             };
-            text.push(shown, false, false);
+            // Upright it would touch the slanted letter before it.
+            text.push(shown, letter == '\'', false);
             place += 1;
             continue;
         }

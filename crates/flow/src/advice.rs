@@ -41,7 +41,8 @@ impl FlowError {
             FlowError::OffSphere { .. } => "write a start as l,z with |z| < 1",
             FlowError::BelowPotential { .. } => "choose a higher energy, or another start",
             FlowError::NeverCrossed { .. } => {
-                "choose another start, another surface (--section or --g0), or another direction"
+                "choose another start, another surface (--section or --g0), or another direction; a surface that \
+                 is touched and not crossed, as cos(t) = 1, has no crossings: write sin(t) = 0"
             }
             FlowError::SectionEnds { .. } => {
                 "write the surface without roots, logarithms and quotients: y + 0.7 = 1/4, not sqrt(y + 0.7) = 1/2"

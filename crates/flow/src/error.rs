@@ -327,12 +327,15 @@ fn endless(time: f64, step: f64, until: f64) -> String {
 }
 
 fn singular(time: f64, state: &[f64]) -> String {
-    let state: Vec<String> = state.iter().map(|x| format!("{x:.6}")).collect();
-    let state = state.join(", ");
+    let shown = |x: &f64| if x.abs() < 1e6 { format!("{x:.6}") } else { format!("{x:.3e}") };
+    let state = state.iter().map(shown).collect::<Vec<String>>().join(", ");
     match time == 0.0 {
         true => format!("the equations of motion are singular at the start, the state [{state}]"),
         false => {
-            format!("the motion runs into a singularity at t = {time}, near the state [{state}]")
+            let direction = if time < 0.0 { "backwards in time " } else { "" };
+            format!(
+                "{direction}the motion runs into a singularity at t = {time}, near the state [{state}]"
+            )
         }
     }
 }
@@ -346,6 +349,14 @@ fn too_short(time: f64, state: &[f64]) -> String {
     )
 }
 
+/// A time with five figures.
+fn rounded(time: f64) -> String {
+    match (1e-3..1e5).contains(&time.abs()) {
+        true => format!("{time:.1}"),
+        false => format!("{time:.4e}"),
+    }
+}
+
 fn never_crossed(time: f64, crossings: usize, others: usize) -> String {
     let others = match others {
         0 => String::new(),
@@ -357,14 +368,14 @@ fn never_crossed(time: f64, crossings: usize, others: usize) -> String {
         1 => "the motion does not cross the section again after 1 crossing".to_string(),
         _ => format!("the motion does not cross the section again after {crossings} crossings"),
     };
-    format!("{crossed}, up to t = {time:.4e}{others}")
+    format!("{crossed}, up to t = {}{others}", rounded(time))
 }
 
 impl FlowError {
     /// The error for a function without a Taylor rule.
     pub(super) fn of_function(function: UnaryFunction) -> Self {
         match function {
-            UnaryFunction::Abs => FlowError::NotAnalytic("|x|"),
+            UnaryFunction::Abs => FlowError::NotAnalytic("|x|, sign, max or min"),
             _ => FlowError::NotAnalytic("a function"),
         }
     }

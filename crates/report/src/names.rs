@@ -17,6 +17,17 @@ pub fn text(case: &Case) -> String {
             rows.push([group.to_string(), name, entry.kind.to_string(), meaning]);
         }
     }
+    for claim in &case.claims {
+        let is_new = rows.iter().all(|row| row[1] != claim.name);
+        if let Some(formula) = claim.kind.formula().filter(|_| is_new) {
+            let kind = formula.value_type().to_string();
+            let own = formula.text().trim();
+            // A claim without a name has that of its formula.
+            if own != claim.name {
+                rows.push([CLAIMS.to_string(), claim.name.clone(), kind, own.to_string()]);
+            }
+        }
+    }
     let mut text = String::new();
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max();
     let (first, second) = (width(1).unwrap_or(0), width(2).unwrap_or(0));
@@ -38,7 +49,9 @@ pub fn text(case: &Case) -> String {
 }
 
 /// Groups in the order of the output.
-const GROUPS: [&str; 4] = ["state variables", "parameters", "abbreviations", "quantities"];
+const GROUPS: [&str; 5] = ["state variables", "parameters", "abbreviations", "quantities", CLAIMS];
+/// Group of the claims, whose names are columns of motions.
+const CLAIMS: &str = "claims (as columns of motions)";
 
 /// Returns the group of a name, and what it stands for.
 fn meaning(case: &Case, entry: &VocabularyEntry) -> (&'static str, String) {

@@ -41,7 +41,7 @@ pub fn text(title: &str, report: &SearchReport) -> String {
             (0, true) => "powers of the energy".to_string(),
             (1, false) if report.is_complete => "1 of them a function of those known".to_string(),
             (new, false) if report.is_complete => format!("{new} of them functions of those known"),
-            (new, false) => format!("{new} of them not known"),
+            (new, false) => format!("at most {new} of them not known"),
             (1, true) => "1 of them is not a power of the energy".to_string(),
             (new, true) => format!("{new} of them are not powers of the energy"),
         };
@@ -183,7 +183,7 @@ mod tests {
         let header = "linearly independent integrals polynomial in the velocities, with any smooth \
                       coefficients, products and constants included:\n";
         assert!(text("x", &report).contains(header));
-        assert!(text("x", &report).contains("  7   1 of them not known"));
+        assert!(text("x", &report).contains("  7   at most 1 of them not known"));
         report.is_complete = true;
         assert!(text("x", &report).contains("  7   1 of them a function of those known"));
         report.counts = vec![count(8, 6), CountReport { mixed: false, ..count(2, 2) }];

@@ -5,15 +5,14 @@ use std::ops::RangeInclusive;
 use serde::Serialize;
 
 use super::absence::{has_lists, rank};
-use super::ansatz::monomials::AnsatzVariables;
 use super::budget::STEPS;
-use super::complete::are_all;
+use super::complete::{are_all, note_missing};
 use super::continued::named;
 use super::hypotheses::stated;
 use super::jets::{DimensionCount, MotionAtPoint, VelocityPolynomials};
 use super::local::{Coordinates, Local};
 use super::lowest::lowest;
-use super::origin::{RemarkOrigin, TheoremOrigin};
+use super::origin::TheoremOrigin;
 use super::products::Generators;
 use super::{Effort, Excluded, SearchError, SearchReport};
 use liouville::case::Case;
@@ -377,22 +376,4 @@ pub fn conclude(
         None => report.excluded.push(stated),
     }
     Ok(())
-}
-
-/// Tells the first degree at which more integrals are counted than known, in place of an earlier one,
-/// where an ansatz may find them that was not asked for; not where they are functions of those known.
-fn note_missing(case: &Case, effort: &Effort, report: &mut SearchReport) {
-    report.remarks.retain(|remark| remark.origin != RemarkOrigin::MoreCounted);
-    if report.is_complete || effort.ansatz.wanted || AnsatzVariables::of(case).is_none() {
-        return;
-    }
-    let counts = report.counts.iter().filter(|count| !count.free);
-    let missing = counts.filter(|count| count.dimension > count.known).map(|count| count.degree);
-    if let Some(degree) = missing.min() {
-        let text = format!(
-            "more integrals of degree {degree} are counted than known: --ansatz looks for them among \
-             polynomials"
-        );
-        report.remark_of(RemarkOrigin::MoreCounted, text);
-    }
 }

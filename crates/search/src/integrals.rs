@@ -2,7 +2,7 @@
 
 use num_dual::Dual;
 
-use super::ask::{are_comparable, compared, holds, independent, judged, judged_alone};
+use super::ask::{Claimed, are_comparable, compared, holds, independent, judged, judged_alone};
 use super::budget::Budget;
 use super::effort::primitive;
 use super::library;
@@ -117,8 +117,8 @@ pub fn tell_if_proved(
     }
 }
 
-/// Name of a claim of the case of which an integral is a function, for each combination of listed
-/// values.
+/// Names of the claims of the case of which an integral is a function, for each combination of listed
+/// values: of one, where that is enough.
 pub fn claimed_by(
     case: &Case,
     formula: &Formula,
@@ -129,9 +129,9 @@ pub fn claimed_by(
         return Ok(None);
     }
     let Some(all) = combinations(case) else { return Ok(None) };
-    let is_function = |of: &Formula| -> Result<bool, SearchError> {
+    let is_function = |of: &[Formula]| -> Result<bool, SearchError> {
         for ListedCase { case, .. } in &all {
-            let found = compared(case, std::slice::from_ref(of), formula, effort)?;
+            let found = compared(case, of, formula, effort)?;
             if found.is_none_or(|found| found.verdict != Verdict::Refuted) {
                 return Ok(false);
             }
@@ -139,11 +139,37 @@ pub fn claimed_by(
         Ok(true)
     };
     for own in &report.claimed {
-        if is_function(&own.formula)? {
+        if is_function(std::slice::from_ref(&own.formula))? {
             return Ok(Some(own.name.clone()));
         }
     }
-    Ok(None)
+    // Claims that are independent, in every case.
+    let mut kept: Vec<&Claimed> = Vec::new();
+    let formulas = |kept: &[&Claimed]| -> Vec<Formula> {
+        kept.iter().map(|own| own.formula.clone()).collect()
+    };
+    for own in &report.claimed {
+        let mut is_further = true;
+        for ListedCase { case, .. } in &all {
+            is_further &= independent(case, &formulas(&kept), &own.formula, effort)?.is_some();
+        }
+        if is_further {
+            kept.push(own);
+        }
+    }
+    if kept.len() < 2 || !is_function(&formulas(&kept))? {
+        return Ok(None);
+    }
+    for own in kept.clone() {
+        let others: Vec<&Claimed> =
+            kept.iter().copied().filter(|other| !std::ptr::eq(*other, own)).collect();
+        if is_function(&formulas(&others))? {
+            kept = others;
+        }
+    }
+    let mut names: Vec<&str> = kept.iter().map(|own| own.name.as_str()).collect();
+    names.dedup();
+    Ok(Some(names.join(", ")))
 }
 
 /// Lists the terms given by the user and offered by the system, without those that depend on

@@ -35,6 +35,7 @@ mod integrals;
 mod irrational;
 mod jet_equations;
 mod jets;
+mod leading;
 mod library;
 mod linear;
 mod lists;
@@ -143,25 +144,15 @@ pub fn search(
         })?;
     }
     branches::withdraw(case, effort, &mut report)?;
-    // What was asked for by an option comes before degrees grow until the time is spent.
-    let grows = effort.halt.is_timed();
-    let is_asked = effort.conditions.is_some()
-        || effort.poisson.is_some()
-        || effort.ansatz.potentials
-        || effort.ansatz.gyrostats;
+    // All kinds of finds come before degrees grow until the time is spent.
     let ungrown = report.clone();
-    match grows && !is_asked {
-        true => along_orbits(case, effort, true, &mut report, progress)?,
-        false => lists::orbits_by_values(
-            case,
-            effort,
-            &mut report,
-            progress,
-            &mut |case, effort, report, progress| {
-                along_orbits(case, effort, false, report, progress)
-            },
-        )?,
-    }
+    lists::orbits_by_values(
+        case,
+        effort,
+        &mut report,
+        progress,
+        &mut |case, effort, report, progress| along_orbits(case, effort, false, report, progress),
+    )?;
     report.stage("forces that integrals survive", effort, |report| {
         ansatz::forces(case, effort, report, progress)
     })?;
@@ -183,18 +174,20 @@ pub fn search(
             conditions::by_values::conditions(case, effort, report, progress)
         })?;
     }
-    if grows && is_asked {
+    let unwritten = report.found.clone();
+    report.stage("shorter formulas", effort, |report| {
+        recognised::rewrite(case, effort, report)?;
+        vectors::gather(case, effort, report)?;
+        leading::write_without_minus(case, effort, report)
+    })?;
+    if effort.halt.is_timed() {
         report.stage("relations of higher degree along an orbit", effort, |report| {
             let mut grown = ungrown;
             along_orbits(case, effort, true, &mut grown, progress)?;
-            report.grow(grown);
+            report.grow(grown, &unwritten);
             effort.halt.check()
         })?;
     }
-    report.stage("shorter formulas", effort, |report| {
-        recognised::rewrite(case, effort, report)?;
-        vectors::gather(case, effort, report)
-    })?;
     report::note_generic_functions(case, &mut report);
     if !report.orbits.is_empty() {
         // The search along orbits has these as well.

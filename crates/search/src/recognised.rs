@@ -7,6 +7,7 @@ use super::ansatz::coefficients::{PrimitiveVector, Ratio};
 use super::ansatz::system::{Column, LinearSystem, PrimePoint};
 use super::ask::{judged_alone, proved_energy};
 use super::echelon::Echelon;
+use super::integrals::claimed_by;
 use super::local::Coordinates;
 use super::lower::Degrees;
 use super::products::degree_in;
@@ -224,7 +225,7 @@ fn exchange(
         let Some(verdict) = verdict.filter(|report| report.verdict == Verdict::Proved) else {
             continue;
         };
-        let known = report.found[places[k]].known.take();
+        let known = claimed_by(case, formula, effort, report)?;
         let found = Found::new("integral", formula, known, verdict, &case.model);
         report.found[places[k]] = found;
         (own[k], is_new[k]) = (gradient, true);

@@ -39,7 +39,7 @@ pub struct Found {
     /// Whether it is a function of the energy and the level. Such finds are not reported, so this
     /// is always `false`.
     pub trivial: bool,
-    /// Name of the claim of the case that implies it.
+    /// Names of the claims of the case that imply it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub known: Option<String>,
     /// Verdict on the claim.
@@ -219,15 +219,16 @@ impl SearchReport {
     }
 
     /// Takes over what a search along orbits of higher degrees has found besides, and its theorems, unless
-    /// it was stopped before it came as far as the one before.
-    pub(crate) fn grow(&mut self, grown: Self) {
+    /// it was stopped before it came as far as the one before; `unwritten` has the finds before they were
+    /// written otherwise.
+    pub(crate) fn grow(&mut self, grown: Self, unwritten: &[Found]) {
         let degree = |own: &Self| own.orbits.last().map_or(0, |last| last.degree);
         if degree(&grown) < degree(self) {
             return;
         }
         self.orbits = grown.orbits;
         for found in grown.found {
-            if !self.found.iter().any(|own| own.says(&found)) {
+            if !unwritten.iter().chain(&self.found).any(|own| own.says(&found)) {
                 self.found.push(found);
             }
         }

@@ -91,7 +91,10 @@ fn names_that_mislead_are_warned_of() {
         Case::parse(&text, &[]).expect("a case").warnings
     };
     let own = |name: &str| {
-        vec![format!("`{name}` already has a meaning here, and this file gives it another")]
+        let meaning = if name == "e" { "Euler's number" } else { "a function" };
+        vec![format!(
+            "`{name}` already has a meaning here ({meaning}), and this file gives it another"
+        )]
     };
     for name in ["exp", "sqrt", "e", "sum", "max"] {
         assert_eq!(
@@ -132,4 +135,28 @@ fn sizes_are_bounded_and_say_so() {
     assert_eq!(state("vector(n, 0..1)").1, "unknown name `n`");
     assert_eq!(state("matrix(4, 0..1)").1, "a matrix has two sizes: matrix(4, 4, a..b)");
     assert!(state("spherical(4, 0..1)").1.contains("depend on each other"), "not a state");
+}
+
+#[test]
+fn claims_are_named_in_lists_of_integrals() {
+    let text = "title = 't'\n[state]\nx = '-1..1'\ny = '-1..1'\n[field]\nx = 'y'\ny = '-x'\n\
+                [[claim]]\nname = 'H'\nintegral = 'x² + y²'\n\
+                [[claim]]\nclosed-orbit = 6.283\nstate = { x = 1, y = 0 }\nintegrals = ['H']\n";
+    let case = Case::parse(text, &[]).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(case.motions.len(), 1);
+    let unknown = Case::parse(&text.replace("['H']", "['K']"), &[]).expect_err("no claim");
+    assert!(unknown.to_string().contains("unknown name `K`"), "{unknown}");
+}
+
+#[test]
+fn state_variables_without_dimensions_are_told() {
+    let text = "title = 't'\n[dimensions]\nl = 'L'\n[parameters]\nl = '1..2'\n[state]\nq = '-1..1'\n\
+                p = '-1..1'\n[field]\nq = 'p/l'\np = '-l*q'\n[[claim]]\nintegral = 'p²/l + l*q²'\n";
+    let remarks = |text: &str| -> Vec<String> {
+        let case = Case::parse(text, &[]).unwrap_or_else(|error| panic!("{error}"));
+        case.remarks.iter().map(ToString::to_string).collect()
+    };
+    assert!(remarks(text).iter().any(|own| own.contains("says nothing of `q`, `p`")));
+    let whole = text.replace("l = 'L'\n[", "l = 'L'\nq = '1'\np = 'L'\n[");
+    assert!(!remarks(&whole).iter().any(|own| own.contains("says nothing")));
 }

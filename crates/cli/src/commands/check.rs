@@ -1,6 +1,7 @@
 //! The command `liouville check`.
 
 use std::io::IsTerminal;
+use std::path::Path;
 
 use crate::report::terminal::{Detail, Style};
 use crate::report::{diagnostic, json, records, terminal};
@@ -8,6 +9,7 @@ use liouville::case::{Case, Column, PlacedClaim, is_labelled, labels, matches};
 use liouville::verdict::{ClaimReport, Options};
 use liouville_report::annotations;
 
+use super::check_args::CATALOGUE_FOLDER;
 use super::eval::read_settings;
 use super::judging::{JudgingJob, judge};
 use super::{CheckArgs, CheckFormat, CommandOutput, bodies, certificates, colour, watch, width};
@@ -32,8 +34,8 @@ impl RequestedClaims {
     /// Whether a claim is meant, given the source and the column of its case.
     fn takes(&self, own: &RequestedClaim<'_>, case: &str, column: Option<&Column>) -> bool {
         let mut claims = self.claims.iter();
-        let is_named =
-            self.claims.is_empty() || claims.any(|wanted| is_meant(own.name, own.source, wanted));
+        let is_named = self.claims.is_empty()
+            || claims.any(|wanted| wanted == own.kind || is_meant(own.name, own.source, wanted));
         // A label of the case is one of all its claims.
         let labels = [labels(own.source, column, own.cell), labels(case, None, None)].concat();
         let is_wanted = |wanted: &String| labels.iter().any(|label| is_labelled(label, wanted));
@@ -43,7 +45,8 @@ impl RequestedClaims {
     /// Whether a claim of a case is meant.
     pub fn takes_claim(&self, claim: &ClaimReport, case: &Case) -> bool {
         let cell = claim.cell.as_deref();
-        let own = RequestedClaim { name: &claim.name, source: &claim.source, cell };
+        let own =
+            RequestedClaim { kind: claim.kind, name: &claim.name, source: &claim.source, cell };
         self.takes(&own, &case.source, case.column.as_ref())
     }
 
@@ -51,10 +54,12 @@ impl RequestedClaims {
     /// matter to these, but motions take minutes and do not.
     pub fn prepare(&self, case: &mut Case) {
         let has_meant = |own: &Case| {
-            let claims = own.claims.iter().map(|own| (&own.name, &own.source, &own.cell));
-            let absences = own.absences.iter().map(|own| (&own.name, &own.source, &own.cell));
-            claims.chain(absences).any(|(name, source, cell)| {
-                let claim = RequestedClaim { name, source, cell: cell.as_deref() };
+            let claims =
+                own.claims.iter().map(|own| (own.kind.name(), &own.name, &own.source, &own.cell));
+            let absences =
+                own.absences.iter().map(|own| (own.kind.name(), &own.name, &own.source, &own.cell));
+            claims.chain(absences).any(|(kind, name, source, cell)| {
+                let claim = RequestedClaim { kind, name, source, cell: cell.as_deref() };
                 self.takes(&claim, &own.source, own.column.as_ref())
             })
         };
@@ -62,12 +67,14 @@ impl RequestedClaims {
         case.change_claims(&|own| {
             let (whole, column) = (own.source.clone(), own.column.clone());
             own.motions.retain(|own| {
-                let claim = RequestedClaim { name: &own.name, source: &own.source, cell: None };
+                let (kind, name, source) = (own.kind.name(), &own.name, &own.source);
+                let claim = RequestedClaim { kind, name, source, cell: None };
                 self.takes(&claim, &whole, column.as_ref())
             });
             for claim in &mut own.claims {
-                let PlacedClaim { name, source, cell, .. } = &*claim;
-                let asked = RequestedClaim { name, source, cell: cell.as_deref() };
+                let PlacedClaim { kind, name, source, cell, .. } = &*claim;
+                let kind = kind.name();
+                let asked = RequestedClaim { kind, name, source, cell: cell.as_deref() };
                 claim.is_wanted = self.takes(&asked, &whole, column.as_ref());
             }
             if has_none {
@@ -80,12 +87,19 @@ impl RequestedClaims {
 
 /// A claim as it is asked for.
 struct RequestedClaim<'c> {
+    kind: &'c str,
     name: &'c str,
     source: &'c str,
     cell: Option<&'c str>,
 }
 
 impl CheckArgs {
+    /// Whether no path is given, and there is no folder `cases` here.
+    fn is_of_catalogue(&self) -> bool {
+        let folder = Path::new(CATALOGUE_FOLDER);
+        self.paths == [folder] && !self.json && !self.quiet && !folder.exists()
+    }
+
     /// Message where no claim is meant.
     pub(super) fn no_claim(&self) -> String {
         no_claim(&[self.claims.as_slice(), &self.sources].concat())
@@ -98,7 +112,7 @@ pub(super) fn no_claim(wanted: &[String]) -> String {
     match all.is_empty() {
         true => "error: the case has no claim\nhelp: add [[claim]]".to_string(),
         false => format!(
-            "error: no claim has a name or source like `{all}`\n\
+            "error: no claim has a name or source like `{all}`, and none is of this kind\n\
              help: `liouville check -v` shows the names"
         ),
     }
@@ -125,9 +139,15 @@ pub fn run(options: &CheckArgs) -> Result<CommandOutput, String> {
         limits: options.limits,
     })?;
     let is_everything = wanted.is_everything();
+    if is_everything && options.format == CheckFormat::Text && options.is_of_catalogue() {
+        anstream::eprintln!(
+            "no file is given: these are the cases of the catalogue inside the program"
+        );
+    }
     if !is_everything {
         run.retain(|heading, claim| {
             let own = RequestedClaim {
+                kind: claim.kind,
                 name: &claim.name,
                 source: &claim.source,
                 cell: claim.cell.as_deref(),

@@ -6,11 +6,14 @@ use clap::{Args, ValueEnum};
 
 use super::{LimitArgs, SamplingArgs, bodies, explore};
 
+/// Folder that is judged where no path is given; that of the catalogue where there is none.
+pub const CATALOGUE_FOLDER: &str = "cases";
+
 #[derive(Clone, Debug, Args)]
 pub struct CheckArgs {
     /// Case files, folders of them, or `-` for standard input; paths that do not exist are looked
     /// up in the catalogue inside the program
-    #[arg(default_value = "cases")]
+    #[arg(default_value = CATALOGUE_FOLDER)]
     pub paths: Vec<PathBuf>,
     /// Give a parameter a value: --set m=5/4 --set 'I=[2,2,3]'
     #[arg(long = "set", value_name = "NAME=VALUE")]
@@ -18,7 +21,7 @@ pub struct CheckArgs {
     #[command(flatten)]
     pub bodies: bodies::BodiesArgs,
     /// Show only claims whose name or source contains this text, or matches it if it has `*` or
-    /// `?`
+    /// `?`, and those of this kind
     #[arg(long = "claim", value_name = "TEXT")]
     pub claims: Vec<String>,
     /// Show only claims that state this of a publication: an equation, theorem, figure or cell of a

@@ -11,6 +11,7 @@ use liouville::case::{Case, Setting};
 use liouville::formula::canonical_name;
 use liouville::mechanics::Model;
 use liouville::verdict;
+use liouville_report::evidence::shell_quoted;
 
 use super::{CommandOutput, LimitArgs, colour, source};
 
@@ -153,6 +154,24 @@ fn setting(text: &str) -> Result<Setting, String> {
     let (name, value) = text.split_once('=').ok_or_else(|| {
         format!("error: --set: `{text}` is not of the form name=value, such as m=5/4")
     })?;
+    if let Some(separate) = several(text) {
+        return Err(format!(
+            "error: --set: `{text}` gives several values\nhelp: repeat the option: {separate}"
+        ));
+    }
     let name = canonical_name(name.trim()).unwrap_or_else(|| name.trim().to_string());
     Ok(Setting { name, value: value.to_string() })
+}
+
+/// Settings that were joined by commas, as options of their own.
+fn several(text: &str) -> Option<String> {
+    let mut depth = 0;
+    let outside = |letter: char| {
+        depth += i32::from(matches!(letter, '(' | '[')) - i32::from(matches!(letter, ')' | ']'));
+        depth == 0 && matches!(letter, ',' | ';')
+    };
+    let parts: Vec<&str> = text.split(outside).map(str::trim).collect();
+    let are_settings = parts.len() > 1 && parts.iter().all(|part| part.contains('='));
+    let separate = || parts.iter().map(|part| format!("--set {}", shell_quoted(part)));
+    are_settings.then(|| separate().collect::<Vec<_>>().join(" "))
 }

@@ -121,7 +121,7 @@ Examples:
     /// Explain a word of the reports
     #[command(after_help = "Example:\n  liouville explain witness")]
     Explain(explain::Explain),
-    /// List, print or copy cases of the catalogue inside the program
+    /// List, show or copy cases of the catalogue inside the program
     #[command(after_help = "Example:\n  liouville cases list rattleback")]
     Cases(cases::Cases),
     /// Print the JSON Schema of case files, for editors that complete and check them
@@ -194,9 +194,34 @@ const NUMBER_WORDS: [(&str, &str); 4] = [
     ("invalid float literal", "write a number"),
 ];
 
+/// Words of its advice to take an unknown option for a file, which no user means.
+const AS_VALUE: &str = "as a value, use '";
+/// Unknown options, and what is meant.
+const INSTEAD: [(&str, &str); 4] = [
+    ("-o", "--out"),
+    ("-t", "--time"),
+    ("--latex", "--format latex"),
+    ("--markdown", "--format markdown"),
+];
+
 /// Text of wrong arguments.
 fn in_our_words(text: &str) -> String {
-    NUMBER_WORDS.iter().fold(text.to_string(), |text, (theirs, ours)| text.replace(theirs, ours))
+    let text = NUMBER_WORDS
+        .iter()
+        .fold(text.to_string(), |text, (theirs, ours)| text.replace(theirs, ours));
+    let mut lines: Vec<String> = Vec::new();
+    for line in text.split_inclusive('\n') {
+        if !line.contains(AS_VALUE) {
+            lines.push(line.to_string());
+            continue;
+        }
+        match INSTEAD.iter().find(|(wrong, _)| line.contains(&format!("-- {wrong}"))) {
+            Some((_, right)) => lines.push(format!("  tip: write '{right}'\n")),
+            // An empty line goes with it.
+            None => _ = lines.pop_if(|line| line.trim().is_empty()),
+        }
+    }
+    lines.concat()
 }
 
 /// Prints what is wrong with the arguments, or the help that is asked for, and ends the program.

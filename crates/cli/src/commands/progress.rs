@@ -1,5 +1,6 @@
-//! Progress of a long run, displayed on a terminal only: what is done, for how long, and an estimate
-//! of what is left once there is something to estimate it from.
+//! Progress of a long run: what is done, for how long, and an estimate of what is left once there is
+//! something to estimate it from. A terminal shows it all the time; elsewhere there is a line on standard
+//! error after a few seconds, and others when the time has doubled.
 
 use std::io::IsTerminal;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -13,6 +14,8 @@ use liouville_search::Meter;
 
 /// Delay before anything appears: a quick command shows nothing.
 const BLINK: Duration = Duration::from_millis(300);
+/// Delay before the first line where there is no terminal.
+const PATIENCE: Duration = Duration::from_secs(5);
 /// Time between two looks.
 const GLANCE: Duration = Duration::from_millis(200);
 /// Parts of a unit that are counted.
@@ -67,10 +70,10 @@ impl Progress {
     fn shown(count: Option<u64>, what: &'static str, meter: Meter) -> Self {
         let (done, phase) = (AtomicU64::new(0), Mutex::new(Phase::new(count, what)));
         let state = Arc::new(RunState { phase, done, meter });
-        let ticker = std::io::stderr().is_terminal().then(|| {
-            let (sender, receiver) = channel();
-            let own = Arc::clone(&state);
-            let watch = move || {
+        let (sender, receiver) = channel();
+        let own = Arc::clone(&state);
+        let ticker = match std::io::stderr().is_terminal() {
+            true => Builder::new().spawn(move || {
                 let (mut wait, mut bar) = (BLINK, None);
                 while receiver.recv_timeout(wait) == Err(RecvTimeoutError::Timeout) {
                     own.show(bar.get_or_insert_with(|| own.bar()));
@@ -79,10 +82,18 @@ impl Progress {
                 if let Some(bar) = bar {
                     bar.finish_and_clear();
                 }
-            };
-            Builder::new().spawn(watch).ok().map(|thread| (sender, thread))
-        });
-        Self { state, ticker: Mutex::new(ticker.flatten()) }
+            }),
+            false => Builder::new().spawn(move || {
+                let mut wait = PATIENCE;
+                while receiver.recv_timeout(wait) == Err(RecvTimeoutError::Timeout) {
+                    let done = own.done.load(Ordering::Relaxed) as f64 / GRAIN;
+                    anstream::eprintln!("at work: {}", own.line(done, Instant::now()));
+                    // The next line comes when the time has doubled.
+                    wait = locked(&own.phase).started.elapsed();
+                }
+            }),
+        };
+        Self { state, ticker: Mutex::new(ticker.ok().map(|thread| (sender, thread))) }
     }
 
     /// Goes on to work of another number of units.

@@ -27,8 +27,11 @@ impl FoundOrbit {
     }
 }
 
-/// Formats a number with its error: the digits that the error leaves, and one more.
+/// Formats a number with its error: the digits that the error leaves, and one more; 0 within its error.
 pub(super) fn shown(x: MeasuredNumber) -> String {
+    if x.value.abs() <= x.error {
+        return format!("0 ± {:.0e}", x.error);
+    }
     let digits = libm::ceil(-libm::log10(x.error)) + 1.0;
     if !(x.error > 0.0 && digits.is_finite()) {
         return format!("{:?}", x.value);
@@ -77,11 +80,16 @@ pub fn text(case: &Case, found: &FoundOrbit) -> String {
     let mut state = cycle.start.state.iter();
     for variable in &case.model.state {
         let values = state.by_ref().take(variable.len());
-        let values: Vec<String> = values.map(|x| format!("{:?}", x.hi)).collect();
+        // Below the distance of return only rounding is left.
+        let known = |x: f64| if x.abs() <= cycle.residual { 0.0 } else { x };
+        let values: Vec<String> = values.map(|x| format!("{:?}", known(x.hi))).collect();
         out.push_str(&format!("  {} = {}\n", variable.name, values.join(", ")));
     }
     let period = shown(cycle.period);
-    out.push_str(&format!("  returns after t = {period}, to {:.1e}\n", cycle.residual));
+    out.push_str(&format!(
+        "  returns after t = {period}, at a distance of {:.1e}\n",
+        cycle.residual
+    ));
     if cycle.turns > 1 {
         let (turns, least) = (cycle.turns, shown(least(cycle)));
         out.push_str(&format!("  run through {turns} times: the least period is {least}\n"));
@@ -182,6 +190,6 @@ mod tests {
         assert_eq!(text(148.166_473_353_152_24, 3e-11), "148.166473353152 ± 3e-11");
         assert_eq!(text(0.5, 0.2), "0.50 ± 2e-1");
         assert_eq!(text(1.0, 0.0), "1.0", "no error, all digits");
-        assert_eq!(text(0.0, 1e-15), "0.0000000000000000 ± 1e-15");
+        assert_eq!(text(0.0, 1e-15), "0 ± 1e-15");
     }
 }

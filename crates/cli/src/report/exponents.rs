@@ -3,7 +3,13 @@
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use liouville_flow::{Alignment, Character, Estimate, Exponents, FlowError, Spectrum};
+use super::cycle;
+use liouville_flow::{
+    Alignment, Character, Estimate, Exponents, FlowError, MeasuredNumber, Spectrum,
+};
+
+/// Error below which a number with five decimals shows nothing.
+const SMALL: f64 = 5e-6;
 
 /// A motion that was followed.
 #[derive(Debug, Serialize, Deserialize)]
@@ -68,20 +74,42 @@ pub fn text(title: &str, rows: &[MotionRow]) -> String {
     out
 }
 
+/// Formats a mean with its error.
+fn shown(Estimate { mean, error, .. }: Estimate) -> String {
+    match error {
+        _ if mean == 0.0 && error == 0.0 => "0".to_string(),
+        // Five decimals would show nothing of it.
+        0.0..SMALL if mean.abs() <= error || error > 0.0 => {
+            cycle::shown(MeasuredNumber { value: mean, error })
+        }
+        _ => format!("{mean:+.5} ± {error:.5}"),
+    }
+}
+
+/// Formats a mean over the later half.
+fn later(Estimate { later, error, .. }: Estimate) -> String {
+    match later.abs() < SMALL && error < SMALL {
+        true => format!("{later:+.1e}"),
+        false => format!("{later:+.5}"),
+    }
+}
+
 fn lines(found: &Exponents) -> String {
-    let shown = |estimate: Estimate| format!("{:+.5} ± {:.5}", estimate.mean, estimate.error);
     let mut out = format!(
-        "  t = {}: {}\n  largest exponent {} (later half {:+.5})\n  \
-         mean divergence  {} (later half {:+.5})\n",
+        "  t = {}: {}\n  largest exponent {} (later half {})\n  \
+         mean divergence  {} (later half {})\n",
         found.time,
         found.character.name(),
         shown(found.largest),
-        found.largest.later,
+        later(found.largest),
         shown(found.divergence),
-        found.divergence.later,
+        later(found.divergence),
     );
     if let Some(alignment) = found.alignment {
-        out.push_str(&format!("  alignment index  {:.1e}", alignment.index));
+        out.push_str(&match alignment.index < f64::EPSILON {
+            true => format!("  alignment index  below {:.1e}", f64::EPSILON),
+            false => format!("  alignment index  {:.1e}", alignment.index),
+        });
         if let Some(since) = alignment.since {
             out.push_str(&format!(", parallel from t = {since:.0} on"));
         }
@@ -126,10 +154,7 @@ pub fn spectra_text(
     names: &[String],
     spectra: &[Result<Spectrum, FlowError>],
 ) -> String {
-    let shown = |estimate: &Estimate| {
-        let Estimate { mean, error, later } = estimate;
-        format!("{mean:+.5} ± {error:.5} (later half {later:+.5})")
-    };
+    let shown = |own: &Estimate| format!("{} (later half {})", shown(*own), later(*own));
     let mut out = format!("{title}\n");
     for (name, spectrum) in names.iter().zip(spectra) {
         let found = match spectrum {

@@ -39,14 +39,23 @@ pub fn parameters(case: &Case, without: &[&str]) -> Vec<Text> {
     case.model.parameters.iter().filter_map(one).collect()
 }
 
+/// A number, as a decimal where it is one: 0.0121505856, and 1/3.
+fn number(value: &Rational) -> String {
+    let text = value.to_f64().0.to_string();
+    match text.parse::<Rational>().is_ok_and(|own| own == *value) {
+        true => text,
+        false => value.to_string(),
+    }
+}
+
 fn value(kind: Type, values: &[Rational]) -> String {
     let listed = |values: &[&Rational]| {
-        let words: Vec<String> = values.iter().map(ToString::to_string).collect();
+        let words: Vec<String> = values.iter().map(|value| number(value)).collect();
         format!("({})", words.join(", "))
     };
     let all: Vec<&Rational> = values.iter().collect();
     match kind {
-        Type::Scalar => all.first().map_or(String::new(), ToString::to_string),
+        Type::Scalar => all.first().map_or(String::new(), |value| number(value)),
         Type::Vector(_) => listed(&all),
         Type::Matrix(_, columns) => {
             let is_diagonal = |(place, x): (usize, &&Rational)| {

@@ -96,14 +96,26 @@ pub fn text(case: &Case, orbit: &Orbit, precision: Precision) -> String {
     line(format!("{:<44} {:<9} {:>10} {:>10}", "drift", "", "largest", "at the end"));
     for followed in &orbit.followed {
         line(format!(
-            "  {:<42} {:<9} {:>10.1e} {:>10.1e}",
+            "  {:<42} {:<9} {:>10} {:>10}",
             followed.name,
             role(followed.role),
-            followed.drift,
-            followed.drift_at_end
+            shown_drift(followed.drift, precision),
+            shown_drift(followed.drift_at_end, precision)
         ));
     }
     out
+}
+
+/// A drift; below the rounding of the numbers that were followed nothing is known of it.
+fn shown_drift(drift: f64, precision: Precision) -> String {
+    let rounding = match precision {
+        Precision::Float => f64::EPSILON,
+        Precision::Pair => f64::EPSILON * f64::EPSILON,
+    };
+    match drift < rounding {
+        true => format!("< {rounding:.0e}"),
+        false => format!("{drift:.1e}"),
+    }
 }
 
 /// Renders the motion as JSON; states are decimal strings.
@@ -209,22 +221,37 @@ pub fn plot(columns: &[String], names: &[String], orbits: &[&[Vec<DoubleDouble>]
     let heights = all().flat_map(|row| (1..=count).map(move |place| value(row, place)));
     let across = Axis::over(math(first), all().map(|row| value(row, 0)));
     let mut plot = Plot::new(across, Axis::over(name, heights));
+    let mut entries = Vec::new();
     for (index, rows) in orbits.iter().enumerate() {
         for place in 1..=count {
             let points = rows.iter().map(|row| [value(row, 0), value(row, place)]).collect();
-            plot.layers.push(Layer::Line(points, CATEGORIES[plot.layers.len() % CATEGORIES.len()]));
+            // Beyond the colours come dashes, and then all of them again.
+            let own = plot.layers.len();
+            let (paint, is_dashed) =
+                (CATEGORIES[own % CATEGORIES.len()], own / CATEGORIES.len() % 2 == 1);
+            let (layer, mark) = match is_dashed {
+                true => (Layer::Dashes(points, paint), MarkShape::Dashes),
+                false => (Layer::Line(points, paint), MarkShape::Line),
+            };
+            plot.layers.push(layer);
             let mut text = if count > 1 { math(&others[place - 1]) } else { Text::default() };
             if orbits.len() > 1 {
                 let start = names.get(index).map_or("", String::as_str).replace('-', "−");
                 let comma = if text.is_empty() { "start " } else { ", start " };
                 text = text.then(plain(&format!("{comma}{start}")));
             }
-            if !text.is_empty() && plot.layers.len() <= CATEGORIES.len() {
-                let paint = CATEGORIES[plot.layers.len() - 1];
-                plot.legend.push(LegendEntry { mark: MarkShape::Line, paint, text });
+            if !text.is_empty() {
+                entries.push(LegendEntry { mark, paint, text });
             }
         }
     }
+    let told = 2 * CATEGORIES.len();
+    if entries.len() > told {
+        let text = plain(&format!("and {} more", entries.len() - told));
+        entries.truncate(told);
+        entries.push(LegendEntry { mark: MarkShape::Line, paint: Paint::Paper, text });
+    }
+    plot.legend.extend(entries);
     Some(plot)
 }
 
@@ -251,4 +278,28 @@ pub fn track_plot(tracks: &[Vec<[f64; 2]>]) -> Plot {
         text: plain("start"),
     });
     plot
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn curves_beyond_the_colours_are_dashed_and_named() {
+        let row = |t: f64| (0..13).map(|k| DoubleDouble::from_f64(t + f64::from(k))).collect();
+        let rows: Vec<Vec<DoubleDouble>> = vec![row(0.0), row(1.0)];
+        let columns: Vec<String> =
+            ["t".to_string()].into_iter().chain((1..=12).map(|k| format!("x{k}"))).collect();
+        let plot = plot(&columns, &[String::new()], &[&rows[..]]).expect("columns");
+        let dashed = plot.layers.iter().filter(|own| matches!(own, Layer::Dashes(..))).count();
+        assert_eq!((plot.layers.len(), dashed, plot.legend.len()), (12, 4, 12));
+        let (first, ninth) = (&plot.legend[0], &plot.legend[8]);
+        assert!(first.paint == ninth.paint && first.mark != ninth.mark, "told by their strokes");
+    }
+
+    #[test]
+    fn drifts_below_rounding_are_not_numbers() {
+        assert_eq!(shown_drift(6.2e-17, Precision::Float), "< 2e-16");
+        assert_eq!(shown_drift(6.2e-17, Precision::Pair), "6.2e-17");
+    }
 }

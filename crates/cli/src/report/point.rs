@@ -231,8 +231,20 @@ fn decimal(value: f64) -> String {
 
 fn shown(value: &impl Decimal) -> String {
     match (value.number(), value.error()) {
-        (Some(number), Some(error)) => format!("{number} ± {error:.1e}"),
-        (Some(number), None) => number,
+        (Some(number), Some(error)) => {
+            let value = number.parse::<f64>().unwrap_or(f64::NAN);
+            match error {
+                0.0 => whole(number),
+                _ if value.abs() <= error => format!("0 ± {error:.1e}"),
+                _ => format!("{number} ± {error:.1e}"),
+            }
+        }
+        (Some(number), None) => whole(number),
         (None, _) => "undefined".to_string(),
     }
+}
+
+/// A number as it is written, 0 without decimals.
+fn whole(number: String) -> String {
+    if number == "0.0" || number == "-0.0" { "0".to_string() } else { number }
 }

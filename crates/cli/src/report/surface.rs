@@ -39,7 +39,9 @@ impl SurfaceReport<'_> {
             counted(crossings, "crossing"),
             counted(steps as usize, "step")
         );
-        let drifts = self.orbits.iter().filter_map(|orbit| orbit.drift);
+        // Of a motion that ended early, as one that escapes, the energy says nothing.
+        let whole = self.orbits.iter().filter(|orbit| orbit.problem.is_none());
+        let drifts = whole.filter_map(|orbit| orbit.drift);
         if let Some(worst) = drifts.reduce(|a, b| if b > a || b.is_nan() { b } else { a }) {
             out.push_str(&format!("largest change of the energy {worst:.1e}\n"));
         }

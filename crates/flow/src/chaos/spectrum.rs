@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::FlowError;
-use crate::motion::lyapunov::{BLOCKS, Estimate, SKIPPED, estimate};
+use crate::motion::lyapunov::{BLOCKS, ERRORS, Estimate, SKIPPED, estimate};
 use crate::motion::start::{LevelFunctions, Start, level_basis};
 use crate::motion::variational::variational_program;
 use crate::taylor::batch::each;
@@ -28,12 +28,16 @@ pub struct Spectrum {
 
 impl Spectrum {
     /// Dimension of Kaplan and Yorke: k + (λ₁ + … + λ_k)/|λ_{k+1}|, k the largest number for which
-    /// the sum is not negative; `None` where this holds for all exponents.
+    /// the sum is not negative beyond its error; `None` where volume does not shrink beyond its error.
     pub fn kaplan_yorke(&self) -> Option<f64> {
-        let mut sum = 0.0;
+        if self.divergence.mean >= 0.0 || !self.divergence.is_settled(self.time) {
+            return None;
+        }
+        let (mut sum, mut error) = (0.0, 0.0);
         for (count, exponent) in self.exponents.iter().enumerate() {
-            if sum + exponent.mean < 0.0 {
-                return Some(count as f64 + sum / exponent.mean.abs());
+            error = libm::hypot(error, exponent.error);
+            if sum + exponent.mean < -ERRORS * error {
+                return Some(count as f64 + sum.max(0.0) / exponent.mean.abs());
             }
             sum += exponent.mean;
         }
@@ -159,4 +163,28 @@ fn orthonormalised(
         unit.push(rest);
     }
     lengths
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn spectrum(exponents: &[(f64, f64)], divergence: (f64, f64)) -> Spectrum {
+        let of = |(mean, error): (f64, f64)| Estimate { mean, error, later: mean };
+        let exponents = exponents.iter().copied().map(of).collect();
+        Spectrum { time: 1000.0, exponents, divergence: of(divergence) }
+    }
+
+    #[test]
+    fn a_dimension_needs_volume_that_shrinks_beyond_its_error() {
+        let kept = [(0.152, 0.038), (0.007, 0.021), (-0.011, 0.027), (-0.151, 0.035)];
+        assert_eq!(spectrum(&kept, (-0.003, 0.021)).kaplan_yorke(), None);
+        // A density e^f lets the volume change at the ends only.
+        assert_eq!(spectrum(&kept, (-0.005, 0.001)).kaplan_yorke(), None);
+        let lorenz = [(0.9, 0.01), (-1e-5, 1e-3), (-14.5, 0.01)];
+        let dimension = spectrum(&lorenz, (-13.6, 1e-6)).kaplan_yorke().expect("volume shrinks");
+        assert!((dimension - 2.062).abs() < 1e-3, "{dimension}");
+        let cycle = [(-1e-5, 1e-3), (-2.0, 0.01)];
+        assert_eq!(spectrum(&cycle, (-2.0, 0.01)).kaplan_yorke(), Some(1.0), "0 within its error");
+    }
 }

@@ -348,17 +348,21 @@ impl<'s> CycleSearch<'s> {
                 derivative.columns[column][row].hi
             })
         };
+        let product = |derivative: &Derivative| {
+            let DoubleDouble { hi, lo } = derivative.volume;
+            libm::exp(hi) * (1.0 + lo)
+        };
+        let product = MeasuredNumber::twice(product(float), product(pair));
+        if basis.len() == known.len() + 1 {
+            return Ok(multiplier::one(product));
+        }
         if basis.len() == known.len() + 2 {
             let trace = |derivative: &Derivative| {
                 let diagonal = derivative.columns.iter().enumerate().map(|(k, column)| column[k]);
                 let trivial = DoubleDouble::from_f64(-(known.len() as f64));
                 diagonal.fold(trivial, |sum, x| sum + x).hi
             };
-            let product = |derivative: &Derivative| libm::exp(derivative.volume.hi);
-            return Ok(multiplier::two(
-                MeasuredNumber::twice(trace(float), trace(pair)),
-                MeasuredNumber::twice(product(float), product(pair)),
-            ));
+            return Ok(multiplier::two(MeasuredNumber::twice(trace(float), trace(pair)), product));
         }
         Ok(multiplier::all(&matrix(float), &matrix(pair), &known))
     }

@@ -4,7 +4,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 
 use crate::closed::through::MeasuredNumber;
 
-/// Roundings of the largest entry of a matrix that its entries may have.
+/// Roundings of the largest entry of a derivative that the entries of its part across the flow may have.
 const ROUNDINGS: f64 = 16.0;
 
 /// A multiplier of a closed orbit.
@@ -75,6 +75,14 @@ fn kind(multipliers: &[Multiplier]) -> Option<CycleKind> {
     }
 }
 
+/// The only multiplier, which is the product of all.
+pub(crate) fn one(product: MeasuredNumber) -> (Vec<Multiplier>, Option<CycleKind>) {
+    let MeasuredNumber { value, error } = product;
+    let multipliers = vec![Multiplier { re: value, im: 0.0, error, modulus_error: error }];
+    let kind = kind(&multipliers);
+    (multipliers, kind)
+}
+
 /// Two multipliers from their sum and their product.
 pub(crate) fn two(
     sum: MeasuredNumber,
@@ -132,11 +140,12 @@ pub(crate) fn all(
     if across.ncols() == 0 || float.iter().chain(pair.iter()).any(|x| !x.is_finite()) {
         return (Vec::new(), None);
     }
+    // Entries across the flow are sums in which those of the whole matrix cancel.
+    let size = ROUNDINGS * f64::EPSILON * pair.amax();
     let within = |matrix: &DMatrix<f64>| across.transpose() * matrix * &across;
     let (float, pair) = (within(float), within(pair));
     let values = eigenvalues(&pair);
     // Changes of the size of rounding show how well the eigenvalues are determined.
-    let size = ROUNDINGS * f64::EPSILON * pair.amax();
     let changed = |salt: usize| {
         pair.map_with_location(|row, column, x| {
             let sign = if (row * 7 + column * 3 + salt).is_multiple_of(2) { 1.0 } else { -1.0 };
@@ -219,6 +228,16 @@ mod tests {
         assert!(apart[0].error < 2e-10 && apart[1].error < 1e-12, "{apart:?}");
         let (close, _) = two(measured(2.0, 1e-12), measured(1.0, 1e-12));
         assert!(close[0].error > 1e-7, "the root of the error: {close:?}");
+    }
+
+    #[test]
+    fn errors_are_not_below_the_rounding_of_the_whole_derivative() {
+        // Across the velocity only 1e-16 is left of entries of size 1.
+        let matrix = DMatrix::from_row_slice(2, 2, &[1.0, 0.7, 0.0, 1e-16]);
+        let (found, _) = all(&matrix, &matrix, &[vec![1.0, 0.0]]);
+        assert!(found[0].error > 1e-16, "{found:?}");
+        let (found, kind) = one(measured(2.3e-17, 2e-31));
+        assert_eq!((found[0].re, found[0].error, kind), (2.3e-17, 2e-31, Some(CycleKind::Sink)));
     }
 
     #[test]

@@ -103,7 +103,8 @@ impl Columns {
 /// Titles of the columns of a formula.
 fn titled(text: &str, formula: &Formula) -> Vec<String> {
     let kind = formula.value_type();
-    let is_name = text.chars().all(|letter| letter.is_alphanumeric() || letter == '_');
+    let is_name =
+        text.chars().all(|letter| letter.is_alphanumeric() || matches!(letter, '_' | '\''));
     let title = |place: usize| match (kind, is_name) {
         (Type::Scalar, _) => text.to_string(),
         (_, true) => kind.component(text, place),

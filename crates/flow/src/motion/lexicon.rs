@@ -9,6 +9,8 @@ use liouville::mechanics::{Dependence, Meaning, Model};
 /// Names of a case, with the formulas of its claims by the names of the claims.
 pub struct Lexicon {
     model: Model,
+    /// Formulas of claims whose names are several words.
+    phrases: Vec<(String, Formula)>,
 }
 
 /// Mistake in a formula that a user has given for a motion.
@@ -42,9 +44,18 @@ impl Lexicon {
     /// Gathers the names of a case. A claim whose name is taken by something else is left out.
     pub fn new(case: &Case) -> Self {
         let mut model = case.model.clone();
+        let mut phrases = Vec::new();
         for claim in &case.claims {
             let (formula, name) = (claim.kind.formula(), canonical_name(&claim.name));
-            let (Some(formula), Some(name)) = (formula, name) else { continue };
+            let Some(formula) = formula else { continue };
+            let Some(name) = name else {
+                if Formula::parse(&claim.name, &model.vocabulary).is_err()
+                    && !model.has_antiderivative(formula)
+                {
+                    phrases.push((claim.name.clone(), formula.clone()));
+                }
+                continue;
+            };
             let is_matrix = |read: Formula| matches!(read.value_type(), Type::Matrix(..));
             let is_taken = Formula::parse(&name, &model.vocabulary).is_ok_and(|x| !is_matrix(x));
             let is_known = model.vocabulary.find(&name).is_some() || is_taken;
@@ -55,7 +66,7 @@ impl Lexicon {
             model.vocabulary.add(&name, meaning, formula.value_type(), Dependence::Phase);
             model.abbreviations.push(formula.clone());
         }
-        Self { model }
+        Self { model, phrases }
     }
 
     /// Model in whose names the formulas are.
@@ -65,6 +76,9 @@ impl Lexicon {
 
     /// Reads a formula that stands at `from` in a longer text.
     pub(crate) fn formula(&self, text: &str, from: usize) -> Result<Formula, FormulaMistake> {
+        if let Some((_, formula)) = self.phrases.iter().find(|(name, _)| name == text.trim()) {
+            return Ok(formula.clone());
+        }
         let read = Formula::parse(text, &self.model.vocabulary);
         let read = read.map_err(|error| FormulaMistake::of(&error, from))?;
         match self.model.has_antiderivative(&read) {

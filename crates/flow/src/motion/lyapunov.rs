@@ -12,7 +12,7 @@ pub(crate) const BLOCKS: usize = 10;
 /// Fraction of the time left out as transient.
 pub(crate) const SKIPPED: f64 = 0.1;
 /// Smallest deviation of a mean from 0 that counts, in standard errors.
-const ERRORS: f64 = 3.0;
+pub(crate) const ERRORS: f64 = 3.0;
 /// Distance below which two unit vectors count as parallel or antiparallel.
 const PARALLEL: f64 = 1e-8;
 /// Logarithm of the largest volume that a bounded motion gains or loses between its ends.
@@ -157,7 +157,7 @@ impl Exponents {
 impl Estimate {
     /// Whether a mean divergence differs from 0 by more than its error, and by more than the volume
     /// that a motion of finite length gains or loses at its ends.
-    fn is_settled(&self, time: f64) -> bool {
+    pub(crate) fn is_settled(&self, time: f64) -> bool {
         self.mean.abs() > ERRORS * self.error && self.mean.abs() * time.abs() >= ENDS
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::section::andoyer::applies;
 use crate::section::coordinate::{ChartAxis, Coordinate};
-use liouville::case::Case;
+use liouville::case::{Case, number};
 use liouville::formula::{Type, canonical_name};
 use liouville::mechanics::{ParameterOrigin, StiffEntry};
 use liouville::number::rational::Rational;
@@ -178,11 +178,15 @@ fn parameters(case: &Case) -> Vec<String> {
     names.collect()
 }
 
-/// Reads a number, which may be a multiple of π: `3/2`, `2pi`, `π/2`.
+/// Reads a number, which may be a multiple of π or another formula of numbers: `3/2`, `2pi`, `√2/2`.
 pub fn number_with_pi(text: &str) -> Option<Rational> {
+    multiple_of_pi(text).or_else(|| number(text))
+}
+
+fn multiple_of_pi(text: &str) -> Option<Rational> {
     let plain: String = text.split_whitespace().collect();
     let plain = plain.replace("pi", "π").replace('*', "");
-    let Some((before, behind)) = plain.split_once('π') else { return plain.parse().ok() };
+    let (before, behind) = plain.split_once('π')?;
     let factor: Rational = match before {
         "" => Rational::from(1),
         "-" | "−" => Rational::from(-1),

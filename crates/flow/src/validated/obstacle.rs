@@ -23,8 +23,9 @@ pub enum Obstacle {
     Wide(f64),
     /// The equations are singular.
     #[error(
-        "the equations for the orbit are singular: it is degenerate, or one of a family of closed \
-         orbits, from which `integrals` of the claim single one out, or there is none"
+        "the equations for the orbit are singular: it is degenerate, or there is none, or it is one of a \
+         family of closed orbits, from which `integrals` of the claim single one out if they vary along the \
+         family; images of one orbit under a symmetry, as rotations, keep them: use coordinates without it"
     )]
     Degenerate,
     /// Newton's method does not converge.
@@ -36,7 +37,8 @@ pub enum Obstacle {
     /// The boxes are not mapped into themselves.
     #[error(
         "the boxes are not contracted (norm {0:.1e}): the orbit is degenerate or nearly so, or one of a \
-         family of closed orbits, from which `integrals` of the claim single one out"
+         family of closed orbits, from which `integrals` of the claim single one out if they vary along the \
+         family; images of one orbit under a symmetry, as rotations, keep them: use coordinates without it"
     )]
     NoContraction(f64),
     /// The boxes are not mapped into themselves for all values of the parameters.

@@ -170,6 +170,14 @@ fn measure(survey: &Survey) -> Vec<SectionBlock> {
             true => " For the parameters of the first state.".to_string(),
             false => format!(" For {}.", values.join("; ")),
         };
+        let largest =
+            map.values.iter().flatten().flatten().fold(0.0f64, |most, x| most.max(x.abs()));
+        if map.quantity == "ln ρ" && largest < NOTHING {
+            found.push(text(
+                "By quadrature from the criterion ρ is constant on the sphere of γ.".to_string(),
+            ));
+            return found;
+        }
         found.push(text(format!("{what}{of}{}", closure.unwrap_or_default())));
         found.push(SectionBlock::Picture(picture::sphere(map)));
         found.push(table_of(map));
@@ -177,10 +185,16 @@ fn measure(survey: &Survey) -> Vec<SectionBlock> {
     found
 }
 
+/// Largest value of ln ρ on the sphere that is rounding alone.
+const NOTHING: f64 = 1e-9;
+
 /// Table of every eighth column and fourth row of the map, for formats without pictures.
 fn table_of(map: &liouville_search::survey::SphereMap) -> SectionBlock {
-    let shown =
-        |value: &Option<f64>| TableCell::Text(value.map_or("–".to_string(), |x| format!("{x:.4}")));
+    let number = |x: f64| {
+        let text = format!("{x:.4}");
+        if text == "-0.0000" { "0.0000".to_string() } else { text }
+    };
+    let shown = |value: &Option<f64>| TableCell::Text(value.map_or("–".to_string(), number));
     let rows = map.latitudes.iter().zip(&map.values).skip(1).step_by(4).map(|(latitude, row)| {
         let mut cells = vec![TableCell::Text(format!("{latitude:+.1}°"))];
         cells.extend(row.iter().step_by(8).map(shown));

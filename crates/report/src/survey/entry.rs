@@ -121,7 +121,10 @@ fn place(holds: &[String]) -> Option<String> {
 pub fn grounds(evidence: &Evidence) -> Vec<String> {
     let mut lines: Vec<String> =
         evidence.climb.iter().map(|rung| format!("{}: {}", rung.rung, rung.found)).collect();
-    lines.extend(evidence.proof.as_ref().map(|proof| format!("proof: {proof}")));
+    // A rung of the ladder that proves says the same.
+    let proof = evidence.proof.as_ref().map(ToString::to_string);
+    let is_told = |proof: &String| evidence.climb.iter().any(|rung| rung.found == *proof);
+    lines.extend(proof.filter(|proof| !is_told(proof)).map(|proof| format!("proof: {proof}")));
     lines.extend(evidence.volume.as_ref().map(|volume| format!("volume: {volume}")));
     lines.extend(evidence.witness.as_ref().map(witness));
     lines.extend(evidence.silence.as_ref().map(|silence| format!("no proof: {silence}")));

@@ -63,10 +63,9 @@ impl ConditionSearch<'_> {
         self.report.remark(match last {
             0 => format!("conditions of several equations are sought {simple}"),
             last => format!(
-                "where none of the single equations holds that are told or counted, modulo a prime of \
-                 61 bits no other {others} give more integrals of degree at most {last}; \
-                 where one holds, and for higher degrees, conditions of several equations are sought \
-                 {simple}"
+                "modulo a prime of 61 bits, no other {others} give more integrals of degree at most {last}, \
+                 unless a single equation holds that is told or counted; where one holds, and for higher \
+                 degrees, conditions of several equations are sought {simple}"
             ),
         });
         Ok(())

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::polynomial::PrimePolynomials;
 use super::real::has_real_root;
+use liouville::formula::exponent_text;
 
 use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
@@ -152,9 +153,7 @@ pub fn written(name: &str, product: Vec<Rational>) -> Option<String> {
         let base = match power {
             0 => String::new(),
             1 => name.to_string(),
-            2 => format!("{name}²"),
-            3 => format!("{name}³"),
-            n => format!("{name}^{n}"),
+            n => format!("{name}{}", exponent_text(n as i64)),
         };
         text.push_str(sign);
         text.push_str(&match (size.is_one(), base.is_empty()) {

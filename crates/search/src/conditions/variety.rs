@@ -4,6 +4,7 @@ use super::real::Terms;
 use crate::echelon::Echelon;
 use crate::series::exponents;
 use crate::terms::equation;
+use liouville::formula::exponent_text;
 use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
 use liouville::proof::reconstruct;
@@ -75,9 +76,7 @@ pub fn monomial(names: &[&str], exponents: &[u32]) -> String {
     let factors: Vec<String> = used
         .map(|(name, e)| match e {
             1 => name.to_string(),
-            2 => format!("{name}²"),
-            3 => format!("{name}³"),
-            e => format!("{name}^{e}"),
+            e => format!("{name}{}", exponent_text(i64::from(*e))),
         })
         .collect();
     if factors.is_empty() { "1".to_string() } else { factors.join("*") }

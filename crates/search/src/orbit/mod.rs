@@ -105,7 +105,7 @@ use liouville::formula::Formula;
 use liouville::mechanics::System;
 use liouville::verdict::Verdict;
 
-pub use self::adjoin::{merged, root_steps, roots};
+pub use self::adjoin::{merged, root_steps, roots, signed_terms};
 pub use self::closure::{FURTHER_INTEGRAL, close};
 pub use self::darboux::KIND as DARBOUX;
 pub use self::exponents::CONSTANT_RATE;
@@ -152,8 +152,9 @@ fn counted(
     if report.orbits.len() > before && !has_true_roots(case, effort)? {
         report.orbits.truncate(before);
         report.remark(
-            "relations along orbits are not counted: the formulas contain a modulus, or a root that \
-             depends on others; write √(4*x) as 2*√x, √(x*y) as √x*√y, √(x²) as x where x > 0"
+            "relations along orbits are not counted: it is not known that the signs of the roots in the \
+             formulas do not matter; where there is a modulus or a root that depends on others, write √(4*x) \
+             as 2*√x, √(x*y) as √x*√y, √(x²) as x where x > 0"
                 .to_string(),
         );
     }

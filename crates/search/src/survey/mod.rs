@@ -206,6 +206,7 @@ fn of_all_values(
     // The densities of the case and of the search are reported if no family has one.
     let from_family = sorted.densities.iter().any(|one| one.is_measure() && one.is_of_family());
     sorted.densities.retain(|one| !from_family || one.is_of_family());
+    sorted.densities.retain(|one| !unknown::is_claimed_density(case, options, &one.claim));
     let measure = measure(case, &sorted);
     let hamiltonian = match sorted.densities.iter().find(|one| one.is_measure()) {
         Some(density) => hamiltonian::form(case, options, &geometry.bindings, density)?,

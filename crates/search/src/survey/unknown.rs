@@ -7,8 +7,9 @@ use super::question::TestedClaim;
 use crate::{CountReport, Effort, Excluded, Found, Halt, search};
 use liouville::case::Case;
 use liouville::case::Expect;
+use liouville::claim::Claim;
 use liouville::mechanics::System;
-use liouville::verdict::{ClaimReport, Options};
+use liouville::verdict::{ClaimReport, Options, Verdict};
 
 /// Degree in the velocities up to which integrals are counted: a fraction of a second.
 const DEGREE: u32 = 4;
@@ -81,14 +82,32 @@ impl SearchOutcome {
     }
 }
 
+/// Source of what the search has found.
+const OF_SEARCH: &str = "found by the search";
+
+/// Whether a density of the search is proved to be one that the case claims.
+pub fn is_claimed_density(case: &Case, options: &Options, found: &ClaimReport) -> bool {
+    if found.kind != "density" || found.source != OF_SEARCH {
+        return false;
+    }
+    let Some(own) = found.formula.as_ref().and_then(|text| case.formula(text).ok()) else {
+        return false;
+    };
+    let claimed = case.claims.iter().filter(|claim| claim.kind.name() == "density");
+    claimed.filter_map(|claim| claim.kind.formula()).any(|other| {
+        let judged = case.judge(&[Claim::identity(&own, other)], options);
+        judged.is_ok_and(|judged| judged.claims.iter().all(|own| own.verdict == Verdict::Proved))
+    })
+}
+
 /// Makes a finding from a result of the search, with the names that the search added.
 pub fn of_search(case: &Case, found: Found) -> TestedClaim {
     let names = found.abbreviations.iter().map(|(name, text)| define(name, text)).collect();
     let claim = ClaimReport {
-        name: format!("{} found by search", found.kind),
+        name: found.kind.replace('-', " "),
         formula: Some(found.formula),
         kind: found.kind,
-        source: "found by the search".to_string(),
+        source: OF_SEARCH.to_string(),
         place: "level".to_string(),
         expect: Expect::Open,
         verdict: found.verdict,

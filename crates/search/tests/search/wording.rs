@@ -128,3 +128,30 @@ fn values_of_lists_are_no_given_values() {
     // What is counted for each is not told as that of the first.
     assert!(report.remarks.iter().all(|own| !own.contains("the first of")), "{:?}", report.remarks);
 }
+
+#[test]
+fn functions_of_several_claims_are_known() {
+    let spring = field(
+        "A = '1..2'",
+        "x = '-1..1'\ny = '-1..1'\nz = '-1..1'",
+        "x = 'y'\ny = '-A*x'\nz = '0'",
+    );
+    let claims = "[[claim]]\nname = 'En'\nintegral = 'y^2/2 + A*x^2/2 - z'\n\
+                  [[claim]]\nname = 'height'\nintegral = 'z'\n";
+    let report = searched(&format!("{spring}{claims}"), 2);
+    let own = report.found.iter().find(|own| own.formula.contains("A*x²")).expect("found");
+    assert_eq!(own.known.as_deref(), Some("En, height"), "it is 2 (En + z)");
+}
+
+#[test]
+fn an_integral_that_is_rewritten_is_compared_with_the_claims_again() {
+    let satellite = "title = 'a satellite'\n[parameters]\nA = '1..2'\nB = '1..2'\nC = '1..2'\n[state]\n\
+                     M = 'vector(-1..1)'\na = 'vector(-1..1)'\nb = 'vector(-1..1)'\nc = 'vector(-1..1)'\n\
+                     [let]\nJ = 'diag(A,B,C)'\nw = 'inverse(J)*M'\n[field]\n\
+                     M = 'M × w + 3*c × (J*c)'\na = 'a × (w - b)'\nb = 'b × (w - b)'\n\
+                     c = 'c × (w - b)'\n[[claim]]\nname = 'Jacobi'\n\
+                     integral = '(M,w)/2 - (M,b) + 3/2*(c,J*c)'\n";
+    let report = searched(satellite, 2);
+    let own = report.found.iter().find(|own| own.formula.contains("(M,b)")).expect("found");
+    assert_eq!(own.known.as_deref(), Some("Jacobi"), "{}", own.formula);
+}

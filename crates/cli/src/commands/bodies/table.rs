@@ -71,8 +71,11 @@ impl TableMistake {
             Self::Unnamed(_) => format!("{first} m,R"),
             Self::Doubled(_) => "remove one of them".to_string(),
             Self::Given(_) => "remove the column, or --set".to_string(),
-            Self::Unknown(_, known) => match &known[..] {
+            Self::Unknown(name, known) => match &known[..] {
                 [] => "this case has no parameters".to_string(),
+                _ if name.contains([';', '\t']) => {
+                    "separate names and values by commas; a decimal number has a point".to_string()
+                }
                 known => format!("this case has {}", known.join(", ")),
             },
             Self::Unclosed(_) => "end it with a quote, and double a quote inside".to_string(),

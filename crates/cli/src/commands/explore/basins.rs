@@ -10,7 +10,7 @@ use super::CommandOutput;
 use super::Progress;
 use super::chart::parse_size;
 use super::ink::{Ink, Sheet};
-use super::motion::{MotionArgs, Threads, wrong_formula};
+use super::motion::{MotionArgs, Threads, parse_float, parse_number, wrong_formula};
 use super::output::Ending;
 use super::starts::{GivenStart, example, given, misfit};
 use crate::report::basins::BasinReport;
@@ -36,10 +36,10 @@ pub struct BasinArgs {
     #[arg(long, value_name = "STATE", allow_hyphen_values = true)]
     pub start: Option<String>,
     /// Energy of all starts; by default each has that of its state
-    #[arg(long)]
+    #[arg(long, value_parser = parse_number)]
     pub energy: Option<Rational>,
     /// Time to follow each motion; negative: backwards. Its later half shows where it ends
-    #[arg(long, default_value = "400", allow_hyphen_values = true)]
+    #[arg(long, default_value = "400", allow_hyphen_values = true, value_parser = parse_float)]
     pub time: f64,
     /// Values by which attractors are told apart: --by 'cos(φ), sin(φ), p'. By default the components
     /// of the state

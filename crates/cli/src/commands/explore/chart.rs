@@ -17,7 +17,9 @@ use super::CommandOutput;
 use super::Progress;
 use super::eval::Opened;
 use super::ink::{Ink, Sheet};
-use super::motion::{MotionArgs, SectionPlaneArgs, Threads, parse_start, wrong_choice};
+use super::motion::{
+    MotionArgs, SectionPlaneArgs, Threads, parse_float, parse_start, wrong_choice,
+};
 use super::output::{Ending, Output};
 use super::share::{Share, Target, carry_out};
 
@@ -36,7 +38,7 @@ pub struct ChartArgs {
     #[arg(long, value_name = "NXxNY", default_value = "64x40", value_parser = parse_size)]
     pub size: [usize; 2],
     /// Time to follow each motion; negative: backwards. An exponent below (ln t)/t is not detected
-    #[arg(long, default_value = "200", allow_hyphen_values = true)]
+    #[arg(long, default_value = "200", allow_hyphen_values = true, value_parser = parse_float)]
     pub time: f64,
     #[command(flatten)]
     pub plane: SectionPlaneArgs,

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Progress;
 use super::eval::Opened;
-use super::motion::{MotionArgs, SectionPlaneArgs, Threads};
+use super::motion::{MotionArgs, SectionPlaneArgs, Threads, parse_float};
 use super::output::{Ending, Output};
 use super::share::{Share, Target, carry_out};
 use super::starts::{GivenStart, Starts, misfit};
@@ -28,7 +28,7 @@ pub struct ExponentsArgs {
     pub plane: SectionPlaneArgs,
     /// Time to follow each motion; negative: backwards. Transients last long: after a short time a
     /// regular motion may look chaotic
-    #[arg(long, default_value = "2000", allow_hyphen_values = true)]
+    #[arg(long, default_value = "2000", allow_hyphen_values = true, value_parser = parse_float)]
     pub time: f64,
     #[command(flatten)]
     pub starts: Starts,

@@ -10,7 +10,7 @@ use clap::Args;
 use liouville::case::{Angle, Case, Direction};
 use liouville::mechanics::components;
 use liouville::number::double_double::DoubleDouble;
-use liouville::number::rational::Rational;
+use liouville::number::rational::{Rational, RationalError};
 use liouville_flow::{ChoiceError, FlowError, FormulaMistake, SectionChoice, number_with_pi};
 
 use super::LimitArgs;
@@ -126,7 +126,7 @@ impl MotionArgs {
 #[derive(Clone, Debug, Args)]
 pub struct SectionPlaneArgs {
     /// Energy; by default that of the case's [section]
-    #[arg(long)]
+    #[arg(long, value_parser = parse_number)]
     pub energy: Option<Rational>,
     /// Angle of the section: 0, pi/2, pi, 3pi/2, or radians; by default that of the case
     #[arg(long)]
@@ -183,7 +183,11 @@ pub fn wrong_choice(error: &ChoiceError) -> String {
             format!("give --{key}, or add [section] with g0 and energy to the case")
         }
         ChoiceError::NoStart => "give --start l,L/G".to_string(),
-        ChoiceError::TwoStarts => "leave one of them out".to_string(),
+        ChoiceError::TwoStarts => {
+            "leave one of them out: beside --state an axis is a parameter; an axis of the energy, l or L/G \
+             starts on a section, with --start l,L/G for what the axes leave open"
+                .to_string()
+        }
         ChoiceError::Flow(error) => error.help().to_string(),
     };
     match error {
@@ -206,6 +210,25 @@ impl Threads {
     pub fn count(self) -> usize {
         let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         self.threads.unwrap_or_else(cores)
+    }
+}
+
+/// Reads a number, or a formula of numbers such as 2*pi.
+pub fn parse_number(text: &str) -> Result<Rational, String> {
+    number_with_pi(text).ok_or_else(|| {
+        let error = text.trim().parse::<Rational>().err();
+        let error = error.filter(|error| *error == RationalError::TooLong);
+        error.map_or("write a number, such as 12, -0.5, 1e-3, 3/7 or 2*pi".to_string(), |error| {
+            error.to_string()
+        })
+    })
+}
+
+/// Reads the same as the nearest f64.
+pub fn parse_float(text: &str) -> Result<f64, String> {
+    match text.trim().parse() {
+        Ok(number) => Ok(number),
+        Err(_) => parse_number(text).map(|number| number.to_f64().0),
     }
 }
 
@@ -232,7 +255,7 @@ pub fn parse_start(text: &str) -> Result<[f64; 2], String> {
     };
     let numbers: Option<Vec<f64>> = text.split(',').map(number).collect();
     let pair = numbers.and_then(|numbers| <[f64; 2]>::try_from(numbers).ok());
-    pair.ok_or("write l and L/G with a comma between, such as 1.2,-0.04".to_string())
+    pair.ok_or("write l and L/G with a comma between, such as 1.2,-0.04; a whole state is given by --state".to_string())
 }
 
 /// Renders data by the ending of their file.

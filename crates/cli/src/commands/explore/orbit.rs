@@ -17,7 +17,7 @@ use liouville_flow::{
 use super::Progress;
 use super::eval::wrong_state;
 use super::ink::Ink;
-use super::motion::{MotionArgs, Threads, rendered, wrong_formula};
+use super::motion::{MotionArgs, Threads, parse_number, rendered, wrong_formula};
 use super::output::{Ending, Output};
 use super::starts::{GivenStart, Named, Starts, misfit};
 use super::track;
@@ -33,7 +33,7 @@ pub struct OrbitArgs {
     #[command(flatten)]
     pub subject: MotionArgs,
     /// Time to follow the motion; negative: backwards
-    #[arg(long, default_value = "100", allow_hyphen_values = true)]
+    #[arg(long, default_value = "100", allow_hyphen_values = true, value_parser = parse_number)]
     pub time: Rational,
     /// Start by exact numbers: --state 'ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]', moved to the level set if
     /// it is off it; drawn by default
@@ -48,7 +48,7 @@ pub struct OrbitArgs {
     #[arg(long, default_value_t = 0)]
     pub index: u64,
     /// Interval of time between the samples of --out; by default a thousandth of the time
-    #[arg(long, value_name = "TIME", requires = "out")]
+    #[arg(long, value_name = "TIME", requires = "out", value_parser = parse_number)]
     pub every: Option<Rational>,
     /// Columns of --out: t, formulas of the case, and names of its claims: --columns 't, x, energy, F2'.
     /// By default t and the state. A picture shows the others over the first, which may be t
@@ -141,6 +141,14 @@ pub fn run(options: &OrbitArgs) -> Result<CommandOutput, String> {
         false => columns.titles().to_vec(),
     };
     if let Some(out) = &out {
+        if out.ending.is_picture() && tracks.is_none() && titles.len() > 2 && titles[0] != "t" {
+            anstream::eprintln!(
+                "note: the picture shows {} over {}; {} is left out",
+                titles[1],
+                titles[0],
+                titles[2..].join(", ")
+            );
+        }
         let plot = match &tracks {
             _ if !out.ending.is_picture() => None,
             Some(tracks) => Some(orbit::track_plot(tracks)),

@@ -10,7 +10,7 @@ use liouville_flow::{
 };
 use serde_json::json;
 
-use super::motion::{MotionArgs, SectionPlaneArgs, Threads};
+use super::motion::{MotionArgs, SectionPlaneArgs, Threads, parse_number};
 use super::starts::{GivenStart, Starts, misfit};
 use super::surface::read_surface;
 use super::{CommandOutput, Progress, symmetric};
@@ -40,7 +40,7 @@ pub struct Periodic {
     #[command(flatten)]
     pub search: OrbitSearch,
     /// Approximate period in time, for a start by its state, instead of counting crossings
-    #[arg(long, value_name = "TIME", conflicts_with = "period")]
+    #[arg(long, value_name = "TIME", conflicts_with = "period", value_parser = parse_number)]
     pub time: Option<Rational>,
     /// Find the symmetric orbits that meet these lines of fixed points of reversors, with periods up
     /// to --period: L=0, l=0 (and π), l=π/2 (and 3π/2). No start is needed

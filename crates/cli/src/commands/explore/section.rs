@@ -17,7 +17,8 @@ use super::chart::parse_size;
 use super::eval::Opened;
 use super::ink::Ink;
 use super::motion::{
-    CrossingArgs, MotionArgs, Threads, parse_count, parse_positive, parse_start, rendered,
+    CrossingArgs, MotionArgs, Threads, parse_count, parse_float, parse_positive, parse_start,
+    rendered,
 };
 use super::output::{Ending, Output};
 use super::share::{Share, Target, carry_out};
@@ -84,7 +85,7 @@ pub struct SectionArgs {
 
 /// Reads a time for which motions are classified.
 fn parse_time(text: &str) -> Result<f64, String> {
-    let time = text.parse().ok().filter(|time: &f64| *time > 0.0 && time.is_finite());
+    let time = parse_float(text).ok().filter(|time: &f64| *time > 0.0 && time.is_finite());
     time.ok_or("write a positive time".to_string())
 }
 

@@ -111,6 +111,11 @@ fn answer(folder: &Path, pages: &[Page]) -> CommandOutput {
             text.push_str(&format!("; {count} {words}"));
         }
     }
+    for page in pages {
+        if let SiteOutcome::Failed(failures) = &page.outcome {
+            anstream::eprintln!("{}", diagnostic::rendered(failures));
+        }
+    }
     let code = match (failed, unreached) {
         (0, 0) => 0,
         (_, 0) => 2,

@@ -8,6 +8,7 @@ use liouville::formula::canonical_name;
 use liouville::number::rational::Rational;
 use liouville::verdict;
 use liouville_flow::{FlowError, Start, number_with_pi};
+use liouville_report::evidence::shell_quoted;
 
 use super::source;
 
@@ -95,7 +96,9 @@ pub fn example(case: &Case) -> String {
         1 => format!("{}=1", variable.name),
         count => format!("{}=[{}]", variable.name, vec!["1"; count].join(",")),
     };
-    format!("'{}'", variables.map(part).collect::<Vec<_>>().join(" "))
+    let text = variables.map(part).collect::<Vec<_>>().join(" ");
+    // Quotes that a shell needs, also where none is needed.
+    if text.contains('\'') { shell_quoted(&text) } else { format!("'{text}'") }
 }
 
 /// Message about a number of values that fits nothing.

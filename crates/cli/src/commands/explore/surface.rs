@@ -87,10 +87,14 @@ pub fn drawn(
     }
     let cells = options.shade.then(|| options.ink.cells(wish.columns, 0.62));
     let report = SurfaceReport { case, request: &request, names: &names, orbits: &orbits };
+    let energy = options.crossing.plane.energy.as_ref();
+    let energy = energy.map(|energy| facts::equation("energy", &energy.to_string()));
     let section = plain("section ").then(math(request.surface.text()));
     Ok(Drawn {
         title: case.title.clone(),
-        facts: facts::listed([section].into_iter().chain(facts::parameters(case, &[]))),
+        facts: facts::listed(
+            [section].into_iter().chain(energy).chain(facts::parameters(case, &[])),
+        ),
         text: match options.subject.json {
             true => report.json().map_err(|error| format!("error: {error}"))?,
             false => report.text(),

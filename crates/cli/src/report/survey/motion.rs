@@ -12,6 +12,10 @@ const SIZE: Size = Size { width: 150.0, height: None, dot: 0.3, opacity: 1.0 };
 pub fn section(motion: Result<&Portrait, &FlowError>) -> DocumentSection {
     let blocks = match motion {
         Ok(portrait) => blocks(portrait),
+        Err(FlowError::NoAndoyer) => vec![SectionBlock::Text(
+            "No section is drawn: reports have sections of bodies that roll, in (l, L/G)."
+                .to_string(),
+        )],
         Err(problem) => vec![SectionBlock::Text(format!("No section is drawn: {problem}."))],
     };
     DocumentSection { title: "Its motion", blocks }

@@ -96,6 +96,69 @@ fn samples_are_written_as_csv_npy_and_json() {
     );
 }
 
+/// A harmonic oscillator with names that are easy to misread.
+const SPRING: &str = r#"
+title = "spring"
+[state]
+"q1" = "vector(2,-1..1)"
+"q1'" = "vector(2,-1..1)"
+[field]
+"q1'" = "q1'"
+"q1''" = "-q1"
+[[claim]]
+name = "twice the energy"
+integral = "(q1,q1) + (q1',q1')"
+"#;
+
+#[test]
+fn numbers_of_options_may_be_formulas_and_names_are_clear() {
+    let folder = folder("formulas", &[("spring.toml", SPRING)]);
+    let (case, out) = (path(&folder, "spring.toml"), path(&folder, "a.csv"));
+    let orbit = ["motion", "orbit", &case, "--start", "1,0,0,sqrt(2)", "--time", "2*pi"];
+    let columns = ["--columns", "t, q1, q1', twice the energy", "--out", &out];
+    liouville(&[&orbit[..], &columns].concat()).assert().success();
+    let text = fs::read_to_string(&out).expect("samples");
+    let first = text.lines().next().expect("titles");
+    assert_eq!(first, "t,q1[1],q1[2],q1'[1],q1'[2],twice the energy");
+    let last: Vec<f64> = text
+        .lines()
+        .last()
+        .expect("rows")
+        .split(',')
+        .map(|x| x.parse().expect("a number"))
+        .collect();
+    assert!((last[0] - std::f64::consts::TAU).abs() < 1e-12, "{last:?}");
+    assert!((last[1] - 1.0).abs() < 1e-9 && (last[5] - 3.0).abs() < 1e-9, "{last:?}");
+    fails(&["motion", "orbit", &case, "--start", "1 2 3 4"], "`1 2 3 4` is not a start");
+}
+
+const PLANAR: &str = r#"
+title = "FitzHugh–Nagumo"
+[state]
+v = "-2..2"
+w = "-2..2"
+[field]
+v = "v - v^3/3 - w + 1/2"
+w = "(v + 7/10 - 8/10*w)/(25/2)"
+"#;
+
+#[test]
+fn the_multiplier_of_a_planar_orbit_is_its_product() {
+    let folder = folder("planar", &[("planar.toml", PLANAR)]);
+    let case = path(&folder, "planar.toml");
+    for section in ["w=0.5", "w=0.7", "w=0.9"] {
+        let periodic = ["motion", "periodic", &case, "--start", "2,0.5", "--section", section];
+        let found = json(&[&periodic[..], &["--direction", "up", "--json"]].concat(), 0);
+        let text = found.to_string();
+        let one = found["points"][0]["multipliers"][0].clone();
+        let value = one["re"].as_f64().unwrap_or_else(|| panic!("{text}"));
+        let error = one["error"].as_f64().unwrap_or_else(|| panic!("{text}"));
+        // e^(-38.311264), below all roundings of the derivative.
+        assert!((value / 2.299_479_02e-17 - 1.0).abs() < 1e-6, "{section}: {value}");
+        assert!(error < 1e-6 * value, "{section}: {error}");
+    }
+}
+
 #[test]
 fn samples_that_cannot_be_written_say_why() {
     let folder = folder("no-samples", &[("pole.toml", POLE), ("starts.csv", "x\n1\nq\n")]);

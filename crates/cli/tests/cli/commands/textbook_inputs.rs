@@ -86,6 +86,6 @@ fn nothing_closes_beside_a_clock() {
 fn a_start_without_all_values_is_told_with_an_example() {
     let case = written("starts", PENDULUM);
     let orbit = ["motion", "orbit", &case, "--start", "θ=1"];
-    let message = contains("no value for `θ'`").and(contains("θ=1 θ'=1"));
+    let message = contains("no value for `θ'`").and(contains(r"'θ=1 θ'\''=1'"));
     liouville(&orbit).assert().code(2).stderr(message);
 }

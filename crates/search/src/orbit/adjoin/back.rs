@@ -2,6 +2,7 @@
 //!
 //! Terms are rewritten as a person writes them: u² − 2*k/√(x² + y²) for u² − 2*k*w, w = 1/r.
 
+use liouville::formula::exponent_text;
 use num_integer::Integer;
 
 use super::parsed::{
@@ -275,9 +276,7 @@ fn raised(base: &str, power: u64, order: u64) -> String {
     match (power, order) {
         (1, 1) if is_number || is_tight => base.to_string(),
         (1, 1) => bracketed,
-        (2, 1) => format!("{bracketed}²"),
-        (3, 1) => format!("{bracketed}³"),
-        (power, 1) => format!("{bracketed}^{power}"),
+        (power, 1) => format!("{bracketed}{}", exponent_text(power as i64)),
         (1, 2) => format!("√({})", unbracketed(base)),
         (power, order) => format!("({})^({power}/{order})", unbracketed(base)),
     }

@@ -9,10 +9,19 @@ pub fn is_bracketed(text: &str) -> bool {
 
 /// Whether a text is one name, such as x, γ3, q' or H_1: a power of it needs no brackets.
 pub fn is_name(text: &str) -> bool {
-    text.chars().all(|letter| {
-        letter.is_alphanumeric() && !"²³".contains(letter) || matches!(letter, '_' | '\'')
-    })
+    // A component has its index in brackets: q1[2].
+    let (name, index) = match text.strip_suffix(']').and_then(|text| text.split_once('[')) {
+        Some((name, index)) => (name, index),
+        None => (text, ""),
+    };
+    let is_letter = |letter: char| {
+        letter.is_alphanumeric() && !SUPERSCRIPTS.contains(letter) || matches!(letter, '_' | '\'')
+    };
+    name.chars().all(is_letter) && index.chars().all(|letter| letter.is_ascii_digit())
 }
+
+/// Digits of exponents.
+const SUPERSCRIPTS: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 
 /// Whether a text is a modulus as a whole.
 pub fn is_modulus(text: &str) -> bool {
@@ -27,11 +36,13 @@ pub fn unbracketed(text: &str) -> &str {
 
 /// Splits off a whole exponent.
 pub fn base_and_power(factor: &str) -> (&str, i64) {
-    if let Some(base) = factor.strip_suffix('²') {
-        return (base, 2);
-    }
-    if let Some(base) = factor.strip_suffix('³') {
-        return (base, 3);
+    let base = factor.trim_end_matches(|letter| SUPERSCRIPTS.contains(letter));
+    let value = |letter: char| SUPERSCRIPTS.chars().position(|own| own == letter);
+    let digits = factor[base.len()..].chars().filter_map(value);
+    let power =
+        digits.fold(0i64, |power, digit| power.saturating_mul(10).saturating_add(digit as i64));
+    if power > 0 {
+        return (base, power);
     }
     let split = factor.rsplit_once('^').and_then(|(base, power)| Some((base, power.parse().ok()?)));
     split.unwrap_or((factor, 1))

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use liouville::case::Case;
+use liouville::formula::exponent_text;
 use liouville::mechanics::{Draw, Model, SamplerSpec};
 use liouville::number::rational::Rational;
 
@@ -158,9 +159,7 @@ pub fn written(own: &RingPolynomial, names: &[String]) -> String {
             let base = if is_name(name) { name.clone() } else { format!("({name})") };
             factors.push(match power {
                 1 => name.clone(),
-                2 => format!("{base}²"),
-                3 => format!("{base}³"),
-                n => format!("{base}^{n}"),
+                n => format!("{base}{}", exponent_text(i64::from(*n))),
             });
         }
         text.push_str(&factors.join("*"));

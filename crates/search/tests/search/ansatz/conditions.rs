@@ -243,7 +243,7 @@ fn a_real_point_among_many_imaginary_ones_is_told() {
                 \"x'\" = '(a⁵ - b)*x + (b⁵ - a - 7)*y'\n\"y'\" = '0*x'\n[[claim]]\nname = 'C'\nintegral = 'x'\n";
     let report = search(&case(text), &wanted, &mut |_| {}).expect("searched");
     let own = &report.conditions[0];
-    assert_eq!(own.equations, ["a^5 − b = 0 and b^5 − a − 7 = 0"], "{}", own.grounds);
+    assert_eq!(own.equations, ["a⁵ − b = 0 and b⁵ − a − 7 = 0"], "{}", own.grounds);
 }
 
 #[test]

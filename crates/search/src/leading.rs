@@ -1,0 +1,124 @@
+//! Formulas of finds that begin with a minus sign, written otherwise.
+//!
+//! −F is an integral where F is, and has the rate −c where F has c. A density keeps its sign: a term that is
+//! added goes first.
+
+use liouville::case::Case;
+use liouville::claim::Claim;
+use liouville::formula::Formula;
+use liouville::verdict::Verdict;
+
+use super::ask::judged_alone;
+use super::orbit::{CONSTANT_RATE, FURTHER_INTEGRAL, signed_terms};
+use super::{Effort, Found, SearchError, SearchReport};
+
+/// Writes the finds of a report without leading minus signs, where that is proved to be the same.
+pub fn write_without_minus(
+    case: &Case,
+    effort: &Effort,
+    report: &mut SearchReport,
+) -> Result<(), SearchError> {
+    for place in 0..report.found.len() {
+        let own = &report.found[place];
+        if !own.formula.starts_with(['−', '-']) || !own.abbreviations.is_empty() {
+            continue;
+        }
+        effort.halt.check()?;
+        let Some(changed) = changed(case, effort, own)? else { continue };
+        let before = std::mem::replace(&mut report.found[place], changed);
+        let after = &report.found[place].formula;
+        for own in &mut report.excluded {
+            own.theorem = own.theorem.replace(&before.formula, after);
+        }
+    }
+    Ok(())
+}
+
+/// The find with another formula, proved to be the same or its negative.
+fn changed(case: &Case, effort: &Effort, own: &Found) -> Result<Option<Found>, SearchError> {
+    let Some(function) = &own.function else { return Ok(None) };
+    let terms = signed_terms(&own.formula);
+    let has_value = |with: &[&str]| own.with.iter().all(|(what, _)| with.contains(what));
+    let is_falling = || own.with.iter().any(|(_, rate)| rate.starts_with('−'));
+    let may_turn = match own.kind {
+        "integral" | FURTHER_INTEGRAL => true,
+        CONSTANT_RATE => has_value(&["rate"]) && is_falling(),
+        _ => false,
+    };
+    let text = match may_turn {
+        true => joined(terms.iter().map(|(is_negative, text)| (!is_negative, *text))),
+        false => {
+            let Some(first) = terms.iter().position(|(is_negative, _)| !is_negative) else {
+                return Ok(None);
+            };
+            let rest = terms.iter().enumerate().filter(|(place, _)| *place != first);
+            joined([terms[first]].into_iter().chain(rest.map(|(_, own)| *own)))
+        }
+    };
+    let Ok(formula) = case.formula(&text) else { return Ok(None) };
+    let minus = |own: &Formula| -> Result<Formula, SearchError> { Ok(-&own.bracketed()) };
+    let same = if may_turn { minus(function)? } else { function.clone() };
+    let judged = judged_alone(case, Claim::identity(&formula, &same), effort)?;
+    if judged.is_none_or(|judged| judged.verdict != Verdict::Proved) {
+        return Ok(None);
+    }
+    let turned = |text: &str| {
+        let terms = signed_terms(unbracketed_negative(text));
+        match text.starts_with('−') && unbracketed_negative(text) != text {
+            true => joined(terms.into_iter()),
+            false => joined(terms.iter().map(|(is_negative, text)| (!is_negative, *text))),
+        }
+    };
+    let with = own.with.iter().map(|(what, text)| match *what {
+        "rate" if may_turn => (*what, turned(text)),
+        what => (what, text.clone()),
+    });
+    let with = with.collect();
+    Ok(Some(Found { formula: formula.to_string(), function: Some(formula), with, ..own.clone() }))
+}
+
+/// What stands in brackets behind a minus sign, where that is all; otherwise the text itself.
+fn unbracketed_negative(text: &str) -> &str {
+    let inner = text.strip_prefix("−(").and_then(|text| text.strip_suffix(')'));
+    let is_all = |inner: &&str| {
+        let mut depth = 0i32;
+        inner.chars().all(|letter| {
+            depth +=
+                i32::from(matches!(letter, '(' | '[')) - i32::from(matches!(letter, ')' | ']'));
+            depth >= 0
+        })
+    };
+    inner.filter(is_all).unwrap_or(text)
+}
+
+/// Writes a sum; the flag of a term says whether it is subtracted.
+fn joined<'t>(terms: impl Iterator<Item = (bool, &'t str)>) -> String {
+    let mut text = String::new();
+    for (is_negative, term) in terms {
+        text.push_str(match (is_negative, text.is_empty()) {
+            (true, true) => "−",
+            (true, false) => " − ",
+            (false, true) => "",
+            (false, false) => " + ",
+        });
+        text.push_str(term);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_are_turned_term_by_term() {
+        let turned = |text: &str| {
+            let terms = signed_terms(text).into_iter();
+            joined(terms.map(|(is_negative, text)| (!is_negative, text)))
+        };
+        assert_eq!(turned("−a*ln(x − y) + b"), "a*ln(x − y) − b");
+        assert_eq!(turned("−4*om"), "4*om");
+        assert_eq!(unbracketed_negative("−(r − s)"), "r − s");
+        assert_eq!(unbracketed_negative("−(r − s)*(a + b)"), "−(r − s)*(a + b)");
+    }
+}
