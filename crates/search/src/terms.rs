@@ -157,7 +157,7 @@ pub fn multiplied(powers: &[Power]) -> FormulaResult {
     below.map_or(Ok(above.clone()), |below| &above / &below)
 }
 
-/// A positive power: `x`, `x²`, `x^11`.
+/// A positive power: `x`, `x²`, `x¹¹`.
 fn whole_power(base: &Formula, power: i64) -> FormulaResult {
     match power {
         1 => Ok(base.clone()),
@@ -224,7 +224,7 @@ mod tests {
         };
         assert_eq!(product(&[]), "1");
         assert_eq!(product(&[("a", "(−1)"), ("b", "(−1)")]), "1/(a*b)");
-        assert_eq!(product(&[("a + b", "1"), ("a", "(−2)"), ("c", "−11")]), "(a + b)/(a²*c^11)");
+        assert_eq!(product(&[("a + b", "1"), ("a", "(−2)"), ("c", "−11")]), "(a + b)/(a²*c¹¹)");
         assert_eq!(product(&[("a + b", "−1"), ("a", "(−1/2)")]), "a^(−1/2)/(a + b)");
         assert_eq!(product(&[("a", "k"), ("b", "−k")]), "a^k*b^(−k)", "of an unknown sign");
     }

@@ -224,10 +224,7 @@ fn theorem(
     let state: Vec<String> = found.start.iter().map(|x| decimal(x.mid, DECIMALS)).collect();
     let wide = found.start.iter().map(|x| x.rad).fold(0.0, f64::max);
     let wide = printed_bound(wide + 0.51 * libm::pow(10.0, -(DECIMALS as f64)));
-    let kind = seen.map_or(String::new(), |seen| match seen {
-        Stability::Sink | Stability::Source => format!("; it is a {}", name(seen)),
-        _ => format!("; it is {}", name(seen)),
-    });
+    let kind = seen.map_or(String::new(), |seen| format!("; it is of kind {}", name(seen)));
     let (period, volume) = (printed(found.period), printed(found.volume));
     let period = match &found.turns {
         Ok(1) => format!("least period {period}"),

@@ -173,7 +173,7 @@ impl MeasuredMean {
                 self.time
             )),
             Sign::Open(OpenSign::Small) => judgement.leave_open(format!(
-                "in the time {} the {quantity} is told from 0 where it is above {:.1e}; it is about {:.1e}, which \
+                "a run of the time {} tells the {quantity} from 0 above {:.1e}, and for {:.1e} it \
                  takes the time {:.1e}",
                 self.time,
                 self.resolution.max(ERRORS * self.found.error),

@@ -30,10 +30,7 @@ fn an_exponent_that_a_run_cannot_see_is_left_open() {
     assert_eq!(signs(slow, ["0", "0"], "1000"), [Undecided; 2], "e^1 in all");
     let claim = "exponent = \"positive\"\ntime = 1000";
     let reason = judged(slow, ["0", "0"], claim).evidence.reason.expect("a reason");
-    assert!(
-        reason.contains("above 7.7e-3; it is about 1.0e-3, which takes the time 1.0e4"),
-        "{reason}"
-    );
+    assert!(reason.contains("above 7.7e-3, and for 1.0e-3 it takes the time 1.0e4"), "{reason}");
     assert_eq!(signs(slow, ["0", "0"], "12000"), [Confirmed, Refuted], "in the time that it takes");
     let below = ["−x/1000", "−y"];
     assert_eq!(signs(below, ["1", "1"], "1000"), [Undecided; 2], "the same below 0");

@@ -161,7 +161,7 @@ fn found_orbits_are_proved_or_the_reason_is_given() {
     let wish = [&["motion", "periodic", &case, "--set", "μ=0"], &search[..]].concat();
     let found = json(&wish, 0);
     let theorem = found["points"][0]["theorem"].as_str().expect("a theorem");
-    assert!(theorem.contains("least period 6.28318530717") && theorem.contains("it is a sink"));
+    assert!(theorem.contains("least period 6.28318530717") && theorem.contains("of kind sink"));
     assert!(theorem.contains("no invariant measure"), "{theorem}");
     let text = "title = 'o'\n[parameters]\na = '1..2'\n[state]\nx = '-2..2'\ny = '-2..2'\n\
                 [field]\nx = 'a*y + x*(1 - x² - y²)'\ny = '-a*x + y*(1 - x² - y²)'\n";
