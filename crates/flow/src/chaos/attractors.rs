@@ -1,9 +1,9 @@
 //! Sets to which motions keep at late times, told apart by distances between samples.
 //!
 //! Two motions keep to one set if the samples of each lie as near to those of the other as the later
-//! ones of a motion lie to its own earlier ones. So the distance that counts is that of the samples
-//! themselves: none for a point, the spacing along a cycle, that of points strewn over a strange
-//! attractor.
+//! ones of a motion lie to its own earlier ones. Distances are those across the motion: what is along
+//! it, up to the next sample, does not count. So there is none for a point, little for a cycle, and that
+//! of points strewn over a strange attractor.
 
 /// Number of samples of a motion, at times that share no period with it.
 pub const SAMPLES: usize = 160;
@@ -17,25 +17,35 @@ const CLOSER: f64 = 0.75;
 /// Largest number of sets.
 pub const MOST_SETS: usize = 32;
 
+/// Values at a time, and how far they go on until the next sample.
+#[derive(Clone, Debug)]
+struct Sample {
+    at: Vec<f64>,
+    way: Vec<f64>,
+}
+
 /// Samples of a motion at late times, row by row.
 #[derive(Clone, Debug)]
 pub struct Tail {
-    rows: Vec<Vec<f64>>,
-    /// Distance of the later half of the samples from the earlier one.
+    rows: Vec<Sample>,
+    /// Distance of the later half of the samples from the earlier one, across the motion.
     spread: f64,
     is_settled: bool,
 }
 
 impl Tail {
-    /// Measures samples, in the order of their times; `widths` are the units of their components.
-    pub fn new(samples: &[Vec<f64>], widths: &[f64]) -> Self {
+    /// Measures samples, in the order of their times, and their rates times the time between two of them;
+    /// `widths` are the units of their components.
+    pub fn new(samples: &[Vec<f64>], ways: &[Vec<f64>], widths: &[f64]) -> Self {
         let scaled = |row: &Vec<f64>| row.iter().zip(widths).map(|(x, width)| x / width).collect();
-        let rows: Vec<Vec<f64>> = samples.iter().map(scaled).collect();
+        let rows = samples.iter().zip(ways);
+        let rows: Vec<Sample> =
+            rows.map(|(at, way)| Sample { at: scaled(at), way: scaled(way) }).collect();
         let (early, late) = rows.split_at(rows.len() / 2);
-        let spread = distance(late, early, false).max(NONE);
-        let own = distance(early, early, true).max(NONE);
+        let own = distance(early, early, true, squared).max(NONE);
         // What moves on leaves its earlier places behind, farther than they are from each other.
-        let is_settled = spread <= NEAR * own;
+        let is_settled = distance(late, early, false, squared).max(NONE) <= NEAR * own;
+        let spread = distance(late, early, false, across).max(NONE);
         Self { rows, spread, is_settled }
     }
 
@@ -55,30 +65,50 @@ impl Tail {
     pub fn closes_in(&self) -> bool {
         let Some(last) = self.rows.last() else { return false };
         let (early, late) = self.rows.split_at(self.rows.len() / 2);
-        let farthest = |rows: &[Vec<f64>]| {
-            rows.iter().map(|row| squared(row, last)).fold(0.0, f64::max).sqrt()
-        };
-        farthest(late) <= CLOSER * farthest(early)
+        let farthest =
+            |rows: &[Sample]| rows.iter().map(|row| squared(row, last)).fold(0.0, f64::max);
+        farthest(late) <= CLOSER * CLOSER * farthest(early)
     }
 
     /// Whether the samples lie in the same set as those of another motion.
     pub fn is_with(&self, other: &Self) -> bool {
         let reach = NEAR * self.spread.max(other.spread);
-        distance(&self.rows, &other.rows, false) <= reach
-            && distance(&other.rows, &self.rows, false) <= reach
+        distance(&self.rows, &other.rows, false, across) <= reach
+            && distance(&other.rows, &self.rows, false, across) <= reach
     }
 }
 
-fn squared(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| (x - y) * (x - y)).sum()
+/// Distance of two samples, squared.
+fn squared(a: &Sample, b: &Sample) -> f64 {
+    a.at.iter().zip(&b.at).map(|(x, y)| (x - y) * (x - y)).sum()
+}
+
+/// Distance of a sample from the piece of a motion through another, squared: what is along it does not
+/// count.
+fn across(a: &Sample, b: &Sample) -> f64 {
+    let (all, size) = (squared(a, b), b.way.iter().map(|x| x * x).sum::<f64>());
+    if size == 0.0 || !size.is_finite() {
+        return all;
+    }
+    let apart = a.at.iter().zip(&b.at).map(|(x, y)| x - y);
+    let along: f64 = apart.zip(&b.way).map(|(x, u)| x * u).sum::<f64>() / size;
+    let beyond = along - along.clamp(-1.0, 1.0);
+    (all + (beyond * beyond - along * along) * size).max(0.0)
 }
 
 /// Median over some points of the distance from the nearest one of others; not from itself, if these
 /// are the same ones. Infinite if there are none.
-fn distance(from: &[Vec<f64>], to: &[Vec<f64>], are_same: bool) -> f64 {
-    let nearest = |(place, row): (usize, &Vec<f64>)| {
+fn distance(
+    from: &[Sample],
+    to: &[Sample],
+    are_same: bool,
+    measure: impl Fn(&Sample, &Sample) -> f64,
+) -> f64 {
+    let nearest = |(place, row): (usize, &Sample)| {
         let others = to.iter().enumerate().filter(|(other, _)| !are_same || *other != place);
-        others.map(|(_, other)| squared(row, other)).fold(f64::INFINITY, f64::min)
+        let apart = others.map(|(_, other)| (squared(row, other), other));
+        let nearest = apart.min_by(|(one, _), (other, _)| one.total_cmp(other));
+        nearest.map_or(f64::INFINITY, |(_, other)| measure(row, other))
     };
     let mut all: Vec<f64> = from.iter().enumerate().map(nearest).collect();
     all.sort_by(f64::total_cmp);
@@ -94,7 +124,12 @@ mod tests {
     fn tail(at: impl Fn(f64) -> [f64; 2]) -> Tail {
         let time = |k: usize| k as f64 + chance(k);
         let rows: Vec<Vec<f64>> = (0..SAMPLES).map(|k| at(time(k)).to_vec()).collect();
-        Tail::new(&rows, &[1.0, 1.0])
+        let way = |k: usize| {
+            let (own, next) = (at(time(k)), at(time(k) + 1e-5));
+            [0, 1].map(|i| (next[i] - own[i]) / 1e-5).to_vec()
+        };
+        let ways: Vec<Vec<f64>> = (0..SAMPLES).map(way).collect();
+        Tail::new(&rows, &ways, &[1.0, 1.0])
     }
 
     fn circle(radius: f64, period: f64, phase: f64) -> Tail {
@@ -113,6 +148,7 @@ mod tests {
             assert!(own.is_settled() && other.is_settled() && !own.is_point(), "{period}");
             assert!(own.is_with(&other), "{period}");
             assert!(!own.is_with(&circle(1.5, period, 0.0)), "another cycle, {period}");
+            assert!(!own.is_with(&circle(1.02, period, 0.0)), "a cycle near it, {period}");
             assert!(!own.is_with(&tail(|_| [0.0; 2])), "the point inside, {period}");
         }
     }

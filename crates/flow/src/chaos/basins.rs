@@ -224,8 +224,8 @@ impl Found {
     }
 
     /// Finds the set of a motion, which may be a new one.
-    fn place(&mut self, LateSamples { rows, end, .. }: LateSamples) -> Destiny {
-        let tail = Tail::new(&rows, &self.widths);
+    fn place(&mut self, LateSamples { rows, ways, end, .. }: LateSamples) -> Destiny {
+        let tail = Tail::new(&rows, &ways, &self.widths);
         if !tail.is_settled() {
             return Destiny::Unsettled;
         }
@@ -252,8 +252,8 @@ impl Found {
         let firsts = std::mem::take(&mut self.sets);
         let mut home = Vec::new();
         for (first, late) in firsts.iter().zip(later) {
-            let after = late.map(|LateSamples { rows, end, .. }| First {
-                tail: Tail::new(&rows, &self.widths),
+            let after = late.map(|LateSamples { rows, ways, end, .. }| First {
+                tail: Tail::new(&rows, &ways, &self.widths),
                 rows,
                 end,
             });

@@ -9,6 +9,8 @@ use liouville::number::double_double::DoubleDouble;
 
 /// Number of steps before a singularity at which it counts as near.
 const STEPS_BEFORE: f64 = 64.0;
+/// Size of a state or a velocity that is the last one below the end of the range of f64.
+const HUGE: f64 = 1e290;
 /// Ratio of the time since the start to that in which a motion changes by its own size, from which on it
 /// runs into a singularity.
 const SUDDEN: f64 = 1e3;
@@ -73,7 +75,8 @@ impl<T: SeriesNumber> Stepper<T> {
         {
             return self.without_value(lane, presence, formula);
         }
-        let is_too_large = !state.iter().all(|x| x.is_finite());
+        let sizes = self.sizes.norms.map(|norm| norm.lane(lane).leading());
+        let is_too_large = !state.iter().all(|x| x.is_finite()) || sizes[0].max(sizes[1]) > HUGE;
         // At the start of a field without poles no coefficient is that of a singularity nearby.
         let is_first = time == 0.0 && self.series.is_entire();
         if is_too_large || self.series.overflows(lane) || is_first {

@@ -17,7 +17,9 @@ const EARLY: [u64; 2] = [1 << 11, 1 << 12];
 const HOPELESS: f64 = 1e6;
 /// Ratio of the steps at two looks, above which they go on shrinking at the same rate.
 const TREND: f64 = 1.5;
-/// Ratio of the mean steps at two looks, above which they no longer shrink.
+/// Number of steps after a look from which on it is seen whether they still shrink.
+const LATE: u64 = STRIDE / 4 * 3;
+/// Ratio of the mean steps since then and since the look, above which they no longer shrink.
 const GOES_ON: f64 = 0.95;
 /// Ratio of the longest steps at two looks, below which steps do not grow.
 const GROWTH: f64 = 1.1;
@@ -110,8 +112,8 @@ pub(crate) struct Pace {
     counted: u64,
     /// Mean step and time at the last looks after 2^k steps, the later one first.
     marks: [Option<(f64, f64)>; 2],
-    /// Mean step at the last look that was not early.
-    mean: Option<f64>,
+    /// Time at three quarters of the steps between two looks.
+    late: f64,
     /// Why the end is out of reach, if it is.
     pub(crate) lost: Option<Lost>,
 }
@@ -130,6 +132,9 @@ impl Pace {
     /// that are left.
     fn keep(&mut self, step: f64, steps: u64, now: f64, left: f64) {
         self.longest = self.longest.max(step.abs());
+        if steps % STRIDE == LATE {
+            self.late = now;
+        }
         let is_early = EARLY.contains(&steps);
         if !is_early && !steps.is_multiple_of(STRIDE) {
             return;
@@ -140,12 +145,9 @@ impl Pace {
             self.marks = [Some((mean, now)), self.marks[0]];
         }
         // What has shrunk once need not go on.
-        let goes_on = !is_early && self.mean.is_some_and(|former| mean < GOES_ON * former);
+        let goes_on = (now - self.late).abs() / ((STRIDE - LATE) as f64) < GOES_ON * mean;
         let growth = if goes_on { self.growth(mean, now, left) } else { 1.0 };
         let rest = left.abs() / mean * growth;
-        if !is_early {
-            self.mean = Some(mean);
-        }
         let shrunk = self.longest / mean;
         let is_shrunk = shrunk > SHRUNK && rest > MOST_STEPS
             || shrunk > SHRUNK_EARLY && rest > MOST_STEPS * HOPELESS;

@@ -193,6 +193,6 @@ mod tests {
         assert_eq!(faint(&exponent, 0, 1.0), 1.0);
         assert_eq!(faint(&exponent, 0, 8.0), 1.0);
         assert_eq!(faint(&exponent, 0, -8.0), 8.0, "it falls");
-        assert_eq!(faint(&[-400.0, 1000.0], 0, 1.0), 0.03125);
+        assert_eq!(faint(&[-400.0, 1000.0], 0, 1.0), 0.0625);
     }
 }
