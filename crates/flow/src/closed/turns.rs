@@ -19,10 +19,14 @@ pub(crate) fn turns(
 ) -> Result<u32, FlowError> {
     let size = start.iter().map(|x| x.hi * x.hi).sum::<f64>().sqrt();
     let near = residual.max(f64::EPSILON * size);
-    let mut count = 1;
+    let mut count: u32 = 1;
     for prime in primes(MOST_TURNS) {
-        while is_back(field, start, time, count * prime, near)? {
-            count *= prime;
+        // A motion that hardly moves is back after any part.
+        while let Some(parts) = count.checked_mul(prime) {
+            if !is_back(field, start, time, parts, near)? {
+                break;
+            }
+            count = parts;
         }
     }
     Ok(count)
