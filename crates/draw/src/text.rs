@@ -147,7 +147,7 @@ mod tests {
         assert_eq!(shown(&math("γ3 - x12")), "/γ/_3 − /x/_12");
         assert_eq!(shown(&math("L/G")), "/L///G/");
         assert_eq!(shown(&math("sin(x)*energy")), "sin(/x/)·energy");
-        assert_eq!(shown(&math("x' + 2*m")), "/x/′ + 2·/m/");
+        assert_eq!(shown(&math("x' + 2*m")), "/x′/ + 2·/m/");
     }
 
     #[test]

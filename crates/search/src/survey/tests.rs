@@ -112,7 +112,7 @@ fn no_family_is_dead() {
 
 #[test]
 fn components_of_vectors_are_integrals_of_their_own() {
-    let text = "[state]\nr = \"vector(0.5..2)\"\np = \"vector(-1..1)\"\n\
+    let text = "title = \"x\"\n[state]\nr = \"vector(0.5..2)\"\np = \"vector(-1..1)\"\n\
                 [hamiltonian]\nfunction = \"(p,p)/2 - 1/|r|\"\npairs = [[\"r\",\"p\"]]\n\
                 [[claim]]\nname = \"L\"\nintegral = \"r × p\"\n\
                 [[claim]]\nname = \"A\"\nintegral = \"p × (r × p) - r/|r|\"\n";
