@@ -48,16 +48,13 @@ impl Judging<'_> {
         let parameters = self.case.model.free_components();
         let moves =
             |pole: &Expr| self.graph.inputs_of(*pole).into_iter().any(|input| input >= parameters);
-        let mut poles = poles(self.graph, &[cofactor.factor]);
+        let mut poles = poles_of(self.graph, &[cofactor.factor]);
         if !sampler.misses_nothing(self.case) {
-            poles.retain(moves);
+            let of_field = poles_of(self.graph, &self.common.required_at(sampler.kept()));
+            let is_of_field = |pole: &Expr| *pole != function && of_field.contains(pole);
+            poles.retain(|pole| moves(pole) && !is_of_field(pole));
         }
         if poles.is_empty() {
-            return Ok(true);
-        }
-        let of_field = self::poles(self.graph, &self.common.required_at(sampler.kept()));
-        let is_of_field = |pole: &Expr| *pole != function && of_field.contains(pole);
-        if !sampler.misses_nothing(self.case) && poles.iter().all(is_of_field) {
             return Ok(true);
         }
         let Some(filling) = self.filling(sampler)? else { return Ok(false) };
@@ -107,7 +104,7 @@ fn are_apart(graph: &Graph, extents: &[Extent], function: Expr, pole: Expr) -> b
 }
 
 /// Lists the values that must not be 0 for others to be bounded nearby.
-fn poles(graph: &Graph, values: &[Expr]) -> Vec<Expr> {
+fn poles_of(graph: &Graph, values: &[Expr]) -> Vec<Expr> {
     let reached = graph.reached(values.iter().copied());
     let poles = graph.needs(&reached).filter(|(_, need)| need.is_pole);
     poles.map(|(place, _)| graph.at(place)).collect()

@@ -9,7 +9,7 @@ use liouville::formula::Formula;
 use liouville::verdict::Verdict;
 
 use super::ask::judged_alone;
-use super::orbit::{CONSTANT_RATE, FURTHER_INTEGRAL, signed_terms};
+use super::orbit::{CONSTANT_RATE, FURTHER_INTEGRAL, joined_terms as joined, signed_terms};
 use super::{Effort, Found, SearchError, SearchReport};
 
 /// Writes the finds of a report without leading minus signs, where that is proved to be the same.
@@ -28,7 +28,7 @@ pub fn write_without_minus(
         let before = std::mem::replace(&mut report.found[place], changed);
         let after = &report.found[place].formula;
         for own in &mut report.excluded {
-            own.theorem = own.theorem.replace(&before.formula, after);
+            own.theorem = replaced(&own.theorem, &before.formula, after);
         }
     }
     Ok(())
@@ -65,7 +65,7 @@ fn changed(case: &Case, effort: &Effort, own: &Found) -> Result<Option<Found>, S
     let turned = |text: &str| {
         let terms = signed_terms(unbracketed_negative(text));
         match text.starts_with('−') && unbracketed_negative(text) != text {
-            true => joined(terms.into_iter()),
+            true => joined(terms),
             false => joined(terms.iter().map(|(is_negative, text)| (!is_negative, *text))),
         }
     };
@@ -77,7 +77,7 @@ fn changed(case: &Case, effort: &Effort, own: &Found) -> Result<Option<Found>, S
     Ok(Some(Found { formula: formula.to_string(), function: Some(formula), with, ..own.clone() }))
 }
 
-/// What stands in brackets behind a minus sign, where that is all; otherwise the text itself.
+/// Text in brackets behind a minus sign, where that is all; otherwise the whole text.
 fn unbracketed_negative(text: &str) -> &str {
     let inner = text.strip_prefix("−(").and_then(|text| text.strip_suffix(')'));
     let is_all = |inner: &&str| {
@@ -91,24 +91,36 @@ fn unbracketed_negative(text: &str) -> &str {
     inner.filter(is_all).unwrap_or(text)
 }
 
-/// Writes a sum; the flag of a term says whether it is subtracted.
-fn joined<'t>(terms: impl Iterator<Item = (bool, &'t str)>) -> String {
-    let mut text = String::new();
-    for (is_negative, term) in terms {
-        text.push_str(match (is_negative, text.is_empty()) {
-            (true, true) => "−",
-            (true, false) => " − ",
-            (false, true) => "",
-            (false, false) => " + ",
-        });
-        text.push_str(term);
+/// Replaces a formula where it stands alone: −y*z is no part of −y*z².
+fn replaced(text: &str, before: &str, after: &str) -> String {
+    let goes_on = |rest: &str| {
+        [" + ", " − "].iter().any(|sign| rest.starts_with(sign))
+            || rest.starts_with(|next: char| next.is_alphanumeric() || "*/^'[(_".contains(next))
+    };
+    let mut all = String::new();
+    let mut left = text;
+    while let Some(place) = left.find(before) {
+        let (own, rest) = (&left[..place], &left[place + before.len()..]);
+        let is_part = own.ends_with(|letter: char| letter.is_alphanumeric() || letter == ')');
+        all.push_str(own);
+        all.push_str(if is_part || goes_on(rest) { before } else { after });
+        left = rest;
     }
-    text
+    all + left
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn formulas_are_replaced_where_they_stand_alone() {
+        let own = |text: &str| replaced(text, "−y*z", "y*z");
+        assert_eq!(own("functions of −y*z, x and −y*z"), "functions of y*z, x and y*z");
+        for text in ["−y*z²", "−y*z + x", "−y*zeta", "x−y*z", "−y*z*x"] {
+            assert_eq!(own(text), text);
+        }
+    }
 
     #[test]
     fn sums_are_turned_term_by_term() {

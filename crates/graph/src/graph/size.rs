@@ -5,7 +5,7 @@ use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
 use crate::scalar::Scalar;
 
-/// How a step is made, as far as its size follows from those of others.
+/// Operation of a step, as far as its size follows from those of its arguments.
 enum Made {
     Sum(usize, usize),
     Product(usize, usize),

@@ -105,7 +105,7 @@ use liouville::formula::Formula;
 use liouville::mechanics::System;
 use liouville::verdict::Verdict;
 
-pub use self::adjoin::{merged, root_steps, roots, signed_terms};
+pub use self::adjoin::{joined_terms, merged, root_steps, roots, signed_terms};
 pub use self::closure::{FURTHER_INTEGRAL, close};
 pub use self::darboux::KIND as DARBOUX;
 pub use self::exponents::CONSTANT_RATE;

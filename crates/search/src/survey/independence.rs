@@ -78,12 +78,13 @@ pub fn count(
     }
     let on_a_part = usize::from(has_energy) + chosen.len() - everywhere;
     let mut kept: Vec<usize> = chosen.iter().map(|entry| entry.index).collect();
+    kept.sort_unstable();
     kept.dedup();
     let energy = has_energy.then(|| "energy".to_string());
     let names = chosen.iter().map(|entry| entry.label(integrals));
     // Integrals with a formula may be functions of those without one, so they are not counted
     // twice.
-    let beside = kept.iter().filter(|k| !integrals[**k].is_general).count();
+    let beside = chosen.iter().filter(|entry| !integrals[entry.index].is_general).count();
     let implied = &implied[beside.min(implied.len())..];
     let count = IntegralCount {
         dimension,

@@ -6,7 +6,8 @@ use liouville::formula::exponent_text;
 use num_integer::Integer;
 
 use super::parsed::{
-    base_and_power, closes, factors, inside, is_bracketed, is_modulus, is_name, terms, unbracketed,
+    base_and_power, closes, factors, inside, is_bracketed, is_modulus, is_name, joined, terms,
+    unbracketed,
 };
 use super::polynomial::RingPolynomial;
 use super::ring::{AdjoinedRing, Atom, Of};
@@ -67,7 +68,7 @@ impl Back {
 
     /// Rewrites a formula.
     pub fn rewritten(&self, text: &str) -> String {
-        joined(&self.rewritten_terms(text))
+        joined(self.rewritten_terms(text))
     }
 
     /// Rewrites an integral, up to a factor: most terms positive, and these first; F in place of 1/F.
@@ -83,7 +84,7 @@ impl Back {
             all.iter_mut().for_each(|(is_negative, _)| *is_negative = !*is_negative);
         }
         all.sort_by_key(|(is_negative, _)| *is_negative);
-        joined(&all)
+        joined(all)
     }
 
     /// Terms with their signs.
@@ -233,21 +234,6 @@ fn opened(all: Vec<(bool, String)>) -> Vec<(bool, String)> {
     if left.is_empty() { all } else { left }
 }
 
-/// Sum of terms with their signs.
-fn joined(all: &[(bool, String)]) -> String {
-    let mut text = String::new();
-    for (is_negative, term) in all {
-        text.push_str(match (is_negative, text.is_empty()) {
-            (true, true) => "−",
-            (true, false) => " − ",
-            (false, true) => "",
-            (false, false) => " + ",
-        });
-        text.push_str(term);
-    }
-    text
-}
-
 /// Text of an integral with other signs: F for −F if more terms are negative, and the positive terms
 /// first; `None` if it begins with a positive term, and most terms are.
 pub fn with_signs(text: &str) -> Option<String> {
@@ -260,7 +246,7 @@ pub fn with_signs(text: &str) -> Option<String> {
     }
     all.iter_mut().for_each(|(is_negative, _)| *is_negative ^= is_turned);
     all.sort_by_key(|(is_negative, _)| *is_negative);
-    Some(joined(&all))
+    Some(joined(all))
 }
 
 /// b^(power/order).

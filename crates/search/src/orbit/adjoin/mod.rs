@@ -68,7 +68,7 @@ use self::bases::{circles, factors};
 pub use self::derivations::{FieldComponents, IntegralAlgebra};
 pub use self::explicit::ExplicitField;
 pub use self::logarithmic::MonomialMap;
-pub use self::parsed::terms as signed_terms;
+pub use self::parsed::{joined as joined_terms, terms as signed_terms};
 use self::parts::{Read, ReadParts, read, read_with};
 pub use self::plain::{PolynomialField, polynomial_field, reduced};
 use self::polynomial::Monomial;

@@ -104,6 +104,21 @@ fn places(text: &str, letters: &[char]) -> Vec<(usize, char)> {
     found
 }
 
+/// Writes a sum; the flag of a term says whether it is subtracted.
+pub fn joined<S: AsRef<str>>(terms: impl IntoIterator<Item = (bool, S)>) -> String {
+    let mut text = String::new();
+    for (is_negative, term) in terms {
+        text.push_str(match (is_negative, text.is_empty()) {
+            (true, true) => "−",
+            (true, false) => " − ",
+            (false, true) => "",
+            (false, false) => " + ",
+        });
+        text.push_str(term.as_ref());
+    }
+    text
+}
+
 /// Splits a sum at its signs; the flag says whether a term is subtracted.
 pub fn terms(text: &str) -> Vec<(bool, &str)> {
     let mut all = Vec::new();
