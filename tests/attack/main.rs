@@ -37,6 +37,7 @@ mod oracle;
 mod own;
 mod point;
 mod print;
+#[path = "../common/stream.rs"]
 mod random;
 mod real;
 mod rewrite;

@@ -2,6 +2,7 @@
 
 mod arbitrary;
 mod bodies;
+mod cofactors;
 mod combinations;
 #[path = "../common/mod.rs"]
 mod common;
@@ -50,6 +51,8 @@ mod signs_of_rates;
 mod silent_states;
 mod small_values;
 mod states_that_count;
+#[path = "../common/stream.rs"]
+mod stream;
 mod sweep;
 mod systems;
 mod textbook;
