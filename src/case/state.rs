@@ -128,6 +128,14 @@ fn variable(
             Mistake::at(place, Problem::Formula(error))
         }
     })?;
+    if let GivenValue::Drawn(recipe) = &given
+        && recipe.draws().iter().any(|draw| matches!(draw, Draw::OneOf(_)))
+    {
+        let message = format!(
+            "`{name}` has a list of values, and a state counts with the states around it: lists are for [parameters]"
+        );
+        return Err(wrong(message));
+    }
     let (rows, is_skew) = match &given {
         GivenValue::Drawn(SamplerSpec::Skew(rows, _)) => (*rows, true),
         GivenValue::Drawn(SamplerSpec::Symmetric(rows, _)) => (*rows, false),

@@ -2,10 +2,10 @@
 
 use super::clock::clock;
 use super::{Reader, difference, kinks};
-use crate::formula::Formula;
+use crate::formula::{Formula, Symbol};
 use crate::graph::record;
 use crate::mechanics::calculus::DualPoint;
-use crate::mechanics::{Meaning, Model, Phase, TIME};
+use crate::mechanics::{Meaning, Model, ParameterOrigin, Phase, TIME};
 use crate::scalar::Scalar;
 
 /// A map σ of phase space to itself, which may change parameters too.
@@ -47,7 +47,20 @@ impl Transformation {
             texts.push(format!("{name} → {}", image.text().trim()));
             match expected.meaning {
                 Meaning::State(index) => map.state[index] = Some(image),
-                Meaning::Parameter(index) => map.parameters.push((index, image)),
+                Meaning::Parameter(index) => {
+                    if let ParameterOrigin::Formula(formula) = &model.parameters[index].origin
+                        && let Some(symbol) =
+                            formula.symbols().find(|own| is_parameter(model, *own))
+                    {
+                        let other = model.vocabulary.entry(symbol).name.clone();
+                        let message = format!(
+                            "`{name}` is computed from `{other}`, and has no image of its own"
+                        );
+                        let remedy = format!("give the image of `{other}`");
+                        return Err(from.complaint(key, message, &remedy));
+                    }
+                    map.parameters.push((index, image));
+                }
                 _ => return Err(unknown(from, key, &name)),
             }
         }
@@ -114,6 +127,10 @@ impl Transformation {
     pub fn pushed<T: Scalar>(&self, jet: &DualPoint<'_, T>) -> Vec<T> {
         self.image(jet.along_field()).into_iter().map(|x| x.eps).collect()
     }
+}
+
+fn is_parameter(model: &Model, symbol: Symbol) -> bool {
+    matches!(model.vocabulary.entry(symbol).meaning, Meaning::Parameter(_))
 }
 
 fn unknown<R: Reader>(from: &R, key: &'static str, name: &str) -> R::Error {

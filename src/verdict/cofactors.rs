@@ -9,7 +9,7 @@ use super::recorded::RecordedClaim;
 use super::sampler::Sampler;
 use crate::claim::LevelSubset;
 use crate::graph::{Expr, Fault, Graph};
-use crate::mechanics::combinations;
+use crate::mechanics::{Chart, combinations};
 use crate::proof::{Extent, are_coprime, is_nowhere_zero};
 
 /// A cofactor, or a part of it that must have a value.
@@ -20,16 +20,33 @@ pub(super) struct Cofactor {
     pub inverse: Expr,
 }
 
+/// States that are a whole place with no exception.
+pub(super) struct Filling {
+    pub sampler: Rc<Sampler>,
+    /// Intervals of the draws, in which the states of interest lie.
+    pub extents: Vec<Extent>,
+}
+
 impl Judging<'_> {
     /// Returns the sampler, if its states are a whole place with no exception, or else that of all of
     /// space, if it is so: a chart may miss exactly the zeros of a function, as the rational one of the
     /// circle misses those of 1 + y.
-    pub(super) fn filling(&self, sampler: &Sampler) -> Result<Option<Rc<Sampler>>, Fault> {
+    pub(super) fn filling(&self, sampler: &Sampler) -> Result<Option<Filling>, Fault> {
         if sampler.misses_nothing(self.case) {
-            return Ok(Some(Rc::new(sampler.clone())));
+            let extents = sampler.extents();
+            return Ok(Some(Filling { sampler: Rc::new(sampler.clone()), extents }));
         }
         let space = self.sampler_at(&LevelSubset::everywhere(&self.case.model))?;
-        Ok(space.misses_nothing(self.case).then_some(space))
+        if !space.misses_nothing(self.case) {
+            return Ok(None);
+        }
+        let mut extents = space.extents();
+        // Ranges of [state] do not restrict the states of the file's own chart, or of a sphere.
+        if !matches!(self.case.chart, Chart::Equations) {
+            let parameters = self.case.model.parameter_draws().len();
+            extents.iter_mut().skip(parameters).for_each(|extent| *extent = Extent::ALL);
+        }
+        Ok(Some(Filling { sampler: space, extents }))
     }
 
     /// Whether a cofactor is known to have a value at every zero of F at which the field has one.
@@ -57,13 +74,14 @@ impl Judging<'_> {
         if poles.is_empty() {
             return Ok(true);
         }
-        let Some(filling) = self.filling(sampler)? else { return Ok(false) };
+        let Some(Filling { sampler: filling, extents }) = self.filling(sampler)? else {
+            return Ok(false);
+        };
         // What is divided by in lowest terms follows from an identity in the same variables.
         let is_identity =
             filling.kept() == sampler.kept() || self.holds_in_space(&filling, item)?;
         let outputs = [&[function, cofactor.inverse][..], &poles].concat();
         let Some(combinations) = combinations(filling.recipes()) else { return Ok(false) };
-        let extents = filling.extents();
         for fixed in combinations {
             let (graph, groups) =
                 filling.compose(self.graph, std::slice::from_ref(&outputs), &fixed)?;

@@ -11,16 +11,25 @@ use crate::claim::ClaimKind;
 const ON_A_PART: &str = "shown on a part of the states only: where a modulus, or a root that depends on \
                          others, has another sign, or on another branch of the level, it may fail";
 
-/// Makes the report on a claim, with its verdict compared with the expectation.
+/// Reason why a value that does not vanish for the constants drawn refutes nothing.
+const OPEN_CONSTANT: &str = "it depends on the value of an ∫, whose constant is open, and fails for some constants: write the \
+                             antiderivative out";
+
+/// Makes the report on a claim, with its verdict compared with the expectation. With an open constant its
+/// residual contains the value of an ∫.
 pub fn report(
     case: &Case,
     item: &RecordedClaim<'_>,
     status: ClaimState,
-    options: &Options,
+    (options, has_open_constant): (&Options, bool),
 ) -> ClaimReport {
     let claim = item.claim;
     let mut verdict = status.settled.unwrap_or(Verdict::Undecided);
     let mut evidence = status.evidence;
+    if verdict == Verdict::Refuted && has_open_constant {
+        verdict = Verdict::Undecided;
+        evidence.reason = Some(OPEN_CONSTANT.to_string());
+    }
     if claim.kind.is_negated() {
         // The claim is that the residual does not vanish everywhere: one state proves it.
         verdict = match verdict {

@@ -183,10 +183,10 @@ impl Judging<'_> {
                 Ok(is_vacuous.then(|| otherwise.clone()))
             }
             Need::Zeros { function } => {
-                let Some(sampler) = self.filling(sampler)? else { return Ok(None) };
+                let Some(filling) = self.filling(sampler)? else { return Ok(None) };
                 let has_none =
-                    self.holds_at_all_states(&sampler, *function, &|graph, extents, value| {
-                        is_nowhere_zero(graph, extents, &[], &[value])
+                    self.holds_at_all_states(&filling.sampler, *function, &|graph, _, value| {
+                        is_nowhere_zero(graph, &filling.extents, &[], &[value])
                     })?;
                 Ok(has_none.then(|| otherwise.clone()))
             }

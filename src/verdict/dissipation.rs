@@ -76,6 +76,10 @@ fn rates(
         let jet = DualPoint::new(Phase::new(model, &parameters, &inputs[free..]));
         own.growth(&jet)
     })?;
+    // An ∫ has no name.
+    if graph.inputs() > free + model.dimension() {
+        return Ok(Vec::new());
+    }
     let sampler = Sampler::new(case, &claim.place, seed)?;
     // A denominator may be 0 for a listed value, and then nothing would be said of that.
     let may_divide = !sampler.has_lists();

@@ -3,19 +3,18 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use super::claim_state::ClaimState;
+use super::claim_state::{ClaimState, undecide};
 use super::conclude::report;
 use super::dissipation::find_rates;
 use super::evidence::ClaimReport;
 use super::judging::Judging;
-use super::listed_levels::judge_listed_levels;
+use super::listed_levels::{ListedUse, judge_each_listed};
 use super::mutants::{MutationReport, mutate};
 use super::recorded::{RecordedClaim, SharedTerms};
 use super::sampler::TAPE_LANES;
-use super::voids::Choice;
 use crate::case::{Case, TimeParts};
 use crate::claim::LevelSubset;
-use crate::graph::{Fault, Graph, record};
+use crate::graph::{Expr, Fault, Graph, record};
 use crate::mechanics::Phase;
 use crate::mechanics::calculus::DualPoint;
 
@@ -316,20 +315,42 @@ fn judge_all(
             places.push(&claim.place);
         }
     }
+    let level = LevelSubset::level(model);
     for place in places {
-        let at_place =
-            recorded.iter().zip(&mut statuses).filter(|(item, _)| item.claim.place == *place);
-        bench.climb(place, at_place.collect())?;
+        let is_there = |item: &RecordedClaim<'_>| item.claim.place == *place;
+        let there = recorded.iter().zip(&mut statuses).filter(|(item, _)| is_there(item));
+        match bench.climb(place, there.collect()) {
+            Err(JudgeError::Fault(fault)) => return Err(fault.into()),
+            // A claim made elsewhere says nothing of the other claims.
+            Err(error) if *place != level => {
+                let pairs = recorded.iter().zip(&mut statuses);
+                for (_, status) in pairs.filter(|(item, _)| is_there(item)) {
+                    *status = ClaimState::default();
+                    undecide(status, error.to_string());
+                }
+            }
+            other => other?,
+        }
     }
     bench.extend_domain(&recorded, &mut statuses)?;
     bench.leave_flat_levels(&recorded, &mut statuses);
-    let voids: Vec<Vec<Choice>> = statuses.iter().map(|status| status.voids.clone()).collect();
+    let pairs = recorded.iter().zip(&statuses);
+    let lists: Vec<ListedUse> = pairs
+        .map(|(item, status)| {
+            let (voids, split) = (status.voids.clone(), bench.split_draws_of(item, status)?);
+            Ok(ListedUse { voids, split })
+        })
+        .collect::<Result<_, JudgeError>>()?;
     let mut claims: Vec<ClaimReport> = recorded
         .iter()
         .zip(statuses)
-        .map(|(item, status)| report(case, item, status, options))
+        .map(|(item, status)| {
+            // The value of an ∫ is an input of its own.
+            let open = |value: &Expr| graph.inputs_of(*value).into_iter().any(|own| own >= inputs);
+            report(case, item, status, (options, item.residual.iter().any(open)))
+        })
         .collect();
-    judge_listed_levels(case, options, &mut claims, &voids)?;
+    judge_each_listed(case, options, &mut claims, &lists)?;
     find_rates(case, options, &mut claims)?;
     let mutants = options.mutants.then(|| mutate(case, &claims, options)).transpose()?;
     let (motions_left, absences_left) = (case.motions.len(), case.absences.len());

@@ -126,13 +126,6 @@ impl Judging<'_> {
                 undecide(status, reason.to_string());
             }
         }
-        for (item, status) in open.iter_mut().filter(|(_, status)| status.holds()) {
-            let residual = [&item.residual[..], &item.context.quadrature_defects].concat();
-            if let Some(reason) = self.lost_bases(place, sampler, item, &residual)? {
-                status.evidence.proof = None;
-                undecide(status, reason.to_string());
-            }
-        }
         let is_confirmed = |status: &ClaimState| status.settled == Some(Verdict::Confirmed);
         if open.iter().any(|(_, status)| is_confirmed(status))
             && let Some(reason) = sampler.unreached()?

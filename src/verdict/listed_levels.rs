@@ -1,11 +1,12 @@
-//! Levels that depend on listed values: each value is judged as the same number in the file, for which the level may be
-//! another one, as x² + y² = p is a point for p = 0.
+//! Levels and powers that depend on listed values: each value is judged as the same number in the file, for which the
+//! level may be another one, as x² + y² = p is a point for p = 0, and a power may have more bases, as x² for x < 0.
 
 use std::collections::BTreeSet;
 
-use super::evidence::{ClaimReport, Verdict};
+use super::evidence::{ClaimReport, Evidence, Verdict};
 use super::field::TOO_MANY_COMBINATIONS;
 use super::judge::{JudgeError, Options, judge};
+use super::listed_powers::SplitDraws;
 use super::voids::Choice;
 use crate::case::{Case, Expect, PlacedClaim};
 use crate::formula::Formula;
@@ -16,20 +17,35 @@ use crate::number::rational::Rational;
 
 /// Largest number of combinations that are judged.
 const MOST: usize = 16;
-const OF_ENTRIES: &str = "the level depends on a vector or matrix with listed entries: write a separate case for each of \
-                          its values";
+const OF_ENTRIES: &str = "the level, or the exponent of a power, depends on a vector or matrix with listed entries: \
+                          write a separate case for each of its values";
 
-/// Judges the claims that hold once more for each combination of the listed values that their levels depend on, and
-/// keeps the first report by which one does not hold; `voids` are the values for which each claim says nothing.
-pub(super) fn judge_listed_levels(
+/// What listed values mean for a claim.
+pub(super) struct ListedUse {
+    /// Listed values for which the claim says nothing.
+    pub voids: Vec<Choice>,
+    /// Draws of listed exponents that have other states as numbers in the file.
+    pub split: SplitDraws,
+}
+
+/// Judges the claims that hold once more for each combination of the listed values that their levels depend on, and all
+/// with such exponents, and keeps the first report by which one does not hold.
+pub(super) fn judge_each_listed(
     case: &Case,
     options: &Options,
     reports: &mut [ClaimReport],
-    voids: &[Vec<Choice>],
+    uses: &[ListedUse],
 ) -> Result<(), JudgeError> {
-    for ((claim, report), voids) in case.claims.iter().zip(reports).zip(voids) {
-        let holds = matches!(report.verdict, Verdict::Proved | Verdict::Confirmed);
-        let lists = if holds { lists_of_level(case, claim) } else { Vec::new() };
+    for ((claim, report), ListedUse { voids, split }) in case.claims.iter().zip(reports).zip(uses) {
+        let Some(split) = split else {
+            leave_open(report, TOO_MANY_COMBINATIONS.to_string());
+            continue;
+        };
+        let holds = is_held(report.verdict);
+        let lists = match holds || !split.is_empty() && report.verdict == Verdict::Refuted {
+            true => lists_of(case, claim, split),
+            false => Vec::new(),
+        };
         if lists.is_empty() {
             continue;
         }
@@ -44,17 +60,23 @@ pub(super) fn judge_listed_levels(
                 continue;
             }
         };
-        for choice in choices {
+        for (index, choice) in choices.into_iter().enumerate() {
             // Nothing is said for these values if nothing is for any values of the other lists.
             let void = voids.iter().filter(|void| agrees(void, &choice)).count();
-            if void == choices_of_others(case, &lists) {
+            if void == choices_of_others(case, &lists) && split.is_empty() {
                 continue;
             }
             let values: Values<'_> =
                 lists.iter().filter_map(|list| Some((list, choice[list.draw].as_ref()?))).collect();
             let named = named(case, &values);
             match judged(case, options, claim, &values) {
-                Ok(one) if one.verdict == Verdict::Proved || one.verdict == report.verdict => {}
+                // What is refuted for positive bases may hold for all.
+                Ok(one) if is_held(one.verdict) && !holds && index == 0 => *report = one,
+                Ok(one) if one.verdict == Verdict::Proved || one.verdict == report.verdict => {
+                    if !split.is_empty() {
+                        include(&mut report.evidence, one.evidence, &named);
+                    }
+                }
                 Ok(one) => {
                     *report = one;
                     let reason = report.evidence.reason.take().unwrap_or_default();
@@ -76,6 +98,27 @@ pub(super) fn judge_listed_levels(
         }
     }
     Ok(())
+}
+
+fn is_held(verdict: Verdict) -> bool {
+    matches!(verdict, Verdict::Proved | Verdict::Confirmed)
+}
+
+/// Adds what restricts a claim for some listed values to what restricts it for all.
+fn include(evidence: &mut Evidence, of_values: Evidence, named: &str) {
+    evidence.holds.retain(|place| of_values.holds.contains(place));
+    of_values.flaws.iter().for_each(|flaw| evidence.add_flaw(*flaw));
+    if let Some(remark) = of_values.remark
+        && !evidence.remark.as_ref().is_some_and(|own| own.contains(&remark))
+    {
+        evidence.add_remark(format!("for {named}: {remark}"));
+    }
+    if of_values.sign != evidence.sign {
+        evidence.sign = of_values.sign;
+    }
+    evidence.sign_is_proved &= of_values.sign_is_proved;
+    evidence.sign_may_vanish |= of_values.sign_may_vanish;
+    evidence.sign_is_partial |= of_values.sign_is_partial;
 }
 
 /// Judges a claim in the case with these values.
@@ -125,8 +168,9 @@ struct Listed {
 /// A value of each such parameter.
 type Values<'l> = Vec<(&'l Listed, &'l Rational)>;
 
-/// Lists the parameters with several values in the equations of a claim's place, or in the chart of it.
-fn lists_of_level(case: &Case, claim: &PlacedClaim) -> Vec<Listed> {
+/// Lists the parameters with several values in the equations of a claim's place, or in the chart of it, and those with
+/// such draws.
+fn lists_of(case: &Case, claim: &PlacedClaim, split: &BTreeSet<usize>) -> Vec<Listed> {
     let (model, kept) = (&case.model, &claim.place.kept);
     let mut equations: Vec<&Formula> = Vec::new();
     for (equation, _) in model.level.iter().zip(kept).filter(|(_, kept)| **kept) {
@@ -145,7 +189,8 @@ fn lists_of_level(case: &Case, claim: &PlacedClaim) -> Vec<Listed> {
         let ParameterOrigin::Free(spec) = &own.origin else { continue };
         let draws = spec.draws();
         let several = |draw: &Draw| matches!(draw, Draw::OneOf(values) if values.len() > 1);
-        if draws.iter().any(several) && used.contains(&parameter) {
+        let is_split = split.range(draw..draw + draws.len()).next().is_some();
+        if draws.iter().any(several) && used.contains(&parameter) || is_split {
             let is_scalar = matches!(spec, SamplerSpec::Scalar(_));
             lists.push(Listed { parameter, draw, is_scalar });
         }

@@ -1,78 +1,95 @@
 //! Powers whose exponents are whole numbers for some listed values.
 
-use super::field::TOO_MANY_COMBINATIONS;
+use std::collections::BTreeSet;
+
+use super::claim_state::ClaimState;
 use super::judge::JudgeError;
 use super::judging::Judging;
 use super::recorded::RecordedClaim;
 use super::sampler::Sampler;
-use crate::claim::LevelSubset;
+use crate::claim::{Condition, Need};
 use crate::graph::{Expr, Fault, Graph, Step, record};
 use crate::mechanics::{Draw, combinations};
+use crate::number::BinaryOperation;
 use crate::number::rational::Rational;
-use crate::number::{BinaryOperation, UnaryFunction};
-use crate::proof::{Extent, Group, GroupOutcome, Prover, sign};
+use crate::proof::{Extent, sign};
 use crate::scalar::Scalar;
 
-const WHOLE_POWER: &str = "a power has an exponent from a list that contains whole numbers: it counts for positive \
-                           bases alone, and the same number in the file for all; give the exponent by --set, or \
-                           ranges in which the base is positive";
+/// Draws of listed numbers in the exponents of powers that have other states as numbers in the file;
+/// `None` if there are too many combinations to tell.
+pub(super) type SplitDraws = Option<BTreeSet<usize>>;
 
 impl Judging<'_> {
-    /// Returns the reason why a claim that holds may fail for negative bases: ln X belongs to what a claim requires
-    /// for each power X^a with a parameter a, while the same whole number in the file takes any base.
-    ///
-    /// `residual` is what vanishes if the claim holds. A claim that is proved without these logarithms, for listed values for which the exponent is whole, fails for
-    /// no base.
-    pub(super) fn lost_bases(
+    /// Lists such draws for a claim whose verdict rests on all states that count: one that holds, that says
+    /// that something does not vanish, or that asks whether a map is one-to-one.
+    pub(super) fn split_draws_of(
         &self,
-        place: &LevelSubset,
+        item: &RecordedClaim<'_>,
+        status: &ClaimState,
+    ) -> Result<SplitDraws, JudgeError> {
+        let asks_images = |own: &Condition| matches!(own.need, Need::OneToOne { .. });
+        let is_about_all = status.holds()
+            || status.settled.is_some()
+                && (item.claim.kind.is_negated() || item.conditions.iter().any(asks_images));
+        let mut split = BTreeSet::new();
+        if !is_about_all {
+            return Ok(Some(split));
+        }
+        let residual = [&item.residual[..], &item.context.quadrature_defects].concat();
+        let whole = self.sampler_at(&item.claim.place)?;
+        let pieces = self.pieces(&whole)?;
+        let samplers: Vec<&Sampler> = match &pieces {
+            Some(pieces) => pieces.iter().flatten().collect(),
+            None => vec![&whole],
+        };
+        for sampler in samplers {
+            match self.split_draws(sampler, item, &residual)? {
+                Some(more) => split.extend(more),
+                None => return Ok(None),
+            }
+        }
+        Ok(Some(split))
+    }
+
+    /// Lists the draws in exponents for which a claim may speak of fewer states than with numbers in the
+    /// file: ln X belongs to what a claim requires for each power X^a with a parameter a, while the same
+    /// whole number in the file takes any base.
+    ///
+    /// `residual` is what vanishes if the claim holds.
+    pub(super) fn split_draws(
+        &self,
         sampler: &Sampler,
         item: &RecordedClaim<'_>,
         residual: &[Expr],
-    ) -> Result<Option<&'static str>, JudgeError> {
+    ) -> Result<SplitDraws, Fault> {
+        let mut split = BTreeSet::new();
         if !sampler.recipes().iter().any(|own| matches!(own, Draw::OneOf(_))) {
-            return Ok(None);
+            return Ok(Some(split));
         }
         let common = self.common.required_at(sampler.kept());
-        let required = [&item.requirement[..], &common].concat();
-        let all = [&required[..], residual, &self.common.field].concat();
+        let all = [&item.requirement[..], &common, residual, &self.common.field].concat();
         let own = powers(self.graph, all);
         let made = powers(sampler.graph(), sampler.made().to_vec());
         if own.is_empty() && made.is_empty() {
-            return Ok(None);
+            return Ok(Some(split));
         }
-        let Some(choices) = combinations(sampler.recipes()) else {
-            return Ok(Some(TOO_MANY_COMBINATIONS));
-        };
-        let (extents, sources) = (sampler.extents(), sampler.sources());
-        let prover = Prover { sources: &sources, extents: &extents, seed: self.options.seed };
-        let outputs = [residual, &self.level_values(place, sampler)?].concat();
+        let Some(choices) = combinations(sampler.recipes()) else { return Ok(None) };
+        let extents = sampler.extents();
+        let is_listed = |draw: &usize| matches!(sampler.recipes()[*draw], Draw::OneOf(_));
         for fixed in choices {
             let (graph, drawn) = sampler.compose(self.graph, &own, &fixed)?;
-            let (made_graph, made) = with_listed(sampler.graph(), &made, &fixed)?;
-            let lost = lost_bases(&graph, &drawn, &extents);
-            if lost.is_empty() && lost_bases(&made_graph, &made, &extents).is_empty() {
-                continue;
+            for index in lost_bases(&graph, &drawn, &extents) {
+                let inputs = self.graph.inputs_of(own[index][1]).into_iter();
+                let values = inputs.filter_map(|input| sampler.made().get(input));
+                split.extend(values.flat_map(|value| sampler.graph().inputs_of(*value)));
             }
-            let bases: Vec<usize> =
-                lost.into_iter().map(|index| self.graph.place(own[index][0])).collect();
-            let is_of_base = |value: &&Expr| match self.graph.step(self.graph.place(**value)) {
-                Step::Unary(UnaryFunction::Ln, a) => bases.contains(&a),
-                _ => false,
-            };
-            let kept = required.iter().filter(|value| !is_of_base(value)).copied().collect();
-            let presence = item.presence.clone();
-            let group =
-                Group { outputs: outputs.clone(), required: kept, presence, ..Group::default() };
-            let (graph, groups) = sampler.compose_groups(self.graph, &[group], &fixed)?;
-            let outcomes = prover.prove(&graph, &groups)?;
-            let is_proved =
-                |one: &GroupOutcome| matches!(one, GroupOutcome::Zero(_) | GroupOutcome::Void);
-            if sampler.is_numerical() || !outcomes.iter().all(is_proved) {
-                return Ok(Some(WHOLE_POWER));
+            let (graph, values) = with_listed(sampler.graph(), &made, &fixed)?;
+            for index in lost_bases(&graph, &values, &extents) {
+                split.extend(sampler.graph().inputs_of(made[index][1]));
             }
         }
-        Ok(None)
+        split.retain(is_listed);
+        Ok(Some(split))
     }
 }
 

@@ -14,7 +14,7 @@ use crate::graph::{Evaluator, Expr, Fault, Tape, record};
 use crate::level::Newton;
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::elimination::transversals;
-use crate::mechanics::{Model, Phase};
+use crate::mechanics::{Chart, Model, Phase};
 use crate::number::ball::{Ball, Balls};
 
 /// Number of parameter sets that are tried.
@@ -86,6 +86,9 @@ impl Judging<'_> {
             Some(Some(pieces)) => pieces.iter().flatten().map(|part| part.balls(0)).collect(),
             _ => Vec::new(),
         };
+        // Ranges of [state] do not restrict the states of the file's own chart, or of a sphere.
+        let is_charted = !matches!(self.case.chart, Chart::Free | Chart::Equations);
+        let is_free = second == SecondState::Anywhere || is_charted && kept.contains(&true);
         let set = TAPE_LANES / PARAMETER_SETS;
         for k in 0..TAPE_LANES {
             let here = lane(k);
@@ -115,7 +118,7 @@ impl Judging<'_> {
                     .iter()
                     .zip(&there)
                     .any(|(a, b)| (a.mid[0] - b.mid[0]).abs() > 2.0 * (a.rad[0] + b.rad[0]));
-                let is_inside = second == SecondState::Anywhere
+                let is_inside = is_free
                     || there.iter().zip(&self.case.free_draws).all(|(x, draw)| {
                         let (low, high) =
                             inside(draw).unwrap_or((f64::NEG_INFINITY, f64::INFINITY));

@@ -218,10 +218,8 @@ impl Scene {
         std::array::from_fn(|axis| self.numerators[axis].at(point) / pole)
     }
 
-    /// Returns F after a short time, by a step of Runge and Kutta.
-    fn later(&self, start: &[f64; 3]) -> f64 {
-        let speed = self.velocity(start).iter().fold(1.0, |most: f64, value| most.max(value.abs()));
-        let time = 0.01 / speed;
+    /// Returns F after a time, by a step of Runge and Kutta.
+    fn later(&self, start: &[f64; 3], time: f64) -> f64 {
         let ahead = |rate: &[f64; 3], time: f64| {
             std::array::from_fn(|axis| start[axis] + time * rate[axis])
         };
@@ -232,12 +230,20 @@ impl Scene {
         let mean: [f64; 3] = std::array::from_fn(|axis| {
             (first[axis] + 2.0 * (second[axis] + third[axis]) + fourth[axis]) / 6.0
         });
-        self.function.at(&ahead(&mean, time))
+        self.function.at(&ahead(&mean, time)).abs()
     }
 
     /// Returns a zero of F from which the motion leaves F = 0.
     fn exit(&self, stream: &mut Stream) -> Option<[f64; 3]> {
-        (0..40).filter_map(|_| self.zero(stream)).find(|point| self.later(point).abs() > 1e-7)
+        let leaves = |point: &[f64; 3]| {
+            let speed =
+                self.velocity(point).iter().fold(1.0, |most: f64, rate| most.max(rate.abs()));
+            let time = 0.01 / speed;
+            // F grows as a low power of the time, and the error of a step as the fifth.
+            let (half, whole) = (self.later(point, time / 2.0), self.later(point, time));
+            whole > 1e-7 && half > whole / 12.0
+        };
+        (0..40).filter_map(|_| self.zero(stream)).find(leaves)
     }
 }
 

@@ -152,3 +152,47 @@ fn no_random_level_contradicts_its_values() {
     }
     assert!(proved > 10 && contradicted > 100, "{proved} hold, {contradicted} are refuted");
 }
+
+#[test]
+fn a_power_with_a_listed_exponent_counts_as_with_that_number_for_side_conditions_too() {
+    let still = "\"x'\" = '0'\n\"y'\" = '0'\n\"z'\" = '0'";
+    let space = "x = '-2..2'\ny = '-2..2'\nz = '-2..2'";
+    let bracket = "[variables]\nu = 'x*(b + sqrt(b^n))'\nv = 'y'\nw = 'z'\n[poisson]\n\
+                   'u,v' = 'u^2*v*(sqrt(b^n) - b)'\n'u,w' = '-1'\n";
+    for list in ["one of 2", "one of 2, 4"] {
+        let parameters = format!("n = '{list}'\nb = '-1..1'");
+        let text = file(&parameters, space, still, bracket, &["jacobi-identity = 'holds'"]);
+        assert_eq!(verdicts(&text), [Verdict::Undecided], "u = 0 for b < 0");
+    }
+    // Two states have one image for n = 2.
+    let doubling = |list: &str| {
+        format!(
+            "title = 't'\ncheck-weights = false\n[parameters]\nn = '{list}'\n[state]\nx = '-2..2'\ny = '-1..1'\n\
+             [map]\nx = 'x^n'\ny = 'y/(n*x^(n - 1))'\n[[claim]]\ndensity = '1'\n"
+        )
+    };
+    assert_eq!(verdicts(&doubling("one of 1, 2, 3")), [Verdict::Undecided]);
+    assert_eq!(verdicts(&doubling("one of 1, 3")), [Verdict::Proved]);
+    let found = report(
+        &file(
+            "a = 'one of 2'",
+            PLANE,
+            "\"x'\" = '1'\n\"y'\" = 'y'",
+            "",
+            &["symmetry = { y = 'y + sqrt(y^a)' }", "density = '1/y^(a/2)'"],
+        ),
+        &[],
+    );
+    let remarks: Vec<String> =
+        found.claims.iter().map(|own| own.evidence.remark.clone().unwrap_or_default()).collect();
+    assert!(remarks[0].contains("cannot be inverted"), "{remarks:?}");
+    assert!(remarks[1].contains("no positive measure"), "{remarks:?}");
+}
+
+#[test]
+fn functions_that_depend_on_each_other_for_positive_bases_alone_may_be_independent() {
+    let claims = ["independent = ['x', 'y - sqrt(y^a)']"];
+    let moving = "\"x'\" = '1'\n\"y'\" = 'y'";
+    let found = verdicts(&file("a = 'one of 2'", PLANE, moving, "", &claims));
+    assert_ne!(found, [Verdict::Refuted], "y − |y| = 2y for y < 0");
+}

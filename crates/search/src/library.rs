@@ -268,12 +268,15 @@ pub fn integrals(model: &Model) -> Vec<Formula> {
     for (i, a) in pieces.linear.iter().enumerate() {
         squares.extend(kept(pieces.linear[i..].iter().map(|b| a.dot(b))));
     }
+    // Squares of components come after the products that they make up.
+    let (of_tensors, of_degree_four) = tensors::products(model);
+    squares.extend(of_tensors);
     let of_squares = if forms.len() > SQUARED { &[] } else { &forms[..] };
     for (i, a) in of_squares.iter().enumerate() {
         let own = forms[i..].iter().map(|b| if a.text() == b.text() { a.raised(2) } else { a * b });
         squares.extend(kept(own));
     }
-    squares.extend(tensors::squares(model));
+    squares.extend(of_degree_four);
     let mut terms = Vec::new();
     for weight in &pieces.weights {
         terms.extend(kept(squares.iter().map(|square| product(weight, square))));

@@ -38,20 +38,23 @@ pub fn factors(model: &Model) -> Vec<Formula> {
     both.flat_map(of).collect()
 }
 
-/// Lists products of two of the vectors v and A v, one of them with a matrix, and the squares of (A u, v).
-pub fn squares(model: &Model) -> Vec<Formula> {
+/// Lists products of two of the vectors v and A v, one of them with a matrix; and the squares of (A u, v).
+pub fn products(model: &Model) -> (Vec<Formula>, Vec<Formula>) {
     let (matrices, vectors) = tensors(model);
     let turned: Vec<Formula> = matrices
         .iter()
         .flat_map(|own| vectors.iter().filter_map(move |v| (own * v).ok()))
         .collect();
-    let mut found: Vec<FormulaResult> = Vec::new();
+    let scalars = |made: Vec<FormulaResult>| -> Vec<Formula> {
+        let made = made.into_iter().flatten();
+        made.filter(|own| own.value_type() == Type::Scalar).collect()
+    };
+    let (mut found, mut squares) = (Vec::new(), Vec::new());
     for (k, own) in turned.iter().enumerate() {
         let mixed = vectors.iter().map(|v| own.dot(v));
         found.extend(mixed.clone());
-        found.extend(mixed.flatten().map(|form| form.raised(2)));
         found.extend(turned[k..].iter().map(|other| own.dot(other)));
+        squares.extend(mixed.flatten().map(|form| form.raised(2)));
     }
-    let found = found.into_iter().flatten();
-    found.filter(|own| own.value_type() == Type::Scalar).collect()
+    (scalars(found), scalars(squares))
 }

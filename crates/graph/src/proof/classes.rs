@@ -75,6 +75,7 @@ impl Classes {
                 break;
             }
         }
+        let symbolic = algebraic.symbolic();
         let mut classes: FxHashMap<[Element; TRIAL_LANES], u32> = FxHashMap::default();
         let mut merged = 0;
         for (place, block) in places.into_iter().zip(&values) {
@@ -86,7 +87,10 @@ impl Classes {
                 merged += 1;
                 continue;
             }
-            found.zero[place] = Some(false);
+            // A function may have the value that a symbol in its place has not: 2 sin(π/6) − 1 = 0.
+            let is_symbolic =
+                algebraic.values[place].is_some_and(|own| symbolic[algebraic.graph.place(own)]);
+            found.zero[place] = (!is_symbolic).then_some(false);
             let opposite: [Element; TRIAL_LANES] =
                 std::array::from_fn(|lane| field.negative(lane, block[lane]));
             let is_opposite = opposite < *block;

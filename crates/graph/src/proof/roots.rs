@@ -123,6 +123,8 @@ impl RootFinder<'_> {
     }
 
     /// Searches for an expression of √(A Π A_i).
+    ///
+    /// √(−b²) exists nowhere if b is known to vanish on no open set, and is 0 where it exists.
     fn product(&mut self, base: usize, others: &[usize]) -> Result<Option<RootSearch>, Fault> {
         let own = &self.algebraic.bases[base];
         let first = |index: &usize| self.algebraic.bases[*index].arguments.first().copied();
@@ -135,26 +137,36 @@ impl RootFinder<'_> {
             over: over.clone(),
         };
         let before = own.first;
+        let radicands: Vec<Expr> =
+            [base].iter().chain(others).map(|base| self.algebraic.bases[*base].radicand).collect();
+        let has_symbols = self.algebraic.has_symbols(&radicands);
+        let never_real = |certificate| match (has_symbols, others) {
+            (false, _) => Some(RootSearch::NeverReal(certificate)),
+            (true, []) => {
+                let rewrite = Rewrite::Zero { arguments: own.arguments.clone() };
+                Some(RootSearch::Rewrite(rewrite, certificate))
+            }
+            (true, _) => None,
+        };
         let squares = self.samples().map(|samples| samples.squares(base, others, before));
         for (scale, square) in squares.unwrap_or_default() {
             // A modulus, whose sign is known, may be one of those that are not settled.
             let Some(certificate) = self.is_square(base, others, &scale, square)? else { continue };
-            return Ok(Some(match scale.is_negative() {
-                true => RootSearch::NeverReal(Some(certificate)),
+            return Ok(match scale.is_negative() {
+                true => never_real(Some(certificate)),
                 false => {
-                    RootSearch::Rewrite(rewrite(Root::Found(scale, square)), Some(certificate))
+                    let root = rewrite(Root::Found(scale, square));
+                    Some(RootSearch::Rewrite(root, Some(certificate)))
                 }
-            }));
+            });
         }
         let own = own.arguments.first().copied();
         let places: Vec<usize> = own.into_iter().chain(over.iter().copied()).collect();
-        let found =
-            written(self.graph, &places, &self.roots_before(base)).map(|written| match &written {
-                DenestedRoot::Square(scale, _) if scale.is_negative() => {
-                    RootSearch::NeverReal(None)
-                }
-                _ => RootSearch::Rewrite(rewrite(Root::Written(written)), None),
-            });
+        let found = written(self.graph, &places, &self.roots_before(base));
+        if matches!(&found, Some(DenestedRoot::Square(scale, _)) if scale.is_negative()) {
+            return Ok(never_real(None));
+        }
+        let found = found.map(|written| RootSearch::Rewrite(rewrite(Root::Written(written)), None));
         Ok(found.or_else(|| {
             let (partner, certificate) =
                 self.square_of_function(own.filter(|_| over.is_empty())?)?;

@@ -44,6 +44,8 @@ pub enum Points {
     One,
     /// The multiples 1, 2, 3, … of one.
     Multiples,
+    /// Equidistant points of a line that misses the origin.
+    Line,
 }
 
 /// Derivatives of each formula along each coordinate, at several points.
@@ -98,8 +100,8 @@ impl Gradients {
 
     /// Gradients at random points modulo the next prime; `None` if none has values.
     pub fn next(&mut self, points: Points) -> Option<(Slopes, Modulus)> {
-        // At multiples of a point the values of functions are related.
-        if points == Points::Multiples && self.functions > 0 {
+        // At points of a line the values of functions are related.
+        if points != Points::One && self.functions > 0 {
             return None;
         }
         let modulus = self.rng.prime_for(&self.numbers);
@@ -110,10 +112,14 @@ impl Gradients {
             let mut values: Vec<[u64; SCALES]> = given.map(|x| [x; SCALES]).collect();
             values.extend((0..self.dimension).map(|_| {
                 let x = rng.element(&modulus);
+                let multiples =
+                    std::array::from_fn(|k| modulus.mul(modulus.integer(k as u64 + 1), x));
                 match points {
                     Points::One => [x; SCALES],
-                    Points::Multiples => {
-                        std::array::from_fn(|k| modulus.mul(modulus.integer(k as u64 + 1), x))
+                    Points::Multiples => multiples,
+                    Points::Line => {
+                        let start = rng.element(&modulus);
+                        multiples.map(|own| modulus.add(start, own))
                     }
                 }
             }));

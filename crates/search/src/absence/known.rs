@@ -24,6 +24,8 @@ pub struct ProvedIntegrals {
     formulas: Vec<Formula>,
     /// Whether the first of them is the energy; no other is written as `energy`.
     has_energy: bool,
+    /// Proved integrals that are not known to be one analytic function each, and are not counted.
+    uncounted: Vec<Formula>,
 }
 
 /// Space of the polynomials in known integrals up to a degree.
@@ -41,19 +43,20 @@ impl ProvedIntegrals {
         let energy = proved_energy(case, effort)?;
         let has_energy = energy.is_some();
         let mut formulas: Vec<Formula> = energy.into_iter().collect();
+        let mut uncounted = Vec::new();
         for (claim, report) in case.claims.iter().zip(reports) {
             if let (ClaimKind::Integral(Integral(own)), Verdict::Proved) =
                 (&claim.kind, report.verdict)
             {
                 // A file may claim the energy by its name.
                 for own in components(own)?.into_iter().filter(|own| !is_energy(own)) {
-                    if is_one_function(case, &own, effort)? {
-                        formulas.push(own);
-                    }
+                    let counted = is_one_function(case, &own, effort)?;
+                    let list = if counted { &mut formulas } else { &mut uncounted };
+                    list.push(own);
                 }
             }
         }
-        Ok(Self { formulas, has_energy })
+        Ok(Self { formulas, has_energy, uncounted })
     }
 
     /// Returns the integrals, the energy among them, that pass a test.
@@ -68,7 +71,12 @@ impl ProvedIntegrals {
                 formulas.push(own.clone());
             }
         }
-        Ok(Self { formulas, has_energy })
+        Ok(Self { formulas, has_energy, uncounted: self.uncounted.clone() })
+    }
+
+    /// Proved integrals that no count contains: what is found may be a function of them.
+    pub fn uncounted(&self) -> &[Formula] {
+        &self.uncounted
     }
 
     /// Formulas of the integrals.

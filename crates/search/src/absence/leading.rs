@@ -22,8 +22,17 @@ const MOST_DEGREE: usize = SCALES - 8;
 ///
 /// The gradient of F at s x is a polynomial in s whose leading coefficient is the gradient of the leading
 /// form at x. If these are independent modulo primes that agree on the degrees, a minor of them is not 0.
+/// Along a line that misses the origin the gradient of a fraction, a root or a modulus is no polynomial, as
+/// that of y²/x is along the multiples of a point.
 pub fn are_independent(case: &Case, formulas: &[Formula], seed: u64) -> Result<bool, SearchError> {
     let Some(mut gradients) = Gradients::of(case, formulas, seed)? else { return Ok(false) };
+    let Some((slopes, modulus)) = gradients.next(Points::Line) else { return Ok(false) };
+    let is_polynomial = |own: &[u64; SCALES]| {
+        coefficients(own, &modulus).iter().skip(MOST_DEGREE + 1).all(|own| *own == 0)
+    };
+    if !slopes.iter().flatten().all(is_polynomial) {
+        return Ok(false);
+    }
     let mut degrees = None;
     for _ in 0..DEGREE_PRIMES {
         let Some((slopes, modulus)) = gradients.next(Points::Multiples) else { return Ok(false) };
@@ -82,6 +91,9 @@ mod tests {
         assert!(!holds(&["x^2 + y^2 + z", "x^2 + y^2"]));
         assert!(!holds(&["x^2 + y^2", "a"]), "a constant");
         assert!(!holds(&["1/x"]), "no polynomial");
+        assert!(!holds(&["y^2/x"]), "no polynomial, but one along the multiples of a point");
+        assert!(!holds(&["sqrt(x^2 + y^2)"]), "its square is a polynomial");
+        assert!(!holds(&["abs(x^2 + y^2)"]));
         assert!(!holds(&["z^30"]), "more than is recognised");
         assert!(holds(&[]), "nothing cancels");
     }

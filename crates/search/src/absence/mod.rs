@@ -184,7 +184,15 @@ impl<'a> AbsenceCase<'a> {
     }
 
     fn judge(&self, kind: &Absence) -> Result<AbsenceOutcome, SearchError> {
-        let outcome = self.judge_once(kind)?;
+        let mut outcome = self.judge_once(kind)?;
+        if let (AbsenceOutcome::Exhibited(what), Absence::NoIntegral(_), [own, ..]) =
+            (&outcome, kind, self.known.uncounted())
+        {
+            outcome = AbsenceOutcome::Open(format!(
+                "{what}; it may be a polynomial in `{}`, which is an integral, but not known to be one analytic function",
+                own.text()
+            ));
+        }
         if !matches!(outcome, AbsenceOutcome::Open(_)) || self.effort.terms.is_empty() {
             return Ok(outcome);
         }

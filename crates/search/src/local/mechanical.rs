@@ -346,8 +346,10 @@ fn turned(model: &Model, draws: &[Draw]) -> Result<Vec<Place>, SearchError> {
         (values, parameters)
     })?;
     let mut found = vec![Place::Plain; count];
+    // Inputs beyond the state stand for values of ∫.
     let is_free = |input: usize| {
-        draws.get(input).is_none_or(|draw| matches!(draw, Draw::Within(_) | Draw::Of(..)))
+        let is_range = |draw: &Draw| matches!(draw, Draw::Within(_) | Draw::Of(..));
+        input < count && draws.get(input).is_none_or(is_range)
     };
     let (own, ..) = Replaceable::of(&graph, &values, &is_free, &|input| input < draws.len())?;
     for (input, rate) in own.exponents {

@@ -98,6 +98,14 @@ impl DarbouxSearch<'_, '_> {
                     if count == 2 && (factors.len() > before || setting.shape.is_some()) {
                         pairs.extend(self.pair(&support, degree, &factors[..before])?);
                     }
+                    // The product of two pairs may have a factor for each.
+                    if count > 2 && factors.len() > before + 1 {
+                        for index in before..factors.len() {
+                            let mut others = factors.clone();
+                            others.remove(index);
+                            pairs.extend(self.pair(&support, degree, &others)?);
+                        }
+                    }
                 }
             }
             if is_whole {
@@ -285,9 +293,26 @@ impl DarbouxSearch<'_, '_> {
         })
     }
 
-    /// Judges a polynomial together with its cofactor. One whose cofactor is 0, an integral, is kept
-    /// but not reported.
+    /// Judges the factors of a polynomial, each together with its cofactor. One whose cofactor is 0, an
+    /// integral, is kept but not reported.
     pub fn tell(
+        &self,
+        formula: &Formula,
+        degree: u32,
+        factors: &mut Vec<RatedPolynomial>,
+        report: &mut SearchReport,
+    ) -> Result<(), SearchError> {
+        let divided = adjoin::factors(self.setting.case, formula)?;
+        if divided.is_empty() {
+            return self.tell_factor(formula, degree, factors, report);
+        }
+        for (own, degree) in divided {
+            self.tell_factor(&own, degree, factors, report)?;
+        }
+        Ok(())
+    }
+
+    fn tell_factor(
         &self,
         formula: &Formula,
         degree: u32,

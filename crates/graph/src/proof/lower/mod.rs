@@ -220,12 +220,25 @@ impl<'g> Algebraic<'g> {
     pub fn has_symbols(&self, outputs: &[Expr]) -> bool {
         let reached = self.graph.reached(outputs.iter().copied());
         self.graph.steps().enumerate().any(|(place, step)| match step {
-            Step::Input(input) => {
-                reached[place]
-                    && input >= self.original_inputs
-                    && self.sources[input] != InputDistribution::Sign
-            }
+            Step::Input(input) => reached[place] && self.is_symbol(input),
             _ => false,
         })
+    }
+
+    /// Lists, by place of this graph, which values contain such a symbol.
+    pub fn symbolic(&self) -> Vec<bool> {
+        let mut symbolic: Vec<bool> = Vec::with_capacity(self.graph.len());
+        for step in self.graph.steps() {
+            let own = match step {
+                Step::Input(input) => self.is_symbol(input),
+                step => step.arguments().any(|argument| symbolic[argument]),
+            };
+            symbolic.push(own);
+        }
+        symbolic
+    }
+
+    fn is_symbol(&self, input: usize) -> bool {
+        input >= self.original_inputs && self.sources[input] != InputDistribution::Sign
     }
 }

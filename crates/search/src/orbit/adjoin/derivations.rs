@@ -213,7 +213,7 @@ impl AdjoinedRing {
 }
 
 /// Factor by which the coefficients become whole numbers without a common divisor.
-fn scale(own: &RingPolynomial) -> Option<Rational> {
+pub(super) fn scale(own: &RingPolynomial) -> Option<Rational> {
     let parts = || own.terms().map(|(_, value)| value.parts());
     let below = parts().fold(num_bigint::BigInt::from(1), |lcm, (_, below)| lcm.lcm(&below));
     let above = parts().fold(num_bigint::BigInt::ZERO, |gcd, (above, _)| gcd.gcd(&above));

@@ -62,27 +62,10 @@ pub fn reduced(
     formula: &Formula,
     others: &[Formula],
 ) -> Result<Option<Formula>, SearchError> {
-    let model = &case.model;
-    let (parameters, dimension) = (model.free_components(), model.dimension());
-    let (graph, values) = recorded(case, |jet| {
-        let all = std::iter::once(formula).chain(others);
-        all.map(|own| jet.phase.scalar(own)).collect::<Vec<_>>()
-    })?;
-    if graph.inputs() > parameters + dimension {
-        return Ok(None);
-    }
-    let mut ring = AdjoinedRing::new(parameters, dimension, Vec::new());
-    let mut reader = StepReader::new(&graph);
-    let mut read = |own: &Expr| {
-        let made = reader.read(graph.place(*own), &mut ring)?;
-        made.variables().iter().all(|k| *k < parameters + dimension).then_some(made)
-    };
-    let Some((Some(first), others)) = values.split_first().map(|(first, others)| {
-        let others: Vec<RingPolynomial> = others.iter().filter_map(&mut read).collect();
-        (read(first), others)
-    }) else {
-        return Ok(None);
-    };
+    let all: Vec<Formula> = std::iter::once(formula).chain(others).cloned().collect();
+    let Some(read) = polynomials(case, &all)? else { return Ok(None) };
+    let Some((Some(first), others)) = read.split_first() else { return Ok(None) };
+    let others: Vec<&RingPolynomial> = others.iter().flatten().collect();
     let mut own = first.clone();
     for other in others.iter().filter(|other| other.value().is_none()) {
         while let Some(quotient) = own.over(other) {
@@ -94,13 +77,39 @@ pub fn reduced(
     {
         own = root;
     }
-    if own == first {
+    if own == *first {
         return Ok(None);
     }
+    Ok(case.formula(&write::written(&own, &names(case))).ok())
+}
+
+/// Reads formulas as polynomials in the free parameters and the state: each as `None` if it is none, and all if
+/// the system contains an ∫.
+pub(super) fn polynomials(
+    case: &Case,
+    formulas: &[Formula],
+) -> Result<Option<Vec<Option<RingPolynomial>>>, SearchError> {
+    let (parameters, dimension) = (case.model.free_components(), case.model.dimension());
+    let (graph, values) =
+        recorded(case, |jet| formulas.iter().map(|own| jet.phase.scalar(own)).collect::<Vec<_>>())?;
+    if graph.inputs() > parameters + dimension {
+        return Ok(None);
+    }
+    let mut ring = AdjoinedRing::new(parameters, dimension, Vec::new());
+    let mut reader = StepReader::new(&graph);
+    let mut read = |own: &Expr| {
+        let made = reader.read(graph.place(*own), &mut ring)?;
+        made.variables().iter().all(|k| *k < parameters + dimension).then_some(made)
+    };
+    Ok(Some(values.iter().map(&mut read).collect()))
+}
+
+/// Names of the free parameters and of the state, component by component.
+pub(super) fn names(case: &Case) -> Vec<String> {
+    let model = &case.model;
     let parameters = model
         .free_parameters()
         .flat_map(|own| (0..own.kind.size()).map(|place| own.kind.component(&own.name, place)));
-    let state = (0..dimension).map(|k| model.component_name(k));
-    let names: Vec<String> = parameters.chain(state).collect();
-    Ok(case.formula(&write::written(&own, &names)).ok())
+    let state = (0..model.dimension()).map(|k| model.component_name(k));
+    parameters.chain(state).collect()
 }
