@@ -8,6 +8,7 @@ use super::{AbsenceCase, AbsenceOutcome, MOST_TIME};
 use crate::Halt;
 use liouville::case::Case;
 use liouville::claim::absence::Absence;
+use liouville::formula::Formula;
 use liouville::verdict::{ClaimReport, Options};
 
 /// Largest number of combinations that are judged.
@@ -19,7 +20,7 @@ pub fn judged(
     case: &Case,
     kind: &Absence,
     coordinates: &Result<Coordinates, SearchError>,
-    reports: &[ClaimReport],
+    (reports, others): (&[ClaimReport], &[Formula]),
     options: Options,
 ) -> Result<Option<AbsenceOutcome>, SearchError> {
     let is_of_velocities = coordinates.is_ok() && !matches!(kind, Absence::NoInvariantRelation(_));
@@ -34,7 +35,7 @@ pub fn judged(
     for ListedCase { case: fixed, values } in all.iter().take(MOST) {
         let effort = Effort { options, ..Effort::default() };
         // What is proved for all values is proved for each.
-        let known = ProvedIntegrals::of(fixed, reports, &effort)?;
+        let known = ProvedIntegrals::of(fixed, (reports, others), &effort)?;
         let coordinates = Coordinates::of(fixed);
         let mut asked = AbsenceCase::new(fixed, (&known, &coordinates), reports, options);
         asked.effort.halt = Halt::within(share);

@@ -38,12 +38,16 @@ pub struct ProductSpace {
 
 impl ProvedIntegrals {
     /// Collects the proved integrals among the claims of a case, from the reports on them, that are
-    /// one analytic function each.
-    pub fn of(case: &Case, reports: &[ClaimReport], effort: &Effort) -> Result<Self, SearchError> {
+    /// one analytic function each; `others` are not counted either.
+    pub fn of(
+        case: &Case,
+        (reports, others): (&[ClaimReport], &[Formula]),
+        effort: &Effort,
+    ) -> Result<Self, SearchError> {
         let energy = proved_energy(case, effort)?;
         let has_energy = energy.is_some();
         let mut formulas: Vec<Formula> = energy.into_iter().collect();
-        let mut uncounted = Vec::new();
+        let mut uncounted = others.to_vec();
         for (claim, report) in case.claims.iter().zip(reports) {
             if let (ClaimKind::Integral(Integral(own)), Verdict::Proved) =
                 (&claim.kind, report.verdict)

@@ -8,6 +8,7 @@
 //! leading      when products of known integrals cannot cancel
 //! found        integrals of a field that a search finds
 //! functions    fractions of polynomials in the state and functions of it, along an orbit
+//! reports      outcomes as reports
 //! relations    Darboux polynomials of a field, on random lines
 //! by_value     each combination of listed values where no count takes all of them
 //! claimed_densities  densities of the file, and 1, that refute a claim
@@ -26,27 +27,27 @@ mod known;
 mod leading;
 mod polynomials;
 mod relations;
+mod reports;
 mod velocities;
 
 use std::time::Duration;
 
 use super::ansatz::monomials::AnsatzVariables;
-use super::ask::independent;
+use super::ask::{components, independent};
 use super::continued::named;
 use super::local::Coordinates;
 use super::terms::recorded;
 use super::{Ansatz, Effort, Halt, SearchError, abbreviated, branches};
 use known::ProvedIntegrals;
 pub use known::{has_lists, rank};
-use liouville::case::{AbsenceClaim, Case, Expect};
+use liouville::case::{AbsenceClaim, Case, PlacedClaim};
 use liouville::claim::absence::Absence;
+use liouville::claim::{ClaimKind, Integral};
 use liouville::formula::Formula;
 use liouville::graph::Step;
 use liouville::mechanics::{Draw, Model, System};
 use liouville::number::{BinaryOperation, UnaryFunction};
-use liouville::verdict::{
-    self, CaseReport, ClaimReport, Evidence, JudgeError, Method, Options, Trust, Verdict,
-};
+use liouville::verdict::{self, CaseReport, ClaimReport, JudgeError, Options, Trust, Verdict};
 
 /// Limit on the estimated time of a count, in seconds; longer counts are left out.
 const SECONDS: f64 = 20.0;
@@ -88,23 +89,43 @@ pub fn judge(case: &Case, options: &Options) -> Result<CaseReport, JudgeError> {
 pub fn complete(case: &Case, options: &Options, report: &mut CaseReport) -> Result<(), JudgeError> {
     let told = match case.time_parts() {
         Some(parts) => {
-            let mut both = reports_of(&parts.without_time, options, report)?;
-            both.extend(reports_of(&parts.with_time, options, report)?);
+            // Two integrals with t may have a function without it.
+            let timed = proved_integrals(&parts.with_time, report);
+            let timed = if timed.len() > 1 { timed } else { Vec::new() };
+            let mut both = reports_of(&parts.without_time, options, report, &timed)?;
+            both.extend(reports_of(&parts.with_time, options, report, &[])?);
             parts.sort(&mut both, |claim| &claim.name);
             both
         }
-        None => reports_of(case, options, report)?,
+        None => reports_of(case, options, report, &[])?,
     };
     report.claims.extend(told);
     report.absences_left = 0;
     Ok(())
 }
 
-/// Reports on the claims of absence of a case; `report` contains those on its other claims.
+/// Formulas of the claimed integrals of a case that are proved, component by component.
+fn proved_integrals(case: &Case, report: &CaseReport) -> Vec<Formula> {
+    let is_proved = |name: &str| {
+        let own = report.claims.iter().find(|claim| claim.name == name);
+        own.is_some_and(|own| own.verdict == Verdict::Proved)
+    };
+    let of = |claim: &PlacedClaim| match &claim.kind {
+        ClaimKind::Integral(Integral(own)) if is_proved(&claim.name) => {
+            components(own).unwrap_or_else(|_| vec![own.clone()])
+        }
+        _ => Vec::new(),
+    };
+    case.claims.iter().flat_map(of).collect()
+}
+
+/// Reports on the claims of absence of a case; `report` contains those on its other claims, and `others` are
+/// proved integrals that the case does not contain.
 fn reports_of(
     case: &Case,
     options: &Options,
     report: &CaseReport,
+    others: &[Formula],
 ) -> Result<Vec<ClaimReport>, JudgeError> {
     if case.absences.is_empty() {
         return Ok(Vec::new());
@@ -120,15 +141,19 @@ fn reports_of(
             case.claims.iter().filter_map(|claim| of(&claim.name)).collect()
         }
     };
-    Ok(judged(case, &known, options))
+    Ok(judged(case, (&known, others), options))
 }
 
 /// Reports on all claims of absence; `judged` are the reports on the other claims.
-fn judged(case: &Case, judged: &[ClaimReport], options: &Options) -> Vec<ClaimReport> {
+fn judged(
+    case: &Case,
+    (judged, others): (&[ClaimReport], &[Formula]),
+    options: &Options,
+) -> Vec<ClaimReport> {
     let options = Options { trust: Trust::Best, mutants: false, ..*options };
     let ground = abbreviated(case).and_then(|case| {
         let effort = Effort { options, ..Effort::default() };
-        let known = ProvedIntegrals::of(&case, judged, &effort)?;
+        let known = ProvedIntegrals::of(&case, (judged, others), &effort)?;
         let coordinates = Coordinates::of(&case);
         Ok((case, known, coordinates))
     });
@@ -137,7 +162,7 @@ fn judged(case: &Case, judged: &[ClaimReport], options: &Options) -> Vec<ClaimRe
             Ok((case, known, coordinates)) => (case, known, coordinates),
             Err(error) => return AbsenceOutcome::Open(error.to_string()),
         };
-        match by_value::judged(case, &claim.kind, coordinates, judged, options) {
+        match by_value::judged(case, &claim.kind, coordinates, (judged, others), options) {
             Ok(Some(outcome)) => return outcome,
             Ok(None) => {}
             Err(error) => return AbsenceOutcome::Open(error.to_string()),
@@ -145,7 +170,7 @@ fn judged(case: &Case, judged: &[ClaimReport], options: &Options) -> Vec<ClaimRe
         let asked = AbsenceCase::new(case, (known, coordinates), judged, options);
         asked.judge(&claim.kind).unwrap_or_else(|error| AbsenceOutcome::Open(error.to_string()))
     };
-    case.absences.iter().map(|claim| report(claim, outcome(claim))).collect()
+    case.absences.iter().map(|claim| reports::report(claim, outcome(claim))).collect()
 }
 
 /// A case whose claims of absence are judged.
@@ -189,7 +214,7 @@ impl<'a> AbsenceCase<'a> {
             (&outcome, kind, self.known.uncounted())
         {
             outcome = AbsenceOutcome::Open(format!(
-                "{what}; it may be a polynomial in `{}`, which is an integral, but not known to be one analytic function",
+                "{what}; it may be a polynomial in proved integrals that are not counted, such as `{}`",
                 own.text()
             ));
         }
@@ -355,40 +380,4 @@ fn generated(
             format!("every integral that is {class}{comma} is a polynomial in {names}")
         }
     })
-}
-
-fn report(claim: &AbsenceClaim, outcome: AbsenceOutcome) -> ClaimReport {
-    let mut evidence = Evidence { method: Method::Count, ..Evidence::default() };
-    let verdict = match outcome {
-        AbsenceOutcome::Excluded { theorem, counted } => {
-            (evidence.theorem, evidence.remark) = (Some(theorem), Some(counted));
-            Verdict::Proved
-        }
-        AbsenceOutcome::Exhibited(what) => {
-            evidence.exhibit = Some(what);
-            Verdict::Refuted
-        }
-        AbsenceOutcome::Open(reason) | AbsenceOutcome::Bounded(reason) => {
-            evidence.reason = Some(reason);
-            Verdict::Undecided
-        }
-    };
-    let agrees = match claim.expect {
-        Expect::Open => true,
-        Expect::Holds => verdict == Verdict::Proved,
-        Expect::Fails => verdict == Verdict::Refuted,
-    };
-    ClaimReport {
-        name: claim.name.clone(),
-        formula: None,
-        kind: claim.kind.name(),
-        source: claim.source.clone(),
-        place: "level".to_string(),
-        expect: claim.expect,
-        verdict,
-        agrees,
-        cell: claim.cell.clone(),
-        note: claim.note.clone(),
-        evidence,
-    }
 }

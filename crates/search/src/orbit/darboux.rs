@@ -302,7 +302,7 @@ impl DarbouxSearch<'_, '_> {
         factors: &mut Vec<RatedPolynomial>,
         report: &mut SearchReport,
     ) -> Result<(), SearchError> {
-        let divided = adjoin::factors(self.setting.case, formula)?;
+        let divided = adjoin::polynomial_factors(self.setting.case, formula)?;
         if divided.is_empty() {
             return self.tell_factor(formula, degree, factors, report);
         }

@@ -12,7 +12,10 @@ use super::write;
 
 /// Divides a polynomial into factors over the rational numbers and the parameters, each once and with its degree
 /// in the state; those without the state are left out. Empty if it is none, or if it is not divided.
-pub fn factors(case: &Case, formula: &Formula) -> Result<Vec<(Formula, u32)>, SearchError> {
+pub fn polynomial_factors(
+    case: &Case,
+    formula: &Formula,
+) -> Result<Vec<(Formula, u32)>, SearchError> {
     let read = polynomials(case, std::slice::from_ref(formula))?;
     let Some(own) = read.and_then(|all| all.into_iter().next().flatten()) else {
         return Ok(Vec::new());
@@ -72,7 +75,7 @@ mod tests {
         let case = Case::parse(text, &[]).expect("a case");
         let of = |text: &str| {
             let formula = case.formula(text).expect("a formula");
-            let found = factors(&case, &formula).expect("an answer");
+            let found = polynomial_factors(&case, &formula).expect("an answer");
             let mut texts: Vec<(String, u32)> =
                 found.iter().map(|(own, degree)| (own.text().to_string(), *degree)).collect();
             texts.sort();

@@ -68,7 +68,7 @@ pub use self::back::{merged, with_signs};
 use self::bases::{circles, factors};
 pub use self::derivations::{FieldComponents, IntegralAlgebra};
 pub use self::explicit::ExplicitField;
-pub use self::factored::factors;
+pub use self::factored::polynomial_factors;
 pub use self::logarithmic::MonomialMap;
 pub use self::parsed::{joined as joined_terms, terms as signed_terms};
 use self::parts::{Read, ReadParts, read, read_with};

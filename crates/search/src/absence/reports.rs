@@ -1,0 +1,43 @@
+//! Outcomes of claims of absence as reports.
+
+use liouville::case::{AbsenceClaim, Expect};
+use liouville::verdict::{ClaimReport, Evidence, Method, Verdict};
+
+use super::AbsenceOutcome;
+
+/// Makes the report on a claim, with its verdict compared with the expectation.
+pub(super) fn report(claim: &AbsenceClaim, outcome: AbsenceOutcome) -> ClaimReport {
+    let mut evidence = Evidence { method: Method::Count, ..Evidence::default() };
+    let verdict = match outcome {
+        AbsenceOutcome::Excluded { theorem, counted } => {
+            (evidence.theorem, evidence.remark) = (Some(theorem), Some(counted));
+            Verdict::Proved
+        }
+        AbsenceOutcome::Exhibited(what) => {
+            evidence.exhibit = Some(what);
+            Verdict::Refuted
+        }
+        AbsenceOutcome::Open(reason) | AbsenceOutcome::Bounded(reason) => {
+            evidence.reason = Some(reason);
+            Verdict::Undecided
+        }
+    };
+    let agrees = match claim.expect {
+        Expect::Open => true,
+        Expect::Holds => verdict == Verdict::Proved,
+        Expect::Fails => verdict == Verdict::Refuted,
+    };
+    ClaimReport {
+        name: claim.name.clone(),
+        formula: None,
+        kind: claim.kind.name(),
+        source: claim.source.clone(),
+        place: "level".to_string(),
+        expect: claim.expect,
+        verdict,
+        agrees,
+        cell: claim.cell.clone(),
+        note: claim.note.clone(),
+        evidence,
+    }
+}
