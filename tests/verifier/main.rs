@@ -27,6 +27,7 @@ mod language;
 mod level_cells;
 mod level_parts;
 mod limits;
+mod listed_conditions;
 mod listed_levels;
 mod listed_powers;
 mod local;

@@ -19,6 +19,9 @@ const LINES: usize = 4000;
 const BARREN: usize = 24;
 /// Number of points that establish a simple condition shared by them.
 const REPEATED: usize = 2;
+/// Restriction of an equation that is found with roots.
+const EITHER_SIGN: &str = "; roots have either sign modulo a prime: where they are positive, the claim may hold for a part \
+                           of these values alone";
 /// Reason why nothing is found.
 const NO_FRACTION: &str = "the residual is not a fraction of low degree in the parameters";
 
@@ -28,11 +31,14 @@ pub fn condition(
     (claim, of): (Option<&PlacedClaim>, &str),
     effort: &Effort,
 ) -> Result<Option<ParameterCondition>, SearchError> {
-    let told = |equations: Vec<String>, grounds: String| {
+    let Some(residual) = Residual::of(case, claim, effort.options.seed)? else { return Ok(None) };
+    let told = |equations: Vec<String>, mut grounds: String| {
+        if !equations.is_empty() && residual.has_roots() {
+            grounds.push_str(EITHER_SIGN);
+        }
         let (of, origin) = (of.to_string(), ConditionOrigin::Claim);
         Ok(Some(ParameterCondition { of, equations, grounds, origin }))
     };
-    let Some(residual) = Residual::of(case, claim, effort.options.seed)? else { return Ok(None) };
     let Some(mut lines) = Lines::new(&residual, effort)? else {
         return told(Vec::new(), NO_FRACTION.to_string());
     };

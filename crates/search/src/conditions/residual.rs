@@ -7,8 +7,9 @@ use crate::streams::SearchStream;
 use crate::terms::recorded;
 use liouville::case::{Case, PlacedClaim};
 use liouville::claim::LevelSubset;
-use liouville::graph::{Evaluator, Expr, Tape};
+use liouville::graph::{Evaluator, Expr, Step, Tape};
 use liouville::mechanics::Draw;
+use liouville::number::UnaryFunction;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
 use liouville::number::rational::Rational;
 use liouville::proof::{ProofRng, root_numbers};
@@ -37,6 +38,8 @@ pub struct Residual {
     parameters: Vec<Draw>,
     /// Numbers that are squares modulo primes.
     numbers: Vec<Rational>,
+    /// Whether it contains a root, which has either sign modulo a prime.
+    has_roots: bool,
 }
 
 /// One point of an evaluation: the residual, and the parameters' components.
@@ -48,6 +51,11 @@ pub struct ResidualPoint {
 }
 
 impl Residual {
+    /// Whether it contains a root, which has either sign modulo a prime.
+    pub fn has_roots(&self) -> bool {
+        self.has_roots
+    }
+
     /// Records the residual of a claim or, without one, of the criterion for a density of the
     /// configuration.
     pub fn of(
@@ -83,6 +91,14 @@ impl Residual {
         let parameters = model.parameter_draws();
         let laid_out = |outputs: &[Vec<Expr>]| Tape::new(&graph, &outputs.concat());
         let (inputs, numbers) = (graph.inputs(), root_numbers(&graph));
+        let reached = graph.reached(outputs[0].iter().copied());
+        let is_root = |step: &Step<'_>| match step {
+            Step::Unary(UnaryFunction::Sqrt, _) => true,
+            Step::Power(_, exponent) => exponent.to_integer().is_none(),
+            _ => false,
+        };
+        let mut steps = graph.steps().zip(&reached).filter(|(_, is_reached)| **is_reached);
+        let has_roots = steps.any(|(step, _)| is_root(&step));
         let mut residual = Self {
             tape: laid_out(&outputs[..2]),
             names,
@@ -92,6 +108,7 @@ impl Residual {
             parameters,
             inputs,
             numbers,
+            has_roots,
         };
         let varying = residual.varying(seed);
         let kept: Vec<Expr> = varying.iter().map(|k| outputs[1][*k]).collect();

@@ -35,8 +35,8 @@ const TRIES: u64 = 16;
 const MOST_COMBINATIONS: usize = 64;
 /// Number of values of a parameter that is a small whole number.
 const SMALL: u64 = 64;
-/// Number of points drawn until one has a value, roots included.
-const DRAWS: usize = 512;
+/// Number of points drawn until one has a value, roots included, of fields without roots and with.
+const DRAWS: [usize; 2] = [512, 8192];
 
 /// A point of phase space modulo a prime.
 #[derive(Clone, Debug)]
@@ -286,18 +286,18 @@ impl<'c> OrbitSetting<'c> {
         let seed = self.effort.options.seed ^ number.wrapping_mul(0xd1b5_4a32_d192_ed03);
         let mut rng = SearchStream::OrbitPoints.under(seed);
         let Points { tape, draws, of_parameters, parameters, .. } = &self.points;
-        for _ in 0..DRAWS {
+        let (flow, halt) = (&self.flow, &self.effort.halt);
+        for _ in 0..DRAWS[usize::from(!flow.is_rational)] {
             let own = draws[*of_parameters..].iter().map(|draw| match draw {
                 Draw::Sign => sign(&at.modulus, &mut rng),
                 _ => rng.element(&at.modulus),
             });
             let inputs: Vec<u64> = at.parameters.iter().copied().chain(own).collect();
-            if let Some(made) = run(tape, at.modulus, &inputs) {
-                let (parameters, state) = made.split_at(*parameters);
-                return Some(PrimePhasePoint {
-                    parameters: parameters.to_vec(),
-                    state: state.to_vec(),
-                });
+            let Some(made) = run(tape, at.modulus, &inputs) else { continue };
+            let (parameters, state) = made.split_at(*parameters);
+            if flow.is_rational || flow.has_values(&at.modulus, parameters, state, halt) {
+                let (parameters, state) = (parameters.to_vec(), state.to_vec());
+                return Some(PrimePhasePoint { parameters, state });
             }
         }
         None

@@ -160,6 +160,12 @@ impl Flow {
         }
     }
 
+    /// Whether the rates, or the image, have values at a state: each root has one at half of the states.
+    pub fn has_values(&self, m: &Modulus, parameters: &[u64], state: &[u64], halt: &Halt) -> bool {
+        let image = self.points(m, parameters, state, 2, halt);
+        image.is_ok_and(|image| image.is_some())
+    }
+
     /// Computes points of the orbit of a map, component by component.
     fn points(
         &self,

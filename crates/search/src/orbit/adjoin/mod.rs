@@ -83,7 +83,7 @@ use super::super::{Effort, SearchError};
 use super::conic::{ConicRole, ConicShape};
 
 /// Largest number of variables.
-const VARIABLES: usize = 18;
+const VARIABLES: usize = 30;
 
 /// A case whose state has the functions of its field as further components.
 pub struct Extension {

@@ -65,3 +65,44 @@ fn what_the_search_finds_refutes() {
     );
     assert_eq!(found, Verdict::Refuted, "{said}");
 }
+
+/// Verdict on the absence of further integrals of a turning motion, beside a known one.
+fn beside(known: &str, degree: u32) -> (Verdict, String) {
+    verdict(&format!(
+        "title = 't'\ncheck-weights = false\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = 'y'\n\
+         \"y'\" = '-x'\n[[claim]]\nintegral = '{known}'\n[[claim]]\nno-integral = {{ degree = {degree} }}\n\
+         expect = 'open'\n"
+    ))
+}
+
+#[test]
+fn a_find_may_be_a_polynomial_in_a_known_root_or_modulus() {
+    for known in [
+        "sqrt(x^2 + y^2)",
+        "abs(x^2 + y^2)",
+        "x^2 + y^2 + abs(x^2 + y^2)",
+        "sqrt(x^2 + y^2) + 1",
+        "(x^2 + y^2)/2 + ∫(0, x)",
+        "max(x^2 + y^2, 0)",
+    ] {
+        let (found, said) = beside(known, 2);
+        assert_ne!(found, Verdict::Refuted, "{known}: {said}");
+    }
+    assert_eq!(beside("(x^2 + y^2)^2", 2).0, Verdict::Refuted, "no polynomial in its square");
+    assert_eq!(beside("x^2 + y^2", 4).0, Verdict::Proved);
+}
+
+#[test]
+fn a_find_may_be_a_product_of_integrals_with_time() {
+    let text = |second: &str| {
+        format!(
+            "title = 't'\ncheck-weights = false\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = 'x'\n\
+             \"y'\" = '-2*y'\n[[claim]]\nintegral = 'x*exp(-t)'\n{second}[[claim]]\n\
+             no-integral = {{ degree = 3 }}\nexpect = 'open'\n"
+        )
+    };
+    let (found, said) = verdict(&text("[[claim]]\nintegral = 'y*exp(2*t)'\n"));
+    assert_eq!(found, Verdict::Undecided, "{said}");
+    assert!(said.contains("not counted"), "{said}");
+    assert_eq!(verdict(&text("")).0, Verdict::Refuted, "x²y has no t");
+}
