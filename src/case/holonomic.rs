@@ -54,7 +54,7 @@ fn text_of_rate(function: &Formula, name: &str, names: &Names<'_>) -> Option<Str
     let used = vocabulary.uses(function, abbreviations);
     let is_still = used.iter().all(|entry| match entry.meaning {
         Meaning::State(index) => {
-            !matches!(roles[index], VariableRole::Velocity | VariableRole::Multiplier)
+            !matches!(roles[index], VariableRole::Velocity | VariableRole::Multiplier(_))
         }
         Meaning::Quantity(_) => false,
         _ => true,
@@ -91,6 +91,6 @@ fn terms(
             }
         },
         VariableRole::Time => vec![slope],
-        VariableRole::Velocity | VariableRole::Multiplier => Vec::new(),
+        VariableRole::Velocity | VariableRole::Multiplier(_) => Vec::new(),
     }
 }

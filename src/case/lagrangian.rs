@@ -125,7 +125,10 @@ fn roles(
         let is_velocity =
             quasi.contains(&index) || variables.iter().any(|v| Some(v.name.as_str()) == of);
         let role = match (rate, velocity) {
-            _ if multipliers.contains(&index) => Some(VariableRole::Multiplier),
+            _ if multipliers.contains(&index) => {
+                let place = multipliers.iter().position(|own| *own == index).unwrap_or_default();
+                Some(VariableRole::Multiplier(place))
+            }
             _ if is_velocity => Some(VariableRole::Velocity),
             (GivenRate::Given(rate), _) => Some(VariableRole::Carried(rate)),
             (GivenRate::Broken, _) => None,

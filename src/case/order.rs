@@ -11,7 +11,7 @@ use super::mistakes::bases;
 use super::section::SpannedStr;
 use super::stated::Time;
 use super::systems::Reading;
-use crate::formula::canonical_name;
+use crate::formula::{Formula, FormulaError, canonical_name, names_in};
 use crate::mechanics::TIME;
 
 /// Name of `[parameters]` or `[let]` that waits for the names it uses.
@@ -100,7 +100,18 @@ impl Reading<'_, '_> {
         let mut stack = vec![start];
         while let Some(&top) = stack.last() {
             self.items[top].state = WaitingState::Open;
-            let end = match self.read_item(top, stage) {
+            let hiding = self.hiding(top);
+            if let Some(other) = hiding
+                && self.items[other].state == WaitingState::Pending
+            {
+                stack.push(other);
+                continue;
+            }
+            let read = match hiding {
+                Some(other) => Err(self.unread(top, other)),
+                None => self.read_item(top, stage),
+            };
+            let end = match read {
                 Ok(()) => WaitingState::Done,
                 Err(mistake) => match self.item_of(&mistake) {
                     Some(other) if self.items[other].state == WaitingState::Pending => {
@@ -137,6 +148,28 @@ impl Reading<'_, '_> {
             ItemKind::Parameter(index, value) => self.read_parameter(index, item, value),
             ItemKind::Abbreviation(text) => self.abbreviate(item, &text, stage),
         }
+    }
+
+    /// Item that is not read yet, which the text of another names, and whose name would be taken for a number
+    /// such as π or for a component such as `v1` until then.
+    fn hiding(&self, item: usize) -> Option<usize> {
+        let text = match &self.items[item].kind {
+            ItemKind::Parameter(_, value) => value.get_ref().as_str()?,
+            ItemKind::Abbreviation(text) => text.value.as_str(),
+        };
+        let is_open =
+            |other: &usize| *other != item && self.items[*other].state != WaitingState::Done;
+        let has_other_meaning = |name: &str| Formula::parse(name, &self.vocabulary).is_ok();
+        names_in(text)
+            .iter()
+            .filter_map(|name| self.items.iter().position(|other| other.name == *name))
+            .find(|other| is_open(other) && has_other_meaning(&self.items[*other].name))
+    }
+
+    /// Mistake of a text that names an item which cannot be read before it.
+    fn unread(&self, item: usize, other: usize) -> Mistake {
+        let error = FormulaError::unknown(&self.items[other].name);
+        Mistake::at(self.items[item].key.clone(), Problem::Formula(error))
     }
 
     /// Item whose name is missing where a formula cannot be read, if it is pending.

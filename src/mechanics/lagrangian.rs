@@ -58,8 +58,8 @@ pub enum VariableRole {
     Time,
     /// A velocity or quasi-velocity.
     Velocity,
-    /// The multiplier of the next constraint.
-    Multiplier,
+    /// The multiplier of the constraint with this place in their list.
+    Multiplier(usize),
 }
 
 /// Commutation relations of the fields X_i.
@@ -151,8 +151,13 @@ impl Lagrangian {
         self.components(state, |role| matches!(role, VariableRole::Velocity)).collect()
     }
 
+    /// Lists the components of the state that are multipliers, in the order of the constraints.
     fn multipliers<'a>(&'a self, state: &'a [Variable]) -> impl Iterator<Item = usize> + 'a {
-        self.components(state, |role| matches!(role, VariableRole::Multiplier))
+        let of = move |place: usize| {
+            let is_own = move |role: &VariableRole| matches!(role, VariableRole::Multiplier(own) if *own == place);
+            self.components(state, is_own)
+        };
+        (0..self.roles.len()).flat_map(of)
     }
 
     /// Returns the components of the variables with some role.
@@ -196,7 +201,7 @@ impl Lagrangian {
                     rates.extend(rate.iter().flat_map(|part| at.evaluate(part).components()));
                 }
                 VariableRole::Time => rates.push(T::one()),
-                VariableRole::Velocity | VariableRole::Multiplier => {
+                VariableRole::Velocity | VariableRole::Multiplier(_) => {
                     rates.extend(vec![T::zero(); variable.len()]);
                 }
             }

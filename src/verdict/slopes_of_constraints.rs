@@ -85,7 +85,7 @@ pub fn on_still_factors(model: &Model, sampler: &Sampler) -> Result<Vec<String>,
 fn is_still(model: &Model, lagrangian: &Lagrangian, formula: &Formula) -> bool {
     let is_moving = |meaning: Meaning| match meaning {
         Meaning::State(index) => {
-            matches!(lagrangian.roles[index], VariableRole::Velocity | VariableRole::Multiplier)
+            matches!(lagrangian.roles[index], VariableRole::Velocity | VariableRole::Multiplier(_))
         }
         Meaning::Quantity(_) => true,
         Meaning::Parameter(_) | Meaning::Abbreviation(_) => false,

@@ -9,6 +9,7 @@ mod holonomic;
 mod matrices;
 mod mistakes;
 mod names;
+mod order;
 mod repeated_constraints;
 
 use liouville::case::Case;

@@ -93,7 +93,7 @@ impl<'c> Degrees<'c> {
         let coordinates = Coordinates::of(case).ok().or_else(|| {
             let roles = lagrangian.roles.iter().zip(&case.model.state);
             let is_position = roles.flat_map(|(role, variable)| {
-                let moves = matches!(role, VariableRole::Velocity | VariableRole::Multiplier);
+                let moves = matches!(role, VariableRole::Velocity | VariableRole::Multiplier(_));
                 vec![!moves; variable.len()]
             });
             let positions: Vec<usize> =

@@ -276,7 +276,7 @@ fn variables(case: &Case, lagrangian: &Lagrangian) -> Option<(Vec<Formula>, Vec<
     for (role, variable) in lagrangian.roles.iter().zip(&model.state) {
         let own = (start..start + variable.len()).map(|k| model.component_name(k));
         match role {
-            VariableRole::Velocity | VariableRole::Multiplier => velocities.extend(own),
+            VariableRole::Velocity | VariableRole::Multiplier(_) => velocities.extend(own),
             _ => positions.extend(own),
         }
         start += variable.len();

@@ -92,7 +92,7 @@ pub fn split(case: &Case, effort: &Effort) -> Result<Result<GyroSplit, String>, 
 fn unfit(role: &VariableRole) -> Option<&'static str> {
     match role {
         VariableRole::Time => Some("time is a variable of the system"),
-        VariableRole::Multiplier => Some(
+        VariableRole::Multiplier(_) => Some(
             "the system is vakonomic; write it in coordinates without constraints, or as nonholonomic",
         ),
         VariableRole::Coordinate(_) | VariableRole::Carried(_) | VariableRole::Velocity => None,

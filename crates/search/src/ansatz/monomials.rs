@@ -46,7 +46,8 @@ impl AnsatzVariables {
             (System::Lagrangian(lagrangian), _) if model.level.is_empty() => {
                 let roles = lagrangian.roles.iter().zip(&model.state);
                 let own = roles.flat_map(|(role, variable)| {
-                    let moves = matches!(role, VariableRole::Velocity | VariableRole::Multiplier);
+                    let moves =
+                        matches!(role, VariableRole::Velocity | VariableRole::Multiplier(_));
                     vec![moves; variable.len()]
                 });
                 (own.collect(), Ideal::None)

@@ -115,7 +115,7 @@ impl Mechanical {
                 VariableRole::Coordinate(_) | VariableRole::Carried(_) | VariableRole::Time => {
                     positions.extend(own);
                 }
-                VariableRole::Velocity | VariableRole::Multiplier => velocities.extend(own),
+                VariableRole::Velocity | VariableRole::Multiplier(_) => velocities.extend(own),
             }
             start += variable.len();
         }
