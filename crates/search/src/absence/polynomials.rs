@@ -274,8 +274,8 @@ impl<'a> Counting<'a> {
         )))
     }
 
-    /// Returns the integral of a null vector if it is proved, and is no combination of the products; and
-    /// whether it is proved that it is not a polynomial in the known integrals either.
+    /// Returns the integral of a null vector if it is proved and no combination of the products; and whether
+    /// it is proved that it is no polynomial in the known integrals, an ∫ among them.
     fn integral(
         &self,
         vector: &[u64],
@@ -292,10 +292,10 @@ impl<'a> Counting<'a> {
         if with != Some(space.dimension + 1) {
             return Ok(None);
         }
-        let [formula] = own;
-        let known = self.asked.known.formulas();
+        let ([formula], known) = (own, self.asked.known.formulas());
         let is_new = self.asked.is_new(&formula)?
-            || leading::are_independent(case, known, effort.options.seed)?;
+            || self.known.len() == known.len()
+                && leading::are_independent(case, known, effort.options.seed)?;
         Ok(Some((formula, is_new)))
     }
 
