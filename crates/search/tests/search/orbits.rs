@@ -5,6 +5,7 @@ mod absence;
 mod benchmark;
 mod closure;
 mod counts;
+mod divided;
 mod explicit;
 mod exponentials;
 mod factors;
