@@ -316,6 +316,7 @@ pub fn of_chart<'py>(
         }
         Err(
             FlowError::Singular { .. }
+            | FlowError::RunsAway { .. }
             | FlowError::TooShort { .. }
             | FlowError::Overflow(_)
             | FlowError::Shrinking { .. }

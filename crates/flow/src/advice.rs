@@ -20,6 +20,7 @@ impl FlowError {
                  without the operation, as x for x²/x"
             }
             FlowError::Singular { .. }
+            | FlowError::RunsAway { .. }
             | FlowError::TooShort { .. }
             | FlowError::Shrinking { .. } => "choose another start, or a shorter time",
             FlowError::Endless { .. } => "give a shorter time",

@@ -1,5 +1,8 @@
 //! Reasons why a motion cannot be computed.
 
+mod ends;
+
+use ends::{endless, overflow, runs_away, shrinking, singular, too_short, without_value};
 use liouville::graph::Fault;
 use liouville::number::UnaryFunction;
 use serde::{Deserialize, Serialize};
@@ -23,6 +26,16 @@ pub enum FlowError {
     /// The steps become too small, or values become infinite or undefined.
     #[error("{}", singular(*time, state))]
     Singular {
+        /// Time of the last state.
+        #[serde(with = "crate::record")]
+        time: f64,
+        /// Last state.
+        #[serde(with = "crate::record")]
+        state: Vec<f64>,
+    },
+    /// The motion goes to infinity in finite time.
+    #[error("{}", runs_away(*time, state))]
+    RunsAway {
         /// Time of the last state.
         #[serde(with = "crate::record")]
         time: f64,
@@ -63,7 +76,7 @@ pub enum FlowError {
         column: String,
     },
     /// The steps have shrunk, and become so many that the end is out of reach.
-    #[error("{}", shrinking(*time, *step, state))]
+    #[error("{}", shrinking(*time, *step, *grown, state))]
     Shrinking {
         /// Time of the last state.
         #[serde(with = "crate::record")]
@@ -71,6 +84,9 @@ pub enum FlowError {
         /// Last step.
         #[serde(with = "crate::record")]
         step: f64,
+        /// Largest size of the state, relative to that at the start.
+        #[serde(with = "crate::record")]
+        grown: f64,
         /// Last state.
         #[serde(with = "crate::record")]
         state: Vec<f64>,
@@ -290,63 +306,6 @@ pub enum FlowError {
     #[error("{0}")]
     #[serde(skip)]
     Recording(#[from] Fault),
-}
-
-fn without_value(formula: &str, time: f64, place: &str) -> String {
-    match time == 0.0 {
-        true => format!("`{formula}` has no value at the start, {place}"),
-        false => format!("the motion ends at t = {time}: `{formula}` has no value at {place}"),
-    }
-}
-
-fn overflow(time: f64) -> String {
-    match time == 0.0 {
-        true => "overflow at the start: a number of the equations is too large for f64".to_string(),
-        false => {
-            format!("overflow: a number of the motion is too large for f64 from t = {time} on")
-        }
-    }
-}
-
-fn shrinking(time: f64, step: f64, state: &[f64]) -> String {
-    let state: Vec<String> = state.iter().map(|x| format!("{x:.3e}")).collect();
-    format!(
-        "the motion runs away, or turns ever faster: at t = {time}, near the state [{}], a step is \
-         {:.1e}, and the rest of the time would take more than {MOST_STEPS:e} steps",
-        state.join(", "),
-        step.abs()
-    )
-}
-
-fn endless(time: f64, step: f64, until: f64) -> String {
-    format!(
-        "the time is too long: at t = {time:.4e} a step is {:.1e}, and up to t = {until:e} there would \
-         be more than {MOST_STEPS:e} of them",
-        step.abs()
-    )
-}
-
-fn singular(time: f64, state: &[f64]) -> String {
-    let shown = |x: &f64| if x.abs() < 1e6 { format!("{x:.6}") } else { format!("{x:.3e}") };
-    let state = state.iter().map(shown).collect::<Vec<String>>().join(", ");
-    match time == 0.0 {
-        true => format!("the equations of motion are singular at the start, the state [{state}]"),
-        false => {
-            let direction = if time < 0.0 { "backwards in time " } else { "" };
-            format!(
-                "{direction}the motion runs into a singularity at t = {time}, near the state [{state}]"
-            )
-        }
-    }
-}
-
-fn too_short(time: f64, state: &[f64]) -> String {
-    let state: Vec<String> = state.iter().map(|x| format!("{x:.6}")).collect();
-    format!(
-        "the steps became too short at t = {time}, near the state [{}]: the field varies there over less \
-         than the rounding of the time",
-        state.join(", ")
-    )
 }
 
 /// A time with five figures.

@@ -15,6 +15,9 @@ const HUGE: f64 = 1e290;
 /// runs into a singularity.
 const SUDDEN: f64 = 1e3;
 
+/// Growth of the state since the start, from which on a motion may run away beside poles of its field.
+const GROWN: f64 = 100.0;
+
 impl<T: SeriesNumber> Stepper<T> {
     /// Checks the present expansion of a motion; fails where the motion runs into a singularity,
     /// where its end is out of reach, and once it is stopped.
@@ -44,7 +47,11 @@ impl<T: SeriesNumber> Stepper<T> {
         match finite && advances && step.is_finite() {
             true => match motion.pace.lost.filter(|_| !at_end) {
                 None => Ok(()),
-                Some(Lost::Shrinking) => Err(FlowError::Shrinking { time, step, state: state() }),
+                Some(Lost::Shrinking) => {
+                    let [first, largest] = motion.sizes;
+                    let grown = largest / first;
+                    Err(FlowError::Shrinking { time, step, grown, state: state() })
+                }
                 Some(Lost::Endless) if motion.is_open => Ok(()),
                 Some(Lost::Endless) => {
                     Err(FlowError::Endless { time, step, until: motion.until.hi })
@@ -84,6 +91,7 @@ impl<T: SeriesNumber> Stepper<T> {
         }
         let state = self.own_state(lane).iter().map(|x| x.hi).collect();
         match is_lost || self.is_at_end(lane) {
+            true if !is_lost && self.runs_away(lane) => FlowError::RunsAway { time, state },
             true => FlowError::Singular { time, state },
             // All numbers at the state are finite, and some coefficient is not.
             false if !self.is_regular(lane) => FlowError::Overflow(time),
@@ -102,6 +110,26 @@ impl<T: SeriesNumber> Stepper<T> {
         let mut arguments = self.series.arguments();
         moving * motion.time.hi.abs() > SUDDEN * still
             || arguments.any(|[value, rate]| at(value) <= at(rate) * reach)
+    }
+
+    /// Whether a motion that ends goes to infinity: motions of a field that has values and series
+    /// everywhere end in no other way. With other fields its size grows, and no argument of a quotient, a
+    /// root or a logarithm comes nearer to 0.
+    fn runs_away(&self, lane: usize) -> bool {
+        if self.series.is_entire() {
+            return true;
+        }
+        let at = |value: T| value.lane(lane).leading();
+        let motion = &self.lanes[lane];
+        let direction = motion.step.leading().signum();
+        let rates = self.pairs(lane).into_iter().zip(self.velocity(lane));
+        let largest =
+            rates.map(|(x, rate)| (x.hi, rate)).max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+        let grows = largest.is_some_and(|(x, rate)| x * rate * direction > 0.0);
+        let mut arguments = self.series.arguments();
+        let falls =
+            |[value, rate]: [T; 2]| at(value) == 0.0 || at(value) * at(rate) * direction < 0.0;
+        grows && motion.sizes[1] > GROWN * motion.sizes[0] && !arguments.any(falls)
     }
 
     /// Error at a state where a formula has no value.

@@ -17,6 +17,7 @@ pub(crate) mod plain;
 pub(crate) mod program;
 pub(crate) mod resolve;
 pub(crate) mod rounding;
+mod runaway;
 pub(crate) mod series;
 pub(crate) mod shorten;
 pub(crate) mod stepper;

@@ -2,6 +2,7 @@
 
 use crate::error::MOST_STEPS;
 use crate::taylor::number::SeriesNumber;
+use crate::taylor::runaway::Runaway;
 use crate::taylor::watch::Edge;
 use liouville::number::double_double::DoubleDouble;
 
@@ -30,6 +31,8 @@ pub(crate) struct Lane<One> {
     pub(crate) time: DoubleDouble,
     /// Final time; its sign relative to `time` is the direction.
     pub(crate) until: DoubleDouble,
+    /// Sizes of the state at the start, and at its largest.
+    pub(crate) sizes: [f64; 2],
     /// Step from the present expansion, and size of the one before.
     pub(crate) step: One,
     pub(crate) former: f64,
@@ -57,6 +60,7 @@ impl<One: SeriesNumber> Lane<One> {
         Self {
             time: DoubleDouble::default(),
             until,
+            sizes: [f64::NAN, 0.0],
             step: One::ZERO,
             former: 0.0,
             steps: 0,
@@ -69,6 +73,14 @@ impl<One: SeriesNumber> Lane<One> {
             edge: None,
             lost: None,
         }
+    }
+
+    /// Keeps the size of the present state.
+    pub(crate) fn visit(&mut self, size: f64) {
+        if self.sizes[0].is_nan() {
+            self.sizes[0] = size;
+        }
+        self.sizes[1] = self.sizes[1].max(size);
     }
 
     /// Whether the present step changes the time.
@@ -114,6 +126,7 @@ pub(crate) struct Pace {
     marks: [Option<(f64, f64)>; 2],
     /// Time at three quarters of the steps between two looks.
     late: f64,
+    runaway: Runaway,
     /// Why the end is out of reach, if it is.
     pub(crate) lost: Option<Lost>,
 }
@@ -134,6 +147,10 @@ impl Pace {
         self.longest = self.longest.max(step.abs());
         if steps % STRIDE == LATE {
             self.late = now;
+        }
+        if self.runaway.keep(steps, now, left).is_some_and(|rest| rest > MOST_STEPS) {
+            self.lost = Some(Lost::Shrinking);
+            return;
         }
         let is_early = EARLY.contains(&steps);
         if !is_early && !steps.is_multiple_of(STRIDE) {

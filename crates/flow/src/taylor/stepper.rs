@@ -143,7 +143,9 @@ impl<T: SeriesNumber> Stepper<T> {
         with_widest_vectors(ErrorMeasure(self));
         for index in 0..T::LANES {
             let size = self.step_size(index);
+            let still = self.sizes.norms[0].lane(index).leading();
             let lane = &mut self.lanes[index];
+            lane.visit(still);
             (lane.is_cut, lane.edge, lane.halves) = (false, None, 0);
             let left = lane.until - lane.time;
             lane.step = if size < left.hi.abs() {
