@@ -317,6 +317,7 @@ pub fn of_chart<'py>(
         Err(
             FlowError::Singular { .. }
             | FlowError::RunsAway { .. }
+            | FlowError::Slides { .. }
             | FlowError::TooShort { .. }
             | FlowError::Overflow(_)
             | FlowError::Shrinking { .. }

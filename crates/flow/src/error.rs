@@ -2,9 +2,8 @@
 
 mod ends;
 
-use ends::{endless, overflow, runs_away, shrinking, singular, too_short, without_value};
+use ends::{endless, overflow, runs_away, shrinking, singular, slides, too_short, without_value};
 use liouville::graph::Fault;
-use liouville::number::UnaryFunction;
 use serde::{Deserialize, Serialize};
 
 /// Number of steps that no motion takes.
@@ -16,10 +15,12 @@ pub(super) const MOST_STEPS: f64 = 1e10;
 /// cannot, and those of the equations of all motions.
 #[derive(Clone, Debug, PartialEq, thiserror::Error, Serialize, Deserialize)]
 pub enum FlowError {
-    /// The field contains a function that has no Taylor series.
-    #[error("the field contains {0}, which has no Taylor series where it changes its sign")]
+    /// A proof about a field with a function that has no Taylor series.
+    #[error(
+        "the field contains |x|, sign, max or min, which have no Taylor series where they change their sign"
+    )]
     #[serde(skip)]
-    NotAnalytic(#[serde(skip)] &'static str),
+    NotAnalytic,
     /// The field contains an antiderivative, whose value is not known.
     #[error("the field contains ∫, whose value is not determined")]
     Antiderivative,
@@ -43,6 +44,22 @@ pub enum FlowError {
         #[serde(with = "crate::record")]
         state: Vec<f64>,
     },
+    /// The field jumps, and pushes towards the jump from both sides.
+    #[error("{}", slides(*time, state))]
+    Slides {
+        /// Time of the last state.
+        #[serde(with = "crate::record")]
+        time: f64,
+        /// Last state.
+        #[serde(with = "crate::record")]
+        state: Vec<f64>,
+    },
+    /// Tangent vectors are wanted along motions through jumps of the field.
+    #[error(
+        "the field jumps where the argument of a sign is 0, and with it tangent vectors would: exponents and \
+         multipliers are known for continuous fields alone"
+    )]
+    Jumps,
     /// The steps become too small, with no sign of a singularity.
     #[error("{}", too_short(*time, state))]
     TooShort {
@@ -328,14 +345,4 @@ fn never_crossed(time: f64, crossings: usize, others: usize) -> String {
         _ => format!("the motion does not cross the section again after {crossings} crossings"),
     };
     format!("{crossed}, up to t = {}{others}", rounded(time))
-}
-
-impl FlowError {
-    /// The error for a function without a Taylor rule.
-    pub(super) fn of_function(function: UnaryFunction) -> Self {
-        match function {
-            UnaryFunction::Abs => FlowError::NotAnalytic("|x|, sign, max or min"),
-            _ => FlowError::NotAnalytic("a function"),
-        }
-    }
 }

@@ -81,6 +81,16 @@ pub(super) fn runs_away(time: f64, state: &[f64]) -> String {
     )
 }
 
+pub(super) fn slides(time: f64, state: &[f64]) -> String {
+    let what = "the field jumps, and pushes towards the jump from both sides, so that the motion would slide";
+    match time == 0.0 {
+        true => format!("{what} at the start, the state [{}]", shown(state)),
+        false => {
+            format!("{}{what} from t = {time} on, at the state [{}]", direction(time), shown(state))
+        }
+    }
+}
+
 pub(super) fn too_short(time: f64, state: &[f64]) -> String {
     format!(
         "{}the steps became too short at t = {time}, near the state [{}]: the field varies there over less \

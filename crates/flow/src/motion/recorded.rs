@@ -3,6 +3,7 @@
 use crate::error::FlowError;
 use crate::taylor::merge::merged;
 use crate::taylor::program::TaylorProgram;
+use crate::taylor::quotients::jumps;
 use crate::taylor::watch::{Presence, written};
 use liouville::graph::{Expr, record};
 use liouville::mechanics::{Model, Phase};
@@ -99,6 +100,10 @@ pub(crate) fn extended_program(
     if graph.inputs() > dimension + more {
         return Err(FlowError::Antiderivative);
     }
+    let jumps = jumps(&graph, &rates[..dimension]);
+    if jumps && more > loose.len() {
+        return Err(FlowError::Jumps);
+    }
     let field = [rates.as_slice(), &outputs].concat();
     let (presence, arguments) = Presence::new(model, &graph, &field, written);
     outputs.extend(arguments);
@@ -111,7 +116,7 @@ pub(crate) fn extended_program(
             TaylorProgram::compile(&simpler, &values, &outputs)?
         }
     };
-    program.presence = Some(presence);
+    (program.presence, program.jumps) = (Some(presence), jumps);
     Ok(program)
 }
 

@@ -150,6 +150,7 @@ impl<'t, T: SeriesNumber<One = f64>> Worker<'t, T> {
                 let record = Record::new(self.task.time).on_level(self.task.bundle.rank);
                 let end = record.end().unwrap_or(self.task.time);
                 self.stepper.start(lane, begin, DoubleDouble::from_f64(end));
+                self.stepper.aim(lane, self.task.time);
                 self.running[lane] = Some((index, record, ToldShare::default()));
             }
             Err(problem) => {

@@ -14,6 +14,7 @@
 use crate::taylor::form::Row;
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::program::{RowInstruction, Rule, TaylorProgram};
+use crate::taylor::saturating::Saturating;
 use liouville::number::rational::Rational;
 
 /// Bytes of a cache line; order 1 of each row is aligned to it.
@@ -138,10 +139,30 @@ pub(crate) enum PlacedRule<T> {
     Sqrt(Place),
     Exp(Place),
     Ln(Place),
-    Sin { x: Place, cosine: Place },
-    Cos { x: Place, sine: Place },
-    Atan { x: Place, square: Place },
-    Power { x: Place, exponent: Rational, factor: T },
+    Sin {
+        x: Place,
+        cosine: Place,
+    },
+    Cos {
+        x: Place,
+        sine: Place,
+    },
+    Atan {
+        x: Place,
+        square: Place,
+    },
+    Power {
+        x: Place,
+        exponent: Rational,
+        factor: T,
+    },
+    Saturating {
+        function: Saturating,
+        x: Place,
+        slope: Place,
+    },
+    /// The constant of the operation, which is the sign of x.
+    Sign(Place),
 }
 
 impl<T> PlacedRule<T> {
@@ -293,6 +314,11 @@ impl<T: SeriesNumber> BoundProgram<T> {
             Rule::Atan { x, square } => {
                 (OrderEffect::Divides, PlacedRule::Atan { x: at(x), square: at(square) })
             }
+            Rule::Saturating { function, x, slope } => {
+                let (function, x, slope) = (*function, at(x), at(slope));
+                (OrderEffect::Divides, PlacedRule::Saturating { function, x, slope })
+            }
+            Rule::Sign(x) => (OrderEffect::Free, PlacedRule::Sign(at(x))),
             Rule::Power { x, exponent } => {
                 let factor = T::rational(exponent);
                 (
@@ -312,7 +338,8 @@ impl<T: SeriesNumber> BoundProgram<T> {
         if !instruction.form.products.is_empty() {
             self.counts.push(instruction.form.products.len() as u32);
         }
-        let constant = instruction.form.constant.as_ref().map_or(T::ZERO, T::rational);
+        let none = if matches!(rule, PlacedRule::Sign(_)) { T::ONE } else { T::ZERO };
+        let constant = instruction.form.constant.as_ref().map_or(none, T::rational);
         self.operations.push(InitialOperation { rule, constant, factors, terms });
         let copies = self.copies_of(layout, instruction.out);
         self.finishes.push(Finish {

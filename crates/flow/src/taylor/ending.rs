@@ -4,6 +4,7 @@ use crate::error::FlowError;
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::pace::Lost;
 use crate::taylor::stepper::Stepper;
+use crate::taylor::turning::MOST_STALLS;
 use crate::taylor::watch::{Edge, Presence};
 use liouville::number::double_double::DoubleDouble;
 
@@ -31,7 +32,9 @@ impl<T: SeriesNumber> Stepper<T> {
         let left = (motion.until - motion.time).hi.abs();
         // Less than the time's last place may be left of a very long run.
         let at_end = left <= f64::EPSILON * motion.time.hi.abs();
-        let advances = at_end || motion.time.hi + step != motion.time.hi || motion.time.hi == 0.0;
+        // A step may end where it begins, at a zero of a modulus.
+        let turns = matches!(motion.edge, Some((Edge::Sign(_), _))) && motion.stalls < MOST_STALLS;
+        let advances = at_end || turns || motion.moves();
         let time = motion.time.hi;
         let state = || self.own_state(lane).iter().map(|x| x.hi).collect();
         match (motion.lost, &self.presence) {
@@ -39,6 +42,7 @@ impl<T: SeriesNumber> Stepper<T> {
             (Some(Edge::Watched(index)), Some(presence)) => {
                 return Err(self.without_value(lane, presence, presence.formula(index)));
             }
+            (Some(Edge::Slide), _) => return Err(FlowError::Slides { time, state: state() }),
             (Some(_), _) => return Err(self.singular(lane)),
         }
         if motion.is_faint {
@@ -53,9 +57,7 @@ impl<T: SeriesNumber> Stepper<T> {
                     Err(FlowError::Shrinking { time, step, grown, state: state() })
                 }
                 Some(Lost::Endless) if motion.is_open => Ok(()),
-                Some(Lost::Endless) => {
-                    Err(FlowError::Endless { time, step, until: motion.until.hi })
-                }
+                Some(Lost::Endless) => Err(FlowError::Endless { time, step, until: motion.aim.hi }),
             },
             false => Err(self.singular(lane)),
         }

@@ -31,6 +31,8 @@ pub(crate) struct Lane<One> {
     pub(crate) time: DoubleDouble,
     /// Final time; its sign relative to `time` is the direction.
     pub(crate) until: DoubleDouble,
+    /// Time to which the motion goes at last, in parts that end earlier.
+    pub(crate) aim: DoubleDouble,
     /// Sizes of the state at the start, and at its largest.
     pub(crate) sizes: [f64; 2],
     /// Step from the present expansion, and size of the one before.
@@ -52,6 +54,12 @@ pub(crate) struct Lane<One> {
     pub(crate) edge: Option<(Edge, One)>,
     /// Operation without a value at the present state, or next to it.
     pub(crate) lost: Option<Edge>,
+    /// Whether the signs of moduli are known to be those of the present branch.
+    pub(crate) is_settled: bool,
+    /// Sign whose argument is 0 at the present state.
+    pub(crate) turned: Option<usize>,
+    /// Number of steps in turn that ended where they began.
+    pub(crate) stalls: u32,
 }
 
 impl<One: SeriesNumber> Lane<One> {
@@ -60,6 +68,10 @@ impl<One: SeriesNumber> Lane<One> {
         Self {
             time: DoubleDouble::default(),
             until,
+            aim: until,
+            is_settled: false,
+            turned: None,
+            stalls: 0,
             sizes: [f64::NAN, 0.0],
             step: One::ZERO,
             former: 0.0,
@@ -92,7 +104,7 @@ impl<One: SeriesNumber> Lane<One> {
     /// Begins a step: what has no value at once is lost already.
     pub(crate) fn begin(&mut self) {
         let at_once = self.edge.filter(|(_, after)| after.leading() == 0.0);
-        self.lost = self.lost.or(at_once.map(|(edge, _)| edge));
+        self.lost = self.lost.or(at_once.and_then(|(edge, _)| edge.ends()));
     }
 
     /// Goes on by the present step.
@@ -101,15 +113,19 @@ impl<One: SeriesNumber> Lane<One> {
         One: SeriesNumber<One = One>,
     {
         let step = self.step.leading();
+        self.stalls = if self.moves() { 0 } else { self.stalls + 1 };
         if step != 0.0 {
             self.time = self.time + self.step.pair();
             self.former = step.abs();
             self.steps += 1;
-            let (now, left) = (self.time.hi, (self.until - self.time).hi);
+            let (now, left) = (self.time.hi, (self.aim - self.time).hi);
             self.pace.keep(step, self.steps, now, left);
         }
         let reached = self.edge.filter(|(_, after)| step.abs() >= after.leading().abs());
-        self.lost = self.lost.or(reached.map(|(edge, _)| edge));
+        match reached {
+            Some((Edge::Sign(sign), _)) => self.turned = Some(sign),
+            _ => self.lost = self.lost.or(reached.map(|(edge, _)| edge)),
+        }
     }
 }
 

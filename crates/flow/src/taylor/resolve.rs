@@ -29,12 +29,14 @@ impl<T: SeriesNumber> Stepper<T> {
         limits.clear();
         limits.resize(T::LANES, f64::INFINITY);
         with_widest_vectors(Resolution(self, &mut limits));
-        for argument in self.series.exponents() {
+        for (argument, rate) in self.series.exponents() {
             for (index, limit) in limits.iter_mut().enumerate() {
-                if argument[0].lane(index).leading() < FAINT {
+                let first = argument[0].lane(index).leading();
+                let weight = rate.map_or(1.0, |rate| -rate * first.signum());
+                if weight * first < FAINT {
                     let step = self.lanes[index].step.leading();
                     let step = step.abs().min(*limit).copysign(step);
-                    *limit = limit.min(faint(argument, index, step));
+                    *limit = limit.min(faint(argument, weight, index, step));
                 }
             }
         }
@@ -122,8 +124,8 @@ fn resolved<T: SeriesNumber>(terms: &[T], lane: usize) -> f64 {
 }
 
 /// Length of a step over which an exponent that is far below 0 does not grow too much.
-fn faint<T: SeriesNumber>(exponent: &[T], lane: usize, step: f64) -> f64 {
-    let at = |n: usize| exponent[n].lane(lane).leading();
+fn faint<T: SeriesNumber>(exponent: &[T], weight: f64, lane: usize, step: f64) -> f64 {
+    let at = |n: usize| weight * exponent[n].lane(lane).leading();
     let most = RISE.max(FAINT - at(0));
     let rise = |step: f64| {
         let (mut power, mut sum) = (1.0, 0.0);
@@ -190,9 +192,10 @@ mod tests {
     #[test]
     fn an_exponent_rises_to_where_terms_are_seen() {
         let exponent = [-2000.0, 1000.0, 0.0];
-        assert_eq!(faint(&exponent, 0, 1.0), 1.0);
-        assert_eq!(faint(&exponent, 0, 8.0), 1.0);
-        assert_eq!(faint(&exponent, 0, -8.0), 8.0, "it falls");
-        assert_eq!(faint(&[-400.0, 1000.0], 0, 1.0), 0.0625);
+        assert_eq!(faint(&exponent, 1.0, 0, 1.0), 1.0);
+        assert_eq!(faint(&exponent, 1.0, 0, 8.0), 1.0);
+        assert_eq!(faint(&[1000.0, -500.0], -2.0, 0, 1.0), 1.0, "with a weight");
+        assert_eq!(faint(&exponent, 1.0, 0, -8.0), 8.0, "it falls");
+        assert_eq!(faint(&[-400.0, 1000.0], 1.0, 0, 1.0), 0.0625);
     }
 }

@@ -15,7 +15,7 @@ const DOUBLINGS: usize = 6;
 /// Ratio of the mean steps of two doublings, above which steps shrink.
 const SHRINKS: f64 = 1.5;
 /// Ratio of the rates of two doublings, below which the later one has fallen.
-const FALLS: f64 = 0.9;
+const FALLS: f64 = 0.95;
 
 /// Mean step over a doubling of the number of steps, and the times between which it was taken.
 #[derive(Clone, Copy, Default)]

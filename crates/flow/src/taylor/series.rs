@@ -27,12 +27,16 @@ pub struct Series<T: SeriesNumber> {
     pub(crate) probed: Vec<T>,
     /// Places of the rows that are no sums of products.
     functions: Vec<Place>,
-    /// Places of the arguments of exponential functions.
-    exponents: Vec<Place>,
+    /// Places of the arguments of exponential functions, with the rates k of those that fall as
+    /// e^(−k|u|).
+    exponents: Vec<(Place, Option<f64>)>,
     /// Places of the rows that are roots or powers, which are not negative.
     roots: Vec<Place>,
     /// Places of the rows that are divided by.
     divisors: Vec<Place>,
+    /// Operations that are signs, with the places of their arguments.
+    signs: Vec<(usize, Place)>,
+    has_pulses: bool,
     /// Number of expansions so far, up to where machine code pays.
     pub(crate) expansions: u32,
     pub(crate) machine: Option<Box<T::Machine>>,
@@ -53,14 +57,21 @@ impl<T: SeriesNumber> Series<T> {
         });
         let functions = functions.map(|(_, finish)| finish.place).collect();
         let exponents = code.operations.iter().filter_map(|operation| match operation.rule {
-            PlacedRule::Exp(x) => Some(x),
+            PlacedRule::Exp(x) => Some((x, None)),
+            PlacedRule::Saturating { function, x, .. } => Some((x, Some(function.rate()))),
             _ => None,
         });
-        let exponents = exponents.collect();
+        let exponents: Vec<(Place, Option<f64>)> = exponents.collect();
         let roots = placed().filter(|(operation, _)| {
             matches!(operation.rule, PlacedRule::Sqrt(_) | PlacedRule::Power { .. })
         });
         let roots = roots.map(|(_, finish)| finish.place).collect();
+        let signs = code.operations.iter().enumerate();
+        let signs = signs.filter_map(|(index, operation)| match operation.rule {
+            PlacedRule::Sign(x) => Some((index, x)),
+            _ => None,
+        });
+        let signs = signs.collect();
         let divisors = code.operations.iter().filter_map(|operation| match &operation.rule {
             PlacedRule::Recip(x) => Some(*x),
             PlacedRule::Power { x, exponent, .. } => {
@@ -84,9 +95,11 @@ impl<T: SeriesNumber> Series<T> {
             probed: memory.clone(),
             memory,
             functions,
-            exponents,
             roots,
             divisors,
+            has_pulses: !exponents.is_empty() || program.degree() > order,
+            exponents,
+            signs,
             expansions: 0,
             machine: None,
         }
@@ -185,9 +198,10 @@ impl<T: SeriesNumber> Series<T> {
         self.functions.iter().map(|place| self.row(*place))
     }
 
-    /// Coefficients of the arguments of exponential functions, orders 0 to `order` - 1.
-    pub fn exponents(&self) -> impl Iterator<Item = &[T]> {
-        self.exponents.iter().map(|place| self.row(*place))
+    /// Coefficients of the arguments u of exponential functions, orders 0 to `order` - 1, with the
+    /// rates k of functions that vary by e^(−k|u|).
+    pub fn exponents(&self) -> impl Iterator<Item = (&[T], Option<f64>)> {
+        self.exponents.iter().map(|(place, rate)| (self.row(*place), *rate))
     }
 
     #[inline(always)]
@@ -203,6 +217,30 @@ impl<T: SeriesNumber> Series<T> {
     /// Rows that are divided by: their places, and coefficients of orders 0 to `order` - 1.
     pub fn divisors(&self) -> impl Iterator<Item = (Place, &[T])> {
         self.divisors.iter().map(|place| (*place, self.row(*place)))
+    }
+
+    /// Number of signs of moduli.
+    pub fn signs(&self) -> usize {
+        self.signs.len()
+    }
+
+    /// Argument of a sign: its place, and coefficients of orders 0 to `order` - 1.
+    pub fn signed(&self, sign: usize) -> (Place, &[T]) {
+        let place = self.signs[sign].1;
+        (place, self.row(place))
+    }
+
+    /// Whether a sign is that of positive arguments.
+    pub fn is_positive(&self, sign: usize, lane: usize) -> bool {
+        self.code.operations[self.signs[sign].0].constant.lane(lane).leading() > 0.0
+    }
+
+    /// Changes a sign in one lane.
+    pub fn turn(&mut self, sign: usize, lane: usize) {
+        let value = &mut self.code.operations[self.signs[sign].0].constant;
+        let old = *value;
+        *value =
+            T::from_lanes(|other| if other == lane { -old.lane(other) } else { old.lane(other) });
     }
 
     /// Coefficients of orders 0 and 1 of the arguments of operations that have no value, or no series,
@@ -257,7 +295,7 @@ impl<T: SeriesNumber> Series<T> {
     /// Whether the field contains functions that may be 0 up to rounding over a part of a step, and
     /// not over the others.
     pub fn has_pulses(&self) -> bool {
-        !self.exponents.is_empty()
+        self.has_pulses
     }
 
     /// Number of further functions.

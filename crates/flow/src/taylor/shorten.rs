@@ -1,8 +1,10 @@
 //! Steps that are shortened: before branch points of the field, and where a further function of the
 //! state is sought for zeros.
 
+use crate::taylor::defect::inside;
 use crate::taylor::event::{Ends, value};
 use crate::taylor::number::SeriesNumber;
+use crate::taylor::pace::Lane;
 use crate::taylor::stepper::Stepper;
 use liouville::graph::{Kernel, with_widest_vectors};
 
@@ -13,6 +15,8 @@ const MOST_CUTS: usize = 40;
 /// Part of κ by which a further function may be known less well than the state: sums of products of
 /// its components are.
 const SLACK: f64 = 0.4;
+/// Multiple of the first term left out by which a further function may differ from its polynomial.
+const UNKNOWN: f64 = 1e4;
 /// Number of times that a step is halved before a branch point.
 const MOST_HALVES: usize = 60;
 
@@ -59,11 +63,52 @@ impl<T: SeriesNumber> Stepper<T> {
                     is_known = false;
                 }
             }
-            if is_known {
+            if is_known && self.fits(output, &ends) {
                 break;
             }
         }
         ends
+    }
+
+    /// Whether the polynomials of a further function are its values at the ends of the present pieces,
+    /// and within them where it can be 0 up to rounding for a while. Halves steps where they are not:
+    /// terms beyond the order do not show where a step begins.
+    fn fits(&mut self, output: usize, ends: &Ends<T>) -> bool {
+        let is_within = !self.series.has_pulses() || self.fits_at(output, ends, inside);
+        self.fits_at(output, ends, |_| 1.0) && is_within
+    }
+
+    fn fits_at(
+        &mut self,
+        output: usize,
+        ends: &Ends<T>,
+        share: impl Fn(&Lane<T::One>) -> f64,
+    ) -> bool {
+        self.sample(share);
+        let count = self.series.order();
+        let known = UNKNOWN * libm::exp((SLACK - self.kappa) * count as f64);
+        let mut fits = true;
+        for index in 0..T::LANES {
+            let lane = &self.lanes[index];
+            let is_whole = lane.edge.and_then(|(edge, _)| edge.ends()).is_none();
+            if !is_whole || !lane.moves() || !self.is_regular(index) {
+                continue;
+            }
+            let after = self.sampled_time(index);
+            let terms: Vec<T::One> =
+                self.series.output(output).iter().map(|x| x.lane(index)).collect();
+            let own = self.series.probed_output(output).lane(index);
+            let gap = (value(&terms, after).0 - own).leading().abs();
+            let allowed = known * ends.largest(index);
+            if gap <= allowed || gap <= allowed + self.output_error(output, index) {
+                continue;
+            }
+            let lane = &mut self.lanes[index];
+            lane.step = lane.step * T::One::float(0.5);
+            lane.is_cut = true;
+            fits = false;
+        }
+        fits
     }
 }
 

@@ -86,6 +86,11 @@ impl<T: SeriesNumber> Ends<T> {
         Self { length, largest, first: polynomial[0], last, rates, tails, shape }
     }
 
+    /// Largest term of a lane's polynomial.
+    pub fn largest(&self, lane: usize) -> f64 {
+        self.largest.lane(lane).leading()
+    }
+
     /// Part of a lane's piece after which the last two of its `count` terms are within their limits,
     /// relative to the largest term; 1 if they are so now.
     pub fn known_share(&self, lane: usize, count: usize, limits: [f64; 2]) -> f64 {
