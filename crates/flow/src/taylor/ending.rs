@@ -16,6 +16,8 @@ const HUGE: f64 = 1e290;
 /// runs into a singularity.
 const SUDDEN: f64 = 1e3;
 
+/// Ratio of the last step of a motion to its longest one, above which it comes to no singularity.
+const SHRUNK: f64 = 1e-5;
 /// Growth of the state since the start, from which on a motion may run away beside poles of its field.
 const GROWN: f64 = 100.0;
 
@@ -103,9 +105,12 @@ impl<T: SeriesNumber> Stepper<T> {
 
     /// Whether a singularity is near: the motion changes by its own size in a small part of the time
     /// since its start, or the argument of a quotient, a root or a logarithm vanishes within a few
-    /// steps.
+    /// steps. Steps shrink without end there; where they do not, as on e^(e^t), a number is too large.
     fn is_at_end(&self, lane: usize) -> bool {
         let motion = &self.lanes[lane];
+        if motion.former > SHRUNK * motion.pace.longest() {
+            return false;
+        }
         let at = |value: T| value.lane(lane).leading().abs();
         let [still, moving, ..] = self.sizes.norms.map(at);
         let reach = STEPS_BEFORE * motion.former;

@@ -157,6 +157,11 @@ pub(crate) enum Lost {
 }
 
 impl Pace {
+    /// Longest step so far.
+    pub(crate) fn longest(&self) -> f64 {
+        self.longest
+    }
+
     /// Keeps a step; measures the pace after so many of them, with the times that have gone by and
     /// that are left.
     fn keep(&mut self, step: f64, steps: u64, now: f64, left: f64) {

@@ -147,7 +147,7 @@ impl Simpler {
         }
     }
 
-    /// Replaces (eᵘ − e⁻ᵘ)/(eᵘ + e⁻ᵘ) = tanh u and 1/(eᵘ + e⁻ᵘ)² = 1/(4 cosh² u).
+    /// Replaces (eᵘ − e⁻ᵘ)/(eᵘ + e⁻ᵘ) = tanh u and 1/(eᵘ + e⁻ᵘ) = 1/(2 cosh u).
     fn hyperbolic(&mut self, graph: &Graph, cosine: usize, exponents: [usize; 2]) {
         let [u, opposite] = exponents;
         for (sine, power) in self.rest.factors.clone() {
@@ -165,6 +165,11 @@ impl Simpler {
             self.rest.add(cosine, 2);
             self.rest.coefficient = &self.rest.coefficient * &Rational::new(1, 4);
             self.factors.push(Factor::Saturating(Saturating::Fall, u));
+        }
+        if self.rest.power(cosine) == -1 {
+            self.rest.add(cosine, 1);
+            self.rest.coefficient = &self.rest.coefficient * &Rational::new(1, 2);
+            self.factors.push(Factor::Saturating(Saturating::Bell, u));
         }
     }
 
@@ -303,6 +308,8 @@ mod tests {
             let (count, rest) = found(build).expect("a logistic function");
             assert!(count == 1 && rest.factors.is_empty() && rest.coefficient.is_one(), "{rest:?}");
         }
-        assert!(found(&|x, y| x.sinh() / y.cosh()).is_none(), "of two arguments");
+        let (count, rest) = found(&|x, y| x.sinh() / y.cosh()).expect("1/cosh y");
+        assert!(count == 1 && rest.factors.len() == 1, "of two arguments: {rest:?}");
+        assert!(rest.coefficient == Rational::new(1, 2), "{rest:?}");
     }
 }

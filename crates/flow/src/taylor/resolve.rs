@@ -19,6 +19,9 @@ const TINY: f64 = 1e-140;
 const FAINT: f64 = -320.0;
 /// Growth of the exponent over a step which is possible from there on.
 const RISE: f64 = 40.0;
+/// Part of a step below which it is not shortened, and multiple of the time.
+const LEAST: f64 = 1.0 / (1u64 << 40) as f64;
+const LAST_PLACES: f64 = 4096.0 * f64::EPSILON;
 /// Number of times that a step is halved for an exponent.
 const MOST_HALVES: usize = 60;
 
@@ -42,7 +45,10 @@ impl<T: SeriesNumber> Stepper<T> {
         }
         for (lane, limit) in self.lanes.iter_mut().zip(&limits) {
             let step = lane.step.leading();
-            if step.abs() > *limit {
+            // A zero of high order is passed, not approached for ever.
+            let least = (LEAST * step.abs()).max(LAST_PLACES * lane.time.hi.abs());
+            let limit = limit.max(least.min(step.abs()));
+            if step.abs() > limit {
                 lane.step = T::One::float(limit.copysign(step));
             }
         }

@@ -14,6 +14,8 @@ pub(crate) enum Saturating {
     Tanh,
     /// 1/cosh² u
     Fall,
+    /// 1/cosh u
+    Bell,
     /// 1/(1 + eᵘ)
     Logistic,
 }
@@ -41,6 +43,10 @@ impl Saturating {
                 let root = (One::ONE + t).recip();
                 One::float(4.0) * t * root * root
             }
+            Saturating::Bell => {
+                let t = falling(1.0);
+                One::float(2.0) * t * (One::ONE + t * t).recip()
+            }
             Saturating::Logistic => {
                 let t = falling(1.0);
                 let value = (One::ONE + t).recip();
@@ -54,13 +60,16 @@ impl Saturating {
         match self {
             Saturating::Tanh => 1.0,
             Saturating::Fall => -2.0,
-            Saturating::Logistic => -1.0,
+            Saturating::Logistic | Saturating::Bell => -1.0,
         }
     }
 
     /// Rate k at which what varies of the function falls, as e^(−k|u|).
     pub(crate) fn rate(self) -> f64 {
-        if self == Saturating::Logistic { 1.0 } else { 2.0 }
+        match self {
+            Saturating::Logistic | Saturating::Bell => 1.0,
+            Saturating::Tanh | Saturating::Fall => 2.0,
+        }
     }
 }
 
@@ -126,6 +135,8 @@ mod tests {
             assert!((fall.at(u) + square - 1.0).abs() < 1e-15, "1/cosh² = 1 − tanh² at {u}");
             let pair = DoubleDouble::from_f64(u);
             assert!((tanh.at(pair).hi - tanh.at(u)).abs() < 1e-15, "tanh {u}");
+            let bell = Saturating::Bell.at(u);
+            assert!((bell * bell / fall.at(u) - 1.0).abs() < 1e-14, "1/cosh {u}");
             assert!((logistic.at(u) - 1.0 / (1.0 + u.exp())).abs() < 1e-15, "1/(1 + e^{u})");
             let ratio = logistic.at(u) / (-u).exp() * (1.0 + (-u).exp());
             assert!((ratio - 1.0).abs() < 1e-14, "small values have all digits, at {u}");

@@ -4,6 +4,7 @@ mod chaos;
 mod cycles;
 mod jumps;
 mod lanes;
+mod moduli;
 mod presence;
 mod progress;
 mod roots;

@@ -104,6 +104,18 @@ impl Compiler {
             self.saturating.push((function, x, first));
             return first;
         }
+        if function == Saturating::Bell {
+            // s' = −y s u'
+            let tanh = self.saturating(Saturating::Tanh, x);
+            let [first, second] = [0, 1].map(|k| self.next + k);
+            self.emit(
+                Rule::Saturating { function, x, slope: second },
+                Self::product(theta, second),
+            );
+            self.emit(Rule::Sum, Self::product(tanh, first));
+            self.saturating.push((function, x, first));
+            return first;
+        }
         // y' = w u' and w' = −2 y w u'
         let (tanh, fall) = (Saturating::Tanh, Saturating::Fall);
         let rule = |function, slope| Rule::Saturating { function, x, slope };
