@@ -93,7 +93,7 @@ pub enum FlowError {
         column: String,
     },
     /// The steps have shrunk, and become so many that the end is out of reach.
-    #[error("{}", shrinking(*time, *step, *grown, state))]
+    #[error("{}", shrinking(*time, [*step, *rest, *grown], state))]
     Shrinking {
         /// Time of the last state.
         #[serde(with = "crate::record")]
@@ -101,6 +101,9 @@ pub enum FlowError {
         /// Last step.
         #[serde(with = "crate::record")]
         step: f64,
+        /// Number of steps that are left.
+        #[serde(with = "crate::record")]
+        rest: f64,
         /// Largest size of the state, relative to that at the start.
         #[serde(with = "crate::record")]
         grown: f64,

@@ -200,7 +200,10 @@ impl<'w> Worker<'w> {
         let shadow: Vec<DoubleDouble> = beside.chain(loose.iter().copied()).collect();
         self.stepper.start(COUPLE * couple, &[state.as_slice(), loose].concat(), end);
         self.stepper.start(COUPLE * couple + 1, &shadow, end);
-        (0..COUPLE).for_each(|k| self.stepper.aim(COUPLE * couple + k, self.time));
+        for lane in COUPLE * couple..COUPLE * (couple + 1) {
+            self.stepper.aim(lane, self.time);
+            self.stepper.hasten(lane);
+        }
         self.running[couple] =
             Some(Running { index, record, distance, volume: 0.0, told: ToldShare::default() });
     }

@@ -32,7 +32,7 @@ pub(super) fn overflow(time: f64) -> String {
     }
 }
 
-pub(super) fn shrinking(time: f64, step: f64, grown: f64, state: &[f64]) -> String {
+pub(super) fn shrinking(time: f64, [step, rest, grown]: [f64; 3], state: &[f64]) -> String {
     let direction = direction(time);
     let (what, size) = match grown > GROWN {
         true => ("runs away", format!(", {grown:.1e} times as large as at the start,")),
@@ -40,7 +40,7 @@ pub(super) fn shrinking(time: f64, step: f64, grown: f64, state: &[f64]) -> Stri
     };
     format!(
         "{direction}the motion {what}: at t = {time}, near the state [{}]{size} a step is {:.1e}; if they \
-         go on shrinking, the rest of the time takes more than {MOST_STEPS:e} of them",
+         go on shrinking, the rest of the time takes {rest:.0e} of them",
         shown(state),
         step.abs()
     )

@@ -1,6 +1,9 @@
 //! The motion of a case with fixed parameters: its field as a Taylor program.
 
+use std::sync::Arc;
+
 use crate::error::FlowError;
+use crate::motion::start::LevelFunctions;
 use crate::taylor::merge::merged;
 use crate::taylor::program::TaylorProgram;
 use crate::taylor::quotients::jumps;
@@ -117,6 +120,10 @@ pub(crate) fn extended_program(
         }
     };
     (program.presence, program.jumps) = (Some(presence), jumps);
+    if !model.system.conserves_level() && !model.level.is_empty() {
+        let level = LevelFunctions::new(model, parameters, loose)?.level(dimension);
+        program.level = level.map(Arc::new);
+    }
     Ok(program)
 }
 

@@ -91,6 +91,7 @@ impl TaylorProgram {
             rates: rows,
             outputs,
             jumps: false,
+            level: None,
             presence: None,
         })
     }

@@ -53,10 +53,10 @@ impl<T: SeriesNumber> Stepper<T> {
         match finite && advances && step.is_finite() {
             true => match motion.pace.lost.filter(|_| !at_end) {
                 None => Ok(()),
-                Some(Lost::Shrinking) => {
+                Some(Lost::Shrinking(rest)) => {
                     let [first, largest] = motion.sizes;
                     let grown = largest / first;
-                    Err(FlowError::Shrinking { time, step, grown, state: state() })
+                    Err(FlowError::Shrinking { time, step, rest, grown, state: state() })
                 }
                 Some(Lost::Endless) if motion.is_open => Ok(()),
                 Some(Lost::Endless) => Err(FlowError::Endless { time, step, until: motion.aim.hi }),

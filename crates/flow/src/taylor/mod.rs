@@ -9,6 +9,7 @@ pub(crate) mod event;
 pub(crate) mod expand;
 pub(crate) mod form;
 pub(crate) mod lanes;
+pub(crate) mod level;
 pub(crate) mod machine;
 pub(crate) mod merge;
 pub(crate) mod number;

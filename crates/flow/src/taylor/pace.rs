@@ -8,6 +8,8 @@ use liouville::number::double_double::DoubleDouble;
 
 /// Number of steps after which the pace of a motion is looked at.
 const STRIDE: u64 = 1 << 18;
+/// Number of steps that one of many motions does not take on its way to infinity.
+const FEW_STEPS: f64 = 1e7;
 /// Ratio of a motion's longest step to the present ones, above which these count as shrinking.
 const SHRUNK: f64 = 1e6;
 /// The same for ends that are out of any reach.
@@ -143,6 +145,8 @@ pub(crate) struct Pace {
     /// Time at three quarters of the steps between two looks.
     late: f64,
     runaway: Runaway,
+    /// Whether the motion is one of many, of which none may take long.
+    pub(crate) is_hasty: bool,
     /// Why the end is out of reach, if it is.
     pub(crate) lost: Option<Lost>,
 }
@@ -150,8 +154,8 @@ pub(crate) struct Pace {
 /// Reason why the end of a motion is out of reach.
 #[derive(Clone, Copy)]
 pub(crate) enum Lost {
-    /// Its steps have shrunk.
-    Shrinking,
+    /// Its steps have shrunk: about so many are left.
+    Shrinking(f64),
     /// Its time takes too many steps of its usual size.
     Endless,
 }
@@ -169,8 +173,9 @@ impl Pace {
         if steps % STRIDE == LATE {
             self.late = now;
         }
-        if self.runaway.keep(steps, now, left).is_some_and(|rest| rest > MOST_STEPS) {
-            self.lost = Some(Lost::Shrinking);
+        let most = if self.is_hasty { FEW_STEPS } else { MOST_STEPS };
+        if let Some(rest) = self.runaway.keep(steps, now, left).filter(|rest| *rest > most) {
+            self.lost = Some(Lost::Shrinking(rest));
             return;
         }
         let is_early = EARLY.contains(&steps);
@@ -192,7 +197,7 @@ impl Pace {
         // Steps that grow, as on the way to infinity, may still arrive.
         let is_steady = self.former > 0.0 && self.longest < GROWTH * self.former;
         self.lost = match () {
-            () if is_shrunk && !is_early => Some(Lost::Shrinking),
+            () if is_shrunk && !is_early => Some(Lost::Shrinking(rest)),
             () if is_steady && left.abs() > mean * most => Some(Lost::Endless),
             () => None,
         };
@@ -226,7 +231,7 @@ mod tests {
                 steps += 1;
                 pace.keep(step, steps, now, until - now);
             }
-            (matches!(pace.lost, Some(Lost::Shrinking)), steps)
+            (matches!(pace.lost, Some(Lost::Shrinking(_))), steps)
         };
         let (is_lost, steps) = followed(3.0);
         assert!(is_lost && steps < 1 << 22, "{steps} steps of e^30");

@@ -22,6 +22,7 @@
 use std::sync::Arc;
 
 use crate::taylor::form::{BilinearForm, Row};
+use crate::taylor::level::Level;
 use crate::taylor::saturating::Saturating;
 use crate::taylor::watch::Presence;
 use liouville::number::rational::Rational;
@@ -106,6 +107,8 @@ pub struct TaylorProgram {
     pub(crate) outputs: Vec<Row>,
     /// Whether the field jumps where a sign changes, as far as its form shows.
     pub(crate) jumps: bool,
+    /// Level to which motions are kept, if the field alone does not.
+    pub(crate) level: Option<Arc<Level>>,
     /// Values that a motion has to have, if they are known.
     pub(crate) presence: Option<Arc<Presence>>,
 }

@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use crate::halt::Halt;
 use crate::taylor::defect::Sampled;
+use crate::taylor::level::Level;
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::pace::Lane;
 use crate::taylor::program::TaylorProgram;
@@ -54,6 +55,8 @@ pub struct Stepper<T: SeriesNumber> {
     pub(crate) sampled: Sampled<T>,
     /// Longest steps over which all functions are resolved.
     pub(crate) limits: Vec<f64>,
+    /// Level to which the motions are kept.
+    pub(crate) level: Option<Arc<Level>>,
     /// Whether the field jumps where a sign changes.
     pub(crate) jumps: bool,
     /// Values that the motions have to have, if they are known.
@@ -87,6 +90,7 @@ impl<T: SeriesNumber> Stepper<T> {
             sizes: Sizes { norms: [T::ZERO; 4], soundness: T::ZERO },
             sampled: Sampled::new(program.dimension(), accuracy),
             limits: Vec::new(),
+            level: program.level.clone(),
             jumps: program.jumps,
             presence: program.presence.clone(),
             halt: Halt::current(),
@@ -139,6 +143,11 @@ impl<T: SeriesNumber> Stepper<T> {
     /// Sets the time to which a motion goes at last, in parts.
     pub fn aim(&mut self, lane: usize, time: f64) {
         self.lanes[lane].aim = DoubleDouble::from_f64(time);
+    }
+
+    /// Lets a motion that runs away end soon, as one of many.
+    pub fn hasten(&mut self, lane: usize) {
+        self.lanes[lane].pace.is_hasty = true;
     }
 
     /// Changes the final time of a motion.
@@ -220,6 +229,7 @@ impl<T: SeriesNumber> Stepper<T> {
         with_widest_vectors(Advance(self));
         self.lanes.iter_mut().for_each(Lane::advance);
         self.turn_signs();
+        self.keep_level();
     }
 
     /// Whether a motion has reached its end.

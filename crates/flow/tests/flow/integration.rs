@@ -1,6 +1,7 @@
 //! Motions: drift of integrals, reversal in time, known solutions, an independent integrator.
 
 mod chaos;
+mod contacts;
 mod cycles;
 mod jumps;
 mod lanes;
