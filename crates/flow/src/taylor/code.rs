@@ -166,6 +166,19 @@ pub(crate) enum PlacedRule<T> {
 }
 
 impl<T> PlacedRule<T> {
+    /// Whether the operation is a function with values everywhere, or one without, and no sum.
+    pub(crate) fn is_function(&self, is_entire: bool) -> bool {
+        let has_poles = matches!(
+            self,
+            PlacedRule::Recip(_)
+                | PlacedRule::Sqrt(_)
+                | PlacedRule::Ln(_)
+                | PlacedRule::Power { .. }
+        );
+        let is_form = matches!(self, PlacedRule::Sum | PlacedRule::Theta | PlacedRule::Sign(_));
+        !is_form && has_poles != is_entire
+    }
+
     /// Whether the operation is a sum of products.
     pub(crate) fn is_sum(&self) -> bool {
         matches!(self, PlacedRule::Sum)

@@ -16,6 +16,8 @@ const HUGE: f64 = 1e290;
 /// runs into a singularity.
 const SUDDEN: f64 = 1e3;
 
+/// Size below which an argument that falls may underflow in place of coming to 0.
+const FAINT: f64 = 1e-250;
 /// Ratio of the last step of a motion to its longest one, above which it comes to no singularity.
 const SHRUNK: f64 = 1e-5;
 /// Growth of the state since the start, from which on a motion may run away beside poles of its field.
@@ -103,20 +105,24 @@ impl<T: SeriesNumber> Stepper<T> {
         }
     }
 
-    /// Whether a singularity is near: the motion changes by its own size in a small part of the time
-    /// since its start, or the argument of a quotient, a root or a logarithm vanishes within a few
-    /// steps. Steps shrink without end there; where they do not, as on e^(e^t), a number is too large.
+    /// Whether a singularity is near: steps have shrunk, and the motion changes by its own size in a
+    /// small part of the time since its start, or the argument of a quotient, a root or a logarithm
+    /// comes to 0 within a few steps. What e^(e^t) does is none, nor an argument that underflows.
     fn is_at_end(&self, lane: usize) -> bool {
         let motion = &self.lanes[lane];
-        if motion.former > SHRUNK * motion.pace.longest() {
-            return false;
-        }
-        let at = |value: T| value.lane(lane).leading().abs();
+        let at = |value: T| value.lane(lane).leading();
         let [still, moving, ..] = self.sizes.norms.map(at);
+        let is_shrunk = motion.former <= SHRUNK * motion.pace.longest();
         let reach = STEPS_BEFORE * motion.former;
-        let mut arguments = self.series.arguments();
-        moving * motion.time.hi.abs() > SUDDEN * still
-            || arguments.any(|[value, rate]| at(value) <= at(rate) * reach)
+        let direction = (motion.until - motion.time).hi.signum();
+        let vanishes = |[value, rate]: [T; 2]| {
+            let (value, rate) = (at(value), at(rate));
+            let is_faint = value != 0.0 && value.abs() < FAINT;
+            let grows = value * rate * direction > 0.0;
+            !is_faint && !grows && value.abs() <= rate.abs() * reach || value == 0.0
+        };
+        is_shrunk && moving * motion.time.hi.abs() > SUDDEN * still
+            || self.series.arguments().any(vanishes)
     }
 
     /// Whether a motion that ends goes to infinity: motions of a field that has values and series

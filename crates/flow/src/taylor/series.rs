@@ -25,8 +25,8 @@ pub struct Series<T: SeriesNumber> {
     pub(crate) memory: Vec<T>,
     /// Memory for plain values at other states.
     pub(crate) probed: Vec<T>,
-    /// Places of the rows that are no sums of products.
-    functions: Vec<Place>,
+    /// Places of the rows that are no sums of products: functions without poles, and others.
+    functions: [Vec<Place>; 2],
     /// Places of the arguments of exponential functions, with the rates k of those that fall as
     /// e^(−k|u|).
     exponents: Vec<(Place, Option<f64>)>,
@@ -52,10 +52,10 @@ impl<T: SeriesNumber> Series<T> {
         let (code, _) = BoundProgram::new(program, order, aligned);
         let sums = (code.counts.len() + 1).next_multiple_of(BLOCK);
         let placed = || code.operations.iter().zip(&code.finishes);
-        let functions = placed().filter(|(operation, _)| {
-            !matches!(operation.rule, PlacedRule::Sum | PlacedRule::Theta)
+        let functions = [true, false].map(|is_entire| {
+            let own = placed().filter(|(operation, _)| operation.rule.is_function(is_entire));
+            own.map(|(_, finish)| finish.place).collect()
         });
-        let functions = functions.map(|(_, finish)| finish.place).collect();
         let exponents = code.operations.iter().filter_map(|operation| match operation.rule {
             PlacedRule::Exp(x) => Some((x, None)),
             PlacedRule::Saturating { function, x, .. } => Some((x, Some(function.rate()))),
@@ -193,9 +193,10 @@ impl<T: SeriesNumber> Series<T> {
         &self.memory[place..=place + self.order]
     }
 
-    /// Coefficients of the rows that are no sums of products, orders 0 to `order` - 1.
-    pub fn functions(&self) -> impl Iterator<Item = &[T]> {
-        self.functions.iter().map(|place| self.row(*place))
+    /// Coefficients of the rows that are functions without poles, or other functions, orders 0 to
+    /// `order` - 1.
+    pub fn functions(&self, is_entire: bool) -> impl Iterator<Item = &[T]> {
+        self.functions[usize::from(!is_entire)].iter().map(|place| self.row(*place))
     }
 
     /// Coefficients of the arguments u of exponential functions, orders 0 to `order` - 1, with the
@@ -281,15 +282,7 @@ impl<T: SeriesNumber> Series<T> {
 
     /// Whether the field has a value at all states.
     pub fn is_entire(&self) -> bool {
-        !self.code.operations.iter().any(|operation| {
-            matches!(
-                operation.rule,
-                PlacedRule::Recip(_)
-                    | PlacedRule::Sqrt(_)
-                    | PlacedRule::Ln(_)
-                    | PlacedRule::Power { .. }
-            )
-        })
+        !self.code.operations.iter().any(|operation| operation.rule.is_function(false))
     }
 
     /// Whether the field contains functions that may be 0 up to rounding over a part of a step, and

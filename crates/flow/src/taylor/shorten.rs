@@ -50,13 +50,13 @@ impl<T: SeriesNumber> Stepper<T> {
             }
         }
         let count = self.series.order();
-        let limits = limits(count, self.kappa);
+        let rate = self.kappa - SLACK;
         let mut ends = Ends::NONE;
         for _ in 0..MOST_CUTS {
             with_widest_vectors(EndValues { stepper: self, output, ends: &mut ends });
             let mut is_known = true;
             for (index, lane) in self.lanes.iter_mut().enumerate() {
-                let share = ends.known_share(index, count, limits);
+                let share = ends.known_share(index, count, rate);
                 if share < 1.0 {
                     lane.step = lane.step * T::One::float(share);
                     lane.is_cut = true;
@@ -112,20 +112,15 @@ impl<T: SeriesNumber> Stepper<T> {
     }
 }
 
-/// Sizes of the last two of some terms, relative to the largest, at which a further function is known.
-fn limits(count: usize, kappa: f64) -> [f64; 2] {
-    [count - 2, count - 1].map(|n| libm::exp((SLACK - kappa) * n as f64))
-}
-
 /// Part of a step on which a function is known by its terms.
 pub(crate) fn known_part<One: SeriesNumber<One = One>>(
     terms: &[One],
     step: One,
     kappa: f64,
 ) -> One {
-    let (mut step, limits) = (step, limits(terms.len(), kappa));
+    let mut step = step;
     for _ in 0..MOST_CUTS {
-        let share = Ends::new(terms, step).known_share(0, terms.len(), limits);
+        let share = Ends::new(terms, step).known_share(0, terms.len(), kappa - SLACK);
         if share >= 1.0 {
             break;
         }

@@ -43,7 +43,8 @@ fn the_function_of_the_floor_may_be_any_that_has_its_sign() {
         let found = followed(&floor("sin(t)-1/2", r), "x=1 t=0", 20.0, Precision::Float);
         let first = &found.events[0];
         assert_eq!(first.kind, Contact::Arrives, "{r}");
-        let error = if r == "x^3" { 1e-4 } else { 1e-12 };
+        // A root of order 3 is known to a third of the digits.
+        let error = if r.starts_with("x^3") { 1e-4 } else { 1e-12 };
         assert!((first.time.hi - 4.473413905714496).abs() < error, "{r}: {}", first.time.hi);
         let x = found.end[0].hi;
         assert!((x - 0.144520690539576).abs() < 2.0 * error, "{r}: {x}");

@@ -195,3 +195,21 @@ fn a_motion_stays_on_a_level_that_is_unstable_across() {
     let found = motion.exponents(500.0).expect("exponents");
     assert_eq!(found.character, Character::Regular, "an integrable system: {found:?}");
 }
+
+#[test]
+fn gaps_in_a_series_hide_nothing() {
+    // cos(5x⁴) and exp(−x⁴) have terms of the orders 0, 4, 8, … alone where they begin
+    let line = field(&[("x", "1"), ("y", "0")]);
+    let found = crossings(&line, "cos(5*x^4) = 1/2", "x=0 y=1", 5);
+    for ((time, _), turns) in found.iter().zip([1.0, 5.0, 7.0, 11.0, 13.0]) {
+        let expected = (PI * turns / 15.0).powf(0.25);
+        assert!((time - expected).abs() < 1e-12, "{time}, not {expected}");
+    }
+    let found = crossings(&line, "x^4*exp(-x^4) = 1/10", "x=0 y=1", 2);
+    assert!(
+        (found[0].0 - 0.578286).abs() < 1e-5 && (found[1].0 - 1.375257).abs() < 1e-5,
+        "{found:?}"
+    );
+    let steep = field(&[("x", "1"), ("y", "1/(1 + exp(-20*exp(-x^4)))")]);
+    assert!(followed(&steep, "x=0 y=1", 4.0, Precision::Float).is_ok(), "no singularity");
+}
