@@ -73,7 +73,9 @@ impl<T: SeriesNumber> Stepper<T> {
     pub(crate) fn keep_level(&mut self) {
         let Some(level) = self.level.clone() else { return };
         for lane in 0..T::LANES {
-            if self.lanes[lane].steps % STRIDE != 0 || self.lanes[lane].step.leading() == 0.0 {
+            if !self.lanes[lane].steps.is_multiple_of(STRIDE)
+                || self.lanes[lane].step.leading() == 0.0
+            {
                 continue;
             }
             let mut state = self.pairs(lane);

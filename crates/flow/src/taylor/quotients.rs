@@ -117,7 +117,7 @@ impl Simpler {
             // |x|⁻¹ x and |x| x⁻¹
             let toward = -power.signum();
             for _ in 0..power.unsigned_abs() {
-                if !argument.is_in(&rest, toward) {
+                if !argument.is_in(rest, toward) {
                     break;
                 }
                 rest.add(modulus, toward);
