@@ -40,7 +40,32 @@ impl<T: SeriesNumber> Stepper<T> {
             }
             self.expand_at_state();
         }
+        if self.jumps {
+            (0..T::LANES).for_each(|lane| self.end_forks(lane));
+        }
         self.lanes.iter_mut().for_each(|lane| lane.is_settled = true);
+    }
+
+    /// Ends a motion that begins on a jump from which it could leave to both sides.
+    fn end_forks(&mut self, lane: usize) {
+        let own = &self.lanes[lane];
+        if own.is_settled || own.steps > 0 || own.lost.is_some() {
+            return;
+        }
+        for sign in 0..self.series.signs() {
+            let (row, argument) = self.series.signed(sign);
+            let first = argument[0].lane(lane).leading().abs();
+            if first <= self.series.value_error(row, lane, &self.peaks) {
+                self.series.turn(sign, lane);
+                self.expand_at_state();
+                let leaves = self.agrees(sign, lane);
+                self.series.turn(sign, lane);
+                self.expand_at_state();
+                if leaves {
+                    self.lanes[lane].lost = Some(Edge::Divisor);
+                }
+            }
+        }
     }
 
     /// Whether the argument of a sign is on its side, or goes there.

@@ -68,6 +68,11 @@ fn a_relay_is_crossed_and_friction_ends_in_a_slide() {
         }
         other => panic!("{other:?}"),
     }
+    let fork = field(&[("x", "sign(x)")]);
+    let found = followed(&fork, "x=0", 1.0, Precision::Float);
+    let message = found.expect_err("x could leave to both sides").to_string();
+    assert!(message.contains("sign(x)") && message.contains("at the start"), "{message}");
+    assert!(followed(&fork, "x=1", 1.0, Precision::Float).is_ok());
     let found = Variational::new(&friction.model, &start(&friction, "x=1 y=0.2"));
     assert!(matches!(found, Err(FlowError::Jumps)), "tangent vectors jump");
 }
@@ -136,7 +141,7 @@ fn sections_take_moduli_steep_functions_and_high_powers() {
             continue;
         };
         for (k, (time, _)) in found.iter().enumerate() {
-            let turn = 2.0 * PI * ((k + 1) / 2) as f64;
+            let turn = 2.0 * PI * k.div_ceil(2) as f64;
             let expected = if k % 2 == 0 { turn + x.acos() } else { turn - x.acos() };
             assert!((time - expected).abs() < 1e-9, "{surface}: {time}, not {expected}");
         }
