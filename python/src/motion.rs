@@ -316,6 +316,8 @@ pub fn of_chart<'py>(
         }
         Err(
             FlowError::Singular { .. }
+            | FlowError::RunsAway { .. }
+            | FlowError::Slides { .. }
             | FlowError::TooShort { .. }
             | FlowError::Overflow(_)
             | FlowError::Shrinking { .. }

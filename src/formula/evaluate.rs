@@ -339,7 +339,7 @@ impl Function for ElementaryFunction {
             ElementaryFunction::Atan => x.atan(),
             ElementaryFunction::Sinh => x.sinh(),
             ElementaryFunction::Cosh => x.cosh(),
-            ElementaryFunction::Tanh => x.tanh(),
+            ElementaryFunction::Tanh => x.hyperbolic_tangent(),
             ElementaryFunction::Asinh => x.asinh(),
             ElementaryFunction::Acosh => x.acosh(),
             ElementaryFunction::Atanh => x.atanh(),

@@ -6,7 +6,7 @@ impl FlowError {
     /// Advice on how to avoid the error.
     pub fn help(&self) -> &'static str {
         match self {
-            FlowError::NotAnalytic(_) => "write the field without it, on one side of its zero",
+            FlowError::NotAnalytic => "write the field without it, on one side of its zero",
             FlowError::Antiderivative => "write the function itself instead of ∫(f, x)",
             FlowError::Singular { time: 0.0, .. } => {
                 "choose another start; if all are singular, the parameters are"
@@ -20,8 +20,14 @@ impl FlowError {
                  without the operation, as x for x²/x"
             }
             FlowError::Singular { .. }
+            | FlowError::RunsAway { .. }
             | FlowError::TooShort { .. }
             | FlowError::Shrinking { .. } => "choose another start, or a shorter time",
+            FlowError::Slides { .. } => {
+                "choose a shorter time, or write the motion along the jump as a [one-sided] constraint; \
+                 a steep function, as tanh(1000*x) for sign(x), slides nearly so"
+            }
+            FlowError::Jumps => "write a steep function, as tanh(100*x) for sign(x)",
             FlowError::Endless { .. } => "give a shorter time",
             FlowError::Overflow(_) => {
                 "choose another start or a shorter time, or measure in units in which numbers are \

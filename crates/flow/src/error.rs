@@ -1,7 +1,9 @@
 //! Reasons why a motion cannot be computed.
 
+mod ends;
+
+use ends::{endless, overflow, runs_away, shrinking, singular, slides, too_short, without_value};
 use liouville::graph::Fault;
-use liouville::number::UnaryFunction;
 use serde::{Deserialize, Serialize};
 
 /// Number of steps that no motion takes.
@@ -13,10 +15,12 @@ pub(super) const MOST_STEPS: f64 = 1e10;
 /// cannot, and those of the equations of all motions.
 #[derive(Clone, Debug, PartialEq, thiserror::Error, Serialize, Deserialize)]
 pub enum FlowError {
-    /// The field contains a function that has no Taylor series.
-    #[error("the field contains {0}, which has no Taylor series where it changes its sign")]
+    /// A proof about a field with a function that has no Taylor series.
+    #[error(
+        "the field contains |x|, sign, max or min, which have no Taylor series where they change their sign"
+    )]
     #[serde(skip)]
-    NotAnalytic(#[serde(skip)] &'static str),
+    NotAnalytic,
     /// The field contains an antiderivative, whose value is not known.
     #[error("the field contains ∫, whose value is not determined")]
     Antiderivative,
@@ -30,6 +34,32 @@ pub enum FlowError {
         #[serde(with = "crate::record")]
         state: Vec<f64>,
     },
+    /// The motion goes to infinity in finite time.
+    #[error("{}", runs_away(*time, state))]
+    RunsAway {
+        /// Time of the last state.
+        #[serde(with = "crate::record")]
+        time: f64,
+        /// Last state.
+        #[serde(with = "crate::record")]
+        state: Vec<f64>,
+    },
+    /// The field jumps, and pushes towards the jump from both sides.
+    #[error("{}", slides(*time, state))]
+    Slides {
+        /// Time of the last state.
+        #[serde(with = "crate::record")]
+        time: f64,
+        /// Last state.
+        #[serde(with = "crate::record")]
+        state: Vec<f64>,
+    },
+    /// Tangent vectors are wanted along motions through jumps of the field.
+    #[error(
+        "the field jumps where the argument of a sign is 0, and with it tangent vectors would: exponents and \
+         multipliers are known for continuous fields alone"
+    )]
+    Jumps,
     /// The steps become too small, with no sign of a singularity.
     #[error("{}", too_short(*time, state))]
     TooShort {
@@ -63,7 +93,7 @@ pub enum FlowError {
         column: String,
     },
     /// The steps have shrunk, and become so many that the end is out of reach.
-    #[error("{}", shrinking(*time, *step, state))]
+    #[error("{}", shrinking(*time, [*step, *rest, *grown], state))]
     Shrinking {
         /// Time of the last state.
         #[serde(with = "crate::record")]
@@ -71,6 +101,12 @@ pub enum FlowError {
         /// Last step.
         #[serde(with = "crate::record")]
         step: f64,
+        /// Number of steps that are left.
+        #[serde(with = "crate::record")]
+        rest: f64,
+        /// Largest size of the state, relative to that at the start.
+        #[serde(with = "crate::record")]
+        grown: f64,
         /// Last state.
         #[serde(with = "crate::record")]
         state: Vec<f64>,
@@ -292,63 +328,6 @@ pub enum FlowError {
     Recording(#[from] Fault),
 }
 
-fn without_value(formula: &str, time: f64, place: &str) -> String {
-    match time == 0.0 {
-        true => format!("`{formula}` has no value at the start, {place}"),
-        false => format!("the motion ends at t = {time}: `{formula}` has no value at {place}"),
-    }
-}
-
-fn overflow(time: f64) -> String {
-    match time == 0.0 {
-        true => "overflow at the start: a number of the equations is too large for f64".to_string(),
-        false => {
-            format!("overflow: a number of the motion is too large for f64 from t = {time} on")
-        }
-    }
-}
-
-fn shrinking(time: f64, step: f64, state: &[f64]) -> String {
-    let state: Vec<String> = state.iter().map(|x| format!("{x:.3e}")).collect();
-    format!(
-        "the motion runs away, or turns ever faster: at t = {time}, near the state [{}], a step is \
-         {:.1e}, and the rest of the time would take more than {MOST_STEPS:e} steps",
-        state.join(", "),
-        step.abs()
-    )
-}
-
-fn endless(time: f64, step: f64, until: f64) -> String {
-    format!(
-        "the time is too long: at t = {time:.4e} a step is {:.1e}, and up to t = {until:e} there would \
-         be more than {MOST_STEPS:e} of them",
-        step.abs()
-    )
-}
-
-fn singular(time: f64, state: &[f64]) -> String {
-    let shown = |x: &f64| if x.abs() < 1e6 { format!("{x:.6}") } else { format!("{x:.3e}") };
-    let state = state.iter().map(shown).collect::<Vec<String>>().join(", ");
-    match time == 0.0 {
-        true => format!("the equations of motion are singular at the start, the state [{state}]"),
-        false => {
-            let direction = if time < 0.0 { "backwards in time " } else { "" };
-            format!(
-                "{direction}the motion runs into a singularity at t = {time}, near the state [{state}]"
-            )
-        }
-    }
-}
-
-fn too_short(time: f64, state: &[f64]) -> String {
-    let state: Vec<String> = state.iter().map(|x| format!("{x:.6}")).collect();
-    format!(
-        "the steps became too short at t = {time}, near the state [{}]: the field varies there over less \
-         than the rounding of the time",
-        state.join(", ")
-    )
-}
-
 /// A time with five figures.
 fn rounded(time: f64) -> String {
     match (1e-3..1e5).contains(&time.abs()) {
@@ -369,14 +348,4 @@ fn never_crossed(time: f64, crossings: usize, others: usize) -> String {
         _ => format!("the motion does not cross the section again after {crossings} crossings"),
     };
     format!("{crossed}, up to t = {}{others}", rounded(time))
-}
-
-impl FlowError {
-    /// The error for a function without a Taylor rule.
-    pub(super) fn of_function(function: UnaryFunction) -> Self {
-        match function {
-            UnaryFunction::Abs => FlowError::NotAnalytic("|x|, sign, max or min"),
-            _ => FlowError::NotAnalytic("a function"),
-        }
-    }
 }

@@ -48,6 +48,11 @@ pub trait Scalar: DualNum<Primitive = f64> + Copy {
         (self / (Self::one() + across)).atan() * Self::from(2.0)
     }
 
+    /// Computes `tanh x`, with derivative `x'(1 - tanh² x)`.
+    fn hyperbolic_tangent(self) -> Self {
+        self.tanh()
+    }
+
     /// Computes the angle of the point (x, self), `2 atan(y/(x + r))`, with derivative
     /// `(x y' - y x')/r²`.
     ///
@@ -187,6 +192,11 @@ impl<T: Scalar> Scalar for Dual<T> {
         }
         let slope = (T::one() - self.re * self.re).sqrt().recip();
         Dual::new(self.re.arcsine(), self.eps * slope)
+    }
+
+    fn hyperbolic_tangent(self) -> Self {
+        let value = self.re.hyperbolic_tangent();
+        Dual::new(value, self.eps * (T::one() - value * value))
     }
 
     fn angle_from(self, x: Self) -> Self {

@@ -47,7 +47,9 @@ impl RotationNumber {
         let half = count / 2;
         let means = [&lifts[..], &lifts[..half], &lifts[count - half..]].map(weighted_mean);
         let apart = |(i, j): (usize, usize)| f64::abs(means[i] - means[j]);
-        let error = [(0, 1), (0, 2), (1, 2)].map(apart).into_iter().fold(f64::EPSILON, f64::max);
+        let error = [(0, 1), (0, 2), (1, 2)].map(apart).into_iter().fold(0.0, f64::max);
+        // Each crossing is known to rounding.
+        let error = error.max(f64::EPSILON * count as f64);
         let most = (count as u64 / ROUNDS).max(1);
         let resonance = simplest(means[0] - error, means[0] + error, most);
         let resonance = resonance.filter(|(_, q)| error * (*q as f64).powi(2) <= CHANCE);

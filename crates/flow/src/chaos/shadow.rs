@@ -60,6 +60,9 @@ impl Shadowed {
             rates.extend(more.iter().map(|_| Expr::rational(&Rational::from(0))));
             (rates, Vec::new())
         })?;
+        if program.jumps {
+            return Err(FlowError::Jumps);
+        }
         let (graph, divergence) = record(model.dimension() + loose.len(), |inputs| {
             let (state, more) = inputs.split_at(model.dimension());
             let jet = DualPoint::new(Phase::new(model, &filled(parameters, loose, more), state));
@@ -197,6 +200,10 @@ impl<'w> Worker<'w> {
         let shadow: Vec<DoubleDouble> = beside.chain(loose.iter().copied()).collect();
         self.stepper.start(COUPLE * couple, &[state.as_slice(), loose].concat(), end);
         self.stepper.start(COUPLE * couple + 1, &shadow, end);
+        for lane in COUPLE * couple..COUPLE * (couple + 1) {
+            self.stepper.aim(lane, self.time);
+            self.stepper.hasten(lane);
+        }
         self.running[couple] =
             Some(Running { index, record, distance, volume: 0.0, told: ToldShare::default() });
     }

@@ -105,6 +105,7 @@ fn spectrum(
     let level = LevelFunctions::new(model, &start.parameters, &[])?;
     let mut stepper = Stepper::<f64>::new(program, Accuracy::FLOAT);
     stepper.start(0, &begin, DoubleDouble::from_f64(time * SKIPPED));
+    stepper.aim(0, time);
     loop {
         stepper.expand();
         stepper.check(0)?;

@@ -9,7 +9,7 @@ use crate::error::FlowError;
 use crate::motion::orbit::Watcher;
 use crate::motion::recorded::program;
 use crate::motion::start::Start;
-use crate::taylor::event::{Event, Sides, size, slope, value};
+use crate::taylor::event::{Event, Sides, size, slope, starts_positive, value};
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::program::TaylorProgram;
 use crate::taylor::stepper::{Accuracy, Stepper};
@@ -20,6 +20,10 @@ use liouville::number::double_double::DoubleDouble;
 
 /// Roundings of the largest term of r below which a minimum counts as 0.
 const ROUNDINGS: f64 = 4096.0;
+/// Multiple of the error of a function's operands below which it counts as 0.
+const DOUBTS: f64 = 64.0;
+/// Number of places behind a root at which a function is looked at.
+const SAMPLES: u32 = 32;
 /// Limit on the number of phases, above that of any motion of interest.
 const MAX_PHASES: usize = 100_000;
 
@@ -128,18 +132,20 @@ impl<T: SeriesNumber<One = T>> Walk<'_, T> {
     fn begins_in_contact(&mut self) -> Result<bool, FlowError> {
         self.free.start(0, &self.state, self.until);
         self.free.expand();
+        self.free.ends(0);
         self.free.check(0)?;
         let piece = self.free.piece(0);
         let first = |output: usize| piece.output(output)[0].leading();
         let (r, rate, reaction) = (first(0), first(1), first(2));
-        let rounding = ROUNDINGS
-            * T::EPSILON
-            * piece.output(0).iter().map(|x| x.leading().abs()).fold(0.0, f64::max);
+        let polynomial = piece.output(0);
+        let doubt = self.phases.free.rounding::<T>(0, &self.state, 0.0);
+        let limit = ROUNDINGS * T::EPSILON * size(&polynomial, piece.length()) + DOUBTS * doubt;
         match r {
-            r if r > rounding => Ok(false),
-            r if r < -rounding => Err(FlowError::BehindConstraint { by: r }),
-            _ if rate.abs() > rounding => Ok(rate < 0.0),
-            _ => Ok(reaction > 0.0),
+            r if r > limit => Ok(false),
+            r if r < -limit => Err(FlowError::BehindConstraint { by: r }),
+            _ if rate.abs() > limit => Ok(rate < 0.0),
+            _ if size(&polynomial, piece.length()) <= limit => Ok(reaction > 0.0),
+            _ => Ok(!starts_positive(&polynomial, limit, piece.length())),
         }
     }
 
@@ -149,17 +155,24 @@ impl<T: SeriesNumber<One = T>> Walk<'_, T> {
         let mut sides = Sides::on(true);
         loop {
             self.free.expand();
+            self.free.ends(0);
             self.free.check(0)?;
             let piece = self.free.piece(0);
             let polynomial = piece.output(0);
             let at = |after: T| self.now + piece.begin() + after.pair();
             let doubt = || self.phases.free.rounding::<T>(0, &self.free.pairs(0), 0.0);
-            for event in sides.events(&polynomial, piece.length(), doubt) {
+            // What has come below 0 without an event, as from a touch, is in contact.
+            let limit = ROUNDINGS * T::EPSILON * size(&polynomial, piece.length());
+            let is_below = polynomial[0].leading() < -limit - DOUBTS * doubt();
+            let below = (self.free.steps(0) > 0 && is_below).then_some(T::ZERO);
+            let events = sides.events(&polynomial, piece.length(), doubt);
+            let begins = below.map(|after| Event::Crossing { after, rising: false });
+            for event in begins.into_iter().chain(events) {
                 let after = match event {
                     Event::Crossing { rising: true, .. } => continue,
                     Event::Crossing { after, .. } | Event::Tangency { after } => after,
                 };
-                let kind = match is_deep(&polynomial, after, piece.length()) {
+                let kind = match is_deep(&polynomial, after, piece.length(), doubt()) {
                     true => Contact::Arrives,
                     false => Contact::Grazes,
                 };
@@ -197,12 +210,21 @@ impl<T: SeriesNumber<One = T>> Walk<'_, T> {
         let mut sides = Sides::on(true);
         loop {
             self.contact.expand();
+            self.contact.ends(0);
             self.contact.check(0)?;
             let piece = self.contact.piece(0);
             let polynomial = piece.output(0);
             let doubt = || self.phases.contact.rounding::<T>(0, &self.contact.pairs(0), 0.0);
-            for event in sides.events(&polynomial, piece.length(), doubt) {
+            let below = (polynomial[0].leading() < -DOUBTS * doubt()).then_some(T::ZERO);
+            let events = sides.events(&polynomial, piece.length(), doubt);
+            let begins = below.map(|after| Event::Crossing { after, rising: false });
+            for event in begins.into_iter().chain(events) {
                 let Event::Crossing { after, rising: false } = event else { continue };
+                // A reaction that only touches 0 holds the body.
+                if !is_deep(&polynomial, after, piece.length(), doubt()) {
+                    sides = Sides::on(true);
+                    continue;
+                }
                 watcher.piece(self.now + piece.begin(), &piece, after);
                 (self.now, self.state) =
                     (self.now + piece.begin() + after.pair(), piece.state(after));
@@ -224,11 +246,19 @@ impl<T: SeriesNumber<One = T>> Walk<'_, T> {
     }
 }
 
-/// Whether the function falls below 0 behind this root by more than rounding. With slope s and
-/// curvature c its minimum is -s²/2c.
-fn is_deep<T: SeriesNumber>(polynomial: &[T], root: T, length: T) -> bool {
+/// Whether the function falls below 0 behind this root by more than rounding, before the end of the
+/// piece or where it rises again.
+fn is_deep<T: SeriesNumber<One = T>>(polynomial: &[T], root: T, length: T, doubt: f64) -> bool {
+    let limit = ROUNDINGS * T::EPSILON * size(polynomial, length) + DOUBTS * doubt;
+    let rest = length - root;
+    // With slope s and curvature c the minimum is −s²/2c, which may be nearer than the samples.
     let rate = slope(polynomial);
     let (fall, curvature) = value(&rate, root);
     let depth = fall.leading() * fall.leading() / (2.0 * curvature.leading().abs());
-    fall.leading() < 0.0 && depth > ROUNDINGS * T::EPSILON * size(polynomial, length)
+    if fall.leading() < 0.0 && depth > limit {
+        return true;
+    }
+    let samples = (1..=SAMPLES).map(|k| T::float(f64::from(k) / f64::from(SAMPLES)));
+    let values = samples.map(|share| value(polynomial, root + share * rest).0.leading());
+    values.take_while(|value| *value <= limit).any(|value| value < -limit)
 }

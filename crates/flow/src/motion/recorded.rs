@@ -1,8 +1,12 @@
 //! The motion of a case with fixed parameters: its field as a Taylor program.
 
+use std::sync::Arc;
+
 use crate::error::FlowError;
+use crate::motion::start::LevelFunctions;
 use crate::taylor::merge::merged;
 use crate::taylor::program::TaylorProgram;
+use crate::taylor::quotients::jumps;
 use crate::taylor::watch::{Presence, written};
 use liouville::graph::{Expr, record};
 use liouville::mechanics::{Model, Phase};
@@ -99,6 +103,10 @@ pub(crate) fn extended_program(
     if graph.inputs() > dimension + more {
         return Err(FlowError::Antiderivative);
     }
+    let jumps = jumps(&graph, &rates[..dimension]);
+    if jumps && more > loose.len() {
+        return Err(FlowError::Jumps);
+    }
     let field = [rates.as_slice(), &outputs].concat();
     let (presence, arguments) = Presence::new(model, &graph, &field, written);
     outputs.extend(arguments);
@@ -111,7 +119,11 @@ pub(crate) fn extended_program(
             TaylorProgram::compile(&simpler, &values, &outputs)?
         }
     };
-    program.presence = Some(presence);
+    (program.presence, program.jumps) = (Some(presence), jumps);
+    if !model.system.conserves_level() && !model.level.is_empty() {
+        let level = LevelFunctions::new(model, parameters, loose)?.level(dimension);
+        program.level = level.map(Arc::new);
+    }
     Ok(program)
 }
 

@@ -5,6 +5,7 @@ use num_dual::Dual;
 
 use crate::error::FlowError;
 use crate::motion::recorded::{Loose, filled, point};
+use crate::taylor::level::Level;
 use crate::taylor::number::SeriesNumber;
 use liouville::case::Case;
 use liouville::claim::{Components, LevelSubset};
@@ -147,6 +148,11 @@ impl LevelFunctions {
             values_and_slopes(&columns)
         })?;
         Ok(Self { tape: Tape::new(&graph, &outputs), equations })
+    }
+
+    /// Level of the functions, for motions of a state of this dimension; none without equations.
+    pub fn level(self, dimension: usize) -> Option<Level> {
+        (self.equations > 0).then(|| Level::new(self.tape, self.equations, dimension))
     }
 
     /// Number of equations.

@@ -11,6 +11,7 @@ use crate::motion::recorded::extended_program;
 use crate::motion::start::{LevelFunctions, Start};
 use crate::taylor::batch::{Lockstep, MOTION_LANES, Queue, in_batches};
 use crate::taylor::lanes::Lanes;
+use crate::taylor::level::STRIDE;
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::program::TaylorProgram;
 use crate::taylor::stepper::{Accuracy, Stepper};
@@ -29,6 +30,8 @@ struct Bundle {
     dimension: usize,
     /// Dimension of the level.
     rank: usize,
+    /// Level to which vectors are kept tangent, if the field alone does not.
+    level: Option<LevelFunctions>,
 }
 
 impl Bundle {
@@ -36,7 +39,10 @@ impl Bundle {
     fn new(model: &Model, parameters: &[Rational]) -> Result<Self, FlowError> {
         let dimension = model.dimension();
         let program = variational_program(model, parameters, VECTORS)?;
-        Ok(Self { program, dimension, rank: dimension.saturating_sub(model.level.len()) })
+        let is_kept = program.level.is_none();
+        let level = (!is_kept).then(|| LevelFunctions::new(model, parameters, &[])).transpose()?;
+        let rank = dimension.saturating_sub(model.level.len());
+        Ok(Self { program, dimension, rank, level })
     }
 
     /// All rows at the start of a motion, with the vectors tangent to the level set.
@@ -150,6 +156,7 @@ impl<'t, T: SeriesNumber<One = f64>> Worker<'t, T> {
                 let record = Record::new(self.task.time).on_level(self.task.bundle.rank);
                 let end = record.end().unwrap_or(self.task.time);
                 self.stepper.start(lane, begin, DoubleDouble::from_f64(end));
+                self.stepper.aim(lane, self.task.time);
                 self.running[lane] = Some((index, record, ToldShare::default()));
             }
             Err(problem) => {
@@ -163,7 +170,14 @@ impl<'t, T: SeriesNumber<One = f64>> Worker<'t, T> {
     fn measure(&mut self, lane: usize, progress: &(dyn Fn(f64) + Sync)) -> bool {
         let Some((_, record, told)) = &mut self.running[lane] else { return false };
         let bundle = self.task.bundle;
-        let state = self.stepper.pairs(lane);
+        let mut state = self.stepper.pairs(lane);
+        if let Some(level) = &bundle.level
+            && self.stepper.steps(lane).is_multiple_of(STRIDE)
+        {
+            let normals = level.normals(&state[..bundle.dimension]);
+            (0..VECTORS).for_each(|k| make_tangent(&mut state[bundle.vector(k)], &normals));
+            self.stepper.place(lane, &state);
+        }
         let lengths: [f64; VECTORS] = std::array::from_fn(|index| {
             let vector = &state[bundle.vector(index)];
             vector.iter().map(|x| x.hi * x.hi).sum::<f64>().sqrt()
@@ -202,6 +216,16 @@ impl<'t, T: SeriesNumber<One = f64>> Worker<'t, T> {
         };
         self.done.push((index, found));
         told.finish(progress);
+    }
+}
+
+/// Takes from a vector what is along unit vectors across the level.
+fn make_tangent(vector: &mut [DoubleDouble], normals: &[Vec<f64>]) {
+    for normal in normals {
+        let along: f64 = vector.iter().zip(normal).map(|(x, n)| x.hi * n).sum();
+        for (x, n) in vector.iter_mut().zip(normal) {
+            *x = *x - DoubleDouble::from_f64(along * n);
+        }
     }
 }
 

@@ -172,7 +172,9 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
             let time = self.stepper.time(lane).hi;
             running.track.problem = Some(match problem {
                 // The step is cut before a branch point, which the surface may have.
-                FlowError::Singular { .. } | FlowError::TooShort { .. }
+                FlowError::Singular { .. }
+                | FlowError::RunsAway { .. }
+                | FlowError::TooShort { .. }
                     if self.stepper.is_cut(lane) =>
                 {
                     FlowError::SectionEnds { time }

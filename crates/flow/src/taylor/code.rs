@@ -14,6 +14,7 @@
 use crate::taylor::form::Row;
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::program::{RowInstruction, Rule, TaylorProgram};
+use crate::taylor::saturating::Saturating;
 use liouville::number::rational::Rational;
 
 /// Bytes of a cache line; order 1 of each row is aligned to it.
@@ -138,13 +139,46 @@ pub(crate) enum PlacedRule<T> {
     Sqrt(Place),
     Exp(Place),
     Ln(Place),
-    Sin { x: Place, cosine: Place },
-    Cos { x: Place, sine: Place },
-    Atan { x: Place, square: Place },
-    Power { x: Place, exponent: Rational, factor: T },
+    Sin {
+        x: Place,
+        cosine: Place,
+    },
+    Cos {
+        x: Place,
+        sine: Place,
+    },
+    Atan {
+        x: Place,
+        square: Place,
+    },
+    Power {
+        x: Place,
+        exponent: Rational,
+        factor: T,
+    },
+    Saturating {
+        function: Saturating,
+        x: Place,
+        slope: Place,
+    },
+    /// The constant of the operation, which is the sign of x.
+    Sign(Place),
 }
 
 impl<T> PlacedRule<T> {
+    /// Whether the operation is a function with values everywhere, or one without, and no sum.
+    pub(crate) fn is_function(&self, is_entire: bool) -> bool {
+        let has_poles = matches!(
+            self,
+            PlacedRule::Recip(_)
+                | PlacedRule::Sqrt(_)
+                | PlacedRule::Ln(_)
+                | PlacedRule::Power { .. }
+        );
+        let is_form = matches!(self, PlacedRule::Sum | PlacedRule::Theta | PlacedRule::Sign(_));
+        !is_form && has_poles != is_entire
+    }
+
     /// Whether the operation is a sum of products.
     pub(crate) fn is_sum(&self) -> bool {
         matches!(self, PlacedRule::Sum)
@@ -293,6 +327,11 @@ impl<T: SeriesNumber> BoundProgram<T> {
             Rule::Atan { x, square } => {
                 (OrderEffect::Divides, PlacedRule::Atan { x: at(x), square: at(square) })
             }
+            Rule::Saturating { function, x, slope } => {
+                let (function, x, slope) = (*function, at(x), at(slope));
+                (OrderEffect::Divides, PlacedRule::Saturating { function, x, slope })
+            }
+            Rule::Sign(x) => (OrderEffect::Free, PlacedRule::Sign(at(x))),
             Rule::Power { x, exponent } => {
                 let factor = T::rational(exponent);
                 (
@@ -312,7 +351,8 @@ impl<T: SeriesNumber> BoundProgram<T> {
         if !instruction.form.products.is_empty() {
             self.counts.push(instruction.form.products.len() as u32);
         }
-        let constant = instruction.form.constant.as_ref().map_or(T::ZERO, T::rational);
+        let none = if matches!(rule, PlacedRule::Sign(_)) { T::ONE } else { T::ZERO };
+        let constant = instruction.form.constant.as_ref().map_or(none, T::rational);
         self.operations.push(InitialOperation { rule, constant, factors, terms });
         let copies = self.copies_of(layout, instruction.out);
         self.finishes.push(Finish {

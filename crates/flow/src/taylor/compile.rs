@@ -1,9 +1,13 @@
 //! Compilation of a graph to a Taylor program: gathers sums of products and folds constants
 //! exactly.
 
+mod simpler;
+
 use crate::error::FlowError;
 use crate::taylor::form::{BilinearForm, Row};
 use crate::taylor::program::{RowInstruction, Rule, TaylorProgram};
+use crate::taylor::quotients::Needed;
+use crate::taylor::saturating::Saturating;
 use liouville::graph::{Expr, Graph, Step};
 use liouville::number::double_double::{DoubleDouble, DoubleDoubles};
 use liouville::number::rational::Rational;
@@ -18,24 +22,31 @@ impl TaylorProgram {
     /// Compiles a field: `rates` and `outputs` as functions of the graph's inputs, which are the
     /// state alone.
     pub fn compile(graph: &Graph, rates: &[Expr], outputs: &[Expr]) -> Result<Self, FlowError> {
-        Self::with_constants(graph, &constants(graph), rates, outputs)
+        Self::with_constants(graph, Some(&constants(graph)), rates, outputs)
     }
 
-    /// Compiles a field without rounding: constants such as √2 are rows.
+    /// Compiles a field without rounding: constants such as √2 are rows. Moduli are refused.
     pub fn exact(graph: &Graph, rates: &[Expr]) -> Result<Self, FlowError> {
-        Self::with_constants(graph, &vec![None; graph.len()], rates, &[])
+        if graph.has_step(rates, |step| matches!(step, Step::Unary(UnaryFunction::Abs, _))) {
+            return Err(FlowError::NotAnalytic);
+        }
+        Self::with_constants(graph, None, rates, &[])
     }
 
     fn with_constants(
         graph: &Graph,
-        constants: &[Option<DoubleDouble>],
+        constants: Option<&[Option<DoubleDouble>]>,
         rates: &[Expr],
         outputs: &[Expr],
     ) -> Result<Self, FlowError> {
         let dimension = rates.len();
         let wanted: Vec<usize> =
             rates.iter().chain(outputs).map(|expr| graph.place(*expr)).collect();
-        let reached = graph.reached_from(&wanted);
+        let needed = match constants {
+            Some(_) => Needed::by(graph, &wanted),
+            None => Needed::exactly(graph, &wanted),
+        };
+        let reached = &needed.places;
         let mut uses = vec![0usize; graph.len()];
         wanted.iter().for_each(|place| uses[*place] += 1);
         for (_, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
@@ -49,14 +60,22 @@ impl TaylorProgram {
             next: dimension,
             circular: Vec::new(),
             thetas: Vec::new(),
+            signs: Vec::new(),
+            saturating: Vec::new(),
         };
         for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
-            let form = match (step, &constants[place]) {
+            let form = match (step, constants.and_then(|constants| constants[place])) {
                 (Step::Constant(value), _) => BilinearForm::of_constant(value),
                 (_, Some(value)) => {
                     BilinearForm::of_constant(&value.to_rational().unwrap_or(Rational::from(0)))
                 }
-                _ => compiler.form_of(step, dimension)?,
+                _ => match &needed.simpler[place] {
+                    Some(simpler) => compiler.simpler(simpler)?,
+                    None => match compiler.modulus(graph, step)? {
+                        Some(form) => form,
+                        None => compiler.form_of(step, dimension)?,
+                    },
+                },
             };
             compiler.forms[place] = Some(form);
         }
@@ -71,6 +90,8 @@ impl TaylorProgram {
             instructions: compiler.instructions,
             rates: rows,
             outputs,
+            jumps: false,
+            level: None,
             presence: None,
         })
     }
@@ -111,6 +132,10 @@ struct Compiler {
     circular: Vec<(Row, Row, Row)>,
     /// Pairs of a row x and its row θx.
     thetas: Vec<(Row, Row)>,
+    /// Pairs of a row x and the row of its sign.
+    signs: Vec<(Row, Row)>,
+    /// Functions that tend to constants: argument, function.
+    saturating: Vec<(Saturating, Row, Row)>,
 }
 
 impl Compiler {
@@ -150,11 +175,8 @@ impl Compiler {
             }
             Step::Unary(UnaryFunction::Neg, a) => self.term(a).times(&Rational::from(-1)),
             Step::Unary(UnaryFunction::Recip, a) => {
-                let (factor, x) = self.factor(a);
-                let out = self.next;
-                let row = self.emit(Rule::Recip(x), Self::product(x, out));
-                let nowhere = || FlowError::Singular { time: 0.0, state: Vec::new() };
-                BilinearForm::of_row(factor.recip().ok_or_else(nowhere)?, row)
+                let (factor, row) = self.reciprocal(a)?;
+                BilinearForm::of_row(factor, row)
             }
             Step::Unary(function, a) => {
                 let x = self.row(a);
@@ -195,9 +217,18 @@ impl Compiler {
                 row
             }
             UnaryFunction::Neg | UnaryFunction::Recip | UnaryFunction::Abs => {
-                return Err(FlowError::of_function(function));
+                return Err(FlowError::NotAnalytic);
             }
         })
+    }
+
+    /// 1/x as a factor times a row.
+    fn reciprocal(&mut self, place: usize) -> Result<(Rational, Row), FlowError> {
+        let (factor, x) = self.factor(place);
+        let out = self.next;
+        let row = self.emit(Rule::Recip(x), Self::product(x, out));
+        let nowhere = || FlowError::Singular { time: 0.0, state: Vec::new() };
+        Ok((factor.recip().ok_or_else(nowhere)?, row))
     }
 
     fn exponential(&mut self, x: Row) -> Row {

@@ -8,6 +8,7 @@
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::pace::Lane;
 use crate::taylor::stepper::{Accuracy, Stepper};
+use crate::taylor::watch::Edge;
 use liouville::graph::{Kernel, with_widest_vectors};
 
 /// Multiple of the first term left out, by which the polynomial and the field may differ over a step.
@@ -26,6 +27,8 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// Polynomials of the present steps at some times.
 pub(crate) struct Sampled<T> {
     times: T,
+    /// Whether the samples are those of the present expansions.
+    pub(crate) is_present: bool,
     /// Change of the state since the beginning, and its derivative.
     pub(crate) increments: Vec<T>,
     slopes: Vec<T>,
@@ -45,7 +48,8 @@ impl<T: SeriesNumber> Sampled<T> {
         let count = (accuracy.order + 1) as f64;
         let tolerance = MARGIN * count * libm::exp(-accuracy.kappa * count);
         let (times, gap, soundness) = (T::ZERO, T::ZERO, T::ZERO);
-        Self { times, increments, slopes, states, tolerance, gap, soundness }
+        let is_present = false;
+        Self { times, is_present, increments, slopes, states, tolerance, gap, soundness }
     }
 
     /// Whether the samples were taken at these times.
@@ -55,19 +59,21 @@ impl<T: SeriesNumber> Sampled<T> {
     }
 }
 
+/// Place within a step, as a part of it, that differs from step to step.
+pub(crate) fn inside<One>(lane: &Lane<One>) -> f64 {
+    let turn = GOLDEN * lane.steps as f64;
+    0.25 + 0.5 * (turn - libm::floor(turn))
+}
+
 impl<T: SeriesNumber> Stepper<T> {
     /// Halves steps until their polynomials follow the field.
     pub(crate) fn keep_defect(&mut self) {
         let has_pulses = self.series.has_pulses();
         for _ in 0..MOST_HALVES {
-            let inside = |lane: &Lane<T::One>| {
-                let turn = GOLDEN * lane.steps as f64;
-                0.25 + 0.5 * (turn - libm::floor(turn))
-            };
             let fits_inside = !has_pulses || self.follow_field(inside);
             let end = |lane: &Lane<T::One>| match lane.edge {
+                Some((Edge::Sign(_), _)) | None => 1.0,
                 Some(_) => BEFORE_EDGE,
-                None => 1.0,
             };
             if self.follow_field(end) && fits_inside {
                 break;
@@ -77,13 +83,7 @@ impl<T: SeriesNumber> Stepper<T> {
 
     /// Whether all steps follow the field at a part of their length; halves those that do not.
     fn follow_field(&mut self, share: impl Fn(&Lane<T::One>) -> f64) -> bool {
-        let times = T::from_lanes(|lane| {
-            let lane = &self.lanes[lane];
-            lane.step * T::One::float(share(lane))
-        });
-        self.sampled.times = times;
-        with_widest_vectors(Sampling(self));
-        self.series.probe(&self.sampled.states);
+        self.sample(share);
         with_widest_vectors(Comparison(self));
         let mut holds = true;
         for index in 0..T::LANES {
@@ -97,6 +97,32 @@ impl<T: SeriesNumber> Stepper<T> {
             }
         }
         holds
+    }
+
+    /// Computes the polynomials, and the field and the further functions at their states, at a part of
+    /// the length of each step.
+    pub(crate) fn sample(&mut self, share: impl Fn(&Lane<T::One>) -> f64) {
+        let times = T::from_lanes(|lane| {
+            let lane = &self.lanes[lane];
+            lane.step * T::One::float(share(lane))
+        });
+        if self.sampled.is_at(times) && self.sampled.is_present {
+            return;
+        }
+        (self.sampled.times, self.sampled.is_present) = (times, true);
+        with_widest_vectors(Sampling(self));
+        self.series.probe(&self.sampled.states);
+    }
+
+    /// Time of a motion's sample, after its present state.
+    pub(crate) fn sampled_time(&self, lane: usize) -> T::One {
+        self.sampled.times.lane(lane)
+    }
+
+    /// Bound of the error of a further function at the sample.
+    pub(crate) fn output_error(&self, output: usize, index: usize) -> f64 {
+        let known = self.sampled_sizes(index).map(|[size, _]| T::EPSILON * size);
+        ROUNDINGS * self.series.output_error(output, index, known.collect())
     }
 
     fn is_judged(&self, index: usize) -> bool {
@@ -119,23 +145,26 @@ impl<T: SeriesNumber> Stepper<T> {
 
     /// Whether no component differs by more than is allowed, and rounding.
     fn is_rounding(&self, index: usize, allowed: f64) -> bool {
-        let time = self.sampled.times.lane(index).leading().abs();
-        let sizes: Vec<[f64; 2]> = (0..self.dimension())
-            .map(|row| {
-                let terms = self.series.component(row).iter().enumerate().rev();
-                terms.fold([0.0; 2], |[sum, slope], (n, term)| {
-                    let size = term.lane(index).leading().abs();
-                    let steep = if n > 0 { slope * time + n as f64 * size } else { slope };
-                    [sum * time + size, steep]
-                })
-            })
-            .collect();
+        let sizes: Vec<[f64; 2]> = self.sampled_sizes(index).collect();
         let known: Vec<f64> = sizes.iter().map(|[size, _]| T::EPSILON * size).collect();
         let errors = self.series.rate_errors(index, known);
         (0..self.dimension()).all(|row| {
             let gap = self.sampled.slopes[row] - self.series.probed_rate(row);
             let rounding = errors[row] + T::EPSILON * sizes[row][1];
             gap.lane(index).leading().abs() <= allowed + ROUNDINGS * rounding
+        })
+    }
+
+    /// Sizes of the terms of each component and of its derivative at the sample.
+    fn sampled_sizes(&self, index: usize) -> impl Iterator<Item = [f64; 2]> {
+        let time = self.sampled.times.lane(index).leading().abs();
+        (0..self.dimension()).map(move |row| {
+            let terms = self.series.component(row).iter().enumerate().rev();
+            terms.fold([0.0; 2], |[sum, slope], (n, term)| {
+                let size = term.lane(index).leading().abs();
+                let steep = if n > 0 { slope * time + n as f64 * size } else { slope };
+                [sum * time + size, steep]
+            })
         })
     }
 }

@@ -4,6 +4,7 @@ use crate::error::FlowError;
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::pace::Lost;
 use crate::taylor::stepper::Stepper;
+use crate::taylor::turning::MOST_STALLS;
 use crate::taylor::watch::{Edge, Presence};
 use liouville::number::double_double::DoubleDouble;
 
@@ -14,6 +15,13 @@ const HUGE: f64 = 1e290;
 /// Ratio of the time since the start to that in which a motion changes by its own size, from which on it
 /// runs into a singularity.
 const SUDDEN: f64 = 1e3;
+
+/// Size below which an argument that falls may underflow in place of coming to 0.
+const FAINT: f64 = 1e-250;
+/// Ratio of the last step of a motion to its longest one, above which it comes to no singularity.
+const SHRUNK: f64 = 1e-5;
+/// Growth of the state since the start, from which on a motion may run away beside poles of its field.
+const GROWN: f64 = 100.0;
 
 impl<T: SeriesNumber> Stepper<T> {
     /// Checks the present expansion of a motion; fails where the motion runs into a singularity,
@@ -28,7 +36,9 @@ impl<T: SeriesNumber> Stepper<T> {
         let left = (motion.until - motion.time).hi.abs();
         // Less than the time's last place may be left of a very long run.
         let at_end = left <= f64::EPSILON * motion.time.hi.abs();
-        let advances = at_end || motion.time.hi + step != motion.time.hi || motion.time.hi == 0.0;
+        // A step may end where it begins, at a zero of a modulus.
+        let turns = matches!(motion.edge, Some((Edge::Sign(_), _))) && motion.stalls < MOST_STALLS;
+        let advances = at_end || turns || motion.moves();
         let time = motion.time.hi;
         let state = || self.own_state(lane).iter().map(|x| x.hi).collect();
         match (motion.lost, &self.presence) {
@@ -36,6 +46,7 @@ impl<T: SeriesNumber> Stepper<T> {
             (Some(Edge::Watched(index)), Some(presence)) => {
                 return Err(self.without_value(lane, presence, presence.formula(index)));
             }
+            (Some(Edge::Slide), _) => return Err(FlowError::Slides { time, state: state() }),
             (Some(_), _) => return Err(self.singular(lane)),
         }
         if motion.is_faint {
@@ -44,11 +55,13 @@ impl<T: SeriesNumber> Stepper<T> {
         match finite && advances && step.is_finite() {
             true => match motion.pace.lost.filter(|_| !at_end) {
                 None => Ok(()),
-                Some(Lost::Shrinking) => Err(FlowError::Shrinking { time, step, state: state() }),
-                Some(Lost::Endless) if motion.is_open => Ok(()),
-                Some(Lost::Endless) => {
-                    Err(FlowError::Endless { time, step, until: motion.until.hi })
+                Some(Lost::Shrinking(rest)) => {
+                    let [first, largest] = motion.sizes;
+                    let grown = largest / first;
+                    Err(FlowError::Shrinking { time, step, rest, grown, state: state() })
                 }
+                Some(Lost::Endless) if motion.is_open => Ok(()),
+                Some(Lost::Endless) => Err(FlowError::Endless { time, step, until: motion.aim.hi }),
             },
             false => Err(self.singular(lane)),
         }
@@ -84,6 +97,7 @@ impl<T: SeriesNumber> Stepper<T> {
         }
         let state = self.own_state(lane).iter().map(|x| x.hi).collect();
         match is_lost || self.is_at_end(lane) {
+            true if !is_lost && self.runs_away(lane) => FlowError::RunsAway { time, state },
             true => FlowError::Singular { time, state },
             // All numbers at the state are finite, and some coefficient is not.
             false if !self.is_regular(lane) => FlowError::Overflow(time),
@@ -91,17 +105,44 @@ impl<T: SeriesNumber> Stepper<T> {
         }
     }
 
-    /// Whether a singularity is near: the motion changes by its own size in a small part of the time
-    /// since its start, or the argument of a quotient, a root or a logarithm vanishes within a few
-    /// steps.
+    /// Whether a singularity is near: steps have shrunk, and the motion changes by its own size in a
+    /// small part of the time since its start, or the argument of a quotient, a root or a logarithm
+    /// comes to 0 within a few steps. What e^(e^t) does is none, nor an argument that underflows.
     fn is_at_end(&self, lane: usize) -> bool {
         let motion = &self.lanes[lane];
-        let at = |value: T| value.lane(lane).leading().abs();
+        let at = |value: T| value.lane(lane).leading();
         let [still, moving, ..] = self.sizes.norms.map(at);
+        let is_shrunk = motion.former <= SHRUNK * motion.pace.longest();
         let reach = STEPS_BEFORE * motion.former;
+        let direction = (motion.until - motion.time).hi.signum();
+        let vanishes = |[value, rate]: [T; 2]| {
+            let (value, rate) = (at(value), at(rate));
+            let is_faint = value != 0.0 && value.abs() < FAINT;
+            let grows = value * rate * direction > 0.0;
+            !is_faint && !grows && value.abs() <= rate.abs() * reach || value == 0.0
+        };
+        is_shrunk && moving * motion.time.hi.abs() > SUDDEN * still
+            || self.series.arguments().any(vanishes)
+    }
+
+    /// Whether a motion that ends goes to infinity: motions of a field that has values and series
+    /// everywhere end in no other way. With other fields its size grows, and no argument of a quotient, a
+    /// root or a logarithm comes nearer to 0.
+    fn runs_away(&self, lane: usize) -> bool {
+        if self.series.is_entire() {
+            return true;
+        }
+        let at = |value: T| value.lane(lane).leading();
+        let motion = &self.lanes[lane];
+        let direction = motion.step.leading().signum();
+        let rates = self.pairs(lane).into_iter().zip(self.velocity(lane));
+        let largest =
+            rates.map(|(x, rate)| (x.hi, rate)).max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+        let grows = largest.is_some_and(|(x, rate)| x * rate * direction > 0.0);
         let mut arguments = self.series.arguments();
-        moving * motion.time.hi.abs() > SUDDEN * still
-            || arguments.any(|[value, rate]| at(value) <= at(rate) * reach)
+        let falls =
+            |[value, rate]: [T; 2]| at(value) == 0.0 || at(value) * at(rate) * direction < 0.0;
+        grows && motion.sizes[1] > GROWN * motion.sizes[0] && !arguments.any(falls)
     }
 
     /// Error at a state where a formula has no value.

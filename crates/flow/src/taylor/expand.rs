@@ -171,6 +171,11 @@ impl<T: SeriesNumber> BoundProgram<T> {
                 PlacedRule::Sin { cosine, .. } => (T::ONE, at(cosine)),
                 PlacedRule::Cos { sine, .. } => (-T::ONE, -at(sine)),
                 PlacedRule::Atan { square, .. } => (-at(square).recip(), at(square).recip()),
+                PlacedRule::Saturating { function, slope, .. } => {
+                    let factor = T::float(function.slope());
+                    (factor, factor * at(slope))
+                }
+                PlacedRule::Sign(_) => (T::ZERO, T::ZERO),
                 PlacedRule::Power { x, factor, .. } => (at(x).recip(), *factor * z * at(x).recip()),
             };
             finish.scale = scale;

@@ -99,6 +99,9 @@ pub trait SeriesNumber:
     fn totals(sums: &[Self::Partial; BLOCK], totals: &mut [Self; BLOCK]);
 }
 
+/// Exponent below which an exponential function is 0 in f64.
+const VANISHES: f64 = -760.0;
+
 /// Applies a function to an f64, by the platform-independent implementation that tapes use.
 #[inline(always)]
 pub(crate) fn applied(function: UnaryFunction, x: f64) -> f64 {
@@ -276,6 +279,7 @@ impl SeriesNumber for DoubleDouble {
     fn apply(self, function: UnaryFunction) -> Self {
         match function {
             UnaryFunction::Sqrt => self.sqrt(),
+            UnaryFunction::Exp if self.hi < VANISHES => Self::ZERO,
             _ => DoubleDouble::apply(self, function),
         }
     }

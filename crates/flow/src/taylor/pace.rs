@@ -2,11 +2,14 @@
 
 use crate::error::MOST_STEPS;
 use crate::taylor::number::SeriesNumber;
+use crate::taylor::runaway::Runaway;
 use crate::taylor::watch::Edge;
 use liouville::number::double_double::DoubleDouble;
 
 /// Number of steps after which the pace of a motion is looked at.
 const STRIDE: u64 = 1 << 18;
+/// Number of steps that one of many motions does not take on its way to infinity.
+const FEW_STEPS: f64 = 1e7;
 /// Ratio of a motion's longest step to the present ones, above which these count as shrinking.
 const SHRUNK: f64 = 1e6;
 /// The same for ends that are out of any reach.
@@ -30,6 +33,10 @@ pub(crate) struct Lane<One> {
     pub(crate) time: DoubleDouble,
     /// Final time; its sign relative to `time` is the direction.
     pub(crate) until: DoubleDouble,
+    /// Time to which the motion goes at last, in parts that end earlier.
+    pub(crate) aim: DoubleDouble,
+    /// Sizes of the state at the start, and at its largest.
+    pub(crate) sizes: [f64; 2],
     /// Step from the present expansion, and size of the one before.
     pub(crate) step: One,
     pub(crate) former: f64,
@@ -49,6 +56,12 @@ pub(crate) struct Lane<One> {
     pub(crate) edge: Option<(Edge, One)>,
     /// Operation without a value at the present state, or next to it.
     pub(crate) lost: Option<Edge>,
+    /// Whether the signs of moduli are known to be those of the present branch.
+    pub(crate) is_settled: bool,
+    /// Sign whose argument is 0 at the present state.
+    pub(crate) turned: Option<usize>,
+    /// Number of steps in turn that ended where they began.
+    pub(crate) stalls: u32,
 }
 
 impl<One: SeriesNumber> Lane<One> {
@@ -57,6 +70,11 @@ impl<One: SeriesNumber> Lane<One> {
         Self {
             time: DoubleDouble::default(),
             until,
+            aim: until,
+            is_settled: false,
+            turned: None,
+            stalls: 0,
+            sizes: [f64::NAN, 0.0],
             step: One::ZERO,
             former: 0.0,
             steps: 0,
@@ -71,6 +89,14 @@ impl<One: SeriesNumber> Lane<One> {
         }
     }
 
+    /// Keeps the size of the present state.
+    pub(crate) fn visit(&mut self, size: f64) {
+        if self.sizes[0].is_nan() {
+            self.sizes[0] = size;
+        }
+        self.sizes[1] = self.sizes[1].max(size);
+    }
+
     /// Whether the present step changes the time.
     pub(crate) fn moves(&self) -> bool {
         let time = self.time.hi;
@@ -80,7 +106,7 @@ impl<One: SeriesNumber> Lane<One> {
     /// Begins a step: what has no value at once is lost already.
     pub(crate) fn begin(&mut self) {
         let at_once = self.edge.filter(|(_, after)| after.leading() == 0.0);
-        self.lost = self.lost.or(at_once.map(|(edge, _)| edge));
+        self.lost = self.lost.or(at_once.and_then(|(edge, _)| edge.ends()));
     }
 
     /// Goes on by the present step.
@@ -89,15 +115,19 @@ impl<One: SeriesNumber> Lane<One> {
         One: SeriesNumber<One = One>,
     {
         let step = self.step.leading();
+        self.stalls = if self.moves() { 0 } else { self.stalls + 1 };
         if step != 0.0 {
             self.time = self.time + self.step.pair();
             self.former = step.abs();
             self.steps += 1;
-            let (now, left) = (self.time.hi, (self.until - self.time).hi);
+            let (now, left) = (self.time.hi, (self.aim - self.time).hi);
             self.pace.keep(step, self.steps, now, left);
         }
         let reached = self.edge.filter(|(_, after)| step.abs() >= after.leading().abs());
-        self.lost = self.lost.or(reached.map(|(edge, _)| edge));
+        match reached {
+            Some((Edge::Sign(sign), _)) => self.turned = Some(sign),
+            _ => self.lost = self.lost.or(reached.map(|(edge, _)| edge)),
+        }
     }
 }
 
@@ -114,6 +144,9 @@ pub(crate) struct Pace {
     marks: [Option<(f64, f64)>; 2],
     /// Time at three quarters of the steps between two looks.
     late: f64,
+    runaway: Runaway,
+    /// Whether the motion is one of many, of which none may take long.
+    pub(crate) is_hasty: bool,
     /// Why the end is out of reach, if it is.
     pub(crate) lost: Option<Lost>,
 }
@@ -121,19 +154,29 @@ pub(crate) struct Pace {
 /// Reason why the end of a motion is out of reach.
 #[derive(Clone, Copy)]
 pub(crate) enum Lost {
-    /// Its steps have shrunk.
-    Shrinking,
+    /// Its steps have shrunk: about so many are left.
+    Shrinking(f64),
     /// Its time takes too many steps of its usual size.
     Endless,
 }
 
 impl Pace {
+    /// Longest step so far.
+    pub(crate) fn longest(&self) -> f64 {
+        self.longest
+    }
+
     /// Keeps a step; measures the pace after so many of them, with the times that have gone by and
     /// that are left.
     fn keep(&mut self, step: f64, steps: u64, now: f64, left: f64) {
         self.longest = self.longest.max(step.abs());
         if steps % STRIDE == LATE {
             self.late = now;
+        }
+        let most = if self.is_hasty { FEW_STEPS } else { MOST_STEPS };
+        if let Some(rest) = self.runaway.keep(steps, now, left).filter(|rest| *rest > most) {
+            self.lost = Some(Lost::Shrinking(rest));
+            return;
         }
         let is_early = EARLY.contains(&steps);
         if !is_early && !steps.is_multiple_of(STRIDE) {
@@ -154,7 +197,7 @@ impl Pace {
         // Steps that grow, as on the way to infinity, may still arrive.
         let is_steady = self.former > 0.0 && self.longest < GROWTH * self.former;
         self.lost = match () {
-            () if is_shrunk && !is_early => Some(Lost::Shrinking),
+            () if is_shrunk && !is_early => Some(Lost::Shrinking(rest)),
             () if is_steady && left.abs() > mean * most => Some(Lost::Endless),
             () => None,
         };
@@ -188,7 +231,7 @@ mod tests {
                 steps += 1;
                 pace.keep(step, steps, now, until - now);
             }
-            (matches!(pace.lost, Some(Lost::Shrinking)), steps)
+            (matches!(pace.lost, Some(Lost::Shrinking(_))), steps)
         };
         let (is_lost, steps) = followed(3.0);
         assert!(is_lost && steps < 1 << 22, "{steps} steps of e^30");

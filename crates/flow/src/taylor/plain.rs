@@ -36,6 +36,8 @@ impl<T: SeriesNumber> BoundProgram<T> {
                 PlacedRule::Cos { x, .. } => at(x).apply(UnaryFunction::Cos),
                 PlacedRule::Atan { x, .. } => at(x).apply(UnaryFunction::Atan),
                 PlacedRule::Power { x, exponent, .. } => at(x).power(exponent),
+                PlacedRule::Saturating { function, x, .. } => function.at(at(x)),
+                PlacedRule::Sign(_) => operation.constant,
             };
             // Order 0 does not enter the inner sums: behind order 1 there are zeros.
             memory[finish.place as usize] = value;
@@ -69,6 +71,17 @@ impl<T: SeriesNumber> Series<T> {
     #[inline(always)]
     pub(crate) fn probed_rate(&self, index: usize) -> T {
         self.probed[self.code.state[index].rate as usize]
+    }
+
+    /// Value of a further function at the probed state.
+    pub(crate) fn probed_output(&self, index: usize) -> T {
+        self.probed[self.code.outputs[index] as usize]
+    }
+
+    /// Bound of the error of a further function at the probed state, by rounding and by these errors of
+    /// the state.
+    pub(crate) fn output_error(&self, index: usize, lane: usize, known: Vec<f64>) -> f64 {
+        self.errors(&self.probed, lane, known)[self.index(self.code.outputs[index])]
     }
 
     /// Bounds of the errors of the rates at the probed state, by rounding and by these errors of the
@@ -118,12 +131,13 @@ impl<T: SeriesNumber> Series<T> {
         };
         match &operation.rule {
             PlacedRule::Sum => self.sum_error(operation, lane, at),
-            PlacedRule::Theta => 0.0,
+            PlacedRule::Theta | PlacedRule::Sign(_) => 0.0,
             PlacedRule::Recip(x) => by(*x, &|_| own * own),
             PlacedRule::Sqrt(x) => by(*x, &|_| 0.5 / own),
             PlacedRule::Exp(x) => by(*x, &|_| own),
             PlacedRule::Ln(x) => by(*x, &|x| x.recip()),
             PlacedRule::Sin { x, .. } | PlacedRule::Cos { x, .. } => by(*x, &|_| 1.0),
+            PlacedRule::Saturating { x, slope, .. } => by(*x, &|_| 2.0 * at(*slope).0),
             PlacedRule::Atan { x, square } => by(*x, &|_| at(*square).0.recip()),
             PlacedRule::Power { x, factor, .. } => {
                 by(*x, &|x| factor.lane(lane).leading() * own / x)

@@ -11,6 +11,9 @@
 //! z = ln x      n x_0 z_n = n x_n - Σ θz_k x_{n-k}
 //! z = sin x     n z_n = θx_n y_0 + Σ θx_k y_{n-k}, y = cos x; the same with -sin for cos
 //! z = atan x    n y_0 z_n = n x_n - Σ θz_k y_{n-k}, y = 1 + x²
+//! z = tanh x    n z_n = θx_n w_0 + Σ θx_k w_{n-k}, w = 1/cosh² x; the same with -2 z w for w
+//! z = 1/(1+eˣ)  n z_n = -θx_n v_0 - Σ θx_k v_{n-k}, v = z - z²
+//! z = sign x    z_n = 0; |x| = z x
 //! z = x^q       n x_0 z_n = q θx_n z_0 + Σ (q θx_k z_{n-k} - θz_k x_{n-k})
 //! ```
 //!
@@ -19,6 +22,8 @@
 use std::sync::Arc;
 
 use crate::taylor::form::{BilinearForm, Row};
+use crate::taylor::level::Level;
+use crate::taylor::saturating::Saturating;
 use crate::taylor::watch::Presence;
 use liouville::number::rational::Rational;
 
@@ -49,6 +54,14 @@ pub enum Rule {
         x: Row,
         exponent: Rational,
     },
+    /// A function that tends to constants, with the row of its slope up to a factor.
+    Saturating {
+        function: Saturating,
+        x: Row,
+        slope: Row,
+    },
+    /// ±1, the sign of x, over a step on which x is not 0.
+    Sign(Row),
 }
 
 impl Rule {
@@ -56,12 +69,16 @@ impl Rule {
     pub(crate) fn argument(&self) -> Option<Row> {
         match self {
             Rule::Sum => None,
-            Rule::Theta(x) | Rule::Recip(x) | Rule::Sqrt(x) | Rule::Exp(x) | Rule::Ln(x) => {
-                Some(*x)
-            }
+            Rule::Theta(x)
+            | Rule::Recip(x)
+            | Rule::Sqrt(x)
+            | Rule::Exp(x)
+            | Rule::Ln(x)
+            | Rule::Sign(x) => Some(*x),
             Rule::Sin { x, .. }
             | Rule::Cos { x, .. }
             | Rule::Atan { x, .. }
+            | Rule::Saturating { x, .. }
             | Rule::Power { x, .. } => Some(*x),
         }
     }
@@ -88,6 +105,10 @@ pub struct TaylorProgram {
     pub(crate) rates: Vec<Row>,
     /// Rows of the further functions.
     pub(crate) outputs: Vec<Row>,
+    /// Whether the field jumps where a sign changes, as far as its form shows.
+    pub(crate) jumps: bool,
+    /// Level to which motions are kept, if the field alone does not.
+    pub(crate) level: Option<Arc<Level>>,
     /// Values that a motion has to have, if they are known.
     pub(crate) presence: Option<Arc<Presence>>,
 }
@@ -96,5 +117,18 @@ impl TaylorProgram {
     /// Number of components of the state.
     pub fn dimension(&self) -> usize {
         self.dimension
+    }
+
+    /// Largest degree of the sums of products, in the state and in what is no sum of products.
+    pub(crate) fn degree(&self) -> usize {
+        let mut degrees = vec![1usize; self.rows];
+        for instruction in self.instructions.iter().filter(|own| matches!(own.rule, Rule::Sum)) {
+            let form = &instruction.form;
+            let linear = form.linear.iter().map(|(_, x)| degrees[*x]);
+            let products = form.products.iter();
+            let products = products.map(|(_, x, y)| degrees[*x].saturating_add(degrees[*y]));
+            degrees[instruction.out] = linear.chain(products).max().unwrap_or(0);
+        }
+        degrees.into_iter().max().unwrap_or(0)
     }
 }

@@ -13,12 +13,17 @@ use liouville::graph::{Kernel, with_widest_vectors};
 const REACH: f64 = 0.5;
 /// Number of orders from the terms by which the last ones are measured, up to these.
 const APART: usize = 4;
+/// Number of last terms among which two are looked for that are not 0.
+const LATE: usize = 6;
 /// Size of a function below which its terms may underflow.
 const TINY: f64 = 1e-140;
 /// Exponent of an exponential function below which its terms may.
 const FAINT: f64 = -320.0;
 /// Growth of the exponent over a step which is possible from there on.
 const RISE: f64 = 40.0;
+/// Part of a step below which it is not shortened, and multiple of the time.
+const LEAST: f64 = 1.0 / (1u64 << 40) as f64;
+const LAST_PLACES: f64 = 4096.0 * f64::EPSILON;
 /// Number of times that a step is halved for an exponent.
 const MOST_HALVES: usize = 60;
 
@@ -28,16 +33,25 @@ impl<T: SeriesNumber> Stepper<T> {
         let mut limits = std::mem::take(&mut self.limits);
         limits.clear();
         limits.resize(T::LANES, f64::INFINITY);
-        with_widest_vectors(Resolution(self, &mut limits));
-        for argument in self.series.exponents() {
+        with_widest_vectors(Resolution { stepper: self, limits: &mut limits, is_entire: true });
+        for (argument, rate) in self.series.exponents() {
             for (index, limit) in limits.iter_mut().enumerate() {
-                if argument[0].lane(index).leading() < FAINT {
+                let first = argument[0].lane(index).leading();
+                let weight = rate.map_or(1.0, |rate| -rate * first.signum());
+                if weight * first < FAINT {
                     let step = self.lanes[index].step.leading();
                     let step = step.abs().min(*limit).copysign(step);
-                    *limit = limit.min(faint(argument, index, step));
+                    *limit = limit.min(faint(argument, weight, index, step));
                 }
             }
         }
+        // A zero of high order of a function without poles is passed, not approached for ever.
+        for (lane, limit) in self.lanes.iter().zip(&mut limits) {
+            let step = lane.step.leading().abs();
+            let least = (LEAST * step).max(LAST_PLACES * lane.time.hi.abs());
+            *limit = limit.max(least.min(step));
+        }
+        with_widest_vectors(Resolution { stepper: self, limits: &mut limits, is_entire: false });
         for (lane, limit) in self.lanes.iter_mut().zip(&limits) {
             let step = lane.step.leading();
             if step.abs() > *limit {
@@ -49,16 +63,24 @@ impl<T: SeriesNumber> Stepper<T> {
 }
 
 /// Work of comparing the last terms with the first.
-struct Resolution<'s, T: SeriesNumber>(&'s Stepper<T>, &'s mut [f64]);
+struct Resolution<'s, T: SeriesNumber> {
+    stepper: &'s Stepper<T>,
+    limits: &'s mut [f64],
+    /// Whether the functions without poles are looked at, or else the others and the state.
+    is_entire: bool,
+}
 
 impl<T: SeriesNumber> Kernel for Resolution<'_, T> {
     #[inline(always)]
     fn run(self) {
-        let Self(stepper, limits) = self;
+        let Self { stepper, limits, is_entire } = self;
         let steps = T::from_lanes(|lane| stepper.lanes[lane].step) * T::float(1.0 / REACH);
         let last = Powers::new(steps, stepper.series.order() - 1);
-        for row in stepper.series.functions() {
+        for row in stepper.series.functions(is_entire) {
             last.limit(row, limits);
+        }
+        if is_entire {
+            return;
         }
         let last = last.next();
         for row in 0..stepper.dimension() {
@@ -98,23 +120,26 @@ impl<T: SeriesNumber> Powers<T> {
         for (lane, limit) in limits.iter_mut().enumerate() {
             let [first, last] = [first, last].map(|x| x.lane(lane).leading());
             // Where terms underflow they tell nothing.
-            if last > first && last > TINY {
+            let last = if last == 0.0 { first } else { last };
+            if last >= first && last > TINY {
                 *limit = limit.min(resolved(terms, lane));
             }
         }
     }
 }
 
-/// Longest step over which the last two terms are small beside the largest of those before.
+/// Longest step over which the last two terms that are not 0 are small beside the largest of those
+/// before; one in four terms may be 0, as in functions of x⁴.
 fn resolved<T: SeriesNumber>(terms: &[T], lane: usize) -> f64 {
     let size = |n: usize| libm::log(terms[n].lane(lane).leading().abs());
     let count = terms.len();
-    let radii = [count - 2, count - 1].map(|n| {
+    let last = (count.saturating_sub(LATE)..count).rev().filter(|n| size(*n) > f64::NEG_INFINITY);
+    let radii = last.take(2).map(|n| {
         let last = size(n) - n as f64 * libm::log(REACH);
-        let before = (0..count - APART).map(|k| (size(k) - last) / (n - k) as f64);
+        let before = (0..n + 2 - APART.min(n)).map(|k| (size(k) - last) / (n - k) as f64);
         before.fold(f64::NEG_INFINITY, f64::max)
     });
-    match libm::exp(radii[0].min(radii[1])) {
+    match libm::exp(radii.fold(f64::INFINITY, f64::min)) {
         step if step > 0.0 => step,
         // All terms before are 0, or one is not finite.
         _ => f64::INFINITY,
@@ -122,8 +147,8 @@ fn resolved<T: SeriesNumber>(terms: &[T], lane: usize) -> f64 {
 }
 
 /// Length of a step over which an exponent that is far below 0 does not grow too much.
-fn faint<T: SeriesNumber>(exponent: &[T], lane: usize, step: f64) -> f64 {
-    let at = |n: usize| exponent[n].lane(lane).leading();
+fn faint<T: SeriesNumber>(exponent: &[T], weight: f64, lane: usize, step: f64) -> f64 {
+    let at = |n: usize| weight * exponent[n].lane(lane).leading();
     let most = RISE.max(FAINT - at(0));
     let rise = |step: f64| {
         let (mut power, mut sum) = (1.0, 0.0);
@@ -190,9 +215,10 @@ mod tests {
     #[test]
     fn an_exponent_rises_to_where_terms_are_seen() {
         let exponent = [-2000.0, 1000.0, 0.0];
-        assert_eq!(faint(&exponent, 0, 1.0), 1.0);
-        assert_eq!(faint(&exponent, 0, 8.0), 1.0);
-        assert_eq!(faint(&exponent, 0, -8.0), 8.0, "it falls");
-        assert_eq!(faint(&[-400.0, 1000.0], 0, 1.0), 0.0625);
+        assert_eq!(faint(&exponent, 1.0, 0, 1.0), 1.0);
+        assert_eq!(faint(&exponent, 1.0, 0, 8.0), 1.0);
+        assert_eq!(faint(&[1000.0, -500.0], -2.0, 0, 1.0), 1.0, "with a weight");
+        assert_eq!(faint(&exponent, 1.0, 0, -8.0), 8.0, "it falls");
+        assert_eq!(faint(&[-400.0, 1000.0], 1.0, 0, 1.0), 0.0625);
     }
 }

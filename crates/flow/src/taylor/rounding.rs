@@ -3,6 +3,7 @@
 
 use crate::taylor::number::{SeriesNumber, applied, powered};
 use crate::taylor::program::{RowInstruction, Rule, TaylorProgram};
+use crate::taylor::saturating::Saturating;
 use liouville::number::UnaryFunction;
 use liouville::number::double_double::DoubleDouble;
 
@@ -42,6 +43,11 @@ fn rounded(instruction: &RowInstruction, rows: &[Rounded], epsilon: f64) -> Roun
     match &instruction.rule {
         Rule::Sum => sum(instruction, rows, epsilon),
         Rule::Theta(_) => Rounded::default(),
+        Rule::Saturating { function, x, .. } => {
+            let bound = Saturating::Fall.at(0.5 * rows[*x].value);
+            own(function.at(rows[*x].value), bound, rows[*x])
+        }
+        Rule::Sign(x) => Rounded { value: 1f64.copysign(rows[*x].value), error: 0.0 },
         Rule::Recip(x) => {
             let x = rows[*x];
             let value = x.value.recip();

@@ -25,14 +25,18 @@ pub struct Series<T: SeriesNumber> {
     pub(crate) memory: Vec<T>,
     /// Memory for plain values at other states.
     pub(crate) probed: Vec<T>,
-    /// Places of the rows that are no sums of products.
-    functions: Vec<Place>,
-    /// Places of the arguments of exponential functions.
-    exponents: Vec<Place>,
+    /// Places of the rows that are no sums of products: functions without poles, and others.
+    functions: [Vec<Place>; 2],
+    /// Places of the arguments of exponential functions, with the rates k of those that fall as
+    /// e^(−k|u|).
+    exponents: Vec<(Place, Option<f64>)>,
     /// Places of the rows that are roots or powers, which are not negative.
     roots: Vec<Place>,
     /// Places of the rows that are divided by.
     divisors: Vec<Place>,
+    /// Operations that are signs, with the places of their arguments.
+    signs: Vec<(usize, Place)>,
+    has_pulses: bool,
     /// Number of expansions so far, up to where machine code pays.
     pub(crate) expansions: u32,
     pub(crate) machine: Option<Box<T::Machine>>,
@@ -48,19 +52,26 @@ impl<T: SeriesNumber> Series<T> {
         let (code, _) = BoundProgram::new(program, order, aligned);
         let sums = (code.counts.len() + 1).next_multiple_of(BLOCK);
         let placed = || code.operations.iter().zip(&code.finishes);
-        let functions = placed().filter(|(operation, _)| {
-            !matches!(operation.rule, PlacedRule::Sum | PlacedRule::Theta)
+        let functions = [true, false].map(|is_entire| {
+            let own = placed().filter(|(operation, _)| operation.rule.is_function(is_entire));
+            own.map(|(_, finish)| finish.place).collect()
         });
-        let functions = functions.map(|(_, finish)| finish.place).collect();
         let exponents = code.operations.iter().filter_map(|operation| match operation.rule {
-            PlacedRule::Exp(x) => Some(x),
+            PlacedRule::Exp(x) => Some((x, None)),
+            PlacedRule::Saturating { function, x, .. } => Some((x, Some(function.rate()))),
             _ => None,
         });
-        let exponents = exponents.collect();
+        let exponents: Vec<(Place, Option<f64>)> = exponents.collect();
         let roots = placed().filter(|(operation, _)| {
             matches!(operation.rule, PlacedRule::Sqrt(_) | PlacedRule::Power { .. })
         });
         let roots = roots.map(|(_, finish)| finish.place).collect();
+        let signs = code.operations.iter().enumerate();
+        let signs = signs.filter_map(|(index, operation)| match operation.rule {
+            PlacedRule::Sign(x) => Some((index, x)),
+            _ => None,
+        });
+        let signs = signs.collect();
         let divisors = code.operations.iter().filter_map(|operation| match &operation.rule {
             PlacedRule::Recip(x) => Some(*x),
             PlacedRule::Power { x, exponent, .. } => {
@@ -84,9 +95,11 @@ impl<T: SeriesNumber> Series<T> {
             probed: memory.clone(),
             memory,
             functions,
-            exponents,
             roots,
             divisors,
+            has_pulses: !exponents.is_empty() || program.degree() > order,
+            exponents,
+            signs,
             expansions: 0,
             machine: None,
         }
@@ -180,14 +193,16 @@ impl<T: SeriesNumber> Series<T> {
         &self.memory[place..=place + self.order]
     }
 
-    /// Coefficients of the rows that are no sums of products, orders 0 to `order` - 1.
-    pub fn functions(&self) -> impl Iterator<Item = &[T]> {
-        self.functions.iter().map(|place| self.row(*place))
+    /// Coefficients of the rows that are functions without poles, or other functions, orders 0 to
+    /// `order` - 1.
+    pub fn functions(&self, is_entire: bool) -> impl Iterator<Item = &[T]> {
+        self.functions[usize::from(!is_entire)].iter().map(|place| self.row(*place))
     }
 
-    /// Coefficients of the arguments of exponential functions, orders 0 to `order` - 1.
-    pub fn exponents(&self) -> impl Iterator<Item = &[T]> {
-        self.exponents.iter().map(|place| self.row(*place))
+    /// Coefficients of the arguments u of exponential functions, orders 0 to `order` - 1, with the
+    /// rates k of functions that vary by e^(−k|u|).
+    pub fn exponents(&self) -> impl Iterator<Item = (&[T], Option<f64>)> {
+        self.exponents.iter().map(|(place, rate)| (self.row(*place), *rate))
     }
 
     #[inline(always)]
@@ -203,6 +218,30 @@ impl<T: SeriesNumber> Series<T> {
     /// Rows that are divided by: their places, and coefficients of orders 0 to `order` - 1.
     pub fn divisors(&self) -> impl Iterator<Item = (Place, &[T])> {
         self.divisors.iter().map(|place| (*place, self.row(*place)))
+    }
+
+    /// Number of signs of moduli.
+    pub fn signs(&self) -> usize {
+        self.signs.len()
+    }
+
+    /// Argument of a sign: its place, and coefficients of orders 0 to `order` - 1.
+    pub fn signed(&self, sign: usize) -> (Place, &[T]) {
+        let place = self.signs[sign].1;
+        (place, self.row(place))
+    }
+
+    /// Whether a sign is that of positive arguments.
+    pub fn is_positive(&self, sign: usize, lane: usize) -> bool {
+        self.code.operations[self.signs[sign].0].constant.lane(lane).leading() > 0.0
+    }
+
+    /// Changes a sign in one lane.
+    pub fn turn(&mut self, sign: usize, lane: usize) {
+        let value = &mut self.code.operations[self.signs[sign].0].constant;
+        let old = *value;
+        *value =
+            T::from_lanes(|other| if other == lane { -old.lane(other) } else { old.lane(other) });
     }
 
     /// Coefficients of orders 0 and 1 of the arguments of operations that have no value, or no series,
@@ -243,21 +282,13 @@ impl<T: SeriesNumber> Series<T> {
 
     /// Whether the field has a value at all states.
     pub fn is_entire(&self) -> bool {
-        !self.code.operations.iter().any(|operation| {
-            matches!(
-                operation.rule,
-                PlacedRule::Recip(_)
-                    | PlacedRule::Sqrt(_)
-                    | PlacedRule::Ln(_)
-                    | PlacedRule::Power { .. }
-            )
-        })
+        !self.code.operations.iter().any(|operation| operation.rule.is_function(false))
     }
 
     /// Whether the field contains functions that may be 0 up to rounding over a part of a step, and
     /// not over the others.
     pub fn has_pulses(&self) -> bool {
-        !self.exponents.is_empty()
+        self.has_pulses
     }
 
     /// Number of further functions.

@@ -1,8 +1,10 @@
 //! Steps that are shortened: before branch points of the field, and where a further function of the
 //! state is sought for zeros.
 
+use crate::taylor::defect::inside;
 use crate::taylor::event::{Ends, value};
 use crate::taylor::number::SeriesNumber;
+use crate::taylor::pace::Lane;
 use crate::taylor::stepper::Stepper;
 use liouville::graph::{Kernel, with_widest_vectors};
 
@@ -13,6 +15,8 @@ const MOST_CUTS: usize = 40;
 /// Part of κ by which a further function may be known less well than the state: sums of products of
 /// its components are.
 const SLACK: f64 = 0.4;
+/// Multiple of the first term left out by which a further function may differ from its polynomial.
+const UNKNOWN: f64 = 1e4;
 /// Number of times that a step is halved before a branch point.
 const MOST_HALVES: usize = 60;
 
@@ -46,30 +50,66 @@ impl<T: SeriesNumber> Stepper<T> {
             }
         }
         let count = self.series.order();
-        let limits = limits(count, self.kappa);
+        let rate = self.kappa - SLACK;
         let mut ends = Ends::NONE;
         for _ in 0..MOST_CUTS {
             with_widest_vectors(EndValues { stepper: self, output, ends: &mut ends });
             let mut is_known = true;
             for (index, lane) in self.lanes.iter_mut().enumerate() {
-                let share = ends.known_share(index, count, limits);
+                let share = ends.known_share(index, count, rate);
                 if share < 1.0 {
                     lane.step = lane.step * T::One::float(share);
                     lane.is_cut = true;
                     is_known = false;
                 }
             }
-            if is_known {
+            if is_known && self.fits(output, &ends) {
                 break;
             }
         }
         ends
     }
-}
 
-/// Sizes of the last two of some terms, relative to the largest, at which a further function is known.
-fn limits(count: usize, kappa: f64) -> [f64; 2] {
-    [count - 2, count - 1].map(|n| libm::exp((SLACK - kappa) * n as f64))
+    /// Whether the polynomials of a further function are its values at the ends of the present pieces,
+    /// and within them where it can be 0 up to rounding for a while. Halves steps where they are not:
+    /// terms beyond the order do not show where a step begins.
+    fn fits(&mut self, output: usize, ends: &Ends<T>) -> bool {
+        let is_within = !self.series.has_pulses() || self.fits_at(output, ends, inside);
+        self.fits_at(output, ends, |_| 1.0) && is_within
+    }
+
+    fn fits_at(
+        &mut self,
+        output: usize,
+        ends: &Ends<T>,
+        share: impl Fn(&Lane<T::One>) -> f64,
+    ) -> bool {
+        self.sample(share);
+        let count = self.series.order();
+        let known = UNKNOWN * libm::exp((SLACK - self.kappa) * count as f64);
+        let mut fits = true;
+        for index in 0..T::LANES {
+            let lane = &self.lanes[index];
+            let is_whole = lane.edge.and_then(|(edge, _)| edge.ends()).is_none();
+            if !is_whole || !lane.moves() || !self.is_regular(index) {
+                continue;
+            }
+            let after = self.sampled_time(index);
+            let terms: Vec<T::One> =
+                self.series.output(output).iter().map(|x| x.lane(index)).collect();
+            let own = self.series.probed_output(output).lane(index);
+            let gap = (value(&terms, after).0 - own).leading().abs();
+            let allowed = known * ends.largest(index);
+            if gap <= allowed || gap <= allowed + self.output_error(output, index) {
+                continue;
+            }
+            let lane = &mut self.lanes[index];
+            lane.step = lane.step * T::One::float(0.5);
+            lane.is_cut = true;
+            fits = false;
+        }
+        fits
+    }
 }
 
 /// Part of a step on which a function is known by its terms.
@@ -78,9 +118,9 @@ pub(crate) fn known_part<One: SeriesNumber<One = One>>(
     step: One,
     kappa: f64,
 ) -> One {
-    let (mut step, limits) = (step, limits(terms.len(), kappa));
+    let mut step = step;
     for _ in 0..MOST_CUTS {
-        let share = Ends::new(terms, step).known_share(0, terms.len(), limits);
+        let share = Ends::new(terms, step).known_share(0, terms.len(), kappa - SLACK);
         if share >= 1.0 {
             break;
         }

@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use crate::halt::Halt;
 use crate::taylor::defect::Sampled;
+use crate::taylor::level::Level;
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::pace::Lane;
 use crate::taylor::program::TaylorProgram;
@@ -54,6 +55,10 @@ pub struct Stepper<T: SeriesNumber> {
     pub(crate) sampled: Sampled<T>,
     /// Longest steps over which all functions are resolved.
     pub(crate) limits: Vec<f64>,
+    /// Level to which the motions are kept.
+    pub(crate) level: Option<Arc<Level>>,
+    /// Whether the field jumps where a sign changes.
+    pub(crate) jumps: bool,
     /// Values that the motions have to have, if they are known.
     pub(crate) presence: Option<Arc<Presence>>,
     pub(crate) halt: Halt,
@@ -85,6 +90,8 @@ impl<T: SeriesNumber> Stepper<T> {
             sizes: Sizes { norms: [T::ZERO; 4], soundness: T::ZERO },
             sampled: Sampled::new(program.dimension(), accuracy),
             limits: Vec::new(),
+            level: program.level.clone(),
+            jumps: program.jumps,
             presence: program.presence.clone(),
             halt: Halt::current(),
         }
@@ -120,6 +127,7 @@ impl<T: SeriesNumber> Stepper<T> {
             set(&mut self.state[index], lane, value);
             set(&mut self.rest[index], lane, rest);
         }
+        self.lanes[lane].is_settled = false;
     }
 
     /// Multiplies some components of a motion's state.
@@ -132,6 +140,16 @@ impl<T: SeriesNumber> Stepper<T> {
         }
     }
 
+    /// Sets the time to which a motion goes at last, in parts.
+    pub fn aim(&mut self, lane: usize, time: f64) {
+        self.lanes[lane].aim = DoubleDouble::from_f64(time);
+    }
+
+    /// Lets a motion that runs away end soon, as one of many.
+    pub fn hasten(&mut self, lane: usize) {
+        self.lanes[lane].pace.is_hasty = true;
+    }
+
     /// Changes the final time of a motion.
     pub fn extend(&mut self, lane: usize, until: DoubleDouble) {
         self.lanes[lane].until = until;
@@ -139,11 +157,13 @@ impl<T: SeriesNumber> Stepper<T> {
 
     /// Expands all motions at their states and chooses their steps.
     pub fn expand(&mut self) {
-        self.series.expand(&self.state);
-        with_widest_vectors(ErrorMeasure(self));
+        self.expand_at_state();
+        self.settle_signs();
         for index in 0..T::LANES {
             let size = self.step_size(index);
+            let still = self.sizes.norms[0].lane(index).leading();
             let lane = &mut self.lanes[index];
+            lane.visit(still);
             (lane.is_cut, lane.edge, lane.halves) = (false, None, 0);
             let left = lane.until - lane.time;
             lane.step = if size < left.hi.abs() {
@@ -156,8 +176,16 @@ impl<T: SeriesNumber> Stepper<T> {
         self.keep_branches();
         self.keep_quotients();
         self.keep_values();
+        self.keep_signs();
         self.keep_defect();
         self.lanes.iter_mut().for_each(Lane::begin);
+    }
+
+    /// Expands all motions at their states, with the signs that moduli have.
+    pub(crate) fn expand_at_state(&mut self) {
+        self.series.expand(&self.state);
+        self.sampled.is_present = false;
+        with_widest_vectors(ErrorMeasure(self));
     }
 
     /// Makes neighbouring motions, in groups of `together`, take the same step.
@@ -200,6 +228,8 @@ impl<T: SeriesNumber> Stepper<T> {
     pub fn advance(&mut self) {
         with_widest_vectors(Advance(self));
         self.lanes.iter_mut().for_each(Lane::advance);
+        self.turn_signs();
+        self.keep_level();
     }
 
     /// Whether a motion has reached its end.
@@ -230,7 +260,7 @@ impl<T: SeriesNumber> Stepper<T> {
         MotionPiece { stepper: self, lane }
     }
 
-    fn step_size(&self, lane: usize) -> f64 {
+    pub(crate) fn step_size(&self, lane: usize) -> f64 {
         let order = self.series.order();
         let norms = self.sizes.norms.map(|norm| norm.lane(lane).leading());
         let [still, moving, before_last, last] = norms;

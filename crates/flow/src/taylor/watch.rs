@@ -102,6 +102,17 @@ pub(crate) enum Edge {
     Watched(usize),
     /// A quotient of the field.
     Divisor,
+    /// A jump of the field towards which it pushes from both sides.
+    Slide,
+    /// A modulus whose argument is 0, by the index of its sign: there the motion goes on.
+    Sign(usize),
+}
+
+impl Edge {
+    /// The same where it ends a motion.
+    pub(crate) fn ends(self) -> Option<Self> {
+        (!matches!(self, Edge::Sign(_))).then_some(self)
+    }
 }
 
 /// An operation that is written, and that the field does without.
@@ -204,7 +215,7 @@ fn touches<One: SeriesNumber<One = One>>(
 }
 
 /// Lanes in which a polynomial may vanish within a step, by the sizes of its terms.
-fn may_vanish<T: SeriesNumber>(polynomial: &[T], steps: T) -> impl Fn(usize) -> bool {
+pub(crate) fn may_vanish<T: SeriesNumber>(polynomial: &[T], steps: T) -> impl Fn(usize) -> bool {
     let size = T::ZERO.larger(steps);
     let (mut power, mut rest) = (T::ONE, T::ZERO);
     for coefficient in &polynomial[1..] {

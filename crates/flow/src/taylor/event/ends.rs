@@ -2,6 +2,9 @@
 
 use crate::taylor::number::SeriesNumber;
 
+/// Number of last terms that are looked at: all but the last two may be left out by a gap, as in x⁴.
+const TAILS: usize = 6;
+
 /// Values of functions at the ends of their pieces, a piece in each lane. They decide whether a
 /// function can vanish.
 pub struct Ends<T> {
@@ -12,8 +15,8 @@ pub struct Ends<T> {
     pub(super) last: T,
     /// Derivatives at the ends.
     pub(super) rates: [T; 2],
-    /// The last two terms of the polynomial.
-    tails: [T; 2],
+    /// The last terms of the polynomial.
+    tails: [T; TAILS],
     /// Whether zeros, turns and bends are excluded.
     pub(super) shape: Shape<T>,
 }
@@ -59,7 +62,7 @@ impl<T: SeriesNumber> Ends<T> {
         first: T::ZERO,
         last: T::ZERO,
         rates: [T::ZERO; 2],
-        tails: [T::ZERO; 2],
+        tails: [T::ZERO; TAILS],
         shape: Shape::NONE,
     };
 
@@ -68,10 +71,11 @@ impl<T: SeriesNumber> Ends<T> {
     pub fn new(polynomial: &[T], length: T) -> Self {
         let size = T::ZERO.larger(length);
         let (mut power, mut largest) = (T::ONE, T::ZERO);
-        let (mut tails, mut shape) = ([T::ZERO; 2], Shape::NONE);
+        let (mut tails, mut shape) = ([T::ZERO; TAILS], Shape::NONE);
         for (n, coefficient) in polynomial.iter().enumerate() {
             let term = T::ZERO.larger(*coefficient * power);
-            (tails, largest) = ([tails[1], term], largest.larger(term));
+            tails.rotate_left(1);
+            (tails[TAILS - 1], largest) = (term, largest.larger(term));
             shape.add(n, term);
             power = power * size;
         }
@@ -86,15 +90,24 @@ impl<T: SeriesNumber> Ends<T> {
         Self { length, largest, first: polynomial[0], last, rates, tails, shape }
     }
 
-    /// Part of a lane's piece after which the last two of its `count` terms are within their limits,
-    /// relative to the largest term; 1 if they are so now.
-    pub fn known_share(&self, lane: usize, count: usize, limits: [f64; 2]) -> f64 {
+    /// Largest term of a lane's polynomial.
+    pub fn largest(&self, lane: usize) -> f64 {
+        self.largest.lane(lane).leading()
+    }
+
+    /// Part of a lane's piece after which the last two of its `count` terms that are not 0 are below
+    /// e^(−rate n), n their order, relative to the largest term; 1 if they are so now.
+    pub fn known_share(&self, lane: usize, count: usize, rate: f64) -> f64 {
         let at = |value: T| value.lane(lane).leading();
         let largest = at(self.largest);
-        let tails = self.tails.map(at).into_iter().zip(limits).zip(count.saturating_sub(2)..);
-        let share = tails.map(|((tail, limit), n)| match tail > largest * limit && largest > 0.0 {
-            true => 0.95 * libm::pow(largest * limit / tail, 1.0 / n as f64),
-            false => 1.0,
+        let orders = (0..count).rev();
+        let tails = self.tails.iter().rev().map(|tail| at(*tail)).zip(orders);
+        let share = tails.filter(|(tail, _)| *tail != 0.0).take(2).map(|(tail, n)| {
+            let limit = libm::exp(-rate * n as f64);
+            match n > 0 && tail > largest * limit && largest > 0.0 {
+                true => 0.95 * libm::pow(largest * limit / tail, 1.0 / n as f64),
+                false => 1.0,
+            }
         });
         share.filter(|share| share.is_finite()).fold(1.0, f64::min)
     }

@@ -13,6 +13,7 @@ mod sides;
 pub use ends::Ends;
 pub(crate) use roots::{extremum, turns};
 pub use sides::Sides;
+pub(crate) use sides::starts_positive;
 
 use crate::taylor::number::SeriesNumber;
 

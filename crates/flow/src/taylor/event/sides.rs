@@ -109,7 +109,7 @@ impl Sides {
 
 /// Sign of a function just after a beginning at which it vanishes: that of the first term that is
 /// not rounding.
-fn starts_positive<T: SeriesNumber>(polynomial: &[T], rounding: f64, length: T) -> bool {
+pub(crate) fn starts_positive<T: SeriesNumber>(polynomial: &[T], rounding: f64, length: T) -> bool {
     let mut power = 1.0;
     for coefficient in polynomial {
         let term = coefficient.leading() * power;

@@ -160,7 +160,40 @@ fn a_motion_whose_steps_shrink_without_end_is_given_up() {
     let motion = Variational::new(&case.model, &start(&case, "x=1 y=2 z=20")).expect("a motion");
     let found = motion.exponents(-2000.0);
     let Err(FlowError::Shrinking { time, step, .. }) = found else { panic!("{found:?}") };
-    assert!(time < -0.5 && step.abs() < 1e-6, "given up at t = {time}, step {step:e}");
+    assert!(time < -0.5 && step.abs() < 1e-3, "given up at t = {time}, step {step:e}");
+}
+
+#[test]
+fn a_motion_that_grows_slowly_and_turns_ever_faster_is_given_up() {
+    // friction backwards: the amplitude grows like e^(t/15), and Duffing's spring turns as fast
+    let text = "title = 'a'\n[state]\nx = '-2..2'\np = '-2..2'\ns = '-2..2'\n[field]\n\"x'\" = 'p'\n\
+                \"p'\" = 'x - x^3 - p/5 + 3/10*cos(s)'\n\"s'\" = '1'\n";
+    let case = parse(text);
+    let motion = Variational::new(&case.model, &start(&case, "x=1 p=0 s=0")).expect("a motion");
+    let found = motion.exponents(-1000.0);
+    let Err(FlowError::Shrinking { time, grown, .. }) = found else { panic!("{found:?}") };
+    assert!(time > -200.0 && grown > 1e3, "given up at t = {time}, {grown} times as large");
+    let message = found.expect_err("given up").to_string();
+    assert!(message.starts_with("backwards in time the motion runs away"), "{message}");
+}
+
+#[test]
+fn a_motion_that_is_infinite_in_finite_time_runs_away() {
+    for (rate, end) in [("x^2", 1.0), ("x^4 + 1/(100 + x^2)", 0.33), ("exp(x)", 0.3678794)] {
+        let case =
+            parse(&format!("title = 'a'\n[state]\nx = '1..2'\n[field]\n\"x'\" = '{rate}'\n"));
+        let found =
+            orbit(&case, start(&case, "x=1"), DoubleDouble::from_f64(9.0), Precision::Float);
+        let Err(FlowError::RunsAway { time, .. }) = found else { panic!("{rate}: {found:?}") };
+        assert!((time - end).abs() < 1e-2, "{rate}: {time}");
+    }
+    // e^(e^t) is too large, and has no pole
+    let case = parse("title = 'a'\n[state]\nx = '1..2'\n[field]\n\"x'\" = 'x*log(x)'\n");
+    for begin in ["x=2", "x=0.5"] {
+        let found =
+            orbit(&case, start(&case, begin), DoubleDouble::from_f64(99.0), Precision::Float);
+        assert!(matches!(found, Err(FlowError::Overflow(_))), "{begin}: {found:?}");
+    }
 }
 
 #[test]

@@ -1,0 +1,128 @@
+//! Rows of moduli, signs, and functions that tend to constants.
+
+use super::Compiler;
+use crate::error::FlowError;
+use crate::taylor::form::{BilinearForm, Row};
+use crate::taylor::program::Rule;
+use crate::taylor::quotients::{Factor, Simpler, modulus_at};
+use crate::taylor::saturating::Saturating;
+use liouville::graph::{Graph, Step};
+use liouville::number::UnaryFunction;
+use liouville::number::rational::Rational;
+
+impl Compiler {
+    /// Form of |x| = s x, and of 1/|x| = s/x.
+    pub(super) fn modulus(
+        &mut self,
+        graph: &Graph,
+        step: Step<'_>,
+    ) -> Result<Option<BilinearForm>, FlowError> {
+        Ok(match step {
+            Step::Unary(UnaryFunction::Abs, a) => {
+                let ((factor, x), sign) = (self.factor(a), self.sign(a));
+                Some(BilinearForm::of_product(factor, x, sign))
+            }
+            Step::Unary(UnaryFunction::Recip, a) => match modulus_at(graph, a) {
+                Some(argument) => {
+                    let ((factor, row), sign) = (self.reciprocal(argument)?, self.sign(argument));
+                    Some(BilinearForm::of_product(factor, row, sign))
+                }
+                None => None,
+            },
+            _ => None,
+        })
+    }
+
+    /// Row of the sign of a step.
+    fn sign(&mut self, place: usize) -> Row {
+        let x = self.row(place);
+        if let Some((_, sign)) = self.signs.iter().find(|(row, _)| *row == x) {
+            return *sign;
+        }
+        let sign = self.emit(Rule::Sign(x), BilinearForm::default());
+        self.signs.push((x, sign));
+        sign
+    }
+
+    /// Form of a product with functions in place of quotients.
+    pub(super) fn simpler(&mut self, simpler: &Simpler) -> Result<BilinearForm, FlowError> {
+        let mut coefficient = simpler.rest.coefficient.clone();
+        let mut rows: Vec<Row> = Vec::new();
+        for factor in &simpler.factors {
+            rows.push(match factor {
+                Factor::Sign(place) => self.sign(*place),
+                Factor::Saturating(function, place) => {
+                    let x = self.row(*place);
+                    self.saturating(*function, x)
+                }
+                Factor::Rising(place) => {
+                    let x = self.row(*place);
+                    let x = self.emit(Rule::Sum, BilinearForm::of_row(Rational::from(-1), x));
+                    self.saturating(Saturating::Logistic, x)
+                }
+            });
+        }
+        for (place, power) in &simpler.rest.factors {
+            let (factor, row) = match power {
+                1.. => self.factor(*place),
+                _ => self.reciprocal(*place)?,
+            };
+            for _ in 0..power.unsigned_abs() {
+                coefficient = &coefficient * &factor;
+                rows.push(row);
+            }
+        }
+        while rows.len() > 2 {
+            let (a, b) = (rows.remove(0), rows.remove(0));
+            let both = self.emit(Rule::Sum, Self::product(a, b));
+            rows.insert(0, both);
+        }
+        Ok(match rows[..] {
+            [a, b] => BilinearForm::of_product(coefficient, a, b),
+            [a] => BilinearForm::of_row(coefficient, a),
+            _ => BilinearForm::of_constant(&coefficient),
+        })
+    }
+
+    /// Row of a function that tends to constants.
+    fn saturating(&mut self, function: Saturating, x: Row) -> Row {
+        let known = self.saturating.iter().find(|(own, row, _)| (*own, *row) == (function, x));
+        if let Some((.., row)) = known {
+            return *row;
+        }
+        let theta = self.theta(x);
+        let [first, second, third] = [0, 1, 2].map(|k| self.next + k);
+        let minus = Rational::from(-1);
+        if function == Saturating::Logistic {
+            // z' = −(z − z²)u'
+            self.emit(
+                Rule::Saturating { function, x, slope: second },
+                Self::product(theta, second),
+            );
+            let square = BilinearForm::of_product(minus, first, first);
+            self.emit(Rule::Sum, BilinearForm::of_row(Self::one(), first).plus(square));
+            self.saturating.push((function, x, first));
+            return first;
+        }
+        if function == Saturating::Bell {
+            // s' = −y s u'
+            let tanh = self.saturating(Saturating::Tanh, x);
+            let [first, second] = [0, 1].map(|k| self.next + k);
+            self.emit(
+                Rule::Saturating { function, x, slope: second },
+                Self::product(theta, second),
+            );
+            self.emit(Rule::Sum, Self::product(tanh, first));
+            self.saturating.push((function, x, first));
+            return first;
+        }
+        // y' = w u' and w' = −2 y w u'
+        let (tanh, fall) = (Saturating::Tanh, Saturating::Fall);
+        let rule = |function, slope| Rule::Saturating { function, x, slope };
+        self.emit(rule(tanh, second), Self::product(theta, second));
+        self.emit(rule(fall, third), Self::product(theta, third));
+        self.emit(Rule::Sum, Self::product(first, second));
+        self.saturating.extend([(tanh, x, first), (fall, x, second)]);
+        if function == tanh { first } else { second }
+    }
+}

@@ -1,0 +1,145 @@
+//! Functions that tend to constants: tanh u, its slope 1/cosh² u, and 1/(1 + eᵘ).
+//!
+//! Formulas have them as quotients of exponential functions, which are too large for f64 from u = 355
+//! or 710 on, where the quotients are constant. Programs have rules of their own for them.
+
+use crate::taylor::number::SeriesNumber;
+use liouville::graph::{Graph, Step};
+use liouville::number::{BinaryOperation, UnaryFunction};
+
+/// A function that tends to constants.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Saturating {
+    /// tanh u
+    Tanh,
+    /// 1/cosh² u
+    Fall,
+    /// 1/cosh u
+    Bell,
+    /// 1/(1 + eᵘ)
+    Logistic,
+}
+
+impl Saturating {
+    /// Values of the function.
+    pub(crate) fn at<T: SeriesNumber>(self, u: T) -> T {
+        T::from_lanes(|lane| self.at_one(u.lane(lane)))
+    }
+
+    fn at_one<One: SeriesNumber<One = One>>(self, u: One) -> One {
+        let is_negative = u.leading() < 0.0;
+        let size = if is_negative { -u } else { u };
+        let falling = |rate: f64| (One::float(-rate) * size).apply(UnaryFunction::Exp);
+        match self {
+            // The quotient has no digits near 0.
+            Saturating::Tanh if One::EPSILON == f64::EPSILON => One::float(libm::tanh(u.leading())),
+            Saturating::Tanh => {
+                let t = falling(2.0);
+                let value = (One::ONE - t) * (One::ONE + t).recip();
+                if is_negative { -value } else { value }
+            }
+            Saturating::Fall => {
+                let t = falling(2.0);
+                let root = (One::ONE + t).recip();
+                One::float(4.0) * t * root * root
+            }
+            Saturating::Bell => {
+                let t = falling(1.0);
+                One::float(2.0) * t * (One::ONE + t * t).recip()
+            }
+            Saturating::Logistic => {
+                let t = falling(1.0);
+                let value = (One::ONE + t).recip();
+                if is_negative { value } else { t * value }
+            }
+        }
+    }
+
+    /// Factor of the slope in terms of the row that programs have for it.
+    pub(crate) fn slope(self) -> f64 {
+        match self {
+            Saturating::Tanh => 1.0,
+            Saturating::Fall => -2.0,
+            Saturating::Logistic | Saturating::Bell => -1.0,
+        }
+    }
+
+    /// Rate k at which what varies of the function falls, as e^(−k|u|).
+    pub(crate) fn rate(self) -> f64 {
+        match self {
+            Saturating::Logistic | Saturating::Bell => 1.0,
+            Saturating::Tanh | Saturating::Fall => 2.0,
+        }
+    }
+}
+
+/// Exponents of a sum or a difference eᵘ ± e⁻ᵘ at a place, with whether it is a difference.
+pub(super) fn hyperbolic(graph: &Graph, place: usize) -> Option<(bool, [usize; 2])> {
+    let Step::Binary(operation, a, b) = graph.step(place) else { return None };
+    let exponents = [exponent(graph, a)?, exponent(graph, b)?];
+    let is_difference = match operation {
+        BinaryOperation::Add => false,
+        BinaryOperation::Sub => true,
+        _ => return None,
+    };
+    are_opposite(graph, exponents).then_some((is_difference, exponents))
+}
+
+/// Exponent of a sum 1 + eᵘ at a place.
+pub(super) fn logistic(graph: &Graph, place: usize) -> Option<usize> {
+    let Step::Binary(BinaryOperation::Add, a, b) = graph.step(place) else { return None };
+    let is_one =
+        |place: usize| matches!(graph.step(place), Step::Constant(value) if value.is_one());
+    match (is_one(a), is_one(b)) {
+        (true, _) => exponent(graph, b),
+        (_, true) => exponent(graph, a),
+        _ => None,
+    }
+}
+
+/// Exponent of the exponential function at a place.
+pub(super) fn exponent(graph: &Graph, place: usize) -> Option<usize> {
+    match graph.step(place) {
+        Step::Unary(UnaryFunction::Exp, u) => Some(u),
+        _ => None,
+    }
+}
+
+/// Whether the form of two values shows that their sum is 0.
+fn are_opposite(graph: &Graph, [a, b]: [usize; 2]) -> bool {
+    let negated = |place: usize| match graph.step(place) {
+        Step::Unary(UnaryFunction::Neg, x) => Some(x),
+        _ => None,
+    };
+    match (graph.step(a), graph.step(b)) {
+        (Step::Binary(BinaryOperation::Sub, p, q), Step::Binary(BinaryOperation::Sub, r, s)) => {
+            (p, q) == (s, r)
+        }
+        _ => negated(a) == Some(b) || negated(b) == Some(a),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use liouville::number::double_double::DoubleDouble;
+
+    #[test]
+    fn values_are_right_far_out_and_near_0() {
+        let (tanh, fall, logistic) = (Saturating::Tanh, Saturating::Fall, Saturating::Logistic);
+        assert_eq!([tanh.at(1e4), tanh.at(-1e4), tanh.at(1e-20)], [1.0, -1.0, 1e-20]);
+        assert_eq!([fall.at(1e4), fall.at(0.0)], [0.0, 1.0]);
+        assert_eq!([logistic.at(1e4), logistic.at(0.0), logistic.at(-1e4)], [0.0, 0.5, 1.0]);
+        for u in [-3.0, -0.4, 0.7, 20.0] {
+            let square = tanh.at(u) * tanh.at(u);
+            assert!((fall.at(u) + square - 1.0).abs() < 1e-15, "1/cosh² = 1 − tanh² at {u}");
+            let pair = DoubleDouble::from_f64(u);
+            assert!((tanh.at(pair).hi - tanh.at(u)).abs() < 1e-15, "tanh {u}");
+            let bell = Saturating::Bell.at(u);
+            assert!((bell * bell / fall.at(u) - 1.0).abs() < 1e-14, "1/cosh {u}");
+            assert!((logistic.at(u) - 1.0 / (1.0 + u.exp())).abs() < 1e-15, "1/(1 + e^{u})");
+            let ratio = logistic.at(u) / (-u).exp() * (1.0 + (-u).exp());
+            assert!((ratio - 1.0).abs() < 1e-14, "small values have all digits, at {u}");
+        }
+    }
+}

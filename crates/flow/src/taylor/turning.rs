@@ -1,0 +1,131 @@
+//! Signs of moduli along motions: a step keeps them, and ends where the argument of one is 0.
+//!
+//! There the sign turns, and the motion goes on with the other branch of the field. Where the motion
+//! begins, and behind a step that ended so, the signs have to agree with where the arguments go: if
+//! neither sign of one does, the field pushes towards the zero from both sides, and the motion slides.
+
+use crate::taylor::event::{Event, Sides, size, starts_positive};
+use crate::taylor::number::SeriesNumber;
+use crate::taylor::shorten::known_part;
+use crate::taylor::stepper::Stepper;
+use crate::taylor::watch::{Edge, may_vanish};
+
+/// Number of steps in turn that end where they begin, from which on signs turn without end.
+pub(super) const MOST_STALLS: u32 = 64;
+
+impl<T: SeriesNumber> Stepper<T> {
+    /// Chooses the signs of motions that begin, or that have just come to a zero of an argument.
+    pub(crate) fn settle_signs(&mut self) {
+        let count = self.series.signs();
+        if count == 0 || self.lanes.iter().all(|lane| lane.is_settled) {
+            return;
+        }
+        let mut turned = vec![false; count * T::LANES];
+        for _ in 0..=2 * count {
+            let mut changes = false;
+            for lane in 0..T::LANES {
+                if self.lanes[lane].is_settled || self.lanes[lane].lost.is_some() {
+                    continue;
+                }
+                let wrong = (0..count).find(|sign| !self.agrees(*sign, lane));
+                let Some(sign) = wrong else { continue };
+                if std::mem::replace(&mut turned[sign * T::LANES + lane], true) && self.jumps {
+                    self.lanes[lane].lost = Some(Edge::Slide);
+                }
+                self.series.turn(sign, lane);
+                changes = true;
+            }
+            if !changes {
+                break;
+            }
+            self.expand_at_state();
+        }
+        if self.jumps {
+            (0..T::LANES).for_each(|lane| self.end_forks(lane));
+        }
+        self.lanes.iter_mut().for_each(|lane| lane.is_settled = true);
+    }
+
+    /// Ends a motion that begins on a jump from which it could leave to both sides.
+    fn end_forks(&mut self, lane: usize) {
+        let own = &self.lanes[lane];
+        if own.is_settled || own.steps > 0 || own.lost.is_some() {
+            return;
+        }
+        for sign in 0..self.series.signs() {
+            let (row, argument) = self.series.signed(sign);
+            let first = argument[0].lane(lane).leading().abs();
+            if first <= self.series.value_error(row, lane, &self.peaks) {
+                self.series.turn(sign, lane);
+                self.expand_at_state();
+                let leaves = self.agrees(sign, lane);
+                self.series.turn(sign, lane);
+                self.expand_at_state();
+                if leaves {
+                    self.lanes[lane].lost = Some(Edge::Divisor);
+                }
+            }
+        }
+    }
+
+    /// Whether the argument of a sign is on its side, or goes there.
+    fn agrees(&self, sign: usize, lane: usize) -> bool {
+        let is_positive = self.series.is_positive(sign, lane);
+        let (row, argument) = self.series.signed(sign);
+        let argument: Vec<T::One> = argument.iter().map(|x| x.lane(lane)).collect();
+        if argument.iter().all(|term| term.leading() == 0.0) {
+            return true;
+        }
+        let error = self.series.value_error(row, lane, &self.peaks);
+        let length =
+            self.step_size(lane).copysign((self.lanes[lane].until - self.lanes[lane].time).hi);
+        match argument[0].leading() {
+            first if first.abs() > error => (first > 0.0) == is_positive,
+            first if first.is_nan() || length.is_nan() => true,
+            _ => starts_positive(&argument, error, T::One::float(length)) == is_positive,
+        }
+    }
+
+    /// Cuts steps where the argument of a sign is 0.
+    pub(crate) fn keep_signs(&mut self) {
+        for sign in 0..self.series.signs() {
+            let (row, terms) = self.series.signed(sign);
+            let steps = T::from_lanes(|lane| self.lanes[lane].step);
+            let may_vanish = may_vanish(terms, steps);
+            for (place, lane) in self.lanes.iter_mut().enumerate().filter(|(k, _)| may_vanish(*k)) {
+                let argument: Vec<T::One> = terms.iter().map(|x| x.lane(place)).collect();
+                let step = known_part(&argument, lane.step, self.kappa);
+                let error = || self.series.value_error(row, place, &self.peaks);
+                // What is 0 up to rounding for the whole step has no side.
+                if size(&argument, step) <= error() {
+                    continue;
+                }
+                lane.step = step;
+                let mut sides = Sides::on(self.series.is_positive(sign, place));
+                let crossing = |event: Event<T::One>| match event {
+                    Event::Crossing { after, .. } => Some(after),
+                    Event::Tangency { .. } => None,
+                };
+                let after = sides.events(&argument, step, error).into_iter().find_map(crossing);
+                let is_first = |after: &T::One| match lane.edge {
+                    Some((_, other)) => after.leading().abs() < other.leading().abs(),
+                    None => true,
+                };
+                if let Some(after) = after.filter(is_first) {
+                    lane.step = after;
+                    lane.edge = Some((Edge::Sign(sign), after));
+                }
+            }
+        }
+    }
+
+    /// Turns the signs of motions that have come to a zero of their arguments.
+    pub(crate) fn turn_signs(&mut self) {
+        for lane in 0..T::LANES {
+            if let Some(sign) = self.lanes[lane].turned.take() {
+                self.series.turn(sign, lane);
+                self.lanes[lane].is_settled = false;
+            }
+        }
+    }
+}
