@@ -354,6 +354,11 @@ impl ClaimKind {
         of_each!(self, statement => statement.remark(model))
     }
 
+    /// Describes parts of the statement that its text leaves out, such as a cofactor.
+    pub fn particulars(&self) -> Option<String> {
+        of_each!(self, statement => statement.particulars())
+    }
+
     /// Returns a remark for a claim that is refuted.
     pub fn remark_on_refutation(&self, model: &Model) -> Option<String> {
         of_each!(self, statement => statement.remark_on_refutation(model))

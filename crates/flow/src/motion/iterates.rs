@@ -263,7 +263,7 @@ impl RecordedMap {
         });
         match broken {
             Some(((_, formula), _)) => Err(Fault::Formula(*formula)),
-            None if image.iter().all(DoubleDouble::is_finite) => Ok(image),
+            None if image.iter().all(|x| x.is_finite()) => Ok(image),
             None => Err(Fault::Overflow),
         }
     }

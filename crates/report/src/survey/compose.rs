@@ -118,7 +118,10 @@ fn system(survey: &Survey) -> Vec<SectionBlock> {
             format!("{}: {}; {grounds}", fact.words, claim.verdict.word())
         }
     });
-    found.push(SectionBlock::Folded("how each was decided", grounds.collect()));
+    let grounds: Vec<String> = grounds.collect();
+    if !grounds.is_empty() {
+        found.push(SectionBlock::Folded("how each was decided", grounds));
+    }
     found.extend(survey.notes.iter().map(|note| text(format!("Note: {note}"))));
     found.extend(survey.warnings.iter().map(|warning| text(format!("Warning: {warning}."))));
     found.extend(survey.remarks.iter().map(|remark| text(format!("Remark: {remark}."))));
@@ -257,13 +260,13 @@ fn in_involution(proof: &LiouvilleProof) -> String {
     let bracket = match proof.bracket.as_str() {
         "momenta" => "the canonical bracket of coordinates and momenta".to_string(),
         "hamiltonian" => "the bracket of the system".to_string(),
-        name => format!("the bracket `{name}` of the file, which the motion preserves"),
+        name => format!("the bracket `{name}` of the file, which the motion preserves,"),
     };
     let count = proof.functions.len();
     let names = proof.functions.join(", ");
     let known = match count {
-        1 => format!("the integral {names} is enough"),
-        _ => format!("the {count} integrals {names} are in involution, and enough"),
+        1 => format!("{names} alone is enough"),
+        _ => format!("{names} are in involution, and these {count} are enough"),
     };
     format!(
         "In {bracket} {known} for Liouville's theorem. It speaks of joint levels that are compact and \

@@ -1,6 +1,6 @@
 //! The table of verdicts as a web page.
 
-use super::{COLUMNS, RowStatement, VerdictRow, VerdictTable};
+use super::{COLUMNS, RowStatement, VerdictRow, VerdictTable, joined};
 use crate::typeset::mathml::{escaped, formula};
 
 /// Style of the page.
@@ -46,6 +46,7 @@ fn line(row: &VerdictRow<'_>) -> String {
         RowStatement::Formula(layout) => formula(layout, false),
         RowStatement::Typed(text) => escaped(text),
     };
+    let statement = joined([statement, escaped(row.particulars)]);
     let class = if row.agrees { "" } else { " class=\"unexpected\"" };
     let words = if row.agrees { "" } else { " (not expected)" };
     format!(

@@ -1,6 +1,6 @@
 //! The table of verdicts as a LaTeX document: its `longtable` can be taken over into a paper.
 
-use super::{COLUMNS, CaseRows, RowStatement, VerdictRow, VerdictTable, one_line};
+use super::{COLUMNS, CaseRows, RowStatement, VerdictRow, VerdictTable, joined, one_line};
 use crate::typeset::latex::{formula, prose, widest};
 
 /// Widths of the columns in millimetres; together with their gaps they fit a page of 297 mm.
@@ -68,7 +68,7 @@ fn line(row: &VerdictRow<'_>, below: &mut Vec<String>) -> String {
     let cells = [
         format!("{{}}{name}"),
         prose(row.kind),
-        statement(&row.statement, below),
+        joined([statement(&row.statement, below), prose(&one_line(row.particulars))]),
         verdict(row),
         prose(&one_line(&row.evidence)),
     ];

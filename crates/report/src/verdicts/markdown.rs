@@ -1,6 +1,6 @@
 //! The table of verdicts as Markdown, with formulas between dollars.
 
-use super::{COLUMNS, RowStatement, VerdictRow, VerdictTable, one_line};
+use super::{COLUMNS, RowStatement, VerdictRow, VerdictTable, joined, one_line};
 use crate::typeset::latex::formula;
 
 /// Renders a heading and a table for each case.
@@ -35,6 +35,7 @@ fn line(row: &VerdictRow<'_>) -> String {
         RowStatement::Formula(layout) => format!("${}$", formula(layout).replace('|', "\\|")),
         RowStatement::Typed(text) => inline(text),
     };
+    let statement = joined([statement, inline(row.particulars)]);
     let verdict = match row.agrees {
         true => row.verdict.to_string(),
         false => format!("**{}** (not expected)", row.verdict),

@@ -38,6 +38,8 @@ struct VerdictRow<'r> {
     name: &'r str,
     kind: &'static str,
     statement: RowStatement<'r>,
+    /// Parts of the statement besides its formula, as a cofactor.
+    particulars: &'r str,
     /// Source, if the claim has one of its own.
     source: &'r str,
     verdict: &'static str,
@@ -122,6 +124,7 @@ impl<'r> VerdictRow<'r> {
                 Some(layout) => RowStatement::Formula(layout),
                 None => RowStatement::Typed(typed),
             },
+            particulars: outcome.heading.particulars.get(&claim.name).map_or("", String::as_str),
             source: if is_own { &claim.source } else { "" },
             verdict: claim.verdict.word(),
             evidence: evidence(claim.verdict, &claim.evidence),
@@ -152,4 +155,9 @@ fn evidence(verdict: Verdict, evidence: &Evidence) -> String {
 /// Text in one line.
 fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// A statement and what it leaves out, of which one may be empty.
+fn joined(parts: [String; 2]) -> String {
+    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("; ")
 }

@@ -95,7 +95,10 @@ impl Description {
             System::Field(rates) | System::Map(rates) => own.rates(case, rates),
         }
         own.further_rates(case);
-        let level = case.model.level.iter().map(|equation| format!("level: {}", equation.text));
+        // An equation between vectors or matrices is several, and written once.
+        let mut level: Vec<String> =
+            case.model.level.iter().map(|own| format!("level: {}", own.written())).collect();
+        level.dedup();
         own.equations.extend(level);
         own
     }
@@ -174,14 +177,20 @@ impl Description {
     }
 
     fn rates(&mut self, case: &Case, rates: &[Formula]) {
-        // the formulas are components one after another; a family has one for each component
-        if rates.len() == case.model.state.len() {
-            let pairs = case.model.state.iter().zip(rates);
-            self.equations.extend(
-                pairs.map(|(variable, rate)| format!("{}' = {}", variable.name, rate.text())),
-            );
-        } else {
-            self.equations.extend(rates.iter().map(|rate| format!("rate: {}", rate.text())));
+        // A variable has one formula, or one for each of its components.
+        let mut rates = rates.iter();
+        for variable in &case.model.state {
+            let mut place = 0;
+            while place < variable.len() {
+                let Some(rate) = rates.next() else { return };
+                let size = rate.value_type().size();
+                let name = match size == variable.len() {
+                    true => variable.name.clone(),
+                    false => variable.kind.component(&variable.name, place),
+                };
+                self.equations.push(format!("{name}' = {}", rate.text()));
+                place += size.max(1);
+            }
         }
     }
 }
@@ -227,5 +236,9 @@ mod tests {
         let text = "title = 't'\n[state]\nx = '-1..1'\ny = '-1..1'\n[field]\n\"x'\" = 'y'\n\"y'\" = '−x'\n";
         let own = Description::of(&Case::parse(text, &[]).expect("a case"));
         assert_eq!(own.equations, ["x' = y", "y' = −x"]);
+        let text = "title = 't'\n[state]\nq = 'vector(2, -1..1)'\nw = 'vector(2, -1..1)'\n[field]\n\
+                    \"q[1]'\" = 'w1'\n\"q[2]'\" = '−w2'\n\"w'\" = '0*w'\n[level]\nequations = ['w = [1, 2]']\n";
+        let own = Description::of(&Case::parse(text, &[]).expect("a case"));
+        assert_eq!(own.equations, ["q1' = w1", "q2' = −w2", "w' = 0*w", "level: w = [1, 2]"]);
     }
 }

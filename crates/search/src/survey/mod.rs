@@ -175,9 +175,13 @@ fn of_all_values(
         .claims
         .into_iter()
         .map(|claim| {
-            let remark = (claim.expect == Expect::Fails && claim.verdict == Verdict::Refuted)
-                .then(|| "as the file expects".to_string());
-            TestedClaim { remark, ..TestedClaim::claimed(case, claim) }
+            let is_expected = claim.expect == Expect::Fails && claim.verdict == Verdict::Refuted;
+            let mut own = TestedClaim::claimed(case, claim);
+            if is_expected {
+                let words = own.remark.into_iter().chain(["as the file expects".to_string()]);
+                own.remark = Some(words.collect::<Vec<_>>().join("; "));
+            }
+            own
         })
         .collect();
     progress("the geometry");

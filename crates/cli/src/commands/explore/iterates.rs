@@ -7,17 +7,17 @@ use crate::report::{facts, iterates};
 use liouville::case::Case;
 use liouville::number::rational::Rational;
 use liouville_flow::{
-    Columns, FlowError, IterateError, Launches, Lexicon, MapSampling, SampledMapOrbit,
+    Columns, FlowError, IterateError, Lexicon, MapSampling, SampledMapOrbit,
 };
 
 use super::Progress;
 use super::motion::{rendered, whole, wrong_formula};
-use super::orbit::{MOST_NUMBERS, OrbitArgs, numbered, starts_of};
+use super::orbit::{MOST_NUMBERS, OrbitArgs, numbered, starts};
 use super::output::Ending;
 use super::{CommandOutput, write};
 
 /// Number of iterates where none is given.
-const ITERATES: usize = 1000;
+const ITERATES: u64 = 1000;
 
 /// Follows the orbits of a map.
 pub fn run(options: &OrbitArgs, case: &Case) -> Result<CommandOutput, String> {
@@ -31,10 +31,7 @@ pub fn run(options: &OrbitArgs, case: &Case) -> Result<CommandOutput, String> {
     let out = options.ink.output(Ending::ALL, &inputs)?;
     let is_picture = out.as_ref().is_some_and(|out| out.ending.is_picture());
     let columns = columns(case, options, is_picture)?;
-    let launches =
-        Launches { case, energy: None, pad: None, seed: subject.seed, index: options.index };
-    let (names, starts): (Vec<_>, Vec<_>) =
-        starts_of(case, options, &launches)?.into_iter().unzip();
+    let (names, starts): (Vec<_>, Vec<_>) = starts(case, options)?.into_iter().unzip();
     let count = options.iterates.unwrap_or(ITERATES);
     let every = interval(options)?;
     let numbers = (count / every) as f64 * starts.len() as f64 * columns.titles().len() as f64;
@@ -46,12 +43,12 @@ pub fn run(options: &OrbitArgs, case: &Case) -> Result<CommandOutput, String> {
     }
     let precision = options.precision.precision();
     let bar = Progress::of(starts.len() as u64, "orbits");
-    let sampling = MapSampling { columns: &columns, every: every as u64 };
+    let sampling = MapSampling { columns: &columns, every };
     let sampling = out.is_some().then_some(&sampling);
     let found = liouville_flow::iterates(
         case,
         &starts,
-        (count as u64, precision),
+        (count, precision),
         sampling,
         options.threads.count(),
         &|share| bar.add(share),
@@ -62,15 +59,16 @@ pub fn run(options: &OrbitArgs, case: &Case) -> Result<CommandOutput, String> {
         let bytes = match is_picture {
             true => picture(case, options, (titles, &names), &found, out.ending)?,
             false => {
+                let count = found.len();
                 let rows = found.iter().enumerate().flat_map(|(index, one)| {
-                    one.rows.iter().map(move |row| match found.len() {
+                    one.rows.iter().map(move |row| match count {
                         1 => Cow::Borrowed(&row[..]),
                         _ => Cow::Owned([&[whole(index)], &row[..]].concat()),
                     })
                 });
                 let data = DataTable {
-                    columns: numbered(titles, found.len()),
-                    whole: usize::from(found.len() > 1),
+                    columns: numbered(titles, count),
+                    whole: usize::from(count > 1),
                     rows: rows.collect(),
                     precision,
                 };
@@ -147,8 +145,8 @@ fn columns(case: &Case, options: &OrbitArgs, is_picture: bool) -> Result<Columns
 }
 
 /// Number of iterates from one sample to the next.
-fn interval(options: &OrbitArgs) -> Result<usize, String> {
-    let whole = |every: &Rational| every.to_integer().and_then(|every| usize::try_from(every).ok());
+fn interval(options: &OrbitArgs) -> Result<u64, String> {
+    let whole = |every: &Rational| every.to_integer().and_then(|every| u64::try_from(every).ok());
     match options.every.as_ref().map(whole) {
         None => Ok(1),
         Some(Some(every)) if every > 0 => Ok(every),
