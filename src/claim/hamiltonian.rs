@@ -32,7 +32,8 @@ impl Statement for Hamiltonian {
     }
 
     fn particulars(&self) -> Option<String> {
-        let factor = self.multiplier.as_ref().map(|own| format!("multiplier {}", own.text().trim()));
+        let factor =
+            self.multiplier.as_ref().map(|own| format!("multiplier {}", own.text().trim()));
         let function = format!("H = {}", self.hamiltonian.text().trim());
         Some([Some(function), factor].into_iter().flatten().collect::<Vec<_>>().join("; "))
     }

@@ -268,7 +268,8 @@ impl Statement for Map {
 
     fn particulars(&self) -> Option<String> {
         let names = || self.target.state.iter().map(|variable| variable.name.as_str());
-        let images = names().zip(&self.images).map(|(name, own)| format!("{name} = {}", own.text()));
+        let images =
+            names().zip(&self.images).map(|(name, own)| format!("{name} = {}", own.text()));
         let rates = names().zip(&self.rates).map(|(name, own)| format!("{name}' = {}", own.text()));
         let factor = self.multiplier.iter().map(|own| format!("multiplier {}", own.text()));
         Some(images.chain(rates).chain(factor).collect::<Vec<_>>().join("; "))

@@ -58,7 +58,10 @@ fn gyroscopic_terms_enter_the_bracket() {
     check(
         head,
         &[
-            (Proved, "involution = ['energy', \"x*y' − y*x' + B*(x² + y²)/2\"]\ntheorem = 'Liouville'"),
+            (
+                Proved,
+                "involution = ['energy', \"x*y' − y*x' + B*(x² + y²)/2\"]\ntheorem = 'Liouville'",
+            ),
             (Refuted, "involution = ['energy', \"x*y' − y*x' − B*(x² + y²)/2\"]"),
             (Proved, "involution = [\"x' − B*y\", \"x'\"]"),
             (Refuted, "involution = [\"x' + B*y\", \"y'\"]"),
@@ -157,7 +160,8 @@ fn systems_without_a_bracket_are_refused() {
         [lagrangian]\nkinetic = \"(x'² + y'²)/2\"\nconstraints = [\"x' = x*y'\"]";
     let told = mistake(head, "involution = [\"x'\", \"y'\"]");
     assert!(told.contains("without constraints, forces"), "{told}");
-    let head = "title = 'field'\n[state]\nx = '-1..1'\ny = '-1..1'\n[field]\n\"x'\" = 'y'\n\"y'\" = '−x'";
+    let head =
+        "title = 'field'\n[state]\nx = '-1..1'\ny = '-1..1'\n[field]\n\"x'\" = 'y'\n\"y'\" = '−x'";
     assert!(mistake(head, "involution = ['x', 'y']").contains("[poisson]"));
     let driven = "title = 'driven'\n[state]\nx = '-1..1'\np = '-1..1'\nt = '-1..1'\n[hamiltonian]\n\
         function = 'p²/2 + x*sin(t)'\npairs = [['x', 'p']]";

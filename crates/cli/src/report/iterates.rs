@@ -18,12 +18,8 @@ const MOST_NAMED: usize = 8;
 
 /// Renders an orbit as text.
 pub fn text(case: &Case, orbit: &MapOrbit, precision: Precision) -> String {
-    let mut out = format!(
-        "{}\n{} iterates in {}\n",
-        case.title,
-        orbit.iterates,
-        precision_name(precision)
-    );
+    let mut out =
+        format!("{}\n{} iterates in {}\n", case.title, orbit.iterates, precision_name(precision));
     for (index, state) in [(0, &orbit.start.state), (orbit.iterates, &orbit.end)] {
         out.push_str(&format!("at n = {index}\n"));
         for (name, values) in named(&case.model.state, state, precision) {

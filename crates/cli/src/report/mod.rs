@@ -33,7 +33,7 @@ pub mod terminal;
 mod unique_keys;
 
 pub use liouville_report::{
-    CaseDigest, FileFailure, FileOutcome, Heading, RunReport, Summary, VERSION, VerdictTable, counted,
-    diagnostic, json, names, records, search, sha256,
+    CaseDigest, FileFailure, FileOutcome, Heading, RunReport, Summary, VERSION, VerdictTable,
+    counted, diagnostic, json, names, records, search, sha256,
 };
 use liouville_report::{evidence, typeset};

@@ -65,7 +65,9 @@ impl IterateError {
     pub fn help(&self) -> &'static str {
         match self {
             IterateError::Start(error) => error.help(),
-            IterateError::NoValue { iterates: 0, .. } => "choose another start, or other parameters",
+            IterateError::NoValue { iterates: 0, .. } => {
+                "choose another start, or other parameters"
+            }
             IterateError::NoValue { .. } | IterateError::Escapes { .. } => {
                 "choose another start, or fewer --iterates"
             }

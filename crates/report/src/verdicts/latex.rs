@@ -47,7 +47,9 @@ pub fn render(table: &VerdictTable<'_>) -> String {
 fn spanned(text: &str) -> String {
     // Four gaps of two \tabcolsep, 6 pt each, lie between the columns.
     let width = WIDTHS.iter().sum::<usize>() + 16;
-    format!("\\multicolumn{{5}}{{>{{\\raggedright\\arraybackslash}}p{{{width}mm}}}}{{{text}}} \\\\\n")
+    format!(
+        "\\multicolumn{{5}}{{>{{\\raggedright\\arraybackslash}}p{{{width}mm}}}}{{{text}}} \\\\\n"
+    )
 }
 
 fn heading(case: &CaseRows<'_>) -> String {

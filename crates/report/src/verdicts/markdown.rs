@@ -13,7 +13,11 @@ pub fn render(table: &VerdictTable<'_>) -> String {
         }
         out.push_str("\n\n");
         if !case.rows.is_empty() {
-            out.push_str(&format!("| {} |\n|{}\n", COLUMNS.join(" | "), "---|".repeat(COLUMNS.len())));
+            out.push_str(&format!(
+                "| {} |\n|{}\n",
+                COLUMNS.join(" | "),
+                "---|".repeat(COLUMNS.len())
+            ));
         }
         for row in &case.rows {
             out.push_str(&line(row));

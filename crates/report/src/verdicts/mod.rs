@@ -71,7 +71,9 @@ impl<'r> VerdictTable<'r> {
         let all = [counted(summary.cases, "case"), counted(summary.claims, "claim")].join(", ");
         let caption = match counts.is_empty() {
             true => format!("{all}. liouville {VERSION}, seed {}.", run.seed),
-            false => format!("{all}: {}. liouville {VERSION}, seed {}.", counts.join(", "), run.seed),
+            false => {
+                format!("{all}: {}. liouville {VERSION}, seed {}.", counts.join(", "), run.seed)
+            }
         };
         Self { cases: run.outcomes.iter().map(CaseRows::of).collect(), caption }
     }
@@ -104,9 +106,7 @@ impl<'r> CaseRows<'r> {
                 let row = |claim| VerdictRow::of(outcome, claim);
                 (report.claims.iter().map(row).collect(), Vec::new())
             }
-            Err(failures) => {
-                (Vec::new(), failures.iter().map(|own| own.message.clone()).collect())
-            }
+            Err(failures) => (Vec::new(), failures.iter().map(|own| own.message.clone()).collect()),
         };
         Self { title, source, rows, mistakes }
     }

@@ -6,9 +6,7 @@ use crate::report::data::DataTable;
 use crate::report::{facts, iterates};
 use liouville::case::Case;
 use liouville::number::rational::Rational;
-use liouville_flow::{
-    Columns, FlowError, IterateError, Lexicon, MapSampling, SampledMapOrbit,
-};
+use liouville_flow::{Columns, FlowError, IterateError, Lexicon, MapSampling, SampledMapOrbit};
 
 use super::Progress;
 use super::motion::{rendered, whole, wrong_formula};
@@ -121,11 +119,9 @@ fn check_options(options: &OrbitArgs) -> Result<(), String> {
 fn told(options: &OrbitArgs, problem: &IterateError) -> String {
     match problem {
         IterateError::Start(error) => options.subject.told(error),
-        other => format!(
-            "error: {}: {other}\nhelp: {}",
-            options.subject.case.display(),
-            other.help()
-        ),
+        other => {
+            format!("error: {}: {other}\nhelp: {}", options.subject.case.display(), other.help())
+        }
     }
 }
 

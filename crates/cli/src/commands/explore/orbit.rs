@@ -18,9 +18,7 @@ use super::Progress;
 use super::eval::wrong_state;
 use super::ink::Ink;
 use super::iterates;
-use super::motion::{
-    MotionArgs, Threads, parse_number, parse_positive, rendered, wrong_formula,
-};
+use super::motion::{MotionArgs, Threads, parse_number, parse_positive, rendered, wrong_formula};
 use super::output::{Ending, Output};
 use super::starts::{GivenStart, Named, Starts, misfit};
 use super::track;

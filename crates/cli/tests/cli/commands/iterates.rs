@@ -29,7 +29,8 @@ fn iterates_are_exact_where_numbers_are_whole() {
 
 #[test]
 fn integrals_of_a_map_do_not_drift() {
-    let arguments = ["motion", "orbit", "classical/maps/mcmillan", "--set", "s=3/2", "--start", "1/2,1/3"];
+    let arguments =
+        ["motion", "orbit", "classical/maps/mcmillan", "--set", "s=3/2", "--start", "1/2,1/3"];
     let found = json(&[&arguments[..], &["--iterates", "1e4", "--json"]].concat(), 0);
     let followed = found["followed"].as_array().expect("a list");
     let drift = |role: &str| {
@@ -47,11 +48,25 @@ fn samples_are_iterates() {
     let picture = path.with_file_name("dots.svg");
     let path = path.to_str().expect("a path");
     let file = out.to_str().expect("a path");
-    let arguments =
-        ["motion", "orbit", path, "--start", "1", "--start", "3", "--iterates", "6", "--every", "3"];
+    let arguments = [
+        "motion",
+        "orbit",
+        path,
+        "--start",
+        "1",
+        "--start",
+        "3",
+        "--iterates",
+        "6",
+        "--every",
+        "3",
+    ];
     liouville(&[&arguments[..], &["--out", file]].concat()).assert().code(0);
     let rows = fs::read_to_string(&out).expect("rows");
-    assert_eq!(rows, "start,n,x\n0,0.0,1.0\n0,3.0,8.0\n0,6.0,64.0\n1,0.0,3.0\n1,3.0,24.0\n1,6.0,192.0\n");
+    assert_eq!(
+        rows,
+        "start,n,x\n0,0.0,1.0\n0,3.0,8.0\n0,6.0,64.0\n1,0.0,3.0\n1,3.0,24.0\n1,6.0,192.0\n"
+    );
     let file = picture.to_str().expect("a path");
     let arguments = ["motion", "orbit", "classical/maps/standard", "--set", "s=2", "--orbits", "3"];
     liouville(&[&arguments[..], &["--iterates", "50", "--out", file]].concat()).assert().code(0);
@@ -91,7 +106,9 @@ fn an_orbit_that_escapes_says_where() {
     liouville(&["motion", "orbit", path, "--start", "2", "--iterates", "100"])
         .assert()
         .code(2)
-        .stderr(contains("escapes: after 9 iterates, at x = 1.3").and(contains("fewer --iterates")));
+        .stderr(
+            contains("escapes: after 9 iterates, at x = 1.3").and(contains("fewer --iterates")),
+        );
 }
 
 #[test]
@@ -103,10 +120,7 @@ fn maps_and_flows_have_their_own_options() {
     refuse(&[&map[..], &["--time", "10"]].concat(), "--iterates 1000");
     refuse(&[&map[..], &["--iterates", "0"]].concat(), "from 1 to 1e10");
     refuse(&[&map[..], &["--iterates", "2.5"]].concat(), "from 1 to 1e10");
-    refuse(
-        &[&map[..], &["--every", "1/2", "--out", "a.csv"]].concat(),
-        "a whole number from 1 on",
-    );
+    refuse(&[&map[..], &["--every", "1/2", "--out", "a.csv"]].concat(), "a whole number from 1 on");
     refuse(&[&map[..], &["--columns", "t, x", "--out", "a.csv"]].concat(), "unknown name `t`");
     let flow = ["motion", "orbit", "classical/tops/euler", "--iterates", "10"];
     refuse(&flow, "is no map");
