@@ -113,6 +113,7 @@ fn remarks(tested: &TestedClaim) -> Vec<String> {
     }
     remarks.extend(tested.remark.clone());
     remarks.extend(evidence.remark.clone());
+    remarks.extend(evidence.theorem.iter().chain(&evidence.exhibit).cloned());
     if tested.claim.verdict == Verdict::Undecided {
         remarks.extend(evidence.reason.clone());
     }

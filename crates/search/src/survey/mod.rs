@@ -171,7 +171,7 @@ fn of_all_values(
     progress: &mut dyn FnMut(&str),
 ) -> Result<Survey, JudgeError> {
     progress("claims of the case");
-    let own = liouville::verdict::judge(case, options)?;
+    let own = crate::absence::judge(case, options)?;
     let claimed: Vec<TestedClaim> = own
         .claims
         .into_iter()
