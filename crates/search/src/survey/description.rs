@@ -3,6 +3,7 @@
 use liouville::case::Case;
 use liouville::formula::Formula;
 use liouville::mechanics::{BracketBlock, ParameterOrigin, Potential, Shape, Surface, System};
+use liouville::number::rational::Rational;
 use serde::Serialize;
 
 /// Contents of a case that describe its system.
@@ -195,13 +196,32 @@ impl Description {
     }
 }
 
+/// Largest number of decimal places that are printed.
+const MOST_PLACES: usize = 24;
+
+/// A number as a decimal, if it ends, and otherwise as a fraction.
+fn decimal(value: &Rational) -> String {
+    let (mut scaled, ten) = (value.abs(), Rational::from(10));
+    for places in 0..=MOST_PLACES {
+        if let Some(whole) = scaled.to_integer() {
+            let digits = format!("{whole:0>width$}", width = places + 1);
+            let (before, after) = digits.split_at(digits.len() - places);
+            let sign = if value.is_negative() { "-" } else { "" };
+            let dot = if places == 0 { "" } else { "." };
+            return format!("{sign}{before}{dot}{after}");
+        }
+        scaled = &scaled * &ten;
+    }
+    value.to_string()
+}
+
 /// Parameters with what the case says of each.
 fn parameters(case: &Case) -> Vec<String> {
     let own = case.model.parameters.iter().filter(|parameter| !parameter.name.contains('['));
     own.map(|parameter| {
         let value = match &parameter.origin {
             ParameterOrigin::Fixed(values) => {
-                let values: Vec<String> = values.iter().map(ToString::to_string).collect();
+                let values: Vec<String> = values.iter().map(decimal).collect();
                 format!("= {}", parameter.kind.listed(&values, ["(", ", ", ")"]))
             }
             ParameterOrigin::Formula(formula) => format!("= {}", formula.text()),
@@ -215,6 +235,15 @@ fn parameters(case: &Case) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_are_the_decimals_of_the_file() {
+        let shown = |text: &str| decimal(&text.parse().expect("a number"));
+        for text in ["0.0121505856", "-9.81", "12", "1/3", "-0.05"] {
+            assert_eq!(shown(text), text);
+        }
+        assert_eq!(shown("3/8"), "0.375");
+    }
 
     #[test]
     fn definitions_say_what_files_say() {

@@ -19,6 +19,7 @@ mod by_value;
 mod data;
 mod definitions;
 mod description;
+mod exchanges;
 mod family;
 mod geometry;
 mod hamiltonian;
