@@ -22,7 +22,9 @@ fn check(head: &str, expected: &[(Verdict, &str)]) {
 #[track_caller]
 fn mistake(head: &str, claim: &str) -> String {
     let text = format!("{head}\n[[claim]]\n{claim}\n");
-    Case::parse(&text, &[]).expect_err("a mistake").to_string()
+    let error = Case::parse(&text, &[]).expect_err("a mistake");
+    let help = error.mistakes().iter().filter_map(|own| own.help());
+    format!("{error}\n{}", help.collect::<Vec<_>>().join("\n"))
 }
 
 const LAGRANGE: &str = "title = 'top'\nsystem = 'nonholonomic'\n[parameters]\nA = '0.5..2'\nC = '0.5..2'\nm = '0.5..2'\n\

@@ -101,20 +101,3 @@ fn equations_by_component_have_their_names() {
     let remark = rest["remark"].as_str().unwrap_or_default();
     assert!(remark.contains("at 0; spectrum"), "{remark}");
 }
-
-#[test]
-fn liouvilles_measure_is_found() {
-    // A bead on z = x² + y²: det A · (a, A⁻¹ a) = 1 + 4x² + 4y², with mass ratios 2 and 3.
-    let text = "title = 'bead'\nsystem = 'nonholonomic'\n[state]\nx = '-1..1'\ny = '-1..1'\nz = '-1..1'\n\
-                \"x'\" = '-1..1'\n\"y'\" = '-1..1'\n\"z'\" = '-1..1'\n[lagrangian]\n\
-                kinetic = \"(x'² + 2*y'² + 3*z'²)/2\"\npotential = 'z'\nconstraints = ['z = x² + y²']\n\
-                [[claim]]\nname = 'explicit'\ndensity = '6*(4*x² + 2*y² + 1/3)'\n\
-                [[claim]]\nname = 'without masses'\ndensity = '1 + 4*x² + 4*y²'\nexpect = 'fails'\n";
-    let without: String = text.split("[[claim]]").next().unwrap_or_default().to_string();
-    let found = report_of("bead", &without);
-    let own = &found["densities"][0];
-    assert_eq!((&own["name"], &own["verdict"]), (&"Liouville's measure".into(), &"proved".into()));
-    let stated = report_of("stated-bead", text);
-    let verdict = |place: usize| stated["claimed"][place]["verdict"].clone();
-    assert_eq!((verdict(0), verdict(1)), ("proved".into(), "refuted".into()));
-}

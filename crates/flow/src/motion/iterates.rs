@@ -271,7 +271,9 @@ impl RecordedMap {
     }
 
     fn problem(&self, fault: &Fault, iterates: u64, state: &[DoubleDouble]) -> IterateError {
-        let parts = self.names.iter().zip(state).map(|(name, x)| format!("{name} = {:?}", x.hi));
+        // −0 + 0 is 0.
+        let parts =
+            self.names.iter().zip(state).map(|(name, x)| format!("{name} = {:?}", x.hi + 0.0));
         let place = parts.collect::<Vec<_>>().join(", ");
         match fault {
             Fault::Formula(index) => {

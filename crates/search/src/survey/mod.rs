@@ -27,7 +27,6 @@ mod hierarchy;
 mod independence;
 mod integrable;
 mod involutions;
-mod lagrangian_measure;
 mod mirrors;
 mod question;
 mod shown;
@@ -199,9 +198,6 @@ fn of_all_values(
     let (for_values, found) =
         std::mem::take(&mut search.tested).into_iter().partition(|one| one.values.is_some());
     all.extend::<Vec<TestedClaim>>(found);
-    if !all.iter().any(TestedClaim::is_measure) {
-        all.extend(lagrangian_measure::density(case, options)?);
-    }
     progress("classification");
     let mut sorted = Sorted::of(all);
     let (jumping, counted) =
