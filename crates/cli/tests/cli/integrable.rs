@@ -101,3 +101,27 @@ fn equations_by_component_have_their_names() {
     let remark = rest["remark"].as_str().unwrap_or_default();
     assert!(remark.contains("at 0; spectrum"), "{remark}");
 }
+
+#[test]
+fn variables_that_exchange_are_reversors() {
+    let text = "title = 'Lotka and Volterra'\n[parameters]\na = 0.0121505856\n[state]\nx = '0.1..2'\ny = '0.1..2'\n\
+                [field]\n\"x'\" = 'a*x*(1 − y)'\n\"y'\" = 'a*y*(x − 1)'\n";
+    let found = report_of("exchange", text);
+    let reversors = found["reversors"].as_array().expect("a list");
+    let exchange = reversors.iter().find(|own| own["name"] == "reversor x → y, y → x");
+    let exchange = exchange.unwrap_or_else(|| panic!("{reversors:?}"));
+    assert_eq!(
+        (&exchange["verdict"], &exchange["fixed_set"]["dimension"]),
+        (&"proved".into(), &1.into())
+    );
+    assert_eq!(found["description"]["parameters"][0], "a = 0.0121505856");
+}
+
+#[test]
+fn a_rotor_leaves_two_integrals_of_a_body_of_revolution() {
+    let found = report("spin/revolution-gyrostat");
+    let rates = found["rates"].as_array().expect("a list");
+    assert_eq!(rates.len(), 2, "{rates:?}");
+    let independent = found["independence"]["independent"].to_string();
+    assert!(independent.contains("second linear integral"), "{independent}");
+}
