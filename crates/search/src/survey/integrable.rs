@@ -248,7 +248,7 @@ impl HierarchyPlace {
         };
         let these = match count {
             1 => "the integral on which its gradient is not 0",
-            _ => "these integrals on which they are independent",
+            _ => "these integrals on which they are independent, and which their fields span,",
         };
         self.typical = vec![format!("a compact connected level of {these} {tori}")];
         if independent > count {
