@@ -39,7 +39,8 @@ pub fn find(case: &Case, options: &Options) -> Result<Vec<TestedClaim>, JudgeErr
     let question = SurveyQuestion::plain("maps of the frame", &[], claims);
     let mut found = question.ask(case, options)?.unwrap_or_default();
     for (tested, candidate) in found.iter_mut().zip(&candidates) {
-        tested.fixed_set = candidate.fixed_set;
+        // Variables that the case adds, as a frame, are not counted.
+        tested.fixed_set = candidate.fixed_set.filter(|_| case.model.extension.is_empty());
     }
     found.retain(TestedClaim::holds);
     Ok(found)
