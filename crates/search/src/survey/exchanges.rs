@@ -12,6 +12,7 @@ use std::collections::BTreeSet;
 
 use super::involutions::{MapCandidate, signed};
 use super::question::FixedSet;
+use super::sign_changes::sign_changes;
 use liouville::case::Case;
 use liouville::claim::{LevelSubset, Reversor, Statement, Symmetry, clock};
 use liouville::formula::{Formula, Type};
@@ -101,8 +102,11 @@ pub fn exchanges(case: &Case, seed: u64) -> Vec<MapCandidate> {
     }
     let Some(states) = states(case, seed) else { return Vec::new() };
     let fits = |own: &Exchange| states.iter().all(|state| state.fits(own));
-    let mut fitting: Vec<Exchange> = candidates(case).into_iter().filter(fits).collect();
-    // Changes of sign alone are tried elsewhere, and come first as generators.
+    let is_identity = |own: &Exchange| !own.is_permutation() && own.size().1 == 0;
+    let all = candidates(case).into_iter().filter(|own| !is_identity(own));
+    let mut fitting: Vec<Exchange> = all.filter(fits).collect();
+    // Changes of sign alone come first as generators; of few components they are tried elsewhere.
+    let has_signs = !sign_changes(case).is_empty();
     fitting.sort_by_key(|own| (own.is_permutation(), own.size(), own.reverses));
     let mut group: BTreeSet<Exchange> = BTreeSet::new();
     let (mut generators, mut kept) = (Vec::new(), Vec::new());
@@ -112,7 +116,7 @@ pub fn exchanges(case: &Case, seed: u64) -> Vec<MapCandidate> {
         }
         generators.push(own.clone());
         group = generated(&generators);
-        if own.is_permutation() {
+        if own.is_permutation() || !has_signs {
             kept.push(own);
         }
     }
@@ -166,10 +170,14 @@ fn candidates(case: &Case) -> Vec<Exchange> {
     if dimension > MOST_IN_ORDER || lengths.len() > MOST_SIGNS {
         return all;
     }
-    for is_shift in [false, true] {
+    for order in [Order::Same, Order::Reversed, Order::Shifted] {
         let (mut places, mut start) = (Vec::new(), 0);
         for length in &lengths {
-            let place = |k: usize| if is_shift { (k + 1) % length } else { length - 1 - k };
+            let place = |k: usize| match order {
+                Order::Same => k,
+                Order::Reversed => length - 1 - k,
+                Order::Shifted => (k + 1) % length,
+            };
             places.extend((0..*length).map(|k| start + place(k)));
             start += length;
         }
@@ -180,6 +188,14 @@ fn candidates(case: &Case) -> Vec<Exchange> {
         }
     }
     all
+}
+
+/// Order of the components of a variable in its image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Order {
+    Same,
+    Reversed,
+    Shifted,
 }
 
 /// All orders of so many places.
@@ -321,8 +337,9 @@ mod tests {
             .collect();
         let ranges: String = (1..=7).map(|k| format!("u{k} = '0.1..1'\n")).collect();
         let found = names(&format!("title = 'x'\n[state]\n{ranges}[field]\n{}", rates.concat()));
-        assert_eq!(found.len(), 1, "{found:?}");
-        assert!(found[0].starts_with("reversor u1 → u7, u2 → u6"), "{found:?}");
+        assert_eq!(found.len(), 2, "{found:?}");
+        assert!(found[0].starts_with("reversor u1 → −u1, u2 → −u2"), "{found:?}");
+        assert!(found[1].starts_with("reversor u1 → u7, u2 → u6"), "{found:?}");
     }
 
     fn neighbour(k: usize) -> String {
