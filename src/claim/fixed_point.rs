@@ -54,6 +54,26 @@ impl Statement for FixedPoint {
         Ok(Self { point, spectrum, polynomial: read_polynomial(from, has_rests)? })
     }
 
+    fn particulars(&self) -> Option<String> {
+        let place = match self.point.text.is_empty() {
+            true => "at 0".to_string(),
+            false => format!("at {}", self.point.text),
+        };
+        let value = |(real, imaginary): &ComplexFormula| match imaginary {
+            None => real.text().trim().to_string(),
+            Some(imaginary) => format!("{} ± ({})i", real.text().trim(), imaginary.text().trim()),
+        };
+        let spectrum = self.spectrum.as_ref().map(|own| {
+            format!("spectrum {}", own.iter().map(value).collect::<Vec<_>>().join(", "))
+        });
+        let polynomial = self.polynomial.as_ref().map(|own| {
+            let all: Vec<&str> = own.iter().map(|one| one.text().trim()).collect();
+            format!("characteristic polynomial with the coefficients {}", all.join(", "))
+        });
+        let parts = [Some(place), spectrum, polynomial];
+        Some(parts.into_iter().flatten().collect::<Vec<_>>().join("; "))
+    }
+
     fn remark_on_refutation(&self, model: &Model) -> Option<String> {
         if self.spectrum.is_none() && self.polynomial.is_none() {
             return None;

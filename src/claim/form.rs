@@ -246,6 +246,10 @@ impl Statement for Form {
         Some(self.text.clone())
     }
 
+    fn particulars(&self) -> Option<String> {
+        Some(format!("factor {}", self.factor.as_ref()?.text().trim()))
+    }
+
     fn about(&self, entries: Formula) -> Option<Self> {
         let mut other = self.clone();
         match &mut other.form {

@@ -31,6 +31,13 @@ impl Statement for Hamiltonian {
         Ok(Self { hamiltonian, multiplier, bracket })
     }
 
+    fn particulars(&self) -> Option<String> {
+        let factor =
+            self.multiplier.as_ref().map(|own| format!("multiplier {}", own.text().trim()));
+        let function = format!("H = {}", self.hamiltonian.text().trim());
+        Some([Some(function), factor].into_iter().flatten().collect::<Vec<_>>().join("; "))
+    }
+
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {
         let variables = of(jet.phase.model());
         let there = jet.in_variables(variables);

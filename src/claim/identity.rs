@@ -143,6 +143,10 @@ impl Statement for Relation {
         Some(format!("{} = 0", self.function.text().trim()))
     }
 
+    fn particulars(&self) -> Option<String> {
+        Some(format!("cofactor {}", self.cofactor.text().trim()))
+    }
+
     fn about(&self, cofactor: Formula) -> Option<Self> {
         Some(Self { cofactor, ..self.clone() })
     }

@@ -26,6 +26,7 @@ mod identity;
 mod images;
 mod independence;
 mod integral;
+mod involution;
 mod jacobi_identity;
 mod kinks;
 mod lax;
@@ -76,6 +77,7 @@ pub use hamiltonian::Hamiltonian;
 pub use identity::{Identity, Rate, Relation};
 pub use independence::{Independent, MOST_FUNCTIONS as MOST_COMPARED};
 pub use integral::Integral;
+pub use involution::Involution;
 pub use jacobi_identity::JacobiIdentity;
 pub use kinks::may_have_kinks;
 pub use lax::Lax;
@@ -218,6 +220,7 @@ kinds! {
     Casimir,
     Bracket,
     JacobiIdentity,
+    Involution,
     Compatible,
     DensityInVariables,
 }
@@ -349,6 +352,11 @@ impl ClaimKind {
     /// Returns a remark for a claim that holds.
     pub fn remark(&self, model: &Model) -> Option<String> {
         of_each!(self, statement => statement.remark(model))
+    }
+
+    /// Describes parts of the statement that its text leaves out, such as a cofactor.
+    pub fn particulars(&self) -> Option<String> {
+        of_each!(self, statement => statement.particulars())
     }
 
     /// Returns a remark for a claim that is refuted.

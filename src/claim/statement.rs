@@ -191,6 +191,11 @@ pub trait Statement: Clone {
         None
     }
 
+    /// Describes parts of the statement that its text leaves out, such as a cofactor.
+    fn particulars(&self) -> Option<String> {
+        None
+    }
+
     /// Returns a remark for a claim that is refuted.
     fn remark_on_refutation(&self, _: &Model) -> Option<String> {
         None

@@ -266,6 +266,15 @@ impl Statement for Map {
         self.images.iter().chain(&self.multiplier).collect()
     }
 
+    fn particulars(&self) -> Option<String> {
+        let names = || self.target.state.iter().map(|variable| variable.name.as_str());
+        let images =
+            names().zip(&self.images).map(|(name, own)| format!("{name} = {}", own.text()));
+        let rates = names().zip(&self.rates).map(|(name, own)| format!("{name}' = {}", own.text()));
+        let factor = self.multiplier.iter().map(|own| format!("multiplier {}", own.text()));
+        Some(images.chain(rates).chain(factor).collect::<Vec<_>>().join("; "))
+    }
+
     fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
         let rows: Vec<_> = self.images.iter().flat_map(|image| jet.gradients(image)).collect();
         vec![Condition {

@@ -4,8 +4,8 @@
 use super::entry::ClaimEntry;
 use super::{
     AnalyticDensity, Casimir, Density, DensityInVariables, Divergence, Expect, Form, Hamiltonian,
-    Identity, Independent, Integral, JacobiIdentity, Lyapunov, PositionDensity, Rate, Relation,
-    Reversor, SmoothDensity, Statement, Symmetry, SymmetryField,
+    Identity, Independent, Integral, Involution, JacobiIdentity, Lyapunov, PositionDensity, Rate,
+    Relation, Reversor, SmoothDensity, Statement, Symmetry, SymmetryField,
 };
 use crate::formula::Formula;
 
@@ -145,6 +145,11 @@ impl Claim {
     /// Claims that the functions, and those of the level, have independent gradients.
     pub fn independent(functions: Vec<Formula>) -> Self {
         Self::of(Independent::NAME, functions)
+    }
+
+    /// Claims that the functions are in involution in the bracket of the motion.
+    pub fn involution(functions: Vec<Formula>) -> Self {
+        Self::of(Involution::NAME, functions)
     }
 
     /// Claims that the field with these components commutes with the motion; the components of

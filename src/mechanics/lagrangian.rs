@@ -14,6 +14,7 @@
 
 mod equations;
 mod masses;
+mod momenta;
 
 pub use self::equations::{EquationTerms, LagrangianEquations};
 

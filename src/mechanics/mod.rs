@@ -21,6 +21,7 @@ mod literal;
 mod memo;
 mod model;
 mod model_formulas;
+mod motion_bracket;
 mod parts;
 mod phase;
 mod quantity;
@@ -50,6 +51,7 @@ pub use lagrangian::{Algebra, EquationTerms, Lagrangian, LagrangianEquations, Va
 pub use level_equation::{ENTRY, LevelEquation, LevelFunction, RootEquation, written};
 pub use listed::{ListedValues, combinations};
 pub use model::{MatrixShape, Model, Parameter, ParameterOrigin, TIME, Variable, components};
+pub use motion_bracket::{MotionBracket, size_of_variables};
 pub use parts::EquationPart;
 pub use phase::Phase;
 pub use quantity::{

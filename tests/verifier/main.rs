@@ -21,6 +21,7 @@ mod geometry;
 mod golden;
 mod hamiltonian;
 mod inverse_functions;
+mod involution;
 mod labels;
 mod lanes;
 mod language;

@@ -23,6 +23,9 @@ pub(crate) struct Piece {
 pub(crate) const INDEX: f64 = 0.72;
 pub(crate) const DROP: f64 = 0.22;
 
+/// Raised digits.
+const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+
 /// Upright words as they stand.
 pub fn plain(words: &str) -> Text {
     Text { pieces: vec![Piece { letters: words.to_string(), slanted: false, lowered: false }] }
@@ -35,6 +38,10 @@ pub fn math(formula: &str) -> Text {
     let letters: Vec<char> = formula.chars().collect();
     let mut place = 0;
     while let Some(letter) = letters.get(place).copied() {
+        if letter.is_ascii_digit() {
+            place += text.push_number(&letters[place..]);
+            continue;
+        }
         if !letter.is_alphabetic() {
             let shown = match letter {
                 '-' => '−',
@@ -59,12 +66,41 @@ pub fn math(formula: &str) -> Text {
         let index = index.take_while(|c| c.is_ascii_digit() || (has_bar && c.is_alphanumeric()));
         let index: Vec<char> = index.collect();
         place += index.len();
-        index.iter().for_each(|c| text.push(*c, c.is_alphabetic(), true));
+        // The digit of a function's name is none of an index, as in atan2(y, x).
+        let is_call = is_word && letters.get(place) == Some(&'(');
+        index.iter().for_each(|c| text.push(*c, c.is_alphabetic(), !is_call));
     }
     text
 }
 
 impl Text {
+    /// Appends the number at the beginning of some letters, 2e-3 as 2·10⁻³, and returns its length.
+    fn push_number(&mut self, letters: &[char]) -> usize {
+        let digits = letters.iter().take_while(|c| c.is_ascii_digit() || **c == '.').count();
+        let rest = &letters[digits..];
+        let sign = usize::from(matches!(rest.get(1), Some('+' | '-' | '−')));
+        let exponent = rest.iter().skip(1 + sign).take_while(|c| c.is_ascii_digit()).count();
+        let is_power = matches!(rest.first(), Some('e' | 'E')) && exponent > 0;
+        if !is_power {
+            letters[..digits].iter().for_each(|c| self.push(*c, false, false));
+            return digits;
+        }
+        if letters[..digits] != ['1'] {
+            letters[..digits].iter().for_each(|c| self.push(*c, false, false));
+            self.push('·', false, false);
+        }
+        "10".chars().for_each(|c| self.push(c, false, false));
+        let end = 1 + sign + exponent;
+        for c in rest[1..end].iter().filter(|c| **c != '+') {
+            let raised = match c.to_digit(10) {
+                Some(digit) => RAISED[digit as usize],
+                None => '⁻',
+            };
+            self.push(raised, false, false);
+        }
+        digits + end
+    }
+
     fn push(&mut self, letter: char, slanted: bool, lowered: bool) {
         match self.pieces.last_mut() {
             Some(last) if last.slanted == slanted && last.lowered == lowered => {
@@ -146,6 +182,9 @@ mod tests {
         assert_eq!(shown(&math("a_g")), "/a/_/g/");
         assert_eq!(shown(&math("γ3 - x12")), "/γ/_3 − /x/_12");
         assert_eq!(shown(&math("L/G")), "/L///G/");
+        assert_eq!(shown(&math("1e4*y2 - 2.5e-12")), "10⁴·/y/_2 − 2.5·10⁻¹²");
+        assert_eq!(shown(&math("2e + 1.5*exp(x)")), "2/e/ + 1.5·exp(/x/)");
+        assert_eq!(shown(&math("atan2(y, x)")), "atan2(/y/, /x/)");
         assert_eq!(shown(&math("sin(x)*energy")), "sin(/x/)·energy");
         assert_eq!(shown(&math("x' + 2*m")), "/x′/ + 2·/m/");
     }

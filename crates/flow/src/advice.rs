@@ -42,7 +42,7 @@ impl FlowError {
             FlowError::NoSection => "add [section] with g0 and energy",
             FlowError::Arbitrary => "give a shape and a potential by formulas",
             FlowError::Discrete => {
-                "give a case with a field; what holds of a map is claimed, and judged by `check`"
+                "`motion orbit --iterates N` follows the iterates of a map; give a case with a field"
             }
             FlowError::OffSphere { .. } => "write a start as l,z with |z| < 1",
             FlowError::BelowPotential { .. } => "choose a higher energy, or another start",

@@ -12,16 +12,18 @@ pub mod search;
 pub mod site;
 pub mod survey;
 pub mod typeset;
+mod verdicts;
 
 pub use annotations::annotations;
 pub use digest::{CaseDigest, VERSION, sha256};
+pub use verdicts::VerdictTable;
 
 use std::collections::BTreeMap;
 use std::time::Duration;
 
 use serde::Serialize;
 
-use liouville::case::{Case, Column};
+use liouville::case::{Case, Column, PlacedClaim};
 use liouville::formula::Layout;
 use liouville::verdict::{CaseReport, ClaimReport, EquationsSize, MutationReport, Verdict};
 
@@ -80,8 +82,10 @@ pub struct Heading {
     pub notes: Vec<String>,
     /// Digest of the file's text.
     pub digest: Option<CaseDigest>,
-    /// Formulas of the claims that fill cells of a table, by the names of the claims.
+    /// Formulas of claims, of those that fill cells of a table at least, by the names of the claims.
     pub statements: BTreeMap<String, Layout>,
+    /// Parts of statements that their texts leave out, with the statements of all claims.
+    pub particulars: BTreeMap<String, String>,
     /// Size of the recorded equations of motion, where it was asked for.
     pub equations: Option<EquationsSize>,
 }
@@ -96,17 +100,26 @@ impl Heading {
             column: case.column.clone(),
             notes: case.notes.clone(),
             digest: Some(CaseDigest::of(text)),
-            statements: statements(case),
+            statements: statements(case, |claim| case.column.is_some() && claim.cell.is_some()),
+            particulars: BTreeMap::new(),
             equations: None,
         }
     }
+
+    /// The same heading with the statements of all claims.
+    pub fn with_all_statements(self, case: &Case) -> Self {
+        let claims = case.homes().flat_map(|home| &home.claims);
+        let particulars =
+            claims.filter_map(|own| Some((own.name.clone(), own.kind.particulars()?))).collect();
+        Self { statements: statements(case, |_| true), particulars, ..self }
+    }
 }
 
-/// Sets the formulas of the claims that fill cells of a table.
-fn statements(case: &Case) -> BTreeMap<String, Layout> {
+/// Sets the formulas of some claims.
+fn statements(case: &Case, takes: impl Fn(&PlacedClaim) -> bool) -> BTreeMap<String, Layout> {
     let claims = case.homes().flat_map(|home| home.claims.iter().map(move |claim| (home, claim)));
-    let in_table = claims.filter(|(_, claim)| case.column.is_some() && claim.cell.is_some());
-    in_table
+    claims
+        .filter(|(_, claim)| takes(claim))
         .filter_map(|(home, claim)| {
             let layout = typeset::claim::statement(&home.model, claim)?;
             Some((claim.name.clone(), layout))

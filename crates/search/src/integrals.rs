@@ -33,6 +33,8 @@ pub fn integrals(
 ) -> Result<(), SearchError> {
     let terms = terms(case, effort, report)?;
     let candidates = over_denominators(case, &terms, &Rational::from(0), effort, report)?;
+    let candidates: Vec<Formula> =
+        candidates.into_iter().map(|own| root_of_square(case, &own).unwrap_or(own)).collect();
     let claims: Vec<Claim> = candidates.iter().map(Claim::integral).collect();
     let reports = judged(case, &claims, effort)?;
     let mut proved: Vec<(Formula, ClaimReport)> = candidates
@@ -61,6 +63,12 @@ pub fn integrals(
         }
     }
     Ok(())
+}
+
+/// The function G of an integral that is G² as written, which is an integral too.
+fn root_of_square(case: &Case, formula: &Formula) -> Option<Formula> {
+    let root = case.formula(formula.text().trim().strip_suffix('²')?).ok()?;
+    (root.raised(2).ok()?.text() == formula.text().trim()).then_some(root)
 }
 
 /// Proved integrals with their reports.

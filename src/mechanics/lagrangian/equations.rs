@@ -96,7 +96,7 @@ impl Lagrangian {
     }
 
     /// Returns the components of the coordinates, each with that of its velocity.
-    fn coordinates(&self, state: &[Variable]) -> Vec<(usize, usize)> {
+    pub(super) fn coordinates(&self, state: &[Variable]) -> Vec<(usize, usize)> {
         let starts: Vec<usize> = state
             .iter()
             .scan(0, |next, variable| {

@@ -4,7 +4,7 @@ use std::io::IsTerminal;
 use std::path::Path;
 
 use crate::report::terminal::{Detail, Style};
-use crate::report::{diagnostic, json, records, terminal};
+use crate::report::{VerdictTable, diagnostic, json, records, terminal};
 use liouville::case::{Case, Column, PlacedClaim, is_labelled, labels, matches};
 use liouville::verdict::{ClaimReport, Options};
 use liouville_report::annotations;
@@ -135,6 +135,7 @@ pub fn run(options: &CheckArgs) -> Result<CommandOutput, String> {
         options: Options { mutants: options.mutants, ..options.sampling.options() },
         motions: options.motion,
         sizes: options.verbose,
+        statements: options.format.is_table(),
         threads: options.sampling.threads,
         limits: options.limits,
     })?;
@@ -170,6 +171,9 @@ pub fn run(options: &CheckArgs) -> Result<CommandOutput, String> {
         CheckFormat::Csv => records::csv(&run),
         CheckFormat::Github => annotations(&run, |path| std::fs::read_to_string(path).ok()),
         CheckFormat::Junit => records::junit(&run),
+        CheckFormat::Latex => VerdictTable::of(&run).latex(),
+        CheckFormat::Markdown => VerdictTable::of(&run).markdown(),
+        CheckFormat::Html => VerdictTable::of(&run).html(),
         CheckFormat::Text => {
             let detail = match (options.verbose, options.quiet) {
                 (true, _) => Detail::Evidence,

@@ -81,4 +81,17 @@ pub enum CheckFormat {
     Github,
     /// JUnit's XML, for continuous integration
     Junit,
+    /// A table of all claims as a LaTeX document, for any LaTeX
+    Latex,
+    /// A table of all claims as Markdown
+    Markdown,
+    /// A table of all claims as a web page
+    Html,
+}
+
+impl CheckFormat {
+    /// Whether it is a table with the formulas of all claims.
+    pub fn is_table(self) -> bool {
+        matches!(self, CheckFormat::Latex | CheckFormat::Markdown | CheckFormat::Html)
+    }
 }

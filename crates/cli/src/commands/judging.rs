@@ -35,6 +35,8 @@ pub struct JudgingJob {
     pub motions: bool,
     /// Whether the equations of motion are sized.
     pub sizes: bool,
+    /// Whether the formulas of all claims are set, for a table of them.
+    pub statements: bool,
     /// Number of threads.
     pub threads: Option<usize>,
     /// Limits of time and memory.
@@ -182,7 +184,11 @@ fn read(slot: &Mutex<Slot>, work: &JudgingJob) {
         }
         Ok((text, Ok(case))) => {
             let equations = work.sizes.then(|| verdict::equations_size(&case).ok()).flatten();
-            slot.heading = Heading { equations, ..Heading::of(&case, &text) };
+            let heading = Heading { equations, ..Heading::of(&case, &text) };
+            slot.heading = match work.statements {
+                true => heading.with_all_statements(&case),
+                false => heading,
+            };
             slot.is_read = true;
             slot.stated = stated(&case, work.motions);
             slot.warnings = case.warnings.clone();
@@ -314,6 +320,7 @@ mod tests {
             options: Options::default(),
             motions: false,
             sizes: false,
+            statements: false,
             threads: Some(2),
             limits: LimitArgs::default(),
         };

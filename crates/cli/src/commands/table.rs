@@ -58,6 +58,7 @@ pub fn run(options: &TableArgs) -> Result<CommandOutput, String> {
         options: sampling.options(),
         motions: false,
         sizes: false,
+        statements: false,
         threads: sampling.threads,
         limits: options.limits,
     })?;

@@ -18,6 +18,7 @@ pub mod facts;
 pub mod growth;
 mod hexadecimal;
 mod horseshoe_certificate;
+pub mod iterates;
 pub mod motion_certificate;
 pub mod orbit;
 pub mod point;
@@ -32,7 +33,7 @@ pub mod terminal;
 mod unique_keys;
 
 pub use liouville_report::{
-    CaseDigest, FileFailure, FileOutcome, Heading, RunReport, Summary, VERSION, counted,
-    diagnostic, json, names, records, search, sha256,
+    CaseDigest, FileFailure, FileOutcome, Heading, RunReport, Summary, VERSION, VerdictTable,
+    counted, diagnostic, json, names, records, search, sha256,
 };
 use liouville_report::{evidence, typeset};

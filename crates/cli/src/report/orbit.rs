@@ -10,7 +10,7 @@ use liouville::number::double_double::DoubleDouble;
 use liouville_draw::{
     Axis, CATEGORIES, Layer, LegendEntry, MarkShape, MarkedPoint, Paint, Plot, Text, math, plain,
 };
-use liouville_flow::{Contact, FlowError, Orbit, Precision, QuantityRole};
+use liouville_flow::{Contact, FlowError, Followed, Orbit, Precision, QuantityRole};
 
 /// Number of digits printed of a double-double.
 const PAIR_DIGITS: usize = 31;
@@ -41,7 +41,7 @@ fn contact(kind: Contact) -> &'static str {
     }
 }
 
-fn precision_name(precision: Precision) -> &'static str {
+pub(super) fn precision_name(precision: Precision) -> &'static str {
     match precision {
         Precision::Float => "f64",
         Precision::Pair => "double-double",
@@ -49,7 +49,7 @@ fn precision_name(precision: Precision) -> &'static str {
 }
 
 /// Components of a state with the names of its variables.
-fn named<'s>(
+pub(super) fn named<'s>(
     variables: &'s [Variable],
     state: &'s [DoubleDouble],
     precision: Precision,
@@ -93,10 +93,15 @@ pub fn text(case: &Case, orbit: &Orbit, precision: Precision) -> String {
         line(format!("{:<8} at t = {time}", contact(event.kind)));
         line(format!("  {:<16} {}", "state", values.join(", ")));
     }
-    line(format!("{:<44} {:<9} {:>10} {:>10}", "drift", "", "largest", "at the end"));
-    for followed in &orbit.followed {
-        line(format!(
-            "  {:<42} {:<9} {:>10} {:>10}",
+    out + &drift_lines(&orbit.followed, precision)
+}
+
+/// Renders the drift of followed quantities, a line for each.
+pub(super) fn drift_lines(all: &[Followed], precision: Precision) -> String {
+    let mut out = format!("{:<44} {:<9} {:>10} {:>10}\n", "drift", "", "largest", "at the end");
+    for followed in all {
+        out.push_str(&format!(
+            "  {:<42} {:<9} {:>10} {:>10}\n",
             followed.name,
             role(followed.role),
             shown_drift(followed.drift, precision),
@@ -118,27 +123,30 @@ fn shown_drift(drift: f64, precision: Precision) -> String {
     }
 }
 
+/// A state as JSON, by the names of its variables.
+pub(super) fn state_json(case: &Case, state: &[DoubleDouble], precision: Precision) -> Value {
+    let entries = named(&case.model.state, state, precision);
+    Value::Object(entries.map(|(name, values)| (name.to_string(), json!(values))).collect())
+}
+
+/// Followed quantities as JSON.
+pub(super) fn followed_json(all: &[Followed], precision: Precision) -> Value {
+    let one = |followed: &Followed| {
+        let values: Vec<String> = followed.value.iter().map(|x| written(*x, precision)).collect();
+        json!({
+            "name": followed.name,
+            "role": role(followed.role),
+            "value": values,
+            "drift": followed.drift,
+            "drift_at_end": followed.drift_at_end,
+        })
+    };
+    all.iter().map(one).collect()
+}
+
 /// Renders the motion as JSON; states are decimal strings.
 pub fn json(case: &Case, orbit: &Orbit, precision: Precision) -> Result<String, serde_json::Error> {
-    let state = |state: &[DoubleDouble]| {
-        let entries = named(&case.model.state, state, precision);
-        Value::Object(entries.map(|(name, values)| (name.to_string(), json!(values))).collect())
-    };
-    let followed: Vec<Value> = orbit
-        .followed
-        .iter()
-        .map(|followed| {
-            let values: Vec<String> =
-                followed.value.iter().map(|x| written(*x, precision)).collect();
-            json!({
-                "name": followed.name,
-                "role": role(followed.role),
-                "value": values,
-                "drift": followed.drift,
-                "drift_at_end": followed.drift_at_end,
-            })
-        })
-        .collect();
+    let state = |state: &[DoubleDouble]| state_json(case, state, precision);
     let events: Vec<Value> = orbit
         .events
         .iter()
@@ -159,7 +167,7 @@ pub fn json(case: &Case, orbit: &Orbit, precision: Precision) -> Result<String, 
     if !events.is_empty() {
         root.insert("events".into(), events.into());
     }
-    root.insert("followed".into(), followed.into());
+    root.insert("followed".into(), followed_json(&orbit.followed, precision));
     serde_json::to_string_pretty(&Value::Object(root))
 }
 

@@ -4,6 +4,7 @@ mod basins;
 mod bodies;
 mod branches;
 mod grounds;
+mod iterates;
 mod keys;
 mod limits;
 mod lines;

@@ -9,6 +9,7 @@ mod common;
 mod corpus;
 mod documents;
 mod export;
+mod integrable;
 mod maps;
 mod memory;
 mod mistakes;

@@ -262,8 +262,7 @@ fn commands_that_need_a_flow_refuse_a_map() {
     let out = path.join("out.png");
     let out = out.to_str().expect("UTF-8");
     for arguments in [
-        &["orbit", file][..],
-        &["section", file, "--out", out],
+        &["section", file, "--out", out][..],
         &["exponents", file, "--start", "1,0.1"],
         &["periodic", file, "--start", "1,0.1"],
         &["report", file],

@@ -11,6 +11,9 @@ use liouville::number::double_double::{DoubleDouble, DoubleDoubles};
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 
+/// Name of the number of iterates of a map.
+const ITERATE: &str = "n";
+
 /// Columns requested: scalars are one column, vectors and matrices one for each component.
 pub struct Columns {
     lexicon: Lexicon,
@@ -33,8 +36,9 @@ impl Columns {
                 let message = "a column is empty".to_string();
                 return Err(FormulaMistake::new(message, place, "write a formula between commas"));
             }
-            if part == TIME && !lexicon.knows(TIME) {
-                titles.push(TIME.to_string());
+            let clock = clock(&lexicon);
+            if part == clock && !lexicon.knows(clock) {
+                titles.push(clock.to_string());
                 sources.push(ColumnSource::Time);
                 continue;
             }
@@ -51,10 +55,11 @@ impl Columns {
         Self { lexicon: Lexicon::new(case), titles, sources }
     }
 
-    /// Time and all components of the state.
+    /// Time, or the number of iterates, and all components of the state.
     pub fn whole_state(lexicon: Lexicon) -> Result<Self, FormulaMistake> {
         let names = lexicon.model().state.iter().map(|variable| variable.name.as_str());
-        let time = (!lexicon.knows(TIME)).then_some(TIME);
+        let clock = clock(&lexicon);
+        let time = (!lexicon.knows(clock)).then_some(clock);
         let text = time.into_iter().chain(names).collect::<Vec<_>>().join(", ");
         Self::read(lexicon, &text)
     }
@@ -98,6 +103,11 @@ impl Columns {
         let counts = self.sources.iter().map(count).collect();
         Ok(Gauge { counts, tape: Tape::new(&graph, &values) })
     }
+}
+
+/// Name of the time, or of the number of iterates of a map.
+fn clock(lexicon: &Lexicon) -> &'static str {
+    if lexicon.model().system.is_map() { ITERATE } else { TIME }
 }
 
 /// Titles of the columns of a formula.

@@ -18,7 +18,7 @@ use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 
 /// Number of times at which the drift is measured.
-const MEASUREMENTS: u32 = 256;
+pub(crate) const MEASUREMENTS: u32 = 256;
 
 /// Arithmetic in which a motion is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -178,9 +178,9 @@ fn orbit_over<T: SeriesNumber<One = T>>(
 }
 
 /// Followed quantities, recorded on a tape.
-struct Watch {
+pub(crate) struct Watch {
     tape: Tape,
-    followed: Vec<Followed>,
+    pub followed: Vec<Followed>,
 }
 
 /// Origin of a followed quantity.
@@ -208,7 +208,8 @@ impl QuantitySource<'_> {
 }
 
 impl Watch {
-    fn new(case: &Case, start: &Start) -> Result<Self, FlowError> {
+    /// Records what is followed, with its values at a start.
+    pub fn new(case: &Case, start: &Start) -> Result<Self, FlowError> {
         let sources = sources(case);
         let (graph, groups) = record(case.model.dimension(), |state| {
             let phase = point(&case.model, &start.parameters, state);
@@ -234,7 +235,8 @@ impl Watch {
         Ok(Self { tape, followed })
     }
 
-    fn measure(&mut self, state: &[DoubleDouble]) {
+    /// Compares the values at a state with those at the start.
+    pub fn measure(&mut self, state: &[DoubleDouble]) {
         let values = values(&self.tape, state);
         let mut rest = values.as_slice();
         for followed in &mut self.followed {

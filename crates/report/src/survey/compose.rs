@@ -1,13 +1,13 @@
 //! Composition of the document of a survey: its sections and their contents.
 
 use super::document::{Document, DocumentSection, SectionBlock, TableCell};
-use super::entry::{self, blocks, independence};
+use super::entry::{self, blocks, independence, involution};
 use super::picture;
 use liouville::case::Case;
 use liouville::verdict::CaseReport;
 use liouville_search::survey::{
-    Description, HierarchyPlace, IntegralCount, Integrals, MeasureStatus, SearchOutcome, Survey,
-    TestedClaim,
+    Description, HierarchyPlace, IntegralCount, Integrals, LiouvilleProof, MeasureStatus,
+    SearchOutcome, Survey, TestedClaim,
 };
 
 /// Composes the document of a survey; `origin` names the program and the case.
@@ -118,7 +118,10 @@ fn system(survey: &Survey) -> Vec<SectionBlock> {
             format!("{}: {}; {grounds}", fact.words, claim.verdict.word())
         }
     });
-    found.push(SectionBlock::Folded("how each was decided", grounds.collect()));
+    let grounds: Vec<String> = grounds.collect();
+    if !grounds.is_empty() {
+        found.push(SectionBlock::Folded("how each was decided", grounds));
+    }
     found.extend(survey.notes.iter().map(|note| text(format!("Note: {note}"))));
     found.extend(survey.warnings.iter().map(|warning| text(format!("Warning: {warning}."))));
     found.extend(survey.remarks.iter().map(|remark| text(format!("Remark: {remark}."))));
@@ -245,7 +248,30 @@ fn integrals(survey: &Survey) -> Vec<SectionBlock> {
         false => format!("What holds for all listed values: {count}"),
     }));
     found.extend(survey.independence.claim.as_ref().map(independence));
+    if let Some(proof) = &survey.liouville {
+        found.push(text(in_involution(proof)));
+        found.push(involution(&proof.claim));
+    }
     found
+}
+
+/// What Liouville's theorem says of a system, with its hypotheses.
+fn in_involution(proof: &LiouvilleProof) -> String {
+    let bracket = match proof.bracket.as_str() {
+        "momenta" => "the canonical bracket of coordinates and momenta".to_string(),
+        "hamiltonian" => "the bracket of the system".to_string(),
+        name => format!("the bracket `{name}` of the file, which the motion preserves,"),
+    };
+    let count = proof.functions.len();
+    let names = proof.functions.join(", ");
+    let known = match count {
+        1 => format!("{names} alone is enough"),
+        _ => format!("{names} are in involution, and these {count} are enough"),
+    };
+    format!(
+        "In {bracket} {known} for Liouville's theorem. It speaks of joint levels that are compact and \
+         connected, and on which the gradients are independent; that a level is compact is not examined."
+    )
 }
 
 fn count(count: &IntegralCount, place: &HierarchyPlace) -> String {

@@ -62,16 +62,27 @@ fn mark(verdict: Verdict) -> VerdictMark {
 
 /// Entry of the claim that integrals are independent.
 pub fn independence(claim: &ClaimReport) -> SectionBlock {
+    // Without a restriction the remark repeats the count.
     let is_partial = claim.evidence.has(Flaw::OnAPart);
+    let remarks = claim.evidence.remark.iter().filter(|_| is_partial).cloned().collect();
+    of_integrals("they are independent", claim, remarks)
+}
+
+/// Entry of the claim that integrals meet the hypotheses of Liouville's theorem.
+pub fn involution(claim: &ClaimReport) -> SectionBlock {
+    let what = "they are in involution and independent, and their fields span the joint levels";
+    of_integrals(what, claim, Vec::new())
+}
+
+fn of_integrals(what: &str, claim: &ClaimReport, remarks: Vec<String>) -> SectionBlock {
     SectionBlock::Entry(Box::new(JudgedClaim {
         mark: mark(claim.verdict),
         verdict: claim.verdict.word(),
-        name: "they are independent".to_string(),
+        name: what.to_string(),
         statement: None,
         layout: None,
         definitions: Vec::new(),
-        // Without a restriction the remark repeats the count.
-        remarks: claim.evidence.remark.iter().filter(|_| is_partial).cloned().collect(),
+        remarks,
         source: String::new(),
         evidence: grounds(&claim.evidence),
     }))
@@ -102,6 +113,7 @@ fn remarks(tested: &TestedClaim) -> Vec<String> {
     }
     remarks.extend(tested.remark.clone());
     remarks.extend(evidence.remark.clone());
+    remarks.extend(evidence.theorem.iter().chain(&evidence.exhibit).cloned());
     if tested.claim.verdict == Verdict::Undecided {
         remarks.extend(evidence.reason.clone());
     }

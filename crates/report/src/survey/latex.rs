@@ -42,6 +42,10 @@ fn set(block: &SectionBlock) -> String {
 }
 
 fn list(items: &[String]) -> String {
+    // A list without an item is an error of LaTeX.
+    if items.is_empty() {
+        return String::new();
+    }
     let lines: String = items.iter().map(|item| format!("\\item {}\n", escaped(item))).collect();
     format!("\\begin{{itemize}}\n{lines}\\end{{itemize}}\n")
 }

@@ -3,6 +3,7 @@
 use liouville::case::Case;
 use liouville::formula::Formula;
 use liouville::mechanics::{BracketBlock, ParameterOrigin, Potential, Shape, Surface, System};
+use liouville::number::rational::Rational;
 use serde::Serialize;
 
 /// Contents of a case that describe its system.
@@ -95,7 +96,10 @@ impl Description {
             System::Field(rates) | System::Map(rates) => own.rates(case, rates),
         }
         own.further_rates(case);
-        let level = case.model.level.iter().map(|equation| format!("level: {}", equation.text));
+        // An equation between vectors or matrices is several, and written once.
+        let mut level: Vec<String> =
+            case.model.level.iter().map(|own| format!("level: {}", own.written())).collect();
+        level.dedup();
         own.equations.extend(level);
         own
     }
@@ -174,16 +178,41 @@ impl Description {
     }
 
     fn rates(&mut self, case: &Case, rates: &[Formula]) {
-        // the formulas are components one after another; a family has one for each component
-        if rates.len() == case.model.state.len() {
-            let pairs = case.model.state.iter().zip(rates);
-            self.equations.extend(
-                pairs.map(|(variable, rate)| format!("{}' = {}", variable.name, rate.text())),
-            );
-        } else {
-            self.equations.extend(rates.iter().map(|rate| format!("rate: {}", rate.text())));
+        // A variable has one formula, or one for each of its components.
+        let mut rates = rates.iter();
+        for variable in &case.model.state {
+            let mut place = 0;
+            while place < variable.len() {
+                let Some(rate) = rates.next() else { return };
+                let size = rate.value_type().size();
+                let name = match size == variable.len() {
+                    true => variable.name.clone(),
+                    false => variable.kind.component(&variable.name, place),
+                };
+                self.equations.push(format!("{name}' = {}", rate.text()));
+                place += size.max(1);
+            }
         }
     }
+}
+
+/// Largest number of decimal places that are printed.
+const MOST_PLACES: usize = 24;
+
+/// A number as a decimal, if it ends, and otherwise as a fraction.
+fn decimal(value: &Rational) -> String {
+    let (mut scaled, ten) = (value.abs(), Rational::from(10));
+    for places in 0..=MOST_PLACES {
+        if let Some(whole) = scaled.to_integer() {
+            let digits = format!("{whole:0>width$}", width = places + 1);
+            let (before, after) = digits.split_at(digits.len() - places);
+            let sign = if value.is_negative() { "-" } else { "" };
+            let dot = if places == 0 { "" } else { "." };
+            return format!("{sign}{before}{dot}{after}");
+        }
+        scaled = &scaled * &ten;
+    }
+    value.to_string()
 }
 
 /// Parameters with what the case says of each.
@@ -192,7 +221,7 @@ fn parameters(case: &Case) -> Vec<String> {
     own.map(|parameter| {
         let value = match &parameter.origin {
             ParameterOrigin::Fixed(values) => {
-                let values: Vec<String> = values.iter().map(ToString::to_string).collect();
+                let values: Vec<String> = values.iter().map(decimal).collect();
                 format!("= {}", parameter.kind.listed(&values, ["(", ", ", ")"]))
             }
             ParameterOrigin::Formula(formula) => format!("= {}", formula.text()),
@@ -206,6 +235,15 @@ fn parameters(case: &Case) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_are_the_decimals_of_the_file() {
+        let shown = |text: &str| decimal(&text.parse().expect("a number"));
+        for text in ["0.0121505856", "-9.81", "12", "1/3", "-0.05"] {
+            assert_eq!(shown(text), text);
+        }
+        assert_eq!(shown("3/8"), "0.375");
+    }
 
     #[test]
     fn definitions_say_what_files_say() {
@@ -227,5 +265,9 @@ mod tests {
         let text = "title = 't'\n[state]\nx = '-1..1'\ny = '-1..1'\n[field]\n\"x'\" = 'y'\n\"y'\" = '−x'\n";
         let own = Description::of(&Case::parse(text, &[]).expect("a case"));
         assert_eq!(own.equations, ["x' = y", "y' = −x"]);
+        let text = "title = 't'\n[state]\nq = 'vector(2, -1..1)'\nw = 'vector(2, -1..1)'\n[field]\n\
+                    \"q[1]'\" = 'w1'\n\"q[2]'\" = '−w2'\n\"w'\" = '0*w'\n[level]\nequations = ['w = [1, 2]']\n";
+        let own = Description::of(&Case::parse(text, &[]).expect("a case"));
+        assert_eq!(own.equations, ["q1' = w1", "q2' = −w2", "w' = 0*w", "level: w = [1, 2]"]);
     }
 }

@@ -46,7 +46,7 @@ macro_rules! files {
     };
 }
 
-const TEXTS: [&str; 70] = files![
+const TEXTS: [&str; 71] = files![
     "rubber",
     "rubber-free",
     "plane-reference",
@@ -92,6 +92,7 @@ const TEXTS: [&str; 70] = files![
     "rolling-plane-ball-axis-rotor",
     "rolling-sphere-ball-axis",
     "rolling-plane-revolution-linear",
+    "rolling-plane-revolution-linear-rotor",
     "rolling-sphere-revolution-linear",
     "rolling-plane-spherical-inertia",
     "rolling-sphere-spherical-inertia",

@@ -28,6 +28,8 @@ pub struct IntegralCount {
 
 /// Selection of integrals that are independent of each other and of the energy.
 pub struct IndependentSelection {
+    /// Independent integrals with formulas, in order.
+    pub entries: Vec<Entry>,
     /// Indices of the independent integrals.
     pub kept: Vec<usize>,
     /// Count of independent integrals.
@@ -95,19 +97,22 @@ pub fn count(
     };
     // Integrals without a formula are counted as before.
     let everywhere = count.independent.len() - on_a_part;
-    Ok(IndependentSelection { kept, count, everywhere, has_energy })
+    let entries = chosen.into_iter().cloned().collect();
+    Ok(IndependentSelection { entries, kept, count, everywhere, has_energy })
 }
 
 /// An integral, or one component of an integral that is a vector or a matrix.
-struct Entry {
+#[derive(Clone, Debug)]
+pub struct Entry {
     /// Index of the integral.
-    index: usize,
+    pub index: usize,
     /// Place of the component in brackets, as `[1,2]`; empty for a number.
     place: String,
 }
 
 impl Entry {
-    fn label(&self, integrals: &[&TestedClaim]) -> String {
+    /// Name of the integral with the place of the component.
+    pub fn label(&self, integrals: &[&TestedClaim]) -> String {
         let whole = integrals[self.index].label();
         match self.place.is_empty() || whole.chars().all(char::is_alphanumeric) {
             true => format!("{whole}{}", self.place),
@@ -168,26 +173,36 @@ fn independent(
     integrals: &[&TestedClaim],
     entries: &[&Entry],
 ) -> Result<Option<ClaimReport>, JudgeError> {
-    let tested: Vec<&TestedClaim> = entries.iter().map(|entry| integrals[entry.index]).collect();
-    let (definitions, formulas) = merged(bindings, &tested);
-    let Some(mut named) = defined(case, &definitions) else { return Ok(None) };
-    let mut functions: Vec<Formula> = Vec::new();
-    functions.extend(energy.then(|| named.formula("energy").ok()).flatten());
-    for (number, (entry, text)) in entries.iter().zip(&formulas).enumerate() {
-        let Ok(mut function) = named.formula(text) else { return Ok(None) };
-        if !entry.place.is_empty() {
-            let name = format!("integral_{}", number + 1);
-            let component = named.define(&name, &function).ok();
-            let component =
-                component.and_then(|()| named.formula(&format!("{name}{}", entry.place)).ok());
-            let Some(component) = component else { return Ok(None) };
-            function = component;
-        }
-        functions.push(function);
-    }
-    let asked = named.with_claims(&[Claim::independent(functions)]).ok();
-    match asked {
+    let Some((named, functions)) = functions(case, bindings, energy, integrals, entries) else {
+        return Ok(None);
+    };
+    match named.with_claims(&[Claim::independent(functions)]).ok() {
         Some(asked) => Ok(judge(&asked, options)?.claims.into_iter().next()),
         None => Ok(None),
     }
+}
+
+/// Formulas of components of integrals, after the energy if it is one, and the case with their names.
+pub fn functions(
+    case: &Case,
+    bindings: &[Definition],
+    energy: bool,
+    integrals: &[&TestedClaim],
+    entries: &[&Entry],
+) -> Option<(Case, Vec<Formula>)> {
+    let tested: Vec<&TestedClaim> = entries.iter().map(|entry| integrals[entry.index]).collect();
+    let (definitions, formulas) = merged(bindings, &tested);
+    let mut named = defined(case, &definitions)?;
+    let mut functions: Vec<Formula> = Vec::new();
+    functions.extend(energy.then(|| named.formula("energy").ok()).flatten());
+    for (number, (entry, text)) in entries.iter().zip(&formulas).enumerate() {
+        let mut function = named.formula(text).ok()?;
+        if !entry.place.is_empty() {
+            let name = format!("integral_{}", number + 1);
+            named.define(&name, &function).ok()?;
+            function = named.formula(&format!("{name}{}", entry.place)).ok()?;
+        }
+        functions.push(function);
+    }
+    Some((named, functions))
 }

@@ -5,6 +5,7 @@
 //! reversor has −det Q Qω, and Q² = E. If Q preserves the body, its inertia, its rotor and the
 //! potential, the map is a symmetry (BMB 2013, A.1.2-A.1.13); the prover decides each case.
 
+use super::exchanges::exchanges;
 use super::mirrors::Mirror;
 use super::question::{FixedSet, SurveyQuestion, TestedClaim};
 use super::sign_changes::sign_changes;
@@ -32,19 +33,20 @@ pub(super) struct MapCandidate {
 
 /// Finds reversors and symmetries and proves them, reversors first; refuted candidates are omitted.
 pub fn find(case: &Case, options: &Options) -> Result<Vec<TestedClaim>, JudgeError> {
-    let candidates = candidates(case);
+    let candidates = candidates(case, options.seed);
     let claim = |one: &MapCandidate| Claim::of(one.key, one.images.clone()).named(&one.name);
     let claims = candidates.iter().map(claim).collect();
     let question = SurveyQuestion::plain("maps of the frame", &[], claims);
     let mut found = question.ask(case, options)?.unwrap_or_default();
     for (tested, candidate) in found.iter_mut().zip(&candidates) {
-        tested.fixed_set = candidate.fixed_set;
+        // Variables that the case adds, as a frame, are not counted.
+        tested.fixed_set = candidate.fixed_set.filter(|_| case.model.extension.is_empty());
     }
     found.retain(TestedClaim::holds);
     Ok(found)
 }
 
-fn candidates(case: &Case) -> Vec<MapCandidate> {
+fn candidates(case: &Case, seed: u64) -> Vec<MapCandidate> {
     let turns = || Turn::all().into_iter();
     let variable = |name: &str| case.formula(name);
     let scope = &case.model.vocabulary;
@@ -119,7 +121,9 @@ fn candidates(case: &Case) -> Vec<MapCandidate> {
             })
         }
         System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_) => {
-            sign_changes(case)
+            let mut all = sign_changes(case);
+            all.extend(exchanges(case, seed));
+            all
         }
     }
 }

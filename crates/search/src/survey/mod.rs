@@ -10,6 +10,7 @@
 //! hamiltonian  the conformally Hamiltonian form that a density gives
 //! unknown      further invariants that the search finds and excludes
 //! by_value     the same for single listed values of parameters
+//! integrable   integrals in involution, as many as Liouville's theorem needs
 //! hierarchy    classification: integral and measure, integral only, measure only, neither
 //! ```
 
@@ -18,16 +19,19 @@ mod by_value;
 mod data;
 mod definitions;
 mod description;
+mod exchanges;
 mod family;
 mod geometry;
 mod hamiltonian;
 mod hierarchy;
 mod independence;
+mod integrable;
 mod involutions;
 mod mirrors;
 mod question;
 mod shown;
 mod sign_changes;
+mod sorted;
 mod sphere;
 mod unknown;
 mod wireframe;
@@ -49,6 +53,7 @@ pub use description::Description;
 pub use geometry::GeometryFact;
 pub use hierarchy::{HierarchyClass, HierarchyPlace, Integrals, MeasureStatus};
 pub use independence::IntegralCount;
+pub use integrable::LiouvilleProof;
 pub use question::{FixedSet, TestedClaim};
 pub use shown::Shown;
 pub use sphere::SphereMap;
@@ -60,6 +65,7 @@ use crate::Halt;
 use geometry::Geometry;
 use hierarchy::KnownFeatures;
 use question::SurveyQuestion;
+use sorted::{Sorted, measure};
 
 /// All known invariants of a system, with proofs.
 #[derive(Clone, Debug, Serialize)]
@@ -108,6 +114,9 @@ pub struct Survey {
     pub rates: Vec<TestedClaim>,
     /// Count for the theorem of Euler and Jacobi.
     pub independence: IntegralCount,
+    /// Integrals in involution, if they are as many as the theorem of Liouville needs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub liouville: Option<LiouvilleProof>,
     /// Symmetry fields.
     pub fields: Vec<TestedClaim>,
     /// Reversors, with the dimensions of their fixed sets.
@@ -162,14 +171,18 @@ fn of_all_values(
     progress: &mut dyn FnMut(&str),
 ) -> Result<Survey, JudgeError> {
     progress("claims of the case");
-    let own = liouville::verdict::judge(case, options)?;
+    let own = crate::absence::judge(case, options)?;
     let claimed: Vec<TestedClaim> = own
         .claims
         .into_iter()
         .map(|claim| {
-            let remark = (claim.expect == Expect::Fails && claim.verdict == Verdict::Refuted)
-                .then(|| "as the file expects".to_string());
-            TestedClaim { remark, ..TestedClaim::claimed(case, claim) }
+            let is_expected = claim.expect == Expect::Fails && claim.verdict == Verdict::Refuted;
+            let mut own = TestedClaim::claimed(case, claim);
+            if is_expected {
+                let words = own.remark.into_iter().chain(["as the file expects".to_string()]);
+                own.remark = Some(words.collect::<Vec<_>>().join("; "));
+            }
+            own
         })
         .collect();
     progress("the geometry");
@@ -193,6 +206,8 @@ fn of_all_values(
     let candidates: Vec<&TestedClaim> = sorted.integrals.iter().collect();
     let independent =
         independence::count(case, options, &geometry.bindings, &candidates, &implied)?;
+    let liouville =
+        integrable::proof(case, options, &geometry.bindings, &candidates, &independent)?;
     let (mut integrals, mut dependent) = (Vec::new(), Vec::new());
     for (index, tested) in std::mem::take(&mut sorted.integrals).into_iter().enumerate() {
         match (tested.is_general, independent.kept.contains(&index)) {
@@ -241,6 +256,9 @@ fn of_all_values(
         has_free: model.free_components() > 0,
     };
     let mut hierarchy = HierarchyPlace::of(measure, standing, features);
+    if is_autonomous {
+        hierarchy.refine(liouville.as_ref(), independent.everywhere, independent.count.dimension);
+    }
     if !matches!(measure, MeasureStatus::ClosedForm | MeasureStatus::ByQuadrature) {
         progress("closed orbits");
         hierarchy.grounds.extend(evidence_against_density(case, options));
@@ -269,6 +287,7 @@ fn of_all_values(
         for_values,
         rates: sorted.rates,
         independence: independent.count,
+        liouville,
         fields: sorted.fields,
         reversors,
         symmetries,
@@ -315,85 +334,4 @@ fn tried(
         }
     }
     Ok((all, implied))
-}
-
-/// Findings sorted by subject.
-#[derive(Default)]
-struct Sorted {
-    general: Vec<TestedClaim>,
-    integrals: Vec<TestedClaim>,
-    criterion: Vec<TestedClaim>,
-    densities: Vec<TestedClaim>,
-    rates: Vec<TestedClaim>,
-    fields: Vec<TestedClaim>,
-    fails: Vec<TestedClaim>,
-    undecided: Vec<TestedClaim>,
-}
-
-impl Sorted {
-    fn of(all: Vec<TestedClaim>) -> Self {
-        let mut sorted = Self::default();
-        let mut told: Vec<(&'static str, String)> = Vec::new();
-        for tested in all {
-            let statement = (tested.claim.kind, tested.formula().to_string());
-            if told.contains(&statement) && tested.definitions.is_empty() {
-                continue;
-            }
-            told.push(statement);
-            let place = match tested.claim.kind {
-                "position-density" | "analytic-density" | "smooth-density" => &mut sorted.criterion,
-                // Questions of the case are reported with the case's claims.
-                _ if !tested.is_of_family() && !tested.holds() => continue,
-                "integral" if !tested.is_of_family() && !tested.is_new_integral() => continue,
-                _ if tested.fails() => &mut sorted.fails,
-                // What is only confirmed does not count.
-                _ if !tested.is_proved() => &mut sorted.undecided,
-                "density" => &mut sorted.densities,
-                "integral" if tested.is_new_integral() => &mut sorted.integrals,
-                "integral" => &mut sorted.general,
-                "symmetry-field" => &mut sorted.fields,
-                "rate" => &mut sorted.rates,
-                _ => continue,
-            };
-            place.push(tested);
-        }
-        // A smooth density is of interest where an analytic one is not decided.
-        let is_open = |one: &TestedClaim| one.claim.verdict == Verdict::Undecided;
-        let is_decided = |one: &TestedClaim| one.is("analytic-density") && !is_open(one);
-        if sorted.criterion.iter().any(is_decided) {
-            sorted.criterion.retain(|one| !one.is("smooth-density"));
-        }
-        // Simple formulas first, and those of the case after those of the families.
-        sorted.integrals.sort_by_key(|one| {
-            let length = one.formula().chars().count();
-            (!one.is_general, !one.is_of_family(), one.is_quadrature(), length)
-        });
-        sorted.densities.sort_by_key(|one| (!one.is_of_family(), one.is_quadrature()));
-        sorted
-    }
-}
-
-/// Determines the state of knowledge about a density of constant sign.
-fn measure(case: &Case, sorted: &Sorted) -> MeasureStatus {
-    let verdict = |kind: &str| {
-        let claim = sorted.criterion.iter().find(|one| one.is(kind));
-        claim.map_or(Verdict::Undecided, |one| one.claim.verdict)
-    };
-    let is_of_state = |one: &&TestedClaim| !one.uses_time(case);
-    let mut measures = sorted.densities.iter().filter(|one| one.is_measure()).filter(is_of_state);
-    if measures.any(|one| !one.is_quadrature()) {
-        return MeasureStatus::ClosedForm;
-    }
-    match (verdict("position-density"), verdict("analytic-density")) {
-        (Verdict::Proved, _) => MeasureStatus::ByQuadrature,
-        (_, Verdict::Refuted) => MeasureStatus::Excluded,
-        _ if verdict("smooth-density") == Verdict::Refuted => MeasureStatus::ExcludedAtRotation,
-        (Verdict::Refuted, _) => MeasureStatus::ExcludedForConfiguration,
-        _ if sorted.densities.iter().filter(is_of_state).any(TestedClaim::is_measure) => {
-            MeasureStatus::ByQuadrature
-        }
-        _ if sorted.densities.iter().any(TestedClaim::is_measure) => MeasureStatus::WithTime,
-        _ if !sorted.densities.is_empty() => MeasureStatus::Singular,
-        _ => MeasureStatus::NotKnown,
-    }
 }

@@ -107,7 +107,10 @@ impl TestedClaim {
             }
             _ => None,
         });
-        Self::beside(OWN, case, claim, abbreviations.collect())
+        let mut claims = case.homes().flat_map(|home| &home.claims);
+        let own = claims.find(|own| own.name == claim.name && own.kind.name() == claim.kind);
+        let remark = own.and_then(|own| own.kind.particulars());
+        Self { remark, ..Self::beside(OWN, case, claim, abbreviations.collect()) }
     }
 
     /// Makes a finding from a result of the search, with the names that its formula may use.

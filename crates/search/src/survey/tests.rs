@@ -3,7 +3,7 @@
 use super::*;
 
 /// Bodies of the catalogue, with at least one for each family.
-const BODIES: [&str; 50] = [
+const BODIES: [&str; 51] = [
     "plane/spherical-inertia-ball",
     "plane/balanced-ball-gravity",
     "plane/balanced-ball",
@@ -33,6 +33,7 @@ const BODIES: [&str; 50] = [
     "spin/routh-sphere",
     "spin/routh-sphere-gyrostat",
     "spin/revolution",
+    "spin/revolution-gyrostat",
     "spin/spherical-inertia",
     "spin/ellipsoid-mb-mu",
     "spin/unbalanced-ball",

@@ -6,4 +6,5 @@ mod orbits;
 mod plants;
 mod ratios;
 mod shapes;
+mod squares;
 mod wording;

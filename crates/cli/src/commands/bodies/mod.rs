@@ -55,6 +55,9 @@ impl RowFormat {
             CheckFormat::Csv => Ok(Self::Csv),
             CheckFormat::Github => Err(wrong_format("github")),
             CheckFormat::Junit => Err(wrong_format("junit")),
+            CheckFormat::Latex => Err(wrong_format("latex")),
+            CheckFormat::Markdown => Err(wrong_format("markdown")),
+            CheckFormat::Html => Err(wrong_format("html")),
         }
     }
 

@@ -9,6 +9,7 @@ mod diagram;
 pub(super) mod exponents;
 mod growth;
 pub(super) mod ink;
+mod iterates;
 pub(super) mod motion;
 mod orbit;
 pub(super) mod output;
@@ -75,13 +76,15 @@ Examples:
 /// Commands about motions.
 #[derive(Debug, Subcommand)]
 pub enum MotionCommand {
-    /// Follow motions: final states, the drift of integrals, and samples as data or a picture
+    /// Follow motions, or the iterates of a map: final states, the drift of integrals, and samples as
+    /// data or a picture
     #[command(after_help = "\
 Examples:
   liouville motion orbit figures/fig-8 --time 1000
   liouville motion orbit figures/fig-8 --start 3.4,0.3 --time 20 --every 0.01 --columns 't, γ, F2' --out orbit.csv
   liouville motion orbit spin/rattleback-reversal --state 'ω=[1/50,1/50,1] γ=[0,0,1]' --time 20 --plot 't, (ω,γ)' --out spin.png
-  liouville motion orbit spin/rattleback-reversal --time 20 --track --out track.pdf")]
+  liouville motion orbit spin/rattleback-reversal --time 20 --track --out track.pdf
+  liouville motion orbit classical/maps/standard --set s=2 --iterates 2000 --orbits 30 --columns 'atan2(sin(x), cos(x)), p' --out standard.png")]
     Orbit(orbit::OrbitArgs),
     /// Draw a Poincaré section: of a rolling body in the Andoyer-like variables, of any system by a
     /// surface

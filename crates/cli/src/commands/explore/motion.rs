@@ -59,6 +59,15 @@ impl MotionArgs {
         self.moving(read_text(&self.case, text, &self.settings)?)
     }
 
+    /// Reads a case that may be a map.
+    pub fn open_with_maps(&self) -> Result<Case, String> {
+        let opened = match &self.text {
+            Some(text) => read_text(&self.case, text, &self.settings)?,
+            None => open_text(&self.case, &self.settings)?,
+        };
+        self.keeping(opened).map(|opened| opened.case)
+    }
+
     /// Identity of a job about the case.
     pub fn identity(
         &self,
@@ -86,6 +95,11 @@ impl MotionArgs {
         if opened.case.model.system.is_map() {
             return Err(self.told(&FlowError::Discrete));
         }
+        self.keeping(opened)
+    }
+
+    /// The case, if what moves stays on its level.
+    fn keeping(&self, opened: Opened) -> Result<Opened, String> {
         match liouville_flow::check_level(&opened.case, self.seed) {
             Ok(()) => Ok(opened),
             Err(error) => {
@@ -98,7 +112,7 @@ impl MotionArgs {
 
     /// Line that names the drawn values of free parameters; empty where there are none, and in JSON.
     pub fn drawn_parameters(&self) -> String {
-        let Some(case) = (!self.json).then(|| self.open().ok()).flatten() else {
+        let Some(case) = (!self.json).then(|| self.open_with_maps().ok()).flatten() else {
             return String::new();
         };
         let Ok(values) = liouville_flow::fixed_parameters(&case, self.seed, 0) else {

@@ -17,7 +17,8 @@ use liouville_flow::{
 use super::Progress;
 use super::eval::wrong_state;
 use super::ink::Ink;
-use super::motion::{MotionArgs, Threads, parse_number, rendered, wrong_formula};
+use super::iterates;
+use super::motion::{MotionArgs, Threads, parse_number, parse_positive, rendered, wrong_formula};
 use super::output::{Ending, Output};
 use super::starts::{GivenStart, Named, Starts, misfit};
 use super::track;
@@ -26,15 +27,22 @@ use super::{CommandOutput, write};
 /// Number of intervals between samples where no interval is given.
 const INTERVALS: i64 = 1000;
 /// Limit on the numbers of a file.
-const MOST_NUMBERS: f64 = 3e7;
+pub const MOST_NUMBERS: f64 = 3e7;
+/// Time where none is given.
+const TIME: i64 = 100;
+/// Limit on the number of iterates of a map.
+const MOST_ITERATES: f64 = 1e10;
 
 #[derive(Debug, Args)]
 pub struct OrbitArgs {
     #[command(flatten)]
     pub subject: MotionArgs,
-    /// Time to follow the motion; negative: backwards
-    #[arg(long, default_value = "100", allow_hyphen_values = true, value_parser = parse_number)]
-    pub time: Rational,
+    /// Time to follow the motion, 100 by default; negative: backwards
+    #[arg(long, allow_hyphen_values = true, value_parser = parse_number)]
+    pub time: Option<Rational>,
+    /// Number of iterates of a map, 1000 by default
+    #[arg(long, value_name = "N", value_parser = parse_iterates)]
+    pub iterates: Option<u64>,
     /// Start by exact numbers: --state 'ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]', moved to the level set if
     /// it is off it; drawn by default
     #[arg(long, value_name = "STATE", conflicts_with_all = ["start", "starts"])]
@@ -47,11 +55,16 @@ pub struct OrbitArgs {
     /// Number of the state that is drawn
     #[arg(long, default_value_t = 0)]
     pub index: u64,
-    /// Interval of time between the samples of --out; by default a thousandth of the time
+    /// Number of motions from drawn states, where no start is given
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = parse_positive)]
+    pub orbits: usize,
+    /// Interval of time between the samples of --out; by default a thousandth of the time. Of a map
+    /// the number of iterates from one sample to the next; by default 1
     #[arg(long, value_name = "TIME", requires = "out", value_parser = parse_number)]
     pub every: Option<Rational>,
     /// Columns of --out: t, formulas of the case, and names of its claims: --columns 't, x, energy, F2'.
-    /// By default t and the state. A picture shows the others over the first, which may be t
+    /// By default t and the state. A picture shows the others over the first, which may be t. Of a map
+    /// n counts the iterates, and a picture shows its first two components by default
     #[arg(
         long,
         visible_alias = "plot",
@@ -87,19 +100,36 @@ impl Digits {
     }
 }
 
+/// Reads a number of iterates, also as 1e6.
+fn parse_iterates(text: &str) -> Result<u64, String> {
+    let whole = parse_number(text).ok().filter(|count| count.to_integer().is_some());
+    let count = whole.map(|count| count.to_f64().0);
+    let count = count.filter(|count| (1.0..=MOST_ITERATES).contains(count));
+    count.map(|count| count as u64).ok_or("write a whole number from 1 to 1e10".to_string())
+}
+
 pub fn run(options: &OrbitArgs) -> Result<CommandOutput, String> {
-    if !options.time.to_f64().0.is_finite() {
+    let subject = &options.subject;
+    let case = subject.open_with_maps()?;
+    if case.model.system.is_map() {
+        return iterates::run(options, &case);
+    }
+    if options.iterates.is_some() {
+        return Err("error: --iterates: the case has motions in time, and is no map\n\
+                    help: give a time: --time 100"
+            .to_string());
+    }
+    let time = options.time.clone().unwrap_or_else(|| Rational::from(TIME));
+    if !time.to_f64().0.is_finite() {
         return Err(
             "error: --time: the time is too large for f64\nhelp: give a shorter time".to_string()
         );
     }
-    if options.time.to_f64().0 == 0.0 {
+    if time.to_f64().0 == 0.0 {
         return Err("error: --time 0: nothing moves in no time\n\
                     help: write a number that is not 0; `liouville eval` shows the state and its rates"
             .to_string());
     }
-    let subject = &options.subject;
-    let case = subject.open()?;
     let told = |error: FlowError| subject.told(&error);
     if case.model.system.has_arbitrary_function() {
         return Err(told(FlowError::Arbitrary));
@@ -112,15 +142,15 @@ pub fn run(options: &OrbitArgs) -> Result<CommandOutput, String> {
     }
     let columns = columns(&case, options)?;
     let (names, starts): (Vec<_>, Vec<_>) = starts(&case, options)?.into_iter().unzip();
-    let every = interval(options, starts.len(), columns.titles().len())?;
+    let every = interval(options, &time, starts.len(), columns.titles().len())?;
     let precision = options.precision.precision();
     let bar = Progress::of(starts.len() as u64, "orbits");
     let threads = options.threads.count();
     let (found, tracks): (Vec<SampledOrbit>, _) = match options.track {
         true => {
-            let times = (&options.time, &every);
+            let times = (&time, &every);
             let followed = track::follow(&case, &starts, times, threads, &|share| bar.add(share))?;
-            let rows = followed.rows(&options.time, &every);
+            let rows = followed.rows(&time, &every);
             let points: Vec<Vec<[f64; 2]>> =
                 followed.tracks.into_iter().map(|track| track.points).collect();
             let found = followed.found.into_iter().zip(rows);
@@ -130,7 +160,7 @@ pub fn run(options: &OrbitArgs) -> Result<CommandOutput, String> {
         false => {
             let sampling = Sampling { columns: &columns, every };
             let sampling = out.is_some().then_some(&sampling);
-            let followed = (&options.time, precision);
+            let followed = (&time, precision);
             let progress = |share| bar.add(share);
             (liouville_flow::orbits(&case, &starts, followed, sampling, threads, &progress), None)
         }
@@ -157,7 +187,7 @@ pub fn run(options: &OrbitArgs) -> Result<CommandOutput, String> {
                 orbit::plot(&titles, &names, &rows)
             }
         };
-        save(&case, options, out, (&titles[..], plot), &found)?;
+        save(&case, (options, &time), out, (&titles[..], plot), &found)?;
     }
     let ended = found.iter().filter_map(|one| one.orbit.as_ref().err());
     // Single motions may end early; if all do, the command fails.
@@ -204,7 +234,7 @@ fn columns(case: &Case, options: &OrbitArgs) -> Result<Columns, String> {
 }
 
 /// Starts with their names.
-fn starts(case: &Case, options: &OrbitArgs) -> Result<Named, String> {
+pub fn starts(case: &Case, options: &OrbitArgs) -> Result<Named, String> {
     let subject = &options.subject;
     let launches =
         Launches { case, energy: None, pad: None, seed: subject.seed, index: options.index };
@@ -215,7 +245,12 @@ fn starts(case: &Case, options: &OrbitArgs) -> Result<Named, String> {
     }
     let given = options.starts.read(case)?;
     if given.is_empty() {
-        return Ok(vec![("drawn".to_string(), one(&Begin::Drawn(options.index)))]);
+        let name = |index: u64| match options.orbits {
+            1 => "drawn".to_string(),
+            _ => format!("drawn, {index}"),
+        };
+        let all = (0..options.orbits as u64).map(|k| options.index + k);
+        return Ok(all.map(|index| (name(index), one(&Begin::Drawn(index)))).collect());
     }
     let start = |(name, given): (String, GivenStart)| match given {
         GivenStart::State(state) => Ok((name, one(&Begin::State(state)))),
@@ -243,8 +278,13 @@ fn on_section(
 }
 
 /// Interval between samples.
-fn interval(options: &OrbitArgs, starts: usize, columns: usize) -> Result<Rational, String> {
-    let size = options.time.abs();
+fn interval(
+    options: &OrbitArgs,
+    time: &Rational,
+    starts: usize,
+    columns: usize,
+) -> Result<Rational, String> {
+    let size = time.abs();
     let every = match &options.every {
         Some(every) => every.clone(),
         None => &size * &Rational::new(1, INTERVALS),
@@ -264,14 +304,14 @@ fn interval(options: &OrbitArgs, starts: usize, columns: usize) -> Result<Ration
 }
 
 /// Titles of the columns; of several motions the first column is the number of the start.
-fn numbered(titles: &[String], count: usize) -> Vec<String> {
+pub fn numbered(titles: &[String], count: usize) -> Vec<String> {
     let start = (count > 1).then(|| "start".to_string());
     start.into_iter().chain(titles.iter().cloned()).collect()
 }
 
 fn save(
     case: &Case,
-    options: &OrbitArgs,
+    (options, time): (&OrbitArgs, &Rational),
     out: &Output,
     (titles, plot): (&[String], Option<Plot>),
     found: &[SampledOrbit],
@@ -281,7 +321,7 @@ fn save(
             let plot = plot.ok_or_else(|| {
                 "error: a picture needs two columns\nhelp: write --columns 't, x'".to_string()
             })?;
-            let time = facts::equation("t", &format!("0 … {}", options.time));
+            let time = facts::equation("t", &format!("0 … {time}"));
             let caption = facts::listed([time].into_iter().chain(facts::parameters(case, &[])));
             options.ink.drawn((case.title.as_str(), vec![caption]), vec![plot], 1, out.ending)?
         }

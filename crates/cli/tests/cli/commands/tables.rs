@@ -113,29 +113,33 @@ fn cells_hold_the_formulas_of_the_papers() {
 #[test]
 fn a_table_is_a_latex_document() {
     for number in ["1", "2", "3", "4"] {
-        let text = rendered(number, "latex");
-        assert!(text.starts_with("\\documentclass"), "table {number}");
-        assert!(text.ends_with("\\end{document}\n"), "table {number}");
-        assert!(text.chars().all(|c| c <= 'ſ'), "table {number} has letters of any LaTeX");
-        let mut depth = 0_i32;
-        let mut before = ' ';
-        for c in text.chars() {
-            match (before, c) {
-                ('\\', _) => {}
-                (_, '{') => depth += 1,
-                (_, '}') => depth -= 1,
-                _ => {}
-            }
-            assert!(depth >= 0, "table {number}: a brace is closed that was not opened");
-            before = if before == '\\' { ' ' } else { c };
-        }
-        assert_eq!(depth, 0, "table {number}: braces");
-        compile(number, &text);
+        check_latex(number, &rendered(number, "latex"));
     }
     let text = rendered("1", "latex");
     for part in ["\\multicolumn{4}", "\\multicolumn{2}", "\\cellcolor", "\\boldsymbol{J}"] {
         assert!(text.contains(part), "table 1 has group heads, shades and formulas: {part}");
     }
+}
+
+/// Checks that a document is one for any LaTeX.
+fn check_latex(number: &str, text: &str) {
+    assert!(text.starts_with("\\documentclass"), "table {number}");
+    assert!(text.ends_with("\\end{document}\n"), "table {number}");
+    assert!(text.chars().all(|c| c <= 'ſ'), "table {number} has letters of any LaTeX");
+    let mut depth = 0_i32;
+    let mut before = ' ';
+    for c in text.chars() {
+        match (before, c) {
+            ('\\', _) => {}
+            (_, '{') => depth += 1,
+            (_, '}') => depth -= 1,
+            _ => {}
+        }
+        assert!(depth >= 0, "table {number}: a brace is closed that was not opened");
+        before = if before == '\\' { ' ' } else { c };
+    }
+    assert_eq!(depth, 0, "table {number}: braces");
+    compile(number, text);
 }
 
 /// Compiles a document where there is a pdfLaTeX; no line may stand out of its cell by more than
@@ -169,4 +173,54 @@ fn a_table_is_a_page_with_formulas_and_group_heads() {
     for part in ["**Table 1.", "| **additional integral** |", "](<cases/plane/", "(a) "] {
         assert!(text.contains(part), "{part}");
     }
+}
+
+/// Claims of each kind of row: a wide formula, particulars, a wrong expectation and an open claim.
+const OWN: &str = "title = \"50% of A_1 & B\"\nsource = \"Author, J. #3\"\n[parameters]\nk = \"0.5..2\"\n\
+    [state]\nx = \"-2..2\"\nv = \"-2..2\"\n[field]\n\"x'\" = \"v\"\n\"v'\" = \"-k*x\"\n\
+    [[claim]]\nname = \"energy_1\"\nintegral = \"v² + k*x²\"\n\
+    [[claim]]\nintegral = \"√(v² + k*x² + v²*(v² + k*x²) + k*x²*(v² + k*x²) + v^4 + 2*k*x²*v² + k^2*x^4)\"\n\
+    [[claim]]\nname = \"wrong\"\nintegral = \"v² − k*x²\"\nsource = \"(2) [p. 3]\"\n\
+    [[claim]]\nname = \"rest\"\nfixed-point = {}\nspectrum = [\"± √k*i\"]\n\
+    [[claim]]\nname = \"time\"\nreversor = { v = \"−v\" }\n";
+
+#[test]
+fn verdicts_are_tables_for_papers() {
+    let path = folder("verdicts", &[("a.toml", OWN), ("b.toml", "title = 1\n")]);
+    let path = path.to_str().expect("a path");
+    let set = |format: &str| {
+        let output = liouville(&["check", path, "--format", format]).output().expect("it runs");
+        assert_eq!(output.status.code(), Some(2), "one file is wrong");
+        String::from_utf8(output.stdout).expect("UTF-8")
+    };
+    let text = set("latex");
+    check_latex("of verdicts", &text);
+    for part in [
+        "\\begin{longtable}",
+        "50\\% of A\\_1 \\& B",
+        "(Author, J. \\#3)",
+        "\\textbf{refuted} (not expected)",
+        "[(2) [p. 3]]",
+        "spectrum",
+        "not judged: ",
+        "\n[1] $",
+    ] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+    let text = set("markdown");
+    for part in [
+        "| claim | kind | statement | verdict | evidence |",
+        "energy\\_1 | integral | $",
+        "**refuted**",
+    ] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+    let text = set("html");
+    for part in ["<table>", "50% of A_1 &amp; B", "<math>", "class=\"unexpected\"", "residual "] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+    liouville(&["check", "plane/disk", "--settings", "a.csv", "--format", "latex"])
+        .assert()
+        .code(2)
+        .stderr(contains("latex"));
 }

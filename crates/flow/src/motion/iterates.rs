@@ -1,0 +1,311 @@
+//! Orbits of a map: its iterates, the drift of what should be constant, and samples.
+//!
+//! ```text
+//! case, start ─ record ─▶ images as written, and what must exist ─ tape ─▶ x, Φ(x), Φ(Φ(x)), …
+//! ```
+
+use crate::error::FlowError;
+use crate::motion::columns::Columns;
+use crate::motion::orbit::{Followed, MEASUREMENTS, Precision, Watch};
+use crate::motion::recorded::point;
+use crate::motion::start::Start;
+use crate::taylor::batch::each;
+use crate::told::ToldShare;
+use liouville::case::Case;
+use liouville::graph::{Evaluator, Expr, Graph, Step, Tape, record};
+use liouville::mechanics::Model;
+use liouville::number::double_double::{DoubleDouble, DoubleDoubles};
+use liouville::number::float::Float;
+use liouville::number::{BinaryOperation, UnaryFunction};
+
+/// Number of iterates between two reports of progress.
+const TOLD_EVERY: u64 = 4096;
+
+/// An orbit of a map.
+#[derive(Clone, Debug)]
+pub struct MapOrbit {
+    /// Initial state.
+    pub start: Start,
+    /// Number of iterates.
+    pub iterates: u64,
+    /// Last iterate.
+    pub end: Vec<DoubleDouble>,
+    /// Quantities followed along the orbit.
+    pub followed: Vec<Followed>,
+}
+
+/// Reason why an orbit of a map cannot be computed, or ends early.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum IterateError {
+    /// The start, or a formula, is at fault.
+    #[error("{0}")]
+    Start(#[from] FlowError),
+    /// An image has no value.
+    #[error("`{formula}` has no value after {}, at {place}", counted(*iterates))]
+    NoValue {
+        /// Formula as written.
+        formula: String,
+        /// Number of iterates that were found.
+        iterates: u64,
+        /// The last state, in words.
+        place: String,
+    },
+    /// A number is beyond the range of f64.
+    #[error("the orbit escapes: after {}, at {place}, the next is too large for f64", counted(*iterates))]
+    Escapes {
+        /// Number of iterates that were found.
+        iterates: u64,
+        /// The last state, in words.
+        place: String,
+    },
+}
+
+impl IterateError {
+    /// Advice on how to avoid the error.
+    pub fn help(&self) -> &'static str {
+        match self {
+            IterateError::Start(error) => error.help(),
+            IterateError::NoValue { iterates: 0, .. } => {
+                "choose another start, or other parameters"
+            }
+            IterateError::NoValue { .. } | IterateError::Escapes { .. } => {
+                "choose another start, or fewer --iterates"
+            }
+        }
+    }
+}
+
+fn counted(iterates: u64) -> String {
+    format!("{iterates} iterate{}", if iterates == 1 { "" } else { "s" })
+}
+
+/// Columns of samples, and the number of iterates from one to the next.
+pub struct MapSampling<'s> {
+    /// Columns of each row.
+    pub columns: &'s Columns,
+    /// Every how many iterates a sample is taken, 1 or more.
+    pub every: u64,
+}
+
+/// An orbit with its samples.
+pub struct SampledMapOrbit {
+    /// Orbit as a whole, or the reason why it ended early or did not start.
+    pub orbit: Result<MapOrbit, IterateError>,
+    /// Rows of samples, up to the end or to where the orbit ended early.
+    pub rows: Vec<Vec<DoubleDouble>>,
+}
+
+/// Iterates a map from several starts, each with samples if these are requested. Calls `progress` with
+/// shares of an orbit as they are done.
+pub fn iterates(
+    case: &Case,
+    starts: &[Result<Start, FlowError>],
+    (count, precision): (u64, Precision),
+    sampling: Option<&MapSampling<'_>>,
+    threads: usize,
+    progress: &(dyn Fn(f64) + Sync),
+) -> Vec<SampledMapOrbit> {
+    each(starts.len(), threads, &|index| {
+        let mut told = ToldShare::default();
+        let mut rows = Vec::new();
+        let mut reach = |share| told.reach(share, progress);
+        let orbit = match &starts[index] {
+            Ok(start) => one(case, start, (count, precision), sampling, (&mut rows, &mut reach)),
+            Err(problem) => Err(problem.clone().into()),
+        };
+        told.finish(progress);
+        SampledMapOrbit { orbit, rows }
+    })
+}
+
+fn one(
+    case: &Case,
+    start: &Start,
+    (count, precision): (u64, Precision),
+    sampling: Option<&MapSampling<'_>>,
+    (rows, reach): (&mut Vec<Vec<DoubleDouble>>, &mut dyn FnMut(f64)),
+) -> Result<MapOrbit, IterateError> {
+    let map = RecordedMap::new(&case.model, start)?;
+    let mut watch = Watch::new(case, start)?;
+    let gauge = sampling.map(|own| own.columns.recorded(&start.parameters)).transpose()?;
+    let mut row = gauge.as_ref().map(|gauge| gauge.rows());
+    let every = sampling.map_or(1, |own| own.every.max(1));
+    let mut next = map.stepper(precision);
+    let mut state = start.state.clone();
+    let mut measured = 0;
+    for index in 0..=count {
+        if let Some(row) = row.as_mut().filter(|_| index % every == 0) {
+            rows.push(row(DoubleDouble::from_f64(index as f64), &state));
+        }
+        let passed = index as f64 / count.max(1) as f64 * f64::from(MEASUREMENTS);
+        if passed >= f64::from(measured) || index == count {
+            measured = passed as u32 + 1;
+            watch.measure(&state);
+        }
+        if index % TOLD_EVERY == 0 {
+            reach(index as f64 / count.max(1) as f64);
+        }
+        if index < count {
+            state = next(&state).map_err(|fault| map.problem(&fault, index, &state))?;
+        }
+    }
+    Ok(MapOrbit { start: start.clone(), iterates: count, end: state, followed: watch.followed })
+}
+
+/// Values of an argument at which an operation exists.
+#[derive(Clone, Copy, Debug)]
+enum Domain {
+    Nonzero,
+    Positive,
+    NotNegative,
+}
+
+impl Domain {
+    /// Domain of an operation that does not exist everywhere, and the place of its argument.
+    fn of(step: Step<'_>) -> Option<(Self, usize)> {
+        match step {
+            Step::Unary(UnaryFunction::Recip, a) => Some((Domain::Nonzero, a)),
+            Step::Unary(UnaryFunction::Sqrt, a) => Some((Domain::NotNegative, a)),
+            Step::Unary(UnaryFunction::Ln, a) | Step::Binary(BinaryOperation::Pow, a, _) => {
+                Some((Domain::Positive, a))
+            }
+            Step::Power(a, exponent) => {
+                let is_whole = exponent.to_integer().is_some();
+                Some(match (is_whole, exponent.is_negative()) {
+                    (true, false) => return None,
+                    (true, true) => (Domain::Nonzero, a),
+                    (false, true) => (Domain::Positive, a),
+                    (false, false) => (Domain::NotNegative, a),
+                })
+            }
+            _ => None,
+        }
+    }
+
+    fn contains(self, argument: f64) -> bool {
+        match self {
+            Domain::Nonzero => argument != 0.0,
+            Domain::Positive => argument > 0.0,
+            Domain::NotNegative => argument >= 0.0,
+        }
+    }
+}
+
+/// What keeps a state from having an image.
+enum Fault {
+    /// The formula with this index has no value.
+    Formula(usize),
+    Overflow,
+}
+
+/// Function from a state to its image.
+type Next<'m> = Box<dyn FnMut(&[DoubleDouble]) -> Result<Vec<DoubleDouble>, Fault> + 'm>;
+
+/// A map with fixed parameters on a tape: its images, and the arguments of operations as written that
+/// do not exist everywhere.
+struct RecordedMap {
+    tape: Tape,
+    names: Vec<String>,
+    formulas: Vec<String>,
+    /// Domain of each argument, with the index of its formula.
+    guards: Vec<(Domain, usize)>,
+}
+
+impl RecordedMap {
+    fn new(model: &Model, start: &Start) -> Result<Self, FlowError> {
+        let dimension = model.dimension();
+        let own = model.equations_of_motion();
+        let all: Vec<_> = model.parameter_formulas_of(&own).into_iter().chain(own).collect();
+        let (graph, (images, written)) = record(dimension, |state| {
+            let phase = point(model, &start.parameters, state);
+            let written: Vec<Vec<Expr>> =
+                all.iter().map(|formula| phase.literal_values([*formula])).collect();
+            (phase.field().to_vec(), written)
+        })?;
+        if graph.inputs() > dimension {
+            return Err(FlowError::Antiderivative);
+        }
+        let (guards, arguments) = guards(&graph, &images, &written);
+        Ok(Self {
+            tape: Tape::new(&graph, &[images, arguments].concat()),
+            names: (0..dimension).map(|k| model.component_name(k)).collect(),
+            formulas: all.iter().map(|formula| formula.text().trim().to_string()).collect(),
+            guards,
+        })
+    }
+
+    fn stepper(&self, precision: Precision) -> Next<'_> {
+        match precision {
+            Precision::Float => {
+                let mut evaluator = Evaluator::new(&self.tape, Float::<1>);
+                Box::new(move |state| {
+                    evaluator.run(&state.iter().map(|x| [x.hi]).collect::<Vec<_>>());
+                    self.checked(evaluator.outputs().map(|x| DoubleDouble::from_f64(x[0])))
+                })
+            }
+            Precision::Pair => {
+                let mut evaluator = Evaluator::new(&self.tape, DoubleDoubles);
+                Box::new(move |state| {
+                    evaluator.run(state);
+                    self.checked(evaluator.outputs().copied())
+                })
+            }
+        }
+    }
+
+    /// The image among the values of the tape, if it exists.
+    fn checked(
+        &self,
+        values: impl Iterator<Item = DoubleDouble>,
+    ) -> Result<Vec<DoubleDouble>, Fault> {
+        let mut image: Vec<DoubleDouble> = values.collect();
+        let arguments = image.split_off(self.names.len());
+        let broken = self.guards.iter().zip(&arguments).find(|((domain, _), argument)| {
+            argument.hi.is_finite() && !domain.contains(argument.hi)
+        });
+        match broken {
+            Some(((_, formula), _)) => Err(Fault::Formula(*formula)),
+            None if image.iter().all(|x| x.is_finite()) => Ok(image),
+            None => Err(Fault::Overflow),
+        }
+    }
+
+    fn problem(&self, fault: &Fault, iterates: u64, state: &[DoubleDouble]) -> IterateError {
+        // −0 + 0 is 0.
+        let parts =
+            self.names.iter().zip(state).map(|(name, x)| format!("{name} = {:?}", x.hi + 0.0));
+        let place = parts.collect::<Vec<_>>().join(", ");
+        match fault {
+            Fault::Formula(index) => {
+                let formula = self.formulas.get(*index).cloned().unwrap_or_default();
+                IterateError::NoValue { formula, iterates, place }
+            }
+            Fault::Overflow => IterateError::Escapes { iterates, place },
+        }
+    }
+}
+
+/// Domains of all operations that do not exist everywhere, with their formulas and their arguments.
+fn guards(
+    graph: &Graph,
+    images: &[Expr],
+    written: &[Vec<Expr>],
+) -> (Vec<(Domain, usize)>, Vec<Expr>) {
+    let (mut guards, mut arguments) = (Vec::new(), Vec::new());
+    let mut seen = vec![false; graph.len()];
+    let in_images = graph.reached(images.iter().copied());
+    let sources = written.iter().map(|own| graph.reached(own.iter().copied()));
+    // What the images contain and no formula is found in counts with the first one.
+    for (formula, reached) in sources.chain([in_images]).enumerate() {
+        for place in (0..graph.len()).filter(|place| reached[*place]) {
+            if std::mem::replace(&mut seen[place], true) {
+                continue;
+            }
+            if let Some((domain, argument)) = Domain::of(graph.step(place)) {
+                guards.push((domain, formula.min(written.len().saturating_sub(1))));
+                arguments.push(graph.at(argument));
+            }
+        }
+    }
+    (guards, arguments)
+}

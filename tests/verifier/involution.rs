@@ -1,0 +1,172 @@
+//! Functions in involution, and the hypotheses of Liouville's theorem: each claim that holds has a twin
+//! that fails.
+
+use Verdict::{Proved, Refuted, Undecided};
+use liouville::case::Case;
+use liouville::verdict::{Options, Verdict, judge};
+
+/// Judges claims after `head`, each with its required verdict.
+#[track_caller]
+fn check(head: &str, expected: &[(Verdict, &str)]) {
+    let stated: String =
+        expected.iter().map(|(_, claim)| format!("[[claim]]\n{claim}\n")).collect();
+    let text = format!("{head}\n{stated}");
+    let case = Case::parse(&text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let report = judge(&case, &Options::default()).unwrap_or_else(|error| panic!("{error}"));
+    for (claim, (verdict, text)) in report.claims.iter().zip(expected) {
+        assert_eq!(claim.verdict, *verdict, "{text}\n{:#?}", claim.evidence);
+    }
+}
+
+/// The message and the remedy for a claim after `head`.
+#[track_caller]
+fn mistake(head: &str, claim: &str) -> String {
+    let text = format!("{head}\n[[claim]]\n{claim}\n");
+    let error = Case::parse(&text, &[]).expect_err("a mistake");
+    let help = error.mistakes().iter().filter_map(|own| own.help());
+    format!("{error}\n{}", help.collect::<Vec<_>>().join("\n"))
+}
+
+const LAGRANGE: &str = "title = 'top'\nsystem = 'nonholonomic'\n[parameters]\nA = '0.5..2'\nC = '0.5..2'\nm = '0.5..2'\n\
+    [state]\n'θ' = '0.5..2.5'\n'φ' = '-3..3'\n'ψ' = '-3..3'\n\"θ'\" = '-2..2'\n\"φ'\" = '-2..2'\n\"ψ'\" = '-2..2'\n\
+    [lagrangian]\nkinetic = \"(A*(θ'² + φ'²*sin(θ)²) + C*(ψ' + φ'*cos(θ))²)/2\"\npotential = 'm*cos(θ)'\n\
+    [let]\np = \"C*(ψ' + φ'*cos(θ))\"\nj = \"A*φ'*sin(θ)² + C*(ψ' + φ'*cos(θ))*cos(θ)\"";
+
+#[test]
+fn momenta_of_a_lagrangian_are_canonical() {
+    check(
+        LAGRANGE,
+        &[
+            (Proved, "involution = ['energy', 'p', 'j']\ntheorem = 'Liouville'"),
+            // The momentum of θ is A θ'; {θ, Aθ'} = 1, and {φ, j} = 1.
+            (Refuted, "involution = ['θ', \"θ'\"]"),
+            (Proved, "involution = ['φ', 'p', \"θ'\"]"),
+            (Refuted, "involution = ['φ', 'j']"),
+            // A velocity is no momentum: φ' depends on θ at constant momenta.
+            (Refuted, "involution = [\"φ'\", \"θ'\"]"),
+            (Proved, "involution = [\"φ'\", 'p', 'j']"),
+            // In involution, and none is the energy.
+            (Refuted, "involution = ['θ', 'p', 'j']\ntheorem = 'Liouville'"),
+            (Undecided, "involution = ['energy', 'p', 'p² + p']\ntheorem = 'Liouville'"),
+        ],
+    );
+}
+
+#[test]
+fn gyroscopic_terms_enter_the_bracket() {
+    // p₁ = x' − B y/2, p₂ = y' + B x/2: {x', y'} = B, in the sign of p' = p × B.
+    let head = "title = 'charge'\nsystem = 'nonholonomic'\n[parameters]\nB = '0.5..2'\n[state]\nx = '-1..1'\ny = '-1..1'\n\
+        \"x'\" = '-1..1'\n\"y'\" = '-1..1'\n[lagrangian]\nkinetic = \"(x'² + y'²)/2 + B*(x*y' − y*x')/2\"";
+    check(
+        head,
+        &[
+            (
+                Proved,
+                "involution = ['energy', \"x*y' − y*x' + B*(x² + y²)/2\"]\ntheorem = 'Liouville'",
+            ),
+            (Refuted, "involution = ['energy', \"x*y' − y*x' − B*(x² + y²)/2\"]"),
+            (Proved, "involution = [\"x' − B*y\", \"x'\"]"),
+            (Refuted, "involution = [\"x' + B*y\", \"y'\"]"),
+            (Proved, "involution = [\"x' − B*y\", \"y'\"]"),
+            (Refuted, "involution = [\"x' − B*y\", \"y' + B*x\"]"),
+        ],
+    );
+}
+
+const KEPLER: &str = "title = 'Kepler'\n[parameters]\nk = '0.5..2'\n[state]\nq = 'vector(0.5..2)'\np = 'vector(-1..1)'\n\
+    [let]\nL = 'q × p'\n[hamiltonian]\nfunction = '(p,p)/2 − k/|q|'\npairs = [['q', 'p']]";
+
+#[test]
+fn a_hamiltonian_has_its_own_bracket() {
+    check(
+        KEPLER,
+        &[
+            (Proved, "involution = ['energy', 'L3', '(L,L)']\ntheorem = 'Liouville'"),
+            (Refuted, "involution = ['energy', 'L3', 'L1']"),
+            (Refuted, "involution = ['energy', 'L']\ntheorem = 'Liouville'"),
+            (Proved, "involution = ['L1', 'p1² + p2² + p3²']"),
+        ],
+    );
+    let told = mistake(KEPLER, "involution = ['energy', 'L3']\ntheorem = 'Liouville'");
+    assert!(told.contains("cannot hold with 2 functions on a space of dimension 6"), "{told}");
+    assert!(told.contains("list 3 functions"), "{told}");
+    let told = mistake(KEPLER, "involution = ['energy', 'L']\ntheorem = 'Jacobi'");
+    assert!(told.contains("theorem = \"Liouville\""), "{told}");
+    assert!(mistake(KEPLER, "involution = ['energy']").contains("between 2 and"));
+}
+
+/// Euler's top with Casimir function (M,M), on a level of it or not.
+fn top(level: &str) -> String {
+    format!(
+        "title = 'top'\n[parameters]\na = '0.5..2'\nb = '2..3'\nc = '1'\n[state]\nM = 'vector(-1..1)'\n\
+         [hamiltonian]\nfunction = '(a*M1² + b*M2² + 4*M3²)/2'\nstructure = 'so(3)'\n{level}"
+    )
+}
+
+#[test]
+fn casimir_functions_count() {
+    check(
+        &top(""),
+        &[
+            (Proved, "involution = ['energy', '(M,M)']\ntheorem = 'Liouville'"),
+            (Refuted, "involution = ['M1', 'M2']"),
+        ],
+    );
+    check(
+        &top("[level]\nequations = ['(M,M) = c']"),
+        &[(Proved, "involution = ['energy']\ntheorem = 'Liouville'")],
+    );
+    // A level of the energy is not one of Casimir functions.
+    check(
+        &top("[level]\nequations = ['a*M1² + b*M2² + 4*M3² = c']"),
+        &[(Refuted, "involution = ['(M,M)']\ntheorem = 'Liouville'")],
+    );
+}
+
+/// A chain as a field, with its bracket.
+fn chain(field: &str) -> String {
+    format!(
+        "title = 'chain'\n[state]\nx = '-1..1'\ny = '-1..1'\np = '-1..1'\nr = '-1..1'\n[field]\n{field}\n\
+         [variables]\nx = 'x'\np = 'p'\ny = 'y'\nr = 'r'\n[poisson]\n'x,p' = '1'\n'y,r' = '1'\n"
+    )
+}
+
+#[test]
+fn a_field_must_keep_its_bracket() {
+    let functions = "involution = ['x² + p²', 'y² + r²']\ntheorem = 'Liouville'";
+    let rates = "\"x'\" = 'p'\n\"p'\" = '−x'\n\"y'\" = 'r'\n\"r'\" = '−y'";
+    check(&chain(rates), &[(Proved, functions), (Refuted, "involution = ['x', 'p']")]);
+    // The same orbits with another time: a field on the same tori that does not keep the bracket.
+    let rates = "\"x'\" = '(1 + x²)*p'\n\"p'\" = '−(1 + x²)*x'\n\"y'\" = 'r'\n\"r'\" = '−y'";
+    check(&chain(rates), &[(Refuted, functions), (Proved, "involution = ['x² + p²', 'y² + r²']")]);
+}
+
+#[test]
+fn new_variables_carry_the_bracket_to_the_state() {
+    // M = Iω with the bracket of so(3): {ω₁,ω₂} = −a I₃ω₃/(I₁I₂) in the sign of M' = M × ω.
+    let head = "title = 'top'\n[parameters]\na = '1..2'\nb = '2..3'\n[state]\n'ω' = 'vector(-1..1)'\n[let]\nI = 'diag(1, a, b)'\n\
+        [field]\n\"ω'\" = 'inverse(I)*(I*ω × ω)'\n[variables]\nM = 'I*ω'\n[poisson]\nstructure = 'so(3)'\n";
+    check(
+        head,
+        &[
+            (Proved, "involution = ['(ω,I*ω)', '(I*ω,I*ω)']\ntheorem = 'Liouville'"),
+            (Refuted, "involution = ['(ω,I*ω)', '(ω,ω)']"),
+            (Refuted, "involution = ['ω1', 'ω2']"),
+        ],
+    );
+}
+
+#[test]
+fn systems_without_a_bracket_are_refused() {
+    let head = "title = 'sleigh'\nsystem = 'nonholonomic'\n[state]\nx = '-1..1'\ny = '-1..1'\n\"x'\" = '-1..1'\n\"y'\" = '-1..1'\n\
+        [lagrangian]\nkinetic = \"(x'² + y'²)/2\"\nconstraints = [\"x' = x*y'\"]";
+    let told = mistake(head, "involution = [\"x'\", \"y'\"]");
+    assert!(told.contains("without constraints, forces"), "{told}");
+    let head =
+        "title = 'field'\n[state]\nx = '-1..1'\ny = '-1..1'\n[field]\n\"x'\" = 'y'\n\"y'\" = '−x'";
+    assert!(mistake(head, "involution = ['x', 'y']").contains("[poisson]"));
+    let driven = "title = 'driven'\n[state]\nx = '-1..1'\np = '-1..1'\nt = '-1..1'\n[hamiltonian]\n\
+        function = 'p²/2 + x*sin(t)'\npairs = [['x', 'p']]";
+    let told = mistake(driven, "involution = ['p − cos(t)', 'p − cos(t)']\ntheorem = 'Liouville'");
+    assert!(told.contains("without `t`"), "{told}");
+}
