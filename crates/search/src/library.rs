@@ -12,6 +12,10 @@ use liouville::mechanics::{Meaning, Model, System};
 /// Largest number of linear forms whose products are offered.
 const SQUARED: usize = 48;
 
+fn model_name(model: &Model, name: &str) -> Option<Formula> {
+    Formula::name(name, &model.vocabulary).ok()
+}
+
 fn has(model: &Model, name: &str, kind: Type) -> bool {
     let own = |meaning| !matches!(meaning, Meaning::Abbreviation(_));
     model.vocabulary.find(name).is_some_and(|entry| entry.kind == kind && own(entry.meaning))
@@ -93,10 +97,6 @@ fn separable(model: &Model, parameter: &Formula, a: &Formula) -> Option<Vec<Form
         terms.extend([&entry, &trace, &square].map(|factor| parameter / &below * factor));
     }
     Some(kept(terms))
-}
-
-fn model_name(model: &Model, name: &str) -> Option<Formula> {
-    Formula::name(name, &model.vocabulary).ok()
 }
 
 /// Terms of a rubber body for each parameter of its potential.
@@ -259,8 +259,7 @@ pub fn without_squares(model: &Model) -> Option<usize> {
     Some(linear_forms(model, &pieces(model)).len()).filter(|count| *count > SQUARED)
 }
 
-/// Lists terms of degree 1 and 2 in the velocities, simple ones first, together with those that a
-/// potential adds.
+/// Lists terms of degree 1 and 2 in the velocities, simple ones first, such as (Iω,ω) before ω₁², with those of a potential.
 pub fn integrals(model: &Model) -> Vec<Formula> {
     let pieces = pieces(model);
     let forms = linear_forms(model, &pieces);
@@ -268,7 +267,6 @@ pub fn integrals(model: &Model) -> Vec<Formula> {
     for (i, a) in pieces.linear.iter().enumerate() {
         squares.extend(kept(pieces.linear[i..].iter().map(|b| a.dot(b))));
     }
-    // Squares of components come after the products that they make up.
     let (of_tensors, of_degree_four) = tensors::products(model);
     squares.extend(of_tensors);
     let of_squares = if forms.len() > SQUARED { &[] } else { &forms[..] };
@@ -338,9 +336,7 @@ pub fn factors(model: &Model) -> Vec<Formula> {
                 factors.push("(1 − m*R²*(γ,J⁻¹*γ))");
             }
             // With I₁ = I₂: √Δ and I₁ + mr² of a body of revolution.
-            factors.push("(I1 + m*r²)");
-            factors.push("(I1*I3 + m*(r,I*r))");
-            factors.push("det(Ĩ)");
+            factors.extend(["(I1 + m*r²)", "(I1*I3 + m*(r,I*r))", "det(Ĩ)"]);
             if scalar("D_T") {
                 factors.push("D_T");
             }

@@ -11,6 +11,7 @@ mod document;
 mod entry;
 mod html;
 mod latex;
+mod liouville;
 mod markdown;
 mod picture;
 

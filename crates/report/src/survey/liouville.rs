@@ -1,0 +1,22 @@
+//! Liouville's theorem in words.
+
+use liouville_search::survey::LiouvilleProof;
+
+/// What Liouville's theorem says of a system, with its hypotheses.
+pub fn in_involution(proof: &LiouvilleProof) -> String {
+    let bracket = match proof.bracket.as_str() {
+        "momenta" => "the canonical bracket of coordinates and momenta".to_string(),
+        "hamiltonian" => "the bracket of the system".to_string(),
+        name => format!("the bracket `{name}` of the file, which the motion preserves,"),
+    };
+    let count = proof.functions.len();
+    let names = proof.functions.join(", ");
+    let known = match count {
+        1 => format!("{names} alone is enough"),
+        _ => format!("{names} are in involution, and these {count} are enough"),
+    };
+    format!(
+        "In {bracket} {known} for Liouville's theorem. It speaks of joint levels that are compact and \
+         connected, and on which the gradients are independent; that a level is compact is not examined."
+    )
+}
